@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/compensation/scheme.h"
+#include "fsr_pressure_map/matrix/layout.h"
+#include "fsr_pressure_map/regression/code_table.h"
+
+namespace fsr {
+
+/// One curvature class of a calibration.
+struct CurvatureClass {
+  std::string surface;          ///< name of the condition it was trained on, e.g. cylinder_7cm
+  std::vector<double> curvature;  ///< principal curvature, one for all taxels or one each, row-major [1/m]
+
+  double at(std::size_t taxel) const { return curvature.size() == 1 ? curvature.front() : curvature.at(taxel); }
+};
+
+/// A scheme, compiled: for each taxel one CodeTable for each curvature class.
+struct CurvatureTables {
+  Scheme scheme = Scheme::kPerCurvature;
+  MatrixSize size;
+  std::uint16_t full_scale = 0;
+  /// Classes by ascending curvature of taxel 0. Schemes that ignore curvature have one.
+  std::vector<CurvatureClass> classes;
+  /// [taxels x classes], taxel by taxel.
+  std::vector<CodeTable> tables;
+  /// Range of principal curvature over training [1/m]: a taxel outside it is flagged
+  /// kCurvatureExtrapolated, whatever the scheme does with it.
+  double curvature_low = 0;
+  double curvature_high = 0;
+  /// A taxel farther than this from every class curvature is flagged kBetweenClasses [1/m].
+  double class_tolerance = 0.5;
+
+  const CodeTable& table(std::size_t taxel, std::size_t curvature_class) const {
+    return tables[taxel * classes.size() + curvature_class];
+  }
+};
+
+}  // namespace fsr

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace fsr {
+
+/// What any regressor of one reading becomes: a converter gives integers, so pressure is a table
+/// over the codes. All vectors have full_scale + 1 entries.
+struct CodeTable {
+  std::vector<float> pressure;   ///< gauge pressure of each code [Pa], finite
+  std::vector<float> deviation;  ///< one standard deviation of a held-out reading at each code [Pa], > 0
+  std::vector<float> support;    ///< effective number of training samples behind each code
+  std::uint16_t lowest = 0;      ///< smallest code seen in training
+  std::uint16_t highest = 0;     ///< largest code seen in training
+};
+
+}  // namespace fsr
