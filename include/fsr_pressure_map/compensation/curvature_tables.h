@@ -13,10 +13,12 @@ namespace fsr {
 
 /// One curvature class of a calibration.
 struct CurvatureClass {
-  std::string surface;          ///< name of the condition it was trained on, e.g. cylinder_7cm
+  std::string surface;            ///< name of the condition it was trained on, e.g. cylinder_7cm
   std::vector<double> curvature;  ///< principal curvature, one for all taxels or one each, row-major [1/m]
 
-  double at(std::size_t taxel) const { return curvature.size() == 1 ? curvature.front() : curvature.at(taxel); }
+  double at(std::size_t taxel) const {
+    return curvature.size() == 1 ? curvature.front() : curvature.at(taxel);
+  }
 };
 
 /// A scheme, compiled: for each taxel one CodeTable for each curvature class.

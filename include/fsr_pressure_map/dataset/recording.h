@@ -22,12 +22,12 @@ struct SensorIdentity {
 
 /// What went missing between the board and the Recording.
 struct RecordingLosses {
-  std::uint64_t sequence_gaps = 0;   ///< places where the board's scan counter jumped
-  std::uint64_t lost_scans = 0;      ///< scans that those jumps skipped
-  std::uint64_t duplicates = 0;      ///< scans of one stamp, dropped
-  std::uint64_t near_change = 0;     ///< scans within 1 s of a change of surface, dropped
-  std::uint64_t no_reference = 0;    ///< scans that no chamber pressure brackets, dropped
-  std::uint64_t unknown_surface = 0; ///< scans under no known curvature, dropped
+  std::uint64_t sequence_gaps = 0;    ///< places where the board's scan counter jumped
+  std::uint64_t lost_scans = 0;       ///< scans that those jumps skipped
+  std::uint64_t duplicates = 0;       ///< scans of one stamp, dropped
+  std::uint64_t near_change = 0;      ///< scans within 1 s of a change of surface, dropped
+  std::uint64_t no_reference = 0;     ///< scans that no chamber pressure brackets, dropped
+  std::uint64_t unknown_surface = 0;  ///< scans under no known curvature, dropped
 };
 
 /// Scans with their reference, in time order, as every offline part of the package uses them.
@@ -38,17 +38,17 @@ struct Recording {
   SensorIdentity sensor;
   Layout layout;
   std::uint16_t full_scale = 0;
-  std::vector<std::uint8_t> mask;  ///< 1 = ignore this taxel; empty = none
+  std::vector<std::uint8_t> mask;   ///< 1 = ignore this taxel; empty = none
   std::vector<Surface> conditions;  ///< surfaces in order of first appearance
 
-  std::vector<double> time;               ///< header stamp [s] since `start`
-  std::vector<std::uint16_t> counts;      ///< [scans x taxels]
-  std::vector<double> pressure;           ///< chamber, gauge, interpolated to the scan [Pa]; empty = none recorded
-  std::vector<std::uint32_t> condition;   ///< index into `conditions`
-  std::vector<double> temperature;        ///< [degree Celsius], interpolated; empty = none recorded
-  std::int64_t start_ns = 0;              ///< header stamp of time 0 [ns]
+  std::vector<double> time;           ///< header stamp [s] since `start`
+  std::vector<std::uint16_t> counts;  ///< [scans x taxels]
+  std::vector<double> pressure;  ///< chamber, gauge, interpolated to the scan [Pa]; empty = none recorded
+  std::vector<std::uint32_t> condition;  ///< index into `conditions`
+  std::vector<double> temperature;       ///< [degree Celsius], interpolated; empty = none recorded
+  std::int64_t start_ns = 0;             ///< header stamp of time 0 [ns]
   RecordingLosses losses;
-  std::vector<std::string> warnings;      ///< sentences for the user, e.g. that ambient pressure was assumed
+  std::vector<std::string> warnings;  ///< sentences for the user, e.g. that ambient pressure was assumed
 
   std::size_t scans() const { return time.size(); }
   const std::uint16_t* scan(std::size_t i) const { return counts.data() + i * layout.size.taxels(); }

@@ -25,10 +25,10 @@ double principalCurvature(const Curvature& curvature);
 
 /// What the matrix lies on.
 struct Surface {
-  std::string name;                         ///< e.g. cylinder_7cm; may be empty
-  std::uint32_t mount = 0;                  ///< raised by one at each remounting; 0 = unknown
-  std::vector<Curvature> curvature;         ///< one for all taxels, or one each, row-major; empty = unknown
-  std::vector<double> deviation;            ///< one standard deviation [1/m], likewise; empty = unknown
+  std::string name;                  ///< e.g. cylinder_7cm; may be empty
+  std::uint32_t mount = 0;           ///< raised by one at each remounting; 0 = unknown
+  std::vector<Curvature> curvature;  ///< one for all taxels, or one each, row-major; empty = unknown
+  std::vector<double> deviation;     ///< one standard deviation [1/m], likewise; empty = unknown
 
   bool known() const { return !curvature.empty(); }
   const Curvature& at(TaxelIndex taxel) const {

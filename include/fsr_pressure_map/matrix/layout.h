@@ -13,8 +13,12 @@ struct MatrixSize {
   std::size_t taxels() const { return std::size_t{rows} * columns; }
 };
 
-inline bool operator==(MatrixSize a, MatrixSize b) { return a.rows == b.rows && a.columns == b.columns; }
-inline bool operator!=(MatrixSize a, MatrixSize b) { return !(a == b); }
+inline bool operator==(MatrixSize a, MatrixSize b) {
+  return a.rows == b.rows && a.columns == b.columns;
+}
+inline bool operator!=(MatrixSize a, MatrixSize b) {
+  return !(a == b);
+}
 
 /// Largest matrix that any room accepts, a side.
 constexpr std::uint16_t kMaxMatrixSide = 64;

@@ -1,0 +1,15 @@
+#include "fsr_pressure_map/map/pressure_map.h"
+
+#include <limits>
+
+namespace fsr {
+
+void PressureMap::reset(const Layout& new_layout) {
+  layout = new_layout;
+  const std::size_t n = layout.size.taxels();
+  pressure.assign(n, std::numeric_limits<float>::quiet_NaN());
+  deviation.assign(n, std::numeric_limits<float>::quiet_NaN());
+  flags.assign(n, 0);
+}
+
+}  // namespace fsr

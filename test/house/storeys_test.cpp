@@ -1,0 +1,110 @@
+// Walks every #include of the package and fails on an arrow that runs up, or sideways between rooms
+// of one storey: the picture of the house in the README stays true.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::map<std::string, int> kStorey = {
+    {"settings", 0},    {"matrix", 1}, {"statistics", 1},  {"rheology", 1},     {"regression", 2},
+    {"dataset", 2},     {"map", 2},    {"protocol", 2},    {"compensation", 3}, {"simulation", 3},
+    {"health", 3},      {"view", 3},   {"calibration", 4}, {"emulator", 4},     {"study", 5},
+    {"discrepancy", 5}, {"report", 6}, {"ros", 7},         {"nodes", 8},        {"tools", 8},
+};
+
+const fs::path kSource = FSR_SOURCE_DIR;
+
+struct Include {
+  fs::path file;
+  std::string room;    // of the including file
+  std::string target;  // as written between the brackets or quotes
+};
+
+std::vector<fs::path> sourceFiles() {
+  std::vector<fs::path> files;
+  for (const fs::path& top : {kSource / "include/fsr_pressure_map", kSource / "src"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(top)) {
+      if (entry.is_regular_file()) files.push_back(entry.path());
+    }
+  }
+  return files;
+}
+
+std::string roomOf(const fs::path& file) {
+  for (const fs::path& top : {kSource / "include/fsr_pressure_map", kSource / "src"}) {
+    const fs::path relative = fs::relative(file, top);
+    if (*relative.begin() != "..") return relative.begin()->string();
+  }
+  return "";
+}
+
+std::vector<Include> allIncludes() {
+  static const std::regex line_pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<Include> includes;
+  for (const fs::path& file : sourceFiles()) {
+    std::ifstream in(file);
+    std::string line;
+    std::smatch match;
+    while (std::getline(in, line)) {
+      if (std::regex_search(line, match, line_pattern)) includes.push_back({file, roomOf(file), match[1]});
+    }
+  }
+  return includes;
+}
+
+// The room that an include points to, "" for a header from outside the package's rooms.
+std::string targetRoom(const std::string& target) {
+  const std::string prefix = "fsr_pressure_map/";
+  if (target.rfind(prefix, 0) != 0) return "";
+  const std::size_t slash = target.find('/', prefix.size());
+  return slash == std::string::npos ? "" : target.substr(prefix.size(), slash - prefix.size());
+}
+
+bool isRosHeader(const std::string& target) {
+  static const std::regex pattern(
+      R"(^(ros|rosbag|nodelet|pluginlib|std_msgs|std_srvs|sensor_msgs|geometry_msgs|visualization_msgs|)"
+      R"(diagnostic_msgs|diagnostic_updater|rosgraph_msgs|tf2_ros|topic_tools|rviz)/)"
+      R"(|^fsr_pressure_map/[A-Z][A-Za-z]*\.h$)");  // the last: generated messages
+  return std::regex_search(target, pattern);
+}
+
+TEST(House, EveryFolderIsARoomWithAStorey) {
+  for (const fs::path& file : sourceFiles()) EXPECT_EQ(kStorey.count(roomOf(file)), 1u) << file;
+}
+
+TEST(House, NoArrowRunsUpOrAcrossAStorey) {
+  int arrows = 0;
+  for (const Include& include : allIncludes()) {
+    const std::string target = targetRoom(include.target);
+    if (target.empty() || target == include.room) continue;
+    ASSERT_EQ(kStorey.count(target), 1u) << include.file << " includes " << include.target;
+    EXPECT_LT(kStorey.at(target), kStorey.at(include.room)) << include.file << " includes " << include.target;
+    ++arrows;
+  }
+  EXPECT_GT(arrows, 5);  // the walk really found the house
+}
+
+TEST(House, OnlyTheShellSeesRos) {
+  for (const Include& include : allIncludes()) {
+    if (kStorey.at(include.room) >= kStorey.at("ros")) continue;
+    EXPECT_FALSE(isRosHeader(include.target)) << include.file << " includes " << include.target;
+  }
+}
+
+TEST(House, TheCureNeverSeesTheSimulator) {
+  for (const Include& include : allIncludes()) {
+    if (include.room != "compensation" && include.room != "calibration") continue;
+    EXPECT_NE(targetRoom(include.target), "simulation") << include.file;
+  }
+}
+
+}  // namespace
