@@ -1,0 +1,72 @@
+#include "fsr_pressure_map/ros/parameters.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace fsr_ros {
+
+namespace {
+
+using Value = XmlRpc::XmlRpcValue;
+
+std::string textOf(const Value& value) {
+  if (value.getType() == Value::TypeString) return static_cast<std::string>(Value(value));
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+}  // namespace
+
+fsr::InputError Parameters::error(const std::string& name, const std::string& complaint) const {
+  Value value;
+  const bool set = handle_.getParam(name, value);
+  return fsr::InputError("parameter " + handle_.resolveName(name) +
+                         (set ? " is " + textOf(value) : " is not set") + ", but " + complaint);
+}
+
+double Parameters::number(const std::string& name, double fallback, const fsr::Range& range) const {
+  if (!handle_.hasParam(name)) return fallback;
+  double value = 0;
+  if (!handle_.getParam(name, value) || !range.contains(value)) {
+    throw error(name, "must be a number, " + range.text());
+  }
+  return value;
+}
+
+std::int64_t Parameters::integer(const std::string& name, std::int64_t fallback,
+                                 const fsr::Range& range) const {
+  if (!handle_.hasParam(name)) return fallback;
+  int value = 0;
+  if (!handle_.getParam(name, value) || !range.contains(value)) {
+    throw error(name, "must be a whole number, " + range.text());
+  }
+  return value;
+}
+
+bool Parameters::flag(const std::string& name, bool fallback) const {
+  if (!handle_.hasParam(name)) return fallback;
+  bool value = false;
+  if (!handle_.getParam(name, value)) throw error(name, "must be true or false");
+  return value;
+}
+
+std::string Parameters::text(const std::string& name, const std::string& fallback) const {
+  Value value;
+  if (!handle_.getParam(name, value)) return fallback;
+  if (value.getType() == Value::TypeArray || value.getType() == Value::TypeStruct) {
+    throw error(name, "must be a text");
+  }
+  return textOf(value);
+}
+
+std::string Parameters::choice(const std::string& name, const std::vector<std::string>& choices,
+                               const std::string& fallback) const {
+  const std::string value = text(name, fallback);
+  if (std::find(choices.begin(), choices.end(), value) != choices.end()) return value;
+  std::string list;
+  for (const auto& choice : choices) list += (list.empty() ? "" : ", ") + choice;
+  throw error(name, "must be one of " + list);
+}
+
+}  // namespace fsr_ros
