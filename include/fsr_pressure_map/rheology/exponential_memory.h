@@ -1,0 +1,23 @@
+#pragma once
+
+namespace fsr {
+
+/// Fading memory of first order, tau dm/dt = x - m: a low-pass of the input, a Kelvin-Voigt element.
+/// Exact for an input that runs straight between its samples, so that sampling faster changes
+/// nothing. The state is one number, kept by the caller; the memory of a body at rest at x for ever
+/// is x.
+class ExponentialMemory {
+ public:
+  /// `time_constant` [s], more than 0 and finite; throws std::invalid_argument.
+  explicit ExponentialMemory(double time_constant);
+
+  /// Value after the input has run straight from `from` to `to` within `duration` [s], 0 or more.
+  double step(double from, double to, double duration, double state) const;
+
+  double timeConstant() const { return time_constant_; }
+
+ private:
+  double time_constant_;
+};
+
+}  // namespace fsr

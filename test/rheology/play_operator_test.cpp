@@ -1,0 +1,112 @@
+#include "fsr_pressure_map/rheology/play_operator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace {
+
+using fsr::PrandtlIshlinskii;
+
+const PrandtlIshlinskii kOperator({0, 1, 2, 4}, {0.4, 0.3, 0.2, 0.1});
+
+/// Drives the operator along straight ways between turning points, `steps` to each.
+class Drive {
+ public:
+  explicit Drive(double start) : position_(start), state_(kOperator.stateSize()) {
+    kOperator.reset(start, state_.data());
+  }
+  double to(double target, int steps) {
+    double output = 0;
+    const double start = position_;
+    for (int i = 1; i <= steps; ++i) {
+      const double input = i == steps ? target : start + (target - start) * i / steps;
+      output = kOperator.step(input, state_.data());
+      area_ += 0.5 * (output + last_output_) * (input - position_);
+      position_ = input;
+      last_output_ = output;
+    }
+    return output;
+  }
+  /// Integral of output over input so far.
+  double area() const { return area_; }
+  const std::vector<double>& state() const { return state_; }
+
+ private:
+  double position_;
+  double last_output_ = 0;
+  double area_ = 0;
+  std::vector<double> state_;
+};
+
+TEST(PlayOperator, StandsStillInsideItsGapAndFollowsAtItsEdge) {
+  EXPECT_EQ(fsr::playStep(0.9, 1.0, 0.0), 0.0);
+  EXPECT_EQ(fsr::playStep(3.0, 1.0, 0.0), 2.0);
+  EXPECT_EQ(fsr::playStep(1.5, 1.0, 2.0), 2.0);
+  EXPECT_EQ(fsr::playStep(-3.0, 1.0, 2.0), -2.0);
+}
+
+TEST(PlayOperator, DependsOnTurningPointsOnlyAndNotOnTheRate) {
+  Drive slow(0), fast(0);
+  for (const double target : {10.0, 2.0, 7.0, -3.0, 4.0}) {
+    EXPECT_DOUBLE_EQ(slow.to(target, 1000), fast.to(target, 1));
+  }
+}
+
+TEST(PlayOperator, WipesOutAnInnerLoopOnceItIsExceeded) {
+  Drive direct(0), detour(0);
+  direct.to(10, 100);
+  detour.to(6, 60);
+  detour.to(3, 30);
+  detour.to(5, 20);
+  detour.to(10, 50);
+  EXPECT_EQ(detour.state(), direct.state());
+}
+
+TEST(PlayOperator, ClosesMinorLoopsOfOneWidthCongruently) {
+  Drive low(0), high(0);
+  low.to(10, 10);
+  high.to(20, 10);
+  const double first_rise = low.to(6, 10), second_rise = high.to(16, 10);
+  EXPECT_NEAR(low.to(9, 10) - first_rise, high.to(19, 10) - second_rise, 1e-12);
+}
+
+TEST(PlayOperator, LoopHasTheAnalyticAreaAndWidth) {
+  Drive drive(0);
+  drive.to(30, 1);
+  drive.to(0, 1);  // a developed loop from here on
+  const double before = drive.area();
+  drive.to(30, 30000);
+  const double up = drive.to(30, 1);
+  drive.to(0, 30000);
+  // Integral over input runs back on the way down: what is left is minus the enclosed area.
+  EXPECT_NEAR(-(drive.area() - before), kOperator.loopArea(0, 30), 1e-3);
+  EXPECT_NEAR(kOperator.loopArea(0, 30), 2 * (0.3 * 1 * 28 + 0.2 * 2 * 26 + 0.1 * 4 * 22), 1e-12);
+  EXPECT_NEAR(kOperator.fullLoopWidth(), 2 * (0.3 + 0.4 + 0.4), 1e-12);
+  EXPECT_NEAR(up, 30 - kOperator.fullLoopWidth() / 2, 1e-12);
+}
+
+TEST(PlayOperator, HasNoLoopWithinItsSmallestGap) {
+  const PrandtlIshlinskii op({1.0}, {1.0});
+  EXPECT_EQ(op.loopArea(0, 2), 0);
+  EXPECT_GT(op.loopArea(0, 3), 0);
+}
+
+TEST(PlayOperator, ResetForgetsTheHistory) {
+  Drive used(0);
+  used.to(50, 7);
+  std::vector<double> state = used.state();
+  kOperator.reset(3, state.data());
+  EXPECT_EQ(state, Drive(3).state());
+}
+
+TEST(PlayOperator, RefusesNegativeRadiiAndUnequalLengths) {
+  EXPECT_THROW(PrandtlIshlinskii({-1.0}, {1.0}), std::invalid_argument);
+  EXPECT_THROW(PrandtlIshlinskii({1.0, 2.0}, {1.0}), std::invalid_argument);
+  EXPECT_THROW(PrandtlIshlinskii({1.0}, {std::nan("")}), std::invalid_argument);
+  EXPECT_THROW(PrandtlIshlinskii({std::numeric_limits<double>::infinity()}, {1.0}), std::invalid_argument);
+}
+
+}  // namespace
