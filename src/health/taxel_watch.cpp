@@ -1,0 +1,103 @@
+#include "fsr_pressure_map/health/taxel_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fsr {
+
+namespace {
+
+constexpr std::uint16_t kHighestCode = 65535;
+
+std::uint16_t codes(double share, std::uint16_t full_scale) {
+  return static_cast<std::uint16_t>(std::lround(share * full_scale));
+}
+
+}  // namespace
+
+TaxelWatch::TaxelWatch(MatrixSize size, std::uint16_t full_scale, const TaxelWatchOptions& options)
+    : size_(size),
+      full_scale_(full_scale),
+      options_(options),
+      floor_(codes(options.floor_share, full_scale)),
+      loaded_(codes(options.loaded_share, full_scale)),
+      travel_(codes(options.travel_share, full_scale)),
+      next_row_(size.rows),
+      flags_(size.taxels(), 0) {
+  for (Window* window : {&current_, &closed_}) {
+    window->low.resize(size.taxels());
+    window->high.resize(size.taxels());
+  }
+}
+
+bool TaxelWatch::observe(const std::uint16_t* counts, double time) noexcept {
+  if (scans_ == 0 || time < start_) open(time);
+  const bool judged = next_row_ == size_.rows;
+  if (judged && time - start_ >= options_.window && scans_ >= options_.least_scans) {
+    std::swap(current_, closed_);
+    next_row_ = 0;
+    open(time);
+  }
+  widen(counts);
+  ++scans_;
+  // One row a scan: the worst scan costs hardly more than the others.
+  return next_row_ < size_.rows && judgeRow(next_row_++);
+}
+
+void TaxelWatch::open(double time) noexcept {
+  std::fill(current_.low.begin(), current_.low.end(), kHighestCode);
+  std::fill(current_.high.begin(), current_.high.end(), std::uint16_t{0});
+  start_ = time;
+  scans_ = 0;
+}
+
+void TaxelWatch::widen(const std::uint16_t* counts) noexcept {
+  const std::size_t n = size_.taxels();
+  std::uint16_t* low = current_.low.data();
+  std::uint16_t* high = current_.high.data();
+  for (std::size_t i = 0; i < n; ++i) low[i] = std::min(low[i], counts[i]);
+  for (std::size_t i = 0; i < n; ++i) high[i] = std::max(high[i], counts[i]);
+}
+
+bool TaxelWatch::judgeRow(std::uint16_t row) noexcept {
+  bool changed = false;
+  for (std::uint16_t column = 0; column < size_.columns; ++column) changed |= judge(row, column);
+  return changed;
+}
+
+bool TaxelWatch::judge(std::uint16_t row, std::uint16_t column) noexcept {
+  const std::size_t taxel = std::size_t{row} * size_.columns + column;
+  const std::uint16_t low = closed_.low[taxel];
+  const std::uint16_t high = closed_.high[taxel];
+  const Neighbours around = neighbours(row, column);
+  std::uint16_t verdict = flags_[taxel];
+  if (high <= floor_) {
+    if (2 * around.loaded > around.count) verdict = taxel_flag::kDead;
+  } else if (low != high) {
+    verdict = 0;
+  } else if (high < full_scale_ && 2 * around.moved > around.count) {
+    verdict = taxel_flag::kStuck;
+  }
+  if (verdict == flags_[taxel]) return false;
+  if (verdict == 0) ++revivals_;
+  flags_[taxel] = verdict;
+  return true;
+}
+
+TaxelWatch::Neighbours TaxelWatch::neighbours(std::uint16_t row, std::uint16_t column) const noexcept {
+  Neighbours result;
+  const int last_row = std::min(row + 1, size_.rows - 1);
+  const int last_column = std::min(column + 1, size_.columns - 1);
+  for (int r = std::max(row - 1, 0); r <= last_row; ++r) {
+    for (int c = std::max(column - 1, 0); c <= last_column; ++c) {
+      if (r == row && c == column) continue;
+      const std::size_t taxel = std::size_t(r) * size_.columns + std::size_t(c);
+      ++result.count;
+      result.loaded += closed_.high[taxel] >= loaded_;
+      result.moved += closed_.high[taxel] - closed_.low[taxel] >= travel_;
+    }
+  }
+  return result;
+}
+
+}  // namespace fsr

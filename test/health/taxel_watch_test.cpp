@@ -1,0 +1,174 @@
+#include "fsr_pressure_map/health/taxel_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "support/allocation_guard.h"
+
+namespace fsr {
+namespace {
+
+constexpr MatrixSize kSize{7, 10};
+constexpr std::uint16_t kFullScale = 4095;
+constexpr double kRate = 10.0;  // scans a second
+constexpr std::size_t kTaxels = 70;
+
+/// A sheet under uniform load that follows `level` [codes]; single taxels can be overruled.
+class Sheet {
+ public:
+  explicit Sheet(const TaxelWatchOptions& options = {}) : watch(kSize, kFullScale, options) {}
+
+  void run(double seconds, const std::function<double(double)>& level) {
+    for (const double end = time + seconds; time < end; time += 1 / kRate) {
+      std::vector<std::uint16_t> counts(kTaxels, code(level(time)));
+      for (const auto& [taxel, value] : overruled) counts[taxel] = value;
+      watch.observe(counts.data(), time);
+    }
+  }
+
+  std::uint16_t code(double level) {
+    const double noisy = level + noise(random);
+    return static_cast<std::uint16_t>(std::min(std::max(noisy, 0.0), double{kFullScale}));
+  }
+
+  TaxelWatch watch;
+  std::vector<std::pair<std::size_t, std::uint16_t>> overruled;
+  double time = 1000.0;
+  std::mt19937 random{1};
+  std::normal_distribution<double> noise{0.0, 1.0};
+};
+
+double cycles(double time) {
+  return 2000.0 * (1 - std::cos(2 * M_PI * time / 40.0)) / 2;
+}
+double constantLoad(double) {
+  return 2000.0;
+}
+double noLoad(double) {
+  return 0.0;
+}
+
+constexpr double kTwoWindows = 25.0;  // [s], whatever the phase of the first
+constexpr double kCycle = 60.0;       // [s], more than one load cycle and a window
+
+int flagged(const TaxelWatch& watch) {
+  int result = 0;
+  for (const auto flag : watch.flags()) result += flag != 0;
+  return result;
+}
+
+TEST(TaxelWatch, FindsATaxelThatReadsNothingUnderLoad) {
+  Sheet sheet;
+  sheet.overruled = {{33, 0}};
+  sheet.run(kCycle, cycles);
+  EXPECT_EQ(sheet.watch.flags()[33], taxel_flag::kDead);
+  EXPECT_EQ(flagged(sheet.watch), 1);
+}
+
+TEST(TaxelWatch, FindsADeadTaxelUnderConstantLoadToo) {
+  Sheet sheet;
+  sheet.overruled = {{0, 3}};  // a corner, with noise of an open circuit
+  sheet.run(kTwoWindows, constantLoad);
+  EXPECT_EQ(sheet.watch.flags()[0], taxel_flag::kDead);
+}
+
+TEST(TaxelWatch, FindsAWholeDeadRowAndColumn) {
+  Sheet sheet;
+  for (std::size_t column = 0; column < 10; ++column) sheet.overruled.push_back({column, 0});
+  for (std::size_t row = 2; row < 7; ++row) sheet.overruled.push_back({row * 10 + 5, 0});
+  sheet.run(kTwoWindows, constantLoad);
+  for (const auto& [taxel, value] : sheet.overruled) {
+    EXPECT_EQ(sheet.watch.flags()[taxel], taxel_flag::kDead) << "taxel " << taxel;
+  }
+}
+
+TEST(TaxelWatch, FindsATaxelThatDoesNotFollowItsNeighbours) {
+  Sheet sheet;
+  sheet.overruled = {{47, 812}};
+  sheet.run(kCycle, cycles);
+  EXPECT_EQ(sheet.watch.flags()[47], taxel_flag::kStuck);
+  EXPECT_EQ(flagged(sheet.watch), 1);
+}
+
+TEST(TaxelWatch, CountsATaxelBackToLife) {
+  Sheet sheet;
+  sheet.overruled = {{47, 812}, {33, 0}};
+  sheet.run(kCycle, cycles);
+  ASSERT_EQ(flagged(sheet.watch), 2);
+  sheet.overruled.clear();
+  sheet.run(kCycle, cycles);
+  EXPECT_EQ(flagged(sheet.watch), 0);
+  EXPECT_EQ(sheet.watch.revivals(), 2u);
+}
+
+TEST(TaxelWatch, RaisesNothingOverHoursOfHealthyWork) {
+  Sheet sheet;
+  for (int i = 0; i < 60; ++i) {
+    sheet.run(kCycle, cycles);
+    sheet.run(kCycle, noLoad);
+    sheet.run(kCycle, constantLoad);
+    ASSERT_EQ(flagged(sheet.watch), 0) << "after round " << i;
+  }
+  EXPECT_EQ(sheet.watch.revivals(), 0u);  // nor was anybody flagged on the way
+}
+
+TEST(TaxelWatch, TakesASmallLoadedPatchForWhatItIs) {
+  Sheet sheet;  // four taxels loaded, all others at rest: nobody has loaded neighbours for a majority
+  sheet.overruled = {{33, 3000}, {34, 3000}, {43, 3000}, {44, 3000}};
+  sheet.run(kTwoWindows, noLoad);
+  EXPECT_EQ(flagged(sheet.watch), 0);
+}
+
+TEST(TaxelWatch, LeavesASaturatedTaxelToItsOwnFlag) {
+  Sheet sheet;
+  sheet.overruled = {{47, kFullScale}};
+  sheet.run(kCycle, cycles);
+  EXPECT_EQ(flagged(sheet.watch), 0);
+}
+
+TEST(TaxelWatch, KeepsAVerdictWhileNothingSpeaksAgainstIt) {
+  Sheet sheet;
+  sheet.overruled = {{33, 0}};
+  sheet.run(kCycle, cycles);
+  sheet.run(kCycle, noLoad);
+  EXPECT_EQ(sheet.watch.flags()[33], taxel_flag::kDead);
+}
+
+TEST(TaxelWatch, StartsItsWindowAnewWhenTimeRunsBack) {
+  Sheet sheet;
+  sheet.overruled = {{33, 0}};
+  sheet.run(9.0, constantLoad);
+  sheet.time -= 500.0;
+  sheet.run(9.5, constantLoad);
+  EXPECT_EQ(flagged(sheet.watch), 0);  // neither part fills a window
+  sheet.run(10.0, constantLoad);
+  EXPECT_EQ(flagged(sheet.watch), 1);
+}
+
+TEST(TaxelWatch, NeedsEnoughScansForAVerdict) {
+  TaxelWatchOptions options;
+  options.least_scans = 400;
+  Sheet sheet(options);
+  sheet.overruled = {{33, 0}};
+  sheet.run(39.0, constantLoad);
+  EXPECT_EQ(flagged(sheet.watch), 0);
+}
+
+TEST(TaxelWatch, SaysNothingAboutATaxelWithoutNeighbours) {
+  TaxelWatch watch({1, 1}, kFullScale);
+  const std::uint16_t stuck = 500;
+  for (int i = 0; i < 500; ++i) EXPECT_FALSE(watch.observe(&stuck, i * 0.1));
+}
+
+TEST(TaxelWatch, AllocatesNothingForAScan) {
+  Sheet sheet;
+  const std::vector<std::uint16_t> counts(kTaxels, 7);
+  const test_support::AllocationGuard guard;
+  for (int i = 0; i < 1000; ++i) sheet.watch.observe(counts.data(), i * 0.1);
+  EXPECT_EQ(guard.allocations(), 0u);
+}
+
+}  // namespace
+}  // namespace fsr

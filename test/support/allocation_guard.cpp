@@ -1,0 +1,53 @@
+#include "support/allocation_guard.h"
+
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+thread_local std::size_t allocations_on_this_thread = 0;
+
+void* counted(std::size_t size) {
+  ++allocations_on_this_thread;
+  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+
+void* countedAligned(std::size_t size, std::align_val_t alignment) {
+  ++allocations_on_this_thread;
+  const std::size_t step = static_cast<std::size_t>(alignment);
+  if (void* memory = std::aligned_alloc(step, (size + step - 1) / step * step)) return memory;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+// The other forms of new and delete (arrays, nothrow) call these by the standard's default.
+void* operator new(std::size_t size) {
+  return counted(size);
+}
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return countedAligned(size, alignment);
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}
+
+namespace test_support {
+
+AllocationGuard::AllocationGuard() : before_(allocations_on_this_thread) {}
+
+std::size_t AllocationGuard::allocations() const {
+  return allocations_on_this_thread - before_;
+}
+
+}  // namespace test_support
