@@ -1,0 +1,117 @@
+#include <fsr_pressure_map/Event.h>
+#include <fsr_pressure_map/Mark.h>
+#include <fsr_pressure_map/Session.h>
+#include <fsr_pressure_map/SetSurface.h>
+#include <fsr_pressure_map/SurfaceCurvature.h>
+#include <gtest/gtest.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace {
+
+using fsr_pressure_map::SurfaceCurvature;
+
+SurfaceCurvature setSurface(const std::string& surface, std::uint32_t mount, std::string* reply = nullptr) {
+  fsr_pressure_map::SetSurface call;
+  call.request.surface = surface;
+  call.request.mount = mount;
+  EXPECT_TRUE(ros::service::waitForService("curvature/set_surface", ros::Duration(30)));
+  EXPECT_TRUE(ros::service::call("curvature/set_surface", call));
+  if (reply != nullptr) *reply = call.response.message;
+  const auto message = ros::topic::waitForMessage<SurfaceCurvature>("curvature", ros::Duration(30));
+  return message ? *message : SurfaceCurvature();
+}
+
+TEST(CurvatureNode, PublishesTheSurfaceNamedByTheService) {
+  const SurfaceCurvature message = setSurface("cylinder_5cm", 4);
+  EXPECT_EQ(message.surface, "cylinder_5cm");
+  EXPECT_EQ(message.mount, 4u);
+  ASSERT_EQ(message.x.size(), 1u);
+  EXPECT_FLOAT_EQ(message.x[0], 20.0f);
+  EXPECT_FLOAT_EQ(message.y[0], 0.0f);
+}
+
+TEST(CurvatureNode, RaisesTheMountByOneWhereNoneIsGiven) {
+  setSurface("flat", 7);
+  EXPECT_EQ(setSurface("cylinder_9cm", 0).mount, 8u);
+}
+
+TEST(CurvatureNode, RefusesAnUnknownSurfaceAndKeepsTheOldOne) {
+  setSurface("flat", 2);
+  std::string reply;
+  EXPECT_EQ(setSurface("cylinder_6cm", 3, &reply).surface, "flat");
+  EXPECT_NE(reply.find("cylinder_6cm"), std::string::npos);
+  EXPECT_NE(reply.find("cylinder_7cm"), std::string::npos) << "lists what there is: " << reply;
+}
+
+TEST(CurvatureNode, TakesAFileWithAValueForEachTaxel) {
+  const auto path = std::filesystem::temp_directory_path() / "fsr_limb_surface.yaml";
+  std::ofstream file(path);
+  file << "surface: limb\ntaxels:\n  x: [";
+  for (int i = 0; i < 70; ++i) file << (i != 0 ? ", " : "") << i * 0.25;
+  file << "]\n";
+  file.close();
+  const SurfaceCurvature message = setSurface(path.string(), 1);
+  ASSERT_EQ(message.x.size(), 70u);
+  EXPECT_FLOAT_EQ(message.x[69], 17.25f);
+  std::filesystem::remove(path);
+}
+
+TEST(CurvatureNode, RepeatsItselfForRecorders) {
+  const SurfaceCurvature first = setSurface("flat", 1);
+  ros::Time later;
+  const auto handler = [&](const SurfaceCurvature::ConstPtr& message) { later = message->header.stamp; };
+  ros::NodeHandle handle;
+  const ros::Subscriber subscriber = handle.subscribe<SurfaceCurvature>("curvature", 10, handler);
+  const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(30);
+  while (later <= first.header.stamp && ros::WallTime::now() < give_up) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.5));
+  }
+  EXPECT_GT(later, first.header.stamp);
+}
+
+TEST(SessionNode, SaysWhatARecordingIsAbout) {
+  const auto session = ros::topic::waitForMessage<fsr_pressure_map::Session>("session", ros::Duration(30));
+  ASSERT_TRUE(session);
+  EXPECT_EQ(session->subject_code, "S012");
+  EXPECT_EQ(session->trial, "3");
+  EXPECT_EQ(session->use, "chamber");
+}
+
+TEST(SessionNode, MarksAKnownKindAndRefusesAnother) {
+  ASSERT_TRUE(ros::service::waitForService("session/mark", ros::Duration(30)));
+  fsr_pressure_map::Event last;
+  ros::NodeHandle handle;
+  const ros::Subscriber subscriber = handle.subscribe<fsr_pressure_map::Event>(
+      "events", 10, [&](const fsr_pressure_map::Event::ConstPtr& event) { last = *event; });
+  const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(30);
+  while (subscriber.getNumPublishers() == 0 && ros::WallTime::now() < give_up)
+    ros::WallDuration(0.01).sleep();
+
+  fsr_pressure_map::Mark call;
+  call.request.kind = "don";
+  call.request.label = "liner 3 mm";
+  while (last.kind.empty() && ros::WallTime::now() < give_up) {
+    ASSERT_TRUE(ros::service::call("session/mark", call));
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.5));
+  }
+  EXPECT_TRUE(call.response.success);
+  EXPECT_EQ(last.label, "liner 3 mm");
+
+  call.request.kind = "lunch";
+  ASSERT_TRUE(ros::service::call("session/mark", call));
+  EXPECT_FALSE(call.response.success);
+  EXPECT_NE(call.response.message.find("conditioning"), std::string::npos) << call.response.message;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "curvature_test");
+  const ros::NodeHandle keep_alive;
+  return RUN_ALL_TESTS();
+}
