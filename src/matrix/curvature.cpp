@@ -1,6 +1,9 @@
 #include "fsr_pressure_map/matrix/curvature.h"
 
 #include <cmath>
+#include <string>
+
+#include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr {
 
@@ -12,6 +15,17 @@ double principalCurvature(const Curvature& curvature) {
   const double mean = 0.5 * (curvature.x + curvature.y);
   const double radius = std::hypot(0.5 * (curvature.x - curvature.y), curvature.xy);
   return mean >= 0 ? mean + radius : mean - radius;
+}
+
+void requireFit(const Surface& surface, MatrixSize size) {
+  for (const std::size_t values : {surface.curvature.size(), surface.deviation.size()}) {
+    if (values > 1 && values != size.taxels()) {
+      throw InputError("surface \"" + surface.name + "\" has " + std::to_string(values) +
+                       " values, but must have one, or one for each of the " + std::to_string(size.taxels()) +
+                       " taxels of a " + std::to_string(size.rows) + " x " + std::to_string(size.columns) +
+                       " matrix");
+    }
+  }
 }
 
 bool sameCondition(const Surface& a, const Surface& b) {

@@ -40,6 +40,15 @@ TEST(Curvature, PrincipalAgreesWithAnEigenSolver) {
   EXPECT_NEAR(principalCurvature({4, -7, 2.5}), -7.541522985, 1e-8);
 }
 
+TEST(Curvature, ASurfaceOfAnotherMatrixDoesNotFit) {
+  Surface surface;
+  EXPECT_NO_THROW(requireFit(surface, kPaper));
+  surface.curvature.resize(70);
+  EXPECT_NO_THROW(requireFit(surface, kPaper));
+  surface.deviation.resize(160);
+  EXPECT_THROW(requireFit(surface, kPaper), InputError);
+}
+
 TEST(SurfaceFile, ACylinderWithItsAxisAlongYBendsTheRows) {
   const auto outside = Settings::fromText("surface: c\ncylinder: {radius: 0.05, axis: y}", "c.yaml");
   const Surface surface = readSurface(outside, kPaper);

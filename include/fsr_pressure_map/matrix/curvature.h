@@ -36,6 +36,9 @@ struct Surface {
   }
 };
 
+/// Throws InputError where a surface has neither none, one nor `size` curvatures or deviations.
+void requireFit(const Surface& surface, MatrixSize size);
+
 /// Same name, mount and curvature (deviation left aside).
 bool sameCondition(const Surface& a, const Surface& b);
 
