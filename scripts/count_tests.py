@@ -1,0 +1,37 @@
+#!/usr/bin/python3
+"""count_tests.py JUNIT RESULTS: the last line of scripts/test, "N passed, N failed".
+
+Counts ctest's cases; a rostest counts as the cases inside it, read from its own results under
+RESULTS/<name>, and as one failed case where it left none. Status 1 where one failed or none ran.
+"""
+import pathlib
+import sys
+import xml.etree.ElementTree as ElementTree
+
+
+def inner_cases(folder):
+    """(passed, failed) of the gtest cases that a rostest ran."""
+    passed = failed = 0
+    for file in folder.rglob("rosunit-*.xml"):
+        for case in ElementTree.parse(file).getroot().iter("testcase"):
+            bad = case.find("failure") is not None or case.find("error") is not None
+            passed, failed = passed + (not bad), failed + bad
+    return passed, failed
+
+
+def main():
+    junit, results = sys.argv[1], pathlib.Path(sys.argv[2])
+    passed = failed = 0
+    for case in ElementTree.parse(junit).getroot().iter("testcase"):
+        good = case.get("status") == "run"
+        name = case.get("name")
+        inner = inner_cases(results / name[4:]) if name.startswith("ros.") else (0, 0)
+        if good:
+            passed += max(inner[0], 1)
+        else:
+            passed, failed = passed + inner[0], failed + max(inner[1], 1)
+    print(f"{passed} passed, {failed} failed")
+    return 1 if failed or not passed else 0
+
+
+sys.exit(main())
