@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/protocol/packet.h"
+
+namespace fsr_test {
+
+/// Keeps what a decoder delivered, one readable line a packet, so that tests compare lists of lines.
+class PacketRecorder : public fsr::PacketHandler {
+ public:
+  std::vector<std::string> lines;
+
+  void onScan(const fsr::PacketHeader& header, const fsr::ScanPacket& scan) override {
+    std::ostringstream text;
+    text << scan.size.rows << "x" << scan.size.columns << " full " << scan.full_scale << " took "
+         << scan.duration << " counts";
+    for (std::size_t i = 0; i < scan.size.taxels(); ++i) text << ' ' << scan.counts[i];
+    add("scan", header, text.str());
+  }
+  void onTransducer(const fsr::PacketHeader& header, std::int32_t counts) override {
+    add("transducer", header, std::to_string(counts));
+  }
+  void onTemperature(const fsr::PacketHeader& header, std::int32_t millidegrees) override {
+    add("temperature", header, std::to_string(millidegrees));
+  }
+  void onIdentity(const fsr::PacketHeader& header, const fsr::IdentityPacket& identity) override {
+    std::ostringstream text;
+    text << identity.serial << '/' << identity.firmware << '/' << identity.model << ' ' << identity.size.rows
+         << "x" << identity.size.columns << " full " << identity.full_scale << " every "
+         << identity.scan_period;
+    add("identity", header, text.str());
+  }
+
+ private:
+  void add(const std::string& type, const fsr::PacketHeader& header, const std::string& content) {
+    lines.push_back(type + " #" + std::to_string(header.sequence) + " @" +
+                    std::to_string(header.device_time) + " " + content);
+  }
+};
+
+}  // namespace fsr_test
