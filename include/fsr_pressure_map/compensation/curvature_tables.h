@@ -6,27 +6,19 @@
 #include <vector>
 
 #include "fsr_pressure_map/compensation/scheme.h"
+#include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/matrix/layout.h"
 #include "fsr_pressure_map/regression/code_table.h"
 
 namespace fsr {
-
-/// One curvature class of a calibration.
-struct CurvatureClass {
-  std::string surface;            ///< name of the condition it was trained on, e.g. cylinder_7cm
-  std::vector<double> curvature;  ///< principal curvature, one for all taxels or one each, row-major [1/m]
-
-  double at(std::size_t taxel) const {
-    return curvature.size() == 1 ? curvature.front() : curvature.at(taxel);
-  }
-};
 
 /// A scheme, compiled: for each taxel one CodeTable for each curvature class.
 struct CurvatureTables {
   Scheme scheme = Scheme::kPerCurvature;
   MatrixSize size;
   std::uint16_t full_scale = 0;
-  /// Classes by ascending curvature of taxel 0. Schemes that ignore curvature have one.
+  /// Classes by ascending curvature of taxel 0. Schemes that ignore curvature have one, which
+  /// answers everywhere.
   std::vector<CurvatureClass> classes;
   /// [taxels x classes], taxel by taxel.
   std::vector<CodeTable> tables;

@@ -20,4 +20,7 @@ Scheme schemeFromName(const std::string& name);
 
 std::vector<std::string> schemeNames();
 
+/// Whether the scheme has a table for each curvature; else its one class answers everywhere.
+bool usesCurvature(Scheme scheme);
+
 }  // namespace fsr

@@ -6,7 +6,8 @@
 namespace fsr {
 
 /// What any regressor of one reading becomes: a converter gives integers, so pressure is a table
-/// over the codes. All vectors have full_scale + 1 entries.
+/// over the codes. All vectors have full_scale + 1 entries. A taxel without a model (masked, or constant
+/// in training) has NaN throughout.
 struct CodeTable {
   std::vector<float> pressure;   ///< gauge pressure of each code [Pa], finite
   std::vector<float> deviation;  ///< one standard deviation of a held-out reading at each code [Pa], > 0

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/calibration/scores.h"
+#include "fsr_pressure_map/compensation/curvature_tables.h"
+#include "fsr_pressure_map/compensation/training_statistics.h"
+#include "fsr_pressure_map/dataset/coverage.h"
+#include "fsr_pressure_map/dataset/recording.h"
+#include "fsr_pressure_map/regression/grnn.h"
+
+namespace fsr {
+
+struct CalibrationOptions {
+  Scheme scheme = Scheme::kPerCurvature;
+  double bandwidth = kPaperBandwidth;  ///< of the GRNN, in standardised units
+  std::size_t folds = 5;               ///< sections of each condition, 2 to 20
+  bool scores = true;                  ///< cross-validated scores; the deviation is held out either way
+  std::uint64_t seed = 1;              ///< kept in the file; nothing random in the GRNN uses it
+  unsigned threads = 0;                ///< 0 = one for each core; the numbers do not depend on it
+  std::string date;                    ///< ISO 8601, UTC; empty = now
+};
+
+/// Bags in.
+struct CalibrationProblem {
+  std::vector<Recording> recordings;
+  CalibrationOptions options;
+};
+
+/// Lowest and highest value over training; NaN = not recorded.
+struct TrainedInterval {
+  double low = std::numeric_limits<double>::quiet_NaN();
+  double high = std::numeric_limits<double>::quiet_NaN();
+
+  bool known() const { return low <= high; }  // false for NaN
+};
+
+struct TrainedRanges {
+  TrainedInterval pressure;       ///< chamber, gauge [Pa]
+  TrainedInterval pressure_rate;  ///< of the chamber over one second, negative while venting [Pa/s]
+  TrainedInterval curvature;      ///< principal curvature, of all taxels [1/m]
+  TrainedInterval temperature;    ///< [degree Celsius]
+};
+
+struct SourceBag {
+  std::string name;    ///< base name
+  std::string sha256;  ///< hexadecimal; empty where the recording came over topics
+  std::uint64_t scans = 0;
+};
+
+/// Where the numbers come from.
+struct Provenance {
+  std::string tool_version;
+  std::string date;  ///< ISO 8601, UTC
+  std::uint64_t seed = 0;
+  std::vector<SourceBag> bags;
+};
+
+/// Everything that turns scans into pressure, and what is known of how well.
+struct Calibration {
+  std::string id;  ///< first hex digits of its file's hash; empty until it was saved or loaded
+  std::string model = "grnn";
+  double bandwidth = 0;
+  std::size_t folds = 0;
+  SensorIdentity sensor;
+  Layout layout;
+  /// 1 = this taxel has no model: masked in the bags, or its reading never changed. Its tables are
+  /// NaN. One value for each taxel.
+  std::vector<std::uint8_t> no_model;
+  CurvatureTables tables;
+  TrainedRanges trained;
+  Coverage coverage;
+  CalibrationScores scores;
+  Provenance provenance;
+  TrainingStatistics statistics;      ///< empty where it was loaded without
+  std::vector<std::string> warnings;  ///< sentences for the user
+};
+
+/// Throws InputError: one sentence that names the first thing in the way and what would be right.
+void validate(const CalibrationProblem& problem);
+
+/// Bags in -> tables, scores, provenance out. Validates first. The same numbers on any number of
+/// threads.
+Calibration calibrate(const CalibrationProblem& problem);
+
+}  // namespace fsr

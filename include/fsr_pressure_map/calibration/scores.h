@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "fsr_pressure_map/dataset/condition_classes.h"
+#include "fsr_pressure_map/statistics/metrics.h"
+
+namespace fsr {
+
+/// Errors of held-out readings: each section is predicted by models that never saw it.
+struct Score {
+  std::uint64_t readings = 0;  ///< scans x taxels
+  /// Mean and deviation over taxels. Of each taxel: the mean of its sections' scores, the range of
+  /// RMSE% being that of the held-out section.
+  Spread r2;
+  Spread rmse_percent;
+  std::size_t worst_taxel = 0;  ///< the one of the largest RMSE%
+  double worst_rmse_percent = std::numeric_limits<double>::quiet_NaN();
+  /// Of all taxels and sections together [Pa].
+  BinnedErrors errors;
+  /// Share of the readings within one stated deviation, the deviation taken from other sections.
+  double within_one_deviation = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// One curvature class of the bags, predicted as the scheme would.
+struct ConditionScore {
+  CurvatureClass condition;
+  bool trained = true;  ///< false: the answering model saw nothing of this class (flat_only on a bend)
+  Score score;
+};
+
+struct CalibrationScores {
+  std::vector<ConditionScore> conditions;  ///< empty = not asked for
+  Score whole;                             ///< all conditions together
+};
+
+}  // namespace fsr

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/dataset/recording.h"
+
+namespace fsr {
+
+/// One curvature class: conditions whose curvature agrees, from any number of bags.
+struct CurvatureClass {
+  std::string surface;            ///< name of the condition it was trained on, e.g. cylinder_7cm
+  std::vector<double> curvature;  ///< principal curvature, one for all taxels or one each, row-major [1/m]
+
+  double at(std::size_t taxel) const {
+    return curvature.size() == 1 ? curvature.front() : curvature.at(taxel);
+  }
+};
+
+/// Largest |principal curvature| of a surface that counts as flat: a radius of 4 m [1/m].
+constexpr double kFlatCurvature = 0.25;
+/// Conditions whose curvature differs by no more than this at any taxel are one class [1/m].
+constexpr double kSameClassCurvature = 0.25;
+
+/// Flat at every taxel.
+bool isFlat(const CurvatureClass& curvature_class);
+
+/// The conditions of several recordings, pooled by curvature.
+struct ConditionClasses {
+  /// By ascending curvature of taxel 0.
+  std::vector<CurvatureClass> classes;
+  /// [recordings][conditions of that recording] -> index into `classes`.
+  std::vector<std::vector<std::size_t>> class_of;
+};
+
+/// Name and curvature of a class are those of its member with the most scans. The result does not
+/// depend on the order of the recordings.
+ConditionClasses poolConditions(const std::vector<Recording>& recordings,
+                                double tolerance = kSameClassCurvature);
+
+}  // namespace fsr

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "fsr_pressure_map/regression/code_statistics.h"
+#include "fsr_pressure_map/regression/code_table.h"
+#include "fsr_pressure_map/regression/regressor.h"
+
+namespace fsr {
+
+/// A model trained without one section, and what the other sections' held-out errors say of it.
+struct HeldOutModel {
+  std::vector<double> pressure;  ///< of each code [Pa]; empty = nothing was left to train on
+  std::vector<float> deviation;  ///< of each code [Pa], from the other sections' errors alone
+};
+
+/// One model of one taxel with its held-out deviation.
+struct CrossValidatedModel {
+  CodeTable table;                     ///< trained on everything
+  std::vector<HeldOutModel> held_out;  ///< one for each section
+};
+
+/// Trains on all sections, and once without each. `sections` holds at least one sample in all; where
+/// only one of them has any, nothing can be held out and the deviation is that of the training
+/// readings themselves.
+CrossValidatedModel crossValidate(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
+                                  const Regressor& regressor);
+
+}  // namespace fsr

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/regression/code_statistics.h"
+
+namespace fsr {
+
+/// What a regressor of one reading becomes: its answer at every code. One value for each code
+/// 0 .. full scale.
+struct Fit {
+  std::vector<double> pressure;  ///< gauge [Pa], finite
+  std::vector<double> support;   ///< effective number of training samples behind the answer
+};
+
+/// A regressor from one reading to pressure.
+class Regressor {
+ public:
+  virtual ~Regressor() = default;
+
+  /// The readable id that files and options use, e.g. "grnn".
+  virtual std::string name() const = 0;
+  /// `training` holds at least one sample. Thread-safe.
+  virtual Fit fit(const CodeHistogram& training) const = 0;
+};
+
+}  // namespace fsr

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "fsr_pressure_map/statistics/pressure_bins.h"
+
+namespace fsr {
+
+// Measures of how far predictions lie from the reference. An error is predicted - reference.
+// NaN stands where a measure has no meaning for the data; every function says when.
+
+/// R2 = 1 - SSE / SST, SST about the mean of `reference`. Negative where the mean predicts better.
+/// NaN where the reference has fewer than two values or does not vary.
+double rSquared(const std::vector<double>& predicted, const std::vector<double>& reference);
+
+/// Root of the mean squared error in percent of the range (largest - smallest) of `reference`.
+/// NaN where the reference is empty or does not vary.
+double rmsePercent(const std::vector<double>& predicted, const std::vector<double>& reference);
+
+/// The q-quantile, 0 <= q <= 1, interpolated between order statistics (R's type 7, numpy's default).
+/// NaN of an empty list. Reorders `values`.
+double quantile(std::vector<double>& values, double q);
+
+/// Errors as one would state them for use. All NaN where `count` is 0.
+struct ErrorSummary {
+  std::size_t count = 0;
+  double bias = std::numeric_limits<double>::quiet_NaN();  ///< mean error [Pa]
+  double rmse = std::numeric_limits<double>::quiet_NaN();  ///< [Pa]
+  double limit_low =
+      std::numeric_limits<double>::quiet_NaN();  ///< bias - 1.96 deviations [Pa]; NaN below two
+  double limit_high =
+      std::numeric_limits<double>::quiet_NaN();  ///< bias + 1.96 deviations [Pa]; NaN below two
+  double p95_absolute = std::numeric_limits<double>::quiet_NaN();  ///< 95th percentile of |error| [Pa]
+};
+
+/// `errors` in Pa.
+ErrorSummary summariseErrors(const std::vector<double>& errors);
+
+/// Errors by pressure bin, both directions together and each alone.
+struct BinnedErrors {
+  struct Directions {
+    ErrorSummary all;
+    ErrorSummary loading;
+    ErrorSummary unloading;
+  };
+  Directions whole;  ///< all bins together
+  std::array<Directions, kPressureBins> bins;
+};
+
+/// One value per reading in each list: error [Pa], reference [Pa], direction.
+BinnedErrors binErrors(const std::vector<float>& errors, const std::vector<float>& reference,
+                       const std::vector<LoadDirection>& direction);
+
+/// Mean and sample deviation over taxels. NaN values are left out; NaN where nothing is left
+/// (deviation: where fewer than two are).
+struct Spread {
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double deviation = std::numeric_limits<double>::quiet_NaN();
+};
+Spread spreadOf(const std::vector<double>& values);
+
+}  // namespace fsr

@@ -1,0 +1,25 @@
+#include "fsr_pressure_map/compensation/scheme.h"
+
+#include <gtest/gtest.h>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+namespace {
+
+TEST(Scheme, IsFoundByItsName) {
+  for (const std::string& name : schemeNames()) EXPECT_EQ(schemeName(schemeFromName(name)), name);
+}
+
+TEST(Scheme, AnUnknownNameIsRefusedWithTheKnownOnes) {
+  try {
+    schemeFromName("per_curve");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "scheme is \"per_curve\", but must be one of flat_only, baseline, per_curvature");
+  }
+}
+
+}  // namespace
+}  // namespace fsr
