@@ -64,7 +64,7 @@ Bytes withHeader(Bytes packet, std::uint8_t version, std::uint8_t type, std::uin
 
 // A decoder with what it delivered.
 struct Bench {
-  fsr_test::PacketRecorder recorder;
+  test_support::PacketRecorder recorder;
   fsr::Decoder decoder{recorder};
 
   Bench& feed(const Bytes& bytes) {

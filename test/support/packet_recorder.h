@@ -7,7 +7,7 @@
 
 #include "fsr_pressure_map/protocol/packet.h"
 
-namespace fsr_test {
+namespace test_support {
 
 /// Keeps what a decoder delivered, one readable line a packet, so that tests compare lists of lines.
 class PacketRecorder : public fsr::PacketHandler {
@@ -42,4 +42,4 @@ class PacketRecorder : public fsr::PacketHandler {
   }
 };
 
-}  // namespace fsr_test
+}  // namespace test_support

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <thread>
+#include <utility>
+
+#include "fsr_pressure_map/protocol/capture.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+namespace {
+
+std::uint64_t get(const std::uint8_t* at, int bytes) {
+  std::uint64_t value = 0;
+  for (int i = 0; i < bytes; ++i) value |= static_cast<std::uint64_t>(at[i]) << (8 * i);
+  return value;
+}
+
+// How many of `size` bytes were there.
+std::size_t readUpTo(std::ifstream& file, std::uint8_t* bytes, std::size_t size) {
+  file.read(reinterpret_cast<char*>(bytes), static_cast<std::streamsize>(size));
+  return static_cast<std::size_t>(file.gcount());
+}
+
+}  // namespace
+
+CaptureReader::CaptureReader(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+  if (!file_) throw InputError("capture " + path + " cannot be read (" + std::strerror(errno) + ")");
+  std::array<std::uint8_t, capture::kFileHeader> header{};
+  const std::size_t size = readUpTo(file_, header.data(), header.size());
+  if (size < header.size() || std::memcmp(header.data(), capture::kMagic, 8) != 0) {
+    throw InputError("capture " + path + " does not start with " + capture::kMagic +
+                     ": name a file that the driver's capture_file wrote");
+  }
+  baud_ = static_cast<std::uint32_t>(get(header.data() + 8, 4));
+  offset_ = header.size();
+}
+
+Chunk CaptureReader::read(std::uint8_t* buffer, std::size_t capacity, std::chrono::milliseconds /*timeout*/) {
+  if (delivered_ == chunk_.size() && !nextChunk()) return {};
+  const std::size_t size = std::min(capacity, chunk_.size() - delivered_);
+  std::memcpy(buffer, chunk_.data() + delivered_, size);
+  delivered_ += size;
+  return {size, receive_time_};
+}
+
+// False at the end of the file or of what is whole of it.
+bool CaptureReader::nextChunk() {
+  delivered_ = 0;
+  chunk_.clear();
+  if (ended_) return false;
+  std::array<std::uint8_t, capture::kChunkHeader> header{};
+  const std::size_t got = readUpTo(file_, header.data(), header.size());
+  const std::size_t size = get(header.data() + 8, 4);
+  const bool sane = got == header.size() && size >= 1 && size <= capture::kMaxChunk;
+  if (sane) {
+    chunk_.resize(size);
+    chunk_.resize(readUpTo(file_, chunk_.data(), size));
+  }
+  ended_ = !sane || chunk_.size() < size;
+  if (ended_ && got > 0) {
+    damage_ = "capture " + path_ + (got < header.size() || sane ? " is cut short" : " is damaged") +
+              " at byte " + std::to_string(offset_) + ": replayed up to there";
+  }
+  receive_time_ = static_cast<std::int64_t>(get(header.data(), 8));
+  offset_ += header.size() + chunk_.size();
+  return !chunk_.empty();
+}
+
+PacedSource::PacedSource(std::unique_ptr<ByteSource> source, HostClock now)
+    : source_(std::move(source)), now_(std::move(now)), buffer_(capture::kMaxChunk) {}
+
+Chunk PacedSource::read(std::uint8_t* buffer, std::size_t capacity, std::chrono::milliseconds timeout) {
+  if (given_ == held_.size) {
+    given_ = 0;
+    held_ = source_->read(buffer_.data(), buffer_.size(), timeout);
+    if (held_.size == 0) return {};
+    if (!std::exchange(started_, true)) shift_ = now_() - held_.receive_time;
+    held_.receive_time += shift_;
+  }
+  if (!due(timeout)) return {};
+  const std::size_t size = std::min(capacity, held_.size - given_);
+  std::memcpy(buffer, buffer_.data() + given_, size);
+  given_ += size;
+  return {size, held_.receive_time};
+}
+
+// Sleeps in short steps, since the clock may run faster than the host's own.
+bool PacedSource::due(std::chrono::milliseconds timeout) const {
+  constexpr std::chrono::nanoseconds kStep = std::chrono::milliseconds(5);
+  const auto give_up = std::chrono::steady_clock::now() + timeout;
+  while (now_() < held_.receive_time) {
+    if (std::chrono::steady_clock::now() >= give_up) return false;
+    std::this_thread::sleep_for(std::min(kStep, std::chrono::nanoseconds(held_.receive_time - now_())));
+  }
+  return true;
+}
+
+}  // namespace fsr
