@@ -1,0 +1,69 @@
+#include "fsr_pressure_map/simulation/chamber_protocol.h"
+
+#include <sstream>
+
+namespace fsr {
+
+namespace {
+
+const Range kPeak{1e3, kChamberRating, "Pa gauge (the chamber is rated at 793 kPa)"};
+const Range kRate{1, 1e7, "Pa/s"};
+const Range kDwell{0, 86400, "s"};
+const Range kCycles{0, 1e6, "cycles (0 = for ever)"};
+
+void require(const std::string& origin, const char* field, double value, const Range& range) {
+  if (range.contains(value)) return;
+  std::ostringstream sentence;
+  sentence << origin << ": " << field << " is " << value << ", but must be " << range.text();
+  throw InputError(sentence.str());
+}
+
+}  // namespace
+
+void validate(const ChamberProtocol& protocol, const std::string& origin) {
+  require(origin, "peak", protocol.peak, kPeak);
+  require(origin, "fill_rate", protocol.fill_rate, kRate);
+  require(origin, "vent_rate", protocol.vent_rate, kRate);
+  require(origin, "dwell_peak", protocol.dwell_peak, kDwell);
+  require(origin, "dwell_rest", protocol.dwell_rest, kDwell);
+  require(origin, "cycles", protocol.cycles, kCycles);
+}
+
+ChamberProtocol readChamberProtocol(const Settings& settings, const ChamberProtocol& defaults) {
+  ChamberProtocol protocol = defaults;
+  protocol.peak = settings.number("peak", kPeak, defaults.peak);
+  if (settings.has("rate")) {
+    protocol.fill_rate = protocol.vent_rate = settings.number("rate", kRate);
+  } else {
+    protocol.fill_rate = settings.number("fill_rate", kRate, defaults.fill_rate);
+    protocol.vent_rate = settings.number("vent_rate", kRate, defaults.vent_rate);
+  }
+  protocol.dwell_peak = settings.number("dwell_peak", kDwell, defaults.dwell_peak);
+  protocol.dwell_rest = settings.number("dwell_rest", kDwell, defaults.dwell_rest);
+  protocol.cycles = static_cast<unsigned>(settings.integer("cycles", kCycles, defaults.cycles));
+  return protocol;
+}
+
+double cycleDuration(const ChamberProtocol& p) {
+  return p.dwell_rest + p.peak / p.fill_rate + p.dwell_peak + p.peak / p.vent_rate;
+}
+
+PressureProfile pressureProfile(const ChamberProtocol& p) {
+  const double full = p.dwell_rest + p.peak / p.fill_rate;
+  PressureProfile profile;
+  profile.append({{0, 0},
+                  {p.dwell_rest, 0},
+                  {full, p.peak},
+                  {full + p.dwell_peak, p.peak},
+                  {full + p.dwell_peak + p.peak / p.vent_rate, 0}},
+                 p.cycles);
+  return profile;
+}
+
+PressureProfile ventingProfile(const ChamberProtocol& protocol, double pressure) {
+  PressureProfile profile;
+  if (pressure > 0) profile.append({{0, pressure}, {pressure / protocol.vent_rate, 0}});
+  return profile;
+}
+
+}  // namespace fsr
