@@ -1,0 +1,62 @@
+// Zero-potential read-out and converter: counts are proportional to conductance.
+//
+//     y = full_scale V / V_ref,  V = V_ref R_f G   [counts]
+//
+// The matrix is driven by the converter's own reference, so V_ref cancels. The chain rounds y to whole
+// counts and clips it to 0 .. full_scale after all that disturbs the reading; one count of 12 bits is
+// 0.024 % of full scale. Circuit: the paper's Fig. 2.
+
+#include <cmath>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+
+namespace fsr {
+
+namespace {
+
+EffectInfo info() {
+  EffectInfo info;
+  info.id = "converter";
+  info.summary = "conductance to counts; rounding and clipping at the end of the chain";
+  info.equation = "y = full_scale R_f G + offset";
+  info.source = "zero-potential circuit of the paper's Fig. 2";
+  info.stage = ChainStage::kSample;
+  info.level = EffectLevel::kRig;
+  info.required = true;
+  info.parameters = {
+      {"full_scale", "largest count", {1, 65535, "counts"}, 4095},
+      {"feedback_resistance", "R_f", {1, 1e9, "ohm"}, 3600},
+      {"offset", "reading at no conductance", {0, 65535, "counts"}, 0, 0},
+  };
+  return info;
+}
+
+class Converter : public Effect {
+ public:
+  Converter(const EffectValues& values, const EffectContext&)
+      : counts_per_siemens_(values.at("full_scale") * values.at("feedback_resistance")),
+        offset_(values.at("offset")) {
+    if (values.at("full_scale") != std::floor(values.at("full_scale"))) {
+      throw InputError("effects.converter: full_scale must be a whole number of counts, e.g. 4095");
+    }
+  }
+
+  void apply(const RigMoment&, TaxelSignals& signals) override {
+    for (std::size_t i = 0; i < signals.reading.size(); ++i) {
+      signals.reading[i] = counts_per_siemens_ * signals.conductance[i] + offset_;
+    }
+  }
+
+ private:
+  double counts_per_siemens_;
+  double offset_;  // [counts]
+};
+
+}  // namespace
+
+EffectEntry converter() {
+  return {info(), makeEffect<Converter>};
+}
+
+}  // namespace fsr

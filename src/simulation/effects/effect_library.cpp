@@ -1,0 +1,27 @@
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+
+#include <algorithm>
+
+namespace fsr {
+
+const std::vector<EffectEntry>& effectLibrary() {
+  static const std::vector<EffectEntry> library = {
+      bendingPreload(), hysteresis(), bendingGain(), staticCurve(), converter(), whiteNoise(),
+  };
+  return library;
+}
+
+const EffectEntry* findEffect(const std::string& id) {
+  const auto& library = effectLibrary();
+  const auto found = std::find_if(library.begin(), library.end(),
+                                  [&](const EffectEntry& entry) { return entry.info.id == id; });
+  return found == library.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> effectIds() {
+  std::vector<std::string> ids;
+  for (const EffectEntry& entry : effectLibrary()) ids.push_back(entry.info.id);
+  return ids;
+}
+
+}  // namespace fsr

@@ -1,0 +1,33 @@
+#include "fsr_pressure_map/simulation/effects/taxel_scatter.h"
+
+#include <cmath>
+
+#include "fsr_pressure_map/simulation/random_stream.h"
+
+namespace fsr {
+
+std::vector<double> scatteredValues(double value, double deviation, const std::string& name,
+                                    const EffectContext& context) {
+  std::vector<double> values(context.layout.size.taxels());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = value * std::exp(deviation * randomStream(context.seed, name, i).normal(0));
+  }
+  return values;
+}
+
+SmoothRandomFunction::SmoothRandomFunction(double length, std::uint64_t seed, const std::string& name,
+                                           std::uint64_t member) {
+  const RandomStream stream = randomStream(seed, name, member);
+  for (int i = 0; i < kWaves; ++i) {
+    frequency_[i] = stream.normal(2 * i) / length;
+    phase_[i] = 2 * M_PI * stream.uniform(2 * i + 1);
+  }
+}
+
+double SmoothRandomFunction::operator()(double x) const {
+  double sum = 0;
+  for (int i = 0; i < kWaves; ++i) sum += std::cos(frequency_[i] * x + phase_[i]);
+  return sum * std::sqrt(2.0 / kWaves);
+}
+
+}  // namespace fsr

@@ -1,0 +1,107 @@
+#include "fsr_pressure_map/simulation/simulation_settings.h"
+
+#include <algorithm>
+
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+
+namespace fsr {
+
+namespace {
+
+Layout readLayout(const Settings& settings, Layout layout) {
+  const Range side{1, kMaxMatrixSide, ""};
+  const Range pitch{1e-4, 1, "m"};
+  layout.size.rows = static_cast<std::uint16_t>(settings.integer("rows", side, layout.size.rows));
+  layout.size.columns = static_cast<std::uint16_t>(settings.integer("columns", side, layout.size.columns));
+  layout.pitch_x = settings.number("pitch_x", pitch, layout.pitch_x);
+  layout.pitch_y = settings.number("pitch_y", pitch, layout.pitch_y);
+  return layout;
+}
+
+SimulatedBoard readBoard(const Settings& settings) {
+  SimulatedBoard board;
+  board.serial = settings.text("serial", board.serial);
+  board.firmware = settings.text("firmware", board.firmware);
+  board.model = settings.text("model", board.model);
+  board.scan_rate = settings.number("scan_rate", {0.01, 10000, "Hz"}, board.scan_rate);
+  board.scan_duration = settings.number("scan_duration", {0, 10, "s"}, board.scan_duration);
+  board.transducer_rate = settings.number("transducer_rate", {0, 10000, "Hz"}, board.transducer_rate);
+  board.temperature = settings.number("temperature", {-40, 125, "degree Celsius"}, board.temperature);
+  if (board.scan_duration > 1 / board.scan_rate) {
+    throw settings.error("scan_duration", "must not be longer than the time from scan to scan");
+  }
+  return board;
+}
+
+Transducer readTransducer(const Settings& settings) {
+  const Range pressure{-110e3, 100e6, "Pa gauge"};
+  Transducer transducer;
+  transducer.low = settings.number("low", pressure, transducer.low);
+  transducer.high = settings.number("high", pressure, transducer.high);
+  transducer.full_counts = static_cast<std::int32_t>(
+      settings.integer("full_counts", {1, 1 << 24, "counts"}, transducer.full_counts));
+  if (transducer.high <= transducer.low) throw settings.error("high", "must be above low");
+  return transducer;
+}
+
+EffectValues readValues(const Settings& settings, const EffectInfo& info) {
+  EffectValues values;
+  for (const EffectParameter& parameter : info.parameters) {
+    values[parameter.name] = settings.number(parameter.name, parameter.permitted, parameter.usual);
+  }
+  return values;
+}
+
+void refuseUnknownEffects(const Settings& effects) {
+  for (const std::string& id : effects.keys()) {
+    if (findEffect(id)) continue;
+    std::string known;
+    for (const std::string& other : effectIds()) known += (known.empty() ? "" : ", ") + other;
+    throw effects.error(id, "no effect has that name; the effects are " + known);
+  }
+}
+
+std::vector<EnabledEffect> readEffects(const Settings& effects) {
+  refuseUnknownEffects(effects);
+  std::vector<EnabledEffect> enabled;
+  for (const EffectEntry& entry : effectLibrary()) {
+    if (effects.has(entry.info.id)) {
+      enabled.push_back({entry.info.id, readValues(effects.section(entry.info.id), entry.info)});
+    } else if (entry.info.required) {
+      throw effects.error(entry.info.id, "no sensor is without it; write `" + entry.info.id + ": {}`");
+    }
+  }
+  return enabled;
+}
+
+}  // namespace
+
+const EnabledEffect* SimulationSettings::effect(const std::string& id) const {
+  const auto found = std::find_if(effects.begin(), effects.end(),
+                                  [&](const EnabledEffect& effect) { return effect.id == id; });
+  return found == effects.end() ? nullptr : &*found;
+}
+
+std::uint16_t SimulationSettings::fullScale() const {
+  return static_cast<std::uint16_t>(effect("converter")->values.at("full_scale"));
+}
+
+SimulationSettings readSimulation(const Settings& settings) {
+  SimulationSettings simulation;
+  simulation.origin = settings.origin();
+  simulation.name = settings.text("simulation");
+  simulation.seed = static_cast<std::uint64_t>(settings.integer("seed", {0, 9e15, ""}, 1));
+  if (settings.has("matrix")) simulation.layout = readLayout(settings.section("matrix"), simulation.layout);
+  if (settings.has("board")) simulation.board = readBoard(settings.section("board"));
+  if (settings.has("chamber")) simulation.chamber = readChamberProtocol(settings.section("chamber"));
+  if (settings.has("transducer")) simulation.transducer = readTransducer(settings.section("transducer"));
+  simulation.effects = readEffects(settings.section("effects"));
+  settings.refuseUnknown();
+  return simulation;
+}
+
+SimulationSettings readSimulationFile(const std::string& path) {
+  return readSimulation(Settings::fromFile(path));
+}
+
+}  // namespace fsr

@@ -1,0 +1,81 @@
+#include "fsr_pressure_map/simulation/sensor_chain.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/allocation_guard.h"
+
+namespace {
+
+using fsr::SensorChain;
+using fsr::SimulationSettings;
+
+SimulationSettings demo() {
+  return fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/demo.yaml");
+}
+
+/// Counts of all scans from `first` to `last` of the paper's cycles at 10 Hz.
+std::vector<std::uint16_t> scans(SensorChain& chain, int first, int last) {
+  const fsr::PressureProfile profile = pressureProfile(fsr::ChamberProtocol{});
+  std::vector<std::uint16_t> counts;
+  for (int i = first; i < last; ++i) {
+    const auto& scan = chain.read({i * 0.1, profile.at(i * 0.1), static_cast<std::uint64_t>(i)});
+    counts.insert(counts.end(), scan.begin(), scan.end());
+  }
+  return counts;
+}
+
+TEST(SensorChain, GivesTheSameCountsFromTheSameSettings) {
+  SensorChain one(demo()), other(demo());
+  const auto counts = scans(one, 0, 1500);
+  EXPECT_EQ(scans(other, 0, 1500), counts);
+  SimulationSettings reseeded = demo();
+  reseeded.seed = 2;
+  SensorChain different(reseeded);
+  EXPECT_NE(scans(different, 0, 1500), counts);
+}
+
+TEST(SensorChain, GoesOnFromASavedState) {
+  SensorChain chain(demo()), resumed(demo());
+  scans(chain, 0, 700);
+  resumed.restore(chain.state());
+  EXPECT_EQ(scans(resumed, 700, 900), scans(chain, 700, 900));
+}
+
+TEST(SensorChain, ForgetsItsHistoryWhenReset) {
+  SensorChain chain(demo()), fresh(demo());
+  scans(chain, 0, 700);
+  chain.reset();
+  EXPECT_EQ(scans(chain, 0, 300), scans(fresh, 0, 300));
+}
+
+TEST(SensorChain, RefusesTheStateOfAnotherChain) {
+  const auto bench = fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/bench.yaml");
+  SensorChain chain(demo()), other(bench);
+  EXPECT_THROW(chain.restore(other.state()), fsr::InputError);
+}
+
+TEST(SensorChain, RefusesASurfaceOfAnotherSize) {
+  SensorChain chain(demo());
+  EXPECT_THROW(chain.mount({"limb", 1, std::vector<fsr::Curvature>(12), {}}), fsr::InputError);
+  EXPECT_THROW(chain.mount({"unknown", 1, {}, {}}), fsr::InputError);
+}
+
+TEST(SensorChain, UsesMostOfTheConvertersRangeWithoutClipping) {
+  SensorChain chain(demo());
+  const auto counts = scans(chain, 0, 750);
+  const auto largest = *std::max_element(counts.begin(), counts.end());
+  EXPECT_GT(largest, 2500);
+  EXPECT_LT(largest, 4095);
+}
+
+TEST(SensorChain, ReadsWithoutAllocating) {
+  SensorChain chain(demo());
+  chain.read({0, 100e3, 0});
+  const test_support::AllocationGuard guard;
+  for (std::uint64_t i = 1; i < 100; ++i) chain.read({0.1 * static_cast<double>(i), 100e3, i});
+  EXPECT_EQ(guard.allocations(), 0u);
+}
+
+}  // namespace
