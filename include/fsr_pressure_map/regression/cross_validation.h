@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "fsr_pressure_map/regression/code_statistics.h"
@@ -11,7 +12,8 @@ namespace fsr {
 /// A model trained without one section, and what the other sections' held-out errors say of it.
 struct HeldOutModel {
   std::vector<double> pressure;  ///< of each code [Pa]; empty = nothing was left to train on
-  std::vector<float> deviation;  ///< of each code [Pa], from the other sections' errors alone
+  std::vector<float>
+      deviation;  ///< of each code [Pa], from the other sections' errors; empty = not asked for
 };
 
 /// One model of one taxel with its held-out deviation.
@@ -20,10 +22,13 @@ struct CrossValidatedModel {
   std::vector<HeldOutModel> held_out;  ///< one for each section
 };
 
-/// Trains on all sections, and once without each. `sections` holds at least one sample in all; where
+/// Whether each held-out model shall state a deviation of its own (scores need it).
+enum class HeldOutDeviation { kNo, kYes };
+
+/// Trains on all sections, and once without each. `sections` holds at least one reading in all; where
 /// only one of them has any, nothing can be held out and the deviation is that of the training
 /// readings themselves.
 CrossValidatedModel crossValidate(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
-                                  const Regressor& regressor);
+                                  const Regressor& regressor, HeldOutDeviation held_out_deviation);
 
 }  // namespace fsr

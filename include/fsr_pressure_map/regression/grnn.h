@@ -16,14 +16,14 @@ constexpr double kPaperBandwidth = 1.0 / 128.0;
 ///
 /// Where every weight underflows, the formula is 0 / 0. The smallest distance is taken out of all
 /// exponents first, which changes nothing else, so that the answer there is the nearest sample's:
-/// any code has a finite answer. Samples with d^2 > d_min^2 + 2 sigma^2 ln(N / 1e-16) are left out:
-/// their sum cannot move the answer by more than 1e-16 of the pressure range.
+/// any code has a finite answer. Samples with d^2 > d_min^2 + 2 sigma^2 ln(N / 1e-14) are left out:
+/// their sum cannot move the answer by more than 1e-14 of the pressure range.
 ///
 /// `support` is sum_i exp(-d_i^2 / 2 sigma^2), not shifted: the number of samples near the code, 0
 /// where there is none.
 class Grnn : public Regressor {
  public:
-  /// Throws InputError where `bandwidth` is not a positive number.
+  /// Throws InputError where `bandwidth` is not within 1e-6 to 1000.
   explicit Grnn(double bandwidth = kPaperBandwidth);
 
   std::string name() const override { return "grnn"; }

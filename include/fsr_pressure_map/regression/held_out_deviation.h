@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -10,39 +11,48 @@ namespace fsr {
 /// The part of the readings that shall lie within one deviation: that of a normal distribution.
 constexpr double kShareWithinOneDeviation = 0.6827;
 
-/// Held-out errors of one model by code, collected section by section.
+/// Held-out errors of one model by code, and the deviation table that they make.
 class HeldOutErrors {
  public:
-  explicit HeldOutErrors(std::uint16_t full_scale);
+  explicit HeldOutErrors(std::uint16_t full_scale) : codes_(full_scale + 1u) {}
 
-  /// Errors of `pressure` [Pa, one for each code] on the readings of `held_out`.
-  void add(const CodeStatistics& held_out, const std::vector<double>& pressure);
+  /// Errors of `pressure` [Pa, one for each code] on the readings of the next section, none of which
+  /// the model behind `pressure` has seen.
+  void addSection(const CodeStatistics& held_out, const std::vector<double>& pressure);
 
-  bool empty() const { return readings_.empty(); }
+  /// No section had a reading.
+  bool empty() const;
 
-  /// One standard deviation of a held-out reading at each code [Pa], > 0: the root of the mean
-  /// squared error of the code, drawn towards that of its neighbourhood and, where the whole
-  /// neighbourhood is rare, of all codes; scaled so that kShareWithinOneDeviation of the errors lie
-  /// within one (a hysteresis loop's errors are no normal distribution); never below the pressure
-  /// step of one count there, nor below 1 Pa.
+  /// All sections.
+  static constexpr std::size_t kNoneLeftOut = static_cast<std::size_t>(-1);
+
+  /// One standard deviation of a held-out reading at each code [Pa], > 0: the root of the code's
+  /// mean squared error, drawn towards that of its neighbourhood where the code is rare and, where
+  /// the neighbourhood is rare, towards that of all codes; scaled so that kShareWithinOneDeviation of
+  /// the errors lie within one (the errors of a hysteresis loop have no normal distribution); never
+  /// below the pressure step of one count there, nor below 1 Pa.
   ///
-  /// `pressure` is the model's answer at each code, whose slope gives the step.
-  std::vector<float> deviation(const std::vector<double>& pressure) const;
+  /// `pressure` is the model's answer at each code, whose slope gives the step. The errors of section
+  /// `left_out` do not enter.
+  std::vector<float> deviation(const std::vector<double>& pressure,
+                               std::size_t left_out = kNoneLeftOut) const;
 
  private:
   // The errors of one code in one section: their number, mean and spread about the mean [Pa].
-  struct Readings {
+  struct Errors {
     std::uint16_t code;
     double count;
     double mean;
     double spread;
   };
 
-  std::vector<double> smoothedMeanSquare() const;
-  double scale(const std::vector<double>& deviation) const;
+  template <typename Visit>
+  void forEach(std::size_t left_out, Visit visit) const;
+  std::vector<double> rootMeanSquare(std::size_t left_out, std::size_t window) const;
+  double scale(const std::vector<double>& deviation, std::size_t left_out) const;
 
   std::size_t codes_;
-  std::vector<Readings> readings_;
+  std::vector<std::vector<Errors>> sections_;
 };
 
 }  // namespace fsr

@@ -1,0 +1,112 @@
+#include "fsr_pressure_map/regression/code_statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+namespace {
+
+// Adds b's sums to a's; exact, or refused.
+void addSums(CodeSums& a, const CodeSums& b) {
+  if (__builtin_add_overflow(a.count, b.count, &a.count) || __builtin_add_overflow(a.sum, b.sum, &a.sum) ||
+      __builtin_add_overflow(a.sum_of_squares, b.sum_of_squares, &a.sum_of_squares)) {
+    throw InputError("code " + std::to_string(a.code) +
+                     " occurs more often than its sums can hold; train on fewer scans");
+  }
+}
+
+}  // namespace
+
+FixedPressure toFixed(double pressure) {
+  if (!(std::abs(pressure) <= kLargestPressure)) {
+    throw InputError("a pressure is " + std::to_string(pressure) + " Pa, but must lie within +-" +
+                     std::to_string(static_cast<std::int64_t>(kLargestPressure)) + " Pa gauge");
+  }
+  return std::llround(pressure / kFixedPressureUnit);
+}
+
+std::uint64_t CodeStatistics::samples() const {
+  return std::accumulate(count_.begin(), count_.end(), std::uint64_t{0});
+}
+
+void CodeStatistics::append(const CodeSums& sums) {
+  code_.push_back(sums.code);
+  count_.push_back(sums.count);
+  sum_.push_back(sums.sum);
+  if (sums.count > 1) square_.push_back(sums.sum_of_squares);
+}
+
+void CodeStatistics::merge(const CodeStatistics& other) {
+  if (other.empty()) return;
+  std::vector<CodeSums> all;
+  all.reserve(codes() + other.codes());
+  const auto collect = [&all](const CodeSums& sums) { all.push_back(sums); };
+  forEach(collect);
+  other.forEach(collect);
+  std::inplace_merge(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(codes()), all.end(),
+                     [](const CodeSums& a, const CodeSums& b) { return a.code < b.code; });
+  CodeStatistics merged;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i + 1 < all.size() && all[i + 1].code == all[i].code) {
+      addSums(all[i + 1], all[i]);
+    } else {
+      merged.append(all[i]);
+    }
+  }
+  *this = std::move(merged);
+}
+
+bool operator==(const CodeStatistics& a, const CodeStatistics& b) {
+  return a.code() == b.code() && a.count() == b.count() && a.sum() == b.sum() && a.square() == b.square();
+}
+
+CodeAccumulator::CodeAccumulator(std::uint16_t full_scale)
+    : sums_(full_scale + 1u), occupied_(full_scale / 64u + 1u) {}
+
+void CodeAccumulator::add(std::uint16_t code, FixedPressure pressure) {
+  if (code >= sums_.size()) {
+    throw InputError("a count is " + std::to_string(code) + ", but the converter's full scale is " +
+                     std::to_string(sums_.size() - 1));
+  }
+  occupied_[code / 64u] |= std::uint64_t{1} << (code % 64u);
+  sums_[code].code = code;
+  addSums(sums_[code], {code, 1, pressure, Int128{pressure} * pressure});
+}
+
+CodeStatistics CodeAccumulator::take() {
+  CodeStatistics statistics;
+  for (std::size_t word = 0; word < occupied_.size(); ++word) {
+    for (std::uint64_t bits = occupied_[word]; bits != 0; bits &= bits - 1) {
+      CodeSums& sums = sums_[word * 64 + static_cast<std::size_t>(__builtin_ctzll(bits))];
+      statistics.append(sums);
+      sums = CodeSums{};
+    }
+    occupied_[word] = 0;
+  }
+  return statistics;
+}
+
+void CodeHistogram::add(const CodeStatistics& statistics) {
+  for (std::size_t i = 0; i < statistics.codes(); ++i) {
+    const std::size_t code = statistics.code()[i];
+    count_[code] += statistics.count()[i];
+    sum_[code] += statistics.sum()[i];
+    samples_ += statistics.count()[i];
+  }
+}
+
+void CodeHistogram::subtract(const CodeStatistics& statistics) {
+  for (std::size_t i = 0; i < statistics.codes(); ++i) {
+    const std::size_t code = statistics.code()[i];
+    count_[code] -= statistics.count()[i];
+    sum_[code] -= statistics.sum()[i];
+    samples_ -= statistics.count()[i];
+  }
+}
+
+}  // namespace fsr

@@ -1,0 +1,121 @@
+#include "fsr_pressure_map/statistics/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace fsr {
+
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNormal95 = 1.959963984540054;  // scipy.stats.norm.ppf(0.975)
+
+double meanOf(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double squaresAbout(const std::vector<double>& values, double centre) {
+  double sum = 0;
+  for (const double value : values) sum += (value - centre) * (value - centre);
+  return sum;
+}
+
+double squaredErrors(const std::vector<double>& predicted, const std::vector<double>& reference) {
+  double sum = 0;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    sum += (predicted[i] - reference[i]) * (predicted[i] - reference[i]);
+  }
+  return sum;
+}
+
+double sampleDeviation(const std::vector<double>& values, double mean) {
+  if (values.size() < 2) return kNone;
+  return std::sqrt(squaresAbout(values, mean) / static_cast<double>(values.size() - 1));
+}
+
+// Errors of one bin (or of all) while they are being collected.
+struct Collected {
+  std::vector<double> loading;
+  std::vector<double> unloading;
+  std::vector<double> all;
+
+  void add(double error, LoadDirection direction) {
+    all.push_back(error);
+    if (direction == LoadDirection::kLoading) loading.push_back(error);
+    if (direction == LoadDirection::kUnloading) unloading.push_back(error);
+  }
+  BinnedErrors::Directions summarise() const {
+    return {summariseErrors(all), summariseErrors(loading), summariseErrors(unloading)};
+  }
+};
+
+}  // namespace
+
+double rSquared(const std::vector<double>& predicted, const std::vector<double>& reference) {
+  if (reference.size() < 2) return kNone;
+  const double total = squaresAbout(reference, meanOf(reference));
+  return total > 0 ? 1.0 - squaredErrors(predicted, reference) / total : kNone;
+}
+
+double rmsePercent(const std::vector<double>& predicted, const std::vector<double>& reference) {
+  if (reference.empty()) return kNone;
+  const auto [low, high] = std::minmax_element(reference.begin(), reference.end());
+  const double range = *high - *low;
+  if (!(range > 0)) return kNone;
+  const double mean_square = squaredErrors(predicted, reference) / static_cast<double>(reference.size());
+  return 100.0 * std::sqrt(mean_square) / range;
+}
+
+double quantile(std::vector<double>& values, double q) {
+  if (values.empty()) return kNone;
+  const double place = q * static_cast<double>(values.size() - 1);
+  const auto below = values.begin() + static_cast<std::ptrdiff_t>(place);
+  std::nth_element(values.begin(), below, values.end());
+  const auto above = std::min_element(below + 1, values.end());
+  const double fraction = place - std::floor(place);
+  return above == values.end() || fraction == 0 ? *below : *below + fraction * (*above - *below);
+}
+
+ErrorSummary summariseErrors(const std::vector<double>& errors) {
+  ErrorSummary summary;
+  summary.count = errors.size();
+  if (errors.empty()) return summary;
+  summary.bias = meanOf(errors);
+  summary.rmse = std::sqrt(squaresAbout(errors, 0.0) / static_cast<double>(errors.size()));
+  const double deviation = sampleDeviation(errors, summary.bias);
+  summary.limit_low = summary.bias - kNormal95 * deviation;
+  summary.limit_high = summary.bias + kNormal95 * deviation;
+  std::vector<double> absolute(errors.size());
+  std::transform(errors.begin(), errors.end(), absolute.begin(),
+                 [](double error) { return std::abs(error); });
+  summary.p95_absolute = quantile(absolute, 0.95);
+  return summary;
+}
+
+BinnedErrors binErrors(const std::vector<float>& errors, const std::vector<float>& reference,
+                       const std::vector<LoadDirection>& direction) {
+  Collected whole;
+  std::array<Collected, kPressureBins> bins;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    whole.add(errors[i], direction[i]);
+    bins[pressureBin(reference[i])].add(errors[i], direction[i]);
+  }
+  BinnedErrors binned;
+  binned.whole = whole.summarise();
+  for (std::size_t bin = 0; bin < kPressureBins; ++bin) binned.bins[bin] = bins[bin].summarise();
+  return binned;
+}
+
+Spread spreadOf(const std::vector<double>& values) {
+  std::vector<double> known;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(known),
+               [](double value) { return !std::isnan(value); });
+  if (known.empty()) return {};
+  const double mean = meanOf(known);
+  return {mean, sampleDeviation(known, mean)};
+}
+
+}  // namespace fsr
