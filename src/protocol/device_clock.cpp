@@ -1,0 +1,101 @@
+#include "fsr_pressure_map/protocol/device_clock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fsr {
+namespace {
+
+constexpr double kSecond = 1e9;  // [ns]
+
+// Difference of two counters that may lie either way round.
+std::int64_t difference(std::uint64_t a, std::uint64_t b) {
+  return static_cast<std::int64_t>(a - b);
+}
+
+}  // namespace
+
+DeviceClock::DeviceClock(const DeviceClockOptions& options)
+    : options_(options), envelope_(options.max_slot, options.max_drift) {}
+
+std::uint64_t DeviceClock::observe(std::uint32_t device_time, std::int64_t receive_time,
+                                   std::int64_t known_delay) {
+  const std::int64_t arrival = receive_time - known_delay;
+  std::uint64_t wide = unwrap(device_time);
+  if (!started_) {
+    start(wide, arrival);
+  } else if (jumped(wide, arrival)) {
+    ++jumps_;
+    wide = device_time;
+    start(wide, arrival);
+  }
+  newest_ = std::max(newest_, wide);
+  const double x = secondsSinceStart(wide);
+  if (!late_) envelope_.add(x, static_cast<double>(arrival - start_host_) / kSecond - x);
+  return wide;
+}
+
+std::int64_t DeviceClock::hostTime(std::uint64_t device_time) const {
+  const double x = secondsSinceStart(device_time);
+  // The large parts are added as integers: a double holds 1e9 s to a tenth of a microsecond only.
+  return start_host_ + difference(device_time, start_device_) * 1000 +
+         std::llround(envelope_.at(x) * kSecond);
+}
+
+void DeviceClock::forget() {
+  started_ = false;
+}
+
+double DeviceClock::secondsSinceStart(std::uint64_t device_time) const {
+  return static_cast<double>(difference(device_time, start_device_)) * 1e-6;
+}
+
+// The 64-bit time next to the newest one that ends in these 32 bits.
+std::uint64_t DeviceClock::unwrap(std::uint32_t device_time) const {
+  if (!started_) return device_time;
+  const auto step = static_cast<std::int32_t>(device_time - static_cast<std::uint32_t>(newest_));
+  const std::int64_t wide = static_cast<std::int64_t>(newest_) + step;
+  return wide >= 0 ? static_cast<std::uint64_t>(wide) : device_time;
+}
+
+// How much later than the estimate allows at best [s].
+double DeviceClock::lateness(std::uint64_t device_time, std::int64_t arrival) const {
+  return static_cast<double>(arrival - hostTime(device_time)) / kSecond;
+}
+
+bool DeviceClock::jumped(std::uint64_t device_time, std::int64_t arrival) {
+  if (static_cast<double>(difference(newest_, device_time)) * 1e-6 > options_.backward_limit) return true;
+  const double late = lateness(device_time, arrival);
+  if (late < -options_.early_limit) return true;
+  const bool was_late = std::exchange(late_, late > options_.late_limit);
+  if (!late_) return false;
+  if (!was_late) late_since_ = arrival;
+  return static_cast<double>(arrival - late_since_) / kSecond > options_.late_patience;
+}
+
+void DeviceClock::start(std::uint64_t device_time, std::int64_t arrival) {
+  started_ = true;
+  late_ = false;
+  newest_ = device_time;
+  start_device_ = device_time;
+  start_host_ = arrival;
+  envelope_.clear();
+}
+
+std::int64_t StampSequence::next(std::int64_t host_time, std::uint64_t device_time) {
+  constexpr std::int64_t kTimeWentBack = 1'000'000'000;  // [ns]
+  constexpr std::int64_t kLeastStep = 1'000;             // [ns]: what every reader of a bag can tell apart
+  if (started_ && host_time > stamp_ - kTimeWentBack) {
+    const std::int64_t elapsed = difference(device_time, device_time_) * 1000;
+    // A pause or a reset of the board is no spacing to keep.
+    const std::int64_t spacing = elapsed > 0 && elapsed < kTimeWentBack ? elapsed / 2 : 0;
+    host_time = std::max(host_time, stamp_ + std::max(spacing, kLeastStep));
+  }
+  started_ = true;
+  stamp_ = host_time;
+  device_time_ = device_time;
+  return host_time;
+}
+
+}  // namespace fsr

@@ -1,0 +1,55 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <vector>
+
+#include "fsr_pressure_map/protocol/decoder.h"
+#include "fsr_pressure_map/protocol/device_clock.h"
+#include "support/allocation_guard.h"
+
+namespace {
+
+// Does with a packet what the driver does, ROS messages apart.
+class StampingHandler : public fsr::PacketHandler {
+ public:
+  std::int64_t sum = 0;
+  int scans = 0;
+
+  void onScan(const fsr::PacketHeader& header, const fsr::ScanPacket& scan) override {
+    const std::uint64_t time = clock_.observe(header.device_time, now_ += 1'000'000, scan.duration / 2);
+    sum += stamps_.next(clock_.hostTime(time), time) + scan.counts[0];
+    ++scans;
+  }
+  void onTransducer(const fsr::PacketHeader&, std::int32_t counts) override { sum += counts; }
+  void onTemperature(const fsr::PacketHeader&, std::int32_t millidegrees) override { sum += millidegrees; }
+  void onIdentity(const fsr::PacketHeader&, const fsr::IdentityPacket& identity) override {
+    sum += static_cast<std::int64_t>(identity.serial.size());
+  }
+
+ private:
+  fsr::DeviceClock clock_;
+  fsr::StampSequence stamps_;
+  std::int64_t now_ = 0;
+};
+
+TEST(Protocol, AllocatesNothingFromBytesToStampedScans) {
+  std::vector<std::uint16_t> counts(160, 4000);
+  const fsr_wire_scan scan = {16, 10, 4095, 900, counts.data()};
+  const fsr_wire_identity identity = {"0123456789abcdef", "0123456789abcdef", "", 16, 10, 4095, 1000};
+  std::vector<std::uint8_t> bytes(1024);
+  StampingHandler handler;
+  fsr::Decoder decoder(handler);
+
+  const test_support::AllocationGuard guard;
+  for (std::uint32_t i = 0; i < 300'000;
+       ++i) {  // five minutes at 1 kHz: the clock's window fills and moves on
+    std::size_t size = fsr_wire_encode_scan(bytes.data(), bytes.size(), i, i * 1000, &scan);
+    size += fsr_wire_encode_identity(bytes.data() + size, bytes.size() - size, i, i * 1000, &identity);
+    if (i % 7 == 0) bytes[i % size] ^= 0x20U;
+    decoder.feed(bytes.data(), size);
+  }
+  EXPECT_EQ(guard.allocations(), 0U);
+  EXPECT_GT(handler.scans, 125'000);
+}
+
+}  // namespace

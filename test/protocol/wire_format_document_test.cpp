@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/protocol/link_rate.h"
+#include "fsr_pressure_map/protocol/wire.h"
+
+// Holds docs/wire_format.md to the code: what firmware authors read is what the driver understands.
+namespace {
+
+std::string document() {
+  std::ifstream file(std::string(FSR_SOURCE_DIR) + "/docs/wire_format.md");
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+// Text between the first `start` behind `heading` and the next `end`.
+std::string between(const std::string& heading, const std::string& start, const std::string& end) {
+  const std::string text = document();
+  const std::size_t from = text.find(start, text.find(heading));
+  if (from == std::string::npos) return "";
+  const std::size_t first = from + start.size();
+  return text.substr(first, text.find(end, first) - first);
+}
+
+TEST(WireFormatDocument, ShowsTheBytesThatTheEncoderMakes) {
+  std::istringstream words(between("## Example", "```\n", "```"));
+  std::vector<unsigned> shown;
+  for (std::string word; words >> word;)
+    shown.push_back(static_cast<unsigned>(std::stoul(word, nullptr, 16)));
+
+  const std::array<std::uint16_t, 6> counts = {0, 1, 258, 2730, 4094, 4095};
+  const fsr_wire_scan scan = {2, 3, 4095, 5000, counts.data()};
+  std::array<std::uint8_t, 64> packet{};
+  const std::size_t size = fsr_wire_encode_scan(packet.data(), packet.size(), 7, 123456789, &scan);
+  EXPECT_EQ(shown, std::vector<unsigned>(packet.begin(), packet.begin() + size));
+}
+
+struct Link {
+  std::string name;
+  double bytes_per_second;
+};
+
+TEST(WireFormatDocument, ShowsTheScanRatesThatTheFormulaGives) {
+  const std::vector<Link> links = {{"115200 baud", fsr::serialBytesPerSecond(115200)},
+                                   {"230400 baud", fsr::serialBytesPerSecond(230400)},
+                                   {"921600 baud", fsr::serialBytesPerSecond(921600)},
+                                   {"USB full speed", fsr::kUsbFullSpeedBytesPerSecond}};
+  std::ostringstream expected;
+  for (const Link& link : links) {
+    expected << "| " << link.name << " | " << std::floor(fsr::scanRate(link.bytes_per_second, {7, 10}))
+             << " | " << std::floor(fsr::scanRate(link.bytes_per_second, {16, 10})) << " |\n";
+  }
+  EXPECT_EQ(between("## How fast", "|---|---:|---:|\n", "\n\n") + "\n", expected.str());
+}
+
+// By hand: 7 x 10 makes 20 + 8 + 140 = 168 bytes a scan and 24 a reading; identity and temperature 76 + 24 a
+// second. 115200 baud carry 11,520 bytes a second: (11,520 - 100) / 192 = 59.479.
+TEST(ScanRate, MatchesACountByHand) {
+  EXPECT_NEAR(fsr::scanRate(fsr::serialBytesPerSecond(115200), {7, 10}), 59.479, 0.001);
+  EXPECT_EQ(fsr::scanRate(90, {7, 10}), 0);
+}
+
+}  // namespace
