@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fsr_pressure_map/simulation/random_stream.h"
+#include "fsr_pressure_map/statistics/random_stream.h"
 
 namespace fsr {
 

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "fsr_pressure_map/simulation/effects/effect_library.h"
-#include "fsr_pressure_map/simulation/random_stream.h"
+#include "fsr_pressure_map/statistics/random_stream.h"
 
 namespace fsr {
 

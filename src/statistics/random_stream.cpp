@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/simulation/random_stream.h"
+#include "fsr_pressure_map/statistics/random_stream.h"
 
 #include <array>
 #include <cmath>

@@ -6,8 +6,9 @@
 namespace fsr {
 
 /// Random numbers by position: the n-th number of a stream is a function of the stream's key and n
-/// alone. So a simulation gives the same numbers in whatever order, and on however many threads, its
-/// parts ask for them, and has no generator state to save. Numbers are those of SplitMix64.
+/// alone. So a simulation, a fold or a bootstrap gives the same numbers in whatever order, and on
+/// however many threads, its parts ask for them, and has no generator state to save. Numbers are those
+/// of SplitMix64.
 /// Source: G. Steele, D. Lea, C. Flood, Fast splittable pseudorandom number generators, OOPSLA 2014.
 class RandomStream {
  public:
@@ -24,7 +25,7 @@ class RandomStream {
 };
 
 /// The stream of one purpose (`name`, e.g. "white_noise") and one member of it (e.g. a taxel), derived
-/// from the seed of the whole simulation. Different purposes and members are independent.
+/// from the seed of the whole run. Different purposes and members are independent.
 RandomStream randomStream(std::uint64_t seed, std::string_view name, std::uint64_t member = 0);
 
 /// Quantile of the standard normal distribution, `probability` in (0, 1); relative error about 1e-16.
