@@ -30,7 +30,8 @@ using Pieces = std::vector<Piece>;
 const Pieces kPieces = {{-5, {1, 2, 3}}, {1700000000123456789, {4}}, {1700000000223456789, {5, 6, 7, 8, 9}}};
 
 void write(const std::string& path, const Pieces& pieces) {
-  fsr::CaptureWriter writer(path, 115200);
+  fsr::CaptureWriter writer(path);
+  writer.noteBaud(115200);
   for (const Piece& piece : pieces) writer.write(piece.bytes.data(), piece.bytes.size(), piece.time);
 }
 
@@ -122,17 +123,16 @@ TEST_F(Capture, StopsAtALengthThatCannotBeAndSaysWhere) {
 TEST_F(Capture, NeverOverwritesAFile) {
   write(path_, kPieces);
   const auto size = std::filesystem::file_size(path_);
-  const std::string complaint = complaintOf([&] { fsr::CaptureWriter writer(path_, 0); });
+  const std::string complaint = complaintOf([&] { fsr::CaptureWriter writer(path_); });
   EXPECT_EQ(complaint, "capture " + path_ + " exists already and is not overwritten: name another file");
   EXPECT_EQ(std::filesystem::file_size(path_), size);
 }
 
 TEST_F(Capture, NamesAFileThatCannotBeWrittenOrRead) {
   const std::string lost = folder_.path("nowhere/run.fsrcap");
-  EXPECT_NE(complaintOf([&] {
-              fsr::CaptureWriter writer(lost, 0);
-            }).find(lost + " cannot be written (No such file"),
-            std::string::npos);
+  EXPECT_NE(
+      complaintOf([&] { fsr::CaptureWriter writer(lost); }).find(lost + " cannot be written (No such file"),
+      std::string::npos);
   EXPECT_NE(
       complaintOf([&] { fsr::CaptureReader reader(lost); }).find(lost + " cannot be read (No such file"),
       std::string::npos);
@@ -169,7 +169,7 @@ TEST_F(Capture, SaysThatTheDiskIsFullAndKeepsWhatItHas) {
   const Bytes bytes = {1, 2, 3};
   {
     const FileSizeLimit limit(40);
-    fsr::CaptureWriter writer(path_, 0);
+    fsr::CaptureWriter writer(path_);
     writer.write(bytes.data(), bytes.size(), 1);
     EXPECT_THROW(writer.write(bytes.data(), bytes.size(), 2), fsr::LinkError);
   }

@@ -33,15 +33,20 @@ constexpr std::size_t kMaxChunk = 65536;
 class CaptureWriter {
  public:
   /// Throws InputError where the file cannot be made or is there already: nothing is overwritten.
-  CaptureWriter(const std::string& path, std::uint32_t baud);
+  explicit CaptureWriter(const std::string& path);
   ~CaptureWriter();
   CaptureWriter(const CaptureWriter&) = delete;
   CaptureWriter& operator=(const CaptureWriter&) = delete;
+
+  /// Notes the baud of the line [1/s] in the file's header. Throws LinkError.
+  void noteBaud(std::uint32_t baud);
 
   /// `size` is 1 to kMaxChunk [bytes], `receive_time` [ns]. Throws LinkError, e.g. where the disk is full.
   void write(const std::uint8_t* bytes, std::size_t size, std::int64_t receive_time);
 
  private:
+  void check(std::int64_t written, std::size_t size) const;
+
   std::string path_;
   int descriptor_ = -1;
 };

@@ -1,0 +1,154 @@
+#include "fsr_pressure_map/protocol/board_link.h"
+
+#include <utility>
+
+namespace fsr {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+// How long a read waits at most, and with it the destructor.
+constexpr std::chrono::milliseconds kReadTimeout(100);
+constexpr std::size_t kBufferSize = 16384;  // [bytes]: more than a pseudo-terminal or USB driver holds back
+
+std::unique_ptr<CaptureWriter> captureTo(const std::string& path) {
+  return path.empty() ? nullptr : std::make_unique<CaptureWriter>(path);
+}
+
+}  // namespace
+
+BoardLink::BoardLink(Open open, LinkHandler& handler, const Options& options)
+    : open_(std::move(open)),
+      handler_(handler),
+      options_(options),
+      decoder_(handler),
+      capture_(captureTo(options.capture_file)),
+      buffer_(kBufferSize),
+      last_byte_(SteadyClock::now()),
+      thread_([this] { run(); }) {}
+
+BoardLink::~BoardLink() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void BoardLink::setEnabled(bool enabled) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    toggled_ = toggled_ || enabled_ != enabled;
+    enabled_ = enabled;
+  }
+  changed_.notify_all();
+}
+
+LinkReport BoardLink::report() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  LinkReport report = report_;
+  report.silence = std::chrono::duration<double>(SteadyClock::now() - last_byte_).count();
+  return report;
+}
+
+void BoardLink::run() {
+  while (true) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (stopping_) return;
+      toggled_ = false;
+    }
+    if (wanted()) {
+      connect();
+    } else {
+      change(LinkPhase::kDisabled, "");
+      pause(std::nullopt);
+    }
+  }
+}
+
+// One connection, from opening to whatever ends it, and the pause behind it.
+void BoardLink::connect() {
+  try {
+    const std::unique_ptr<ByteSource> source = open_();
+    handler_.onOpen(source->baud());
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ++report_.connections;
+      last_byte_ = SteadyClock::now();
+    }
+    keeping([&] { capture_->noteBaud(source->baud()); });
+    readAll(*source);
+    decoder_.finish();
+    if (!source->ended()) return;
+    change(LinkPhase::kEnded, "");
+    pause(std::nullopt);
+  } catch (const std::exception& error) {
+    decoder_.finish();
+    change(LinkPhase::kWaiting, error.what());
+    pause(options_.reconnect_delay);
+  }
+}
+
+void BoardLink::readAll(ByteSource& source) {
+  change(LinkPhase::kReading, "");
+  while (wanted() && !source.ended()) {
+    const Chunk chunk = source.read(buffer_.data(), buffer_.size(), kReadTimeout);
+    if (chunk.size > 0) take(buffer_.data(), chunk);
+  }
+}
+
+void BoardLink::take(const std::uint8_t* bytes, const Chunk& chunk) {
+  const bool time_runs = chunk.receive_time > 0;
+  change(time_runs ? LinkPhase::kReading : LinkPhase::kNoTime, "");
+  if (time_runs) {
+    keeping([&] { capture_->write(bytes, chunk.size, chunk.receive_time); });
+    handler_.onBytes(chunk.receive_time);
+    decoder_.feed(bytes, chunk.size);
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  report_.counts = decoder_.counts();
+  if (time_runs && capture_) report_.captured_bytes += chunk.size;
+  last_byte_ = SteadyClock::now();
+}
+
+// Reading matters more than keeping: a full disk ends the capture, not the link.
+void BoardLink::keeping(const std::function<void()>& write) {
+  if (!capture_) return;
+  try {
+    write();
+  } catch (const LinkError& error) {
+    capture_.reset();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    report_.capture_complaint = error.what();
+  }
+}
+
+void BoardLink::change(LinkPhase phase, const std::string& reason) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (report_.phase == phase && report_.reason == reason) return;
+    report_.phase = phase;
+    report_.reason = reason;
+  }
+  handler_.onChange(report());
+}
+
+bool BoardLink::wanted() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return enabled_ && !stopping_;
+}
+
+// Until the link is wanted otherwise, at most for `longest` where that is given.
+void BoardLink::pause(std::optional<std::chrono::milliseconds> longest) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  const auto woken = [this] { return stopping_ || toggled_; };
+  if (longest) {
+    changed_.wait_for(lock, *longest, woken);
+  } else {
+    changed_.wait(lock, woken);
+  }
+}
+
+}  // namespace fsr
