@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -13,5 +14,17 @@ struct Scan {
   std::uint16_t full_scale = 0;       ///< largest count that the converter can give, e.g. 4095
   std::vector<std::uint16_t> counts;  ///< [rows x columns], row-major
 };
+
+/// A scan that somebody else holds, e.g. a message.
+struct ScanView {
+  MatrixSize size;
+  std::uint16_t full_scale = 0;
+  const std::uint16_t* counts = nullptr;  ///< [count], row-major
+  std::size_t count = 0;                  ///< rows * columns, unless the sender erred
+};
+
+inline ScanView view(const Scan& scan) {
+  return {scan.size, scan.full_scale, scan.counts.data(), scan.counts.size()};
+}
 
 }  // namespace fsr

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fsr_pressure_map/compensation/curvature_tables.h"
+#include "fsr_pressure_map/matrix/curvature.h"
+
+namespace fsr {
+
+/// Chooses the curvature class of each taxel: the nearest by principal curvature, with hysteresis while
+/// the sheet stays on one surface and mount, so that a curvature that wavers between two classes does
+/// not make the pressure jump to and fro.
+class ClassSwitch {
+ public:
+  /// What was chosen for a taxel.
+  struct Choice {
+    std::uint16_t curvature_class = 0;
+    std::uint16_t flags = 0;  ///< taxel_flag::kCurvatureExtrapolated, kBetweenClasses or 0
+  };
+
+  /// A taxel leaves its class only when another is nearer by more than `hysteresis` [1/m]. `tables` is
+  /// read for its classes, range and tolerance only.
+  ClassSwitch(const CurvatureTables& tables, double hysteresis);
+
+  /// Chooses anew for a surface of known curvature that fits the matrix.
+  void choose(const Surface& surface);
+
+  /// Curvature unknown: the flattest class of each taxel, which is what a calibration falls back to.
+  void fallBack();
+
+  /// [rows x columns], row-major.
+  const std::vector<Choice>& choices() const { return choices_; }
+
+ private:
+  std::uint16_t nearest(std::size_t taxel, double curvature) const;
+  std::uint16_t keepOrLeave(std::size_t taxel, double curvature) const;
+  double distance(std::size_t taxel, std::size_t curvature_class, double curvature) const;
+  std::uint16_t flags(std::size_t taxel, std::uint16_t curvature_class, double curvature) const;
+
+  std::vector<CurvatureClass> classes_;
+  double low_;
+  double high_;
+  double tolerance_;
+  double hysteresis_;
+  Surface last_;  // name and mount only; unknown after fallBack()
+  std::vector<Choice> choices_;
+};
+
+}  // namespace fsr

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fsr_pressure_map/compensation/curvature_tables.h"
+
+namespace fsr {
+
+/// What a code means: one cache line holds eight neighbouring codes.
+struct TableEntry {
+  float pressure;   ///< gauge [Pa]
+  float deviation;  ///< one standard deviation of a held-out reading [Pa]
+};
+
+/// CurvatureTables laid out for look-up: [taxels x classes x (full_scale + 1)] in one block, so that a
+/// scan touches one line for each taxel. 7 x 10 taxels, 12 bit, six classes take 13.8 MB.
+class PackedTables {
+ public:
+  /// Codes beyond this lie outside of training on the low side (first) or the high side (second).
+  struct TrainedCodes {
+    std::uint16_t lowest;
+    std::uint16_t highest;
+  };
+
+  /// Throws InputError where a table has not one finite value for each code.
+  explicit PackedTables(const CurvatureTables& tables);
+
+  MatrixSize size() const { return size_; }
+  std::uint16_t fullScale() const { return full_scale_; }
+  std::size_t classes() const { return classes_; }
+
+  /// The full_scale + 1 entries of one taxel in one class.
+  const TableEntry* table(std::size_t taxel, std::size_t curvature_class) const {
+    return entries_.data() + number(taxel, curvature_class) * codes();
+  }
+  TrainedCodes trained(std::size_t taxel, std::size_t curvature_class) const {
+    return trained_[number(taxel, curvature_class)];
+  }
+
+ private:
+  std::size_t codes() const { return std::size_t{full_scale_} + 1; }
+  std::size_t number(std::size_t taxel, std::size_t curvature_class) const {
+    return taxel * classes_ + curvature_class;
+  }
+
+  MatrixSize size_;
+  std::uint16_t full_scale_;
+  std::size_t classes_;
+  std::vector<TableEntry> entries_;
+  std::vector<TrainedCodes> trained_;  // [taxels x classes]
+};
+
+}  // namespace fsr

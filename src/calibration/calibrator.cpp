@@ -1,0 +1,189 @@
+#include "fsr_pressure_map/calibration/calibrator.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "fsr_pressure_map/map/fill.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
+
+// The flag, or 0.
+inline std::uint16_t flagWhere(bool condition, std::uint16_t flag) {
+  return static_cast<std::uint16_t>(-static_cast<int>(condition) & flag);
+}
+
+void requireEach(const char* what, std::size_t values, MatrixSize size) {
+  if (values != 0 && values != size.taxels()) {
+    throw InputError(std::string(what) + " has " + std::to_string(values) +
+                     " values, but must have none, or one for each of the " + std::to_string(size.taxels()) +
+                     " taxels of the " + std::to_string(size.rows) + " x " + std::to_string(size.columns) +
+                     " matrix");
+  }
+}
+
+}  // namespace
+
+Calibrator::Calibrator(const CurvatureTables& tables, const Layout& layout, const CalibratorOptions& options)
+    : tables_(tables),
+      layout_(layout),
+      options_(options),
+      needs_curvature_(tables.scheme != Scheme::kBaseline),
+      switch_(tables, options.class_hysteresis),
+      watch_(tables.size, tables.full_scale, options.watch),
+      mask_(tables.size.taxels(), 0),
+      codes_(tables.size.taxels()),
+      table_(tables.size.taxels()),
+      offset_(tables.size.taxels(), 0.0f),
+      lowest_(tables.size.taxels()),
+      highest_(tables.size.taxels()),
+      standing_(tables.size.taxels()) {
+  if (layout.size != tables.size) throw InputError("calibration: its layout is not the size of its tables");
+  masked_.reserve(tables.size.taxels());
+  failed_.reserve(tables.size.taxels());
+  selectTables();
+}
+
+void Calibrator::setSurface(const Surface& surface, double time) {
+  requireFit(surface, layout_.size);
+  surface_known_ = surface.known();
+  surface_time_ = time;
+  if (surface_known_) {
+    switch_.choose(surface);
+  } else {
+    switch_.fallBack();
+  }
+  selectTables();
+}
+
+void Calibrator::setMask(const std::vector<std::uint8_t>& mask) {
+  requireEach("mask", mask.size(), layout_.size);
+  std::fill(mask_.begin(), mask_.end(), std::uint8_t{0});
+  std::copy(mask.begin(), mask.end(), mask_.begin());
+  refreshStanding();
+}
+
+void Calibrator::setTare(const std::vector<float>& offset) {
+  requireEach("tare", offset.size(), layout_.size);
+  tared_ = !offset.empty();
+  std::fill(offset_.begin(), offset_.end(), 0.0f);
+  std::copy(offset.begin(), offset.end(), offset_.begin());
+  refreshStanding();
+}
+
+void Calibrator::selectTables() {
+  for (std::size_t taxel = 0; taxel < table_.size(); ++taxel) {
+    const std::size_t chosen = switch_.choices()[taxel].curvature_class;
+    table_[taxel] = tables_.table(taxel, chosen);
+    lowest_[taxel] = tables_.trained(taxel, chosen).lowest;
+    highest_[taxel] = tables_.trained(taxel, chosen).highest;
+  }
+  refreshStanding();
+}
+
+void Calibrator::refreshStanding() noexcept {
+  masked_.clear();
+  failed_.clear();
+  for (std::size_t taxel = 0; taxel < standing_.size(); ++taxel) {
+    const bool masked = mask_[taxel] != 0;
+    const std::uint16_t health = watch_.flags()[taxel];
+    if (masked) masked_.push_back(taxel);
+    if (!masked && health != 0) failed_.push_back(taxel);
+    standing_[taxel] =
+        static_cast<std::uint16_t>(switch_.choices()[taxel].flags | health |
+                                   (masked ? taxel_flag::kMasked : 0) | (tared_ ? taxel_flag::kTared : 0));
+  }
+}
+
+void Calibrator::calibrate(const ScanView& scan, double time, PressureMap& out) noexcept {
+  const std::size_t taxels = layout_.size.taxels();
+  if (scan.size != layout_.size || scan.full_scale != tables_.fullScale() || scan.count != taxels) {
+    // A scan that contradicts itself has no size: memory is never made from what a sender claims.
+    const bool honest = scan.count == scan.size.taxels();
+    out.reset({honest ? scan.size : MatrixSize{}, layout_.pitch_x, layout_.pitch_y});
+    out.state = MapState::kSizeMismatch;
+    return;
+  }
+  if (out.pressure.size() != taxels || out.deviation.size() != taxels || out.flags.size() != taxels) {
+    out.reset(layout_);
+  }
+  out.layout = layout_;
+  noteTime(time);
+  if (watch_.observe(scan.counts, time)) refreshStanding();
+  clip(scan.counts);
+  lookUp(out);
+  flagCodes(out);
+  strikeBad(out);
+  out.state = state(time);
+}
+
+// After a jump back the last surface would lie in the future: it counts as fresh from here on.
+void Calibrator::noteTime(double time) noexcept {
+  if (time < last_time_) surface_time_ = std::min(surface_time_, time);
+  last_time_ = time;
+}
+
+void Calibrator::clip(const std::uint16_t* counts) noexcept {
+  const std::uint16_t full_scale = tables_.fullScale();
+  const std::size_t n = codes_.size();
+  for (std::size_t i = 0; i < n; ++i) codes_[i] = std::min(counts[i], full_scale);
+}
+
+void Calibrator::lookUp(PressureMap& out) const noexcept {
+  const std::uint16_t* codes = codes_.data();
+  const TableEntry* const* table = table_.data();
+  float* pressure = out.pressure.data();
+  float* deviation = out.deviation.data();
+  const std::size_t n = codes_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const TableEntry& entry = table[i][codes[i]];
+    pressure[i] = entry.pressure;
+    deviation[i] = entry.deviation;
+  }
+  if (!tared_) return;
+  for (std::size_t i = 0; i < n; ++i) pressure[i] -= offset_[i];
+}
+
+// Without branches and in 16 bits, so that the compiler takes eight taxels at a time.
+void Calibrator::flagCodes(PressureMap& out) const noexcept {
+  const std::uint16_t full_scale = tables_.fullScale();
+  const std::uint16_t* codes = codes_.data();
+  const std::uint16_t* lowest = lowest_.data();
+  const std::uint16_t* highest = highest_.data();
+  const std::uint16_t* standing = standing_.data();
+  std::uint16_t* flags = out.flags.data();
+  const std::size_t n = layout_.size.taxels();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint16_t code = codes[i];
+    flags[i] =
+        static_cast<std::uint16_t>(standing[i] | flagWhere(code == full_scale, taxel_flag::kSaturated) |
+                                   flagWhere(code < lowest[i], taxel_flag::kReadingExtrapolated) |
+                                   flagWhere(code > highest[i], taxel_flag::kReadingExtrapolated) |
+                                   flagWhere(code == 0, taxel_flag::kBelowRange));
+  }
+}
+
+void Calibrator::strikeBad(PressureMap& out) const noexcept {
+  for (const auto* taxels : {&masked_, &failed_}) {
+    for (const std::size_t taxel : *taxels) {
+      out.pressure[taxel] = kNoReading;
+      out.deviation[taxel] = kNoReading;
+    }
+  }
+  if (options_.fill_bad_taxels) fillFromNeighbours(out, failed_);
+}
+
+MapState Calibrator::state(double time) const noexcept {
+  if (wrong_sensor_) return MapState::kWrongSensor;
+  if (!needs_curvature_) return MapState::kOk;
+  if (!surface_known_) return MapState::kCurvatureUnknown;
+  const double timeout = options_.curvature_timeout;
+  return timeout > 0 && time - surface_time_ > timeout ? MapState::kCurvatureStale : MapState::kOk;
+}
+
+}  // namespace fsr

@@ -1,0 +1,62 @@
+#include "fsr_pressure_map/calibration/class_switch.h"
+
+#include <cmath>
+
+#include "fsr_pressure_map/map/pressure_map.h"
+
+namespace fsr {
+
+ClassSwitch::ClassSwitch(const CurvatureTables& tables, double hysteresis)
+    : classes_(tables.classes),
+      low_(tables.curvature_low),
+      high_(tables.curvature_high),
+      tolerance_(tables.class_tolerance),
+      hysteresis_(hysteresis),
+      choices_(tables.size.taxels()) {
+  fallBack();
+}
+
+void ClassSwitch::choose(const Surface& surface) {
+  const bool same = last_.known() && last_.name == surface.name && last_.mount == surface.mount;
+  for (std::size_t taxel = 0; taxel < choices_.size(); ++taxel) {
+    const double curvature = principalCurvature(surface.at({taxel}));
+    const std::uint16_t chosen = same ? keepOrLeave(taxel, curvature) : nearest(taxel, curvature);
+    choices_[taxel] = {chosen, flags(taxel, chosen, curvature)};
+  }
+  last_ = {surface.name, surface.mount, {Curvature{}}, {}};
+}
+
+void ClassSwitch::fallBack() {
+  for (std::size_t taxel = 0; taxel < choices_.size(); ++taxel) choices_[taxel] = {nearest(taxel, 0.0), 0};
+  last_ = {};
+}
+
+std::uint16_t ClassSwitch::nearest(std::size_t taxel, double curvature) const {
+  std::uint16_t best = 0;
+  for (std::uint16_t k = 1; k < classes_.size(); ++k) {
+    if (distance(taxel, k, curvature) < distance(taxel, best, curvature)) best = k;
+  }
+  return best;
+}
+
+std::uint16_t ClassSwitch::keepOrLeave(std::size_t taxel, double curvature) const {
+  const std::uint16_t now = choices_[taxel].curvature_class;
+  const std::uint16_t best = nearest(taxel, curvature);
+  const double gain = distance(taxel, now, curvature) - distance(taxel, best, curvature);
+  return gain > hysteresis_ ? best : now;
+}
+
+double ClassSwitch::distance(std::size_t taxel, std::size_t curvature_class, double curvature) const {
+  return std::abs(curvature - classes_[curvature_class].at(taxel));
+}
+
+// A curvature within the tolerance of the range's end is the end's: it was seen.
+std::uint16_t ClassSwitch::flags(std::size_t taxel, std::uint16_t curvature_class, double curvature) const {
+  if (curvature < low_ - tolerance_ || curvature > high_ + tolerance_) {
+    return taxel_flag::kCurvatureExtrapolated;
+  }
+  const bool between = classes_.size() > 1 && distance(taxel, curvature_class, curvature) > tolerance_;
+  return between ? taxel_flag::kBetweenClasses : std::uint16_t{0};
+}
+
+}  // namespace fsr

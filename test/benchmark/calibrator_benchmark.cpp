@@ -1,0 +1,77 @@
+// Cost of calibrating a scan, with pressure, deviation, flags and the watch for dead and stuck taxels,
+// beside the mere copy of a scan from counts to floats. Scans follow load cycles with noise, a taxel
+// scatter of 4 % and a new scan each time, so that the tables' cache lines really move.
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "fsr_pressure_map/calibration/calibrator.h"
+#include "support/small_tables.h"
+
+namespace {
+
+constexpr std::uint16_t kFullScale = 4095;
+constexpr std::size_t kScans = 4096;  // a power of two
+constexpr double kRate = 100.0;       // scans a second
+constexpr double kCycle = 72.0;       // [s], fill and vent
+const std::vector<double> kCurvatures = {0.0, 1 / 0.13, 1 / 0.11, 1 / 0.09, 1 / 0.07, 1 / 0.05};
+
+/// [kScans x taxels] counts.
+std::vector<std::uint16_t> loadCycles(std::size_t taxels) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  std::vector<double> gain(taxels);
+  for (double& g : gain) g = 3000 * (1 + 0.04 * normal(random));
+  std::vector<std::uint16_t> counts;
+  for (std::size_t scan = 0; scan < kScans; ++scan) {
+    const double load = 0.5 - 0.5 * std::cos(2 * M_PI * double(scan) / kRate / kCycle);
+    for (const double g : gain) {
+      const double reading = g * std::pow(load, 0.7) + 2 * normal(random);
+      counts.push_back(std::uint16_t(std::min(std::max(reading, 0.0), double{kFullScale})));
+    }
+  }
+  return counts;
+}
+
+fsr::MatrixSize size(const benchmark::State& state) {
+  return {std::uint16_t(state.range(0)), std::uint16_t(state.range(1))};
+}
+
+void Calibrate(benchmark::State& state) {
+  const fsr::MatrixSize matrix = size(state);
+  fsr::Calibrator calibrator(test_support::smallTables(matrix, kCurvatures, kFullScale), {matrix});
+  fsr::Surface surface;
+  surface.curvature = {{kCurvatures[3], 0, 0}};
+  calibrator.setSurface(surface, 0);
+  const auto counts = loadCycles(matrix.taxels());
+  fsr::PressureMap map;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const std::uint16_t* scan = counts.data() + (i % kScans) * matrix.taxels();
+    calibrator.calibrate({matrix, kFullScale, scan, matrix.taxels()}, double(i) / kRate, map);
+    benchmark::DoNotOptimize(map.pressure.data());
+    benchmark::ClobberMemory();
+    ++i;
+  }
+}
+
+void CopyScanToFloat(benchmark::State& state) {
+  const std::size_t taxels = size(state).taxels();
+  const auto counts = loadCycles(taxels);
+  std::vector<float> out(taxels);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const std::uint16_t* scan = counts.data() + (i++ % kScans) * taxels;
+    for (std::size_t t = 0; t < taxels; ++t) out[t] = scan[t];
+    benchmark::DoNotOptimize(out.data());
+    benchmark::ClobberMemory();
+  }
+}
+
+}  // namespace
+
+BENCHMARK(Calibrate)->Args({7, 10})->Args({16, 10})->Args({32, 32});
+BENCHMARK(CopyScanToFloat)->Args({7, 10})->Args({16, 10})->Args({32, 32});
