@@ -37,6 +37,7 @@ Calibrator::Calibrator(const CurvatureTables& tables, const Layout& layout, cons
       switch_(tables, options.class_hysteresis),
       watch_(tables.size, tables.full_scale, options.watch),
       mask_(tables.size.taxels(), 0),
+      model_(tables.size.taxels(), 1),
       codes_(tables.size.taxels()),
       table_(tables.size.taxels()),
       offset_(tables.size.taxels(), 0.0f),
@@ -80,8 +81,10 @@ void Calibrator::selectTables() {
   for (std::size_t taxel = 0; taxel < table_.size(); ++taxel) {
     const std::size_t chosen = switch_.choices()[taxel].curvature_class;
     table_[taxel] = tables_.table(taxel, chosen);
-    lowest_[taxel] = tables_.trained(taxel, chosen).lowest;
-    highest_[taxel] = tables_.trained(taxel, chosen).highest;
+    const PackedTables::TrainedCodes trained = tables_.trained(taxel, chosen);
+    lowest_[taxel] = trained.lowest;
+    highest_[taxel] = trained.highest;
+    model_[taxel] = trained.model;
   }
   refreshStanding();
 }
@@ -90,7 +93,7 @@ void Calibrator::refreshStanding() noexcept {
   masked_.clear();
   failed_.clear();
   for (std::size_t taxel = 0; taxel < standing_.size(); ++taxel) {
-    const bool masked = mask_[taxel] != 0;
+    const bool masked = mask_[taxel] != 0 || model_[taxel] == 0;
     const std::uint16_t health = watch_.flags()[taxel];
     if (masked) masked_.push_back(taxel);
     if (!masked && health != 0) failed_.push_back(taxel);

@@ -18,8 +18,21 @@ void requireWhole(const CurvatureTables& tables) {
   }
 }
 
-InputError badTable(std::size_t number, const std::string& complaint) {
-  return InputError("calibration: table " + std::to_string(number) + " " + complaint);
+// One value for each code, all of them finite or, for want of a model, all of them NaN.
+void requireSound(const CodeTable& table, std::size_t codes, std::size_t number) {
+  const std::string which = "calibration: table " + std::to_string(number);
+  if (table.pressure.size() != codes || table.deviation.size() != codes) {
+    throw InputError(which + " has " + std::to_string(table.pressure.size()) +
+                     " codes, but must have full scale + 1, " + std::to_string(codes));
+  }
+  const bool model = !std::isnan(table.pressure.front());
+  for (std::size_t code = 0; code < codes; ++code) {
+    const bool finite = std::isfinite(table.pressure[code]) && std::isfinite(table.deviation[code]);
+    const bool absent = std::isnan(table.pressure[code]) && std::isnan(table.deviation[code]);
+    if (model ? !finite : !absent) {
+      throw InputError(which + " is not finite at code " + std::to_string(code) + ", but must be in Pa");
+    }
+  }
 }
 
 }  // namespace
@@ -29,19 +42,11 @@ PackedTables::PackedTables(const CurvatureTables& tables)
   requireWhole(tables);
   entries_.reserve(tables.tables.size() * codes());
   for (const CodeTable& table : tables.tables) {
-    const std::size_t now = trained_.size();
-    if (table.pressure.size() != codes() || table.deviation.size() != codes()) {
-      throw badTable(now, "has " + std::to_string(table.pressure.size()) +
-                              " codes, but must have full scale + 1, " + std::to_string(codes()));
-    }
+    requireSound(table, codes(), trained_.size());
     for (std::size_t code = 0; code < codes(); ++code) {
-      const TableEntry entry{table.pressure[code], table.deviation[code]};
-      if (!std::isfinite(entry.pressure) || !std::isfinite(entry.deviation)) {
-        throw badTable(now, "is not finite at code " + std::to_string(code) + ", but must be in Pa");
-      }
-      entries_.push_back(entry);
+      entries_.push_back({table.pressure[code], table.deviation[code]});
     }
-    trained_.push_back({table.lowest, table.highest});
+    trained_.push_back({table.lowest, table.highest, !std::isnan(table.pressure.front())});
   }
 }
 

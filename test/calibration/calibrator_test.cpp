@@ -299,6 +299,19 @@ TEST(Calibrator, AClassMayHaveACurvatureForEachTaxel) {
   EXPECT_EQ(calibrator.choices()[4].curvature_class, 0);
 }
 
+TEST(Calibrator, ATaxelWithoutAModelIsMasked) {
+  CurvatureTables tables = smallTables(kSize, {0.0});
+  tables.tables[5].pressure.assign(kFullScale + 1u, NAN);
+  tables.tables[5].deviation.assign(kFullScale + 1u, NAN);
+  Calibrator calibrator(tables, {kSize});
+  const std::vector<std::uint16_t> counts(12, 500);
+  PressureMap map;
+  calibrator.calibrate({kSize, kFullScale, counts.data(), 12}, 0, map);
+  EXPECT_TRUE(std::isnan(map.pressure[5]));
+  EXPECT_EQ(map.flags[5], flag::kMasked);
+  EXPECT_EQ(map.flags[6], 0);
+}
+
 TEST(Calibrator, RefusesTablesThatAreNotWhole) {
   CurvatureTables missing = smallTables(kSize, {0.0});
   missing.tables.pop_back();
@@ -309,6 +322,9 @@ TEST(Calibrator, RefusesTablesThatAreNotWhole) {
   CurvatureTables infinite = smallTables(kSize, {0.0});
   infinite.tables[3].deviation[9] = INFINITY;
   EXPECT_THROW(Calibrator(infinite, {kSize}), InputError);
+  CurvatureTables holed = smallTables(kSize, {0.0});
+  holed.tables[3].pressure[9] = NAN;
+  EXPECT_THROW(Calibrator(holed, {kSize}), InputError);
   EXPECT_THROW(Calibrator(smallTables(kSize, {0.0}), {{4, 4}}), InputError);
 }
 

@@ -30,7 +30,8 @@ struct CalibratorOptions {
 ///   kCurvatureExtrapolated  curvature of a sign or size that training never saw
 ///   kBetweenClasses         curvature farther than the class tolerance from the class in use
 ///   kDead, kStuck           see TaxelWatch; no reading (NaN) unless filled (kFilled)
-///   kMasked                 no reading, never filled: there may be no sheet at all
+///   kMasked                 masked, or training gave it no model: no reading, and never filled, for
+///                           there may be no sheet at all
 ///   kTared                  an offset was taken off
 ///
 /// State of the map, the first that holds: kSizeMismatch (rows, columns or full scale are not the
@@ -83,7 +84,8 @@ class Calibrator {
   double surface_time_ = 0;  // [s]
   double last_time_ = 0;     // [s]
   bool wrong_sensor_ = false;
-  std::vector<std::uint8_t> mask_;  // [taxels]
+  std::vector<std::uint8_t> mask_;   // [taxels]
+  std::vector<std::uint8_t> model_;  // [taxels], 0 = the table in use is empty
   bool tared_ = false;
 
   // What the loop over taxels reads, each [taxels], row-major.

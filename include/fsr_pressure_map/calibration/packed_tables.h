@@ -22,9 +22,10 @@ class PackedTables {
   struct TrainedCodes {
     std::uint16_t lowest;
     std::uint16_t highest;
+    bool model;  ///< false: training gave this taxel none, its entries are NaN
   };
 
-  /// Throws InputError where a table has not one finite value for each code.
+  /// Throws InputError where a table has not one finite value for each code, nor NaN throughout.
   explicit PackedTables(const CurvatureTables& tables);
 
   MatrixSize size() const { return size_; }
