@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+namespace fsr {
+
+/// Writes `content` to a temporary name beside `path`, syncs it to the disk, then renames: at `path`
+/// there is the old file or the whole new one, whatever stops the program. Throws InputError that names
+/// the path and the cause; the temporary file is gone then.
+void replaceFile(const std::string& path, const std::string& content);
+
+}  // namespace fsr
