@@ -1,0 +1,88 @@
+#include "fsr_pressure_map/calibration/tare.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+namespace {
+
+std::string kilopascal(double pressure) {
+  std::ostringstream out;
+  out.precision(3);
+  out << pressure / 1000 << " kPa";
+  return out.str();
+}
+
+bool hasReading(const PressureMap& map, std::size_t taxel) {
+  constexpr std::uint16_t kFailed = taxel_flag::kDead | taxel_flag::kStuck;
+  return std::isfinite(map.pressure[taxel]) && (map.flags[taxel] & kFailed) == 0;
+}
+
+}  // namespace
+
+double meanCurvature(const Surface& surface) {
+  double sum = 0;
+  for (const Curvature& curvature : surface.curvature) sum += principalCurvature(curvature);
+  return surface.known() ? sum / static_cast<double>(surface.curvature.size()) : 0.0;
+}
+
+bool holds(const Tare& tare, const std::string& calibration, const Surface& surface) {
+  return tare.calibration == calibration && tare.surface == surface.name && tare.mount == surface.mount &&
+         std::abs(tare.curvature - meanCurvature(surface)) <= kTareCurvatureTolerance;
+}
+
+TareMeasurement::TareMeasurement(const Layout& layout, const TareOptions& options)
+    : layout_(layout), options_(options), moments_(layout.size.taxels()) {}
+
+bool TareMeasurement::add(const PressureMap& map, double time) noexcept {
+  if (map.layout.size != layout_.size) return false;
+  if (scans_ == 0 || time < start_) {
+    moments_.assign(moments_.size(), {});
+    scans_ = 0;
+    start_ = time;
+  }
+  for (std::size_t taxel = 0; taxel < moments_.size(); ++taxel) {
+    if (!hasReading(map, taxel)) continue;
+    Moments& m = moments_[taxel];
+    const double step = map.pressure[taxel] - m.mean;
+    m.count += 1;
+    m.mean += step / m.count;
+    m.squares += step * (map.pressure[taxel] - m.mean);
+  }
+  ++scans_;
+  return scans_ >= options_.least_scans && time - start_ >= options_.window;
+}
+
+std::vector<float> TareMeasurement::offset(const std::vector<float>& standing) const {
+  std::vector<float> result = standing.empty() ? std::vector<float>(moments_.size(), 0.0f) : standing;
+  std::size_t read = 0;
+  for (std::size_t taxel = 0; taxel < moments_.size(); ++taxel) {
+    const Moments& m = moments_[taxel];
+    if (m.count == 0) continue;
+    ++read;
+    const double offset = result[taxel] + m.mean;
+    if (std::abs(offset) > options_.limit) {
+      throw InputError("the tare is refused: " + place(taxel) + " reads " + kilopascal(offset) +
+                       " at rest, but must be within " + kilopascal(options_.limit) + " (~tare_limit)");
+    }
+    const double scatter = m.count > 1 ? std::sqrt(m.squares / (m.count - 1)) : 0.0;
+    if (scatter > options_.scatter) {
+      throw InputError("the tare is refused: " + place(taxel) + " scatters by " + kilopascal(scatter) +
+                       " as under a limb, but must keep still within " + kilopascal(options_.scatter) +
+                       " (~tare_scatter)");
+    }
+    result[taxel] = static_cast<float>(offset);
+  }
+  if (read == 0) throw InputError("the tare is refused: no taxel has a reading, but at least one must");
+  return result;
+}
+
+std::string TareMeasurement::place(std::size_t taxel) const {
+  return "the taxel in row " + std::to_string(layout_.row({taxel})) + ", column " +
+         std::to_string(layout_.column({taxel}));
+}
+
+}  // namespace fsr
