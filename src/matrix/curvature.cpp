@@ -22,8 +22,7 @@ void requireFit(const Surface& surface, MatrixSize size) {
     if (values > 1 && values != size.taxels()) {
       throw InputError("surface \"" + surface.name + "\" has " + std::to_string(values) +
                        " values, but must have one, or one for each of the " + std::to_string(size.taxels()) +
-                       " taxels of a " + std::to_string(size.rows) + " x " + std::to_string(size.columns) +
-                       " matrix");
+                       " taxels of a " + sizeText(size) + " matrix");
     }
   }
 }

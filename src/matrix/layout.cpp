@@ -2,6 +2,10 @@
 
 namespace fsr {
 
+std::string sizeText(MatrixSize size) {
+  return std::to_string(size.rows) + " x " + std::to_string(size.columns);
+}
+
 TaxelIndex Layout::index(std::uint16_t row, std::uint16_t column) const {
   return {std::size_t{row} * size.columns + column};
 }

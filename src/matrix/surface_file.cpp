@@ -23,8 +23,7 @@ std::vector<double> oneForEachTaxel(const Settings& settings, const std::string&
   const std::vector<double> values = settings.numbers(key, kCurvatureRange);
   if (values.size() != size.taxels()) {
     throw settings.error(key, "must have one value for each of the " + std::to_string(size.taxels()) +
-                                  " taxels of a " + std::to_string(size.rows) + " x " +
-                                  std::to_string(size.columns) + " matrix, row after row");
+                                  " taxels of a " + sizeText(size) + " matrix, row after row");
   }
   return values;
 }

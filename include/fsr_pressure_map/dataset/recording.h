@@ -27,6 +27,7 @@ struct RecordingLosses {
   std::uint64_t duplicates = 0;       ///< scans of one stamp, dropped
   std::uint64_t near_change = 0;      ///< scans within 1 s of a change of surface, dropped
   std::uint64_t no_reference = 0;     ///< scans that no chamber pressure brackets, dropped
+  std::uint64_t bad_reference = 0;    ///< chamber pressures that were no number, left out
   std::uint64_t unknown_surface = 0;  ///< scans under no known curvature, dropped
 };
 
@@ -38,8 +39,9 @@ struct Recording {
   SensorIdentity sensor;
   Layout layout;
   std::uint16_t full_scale = 0;
-  std::vector<std::uint8_t> mask;   ///< 1 = ignore this taxel; empty = none
-  std::vector<Surface> conditions;  ///< surfaces in order of first appearance
+  std::vector<std::uint8_t> mask;  ///< 1 = ignore this taxel; empty = none
+  /// Surfaces in order of first appearance; one of unknown curvature where none was recorded.
+  std::vector<Surface> conditions;
 
   std::vector<double> time;           ///< header stamp [s] since `start`
   std::vector<std::uint16_t> counts;  ///< [scans x taxels]
@@ -53,5 +55,8 @@ struct Recording {
   std::size_t scans() const { return time.size(); }
   const std::uint16_t* scan(std::size_t i) const { return counts.data() + i * layout.size.taxels(); }
 };
+
+/// One sentence for each kind of loss that a user should know of.
+std::vector<std::string> describeLosses(const RecordingLosses& losses);
 
 }  // namespace fsr

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace fsr {
 
@@ -19,6 +20,9 @@ inline bool operator==(MatrixSize a, MatrixSize b) {
 inline bool operator!=(MatrixSize a, MatrixSize b) {
   return !(a == b);
 }
+
+/// "7 x 10": rows x columns.
+std::string sizeText(MatrixSize size);
 
 /// Largest matrix that any room accepts, a side.
 constexpr std::uint16_t kMaxMatrixSide = 64;

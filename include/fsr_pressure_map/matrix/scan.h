@@ -27,4 +27,8 @@ inline ScanView view(const Scan& scan) {
   return {scan.size, scan.full_scale, scan.counts.data(), scan.counts.size()};
 }
 
+/// Throws InputError where the size is none that a matrix can have, the number of counts is not the
+/// size's, or a count is above full scale.
+void requireSound(const ScanView& scan);
+
 }  // namespace fsr

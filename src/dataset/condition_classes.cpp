@@ -1,0 +1,107 @@
+#include "fsr_pressure_map/dataset/condition_classes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+namespace {
+
+// One condition of one recording on its way into a class.
+struct Member {
+  CurvatureClass condition;
+  std::size_t scans = 0;
+  std::size_t recording = 0;
+  std::size_t index = 0;  // of the condition within the recording
+};
+
+// One value where all taxels agree.
+std::vector<double> principalCurvatures(const Surface& surface) {
+  std::vector<double> curvature;
+  for (const Curvature& tensor : surface.curvature) curvature.push_back(principalCurvature(tensor));
+  const auto differs = [&](double value) { return value != curvature.front(); };
+  if (std::none_of(curvature.begin(), curvature.end(), differs)) curvature.resize(1);
+  return curvature;
+}
+
+std::vector<Member> membersOf(const std::vector<Recording>& recordings) {
+  std::vector<Member> members;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    const std::size_t first = members.size();
+    for (std::size_t c = 0; c < recordings[r].conditions.size(); ++c) {
+      const Surface& surface = recordings[r].conditions[c];
+      if (!surface.known()) {
+        throw InputError(recordings[r].name +
+                         ": no curvature is recorded, but training needs the topic curvature");
+      }
+      members.push_back({{surface.name, principalCurvatures(surface)}, 0, r, c});
+    }
+    for (const std::uint32_t condition : recordings[r].condition) ++members[first + condition].scans;
+  }
+  return members;
+}
+
+// By curvature; of one curvature the condition with most scans first. Nothing in the key depends on
+// the order of the recordings.
+bool precedes(const Member& a, const Member& b) {
+  return std::tie(a.condition.curvature, b.scans, a.condition.surface) <
+         std::tie(b.condition.curvature, a.scans, b.condition.surface);
+}
+
+bool agree(const CurvatureClass& a, const CurvatureClass& b, double tolerance) {
+  const std::size_t values = std::max(a.curvature.size(), b.curvature.size());
+  for (std::size_t taxel = 0; taxel < values; ++taxel) {
+    if (std::abs(a.at(taxel) - b.at(taxel)) > tolerance) return false;
+  }
+  return true;
+}
+
+// The first of each group is its seed: the lowest curvature, which every member must agree with.
+std::vector<std::vector<Member>> group(const std::vector<Member>& members, double tolerance) {
+  std::vector<std::vector<Member>> groups;
+  for (const Member& member : members) {
+    const auto found = std::find_if(groups.begin(), groups.end(), [&](const std::vector<Member>& candidates) {
+      return agree(candidates.front().condition, member.condition, tolerance);
+    });
+    if (found != groups.end()) {
+      found->push_back(member);
+    } else {
+      groups.push_back({member});
+    }
+  }
+  return groups;
+}
+
+}  // namespace
+
+bool isFlat(const CurvatureClass& curvature_class) {
+  const auto flat = [](double curvature) { return std::abs(curvature) <= kFlatCurvature; };
+  return std::all_of(curvature_class.curvature.begin(), curvature_class.curvature.end(), flat);
+}
+
+ConditionClasses poolConditions(const std::vector<Recording>& recordings, double tolerance) {
+  std::vector<Member> members = membersOf(recordings);
+  std::sort(members.begin(), members.end(), precedes);
+  auto groups = group(members, tolerance);
+  const auto most_scans = [](const Member& a, const Member& b) { return a.scans < b.scans; };
+  for (auto& candidates : groups) {  // the member that names the class to the front
+    std::iter_swap(candidates.begin(), std::max_element(candidates.begin(), candidates.end(), most_scans));
+  }
+  std::sort(groups.begin(), groups.end(),
+            [](const auto& a, const auto& b) { return precedes(a.front(), b.front()); });
+
+  ConditionClasses pooled;
+  for (const Recording& recording : recordings) pooled.class_of.emplace_back(recording.conditions.size());
+  for (const auto& candidates : groups) {
+    for (const Member& member : candidates) {
+      pooled.class_of[member.recording][member.index] = pooled.classes.size();
+    }
+    pooled.classes.push_back(candidates.front().condition);
+  }
+  return pooled;
+}
+
+}  // namespace fsr

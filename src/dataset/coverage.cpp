@@ -1,0 +1,106 @@
+#include "fsr_pressure_map/dataset/coverage.h"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+namespace fsr {
+
+namespace {
+
+CoverageCell& cellOf(ConditionCoverage& coverage, double pressure, LoadDirection direction) {
+  auto& cells = direction == LoadDirection::kUnloading ? coverage.unloading : coverage.loading;
+  return cells[pressureBin(pressure)];
+}
+
+// Adds one condition of one recording. Its cycles come in order, so that a cell has met a new one
+// where the number differs from the last that it met.
+void addCondition(const Recording& recording, const Sections& sections, std::size_t condition,
+                  ConditionCoverage& coverage) {
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::array<std::array<std::uint32_t, kPressureBins>, 2> met;
+  for (auto& bins : met) bins.fill(kNone);
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    if (recording.condition[i] != condition || sections.section[i] == kNoSection) continue;
+    const double pressure = recording.pressure[i];
+    CoverageCell& cell = cellOf(coverage, pressure, sections.direction[i]);
+    ++cell.scans;
+    auto& last = met[sections.direction[i] == LoadDirection::kUnloading][pressureBin(pressure)];
+    if (last != sections.cycle[i]) ++cell.cycles;
+    last = sections.cycle[i];
+    coverage.pressure_low = coverage.scans == 0 ? pressure : std::min(coverage.pressure_low, pressure);
+    coverage.pressure_high = coverage.scans == 0 ? pressure : std::max(coverage.pressure_high, pressure);
+    ++coverage.scans;
+  }
+  coverage.cycles += sections.cycles[condition];
+}
+
+struct Thin {
+  std::uint64_t scans;
+  std::string sentence;
+};
+
+void judgeCells(const ConditionCoverage& coverage, double highest, std::uint64_t sections,
+                std::vector<Thin>& thin) {
+  for (const bool unloading : {false, true}) {
+    const auto& cells = unloading ? coverage.unloading : coverage.loading;
+    for (std::size_t bin = 0; bin < kPressureBins && kPressureBinEdges[bin] < highest; ++bin) {
+      const CoverageCell& cell = cells[bin];
+      // of a condition with few cycles another sentence speaks
+      const bool few_cycles = cell.cycles < sections && coverage.cycles >= sections;
+      if (cell.scans >= kThinScans && !few_cycles) continue;
+      std::ostringstream sentence;
+      sentence << coverage.condition.surface << ", " << pressureBinName(bin) << " kPa "
+               << (unloading ? "unloading" : "loading") << ": ";
+      if (cell.scans == 0) {
+        sentence << "no scan";
+      } else {
+        sentence << cell.scans << " scans of " << cell.cycles << (cell.cycles == 1 ? " cycle" : " cycles");
+      }
+      thin.push_back({cell.scans, sentence.str()});
+    }
+  }
+}
+
+std::vector<std::string> findThin(const std::vector<ConditionCoverage>& conditions, std::size_t sections) {
+  double highest = 0;
+  for (const ConditionCoverage& condition : conditions) highest = std::max(highest, condition.pressure_high);
+  std::vector<Thin> thin;
+  for (const ConditionCoverage& condition : conditions) {
+    judgeCells(condition, highest, sections, thin);
+    if (condition.cycles < sections) {
+      thin.push_back({condition.scans, condition.condition.surface + ": " + std::to_string(condition.cycles) +
+                                           " cycles, fewer than the " + std::to_string(sections) +
+                                           " sections"});
+    }
+  }
+  std::stable_sort(thin.begin(), thin.end(), [](const Thin& a, const Thin& b) { return a.scans < b.scans; });
+  std::vector<std::string> sentences;
+  if (highest < kPressureBinEdges.back()) {
+    std::ostringstream sentence;
+    sentence << "no surface was loaded above " << highest * 1e-3 << " kPa";
+    sentences.push_back(sentence.str());
+  }
+  for (const Thin& entry : thin) sentences.push_back(entry.sentence);
+  return sentences;
+}
+
+}  // namespace
+
+Coverage measureCoverage(const std::vector<Recording>& recordings, const ConditionClasses& classes,
+                         const std::vector<Sections>& sections) {
+  Coverage coverage;
+  for (const CurvatureClass& curvature_class : classes.classes) {
+    coverage.conditions.emplace_back();
+    coverage.conditions.back().condition = curvature_class;
+  }
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    for (std::size_t c = 0; c < recordings[r].conditions.size(); ++c) {
+      addCondition(recordings[r], sections[r], c, coverage.conditions[classes.class_of[r][c]]);
+    }
+  }
+  coverage.thin = findThin(coverage.conditions, sections.empty() ? 0 : sections.front().number);
+  return coverage;
+}
+
+}  // namespace fsr

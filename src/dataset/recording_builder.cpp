@@ -1,0 +1,198 @@
+#include "fsr_pressure_map/dataset/recording_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+namespace {
+
+std::int64_t nanoseconds(double seconds) {
+  return std::llround(seconds * 1e9);
+}
+
+// A chamber is vented between cycles: gauge readings that never come this near to zero [Pa] were
+// made with the wrong ambient pressure.
+constexpr double kSuspectOffset = 50e3;
+
+void countGap(std::uint32_t before, std::uint32_t now, RecordingLosses& losses) {
+  const std::uint32_t step = now - before;
+  if (step <= 1) return;  // 0: the board does not count
+  ++losses.sequence_gaps;
+  if (step < 0x80000000u) losses.lost_scans += step - 1;  // else the board started afresh
+}
+
+// Whether the scan lies on one known surface; counts what does not.
+bool onOneSurface(const SurfaceTimeline& timeline, std::int64_t stamp_ns, const RecordingOptions& options,
+                  RecordingLosses& losses) {
+  if (timeline.nearChange(stamp_ns, nanoseconds(options.change_margin))) {
+    ++losses.near_change;
+    return false;
+  }
+  const bool known = timeline.conditions()[timeline.at(stamp_ns)].known();
+  if (known || !timeline.anyKnown()) return true;
+  ++losses.unknown_surface;
+  return false;
+}
+
+void warnOfOffset(Recording& recording) {
+  const auto lowest = std::min_element(recording.pressure.begin(), recording.pressure.end());
+  if (lowest == recording.pressure.end() || std::abs(*lowest) < kSuspectOffset) return;
+  std::ostringstream warning;
+  warning << "the lowest chamber pressure is " << *lowest * 1e-3
+          << " kPa gauge; chamber_pressure is absolute by definition: check --ambient";
+  recording.warnings.push_back(warning.str());
+}
+
+// Conditions that kept no scan disappear.
+void dropUnusedConditions(const std::vector<Surface>& conditions, Recording& recording) {
+  std::vector<std::size_t> place(conditions.size(), conditions.size());
+  for (std::uint32_t& condition : recording.condition) {
+    if (place[condition] == conditions.size()) {
+      place[condition] = recording.conditions.size();
+      recording.conditions.push_back(conditions[condition]);
+    }
+    condition = static_cast<std::uint32_t>(place[condition]);
+  }
+}
+
+}  // namespace
+
+void RecordingBuilder::addScan(std::int64_t stamp_ns, std::uint32_t sequence, const ScanView& scan) {
+  requireSound(scan);
+  if (scans_.empty()) {
+    size_ = scan.size;
+    full_scale_ = scan.full_scale;
+  } else if (scan.size != size_ || scan.full_scale != full_scale_) {
+    throw InputError("raw holds scans of " + sizeText(size_) + " taxels with full_scale " +
+                     std::to_string(full_scale_) + " and of " + sizeText(scan.size) + " with " +
+                     std::to_string(scan.full_scale) +
+                     ", but a recording is of one matrix; choose it by its namespace");
+  }
+  scans_.push_back({stamp_ns, sequence, counts_.size()});
+  counts_.insert(counts_.end(), scan.counts, scan.counts + scan.count);
+  ++events_.scans;
+}
+
+void RecordingBuilder::addChamberPressure(std::int64_t stamp_ns, double absolute_pressure) {
+  chamber_pressure_.add(stamp_ns, absolute_pressure);
+  ++events_.chamber_pressures;
+}
+
+void RecordingBuilder::addSurface(std::int64_t stamp_ns, const Surface& surface) {
+  surfaces_.emplace_back(stamp_ns, surface);
+  ++events_.surfaces;
+}
+
+void RecordingBuilder::addTemperature(std::int64_t stamp_ns, double temperature) {
+  temperature_.add(stamp_ns, temperature);
+  ++events_.temperatures;
+}
+
+void RecordingBuilder::addDescription(std::int64_t stamp_ns, const MatrixDescription& description) {
+  descriptions_.emplace_back(stamp_ns, description);
+  ++events_.descriptions;
+}
+
+std::vector<RecordingBuilder::ScanEvent> RecordingBuilder::sortedScans(RecordingLosses& losses) const {
+  std::vector<ScanEvent> sorted = scans_;
+  const std::size_t taxels = size_.taxels();
+  const auto before = [&](const ScanEvent& a, const ScanEvent& b) {
+    if (a.stamp_ns != b.stamp_ns) return a.stamp_ns < b.stamp_ns;
+    if (a.sequence != b.sequence) return a.sequence < b.sequence;
+    const auto* const left = counts_.data() + a.first_count;
+    const auto* const right = counts_.data() + b.first_count;
+    return std::lexicographical_compare(left, left + taxels, right, right + taxels);
+  };
+  std::sort(sorted.begin(), sorted.end(), before);
+  const auto same_stamp = [](const ScanEvent& a, const ScanEvent& b) { return a.stamp_ns == b.stamp_ns; };
+  sorted.erase(std::unique(sorted.begin(), sorted.end(), same_stamp), sorted.end());
+  losses.duplicates = scans_.size() - sorted.size();
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    countGap(sorted[i - 1].sequence, sorted[i].sequence, losses);
+  }
+  return sorted;
+}
+
+const MatrixDescription* RecordingBuilder::description() const {
+  const auto before = [](const DescriptionEvent& a, const DescriptionEvent& b) { return a.first < b.first; };
+  const auto first = std::min_element(descriptions_.begin(), descriptions_.end(), before);
+  if (first == descriptions_.end()) return nullptr;
+  for (const auto& [stamp, described] : descriptions_) {
+    if (described.layout.size != size_ || described.full_scale != full_scale_) {
+      throw InputError("matrix_info describes " + sizeText(described.layout.size) +
+                       " taxels with full_scale " + std::to_string(described.full_scale) +
+                       ", but the scans in raw have " + sizeText(size_) + " with " +
+                       std::to_string(full_scale_));
+    }
+    if (described.sensor.serial != first->second.sensor.serial) {
+      throw InputError("matrix_info tells of the serial numbers \"" + first->second.sensor.serial +
+                       "\" and \"" + described.sensor.serial + "\", but a recording is of one matrix");
+    }
+  }
+  return &first->second;
+}
+
+double RecordingBuilder::ambient(const RecordingOptions& options, std::vector<std::string>& warnings) const {
+  if (options.ambient_pressure) return *options.ambient_pressure;
+  const MatrixDescription* const described = description();
+  if (described != nullptr && described->ambient_pressure > 0) return described->ambient_pressure;
+  if (!chamber_pressure_.empty()) warnings.push_back("no ambient pressure is recorded; 101325 Pa is assumed");
+  return kStandardAmbient;
+}
+
+Recording RecordingBuilder::emptyRecording(const RecordingOptions& options) const {
+  Recording recording;
+  recording.name = options.name;
+  recording.sha256 = options.sha256;
+  recording.full_scale = full_scale_;
+  recording.layout.size = size_;
+  if (const MatrixDescription* const described = description()) {
+    recording.sensor = described->sensor;
+    recording.layout = described->layout;
+    recording.mask = described->mask;
+  } else {
+    recording.warnings.push_back("no matrix_info is recorded; a pitch of 0.010 m is assumed");
+  }
+  return recording;
+}
+
+Recording RecordingBuilder::build(const RecordingOptions& options) const {
+  if (scans_.empty()) throw InputError("raw holds no scan");
+  for (const SurfaceTimeline::Event& event : surfaces_) requireFit(event.second, size_);
+  Recording recording = emptyRecording(options);
+  const SurfaceTimeline timeline(surfaces_, options.same_curvature);
+  const double ambient_pressure = ambient(options, recording.warnings);
+  TimeSeries reference = chamber_pressure_;
+  TimeSeries temperature = temperature_;
+  reference.sort();
+  temperature.sort();
+
+  const std::int64_t gap = nanoseconds(options.longest_reference_gap);
+  for (const ScanEvent& scan : sortedScans(recording.losses)) {
+    const auto pressure = reference.between(scan.stamp_ns, gap);
+    if (!onOneSurface(timeline, scan.stamp_ns, options, recording.losses)) continue;
+    if (!reference.empty() && !pressure) {
+      ++recording.losses.no_reference;
+      continue;
+    }
+    if (recording.time.empty()) recording.start_ns = scan.stamp_ns;
+    recording.time.push_back(static_cast<double>(scan.stamp_ns - recording.start_ns) * 1e-9);
+    recording.condition.push_back(static_cast<std::uint32_t>(timeline.at(scan.stamp_ns)));
+    if (pressure) recording.pressure.push_back(*pressure - ambient_pressure);
+    if (!temperature.empty()) recording.temperature.push_back(temperature.nearby(scan.stamp_ns));
+    const auto* const counts = counts_.data() + scan.first_count;
+    recording.counts.insert(recording.counts.end(), counts, counts + size_.taxels());
+  }
+  recording.losses.bad_reference = reference.notFinite();
+  dropUnusedConditions(timeline.conditions(), recording);
+  const std::vector<std::string> lost = describeLosses(recording.losses);
+  recording.warnings.insert(recording.warnings.end(), lost.begin(), lost.end());
+  warnOfOffset(recording);
+  return recording;
+}
+
+}  // namespace fsr

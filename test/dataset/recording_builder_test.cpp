@@ -1,0 +1,277 @@
+#include "fsr_pressure_map/dataset/recording_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+namespace {
+
+using Event = std::function<void(RecordingBuilder&)>;
+
+constexpr std::int64_t kStart = 1'700'000'000'000'000'000;  // [ns]
+constexpr std::int64_t ms(std::int64_t milliseconds) {
+  return kStart + milliseconds * 1'000'000;
+}
+
+Event scan(std::int64_t stamp, std::uint32_t sequence, std::uint16_t count) {
+  return [=](RecordingBuilder& builder) {
+    builder.addScan(stamp, sequence, view(Scan{{1, 2}, 4095, {count, 7}}));
+  };
+}
+Event chamber(std::int64_t stamp, double absolute) {
+  return [=](RecordingBuilder& builder) { builder.addChamberPressure(stamp, absolute); };
+}
+Event surface(std::int64_t stamp, const std::string& name, double curvature) {
+  return [=](RecordingBuilder& builder) {
+    builder.addSurface(stamp, {name, 1, {Curvature{curvature, 0, 0}}, {}});
+  };
+}
+Event description(double ambient, const std::string& serial = "0001", MatrixSize size = {1, 2}) {
+  return [=](RecordingBuilder& builder) {
+    MatrixDescription described;
+    described.sensor.serial = serial;
+    described.layout = {size, 0.012, 0.008};
+    described.full_scale = 4095;
+    described.ambient_pressure = ambient;
+    builder.addDescription(ms(0), described);
+  };
+}
+
+RecordingOptions withAmbient(double ambient) {
+  RecordingOptions options;
+  options.ambient_pressure = ambient;
+  return options;
+}
+
+Recording build(const std::vector<Event>& events, const RecordingOptions& options = {}) {
+  RecordingBuilder builder;
+  for (const Event& event : events) event(builder);
+  return builder.build(options);
+}
+
+// Ten seconds at 10 Hz, flat and from 5 s on bent; chamber at 4 Hz.
+std::vector<Event> session() {
+  std::vector<Event> events = {description(100e3)};
+  for (std::uint16_t i = 0; i <= 100; ++i) {
+    events.push_back(scan(ms(100 * i), 50u + i, static_cast<std::uint16_t>(10 * i)));
+  }
+  for (int i = 0; i <= 40; ++i) events.push_back(chamber(ms(250 * i), 100e3 + 1e3 * i));
+  for (int i = 0; i <= 9; ++i) {
+    const bool bent = i >= 5;
+    events.push_back(surface(ms(1000 * i), bent ? "cylinder_7cm" : "flat", bent ? 14.3 : 0.0));
+  }
+  return events;
+}
+
+void expectSame(const Recording& a, const Recording& b) {
+  EXPECT_EQ(a.time, b.time);
+  EXPECT_EQ(a.counts, b.counts);
+  EXPECT_EQ(a.pressure, b.pressure);
+  EXPECT_EQ(a.condition, b.condition);
+  EXPECT_EQ(a.temperature, b.temperature);
+  EXPECT_EQ(a.start_ns, b.start_ns);
+  EXPECT_EQ(a.warnings, b.warnings);
+}
+
+TEST(RecordingBuilder, InterpolatesTheReferenceToTheScans) {
+  const Recording recording = build(session());
+  EXPECT_EQ(recording.start_ns, ms(0));
+  ASSERT_GE(recording.scans(), 4u);
+  EXPECT_DOUBLE_EQ(recording.time[3], 0.3);
+  EXPECT_EQ(recording.pressure[0], 0.0);
+  EXPECT_NEAR(recording.pressure[1], 400.0, 1e-9);  // 0.1 s of 4 kPa/s
+  EXPECT_NEAR(recording.pressure[3], 1200.0, 1e-9);
+  EXPECT_EQ(recording.scan(3)[0], 30);
+  EXPECT_EQ(recording.scan(3)[1], 7);
+  EXPECT_EQ(recording.layout.pitch_x, 0.012);
+  EXPECT_EQ(recording.sensor.serial, "0001");
+}
+
+TEST(RecordingBuilder, TheOrderOfTheEventsDoesNotMatter) {
+  std::vector<Event> events = session();
+  for (std::uint32_t i = 0; i < 10; ++i) events.push_back(scan(ms(100 * i), 50 + i, 4000));  // doubles
+  events.push_back(chamber(ms(500), 120e3));
+  events.push_back(surface(ms(0), "also_flat", 0.0));
+  events.push_back([](RecordingBuilder& builder) { builder.addTemperature(ms(400), 21.0); });
+  events.push_back([](RecordingBuilder& builder) { builder.addTemperature(ms(9000), 24.0); });
+  const Recording expected = build(events);
+  EXPECT_EQ(expected.losses.duplicates, 10u);
+  std::mt19937 random(1);
+  for (int round = 0; round < 5; ++round) {
+    std::shuffle(events.begin(), events.end(), random);
+    expectSame(build(events), expected);
+  }
+}
+
+TEST(RecordingBuilder, DropsScansWithinASecondOfAChangeOfSurface) {
+  const Recording recording = build(session());
+  EXPECT_EQ(recording.losses.near_change, 21u);  // 4.0 to 6.0 s, ends included
+  EXPECT_EQ(recording.scans(), 80u);
+  ASSERT_EQ(recording.conditions.size(), 2u);
+  EXPECT_EQ(recording.conditions[1].name, "cylinder_7cm");
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    EXPECT_EQ(recording.condition[i], recording.time[i] < 5.0 ? 0u : 1u);
+    EXPECT_GT(std::abs(recording.time[i] - 5.0), 1.0);
+  }
+}
+
+TEST(RecordingBuilder, ScansBeforeTheFirstSurfaceBelongToIt) {
+  const Recording recording = build({scan(ms(0), 1, 5), scan(ms(100), 2, 5), surface(ms(900), "flat", 0.0)});
+  EXPECT_EQ(recording.scans(), 2u);
+  EXPECT_EQ(recording.losses.near_change, 0u);
+  EXPECT_EQ(recording.conditions.at(recording.condition[0]).name, "flat");
+}
+
+TEST(RecordingBuilder, AMeasuredCurvatureThatScattersIsOneCondition) {
+  const Recording recording = build({scan(ms(0), 1, 5), scan(ms(5000), 2, 5), surface(ms(0), "limb", 12.00),
+                                     surface(ms(1000), "limb", 12.04), surface(ms(2000), "limb", 11.97)});
+  EXPECT_EQ(recording.conditions.size(), 1u);
+  EXPECT_EQ(recording.scans(), 2u);
+}
+
+TEST(RecordingBuilder, ARemountIsAChangeThoughTheCurvatureStays) {
+  const auto mounted = [](std::int64_t stamp, std::uint32_t mount) {
+    return [=](RecordingBuilder& builder) { builder.addSurface(stamp, {"flat", mount, {Curvature{}}, {}}); };
+  };
+  const Recording recording = build({scan(ms(0), 1, 5), scan(ms(5000), 2, 5), scan(ms(9000), 3, 5),
+                                     mounted(ms(0), 1), mounted(ms(5000), 2)});
+  EXPECT_EQ(recording.losses.near_change, 1u);
+  EXPECT_EQ(recording.conditions.size(), 2u);
+}
+
+TEST(RecordingBuilder, CountsGapsOfTheBoardsCounter) {
+  const Recording recording =
+      build({scan(ms(0), 4294967294u, 5), scan(ms(100), 4294967295u, 5), scan(ms(200), 0, 5),  // wraps round
+             scan(ms(300), 4, 5), scan(ms(400), 5, 5), scan(ms(500), 2, 5)});  // starts afresh
+  EXPECT_EQ(recording.losses.sequence_gaps, 2u);
+  EXPECT_EQ(recording.losses.lost_scans, 3u);
+  EXPECT_EQ(recording.warnings.back(), "3 scans are missing in 2 gaps of the board's counter");
+}
+
+TEST(RecordingBuilder, ScansThatNoReferenceBracketsAreDropped) {
+  const Recording recording =
+      build({scan(ms(0), 1, 5), scan(ms(1000), 2, 5), scan(ms(3000), 3, 5), scan(ms(9000), 4, 5),
+             chamber(ms(500), 100e3), chamber(ms(1500), 101e3), chamber(ms(4000), 102e3)},
+            withAmbient(100e3));
+  EXPECT_EQ(recording.scans(), 1u);  // 3 s lies in a gap of 2.5 s, 0 and 9 s outside
+  EXPECT_DOUBLE_EQ(recording.pressure.front(), 500.0);
+  EXPECT_EQ(recording.losses.no_reference, 3u);
+}
+
+TEST(RecordingBuilder, AChamberPressureThatIsNoNumberIsLeftOut) {
+  const Recording recording = build(
+      {scan(ms(100), 1, 5), chamber(ms(0), 100e3), chamber(ms(100), std::nan("")), chamber(ms(200), 102e3)},
+      withAmbient(100e3));
+  EXPECT_DOUBLE_EQ(recording.pressure.at(0), 1e3);
+  EXPECT_EQ(recording.losses.bad_reference, 1u);
+}
+
+TEST(RecordingBuilder, AmbientComesFromTheOptionThenTheMatrixThenTheStandard) {
+  std::vector<Event> events = {scan(ms(0), 1, 5), chamber(ms(0), 150e3)};
+  const Recording assumed = build(events);
+  EXPECT_EQ(assumed.pressure.at(0), 150e3 - 101325.0);
+  EXPECT_EQ(assumed.warnings.at(0), "no matrix_info is recorded; a pitch of 0.010 m is assumed");
+  EXPECT_EQ(assumed.warnings.at(1), "no ambient pressure is recorded; 101325 Pa is assumed");
+  events.push_back(description(110e3));
+  EXPECT_EQ(build(events).pressure.at(0), 40e3);
+  EXPECT_TRUE(build(events).warnings.empty());
+  EXPECT_EQ(build(events, withAmbient(120e3)).pressure.at(0), 30e3);
+}
+
+TEST(RecordingBuilder, GaugeReadingsInTheChamberTopicAreNoticed) {
+  const Recording recording = build({description(100e3), scan(ms(0), 1, 5), chamber(ms(0), 0.0)});
+  ASSERT_EQ(recording.warnings.size(), 1u);
+  EXPECT_EQ(recording.warnings.front(),
+            "the lowest chamber pressure is -100 kPa gauge; chamber_pressure is absolute by definition: "
+            "check --ambient");
+}
+
+TEST(RecordingBuilder, ABareRecordingHasNoReferenceAndAnUnknownSurface) {
+  const Recording recording = build({scan(ms(0), 1, 5), scan(ms(100), 2, 6)});
+  EXPECT_EQ(recording.scans(), 2u);
+  EXPECT_TRUE(recording.pressure.empty());
+  EXPECT_TRUE(recording.temperature.empty());
+  ASSERT_EQ(recording.conditions.size(), 1u);
+  EXPECT_FALSE(recording.conditions.front().known());
+}
+
+TEST(RecordingBuilder, ScansOnAnUnknownSurfaceAreDroppedWhereOthersAreKnown) {
+  const auto unknown = [](RecordingBuilder& builder) { builder.addSurface(ms(5000), {"", 0, {}, {}}); };
+  const Recording recording =
+      build({scan(ms(0), 1, 5), scan(ms(9000), 2, 5), surface(ms(0), "flat", 0.0), unknown});
+  EXPECT_EQ(recording.scans(), 1u);
+  EXPECT_EQ(recording.losses.unknown_surface, 1u);
+  EXPECT_EQ(recording.conditions.size(), 1u);
+}
+
+TEST(RecordingBuilder, TemperatureHoldsItsEndsAndIsInterpolatedBetween) {
+  const auto warm = [](std::int64_t stamp, double celsius) {
+    return [=](RecordingBuilder& builder) { builder.addTemperature(stamp, celsius); };
+  };
+  const Recording recording =
+      build({scan(ms(0), 1, 5), scan(ms(2000), 2, 5), scan(ms(9000), 3, 5), warm(ms(1000), 20.0),
+             warm(ms(3000), 22.0), warm(ms(1500), std::nan(""))});
+  EXPECT_EQ(recording.temperature, (std::vector<double>{20.0, 21.0, 22.0}));
+}
+
+std::string complaint(const std::vector<Event>& events) {
+  try {
+    build(events);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(RecordingBuilder, WhatIsOfTwoMatricesIsRefused) {
+  const auto other = [](RecordingBuilder& builder) {
+    builder.addScan(ms(1), 1, view(Scan{{2, 2}, 4095, {1, 2, 3, 4}}));
+  };
+  EXPECT_EQ(complaint({scan(ms(0), 1, 5), other}),
+            "raw holds scans of 1 x 2 taxels with full_scale 4095 and of 2 x 2 with 4095, but a recording is "
+            "of one matrix; choose it by its namespace");
+  EXPECT_EQ(complaint({scan(ms(0), 1, 5), description(0, "0001", {7, 10})}),
+            "matrix_info describes 7 x 10 taxels with full_scale 4095, but the scans in raw have 1 x 2 with "
+            "4095");
+  EXPECT_EQ(
+      complaint({scan(ms(0), 1, 5), description(0, "0001"), description(0, "0002")}),
+      "matrix_info tells of the serial numbers \"0001\" and \"0002\", but a recording is of one matrix");
+}
+
+TEST(RecordingBuilder, MalformedEventsAreRefused) {
+  const auto malformed = [](const Scan& bad) {
+    return [bad](RecordingBuilder& builder) { builder.addScan(ms(0), 1, view(bad)); };
+  };
+  EXPECT_EQ(complaint({malformed({{1, 2}, 4095, {1}})}), "a scan holds 1 counts, but its size is 1 x 2");
+  EXPECT_EQ(complaint({malformed({{1, 1}, 1023, {1024}})}),
+            "a scan holds a count of 1024, but its full_scale is 1023");
+  EXPECT_EQ(complaint({malformed({{0, 0}, 1023, {}})}),
+            "a scan has 0 x 0 taxels, but must have 1 to 64 rows and columns");
+  EXPECT_EQ(complaint({}), "raw holds no scan");
+  const auto wide = [](RecordingBuilder& builder) {
+    builder.addSurface(ms(0), {"limb", 1, std::vector<Curvature>(3), {}});
+  };
+  EXPECT_EQ(
+      complaint({scan(ms(0), 1, 5), wide}),
+      "surface \"limb\" has 3 values, but must have one, or one for each of the 2 taxels of a 1 x 2 matrix");
+}
+
+TEST(RecordingBuilder, ClearForgetsEverything) {
+  RecordingBuilder builder;
+  for (const Event& event : session()) event(builder);
+  EXPECT_EQ(builder.events().scans, 101u);
+  EXPECT_EQ(builder.events().chamber_pressures, 41u);
+  EXPECT_EQ(builder.events().surfaces, 10u);
+  builder.clear();
+  EXPECT_EQ(builder.events().scans, 0u);
+  EXPECT_THROW(builder.build({}), InputError);
+}
+
+}  // namespace
+}  // namespace fsr

@@ -1,0 +1,138 @@
+#include "fsr_pressure_map/dataset/sections.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "fsr_pressure_map/dataset/cycles.h"
+#include "support/synthetic_recording.h"
+
+namespace fsr {
+namespace {
+
+using test::syntheticRecording;
+using test::SyntheticRig;
+
+std::vector<double> triangles(std::size_t cycles, std::size_t readings, double peak) {
+  std::vector<double> pressure;
+  for (std::size_t i = 0; i < cycles * readings; ++i) {
+    pressure.push_back(test::trianglePressure(static_cast<double>(i) / static_cast<double>(readings), peak));
+  }
+  return pressure;
+}
+
+TEST(Cycles, AreCutAtTheValleys) {
+  const Cycles cycles = findCycles(triangles(3, 100, 600e3));
+  EXPECT_EQ(cycles.first, (std::vector<std::size_t>{0, 100, 200}));
+  EXPECT_EQ(cycles.direction[50], LoadDirection::kLoading);
+  EXPECT_EQ(cycles.direction[51], LoadDirection::kUnloading);
+  EXPECT_EQ(cycles.direction[100], LoadDirection::kUnloading);
+  EXPECT_EQ(cycles.direction[101], LoadDirection::kLoading);
+}
+
+TEST(Cycles, NoiseAndStepsOnTheWayAreNone) {
+  std::mt19937 random(3);
+  std::vector<double> pressure = triangles(4, 400, 600e3);
+  for (double& value : pressure) {
+    value = std::floor(value / 60e3) * 60e3 + static_cast<double>(random() % 10000);  // stairs, 10 kPa noise
+  }
+  EXPECT_EQ(findCycles(pressure).count(), 4u);
+}
+
+TEST(Cycles, OfGrowingPeaksEachCounts) {
+  std::vector<double> pressure;
+  for (const double peak : {60e3, 150e3, 300e3, 600e3}) {
+    const auto one = triangles(1, 100, peak);
+    pressure.insert(pressure.end(), one.begin(), one.end());
+  }
+  EXPECT_EQ(findCycles(pressure).count(), 4u);
+}
+
+TEST(Cycles, OfAPressureThatNeverChangesThereAreNone) {
+  std::vector<double> pressure(100, 5e3);
+  pressure[50] += 1e3;  // noise
+  const Cycles cycles = findCycles(pressure);
+  EXPECT_EQ(cycles.count(), 0u);
+  EXPECT_EQ(cycles.direction.at(99), LoadDirection::kNone);
+  EXPECT_EQ(findCycles({}).count(), 0u);
+  EXPECT_EQ(findCycles({1.0}).count(), 0u);
+}
+
+TEST(Cycles, ASingleRiseOrFallIsOne) {
+  const Cycles rise = findCycles({0, 100e3, 200e3, 300e3});
+  EXPECT_EQ(rise.count(), 1u);
+  EXPECT_EQ(rise.direction.at(3), LoadDirection::kLoading);
+  const Cycles fall = findCycles({300e3, 200e3, 100e3, 0});
+  EXPECT_EQ(fall.count(), 1u);
+  EXPECT_EQ(fall.direction.at(3), LoadDirection::kUnloading);
+}
+
+// Sections of one condition in order of its scans, without repetitions.
+std::vector<std::uint32_t> sequenceOf(const Recording& recording, const Sections& sections,
+                                      std::uint32_t condition) {
+  std::vector<std::uint32_t> sequence;
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    if (recording.condition[i] != condition) continue;
+    if (sequence.empty() || sequence.back() != sections.section[i]) sequence.push_back(sections.section[i]);
+  }
+  return sequence;
+}
+
+TEST(Sections, AreContiguousInEachConditionAndNeverSplitACycle) {
+  SyntheticRig rig;
+  rig.surfaces = {{"flat", 0.0}, {"cylinder_5cm", 20.0}};
+  rig.cycles = 7;
+  const Recording recording = syntheticRecording(rig);
+  const Sections sections = divideIntoSections(recording, 5);
+  EXPECT_EQ(sections.cycles, (std::vector<std::size_t>{7, 7}));
+  EXPECT_EQ(sequenceOf(recording, sections, 0), (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(sequenceOf(recording, sections, 1), (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;  // of cycle and section
+  for (std::size_t i = 0; i < 700; ++i) pairs.emplace(sections.cycle[i], sections.section[i]);
+  EXPECT_EQ(pairs.size(), 7u);
+  EXPECT_TRUE(sections.warnings.empty());
+}
+
+TEST(Sections, FewerCyclesThanSectionsAreCutByTimeAndSaidSo) {
+  SyntheticRig rig;
+  rig.cycles = 3;
+  const Recording recording = syntheticRecording(rig);
+  const Sections sections = divideIntoSections(recording, 5);
+  EXPECT_EQ(sequenceOf(recording, sections, 0), (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
+  ASSERT_EQ(sections.warnings.size(), 1u);
+  EXPECT_EQ(
+      sections.warnings.front(),
+      "synthetic.bag, \"flat\": 3 cycles are fewer than the 5 sections, which are cut by time instead: a "
+      "cycle then stands on both sides of a split, and the scores flatter");
+}
+
+TEST(Sections, OfAConstantPressureAreCutByTimeAndSaidSo) {
+  Recording recording = syntheticRecording({});
+  for (double& pressure : recording.pressure) pressure = 3e3;
+  const Sections sections = divideIntoSections(recording, 5);
+  EXPECT_EQ(sequenceOf(recording, sections, 0), (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(
+      sections.warnings.at(0),
+      "synthetic.bag, \"flat\": the chamber pressure never changes, so that there is nothing to learn from");
+}
+
+TEST(Sections, AScanWithoutPressureIsInNone) {
+  Recording recording = syntheticRecording({});
+  recording.pressure[42] = std::nan("");
+  const Sections sections = divideIntoSections(recording, 5);
+  EXPECT_EQ(sections.section[42], kNoSection);
+  EXPECT_NE(sections.section[43], kNoSection);
+}
+
+TEST(Sections, FewerScansThanSectionsLeaveSomeEmpty) {
+  SyntheticRig rig;
+  rig.cycles = 1;
+  rig.scans_per_cycle = 2;
+  const Sections sections = divideIntoSections(syntheticRecording(rig), 5);
+  EXPECT_EQ(sections.section, (std::vector<std::uint32_t>{0, 2}));
+}
+
+}  // namespace
+}  // namespace fsr
