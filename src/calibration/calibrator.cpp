@@ -106,9 +106,7 @@ void Calibrator::refreshStanding() noexcept {
 void Calibrator::calibrate(const ScanView& scan, double time, PressureMap& out) noexcept {
   const std::size_t taxels = layout_.size.taxels();
   if (scan.size != layout_.size || scan.full_scale != tables_.fullScale() || scan.count != taxels) {
-    // A scan that contradicts itself has no size: memory is never made from what a sender claims.
-    const bool honest = scan.count == scan.size.taxels();
-    out.reset({honest ? scan.size : MatrixSize{}, layout_.pitch_x, layout_.pitch_y});
+    out.reset({honestSize(scan), layout_.pitch_x, layout_.pitch_y});
     out.state = MapState::kSizeMismatch;
     return;
   }

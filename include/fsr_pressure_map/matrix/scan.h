@@ -23,6 +23,12 @@ struct ScanView {
   std::size_t count = 0;                  ///< rows * columns, unless the sender erred
 };
 
+/// The size that a scan states, or 0 x 0 where its counts contradict it: memory is never made from what a
+/// sender merely claims.
+inline MatrixSize honestSize(const ScanView& scan) {
+  return scan.count == scan.size.taxels() ? scan.size : MatrixSize{};
+}
+
 inline ScanView view(const Scan& scan) {
   return {scan.size, scan.full_scale, scan.counts.data(), scan.counts.size()};
 }
