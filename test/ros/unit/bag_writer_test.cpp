@@ -1,0 +1,132 @@
+#include "fsr_pressure_map/ros/bag_writer.h"
+
+#include <fsr_pressure_map/MatrixFrame.h>
+#include <fsr_pressure_map/SurfaceCurvature.h>
+#include <gtest/gtest.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/FluidPressure.h>
+#include <sensor_msgs/Temperature.h>
+
+#include <filesystem>
+#include <map>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "support/synthetic_recording.h"
+
+namespace fsr_ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BagFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / ("bag_writer_" + std::string(test->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    path_ = (folder_ / "1_flat.bag").string();
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::size_t filesLeft() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+
+  fs::path folder_;
+  std::string path_;
+};
+
+fsr::Recording twoSurfaces() {
+  fsr::test::SyntheticRig rig;
+  rig.surfaces = {{"flat", 0.0}, {"cylinder_7cm", 14.25}};
+  rig.cycles = 2;
+  fsr::Recording recording = fsr::test::syntheticRecording(rig);
+  recording.start_ns = 1500000000123456789;
+  recording.temperature.assign(recording.scans(), 23.5);
+  recording.mask = {0, 0, 1, 0, 0, 0};
+  return recording;
+}
+
+template <typename Message>
+std::vector<Message> messages(const rosbag::Bag& bag, const std::string& topic) {
+  std::vector<Message> all;
+  for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topic))) {
+    all.push_back(*instance.instantiate<Message>());
+    EXPECT_EQ(instance.getTime(), all.back().header.stamp);
+  }
+  return all;
+}
+
+TEST_F(BagFile, HoldsWhatTheRecordingHolds) {
+  const fsr::Recording recording = twoSurfaces();
+  BagOptions options;
+  options.ambient_pressure = 98000;
+  writeBag(path_, recording, options);
+
+  const rosbag::Bag bag(path_);
+  const auto scans = messages<fsr_pressure_map::MatrixFrame>(bag, "/fsr/raw");
+  const auto pressures = messages<sensor_msgs::FluidPressure>(bag, "/fsr/chamber_pressure");
+  const auto temperatures = messages<sensor_msgs::Temperature>(bag, "/fsr/temperature");
+  ASSERT_EQ(scans.size(), recording.scans());
+  ASSERT_EQ(pressures.size(), recording.scans());
+  ASSERT_EQ(temperatures.size(), recording.scans());
+  EXPECT_EQ(scans.front().header.stamp.toNSec(), 1500000000123456789u);
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    EXPECT_EQ(scans[i].sequence, i);
+    EXPECT_NEAR((scans[i].header.stamp - scans[0].header.stamp).toSec(), recording.time[i], 1e-9);
+    EXPECT_TRUE(std::equal(scans[i].counts.begin(), scans[i].counts.end(), recording.scan(i)));
+    EXPECT_NEAR(pressures[i].fluid_pressure - 98000, recording.pressure[i], 1e-9 * 98000);
+    EXPECT_EQ(temperatures[i].temperature, 23.5);
+  }
+}
+
+TEST_F(BagFile, SaysOnceASecondWhatTheMatrixIsAndLiesOn) {
+  const fsr::Recording recording = twoSurfaces();  // 400 scans at 10 Hz
+  BagOptions options;
+  options.session.session_id = "s1";
+  options.reference_voltage = 2.5;
+  writeBag(path_, recording, options);
+
+  const rosbag::Bag bag(path_);
+  const auto infos = messages<fsr_pressure_map::MatrixInfo>(bag, "/fsr/matrix_info");
+  EXPECT_EQ(infos.size(), 40u);
+  EXPECT_EQ(infos.back().rows, 2);
+  EXPECT_EQ(infos.back().mask, recording.mask);
+  EXPECT_EQ(infos.back().ambient_pressure, 101325);
+  EXPECT_EQ(infos.back().reference_voltage, 2.5f);
+  EXPECT_EQ(messages<fsr_pressure_map::Session>(bag, "/fsr/session").size(), 40u);
+  const auto surfaces = messages<fsr_pressure_map::SurfaceCurvature>(bag, "/fsr/curvature");
+  const auto bent = std::find_if(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.x[0] != 0; });
+  ASSERT_NE(bent, surfaces.end());
+  EXPECT_NEAR((bent->header.stamp - surfaces[0].header.stamp).toSec(), 20.0, 1e-6);  // at the change itself
+  EXPECT_EQ(bent->surface, "cylinder_7cm");
+}
+
+TEST_F(BagFile, LeavesNothingBehindWithoutClose) {
+  {
+    BagWriter bag(path_);
+    EXPECT_EQ(filesLeft(), 1u);  // a temporary name
+    EXPECT_FALSE(fs::exists(path_));
+  }
+  EXPECT_EQ(filesLeft(), 0u);
+}
+
+TEST_F(BagFile, CannotHoldTheYear1970AndSaysSo) {
+  fsr::Recording recording = twoSurfaces();
+  recording.start_ns = 0;
+  try {
+    writeBag(path_, recording);
+    FAIL() << "wrote it";
+  } catch (const fsr::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("1_flat.bag"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(filesLeft(), 0u);
+}
+
+TEST_F(BagFile, CannotBeMadeInAFolderThatIsNotThere) {
+  EXPECT_THROW(writeBag((folder_ / "no/1.bag").string(), twoSurfaces()), fsr::InputError);
+}
+
+}  // namespace
+}  // namespace fsr_ros
