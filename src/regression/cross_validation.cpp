@@ -27,33 +27,66 @@ CodeTable tableOf(const Fit& fit, const CodeHistogram& training) {
   return table;
 }
 
+// All sections but `left_out`.
+CodeSamples joined(const std::vector<CodeSamples>& sections, std::size_t left_out) {
+  CodeSamples all;
+  all.full_scale = sections.front().full_scale;
+  for (std::size_t section = 0; section < sections.size(); ++section) {
+    if (section != left_out) all.append(sections[section]);
+  }
+  return all;
+}
+
 }  // namespace
+
+CrossValidatedModel assembleModel(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
+                                  const Fit& whole, std::vector<std::vector<double>> held_out,
+                                  HeldOutDeviation held_out_deviation) {
+  CrossValidatedModel model{tableOf(whole, histogramOf(sections, full_scale)),
+                            std::vector<HeldOutModel>(sections.size())};
+  HeldOutErrors errors(full_scale);
+  for (std::size_t section = 0; section < sections.size(); ++section) {
+    model.held_out[section].pressure = std::move(held_out[section]);
+    const bool trained = !model.held_out[section].pressure.empty();
+    errors.addSection(trained ? sections[section] : CodeStatistics{}, model.held_out[section].pressure);
+  }
+  if (errors.empty()) {
+    for (const CodeStatistics& section : sections) errors.addSection(section, whole.pressure);
+  }
+  model.table.deviation = errors.deviation(whole.pressure);
+  if (held_out_deviation == HeldOutDeviation::kNo) return model;
+  for (std::size_t section = 0; section < sections.size(); ++section) {
+    HeldOutModel& without = model.held_out[section];
+    if (!without.pressure.empty()) without.deviation = errors.deviation(without.pressure, section);
+  }
+  return model;
+}
 
 CrossValidatedModel crossValidate(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
                                   const Regressor& regressor, HeldOutDeviation held_out_deviation) {
   CodeHistogram training = histogramOf(sections, full_scale);
-  const Fit fit = regressor.fit(training);
-  CrossValidatedModel model{tableOf(fit, training), std::vector<HeldOutModel>(sections.size())};
+  const Fit whole = regressor.fit(training);
+  std::vector<std::vector<double>> held_out(sections.size());
+  for (std::size_t section = 0; section < sections.size(); ++section) {
+    training.subtract(sections[section]);
+    if (training.samples() > 0) held_out[section] = regressor.fit(training).pressure;
+    training.add(sections[section]);
+  }
+  return assembleModel(sections, full_scale, whole, std::move(held_out), held_out_deviation);
+}
 
-  HeldOutErrors errors(full_scale);
+CrossValidatedModel crossValidateSamples(const std::vector<CodeSamples>& sections, const Regressor& regressor,
+                                         HeldOutDeviation held_out_deviation) {
+  const std::uint16_t full_scale = sections.front().full_scale;
+  const Fit whole = regressor.fitSamples(joined(sections, sections.size()));
+  std::vector<CodeStatistics> statistics;
+  std::vector<std::vector<double>> held_out(sections.size());
   for (std::size_t section = 0; section < sections.size(); ++section) {
-    const CodeStatistics& held_out = sections[section];
-    training.subtract(held_out);
-    const bool trainable = training.samples() > 0;
-    if (trainable) model.held_out[section].pressure = regressor.fit(training).pressure;
-    errors.addSection(trainable ? held_out : CodeStatistics{}, model.held_out[section].pressure);
-    training.add(held_out);
+    statistics.push_back(statisticsOf(sections[section]));
+    const CodeSamples training = joined(sections, section);
+    if (training.size() > 0) held_out[section] = regressor.fitSamples(training).pressure;
   }
-  if (errors.empty()) {
-    for (const CodeStatistics& section : sections) errors.addSection(section, fit.pressure);
-  }
-  model.table.deviation = errors.deviation(fit.pressure);
-  if (held_out_deviation == HeldOutDeviation::kNo) return model;
-  for (std::size_t section = 0; section < sections.size(); ++section) {
-    HeldOutModel& held_out = model.held_out[section];
-    if (!held_out.pressure.empty()) held_out.deviation = errors.deviation(held_out.pressure, section);
-  }
-  return model;
+  return assembleModel(statistics, full_scale, whole, std::move(held_out), held_out_deviation);
 }
 
 }  // namespace fsr

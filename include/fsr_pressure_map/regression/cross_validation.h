@@ -31,4 +31,14 @@ enum class HeldOutDeviation { kNo, kYes };
 CrossValidatedModel crossValidate(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
                                   const Regressor& regressor, HeldOutDeviation held_out_deviation);
 
+/// The same from single readings, for any regressor.
+CrossValidatedModel crossValidateSamples(const std::vector<CodeSamples>& sections, const Regressor& regressor,
+                                         HeldOutDeviation held_out_deviation);
+
+/// What crossValidate() makes of models that the caller has trained: `whole` on all sections,
+/// `held_out` [one for each section] without that section, empty where nothing was left to train on.
+CrossValidatedModel assembleModel(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
+                                  const Fit& whole, std::vector<std::vector<double>> held_out,
+                                  HeldOutDeviation held_out_deviation);
+
 }  // namespace fsr

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "fsr_pressure_map/regression/code_samples.h"
 #include "fsr_pressure_map/regression/code_statistics.h"
 
 namespace fsr {
@@ -22,8 +23,20 @@ class Regressor {
 
   /// The readable id that files and options use, e.g. "grnn".
   virtual std::string name() const = 0;
+
+  /// Whether the sums of each code suffice: then a calibration file can take in further bags by
+  /// addition. Where not, the model needs the bags, and fit() throws InputError that says so.
+  virtual bool mergeable() const { return true; }
+
   /// `training` holds at least one sample. Thread-safe.
   virtual Fit fit(const CodeHistogram& training) const = 0;
+
+  /// The same from single readings. `training` holds at least one. Thread-safe.
+  virtual Fit fitSamples(const CodeSamples& training) const;
+
+ protected:
+  /// For the fit() of models that are not mergeable.
+  [[noreturn]] void refuseSums() const;
 };
 
 }  // namespace fsr

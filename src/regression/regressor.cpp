@@ -1,0 +1,18 @@
+#include "fsr_pressure_map/regression/regressor.h"
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+Fit Regressor::fitSamples(const CodeSamples& training) const {
+  CodeHistogram histogram(training.full_scale);
+  histogram.add(statisticsOf(training));
+  return fit(histogram);
+}
+
+void Regressor::refuseSums() const {
+  throw InputError("model " + name() +
+                   " needs the bags themselves: the sums that a calibration file keeps do not suffice");
+}
+
+}  // namespace fsr

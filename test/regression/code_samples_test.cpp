@@ -1,0 +1,56 @@
+#include "fsr_pressure_map/regression/code_samples.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "fsr_pressure_map/regression/cross_validation.h"
+#include "fsr_pressure_map/regression/grnn.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+namespace {
+
+constexpr std::uint16_t kFullScale = 4095;
+
+CodeSamples randomSamples(std::size_t number, unsigned seed) {
+  std::mt19937 random(seed);
+  CodeSamples samples;
+  samples.full_scale = kFullScale;
+  for (std::size_t i = 0; i < number; ++i) {
+    const auto code = static_cast<std::uint16_t>(100 + random() % 800);
+    samples.add(code, toFixed(100.0 * code + static_cast<double>(random() % 5000)));
+  }
+  return samples;
+}
+
+TEST(CodeSamples, AnImpossibleSetIsRefused) {
+  CodeSamples samples = randomSamples(3, 1);
+  EXPECT_NO_THROW(validate(samples));
+  samples.curvature = {1.0};
+  EXPECT_THROW(validate(samples), InputError);
+  samples.curvature = {1.0, 2.0, 3.0};
+  EXPECT_NO_THROW(validate(samples));
+  samples.code[1] = 4096;
+  EXPECT_THROW(validate(samples), InputError);
+}
+
+TEST(CodeSamples, CrossValidationOnSamplesAndOnSumsAgreesBitForBit) {
+  std::vector<CodeSamples> sections;
+  std::vector<CodeStatistics> sums;
+  for (unsigned k = 0; k < 4; ++k) {
+    sections.push_back(randomSamples(k == 2 ? 0 : 400, k));
+    sums.push_back(statisticsOf(sections.back()));
+  }
+  const CrossValidatedModel a = crossValidateSamples(sections, Grnn(), HeldOutDeviation::kYes);
+  const CrossValidatedModel b = crossValidate(sums, kFullScale, Grnn(), HeldOutDeviation::kYes);
+  EXPECT_EQ(a.table.pressure, b.table.pressure);
+  EXPECT_EQ(a.table.deviation, b.table.deviation);
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    EXPECT_EQ(a.held_out[k].pressure, b.held_out[k].pressure);
+    EXPECT_EQ(a.held_out[k].deviation, b.held_out[k].deviation);
+  }
+}
+
+}  // namespace
+}  // namespace fsr
