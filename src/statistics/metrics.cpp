@@ -36,21 +36,13 @@ double sampleDeviation(const std::vector<double>& values, double mean) {
   return std::sqrt(squaresAbout(values, mean) / static_cast<double>(values.size() - 1));
 }
 
-// Errors of one bin (or of all) while they are being collected.
-struct Collected {
-  std::vector<double> loading;
-  std::vector<double> unloading;
-  std::vector<double> all;
+using Lists = std::vector<const std::vector<float>*>;
 
-  void add(double error, LoadDirection direction) {
-    all.push_back(error);
-    if (direction == LoadDirection::kLoading) loading.push_back(error);
-    if (direction == LoadDirection::kUnloading) unloading.push_back(error);
-  }
-  BinnedErrors::Directions summarise() const {
-    return {summariseErrors(all), summariseErrors(loading), summariseErrors(unloading)};
-  }
-};
+ErrorSummary summaryOf(const Lists& lists) {
+  std::vector<double> errors;
+  for (const std::vector<float>* list : lists) errors.insert(errors.end(), list->begin(), list->end());
+  return summariseErrors(errors);
+}
 
 }  // namespace
 
@@ -95,17 +87,27 @@ ErrorSummary summariseErrors(const std::vector<double>& errors) {
   return summary;
 }
 
-BinnedErrors binErrors(const std::vector<float>& errors, const std::vector<float>& reference,
-                       const std::vector<LoadDirection>& direction) {
-  Collected whole;
-  std::array<Collected, kPressureBins> bins;
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    whole.add(errors[i], direction[i]);
-    bins[pressureBin(reference[i])].add(errors[i], direction[i]);
+std::size_t ErrorBins::count() const {
+  std::size_t count = 0;
+  for (const auto& bin : errors_) {
+    for (const auto& list : bin) count += list.size();
   }
+  return count;
+}
+
+BinnedErrors ErrorBins::summarise() const {
   BinnedErrors binned;
-  binned.whole = whole.summarise();
-  for (std::size_t bin = 0; bin < kPressureBins; ++bin) binned.bins[bin] = bins[bin].summarise();
+  Lists all, loading, unloading;
+  for (std::size_t bin = 0; bin < kPressureBins; ++bin) {
+    const auto& none = errors_[bin][static_cast<std::size_t>(LoadDirection::kNone)];
+    const auto& up = errors_[bin][static_cast<std::size_t>(LoadDirection::kLoading)];
+    const auto& down = errors_[bin][static_cast<std::size_t>(LoadDirection::kUnloading)];
+    binned.bins[bin] = {summaryOf({&none, &up, &down}), summaryOf({&up}), summaryOf({&down})};
+    all.insert(all.end(), {&none, &up, &down});
+    loading.push_back(&up);
+    unloading.push_back(&down);
+  }
+  binned.whole = {summaryOf(all), summaryOf(loading), summaryOf(unloading)};
   return binned;
 }
 

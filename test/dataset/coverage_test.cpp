@@ -8,9 +8,9 @@
 namespace fsr {
 namespace {
 
-using test::syntheticRecording;
-using test::SyntheticRig;
-using test::SyntheticSurface;
+using test_support::syntheticRecording;
+using test_support::SyntheticRig;
+using test_support::SyntheticSurface;
 
 Recording bag(const std::string& name, const std::vector<SyntheticSurface>& surfaces,
               std::size_t cycles = 5) {

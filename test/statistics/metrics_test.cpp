@@ -92,10 +92,14 @@ TEST(PressureBins, AreNamedInKilopascal) {
   EXPECT_EQ(pressureBinName(4), "400+");
 }
 
-TEST(BinnedErrors, KeepBinsAndDirectionsApart) {
-  using D = LoadDirection;
-  const BinnedErrors binned = binErrors({1e3f, -1e3f, 3e3f, 7e3f}, {10e3f, 20e3f, 60e3f, 500e3f},
-                                        {D::kLoading, D::kUnloading, D::kLoading, D::kNone});
+TEST(ErrorBins, KeepBinsAndDirectionsApart) {
+  ErrorBins bins;
+  bins.add(1e3f, 10e3, LoadDirection::kLoading);
+  bins.add(-1e3f, 20e3, LoadDirection::kUnloading);
+  bins.add(3e3f, 60e3, LoadDirection::kLoading);
+  bins.add(7e3f, 500e3, LoadDirection::kNone);
+  EXPECT_EQ(bins.count(), 4u);
+  const BinnedErrors binned = bins.summarise();
   EXPECT_EQ(binned.whole.all.count, 4u);
   EXPECT_EQ(binned.whole.loading.count, 2u);
   EXPECT_EQ(binned.whole.unloading.bias, -1e3);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-namespace fsr::test {
+namespace test_support {
 
 double trianglePressure(double phase, double peak) {
   return peak * (1.0 - std::abs(2.0 * (phase - std::floor(phase)) - 1.0));
@@ -16,8 +16,8 @@ double syntheticReading(const SyntheticRig& rig, std::size_t taxel, double curva
   return rig.full_scale * gain * std::sqrt((std::max(pressure, 0.0) + preload) / (rig.peak + 60e3));
 }
 
-Recording syntheticRecording(const SyntheticRig& rig) {
-  Recording recording;
+fsr::Recording syntheticRecording(const SyntheticRig& rig) {
+  fsr::Recording recording;
   recording.name = rig.name;
   recording.sha256 = std::string(64, 'a');
   recording.sensor.sensor_id = "matrix_a";
@@ -28,7 +28,7 @@ Recording syntheticRecording(const SyntheticRig& rig) {
   std::uniform_real_distribution<double> noise(-rig.noise, rig.noise);
   for (std::size_t s = 0; s < rig.surfaces.size(); ++s) {
     const double curvature = rig.surfaces[s].curvature;
-    recording.conditions.push_back({rig.surfaces[s].name, 1, {Curvature{curvature, 0, 0}}, {}});
+    recording.conditions.push_back({rig.surfaces[s].name, 1, {fsr::Curvature{curvature, 0, 0}}, {}});
     for (std::size_t i = 0; i < rig.cycles * rig.scans_per_cycle; ++i) {
       const double phase = static_cast<double>(i) / static_cast<double>(rig.scans_per_cycle);
       const double pressure = trianglePressure(phase, rig.peak);
@@ -47,4 +47,4 @@ Recording syntheticRecording(const SyntheticRig& rig) {
   return recording;
 }
 
-}  // namespace fsr::test
+}  // namespace test_support

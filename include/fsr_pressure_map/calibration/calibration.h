@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "fsr_pressure_map/calibration/scores.h"
+#include "fsr_pressure_map/calibration/trained_ranges.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
 #include "fsr_pressure_map/compensation/training_statistics.h"
 #include "fsr_pressure_map/dataset/coverage.h"
@@ -28,21 +30,6 @@ struct CalibrationOptions {
 struct CalibrationProblem {
   std::vector<Recording> recordings;
   CalibrationOptions options;
-};
-
-/// Lowest and highest value over training; NaN = not recorded.
-struct TrainedInterval {
-  double low = std::numeric_limits<double>::quiet_NaN();
-  double high = std::numeric_limits<double>::quiet_NaN();
-
-  bool known() const { return low <= high; }  // false for NaN
-};
-
-struct TrainedRanges {
-  TrainedInterval pressure;       ///< chamber, gauge [Pa]
-  TrainedInterval pressure_rate;  ///< of the chamber over one second, negative while venting [Pa/s]
-  TrainedInterval curvature;      ///< principal curvature, of all taxels [1/m]
-  TrainedInterval temperature;    ///< [degree Celsius]
 };
 
 struct SourceBag {
@@ -82,8 +69,11 @@ struct Calibration {
 /// Throws InputError: one sentence that names the first thing in the way and what would be right.
 void validate(const CalibrationProblem& problem);
 
+/// Called after each taxel, from one thread at a time.
+using CalibrationProgress = std::function<void(std::size_t done, std::size_t taxels)>;
+
 /// Bags in -> tables, scores, provenance out. Validates first. The same numbers on any number of
 /// threads.
-Calibration calibrate(const CalibrationProblem& problem);
+Calibration calibrate(const CalibrationProblem& problem, const CalibrationProgress& progress = {});
 
 }  // namespace fsr

@@ -26,6 +26,7 @@ SchemePlan planScheme(Scheme scheme, const std::vector<CurvatureClass>& classes)
 
 /// The models of one taxel, in the plan's order.
 std::vector<CrossValidatedModel> fitTaxel(const SchemePlan& plan, const TrainingStatistics& statistics,
-                                          std::size_t taxel, const Regressor& regressor);
+                                          std::size_t taxel, const Regressor& regressor,
+                                          HeldOutDeviation held_out_deviation);
 
 }  // namespace fsr

@@ -50,9 +50,20 @@ struct BinnedErrors {
   std::array<Directions, kPressureBins> bins;
 };
 
-/// One value per reading in each list: error [Pa], reference [Pa], direction.
-BinnedErrors binErrors(const std::vector<float>& errors, const std::vector<float>& reference,
-                       const std::vector<LoadDirection>& direction);
+/// Collects errors bin by bin.
+class ErrorBins {
+ public:
+  /// `error` and `reference` in Pa.
+  void add(float error, double reference, LoadDirection direction) {
+    errors_[pressureBin(reference)][static_cast<std::size_t>(direction)].push_back(error);
+  }
+  std::size_t count() const;
+  BinnedErrors summarise() const;
+
+ private:
+  static constexpr std::size_t kDirections = 3;
+  std::array<std::array<std::vector<float>, kDirections>, kPressureBins> errors_;
+};
 
 /// Mean and sample deviation over taxels. NaN values are left out; NaN where nothing is left
 /// (deviation: where fewer than two are).

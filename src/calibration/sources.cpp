@@ -1,0 +1,67 @@
+#include "fsr_pressure_map/calibration/sources.h"
+
+#include <ctime>
+
+namespace fsr {
+
+namespace {
+
+std::string now() {
+  const std::time_t time = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&time, &utc);
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+}  // namespace
+
+Provenance provenanceOf(const std::vector<Recording>& recordings, const CalibrationOptions& options) {
+  Provenance provenance;
+  provenance.tool_version = FSR_VERSION;
+  provenance.date = options.date.empty() ? now() : options.date;
+  provenance.seed = options.seed;
+  for (const Recording& recording : recordings) {
+    provenance.bags.push_back({recording.name, recording.sha256, recording.scans()});
+  }
+  return provenance;
+}
+
+SensorIdentity identityOf(const std::vector<Recording>& recordings) {
+  SensorIdentity identity;
+  const auto fill = [](std::string& field, const std::string& value) {
+    if (field.empty()) field = value;
+  };
+  for (const Recording& recording : recordings) {
+    fill(identity.sensor_id, recording.sensor.sensor_id);
+    fill(identity.serial, recording.sensor.serial);
+    fill(identity.firmware, recording.sensor.firmware);
+    fill(identity.model, recording.sensor.model);
+    fill(identity.sealing, recording.sensor.sealing);
+    fill(identity.transducer, recording.sensor.transducer);
+  }
+  return identity;
+}
+
+std::vector<std::uint8_t> unionOfMasks(const std::vector<Recording>& recordings, std::size_t taxels) {
+  std::vector<std::uint8_t> mask(taxels, 0);
+  for (const Recording& recording : recordings) {
+    for (std::size_t taxel = 0; taxel < recording.mask.size(); ++taxel) mask[taxel] |= recording.mask[taxel];
+  }
+  return mask;
+}
+
+std::vector<std::string> warningsOf(const std::vector<Recording>& recordings,
+                                    const std::vector<Sections>& sections) {
+  std::vector<std::string> warnings;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    for (const std::string& warning : recordings[r].warnings) {
+      warnings.push_back(recordings[r].name + ": " + warning);
+    }
+    warnings.insert(warnings.end(), sections[r].warnings.begin(), sections[r].warnings.end());
+  }
+  return warnings;
+}
+
+}  // namespace fsr

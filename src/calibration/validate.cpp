@@ -1,0 +1,109 @@
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "fsr_pressure_map/calibration/calibration.h"
+#include "fsr_pressure_map/compensation/scheme_plan.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr std::size_t kFewestFolds = 2;
+constexpr std::size_t kMostFolds = 20;
+// Below this a chamber has not moved, it is the transducer's noise [Pa].
+constexpr double kLeastPressureRange = 2e3;
+
+std::string scansOf(std::uint64_t number, const std::string& what) {
+  return number == 0 ? "" : ", " + std::to_string(number) + " " + what;
+}
+
+std::string whyNoScan(const RecordingLosses& losses) {
+  const std::string why = scansOf(losses.near_change, "were made within 1 s of a change of surface") +
+                          scansOf(losses.no_reference, "lie in a gap of chamber_pressure") +
+                          scansOf(losses.unknown_surface, "on a surface of unknown curvature");
+  return why.empty() ? "" : ":" + why.substr(1);
+}
+
+void requireWhole(const Recording& recording) {
+  const auto refuse = [&](const std::string& what) { throw InputError(recording.name + ": " + what); };
+  if (recording.scans() == 0) refuse("no scan is left to train on" + whyNoScan(recording.losses));
+  if (recording.pressure.empty()) {
+    refuse("no chamber pressure is recorded, but training needs the topic chamber_pressure");
+  }
+  const bool whole = recording.counts.size() == recording.scans() * recording.layout.size.taxels() &&
+                     recording.pressure.size() == recording.scans() &&
+                     recording.condition.size() == recording.scans() &&
+                     (recording.mask.empty() || recording.mask.size() == recording.layout.size.taxels()) &&
+                     (recording.temperature.empty() || recording.temperature.size() == recording.scans());
+  if (!whole) refuse("counts, pressure, temperature, condition and mask do not fit each other");
+}
+
+void requirePressures(const Recording& recording) {
+  std::vector<std::size_t> usable(recording.conditions.size());
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    if (!std::isfinite(recording.pressure[i])) continue;
+    if (std::abs(recording.pressure[i]) > kLargestPressure) {
+      throw InputError(recording.name + ": chamber pressure is " + std::to_string(recording.pressure[i]) +
+                       " Pa, but must lie within +-8000000 Pa gauge");
+    }
+    ++usable.at(recording.condition[i]);
+  }
+  for (std::size_t c = 0; c < usable.size(); ++c) {
+    if (usable[c] == 0) {
+      throw InputError(recording.name + ": no scan on \"" + recording.conditions[c].name +
+                       "\" has a chamber pressure");
+    }
+  }
+}
+
+void requireSameMatrix(const Recording& first, const Recording& other) {
+  const auto refuse = [&](const std::string& what, const std::string& own, const std::string& that) {
+    throw InputError(other.name + ": " + what + " is " + own + ", but that of " + first.name + " is " + that +
+                     "; a calibration is of one matrix");
+  };
+  if (other.layout.size != first.layout.size) {
+    refuse("the matrix", sizeText(other.layout.size), sizeText(first.layout.size));
+  }
+  if (other.full_scale != first.full_scale) {
+    refuse("full_scale", std::to_string(other.full_scale), std::to_string(first.full_scale));
+  }
+  const std::string& serial = other.sensor.serial;
+  if (!serial.empty() && !first.sensor.serial.empty() && serial != first.sensor.serial) {
+    refuse("the serial number", '"' + serial + '"', '"' + first.sensor.serial + '"');
+  }
+}
+
+void requireChange(const std::vector<Recording>& recordings) {
+  TrainedInterval pressure;
+  for (const Recording& recording : recordings) {
+    for (const double value : recording.pressure) {
+      if (std::isfinite(value)) pressure.include(value);
+    }
+  }
+  if (pressure.high - pressure.low >= kLeastPressureRange) return;
+  std::ostringstream text;
+  text << recordings.front().name << ": the chamber pressure never changes (" << pressure.low << " to "
+       << pressure.high << " Pa gauge), but training needs cycles";
+  throw InputError(text.str());
+}
+
+}  // namespace
+
+void validate(const CalibrationProblem& problem) {
+  const CalibrationOptions& options = problem.options;
+  const std::vector<Recording>& recordings = problem.recordings;
+  Grnn{options.bandwidth};  // refuses one that cannot be
+  if (options.folds < kFewestFolds || options.folds > kMostFolds) {
+    throw InputError("folds is " + std::to_string(options.folds) + ", but must be 2 to 20");
+  }
+  if (recordings.empty()) throw InputError("there is no recording to train on; give one bag or more");
+  for (const Recording& recording : recordings) requireWhole(recording);
+  for (const Recording& recording : recordings) requireSameMatrix(recordings.front(), recording);
+  for (const Recording& recording : recordings) requirePressures(recording);
+  requireChange(recordings);
+  planScheme(options.scheme, poolConditions(recordings).classes);
+}
+
+}  // namespace fsr

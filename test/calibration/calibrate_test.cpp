@@ -1,0 +1,306 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fsr_pressure_map/calibration/calibration.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "support/synthetic_recording.h"
+
+namespace fsr {
+namespace {
+
+using test_support::syntheticReading;
+using test_support::syntheticRecording;
+using test_support::SyntheticRig;
+
+SyntheticRig threeSurfaces() {
+  SyntheticRig rig;
+  rig.surfaces = {{"flat", 0.0}, {"cylinder_10cm", 10.0}, {"cylinder_5cm", 20.0}};
+  rig.cycles = 10;
+  return rig;
+}
+
+Calibration train(const std::vector<Recording>& recordings, Scheme scheme, unsigned threads = 2) {
+  CalibrationProblem problem{recordings, {}};
+  problem.options.scheme = scheme;
+  problem.options.threads = threads;
+  problem.options.date = "2024-05-06T07:08:09Z";
+  return calibrate(problem);
+}
+
+void expectSameTables(const Calibration& a, const Calibration& b) {
+  ASSERT_EQ(a.tables.tables.size(), b.tables.tables.size());
+  for (std::size_t i = 0; i < a.tables.tables.size(); ++i) {
+    EXPECT_EQ(a.tables.tables[i].pressure, b.tables.tables[i].pressure);
+    EXPECT_EQ(a.tables.tables[i].deviation, b.tables.tables[i].deviation);
+    EXPECT_EQ(a.tables.tables[i].support, b.tables.tables[i].support);
+  }
+  EXPECT_EQ(a.statistics.cells, b.statistics.cells);
+}
+
+TEST(Calibrate, RecoversTheCurveOfEachTaxelAndSurface) {
+  const SyntheticRig rig = threeSurfaces();
+  const Calibration calibration = train({syntheticRecording(rig)}, Scheme::kPerCurvature);
+  ASSERT_EQ(calibration.tables.classes.size(), 3u);
+  for (std::size_t taxel = 0; taxel < rig.size.taxels(); ++taxel) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double curvature = calibration.tables.classes[c].at(taxel);
+      for (const double pressure : {100e3, 250e3, 500e3}) {
+        const auto code =
+            static_cast<std::size_t>(std::lround(syntheticReading(rig, taxel, curvature, pressure)));
+        // 10 counts of noise are some 4 kPa
+        EXPECT_NEAR(calibration.tables.table(taxel, c).pressure[code], pressure, 6e3);
+      }
+    }
+  }
+}
+
+TEST(Calibrate, PerCurvatureBeatsTheOthersOnABend) {
+  const Recording recording = syntheticRecording(threeSurfaces());
+  const auto rmse = [&](Scheme scheme, std::size_t condition) {
+    return train({recording}, scheme).scores.conditions.at(condition).score.errors.whole.all.rmse;
+  };
+  for (const std::size_t bent : {std::size_t{1}, std::size_t{2}}) {
+    EXPECT_LT(rmse(Scheme::kPerCurvature, bent), 0.5 * rmse(Scheme::kBaseline, bent));
+    EXPECT_LT(rmse(Scheme::kPerCurvature, bent), 0.5 * rmse(Scheme::kFlatOnly, bent));
+  }
+  EXPECT_DOUBLE_EQ(rmse(Scheme::kPerCurvature, 0), rmse(Scheme::kFlatOnly, 0));
+}
+
+// One taxel, one surface, five cycles of 40 scans; nothing random, so that numpy can make it too.
+Recording plainRecording() {
+  SyntheticRig rig;
+  rig.size = {1, 1};
+  rig.scans_per_cycle = 40;
+  rig.surfaces = {{"flat", 0.0}};
+  Recording recording = syntheticRecording(rig);
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    recording.pressure[i] *= (600e3 - 7e3 * static_cast<double>(i / 40)) / 600e3;
+    const double curve = std::round(3000.0 * std::sqrt(recording.pressure[i] / 600e3));
+    recording.counts[i] = static_cast<std::uint16_t>(curve + static_cast<double>((7 * i) % 23 + 10));
+  }
+  return recording;
+}
+
+TEST(Calibrate, ScoresAgreeWithNumpy) {
+  // /usr/bin/python3, numpy 1.24.2:
+  //   i = np.arange(200); phase = i/40 - np.floor(i/40); P = (600e3 - 7e3*(i//40)) * (1 - abs(2*phase - 1))
+  //   c = np.round(3000*np.sqrt(P/600e3)) + (7*i) % 23 + 10; for each k of 5: tr = i//40 != k; te = ~tr
+  //   s = c[tr].std(ddof=1)/128; d2 = (c[te][:,None] - c[tr][None,:])**2
+  //   w = np.exp(-(d2 - d2.min(1)[:,None])/(2*s*s)); e = (w*P[tr]).sum(1)/w.sum(1) - P[te]
+  //   1 - (e**2).sum()/((P[te] - P[te].mean())**2).sum(), 100*np.sqrt((e**2).mean())/np.ptp(P[te])
+  const Calibration calibration = train({plainRecording()}, Scheme::kPerCurvature);
+  const Score& score = calibration.scores.conditions.at(0).score;
+  constexpr double kFloats = 1e-6;  // errors are kept as float
+  EXPECT_EQ(score.readings, 200u);
+  EXPECT_NEAR(score.r2.mean, 0.9996377810800968, 1e-12);
+  EXPECT_NEAR(score.rmse_percent.mean, 0.546316463181373, 1e-10);
+  EXPECT_NEAR(score.errors.whole.all.bias / 138.91794813221003, 1.0, 1e-4);
+  EXPECT_NEAR(score.errors.whole.all.rmse / 3229.6072795833493, 1.0, kFloats);
+  EXPECT_NEAR(score.errors.whole.all.p95_absolute / 6223.0353963733605, 1.0, kFloats);
+  EXPECT_EQ(score.errors.bins[3].all.count, 70u);  // 200 to 400 kPa
+  EXPECT_NEAR(score.errors.bins[3].all.rmse / 3121.2481058056596, 1.0, kFloats);
+  EXPECT_EQ(score.worst_taxel, 0u);
+  EXPECT_DOUBLE_EQ(calibration.scores.whole.rmse_percent.mean, score.rmse_percent.mean);
+}
+
+TEST(Calibrate, GivesTheSameNumbersOnAnyNumberOfThreads) {
+  const Recording recording = syntheticRecording(threeSurfaces());
+  const Calibration one = train({recording}, Scheme::kPerCurvature, 1);
+  const Calibration four = train({recording}, Scheme::kPerCurvature, 4);
+  expectSameTables(one, four);
+  EXPECT_EQ(one.scores.whole.errors.whole.all.rmse, four.scores.whole.errors.whole.all.rmse);
+  EXPECT_EQ(one.scores.whole.within_one_deviation, four.scores.whole.within_one_deviation);
+}
+
+TEST(Calibrate, GivesTheSameTablesInAnyOrderOfTheBags) {
+  SyntheticRig rig = threeSurfaces();
+  rig.seed = 2;
+  const Recording first = syntheticRecording(rig);
+  rig.seed = 3;
+  rig.surfaces.pop_back();
+  const Recording second = syntheticRecording(rig);
+  expectSameTables(train({first, second}, Scheme::kPerCurvature),
+                   train({second, first}, Scheme::kPerCurvature));
+  expectSameTables(train({first, second}, Scheme::kBaseline), train({second, first}, Scheme::kBaseline));
+}
+
+TEST(Calibrate, TheStatedDeviationHoldsForHeldOutReadings) {
+  SyntheticRig rig = threeSurfaces();
+  rig.loop = 60.0;  // loading and unloading are two curves
+  const Calibration calibration = train({syntheticRecording(rig)}, Scheme::kPerCurvature);
+  for (const ConditionScore& condition : calibration.scores.conditions) {
+    EXPECT_GT(condition.score.within_one_deviation, 0.63);
+    EXPECT_LT(condition.score.within_one_deviation, 0.73);
+  }
+}
+
+TEST(Calibrate, FlatOnlyKnowsOnlyTheFlatSurface) {
+  const Recording recording = syntheticRecording(threeSurfaces());
+  const Calibration flat = train({recording}, Scheme::kFlatOnly);
+  const Calibration each = train({recording}, Scheme::kPerCurvature);
+  ASSERT_EQ(flat.tables.classes.size(), 1u);
+  EXPECT_EQ(flat.tables.classes[0].surface, "flat");
+  EXPECT_EQ(flat.tables.table(4, 0).pressure, each.tables.table(4, 0).pressure);
+  EXPECT_EQ(flat.tables.curvature_high, 0.0);
+  EXPECT_EQ(each.tables.curvature_high, 20.0);
+  ASSERT_EQ(flat.scores.conditions.size(), 3u);
+  EXPECT_TRUE(flat.scores.conditions[0].trained);
+  EXPECT_FALSE(flat.scores.conditions[2].trained);
+  EXPECT_EQ(flat.statistics.classes.size(), 3u);  // the file keeps what the bags held
+}
+
+TEST(Calibrate, WithoutScoresTheTablesAreTheSame) {
+  CalibrationProblem problem{{syntheticRecording(threeSurfaces())}, {}};
+  const Calibration scored = calibrate(problem);
+  problem.options.scores = false;
+  const Calibration bare = calibrate(problem);
+  expectSameTables(scored, bare);
+  EXPECT_TRUE(bare.scores.conditions.empty());
+}
+
+TEST(Calibrate, SaysWhereItComesFrom) {
+  SyntheticRig rig = threeSurfaces();
+  Recording recording = syntheticRecording(rig);
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    recording.temperature.push_back(20.0 + 1e-3 * static_cast<double>(i));
+  }
+  recording.warnings.push_back("something to know");
+  const Calibration calibration = train({recording}, Scheme::kPerCurvature);
+  EXPECT_EQ(calibration.provenance.date, "2024-05-06T07:08:09Z");
+  EXPECT_EQ(calibration.provenance.bags.at(0).name, "synthetic.bag");
+  EXPECT_EQ(calibration.provenance.bags[0].scans, 3000u);
+  EXPECT_EQ(calibration.sensor.serial, "0001");
+  EXPECT_EQ(calibration.trained.pressure.high, 600e3);
+  EXPECT_NEAR(calibration.trained.pressure_rate.high, 120e3, 1.0);  // 600 kPa in 5 s
+  EXPECT_NEAR(calibration.trained.pressure_rate.low, -120e3, 1.0);
+  EXPECT_NEAR(calibration.trained.temperature.high, 22.999, 1e-9);
+  EXPECT_EQ(calibration.coverage.conditions.size(), 3u);
+  EXPECT_EQ(calibration.warnings, std::vector<std::string>{"synthetic.bag: something to know"});
+}
+
+void holdConstant(Recording& recording, std::size_t taxel) {
+  const std::size_t taxels = recording.layout.size.taxels();
+  for (std::size_t i = 0; i < recording.scans(); ++i) recording.counts[i * taxels + taxel] = 7;
+}
+
+TEST(Calibrate, AConstantTaxelGetsNoModelAndAWarning) {
+  Recording recording = syntheticRecording(threeSurfaces());
+  recording.mask = {0, 1, 0, 0, 0, 0};
+  holdConstant(recording, 3);
+  const Calibration calibration = train({recording}, Scheme::kPerCurvature);
+  EXPECT_EQ(calibration.no_model, (std::vector<std::uint8_t>{0, 1, 0, 1, 0, 0}));
+  EXPECT_TRUE(std::isnan(calibration.tables.table(1, 0).pressure[100]));
+  EXPECT_TRUE(std::isnan(calibration.tables.table(3, 2).deviation[100]));
+  EXPECT_EQ(
+      calibration.warnings.back(),
+      "these taxels (row * columns + column) read the same count throughout a condition and get no model: 3");
+  EXPECT_EQ(calibration.scores.whole.readings, 3000u * 4);
+}
+
+TEST(Calibrate, ShortRecordingsAreCalibratedWithAWarning) {
+  SyntheticRig rig;
+  rig.cycles = 1;
+  rig.scans_per_cycle = 3;
+  const Calibration calibration = train({syntheticRecording(rig)}, Scheme::kPerCurvature);
+  for (const float pressure : calibration.tables.table(0, 0).pressure) EXPECT_TRUE(std::isfinite(pressure));
+  for (const float deviation : calibration.tables.table(0, 0).deviation) EXPECT_GT(deviation, 0.0f);
+  EXPECT_EQ(calibration.warnings.size(), 1u);
+}
+
+TEST(Calibrate, ScansWithoutAPressureAreLeftOut) {
+  const Recording whole = syntheticRecording(threeSurfaces());
+  Recording holed = whole;
+  holed.pressure[1] = std::nan("");
+  const Calibration calibration = train({holed}, Scheme::kPerCurvature);
+  EXPECT_EQ(calibration.scores.whole.readings, 2999u * 6);
+  EXPECT_EQ(calibration.trained.pressure.high, 600e3);
+}
+
+TEST(Calibrate, ReportsItsProgress) {
+  std::vector<std::size_t> steps;
+  calibrate({{plainRecording()}, {}}, [&](std::size_t done, std::size_t taxels) {
+    steps.push_back(done);
+    EXPECT_EQ(taxels, 1u);
+  });
+  EXPECT_EQ(steps, std::vector<std::size_t>{1});
+}
+
+std::string complaint(const CalibrationProblem& problem) {
+  try {
+    calibrate(problem);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Calibrate, WhatCannotBeTrainedOnIsRefusedInOneSentence) {
+  const Recording good = syntheticRecording({});
+  Recording bad = good;
+  bad.name = "bad.bag";
+  const auto refusal = [&](Recording recording) { return complaint({{good, recording}, {}}); };
+
+  EXPECT_EQ(complaint({{}, {}}), "there is no recording to train on; give one bag or more");
+  Recording other = bad;
+  other.pressure.clear();
+  EXPECT_EQ(refusal(other),
+            "bad.bag: no chamber pressure is recorded, but training needs the topic chamber_pressure");
+  other = bad;
+  other.conditions[0].curvature.clear();
+  EXPECT_EQ(refusal(other), "bad.bag: no curvature is recorded, but training needs the topic curvature");
+  SyntheticRig wide;
+  wide.name = "wide.bag";
+  wide.size = {3, 3};
+  EXPECT_EQ(
+      refusal(syntheticRecording(wide)),
+      "wide.bag: the matrix is 3 x 3, but that of synthetic.bag is 2 x 3; a calibration is of one matrix");
+  other = bad;
+  other.full_scale = 1023;
+  EXPECT_EQ(refusal(other),
+            "bad.bag: full_scale is 1023, but that of synthetic.bag is 4095; a calibration is of one matrix");
+  other = bad;
+  other.sensor.serial = "0002";
+  EXPECT_EQ(
+      refusal(other),
+      "bad.bag: the serial number is \"0002\", but that of synthetic.bag is \"0001\"; a calibration is of "
+      "one matrix");
+  other = bad;
+  std::fill(other.pressure.begin(), other.pressure.end(), 3e3);
+  EXPECT_EQ(complaint({{other}, {}}),
+            "bad.bag: the chamber pressure never changes (3000 to 3000 Pa gauge), but training needs cycles");
+  other = bad;
+  std::fill(other.pressure.begin(), other.pressure.end(), std::nan(""));
+  EXPECT_EQ(refusal(other), "bad.bag: no scan on \"flat\" has a chamber pressure");
+  other = bad;
+  other.pressure[7] = 1e9;
+  EXPECT_EQ(refusal(other),
+            "bad.bag: chamber pressure is 1000000000.000000 Pa, but must lie within +-8000000 Pa gauge");
+  other = Recording{};
+  other.name = "bad.bag";
+  other.losses.near_change = 12;
+  EXPECT_EQ(refusal(other),
+            "bad.bag: no scan is left to train on: 12 were made within 1 s of a change of surface");
+}
+
+TEST(Calibrate, OptionsOutOfRangeAreRefused) {
+  CalibrationProblem problem{{syntheticRecording({})}, {}};
+  problem.options.folds = 1;
+  EXPECT_EQ(complaint(problem), "folds is 1, but must be 2 to 20");
+  problem.options.folds = 5;
+  problem.options.bandwidth = 0;
+  EXPECT_EQ(complaint(problem),
+            "bandwidth is 0, but must be 1e-06 to 1000 standard deviations of the readings");
+}
+
+TEST(Calibrate, AMatrixThatReadsNothingIsRefused) {
+  Recording recording = syntheticRecording({});
+  for (std::size_t taxel = 0; taxel < 6; ++taxel) holdConstant(recording, taxel);
+  EXPECT_EQ(
+      complaint({{recording}, {}}),
+      "synthetic.bag: every taxel is masked or reads the same count throughout; is the matrix connected?");
+}
+
+}  // namespace
+}  // namespace fsr
