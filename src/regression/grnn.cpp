@@ -5,6 +5,7 @@
 #include <cstring>
 #include <sstream>
 
+#include "fsr_pressure_map/regression/weighted_codes.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/settings/range.h"
 
@@ -33,47 +34,8 @@ using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 // of them keep full precision.
 constexpr double kLargestExponent = 600.0;
 
-// The codes that occur, in ascending order.
-struct Samples {
-  std::vector<std::ptrdiff_t> code;
-  std::vector<double> count;
-  std::vector<double> sum;  // [Pa]
-};
-
-Samples occupied(const CodeHistogram& training) {
-  const std::size_t codes = training.count().size();
-  Samples samples{std::vector<std::ptrdiff_t>(codes), std::vector<double>(codes), std::vector<double>(codes)};
-  std::size_t found = 0;  // every code is written, and kept where it occurs: no branch to mispredict
-  for (std::size_t code = 0; code < codes; ++code) {
-    samples.code[found] = static_cast<std::ptrdiff_t>(code);
-    samples.count[found] = static_cast<double>(training.count()[code]);
-    samples.sum[found] = fromFixed(training.sum()[code]);
-    found += training.count()[code] != 0;
-  }
-  samples.code.resize(found);
-  samples.count.resize(found);
-  samples.sum.resize(found);
-  return samples;
-}
-
-// Sample deviation of the readings [counts], from exact integer sums; 0 for a single reading.
-double deviationOf(const Samples& samples) {
-  std::int64_t count = 0, sum = 0;
-  Int128 squares = 0;
-  for (std::size_t s = 0; s < samples.code.size(); ++s) {
-    const auto here = static_cast<std::int64_t>(samples.count[s]);
-    count += here;
-    sum += here * samples.code[s];
-    squares += Int128{here} * (samples.code[s] * samples.code[s]);
-  }
-  if (count < 2) return 0.0;
-  const Int128 scatter = count * squares - Int128{sum} * sum;
-  return std::sqrt(static_cast<double>(scatter) /
-                   (static_cast<double>(count) * static_cast<double>(count - 1)));
-}
-
 // Distance of each code to the nearest one that occurs [counts].
-std::vector<std::ptrdiff_t> distances(const Samples& samples, std::size_t codes) {
+std::vector<std::ptrdiff_t> distances(const WeightedCodes& samples, std::size_t codes) {
   std::vector<std::ptrdiff_t> distance(codes, static_cast<std::ptrdiff_t>(codes));
   for (const std::ptrdiff_t code : samples.code) distance[static_cast<std::size_t>(code)] = 0;
   for (std::size_t c = 1; c < codes; ++c) distance[c] = std::min(distance[c], distance[c - 1] + 1);
@@ -84,7 +46,7 @@ std::vector<std::ptrdiff_t> distances(const Samples& samples, std::size_t codes)
 // sums[i] += sum * kernel[i], weights[i] += count * kernel[i] for each sample of [first, last);
 // `kernel` points to distance 0, and code i of the block lies at distance block + i - code.
 FSR_EACH_VECTOR_WIDTH
-void addBlock(const Samples& samples, std::size_t first, std::size_t last, const double* kernel,
+void addBlock(const WeightedCodes& samples, std::size_t first, std::size_t last, const double* kernel,
               std::ptrdiff_t block, double* block_sums, double* block_weights) {
   Lanes sums[kVectors] = {};
   Lanes weights[kVectors] = {};
@@ -103,11 +65,11 @@ void addBlock(const Samples& samples, std::size_t first, std::size_t last, const
 
 class Convolution {
  public:
-  Convolution(const Samples& samples, const CodeHistogram& training, double sigma)
+  Convolution(const WeightedCodes& samples, double sigma)
       : samples_(samples),
-        distance_(distances(samples_, training.count().size())),
+        distance_(distances(samples_, samples.table_size)),
         precision_(0.5 / (sigma * sigma)),
-        exponent_(std::log(static_cast<double>(training.samples()) / kNegligible)) {
+        exponent_(std::log(samples.samples / kNegligible)) {
     const double largest = std::sqrt(kLargestExponent / precision_);
     radius_ = static_cast<std::ptrdiff_t>(std::min(largest, static_cast<double>(distance_.size())));
     const std::ptrdiff_t side = radius_ + kBlock;
@@ -176,21 +138,13 @@ class Convolution {
     fit.support[static_cast<std::size_t>(code)] = weight * unshifted(nearest);
   }
 
-  const Samples& samples_;
+  const WeightedCodes& samples_;
   std::vector<std::ptrdiff_t> distance_;
   double precision_;  // 1 / 2 sigma^2 [1/counts^2]
   double exponent_;   // ln(N / negligible)
   std::ptrdiff_t radius_ = 0;
   std::vector<double> kernel_;  // exp(-d^2 / 2 sigma^2), d = -(radius + block) .. radius + block
 };
-
-// Readings that never differ: their mean is the answer everywhere.
-Fit constantFit(const Samples& samples, std::size_t codes) {
-  Fit fit{std::vector<double>(codes, samples.sum.front() / samples.count.front()),
-          std::vector<double>(codes, 0.0)};
-  fit.support[static_cast<std::size_t>(samples.code.front())] = samples.count.front();
-  return fit;
-}
 
 }  // namespace
 
@@ -203,10 +157,10 @@ Grnn::Grnn(double bandwidth) : bandwidth_(bandwidth) {
 }
 
 Fit Grnn::fit(const CodeHistogram& training) const {
-  const Samples samples = occupied(training);
-  const double deviation = deviationOf(samples);
-  if (deviation == 0) return constantFit(samples, training.count().size());
-  return Convolution(samples, training, bandwidth_ * deviation).run();
+  const WeightedCodes samples = weightedCodes(training);
+  const double deviation = readingDeviation(training);
+  if (deviation == 0) return constantFit(samples);
+  return Convolution(samples, bandwidth_ * deviation).run();
 }
 
 }  // namespace fsr

@@ -1,0 +1,50 @@
+#include "fsr_pressure_map/regression/linear_regression.h"
+
+#include <numeric>
+
+#include "fsr_pressure_map/regression/weighted_codes.h"
+
+namespace fsr {
+
+namespace {
+
+struct Line {
+  double mean_code = 0;
+  double mean_pressure = 0;  // [Pa]
+  double slope = 0;          // [Pa a count]
+  double scatter = 0;        // sum of (code - mean code)^2
+};
+
+// Sums about the means, so that a narrow range of large codes loses no digits.
+Line leastSquares(const WeightedCodes& samples) {
+  Line line;
+  for (std::size_t i = 0; i < samples.code.size(); ++i) {
+    line.mean_code += samples.count[i] * static_cast<double>(samples.code[i]) / samples.samples;
+  }
+  line.mean_pressure = std::accumulate(samples.sum.begin(), samples.sum.end(), 0.0) / samples.samples;
+  double products = 0;
+  for (std::size_t i = 0; i < samples.code.size(); ++i) {
+    const double from_mean = static_cast<double>(samples.code[i]) - line.mean_code;
+    products += from_mean * (samples.sum[i] - samples.count[i] * line.mean_pressure);
+    line.scatter += samples.count[i] * from_mean * from_mean;
+  }
+  line.slope = products / line.scatter;
+  return line;
+}
+
+}  // namespace
+
+Fit LinearRegression::fit(const CodeHistogram& training) const {
+  const WeightedCodes samples = weightedCodes(training);
+  if (samples.code.size() == 1) return constantFit(samples);
+  const Line line = leastSquares(samples);
+  Fit fit{std::vector<double>(samples.table_size), std::vector<double>(samples.table_size)};
+  for (std::size_t code = 0; code < samples.table_size; ++code) {
+    const double from_mean = static_cast<double>(code) - line.mean_code;
+    fit.pressure[code] = line.mean_pressure + line.slope * from_mean;
+    fit.support[code] = 1.0 / (1.0 / samples.samples + from_mean * from_mean / line.scatter);
+  }
+  return fit;
+}
+
+}  // namespace fsr
