@@ -1,0 +1,82 @@
+#include "fsr_pressure_map/statistics/paired_t.h"
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/sample_data.h"
+
+namespace {
+
+using namespace sample_data;
+using fsr::pairedT;
+
+struct Reference {
+  double t, df, p, mean, low, high;
+};
+
+void expectR(const Values& first, const Values& second, const Reference& r) {
+  const fsr::PairedT result = pairedT(first, second);
+  expectNear(result.test.statistic, r.t);
+  EXPECT_EQ(result.test.degrees_of_freedom, Values{r.df});
+  expectNear(result.test.p, r.p);
+  expectNear(result.mean_difference, r.mean);
+  expectNear(result.low, r.low);
+  expectNear(result.high, r.high);
+}
+
+// r <- t.test(first, second, paired = TRUE)
+// sprintf("%.15g", c(r$statistic, r$parameter, r$p.value, r$estimate, r$conf.int))
+TEST(PairedT, AgreesWithR) {
+  expectR(kA, kB,
+          {3.03537541564859, 8, 0.0161766274349081, 0.431888888888889, 0.103778712272169, 0.759999065505609});
+  expectR(kSleep1, kSleep2,
+          {-4.06212768338204, 9, 0.00283289019738427, -1.58, -2.45988576327698, -0.700114236723018});
+  expectR(
+      kX70, kY70,
+      {-2.51375140328903, 69, 0.014283140710253, -0.595385347322055, -1.0678908095997, -0.122879885044408});
+  expectR(kT70, kU70,
+          {5.47644543247979, 69, 6.596399014417e-07, 1.95714285714286, 1.24419990578781, 2.67008580849791});
+  expectR({1, 2}, {3, 7}, {-2.33333333333333, 1, 0.257762116818313, -3.5, -22.559307104262, 15.559307104262});
+}
+
+TEST(PairedT, KeepsItsDigitsFarInTheTail) {
+  const Values far = mapped(kY70, [](double y) { return y + 20; });  // y70 + 20
+  expectR(
+      kX70, far,
+      {-86.9549092045506, 69, 2.99053659231652e-72, -20.5953853473221, -21.0678908095997, -20.1228798850444});
+}
+
+TEST(PairedT, ChangesSignOnlyWhenSwapped) {
+  const fsr::PairedT there = pairedT(kA, kB), back = pairedT(kB, kA);
+  EXPECT_DOUBLE_EQ(there.test.statistic, -back.test.statistic);
+  EXPECT_DOUBLE_EQ(there.test.p, back.test.p);
+  EXPECT_DOUBLE_EQ(there.low, -back.high);
+}
+
+TEST(PairedT, RejectsEqualMeansAtItsLevel) {
+  constexpr int kTrials = 4000;
+  int rejections = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const fsr::RandomStream stream = fsr::randomStream(1, "t", trial);
+    Values first(8), second(8);
+    for (std::size_t i = 0; i < 8; ++i) first[i] = stream.normal(2 * i), second[i] = stream.normal(2 * i + 1);
+    rejections += pairedT(first, second).test.p < 0.05;
+  }
+  EXPECT_TRUE(fitsLevel(rejections, kTrials, 0.05)) << rejections;
+}
+
+TEST(PairedT, FindsNothingBetweenEqualSamples) {
+  const fsr::PairedT result = pairedT(kA, kA);
+  EXPECT_EQ(result.test.p, 1);
+  EXPECT_EQ(result.test.statistic, 0);
+  EXPECT_EQ(result.test.method, fsr::PMethod::kNothingToTest);
+}
+
+TEST(PairedT, RefusesWhatItCannotJudge) {
+  EXPECT_THROW(pairedT({}, {}), fsr::InputError);
+  EXPECT_THROW(pairedT({1}, {2}), fsr::InputError);
+  EXPECT_THROW(pairedT({1, 2}, {2}), fsr::InputError);
+  EXPECT_THROW(pairedT({1, 2, 3}, {3, 4, 5}), fsr::InputError);  // always 2 apart
+  EXPECT_THROW(pairedT({1, std::nan("")}, {3, 4}), fsr::InputError);
+}
+
+}  // namespace

@@ -1,0 +1,149 @@
+#include "fsr_pressure_map/statistics/repeated_measures_anova.h"
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/statistics/paired_t.h"
+#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/repeated_data.h"
+
+namespace {
+
+using namespace sample_data;
+using fsr::repeatedMeasuresAnova;
+
+struct Reference {
+  double f, df1, df2, p;  // of R's table
+  double gg, gg_p, hf, hf_p;
+  double w, mauchly_p;
+};
+
+void expectR(const fsr::RepeatedMeasures& data, const Reference& r) {
+  const fsr::RepeatedMeasuresAnova result = repeatedMeasuresAnova(data);
+  expectNear(result.test.statistic, r.f);
+  EXPECT_EQ(result.test.degrees_of_freedom, (Values{r.df1, r.df2}));
+  expectNear(result.test.p, r.p);
+  expectNear(result.greenhouse_geisser.epsilon, r.gg);
+  expectNear(result.greenhouse_geisser.p, r.gg_p);
+  expectNear(result.huynh_feldt.epsilon, r.hf);
+  expectNear(result.huynh_feldt.p, r.hf_p);
+  expectNear(result.mauchly.statistic, r.w);
+  expectNear(result.mauchly.p, r.mauchly_p);
+}
+
+fsr::RepeatedMeasures firstUnits(fsr::RepeatedMeasures data, std::size_t units, std::size_t treatments) {
+  data.values.resize(treatments);
+  data.treatments.resize(treatments);
+  for (Values& values : data.values) values.resize(units);
+  return data;
+}
+
+// f <- lm(m ~ 1); r <- anova(f, X = ~1, test = "Spherical"); s <- stats:::sphericity(SSD(f), X = ~1)
+// sprintf("%.15g", c(r[1,"F"], r[1,"num Df"], r[1,"den Df"], r[1,"Pr(>F)"],
+//                    s$GG.eps, r[1,"G-G Pr"], s$HF.eps, r[1,"H-F Pr"]))
+// H <- apply(contr.helmert(ncol(m)), 2, function(v) v / sqrt(sum(v^2)))   # Mauchly on the contrasts:
+// RT less its mean: R's contrasts are 1e-10 from orthogonal to the units' level, which at 5.5 s shows.
+// u <- mauchly.test(lm(m %*% H ~ 1)); sprintf("%.15g", c(u$statistic, u$p.value))
+TEST(RepeatedMeasuresAnova, AgreesWithR) {
+  expectR(roundingTimes(),
+          {6.28830791576219, 2, 42, 0.00408410072218699, 0.773501463270237, 0.00843979904539667,
+           0.823370924873981, 0.00718882158641832, 0.707177623463382, 0.0312813222776286});
+  expectR(skewed5(), {0.998345340941805, 4, 276, 0.408843195591877, 0.930234212660215, 0.405440880371234,
+                      0.989848686069102, 0.408370136210707, 0.84193741251648, 0.237002838985857});
+  expectR(tied5(), {20.1833938888557, 4, 276, 1.3497713855822e-14, 0.704214629951822, 6.00150461017545e-11,
+                    0.737272710320512, 2.34179476711271e-11, 0.372537667698601, 7.27698489529451e-11});
+}
+
+TEST(RepeatedMeasuresAnova, TakesAnEpsilonAboveOneAsOne) {
+  expectR(normal3(), {7.68297844903738, 2, 58, 0.00109665193601302, 0.96224105287834, 0.00129032216425848,
+                      1.02924094361553, 0.00109665193601302, 0.960759367926911, 0.570958823301983});
+}
+
+TEST(RepeatedMeasuresAnova, AgreesWithROnFewUnits) {
+  expectR(firstUnits(skewed5(), 20, 5),  // m5[1:20, ]
+          {2.10009366941424, 4, 76, 0.0890128648160115, 0.763984480386759, 0.108967730640418,
+           0.926971403837462, 0.0947415841669971, 0.451947316912881, 0.130000458011334});
+  expectR(firstUnits(skewed5(), 6, 4),  // m5[1:6, 1:4]
+          {3.0927397081296, 3, 15, 0.0589194339220102, 0.502925310734349, 0.111419013730577,
+           0.673369898948621, 0.0892499673097401, 0.018192732728116, 0.0134731739857929});
+}
+
+// mauchly.test(lm(m ~ 1), X = ~1)$p.value takes k where the series has k - 1
+TEST(RepeatedMeasuresAnova, DiffersFromRsDefaultMauchlyBySecondOrderOnly) {
+  EXPECT_NEAR(repeatedMeasuresAnova(skewed5()).mauchly.p, 0.237004509241067, 1e-5);
+  EXPECT_NEAR(repeatedMeasuresAnova(roundingTimes()).mauchly.p, 0.0312813222773883, 1e-5);
+}
+
+TEST(RepeatedMeasuresAnova, IsThePairedTTestOnTwoTreatments) {
+  const fsr::RepeatedMeasuresAnova result = repeatedMeasuresAnova(measures({kA, kB}));
+  const fsr::TestResult t = fsr::pairedT(kA, kB).test;
+  expectNear(result.test.statistic, t.statistic * t.statistic);
+  expectNear(result.test.p, t.p);
+  expectNear(result.greenhouse_geisser.p, t.p);
+  expectNear(result.huynh_feldt.p, t.p);
+  EXPECT_EQ(result.mauchly.p, 1);
+}
+
+TEST(RepeatedMeasuresAnova, DoesNotDependOnTheLevelOfAUnitOrTheOrderOfTreatments) {
+  fsr::RepeatedMeasures data = roundingTimes();
+  const fsr::RepeatedMeasuresAnova before = repeatedMeasuresAnova(data);
+  for (Values& values : data.values) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = -3 * values[i] + 10 * static_cast<double>(i);
+  }
+  std::swap(data.values[0], data.values[2]);
+  const fsr::RepeatedMeasuresAnova after = repeatedMeasuresAnova(data);
+  expectNear(after.test.p, before.test.p);
+  expectNear(after.greenhouse_geisser.p, before.greenhouse_geisser.p);
+  expectNear(after.mauchly.p, before.mauchly.p);
+}
+
+TEST(RepeatedMeasuresAnova, KeepsItsLevelWithoutSphericityOnlyIfCorrected) {
+  constexpr int kTrials = 2000;
+  int plain = 0, corrected = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const fsr::RandomStream stream = fsr::randomStream(1, "anova", trial);
+    std::vector<Values> values(4, Values(20));
+    for (std::size_t i = 0; i < 80; ++i) values[i % 4][i / 4] = stream.normal(i) * (i % 4 == 3 ? 10 : 1);
+    const fsr::RepeatedMeasuresAnova result = repeatedMeasuresAnova(measures(values));
+    plain += result.test.p < 0.05;
+    corrected += result.greenhouse_geisser.p < 0.05;
+  }
+  EXPECT_FALSE(fitsLevel(plain, kTrials, 0.05)) << plain;
+  EXPECT_TRUE(fitsLevel(corrected, kTrials, 0.05)) << corrected;
+}
+
+TEST(RepeatedMeasuresAnova, RejectsTheSphericalNullAtItsLevel) {
+  constexpr int kTrials = 2000;
+  int rejections = 0, not_spherical = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const fsr::RandomStream stream = fsr::randomStream(2, "anova", trial);
+    std::vector<Values> values(4, Values(20));
+    for (std::size_t i = 0; i < 80; ++i) values[i % 4][i / 4] = stream.normal(i) + static_cast<double>(i / 4);
+    const fsr::RepeatedMeasuresAnova result = repeatedMeasuresAnova(measures(values));
+    rejections += result.test.p < 0.05;
+    not_spherical += result.mauchly.p < 0.05;
+  }
+  EXPECT_TRUE(fitsLevel(rejections, kTrials, 0.05)) << rejections;
+  EXPECT_TRUE(fitsLevel(not_spherical, kTrials, 0.05)) << not_spherical;
+}
+
+TEST(RepeatedMeasuresAnova, AnswersDegenerateDataAsDocumented) {
+  const fsr::RepeatedMeasuresAnova same = repeatedMeasuresAnova(measures({kA, kA, kA}));
+  EXPECT_EQ(same.test.p, 1);
+  EXPECT_EQ(same.test.method, fsr::PMethod::kNothingToTest);
+
+  const fsr::RepeatedMeasuresAnova few = repeatedMeasuresAnova(measures({{1, 2}, {2, 5}, {3, 1}, {7, 3}}));
+  EXPECT_TRUE(std::isnan(few.mauchly.p));
+  EXPECT_EQ(few.mauchly.statistic, 0);
+  EXPECT_TRUE(few.greenhouse_geisser.p > 0 && few.greenhouse_geisser.p <= 1);
+  EXPECT_EQ(few.huynh_feldt.epsilon, 1);
+}
+
+TEST(RepeatedMeasuresAnova, RefusesWhatItCannotJudge) {
+  EXPECT_THROW(repeatedMeasuresAnova({}), fsr::InputError);
+  EXPECT_THROW(repeatedMeasuresAnova(measures({kA})), fsr::InputError);
+  EXPECT_THROW(repeatedMeasuresAnova(measures({{1}, {2}})), fsr::InputError);
+  EXPECT_THROW(repeatedMeasuresAnova(measures({{1, 2}, {2}})), fsr::InputError);
+  EXPECT_THROW(repeatedMeasuresAnova(measures({{1, 2}, {2, std::nan("")}})), fsr::InputError);
+  EXPECT_THROW(repeatedMeasuresAnova(measures({{1, 2, 3}, {3, 4, 5}, {0, 1, 2}})), fsr::InputError);
+}
+
+}  // namespace
