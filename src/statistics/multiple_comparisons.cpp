@@ -1,0 +1,45 @@
+#include "fsr_pressure_map/statistics/multiple_comparisons.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <string>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+namespace {
+
+void requireProbabilities(const std::vector<double>& p) {
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (p[i] >= 0 && p[i] <= 1) continue;
+    throw InputError("correction for multiple tests: p value " + std::to_string(i + 1) + " is " +
+                     std::to_string(p[i]) + "; it must lie between 0 and 1");
+  }
+}
+
+}  // namespace
+
+std::vector<double> bonferroni(const std::vector<double>& p) {
+  requireProbabilities(p);
+  std::vector<double> adjusted;
+  for (const double value : p) adjusted.push_back(std::min(1.0, static_cast<double>(p.size()) * value));
+  return adjusted;
+}
+
+std::vector<double> holm(const std::vector<double>& p) {
+  requireProbabilities(p);
+  std::vector<std::size_t> order(p.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return p[a] < p[b]; });
+  std::vector<double> adjusted(p.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    largest = std::max(largest, static_cast<double>(p.size() - i) * p[order[i]]);
+    adjusted[order[i]] = std::min(1.0, largest);
+  }
+  return adjusted;
+}
+
+}  // namespace fsr

@@ -1,0 +1,84 @@
+#include "fsr_pressure_map/statistics/friedman.h"
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/repeated_data.h"
+
+namespace {
+
+using namespace sample_data;
+using fsr::friedman;
+
+void expectR(const fsr::RepeatedMeasures& data, double chi2, double df, double p) {
+  const fsr::TestResult result = friedman(data);
+  expectNear(result.statistic, chi2);
+  EXPECT_EQ(result.degrees_of_freedom, Values{df});
+  expectNear(result.p, p);
+}
+
+// r <- friedman.test(...); sprintf("%.15g", c(r$statistic, r$parameter, r$p.value))
+TEST(Friedman, AgreesWithR) {
+  expectR(roundingTimes(), 11.1428571428571, 2, 0.00380504077551136);
+  expectR(skewed5(), 5.45142857142857, 4, 0.244032052963709);
+  expectR(tied5(), 54.828, 4, 3.53007107175577e-11);
+  expectR(measures({kA, kB}), 2.77777777777778, 1, 0.0955807045456288);
+  expectR(measures({{1, 2}, {2, 3}, {3, 1}}), 1, 2, 0.606530659712633);
+}
+
+TEST(Friedman, ReachesNTimesKMinusOneAtMost) {
+  std::vector<Values> values;
+  for (int j = 0; j < 5; ++j) values.push_back(mapped(kX70, [j](double x) { return x + j; }));
+  expectNear(friedman(measures(values)).statistic, 280);
+}
+
+TEST(Friedman, SeesOnlyTheOrderWithinUnits) {
+  fsr::RepeatedMeasures data = tied5();
+  const double p = friedman(data).p;
+  for (Values& values : data.values) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = std::exp(values[i]) * static_cast<double>(i + 1);
+  }
+  EXPECT_EQ(friedman(data).p, p);
+  std::swap(data.values[0], data.values[3]);
+  EXPECT_DOUBLE_EQ(friedman(data).p, p);
+}
+
+TEST(Friedman, RejectsTheNullAtItsLevel) {
+  constexpr int kTrials = 2000;
+  int rejections = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const fsr::RandomStream stream = fsr::randomStream(1, "friedman", trial);
+    std::vector<Values> values(3, Values(70));
+    for (std::size_t i = 0; i < 210; ++i) values[i % 3][i / 3] = 1 / stream.uniform(i);
+    rejections += friedman(measures(values)).p < 0.05;
+  }
+  EXPECT_TRUE(fitsLevel(rejections, kTrials, 0.05)) << rejections;
+}
+
+TEST(Friedman, FindsNothingWhereEveryUnitIsTied) {
+  const fsr::TestResult result = friedman(measures({kA, kA, kA}));
+  EXPECT_EQ(result.p, 1);
+  EXPECT_EQ(result.statistic, 0);
+  EXPECT_EQ(result.method, fsr::PMethod::kNothingToTest);
+}
+
+TEST(Friedman, RefusesWhatItCannotJudge) {
+  EXPECT_THROW(friedman({}), fsr::InputError);
+  EXPECT_THROW(friedman(measures({kA})), fsr::InputError);
+  EXPECT_THROW(friedman(measures({{1}, {2}})), fsr::InputError);
+  EXPECT_THROW(friedman(measures({{1, 2}, {2, std::nan("")}})), fsr::InputError);
+  EXPECT_THROW(friedman({{"one"}, {{1, 2}, {2, 3}}}), fsr::InputError);
+}
+
+TEST(Friedman, SaysWhichTreatmentLacksUnits) {
+  try {
+    friedman({{"flat", "curved"}, {{1, 2, 3}, {1, 2}}});
+    FAIL();
+  } catch (const fsr::InputError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "Friedman test of 'curved': 2 values where 'flat' has 3; every treatment needs the same units");
+  }
+}
+
+}  // namespace

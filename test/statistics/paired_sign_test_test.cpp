@@ -1,0 +1,61 @@
+#include "fsr_pressure_map/statistics/paired_sign_test.h"
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/sample_data.h"
+
+namespace {
+
+using namespace sample_data;
+using fsr::pairedSignTest;
+
+void expectR(const Values& first, const Values& second, double positive, std::size_t signs, double p) {
+  const fsr::TestResult result = pairedSignTest(first, second);
+  EXPECT_EQ(result.statistic, positive);
+  EXPECT_EQ(result.n - result.dropped, signs);
+  expectNear(result.p, p);
+}
+
+// d <- first - second; c(sum(d > 0), sum(d != 0)); sprintf("%.15g", binom.test(sum(d > 0), sum(d !=
+// 0))$p.value)
+TEST(PairedSignTest, AgreesWithR) {
+  expectR(kA, kB, 7, 9, 0.1796875);
+  expectR(kSleep1, kSleep2, 0, 9, 0.00390625);
+  expectR(kX70, kY70, 24, 70, 0.0115264096543635);
+  expectR(kT70, kU70, 48, 61, 7.66516838044545e-06);
+  expectR({1, 2, 3, 4}, {2, 1, 4, 3}, 2, 4, 1);
+  expectR(kX70, mapped(kY70, [](double y) { return y + 20; }), 0, 70, 1.69406589450861e-21);
+}
+
+TEST(PairedSignTest, SeesOnlyTheOrderWithinPairs) {
+  const auto stretch = [](double x) { return std::exp(3 * x); };
+  EXPECT_EQ(pairedSignTest(mapped(kT70, stretch), mapped(kU70, stretch)).p, pairedSignTest(kT70, kU70).p);
+  EXPECT_EQ(pairedSignTest(kU70, kT70).p, pairedSignTest(kT70, kU70).p);
+}
+
+TEST(PairedSignTest, RejectsTheNullAtItsExactLevel) {
+  constexpr int kTrials = 4000;
+  int rejections = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const fsr::RandomStream stream = fsr::randomStream(1, "sign", trial);
+    Values d(20);  // median zero, not symmetric
+    for (std::size_t i = 0; i < d.size(); ++i) d[i] = -std::log(stream.uniform(i)) - std::log(2.0);
+    rejections += pairedSignTest(d, Values(20, 0.0)).p < 0.05;
+  }
+  // 2 * pbinom(5, 20, 0.5) is the largest attainable p below 0.05
+  EXPECT_TRUE(fitsLevel(rejections, kTrials, 0.0413894653320312)) << rejections;
+}
+
+TEST(PairedSignTest, FindsNothingWhereAllDifferencesAreZero) {
+  const fsr::TestResult result = pairedSignTest(kA, kA);
+  EXPECT_EQ(result.p, 1);
+  EXPECT_EQ(result.method, fsr::PMethod::kNothingToTest);
+}
+
+TEST(PairedSignTest, RefusesWhatItCannotJudge) {
+  EXPECT_THROW(pairedSignTest({}, {}), fsr::InputError);
+  EXPECT_THROW(pairedSignTest({1}, {1, 2}), fsr::InputError);
+  EXPECT_THROW(pairedSignTest({std::nan("")}, {1}), fsr::InputError);
+}
+
+}  // namespace

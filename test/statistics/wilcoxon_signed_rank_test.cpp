@@ -1,0 +1,108 @@
+#include "fsr_pressure_map/statistics/wilcoxon_signed_rank.h"
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/sample_data.h"
+
+namespace {
+
+using namespace sample_data;
+using fsr::PMethod;
+using fsr::WilcoxonMethod;
+using fsr::wilcoxonSignedRank;
+
+void expectR(const Values& first, const Values& second, WilcoxonMethod method, double v, double p,
+             PMethod taken) {
+  const fsr::TestResult result = wilcoxonSignedRank(first, second, method);
+  EXPECT_EQ(result.statistic, v);
+  expectNear(result.p, p);
+  EXPECT_EQ(result.method, taken);
+}
+
+// r <- wilcox.test(first, second, paired = TRUE); sprintf("%.15g", c(r$statistic, r$p.value))
+TEST(WilcoxonSignedRank, AgreesWithRExactlyBelowFiftyWithoutTies) {
+  expectR(kA, kB, WilcoxonMethod::kAuto, 40, 0.0390625, PMethod::kExact);
+  expectR(head(kX70, 49), head(kY70, 49), WilcoxonMethod::kAuto, 352, 0.00885282402986221, PMethod::kExact);
+  expectR({1, 2, 3, 4, 5}, Values(5, 0.1), WilcoxonMethod::kAuto, 15, 0.0625, PMethod::kExact);
+  expectR({1}, {2}, WilcoxonMethod::kAuto, 0, 1, PMethod::kExact);
+}
+
+TEST(WilcoxonSignedRank, AgreesWithRsApproximationFromFiftyOn) {
+  expectR(kX70, kY70, WilcoxonMethod::kAuto, 773, 0.0060571099400539, PMethod::kNormalApproximation);
+  expectR(kT70, kU70, WilcoxonMethod::kAuto, 1578.5, 5.10917774688723e-06, PMethod::kNormalApproximation);
+}
+
+// ... wilcox.test(..., exact = TRUE) and wilcox.test(..., exact = FALSE)
+TEST(WilcoxonSignedRank, AgreesWithRWhenToldTheMethod) {
+  expectR(kX70, kY70, WilcoxonMethod::kExact, 773, 0.00555593080661182, PMethod::kExact);
+  expectR(head(kX70, 49), head(kY70, 49), WilcoxonMethod::kNormal, 352, 0.00970134088867275,
+          PMethod::kNormalApproximation);
+  expectR(kSleep1, kSleep2, WilcoxonMethod::kNormal, 0, 0.00909069801592506, PMethod::kNormalApproximation);
+  expectR(head(kT70, 12), head(kU70, 12), WilcoxonMethod::kNormal, 55, 0.00514376422511499,
+          PMethod::kNormalApproximation);
+}
+
+// library(exactRankTests); r <- wilcox.exact(first, second, paired = TRUE, exact = TRUE)
+TEST(WilcoxonSignedRank, CountsTheConditionalDistributionUnderTiesAndZeros) {
+  expectR(kSleep1, kSleep2, WilcoxonMethod::kAuto, 0, 0.00390625, PMethod::kExact);
+  expectR(head(kT70, 12), head(kU70, 12), WilcoxonMethod::kAuto, 55, 0.001953125, PMethod::kExact);
+  expectR(head(kT70, 40), head(kU70, 40), WilcoxonMethod::kAuto, 504.5, 0.000174481770955026,
+          PMethod::kExact);
+}
+
+TEST(WilcoxonSignedRank, DropsDifferencesOfZeroAndSaysSo) {
+  const fsr::TestResult result = wilcoxonSignedRank(kSleep1, kSleep2);
+  EXPECT_EQ(result.n, 10u);
+  EXPECT_EQ(result.dropped, 1u);
+}
+
+TEST(WilcoxonSignedRank, AnswersTheSameWhenSwapped) {
+  for (const auto method : {WilcoxonMethod::kExact, WilcoxonMethod::kNormal}) {
+    EXPECT_DOUBLE_EQ(wilcoxonSignedRank(kT70, kU70, method).p, wilcoxonSignedRank(kU70, kT70, method).p);
+    EXPECT_DOUBLE_EQ(wilcoxonSignedRank(kA, kB, method).p, wilcoxonSignedRank(kB, kA, method).p);
+  }
+}
+
+TEST(WilcoxonSignedRank, SeesOnlyTheOrderOfTheMagnitudes) {
+  const Values zero(70, 0.0);
+  Values d = kX70;
+  for (std::size_t i = 0; i < d.size(); i += 3) d[i] = -d[i];
+  const Values cubed = mapped(d, [](double x) { return x * x * x; });
+  EXPECT_EQ(wilcoxonSignedRank(d, zero).p, wilcoxonSignedRank(cubed, zero).p);
+}
+
+TEST(WilcoxonSignedRank, RejectsTheNullNoMoreOftenThanItsExactLevel) {
+  constexpr int kTrials = 4000;
+  int rejections = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const fsr::RandomStream stream = fsr::randomStream(1, "wilcoxon", trial);
+    Values d(10);
+    for (std::size_t i = 0; i < d.size(); ++i) d[i] = stream.normal(i);
+    rejections += wilcoxonSignedRank(d, Values(10, 0.0)).p < 0.05;
+  }
+  // 2 * psignrank(8, 10) is the largest attainable p below 0.05
+  EXPECT_TRUE(fitsLevel(rejections, kTrials, 0.048828125)) << rejections;
+}
+
+TEST(WilcoxonSignedRank, FindsNothingWhereAllDifferencesAreZero) {
+  const fsr::TestResult result = wilcoxonSignedRank(kA, kA);
+  EXPECT_EQ(result.p, 1);
+  EXPECT_EQ(result.dropped, kA.size());
+  EXPECT_EQ(result.method, PMethod::kNothingToTest);
+}
+
+TEST(WilcoxonSignedRank, StaysFiniteOnMagnitudesThatAreAllEqual) {
+  // Of 2^5 sign patterns only the two extreme ones: p = 2 / 32.
+  EXPECT_DOUBLE_EQ(wilcoxonSignedRank(Values(5, 1.0), Values(5, 0.0)).p, 0.0625);
+  EXPECT_LT(wilcoxonSignedRank(Values(60, 1.0), Values(60, 0.0)).p, 1e-10);
+}
+
+TEST(WilcoxonSignedRank, RefusesWhatItCannotJudge) {
+  EXPECT_THROW(wilcoxonSignedRank({}, {}), fsr::InputError);
+  EXPECT_THROW(wilcoxonSignedRank({1, 2}, {1}), fsr::InputError);
+  EXPECT_THROW(wilcoxonSignedRank({1, std::nan("")}, {1, 2}), fsr::InputError);
+  EXPECT_THROW(wilcoxonSignedRank(uniform(1, 1001), uniform(2, 1001), WilcoxonMethod::kExact),
+               fsr::InputError);
+}
+
+}  // namespace
