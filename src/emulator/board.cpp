@@ -1,0 +1,126 @@
+#include "fsr_pressure_map/emulator/board.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fsr_pressure_map/protocol/wire.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr double kMicro = 1e-6;
+
+std::uint32_t microseconds(double seconds) {
+  return static_cast<std::uint32_t>(std::lround(seconds / kMicro));
+}
+
+double period(double rate) {
+  return rate > 0 ? 1 / rate : 0;
+}
+
+}  // namespace
+
+double Board::Source::due() const {
+  return period > 0 ? time() + delay : std::numeric_limits<double>::infinity();
+}
+
+Board::Board(const SimulationSettings& simulation, const BoardClock& clock)
+    : settings_(simulation), clock_(clock), chain_(simulation), packet_(FSR_WIRE_MAX_PACKET) {
+  sources_[kIdentity].period = 1;
+  sources_[kTemperature].period = 1;
+  sources_[kTransducer].period = period(simulation.board.transducer_rate);
+  sources_[kScan].period = period(simulation.board.scan_rate);
+  // A scan tells of its middle and is sent at its end.
+  sources_[kScan].delay = simulation.board.scan_duration / 2;
+}
+
+Board::Kind Board::nextKind() const {
+  const auto earlier = [](const Source& a, const Source& b) { return a.due() < b.due(); };
+  return static_cast<Kind>(std::min_element(sources_.begin(), sources_.end(), earlier) - sources_.begin());
+}
+
+double Board::nextDue() const {
+  return sources_[nextKind()].due();
+}
+
+std::vector<std::uint8_t>& Board::next(const Pressure& pressure) {
+  const Kind kind = nextKind();
+  packet_.resize(FSR_WIRE_MAX_PACKET);
+  packet_.resize(encode(kind, sources_[kind].time(), pressure));
+  ++sources_[kind].number;
+  ++sources_[kind].sequence;
+  return packet_;
+}
+
+std::size_t Board::encode(Kind kind, double time, const Pressure& pressure) {
+  const std::uint32_t sequence = sources_[kind].sequence;
+  const auto device_time = static_cast<std::uint32_t>(deviceTime(time));
+  switch (kind) {
+    case kScan:
+      return encodeScan(sequence, time, pressure);
+    case kTransducer:
+      return fsr_wire_encode_transducer(packet_.data(), packet_.size(), sequence, device_time,
+                                        settings_.transducer.counts(pressure(time)));
+    case kTemperature:
+      return fsr_wire_encode_temperature(
+          packet_.data(), packet_.size(), sequence, device_time,
+          static_cast<std::int32_t>(std::lround(1000 * settings_.board.temperature)));
+    default:
+      return encodeIdentity(sequence, device_time);
+  }
+}
+
+std::size_t Board::encodeScan(std::uint32_t sequence, double time, const Pressure& pressure) {
+  fsr_wire_scan scan{};
+  scan.rows = static_cast<std::uint8_t>(settings_.layout.size.rows);
+  scan.columns = static_cast<std::uint8_t>(settings_.layout.size.columns);
+  scan.full_scale = chain_.fullScale();
+  scan.duration_us = microseconds(settings_.board.scan_duration);
+  scan.counts = chain_.read({time, pressure(time), scans_++}).data();
+  return fsr_wire_encode_scan(packet_.data(), packet_.size(), sequence,
+                              static_cast<std::uint32_t>(deviceTime(time)), &scan);
+}
+
+std::size_t Board::encodeIdentity(std::uint32_t sequence, std::uint32_t device_time) {
+  fsr_wire_identity identity{};
+  identity.serial = settings_.board.serial.c_str();
+  identity.firmware = settings_.board.firmware.c_str();
+  identity.model = settings_.board.model.c_str();
+  identity.rows = static_cast<std::uint8_t>(settings_.layout.size.rows);
+  identity.columns = static_cast<std::uint8_t>(settings_.layout.size.columns);
+  identity.full_scale = chain_.fullScale();
+  identity.scan_period_us = microseconds(sources_[kScan].period);
+  return fsr_wire_encode_identity(packet_.data(), packet_.size(), sequence, device_time, &identity);
+}
+
+void Board::reset(double time) {
+  switched_on_ = time;
+  for (Source& source : sources_) source.sequence = 0;
+  sources_[kIdentity].start = time;  // it names itself as soon as it is on
+  sources_[kIdentity].number = 0;
+}
+
+std::uint64_t Board::deviceTime(double time) const {
+  const double elapsed = std::max(time - switched_on_, 0.0) * (1 + clock_.drift * kMicro);
+  return clock_.offset + static_cast<std::uint64_t>(std::llround(elapsed / kMicro));
+}
+
+double Board::rigTime(std::uint64_t device_time) const {
+  const double shown = (static_cast<double>(device_time) - clock_.offset) * kMicro;
+  return switched_on_ + shown / (1 + clock_.drift * kMicro);
+}
+
+double Board::bitsPerSecond() const {
+  constexpr double kBitsPerByte = 10;  // with start and stop bit
+  const auto rate = [this](Kind kind) { return sources_[kind].period > 0 ? 1 / sources_[kind].period : 0.0; };
+  const auto& size = settings_.layout.size;
+  const auto packet = [](std::size_t payload) { return static_cast<double>(FSR_WIRE_OVERHEAD + payload); };
+  return kBitsPerByte * (rate(kScan) * packet(FSR_WIRE_SCAN_PAYLOAD(size.rows, size.columns)) +
+                         rate(kTransducer) * packet(FSR_WIRE_TRANSDUCER_PAYLOAD) +
+                         rate(kTemperature) * packet(FSR_WIRE_TEMPERATURE_PAYLOAD) +
+                         rate(kIdentity) * packet(FSR_WIRE_IDENTITY_PAYLOAD));
+}
+
+}  // namespace fsr

@@ -1,0 +1,246 @@
+#include "fsr_pressure_map/emulator/emulator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "fsr_pressure_map/settings/range.h"
+
+namespace fsr {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr int kPacketsATurn = 64;  // then others may have the mutex
+constexpr milliseconds kTick{4};   // between two looks at the clock
+constexpr milliseconds kLag{50};   // that scaled rig time may have before it waits
+
+const EmulatorOptions& checked(const EmulatorOptions& options) {
+  const Range scale{0.01, 1000, ""};
+  if (!scale.contains(options.time_scale)) {
+    std::ostringstream sentence;
+    sentence << "time_scale is " << options.time_scale << ", but must be " << scale.text();
+    throw InputError(sentence.str());
+  }
+  validate(options.simulation.chamber, options.simulation.origin + ": chamber");
+  return options;
+}
+
+void refuseOverload(const Board& board, const EmulatorOptions& options) {
+  if (options.baud == 0 || board.bitsPerSecond() <= options.baud) return;
+  std::ostringstream sentence;
+  sentence << options.simulation.origin << ": board.scan_rate is " << options.simulation.board.scan_rate
+           << " Hz, but a link of " << options.baud << " baud does not carry it: it needs "
+           << std::ceil(board.bitsPerSecond()) << " baud";
+  throw InputError(sentence.str());
+}
+
+}  // namespace
+
+std::string stateName(RigStatus::State state) {
+  switch (state) {
+    case RigStatus::State::kRunning:
+      return "running";
+    case RigStatus::State::kStopped:
+      return "stopped";
+    case RigStatus::State::kDone:
+      return "done";
+    default:
+      return "idle";
+  }
+}
+
+/// The mutex, for a caller: the emulator's thread lets it go between packets when one waits.
+class Emulator::Turn {
+ public:
+  explicit Turn(const Emulator& emulator) : emulator_(emulator) {
+    ++emulator.waiting_;
+    lock_ = std::unique_lock<std::mutex>(emulator.mutex_);
+    --emulator.waiting_;
+  }
+  std::unique_lock<std::mutex>& lock() { return lock_; }
+  ~Turn() { emulator_.changed_.notify_all(); }
+
+ private:
+  const Emulator& emulator_;
+  std::unique_lock<std::mutex> lock_;
+};
+
+Emulator::Emulator(const EmulatorOptions& options)
+    : options_(checked(options)),
+      board_(options.simulation, options.clock),
+      link_(options.link, options.baud, options.time_scale != 1, options.simulation.seed),
+      schedule_(options.time_scale) {
+  refuseOverload(board_, options_);
+  board_.mount(options_.surface);
+  mountings_.push_back({0, options_.surface});
+  if (options_.autostart) chamber_.startCycles(0, options_.simulation.chamber);
+  status_ = options_.autostart ? RigStatus{RigStatus::State::kRunning, 1} : RigStatus{};
+  thread_ = std::thread([this] { run(); });
+}
+
+Emulator::~Emulator() {
+  {
+    const Turn turn(*this);
+    stopping_ = true;
+  }
+  thread_.join();
+}
+
+// --- the emulator's thread -------------------------------------------------------------------------
+
+void Emulator::run() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (options_.on_status) options_.on_status(status_);
+  while (!stopping_) {
+    heard_ = link_.hasReader();
+    catchUp();
+    changed_.notify_all();
+    while (waiting_ > 0) {
+      lock.unlock();
+      std::this_thread::yield();
+      lock.lock();
+    }
+    const auto wake = std::min(schedule_.wallTime(board_.nextDue()), RigSchedule::WallClock::now() + kTick);
+    changed_.wait_until(lock, wake, [this] { return stopping_; });
+  }
+}
+
+// Sends what is due. Afterwards time_ is now, or the time of the first packet that is still to be sent:
+// what acts from time_ on is seen by all packets to come and by none that was sent.
+void Emulator::catchUp() {
+  const double now = schedule_.now();
+  for (int i = 0; i < kPacketsATurn && board_.nextDue() <= now; ++i) sendNext();
+  advance(std::min(now, board_.nextDue()));
+  if (schedule_.realTime()) return;
+  const auto lag = RigSchedule::WallClock::now() - schedule_.wallTime(board_.nextDue());
+  if (lag > kLag) schedule_.hold(lag);
+}
+
+void Emulator::sendNext() {
+  advance(board_.nextDue());
+  auto& packet = board_.next([this](double time) { return chamber_.gaugePressure(time); });
+  const auto waited = link_.send(packet, time_);
+  if (!schedule_.realTime()) schedule_.hold(waited);
+}
+
+void Emulator::advance(double time) {
+  if (time <= time_) return;
+  time_ = time;
+  if (options_.on_clock) options_.on_clock(time);
+  if (status_.state == RigStatus::State::kRunning && time >= chamber_.cyclesEnd()) {
+    setState(RigStatus::State::kDone);
+  }
+}
+
+void Emulator::setState(RigStatus::State state) {
+  status_.state = state;
+  if (options_.on_status) options_.on_status(status_);
+}
+
+// --- commands, from any thread -----------------------------------------------------------------------
+
+unsigned Emulator::startCycles() {
+  return startCycles(options_.simulation.chamber);
+}
+
+unsigned Emulator::startCycles(const ChamberProtocol& protocol) {
+  validate(protocol, "chamber");
+  const Turn turn(*this);
+  catchUp();
+  chamber_.startCycles(time_, protocol);
+  ++status_.run;
+  setState(RigStatus::State::kRunning);
+  return status_.run;
+}
+
+void Emulator::stopCycles() {
+  const Turn turn(*this);
+  catchUp();
+  chamber_.stop(time_);
+  if (status_.state == RigStatus::State::kRunning) setState(RigStatus::State::kStopped);
+}
+
+void Emulator::setSurface(const Surface& surface) {
+  const Turn turn(*this);
+  catchUp();
+  board_.mount(surface);
+  mountings_.push_back({time_, surface});
+}
+
+void Emulator::setDamage(const LineDamage& damage) {
+  const Turn turn(*this);
+  catchUp();
+  link_.setDamage(damage, time_);
+}
+
+void Emulator::resetBoard() {
+  const Turn turn(*this);
+  catchUp();
+  board_.reset(time_);
+}
+
+// --- questions, from any thread ----------------------------------------------------------------------
+
+std::string Emulator::port() const {
+  const Turn turn(*this);
+  return link_.port();
+}
+
+RigStatus Emulator::status() const {
+  const Turn turn(*this);
+  return status_;
+}
+
+LinkCounts Emulator::counts() const {
+  const Turn turn(*this);
+  return link_.counts();
+}
+
+std::uint64_t Emulator::scans() const {
+  const Turn turn(*this);
+  return board_.scans();
+}
+
+double Emulator::rigTime() const {
+  const Turn turn(*this);
+  return std::max(time_, 0.0);
+}
+
+double Emulator::rigTime(std::uint64_t device_time) const {
+  const Turn turn(*this);
+  return board_.rigTime(device_time);
+}
+
+double Emulator::gaugePressure(double rig_time) const {
+  const Turn turn(*this);
+  return chamber_.gaugePressure(rig_time);
+}
+
+Surface Emulator::surface(double rig_time) const {
+  const Turn turn(*this);
+  auto mounting = mountings_.rbegin();
+  while (mounting->since > rig_time && std::next(mounting) != mountings_.rend()) ++mounting;
+  return mounting->surface;
+}
+
+template <typename Condition>
+bool Emulator::waitFor(Condition condition, milliseconds timeout) const {
+  Turn turn(*this);
+  return changed_.wait_for(turn.lock(), timeout, condition);
+}
+
+bool Emulator::waitForStatus(RigStatus::State state, milliseconds timeout) const {
+  return waitFor([this, state] { return status_.state == state; }, timeout);
+}
+
+bool Emulator::waitForReader(milliseconds timeout) const {
+  return waitFor([this] { return heard_; }, timeout);
+}
+
+bool Emulator::waitForRigTime(double time, milliseconds timeout) const {
+  return waitFor([this, time] { return time_ >= time; }, timeout);
+}
+
+}  // namespace fsr

@@ -1,0 +1,25 @@
+// Apart from pseudo_terminal.cpp because the kernel's termios, which knows every rate and not only those
+// with a name, and the C library's cannot meet in one file.
+#include <asm/termbits.h>
+#include <sys/ioctl.h>
+
+#include <cstdint>
+
+namespace fsr {
+
+void setTerminalSpeed(int descriptor, std::uint32_t baud) {
+  termios2 settings{};
+  if (ioctl(descriptor, TCGETS2, &settings) != 0) return;
+  settings.c_cflag &= ~static_cast<tcflag_t>(CBAUD | (CBAUD << IBSHIFT));
+  settings.c_cflag |= BOTHER | (BOTHER << IBSHIFT);
+  settings.c_ispeed = baud;
+  settings.c_ospeed = baud;
+  ioctl(descriptor, TCSETS2, &settings);
+}
+
+std::uint32_t terminalSpeed(int descriptor) {
+  termios2 settings{};
+  return ioctl(descriptor, TCGETS2, &settings) == 0 ? settings.c_ospeed : 0;
+}
+
+}  // namespace fsr

@@ -1,0 +1,75 @@
+#include "fsr_pressure_map/emulator/board.h"
+
+#include <gtest/gtest.h>
+
+#include "fsr_pressure_map/protocol/decoder.h"
+#include "support/packet_recorder.h"
+
+namespace {
+
+using fsr::Board;
+
+fsr::SimulationSettings smallRig(const std::string& board) {
+  return fsr::readSimulation(
+      fsr::Settings::fromText("{simulation: t, matrix: {rows: 1, columns: 2}, board: " + board +
+                                  ", effects: {static_curve: {}, converter: {}}}",
+                              "test.yaml"));
+}
+
+std::vector<std::string> packetsUntil(Board& board, double end) {
+  test_support::PacketRecorder recorder;
+  fsr::Decoder decoder(recorder);
+  while (board.nextDue() <= end) {
+    const auto& packet = board.next([](double) { return 0.0; });
+    decoder.feed(packet.data(), packet.size());
+  }
+  return recorder.lines;
+}
+
+TEST(Board, SendsEachKindAtItsOwnRate) {
+  Board board(smallRig("{serial: A7, model: m, scan_rate: 4, transducer_rate: 2, temperature: 21.5}"), {});
+  const std::vector<std::string> expected = {
+      "identity #0 @0 A7/1.0.0/m 1x2 full 4095 every 250000",
+      "temperature #0 @0 21500",
+      "transducer #0 @0 371",
+      "scan #0 @0 1x2 full 4095 took 0 counts 0 0",
+      "scan #1 @250000 1x2 full 4095 took 0 counts 0 0",
+      "transducer #1 @500000 371",
+      "scan #2 @500000 1x2 full 4095 took 0 counts 0 0",
+      "scan #3 @750000 1x2 full 4095 took 0 counts 0 0",
+  };
+  EXPECT_EQ(packetsUntil(board, 0.99), expected);
+}
+
+TEST(Board, TellsOfTheMiddleOfAScanAndSendsItAtTheEnd) {
+  Board board(smallRig("{scan_rate: 10, scan_duration: 0.08, transducer_rate: 0}"), {});
+  EXPECT_EQ(packetsUntil(board, 0.039).size(), 2u);  // identity and temperature
+  EXPECT_EQ(packetsUntil(board, 0.041).front(), "scan #0 @0 1x2 full 4095 took 80000 counts 0 0");
+}
+
+TEST(Board, ItsClockHasAnOffsetADriftAndWrapsOnTheWire) {
+  Board board(smallRig("{scan_rate: 1, transducer_rate: 0}"), {4294000000u, 100});
+  EXPECT_EQ(board.deviceTime(10), 4294000000u + std::uint64_t{10001000});
+  EXPECT_NEAR(board.rigTime(board.deviceTime(10)), 10, 1e-6);
+  const auto lines = packetsUntil(board, 1);
+  // 4294000000 + 1000100 - 2^32
+  EXPECT_EQ(lines.back(), "scan #1 @32804 1x2 full 4095 took 0 counts 0 0");
+}
+
+TEST(Board, StartsAgainWhenReset) {
+  Board board(smallRig("{scan_rate: 2, transducer_rate: 0, serial: A7, model: m}"), {});
+  packetsUntil(board, 10.2);
+  board.reset(10.3);
+  const std::vector<std::string> expected = {"identity #0 @0 A7/1.0.0/m 1x2 full 4095 every 500000",
+                                             "scan #0 @200000 1x2 full 4095 took 0 counts 0 0"};
+  EXPECT_EQ(packetsUntil(board, 10.5), expected);
+  EXPECT_NEAR(board.rigTime(200000), 10.5, 1e-9);
+}
+
+TEST(Board, KnowsWhatItsLinkMustCarry) {
+  // 10 bits a byte; a scan of 7 x 10 is 168 bytes, a transducer or temperature packet 24, identity 76.
+  const auto demo = fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/demo.yaml");
+  EXPECT_NEAR(Board(demo, {}).bitsPerSecond(), 10 * (10 * 168 + 10 * 24 + 24 + 76), 1e-9);
+}
+
+}  // namespace

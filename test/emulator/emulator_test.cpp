@@ -1,0 +1,315 @@
+#include "fsr_pressure_map/emulator/emulator.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "support/board_listener.h"
+#include "support/pty.h"
+
+namespace {
+
+using namespace std::chrono_literals;
+using fsr::Curvature;
+using fsr::Emulator;
+using fsr::EmulatorOptions;
+using fsr::LineDamage;
+using fsr::RigStatus;
+using fsr::Surface;
+using test_support::BoardListener;
+
+constexpr auto kLong = 30s;  // for what must happen; nothing waits for it to pass
+
+/// The bench rig, two hundred times as fast as life.
+EmulatorOptions bench() {
+  EmulatorOptions options;
+  options.simulation = fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/bench.yaml");
+  options.time_scale = 200;
+  return options;
+}
+
+Surface cylinder() {
+  return {"cylinder_7cm", 2, {Curvature{1 / 0.07, 0, 0}}, {}};
+}
+
+/// Counts that the chain makes of the pressures that scan 0, 1, 2 ... saw on these surfaces.
+class Replay {
+ public:
+  explicit Replay(const fsr::SimulationSettings& settings) : chain_(settings) {}
+  std::vector<std::uint16_t> scan(double time, double pressure, const Surface& surface) {
+    chain_.mount(surface);
+    return chain_.read({time, pressure, number_++});
+  }
+
+ private:
+  fsr::SensorChain chain_;
+  std::uint64_t number_ = 0;
+};
+
+TEST(Emulator, ItsBytesDecodeWithoutDamage) {
+  Emulator rig(bench());
+  BoardListener listener(rig.port());
+  ASSERT_TRUE(listener.untilScans(100));
+  EXPECT_FALSE(listener.serials.empty());
+  EXPECT_EQ(listener.serials.front(), "SIM-0001");
+  EXPECT_FALSE(listener.temperature.empty());
+  EXPECT_EQ(listener.temperature.front().value, 23000);
+  EXPECT_EQ(listener.counts().skipped_bytes, 0u);
+  EXPECT_EQ(listener.counts().of(FSR_WIRE_SCAN).lost, 0u);
+}
+
+TEST(Emulator, TransducerTellsThePressureOfTheProtocolAtItsStamp) {
+  EmulatorOptions options = bench();
+  options.autostart = true;
+  Emulator rig(options);
+  BoardListener listener(rig.port());
+  ASSERT_TRUE(listener.until([&] { return rig.status().state == RigStatus::State::kDone; }));
+  const fsr::Transducer& line = options.simulation.transducer;
+  const fsr::PressureProfile protocol = pressureProfile(options.simulation.chamber);
+  double highest = 0;
+  for (const auto& reading : listener.transducer) {
+    const double time = rig.rigTime(reading.device_time);
+    EXPECT_NEAR(rig.gaugePressure(time), protocol.at(time), 1e-6);
+    EXPECT_NEAR(line.gaugePressure(reading.value), protocol.at(time), line.step() / 2 + 1e-6);
+    highest = std::max(highest, line.gaugePressure(reading.value));
+  }
+  EXPECT_NEAR(highest, 300e3, 3000);
+}
+
+TEST(Emulator, CountsAreTheChainsForPressureAndSurfaceAtTheStamp) {
+  EmulatorOptions options = bench();
+  options.autostart = true;
+  Emulator rig(options);
+  BoardListener listener(rig.port());
+  ASSERT_TRUE(rig.waitForReader(kLong));
+  ASSERT_TRUE(listener.untilScans(60));
+  rig.setSurface(cylinder());
+  ASSERT_TRUE(listener.untilScans(120));
+  // The listener may have come after the first scans: the chain sees all of them, the test compares the
+  // ones that were heard.
+  Replay replay(options.simulation);
+  std::size_t heard = 0, bent = 0;
+  for (std::uint32_t number = 0; heard < listener.scans.size(); ++number) {
+    const double time = number / options.simulation.board.scan_rate;
+    const Surface surface = rig.surface(time);
+    const auto expected = replay.scan(time, rig.gaugePressure(time), surface);
+    if (listener.scans[heard].sequence != number) continue;
+    EXPECT_EQ(listener.scans[heard++].counts, expected) << "scan " << number;
+    bent += surface.name == "cylinder_7cm" ? 1 : 0;
+  }
+  EXPECT_GT(bent, 50u);
+  EXPECT_LT(bent, heard);
+}
+
+TEST(Emulator, KeepsTheSpacingOfRigTimeAtAnyTimeScale) {
+  EmulatorOptions options = bench();
+  options.time_scale = 20;
+  const auto start = std::chrono::steady_clock::now();
+  Emulator rig(options);
+  BoardListener listener(rig.port());
+  ASSERT_TRUE(listener.untilScans(101));
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  for (std::size_t i = 1; i < listener.scans.size(); ++i) {
+    EXPECT_EQ(listener.scans[i].device_time - listener.scans[i - 1].device_time, 50000u);
+  }
+  EXPECT_GE(wall.count(), 100 * 0.05 / 20) << "rig time may wait, but never runs ahead of its schedule";
+}
+
+TEST(Emulator, TellsRigTimeBeforeEachScanAndInOrder) {
+  EmulatorOptions options = bench();
+  std::mutex mutex;
+  std::vector<double> times;
+  options.on_clock = [&](double time) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    times.push_back(time);
+  };
+  Emulator rig(options);
+  BoardListener listener(rig.port());
+  ASSERT_TRUE(listener.untilScans(50));
+  std::unique_lock<std::mutex> lock(mutex);
+  const std::vector<double> told = times;
+  lock.unlock();
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  for (const auto& scan : listener.scans) {
+    const double time = rig.rigTime(scan.device_time);
+    const auto nearest = std::lower_bound(told.begin(), told.end(), time - 1e-6);
+    ASSERT_NE(nearest, told.end());
+    EXPECT_NEAR(*nearest, time, 1e-6);
+  }
+}
+
+TEST(Emulator, SaysWhenARunIsDoneAndStartsAFreshOne) {
+  Emulator rig(bench());
+  EXPECT_EQ(rig.status().state, RigStatus::State::kIdle);
+  EXPECT_EQ(rig.startCycles(), 1u);
+  ASSERT_TRUE(rig.waitForStatus(RigStatus::State::kDone, kLong));
+  const double first_end = rig.rigTime();
+  EXPECT_EQ(rig.startCycles(), 2u);
+  EXPECT_EQ(rig.status().state, RigStatus::State::kRunning);
+  ASSERT_TRUE(rig.waitForStatus(RigStatus::State::kDone, kLong));
+  EXPECT_GE(rig.rigTime() - first_end, 24);  // two cycles of 12 s
+}
+
+TEST(Emulator, VentsWhenStopped) {
+  Emulator rig(bench());
+  rig.startCycles();
+  ASSERT_TRUE(rig.waitForRigTime(rig.rigTime() + 5, kLong));
+  rig.stopCycles();
+  EXPECT_EQ(rig.status().state, RigStatus::State::kStopped);
+  ASSERT_TRUE(rig.waitForRigTime(rig.rigTime() + 6, kLong));
+  EXPECT_EQ(rig.gaugePressure(rig.rigTime()), 0);
+}
+
+TEST(EmulatorDamage, LostBytesCostPacketsAndNoMore) {
+  Emulator rig(bench());
+  BoardListener listener(rig.port());
+  LineDamage damage;
+  damage.lost_bytes = 0.005;
+  rig.setDamage(damage);
+  ASSERT_TRUE(listener.untilScans(200));
+  const auto& counts = listener.counts();
+  EXPECT_GT(rig.counts().damage.lost_bytes, 0u);
+  EXPECT_GT(counts.of(FSR_WIRE_SCAN).lost, 0u);
+  rig.setDamage({});
+  ASSERT_TRUE(listener.untilScans(20));
+  const auto lost = counts.of(FSR_WIRE_SCAN).lost;
+  ASSERT_TRUE(listener.untilScans(100));
+  EXPECT_EQ(counts.of(FSR_WIRE_SCAN).lost, lost) << "healed";
+}
+
+TEST(EmulatorDamage, FlippedBitsFailTheChecks) {
+  Emulator rig(bench());
+  BoardListener listener(rig.port());
+  LineDamage damage;
+  damage.flipped_bits = 0.001;
+  rig.setDamage(damage);
+  ASSERT_TRUE(listener.untilScans(200));
+  EXPECT_GT(listener.counts().bad_packet_check, 0u);
+  EXPECT_GT(rig.counts().damage.flipped_bits, 0u);
+}
+
+TEST(EmulatorDamage, APauseIsAGapOfItsLength) {
+  Emulator rig(bench());
+  BoardListener listener(rig.port());
+  ASSERT_TRUE(listener.untilScans(20));
+  LineDamage damage;
+  damage.pause = 3;
+  rig.setDamage(damage);
+  ASSERT_TRUE(listener.until([&] { return listener.counts().of(FSR_WIRE_SCAN).gaps > 0; }));
+  EXPECT_NEAR(static_cast<double>(listener.counts().of(FSR_WIRE_SCAN).lost), 3 * 20, 1);
+}
+
+TEST(EmulatorDamage, UnpluggedThePortIsGoneAndComesBackUnderItsName) {
+  const test_support::TemporaryFolder folder;
+  EmulatorOptions options = bench();
+  options.link = folder.path("board");
+  Emulator rig(options);
+  EXPECT_EQ(rig.port(), options.link);
+  {
+    BoardListener listener(rig.port());
+    ASSERT_TRUE(listener.untilScans(10));
+    LineDamage damage;
+    damage.unplugged = true;
+    rig.setDamage(damage);
+    EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(options.link)));
+    EXPECT_THROW(listener.until([] { return false; }), fsr::LinkError);
+  }
+  rig.setDamage({});
+  BoardListener listener(rig.port());
+  EXPECT_TRUE(listener.untilScans(10));
+}
+
+TEST(EmulatorDamage, AReaderAtAnotherSpeedHearsNothingSound) {
+  EmulatorOptions options = bench();
+  options.baud = 230400;
+  Emulator rig(options);
+  {
+    BoardListener wrong(rig.port(), 115200);
+    ASSERT_TRUE(wrong.until([&] { return wrong.counts().bytes > 20000; }));
+    EXPECT_TRUE(wrong.scans.empty());
+  }
+  BoardListener right(rig.port(), 230400);
+  EXPECT_TRUE(right.untilScans(10));
+  LineDamage damage;
+  damage.baud = 57600;
+  rig.setDamage(damage);
+  ASSERT_TRUE(
+      right.until([&] { return right.counts().bad_header_check + right.counts().skipped_bytes > 1000; }));
+}
+
+TEST(EmulatorDamage, AResetRestartsClockAndCounters) {
+  Emulator rig(bench());
+  BoardListener listener(rig.port());
+  ASSERT_TRUE(listener.until([&] { return !listener.scans.empty() && listener.scans.back().sequence > 40; }));
+  rig.resetBoard();
+  ASSERT_TRUE(listener.until([&] { return listener.scans.back().sequence < 40; }));
+  EXPECT_LE(listener.scans.back().device_time, 2000000u);
+  EXPECT_EQ(listener.counts().of(FSR_WIRE_SCAN).restarts, 1u);
+}
+
+TEST(EmulatorLine, ASlowReaderLosesWholePacketsAndNeverBlocksTheBoard) {
+  EmulatorOptions options = bench();
+  options.time_scale = 1;
+  options.simulation.layout.size = {32, 32};
+  options.simulation.board.scan_rate = 1000;
+  Emulator rig(options);
+  BoardListener listener(rig.port());
+  // Nobody reads, though the port is open: time goes on all the same.
+  ASSERT_TRUE(rig.waitForReader(kLong));
+  while (rig.counts().dropped < 10) ASSERT_TRUE(rig.waitForRigTime(rig.rigTime() + 0.02, kLong));
+  ASSERT_TRUE(listener.untilScans(50));
+  EXPECT_GT(listener.counts().of(FSR_WIRE_SCAN).lost, 0u);
+  EXPECT_EQ(listener.counts().skipped_bytes, 0u) << "no packet in pieces";
+}
+
+TEST(EmulatorLine, ScaledRigTimeWaitsForASlowReaderButNotForEver) {
+  EmulatorOptions options = bench();
+  options.time_scale = 500;
+  Emulator rig(options);
+  BoardListener listener(rig.port());
+  ASSERT_TRUE(rig.waitForReader(kLong));
+  ASSERT_TRUE(listener.untilScans(2000));
+  EXPECT_EQ(listener.counts().of(FSR_WIRE_SCAN).lost, 0u);
+  const double then = rig.rigTime();
+  EXPECT_TRUE(rig.waitForRigTime(then + 500, kLong)) << "though nobody reads any more";
+}
+
+TEST(EmulatorLine, AListenerFindsNothingFromBeforeItCame) {
+  Emulator rig(bench());
+  {
+    BoardListener earlier(rig.port());
+    ASSERT_TRUE(earlier.untilScans(5));
+  }
+  ASSERT_TRUE(rig.waitForRigTime(rig.rigTime() + 20, kLong));
+  const double opened = rig.rigTime();
+  BoardListener listener(rig.port());
+  ASSERT_TRUE(listener.untilScans(1));
+  EXPECT_GT(rig.rigTime(listener.scans[0].device_time), opened - 0.1);
+}
+
+TEST(Emulator, RefusesWhatCannotBe) {
+  EmulatorOptions options = bench();
+  options.time_scale = 0;
+  EXPECT_THROW(Emulator{options}, fsr::InputError);
+  options = bench();
+  options.baud = 1200;
+  EXPECT_THROW(Emulator{options}, fsr::InputError);
+  options = bench();
+  options.simulation.chamber.peak = 800e3;
+  EXPECT_THROW(Emulator{options}, fsr::InputError);
+  const test_support::TemporaryFolder folder;
+  options = bench();
+  options.link = folder.path("board");
+  std::ofstream(options.link) << "a file that nobody may lose";
+  EXPECT_THROW(Emulator{options}, fsr::InputError);
+  EXPECT_TRUE(std::filesystem::is_regular_file(options.link));
+}
+
+TEST(Emulator, ASurfaceOfAnotherSizeIsRefusedAndChangesNothing) {
+  Emulator rig(bench());
+  EXPECT_THROW(rig.setSurface({"limb", 2, std::vector<Curvature>(5), {}}), fsr::InputError);
+  EXPECT_EQ(rig.surface(rig.rigTime()).name, "flat");
+}
+
+}  // namespace

@@ -1,0 +1,73 @@
+#include "fsr_pressure_map/emulator/line_damage.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace {
+
+using fsr::heardByUart;
+using fsr::LineDamage;
+using fsr::LossyLine;
+using Bytes = std::vector<std::uint8_t>;
+
+TEST(HeardByUart, IsTrueAtTheRightSpeedAndWithinItsTolerance) {
+  const Bytes sent = {0x00, 0xFF, 0xA5, 0x5A, 0x12};
+  EXPECT_EQ(heardByUart(sent, 115200, 115200), sent);
+  EXPECT_EQ(heardByUart(sent, 115200, 117500), sent);  // 2 %
+  EXPECT_EQ(heardByUart(sent, 117500, 115200), sent);
+}
+
+// By hand: at twice the speed every bit is seen twice. 0xFF is low for the start bit only: start bit and
+// bit 0 are low, the rest high. 0x00 is low for nine bits, more than one frame, and has no second edge.
+TEST(HeardByUart, SeesEachBitTwiceAtTwiceTheSpeed) {
+  EXPECT_EQ(heardByUart({0xFF}, 57600, 115200), Bytes{0xFE});
+  EXPECT_EQ(heardByUart({0x00}, 57600, 115200), Bytes{0x00});
+  // 0x0F: low 1, high 4, low 4, high: frame 0 0 1111111 1 -> 0xFE; then the low from bit 5 to 8: 0x00 of
+  // eight low receiver bits, one start and seven of data, and a high one.
+  EXPECT_EQ(heardByUart({0x0F}, 57600, 115200), (Bytes{0xFE, 0x80}));
+}
+
+// By hand: at half the speed the samples fall on the boundaries 1, 3, 5 ... of the sender's bits. The start
+// bit of 0xFF is over by then: a spike. 0x00 is low until 9: bits 0 to 2 (at 3, 5, 7) are low, then high.
+TEST(HeardByUart, SkipsEveryOtherBitAtHalfTheSpeed) {
+  EXPECT_EQ(heardByUart({0xFF}, 115200, 57600), Bytes{});
+  EXPECT_EQ(heardByUart({0x00}, 115200, 57600), Bytes{0xF8});
+}
+
+TEST(LossyLine, LosesAndFlipsAtTheRateAskedFor) {
+  LossyLine line(3);
+  LineDamage damage;
+  damage.lost_bytes = 0.01;
+  damage.flipped_bits = 0.002;
+  constexpr double kBytes = 200000;
+  Bytes bytes(static_cast<std::size_t>(kBytes), 0);
+  line.pass(damage, bytes);
+  const double lost = kBytes - static_cast<double>(bytes.size());
+  double flipped = 0;
+  for (const std::uint8_t byte : bytes) flipped += __builtin_popcount(byte);
+  EXPECT_NEAR(lost, 0.01 * kBytes, 5 * std::sqrt(0.01 * kBytes));
+  EXPECT_NEAR(flipped, 0.002 * 8 * kBytes, 5 * std::sqrt(0.002 * 8 * kBytes));
+  EXPECT_EQ(line.counts().lost_bytes, lost);
+  EXPECT_EQ(line.counts().flipped_bits, flipped);
+}
+
+TEST(LossyLine, IsTransparentWhenHealthy) {
+  LossyLine line(3);
+  Bytes bytes = {1, 2, 3};
+  line.pass({}, bytes);
+  EXPECT_EQ(bytes, (Bytes{1, 2, 3}));
+}
+
+TEST(LineDamage, RefusesWhatIsNoProbability) {
+  LineDamage damage;
+  damage.lost_bytes = 1.5;
+  EXPECT_THROW(validate(damage), fsr::InputError);
+  damage = {};
+  damage.flipped_bits = std::nan("");
+  EXPECT_THROW(validate(damage), fsr::InputError);
+}
+
+}  // namespace

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/protocol/decoder.h"
+#include "fsr_pressure_map/protocol/serial_port.h"
+
+namespace test_support {
+
+/// Opens a board's port as the driver does and keeps what the decoder found.
+class BoardListener : public fsr::PacketHandler {
+ public:
+  struct Scan {
+    std::uint32_t sequence;
+    std::uint32_t device_time;  // [us]
+    std::vector<std::uint16_t> counts;
+  };
+  struct Reading {
+    std::uint32_t device_time;  // [us]
+    std::int32_t value;
+  };
+
+  explicit BoardListener(const std::string& port, std::uint32_t baud = 0)
+      : port_(port, baud, [] { return std::int64_t{0}; }), decoder_(*this) {}
+
+  std::vector<Scan> scans;
+  std::vector<Reading> transducer;
+  std::vector<Reading> temperature;
+  std::vector<std::string> serials;  // one for each identity packet
+
+  /// Reads until the condition holds; false where it does not within half a minute.
+  bool until(const std::function<bool()>& condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (!condition() && std::chrono::steady_clock::now() < end) read();
+    return condition();
+  }
+  bool untilScans(std::size_t more) {
+    const std::size_t target = scans.size() + more;
+    return until([this, target] { return scans.size() >= target; });
+  }
+  const fsr::DecoderCounts& counts() const { return decoder_.counts(); }
+
+  void onScan(const fsr::PacketHeader& header, const fsr::ScanPacket& scan) override {
+    scans.push_back({header.sequence, header.device_time, {scan.counts, scan.counts + scan.size.taxels()}});
+  }
+  void onTransducer(const fsr::PacketHeader& header, std::int32_t counts) override {
+    transducer.push_back({header.device_time, counts});
+  }
+  void onTemperature(const fsr::PacketHeader& header, std::int32_t millidegrees) override {
+    temperature.push_back({header.device_time, millidegrees});
+  }
+  void onIdentity(const fsr::PacketHeader&, const fsr::IdentityPacket& identity) override {
+    serials.emplace_back(identity.serial);
+  }
+
+ private:
+  void read() {
+    std::uint8_t bytes[4096];
+    const fsr::Chunk chunk = port_.read(bytes, sizeof(bytes), std::chrono::milliseconds(100));
+    decoder_.feed(bytes, chunk.size);
+  }
+
+  fsr::SerialPort port_;
+  fsr::Decoder decoder_;
+};
+
+}  // namespace test_support
