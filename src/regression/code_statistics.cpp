@@ -43,6 +43,10 @@ void CodeStatistics::append(const CodeSums& sums) {
 
 void CodeStatistics::merge(const CodeStatistics& other) {
   if (other.empty()) return;
+  if (empty()) {
+    *this = other;
+    return;
+  }
   std::vector<CodeSums> all;
   all.reserve(codes() + other.codes());
   const auto collect = [&all](const CodeSums& sums) { all.push_back(sums); };

@@ -180,6 +180,16 @@ TEST(Calibrate, SaysWhereItComesFrom) {
   EXPECT_EQ(calibration.warnings, std::vector<std::string>{"synthetic.bag: something to know"});
 }
 
+TEST(Calibrate, NamesTheWorstTaxel) {
+  Recording recording = syntheticRecording(threeSurfaces());
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    recording.counts[6 * i + 2] = static_cast<std::uint16_t>(recording.counts[6 * i + 2] + 97 * i % 200);
+  }
+  const Score score = train({recording}, Scheme::kPerCurvature).scores.conditions.at(1).score;
+  EXPECT_EQ(score.worst_taxel, 2u);
+  EXPECT_GT(score.worst_rmse_percent, 2 * score.rmse_percent.mean);
+}
+
 void holdConstant(Recording& recording, std::size_t taxel) {
   const std::size_t taxels = recording.layout.size.taxels();
   for (std::size_t i = 0; i < recording.scans(); ++i) recording.counts[i * taxels + taxel] = 7;

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "fsr_pressure_map/calibration/calibration.h"
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/calibration/hdf5_reader.h"
+#include "fsr_pressure_map/calibration/hdf5_writer.h"
+
+namespace fsr {
+
+// The content of a calibration file, schema 1:
+//
+//     /            attributes scheme, model, bandwidth, folds, full_scale, curvature_rule, use
+//     /sensor      attributes sensor_id, serial, firmware, model, sealing, transducer
+//     /layout      attributes rows, columns, pitch_x [m], pitch_y [m]; no_model [taxels]
+//     /trained     attributes pressure, pressure_rate, curvature, temperature: lowest, highest
+//     /provenance  attributes tool_version, date, seed; bags, sha256, scans [bags]; warnings
+//     /tables      surfaces [models], curvature [models x (1 or taxels)],
+//                  pressure, deviation, support [taxels x models x codes], trained_codes [taxels x models x
+//                  2]
+//     /coverage    scans, cycles [classes x bins x 2], totals, pressure, thin
+//     /scores      see scores_hdf5 (absent where not asked for)
+//     /statistics  surfaces, curvature of the classes; first [taxels x classes x sections + 1] and the rows
+//                  code, count, sum that it points into; square_high, square_low of the rows with count > 1
+//
+// Taxels are row-major. Numbers carry `unit`, everything says its `meaning`.
+constexpr std::uint64_t kCalibrationSchema = 1;
+
+void writeCalibration(const Calibration& calibration, Hdf5Writer& writer);
+
+/// Throws InputError that names what is missing or does not fit.
+Calibration readCalibration(const Hdf5Reader& reader, CalibrationParts parts);
+
+// Parts with a file of their own.
+void writeTables(const CurvatureTables& tables, Hdf5Writer& writer);
+CurvatureTables readTables(const Hdf5Reader& reader, MatrixSize size);
+void writeCoverage(const Coverage& coverage, Hdf5Writer& writer);
+Coverage readCoverage(const Hdf5Reader& reader, const std::vector<CurvatureClass>& classes);
+void writeScores(const CalibrationScores& scores, Hdf5Writer& writer);
+CalibrationScores readScores(const Hdf5Reader& reader, const std::vector<CurvatureClass>& classes);
+void writeStatistics(const TrainingStatistics& statistics, Hdf5Writer& writer);
+/// `cells` = whether to read the sums too, not the classes alone.
+TrainingStatistics readStatistics(const Hdf5Reader& reader, bool cells);
+void writeClasses(const std::string& group, const std::vector<CurvatureClass>& classes, Hdf5Writer& writer);
+std::vector<CurvatureClass> readClasses(const std::string& group, const Hdf5Reader& reader);
+
+}  // namespace fsr

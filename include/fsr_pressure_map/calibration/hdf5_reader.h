@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace fsr {
+
+/// Reads what Hdf5Writer writes, from the bytes of a whole file. Every function throws InputError that
+/// names the object where it is missing or of another shape.
+class Hdf5Reader {
+ public:
+  explicit Hdf5Reader(const std::string& bytes);
+  ~Hdf5Reader();
+  Hdf5Reader(const Hdf5Reader&) = delete;
+  Hdf5Reader& operator=(const Hdf5Reader&) = delete;
+
+  std::string text(const std::string& path, const std::string& attribute) const;
+  std::vector<double> numbers(const std::string& path, const std::string& attribute, std::size_t size) const;
+  std::uint64_t integer(const std::string& path, const std::string& attribute) const;
+  std::vector<std::size_t> shape(const std::string& path) const;
+  /// `shape` is what the dataset must have.
+  template <typename T>
+  std::vector<T> dataset(const std::string& path, const std::vector<std::size_t>& shape) const;
+  std::vector<std::string> texts(const std::string& path) const;
+
+ private:
+  std::lock_guard<std::mutex> lock_;
+  std::int64_t file_;
+};
+
+}  // namespace fsr

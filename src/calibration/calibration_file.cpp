@@ -1,0 +1,96 @@
+#include "fsr_pressure_map/calibration/calibration_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "fsr_pressure_map/calibration/calibration_hdf5.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/settings/replace_file.h"
+#include "fsr_pressure_map/settings/sha256.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr char kFormat[] = "fsr_pressure_map calibration";
+constexpr std::size_t kIdDigits = 12;
+
+// The whole user block: a line of text, the rest zeros.
+std::string userBlock(std::uint64_t schema, const std::string& hash) {
+  std::string block = std::string(kFormat) + " schema=" + std::to_string(schema) + " sha256=" + hash + "\n";
+  block.resize(kUserBlock, '\0');
+  return block;
+}
+
+std::string readWhole(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError("cannot be opened (" + std::string(std::strerror(errno)) + ")");
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) throw InputError("is no file; give the path of a calibration file");
+  std::string bytes(size, '\0');
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) {
+    throw InputError("cannot be read to its end; is it being written?");
+  }
+  return bytes;
+}
+
+// The schema that the user block names; refuses what is no calibration file.
+std::uint64_t schemaOf(const std::string& bytes) {
+  if (bytes.empty()) throw InputError("is empty; train again, or copy the file again");
+  const std::string start = std::string(kFormat) + " schema=";
+  if (bytes.compare(0, start.size(), start) != 0) {
+    throw InputError("is no calibration file; give one that train has written");
+  }
+  return std::strtoull(bytes.c_str() + start.size(), nullptr, 10);
+}
+
+// The id; refuses bytes that do not have the hash that the user block names.
+std::string verified(const std::string& bytes, std::uint64_t schema) {
+  const std::size_t content = bytes.size() - std::min(bytes.size(), kUserBlock);
+  const std::string hash = sha256(bytes.data() + bytes.size() - content, content);
+  if (content == 0 || bytes.compare(0, kUserBlock, userBlock(schema, hash)) != 0) {
+    throw InputError(
+        "is damaged or cut short: its bytes do not have the SHA-256 that its first line names; "
+        "copy the file again or train again");
+  }
+  return hash.substr(0, kIdDigits);
+}
+
+}  // namespace
+
+std::string saveCalibration(const Calibration& calibration, const std::string& path) {
+  std::string bytes;
+  {
+    Hdf5Writer writer;
+    writeCalibration(calibration, writer);
+    bytes = writer.finish();
+  }
+  const std::string hash = sha256(bytes.data(), bytes.size());
+  bytes.insert(0, userBlock(kCalibrationSchema, hash));
+  replaceFile(path, bytes);
+  return hash.substr(0, kIdDigits);
+}
+
+Calibration loadCalibration(const std::string& path, CalibrationParts parts) {
+  try {
+    const std::string bytes = readWhole(path);
+    const std::uint64_t schema = schemaOf(bytes);
+    if (schema > kCalibrationSchema) {
+      throw InputError("has schema " + std::to_string(schema) + ", but this version reads up to " +
+                       std::to_string(kCalibrationSchema) + "; update the package");
+    }
+    const std::string id = verified(bytes, schema);
+    Calibration calibration = readCalibration(Hdf5Reader(bytes), parts);
+    calibration.id = id;
+    return calibration;
+  } catch (const InputError& error) {
+    throw InputError(path + ": " + error.what());
+  }
+}
+
+}  // namespace fsr

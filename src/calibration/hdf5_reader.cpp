@@ -1,0 +1,124 @@
+#include "fsr_pressure_map/calibration/hdf5_reader.h"
+
+#include <algorithm>
+
+#include "hdf5_handle.h"
+
+namespace fsr {
+
+using namespace hdf5;  // Handle, require, typeOf, elements, shapeText
+
+namespace {
+
+std::string trimmed(const char* text, std::size_t size) {
+  return std::string(text, std::find(text, text + size, '\0'));
+}
+
+hid_t openImage(const std::string& bytes) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file");
+  require(H5Pset_fapl_core(access, 0, false), "file");
+  // HDF5 copies the bytes and writes to none of them
+  require(H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size()), "file");
+  return H5Fopen("image", H5F_ACC_RDONLY, access);
+}
+
+}  // namespace
+
+Hdf5Reader::Hdf5Reader(const std::string& bytes) : lock_(hdf5Mutex()), file_(openImage(bytes)) {
+  if (file_ < 0) throw InputError("what follows its first 512 bytes is no HDF5 file");
+}
+
+Hdf5Reader::~Hdf5Reader() {
+  H5Fclose(file_);
+}
+
+std::string Hdf5Reader::text(const std::string& path, const std::string& name) const {
+  const std::string what = path + " " + name;
+  const Handle attribute(H5Aopen_by_name(file_, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose, what);
+  const Handle type(H5Aget_type(attribute), H5Tclose, what);
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) {
+    throw InputError("its HDF5 part holds " + what + ", but not as a text of fixed length");
+  }
+  std::string text(H5Tget_size(type), '\0');
+  require(H5Aread(attribute, type, text.data()), what);
+  return trimmed(text.data(), text.size());
+}
+
+std::vector<double> Hdf5Reader::numbers(const std::string& path, const std::string& name,
+                                        std::size_t size) const {
+  const std::string what = path + " " + name;
+  const Handle attribute(H5Aopen_by_name(file_, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose, what);
+  const Handle space(H5Aget_space(attribute), H5Sclose, what);
+  if (H5Sget_simple_extent_npoints(space) != static_cast<hssize_t>(size)) {
+    throw InputError("its HDF5 part holds " + what + ", but not of " + std::to_string(size) + " numbers");
+  }
+  std::vector<double> values(size);
+  require(H5Aread(attribute, H5T_NATIVE_DOUBLE, values.data()), what);
+  return values;
+}
+
+std::uint64_t Hdf5Reader::integer(const std::string& path, const std::string& name) const {
+  const std::string what = path + " " + name;
+  const Handle attribute(H5Aopen_by_name(file_, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose, what);
+  const Handle space(H5Aget_space(attribute), H5Sclose, what);
+  if (H5Sget_simple_extent_npoints(space) != 1) {
+    throw InputError("its HDF5 part holds " + what + ", but not as one number");
+  }
+  std::uint64_t value = 0;
+  require(H5Aread(attribute, H5T_NATIVE_UINT64, &value), what);
+  return value;
+}
+
+std::vector<std::size_t> Hdf5Reader::shape(const std::string& path) const {
+  const Handle dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose, path);
+  const Handle space(H5Dget_space(dataset), H5Sclose, path);
+  std::vector<hsize_t> size(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
+  require(H5Sget_simple_extent_dims(space, size.data(), nullptr), path);
+  return {size.begin(), size.end()};
+}
+
+template <typename T>
+std::vector<T> Hdf5Reader::dataset(const std::string& path, const std::vector<std::size_t>& expected) const {
+  const std::vector<std::size_t> found = shape(path);
+  if (found != expected) {
+    throw InputError("its " + path + " is " + shapeText(found) + ", but must be " + shapeText(expected));
+  }
+  const Handle dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose, path);
+  std::vector<T> values(elements(expected));
+  if (values.empty()) return values;
+  require(H5Dread(dataset, typeOf<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path);
+  return values;
+}
+
+std::vector<std::string> Hdf5Reader::texts(const std::string& path) const {
+  const Handle dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose, path);
+  const Handle type(H5Dget_type(dataset), H5Tclose, path);
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) {
+    throw InputError("its " + path + " does not hold texts of fixed length");
+  }
+  const std::size_t length = H5Tget_size(type);
+  std::string padded(length * elements(shape(path)), '\0');
+  if (!padded.empty()) require(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()), path);
+  std::vector<std::string> texts;
+  for (std::size_t at = 0; at < padded.size(); at += length) texts.push_back(trimmed(&padded[at], length));
+  return texts;
+}
+
+template std::vector<std::uint8_t> Hdf5Reader::dataset(const std::string&,
+                                                       const std::vector<std::size_t>&) const;
+template std::vector<std::uint16_t> Hdf5Reader::dataset(const std::string&,
+                                                        const std::vector<std::size_t>&) const;
+template std::vector<std::uint32_t> Hdf5Reader::dataset(const std::string&,
+                                                        const std::vector<std::size_t>&) const;
+template std::vector<std::uint64_t> Hdf5Reader::dataset(const std::string&,
+                                                        const std::vector<std::size_t>&) const;
+template std::vector<std::int64_t> Hdf5Reader::dataset(const std::string&,
+                                                       const std::vector<std::size_t>&) const;
+template std::vector<float> Hdf5Reader::dataset(const std::string&, const std::vector<std::size_t>&) const;
+template std::vector<double> Hdf5Reader::dataset(const std::string&, const std::vector<std::size_t>&) const;
+
+}  // namespace fsr

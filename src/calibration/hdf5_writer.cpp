@@ -1,0 +1,135 @@
+#include "fsr_pressure_map/calibration/hdf5_writer.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "hdf5_handle.h"
+
+namespace fsr {
+
+using namespace hdf5;  // Handle, require, typeOf, elements, shapeText
+
+namespace {
+
+inline std::vector<hsize_t> dimensions(const std::vector<std::size_t>& shape) {
+  return {shape.begin(), shape.end()};
+}
+
+// Fixed length, padded with zeros: every reader of HDF5 knows it.
+hid_t textType(std::size_t length) {
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, std::max<std::size_t>(length, 1));
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return type;
+}
+
+void writeAttribute(hid_t file, const std::string& path, const std::string& name, hid_t type, hid_t space,
+                    const void* values) {
+  const Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, path);
+  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                         name);
+  require(H5Awrite(attribute, type, values), name);
+}
+
+void writeDataset(hid_t file, const std::string& path, hid_t type, const std::vector<std::size_t>& shape,
+                  const void* values) {
+  const std::vector<hsize_t> size = dimensions(shape);
+  const Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose, path);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path);
+  require(H5Pset_obj_track_times(creation, false), path);  // the same content, the same bytes
+  const Handle dataset(H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                       H5Dclose, path);
+  if (elements(shape) > 0) require(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);
+}
+
+hid_t createImage() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors become exceptions, not text on stderr
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file");
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file");
+  constexpr std::size_t kGrowth = 16 << 20;
+  require(H5Pset_fapl_core(access, kGrowth, false), "file");
+  require(H5Pset_userblock(creation, kUserBlock), "file");
+  return H5Fcreate("image", H5F_ACC_TRUNC, creation, access);
+}
+
+}  // namespace
+
+Hdf5Writer::Hdf5Writer() : lock_(hdf5Mutex()), file_(createImage()) {
+  if (file_ < 0) throw std::runtime_error("HDF5 cannot make a file in memory");
+}
+
+Hdf5Writer::~Hdf5Writer() {
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void Hdf5Writer::group(const std::string& path) {
+  const Handle made(H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
+}
+
+void Hdf5Writer::attribute(const std::string& path, const std::string& name, const std::string& text) {
+  const Handle type(textType(text.size()), H5Tclose, name);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+  writeAttribute(file_, path, name, type, space, text.c_str());
+}
+
+void Hdf5Writer::attribute(const std::string& path, const std::string& name,
+                           const std::vector<double>& values) {
+  const hsize_t size = values.size();
+  const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, name);
+  writeAttribute(file_, path, name, H5T_NATIVE_DOUBLE, space, values.data());
+}
+
+void Hdf5Writer::attribute(const std::string& path, const std::string& name, std::uint64_t value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+  writeAttribute(file_, path, name, H5T_NATIVE_UINT64, space, &value);
+}
+
+template <typename T>
+void Hdf5Writer::dataset(const std::string& path, const std::vector<T>& values,
+                         const std::vector<std::size_t>& shape, const std::string& unit,
+                         const std::string& meaning) {
+  if (elements(shape) != values.size()) throw std::logic_error(path + " is not " + shapeText(shape));
+  writeDataset(file_, path, typeOf<T>(), shape, values.data());
+  if (!unit.empty()) attribute(path, "unit", unit);
+  if (!meaning.empty()) attribute(path, "meaning", meaning);
+}
+
+void Hdf5Writer::texts(const std::string& path, const std::vector<std::string>& texts,
+                       const std::string& meaning) {
+  std::size_t length = 1;
+  for (const std::string& text : texts) length = std::max(length, text.size());
+  std::string padded;
+  for (const std::string& text : texts) padded += text + std::string(length - text.size(), '\0');
+  const Handle type(textType(length), H5Tclose, path);
+  writeDataset(file_, path, type, {texts.size()}, padded.data());
+  if (!meaning.empty()) attribute(path, "meaning", meaning);
+}
+
+std::string Hdf5Writer::finish() {
+  require(H5Fflush(file_, H5F_SCOPE_GLOBAL), "file");
+  const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
+  if (size <= 0) throw std::runtime_error("HDF5 gives no image of its file");
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  if (H5Fget_file_image(file_, bytes.data(), bytes.size()) != size) {
+    throw std::runtime_error("HDF5 gives no image of its file");
+  }
+  return bytes;
+}
+
+template void Hdf5Writer::dataset(const std::string&, const std::vector<std::uint8_t>&,
+                                  const std::vector<std::size_t>&, const std::string&, const std::string&);
+template void Hdf5Writer::dataset(const std::string&, const std::vector<std::uint16_t>&,
+                                  const std::vector<std::size_t>&, const std::string&, const std::string&);
+template void Hdf5Writer::dataset(const std::string&, const std::vector<std::uint32_t>&,
+                                  const std::vector<std::size_t>&, const std::string&, const std::string&);
+template void Hdf5Writer::dataset(const std::string&, const std::vector<std::uint64_t>&,
+                                  const std::vector<std::size_t>&, const std::string&, const std::string&);
+template void Hdf5Writer::dataset(const std::string&, const std::vector<std::int64_t>&,
+                                  const std::vector<std::size_t>&, const std::string&, const std::string&);
+template void Hdf5Writer::dataset(const std::string&, const std::vector<float>&,
+                                  const std::vector<std::size_t>&, const std::string&, const std::string&);
+template void Hdf5Writer::dataset(const std::string&, const std::vector<double>&,
+                                  const std::vector<std::size_t>&, const std::string&, const std::string&);
+
+}  // namespace fsr

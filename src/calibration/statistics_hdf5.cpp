@@ -1,0 +1,97 @@
+#include "fsr_pressure_map/calibration/calibration_hdf5.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+namespace {
+
+// All cells one after the other.
+struct Rows {
+  std::vector<std::uint64_t> first = {0};  // row where each cell begins, and the end
+  std::vector<std::uint16_t> code;
+  std::vector<std::uint32_t> count;
+  std::vector<std::int64_t> sum;
+  std::vector<std::int64_t> square_high;
+  std::vector<std::uint64_t> square_low;
+};
+
+template <typename T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+Rows rowsOf(const std::vector<CodeStatistics>& cells) {
+  Rows rows;
+  for (const CodeStatistics& cell : cells) {
+    append(rows.code, cell.code());
+    append(rows.count, cell.count());
+    append(rows.sum, cell.sum());
+    for (const Int128 square : cell.square()) {
+      rows.square_high.push_back(static_cast<std::int64_t>(square >> 64));
+      rows.square_low.push_back(static_cast<std::uint64_t>(square));
+    }
+    rows.first.push_back(rows.code.size());
+  }
+  return rows;
+}
+
+Int128 squareAt(const Rows& rows, std::size_t i) {
+  if (i >= rows.square_high.size()) throw InputError("its /statistics/square_high ends too early");
+  return Int128{rows.square_high[i]} * (Int128{1} << 64) + rows.square_low[i];
+}
+
+std::vector<CodeStatistics> cellsOf(const Rows& rows) {
+  std::vector<CodeStatistics> cells(rows.first.size() - 1);
+  std::size_t repeated = 0;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    if (rows.first[cell] > rows.first[cell + 1] || rows.first[cell + 1] > rows.code.size()) {
+      throw InputError("its /statistics/first does not ascend to the number of rows");
+    }
+    for (std::size_t row = rows.first[cell]; row < rows.first[cell + 1]; ++row) {
+      const Int128 square = rows.count[row] > 1 ? squareAt(rows, repeated++) : Int128{0};
+      cells[cell].append({rows.code[row], rows.count[row], rows.sum[row], square});
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+void writeStatistics(const TrainingStatistics& statistics, Hdf5Writer& writer) {
+  const Rows rows = rowsOf(statistics.cells);
+  writer.group("/statistics");
+  writeClasses("/statistics", statistics.classes, writer);
+  writer.attribute("/statistics", "taxels", statistics.taxels);
+  writer.attribute("/statistics", "sections", statistics.sections);
+  writer.dataset("/statistics/first", rows.first, {rows.first.size()}, "",
+                 "row where each cell [taxels x classes x sections] begins, and the number of rows");
+  writer.dataset("/statistics/code", rows.code, {rows.code.size()}, "counts", "reading, ascending in a cell");
+  writer.dataset("/statistics/count", rows.count, {rows.count.size()}, "", "scans with this reading");
+  writer.dataset("/statistics/sum", rows.sum, {rows.sum.size()}, "2^-20 Pa",
+                 "sum of their chamber pressures, gauge");
+  writer.dataset("/statistics/square_high", rows.square_high, {rows.square_high.size()}, "2^24 Pa^2",
+                 "sum of their squares, upper 64 bits, of the rows with count > 1");
+  writer.dataset("/statistics/square_low", rows.square_low, {rows.square_low.size()}, "2^-40 Pa^2",
+                 "lower 64 bits, likewise");
+}
+
+TrainingStatistics readStatistics(const Hdf5Reader& reader, bool cells) {
+  TrainingStatistics statistics;
+  statistics.classes = readClasses("/statistics", reader);
+  statistics.taxels = reader.integer("/statistics", "taxels");
+  statistics.sections = reader.integer("/statistics", "sections");
+  if (!cells) return statistics;
+  Rows rows;
+  const std::size_t number = statistics.taxels * statistics.classes.size() * statistics.sections;
+  rows.first = reader.dataset<std::uint64_t>("/statistics/first", {number + 1});
+  rows.code = reader.dataset<std::uint16_t>("/statistics/code", {rows.first.back()});
+  rows.count = reader.dataset<std::uint32_t>("/statistics/count", {rows.first.back()});
+  rows.sum = reader.dataset<std::int64_t>("/statistics/sum", {rows.first.back()});
+  const std::vector<std::size_t> squares = reader.shape("/statistics/square_high");
+  rows.square_high = reader.dataset<std::int64_t>("/statistics/square_high", squares);
+  rows.square_low = reader.dataset<std::uint64_t>("/statistics/square_low", squares);
+  statistics.cells = cellsOf(rows);
+  return statistics;
+}
+
+}  // namespace fsr
