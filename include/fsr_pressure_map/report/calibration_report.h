@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "fsr_pressure_map/calibration/calibration.h"
+
+namespace fsr {
+
+// A calibration's coverage and scores for people and for programs. Nothing is computed here: every
+// number stands in the Calibration.
+
+/// A table for the terminal: scans by curvature class, pressure bin and direction; then what is thin.
+std::string coverageText(const Coverage& coverage);
+
+/// Tables for the terminal: R2 and RMSE% over taxels, errors in kPa for each class, then RMSE by pressure
+/// bin and direction. A sentence where there are no scores.
+std::string scoresText(const CalibrationScores& scores);
+
+/// Warnings, one a line; "" where there are none.
+std::string warningsText(const Calibration& calibration);
+
+/// Everything but tables and statistics, indented. Numbers are SI; null = no value.
+std::string calibrationJson(const Calibration& calibration);
+
+}  // namespace fsr

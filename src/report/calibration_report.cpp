@@ -1,0 +1,152 @@
+#include "fsr_pressure_map/report/calibration_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace fsr {
+
+namespace {
+
+constexpr int kNameWidth = 18;
+constexpr int kCellWidth = 14;
+constexpr double kKilopascal = 1e3;  // [Pa]
+
+std::string number(double value, int digits) {
+  if (std::isnan(value)) return "-";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(digits) << value;
+  return text.str();
+}
+
+std::string kilopascal(double pressure) {
+  return number(pressure / kKilopascal, 1);
+}
+
+std::string spread(const Spread& value, int digits) {
+  return std::isnan(value.deviation) ? number(value.mean, digits)
+                                     : number(value.mean, digits) + " +- " + number(value.deviation, digits);
+}
+
+// "14.3" for all taxels, "9.0..14.3" where they differ.
+std::string curvature(const CurvatureClass& condition, double unit, int digits) {
+  const auto [low, high] = std::minmax_element(condition.curvature.begin(), condition.curvature.end());
+  const std::string first = number(*low / unit, digits);
+  return *low == *high ? first : first + ".." + number(*high / unit, digits);
+}
+
+void nameCell(std::ostream& out, const std::string& name) {
+  out << std::left << std::setw(kNameWidth) << (name.empty() ? "(no name)" : name) << ' ' << std::right;
+}
+
+void cell(std::ostream& out, const std::string& text, int width = kCellWidth) {
+  out << std::setw(width) << text;
+}
+
+void binHeads(std::ostream& out) {
+  for (std::size_t bin = 0; bin < kPressureBins; ++bin) cell(out, pressureBinName(bin) + " kPa");
+  out << '\n';
+}
+
+void coverageRow(std::ostream& out, const ConditionCoverage& row) {
+  nameCell(out, row.condition.surface);
+  cell(out, curvature(row.condition, 1.0, 2), 12);
+  cell(out, curvature(row.condition, 100.0, 3), 12);
+  cell(out, std::to_string(row.scans), 8);
+  cell(out, std::to_string(row.cycles), 7);
+  for (std::size_t bin = 0; bin < kPressureBins; ++bin) {
+    cell(out, std::to_string(row.loading[bin].scans) + "/" + std::to_string(row.unloading[bin].scans));
+  }
+  out << '\n';
+}
+
+void scoreRow(std::ostream& out, const std::string& name, const Score& score) {
+  const ErrorSummary& errors = score.errors.whole.all;
+  nameCell(out, name);
+  cell(out, spread(score.r2, 4), 20);
+  cell(out, spread(score.rmse_percent, 2), 16);
+  cell(out, kilopascal(errors.rmse), 8);
+  cell(out, kilopascal(errors.bias), 8);
+  cell(out, kilopascal(errors.limit_low) + ".." + kilopascal(errors.limit_high), 16);
+  cell(out, kilopascal(errors.p95_absolute), 8);
+  cell(out, number(score.worst_rmse_percent, 2) + " (" + std::to_string(score.worst_taxel) + ")", 14);
+  cell(out, number(100 * score.within_one_deviation, 1) + " %", 13);
+  out << '\n';
+}
+
+void binRow(std::ostream& out, const std::string& name, const Score& score) {
+  nameCell(out, name);
+  for (const BinnedErrors::Directions& bin : score.errors.bins) {
+    cell(out, kilopascal(bin.loading.rmse) + "/" + kilopascal(bin.unloading.rmse));
+  }
+  out << '\n';
+}
+
+template <typename Row>
+void forEachRow(const CalibrationScores& scores, Row row) {
+  for (const ConditionScore& condition : scores.conditions) {
+    row(condition.condition.surface + (condition.trained ? "" : " *"), condition.score);
+  }
+  row("all together", scores.whole);
+}
+
+}  // namespace
+
+std::string coverageText(const Coverage& coverage) {
+  std::ostringstream out;
+  out << "Coverage: scans while loading/unloading, by gauge pressure\n";
+  nameCell(out, "surface");
+  cell(out, "1/m", 12);
+  cell(out, "1/cm", 12);
+  cell(out, "scans", 8);
+  cell(out, "cycles", 7);
+  binHeads(out);
+  for (const ConditionCoverage& row : coverage.conditions) coverageRow(out, row);
+  out << (coverage.thin.empty() ? "Nothing is thin.\n" : "Thin:\n");
+  for (const std::string& sentence : coverage.thin) out << "  " << sentence << '\n';
+  return out.str();
+}
+
+std::string scoresText(const CalibrationScores& scores) {
+  if (scores.conditions.empty()) return "Scores were not asked for.\n";
+  std::ostringstream out;
+  out << "Held-out readings, each predicted without its section; R2 and RMSE%: mean +- deviation over "
+         "taxels\n";
+  nameCell(out, "surface");
+  cell(out, "R2", 20);
+  cell(out, "RMSE%", 16);
+  cell(out, "RMSE", 8);
+  cell(out, "bias", 8);
+  cell(out, "95 % limits", 16);
+  cell(out, "p95", 8);
+  cell(out, "worst taxel", 14);
+  cell(out, "within 1 dev", 13);
+  out << '\n';
+  nameCell(out, " ");
+  cell(out, "", 36);
+  cell(out, "kPa", 8);
+  cell(out, "kPa", 8);
+  cell(out, "kPa", 16);
+  cell(out, "kPa", 8);
+  cell(out, "RMSE% (no.)", 14);
+  out << '\n';
+  forEachRow(scores, [&](const std::string& name, const Score& score) { scoreRow(out, name, score); });
+  out << "RMSE [kPa] while loading/unloading\n";
+  nameCell(out, "surface");
+  binHeads(out);
+  forEachRow(scores, [&](const std::string& name, const Score& score) { binRow(out, name, score); });
+  const auto untrained = [](const ConditionScore& condition) { return !condition.trained; };
+  if (std::any_of(scores.conditions.begin(), scores.conditions.end(), untrained)) {
+    out << "* the model that answers has not been trained on this surface\n";
+  }
+  return out.str();
+}
+
+std::string warningsText(const Calibration& calibration) {
+  std::string text;
+  for (const std::string& warning : calibration.warnings) text += "Warning: " + warning + '\n';
+  return text;
+}
+
+}  // namespace fsr

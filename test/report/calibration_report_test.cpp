@@ -1,0 +1,93 @@
+#include "fsr_pressure_map/report/calibration_report.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "support/synthetic_recording.h"
+
+namespace fsr {
+namespace {
+
+using test_support::syntheticRecording;
+using test_support::SyntheticRig;
+
+Calibration trained(Scheme scheme) {
+  SyntheticRig rig;
+  rig.surfaces = {{"flat", 0.0}, {"cylinder_5cm", 20.0}};
+  rig.peak = 300e3;
+  CalibrationProblem problem{{syntheticRecording(rig)}, {}};
+  problem.options.scheme = scheme;
+  problem.options.date = "2024-05-06T07:08:09Z";
+  return calibrate(problem);
+}
+
+// The line that begins with `start`.
+std::string lineOf(const std::string& text, const std::string& start) {
+  std::istringstream lines(text);
+  std::string line;
+  while (std::getline(lines, line)) {
+    if (line.rfind(start, 0) == 0) return line;
+  }
+  return "";
+}
+
+TEST(CalibrationReport, ShowsCoverageInBothUnitsOfCurvature) {
+  const std::string text = coverageText(trained(Scheme::kPerCurvature).coverage);
+  EXPECT_EQ(
+      lineOf(text, "cylinder_5cm"),
+      "cylinder_5cm              20.00       0.200     500      5         40/45         40/40         85/85"
+      "         85/80           0/0");
+  EXPECT_NE(text.find("Thin:\n  no surface was loaded above 300 kPa\n"), std::string::npos);
+}
+
+TEST(CalibrationReport, ShowsScoresOfEachSurface) {
+  const Calibration calibration = trained(Scheme::kPerCurvature);
+  const std::string text = scoresText(calibration.scores);
+  const Score& score = calibration.scores.conditions[1].score;
+  char rmse[32];
+  std::snprintf(rmse, sizeof(rmse), "%.1f", score.errors.whole.all.rmse / 1e3);
+  EXPECT_NE(lineOf(text, "cylinder_5cm").find(rmse), std::string::npos);
+  EXPECT_NE(lineOf(text, "all together"), "");
+  EXPECT_NE(text.find("-/-"), std::string::npos);  // no reading above 400 kPa
+  EXPECT_EQ(text.find("nan"), std::string::npos);
+}
+
+TEST(CalibrationReport, MarksSurfacesThatTheModelNeverSaw) {
+  const std::string text = scoresText(trained(Scheme::kFlatOnly).scores);
+  EXPECT_NE(text.find("cylinder_5cm *"), std::string::npos);
+  EXPECT_NE(text.find("* the model that answers has not been trained on this surface"), std::string::npos);
+  EXPECT_EQ(scoresText(trained(Scheme::kBaseline).scores).find('*'), std::string::npos);
+}
+
+TEST(CalibrationReport, SaysThatScoresWereNotAskedFor) {
+  EXPECT_EQ(scoresText({}), "Scores were not asked for.\n");
+}
+
+TEST(CalibrationReport, PrintsWarningsLineByLine) {
+  Calibration calibration;
+  EXPECT_EQ(warningsText(calibration), "");
+  calibration.warnings = {"one", "two"};
+  EXPECT_EQ(warningsText(calibration), "Warning: one\nWarning: two\n");
+}
+
+TEST(CalibrationReport, JsonHoldsTheSameNumbers) {
+  const Calibration calibration = trained(Scheme::kPerCurvature);
+  const auto json = nlohmann::json::parse(calibrationJson(calibration));
+  EXPECT_EQ(json["scheme"], "per_curvature");
+  EXPECT_EQ(json["provenance"]["date"], "2024-05-06T07:08:09Z");
+  EXPECT_EQ(json["trained"]["pressure"][1], 300e3);
+  EXPECT_TRUE(json["trained"]["temperature"][0].is_null());
+  const auto& bent = json["scores"]["conditions"][1];
+  const Score& score = calibration.scores.conditions[1].score;
+  EXPECT_EQ(bent["r2"]["mean"], score.r2.mean);
+  EXPECT_EQ(bent["errors_pa"]["bins"]["100-200 kPa"]["loading"]["rmse"], score.errors.bins[2].loading.rmse);
+  EXPECT_EQ(json["coverage"]["conditions"][0]["loading"]["0-50 kPa"]["scans"],
+            calibration.coverage.conditions[0].loading[0].scans);
+  EXPECT_TRUE(nlohmann::json::parse(calibrationJson({}))["scores"].is_null());
+}
+
+}  // namespace
+}  // namespace fsr

@@ -1,0 +1,93 @@
+#include "fsr_pressure_map/settings/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+namespace {
+
+CommandLine tool() {
+  CommandLine line("train", "BAG... --output FILE", "Trains a calibration.");
+  line.option("output", "FILE", "where to")
+      .option("ambient", "PA", "ambient pressure")
+      .flag("no-scores", "fast");
+  return line;
+}
+
+bool parse(CommandLine& line, std::vector<const char*> words) {
+  words.insert(words.begin(), "train");
+  return line.parse(static_cast<int>(words.size()), words.data());
+}
+
+std::string complaint(const std::vector<const char*>& words) {
+  CommandLine line = tool();
+  try {
+    parse(line, words);
+    line.requiredText("output");
+    line.number("ambient", 0, Range{0, 120e3, "Pa"});
+    line.integer("ambient", 0, Range{0, 120e3, "Pa"});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(CommandLine, TakesFilesAndOptionsInAnyOrder) {
+  CommandLine line = tool();
+  EXPECT_TRUE(parse(line, {"a.bag", "--output", "c.h5", "--no-scores", "b.bag", "--ambient=98000"}));
+  EXPECT_EQ(line.files(), (std::vector<std::string>{"a.bag", "b.bag"}));
+  EXPECT_EQ(line.requiredText("output"), "c.h5");
+  EXPECT_TRUE(line.has("no-scores"));
+  EXPECT_EQ(line.number("ambient", 0, Range{0, 120e3, "Pa"}), 98e3);
+}
+
+TEST(CommandLine, FallsBackWhereAnOptionIsNotGiven) {
+  CommandLine line = tool();
+  EXPECT_TRUE(parse(line, {}));
+  EXPECT_EQ(line.number("ambient", 7.5, Range{0, 1, ""}), 7.5);
+  EXPECT_EQ(line.integer("ambient", 7, Range{0, 1, ""}), 7);
+  EXPECT_EQ(line.text("output", "x"), "x");
+  EXPECT_FALSE(line.has("no-scores"));
+}
+
+TEST(CommandLine, AfterTwoDashesThereAreFilesOnly) {
+  CommandLine line = tool();
+  EXPECT_TRUE(parse(line, {"--", "--odd.bag"}));
+  EXPECT_EQ(line.files(), std::vector<std::string>{"--odd.bag"});
+}
+
+TEST(CommandLine, RefusesInOneSentence) {
+  EXPECT_EQ(complaint({"--outptu", "x"}), "--outptu is no option of train; see train --help");
+  EXPECT_EQ(complaint({"--output"}), "--output needs a value: FILE");
+  EXPECT_EQ(complaint({"--output", "a", "--output", "b"}), "--output is given twice; keep one");
+  EXPECT_EQ(complaint({"--no-scores=1"}), "--no-scores takes no value");
+  EXPECT_EQ(complaint({}), "--output FILE is missing; see train --help");
+  EXPECT_EQ(complaint({"--output", "a", "--ambient", "high"}),
+            "--ambient is \"high\", but must be 0 to 120000 Pa");
+  EXPECT_EQ(complaint({"--output", "a", "--ambient", "2e5"}),
+            "--ambient is \"2e5\", but must be 0 to 120000 Pa");
+  EXPECT_EQ(complaint({"--output", "a", "--ambient", "1.5"}),
+            "--ambient is \"1.5\", but must be a whole number, 0 to 120000 Pa");
+}
+
+TEST(CommandLine, HelpListsEveryOption) {
+  CommandLine line = tool();
+  EXPECT_FALSE(parse(line, {"--help", "x.bag"}));
+  EXPECT_EQ(line.help(),
+            "train BAG... --output FILE\n\nTrains a calibration.\n\n"
+            "  --help         print this and stop\n"
+            "  --output FILE  where to\n"
+            "  --ambient PA   ambient pressure\n"
+            "  --no-scores    fast\n");
+}
+
+TEST(RunTool, TurnsUnusableInputIntoStatusTwo) {
+  EXPECT_EQ(runTool("train", [] { return 3; }), 3);
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(runTool("train", []() -> int { throw InputError("a.bag: is empty"); }), 2);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "train: a.bag: is empty\n");
+}
+
+}  // namespace
+}  // namespace fsr
