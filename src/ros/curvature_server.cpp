@@ -2,43 +2,24 @@
 
 #include <filesystem>
 
-#include "fsr_pressure_map/matrix/surface_file.h"
 #include "fsr_pressure_map/ros/parameters.h"
-#include "fsr_pressure_map/ros/resource_path.h"
 #include "fsr_pressure_map/ros/surface_message.h"
 
 namespace fsr_ros {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-std::string shippedSurfaces() {
-  return "package://fsr_pressure_map/config/surfaces";
-}
-
-std::string namesIn(const std::string& folder) {
-  std::string names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".yaml")
-      names += (names.empty() ? "" : ", ") + entry.path().stem().string();
-  }
-  return names.empty() ? "none" : names;
-}
-
-}  // namespace
-
 CurvatureServer::CurvatureServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : handle_(handle) {
   const Parameters parameters(private_handle);
   const fsr::Range side{1, fsr::kMaxMatrixSide, ""};
-  size_.rows = static_cast<std::uint16_t>(parameters.integer("rows", 7, side));
-  size_.columns = static_cast<std::uint16_t>(parameters.integer("columns", 10, side));
-  folder_ = resolveResource(parameters.text("surfaces", shippedSurfaces()));
+  fsr::MatrixSize size;
+  size.rows = static_cast<std::uint16_t>(parameters.integer("rows", 7, side));
+  size.columns = static_cast<std::uint16_t>(parameters.integer("columns", 10, side));
+  surfaces_ = SurfaceFolder(parameters.text("surfaces", SurfaceFolder::shipped()), size);
   frame_id_ = parameters.text("frame_id", "fsr_matrix");
   const std::string initial = parameters.text("surface", "");
-  if (!initial.empty()) surface_ = load(initial);
+  if (!initial.empty()) surface_ = surfaces_.load(initial);
   surface_.mount = static_cast<std::uint32_t>(parameters.integer("mount", 1, {0, 1e9, ""}));
 
   publisher_ = handle_.advertise<fsr_pressure_map::SurfaceCurvature>("curvature", 10, true);
@@ -48,31 +29,16 @@ CurvatureServer::CurvatureServer(const ros::NodeHandle& handle, const ros::NodeH
   publish();
 }
 
-std::string CurvatureServer::pathOf(const std::string& surface) const {
-  const bool is_path = surface.find('/') != std::string::npos;
-  const std::string path =
-      is_path ? resolveResource(surface) : (fs::path(folder_) / (surface + ".yaml")).string();
-  if (!fs::exists(path)) {
-    throw fsr::InputError("surface " + surface + ": there is no file " + path + "; surfaces in " + folder_ +
-                          ": " + namesIn(folder_));
-  }
-  return path;
-}
-
-fsr::Surface CurvatureServer::load(const std::string& surface) const {
-  return fsr::readSurfaceFile(pathOf(surface), size_);
-}
-
 bool CurvatureServer::setSurface(fsr_pressure_map::SetSurface::Request& request,
                                  fsr_pressure_map::SetSurface::Response& response) {
   try {
-    fsr::Surface next = load(request.surface);
+    fsr::Surface next = surfaces_.load(request.surface);
     next.mount = request.mount != 0 ? request.mount : surface_.mount + 1;
     surface_ = std::move(next);
     publish();
     response.success = true;
     response.message = "the matrix lies on " + surface_.name + " (mount " + std::to_string(surface_.mount) +
-                       "), from " + fs::absolute(pathOf(request.surface)).string();
+                       "), from " + fs::absolute(surfaces_.pathOf(request.surface)).string();
   } catch (const fsr::InputError& error) {
     response.success = false;
     response.message =

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "fsr_pressure_map/matrix/curvature.h"
+#include "fsr_pressure_map/ros/surface_folder.h"
 
 namespace fsr_ros {
 
@@ -23,14 +24,11 @@ class CurvatureServer {
  private:
   bool setSurface(fsr_pressure_map::SetSurface::Request& request,
                   fsr_pressure_map::SetSurface::Response& response);
-  fsr::Surface load(const std::string& surface) const;
-  std::string pathOf(const std::string& surface) const;
   void publish();
 
   ros::NodeHandle handle_;
-  std::string folder_;
+  SurfaceFolder surfaces_;
   std::string frame_id_;
-  fsr::MatrixSize size_;
   fsr::Surface surface_;
   ros::Publisher publisher_;
   ros::ServiceServer service_;
