@@ -1,0 +1,183 @@
+#include "fsr_pressure_map/ros/rig_emulator.h"
+
+#include <ros/console.h>
+#include <ros/param.h>
+#include <rosgraph_msgs/Clock.h>
+#include <std_msgs/String.h>
+
+#include <sstream>
+
+#include "fsr_pressure_map/ros/resource_path.h"
+
+namespace fsr_ros {
+
+namespace {
+
+/// Runs a command of a service; an InputError becomes its refusal.
+template <typename Response, typename Command>
+bool answer(Response& response, Command command) {
+  try {
+    response.message = command();
+    response.success = true;
+    ROS_INFO_STREAM(response.message);
+  } catch (const fsr::InputError& error) {
+    response.message = error.what();
+    response.success = false;
+    ROS_WARN_STREAM(response.message);
+  }
+  return true;
+}
+
+std::string describe(const fsr::ChamberProtocol& protocol) {
+  std::ostringstream text;
+  text << (protocol.cycles == 0 ? "endless" : std::to_string(protocol.cycles))
+       << (protocol.cycles == 1 ? " cycle to " : " cycles to ") << protocol.peak / 1000 << " kPa gauge, "
+       << fsr::cycleDuration(protocol) << " s each";
+  return text.str();
+}
+
+std::string describe(const fsr::LineDamage& damage) {
+  std::ostringstream text;
+  text << "lost bytes " << damage.lost_bytes << ", flipped bits " << damage.flipped_bits << ", pause "
+       << damage.pause << " s";
+  if (damage.unplugged) text << ", unplugged";
+  if (damage.baud != 0) text << ", sends at " << damage.baud << " baud";
+  return text.str();
+}
+
+void warnOfOtherTime(double time_scale) {
+  bool simulated = false;
+  ros::param::get("/use_sim_time", simulated);
+  if (simulated != (time_scale != 1)) {
+    ROS_WARN("/use_sim_time is %s, but must be %s at a time scale of %g: set it before the nodes start",
+             simulated ? "true" : "false", simulated ? "false" : "true", time_scale);
+  }
+}
+
+}  // namespace
+
+RigEmulator::RigEmulator(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : parameters_(private_handle) {
+  ros::NodeHandle global(handle), own(private_handle);
+  fsr::EmulatorOptions options = readOptions();
+  warnOfOtherTime(options.time_scale);
+  origin_.fromSec(std::floor(ros::WallTime::now().toSec()));
+  status_ = own.advertise<std_msgs::String>("status", 10, true);
+  options.on_status = [this](const fsr::RigStatus& status) { publishStatus(status); };
+  if (options.time_scale != 1) {
+    clock_ = global.advertise<rosgraph_msgs::Clock>("/clock", 100);
+    options.on_clock = [this](double rig_time) { publishClock(rig_time); };
+  }
+  rig_ = std::make_unique<fsr::Emulator>(options);
+  services_ = {own.advertiseService("start", &RigEmulator::start, this),
+               own.advertiseService("stop", &RigEmulator::stop, this),
+               own.advertiseService("set_surface", &RigEmulator::setSurface, this),
+               own.advertiseService("set_damage", &RigEmulator::setDamage, this)};
+  ROS_INFO_STREAM("emulated board " << options.simulation.board.serial << " (" << options.simulation.origin
+                                    << ") on " << rig_->port() << ", on " << options.surface.name);
+}
+
+fsr::EmulatorOptions RigEmulator::readOptions() {
+  fsr::EmulatorOptions options;
+  fsr::SimulationSettings& simulation = options.simulation;
+  simulation = fsr::readSimulationFile(resolveResource(
+      parameters_.text("simulation", "package://fsr_pressure_map/config/simulation/demo.yaml")));
+  const auto side = [this](const char* name, std::uint16_t fallback) {
+    return static_cast<std::uint16_t>(parameters_.integer(name, fallback, {1, fsr::kMaxMatrixSide, ""}));
+  };
+  simulation.layout.size = {side("rows", simulation.layout.size.rows),
+                            side("columns", simulation.layout.size.columns)};
+  simulation.seed = static_cast<std::uint64_t>(
+      parameters_.integer("seed", static_cast<std::int64_t>(simulation.seed), {0, 2147483647, ""}));
+  simulation.board.serial = parameters_.text("serial", simulation.board.serial);
+  simulation.board.scan_rate =
+      parameters_.number("scan_rate", simulation.board.scan_rate, {0.01, 10000, "Hz"});
+  file_protocol_ = simulation.chamber;
+  simulation.chamber = readProtocol();
+  surfaces_ = SurfaceFolder(parameters_.text("surfaces", SurfaceFolder::shipped()), simulation.layout.size);
+  options.surface = surfaces_.load(parameters_.text("surface", "flat"));
+  mount_ = static_cast<std::uint32_t>(parameters_.integer("mount", 1, {0, 1e9, ""}));
+  options.surface.mount = mount_;
+  options.link = resolveResource(parameters_.text("link", "${ROS_HOME}/fsr_rig_port"));
+  options.baud = static_cast<std::uint32_t>(parameters_.integer("baud", 0, {0, 4e6, "1/s"}));
+  options.time_scale = parameters_.number("time_scale", 1, {0.01, 1000, ""});
+  options.autostart = parameters_.flag("autostart", true);
+  options.clock.offset =
+      static_cast<std::uint32_t>(parameters_.integer("clock_offset", 0, {0, 2147483647, "us"}));
+  options.clock.drift = parameters_.number("clock_drift", 0, {-10000, 10000, "ppm"});
+  return options;
+}
+
+fsr::ChamberProtocol RigEmulator::readProtocol() const {
+  fsr::ChamberProtocol protocol = file_protocol_;
+  const fsr::Range any;
+  protocol.peak = parameters_.number("chamber/peak", protocol.peak, any);
+  protocol.fill_rate = parameters_.number("chamber/fill_rate", protocol.fill_rate, any);
+  protocol.vent_rate = parameters_.number("chamber/vent_rate", protocol.vent_rate, any);
+  protocol.dwell_peak = parameters_.number("chamber/dwell_peak", protocol.dwell_peak, any);
+  protocol.dwell_rest = parameters_.number("chamber/dwell_rest", protocol.dwell_rest, any);
+  protocol.cycles =
+      static_cast<unsigned>(parameters_.integer("chamber/cycles", protocol.cycles, {0, 1e6, ""}));
+  validate(protocol, "parameters ~chamber/");
+  return protocol;
+}
+
+fsr::LineDamage RigEmulator::readDamage() const {
+  fsr::LineDamage damage;
+  damage.lost_bytes = parameters_.number("damage/lost_bytes", 0, {0, 1, ""});
+  damage.flipped_bits = parameters_.number("damage/flipped_bits", 0, {0, 1, ""});
+  damage.pause = parameters_.number("damage/pause", 0, {0, 86400, "s"});
+  damage.unplugged = parameters_.flag("damage/unplug", false);
+  damage.baud = static_cast<std::uint32_t>(parameters_.integer("damage/wrong_baud", 0, {0, 4e6, "1/s"}));
+  return damage;
+}
+
+void RigEmulator::publishClock(double rig_time) {
+  rosgraph_msgs::Clock message;
+  message.clock = origin_ + ros::Duration(rig_time);
+  clock_.publish(message);
+}
+
+void RigEmulator::publishStatus(const fsr::RigStatus& status) {
+  std_msgs::String message;
+  message.data = stateName(status.state) + " " + std::to_string(status.run);
+  status_.publish(message);
+}
+
+bool RigEmulator::start(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  return answer(response, [this] {
+    const fsr::ChamberProtocol protocol = readProtocol();
+    return "run " + std::to_string(rig_->startCycles(protocol)) + ": " + describe(protocol);
+  });
+}
+
+bool RigEmulator::stop(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  return answer(response, [this] {
+    rig_->stopCycles();
+    return std::string("the chamber vents to rest");
+  });
+}
+
+bool RigEmulator::setSurface(fsr_pressure_map::SetSurface::Request& request,
+                             fsr_pressure_map::SetSurface::Response& response) {
+  return answer(response, [&] {
+    fsr::Surface surface = surfaces_.load(request.surface);
+    surface.mount = request.mount != 0 ? request.mount : mount_ + 1;
+    rig_->setSurface(surface);
+    mount_ = surface.mount;
+    return "the emulated matrix lies on " + surface.name + " (mount " + std::to_string(mount_) + ")";
+  });
+}
+
+bool RigEmulator::setDamage(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+  return answer(response, [&] {
+    const fsr::LineDamage damage = request.data ? readDamage() : fsr::LineDamage{};
+    rig_->setDamage(damage);
+    if (!request.data) return std::string("the line is healthy");
+    const bool reset = parameters_.flag("damage/reset", false);
+    if (reset) rig_->resetBoard();
+    return "the line is damaged: " + describe(damage) + (reset ? "; the board was reset" : "");
+  });
+}
+
+}  // namespace fsr_ros

@@ -1,0 +1,189 @@
+#include <fsr_pressure_map/SetSurface.h>
+#include <gtest/gtest.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
+#include <std_msgs/String.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+
+#include "support/board_listener.h"
+
+namespace {
+
+using test_support::BoardListener;
+
+constexpr double kLong = 30;  // [s] for what must happen; nothing waits for it to pass
+
+bool until(const std::function<bool()>& condition) {
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kLong);
+  while (!condition() && ros::WallTime::now() < end) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
+  }
+  return condition();
+}
+
+std::string port() {
+  std::string path;
+  EXPECT_TRUE(ros::param::get("rig_emulator/link", path));
+  return path;
+}
+
+template <typename Service>
+Service call(const std::string& name, Service service) {
+  EXPECT_TRUE(ros::service::waitForService("rig_emulator/" + name, ros::Duration(-1)));
+  EXPECT_TRUE(ros::service::call("rig_emulator/" + name, service));
+  return service;
+}
+
+std::string trigger(const std::string& name) {
+  const auto reply = call(name, std_srvs::Trigger());
+  EXPECT_TRUE(reply.response.success);
+  return reply.response.message;
+}
+
+fsr_pressure_map::SetSurface::Response setSurface(const std::string& surface, std::uint32_t mount) {
+  fsr_pressure_map::SetSurface service;
+  service.request.surface = surface;
+  service.request.mount = mount;
+  return call("set_surface", service).response;
+}
+
+std_srvs::SetBool::Response setDamage(bool damaged) {
+  std_srvs::SetBool service;
+  service.request.data = damaged;
+  return call("set_damage", service).response;
+}
+
+/// Mean counts of a few scans of the resting rig.
+double meanAtRest(BoardListener& listener) {
+  EXPECT_TRUE(listener.untilScans(10));
+  double sum = 0;
+  for (const std::uint16_t count : listener.scans.back().counts) sum += count;
+  return sum / static_cast<double>(listener.scans.back().counts.size());
+}
+
+/// Follows `~status`.
+class Status {
+ public:
+  Status() {
+    subscriber_ = handle_.subscribe<std_msgs::String>(
+        "rig_emulator/status", 100, [this](const std_msgs::String::ConstPtr& m) { last_ = m->data; });
+  }
+  bool becomes(const std::string& status) {
+    return until([&] { return last_ == status; });
+  }
+
+ private:
+  ros::NodeHandle handle_;
+  ros::Subscriber subscriber_;
+  std::string last_;
+};
+
+TEST(RigEmulatorNode, RunsItsCyclesOnRequestAndSaysWhenTheyAreDone) {
+  Status status;
+  EXPECT_TRUE(status.becomes("idle 0"));
+  const ros::Time started = ros::Time::now();
+  EXPECT_EQ(trigger("start"), "run 1: 2 cycles to 300 kPa gauge, 12 s each");
+  EXPECT_TRUE(status.becomes("running 1"));
+  EXPECT_TRUE(status.becomes("done 1"));
+  EXPECT_GT((ros::Time::now() - started).toSec(), 23.5) << "two cycles of 12 s in rig time";
+}
+
+TEST(RigEmulatorNode, AFreshRunTakesTheProtocolThatTheParametersSay) {
+  ros::param::set("rig_emulator/chamber/cycles", 1);
+  ros::param::set("rig_emulator/chamber/peak", 120000.0);
+  EXPECT_EQ(trigger("start"), "run 2: 1 cycle to 120 kPa gauge, 6 s each");
+  Status status;
+  EXPECT_TRUE(status.becomes("done 2"));
+  ros::param::set("rig_emulator/chamber/peak", 800000.0);
+  const auto refused = call("start", std_srvs::Trigger()).response;
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(refused.message.find("793000 Pa"), std::string::npos) << refused.message;
+  ros::param::del("rig_emulator/chamber");
+}
+
+TEST(RigEmulatorNode, StopsOnRequest) {
+  trigger("start");
+  trigger("stop");
+  Status status;
+  EXPECT_TRUE(status.becomes("stopped 3"));
+}
+
+TEST(RigEmulatorNode, PublishesRigTimeDenselyAndInOrder) {
+  std::vector<double> clock;
+  ros::NodeHandle handle;
+  const auto subscriber = handle.subscribe<rosgraph_msgs::Clock>(
+      "/clock", 10000, [&](const rosgraph_msgs::Clock::ConstPtr& m) { clock.push_back(m->clock.toSec()); });
+  ASSERT_TRUE(until([&] { return !clock.empty() && clock.back() - clock.front() > 10; }));
+  EXPECT_TRUE(std::is_sorted(clock.begin(), clock.end()));
+  double widest = 0;
+  for (std::size_t i = 1; i < clock.size(); ++i) widest = std::max(widest, clock[i] - clock[i - 1]);
+  EXPECT_LE(widest, 0.0501) << "20 scans a second, each with its /clock";
+}
+
+TEST(RigEmulatorNode, ChangesTheSurfaceUnderTheMatrix) {
+  BoardListener listener(port());
+  const double flat = meanAtRest(listener);
+  const auto reply = setSurface("cylinder_7cm", 5);
+  EXPECT_TRUE(reply.success);
+  EXPECT_EQ(reply.message, "the emulated matrix lies on cylinder_7cm (mount 5)");
+  EXPECT_GT(meanAtRest(listener), flat + 100) << "the preload of the bend";
+  EXPECT_NE(setSurface("flat", 0).message.find("mount 6"), std::string::npos);
+  const auto refused = setSurface("cylinder_6cm", 0);
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(refused.message.find("cylinder_7cm"), std::string::npos) << "lists what there is";
+}
+
+TEST(RigEmulatorNode, DamagesTheLineAsItsParametersSayAndHealsIt) {
+  ros::param::set("rig_emulator/damage/unplug", true);
+  EXPECT_NE(setDamage(true).message.find("unplugged"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(port()));
+  EXPECT_TRUE(setDamage(false).success);
+  EXPECT_TRUE(std::filesystem::exists(port()));
+
+  ros::param::del("rig_emulator/damage");
+  ros::param::set("rig_emulator/damage/flipped_bits", 0.002);
+  BoardListener listener(port());
+  EXPECT_TRUE(setDamage(true).success);
+  EXPECT_TRUE(listener.until([&] { return listener.counts().bad_packet_check > 3; }));
+  ros::param::set("rig_emulator/damage/lost_bytes", 2.0);
+  const auto refused = setDamage(true);
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(refused.message.find("damage/lost_bytes is 2"), std::string::npos) << refused.message;
+  ros::param::del("rig_emulator/damage");
+  EXPECT_TRUE(setDamage(false).success);
+}
+
+TEST(RigEmulatorNode, AResetRestartsTheBoard) {
+  BoardListener listener(port());
+  ASSERT_TRUE(listener.until([&] { return !listener.scans.empty() && listener.scans.back().sequence > 40; }));
+  ros::param::set("rig_emulator/damage/reset", true);
+  EXPECT_TRUE(setDamage(true).success);
+  EXPECT_TRUE(listener.until([&] { return listener.counts().of(FSR_WIRE_SCAN).restarts == 1; }));
+  ros::param::del("rig_emulator/damage");
+  EXPECT_TRUE(setDamage(false).success);
+}
+
+TEST(RigEmulatorNode, LeavesWithStatusTwoWhereItsSettingsCannotBeUsed) {
+  const auto node = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rig_emulator_node";
+  const int status =
+      std::system((node.string() + " __name:=other _simulation:=/nowhere.yaml > /dev/null 2>&1").c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "rig_emulator_test");
+  const ros::NodeHandle keep_alive;
+  return RUN_ALL_TESTS();
+}
