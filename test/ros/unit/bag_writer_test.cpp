@@ -38,10 +38,10 @@ class BagFile : public testing::Test {
 };
 
 fsr::Recording twoSurfaces() {
-  fsr::test::SyntheticRig rig;
+  test_support::SyntheticRig rig;
   rig.surfaces = {{"flat", 0.0}, {"cylinder_7cm", 14.25}};
   rig.cycles = 2;
-  fsr::Recording recording = fsr::test::syntheticRecording(rig);
+  fsr::Recording recording = test_support::syntheticRecording(rig);
   recording.start_ns = 1500000000123456789;
   recording.temperature.assign(recording.scans(), 23.5);
   recording.mask = {0, 0, 1, 0, 0, 0};
