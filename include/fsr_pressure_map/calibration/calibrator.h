@@ -41,6 +41,8 @@ class Calibrator {
  public:
   /// Throws InputError where the tables are not whole or the layout is not theirs.
   Calibrator(const CurvatureTables& tables, const Layout& layout, const CalibratorOptions& options = {});
+  Calibrator(Calibrator&&) = default;  // not to be copied: it points into its own tables
+  Calibrator(const Calibrator&) = delete;
 
   /// The surface under the matrix as of `time`, the stamp of its message [s]; one without curvature means
   /// unknown. Throws InputError, and changes nothing, where it does not fit the matrix.
