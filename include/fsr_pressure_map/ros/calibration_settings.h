@@ -1,0 +1,27 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <cstdint>
+#include <string>
+
+#include "fsr_pressure_map/calibration/calibrator.h"
+#include "fsr_pressure_map/calibration/tare.h"
+#include "fsr_pressure_map/ros/parameters.h"
+
+namespace fsr_ros {
+
+/// Every parameter of the calibration node with its default.
+struct CalibrationSettings {
+  std::string calibration;            ///< resolved path; empty = wait for ~load_calibration
+  fsr::CalibratorOptions calibrator;  ///< ~class_hysteresis, ~curvature_timeout, ~fill_bad_taxels
+  fsr::TareOptions tare;              ///< ~tare_limit, ~tare_scatter, ~tare_window
+  std::string tare_file;              ///< resolved path; empty = in ${ROS_HOME}, named after the node
+  double contact_threshold = 10e3;    ///< from here on diagnostics count a taxel as in contact [Pa]
+  std::uint32_t queue_size = 1000;    ///< of scans in and maps out [messages]: a second at 1 kHz
+};
+
+/// Reads and checks the private parameters. Throws fsr::InputError.
+CalibrationSettings readCalibrationSettings(const ros::NodeHandle& private_handle);
+
+}  // namespace fsr_ros

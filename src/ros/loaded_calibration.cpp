@@ -1,0 +1,65 @@
+#include "fsr_pressure_map/ros/loaded_calibration.h"
+
+#include <numeric>
+#include <sstream>
+
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr_ros {
+
+namespace {
+
+float meanCurvature(const fsr::CurvatureClass& curvature_class) {
+  const auto& values = curvature_class.curvature;
+  const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+  return static_cast<float>(sum / static_cast<double>(values.size()));
+}
+
+}  // namespace
+
+std::unique_ptr<LoadedCalibration> loadForUse(const std::string& path,
+                                              const fsr::CalibratorOptions& options) {
+  const fsr::Calibration calibration = fsr::loadCalibration(path);
+  try {
+    fsr::Calibrator calibrator(calibration.tables, calibration.layout, options);
+    return std::make_unique<LoadedCalibration>(
+        LoadedCalibration{toMessage(calibration, path), std::move(calibrator)});
+  } catch (const fsr::InputError& error) {
+    throw fsr::InputError(path + ": " + error.what());
+  }
+}
+
+fsr_pressure_map::CalibrationInfo toMessage(const fsr::Calibration& calibration, const std::string& path) {
+  fsr_pressure_map::CalibrationInfo info;
+  info.id = calibration.id;
+  info.path = path;
+  info.scheme = fsr::schemeName(calibration.tables.scheme);
+  info.model = calibration.model;
+  info.sensor_serial = calibration.sensor.serial;
+  info.pressure_low = calibration.trained.pressure.low;
+  info.pressure_high = calibration.trained.pressure.high;
+  info.temperature_low = calibration.trained.temperature.low;
+  info.temperature_high = calibration.trained.temperature.high;
+  info.curvature_low = calibration.trained.curvature.low;
+  info.curvature_high = calibration.trained.curvature.high;
+  info.pressure_rate_low = calibration.trained.pressure_rate.low;
+  info.pressure_rate_high = calibration.trained.pressure_rate.high;
+  for (const auto& curvature_class : calibration.tables.classes) {
+    info.class_curvatures.push_back(meanCurvature(curvature_class));
+  }
+  return info;
+}
+
+std::string describe(const LoadedCalibration& loaded) {
+  const auto& info = loaded.info;
+  const fsr::MatrixSize size = loaded.calibrator.layout().size;
+  std::ostringstream text;
+  text << info.scheme << " (" << info.model << "), id " << info.id << ", " << size.rows << " x "
+       << size.columns << " taxels, trained from " << info.curvature_low << " to " << info.curvature_high
+       << " 1/m in " << info.class_curvatures.size()
+       << (info.class_curvatures.size() == 1 ? " class" : " classes");
+  return text.str();
+}
+
+}  // namespace fsr_ros

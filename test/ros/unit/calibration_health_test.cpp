@@ -1,0 +1,89 @@
+#include "fsr_pressure_map/ros/calibration_health.h"
+
+#include <gtest/gtest.h>
+
+namespace fsr_ros {
+namespace {
+
+using Status = diagnostic_updater::DiagnosticStatusWrapper;
+using Level = diagnostic_msgs::DiagnosticStatus;
+
+CalibrationHealth healthy() {
+  CalibrationHealth health;
+  health.info.id = "3f2a";
+  health.info.path = "/data/c.h5";
+  health.info.scheme = "per_curvature";
+  health.info.sensor_serial = "A1";
+  health.board = "A1";
+  health.scans = 100;
+  health.map.reset({{2, 3}});
+  health.map.state = fsr::MapState::kOk;
+  health.map.pressure = {0, 5e3f, 10e3f, 20e3f, NAN, 30e3f};
+  return health;
+}
+
+std::string valueOf(const Status& status, const std::string& key) {
+  for (const auto& entry : status.values) {
+    if (entry.key == key) return entry.value;
+  }
+  return "no such key";
+}
+
+Status maps(const CalibrationHealth& now, std::uint64_t scans_before = 90) {
+  CalibrationHealth before;
+  before.scans = scans_before;
+  Status status;
+  judgeMaps(before, now, 1.0, "/fsr/raw", 10e3, status);
+  return status;
+}
+
+TEST(CalibrationHealth, IsWellWhenMapsAreCalibrated) {
+  const Status status = maps(healthy());
+  EXPECT_EQ(status.level, Level::OK);
+  EXPECT_EQ(valueOf(status, "maps a second of wall time"), "10");
+  EXPECT_EQ(valueOf(status, "taxels in contact"), "3");
+  EXPECT_EQ(valueOf(status, "peak in contact, gauge [kPa]"), "30");
+}
+
+TEST(CalibrationHealth, SaysWhichTopicBringsNoScans) {
+  const Status status = maps(healthy(), 100);
+  EXPECT_EQ(status.level, Level::ERROR);
+  EXPECT_EQ(status.message, "waiting for scans: none came on /fsr/raw");
+}
+
+TEST(CalibrationHealth, NamesDeadTaxelsByRowAndColumn) {
+  CalibrationHealth health = healthy();
+  health.map.flags[4] = fsr::taxel_flag::kDead;
+  const Status status = maps(health);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_EQ(valueOf(status, "dead taxels (row, column)"), "(1, 1)");
+}
+
+TEST(CalibrationHealth, NamesBothBoardsWhereTheSensorIsWrong) {
+  CalibrationHealth health = healthy();
+  health.board = "B2";
+  health.map.state = fsr::MapState::kWrongSensor;
+  const Status status = maps(health);
+  EXPECT_EQ(status.level, Level::ERROR);
+  EXPECT_EQ(status.message, "the board is B2, but the calibration was made with A1");
+}
+
+TEST(CalibrationHealth, WarnsWithoutCurvature) {
+  CalibrationHealth health = healthy();
+  health.map.state = fsr::MapState::kCurvatureUnknown;
+  EXPECT_EQ(maps(health).level, Level::WARN);
+  health.surface_complaint = "x has 3 values";
+  EXPECT_NE(maps(health).message.find("x has 3 values"), std::string::npos);
+}
+
+TEST(CalibrationHealth, SaysWhatItWaitsForWithoutACalibration) {
+  CalibrationHealth health;
+  health.complaint = "~calibration is empty: call ~load_calibration with the path of a file";
+  Status status;
+  judgeCalibration(health, status);
+  EXPECT_EQ(status.level, Level::ERROR);
+  EXPECT_EQ(status.message, "waiting for a calibration: " + health.complaint);
+}
+
+}  // namespace
+}  // namespace fsr_ros

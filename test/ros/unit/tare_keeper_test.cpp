@@ -1,0 +1,79 @@
+#include "fsr_pressure_map/ros/tare_keeper.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+namespace fsr_ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TareKeeperTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "tare_keeper_XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder = name;
+    path = name + "/new/folder/tare.yaml";
+    tare.calibration = "id";
+    tare.surface = "flat";
+    tare.mount = 3;
+    tare.size = {1, 2};
+    tare.offset = {10.0f, 20.0f};
+    flat = {"flat", 3, {{}}, {}};
+    TareKeeper::write(tare, path);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  std::string folder, path;
+  fsr::Tare tare;
+  fsr::Surface flat;
+};
+
+TEST_F(TareKeeperTest, TakesUpWhatAnEarlierRunLeft) {
+  TareKeeper keeper(path);
+  EXPECT_EQ(keeper.review("id", &flat), tare.offset);
+}
+
+TEST_F(TareKeeperTest, WaitsForCalibrationAndCurvature) {
+  TareKeeper keeper(path);
+  EXPECT_TRUE(keeper.review("", &flat).empty());
+  EXPECT_TRUE(keeper.review("id", nullptr).empty());
+  EXPECT_TRUE(keeper.tare().has_value());
+  EXPECT_EQ(keeper.review("id", &flat), tare.offset);
+}
+
+TEST_F(TareKeeperTest, WaitsForNoCurvatureWhereItWasTakenWithoutOne) {
+  tare.surface.clear();
+  tare.mount = 0;
+  TareKeeper::write(tare, path);
+  TareKeeper keeper(path);
+  EXPECT_EQ(keeper.review("id", nullptr), tare.offset);
+}
+
+TEST_F(TareKeeperTest, DropsTareAndFileOnAnotherMount) {
+  TareKeeper keeper(path);
+  flat.mount = 4;
+  EXPECT_TRUE(keeper.review("id", &flat).empty());
+  EXPECT_FALSE(keeper.tare().has_value());
+  EXPECT_FALSE(fs::exists(path));
+}
+
+TEST_F(TareKeeperTest, DropsItForAnotherCalibrationWithoutWaitingForCurvature) {
+  TareKeeper keeper(path);
+  EXPECT_TRUE(keeper.review("other", nullptr).empty());
+  EXPECT_FALSE(fs::exists(path));
+}
+
+TEST_F(TareKeeperTest, LeavesADamagedFileAlone) {
+  std::ofstream(path) << "format: something";
+  TareKeeper keeper(path);
+  EXPECT_TRUE(keeper.review("id", &flat).empty());
+  EXPECT_TRUE(fs::exists(path));
+}
+
+}  // namespace
+}  // namespace fsr_ros
