@@ -24,6 +24,7 @@ const EmulatorOptions& checked(const EmulatorOptions& options) {
     throw InputError(sentence.str());
   }
   validate(options.simulation.chamber, options.simulation.origin + ": chamber");
+  validate(options.simulation.board, options.simulation.origin + ": board");
   return options;
 }
 

@@ -77,24 +77,29 @@ RigEmulator::RigEmulator(const ros::NodeHandle& handle, const ros::NodeHandle& p
                                     << ") on " << rig_->port() << ", on " << options.surface.name);
 }
 
-fsr::EmulatorOptions RigEmulator::readOptions() {
-  fsr::EmulatorOptions options;
-  fsr::SimulationSettings& simulation = options.simulation;
-  simulation = fsr::readSimulationFile(resolveResource(
+fsr::SimulationSettings RigEmulator::readSimulation() {
+  fsr::SimulationSettings simulation = fsr::readSimulationFile(resolveResource(
       parameters_.text("simulation", "package://fsr_pressure_map/config/simulation/demo.yaml")));
   const auto side = [this](const char* name, std::uint16_t fallback) {
     return static_cast<std::uint16_t>(parameters_.integer(name, fallback, {1, fsr::kMaxMatrixSide, ""}));
   };
-  simulation.layout.size = {side("rows", simulation.layout.size.rows),
-                            side("columns", simulation.layout.size.columns)};
-  simulation.seed = static_cast<std::uint64_t>(
-      parameters_.integer("seed", static_cast<std::int64_t>(simulation.seed), {0, 2147483647, ""}));
-  simulation.board.serial = parameters_.text("serial", simulation.board.serial);
-  simulation.board.scan_rate =
-      parameters_.number("scan_rate", simulation.board.scan_rate, {0.01, 10000, "Hz"});
+  fsr::MatrixSize& size = simulation.layout.size;
+  size = {side("rows", size.rows), side("columns", size.columns)};
+  const auto seed = static_cast<std::int64_t>(simulation.seed);
+  simulation.seed = static_cast<std::uint64_t>(parameters_.integer("seed", seed, {0, 2147483647, ""}));
+  fsr::SimulatedBoard& board = simulation.board;
+  board.serial = parameters_.text("serial", board.serial);
+  board.scan_rate = parameters_.number("scan_rate", board.scan_rate, {0.01, 10000, "Hz"});
   file_protocol_ = simulation.chamber;
   simulation.chamber = readProtocol();
-  surfaces_ = SurfaceFolder(parameters_.text("surfaces", SurfaceFolder::shipped()), simulation.layout.size);
+  return simulation;
+}
+
+fsr::EmulatorOptions RigEmulator::readOptions() {
+  fsr::EmulatorOptions options;
+  options.simulation = readSimulation();
+  surfaces_ =
+      SurfaceFolder(parameters_.text("surfaces", SurfaceFolder::shipped()), options.simulation.layout.size);
   options.surface = surfaces_.load(parameters_.text("surface", "flat"));
   mount_ = static_cast<std::uint32_t>(parameters_.integer("mount", 1, {0, 1e9, ""}));
   options.surface.mount = mount_;

@@ -28,7 +28,7 @@ SurfaceFolder::SurfaceFolder(const std::string& folder, fsr::MatrixSize size)
 
 std::string SurfaceFolder::pathOf(const std::string& surface) const {
   const bool is_path = surface.find('/') != std::string::npos;
-  const std::string path =
+  std::string path =
       is_path ? resolveResource(surface) : (fs::path(folder_) / (surface + ".yaml")).string();
   if (!fs::exists(path)) {
     throw fsr::InputError("surface " + surface + ": there is no file " + path + "; surfaces in " + folder_ +

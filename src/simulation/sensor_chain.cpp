@@ -1,6 +1,7 @@
 #include "fsr_pressure_map/simulation/sensor_chain.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fsr_pressure_map/simulation/effects/effect_library.h"
 
@@ -52,7 +53,7 @@ const std::vector<std::uint16_t>& SensorChain::read(const RigMoment& moment) {
   for (Link& link : links_) link.effect->apply(moment, signals_);
   const double full_scale = full_scale_;
   for (std::size_t i = 0; i < counts_.size(); ++i) {
-    counts_[i] = static_cast<std::uint16_t>(std::clamp(signals_.reading[i], 0.0, full_scale) + 0.5);
+    counts_[i] = static_cast<std::uint16_t>(std::lround(std::clamp(signals_.reading[i], 0.0, full_scale)));
   }
   return counts_;
 }

@@ -1,6 +1,7 @@
 #include "fsr_pressure_map/simulation/simulation_settings.h"
 
 #include <algorithm>
+#include <sstream>
 
 #include "fsr_pressure_map/simulation/effects/effect_library.h"
 
@@ -27,9 +28,7 @@ SimulatedBoard readBoard(const Settings& settings) {
   board.scan_duration = settings.number("scan_duration", {0, 10, "s"}, board.scan_duration);
   board.transducer_rate = settings.number("transducer_rate", {0, 10000, "Hz"}, board.transducer_rate);
   board.temperature = settings.number("temperature", {-40, 125, "degree Celsius"}, board.temperature);
-  if (board.scan_duration > 1 / board.scan_rate) {
-    throw settings.error("scan_duration", "must not be longer than the time from scan to scan");
-  }
+  validate(board, settings.origin() + ": board");
   return board;
 }
 
@@ -75,6 +74,14 @@ std::vector<EnabledEffect> readEffects(const Settings& effects) {
 }
 
 }  // namespace
+
+void validate(const SimulatedBoard& board, const std::string& origin) {
+  if (board.scan_duration <= 1 / board.scan_rate) return;
+  std::ostringstream sentence;
+  sentence << origin << ".scan_duration is " << board.scan_duration << " s, but at a scan_rate of "
+           << board.scan_rate << " Hz must be at most " << 1 / board.scan_rate << " s";
+  throw InputError(sentence.str());
+}
 
 const EnabledEffect* SimulationSettings::effect(const std::string& id) const {
   const auto found = std::find_if(effects.begin(), effects.end(),

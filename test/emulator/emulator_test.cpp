@@ -296,6 +296,9 @@ TEST(Emulator, RefusesWhatCannotBe) {
   options.baud = 1200;
   EXPECT_THROW(Emulator{options}, fsr::InputError);
   options = bench();
+  options.simulation.board.scan_duration = 0.1;
+  EXPECT_THROW(Emulator{options}, fsr::InputError);
+  options = bench();
   options.simulation.chamber.peak = 800e3;
   EXPECT_THROW(Emulator{options}, fsr::InputError);
   const test_support::TemporaryFolder folder;

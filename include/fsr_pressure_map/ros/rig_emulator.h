@@ -31,6 +31,7 @@ class RigEmulator {
   RigEmulator(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
  private:
+  fsr::SimulationSettings readSimulation();
   fsr::EmulatorOptions readOptions();
   fsr::ChamberProtocol readProtocol() const;
   fsr::LineDamage readDamage() const;

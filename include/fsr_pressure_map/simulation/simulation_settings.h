@@ -23,6 +23,10 @@ struct SimulatedBoard {
   double temperature = 23;      ///< of the chamber [degree Celsius]
 };
 
+/// Throws InputError where a scan takes longer than the time from scan to scan; `origin` stands where
+/// messages name the file.
+void validate(const SimulatedBoard& board, const std::string& origin);
+
 /// One effect that is enabled, with all its parameters.
 struct EnabledEffect {
   std::string id;

@@ -18,7 +18,7 @@ std::vector<double> scatteredValues(double value, double deviation, const std::s
 SmoothRandomFunction::SmoothRandomFunction(double length, std::uint64_t seed, const std::string& name,
                                            std::uint64_t member) {
   const RandomStream stream = randomStream(seed, name, member);
-  for (int i = 0; i < kWaves; ++i) {
+  for (std::uint64_t i = 0; i < kWaves; ++i) {
     frequency_[i] = stream.normal(2 * i) / length;
     phase_[i] = 2 * M_PI * stream.uniform(2 * i + 1);
   }
