@@ -75,6 +75,16 @@ void requireSameMatrix(const Recording& first, const Recording& other) {
   }
 }
 
+// The same readings twice would count as two proofs of the same thing.
+void requireDifferentBags(const std::vector<Recording>& recordings) {
+  for (auto later = recordings.begin(); later != recordings.end(); ++later) {
+    const auto same = [&](const Recording& earlier) { return earlier.sha256 == later->sha256; };
+    const auto twin = std::find_if(recordings.begin(), later, same);
+    if (twin == later || later->sha256.empty()) continue;
+    throw InputError(later->name + ": has the same bytes as " + twin->name + "; give each bag once");
+  }
+}
+
 void requireChange(const std::vector<Recording>& recordings) {
   TrainedInterval pressure;
   for (const Recording& recording : recordings) {
@@ -104,6 +114,7 @@ void validate(const CalibrationProblem& problem) {
   for (const Recording& recording : recordings) requirePressures(recording);
   requireChange(recordings);
   planScheme(options.scheme, poolConditions(recordings).classes);
+  requireDifferentBags(recordings);
 }
 
 }  // namespace fsr

@@ -103,4 +103,10 @@ Coverage measureCoverage(const std::vector<Recording>& recordings, const Conditi
   return coverage;
 }
 
+Coverage coverageOf(const std::vector<Recording>& recordings, std::size_t sections) {
+  std::vector<Sections> divided;
+  for (const Recording& recording : recordings) divided.push_back(divideIntoSections(recording, sections));
+  return measureCoverage(recordings, poolConditions(recordings), divided);
+}
+
 }  // namespace fsr

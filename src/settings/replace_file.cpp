@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include "fsr_pressure_map/settings/input_error.h"
 
@@ -32,6 +33,11 @@ int writeFresh(const std::string& path, const std::string& content) {
   return ::close(file) != 0 && error == 0 ? errno : error;
 }
 
+InputError cannotWrite(const std::string& path, int error) {
+  return InputError(path + ": cannot be written (" + std::strerror(error) +
+                    "); give a path in a directory that exists and may be written to");
+}
+
 }  // namespace
 
 void replaceFile(const std::string& path, const std::string& content) {
@@ -40,8 +46,14 @@ void replaceFile(const std::string& path, const std::string& content) {
   if (error == 0 && std::rename(fresh.c_str(), path.c_str()) != 0) error = errno;
   if (error == 0) return;
   ::unlink(fresh.c_str());
-  throw InputError(path + ": cannot be written (" + std::strerror(error) +
-                   "); give a path in a directory that exists and may be written to");
+  throw cannotWrite(path, error);
+}
+
+void requireReplaceable(const std::string& path) {
+  const std::filesystem::path parent = std::filesystem::absolute(path).parent_path();
+  std::error_code ignored;
+  if (path.empty() || std::filesystem::is_directory(path, ignored)) throw cannotWrite(path, EISDIR);
+  if (::access(parent.c_str(), W_OK | X_OK) != 0) throw cannotWrite(path, errno);
 }
 
 }  // namespace fsr

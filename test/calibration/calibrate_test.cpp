@@ -287,6 +287,7 @@ TEST(Calibrate, WhatCannotBeTrainedOnIsRefusedInOneSentence) {
   other.pressure[7] = 1e9;
   EXPECT_EQ(refusal(other),
             "bad.bag: chamber pressure is 1000000000.000000 Pa, but must lie within +-8000000 Pa gauge");
+  EXPECT_EQ(refusal(bad), "bad.bag: has the same bytes as synthetic.bag; give each bag once");
   other = Recording{};
   other.name = "bad.bag";
   other.losses.near_change = 12;

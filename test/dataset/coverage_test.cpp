@@ -66,15 +66,9 @@ TEST(ConditionClasses, NeedACurvature) {
   }
 }
 
-Coverage coverageOf(const std::vector<Recording>& recordings) {
-  std::vector<Sections> sections;
-  for (const Recording& recording : recordings) sections.push_back(divideIntoSections(recording, 5));
-  return measureCoverage(recordings, poolConditions(recordings), sections);
-}
-
 TEST(Coverage, CountsScansAndCyclesByBinAndDirection) {
   const Coverage coverage =
-      coverageOf({bag("a", {{"flat", 0.0}}), bag("b", {{"flat", 0.0}, {"bent", 10.0}})});
+      coverageOf({bag("a", {{"flat", 0.0}}), bag("b", {{"flat", 0.0}, {"bent", 10.0}})}, 5);
   ASSERT_EQ(coverage.conditions.size(), 2u);
   const ConditionCoverage& flat = coverage.conditions[0];
   EXPECT_EQ(flat.scans, 1000u);
@@ -94,7 +88,7 @@ TEST(Coverage, SaysWhatIsThinWorstFirst) {
   low.surfaces = {{"bent", 10.0}};
   low.peak = 150e3;
   low.cycles = 20;
-  const Coverage coverage = coverageOf({bag("a", {{"flat", 0.0}}, 20), syntheticRecording(low)});
+  const Coverage coverage = coverageOf({bag("a", {{"flat", 0.0}}, 20), syntheticRecording(low)}, 5);
   ASSERT_EQ(coverage.thin.size(), 4u);
   EXPECT_EQ(coverage.thin[0], "bent, 200-400 kPa loading: no scan");
   EXPECT_EQ(coverage.thin[1], "bent, 400+ kPa loading: no scan");
@@ -104,11 +98,11 @@ TEST(Coverage, SaysHowFarTheChamberWent) {
   SyntheticRig low;
   low.peak = 150e3;
   low.cycles = 20;
-  EXPECT_EQ(coverageOf({syntheticRecording(low)}).thin.at(0), "no surface was loaded above 150 kPa");
+  EXPECT_EQ(coverageOf({syntheticRecording(low)}, 5).thin.at(0), "no surface was loaded above 150 kPa");
 }
 
 TEST(Coverage, SaysWhereCyclesAreFew) {
-  const Coverage coverage = coverageOf({bag("a", {{"flat", 0.0}}, 2)});
+  const Coverage coverage = coverageOf({bag("a", {{"flat", 0.0}}, 2)}, 5);
   EXPECT_EQ(coverage.thin.back(), "flat: 2 cycles, fewer than the 5 sections");
 }
 

@@ -18,7 +18,8 @@ using test_support::SyntheticRig;
 std::vector<double> triangles(std::size_t cycles, std::size_t readings, double peak) {
   std::vector<double> pressure;
   for (std::size_t i = 0; i < cycles * readings; ++i) {
-    pressure.push_back(test_support::trianglePressure(static_cast<double>(i) / static_cast<double>(readings), peak));
+    pressure.push_back(
+        test_support::trianglePressure(static_cast<double>(i) / static_cast<double>(readings), peak));
   }
   return pressure;
 }

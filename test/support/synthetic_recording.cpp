@@ -19,7 +19,7 @@ double syntheticReading(const SyntheticRig& rig, std::size_t taxel, double curva
 fsr::Recording syntheticRecording(const SyntheticRig& rig) {
   fsr::Recording recording;
   recording.name = rig.name;
-  recording.sha256 = std::string(64, 'a');
+  recording.sha256 = std::string(64, static_cast<char>('a' + (rig.seed - 1) % 6));
   recording.sensor.sensor_id = "matrix_a";
   recording.sensor.serial = "0001";
   recording.layout.size = rig.size;

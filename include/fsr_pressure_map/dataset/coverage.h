@@ -43,4 +43,7 @@ constexpr std::uint64_t kThinScans = 50;
 Coverage measureCoverage(const std::vector<Recording>& recordings, const ConditionClasses& classes,
                          const std::vector<Sections>& sections);
 
+/// The same with classes and sections as a calibration of the recordings has them.
+Coverage coverageOf(const std::vector<Recording>& recordings, std::size_t sections);
+
 }  // namespace fsr

@@ -9,4 +9,8 @@ namespace fsr {
 /// the path and the cause; the temporary file is gone then.
 void replaceFile(const std::string& path, const std::string& content);
 
+/// Throws InputError, in the same words, where replaceFile() would fail for want of a directory or of
+/// permission: to be asked before long work, not after it.
+void requireReplaceable(const std::string& path);
+
 }  // namespace fsr

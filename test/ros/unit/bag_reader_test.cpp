@@ -1,0 +1,200 @@
+#include "fsr_pressure_map/ros/bag_reader.h"
+
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <std_msgs/Float64.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "fsr_pressure_map/ros/bag_writer.h"
+#include "fsr_pressure_map/ros/message_events.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/settings/sha256.h"
+#include "support/synthetic_recording.h"
+
+namespace fsr_ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BagReader : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / ("bag_reader_" + std::string(test->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    path_ = (folder_ / "1_flat.bag").string();
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string complaint(const std::string& topics = "") const {
+    BagReadOptions options;
+    options.topics = topics;
+    try {
+      readBag(path_, options);
+    } catch (const fsr::InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+  void keepBytes(std::uintmax_t size) const { fs::resize_file(path_, size); }
+
+  fs::path folder_;
+  std::string path_;
+};
+
+fsr::Recording twoSurfaces() {
+  test_support::SyntheticRig rig;
+  rig.surfaces = {{"flat", 0.0}, {"cylinder_7cm", 14.25}};  // exact in the message's float
+  rig.peak = 512e3;
+  fsr::Recording recording = test_support::syntheticRecording(rig);
+  recording.start_ns = 1500000000123456789;
+  recording.temperature.assign(recording.scans(), 23.5);
+  recording.layout.pitch_x = 0.015625;
+  recording.mask = {0, 0, 1, 0, 0, 0};
+  return recording;
+}
+
+BagOptions inNamespace(const std::string& topics) {
+  BagOptions options;
+  options.topics = topics;
+  options.ambient_pressure = 98304;
+  return options;
+}
+
+TEST_F(BagReader, GivesBackTheRecordingThatWasWritten) {
+  const fsr::Recording written = twoSurfaces();
+  writeBag(path_, written, inNamespace("fsr"));
+  const fsr::Recording read = readBag(path_);
+  EXPECT_EQ(read.name, "1_flat.bag");
+  EXPECT_EQ(read.sha256, fsr::sha256OfFile(path_));
+  EXPECT_EQ(read.sensor.serial, written.sensor.serial);
+  EXPECT_EQ(read.layout.pitch_x, 0.015625);
+  EXPECT_EQ(read.mask, written.mask);
+  EXPECT_EQ(read.start_ns, written.start_ns);
+  EXPECT_TRUE(read.warnings.empty());
+  ASSERT_EQ(read.conditions.size(), 2u);
+  EXPECT_EQ(read.conditions[1].name, "cylinder_7cm");
+  EXPECT_EQ(read.conditions[1].curvature.at(0).x, 14.25);
+  // 1 s to either side of the change at 50 s is left out
+  ASSERT_EQ(read.scans(), written.scans() - 21);
+  EXPECT_EQ(read.losses.near_change, 21u);
+  for (const std::size_t scan : {std::size_t{7}, std::size_t{489}}) {
+    EXPECT_NEAR(read.pressure[scan], written.pressure[scan], 1e-9);
+    EXPECT_EQ(read.scan(scan)[5], written.scan(scan)[5]);
+    EXPECT_EQ(read.temperature[scan], 23.5);
+  }
+}
+
+TEST_F(BagReader, TakesTheSensorThatIsAskedFor) {
+  fsr::Recording recording = twoSurfaces();
+  {
+    BagWriter bag(path_, "left/fsr");
+    bag.addScan(1000000000, 1, {recording.layout.size, 4095, recording.scan(0), 6});
+    bag.close();
+  }
+  EXPECT_EQ(readBag(path_).scans(), 1u);
+  rosbag::Bag bag(path_, rosbag::bagmode::Append);
+  fsr_pressure_map::MatrixFrame right;
+  right.rows = right.columns = 1;
+  right.full_scale = 1023;
+  right.counts = {5};
+  bag.write("/right/raw", ros::Time(2), right);
+  bag.close();
+  EXPECT_EQ(complaint(), path_ + ": holds several sensors: left/fsr, right; choose one with --namespace");
+  BagReadOptions options;
+  options.topics = "/right/";
+  EXPECT_EQ(readBag(path_, options).layout.size, (fsr::MatrixSize{1, 1}));
+  EXPECT_EQ(complaint("middle"), path_ +
+                                     ": holds no topic /middle/raw, but /left/fsr/raw, /right/raw; choose "
+                                     "the sensor with --namespace");
+}
+
+TEST_F(BagReader, ABagWithoutTheMatrixSaysWhatItHolds) {
+  {
+    rosbag::Bag bag(path_, rosbag::bagmode::Write);
+    bag.write("/raw", ros::Time(2), std_msgs::Float64());
+    bag.write("/other", ros::Time(2), std_msgs::Float64());
+  }
+  EXPECT_EQ(complaint(), path_ +
+                             ": holds no topic raw of type fsr_pressure_map/MatrixFrame, but /other, /raw; "
+                             "record with record.launch");
+}
+
+TEST_F(BagReader, ATopicOfAnotherTypeIsNamed) {
+  writeBag(path_, twoSurfaces(), inNamespace("fsr"));
+  rosbag::Bag bag(path_, rosbag::bagmode::Write);
+  fsr_pressure_map::MatrixFrame scan;
+  scan.rows = scan.columns = scan.full_scale = 1;
+  scan.counts = {1};
+  bag.write("/fsr/raw", ros::Time(2), scan);
+  bag.write("/fsr/chamber_pressure", ros::Time(2), std_msgs::Float64());
+  bag.close();
+  EXPECT_EQ(
+      complaint(),
+      path_ + ": /fsr/chamber_pressure is of type std_msgs/Float64, but must be sensor_msgs/FluidPressure");
+}
+
+TEST_F(BagReader, ATruncatedBagIsRefusedWithTheWayOut) {
+  writeBag(path_, twoSurfaces(), inNamespace("fsr"));
+  const std::uintmax_t size = fs::file_size(path_);
+  for (const std::uintmax_t kept : {size - 10, size / 2, std::uintmax_t{5000}, std::uintmax_t{20}}) {
+    keepBytes(kept);
+    const std::string sentence = complaint();
+    EXPECT_NE(sentence.find(path_ + ": "), std::string::npos);
+    EXPECT_NE(sentence.find("rosbag reindex " + path_), std::string::npos) << kept << ": " << sentence;
+  }
+}
+
+TEST_F(BagReader, ABagThatWasNotClosedAsksForReindexing) {
+  {
+    rosbag::Bag whole(path_, rosbag::bagmode::Write);
+    whole.setChunkThreshold(100);
+    for (unsigned i = 1; i < 100; ++i) whole.write("/other", ros::Time(i), std_msgs::Float64());
+    fs::copy_file(path_, folder_ / "open.bag");
+  }
+  path_ = (folder_ / "open.bag").string();
+  EXPECT_EQ(complaint(), path_ + ": the bag was not closed and has no index; run: rosbag reindex " + path_);
+}
+
+TEST_F(BagReader, WhatIsNoBagIsRefused) {
+  EXPECT_EQ(complaint(), path_ + ": there is no such file");
+  std::ofstream(path_) << "";
+  EXPECT_EQ(complaint(), path_ + ": is empty; give a bag that record.launch has written");
+  std::ofstream(path_) << "pressure,count\n1,2\n";
+  EXPECT_NE(complaint().find("is no whole bag ("), std::string::npos) << complaint();
+}
+
+TEST_F(BagReader, MessagesThatDoNotFitEachOtherAreRefusedWithTheBagsName) {
+  {
+    BagWriter bag(path_, "fsr");
+    const std::uint16_t counts[] = {1, 2, 3, 4};
+    bag.addScan(1000000000, 1, {{2, 2}, 4095, counts, 4});
+    bag.addSurface(1000000000, {"limb", 1, std::vector<fsr::Curvature>(6), {}});
+    bag.close();
+  }
+  EXPECT_EQ(complaint(), path_ +
+                             ": surface \"limb\" has 6 values, but must have one, or one for each of the 4 "
+                             "taxels of a 2 x 2 matrix");
+}
+
+TEST(MessageEvents, AMalformedDescriptionIsRefused) {
+  fsr_pressure_map::MatrixInfo info;
+  info.rows = info.columns = 2;
+  info.pitch_x = info.pitch_y = 0.01f;
+  info.mask = {1, 0};
+  try {
+    toDescription(info);
+    FAIL() << "accepted";
+  } catch (const fsr::InputError& error) {
+    EXPECT_STREQ(error.what(), "matrix_info: mask has 2 values, but must have none or 4");
+  }
+  info.mask.clear();
+  info.pitch_y = 0;
+  EXPECT_THROW(toDescription(info), fsr::InputError);
+}
+
+}  // namespace
+}  // namespace fsr_ros

@@ -1,0 +1,118 @@
+#include "fsr_pressure_map/ros/train_tool.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/ros/bag_writer.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "support/synthetic_recording.h"
+
+namespace fsr_ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TrainTool : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / ("train_tool_" + std::string(test->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    bend_ = record("bend.bag", {"cylinder_7cm", 14.25});
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string record(const std::string& name, const test_support::SyntheticSurface& surface) const {
+    test_support::SyntheticRig rig;
+    rig.surfaces = {surface};
+    fsr::Recording recording = test_support::syntheticRecording(rig);
+    recording.start_ns = 1500000000000000000;
+    const std::string path = (folder_ / name).string();
+    writeBag(path, recording);
+    return path;
+  }
+
+  std::string run(std::vector<std::string> words) {
+    words.insert(words.begin(), "train");
+    std::vector<const char*> arguments;
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    std::ostringstream out;
+    try {
+      EXPECT_EQ(trainTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
+      return out.str();
+    } catch (const fsr::InputError& error) {
+      return error.what();
+    }
+  }
+
+  fs::path folder_;
+  std::string bend_;
+};
+
+TEST_F(TrainTool, PrintsCoverageThenScoresThenThePath) {
+  const std::string flat = record("flat.bag", {"flat", 0.0});
+  const std::string output = (folder_ / "calibration.h5").string();
+  const std::string text = run({flat, bend_, "--output", output});
+  const fsr::Calibration calibration = fsr::loadCalibration(output);
+  const std::size_t coverage = text.find("Coverage"), scores = text.find("Held-out readings");
+  const std::size_t path =
+      text.find("Calibration " + calibration.id + " (per_curvature) is in " + output + "\n");
+  EXPECT_LT(coverage, scores);
+  EXPECT_LT(scores, path);
+  EXPECT_NE(path, std::string::npos) << text;
+  EXPECT_EQ(calibration.tables.classes.size(), 2u);
+  EXPECT_EQ(calibration.provenance.bags.at(1).name, "bend.bag");
+}
+
+TEST_F(TrainTool, TakesItsOptions) {
+  const std::string output = (folder_ / "calibration.h5").string();
+  const std::string report = (folder_ / "report.json").string();
+  const std::string text = run({bend_, "--output=" + output, "--scheme", "baseline", "--ambient", "100000",
+                                "--bandwidth", "0.05", "--folds", "4", "--seed", "7", "--threads", "1",
+                                "--no-scores", "--namespace", "fsr", "--report", report});
+  const fsr::Calibration calibration = fsr::loadCalibration(output);
+  EXPECT_EQ(calibration.tables.scheme, fsr::Scheme::kBaseline);
+  EXPECT_EQ(calibration.bandwidth, 0.05);
+  EXPECT_EQ(calibration.folds, 4u);
+  EXPECT_EQ(calibration.provenance.seed, 7u);
+  EXPECT_NEAR(calibration.trained.pressure.low, 1325.0, 1e-6);  // the bag's ambient is 101325
+  EXPECT_TRUE(calibration.scores.conditions.empty());
+  EXPECT_NE(text.find("Scores were not asked for."), std::string::npos);
+  EXPECT_TRUE(fs::exists(report));
+}
+
+TEST_F(TrainTool, AFailureOverwritesNothing) {
+  const std::string output = (folder_ / "calibration.h5").string();
+  std::ofstream(output) << "the old one";
+  EXPECT_EQ(run({bend_, "--output", output, "--scheme", "flat_only"}),
+            "scheme is flat_only, but no recording is of a flat surface (there is cylinder_7cm); add one, or "
+            "choose baseline or per_curvature");
+  std::ifstream file(output);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "the old one");
+}
+
+TEST_F(TrainTool, WrongUsageIsOneSentence) {
+  const std::string output = (folder_ / "calibration.h5").string();
+  EXPECT_EQ(run({bend_}), "--output FILE is missing; see train --help");
+  EXPECT_EQ(run({"--output", output}), "there is no recording to train on; give one bag or more");
+  EXPECT_EQ(run({bend_, "--output", output, "--scheme", "best"}),
+            "scheme is \"best\", but must be one of flat_only, baseline, per_curvature");
+  EXPECT_EQ(run({bend_, "--output", output, "--folds", "1"}),
+            "--folds is \"1\", but must be a whole number, 2 to 20");
+  EXPECT_EQ(
+      run({bend_, "--output", "/no/such/place.h5"}),
+      "/no/such/place.h5: cannot be written (No such file or directory); give a path in a directory that "
+      "exists and may be written to");
+  EXPECT_EQ(run({bend_, bend_, "--output", output}),
+            "bend.bag: has the same bytes as bend.bag; give each bag once");
+  EXPECT_EQ(run({"--help"}).rfind("train BAG... --output FILE\n", 0), 0u);
+}
+
+}  // namespace
+}  // namespace fsr_ros
