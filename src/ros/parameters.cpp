@@ -25,8 +25,25 @@ fsr::InputError Parameters::error(const std::string& name, const std::string& co
                          (set ? " is " + textOf(value) : " is not set") + ", but " + complaint);
 }
 
+bool Parameters::isSet(const std::string& name) const {
+  asked_.insert(handle_.resolveName(name));
+  return handle_.hasParam(name);
+}
+
+std::vector<std::string> Parameters::unknown() const {
+  const std::string own = handle_.getNamespace() + "/";
+  std::vector<std::string> names;
+  std::vector<std::string> unknown;
+  handle_.getParamNames(names);
+  for (const std::string& name : names) {
+    const bool is_own = name.compare(0, own.size(), own) == 0;
+    if (is_own && asked_.count(name) == 0 && name != own + "diagnostic_period") unknown.push_back(name);
+  }
+  return unknown;
+}
+
 double Parameters::number(const std::string& name, double fallback, const fsr::Range& range) const {
-  if (!handle_.hasParam(name)) return fallback;
+  if (!isSet(name)) return fallback;
   double value = 0;
   if (!handle_.getParam(name, value) || !range.contains(value)) {
     throw error(name, "must be a number, " + range.text());
@@ -36,7 +53,7 @@ double Parameters::number(const std::string& name, double fallback, const fsr::R
 
 std::int64_t Parameters::integer(const std::string& name, std::int64_t fallback,
                                  const fsr::Range& range) const {
-  if (!handle_.hasParam(name)) return fallback;
+  if (!isSet(name)) return fallback;
   int value = 0;
   if (!handle_.getParam(name, value) || !range.contains(value)) {
     throw error(name, "must be a whole number, " + range.text());
@@ -45,7 +62,7 @@ std::int64_t Parameters::integer(const std::string& name, std::int64_t fallback,
 }
 
 bool Parameters::flag(const std::string& name, bool fallback) const {
-  if (!handle_.hasParam(name)) return fallback;
+  if (!isSet(name)) return fallback;
   bool value = false;
   if (!handle_.getParam(name, value)) throw error(name, "must be true or false");
   return value;
@@ -53,7 +70,7 @@ bool Parameters::flag(const std::string& name, bool fallback) const {
 
 std::string Parameters::text(const std::string& name, const std::string& fallback) const {
   Value value;
-  if (!handle_.getParam(name, value)) return fallback;
+  if (!isSet(name) || !handle_.getParam(name, value)) return fallback;
   if (value.getType() == Value::TypeArray || value.getType() == Value::TypeStruct) {
     throw error(name, "must be a text");
   }

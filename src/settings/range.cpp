@@ -7,6 +7,7 @@ namespace fsr {
 
 std::string Range::text() const {
   std::ostringstream out;
+  out.precision(10);  // 12000000 baud, not 1.2e+07
   const bool bounded_low = std::isfinite(low);
   const bool bounded_high = std::isfinite(high);
   if (bounded_low && bounded_high) {

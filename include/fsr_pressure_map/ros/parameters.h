@@ -3,6 +3,7 @@
 #include <ros/node_handle.h>
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,16 +27,24 @@ class Parameters {
   std::string choice(const std::string& name, const std::vector<std::string>& choices,
                      const std::string& fallback) const;
 
+  /// Full paths of parameters that are set under the node's name although nobody asked for them: call it
+  /// after the last read and warn, since a misspelt parameter otherwise does nothing in silence.
+  std::vector<std::string> unknown() const;
+
   /// An InputError about a parameter: "parameter /fsr/driver/rows is 90, but " + `complaint`.
   [[nodiscard]] fsr::InputError error(const std::string& name, const std::string& complaint) const;
 
  private:
+  bool isSet(const std::string& name) const;
+
   ros::NodeHandle handle_;
+  mutable std::set<std::string> asked_;  // full paths
 };
 
 /// Runs a node's main part; an InputError becomes one fatal log line and exit status 2.
 template <typename Run>
 int runNode(Run run) {
+  const ros::NodeHandle keeps_the_log_open;  // the last handle that goes would close it before the sentence
   try {
     run();
     return 0;
