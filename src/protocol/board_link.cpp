@@ -82,7 +82,7 @@ void BoardLink::connect() {
     readAll(*source);
     decoder_.finish();
     if (!source->ended()) return;
-    change(LinkPhase::kEnded, "");
+    change(LinkPhase::kEnded, source->remark());
     pause(std::nullopt);
   } catch (const std::exception& error) {
     decoder_.finish();

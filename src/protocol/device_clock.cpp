@@ -22,7 +22,7 @@ DeviceClock::DeviceClock(const DeviceClockOptions& options)
 std::uint64_t DeviceClock::observe(std::uint32_t device_time, std::int64_t receive_time,
                                    std::int64_t known_delay) {
   const std::int64_t arrival = receive_time - known_delay;
-  std::uint64_t wide = unwrap(device_time);
+  std::uint64_t wide = widen(device_time);
   if (!started_) {
     start(wide, arrival);
   } else if (jumped(wide, arrival)) {
@@ -32,15 +32,23 @@ std::uint64_t DeviceClock::observe(std::uint32_t device_time, std::int64_t recei
   }
   newest_ = std::max(newest_, wide);
   const double x = secondsSinceStart(wide);
-  if (!late_) envelope_.add(x, static_cast<double>(arrival - start_host_) / kSecond - x);
+  if (!late_) learn(x, static_cast<double>(arrival - start_host_) / kSecond - x);
   return wide;
+}
+
+void DeviceClock::learn(double x, double y) {
+  if (options_.host_ticks) {
+    trimmed_.add(x, y);
+  } else {
+    envelope_.add(x, y);
+  }
 }
 
 std::int64_t DeviceClock::hostTime(std::uint64_t device_time) const {
   const double x = secondsSinceStart(device_time);
+  const double delay = options_.host_ticks ? trimmed_.value() : envelope_.at(x);
   // The large parts are added as integers: a double holds 1e9 s to a tenth of a microsecond only.
-  return start_host_ + difference(device_time, start_device_) * 1000 +
-         std::llround(envelope_.at(x) * kSecond);
+  return start_host_ + difference(device_time, start_device_) * 1000 + std::llround(delay * kSecond);
 }
 
 void DeviceClock::forget() {
@@ -51,8 +59,7 @@ double DeviceClock::secondsSinceStart(std::uint64_t device_time) const {
   return static_cast<double>(difference(device_time, start_device_)) * 1e-6;
 }
 
-// The 64-bit time next to the newest one that ends in these 32 bits.
-std::uint64_t DeviceClock::unwrap(std::uint32_t device_time) const {
+std::uint64_t DeviceClock::widen(std::uint32_t device_time) const {
   if (!started_) return device_time;
   const auto step = static_cast<std::int32_t>(device_time - static_cast<std::uint32_t>(newest_));
   const std::int64_t wide = static_cast<std::int64_t>(newest_) + step;
@@ -81,6 +88,7 @@ void DeviceClock::start(std::uint64_t device_time, std::int64_t arrival) {
   start_device_ = device_time;
   start_host_ = arrival;
   envelope_.clear();
+  trimmed_.clear();
 }
 
 std::int64_t StampSequence::next(std::int64_t host_time, std::uint64_t device_time) {

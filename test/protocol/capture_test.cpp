@@ -66,7 +66,7 @@ TEST_F(Capture, GivesBytesAndTimesBackAsTheyCame) {
   fsr::CaptureReader reader(path_);
   EXPECT_EQ(reader.baud(), 115200U);
   EXPECT_EQ(readAll(reader), kPieces);
-  EXPECT_EQ(reader.damage(), "");
+  EXPECT_EQ(reader.remark(), "");
 }
 
 TEST_F(Capture, HasTheDocumentedBytes) {
@@ -104,7 +104,7 @@ TEST_F(Capture, ReplaysATruncatedFileUpToTheCut) {
     ASSERT_LE(bytes.size(), whole.size());
     ASSERT_TRUE(std::equal(bytes.begin(), bytes.end(), whole.begin())) << "cut to " << size;
     const bool between_pieces = size == 16 || size == 31 || size == 44;
-    ASSERT_EQ(reader.damage().empty(), between_pieces) << "cut to " << size << ": " << reader.damage();
+    ASSERT_EQ(reader.remark().empty(), between_pieces) << "cut to " << size << ": " << reader.remark();
     ASSERT_GE(bytes.size() + 16 + 3 * 12, size) << "bytes before the cut were dropped";
   }
 }
@@ -117,7 +117,7 @@ TEST_F(Capture, StopsAtALengthThatCannotBeAndSaysWhere) {
   file.close();
   fsr::CaptureReader reader(path_);
   EXPECT_EQ(readAll(reader), Pieces{kPieces.front()});
-  EXPECT_EQ(reader.damage(), "capture " + path_ + " is damaged at byte 31: replayed up to there");
+  EXPECT_EQ(reader.remark(), "capture " + path_ + " is damaged at byte 31: replayed up to there");
 }
 
 TEST_F(Capture, NeverOverwritesAFile) {

@@ -28,7 +28,7 @@ enum class LinkPhase {
 /// How a link stands.
 struct LinkReport {
   LinkPhase phase = LinkPhase::kWaiting;
-  std::string reason;                ///< why it waits, one sentence for the user; else empty
+  std::string reason;                ///< why it waits, or how the replay's file is damaged; else empty
   std::uint64_t connections = 0;     ///< how often the port was opened
   double silence = 0;                ///< since the last byte, or since the port was opened [s]
   DecoderCounts counts;              ///< since the link was made

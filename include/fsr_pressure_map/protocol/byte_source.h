@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <stdexcept>
+#include <string>
 
 namespace fsr {
 
@@ -38,6 +39,9 @@ class ByteSource {
 
   /// True when no byte can come any more: a capture at its end.
   virtual bool ended() const { return false; }
+
+  /// What the user should know about a source that ended, one sentence; empty = nothing.
+  virtual std::string remark() const { return ""; }
 };
 
 }  // namespace fsr

@@ -61,9 +61,8 @@ class CaptureReader : public ByteSource {
   std::uint32_t baud() const override { return baud_; }
   bool ended() const override { return ended_; }
 
-  /// Where and how the file is cut short or damaged, one sentence; empty = it is whole as far as it was
-  /// read. What stands before the damage was delivered.
-  const std::string& damage() const { return damage_; }
+  /// Where and how the file is cut short or damaged; what stands before that was delivered.
+  std::string remark() const override { return damage_; }
 
  private:
   bool nextChunk();
@@ -88,6 +87,7 @@ class PacedSource : public ByteSource {
   Chunk read(std::uint8_t* buffer, std::size_t capacity, std::chrono::milliseconds timeout) override;
   std::uint32_t baud() const override { return source_->baud(); }
   bool ended() const override { return given_ == held_.size && source_->ended(); }
+  std::string remark() const override { return source_->remark(); }
 
  private:
   bool due(std::chrono::milliseconds timeout) const;

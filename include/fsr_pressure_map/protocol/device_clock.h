@@ -3,11 +3,13 @@
 #include <cstdint>
 
 #include "fsr_pressure_map/protocol/delay_envelope.h"
+#include "fsr_pressure_map/protocol/trimmed_delay.h"
 
 namespace fsr {
 
 /// Every default of the clock.
 struct DeviceClockOptions {
+  bool host_ticks = false;    ///< host times come from a simulated clock that ticks: see TrimmedDelay
   double max_slot = 2;        ///< the estimate looks back over 64 of these [s]
   double max_drift = 0.02;    ///< of the board's oscillator: RC 2 %, ceramic 0.5 %, quartz 0.01 % (ratio)
   double early_limit = 0.5;   ///< a packet earlier than possible by more than this: a clock jumped [s]
@@ -24,8 +26,8 @@ struct DeviceClockOptions {
 /// the line, is taken off before. What remains is the smallest delay that the link ever has, below a
 /// millisecond on USB, as a constant that no observer at this end can see.
 ///
-/// Where the host's time is coarse (a simulated clock that ticks), arrivals look up to one tick too
-/// early: host times are then early by up to a tick, all alike, and as evenly spaced as the board made them.
+/// Under a simulated clock that ticks, arrivals look up to a tick too early: host times are then early by
+/// about half a tick, all alike, and as evenly spaced as the board made them.
 class DeviceClock {
  public:
   explicit DeviceClock(const DeviceClockOptions& options = {});
@@ -35,7 +37,12 @@ class DeviceClock {
   /// A reset of the board or a jump of either clock starts the estimate anew.
   std::uint64_t observe(std::uint32_t device_time, std::int64_t receive_time, std::int64_t known_delay);
 
-  /// Host time [ns] of a device time [us, 64 bit] as observe() returned it; needs one observe().
+  bool started() const { return started_; }
+
+  /// The 64-bit device time [us] next to the newest one observed; takes nothing in.
+  std::uint64_t widen(std::uint32_t device_time) const;
+
+  /// Host time [ns] of a device time [us, 64 bit]; needs one observe().
   std::int64_t hostTime(std::uint64_t device_time) const;
 
   /// A new connection: the next packet starts the estimate, and no jump is counted.
@@ -43,17 +50,18 @@ class DeviceClock {
 
   std::uint64_t jumps() const { return jumps_; }
   /// How much faster the host's clock runs than the board's (ratio, 1e-6 = 1 ppm).
-  double drift() const { return envelope_.drift(); }
+  double drift() const { return options_.host_ticks ? 0 : envelope_.drift(); }
 
  private:
   double secondsSinceStart(std::uint64_t device_time) const;
-  std::uint64_t unwrap(std::uint32_t device_time) const;
   double lateness(std::uint64_t device_time, std::int64_t arrival) const;
   bool jumped(std::uint64_t device_time, std::int64_t arrival);
   void start(std::uint64_t device_time, std::int64_t arrival);
+  void learn(double x, double y);
 
   DeviceClockOptions options_;
-  DelayEnvelope envelope_;
+  DelayEnvelope envelope_;  // one of the two is in use
+  TrimmedDelay trimmed_;
   bool started_ = false;
   std::uint64_t newest_ = 0;        // device time [us]
   std::uint64_t start_device_ = 0;  // origin of the envelope's x [us]

@@ -1,0 +1,35 @@
+#include "fsr_pressure_map/protocol/packet_stamper.h"
+
+namespace fsr {
+
+void PacketStamper::startLine(std::uint32_t baud) {
+  baud_ = baud;
+  clock_.forget();
+}
+
+PacketTime PacketStamper::scan(const PacketHeader& header, std::uint32_t duration) {
+  const std::int64_t known_delay = timeOnTheLine(header.size) + std::int64_t{duration} * 500;
+  return finish(FSR_WIRE_SCAN, clock_.observe(header.device_time, receive_time_, known_delay));
+}
+
+PacketTime PacketStamper::transducer(const PacketHeader& header) {
+  return finish(FSR_WIRE_TRANSDUCER,
+                clock_.observe(header.device_time, receive_time_, timeOnTheLine(header.size)));
+}
+
+PacketTime PacketStamper::temperature(const PacketHeader& header) {
+  if (!clock_.started()) return {receive_time_ - timeOnTheLine(header.size), header.device_time};
+  return finish(FSR_WIRE_TEMPERATURE, clock_.widen(header.device_time));
+}
+
+// [ns] at ten bits a byte.
+std::int64_t PacketStamper::timeOnTheLine(std::size_t bytes) const {
+  return baud_ == 0 ? 0 : static_cast<std::int64_t>(bytes) * 10'000'000'000 / baud_;
+}
+
+PacketTime PacketStamper::finish(unsigned type, std::uint64_t device_time) {
+  const std::int64_t host_time = clock_.hostTime(device_time);
+  return {sequences_.at(type - FSR_WIRE_SCAN).next(host_time, device_time), device_time};
+}
+
+}  // namespace fsr
