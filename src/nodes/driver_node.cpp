@@ -1,0 +1,12 @@
+#include <ros/ros.h>
+
+#include "fsr_pressure_map/ros/driver.h"
+#include "fsr_pressure_map/ros/parameters.h"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "driver");
+  return fsr_ros::runNode([] {
+    const fsr_ros::Driver driver(ros::NodeHandle{}, ros::NodeHandle{"~"});
+    ros::spin();
+  });
+}

@@ -1,0 +1,192 @@
+#include "fsr_pressure_map/ros/driver.h"
+
+#include <ros/console.h>
+
+#include <utility>
+
+#include "fsr_pressure_map/protocol/serial_port.h"
+
+namespace fsr_ros {
+namespace {
+
+constexpr std::uint32_t kQueue = 1000;  // messages: a second at 1 kHz
+constexpr int kLooksPerSecond = 10;
+
+std::int64_t rosTime() {
+  return static_cast<std::int64_t>(ros::Time::now().toNSec());
+}
+
+// Simulated time may run many times faster than the computer, so that a hiccup of its scheduler is seconds
+// long.
+fsr::DeviceClockOptions clockOptions() {
+  fsr::DeviceClockOptions options;
+  if (!ros::Time::isSimTime()) return options;
+  options.host_ticks = true;
+  options.early_limit = 5;
+  options.late_limit = 10;
+  options.late_patience = 60;
+  return options;
+}
+
+// The baud of a line that takes time in ROS's time: none in a simulated one.
+std::uint32_t baudInRosTime(std::uint32_t baud) {
+  return ros::Time::isSimTime() ? 0 : baud;
+}
+
+fsr::BoardLink::Open opener(const DriverSettings& settings) {
+  if (settings.replay_file.empty()) {
+    return [port = settings.serial_port, baud = settings.serial_baud] {
+      return std::make_unique<fsr::SerialPort>(port, baud, rosTime);
+    };
+  }
+  const fsr::CaptureReader refuses_what_is_no_capture(settings.replay_file);
+  return [file = settings.replay_file] {
+    return std::make_unique<fsr::PacedSource>(std::make_unique<fsr::CaptureReader>(file), rosTime);
+  };
+}
+
+DriverSettings readSettings(const ros::NodeHandle& private_handle) {
+  const Parameters parameters(private_handle);
+  const DriverSettings settings = readDriverSettings(parameters);
+  for (const std::string& name : parameters.unknown()) {
+    ROS_WARN_STREAM("parameter " << name << " is set, but the driver has none of that name: it does nothing");
+  }
+  return settings;
+}
+
+bool operator!=(const Board& a, const Board& b) {
+  return a.serial != b.serial || a.firmware != b.firmware || a.size != b.size || a.full_scale != b.full_scale;
+}
+
+}  // namespace
+
+Driver::Driver(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : handle_(handle),
+      private_handle_(private_handle),
+      settings_(readSettings(private_handle)),
+      stamper_(clockOptions()),
+      diagnostics_(handle, private_handle, private_handle.getNamespace()) {
+  raw_ = handle_.advertise<fsr_pressure_map::MatrixFrame>("raw", kQueue);
+  pressure_ = handle_.advertise<sensor_msgs::FluidPressure>("chamber_pressure", kQueue);
+  temperature_ = handle_.advertise<sensor_msgs::Temperature>("temperature", kQueue);
+  info_ = handle_.advertise<fsr_pressure_map::MatrixInfo>("matrix_info", 10, true);
+  service_ = private_handle_.advertiseService("set_enabled", &Driver::setEnabled, this);
+  diagnostics_.add("link", [this](auto& status) { judgeLink(before_, now_, settings_, status); });
+  diagnostics_.add("scans", [this](auto& status) { judgeScans(before_, now_, settings_, status); });
+  const fsr::BoardLink::Options options = {settings_.reconnect_delay, settings_.capture_file};
+  fsr::LinkHandler& handler = *this;
+  link_ = std::make_unique<fsr::BoardLink>(opener(settings_), handler, options);
+  timer_ = handle_.createWallTimer(ros::WallDuration(1.0 / kLooksPerSecond),
+                                   [this](const ros::WallTimerEvent&) { look(); });
+}
+
+void Driver::onScan(const fsr::PacketHeader& header, const fsr::ScanPacket& scan) {
+  const fsr::PacketTime time = stamper_.scan(header, scan.duration);
+  const bool expected = isExpected(scan.size);
+  const auto message = scanMessage(header, scan, time, settings_);
+  if (expected && !message->header.stamp.isZero()) raw_.publish(message);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  health_.board.size = scan.size;
+  health_.board.full_scale = scan.full_scale;
+  ++(expected ? health_.scans : health_.refused_scans);
+  health_.scan_time = time.device_time;
+  health_.clock_drift = stamper_.clock().drift();
+  health_.clock_jumps = stamper_.clock().jumps();
+}
+
+void Driver::onTransducer(const fsr::PacketHeader& header, std::int32_t counts) {
+  const auto message = pressureMessage(counts, stamper_.transducer(header), settings_);
+  if (!message->header.stamp.isZero()) pressure_.publish(message);
+}
+
+void Driver::onTemperature(const fsr::PacketHeader& header, std::int32_t millidegrees) {
+  const auto message = temperatureMessage(millidegrees, stamper_.temperature(header), settings_);
+  if (!message->header.stamp.isZero()) temperature_.publish(message);
+}
+
+void Driver::onIdentity(const fsr::PacketHeader& /*header*/, const fsr::IdentityPacket& identity) {
+  note(toBoard(identity));
+}
+
+void Driver::onOpen(std::uint32_t baud) {
+  stamper_.startLine(baudInRosTime(baud));
+}
+
+void Driver::onBytes(std::int64_t receive_time) {
+  stamper_.setArrival(receive_time);
+}
+
+void Driver::onChange(const fsr::LinkReport& report) {
+  const std::string sentence = linkSentence(report, settings_);
+  if (report.phase == fsr::LinkPhase::kWaiting || report.phase == fsr::LinkPhase::kNoTime) {
+    ROS_WARN_STREAM(private_handle_.getNamespace() << ": " << sentence);
+  } else {
+    ROS_INFO_STREAM(private_handle_.getNamespace() << ": " << sentence);
+  }
+}
+
+bool Driver::isExpected(fsr::MatrixSize size) const {
+  const fsr::MatrixSize expected = settings_.expected;
+  return (expected.rows == 0 || expected.rows == size.rows) &&
+         (expected.columns == 0 || expected.columns == size.columns);
+}
+
+void Driver::note(const Board& board) {
+  bool news = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    news = health_.board != board;
+    health_.board = board;
+  }
+  if (!news) return;
+  ROS_INFO_STREAM(private_handle_.getNamespace()
+                  << ": board " << board.serial << ", firmware " << board.firmware << ", " << board.size.rows
+                  << " x " << board.size.columns << " taxels");
+  publishInfo();
+}
+
+void Driver::publishInfo() {
+  fsr_pressure_map::MatrixInfo info = matrixInfo(board(), settings_);
+  if (info.rows == 0) return;
+  info.header.stamp = ros::Time::now();
+  info_.publish(info);
+}
+
+bool Driver::setEnabled(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+  link_->setEnabled(request.data);
+  response.success = true;
+  response.message = (request.data ? "opening " : "closing ") + sourceName(settings_);
+  return true;
+}
+
+// Diagnostics come each second, and at once where the link changed.
+void Driver::look() {
+  const DriverHealth now = health();
+  const bool second_passed = ++looks_ % kLooksPerSecond == 0;
+  const bool changed = now.link.phase != now_.link.phase || now.link.reason != now_.link.reason;
+  if (second_passed) {
+    publishInfo();
+    before_ = std::exchange(last_second_, now);
+  }
+  if (!second_passed && !changed) return;
+  now_ = now;
+  diagnostics_.setHardwareID(now_.board.serial.empty() ? sourceName(settings_) : now_.board.serial);
+  diagnostics_.force_update();
+}
+
+Board Driver::board() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return health_.board;
+}
+
+DriverHealth Driver::health() const {
+  DriverHealth health;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    health = health_;
+  }
+  health.link = link_->report();
+  return health;
+}
+
+}  // namespace fsr_ros

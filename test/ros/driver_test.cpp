@@ -1,0 +1,253 @@
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <fsr_pressure_map/MatrixFrame.h>
+#include <fsr_pressure_map/MatrixInfo.h>
+#include <gtest/gtest.h>
+#include <sensor_msgs/FluidPressure.h>
+#include <sensor_msgs/Temperature.h>
+#include <std_srvs/SetBool.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "fsr_pressure_map/ros/driver.h"
+#include "support/board_packets.h"
+#include "support/pty.h"
+#include "support/ros_listener.h"
+
+namespace {
+
+using fsr_pressure_map::MatrixFrame;
+using test_support::await;
+using test_support::Listener;
+using Level = diagnostic_msgs::DiagnosticStatus;
+
+std::string parameter(const std::string& name) {
+  return ros::NodeHandle("~").param<std::string>(name, "");
+}
+
+std::uint16_t countOf(std::uint32_t scan, int taxel) {
+  return static_cast<std::uint16_t>((scan * 7 + taxel) % 4096);
+}
+
+std::vector<std::uint16_t> countsOf(std::uint32_t scan) {
+  std::vector<std::uint16_t> counts(6);
+  for (int i = 0; i < 6; ++i) counts[i] = countOf(scan, i);
+  return counts;
+}
+
+// A 2 x 3 board at 100 Hz whose scans say their own number.
+class Board {
+ public:
+  explicit Board(const std::string& port) : pty_(port) {}
+
+  void introduceItself() { pty_.write(test_support::identityPacket(1, time(next_), 2, 3, "FSR-0042")); }
+  void sendScans(int count) {
+    for (int i = 0; i < count; ++i, ++next_) {
+      pty_.write(test_support::scanPacket(next_, time(next_), 2, 3, countsOf(next_)));
+    }
+  }
+  void sendReading(std::int32_t counts) {
+    pty_.write(test_support::transducerPacket(next_, time(next_), counts));
+  }
+  void sendTemperature(std::int32_t value) {
+    pty_.write(test_support::temperaturePacket(next_, time(next_), value));
+  }
+
+ private:
+  static std::uint32_t time(std::uint32_t scan) { return scan * 10'000; }  // [us]
+
+  test_support::Pty pty_;
+  std::uint32_t next_ = 1;
+};
+
+// The last that every part of /diagnostics said, from the first moment of the tests on.
+class Diagnostics {
+ public:
+  Diagnostics() {
+    const auto keep = [this](const diagnostic_msgs::DiagnosticArray::ConstPtr& array) {
+      for (const auto& status : array->status) last_[status.name] = status;
+    };
+    subscriber_ = ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1000, keep);
+  }
+
+  // Waits until `name` says `part` at `level`; what it said last where it never does, else `part`.
+  std::string await(const std::string& name, int level, const std::string& part) {
+    const auto says = [&] { return last_[name].level == level && contains(name, part); };
+    return test_support::await(says) ? part : last_[name].message;
+  }
+  // Waits until `driver` has its port open, whether bytes come or not.
+  bool awaitOpenPort(const std::string& driver) {
+    const std::string link = driver + ": link";
+    return test_support::await([&] { return contains(link, "reading") || contains(link, "no byte from"); });
+  }
+
+ private:
+  bool contains(const std::string& name, const std::string& part) {
+    return last_[name].message.find(part) != std::string::npos;
+  }
+
+  ros::Subscriber subscriber_;
+  std::map<std::string, diagnostic_msgs::DiagnosticStatus> last_;
+};
+
+Diagnostics& diagnostics() {
+  static Diagnostics instance;
+  return instance;
+}
+
+const std::string kWaiting = "waiting for the board: there is no serial port ";
+
+// Plugs a board in under a driver that waits for one and sees it read. (What a board sends before its port is
+// open is stale, and dropped.)
+std::unique_ptr<Board> plugIn(const std::string& port, const std::string& driver) {
+  EXPECT_EQ(diagnostics().await(driver + ": link", Level::ERROR, kWaiting + port), kWaiting + port);
+  auto board = std::make_unique<Board>(port);
+  EXPECT_TRUE(diagnostics().awaitOpenPort(driver));
+  return board;
+}
+
+// Every test unplugs its board at its end: each of them starts with a driver that waits.
+class DriverNode : public testing::Test {
+ protected:
+  std::string port_ = parameter("port");
+};
+
+TEST_F(DriverNode, SaysWhichPortItWaitsForWhileThatIsMissing) {
+  const std::string waits = "waiting for the board: there is no serial port " + port_;
+  EXPECT_EQ(diagnostics().await("fsr/driver: link", Level::ERROR, waits), waits);
+}
+
+TEST_F(DriverNode, PublishesEveryScanWithItsCountsAndIncreasingStamps) {
+  Listener<MatrixFrame> raw("fsr/raw");
+  ASSERT_TRUE(raw.connected());
+  const auto board = plugIn(port_, "fsr/driver");
+  board->sendScans(200);
+  ASSERT_TRUE(raw.has(200));
+  ros::Time last;
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    const MatrixFrame& frame = *raw.messages[i];
+    ASSERT_EQ(frame.sequence, i + 1);
+    ASSERT_EQ(frame.counts, countsOf(i + 1));
+    ASSERT_EQ(frame.device_time, (i + 1) * 10'000);
+    ASSERT_GT(frame.header.stamp, last) << i;
+    last = frame.header.stamp;
+  }
+  EXPECT_EQ(raw.messages.front()->rows, 2);
+  EXPECT_EQ(raw.messages.front()->columns, 3);
+  EXPECT_EQ(raw.messages.front()->full_scale, 4095);
+  EXPECT_LT(std::abs((last - ros::Time::now()).toSec()), 60);
+}
+
+TEST_F(DriverNode, SurvivesUnpluggingAndReadsTheBoardThatComesBack) {
+  Listener<MatrixFrame> raw("fsr/raw");
+  ASSERT_TRUE(raw.connected());
+  for (std::size_t round = 1; round <= 2; ++round) {
+    const auto board = plugIn(port_, "fsr/driver");
+    board->sendScans(3);
+    ASSERT_TRUE(raw.has(3 * round));
+  }
+}
+
+TEST_F(DriverNode, PublishesAbsolutePressureAndTemperature) {
+  Listener<sensor_msgs::FluidPressure> pressure("fsr/chamber_pressure");
+  Listener<sensor_msgs::Temperature> temperature("fsr/temperature");
+  ASSERT_TRUE(pressure.connected() && temperature.connected());
+  const auto board = plugIn(port_, "fsr/driver");
+  board->sendReading(4000);
+  board->sendTemperature(23750);
+  ASSERT_TRUE(pressure.has(1) && temperature.has(1));
+  EXPECT_DOUBLE_EQ(pressure.messages.front()->fluid_pressure, -1000 + 2.5 * 4000 + 100000);
+  EXPECT_DOUBLE_EQ(pressure.messages.front()->variance, 1600);
+  EXPECT_DOUBLE_EQ(temperature.messages.front()->temperature, 23.75);
+}
+
+TEST_F(DriverNode, DescribesTheMatrixAgainAndAgain) {
+  Listener<fsr_pressure_map::MatrixInfo> info("fsr/matrix_info");
+  const auto board = plugIn(port_, "fsr/driver");
+  board->introduceItself();
+  ASSERT_TRUE(await([&] { return !info.messages.empty() && info.messages.back()->serial == "FSR-0042"; }));
+  ASSERT_TRUE(info.has(info.messages.size() + 1)) << "it is repeated each second";
+  EXPECT_EQ(info.messages.back()->rows, 2);
+  EXPECT_EQ(info.messages.back()->columns, 3);
+  EXPECT_EQ(info.messages.back()->firmware, "1.2.0");
+  EXPECT_DOUBLE_EQ(info.messages.back()->ambient_pressure, 100000);
+}
+
+TEST_F(DriverNode, ComplainsAboutASilentBoard) {
+  const auto board = plugIn(port_, "fsr/driver");
+  const std::string complaint = "no byte from " + port_;
+  EXPECT_EQ(diagnostics().await("fsr/driver: link", Level::ERROR, complaint), complaint);
+}
+
+TEST_F(DriverNode, ClosesAndOpensThePortByService) {
+  const auto board = plugIn(port_, "fsr/driver");
+  std_srvs::SetBool call;
+  ASSERT_TRUE(ros::service::call("fsr/driver/set_enabled", call));
+  EXPECT_TRUE(call.response.success);
+  EXPECT_EQ(diagnostics().await("fsr/driver: link", Level::WARN, "disabled"), "disabled");
+  call.request.data = 1;
+  ASSERT_TRUE(ros::service::call("fsr/driver/set_enabled", call));
+  EXPECT_NE(call.response.message.find(port_), std::string::npos) << call.response.message;
+  EXPECT_TRUE(diagnostics().awaitOpenPort("fsr/driver"));
+}
+
+TEST(DriverReplay, GivesTheSameScansAsTheLiveBoard) {
+  Listener<MatrixFrame> raw("replay/raw");
+  ros::NodeHandle replay("replay_driver");
+  replay.setParam("replay_file", parameter("capture"));
+  const fsr_ros::Driver driver(ros::NodeHandle("replay"), replay);
+  ASSERT_TRUE(raw.has(206));
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    ASSERT_EQ(raw.messages[i]->sequence, i + 1);
+    ASSERT_EQ(raw.messages[i]->counts, countsOf(i + 1));
+  }
+}
+
+TEST(DriverNodelet, LoadsIntoAManagerAndPublishes) {
+  Listener<MatrixFrame> raw("nodelets/raw");
+  ASSERT_TRUE(raw.connected());
+  const auto board = plugIn(parameter("nodelet_port"), "nodelets/driver");
+  board->sendScans(5);
+  ASSERT_TRUE(raw.has(5));
+  EXPECT_EQ(raw.messages[4]->counts, countsOf(5));
+}
+
+// Runs the node with `arguments`; what it prints goes to `output`.
+int exitStatus(const std::string& arguments, std::string& output) {
+  FILE* pipe =
+      popen(("rosrun fsr_pressure_map driver_node __name:=refused " + arguments + " 2>&1").c_str(), "r");
+  for (int c = fgetc(pipe); c != EOF; c = fgetc(pipe)) output.push_back(static_cast<char>(c));
+  return WEXITSTATUS(pclose(pipe));
+}
+
+TEST_F(DriverNode, RefusesABadParameterWithASentenceAndStatusTwo) {
+  std::string output;
+  EXPECT_EQ(exitStatus("_serial_baud:=-5", output), 2);
+  EXPECT_NE(
+      output.find("parameter /refused/serial_baud is -5, but must be a whole number, 0 to 12000000 baud"),
+      std::string::npos)
+      << output;
+}
+
+TEST_F(DriverNode, RefusesAReplayThatIsNoCapture) {
+  ros::param::del("/refused");
+  std::string output;
+  EXPECT_EQ(exitStatus("_replay_file:=/dev/null", output), 2);
+  EXPECT_NE(output.find("capture /dev/null does not start with FSRCAP01"), std::string::npos) << output;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "driver_test");
+  const ros::NodeHandle keeps_ros_running;
+  diagnostics();
+  const int status = RUN_ALL_TESTS();
+  std::remove(parameter("capture").c_str());
+  return status;
+}

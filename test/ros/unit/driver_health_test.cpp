@@ -1,0 +1,149 @@
+#include "fsr_pressure_map/ros/driver_health.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace {
+
+using fsr::LinkPhase;
+using fsr_ros::DriverHealth;
+using fsr_ros::DriverSettings;
+using Level = diagnostic_msgs::DiagnosticStatus;
+using Status = diagnostic_updater::DiagnosticStatusWrapper;
+
+DriverHealth reading() {
+  DriverHealth health;
+  health.link.phase = LinkPhase::kReading;
+  return health;
+}
+
+// A second later, with `scans` more at the board's 100 Hz.
+DriverHealth later(DriverHealth health, std::uint64_t scans) {
+  health.scans += scans;
+  health.scan_time += 10'000 * scans;
+  health.link.counts.bytes += 168 * scans;
+  health.link.counts.sequences[0].packets += scans;
+  return health;
+}
+
+Status link(const DriverHealth& before, const DriverHealth& now, const DriverSettings& settings = {}) {
+  Status status;
+  fsr_ros::judgeLink(before, now, settings, status);
+  return status;
+}
+
+Status scans(const DriverHealth& before, const DriverHealth& now, const DriverSettings& settings = {}) {
+  Status status;
+  fsr_ros::judgeScans(before, now, settings, status);
+  return status;
+}
+
+bool contains(const Status& status, const std::string& part) {
+  return status.message.find(part) != std::string::npos;
+}
+
+TEST(DriverHealth, IsWellWhileScansCome) {
+  const DriverHealth before = later(reading(), 100);
+  const DriverHealth now = later(before, 100);
+  EXPECT_EQ(link(before, now).level, Level::OK);
+  EXPECT_EQ(link(before, now).message, "reading /dev/ttyACM0");
+  EXPECT_EQ(scans(before, now).level, Level::OK);
+  EXPECT_EQ(scans(before, now).message, "100 scans a second");
+}
+
+TEST(DriverHealth, SaysWhyItWaits) {
+  DriverHealth now;
+  now.link.phase = LinkPhase::kWaiting;
+  now.link.reason = "there is no serial port /dev/ttyACM0: plug the board in";
+  EXPECT_EQ(link(now, now).level, Level::ERROR);
+  EXPECT_EQ(link(now, now).message, "waiting for the board: " + now.link.reason);
+  EXPECT_TRUE(contains(scans(now, now), now.link.reason));
+}
+
+TEST(DriverHealth, ComplainsAboutSilenceBeyondTheTimeout) {
+  DriverHealth now = reading();
+  now.link.silence = 0.9;
+  EXPECT_EQ(link(now, now).level, Level::OK);
+  now.link.silence = 1.5;
+  EXPECT_EQ(link(now, now).level, Level::ERROR);
+  EXPECT_TRUE(contains(link(now, now), "no byte from /dev/ttyACM0 for 1.5 s")) << link(now, now).message;
+}
+
+TEST(DriverHealth, TakesNoiseForAWrongBaud) {
+  const DriverHealth before = reading();
+  DriverHealth now = reading();
+  now.link.counts.bytes = 500;
+  now.link.counts.skipped_bytes = 490;
+  EXPECT_EQ(link(before, now).level, Level::ERROR);
+  EXPECT_TRUE(contains(link(before, now), "is serial_baud 115200 the board's rate"))
+      << link(before, now).message;
+}
+
+TEST(DriverHealth, WarnsBeyondTheToleranceOfTheRateOnly) {
+  DriverSettings settings;
+  settings.expected_frequency = 100;
+  const DriverHealth before = later(reading(), 1);
+  DriverHealth now = later(before, 91);
+  now.scan_time = before.scan_time + 1'000'000;
+  EXPECT_EQ(scans(before, now, settings).level, Level::OK);
+  now.scans = before.scans + 89;
+  EXPECT_EQ(scans(before, now, settings).level, Level::WARN);
+  EXPECT_EQ(scans(before, now, settings).message, "89 scans a second where 100 are expected");
+}
+
+TEST(DriverHealth, ExpectsTheRateThatTheBoardTold) {
+  DriverHealth before = later(reading(), 1);
+  before.board.scan_period = 0.005;
+  EXPECT_EQ(scans(before, later(before, 100)).message, "100 scans a second where 200 are expected");
+}
+
+TEST(DriverHealth, JudgesNoRateFromItsFirstScans) {
+  DriverSettings settings;
+  settings.expected_frequency = 100;
+  EXPECT_EQ(scans(reading(), later(reading(), 5), settings).level, Level::OK);
+}
+
+TEST(DriverHealth, RefusesABoardOfAnotherSize) {
+  DriverSettings settings;
+  settings.expected = {7, 10};
+  DriverHealth now = reading();
+  now.board.size = {16, 10};
+  now.refused_scans = 3;
+  EXPECT_EQ(scans(reading(), now, settings).level, Level::ERROR);
+  EXPECT_EQ(scans(reading(), now, settings).message,
+            "the board sends 16 x 10 taxels, but rows and columns say 7 x 10: no scan is published");
+}
+
+TEST(DriverHealth, IsWellAfterAReplayAndSaysWhatWasCut) {
+  DriverSettings settings;
+  settings.replay_file = "/data/run.fsrcap";
+  DriverHealth now;
+  now.link.phase = LinkPhase::kEnded;
+  now.link.reason = "capture /data/run.fsrcap is cut short at byte 90: replayed up to there";
+  EXPECT_EQ(link(now, now, settings).level, Level::OK);
+  EXPECT_EQ(link(now, now, settings).message, "replay of /data/run.fsrcap is over: " + now.link.reason);
+  EXPECT_EQ(scans(now, now, settings).level, Level::OK);
+}
+
+TEST(DriverHealth, ComplainsAboutACaptureThatStopped) {
+  DriverHealth now = reading();
+  now.link.capture_complaint = "capture /data/run.fsrcap cannot be continued (No space left on device)";
+  EXPECT_EQ(link(now, now).level, Level::ERROR);
+  EXPECT_TRUE(contains(link(now, now), "No space left on device"));
+}
+
+TEST(DriverHealth, ListsLossesAndDamageByCause) {
+  DriverHealth now = reading();
+  now.link.counts.bad_packet_check = 7;
+  now.link.counts.sequences[0].lost = 12;
+  const Status status = scans(reading(), now);
+  int found = 0;
+  for (const auto& value : status.values) {
+    if (value.key == "scans lost") found += value.value == "12" ? 1 : 0;
+    if (value.key == "dropped: packet check") found += value.value == "7" ? 1 : 0;
+  }
+  EXPECT_EQ(found, 2);
+}
+
+}  // namespace
