@@ -33,7 +33,7 @@ std::uint32_t baudInRosTime(std::uint32_t baud) {
   return ros::Time::isSimTime() ? 0 : baud;
 }
 
-fsr::BoardLink::Open opener(const DriverSettings& settings) {
+fsr::BoardReader::Open opener(const DriverSettings& settings) {
   if (settings.replay_file.empty()) {
     return [port = settings.serial_port, baud = settings.serial_baud] {
       return std::make_unique<fsr::SerialPort>(port, baud, rosTime);
@@ -73,9 +73,9 @@ Driver::Driver(const ros::NodeHandle& handle, const ros::NodeHandle& private_han
   service_ = private_handle_.advertiseService("set_enabled", &Driver::setEnabled, this);
   diagnostics_.add("link", [this](auto& status) { judgeLink(before_, now_, settings_, status); });
   diagnostics_.add("scans", [this](auto& status) { judgeScans(before_, now_, settings_, status); });
-  const fsr::BoardLink::Options options = {settings_.reconnect_delay, settings_.capture_file};
+  const fsr::BoardReader::Options options = {settings_.reconnect_delay, settings_.capture_file};
   fsr::LinkHandler& handler = *this;
-  link_ = std::make_unique<fsr::BoardLink>(opener(settings_), handler, options);
+  reader_ = std::make_unique<fsr::BoardReader>(opener(settings_), handler, options);
   timer_ = handle_.createWallTimer(ros::WallDuration(1.0 / kLooksPerSecond),
                                    [this](const ros::WallTimerEvent&) { look(); });
 }
@@ -153,7 +153,7 @@ void Driver::publishInfo() {
 }
 
 bool Driver::setEnabled(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
-  link_->setEnabled(request.data);
+  reader_->setEnabled(request.data);
   response.success = true;
   response.message = (request.data ? "opening " : "closing ") + sourceName(settings_);
   return true;
@@ -185,7 +185,7 @@ DriverHealth Driver::health() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     health = health_;
   }
-  health.link = link_->report();
+  health.link = reader_->report();
   return health;
 }
 

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <optional>
 
-#include "fsr_pressure_map/protocol/board_link.h"
+#include "fsr_pressure_map/protocol/board_reader.h"
 #include "fsr_pressure_map/protocol/packet_stamper.h"
 #include "fsr_pressure_map/ros/driver_health.h"
 #include "fsr_pressure_map/ros/driver_messages.h"
@@ -68,7 +68,7 @@ class Driver : private fsr::LinkHandler {
   int looks_ = 0;
   ros::ServiceServer service_;
   ros::WallTimer timer_;
-  std::unique_ptr<fsr::BoardLink> link_;  // last: its thread uses everything above
+  std::unique_ptr<fsr::BoardReader> reader_;  // last: its thread uses everything above
 };
 
 }  // namespace fsr_ros

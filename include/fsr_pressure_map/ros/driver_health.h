@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "fsr_pressure_map/protocol/board_link.h"
+#include "fsr_pressure_map/protocol/board_reader.h"
 #include "fsr_pressure_map/ros/driver_messages.h"
 #include "fsr_pressure_map/ros/driver_settings.h"
 

@@ -49,7 +49,7 @@ class LinkHandler : public PacketHandler {
 
 /// Reads a board on a thread of its own for as long as it lives: opens the port, decodes, and where
 /// the port is missing or breaks, tries again.
-class BoardLink {
+class BoardReader {
  public:
   /// Opens the source of bytes, or throws LinkError.
   using Open = std::function<std::unique_ptr<ByteSource>()>;
@@ -60,10 +60,10 @@ class BoardLink {
   };
 
   /// `handler` must outlive the link. Throws InputError where the capture file cannot be made.
-  BoardLink(Open open, LinkHandler& handler, const Options& options);
-  ~BoardLink();
-  BoardLink(const BoardLink&) = delete;
-  BoardLink& operator=(const BoardLink&) = delete;
+  BoardReader(Open open, LinkHandler& handler, const Options& options);
+  ~BoardReader();
+  BoardReader(const BoardReader&) = delete;
+  BoardReader& operator=(const BoardReader&) = delete;
 
   /// false closes the port, e.g. for a firmware update; true opens it again.
   void setEnabled(bool enabled);

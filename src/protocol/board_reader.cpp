@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/protocol/board_link.h"
+#include "fsr_pressure_map/protocol/board_reader.h"
 
 #include <utility>
 
@@ -17,7 +17,7 @@ std::unique_ptr<CaptureWriter> captureTo(const std::string& path) {
 
 }  // namespace
 
-BoardLink::BoardLink(Open open, LinkHandler& handler, const Options& options)
+BoardReader::BoardReader(Open open, LinkHandler& handler, const Options& options)
     : open_(std::move(open)),
       handler_(handler),
       options_(options),
@@ -27,7 +27,7 @@ BoardLink::BoardLink(Open open, LinkHandler& handler, const Options& options)
       last_byte_(SteadyClock::now()),
       thread_([this] { run(); }) {}
 
-BoardLink::~BoardLink() {
+BoardReader::~BoardReader() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stopping_ = true;
@@ -36,7 +36,7 @@ BoardLink::~BoardLink() {
   thread_.join();
 }
 
-void BoardLink::setEnabled(bool enabled) {
+void BoardReader::setEnabled(bool enabled) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     toggled_ = toggled_ || enabled_ != enabled;
@@ -45,14 +45,14 @@ void BoardLink::setEnabled(bool enabled) {
   changed_.notify_all();
 }
 
-LinkReport BoardLink::report() const {
+LinkReport BoardReader::report() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   LinkReport report = report_;
   report.silence = std::chrono::duration<double>(SteadyClock::now() - last_byte_).count();
   return report;
 }
 
-void BoardLink::run() {
+void BoardReader::run() {
   while (true) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -69,7 +69,7 @@ void BoardLink::run() {
 }
 
 // One connection, from opening to whatever ends it, and the pause behind it.
-void BoardLink::connect() {
+void BoardReader::connect() {
   try {
     const std::unique_ptr<ByteSource> source = open_();
     handler_.onOpen(source->baud());
@@ -91,7 +91,7 @@ void BoardLink::connect() {
   }
 }
 
-void BoardLink::readAll(ByteSource& source) {
+void BoardReader::readAll(ByteSource& source) {
   change(LinkPhase::kReading, "");
   while (wanted() && !source.ended()) {
     const Chunk chunk = source.read(buffer_.data(), buffer_.size(), kReadTimeout);
@@ -99,7 +99,7 @@ void BoardLink::readAll(ByteSource& source) {
   }
 }
 
-void BoardLink::take(const std::uint8_t* bytes, const Chunk& chunk) {
+void BoardReader::take(const std::uint8_t* bytes, const Chunk& chunk) {
   const bool time_runs = chunk.receive_time > 0;
   change(time_runs ? LinkPhase::kReading : LinkPhase::kNoTime, "");
   if (time_runs) {
@@ -114,7 +114,7 @@ void BoardLink::take(const std::uint8_t* bytes, const Chunk& chunk) {
 }
 
 // Reading matters more than keeping: a full disk ends the capture, not the link.
-void BoardLink::keeping(const std::function<void()>& write) {
+void BoardReader::keeping(const std::function<void()>& write) {
   if (!capture_) return;
   try {
     write();
@@ -125,7 +125,7 @@ void BoardLink::keeping(const std::function<void()>& write) {
   }
 }
 
-void BoardLink::change(LinkPhase phase, const std::string& reason) {
+void BoardReader::change(LinkPhase phase, const std::string& reason) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (report_.phase == phase && report_.reason == reason) return;
@@ -135,13 +135,13 @@ void BoardLink::change(LinkPhase phase, const std::string& reason) {
   handler_.onChange(report());
 }
 
-bool BoardLink::wanted() const {
+bool BoardReader::wanted() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return enabled_ && !stopping_;
 }
 
 // Until the link is wanted otherwise, at most for `longest` where that is given.
-void BoardLink::pause(std::optional<std::chrono::milliseconds> longest) {
+void BoardReader::pause(std::optional<std::chrono::milliseconds> longest) {
   std::unique_lock<std::mutex> lock(mutex_);
   const auto woken = [this] { return stopping_ || toggled_; };
   if (longest) {

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/protocol/board_link.h"
+#include "fsr_pressure_map/protocol/board_reader.h"
 
 #include <gtest/gtest.h>
 
@@ -88,15 +88,15 @@ class Listener : public fsr::LinkHandler {
   std::size_t seen_ = 0;
 };
 
-class BoardLink : public testing::Test {
+class BoardReader : public testing::Test {
  protected:
-  std::unique_ptr<fsr::BoardLink> makeLink(milliseconds reconnect_delay = milliseconds(1),
-                                           const std::string& capture = "") {
+  std::unique_ptr<fsr::BoardReader> makeLink(milliseconds reconnect_delay = milliseconds(1),
+                                             const std::string& capture = "") {
     const auto open = [this] {
       return std::make_unique<fsr::SerialPort>(port_, 115200, [this] { return now_.load(); });
     };
-    return std::make_unique<fsr::BoardLink>(open, listener_,
-                                            fsr::BoardLink::Options{reconnect_delay, capture});
+    return std::make_unique<fsr::BoardReader>(open, listener_,
+                                              fsr::BoardReader::Options{reconnect_delay, capture});
   }
   void plugIn() { board_ = std::make_unique<test_support::Pty>(port_); }
 
@@ -107,7 +107,7 @@ class BoardLink : public testing::Test {
   Listener listener_;
 };
 
-TEST_F(BoardLink, ReadsTheBoard) {
+TEST_F(BoardReader, ReadsTheBoard) {
   plugIn();
   const auto link = makeLink();
   ASSERT_TRUE(listener_.reaches(LinkPhase::kReading));
@@ -117,7 +117,7 @@ TEST_F(BoardLink, ReadsTheBoard) {
   EXPECT_EQ(link->report().connections, 1U);
 }
 
-TEST_F(BoardLink, SaysWhyItWaitsAndStartsWhenTheBoardComes) {
+TEST_F(BoardReader, SaysWhyItWaitsAndStartsWhenTheBoardComes) {
   const auto link = makeLink();
   ASSERT_TRUE(listener_.reaches(LinkPhase::kWaiting));
   EXPECT_NE(link->report().reason.find("there is no serial port " + port_), std::string::npos)
@@ -129,7 +129,7 @@ TEST_F(BoardLink, SaysWhyItWaitsAndStartsWhenTheBoardComes) {
   EXPECT_TRUE(listener_.packets(1));
 }
 
-TEST_F(BoardLink, SurvivesUnpluggingAsOftenAsItHappens) {
+TEST_F(BoardReader, SurvivesUnpluggingAsOftenAsItHappens) {
   const auto link = makeLink();
   for (std::uint32_t round = 1; round <= 3; ++round) {
     plugIn();
@@ -143,7 +143,7 @@ TEST_F(BoardLink, SurvivesUnpluggingAsOftenAsItHappens) {
   EXPECT_EQ(link->report().counts.of(FSR_WIRE_TRANSDUCER).gaps, 0U) << "an outage is no gap in the stream";
 }
 
-TEST_F(BoardLink, ClosesThePortWhenDisabledAndOpensItAgain) {
+TEST_F(BoardReader, ClosesThePortWhenDisabledAndOpensItAgain) {
   plugIn();
   const auto link = makeLink();
   ASSERT_TRUE(listener_.reaches(LinkPhase::kReading));
@@ -156,13 +156,13 @@ TEST_F(BoardLink, ClosesThePortWhenDisabledAndOpensItAgain) {
   EXPECT_TRUE(listener_.packets(1));
 }
 
-TEST_F(BoardLink, EndsAtOnceWhileItWaits) {
+TEST_F(BoardReader, EndsAtOnceWhileItWaits) {
   auto link = makeLink(std::chrono::hours(1));
   ASSERT_TRUE(listener_.reaches(LinkPhase::kWaiting));
   link.reset();
 }
 
-TEST_F(BoardLink, DropsBytesUntilTheHostsTimeRuns) {
+TEST_F(BoardReader, DropsBytesUntilTheHostsTimeRuns) {
   now_ = 0;
   plugIn();
   const auto link = makeLink();
@@ -176,7 +176,7 @@ TEST_F(BoardLink, DropsBytesUntilTheHostsTimeRuns) {
   EXPECT_EQ(link->report().phase, LinkPhase::kReading);
 }
 
-TEST_F(BoardLink, KeepsACaptureThatReplaysToTheSamePackets) {
+TEST_F(BoardReader, KeepsACaptureThatReplaysToTheSamePackets) {
   const std::string capture = folder_.path("run.fsrcap");
   plugIn();
   {
@@ -187,13 +187,13 @@ TEST_F(BoardLink, KeepsACaptureThatReplaysToTheSamePackets) {
   }
   Listener replayed;
   const auto open = [&] { return std::make_unique<fsr::CaptureReader>(capture); };
-  const fsr::BoardLink link(open, replayed, {milliseconds(1), ""});
+  const fsr::BoardReader link(open, replayed, {milliseconds(1), ""});
   ASSERT_TRUE(replayed.reaches(LinkPhase::kEnded));
   EXPECT_EQ(replayed.packetCount(), 50U);
   EXPECT_EQ(link.report().counts.skipped_bytes, 0U);
 }
 
-TEST_F(BoardLink, RefusesToStartOnACaptureThatExists) {
+TEST_F(BoardReader, RefusesToStartOnACaptureThatExists) {
   const std::string capture = folder_.path("run.fsrcap");
   const fsr::CaptureWriter first(capture);
   EXPECT_THROW(makeLink(milliseconds(1), capture), fsr::InputError);
