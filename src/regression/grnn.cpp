@@ -5,18 +5,10 @@
 #include <cstring>
 #include <sstream>
 
+#include "fsr_pressure_map/regression/vector_width.h"
 #include "fsr_pressure_map/regression/weighted_codes.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/settings/range.h"
-
-// The inner loop is compiled once for each vector width and chosen when the library is loaded. Every
-// clone rounds the same products and sums in the same order (CMakeLists.txt forbids to fuse them), so that
-// every machine gives the same tables.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define FSR_EACH_VECTOR_WIDTH __attribute__((target_clones("avx512f", "avx2", "default")))
-#else
-#define FSR_EACH_VECTOR_WIDTH
-#endif
 
 namespace fsr {
 

@@ -7,14 +7,6 @@ namespace fsr {
 
 namespace {
 
-constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15u;
-
-std::uint64_t mix(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-  return z ^ (z >> 31);
-}
-
 // FNV-1a, 64 bits.
 std::uint64_t hash(std::string_view text) {
   std::uint64_t value = 0xCBF29CE484222325u;
@@ -79,10 +71,6 @@ double normalQuantile(double probability) {
   return q < 0 ? -tailQuantile(probability) : tailQuantile(1 - probability);
 }
 
-std::uint64_t RandomStream::bits(std::uint64_t position) const {
-  return mix(key_ + (position + 1) * kGolden);
-}
-
 double RandomStream::uniform(std::uint64_t position) const {
   return (static_cast<double>(bits(position) >> 11) + 0.5) * 0x1p-53;
 }
@@ -92,8 +80,8 @@ double RandomStream::normal(std::uint64_t position) const {
 }
 
 RandomStream randomStream(std::uint64_t seed, std::string_view name, std::uint64_t member) {
-  const std::uint64_t purpose = mix(mix(seed + kGolden) ^ hash(name));
-  return RandomStream(mix(purpose + (member + 1) * kGolden));
+  const std::uint64_t purpose = splitMix(splitMix(seed + kSplitMixIncrement) ^ hash(name));
+  return RandomStream(splitMix(purpose + (member + 1) * kSplitMixIncrement));
 }
 
 }  // namespace fsr

@@ -5,6 +5,14 @@
 
 namespace fsr {
 
+/// Increment and output function of SplitMix64.
+constexpr std::uint64_t kSplitMixIncrement = 0x9E3779B97F4A7C15u;
+inline std::uint64_t splitMix(std::uint64_t z) {
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+  return z ^ (z >> 31);
+}
+
 /// Random numbers by position: the n-th number of a stream is a function of the stream's key and n
 /// alone. So a simulation, a fold or a bootstrap gives the same numbers in whatever order, and on
 /// however many threads, its parts ask for them, and has no generator state to save. Numbers are those
@@ -14,7 +22,9 @@ class RandomStream {
  public:
   explicit RandomStream(std::uint64_t key = 0) : key_(key) {}
 
-  std::uint64_t bits(std::uint64_t position) const;
+  std::uint64_t bits(std::uint64_t position) const {
+    return splitMix(key_ + (position + 1) * kSplitMixIncrement);
+  }
   /// Uniform in the open interval (0, 1).
   double uniform(std::uint64_t position) const;
   /// Standard normal.

@@ -1,0 +1,36 @@
+#include "support/regression_data.h"
+
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "fsr_pressure_map/statistics/metrics.h"
+
+namespace test_support {
+
+RegressionData regressionData() {
+  const std::string path = std::string(FSR_SOURCE_DIR) + "/test/data/regression.csv";
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error("cannot read " + path);
+  RegressionData data;
+  data.train.full_scale = data.test.full_scale = 4095;
+  std::string header;
+  std::getline(file, header);
+  unsigned code = 0, held_out = 0;
+  double pressure = 0, curvature = 0;
+  char comma;
+  while (file >> code >> comma >> pressure >> comma >> curvature >> comma >> held_out) {
+    fsr::CodeSamples& part = held_out != 0 ? data.test : data.train;
+    part.add(static_cast<std::uint16_t>(code), fsr::toFixed(pressure));
+    part.curvature.push_back(curvature);
+  }
+  return data;
+}
+
+double rmsePercentOn(const fsr::CodeSamples& test, const std::vector<double>& answers) {
+  std::vector<double> pressure;
+  for (const fsr::FixedPressure p : test.pressure) pressure.push_back(fsr::fromFixed(p));
+  return fsr::rmsePercent(answers, pressure);
+}
+
+}  // namespace test_support

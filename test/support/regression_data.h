@@ -1,0 +1,17 @@
+#pragma once
+
+#include "fsr_pressure_map/regression/code_samples.h"
+
+namespace test_support {
+
+/// test/data/regression.csv: readings of one imagined taxel on six surfaces.
+struct RegressionData {
+  fsr::CodeSamples train, test;  ///< with curvature
+};
+
+RegressionData regressionData();
+
+/// RMSE in percent of the range of the test pressures, of an answer for each test reading [Pa].
+double rmsePercentOn(const fsr::CodeSamples& test, const std::vector<double>& answers);
+
+}  // namespace test_support
