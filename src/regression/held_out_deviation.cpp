@@ -19,6 +19,17 @@ constexpr double kLeastDeviation = 1.0;  // [Pa]
 constexpr std::size_t kRatioBins = 1024;
 constexpr double kLargestRatio = 8.0;
 
+// Readings of one code in one section are known by number, mean and spread. They stand for these points,
+// in units of the spread: two readings lie at mean +- spread, more are taken for normal (the quantiles of
+// 1/12, 3/12 ... 11/12, stretched to unit variance).
+const std::vector<double> kOne = {0.0};
+const std::vector<double> kTwo = {-1.0, 1.0};
+const std::vector<double> kMore = {-1.54242, -0.75224, -0.23469, 0.23469, 0.75224, 1.54242};
+
+const std::vector<double>& pointsOf(double count) {
+  return count > 2 ? kMore : count > 1 ? kTwo : kOne;
+}
+
 // Sums over a box of 2 half + 1 values, cut at the ends.
 std::vector<double> boxSums(const std::vector<double>& values, std::size_t half) {
   std::vector<double> prefix(values.size() + 1, 0.0);
@@ -84,8 +95,7 @@ std::vector<double> HeldOutErrors::rootMeanSquare(std::size_t left_out, std::siz
   return root;
 }
 
-// The factor on `deviation` within which kShareWithinOneDeviation of the errors lie. Errors of one
-// code in one section count as two halves at mean +- spread.
+// The factor on `deviation` within which kShareWithinOneDeviation of the errors lie.
 double HeldOutErrors::scale(const std::vector<double>& deviation, std::size_t left_out) const {
   std::array<double, kRatioBins> weight{};
   double total = 0;
@@ -96,8 +106,10 @@ double HeldOutErrors::scale(const std::vector<double>& deviation, std::size_t le
   };
   forEach(left_out, [&](const Errors& errors) {
     const double unit = std::max(deviation[errors.code], kLeastDeviation);
-    put(errors.mean - errors.spread, errors.count / 2, unit);
-    put(errors.mean + errors.spread, errors.count / 2, unit);
+    const std::vector<double>& points = pointsOf(errors.count);
+    for (const double point : points) {
+      put(errors.mean + point * errors.spread, errors.count / static_cast<double>(points.size()), unit);
+    }
   });
   double missing = kShareWithinOneDeviation * total;
   std::size_t bin = 0;
