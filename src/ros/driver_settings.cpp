@@ -26,7 +26,7 @@ fsr::MatrixSize readSize(const Parameters& parameters) {
 }
 
 void readLink(const Parameters& parameters, DriverSettings& settings) {
-  settings.serial_port = parameters.text("serial_port", settings.serial_port);
+  settings.serial_port = resolveResource(parameters.text("serial_port", settings.serial_port));
   settings.serial_baud =
       static_cast<std::uint32_t>(parameters.integer("serial_baud", settings.serial_baud, {0, 12e6, "baud"}));
   settings.read_timeout = parameters.number("read_timeout", settings.read_timeout, {0.01, 3600, "s"});
