@@ -7,7 +7,7 @@ namespace fsr {
 
 /// host time - device time as a constant, found from arrivals whose host time scatters both ways: under a
 /// simulated clock that ticks, whose ticks travel as messages of their own, a packet may look late or early.
-/// The mean of the middle eight tenths of the last 1024 arrivals, 50 ms of device time apart at least: a
+/// The mean of the middle eight tenths of the last 4096 arrivals, 0.1 s of device time apart at least: a
 /// median would jump between the two values that a coarse clock gives. The two clocks are taken to be one, so
 /// there is no drift to find.
 class TrimmedDelay {
@@ -19,9 +19,9 @@ class TrimmedDelay {
   double value() const { return value_; }
 
  private:
-  static constexpr std::size_t kArrivals = 1024;
-  static constexpr double kSpacing = 0.05;  // [s]
-  static constexpr double kTrim = 0.1;      // of the arrivals, at either end
+  static constexpr std::size_t kArrivals = 4096;
+  static constexpr double kSpacing = 0.1;  // [s]
+  static constexpr double kTrim = 0.1;     // of the arrivals, at either end
 
   void average();
 
