@@ -1,0 +1,161 @@
+// The training node beside the tool `train`: a bag that is replayed without loss gives the same tables.
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+#include <gtest/gtest.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <signal.h>
+#include <std_srvs/Trigger.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/ros/bag_writer.h"
+#include "fsr_pressure_map/ros/resource_path.h"
+#include "fsr_pressure_map/ros/train_tool.h"
+#include "support/synthetic_recording.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// `rosbag play` in a process group of its own; it keeps its connections until it is destroyed.
+class Replay {
+ public:
+  explicit Replay(const std::string& bag) : child_(::fork()) {
+    if (child_ != 0) return;
+    ::setpgid(0, 0);
+    ::execlp("rosrun", "rosrun", "rosbag", "play", "--wait-for-subscribers", "--keep-alive", "--quiet", "-r",
+             "40", bag.c_str(), nullptr);
+    ::_exit(127);
+  }
+  ~Replay() {
+    ::kill(-child_, SIGTERM);
+    ::waitpid(child_, nullptr, 0);
+  }
+
+ private:
+  pid_t child_;
+};
+
+class Training : public testing::Test {
+ protected:
+  Training() : folder_(fs::path(testing::TempDir()) / ("training_test_" + std::to_string(::getpid()))) {
+    fs::create_directories(folder_);
+    gathered_ = handle_.subscribe<diagnostic_msgs::DiagnosticStatus>(
+        "training/gathered", 10, [this](const diagnostic_msgs::DiagnosticStatus::ConstPtr& status) {
+          for (const auto& value : status->values) counts_[value.key] = std::stoul(value.value);
+          message_ = status->message;
+        });
+  }
+  ~Training() override { fs::remove_all(folder_); }
+
+  std_srvs::Trigger::Response call(const std::string& service) {
+    std_srvs::Trigger trigger;
+    EXPECT_TRUE(ros::service::waitForService(service, ros::Duration(30)));
+    EXPECT_TRUE(ros::service::call(service, trigger));
+    return trigger.response;
+  }
+
+  bool waitUntil(const std::function<bool()>& done) {
+    const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(40);
+    while (!done() && ros::WallTime::now() < give_up) {
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
+    }
+    return done();
+  }
+
+  ros::NodeHandle handle_;
+  fs::path folder_;
+  ros::Subscriber gathered_;
+  std::map<std::string, std::size_t> counts_;
+  std::string message_;
+};
+
+std::map<std::string, std::size_t> messagesIn(const std::string& path) {
+  std::map<std::string, std::size_t> counts;
+  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+    ++counts[fs::path(message.getTopic()).filename().string()];
+  }
+  return counts;
+}
+
+fsr::Calibration trainedByTool(const std::string& bag, const std::string& output) {
+  const char* const words[] = {"train", bag.c_str(), "--output", output.c_str()};
+  std::ostringstream out;
+  EXPECT_EQ(fsr_ros::trainTool(4, words, out), 0);
+  return fsr::loadCalibration(output, fsr::CalibrationParts::kAll);
+}
+
+TEST_F(Training, SaysWhatItWaitsFor) {
+  ASSERT_TRUE(waitUntil([this] { return !message_.empty(); }));
+  EXPECT_EQ(message_, "waiting for raw, chamber_pressure, curvature");
+  const std_srvs::Trigger::Response answer = call("training/train");
+  EXPECT_FALSE(answer.success);
+  EXPECT_EQ(answer.message,
+            "waiting for raw, chamber_pressure, curvature in /fsr; replay a bag with rosbag play");
+}
+
+TEST_F(Training, AReplayedBagGivesTheTablesOfTheTool) {
+  const std::string bag = (folder_ / "two_surfaces.bag").string();
+  test_support::SyntheticRig rig;
+  rig.surfaces = {{"flat", 0.0}, {"cylinder_7cm", 14.25}};
+  rig.scans_per_cycle = 60;
+  fsr::Recording recording = test_support::syntheticRecording(rig);
+  recording.start_ns = 1500000000000000000;
+  recording.temperature.assign(recording.scans(), 23.5);
+  fsr_ros::writeBag(bag, recording);
+
+  const auto expected = messagesIn(bag);
+  {
+    const Replay replay(bag);
+    ASSERT_TRUE(waitUntil([&] {
+      for (const auto& [topic, count] : expected) {
+        if (counts_[topic] != count) return false;
+      }
+      return true;
+    })) << "gathered "
+        << counts_["raw"] << " of " << expected.at("raw") << " scans";
+  }
+  EXPECT_EQ(message_, "ready to train");
+  const std_srvs::Trigger::Response answer = call("training/train");
+  ASSERT_TRUE(answer.success) << answer.message;
+  const std::string output = fsr_ros::rosHome() + "/trained_on_topics.h5";
+  EXPECT_NE(answer.message.find(" is in " + output), std::string::npos) << answer.message;
+
+  const fsr::Calibration live = fsr::loadCalibration(output, fsr::CalibrationParts::kAll);
+  const fsr::Calibration direct = trainedByTool(bag, (folder_ / "direct.h5").string());
+  EXPECT_EQ(live.statistics.cells, direct.statistics.cells);
+  ASSERT_EQ(live.tables.tables.size(), direct.tables.tables.size());
+  for (std::size_t i = 0; i < direct.tables.tables.size(); ++i) {
+    EXPECT_EQ(live.tables.tables[i].pressure, direct.tables.tables[i].pressure);
+    EXPECT_EQ(live.tables.tables[i].deviation, direct.tables.tables[i].deviation);
+    EXPECT_EQ(live.tables.tables[i].support, direct.tables.tables[i].support);
+  }
+  EXPECT_EQ(live.scores.whole.rmse_percent.mean, direct.scores.whole.rmse_percent.mean);
+  EXPECT_EQ(live.trained.temperature.high, direct.trained.temperature.high);
+  EXPECT_EQ(live.warnings, std::vector<std::string>{});
+}
+
+TEST_F(Training, ClearForgetsWhatWasGathered) {
+  const std_srvs::Trigger::Response answer = call("training/clear");
+  EXPECT_TRUE(answer.success);
+  EXPECT_EQ(answer.message, "forgot 600 scans");
+  EXPECT_TRUE(waitUntil([this] { return message_ == "waiting for raw, chamber_pressure, curvature"; }));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "training_test");
+  const ros::NodeHandle keep_running;
+  return RUN_ALL_TESTS();
+}
