@@ -20,7 +20,7 @@ void ClassSwitch::choose(const Surface& surface) {
   const bool same = last_.known() && last_.name == surface.name && last_.mount == surface.mount;
   for (std::size_t taxel = 0; taxel < choices_.size(); ++taxel) {
     const double curvature = principalCurvature(surface.at({taxel}));
-    const std::uint16_t chosen = same ? keepOrLeave(taxel, curvature) : nearest(taxel, curvature);
+    const std::size_t chosen = same ? keepOrLeave(taxel, curvature) : nearest(taxel, curvature);
     choices_[taxel] = {chosen, flags(taxel, chosen, curvature)};
   }
   last_ = {surface.name, surface.mount, {Curvature{}}, {}};
@@ -31,17 +31,17 @@ void ClassSwitch::fallBack() {
   last_ = {};
 }
 
-std::uint16_t ClassSwitch::nearest(std::size_t taxel, double curvature) const {
-  std::uint16_t best = 0;
-  for (std::uint16_t k = 1; k < classes_.size(); ++k) {
+std::size_t ClassSwitch::nearest(std::size_t taxel, double curvature) const {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < classes_.size(); ++k) {
     if (distance(taxel, k, curvature) < distance(taxel, best, curvature)) best = k;
   }
   return best;
 }
 
-std::uint16_t ClassSwitch::keepOrLeave(std::size_t taxel, double curvature) const {
-  const std::uint16_t now = choices_[taxel].curvature_class;
-  const std::uint16_t best = nearest(taxel, curvature);
+std::size_t ClassSwitch::keepOrLeave(std::size_t taxel, double curvature) const {
+  const std::size_t now = choices_[taxel].curvature_class;
+  const std::size_t best = nearest(taxel, curvature);
   const double gain = distance(taxel, now, curvature) - distance(taxel, best, curvature);
   return gain > hysteresis_ ? best : now;
 }
@@ -51,7 +51,7 @@ double ClassSwitch::distance(std::size_t taxel, std::size_t curvature_class, dou
 }
 
 // A curvature within the tolerance of the range's end is the end's: it was seen.
-std::uint16_t ClassSwitch::flags(std::size_t taxel, std::uint16_t curvature_class, double curvature) const {
+std::uint16_t ClassSwitch::flags(std::size_t taxel, std::size_t curvature_class, double curvature) const {
   if (curvature < low_ - tolerance_ || curvature > high_ + tolerance_) {
     return taxel_flag::kCurvatureExtrapolated;
   }

@@ -13,7 +13,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kPatience = 5.0;      // without a scan, until a tare gives up [s]
-constexpr double kWatchPeriod = 0.25;  // [s]
+constexpr double kWatchPeriod = 0.25;  // of a file that is waited for [s]
+constexpr double kSecond = 1.0;        // [s]
 
 // Runs what a service asks for and puts its sentence, or the reason why not, into the reply.
 template <typename Response>
@@ -48,15 +49,25 @@ CalibrationServer::CalibrationServer(const ros::NodeHandle& handle, const ros::N
       live_(settings_),
       diagnostics_(handle, private_handle, private_handle.getNamespace()),
       slow_thread_(1, &slow_queue_) {
+  advertise();
+  serve();
+  subscribe();
+  slow_thread_.start();
+  ROS_INFO_STREAM(private_handle_.getNamespace() << ": waiting for scans on " << scans_.getTopic());
+}
+
+void CalibrationServer::advertise() {
   maps_ = handle_.advertise<fsr_pressure_map::PressureMap>("pressure_map", settings_.queue_size);
   info_ = handle_.advertise<fsr_pressure_map::CalibrationInfo>("calibration_info", 10, true);
   diagnostics_.add("calibration", [this](auto& status) { judgeCalibration(now_, status); });
   diagnostics_.add("maps", [this](auto& status) {
-    judgeMaps(before_, now_, 1.0, scans_.getTopic(), settings_.contact_threshold, status);
+    judgeMaps(before_, now_, kSecond, scans_.getTopic(), settings_.contact_threshold, status);
   });
-  second_ =
-      handle_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { everySecond(); });
+  second_ = handle_.createWallTimer(ros::WallDuration(kSecond),
+                                    [this](const ros::WallTimerEvent&) { everySecond(); });
+}
 
+void CalibrationServer::serve() {
   ros::NodeHandle slow(private_handle_);
   slow.setCallbackQueue(&slow_queue_);
   services_ = {slow.advertiseService("load_calibration", &CalibrationServer::loadCalibration, this),
@@ -66,14 +77,14 @@ CalibrationServer::CalibrationServer(const ros::NodeHandle& handle, const ros::N
                slow.advertiseService("clear_tare", &CalibrationServer::clearTare, this)};
   watch_ = slow.createWallTimer(ros::WallDuration(kWatchPeriod),
                                 [this](const ros::WallTimerEvent&) { tryWanted(); });
+}
 
-  const auto now = ros::TransportHints().tcpNoDelay();
-  curvature_ = handle_.subscribe("curvature", 10, &CalibrationServer::onCurvature, this, now);
+void CalibrationServer::subscribe() {
+  const auto at_once = ros::TransportHints().tcpNoDelay();
+  curvature_ = handle_.subscribe("curvature", 10, &CalibrationServer::onCurvature, this, at_once);
   board_ = handle_.subscribe<fsr_pressure_map::MatrixInfo>(
       "matrix_info", 10, [this](const fsr_pressure_map::MatrixInfoConstPtr& info) { live_.setBoard(*info); });
-  scans_ = handle_.subscribe("raw", settings_.queue_size, &CalibrationServer::onScan, this, now);
-  slow_thread_.start();
-  ROS_INFO_STREAM(private_handle_.getNamespace() << ": waiting for scans on " << scans_.getTopic());
+  scans_ = handle_.subscribe("raw", settings_.queue_size, &CalibrationServer::onScan, this, at_once);
 }
 
 CalibrationServer::~CalibrationServer() {

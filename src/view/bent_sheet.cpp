@@ -84,8 +84,9 @@ std::vector<TaxelPose> bendSheet(const Layout& layout, const Surface& surface) {
   const int rows = layout.size.rows;
   const int columns = layout.size.columns;
   const auto at = [&](int row, int column) {
-    return surface.known() ? surface.at({std::size_t(row) * std::size_t(columns) + std::size_t(column)})
-                           : Curvature{};
+    const TaxelIndex taxel =
+        layout.index(static_cast<std::uint16_t>(row), static_cast<std::uint16_t>(column));
+    return surface.known() ? surface.at(taxel) : Curvature{};
   };
   const auto spine = [&](int row) { return mean(at(row, (columns - 1) / 2), at(row, columns / 2)); };
   std::vector<TaxelPose> poses;

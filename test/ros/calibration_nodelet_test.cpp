@@ -4,9 +4,11 @@
 #include <nodelet/NodeletUnload.h>
 #include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <std_srvs/Trigger.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <future>
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "support/calibration_rig.h"
@@ -51,13 +53,19 @@ TEST(CalibrationNodelet, CalibratesAndShowsInsideARealManager) {
   std::filesystem::remove(file);
 }
 
-TEST(CalibrationNodelet, LeavesTheManagerAliveWhenItIsUnloaded) {
+TEST(CalibrationNodelet, EndsAWaitingTareWhenItIsUnloaded) {
+  const auto tare = [] {
+    std_srvs::Trigger call;
+    return ros::service::call("calibration/tare", call) ? call.response.message : "no reply";
+  };
+  std::future<std::string> reply = std::async(std::launch::async, tare);
   nodelet::NodeletUnload unload;
   unload.request.name = "/fsr/calibration";
   ASSERT_TRUE(ros::service::call("manager/unload_nodelet", unload));
   EXPECT_TRUE(unload.response.success);
+  EXPECT_EQ(reply.wait_for(std::chrono::seconds(30)), std::future_status::ready);
   EXPECT_FALSE(isLoaded("/fsr/calibration"));
-  EXPECT_TRUE(isLoaded("/fsr/view"));
+  EXPECT_TRUE(isLoaded("/fsr/view")) << "the manager goes on";
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ class ClassSwitch {
  public:
   /// What was chosen for a taxel.
   struct Choice {
-    std::uint16_t curvature_class = 0;
+    std::size_t curvature_class = 0;
     std::uint16_t flags = 0;  ///< taxel_flag::kCurvatureExtrapolated, kBetweenClasses or 0
   };
 
@@ -34,10 +34,10 @@ class ClassSwitch {
   const std::vector<Choice>& choices() const { return choices_; }
 
  private:
-  std::uint16_t nearest(std::size_t taxel, double curvature) const;
-  std::uint16_t keepOrLeave(std::size_t taxel, double curvature) const;
+  std::size_t nearest(std::size_t taxel, double curvature) const;
+  std::size_t keepOrLeave(std::size_t taxel, double curvature) const;
   double distance(std::size_t taxel, std::size_t curvature_class, double curvature) const;
-  std::uint16_t flags(std::size_t taxel, std::uint16_t curvature_class, double curvature) const;
+  std::uint16_t flags(std::size_t taxel, std::size_t curvature_class, double curvature) const;
 
   std::vector<CurvatureClass> classes_;
   double low_;

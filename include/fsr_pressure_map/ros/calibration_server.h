@@ -30,6 +30,9 @@ class CalibrationServer {
  private:
   using Trigger = std_srvs::Trigger;
 
+  void advertise();
+  void serve();
+  void subscribe();
   void onScan(const fsr_pressure_map::MatrixFrameConstPtr& scan);
   void onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& message);
   void everySecond();
