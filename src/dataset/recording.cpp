@@ -2,17 +2,37 @@
 
 namespace fsr {
 
+namespace {
+
+// A bag begins and ends between two chamber readings; only more than that is worth a sentence.
+constexpr std::uint64_t kScansAtTheEnds = 10;
+
+std::string scans(std::uint64_t number) {
+  return std::to_string(number) + (number == 1 ? " scan" : " scans");
+}
+
+}  // namespace
+
 std::vector<std::string> describeLosses(const RecordingLosses& losses) {
   std::vector<std::string> sentences;
-  const auto say = [&sentences](std::uint64_t number, const std::string& what) {
-    if (number > 0) sentences.push_back(std::to_string(number) + what);
-  };
-  say(losses.lost_scans,
-      " scans are missing in " + std::to_string(losses.sequence_gaps) + " gaps of the board's counter");
-  say(losses.duplicates, " scans had the stamp of another one and were dropped");
-  say(losses.no_reference, " scans lie in a gap of chamber_pressure and were dropped");
-  say(losses.bad_reference, " chamber pressures were no number and were left out");
-  say(losses.unknown_surface, " scans were made on a surface of unknown curvature and were dropped");
+  if (losses.sequence_gaps > 0) {
+    sentences.push_back("the board's counter has " + std::to_string(losses.sequence_gaps) +
+                        (losses.sequence_gaps == 1 ? " gap, " : " gaps, ") + scans(losses.lost_scans) +
+                        " lost");
+  }
+  if (losses.duplicates > 0) {
+    sentences.push_back("dropped " + scans(losses.duplicates) + " with the stamp of another one");
+  }
+  if (losses.no_reference > kScansAtTheEnds) {
+    sentences.push_back("dropped " + scans(losses.no_reference) + " in gaps of chamber_pressure");
+  }
+  if (losses.bad_reference > 0) {
+    sentences.push_back("left out " + std::to_string(losses.bad_reference) +
+                        " chamber pressures that are no number");
+  }
+  if (losses.unknown_surface > 0) {
+    sentences.push_back("dropped " + scans(losses.unknown_surface) + " on a surface of unknown curvature");
+  }
   return sentences;
 }
 

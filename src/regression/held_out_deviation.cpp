@@ -1,8 +1,9 @@
 #include "fsr_pressure_map/regression/held_out_deviation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "fsr_pressure_map/regression/deviation_scale.h"
 
 namespace fsr {
 
@@ -15,9 +16,6 @@ constexpr double kPriorReadings = 30.0;
 // sensor's curve, wide enough to hold a hundred readings of a recording of ten minutes at 10 Hz.
 constexpr double kNeighbourhood = 1.0 / 64.0;
 constexpr double kLeastDeviation = 1.0;  // [Pa]
-// Histogram of |error| / deviation, from which the scale is read.
-constexpr std::size_t kRatioBins = 1024;
-constexpr double kLargestRatio = 8.0;
 
 // Readings of one code in one section are known by number, mean and spread. They stand for these points,
 // in units of the spread: two readings lie at mean +- spread, more are taken for normal (the quantiles of
@@ -95,27 +93,20 @@ std::vector<double> HeldOutErrors::rootMeanSquare(std::size_t left_out, std::siz
   return root;
 }
 
-// The factor on `deviation` within which kShareWithinOneDeviation of the errors lie.
-double HeldOutErrors::scale(const std::vector<double>& deviation, std::size_t left_out) const {
-  std::array<double, kRatioBins> weight{};
-  double total = 0;
-  const auto put = [&](double error, double count, double unit) {
-    const double place = std::abs(error) / unit * (kRatioBins / kLargestRatio);
-    weight[static_cast<std::size_t>(std::min(place, kRatioBins - 1.0))] += count;
-    total += count;
-  };
+// The factor on `root` at each code.
+std::vector<double> HeldOutErrors::scale(const std::vector<double>& root, std::size_t left_out) const {
+  std::vector<double> count(codes_, 0.0);
+  forEach(left_out, [&](const Errors& errors) { count[errors.code] += errors.count; });
+  DeviationScale scale(count);
   forEach(left_out, [&](const Errors& errors) {
-    const double unit = std::max(deviation[errors.code], kLeastDeviation);
+    const double unit = std::max(root[errors.code], kLeastDeviation);
     const std::vector<double>& points = pointsOf(errors.count);
     for (const double point : points) {
-      put(errors.mean + point * errors.spread, errors.count / static_cast<double>(points.size()), unit);
+      scale.add(errors.code, (errors.mean + point * errors.spread) / unit,
+                errors.count / static_cast<double>(points.size()));
     }
   });
-  double missing = kShareWithinOneDeviation * total;
-  std::size_t bin = 0;
-  while (bin + 1 < kRatioBins && weight[bin] < missing) missing -= weight[bin++];
-  const double inside = weight[bin] > 0 ? missing / weight[bin] : 1.0;
-  return (static_cast<double>(bin) + inside) * (kLargestRatio / kRatioBins);
+  return scale.factors();
 }
 
 std::vector<float> HeldOutErrors::deviation(const std::vector<double>& pressure, std::size_t left_out) const {
@@ -128,7 +119,7 @@ std::vector<float> HeldOutErrors::deviation(const std::vector<double>& pressure,
   const auto window = std::max<std::size_t>(
       1, static_cast<std::size_t>(kNeighbourhood * static_cast<double>(highest - lowest)));
   const std::vector<double> root = rootMeanSquare(left_out, window);
-  const double factor = scale(root, left_out);
+  const std::vector<double> factor = scale(root, left_out);
 
   std::vector<float> deviation(codes_);
   for (std::size_t code = 0; code < codes_; ++code) {
@@ -137,7 +128,7 @@ std::vector<float> HeldOutErrors::deviation(const std::vector<double>& pressure,
     const double step = above > below
                             ? std::abs(pressure[above] - pressure[below]) / static_cast<double>(above - below)
                             : 0.0;
-    deviation[code] = static_cast<float>(std::max({factor * root[code], step, kLeastDeviation}));
+    deviation[code] = static_cast<float>(std::max({factor[code] * root[code], step, kLeastDeviation}));
   }
   return deviation;
 }

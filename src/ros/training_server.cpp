@@ -76,6 +76,9 @@ TrainingServer::TrainingServer(const ros::NodeHandle& handle, const ros::NodeHan
   options_ = calibrationOptions(parameters);
   const double ambient = parameters.number("ambient_pressure", -1, {-1, 120e3, "Pa"});
   if (ambient >= 0) recording_options_.ambient_pressure = ambient;
+  for (const std::string& name : parameters.unknown()) {
+    ROS_WARN_STREAM("parameter " << name << " is set, but training has none of that name: it does nothing");
+  }
   recording_options_.name = "topics of " + handle_.getNamespace();
 
   ros::NodeHandle own(private_handle);

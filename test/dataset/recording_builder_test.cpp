@@ -151,7 +151,7 @@ TEST(RecordingBuilder, CountsGapsOfTheBoardsCounter) {
              scan(ms(300), 4, 5), scan(ms(400), 5, 5), scan(ms(500), 2, 5)});  // starts afresh
   EXPECT_EQ(recording.losses.sequence_gaps, 2u);
   EXPECT_EQ(recording.losses.lost_scans, 3u);
-  EXPECT_EQ(recording.warnings.back(), "3 scans are missing in 2 gaps of the board's counter");
+  EXPECT_EQ(recording.warnings.back(), "the board's counter has 2 gaps, 3 scans lost");
 }
 
 TEST(RecordingBuilder, ScansThatNoReferenceBracketsAreDropped) {
@@ -162,6 +162,17 @@ TEST(RecordingBuilder, ScansThatNoReferenceBracketsAreDropped) {
   EXPECT_EQ(recording.scans(), 1u);  // 3 s lies in a gap of 2.5 s, 0 and 9 s outside
   EXPECT_DOUBLE_EQ(recording.pressure.front(), 500.0);
   EXPECT_EQ(recording.losses.no_reference, 3u);
+}
+
+TEST(Recording, TellsOfGapsButNotOfTheScansAtABagsEnds) {
+  RecordingLosses losses;
+  losses.no_reference = 2;
+  EXPECT_TRUE(describeLosses(losses).empty());
+  losses.no_reference = 200;
+  losses.duplicates = 1;
+  EXPECT_EQ(describeLosses(losses),
+            (std::vector<std::string>{"dropped 1 scan with the stamp of another one",
+                                      "dropped 200 scans in gaps of chamber_pressure"}));
 }
 
 TEST(RecordingBuilder, AChamberPressureThatIsNoNumberIsLeftOut) {

@@ -8,9 +8,6 @@
 
 namespace fsr {
 
-/// The part of the readings that shall lie within one deviation: that of a normal distribution.
-constexpr double kShareWithinOneDeviation = 0.6827;
-
 /// Held-out errors of one model by code, and the deviation table that they make.
 class HeldOutErrors {
  public:
@@ -28,9 +25,9 @@ class HeldOutErrors {
 
   /// One standard deviation of a held-out reading at each code [Pa], > 0: the root of the code's
   /// mean squared error, drawn towards that of its neighbourhood where the code is rare and, where
-  /// the neighbourhood is rare, towards that of all codes; scaled so that kShareWithinOneDeviation of
-  /// the errors lie within one (the errors of a hysteresis loop have no normal distribution); never
-  /// below the pressure step of one count there, nor below 1 Pa.
+  /// the neighbourhood is rare, towards that of all codes; scaled along the codes so that 68 % of the
+  /// errors lie within one (see DeviationScale); never below the pressure step of one count there, nor
+  /// below 1 Pa.
   ///
   /// `pressure` is the model's answer at each code, whose slope gives the step. The errors of section
   /// `left_out` do not enter.
@@ -49,7 +46,7 @@ class HeldOutErrors {
   template <typename Visit>
   void forEach(std::size_t left_out, Visit visit) const;
   std::vector<double> rootMeanSquare(std::size_t left_out, std::size_t window) const;
-  double scale(const std::vector<double>& deviation, std::size_t left_out) const;
+  std::vector<double> scale(const std::vector<double>& root, std::size_t left_out) const;
 
   std::size_t codes_;
   std::vector<std::vector<Errors>> sections_;
