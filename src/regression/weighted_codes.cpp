@@ -1,23 +1,32 @@
 #include "fsr_pressure_map/regression/weighted_codes.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fsr {
 
 WeightedCodes weightedCodes(const CodeHistogram& training) {
-  const std::size_t size = training.count().size();
-  WeightedCodes samples{size, static_cast<double>(training.samples()), std::vector<std::ptrdiff_t>(size),
-                        std::vector<double>(size), std::vector<double>(size)};
-  std::size_t found = 0;  // every code is written, and kept where it occurs: no branch to mispredict
-  for (std::size_t code = 0; code < size; ++code) {
-    samples.code[found] = static_cast<std::ptrdiff_t>(code);
-    samples.count[found] = static_cast<double>(training.count()[code]);
+  const std::vector<std::int64_t>& count = training.count();
+  const std::size_t occupied = count.size() - std::count(count.begin(), count.end(), 0);
+  // Every code is written and kept where it occurs, no branch to mispredict: one place more than kept.
+  WeightedCodes samples{count.size(),
+                        static_cast<double>(training.samples()),
+                        std::vector<std::int32_t>(occupied + 1),
+                        std::vector<double>(occupied + 1),
+                        std::vector<double>(occupied + 1),
+                        std::vector<std::int32_t>(count.size() + 1)};
+  std::size_t found = 0;
+  for (std::size_t code = 0; code < count.size(); ++code) {
+    samples.code[found] = static_cast<std::int32_t>(code);
+    samples.count[found] = static_cast<double>(count[code]);
     samples.sum[found] = fromFixed(training.sum()[code]);
-    found += training.count()[code] != 0;
+    samples.below[code] = static_cast<std::int32_t>(found);
+    found += count[code] != 0;
   }
-  samples.code.resize(found);
-  samples.count.resize(found);
-  samples.sum.resize(found);
+  samples.below.back() = static_cast<std::int32_t>(found);
+  samples.code.pop_back();
+  samples.count.pop_back();
+  samples.sum.pop_back();
   return samples;
 }
 

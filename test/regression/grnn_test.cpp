@@ -53,7 +53,9 @@ std::vector<double> dense(const std::vector<Reading>& readings, std::uint16_t fu
     }
     for (const Reading& reading : readings) {
       const long double d = static_cast<long double>(reading.code) - code;
-      const long double weight = std::exp(-(d * d - nearest * nearest) / (2 * sigma * sigma));
+      const long double excess = (d * d - nearest * nearest) / (2 * sigma * sigma);
+      if (excess > 100) continue;  // 1e-43 of the nearest
+      const long double weight = std::exp(-excess);
       sum += weight * reading.pressure;
       weights += weight;
     }
@@ -121,6 +123,62 @@ TEST(Grnn, AgreesWithScipy) {
   EXPECT_NEAR(fit.pressure[131], 19684.0082015274, 1e-8);
   EXPECT_NEAR(fit.support[100], 1.936344787602955, 1e-14);
   EXPECT_NEAR(fit.support[127] / 9.492093537113723e-07, 1.0, 1e-12);
+}
+
+const std::vector<Reading> kFive = {{100, 1e3}, {104, 2e3}, {104, 3e3}, {110, 5e3}, {150, 20e3}};
+
+TEST(Grnn, MatlabsSpreadIsTheDistanceOfHalfAResponse) {
+  // scipy 1.10.1, c and P as above, d = np.abs(q-c)/c.std(ddof=1); w = np.log(.5)*(d/.25)**2
+  // np.exp(logsumexp(w, b=P, axis=1) - logsumexp(w, axis=1))
+  GrnnOptions options;
+  options.bandwidth = 0.25;
+  options.spread = SpreadMeaning::kHalf;
+  const Fit fit = Grnn(options).fit(histogramOf(kFive, 4095));
+  EXPECT_NEAR(fit.pressure[0], 1000.000001855568, 1e-9);
+  EXPECT_NEAR(fit.pressure[105], 2674.477297171319, 1e-9);
+  EXPECT_NEAR(fit.pressure[127], 5019.411864608382, 1e-9);
+  EXPECT_NEAR(fit.pressure[131], 18330.389187408477, 1e-8);
+}
+
+TEST(Grnn, TheLiteralDistanceIsNotSquared) {
+  // the same with w = -d / (2 * .25**2)
+  GrnnOptions options;
+  options.bandwidth = 0.25;
+  options.distance = KernelDistance::kLiteral;
+  const Fit fit = Grnn(options).fit(histogramOf(kFive, 4095));
+  EXPECT_NEAR(fit.pressure[0], 1498.4591242097235, 1e-9);
+  EXPECT_NEAR(fit.pressure[105], 2587.6191759327426, 1e-9);
+  EXPECT_NEAR(fit.pressure[127], 5681.670636268071, 1e-9);
+  EXPECT_NEAR(fit.pressure[131], 14441.107703339201, 1e-8);
+  EXPECT_NEAR(fit.support[105], 1.64636449, 1e-8);
+}
+
+TEST(Grnn, PressureBinsThatWeighAlikeForgetHowLongTheChamberHeldAPressure) {
+  // Two pressures whose readings overlap: held equally long, and one of them nine times as long.
+  const auto train = [](int times_high, SampleWeighting weighting) {
+    CodeSamples samples;
+    samples.full_scale = 4095;
+    for (std::uint16_t code = 1000; code < 1100; ++code) {
+      samples.add(code, toFixed(100e3));
+      for (int i = 0; i < times_high; ++i) samples.add(code, toFixed(200e3));
+    }
+    GrnnOptions options;
+    options.weighting = weighting;
+    return Grnn(options).fitSamples(samples);
+  };
+  EXPECT_NEAR(train(1, SampleWeighting::kEachSample).pressure[1050], 150e3, 1e-6);
+  EXPECT_NEAR(train(9, SampleWeighting::kEachSample).pressure[1050], 190e3, 1e-6);
+  const Fit weighted = train(9, SampleWeighting::kEachPressureBin);
+  EXPECT_NEAR(weighted.pressure[1050], 150e3, 1e-6);
+  EXPECT_NEAR(weighted.support[1050] / train(9, SampleWeighting::kEachSample).support[1050], 1.0, 1e-12);
+}
+
+TEST(Grnn, PressureBinsNeedTheReadings) {
+  GrnnOptions options;
+  EXPECT_TRUE(Grnn(options).mergeable());
+  options.weighting = SampleWeighting::kEachPressureBin;
+  EXPECT_FALSE(Grnn(options).mergeable());
+  EXPECT_THROW(Grnn(options).fit(histogramOf(kFive, 4095)), InputError);
 }
 
 TEST(Grnn, ReadingsThatNeverDifferAnswerWithTheirMean) {

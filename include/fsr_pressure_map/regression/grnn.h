@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <string>
+
 #include "fsr_pressure_map/regression/regressor.h"
 
 namespace fsr {
@@ -7,32 +10,65 @@ namespace fsr {
 /// Bandwidth of the paper: the spread sigma in units of the training readings' deviation.
 constexpr double kPaperBandwidth = 1.0 / 128.0;
 
+/// What the number called bandwidth (or spread) means.
+enum class SpreadMeaning {
+  kSigma,  ///< sigma of the Gaussian
+  kHalf,   ///< MATLAB's newgrnn: the distance at which the kernel is 0.5, sigma = 0.8493 spread
+};
+
+/// What stands in the kernel's exponent.
+enum class KernelDistance {
+  kSquared,  ///< -D^2 / 2 sigma^2: Specht's GRNN
+  kLiteral,  ///< -D / 2 sigma^2: as the paper's sentence reads ("D_j^2 is the Euclidean distance")
+};
+
+/// What each training sample counts for.
+enum class SampleWeighting {
+  kEachSample,       ///< every sample alike: the answer leans towards pressures that the chamber held long
+  kEachPressureBin,  ///< every bin of training pressure alike (see pressure_grid.h)
+};
+
+struct GrnnOptions {
+  double bandwidth = kPaperBandwidth;
+  SpreadMeaning spread = SpreadMeaning::kSigma;
+  KernelDistance distance = KernelDistance::kSquared;
+  SampleWeighting weighting = SampleWeighting::kEachSample;
+};
+
+/// Throws InputError where the bandwidth is not within 1e-6 to 1000.
+void validate(const GrnnOptions& options);
+
+/// sigma in units of the training readings' deviation.
+double sigmaOf(const GrnnOptions& options);
+
 /// General regression neural network (Specht 1991): the mean pressure of the training samples,
 /// weighted by a Gaussian of their distance d from the reading,
 ///
 ///     f(c) = sum_i P_i exp(-d_i^2 / 2 sigma^2) / sum_i exp(-d_i^2 / 2 sigma^2),
 ///
-/// readings standardised by the mean and (sample) deviation of the training readings.
+/// readings standardised by the mean and (sample) deviation of the training readings. Any code has a
+/// finite answer, the nearest sample's where every weight underflows; see kernel_mean.h.
 ///
-/// Where every weight underflows, the formula is 0 / 0. The smallest distance is taken out of all
-/// exponents first, which changes nothing else, so that the answer there is the nearest sample's:
-/// any code has a finite answer. Samples with d^2 > d_min^2 + 2 sigma^2 ln(N / 1e-14) are left out:
-/// their sum cannot move the answer by more than 1e-14 of the pressure range.
+/// `support` is sum_i exp(-d_i^2 / 2 sigma^2): the number of samples near the code, 0 where there is none.
 ///
-/// `support` is sum_i exp(-d_i^2 / 2 sigma^2), not shifted: the number of samples near the code, 0
-/// where there is none.
+/// Mergeable, unless pressure bins weigh the samples: then the sums of each code do not say how many of
+/// its samples lie in which bin.
 class Grnn : public Regressor {
  public:
-  /// Throws InputError where `bandwidth` is not within 1e-6 to 1000.
+  /// Both throw InputError as validate() does.
   explicit Grnn(double bandwidth = kPaperBandwidth);
+  explicit Grnn(const GrnnOptions& options);
 
   std::string name() const override { return "grnn"; }
+  bool mergeable() const override { return options_.weighting == SampleWeighting::kEachSample; }
   Fit fit(const CodeHistogram& training) const override;
+  Fit fitSamples(const CodeSamples& training) const override;
 
-  double bandwidth() const { return bandwidth_; }
+  double bandwidth() const { return options_.bandwidth; }
+  const GrnnOptions& options() const { return options_; }
 
  private:
-  double bandwidth_;
+  GrnnOptions options_;
 };
 
 }  // namespace fsr

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "fsr_pressure_map/regression/code_statistics.h"
@@ -10,11 +12,20 @@ namespace fsr {
 
 /// The codes that occur in training, ascending: what the regressors on sums compute with.
 struct WeightedCodes {
-  std::size_t table_size = 0;        ///< full scale + 1
-  double samples = 0;                ///< sum of `count`
-  std::vector<std::ptrdiff_t> code;  ///< signed, for distances
-  std::vector<double> count;         ///< weight of each code: its number of samples, unless weighted
-  std::vector<double> sum;           ///< of pressure, with the same weights [Pa]
+  std::size_t table_size = 0;      ///< full scale + 1
+  double samples = 0;              ///< sum of `count`
+  std::vector<std::int32_t> code;  ///< signed, for distances
+  std::vector<double> count;       ///< weight of each code: its number of samples, unless weighted
+  std::vector<double> sum;         ///< of pressure, with the same weights [Pa]
+  /// Number of codes that occur below each code 0 .. table_size: where to begin.
+  std::vector<std::int32_t> below;
+
+  /// Number of the first one that is not below `reading`, which may lie outside the table.
+  std::size_t firstFrom(std::ptrdiff_t reading) const {
+    const auto last = static_cast<std::ptrdiff_t>(table_size);
+    const auto inside = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(reading, 0, last));
+    return static_cast<std::size_t>(below[inside]);
+  }
 };
 
 WeightedCodes weightedCodes(const CodeHistogram& training);

@@ -1,0 +1,181 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "fsr_pressure_map/regression/coarse_grid.h"
+#include "fsr_pressure_map/regression/gaussian_table.h"
+#include "fsr_pressure_map/regression/kernel_mean.h"
+#include "fsr_pressure_map/regression/vector_width.h"
+
+namespace fsr {
+
+namespace {
+
+// Kernel values down to exp(-600) are kept: far from the smallest double, so that quotients of sums
+// of them keep full precision.
+constexpr double kLargestExponent = 600.0;
+// The coarse grid answers where its error, a share of the samples within reach, is this far below their
+// weight; near enough to a sample also that what it leaves out does not count.
+constexpr double kLeastShareOfWeight = 0.01;
+constexpr double kFarthestOnGrid = 3.0;  // [sigma]
+
+FSR_EACH_VECTOR_WIDTH
+void divide(const double* numerator, const double* denominator, std::ptrdiff_t number, double* quotient) {
+  for (std::ptrdiff_t i = 0; i < number; ++i) quotient[i] = numerator[i] / denominator[i];
+}
+
+class GaussianSums {
+ public:
+  GaussianSums(const WeightedCodes& samples, double sigma, KernelMean& mean)
+      : samples_(samples),
+        codes_(static_cast<std::ptrdiff_t>(samples.table_size)),
+        sigma_(sigma),
+        precision_(0.5 / (sigma * sigma)),
+        beyond_nearest_(std::log(samples.samples / kNegligibleShare) / precision_),
+        mean_(mean) {}
+
+  void run() {
+    findFarthest();
+    if (CoarseGrid::suits(sigma_)) prepareGrid();
+    for (std::ptrdiff_t block = 0; block < codes_; block += kCodeBlock) {
+      const std::ptrdiff_t end = std::min(block + kCodeBlock, codes_);
+      const double far = farthest_[static_cast<std::size_t>(block / kCodeBlock)];
+      if (gridBlock(block, end, far)) continue;
+      if (isNear(far)) {
+        directBlock(block, end, far);
+      } else {
+        for (std::ptrdiff_t code = block; code < end; ++code) farCode(code);
+      }
+    }
+  }
+
+ private:
+  // How far the samples lie that count at a code whose nearest sample is `nearest` away [counts].
+  double reach(double nearest) const {
+    return std::min(std::sqrt(nearest * nearest + beyond_nearest_), static_cast<double>(codes_));
+  }
+
+  // Whether no kernel value that counts there underflows.
+  bool isNear(double nearest) const {
+    return precision_ * (nearest * nearest + beyond_nearest_) <= kLargestExponent;
+  }
+
+  // Of each block the largest distance of a code to its nearest sample.
+  void findFarthest() {
+    farthest_.assign(static_cast<std::size_t>((codes_ + kCodeBlock - 1) / kCodeBlock), 0.0);
+    std::ptrdiff_t before = -codes_;
+    for (std::size_t next = 0; before < codes_; ++next) {
+      const std::ptrdiff_t after = next < samples_.code.size() ? samples_.code[next] : 2 * codes_;
+      if (after > before + 1) noteGap(before, after);
+      before = after;
+    }
+  }
+
+  void noteGap(std::ptrdiff_t before, std::ptrdiff_t after) {
+    const std::ptrdiff_t first = std::max<std::ptrdiff_t>(before + 1, 0), last = std::min(after, codes_) - 1;
+    for (std::ptrdiff_t begin = first; begin <= last; begin = (begin / kCodeBlock + 1) * kCodeBlock) {
+      const std::ptrdiff_t end = std::min(begin / kCodeBlock * kCodeBlock + kCodeBlock - 1, last);
+      const std::ptrdiff_t middle = std::clamp((before + after) / 2, begin, end);
+      double& farthest = farthest_[static_cast<std::size_t>(begin / kCodeBlock)];
+      farthest = std::max(farthest, static_cast<double>(std::min(middle - before, after - middle)));
+    }
+  }
+
+  void prepareGrid() {
+    const double grid_reach = reach(kFarthestOnGrid * sigma_);
+    grid_.emplace(samples_, sigma_, grid_reach);
+    grid_reach_ = static_cast<std::ptrdiff_t>(grid_reach);
+    count_before_.reserve(samples_.count.size() + 1);
+    count_before_.push_back(0);
+    for (const double count : samples_.count) count_before_.push_back(count_before_.back() + count);
+  }
+
+  void store(std::ptrdiff_t block, std::ptrdiff_t end, const double* sums, const double* weights) {
+    divide(sums, weights, end - block, &mean_.pressure[static_cast<std::size_t>(block)]);
+    std::copy(weights, weights + (end - block), mean_.weight.begin() + block);
+    if (mean_.log_weight.empty()) return;
+    std::transform(weights, weights + (end - block), mean_.log_weight.begin() + block,
+                   [](double weight) { return std::log(weight); });
+  }
+
+  bool gridBlock(std::ptrdiff_t block, std::ptrdiff_t end, double far) {
+    if (!grid_ || far > kFarthestOnGrid * sigma_) return false;
+    std::array<double, kCodeBlock> sums, weights;
+    grid_->sumCodes(block, end, sums.data(), weights.data());
+    const double within_reach = count_before_[samples_.firstFrom(end + grid_reach_)] -
+                                count_before_[samples_.firstFrom(block - grid_reach_)];
+    const double least = *std::min_element(weights.begin(), weights.begin() + (end - block));
+    if (least < kLeastShareOfWeight * within_reach) return false;
+    store(block, end, sums.data(), weights.data());
+    return true;
+  }
+
+  void directBlock(std::ptrdiff_t block, std::ptrdiff_t end, double far) {
+    if (!table_) {
+      double farthest = 0;
+      for (const double other : farthest_) farthest = isNear(other) ? std::max(farthest, other) : farthest;
+      table_.emplace(sigma_, static_cast<std::ptrdiff_t>(reach(farthest)));
+    }
+    const auto side = static_cast<std::ptrdiff_t>(reach(far));
+    std::array<double, kCodeBlock> sums, weights;
+    table_->sumBlock(samples_, samples_.firstFrom(block - side), samples_.firstFrom(end + side), block,
+                     sums.data(), weights.data());
+    store(block, end, sums.data(), weights.data());
+  }
+
+  // So far from every sample that only quotients of kernel values can be formed.
+  void farCode(std::ptrdiff_t code) {
+    const std::size_t middle = samples_.firstFrom(code);
+    const auto square = [&](std::size_t s) {
+      const auto d = static_cast<double>(samples_.code[s] - code);
+      return d * d;
+    };
+    double nearest = INFINITY;
+    if (middle > 0) nearest = square(middle - 1);
+    if (middle < samples_.code.size()) nearest = std::min(nearest, square(middle));
+    double sum = 0, weight = 0;
+    const auto counts = [&](std::size_t s) {
+      const double excess = square(s) - nearest;
+      if (excess > beyond_nearest_) return false;
+      const double value = std::exp(-precision_ * excess);
+      sum += samples_.sum[s] * value;
+      weight += samples_.count[s] * value;
+      return true;
+    };
+    for (std::size_t s = middle; s > 0 && counts(s - 1); --s) {
+    }
+    for (std::size_t s = middle; s < samples_.code.size() && counts(s); ++s) {
+    }
+    const double exponent = precision_ * nearest;
+    mean_.pressure[static_cast<std::size_t>(code)] = sum / weight;
+    mean_.weight[static_cast<std::size_t>(code)] =
+        exponent < kLargestExponent ? weight * std::exp(-exponent) : 0.0;
+    if (!mean_.log_weight.empty()) {
+      mean_.log_weight[static_cast<std::size_t>(code)] = std::log(weight) - exponent;
+    }
+  }
+
+  const WeightedCodes& samples_;
+  std::ptrdiff_t codes_;
+  double sigma_;
+  double precision_;       // 1 / 2 sigma^2 [1/counts^2]
+  double beyond_nearest_;  // 2 sigma^2 ln(N / negligible) [counts^2]
+  KernelMean& mean_;
+  std::vector<double> farthest_;  // of each block [counts]
+  std::ptrdiff_t grid_reach_ = 0;
+  std::optional<CoarseGrid> grid_;
+  std::vector<double> count_before_;  // of all samples before each
+  std::optional<GaussianTable> table_;
+};
+
+}  // namespace
+
+KernelMean gaussianMean(const WeightedCodes& samples, double sigma, LogWeight log_weight) {
+  KernelMean mean{std::vector<double>(samples.table_size), std::vector<double>(samples.table_size),
+                  std::vector<double>(log_weight == LogWeight::kYes ? samples.table_size : 0)};
+  GaussianSums(samples, sigma, mean).run();
+  return mean;
+}
+
+}  // namespace fsr
