@@ -1,0 +1,260 @@
+#!/usr/bin/python3
+"""Records, trains and compares on an emulated rig; started by scripts/demo, which builds and sources first.
+
+1. Records one bag for each surface of the paper: chamber cycles of the emulated rig through the real
+   serial driver.
+2. Trains three calibrations from these bags: flat-only, one for all (baseline), per curvature.
+3. Runs three live calibration nodes on new cycles, on each surface and on one that none was trained on,
+   and prints their errors against the chamber's pressure.
+4. Shows the pressure map in rviz: on the display where there is one, else headless, kept as a picture.
+
+Exit status 0 only where per-curvature beats both others on every bent surface of the training and is no
+worse than flat-only on the flat one.
+"""
+import argparse
+import contextlib
+import os
+import pathlib
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+
+import demo_score
+
+NAMESPACE = "fsr"
+TRAINED = ["flat", "cylinder_13cm", "cylinder_11cm", "cylinder_9cm", "cylinder_7cm", "cylinder_5cm"]
+UNSEEN = "cylinder_8cm"
+SCHEMES = ["flat_only", "baseline", "per_curvature"]
+START_LIMIT = 60.0  # [s] for a process to come up; then something is wrong
+SHOW_PRESSURE = 300e3  # [Pa] gauge; the picture is taken above it
+
+
+def options():
+    parser = argparse.ArgumentParser(prog="scripts/demo", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--output", default="demo_output", help="folder for bags, calibrations and the screenshot (%(default)s)")
+    parser.add_argument("--time-scale", type=float, default=30.0, help="rig seconds in a second (%(default)s)")
+    parser.add_argument("--cycles", type=int, default=6, help="chamber cycles of each training bag (%(default)s)")
+    parser.add_argument("--live-cycles", type=int, default=2, help="chamber cycles of each live run (%(default)s)")
+    parser.add_argument("--seed", type=int, default=1, help="seed of the emulated rig (%(default)s)")
+    parser.add_argument("--no-rviz", action="store_true", help="leave the picture out")
+    return parser.parse_args()
+
+
+def say(text):
+    print(f"[{time.monotonic() - STARTED:5.1f} s] {text}", flush=True)
+
+
+STARTED = time.monotonic()
+
+
+class Failure(Exception):
+    """The demo cannot go on; its text says why and where to look."""
+
+
+@contextlib.contextmanager
+def process(command, log, stop_signal=signal.SIGINT, **keywords):
+    """A child process, its output in `log`, ended by its id when the block is left."""
+    with open(log, "w") as output:
+        child = subprocess.Popen(command, stdout=output, stderr=subprocess.STDOUT, start_new_session=True, **keywords)
+        try:
+            yield child
+        finally:
+            if child.poll() is None:
+                child.send_signal(stop_signal)
+            try:
+                child.wait(30)
+            except subprocess.TimeoutExpired:
+                child.kill()
+                child.wait()
+
+
+def wait_until(condition, child, what, log):
+    """Polls `condition` (of the ROS graph, which sends no events) while `child` lives."""
+    give_up = time.monotonic() + START_LIMIT
+    while not condition():
+        if child.poll() is not None:
+            raise Failure(f"{what} ended by itself; its log is {log}")
+        if time.monotonic() > give_up:
+            raise Failure(f"{what} did not come up within {START_LIMIT:.0f} s; its log is {log}")
+        time.sleep(0.05)
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class Rig:
+    """The emulated rig, by the services that a user would call."""
+
+    def __init__(self, logs):
+        import rosgraph
+        import rospy
+        from fsr_pressure_map.srv import SetSurface
+        from std_msgs.msg import String
+        from std_srvs.srv import Trigger
+        self.logs = logs
+        self.master = rosgraph.Master("/demo")
+        self.rospy = rospy
+        self.status = ""
+        rospy.init_node("demo", disable_signals=True)
+        rospy.Subscriber(f"/{NAMESPACE}/rig_emulator/status", String, self.on_status)
+        self.call_surface = self.service("rig_emulator/set_surface", SetSurface)
+        self.call_curvature = self.service("curvature/set_surface", SetSurface)
+        self.call_start = self.service("rig_emulator/start", Trigger)
+
+    def service(self, name, kind):
+        full_name = f"/{NAMESPACE}/{name}"
+        self.rospy.wait_for_service(full_name, START_LIMIT)
+        return self.rospy.ServiceProxy(full_name, kind)
+
+    def on_status(self, message):
+        self.status = message.data
+
+    def mount(self, surface, mount):
+        for call in (self.call_surface, self.call_curvature):
+            reply = call(surface, mount)
+            if not reply.success:
+                raise Failure(reply.message)
+
+    def subscribed(self, node, topic):
+        """Whether `node` is known to the master as a listener of `topic`."""
+        subscribers = dict(self.master.getSystemState()[1])
+        return f"/{NAMESPACE}/{node}" in subscribers.get(f"/{NAMESPACE}/{topic}", [])
+
+    def run_cycles(self, cycles, limit):
+        self.rospy.set_param(f"/{NAMESPACE}/rig_emulator/chamber/cycles", cycles)
+        self.status = ""
+        reply = self.call_start()
+        if not reply.success:
+            raise Failure(reply.message)
+        give_up = time.monotonic() + limit
+        while not self.status.startswith("done"):
+            if time.monotonic() > give_up:
+                raise Failure(f"the rig's cycles did not end within {limit:.0f} s; its logs are in {self.logs}")
+            time.sleep(0.02)
+
+    def record(self, bag, surface, trial, cycles, limit, topics=()):
+        """One bag of the rig's cycles by record.launch; returns its path."""
+        log = self.logs / f"record_{bag.name}.log"
+        command = ["roslaunch", "fsr_pressure_map", "record.launch", f"bag:={bag}", f"trial:={trial}",
+                   "protocol:=paper_cycles", f"session:=demo_{surface}", "use:=chamber", "mounted_on:=fixture"]
+        if topics:
+            command.append("extra_topics:=" + " ".join(f"/{NAMESPACE}/{topic}" for topic in topics))
+        with process(command, log) as child:
+            wait_until(lambda: self.subscribed("record", "raw") and self.subscribed("record", "chamber_pressure"),
+                       child, "the recorder", log)
+            self.run_cycles(cycles, limit)
+        path = bag.with_suffix(".bag")
+        if not path.exists():
+            raise Failure(f"the recorder left no {path}; its log is {log}")
+        return path
+
+
+def train(scheme, bags, output, logs):
+    log = logs / f"train_{scheme}.log"
+    command = ["rosrun", "fsr_pressure_map", "train", *map(str, bags), "--scheme", scheme, "--output", str(output)]
+    with open(log, "w") as file:
+        if subprocess.run(command, stdout=file, stderr=subprocess.STDOUT).returncode != 0:
+            raise Failure(f"train failed: {log.read_text().strip().splitlines()[-1]}")
+    return log.read_text()
+
+
+def show(rig, output, logs, limit):
+    """rviz with the live map while the chamber is under pressure; returns the screenshot's path or None."""
+    config = pathlib.Path(subprocess.check_output(["rospack", "find", "fsr_pressure_map"], text=True).strip())
+    rviz = ["rviz", "-d", str(config / "config/rviz/live.rviz"), "--splash-screen", ""]
+    picture = output / "rviz.png"
+    with contextlib.ExitStack() as stack:
+        environment = dict(os.environ)
+        if not environment.get("DISPLAY"):
+            environment["DISPLAY"] = f":{70 + os.getpid() % 900}"
+            server = ["Xvfb", environment["DISPLAY"], "-screen", "0", "1280x800x24", "-nolisten", "tcp"]
+            child = stack.enter_context(process(server, logs / "xvfb.log", signal.SIGTERM))
+            wait_until(lambda: subprocess.run(["xdpyinfo"], env=environment, stdout=subprocess.DEVNULL,
+                                              stderr=subprocess.DEVNULL).returncode == 0,
+                       child, "the headless X server", logs / "xvfb.log")
+        log = logs / "rviz.log"
+        child = stack.enter_context(process(rviz, log, env=environment))
+        wait_until(lambda: any("rviz" in node for node in
+                               dict(rig.master.getSystemState()[1]).get(f"/{NAMESPACE}/points", [])), child, "rviz", log)
+        return picture if demo_score.screenshot(rig, picture, environment, SHOW_PRESSURE, limit) else None
+
+
+def run(arguments, output, logs):
+    cycle_limit = 60 + 200 * max(arguments.cycles, arguments.live_cycles) / arguments.time_scale
+    rig = Rig(logs)
+    say(f"rig is up, {arguments.time_scale:g} x real time; recording {len(TRAINED)} surfaces")
+    bags = []
+    for mount, surface in enumerate(TRAINED, start=1):
+        rig.mount(surface, mount)
+        bags.append(rig.record(output / f"{mount}_{surface}", surface, mount, arguments.cycles, cycle_limit))
+        say(f"recorded {bags[-1]}")
+
+    calibrations = {}
+    for scheme in SCHEMES:
+        calibrations[scheme] = output / f"{scheme}.h5"
+        report = train(scheme, bags, calibrations[scheme], logs)
+        say(f"trained {calibrations[scheme]}")
+    print(report)
+
+    files = [f"{scheme}:={calibrations[scheme]}" for scheme in SCHEMES]
+    log = logs / "compare.log"
+    with process(["roslaunch", "fsr_pressure_map", "compare.launch", *files], log) as child:
+        nodes = ["calibration_flat_only", "calibration_baseline", "calibration"]
+        wait_until(lambda: all(rig.subscribed(node, "raw") for node in nodes), child, "compare.launch", log)
+        say("three calibration nodes are live; new cycles on every surface, and on one never trained on")
+        live = {}
+        maps = ["flat_only/pressure_map", "baseline/pressure_map", "pressure_map"]
+        for mount, surface in enumerate(TRAINED + [UNSEEN], start=len(TRAINED) + 1):
+            rig.mount(surface, mount)
+            live[surface] = rig.record(output / f"live_{surface}", surface, mount, arguments.live_cycles, cycle_limit, maps)
+            say(f"live run recorded in {live[surface]}")
+        picture = None if arguments.no_rviz else show(rig, output, logs, cycle_limit)
+    scores = {surface: demo_score.score(path, NAMESPACE, dict(zip(SCHEMES, maps))) for surface, path in live.items()}
+    return bags, calibrations, picture, scores
+
+
+def main():
+    arguments = options()
+    output = pathlib.Path(arguments.output).resolve()
+    shutil.rmtree(output / "logs", ignore_errors=True)
+    logs = output / "logs"
+    logs.mkdir(parents=True)
+    for old in output.glob("*.bag*"):
+        old.unlink()
+    os.environ.update(ROS_MASTER_URI=f"http://127.0.0.1:{free_port()}", ROS_IP="127.0.0.1",
+                      ROS_HOME=str(output / "ros_home"), ROS_LOG_DIR=str(logs / "ros"))
+    port = os.environ["ROS_MASTER_URI"].rsplit(":", 1)[1]
+    log = logs / "rig.log"
+    rig_launch = ["roslaunch", "-p", port, "fsr_pressure_map", "demo.launch", f"link:={output / 'board'}",
+                  f"time_scale:={arguments.time_scale}", f"seed:={arguments.seed}", "autostart:=false"]
+    say(f"starting roscore on 127.0.0.1:{port}, the emulated rig and the driver; everything goes to {output}")
+    try:
+        with process(rig_launch, log) as child:
+            import rosgraph
+            wait_until(rosgraph.is_master_online, child, "roscore", log)
+            bags, calibrations, picture, scores = run(arguments, output, logs)
+    except Failure as failure:
+        print(f"demo: {failure}", file=sys.stderr)
+        return 1
+    print(demo_score.table(scores, TRAINED, UNSEEN))
+    print("bags         " + "\n             ".join(map(str, bags)))
+    print("calibrations " + "\n             ".join(map(str, calibrations.values())))
+    print(f"screenshot   {picture or 'none'}")
+    complaints = demo_score.complaints(scores, TRAINED)
+    if not arguments.no_rviz and picture is None:
+        complaints.append("no picture of the map could be taken")
+    for complaint in complaints:
+        print(f"demo: {complaint}", file=sys.stderr)
+    say("the demo " + ("FAILED" if complaints else "is done: knowing the curvature beats not knowing it on every bent surface"))
+    return 1 if complaints else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

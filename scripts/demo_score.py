@@ -1,0 +1,100 @@
+"""Scores of the demo's live runs against the chamber's own pressure, and its picture."""
+import subprocess
+import time
+
+import numpy
+import rosbag
+
+UNDER_PRESSURE = 2e3  # [Pa] gauge: where a run's first cycle begins and its last ends
+
+
+def read_run(path, namespace, maps):
+    """Reference (stamps [s], gauge pressure [Pa]) and for each scheme (stamps, maps [scans x taxels], flags)."""
+    reference, ambient = [], 101325.0
+    series = {scheme: ([], [], []) for scheme in maps}
+    scheme_of = {f"/{namespace}/{topic}": scheme for scheme, topic in maps.items()}
+    with rosbag.Bag(str(path)) as bag:
+        for topic, message, _ in bag.read_messages():
+            if topic in scheme_of:
+                stamps, pressures, flags = series[scheme_of[topic]]
+                stamps.append(message.header.stamp.to_sec())
+                pressures.append(message.pressure)
+                flags.append(message.flags)
+            elif topic.endswith("/chamber_pressure"):
+                reference.append((message.header.stamp.to_sec(), message.fluid_pressure))
+            elif topic.endswith("/matrix_info"):
+                ambient = message.ambient_pressure
+    reference = numpy.array(sorted(reference))
+    reference[:, 1] -= ambient
+    return reference, {scheme: tuple(map(numpy.array, values)) for scheme, values in series.items()}
+
+
+def score(path, namespace, maps):
+    """For each scheme: RMSE [% of the run's range] and [kPa] and bias [kPa], means over taxels, over the
+    run's cycles (rest before and after left out), the share of readings within one stated deviation, n."""
+    reference, series = read_run(path, namespace, maps)
+    under = reference[reference[:, 1] > UNDER_PRESSURE, 0]
+    result = {}
+    for scheme, (stamps, pressures, flags) in series.items():
+        inside = (stamps >= under[0]) & (stamps <= under[-1])
+        truth = numpy.interp(stamps[inside], reference[:, 0], reference[:, 1])[:, None]
+        error = pressures[inside] - truth
+        rmse = numpy.sqrt(numpy.nanmean(error**2, axis=0))  # one for each taxel
+        result[scheme] = {
+            "rmse_percent": 100 * rmse.mean() / numpy.ptp(truth),
+            "rmse_kpa": rmse.mean() / 1e3,
+            "bias_kpa": numpy.nanmean(error) / 1e3,
+            "missing": int(numpy.isnan(error).sum()),
+            "scans": int(inside.sum()),
+        }
+    return result
+
+
+def table(scores, trained, unseen):
+    lines = ["", "Live error against the chamber's pressure (mean over taxels of the RMSE over new cycles)", "",
+             f"{'surface':24s}{'flat-only':>20s}{'one for all':>20s}{'per curvature':>20s}{'scans':>8s}",
+             " " * 24 + f"{'% of range    kPa':>20s}" * 3]
+    for surface in trained + [unseen]:
+        name = surface + (" (not trained)" if surface == unseen else "")
+        cells = [scores[surface][scheme] for scheme in ("flat_only", "baseline", "per_curvature")]
+        lines.append(f"{name:24s}" + "".join(f"{cell['rmse_percent']:12.2f}{cell['rmse_kpa']:8.1f}" for cell in cells)
+                     + f"{cells[0]['scans']:8d}")
+    return "\n".join(lines) + "\n"
+
+
+def complaints(scores, trained):
+    """What stands against "knowing the curvature helps", a sentence each; empty = nothing."""
+    result = []
+    for surface in trained:
+        rmse = {scheme: values["rmse_percent"] for scheme, values in scores[surface].items()}
+        if any(value != value for value in rmse.values()):
+            result.append(f"{surface}: a scheme gave no readings")
+        elif surface == "flat":
+            if rmse["per_curvature"] > rmse["flat_only"] * (1 + 1e-9):
+                result.append(f"flat: per-curvature ({rmse['per_curvature']:.2f} %) is worse than flat-only ({rmse['flat_only']:.2f} %)")
+        elif rmse["per_curvature"] >= min(rmse["flat_only"], rmse["baseline"]):
+            result.append(f"{surface}: per-curvature ({rmse['per_curvature']:.2f} %) does not beat both others")
+    return result
+
+
+def screenshot(rig, picture, environment, pressure, limit):
+    """Starts a cycle and takes rviz's picture once the chamber is above `pressure` [Pa] gauge and the scene
+    has content; False where that did not come within `limit` [s]."""
+    from sensor_msgs.msg import FluidPressure
+    latest = {"pressure": 0.0}
+    subscriber = rig.rospy.Subscriber("/fsr/chamber_pressure", FluidPressure,
+                                      lambda message: latest.update(pressure=message.fluid_pressure - 101325.0))
+    rig.rospy.set_param("/fsr/rig_emulator/chamber/cycles", 1000)
+    rig.call_start()
+    give_up = time.monotonic() + limit
+    taken = False
+    while not taken and time.monotonic() < give_up:
+        if latest["pressure"] > pressure:
+            subprocess.run(["import", "-window", "root", str(picture)], env=environment, check=True)
+            colours = subprocess.check_output(["convert", str(picture), "-crop", "700x600+450+60", "-format", "%k", "info:"],
+                                              text=True)
+            taken = int(colours) > 300  # an empty scene stays under 20 colours
+        else:
+            time.sleep(0.01)
+    subscriber.unregister()
+    return taken
