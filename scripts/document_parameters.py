@@ -1,0 +1,37 @@
+#!/usr/bin/python3
+"""document_parameters.py [--check] README.md: the parameter tables of the README, from the launch files.
+
+A table stands between `<!-- parameters: launch/NAME.launch -->` and `<!-- end -->`; each row is an
+<arg> with its default and doc. --check changes nothing and leaves with status 1 where one is out of date.
+"""
+import pathlib
+import re
+import sys
+import xml.etree.ElementTree as ElementTree
+
+BLOCK = re.compile(r"(<!-- parameters: (\S+) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
+
+
+def table(launch):
+    rows = ["| argument | default | meaning |", "|---|---|---|"]
+    for arg in ElementTree.parse(launch).getroot().findall("arg"):
+        if "doc" in arg.attrib:
+            default = f"`{arg.attrib['default']}`" if arg.attrib.get("default") else ("(empty)" if "default" in arg.attrib else "(required)")
+            rows.append(f"| `{arg.attrib['name']}` | {default} | {arg.attrib['doc'].replace('|', '/')} |")
+    return "\n".join(rows) + "\n"
+
+
+def main():
+    check = "--check" in sys.argv
+    readme = pathlib.Path(sys.argv[-1])
+    old = readme.read_text()
+    new = BLOCK.sub(lambda match: match[1] + table(readme.parent / match[2]) + match[4], old)
+    if check and new != old:
+        print(f"{readme}: parameter tables are out of date; run scripts/document_parameters.py {readme}", file=sys.stderr)
+        return 1
+    if not check:
+        readme.write_text(new)
+    return 0
+
+
+sys.exit(main())
