@@ -14,6 +14,8 @@ namespace {
 
 using test_support::await;
 
+constexpr double kWander = 0.02;  // [s]; a tenth of a tick
+
 // A rig that runs as fast as the driver takes it: each step is 0.1 s of rig time, a scan and a reading of the
 // transducer; /clock ticks every second step, so that half of the packets meet a clock that is 0.1 s behind.
 class Rig {
@@ -70,10 +72,10 @@ TEST(DriverInRigTime, StampsInRigTimeAsEvenlyAsTheBoardScans) {
     // A tick is 0.2 s; its message may come one more packet late.
     ASSERT_NEAR(scan, truth - 0.15, 0.16) << i;
     if (i < 200) continue;
-    // After 20 s the estimate moves by milliseconds; 0.1 s apart as the scans were made, and the reading 30
-    // ms later.
-    ASSERT_NEAR(scan - raw.messages[i - 1]->header.stamp.toSec(), 0.1, 0.005) << i;
-    ASSERT_NEAR(pressure.messages[i]->header.stamp.toSec() - scan, 0.03, 0.005) << i;
+    // After 20 s the estimate moves by milliseconds, by more where a busy computer brings ticks late, but
+    // never so far that order or spacing of scan (0.1 s apart) and reading (30 ms later) are lost.
+    ASSERT_NEAR(scan - raw.messages[i - 1]->header.stamp.toSec(), 0.1, kWander) << i;
+    ASSERT_NEAR(pressure.messages[i]->header.stamp.toSec() - scan, 0.03, kWander) << i;
   }
 }
 
