@@ -50,6 +50,11 @@ class Stopwatch {
     if (scan < received_.size()) received_[scan] = now;
   }
 
+  bool cameBack(int scan) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return received_[scan] != Clock::time_point{};
+  }
+
   void print() const {
     std::vector<double> latency;  // [us]
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -85,18 +90,27 @@ void loadCalibration(const fsr::MatrixSize& size) {
   std::filesystem::remove(path);
 }
 
+MatrixFrame::Ptr scanOf(const Plan& plan, int number) {
+  const auto scan = boost::make_shared<MatrixFrame>();
+  scan->header.stamp.sec = std::uint32_t(number + 1);
+  scan->rows = std::uint16_t(plan.rows);
+  scan->columns = std::uint16_t(plan.columns);
+  scan->full_scale = kFullScale;
+  scan->counts.assign(std::size_t(plan.rows) * plan.columns, std::uint16_t(number % kFullScale));
+  return scan;
+}
+
 void publishScans(const ros::Publisher& raw, const Plan& plan, Stopwatch& watch) {
   const auto period =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / plan.rate));
+  while (!watch.cameBack(0) && ros::ok()) {  // until everybody is connected
+    raw.publish(scanOf(plan, 0));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
   Clock::time_point next = Clock::now();
-  for (int i = 0; i < plan.scans && ros::ok(); ++i) {
+  for (int i = 1; i < plan.scans && ros::ok(); ++i) {
     std::this_thread::sleep_until(next += period);
-    const auto scan = boost::make_shared<MatrixFrame>();
-    scan->header.stamp.sec = std::uint32_t(i + 1);
-    scan->rows = std::uint16_t(plan.rows);
-    scan->columns = std::uint16_t(plan.columns);
-    scan->full_scale = kFullScale;
-    scan->counts.assign(std::size_t(plan.rows) * plan.columns, std::uint16_t(i % kFullScale));
+    const MatrixFrame::Ptr scan = scanOf(plan, i);
     watch.send(i);
     raw.publish(scan);
   }
