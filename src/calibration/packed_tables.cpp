@@ -40,13 +40,17 @@ void requireSound(const CodeTable& table, std::size_t codes, std::size_t number)
 PackedTables::PackedTables(const CurvatureTables& tables)
     : size_(tables.size), full_scale_(tables.full_scale), classes_(tables.classes.size()) {
   requireWhole(tables);
-  entries_.reserve(tables.tables.size() * codes());
-  for (const CodeTable& table : tables.tables) {
-    requireSound(table, codes(), trained_.size());
-    for (std::size_t code = 0; code < codes(); ++code) {
-      entries_.push_back({table.pressure[code], table.deviation[code]});
+  entries_.resize(size_.taxels() * stride());
+  for (std::size_t taxel = 0; taxel < size_.taxels(); ++taxel) {
+    for (std::size_t k = 0; k < classes_; ++k) {
+      const CodeTable& table = tables.table(taxel, k);
+      requireSound(table, codes(), number(taxel, k));
+      TableEntry* entry = entries_.data() + taxel * stride() + k * codes();
+      for (std::size_t code = 0; code < codes(); ++code) {
+        *entry++ = {table.pressure[code], table.deviation[code]};
+      }
+      trained_.push_back({table.lowest, table.highest, !std::isnan(table.pressure.front())});
     }
-    trained_.push_back({table.lowest, table.highest, !std::isnan(table.pressure.front())});
   }
 }
 
