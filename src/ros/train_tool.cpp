@@ -56,6 +56,10 @@ std::vector<fsr::Recording> readBags(const fsr::CommandLine& line) {
   return recordings;
 }
 
+std::string fullPath(const std::string& path) {
+  return std::filesystem::absolute(path).lexically_normal().string();
+}
+
 void showProgress(std::size_t done, std::size_t taxels) {
   std::cerr << "\rtaxel " << done << " of " << taxels << (done == taxels ? "\n" : "") << std::flush;
 }
@@ -84,7 +88,8 @@ int trainTool(int argc, const char* const* argv, std::ostream& out) {
   calibration.id = fsr::saveCalibration(calibration, output);
   if (!report.empty()) fsr::replaceFile(report, fsr::calibrationJson(calibration));
   out << "Calibration " << calibration.id << " (" << fsr::schemeName(chosen.scheme) << ") is in "
-      << std::filesystem::absolute(output).lexically_normal().string() << std::endl;
+      << fullPath(output) << std::endl;
+  if (!report.empty()) out << "Report is in " << fullPath(report) << std::endl;
   return 0;
 }
 

@@ -85,6 +85,7 @@ TEST_F(TrainTool, TakesItsOptions) {
   EXPECT_TRUE(calibration.scores.conditions.empty());
   EXPECT_NE(text.find("Scores were not asked for."), std::string::npos);
   EXPECT_TRUE(fs::exists(report));
+  EXPECT_NE(text.find("Report is in " + report + "\n"), std::string::npos);
 }
 
 TEST_F(TrainTool, AFailureOverwritesNothing) {

@@ -1,0 +1,38 @@
+// Every calibration file that a released version wrote stays in test/data and still loads.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/calibration/calibrator.h"
+
+namespace fsr {
+namespace {
+
+const std::string kFolder = FSR_SOURCE_DIR "/test/data/calibrations/";
+
+TEST(OldCalibrationFiles, AllLoadAndCalibrate) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
+    const Calibration calibration = loadCalibration(entry.path().string(), CalibrationParts::kAll);
+    EXPECT_NO_THROW(Calibrator(calibration.tables, calibration.layout)) << entry.path();
+    EXPECT_FALSE(calibration.statistics.cells.empty()) << entry.path();
+    ++files;
+  }
+  EXPECT_GE(files, 1);
+}
+
+TEST(OldCalibrationFiles, SchemaOneKeepsItsMeaning) {
+  const Calibration calibration = loadCalibration(kFolder + "schema_1.h5");
+  EXPECT_EQ(calibration.id, "6a1d3370726e");
+  EXPECT_EQ(calibration.tables.scheme, Scheme::kPerCurvature);
+  EXPECT_EQ(calibration.tables.classes.at(1).surface, "cylinder_7cm");
+  EXPECT_EQ(calibration.sensor.serial, "0001");
+  EXPECT_FLOAT_EQ(calibration.tables.table(1, 1).pressure.at(100), 185000.0f);
+  EXPECT_FLOAT_EQ(calibration.tables.table(1, 1).deviation.at(100), 7500.0f);
+  EXPECT_DOUBLE_EQ(calibration.scores.whole.rmse_percent.mean, 0.35330320417948624);
+}
+
+}  // namespace
+}  // namespace fsr
