@@ -6,7 +6,8 @@
 2. Trains three calibrations from these bags: flat-only, one for all (baseline), per curvature.
 3. Runs three live calibration nodes on new cycles, on each surface and on one that none was trained on,
    and prints their errors against the chamber's pressure.
-4. Shows the pressure map in rviz: on the display where there is one, else headless, kept as a picture.
+4. Shows the pressure map in rviz, kept as a picture: on the display where there is one, until its window is
+   closed, else headless.
 
 Exit status 0 only where per-curvature beats both others on every bent surface of the training and is no
 worse than flat-only on the flat one.
@@ -183,7 +184,11 @@ def show(rig, output, logs, limit):
         child = stack.enter_context(process(rviz, log, env=environment))
         wait_until(lambda: any("rviz" in node for node in
                                dict(rig.master.getSystemState()[1]).get(f"/{NAMESPACE}/points", [])), child, "rviz", log)
-        return picture if demo_score.screenshot(rig, picture, environment, SHOW_PRESSURE, limit) else None
+        taken = demo_score.screenshot(rig, picture, environment, SHOW_PRESSURE, limit)
+        if os.environ.get("DISPLAY") and sys.stdout.isatty():
+            say("rviz shows the live map; close its window to end the demo")
+            child.wait()
+        return picture if taken else None
 
 
 def run(arguments, output, logs):

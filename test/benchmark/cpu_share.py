@@ -42,7 +42,7 @@ def first_line(*command):
 
 def recorded_calibration(folder, rows, columns):
     with running("roslaunch", "-p", new_master(), str(folder / "rig.launch"), f"rows:={rows}", f"columns:={columns}",
-                 "rate:=10", "scale:=20", f"bag:={folder}/train", "calibration:="):
+                 "rate:=10", "scale:=20", f"bag:={folder}/train"):
         while "done" not in "".join(first_line("rostopic", "echo", "-n", "1", "/fsr/rig_emulator/status")):
             time.sleep(0.2)
     subprocess.run(["rosrun", "fsr_pressure_map", "train", f"{folder}/train.bag", "--output", f"{folder}/c.h5"], check=True,
@@ -52,7 +52,7 @@ def recorded_calibration(folder, rows, columns):
 
 LAUNCH = """<launch>
   <arg name="rows"/> <arg name="columns"/> <arg name="rate"/> <arg name="scale" default="1"/>
-  <arg name="bag" default=""/> <arg name="calibration"/>
+  <arg name="bag" default=""/> <arg name="calibration" default=""/>
   <param if="$(eval scale != 1)" name="/use_sim_time" value="true"/>
   <group ns="fsr">
     <node pkg="fsr_pressure_map" type="rig_emulator_node" name="rig_emulator">
