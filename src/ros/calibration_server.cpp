@@ -5,6 +5,7 @@
 
 #include "fsr_pressure_map/ros/calibration_health.h"
 #include "fsr_pressure_map/ros/resource_path.h"
+#include "fsr_pressure_map/ros/service_answer.h"
 
 namespace fsr_ros {
 
@@ -15,21 +16,6 @@ namespace {
 constexpr double kPatience = 5.0;      // without a scan, until a tare gives up [s]
 constexpr double kWatchPeriod = 0.25;  // of a file that is waited for [s]
 constexpr double kSecond = 1.0;        // [s]
-
-// Runs what a service asks for and puts its sentence, or the reason why not, into the reply.
-template <typename Response>
-bool answer(Response& response, const std::function<std::string()>& action) {
-  try {
-    response.message = action();
-    response.success = true;
-    ROS_INFO_STREAM(response.message);
-  } catch (const fsr::InputError& error) {
-    response.message = error.what();
-    response.success = false;
-    ROS_WARN_STREAM(response.message);
-  }
-  return true;
-}
 
 // Changes whenever the file does.
 std::string fingerprint(const std::string& path) {

@@ -8,25 +8,11 @@
 #include <sstream>
 
 #include "fsr_pressure_map/ros/resource_path.h"
+#include "fsr_pressure_map/ros/service_answer.h"
 
 namespace fsr_ros {
 
 namespace {
-
-/// Runs a command of a service; an InputError becomes its refusal.
-template <typename Response, typename Command>
-bool answer(Response& response, Command command) {
-  try {
-    response.message = command();
-    response.success = true;
-    ROS_INFO_STREAM(response.message);
-  } catch (const fsr::InputError& error) {
-    response.message = error.what();
-    response.success = false;
-    ROS_WARN_STREAM(response.message);
-  }
-  return true;
-}
 
 std::string describe(const fsr::ChamberProtocol& protocol) {
   std::ostringstream text;
