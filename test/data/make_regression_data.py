@@ -7,7 +7,6 @@ import subprocess
 
 import numpy as np
 from sklearn.ensemble import RandomForestRegressor
-from sklearn.isotonic import IsotonicRegression
 from sklearn.linear_model import LinearRegression
 from sklearn.tree import DecisionTreeRegressor
 
@@ -71,8 +70,14 @@ def main():
     print("scikit-learn, trees on replicas: RMSE%% %.4f +- %.4f" % (np.mean(scores), np.std(scores, ddof=1)))
     line = LinearRegression().fit(train[:, :1], train[:, 1])
     print("scikit-learn, line: RMSE%% %.10f" % rmse(line.predict(test[:, :1])))
-    level = IsotonicRegression().fit(train[:, 1], train[:, 0]).predict([0, 100e3, 300e3, 600e3])
-    print("scikit-learn, isotonic reading at 0, 100, 300, 600 kPa:", *("%.10f" % v for v in level))
+    for name, exponent in [
+        ("sigma 2^-7", lambda d: -(d**2) * 2.0**13),
+        ("newgrnn, spread 2^-6", lambda d: np.log(0.5) * d**2 * 2.0**12),
+        ("literal, sigma 2^-3", lambda d: -d * 2.0**5),
+    ]:
+        w = exponent(np.abs(test[:, :1] - train[:, 0]) / train[:, 0].std(ddof=1))
+        w = np.exp(w - w.max(axis=1, keepdims=True))
+        print("numpy, GRNN, %s: RMSE%% %.10f" % (name, rmse(w @ train[:, 1] / w.sum(axis=1))))
     subprocess.run(["Rscript", "-e", RANGER % (FOLDER, SEEDS)], check=False)
 
 
