@@ -1,0 +1,129 @@
+#include "fsr_pressure_map/regression/bandwidth_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+namespace {
+
+constexpr std::uint16_t kFullScale = 1023;
+
+// A curve with waves of a hundred codes, read with scatter [counts].
+CodeSamples wavyCurve(std::size_t number, double scatter, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal(0.0, scatter);
+  CodeSamples samples;
+  samples.full_scale = kFullScale;
+  for (std::size_t i = 0; i < number; ++i) {
+    const double place = 100 + static_cast<double>(random() % 800);
+    const double reading = std::clamp(std::round(place + normal(random)), 0.0, 1023.0);
+    samples.add(static_cast<std::uint16_t>(reading), toFixed(500 * place + 20e3 * std::sin(place / 16)));
+  }
+  return samples;
+}
+
+std::vector<CodeSamples> sectionsOf(double scatter) {
+  std::vector<CodeSamples> sections;
+  for (unsigned k = 0; k < 4; ++k) sections.push_back(wavyCurve(500, scatter, 10 + k));
+  return sections;
+}
+
+std::vector<CodeStatistics> sumsOf(const std::vector<CodeSamples>& sections) {
+  std::vector<CodeStatistics> sums;
+  for (const CodeSamples& section : sections) sums.push_back(statisticsOf(section));
+  return sums;
+}
+
+// Squared errors on section `tested` of a model trained without it and `left_out`, reading by reading.
+double plainSquares(const std::vector<CodeSamples>& sections, std::size_t tested, std::size_t left_out,
+                    double bandwidth) {
+  CodeSamples training;
+  training.full_scale = kFullScale;
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    if (k != tested && k != left_out) training.append(sections[k]);
+  }
+  const Fit fit = Grnn(bandwidth).fitSamples(training);
+  double sum = 0;
+  for (std::size_t i = 0; i < sections[tested].size(); ++i) {
+    sum += std::pow(fit.pressure[sections[tested].code[i]] - fromFixed(sections[tested].pressure[i]), 2);
+  }
+  return sum;
+}
+
+TEST(BandwidthErrors, AreThoseOfModelsThatSawNeitherSection) {
+  const auto sections = sectionsOf(3);
+  const BandwidthErrors errors(sumsOf(sections), kFullScale, {}, {0.01, 0.1});
+  for (const std::size_t g : {0, 1}) {
+    double whole = 0, without_second = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      whole += plainSquares(sections, k, k, errors.grid()[g]);
+      if (k != 1) without_second += plainSquares(sections, k, 1, errors.grid()[g]);
+    }
+    EXPECT_NEAR(errors.squares(g) / whole, 1.0, 1e-9);
+    EXPECT_NEAR(errors.squares(g, 1) / without_second, 1.0, 1e-9);
+  }
+}
+
+TEST(BandwidthErrors, ChooseWiderWhereReadingsScatterMore) {
+  const auto best = [](double scatter) {
+    return BandwidthErrors(sumsOf(sectionsOf(scatter)), kFullScale, {}, bandwidthGrid()).best();
+  };
+  EXPECT_LT(best(0.5), best(12));
+  EXPECT_GT(best(12), bandwidthGrid().front());
+  EXPECT_LT(best(12), bandwidthGrid().back());
+}
+
+TEST(BandwidthErrors, TheChoiceForASectionDoesNotKnowIt) {
+  auto sections = sectionsOf(3);
+  const BandwidthErrors before(sumsOf(sections), kFullScale, {}, bandwidthGrid());
+  for (FixedPressure& pressure : sections[2].pressure) pressure = toFixed(1e6) - pressure;
+  const BandwidthErrors after(sumsOf(sections), kFullScale, {}, bandwidthGrid());
+  for (std::size_t g = 0; g < before.grid().size(); ++g) {
+    EXPECT_EQ(before.squares(g, 2), after.squares(g, 2));
+    EXPECT_NE(before.squares(g), after.squares(g));
+  }
+}
+
+TEST(BandwidthErrors, OfTaxelsAddUp) {
+  BandwidthErrors both(sumsOf(sectionsOf(3)), kFullScale, {}, {0.01, 0.1});
+  const BandwidthErrors other(sumsOf(sectionsOf(9)), kFullScale, {}, {0.01, 0.1});
+  const double before = both.squares(1, 0);
+  both.add(other);
+  EXPECT_EQ(both.squares(1, 0), before + other.squares(1, 0));
+}
+
+TEST(BandwidthErrors, WithNothingToHoldOutTheyChooseThePapers) {
+  const auto sections = sumsOf({wavyCurve(50, 3, 1), wavyCurve(0, 3, 1)});
+  const BandwidthErrors errors(sections, kFullScale, {}, bandwidthGrid());
+  EXPECT_EQ(errors.best(), kPaperBandwidth);
+  const TunedModel tuned = crossValidateTuned(sections, kFullScale, {}, errors, HeldOutDeviation::kYes);
+  EXPECT_EQ(tuned.bandwidth, kPaperBandwidth);
+  EXPECT_TRUE(tuned.model.held_out[0].pressure.empty());
+}
+
+TEST(BandwidthErrors, OfPressureBinsAreRefused) {
+  GrnnOptions options;
+  options.weighting = SampleWeighting::kEachPressureBin;
+  EXPECT_THROW(BandwidthErrors(sumsOf(sectionsOf(3)), kFullScale, options, {0.1}), InputError);
+}
+
+TEST(CrossValidateTuned, TrainsEachModelWithItsOwnChoice) {
+  const auto sections = sumsOf(sectionsOf(6));
+  const BandwidthErrors errors(sections, kFullScale, {}, bandwidthGrid());
+  const TunedModel tuned = crossValidateTuned(sections, kFullScale, {}, errors, HeldOutDeviation::kNo);
+  const auto plain = crossValidate(sections, kFullScale, Grnn(tuned.bandwidth), HeldOutDeviation::kNo);
+  EXPECT_EQ(tuned.model.table.pressure, plain.table.pressure);
+  ASSERT_EQ(tuned.section_bandwidth.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(tuned.section_bandwidth[k], errors.best(k));
+    const auto own = crossValidate(sections, kFullScale, Grnn(errors.best(k)), HeldOutDeviation::kNo);
+    EXPECT_EQ(tuned.model.held_out[k].pressure, own.held_out[k].pressure);
+  }
+}
+
+}  // namespace
+}  // namespace fsr
