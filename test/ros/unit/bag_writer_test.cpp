@@ -41,6 +41,7 @@ fsr::Recording twoSurfaces() {
   test_support::SyntheticRig rig;
   rig.surfaces = {{"flat", 0.0}, {"cylinder_7cm", 14.25}};
   rig.cycles = 2;
+  rig.scans_per_cycle = 103;  // the surface changes between two whole seconds, at 20.6 s
   fsr::Recording recording = test_support::syntheticRecording(rig);
   recording.start_ns = 1500000000123456789;
   recording.temperature.assign(recording.scans(), 23.5);
@@ -82,7 +83,7 @@ TEST_F(BagFile, HoldsWhatTheRecordingHolds) {
 }
 
 TEST_F(BagFile, SaysOnceASecondWhatTheMatrixIsAndLiesOn) {
-  const fsr::Recording recording = twoSurfaces();  // 400 scans at 10 Hz
+  const fsr::Recording recording = twoSurfaces();  // 412 scans at 10 Hz
   BagOptions options;
   options.session.session_id = "s1";
   options.reference_voltage = 2.5;
@@ -90,16 +91,16 @@ TEST_F(BagFile, SaysOnceASecondWhatTheMatrixIsAndLiesOn) {
 
   const rosbag::Bag bag(path_);
   const auto infos = messages<fsr_pressure_map::MatrixInfo>(bag, "/fsr/matrix_info");
-  EXPECT_EQ(infos.size(), 40u);
+  EXPECT_EQ(infos.size(), 42u);
   EXPECT_EQ(infos.back().rows, 2);
   EXPECT_EQ(infos.back().mask, recording.mask);
   EXPECT_EQ(infos.back().ambient_pressure, 101325);
   EXPECT_EQ(infos.back().reference_voltage, 2.5f);
-  EXPECT_EQ(messages<fsr_pressure_map::Session>(bag, "/fsr/session").size(), 40u);
+  EXPECT_EQ(messages<fsr_pressure_map::Session>(bag, "/fsr/session").size(), 42u);
   const auto surfaces = messages<fsr_pressure_map::SurfaceCurvature>(bag, "/fsr/curvature");
   const auto bent = std::find_if(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.x[0] != 0; });
   ASSERT_NE(bent, surfaces.end());
-  EXPECT_NEAR((bent->header.stamp - surfaces[0].header.stamp).toSec(), 20.0, 1e-6);  // at the change itself
+  EXPECT_NEAR((bent->header.stamp - surfaces[0].header.stamp).toSec(), 20.6, 1e-6);  // at the change itself
   EXPECT_EQ(bent->surface, "cylinder_7cm");
 }
 
