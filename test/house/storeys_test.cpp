@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -47,16 +48,22 @@ std::string roomOf(const fs::path& file) {
   return "";
 }
 
-std::vector<Include> allIncludes() {
+std::vector<std::string> includesOf(const fs::path& file) {
   static const std::regex line_pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<std::string> targets;
+  std::ifstream in(file);
+  std::string line;
+  std::smatch match;
+  while (std::getline(in, line)) {
+    if (std::regex_search(line, match, line_pattern)) targets.push_back(match[1]);
+  }
+  return targets;
+}
+
+std::vector<Include> allIncludes() {
   std::vector<Include> includes;
   for (const fs::path& file : sourceFiles()) {
-    std::ifstream in(file);
-    std::string line;
-    std::smatch match;
-    while (std::getline(in, line)) {
-      if (std::regex_search(line, match, line_pattern)) includes.push_back({file, roomOf(file), match[1]});
-    }
+    for (const std::string& target : includesOf(file)) includes.push_back({file, roomOf(file), target});
   }
   return includes;
 }
@@ -104,6 +111,30 @@ TEST(House, TheCureNeverSeesTheSimulator) {
   for (const Include& include : allIncludes()) {
     if (include.room != "compensation" && include.room != "calibration") continue;
     EXPECT_NE(targetRoom(include.target), "simulation") << include.file;
+  }
+}
+
+// Files that `file` sees, itself included, as far as they are the package's or the tests' own.
+void see(const fs::path& file, std::set<fs::path>& seen) {
+  if (!fs::exists(file) || !seen.insert(file).second) return;
+  for (const std::string& target : includesOf(file)) {
+    see(kSource / "include" / target, seen);
+    see(kSource / "test" / target, seen);
+  }
+}
+
+// Data made by the package's own formulas would flatter a search that knows them.
+TEST(House, BlindDataKnowNoFormulaOfThePackage) {
+  std::set<fs::path> seen;
+  for (const auto& entry : fs::recursive_directory_iterator(kSource / "test/blind")) {
+    if (entry.is_regular_file()) see(entry.path(), seen);
+  }
+  EXPECT_EQ(seen.count(kSource / "include/fsr_pressure_map/dataset/recording.h"), 1u);  // the walk goes in
+  for (const fs::path& file : seen) {
+    if (fs::relative(file, kSource / "test").begin()->string() != "..") continue;
+    for (const char* room : {"simulation", "discrepancy", "rheology", "emulator"}) {
+      EXPECT_NE(roomOf(file), room) << "test/blind sees " << file;
+    }
   }
 }
 

@@ -1,0 +1,151 @@
+#include "blind/campaign.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace blind {
+
+namespace {
+
+// A valve and its hoses round the corners of what the regulator is told [s].
+constexpr double kValveLag = 0.3;
+
+double along(const ChamberPath& path, std::size_t& piece, double time) {
+  if (time <= 0) return path.pressure.front();
+  while (piece + 2 < path.time.size() && path.time[piece + 1] <= time) ++piece;
+  const double span = path.time[piece + 1] - path.time[piece];
+  const double share = span > 0 ? std::min(1.0, (time - path.time[piece]) / span) : 1.0;
+  return path.pressure[piece] + share * (path.pressure[piece + 1] - path.pressure[piece]);
+}
+
+std::vector<double> finePressure(const ChamberPath& path) {
+  const auto steps = static_cast<std::size_t>((kLead + path.duration() + kLead) / kFineStep);
+  std::vector<double> fine(steps);
+  double pressure = path.pressure.front();
+  std::size_t piece = 0;
+  for (std::size_t i = 0; i < steps; ++i) {
+    const double target = along(path, piece, static_cast<double>(i) * kFineStep - kLead);
+    pressure += (target - pressure) * kFineStep / kValveLag;
+    fine[i] = pressure;
+  }
+  return fine;
+}
+
+// First-order lag of whatever is fed in.
+struct Lag {
+  double time_constant;  // [s]
+  double value;
+  double step(double input, double seconds) {
+    value += (input - value) * (1 - std::exp(-seconds / time_constant));
+    return value;
+  }
+};
+
+// Room, gas and the two bodies in it. Gas heats when it is compressed and cools at the wall; sheet and
+// thermometer feel a little of that, each with a lag of its own.
+class Climate {
+ public:
+  explicit Climate(Random random)
+      : base_(random.uniform(20, 25)),
+        warm_up_(random.uniform(1.5, 3)),
+        swing_(random.uniform(0.4, 1)),
+        period_(random.uniform(900, 2400)),
+        phase_(random.uniform(0, 2 * M_PI)),
+        sheet_lag_(random.uniform(60, 150)),
+        thermometer_lag_(random.uniform(15, 40)) {}
+
+  double room(double time) const {
+    return base_ + warm_up_ * (1 - std::exp(-time / 3000)) +
+           swing_ * std::sin(2 * M_PI * time / period_ + phase_);
+  }
+
+  void run(const Visit& visit, double ambient_step, Campaign& campaign, Random& random) const {
+    const double seconds = campaign.scan_period;
+    double gas = 0;  // above the room's temperature [K]
+    Lag sheet{sheet_lag_, room(visit.start) + ambient_step};
+    Lag thermometer{thermometer_lag_, sheet.value};
+    for (std::size_t i = visit.first; i < visit.last; ++i) {
+      const double heating = 0.286 * 295 * campaign.rate[i] / (101325 + campaign.pressure[i]);  // [K/s]
+      gas += seconds * (heating - gas / 4);
+      const double air = room(campaign.time[i]) + ambient_step;
+      campaign.temperature.push_back(sheet.step(air + 0.05 * gas, seconds));
+      const double reading = thermometer.step(air + 0.08 * gas, seconds) + 0.03 * random.normal();
+      campaign.thermometer.push_back(std::round(reading * 16) / 16);  // a step of 1/16 K
+    }
+  }
+
+ private:
+  double base_, warm_up_, swing_, period_, phase_, sheet_lag_, thermometer_lag_;
+};
+
+void appendScans(const PlannedVisit& plan, Visit& visit, Campaign& campaign) {
+  visit.first = campaign.scans();
+  const auto number = static_cast<std::size_t>(plan.path.duration() / campaign.scan_period);
+  const std::uint32_t cycles_before = campaign.cycle.empty() ? 0 : campaign.cycle.back() + 1;
+  for (std::size_t i = 0; i < number; ++i) {
+    const double elapsed = static_cast<double>(i) * campaign.scan_period;
+    const double time = visit.start + elapsed;
+    campaign.time.push_back(time);
+    campaign.pressure.push_back(campaign.pressureAt(visit, time));
+    const double around = campaign.pressureAt(visit, time + 0.05) - campaign.pressureAt(visit, time - 0.05);
+    campaign.rate.push_back(around / 0.1);
+    const auto& starts = plan.path.cycle_start;
+    const auto after = std::upper_bound(starts.begin(), starts.end(), elapsed) - starts.begin();
+    const auto cycle = static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(after - 1, 0));
+    campaign.cycle_of_visit.push_back(cycle);
+    campaign.cycle.push_back(cycles_before + cycle);
+    campaign.visit.push_back(static_cast<std::uint32_t>(campaign.visits.size()));
+  }
+  visit.last = campaign.scans();
+}
+
+}  // namespace
+
+double Campaign::pressureAt(const Visit& at, double time_s) const {
+  const double place = (time_s - at.start + kLead) / kFineStep;
+  const double last = static_cast<double>(at.fine_pressure.size() - 2);
+  const auto below = static_cast<std::size_t>(std::clamp(place, 0.0, last));
+  const double share = std::clamp(place - static_cast<double>(below), 0.0, 1.0);
+  return at.fine_pressure[below] + share * (at.fine_pressure[below + 1] - at.fine_pressure[below]);
+}
+
+std::vector<fsr::Surface> surfacesOf(std::size_t number) {
+  const std::vector<int> radii_cm = {13, 11, 9, 7, 5};
+  std::vector<fsr::Surface> surfaces = {{"flat", 0, {fsr::Curvature{}}, {}}};
+  for (std::size_t i = 1; i < number; ++i) {
+    // Evenly chosen, the tightest always among them.
+    const std::size_t from_end =
+        (number - 1 - i) * (radii_cm.size() - 1) / std::max<std::size_t>(1, number - 2);
+    const std::size_t place = radii_cm.size() - 1 - from_end;
+    const int radius = radii_cm[place];
+    surfaces.push_back(
+        {"cylinder_" + std::to_string(radius) + "cm", 0, {fsr::Curvature{100.0 / radius, 0, 0}}, {}});
+  }
+  return surfaces;
+}
+
+Campaign runCampaign(const fsr::Layout& layout, const std::string& protocol, const ProtocolSize& size,
+                     std::uint64_t seed) {
+  Campaign campaign;
+  campaign.layout = layout;
+  campaign.surfaces = surfacesOf(size.surfaces);
+  Random random(seed, "campaign " + protocol);
+  // No board keeps its rate to better than some hundred parts in a million.
+  campaign.scan_period = 0.1 * (1 + 2e-4 * random.normal());
+  const Climate climate{Random(seed, "climate " + protocol)};
+  double clock = 0;
+  for (const PlannedVisit& plan : planVisits(protocol, size, Random(seed, "order " + protocol))) {
+    Visit visit;
+    visit.surface = plan.surface;
+    visit.pause = plan.pause;
+    visit.start = clock + plan.pause;
+    visit.fine_pressure = finePressure(plan.path);
+    appendScans(plan, visit, campaign);
+    clock = campaign.time.back() + campaign.scan_period;
+    climate.run(visit, plan.ambient_step, campaign, random);
+    campaign.visits.push_back(std::move(visit));
+  }
+  return campaign;
+}
+
+}  // namespace blind

@@ -1,0 +1,198 @@
+#include "blind/protocol.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace blind {
+
+namespace {
+
+constexpr double kPaperRate = 17e3;  // [Pa/s]
+constexpr double kSlow = 8e3;        // [Pa/s]
+constexpr double kFast = 40e3;       // [Pa/s]
+
+class PathBuilder {
+ public:
+  PathBuilder() { point(0, 0); }
+
+  PathBuilder& cycle() {
+    path_.cycle_start.push_back(path_.time.back());
+    return *this;
+  }
+  PathBuilder& hold(double seconds) {
+    point(path_.time.back() + seconds, path_.pressure.back());
+    return *this;
+  }
+  PathBuilder& ramp(double target, double rate) {
+    point(path_.time.back() + std::abs(target - path_.pressure.back()) / rate, target);
+    return *this;
+  }
+  ChamberPath take() { return std::move(path_); }
+
+ private:
+  void point(double time, double pressure) {
+    path_.time.push_back(time);
+    path_.pressure.push_back(pressure);
+  }
+  ChamberPath path_;
+};
+
+int scaled(int cycles, double share) {
+  return std::max(2, static_cast<int>(std::lround(cycles * share)));
+}
+
+void paperCycles(PathBuilder& path, int cycles) {
+  for (int i = 0; i < cycles; ++i) {
+    path.cycle().hold(1).ramp(kPeak, kPaperRate).hold(1).ramp(0, kPaperRate);
+  }
+}
+
+ChamberPath paperPath(double share) {
+  PathBuilder path;
+  paperCycles(path, scaled(10, share));
+  return path.take();
+}
+
+// Up and down at one speed with dwells: creep goes on where a loop stands still.
+void dwellCycle(PathBuilder& path, double rate, double dwell) {
+  path.cycle().hold(2).ramp(0.5 * kPeak, rate).hold(dwell).ramp(kPeak, rate).hold(dwell);
+  path.ramp(0.5 * kPeak, rate).hold(dwell).ramp(0, rate);
+}
+
+ChamberPath twoSpeedsPath(double share) {
+  PathBuilder path;
+  for (int i = 0; i < scaled(8, share); ++i)
+    dwellCycle(path, i % 4 == 1 ? kSlow : kFast, i % 4 == 1 ? 15 : 8);
+  return path.hold(30).take();
+}
+
+ChamberPath minorLoopsPath(double share) {
+  PathBuilder path;
+  const double depths[] = {0.15, 0.3, 0.5, 0.75};  // of the peak
+  for (int i = 0; i < scaled(8, share); ++i) {
+    const double depth = depths[i % 4] * kPeak;
+    const double middle = (i / 4 % 2 == 0 ? 0.55 : 0.4) * kPeak;
+    path.cycle().hold(1).ramp(middle + depth / 2, 1.5 * kPaperRate);
+    for (int k = 0; k < 2; ++k)
+      path.ramp(middle - depth / 2, kPaperRate).ramp(middle + depth / 2, kPaperRate);
+    path.ramp(kPeak, 1.5 * kPaperRate).hold(1).ramp(0, 1.5 * kPaperRate);
+  }
+  return path.take();
+}
+
+ChamberPath stepHoldPath(double share) {
+  PathBuilder path;
+  const int steps = scaled(3, share);
+  for (int i = 0; i < steps; ++i) {
+    path.cycle().hold(10).ramp((i % 2 == 0 ? 0.5 : 1.0) * kPeak, 60e3).hold(300).ramp(0, 60e3).hold(100);
+  }
+  return path.take();
+}
+
+ChamberPath restPath(double share) {
+  PathBuilder path;
+  path.hold(200);
+  paperCycles(path, scaled(5, share));
+  return path.hold(200).take();
+}
+
+using MakePath = ChamberPath (*)(double share);
+
+struct Protocol {
+  const char* description;
+  MakePath path;
+  bool twice;           // every surface a second time
+  bool shuffled_first;  // random order already the first time
+  bool warmer_second;   // the second time in a warmer room
+};
+
+const std::map<std::string, Protocol>& protocols() {
+  static const std::map<std::string, Protocol> table = {
+      {"paper",
+       {"cycles from 0 to 620 kPa at 17 kPa/s, surfaces from flat to the tightest bend", paperPath, false,
+        false, false}},
+      {"paper_remounted",
+       {"cycles from 0 to 620 kPa at 17 kPa/s on every surface, then again on every surface in another order",
+        paperPath, true, false, false}},
+      {"two_speeds",
+       {"cycles from 0 to 620 kPa at 8 and at 40 kPa/s with dwells at 310 and 620 kPa", twoSpeedsPath, false,
+        false, false}},
+      {"minor_loops",
+       {"cycles from 0 to 620 kPa with smaller loops of four depths within", minorLoopsPath, false, false,
+        false}},
+      {"step_hold",
+       {"steps to 310 and to 620 kPa, held for 300 s, with rests between", stepHoldPath, false, false,
+        false}},
+      {"rest",
+       {"200 s without load, cycles from 0 to 620 kPa at 17 kPa/s, 200 s without load", restPath, false,
+        false, false}},
+      {"two_ambients",
+       {"cycles from 0 to 620 kPa at 17 kPa/s on every surface, then again in a warmer room", paperPath, true,
+        false, true}},
+      {"random_order",
+       {"cycles at 8 and at 40 kPa/s with dwells, surfaces in random order, each remounted once, the flat "
+        "one "
+        "a third time at the end",
+        twoSpeedsPath, true, true, false}},
+  };
+  return table;
+}
+
+const Protocol& find(const std::string& name) {
+  const auto found = protocols().find(name);
+  if (found != protocols().end()) return found->second;
+  std::string known;
+  for (const std::string& other : protocolNames()) known += (known.empty() ? "" : ", ") + other;
+  throw fsr::InputError("protocol is '" + name + "', but must be one of " + known);
+}
+
+std::vector<std::size_t> surfaceOrder(const Protocol& protocol, const std::string& name, std::size_t surfaces,
+                                      Random& random) {
+  std::vector<std::size_t> order(surfaces);
+  for (std::size_t i = 0; i < surfaces; ++i) order[i] = i;
+  if (protocol.shuffled_first) order = random.order(surfaces);
+  if (protocol.twice) {
+    const std::vector<std::size_t> again = random.order(surfaces);
+    order.insert(order.end(), again.begin(), again.end());
+  }
+  if (name == "random_order") order.push_back(0);
+  return order;
+}
+
+}  // namespace
+
+const std::vector<std::string>& protocolNames() {
+  static const std::vector<std::string> names = {"paper",        "paper_remounted", "two_speeds",
+                                                 "minor_loops",  "step_hold",       "rest",
+                                                 "two_ambients", "random_order"};
+  return names;
+}
+
+std::string protocolDescription(const std::string& protocol) {
+  return find(protocol).description;
+}
+
+bool remounts(const std::string& protocol) {
+  return find(protocol).twice;
+}
+
+std::vector<PlannedVisit> planVisits(const std::string& name, const ProtocolSize& size, Random random) {
+  const Protocol& protocol = find(name);
+  const std::vector<std::size_t> order = surfaceOrder(protocol, name, size.surfaces, random);
+  const ChamberPath path = protocol.path(protocol.twice ? size.cycles / 2 : size.cycles);
+  const double warmer = random.uniform(8, 12);
+  std::vector<PlannedVisit> visits;
+  for (const std::size_t surface : order) {
+    PlannedVisit visit{surface, path, 0, random.uniform(240, 600)};
+    const bool second = visits.size() >= size.surfaces;
+    if (second && protocol.warmer_second) visit.ambient_step = warmer;
+    visits.push_back(visit);
+  }
+  if (protocol.warmer_second) visits[size.surfaces].pause = 3600;  // the room takes its time
+  return visits;
+}
+
+}  // namespace blind

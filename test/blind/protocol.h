@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "blind/random.h"
+
+namespace blind {
+
+constexpr double kPeak = 620e3;  ///< highest gauge pressure of the protocols [Pa]
+
+/// What the chamber is told to do while the matrix lies on one surface: gauge pressure [Pa] at times
+/// [s] from the first scan, straight between them.
+struct ChamberPath {
+  std::vector<double> time;
+  std::vector<double> pressure;
+  std::vector<double> cycle_start;  ///< [s]
+
+  double duration() const { return time.back(); }
+};
+
+/// One stay of the matrix on a surface.
+struct PlannedVisit {
+  std::size_t surface = 0;  ///< index into the campaign's surfaces; 0 = flat
+  ChamberPath path;
+  double ambient_step = 0;  ///< room temperature against the campaign's usual one [K]
+  double pause = 300;       ///< before the first scan, without pressure: mounting [s]
+};
+
+/// How much of a protocol is recorded.
+struct ProtocolSize {
+  std::size_t surfaces = 6;
+  double cycles = 1;  ///< share of the full number of cycles on each surface
+};
+
+/// Protocols by name:
+///
+///     paper            10 cycles at 17 kPa/s on each surface, once through
+///     paper_remounted  5 of them on each surface, then all again in another order
+///     two_speeds       cycles at 8 and at 40 kPa/s, with dwells at half and full pressure
+///     minor_loops      loops within loops, of four depths
+///     step_hold        steps to half and full pressure, each held for 300 s, with rests
+///     rest             200 s without load before and after the cycles
+///     two_ambients     5 cycles on each surface, all again in a room 8 to 12 K warmer
+///     random_order     two speeds, surfaces in random order, remounted, the flat one again at the end
+const std::vector<std::string>& protocolNames();
+/// One sentence for the public description.
+std::string protocolDescription(const std::string& protocol);
+/// Whether it lays the matrix on one surface more than once.
+bool remounts(const std::string& protocol);
+
+/// Throws fsr::InputError where the name is unknown.
+std::vector<PlannedVisit> planVisits(const std::string& protocol, const ProtocolSize& size, Random random);
+
+}  // namespace blind

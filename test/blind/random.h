@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string_view>
+#include <vector>
+
+namespace blind {
+
+/// Random numbers of one purpose and one member of it (e.g. a taxel), from the seed of the case. The
+/// engine is the standard's Mersenne Twister; the distributions are written out, because those of the
+/// standard library differ from one library to the next.
+class Random {
+ public:
+  Random(std::uint64_t seed, std::string_view purpose, std::uint64_t member = 0);
+
+  double uniform();  ///< in the open interval (0, 1)
+  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+  double logUniform(double low, double high);
+  double normal();  ///< standard normal, by Marsaglia's polar method
+  bool chance(double probability) { return uniform() < probability; }
+  std::size_t below(std::size_t number);  ///< 0 .. number - 1
+  double sign() { return chance(0.5) ? 1.0 : -1.0; }
+
+  /// A draw of `number` different members out of 0 .. size - 1, ascending.
+  std::vector<std::size_t> choose(std::size_t number, std::size_t size);
+  /// 0 .. size - 1 in random order.
+  std::vector<std::size_t> order(std::size_t size);
+
+ private:
+  std::mt19937_64 engine_;
+  double spare_ = 0;
+  bool has_spare_ = false;
+};
+
+}  // namespace blind

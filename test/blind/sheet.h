@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "blind/campaign.h"
+
+namespace blind {
+
+/// The sensor sheet without anything hidden: what a taxel reads at a pressure on a surface. None of its
+/// laws is one that the package knows.
+///
+/// Static laws, F(load), 1 at the peak:
+///     lognormal    share of the asperities that touch, their turn-on pressures log-normal
+///     rational     (x^2 + a x) / (x^2 + b x + c), x in units of 100 kPa
+///     percolation  (load / (load + w))^t
+/// Preload by bending: c k / (k + k0), c sqrt(k), or c tanh(k / k0), k = curvature.
+/// Gain by bending: 1 / (1 + (k / k1)^1.5), (1 + k / k1)^-q, or 1 - b k / (k + k1).
+/// Level, shape, preload and gain scatter from taxel to taxel.
+class Sheet {
+ public:
+  Sheet(const Campaign& campaign, std::uint64_t seed);
+
+  /// Reading at no conductance [share of full scale].
+  double zero(std::size_t taxel) const { return taxels_[taxel].zero; }
+  /// Rise of the reading over its zero on the flat [share of full scale]; 0 where `load` <= 0 [Pa].
+  double rise(std::size_t taxel, double load) const;
+  double preload(std::size_t taxel, std::size_t surface) const { return preload_[surface][taxel]; }  ///< [Pa]
+  double gain(std::size_t taxel, std::size_t surface) const { return gain_[surface][taxel]; }
+
+  const std::string& staticLaw() const { return law_names_[law_]; }
+  const std::string& preloadLaw() const { return preload_names_[preload_law_]; }
+  const std::string& gainLaw() const { return gain_names_[gain_law_]; }
+
+ private:
+  struct Taxel {
+    double zero, level, a, b;  // a, b: shape, by law
+  };
+  void drawTaxels(std::size_t number, std::uint64_t seed);
+  void drawSurface(const fsr::Surface& surface, std::size_t taxels, std::uint64_t seed);
+  double shape(const Taxel& taxel, double load) const;
+  double commonPreload(double curvature) const;
+  double commonGain(double curvature) const;
+
+  static const std::vector<std::string> law_names_, preload_names_, gain_names_;
+  std::size_t law_, preload_law_, gain_law_;
+  double preload_size_, preload_scale_, gain_size_, gain_scale_;
+  std::vector<Taxel> taxels_;
+  std::vector<std::vector<double>> preload_;  // [surface][taxel]
+  std::vector<std::vector<double>> gain_;
+};
+
+}  // namespace blind
