@@ -1,0 +1,76 @@
+// The first cycles after a mounting differ from those that follow, and all over again at the next.
+
+#include <algorithm>
+#include <cmath>
+
+#include "blind/hidden/forms.h"
+
+namespace blind {
+
+namespace {
+
+class BreakIn : public Hidden {
+ public:
+  void onGain(std::size_t taxel, Trace& gain) const override {
+    for (std::size_t scan = 0; scan < gain.size(); ++scan)
+      gain[scan] *= 1 + size_ * scatter_[taxel] * unsettled_[scan];
+  }
+
+ protected:
+  explicit BreakIn(const HiddenSetup& setup)
+      : setup_(setup),
+        random_(setup.seed, "break-in"),
+        scatter_(taxelScatter(setup, "break-in scatter", 0.15)),
+        unsettled_(setup.campaign.scans()) {
+    size_ = (random_.chance(0.7) ? -1 : 1) * random_.uniform(0.03, 0.06) * setup.strength;
+    settled_after_ = random_.uniform(0.8, 2.5);  // [cycles]
+    parameters_ = {{"size", size_, "1"}, {"settled_after", settled_after_, "cycles"}};
+  }
+  // value(cycles) at each scan; cycles since the mounting, as distance of the pressure or whole ones.
+  template <typename Value>
+  void run(bool whole_cycles, Value value) {
+    for (const Visit& visit : setup_.campaign.visits) {
+      double cycles = 0;
+      for (std::size_t scan = visit.first; scan < visit.last; ++scan) {
+        cycles += std::abs(setup_.campaign.rate[scan]) * setup_.campaign.scan_period / (2 * kPeak);
+        unsettled_[scan] = value(whole_cycles ? setup_.campaign.cycle_of_visit[scan] : cycles);
+      }
+    }
+  }
+  HiddenSetup setup_;
+  Random random_;
+  std::vector<double> scatter_;
+  Trace unsettled_;  // 1 at the mounting, towards 0
+  double size_, settled_after_;
+};
+
+class Hyperbolic : public BreakIn {
+ public:
+  explicit Hyperbolic(const HiddenSetup& setup) : BreakIn(setup) {
+    run(false, [&](double cycles) { return 1 / (1 + cycles / settled_after_); });
+  }
+};
+
+class Stretched : public BreakIn {
+ public:
+  explicit Stretched(const HiddenSetup& setup) : BreakIn(setup) {
+    run(false, [&](double cycles) { return std::exp(-std::pow(cycles / settled_after_, 0.6)); });
+  }
+};
+
+class ByWholeCycles : public BreakIn {
+ public:
+  explicit ByWholeCycles(const HiddenSetup& setup) : BreakIn(setup) {
+    run(true, [&](double cycles) { return std::pow(1 + cycles / settled_after_, -1.5); });
+  }
+};
+
+}  // namespace
+
+std::vector<HiddenForm> breakInForms() {
+  return {{"break_in", "hyperbolic", {"cycle"}, makeHidden<Hyperbolic>},
+          {"break_in", "stretched", {"cycle"}, makeHidden<Stretched>},
+          {"break_in", "whole_cycles", {"cycle"}, makeHidden<ByWholeCycles>}};
+}
+
+}  // namespace blind

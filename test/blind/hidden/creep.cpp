@@ -1,0 +1,149 @@
+// The reading goes on growing under a load that stands still.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "blind/hidden/forms.h"
+
+namespace blind {
+
+namespace {
+
+// Power law J(t) ~ t^n over seven decades, as one lag a decade from 10 ms to 10^5 s.
+struct PowerLawState {
+  static constexpr std::size_t kDecades = 8;
+  std::array<double, kDecades> weight{};
+  std::array<double, kDecades> rate{};  // [1/s]
+  std::array<double, kDecades> lag{};
+
+  explicit PowerLawState(double exponent) {
+    for (std::size_t k = 0; k < kDecades; ++k) {
+      const double time_constant = std::pow(10.0, static_cast<double>(k) - 2);  // [s]
+      rate[k] = 1 / time_constant;
+      weight[k] = std::pow(time_constant, exponent);
+    }
+  }
+  void step(double input, double seconds) {
+    for (std::size_t k = 0; k < kDecades; ++k) {
+      const double x = seconds * rate[k];
+      lag[k] += (input - lag[k]) * (x < 0.02 ? x - x * x / 2 : 1 - std::exp(-x));
+    }
+  }
+  double sum() const {
+    double total = 0;
+    for (std::size_t k = 0; k < kDecades; ++k) total += weight[k] * lag[k];
+    return total;
+  }
+};
+
+// Growth that slows down by itself: dx/dt = load exp(-x) / t0 gives ln(1 + t / t0) under constant load;
+// without load it heals with a time constant.
+struct LogTimeState {
+  double start;    // t0 [s]
+  double healing;  // [s]
+  double x = 0;
+  void step(double input, double seconds) {
+    const double share = std::clamp(input / kPeak, 0.0, 1.2);
+    // The exact solution of the growth over one step: it may begin faster than the scans follow.
+    x = std::log(std::exp(x) + share * seconds / start);
+    x -= x * std::max(0.0, 1 - 3 * share) * (1 - std::exp(-seconds / healing));
+  }
+};
+
+// A softening that the root of the load drives up faster than it comes down again.
+struct SofteningState {
+  double up, down;  // [s]
+  double x = 0;
+  void step(double input, double seconds) {
+    const double drive = std::sqrt(std::max(input, 0.0) / kPeak);
+    x += (drive - x) * (1 - std::exp(-seconds / (drive > x ? up : down)));
+  }
+};
+
+class Creep : public Hidden {
+ protected:
+  Creep(const HiddenSetup& setup, double size)
+      : setup_(setup), size_(size * setup.strength), scatter_(taxelScatter(setup, "creep scatter", 0.1)) {
+    parameters_ = {{"size", size_, "1"}};
+  }
+  HiddenSetup setup_;
+  double size_;
+  std::vector<double> scatter_;
+};
+
+class PowerLawCreep : public Creep {
+ public:
+  explicit PowerLawCreep(const HiddenSetup& setup)
+      : Creep(setup, Random(setup.seed, "creep size").uniform(0.012, 0.02)),
+        exponent_(Random(setup.seed, "creep exponent").uniform(0.06, 0.16)) {
+    parameters_.push_back({"exponent", exponent_, "1"});
+  }
+  void onLoad(std::size_t taxel, Trace& load) const override {
+    const Trace before = load;
+    follow(
+        setup_, PowerLawState(exponent_), [&](std::size_t scan) { return before[scan]; },
+        [&](std::size_t scan, const PowerLawState& s) { load[scan] += size_ * scatter_[taxel] * s.sum(); });
+  }
+
+ private:
+  double exponent_;
+};
+
+class LogTimeCreep : public Creep {
+ public:
+  explicit LogTimeCreep(const HiddenSetup& setup)
+      : Creep(setup, Random(setup.seed, "creep size").uniform(0.012, 0.022)),
+        fresh_{Random(setup.seed, "creep start").logUniform(0.3, 2),
+               Random(setup.seed, "healing").uniform(20, 80)} {
+    parameters_.push_back({"start", fresh_.start, "s"});
+    parameters_.push_back({"healing", fresh_.healing, "s"});
+  }
+  void onLoad(std::size_t taxel, Trace& load) const override {
+    const Trace before = load;
+    follow(
+        setup_, fresh_, [&](std::size_t scan) { return before[scan]; },
+        [&](std::size_t scan, const LogTimeState& state) {
+          load[scan] *= 1 + size_ * scatter_[taxel] * state.x;
+        });
+  }
+
+ private:
+  LogTimeState fresh_;
+};
+
+class Softening : public Creep {
+ public:
+  explicit Softening(const HiddenSetup& setup)
+      : Creep(setup, Random(setup.seed, "creep size").uniform(0.05, 0.09)),
+        fresh_{Random(setup.seed, "up").uniform(25, 60), Random(setup.seed, "down").uniform(90, 200)} {
+    parameters_.push_back({"up", fresh_.up, "s"});
+    parameters_.push_back({"down", fresh_.down, "s"});
+  }
+  void onGain(std::size_t taxel, Trace& gain) const override {
+    const Trace& pressure = setup_.campaign.pressure;
+    follow(
+        setup_, fresh_, [&](std::size_t scan) { return pressure[scan]; },
+        [&](std::size_t scan, const SofteningState& state) {
+          gain[scan] *= 1 + size_ * scatter_[taxel] * state.x;
+        });
+  }
+
+ private:
+  SofteningState fresh_;
+};
+
+HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSetup&)) {
+  HiddenForm form{"creep", name, {"time_since_reversal"}, make};
+  form.may_be_local = form.has_state = true;
+  return form;
+}
+
+}  // namespace
+
+std::vector<HiddenForm> creepForms() {
+  return {form("power_law", makeHidden<PowerLawCreep>), form("log_time", makeHidden<LogTimeCreep>),
+          form("multiplicative", makeHidden<Softening>)};
+}
+
+}  // namespace blind

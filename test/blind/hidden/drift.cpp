@@ -1,0 +1,86 @@
+// The zero moves with the clock, whether there is pressure or not.
+
+#include <cmath>
+
+#include "blind/hidden/forms.h"
+
+namespace blind {
+
+namespace {
+
+class Drift : public Hidden {
+ public:
+  void onReading(std::size_t taxel, Trace& reading) const override {
+    for (std::size_t scan = 0; scan < reading.size(); ++scan) reading[scan] += share_[taxel] * zero_[scan];
+  }
+
+ protected:
+  explicit Drift(const HiddenSetup& setup)
+      : setup_(setup), random_(setup.seed, "drift"), zero_(setup.campaign.scans()) {
+    size_ = random_.uniform(0.02, 0.04) * setup.strength;  // [share of full scale]
+    // Half of the sheets drift as one, the others taxel by taxel.
+    const bool common = random_.chance(0.5);
+    share_ = taxelScatter(setup, "drift scatter", common ? 0.1 : 0.5);
+    parameters_ = {{"size", size_, "share of full scale"}, {"common", common ? 1.0 : 0.0, "1"}};
+  }
+  HiddenSetup setup_;
+  Random random_;
+  double size_;
+  std::vector<double> share_;  // of each taxel
+  Trace zero_;                 // [share of full scale]
+};
+
+class RandomWalk : public Drift {
+ public:
+  explicit RandomWalk(const HiddenSetup& setup) : Drift(setup) {
+    double value = 0, before = 0;
+    for (std::size_t scan = 0; scan < zero_.size(); ++scan) {
+      const double seconds = setup.campaign.time[scan] - before;
+      before = setup.campaign.time[scan];
+      value += size_ * std::sqrt(seconds / 1500) * random_.normal();
+      zero_[scan] = value;
+    }
+  }
+};
+
+class Settling : public Drift {
+ public:
+  explicit Settling(const HiddenSetup& setup) : Drift(setup) {
+    const double time_constant = random_.uniform(1500, 6000), sign = random_.sign();  // [s]
+    const double end = 1 - std::exp(-setup.campaign.time.back() / time_constant);
+    for (std::size_t scan = 0; scan < zero_.size(); ++scan) {
+      zero_[scan] = sign * 2 * size_ * (1 - std::exp(-setup.campaign.time[scan] / time_constant)) / end;
+    }
+    parameters_.push_back({"time_constant", time_constant, "s"});
+  }
+};
+
+// The zero jumps now and then, within seconds, and stays.
+class Steps : public Drift {
+ public:
+  explicit Steps(const HiddenSetup& setup) : Drift(setup) {
+    const std::size_t number = setup.campaign.visits.size() / 2 + 2;
+    for (std::size_t i = 0; i < number; ++i) {
+      // In the middle part of some mount, where it shows.
+      const Visit& visit = setup.campaign.visits[random_.below(setup.campaign.visits.size())];
+      const double share = random_.uniform(0.2, 0.8);
+      const double when =
+          visit.start + share * static_cast<double>(visit.last - visit.first) * setup.campaign.scan_period;
+      const double height = random_.sign() * random_.uniform(0.5, 1) * size_, width = random_.uniform(2, 8);
+      for (std::size_t scan = 0; scan < zero_.size(); ++scan) {
+        zero_[scan] += height / (1 + std::exp(-(setup.campaign.time[scan] - when) / width));
+      }
+    }
+    parameters_.push_back({"steps", static_cast<double>(number), "1"});
+  }
+};
+
+}  // namespace
+
+std::vector<HiddenForm> driftForms() {
+  return {{"drift", "random_walk", {"clock_time"}, makeHidden<RandomWalk>},
+          {"drift", "exponential", {"clock_time"}, makeHidden<Settling>},
+          {"drift", "steps", {"clock_time"}, makeHidden<Steps>}};
+}
+
+}  // namespace blind

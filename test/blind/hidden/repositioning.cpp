@@ -1,0 +1,115 @@
+// Laid down again, the sheet never lies quite as before: something smooth in space changes by mount.
+
+#include <cmath>
+
+#include "blind/hidden/forms.h"
+
+namespace blind {
+
+namespace {
+
+// Position on the sheet in -1 .. 1, both ways.
+struct Place {
+  double x, y;
+};
+
+class Repositioning : public Hidden {
+ protected:
+  explicit Repositioning(const HiddenSetup& setup) : setup_(setup), random_(setup.seed, "repositioning") {
+    const fsr::Layout& layout = setup.campaign.layout;
+    for (std::size_t i = 0; i < setup.campaign.taxels(); ++i) {
+      const fsr::Position at = layout.position({i});
+      const double half_x = std::max(1, layout.size.columns - 1) * layout.pitch_x / 2;
+      const double half_y = std::max(1, layout.size.rows - 1) * layout.pitch_y / 2;
+      places_.push_back({at.x / half_x, at.y / half_y});
+    }
+  }
+  // `value` of every mount at every place; use(scan, value) for the scans of one taxel.
+  template <typename Use>
+  void eachScan(std::size_t taxel, Use use) const {
+    for (std::size_t v = 0; v < setup_.campaign.visits.size(); ++v) {
+      const Visit& visit = setup_.campaign.visits[v];
+      for (std::size_t scan = visit.first; scan < visit.last; ++scan) use(scan, field_[v][taxel]);
+    }
+  }
+  HiddenSetup setup_;
+  Random random_;
+  std::vector<Place> places_;
+  std::vector<std::vector<double>> field_;  // [visit][taxel]
+};
+
+// The surface has highs and lows of its own; the sheet comes to lie beside its last place.
+class ShiftedMap : public Repositioning {
+ public:
+  explicit ShiftedMap(const HiddenSetup& setup) : Repositioning(setup) {
+    const double size = random_.uniform(0.03, 0.05) * setup.strength;  // of the load
+    const double wave_x = random_.uniform(2, 3.5), wave_y = random_.uniform(2, 3.5);
+    const double phase_x = random_.uniform(0, 2 * M_PI), phase_y = random_.uniform(0, 2 * M_PI);
+    for (std::size_t v = 0; v < setup.campaign.visits.size(); ++v) {
+      const Place shift{0.4 * random_.normal(), 0.4 * random_.normal()};
+      field_.emplace_back();
+      for (const Place& place : places_) {
+        const double ridge = std::sin(wave_x * (place.x + shift.x) + phase_x);
+        const double valley = std::cos(wave_y * (place.y + shift.y) + phase_y);
+        field_.back().push_back(1 + size * (ridge + valley));
+      }
+    }
+    parameters_ = {{"relief", size, "share of the load"}};
+  }
+  void onLoad(std::size_t taxel, Trace& load) const override {
+    eachScan(taxel, [&](std::size_t scan, double factor) { load[scan] *= factor; });
+  }
+};
+
+// One side is pulled tighter than the other: a plane of preload.
+class Tilt : public Repositioning {
+ public:
+  explicit Tilt(const HiddenSetup& setup) : Repositioning(setup) {
+    const double size = random_.uniform(8e3, 15e3) * setup.strength;  // [Pa]
+    for (std::size_t v = 0; v < setup.campaign.visits.size(); ++v) {
+      const double all = 0.5 * random_.normal(), x = random_.normal(), y = random_.normal();
+      field_.emplace_back();
+      for (const Place& place : places_) field_.back().push_back(size * (all + x * place.x + y * place.y));
+    }
+    parameters_ = {{"tilt", size, "Pa"}};
+  }
+  void onLoad(std::size_t taxel, Trace& load) const override {
+    eachScan(taxel, [&](std::size_t scan, double preload) { load[scan] += preload; });
+  }
+};
+
+// A bubble of glue or air under some spot changes how well the sheet there is pressed.
+class Bubble : public Repositioning {
+ public:
+  explicit Bubble(const HiddenSetup& setup) : Repositioning(setup) {
+    const double size = random_.uniform(0.06, 0.1) * setup.strength;
+    for (std::size_t v = 0; v < setup.campaign.visits.size(); ++v) {
+      const Place centre{random_.uniform(-1, 1), random_.uniform(-1, 1)};
+      const double depth = random_.uniform(0.5, 1.2);
+      field_.emplace_back();
+      for (const Place& place : places_) {
+        const double square = std::pow(place.x - centre.x, 2) + std::pow(place.y - centre.y, 2);
+        field_.back().push_back(1 - size * depth / (1 + 2 * square));
+      }
+    }
+    parameters_ = {{"depth", size, "share of the rise"}};
+  }
+  void onGain(std::size_t taxel, Trace& gain) const override {
+    eachScan(taxel, [&](std::size_t scan, double factor) { gain[scan] *= factor; });
+  }
+};
+
+HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSetup&)) {
+  HiddenForm form{"repositioning", name, {"mount"}, make};
+  form.needs_remounts = true;
+  return form;
+}
+
+}  // namespace
+
+std::vector<HiddenForm> repositioningForms() {
+  return {form("shifted_map", makeHidden<ShiftedMap>), form("tilt", makeHidden<Tilt>),
+          form("bubble", makeHidden<Bubble>)};
+}
+
+}  // namespace blind

@@ -1,0 +1,85 @@
+// High readings come out too low: the read-out runs out of room. A curve of its own for each surface
+// swallows it; that all surfaces bend at the same code gives it away.
+
+#include <algorithm>
+#include <cmath>
+
+#include "blind/hidden/forms.h"
+
+namespace blind {
+
+namespace {
+
+class Saturation : public Hidden {
+ public:
+  void onReading(std::size_t taxel, Trace& reading) const override {
+    const double knee = kneeOf(taxel);
+    for (double& value : reading) {
+      if (value > knee) value -= strength_ * lost(value - knee);
+    }
+  }
+
+ protected:
+  explicit Saturation(const HiddenSetup& setup)
+      : random_(setup.seed, "saturation"),
+        knee_(random_.uniform(0.45, 0.55)),
+        strength_(std::min(1.0, setup.strength)) {
+    parameters_ = {{"knee", knee_, "share of full scale"}, {"strength", strength_, "1"}};
+  }
+  virtual double kneeOf(std::size_t) const { return knee_; }
+  virtual double lost(double over) const = 0;  // of a reading this far over the knee
+
+  Random random_;
+  double knee_, strength_;
+};
+
+// The amplifier's rail gives way with the load on it.
+class RailSag : public Saturation {
+ public:
+  explicit RailSag(const HiddenSetup& setup) : Saturation(setup) {}
+
+ private:
+  double lost(double over) const override { return over * over / (over + 0.3); }
+};
+
+// A soft rail that no reading passes.
+class SoftRail : public Saturation {
+ public:
+  explicit SoftRail(const HiddenSetup& setup) : Saturation(setup), room_(random_.uniform(0.2, 0.3)) {
+    parameters_.push_back({"room", room_, "share of full scale"});
+  }
+
+ private:
+  double lost(double over) const override { return over - room_ * std::tanh(over / room_); }
+  double room_;  // over the knee [share of full scale]
+};
+
+// A hard clip, at another height for each row's amplifier.
+class RowClip : public Saturation {
+ public:
+  explicit RowClip(const HiddenSetup& setup) : Saturation(setup), layout_(setup.campaign.layout) {
+    for (std::size_t row = 0; row < layout_.size.rows; ++row)
+      row_knee_.push_back(knee_ + random_.uniform(0.08, 0.14));
+  }
+
+ private:
+  double kneeOf(std::size_t taxel) const override { return row_knee_[layout_.row({taxel})]; }
+  double lost(double over) const override { return 0.9 * over; }
+  fsr::Layout layout_;
+  std::vector<double> row_knee_;
+};
+
+HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSetup&)) {
+  HiddenForm form{"saturation", name, {"code"}, make};
+  form.left_after = LeftAfter::kCurveShared;
+  return form;
+}
+
+}  // namespace
+
+std::vector<HiddenForm> saturationForms() {
+  return {form("rail_sag", makeHidden<RailSag>), form("soft_rail", makeHidden<SoftRail>),
+          form("row_clip", makeHidden<RowClip>)};
+}
+
+}  // namespace blind

@@ -1,0 +1,127 @@
+// Gas finds its way under the sheet: what presses on a taxel is the chamber less the cavity, which
+// follows the chamber within minutes to hours.
+
+#include <algorithm>
+#include <cmath>
+
+#include "blind/hidden/forms.h"
+
+namespace blind {
+
+namespace {
+
+constexpr double kAmbient = 101325;  // [Pa]
+
+// Through an orifice, subsonic: flow as the root of the difference.
+struct OrificeState {
+  double rate;  // of the peak, under the peak's difference [1/s]
+  double cavity = 0;
+  void step(double pressure, double seconds) {
+    const double drive = (pressure - cavity) / kPeak;
+    const double flow = kPeak * rate * std::copysign(std::sqrt(std::abs(drive)), drive) * seconds;
+    const bool past = std::abs(flow) > std::abs(pressure - cavity);
+    cavity = past ? pressure : cavity + flow;
+  }
+};
+
+// Along a long narrow gap, laminar and compressible: flow as the difference of the squares.
+struct LaminarState {
+  double rate;  // [1/s]
+  double cavity = 0;
+  void step(double pressure, double seconds) {
+    const double outside = pressure + kAmbient, inside = cavity + kAmbient;
+    const double share = rate * seconds * (outside + inside) / kPeak;
+    cavity += (pressure - cavity) * (1 - std::exp(-share));
+  }
+};
+
+// A rim that fills first and a middle that fills from the rim.
+struct TwoChamberState {
+  double to_rim, to_middle;  // [1/s]
+  double rim = 0, middle = 0;
+  void step(double pressure, double seconds) {
+    const double before = rim;
+    rim += (pressure - rim) * (1 - std::exp(-seconds * to_rim));
+    middle += (before - middle) * (1 - std::exp(-seconds * to_middle));
+  }
+};
+
+class Leak : public Hidden {
+ public:
+  void onLoad(std::size_t, Trace& load) const override {
+    for (std::size_t scan = 0; scan < load.size(); ++scan) load[scan] -= cavity_[scan];
+  }
+
+ protected:
+  explicit Leak(const HiddenSetup& setup) : setup_(setup), cavity_(setup.campaign.scans()) {
+    rate_ = setup.strength / Random(setup.seed, "leak").uniform(2000, 5000);
+    parameters_ = {{"rate", rate_, "1/s"}};
+  }
+  template <typename State, typename Use>
+  void fill(const State& fresh, Use use) {
+    const Trace& pressure = setup_.campaign.pressure;
+    follow(
+        setup_, fresh, [&](std::size_t scan) { return pressure[scan]; }, use);
+  }
+  HiddenSetup setup_;
+  double rate_;   // [1/s]
+  Trace cavity_;  // [Pa]
+};
+
+class Orifice : public Leak {
+ public:
+  explicit Orifice(const HiddenSetup& setup) : Leak(setup) {
+    fill(OrificeState{rate_}, [&](std::size_t scan, const OrificeState& s) { cavity_[scan] = s.cavity; });
+  }
+};
+
+class Laminar : public Leak {
+ public:
+  explicit Laminar(const HiddenSetup& setup) : Leak(setup) {
+    fill(LaminarState{rate_}, [&](std::size_t scan, const LaminarState& s) { cavity_[scan] = s.cavity; });
+  }
+};
+
+class TwoChamber : public Leak {
+ public:
+  explicit TwoChamber(const HiddenSetup& setup) : Leak(setup), middle_(setup.campaign.scans()) {
+    const double further = 1 / Random(setup.seed, "middle").uniform(100, 400);  // [1/s]
+    parameters_.push_back({"rim_to_middle", further, "1/s"});
+    fill(TwoChamberState{rate_, further}, [&](std::size_t scan, const TwoChamberState& s) {
+      cavity_[scan] = s.rim;
+      middle_[scan] = s.middle;
+    });
+  }
+  void onLoad(std::size_t taxel, Trace& load) const override {
+    const double share = depth(taxel);
+    for (std::size_t scan = 0; scan < load.size(); ++scan) {
+      load[scan] -= cavity_[scan] + share * (middle_[scan] - cavity_[scan]);
+    }
+  }
+
+ private:
+  // 0 on the outermost taxels, 1 in the middle of the sheet.
+  double depth(std::size_t taxel) const {
+    const fsr::Layout& layout = setup_.campaign.layout;
+    const double rows = layout.size.rows - 1.0, columns = layout.size.columns - 1.0;
+    const double row = layout.row({taxel}), column = layout.column({taxel});
+    const double nearest = std::min({row, rows - row, column, columns - column});
+    return std::min(1.0, nearest / std::max(1.0, std::floor(std::min(rows, columns) / 2)));
+  }
+  Trace middle_;  // [Pa]
+};
+
+HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSetup&)) {
+  HiddenForm form{"seal_leak", name, {"time_since_reversal"}, make};
+  form.has_state = true;
+  return form;
+}
+
+}  // namespace
+
+std::vector<HiddenForm> sealLeakForms() {
+  return {form("orifice", makeHidden<Orifice>), form("laminar", makeHidden<Laminar>),
+          form("two_chamber", makeHidden<TwoChamber>)};
+}
+
+}  // namespace blind

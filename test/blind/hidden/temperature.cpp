@@ -1,0 +1,100 @@
+// The sheet's own temperature, which lags behind the room's and feels the gas heat up under compression.
+
+#include <cmath>
+
+#include "blind/hidden/forms.h"
+
+namespace blind {
+
+namespace {
+
+constexpr double kReference = 22;  // [degree Celsius]
+
+class Thermal : public Hidden {
+ protected:
+  explicit Thermal(const HiddenSetup& setup)
+      : setup_(setup),
+        random_(setup.seed, "thermal"),
+        scatter_(taxelScatter(setup, "thermal scatter", 0.15)) {
+    // Data sheets give a fall at both ends of the range: the sign is free.
+    slope_ = random_.sign() * random_.uniform(2.5e-3, 4e-3) * setup.strength;  // [1/K]
+    parameters_ = {{"slope", slope_, "1/K"}};
+  }
+  double warmer(std::size_t scan) const { return setup_.campaign.temperature[scan] - kReference; }
+
+  HiddenSetup setup_;
+  Random random_;
+  std::vector<double> scatter_;
+  double slope_;
+};
+
+// A parabola about an optimum.
+class Quadratic : public Thermal {
+ public:
+  explicit Quadratic(const HiddenSetup& setup) : Thermal(setup), bend_(slope_ * random_.uniform(0.02, 0.05)) {
+    parameters_.push_back({"bend", bend_, "1/K^2"});
+  }
+  void onGain(std::size_t taxel, Trace& gain) const override {
+    for (std::size_t scan = 0; scan < gain.size(); ++scan) {
+      const double dt = warmer(scan);
+      gain[scan] *= 1 + scatter_[taxel] * (slope_ + bend_ * dt) * dt;
+    }
+  }
+
+ private:
+  double bend_;  // [1/K^2]
+};
+
+// A power of the absolute temperature in the ink, which follows the sheet's surface with a lag.
+class LaggedPower : public Thermal {
+ public:
+  explicit LaggedPower(const HiddenSetup& setup) : Thermal(setup), lagged_(setup.campaign.scans()) {
+    const double lag = random_.uniform(60, 200);  // [s]
+    for (const Visit& visit : setup.campaign.visits) {
+      double value = setup.campaign.temperature[visit.first];
+      for (std::size_t scan = visit.first; scan < visit.last; ++scan) {
+        value +=
+            (setup.campaign.temperature[scan] - value) * (1 - std::exp(-setup.campaign.scan_period / lag));
+        lagged_[scan] = value;
+      }
+    }
+    parameters_.push_back({"lag", lag, "s"});
+  }
+  void onGain(std::size_t taxel, Trace& gain) const override {
+    const double zero = 273.15, power = slope_ * (zero + kReference) * scatter_[taxel];
+    for (std::size_t scan = 0; scan < gain.size(); ++scan) {
+      gain[scan] *= std::pow((lagged_[scan] + zero) / (kReference + zero), power);
+    }
+  }
+
+ private:
+  Trace lagged_;  // [degree Celsius]
+};
+
+// The read-out's zero moves along with the ink's gain.
+class ZeroAndGain : public Thermal {
+ public:
+  explicit ZeroAndGain(const HiddenSetup& setup) : Thermal(setup), zero_(slope_ * random_.uniform(0.2, 0.5)) {
+    parameters_.push_back({"zero", zero_, "share of full scale / K"});
+  }
+  void onGain(std::size_t taxel, Trace& gain) const override {
+    for (std::size_t scan = 0; scan < gain.size(); ++scan)
+      gain[scan] *= 1 + scatter_[taxel] * slope_ * warmer(scan);
+  }
+  void onReading(std::size_t, Trace& reading) const override {
+    for (std::size_t scan = 0; scan < reading.size(); ++scan) reading[scan] += zero_ * warmer(scan);
+  }
+
+ private:
+  double zero_;  // [share of full scale / K]
+};
+
+}  // namespace
+
+std::vector<HiddenForm> temperatureForms() {
+  return {{"temperature", "quadratic", {"temperature"}, makeHidden<Quadratic>},
+          {"temperature", "lagged_power", {"temperature"}, makeHidden<LaggedPower>},
+          {"temperature", "zero_and_gain", {"temperature"}, makeHidden<ZeroAndGain>}};
+}
+
+}  // namespace blind

@@ -1,0 +1,87 @@
+// Matrix and chamber pressure are stamped by two clocks, one of them late, the same for all taxels.
+
+#include <cmath>
+
+#include "blind/hidden/forms.h"
+
+namespace blind {
+
+namespace {
+
+class TimeSkew : public Hidden {
+ public:
+  void onLoad(std::size_t, Trace& load) const override {
+    const Campaign& campaign = setup_.campaign;
+    for (std::size_t scan = 0; scan < campaign.scans(); ++scan) {
+      const Visit& visit = campaign.visits[campaign.visit[scan]];
+      const double late = campaign.pressureAt(visit, campaign.time[scan] - delay_[scan]);
+      load[scan] += late - campaign.pressure[scan];
+    }
+  }
+
+ protected:
+  explicit TimeSkew(const HiddenSetup& setup)
+      : setup_(setup), random_(setup.seed, "time skew"), delay_(setup.campaign.scans()) {
+    // Mostly the matrix comes late, over USB; now and then the chamber's DAQ buffers more.
+    const double sign = random_.chance(0.75) ? 1 : -1;
+    mean_ = sign * random_.uniform(0.12, 0.35) * setup.strength;
+    parameters_ = {{"mean_delay", mean_, "s"}};
+  }
+  HiddenSetup setup_;
+  Random random_;
+  Trace delay_;  // of the matrix against the chamber [s]
+  double mean_;
+};
+
+// One clock runs faster than the other and is set anew at every mount.
+class TwoClocks : public TimeSkew {
+ public:
+  explicit TwoClocks(const HiddenSetup& setup) : TimeSkew(setup) {
+    const double spread = random_.uniform(0.1, 0.4);  // of the delay, from the start of a mount to its end
+    for (const Visit& visit : setup.campaign.visits) {
+      const auto scans = static_cast<double>(visit.last - visit.first);
+      for (std::size_t scan = visit.first; scan < visit.last; ++scan) {
+        const double share = static_cast<double>(scan - visit.first) / scans - 0.5;
+        delay_[scan] = mean_ * (1 + spread * share);
+      }
+    }
+    parameters_.push_back({"spread", spread, "1"});
+  }
+};
+
+// Every start of the two programs leaves another delay.
+class ByMount : public TimeSkew {
+ public:
+  explicit ByMount(const HiddenSetup& setup) : TimeSkew(setup) {
+    for (const Visit& visit : setup.campaign.visits) {
+      const double delay = mean_ * random_.uniform(0.8, 1.2);
+      for (std::size_t scan = visit.first; scan < visit.last; ++scan) delay_[scan] = delay;
+    }
+  }
+};
+
+// Scans wait in a buffer until it is full: the first waits longest.
+class Buffered : public TimeSkew {
+ public:
+  explicit Buffered(const HiddenSetup& setup) : TimeSkew(setup) {
+    const std::size_t length = 3 + random_.below(4);
+    for (std::size_t scan = 0; scan < delay_.size(); ++scan) {
+      const auto waiting = static_cast<double>(length - 1 - scan % length);
+      delay_[scan] = mean_ * (0.7 + 0.6 * waiting / static_cast<double>(length - 1));
+    }
+    parameters_.push_back({"buffer", static_cast<double>(length), "scans"});
+  }
+};
+
+HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSetup&)) {
+  return {"time_skew", name, {"pressure_rate"}, make};
+}
+
+}  // namespace
+
+std::vector<HiddenForm> timeSkewForms() {
+  return {form("two_clocks", makeHidden<TwoClocks>), form("by_mount", makeHidden<ByMount>),
+          form("buffered", makeHidden<Buffered>)};
+}
+
+}  // namespace blind

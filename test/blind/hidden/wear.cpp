@@ -1,0 +1,100 @@
+// Every load takes something away, for good: by what the sheet went through, whatever the clock says.
+
+#include <algorithm>
+#include <cmath>
+
+#include "blind/hidden/forms.h"
+
+namespace blind {
+
+namespace {
+
+class Wear : public Hidden {
+ public:
+  void onGain(std::size_t taxel, Trace& gain) const override {
+    for (std::size_t scan = 0; scan < gain.size(); ++scan)
+      gain[scan] *= 1 - size_ * scatter_[taxel] * lost_[scan];
+  }
+
+ protected:
+  explicit Wear(const HiddenSetup& setup)
+      : setup_(setup),
+        random_(setup.seed, "wear"),
+        scatter_(taxelScatter(setup, "wear scatter", 0.15)),
+        lost_(setup.campaign.scans()) {
+    // More than data sheets promise, or no campaign of some dozens of cycles could show it.
+    size_ = random_.uniform(0.02, 0.04) * setup.strength;  // lost by the end
+    parameters_ = {{"lost_by_the_end", size_, "1"}};
+  }
+  void endAtOne() {
+    const double end = lost_.back();
+    for (double& lost : lost_) lost /= end;
+  }
+  HiddenSetup setup_;
+  Random random_;
+  std::vector<double> scatter_;
+  Trace lost_;  // 0 at the start, 1 at the end
+  double size_;
+};
+
+// Damage by peaks, high ones much more than low ones; each next one does less.
+class Peaks : public Wear {
+ public:
+  explicit Peaks(const HiddenSetup& setup) : Wear(setup) {
+    const Trace& pressure = setup.campaign.pressure;
+    double damage = 0, high = 0;
+    for (std::size_t scan = 0; scan < lost_.size(); ++scan) {
+      high = std::max(high, pressure[scan]);
+      if (pressure[scan] < 0.8 * high) {  // the peak is over
+        damage += std::pow(high / kPeak, 3);
+        high = pressure[scan];
+      }
+      lost_[scan] = 1 - std::pow(1 + damage, -0.15);
+    }
+    endAtOne();
+  }
+};
+
+// A power of the distance that the pressure went, counted more where it is high.
+class LoadedDistance : public Wear {
+ public:
+  explicit LoadedDistance(const HiddenSetup& setup) : Wear(setup) {
+    const double power = random_.uniform(0.45, 0.7);
+    double distance = 0;
+    for (std::size_t scan = 0; scan < lost_.size(); ++scan) {
+      const double share = setup.campaign.pressure[scan] / kPeak;
+      distance += share * std::abs(setup.campaign.rate[scan]) * setup.campaign.scan_period / kPeak;
+      lost_[scan] = std::pow(distance, power);
+    }
+    parameters_.push_back({"power", power, "1"});
+    endAtOne();
+  }
+};
+
+// What can be worn wears off: towards an end that is far away still.
+class WornOff : public Wear {
+ public:
+  explicit WornOff(const HiddenSetup& setup) : Wear(setup) {
+    double distance = 0;
+    for (double& lost : lost_) {
+      const auto scan = static_cast<std::size_t>(&lost - lost_.data());
+      distance += std::abs(setup.campaign.rate[scan]) * setup.campaign.scan_period;
+      lost = distance;
+    }
+    const double scale = distance * random_.uniform(0.5, 1);
+    for (double& lost : lost_) lost = 1 - std::exp(-lost / scale);
+    parameters_.push_back({"scale", scale, "Pa"});
+    endAtOne();
+  }
+};
+
+}  // namespace
+
+std::vector<HiddenForm> wearForms() {
+  const std::vector<std::string> covariates = {"accumulated_pressure"};
+  return {{"wear", "peaks", covariates, makeHidden<Peaks>},
+          {"wear", "loaded_distance", covariates, makeHidden<LoadedDistance>},
+          {"wear", "worn_off", covariates, makeHidden<WornOff>}};
+}
+
+}  // namespace blind
