@@ -1,0 +1,289 @@
+#include "blind/blind_case.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "blind/rig.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace blind {
+
+namespace {
+
+// Noise of a sheet and read-out that someone would use [share of full scale].
+constexpr double kLeastNoise = 6e-4, kMostNoise = 12e-3;
+// Less than this after the static fit is the fit's own error: it does not show.
+constexpr double kShows = 2e-4;
+constexpr std::int64_t kEpoch = 1717401600000000000;  // 2024-06-03 08:00:00 UTC [ns]
+
+std::size_t stride(const Campaign& campaign) {
+  return 1 + campaign.taxels() / 15;
+}
+
+const HiddenForm& formFor(const EffectSpec& effect, std::uint64_t seed) {
+  if (!effect.form.empty()) return findForm(effect.id, effect.form);
+  const std::vector<const HiddenForm*> forms = formsOf(effect.id);
+  if (forms.empty()) return findForm(effect.id, "");  // throws, and lists what there is
+  return *forms[Random(seed, "form of " + effect.id).below(forms.size())];
+}
+
+// A rectangle of taxels, at least a quarter and at most half of the matrix a side.
+std::vector<bool> corner(const fsr::Layout& layout, Random& random) {
+  const auto side = [&](std::size_t length) {
+    const double share = random.uniform(0.35, 0.6);
+    return std::max<std::size_t>(1,
+                                 static_cast<std::size_t>(std::lround(share * static_cast<double>(length))));
+  };
+  const std::size_t rows = side(layout.size.rows), columns = side(layout.size.columns);
+  const std::size_t top = random.below(layout.size.rows - rows + 1);
+  const std::size_t left = random.below(layout.size.columns - columns + 1);
+  std::vector<bool> inside;
+  for (std::size_t i = 0; i < layout.size.taxels(); ++i) {
+    const std::size_t row = layout.row({i}), column = layout.column({i});
+    inside.push_back(row >= top && row < top + rows && column >= left && column < left + columns);
+  }
+  return inside;
+}
+
+// Half of the effects that can be confined are: to a corner of the sheet, or to the bent surfaces.
+Placed place(const EffectSpec& effect, const CaseSpec& spec, const Campaign& campaign) {
+  Placed placed;
+  placed.form = &formFor(effect, spec.seed);
+  placed.seed = spec.seed;
+  placed.taxels.assign(campaign.taxels(), true);
+  placed.surfaces.assign(campaign.surfaces.size(), true);
+  Random random(spec.seed, "place of " + effect.id);
+  placed.carried_over = random.chance(0.5);
+  const double where = random.uniform();
+  if (!placed.form->may_be_local || !spec.local) return placed;
+  if (where < 0.25) placed.taxels = corner(campaign.layout, random);
+  if (where > 0.75) placed.surfaces[0] = placed.surfaces.size() == 1;
+  return placed;
+}
+
+void requireSense(const CaseSpec& spec) {
+  if (spec.matrix.rows == 0 || spec.matrix.columns == 0) throw fsr::InputError("matrix: must have taxels");
+  if (spec.size.surfaces < 1 || spec.size.surfaces > 6) throw fsr::InputError("surfaces: must be 1 to 6");
+  if (!(spec.snr >= 0)) throw fsr::InputError("snr: must be 0 or more");
+  for (const EffectSpec& effect : spec.effects) {
+    const HiddenForm& form = formFor(effect, spec.seed);
+    if (form.needs_remounts && !remounts(spec.protocol)) {
+      throw fsr::InputError("effect " + form.id + " does not show under protocol " + spec.protocol +
+                            ", which mounts every surface once; take paper_remounted or random_order");
+    }
+  }
+}
+
+HiddenTruth truthOf(const Active& active, double strength, const Rig& rig, const Campaign& campaign) {
+  const HiddenForm& form = *active.placed->form;
+  const Signature left = rig.signature(active, 1);
+  const bool is_static = form.left_after == LeftAfter::kCurveShared;
+  const Signature where = is_static ? rig.difference(active) : left;
+  HiddenTruth truth;
+  truth.id = form.id;
+  truth.form = form.form;
+  truth.foreign = form.foreign;
+  truth.has_state = form.has_state;
+  truth.carried_over = active.placed->carried_over;
+  truth.strength = strength;
+  truth.left = left.rms();
+  truth.left_after = form.left_after;
+  truth.parameters = active.hidden->parameters();
+  truth.depends_on = form.depends_on;
+  truth.taxels = where.taxels();
+  truth.surfaces = where.surfaces();
+  truth.pressures = where.pressures();
+  truth.direction = where.direction();
+  for (const auto& [from, to] : active.hidden->times()) {
+    truth.times.emplace_back(from - campaign.time.front(), to - campaign.time.front());
+  }
+  return truth;
+}
+
+// Makes one case, step by step; each step needs those before it.
+class Maker {
+ public:
+  explicit Maker(const CaseSpec& spec)
+      : campaign_(runCampaign({spec.matrix, 0.010, 0.010}, spec.protocol, spec.size, spec.seed)),
+        sheet_(campaign_, spec.seed),
+        rig_(campaign_, sheet_),
+        noise_(campaign_, spec.seed),
+        reference_(spec.seed) {
+    made_.spec = spec;
+  }
+
+  BlindCase make() {
+    if (made_.spec.snr > 0) {
+      for (const EffectSpec& effect : made_.spec.effects)
+        placed_.push_back(place(effect, made_.spec, campaign_));
+    }
+    hide();
+    readOut();
+    describe();
+    return std::move(made_);
+  }
+
+ private:
+  void hide();
+  double wantedNoise(const std::vector<double>& usual) const;
+  void readOut();
+  double referenceNoise() const;
+  double scaleOfNoise(const std::vector<Trace>& noise) const;
+  std::vector<std::vector<std::uint16_t>> convert(const std::vector<Trace>& noise, double scale);
+  void record(const std::vector<std::vector<std::uint16_t>>& counts);
+  void describe();
+
+  BlindCase made_;
+  Campaign campaign_;
+  Sheet sheet_;
+  Rig rig_;
+  Noise noise_;
+  ReferenceError reference_;
+  std::vector<Placed> placed_;
+  std::vector<Active> active_;
+  double noise_wanted_ = 0;  // [share of full scale]
+};
+
+// Effects of their usual size, with noise to match; where that noise would be more or less than anyone
+// has, the effects shrink or grow.
+double Maker::wantedNoise(const std::vector<double>& usual) const {
+  if (made_.spec.noise) return *made_.spec.noise;
+  if (usual.empty()) return Random(made_.spec.seed, "noise level").logUniform(1e-3, kMostNoise);
+  const double smallest = *std::min_element(usual.begin(), usual.end());
+  return std::clamp(smallest / made_.spec.snr, kLeastNoise, kMostNoise);
+}
+
+void Maker::hide() {
+  std::vector<double> usual;
+  for (const Placed& placed : placed_) {
+    usual.push_back(rig_.signature(rig_.activate(placed, 1), stride(campaign_)).rms());
+    if (usual.back() < kShows) {
+      throw fsr::InputError("effect " + placed.form->id + ":" + placed.form->form +
+                            " does not show under protocol " + made_.spec.protocol + "; take another one");
+    }
+  }
+  noise_wanted_ = wantedNoise(usual);
+  double log_left = 0;
+  for (std::size_t i = 0; i < placed_.size(); ++i) {
+    const auto given = made_.spec.effects[i].strength;
+    const double strength = given ? *given : rig_.strengthFor(placed_[i], made_.spec.snr * noise_wanted_);
+    active_.push_back(rig_.activate(placed_[i], strength));
+    made_.hidden.push_back(truthOf(active_[i], strength, rig_, campaign_));
+    log_left += std::log(std::max(1e-9, made_.hidden.back().left));
+  }
+  // The noise follows what is really left, so that the ratio holds by construction.
+  if (!placed_.empty() && !made_.spec.noise) {
+    noise_wanted_ = std::exp(log_left / static_cast<double>(placed_.size())) / made_.spec.snr;
+  }
+}
+
+// What the reference's noise looks like in the readings of a fit against it.
+double Maker::referenceNoise() const {
+  Random random(made_.spec.seed, "reference noise seen");
+  double squares = 0, number = 0;
+  for (std::size_t taxel = 0; taxel < campaign_.taxels(); taxel += stride(campaign_)) {
+    for (std::size_t scan = 0; scan < campaign_.scans(); scan += 7) {
+      const std::size_t surface = campaign_.visits[campaign_.visit[scan]].surface;
+      const double pressure = campaign_.pressure[scan], preload = sheet_.preload(taxel, surface);
+      const double off = reference_.measured(pressure, random) - pressure - reference_.systematic(pressure);
+      const double rise =
+          sheet_.rise(taxel, pressure + off + preload) - sheet_.rise(taxel, pressure + preload);
+      squares += std::pow(sheet_.gain(taxel, surface) * rise, 2);
+      number += 1;
+    }
+  }
+  return std::sqrt(squares / number);
+}
+
+double Maker::scaleOfNoise(const std::vector<Trace>& noise) const {
+  double squares = 0;
+  for (const Trace& trace : noise)
+    squares += std::inner_product(trace.begin(), trace.end(), trace.begin(), 0.0);
+  const double variance = squares / static_cast<double>(noise.size() * campaign_.scans());
+  const double rounding = 1.0 / 12 / (1.0 * kFullScale * kFullScale);
+  const double wanted =
+      noise_wanted_ * noise_wanted_ - rounding - made_.reference_noise * made_.reference_noise;
+  if (wanted <= 0) {
+    throw fsr::InputError("snr: " + std::to_string(made_.spec.snr) +
+                          " cannot be reached, the converter's step alone is more noise; take a smaller one");
+  }
+  return std::sqrt(wanted / variance);
+}
+
+std::vector<std::vector<std::uint16_t>> Maker::convert(const std::vector<Trace>& noise, double scale) {
+  std::vector<std::vector<std::uint16_t>> counts(noise.size());
+  double squares = 0;
+  for (std::size_t taxel = 0; taxel < noise.size(); ++taxel) {
+    for (std::size_t scan = 0; scan < campaign_.scans(); ++scan) {
+      const double clean = made_.clean[taxel][scan];
+      const double reading = std::round(kFullScale * (clean + scale * noise[taxel][scan]));
+      const double count = std::clamp(reading, 0.0, 1.0 * kFullScale);
+      counts[taxel].push_back(static_cast<std::uint16_t>(count));
+      squares += std::pow(count / kFullScale - clean, 2);
+    }
+  }
+  const double electric = squares / static_cast<double>(noise.size() * campaign_.scans());
+  made_.noise = std::sqrt(electric + made_.reference_noise * made_.reference_noise);
+  return counts;
+}
+
+void Maker::readOut() {
+  std::vector<Trace> noise;
+  for (std::size_t taxel = 0; taxel < campaign_.taxels(); ++taxel) {
+    made_.base.push_back(rig_.reading(taxel, {}));
+    made_.clean.push_back(active_.empty() ? made_.base.back() : rig_.reading(taxel, active_));
+    noise.push_back(noise_.ofTaxel(taxel, made_.clean.back()));
+    const Trace factor = rig_.noiseFactor(taxel, active_);
+    for (std::size_t scan = 0; scan < factor.size(); ++scan) noise.back()[scan] *= factor[scan];
+  }
+  made_.reference_noise = referenceNoise();
+  record(convert(noise, scaleOfNoise(noise)));
+}
+
+void Maker::record(const std::vector<std::vector<std::uint16_t>>& counts) {
+  Random random(made_.spec.seed, "reference noise " + made_.spec.protocol);
+  std::uint32_t mount = 0;
+  for (const Visit& visit : campaign_.visits) {
+    fsr::Recording recording;
+    fsr::Surface surface = campaign_.surfaces[visit.surface];
+    surface.mount = ++mount;
+    recording.name = std::to_string(mount) + "_" + surface.name + ".bag";
+    recording.sensor = {"blind_matrix", "BLIND-1", "1.0", "printed matrix", "pdms", "transducer 0.1 %"};
+    recording.layout = campaign_.layout;
+    recording.full_scale = kFullScale;
+    recording.conditions = {surface};
+    recording.start_ns = kEpoch + std::llround(visit.start * 1e9);
+    for (std::size_t scan = visit.first; scan < visit.last; ++scan) {
+      recording.time.push_back(campaign_.time[scan] - visit.start);
+      recording.pressure.push_back(reference_.measured(campaign_.pressure[scan], random));
+      if (made_.spec.thermometer) recording.temperature.push_back(campaign_.thermometer[scan]);
+      for (const auto& taxel : counts) recording.counts.push_back(taxel[scan]);
+    }
+    recording.condition.assign(recording.scans(), 0);
+    made_.recordings.push_back(std::move(recording));
+  }
+}
+
+void Maker::describe() {
+  for (HiddenTruth& truth : made_.hidden) truth.snr = truth.left / made_.noise;
+  made_.static_law = sheet_.staticLaw();
+  made_.preload_law = sheet_.preloadLaw();
+  made_.gain_law = sheet_.gainLaw();
+  made_.noise_colour = noise_.colour();
+  made_.campaign = campaign_;
+}
+
+}  // namespace
+
+void makeSmall(CaseSpec& spec) {
+  spec.matrix = {3, 4};
+  spec.size = {3, 0.5};
+}
+
+BlindCase makeCase(const CaseSpec& spec) {
+  requireSense(spec);
+  return Maker(spec).make();
+}
+
+}  // namespace blind

@@ -1,0 +1,103 @@
+#include "blind/noise.h"
+
+#include <array>
+#include <cmath>
+
+namespace blind {
+
+namespace {
+
+// Time constants of the parts of flicker noise [s]: a factor of 4 apart, equal variances.
+constexpr std::array<double, 4> kFlicker = {0.12, 0.5, 2.0, 8.0};
+
+}  // namespace
+
+Noise::Noise(const Campaign& campaign, std::uint64_t seed) : campaign_(campaign), seed_(seed) {
+  Random random(seed, "noise");
+  const std::array<const char*, 3> colours = {"ar1", "ar2", "flicker"};
+  colour_ = colours[random.below(colours.size())];
+  coloured_ = random.uniform(0.3, 0.7);
+  common_share_ = random.uniform(0, 0.05);
+  absolute_ = random.uniform(0.3, 0.8);
+  cycle_gain_ = random.uniform(0.1, 0.3);
+  keep_ = random.uniform(0.3, 0.8);
+  damping_ = random.uniform(0.6, 0.85);
+  peak_ = random.uniform(0.3, 1.5);  // [rad a scan]
+  Random shared(seed, "common noise");
+  common_ = firstOrder(0.5, shared);
+  Random cycles(seed, "cycle gain");
+  for (std::uint32_t i = 0; i <= campaign.cycle.back(); ++i) gain_of_cycle_.push_back(cycles.normal());
+}
+
+Trace Noise::firstOrder(double keep, Random& random) const {
+  Trace values(campaign_.scans());
+  const double fresh = std::sqrt(1 - keep * keep);
+  double value = random.normal();
+  for (double& out : values) {
+    out = value;
+    value = keep * value + fresh * random.normal();
+  }
+  return values;
+}
+
+// x[i] = a x[i-1] + b x[i-2] + e, poles at damping exp(+- i peak), scaled to unit variance.
+Trace Noise::secondOrder(Random& random) const {
+  const double a = 2 * damping_ * std::cos(peak_), b = -damping_ * damping_;
+  const double variance = (1 - b) / ((1 + b) * ((1 - b) * (1 - b) - a * a));
+  Trace values(campaign_.scans());
+  double last = 0, before = 0;
+  for (double& out : values) {
+    const double now = a * last + b * before + random.normal();
+    before = last;
+    last = now;
+    out = now / std::sqrt(variance);
+  }
+  return values;
+}
+
+Trace Noise::coloured(Random& random) const {
+  if (colour_ == "ar1") return firstOrder(keep_, random);
+  if (colour_ == "ar2") return secondOrder(random);
+  Trace sum(campaign_.scans());
+  for (const double time_constant : kFlicker) {
+    const Trace part = firstOrder(std::exp(-campaign_.scan_period / time_constant), random);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += part[i] / std::sqrt(kFlicker.size());
+  }
+  return sum;
+}
+
+Trace Noise::ofTaxel(std::size_t taxel, const Trace& reading) const {
+  Random random(seed_, "noise of a taxel", taxel);
+  const double level = 1 + 0.15 * random.uniform(-1, 1);
+  Trace noise = coloured(random);
+  const double white = std::sqrt(1 - coloured_ - common_share_);
+  for (std::size_t i = 0; i < noise.size(); ++i) {
+    const double sum =
+        std::sqrt(coloured_) * noise[i] + white * random.normal() + std::sqrt(common_share_) * common_[i];
+    const double growth = absolute_ + (1 - absolute_) * 2 * reading[i];
+    const double gain = cycle_gain_ * gain_of_cycle_[campaign_.cycle[i]] * 2 * reading[i];
+    noise[i] = level * growth * sum + gain;
+  }
+  return noise;
+}
+
+ReferenceError::ReferenceError(std::uint64_t seed) {
+  Random random(seed, "reference");
+  offset_ = 400 * random.normal();
+  slope_ = 1e-3 * random.normal();
+  bend_ = 500 * random.normal();
+  noise_ = random.uniform(40, 120);
+  step_ = random.chance(0.5) ? 280 : 70;  // 14 or 16 bits
+}
+
+double ReferenceError::systematic(double pressure) const {
+  const double x = pressure / kPeak;
+  return offset_ + slope_ * pressure + bend_ * x * (1 - x);
+}
+
+double ReferenceError::measured(double pressure, Random& random) const {
+  const double value = pressure + systematic(pressure) + noise_ * random.normal();
+  return step_ * std::round(value / step_);
+}
+
+}  // namespace blind
