@@ -11,13 +11,13 @@ ExponentialMemory::ExponentialMemory(double time_constant) : time_constant_(time
   }
 }
 
-double ExponentialMemory::step(double from, double to, double duration, double state) const {
-  if (duration <= 0) return state;
+ExponentialMemory::Step ExponentialMemory::over(double duration) const {
+  if (duration <= 0) return {};
   // m(t) of a ramp with slope s: x(t) - s tau + (m0 - x0 + s tau) exp(-t / tau). The same, written
   // without the difference of large numbers that a short step would leave:
   const double ratio = duration / time_constant_;
   const double gone = -std::expm1(-ratio);  // 1 - exp(-ratio)
-  return state + (from - state) * gone + (to - from) * (1 - gone / ratio);
+  return {gone, 1 - gone / ratio};
 }
 
 }  // namespace fsr
