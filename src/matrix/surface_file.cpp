@@ -39,11 +39,14 @@ std::vector<Curvature> taxelByTaxel(const Settings& settings, MatrixSize size) {
   return result;
 }
 
+int countForms(const Settings& settings) {
+  return int{settings.has("flat")} + int{settings.has("cylinder")} + int{settings.has("two_planes")} +
+         int{settings.has("taxels")};
+}
+
 std::vector<Curvature> readForm(const Settings& settings, MatrixSize size) {
-  const int forms = int{settings.has("flat")} + int{settings.has("cylinder")} +
-                    int{settings.has("two_planes")} + int{settings.has("taxels")};
-  if (forms != 1) {
-    throw InputError(settings.origin() + ": the surface has " + std::to_string(forms) +
+  if (countForms(settings) != 1) {
+    throw InputError(settings.origin() + ": the surface has " + std::to_string(countForms(settings)) +
                      " forms, but exactly one of flat, cylinder, two_planes, taxels must be given");
   }
   if (settings.has("cylinder")) return {cylinder(settings.section("cylinder"))};
@@ -62,12 +65,18 @@ Surface readSurface(const Settings& settings, MatrixSize size) {
   if (settings.has("deviation")) {
     surface.deviation = {settings.number("deviation", {0.0, kMaxCurvature, "1/m"})};
   }
-  settings.refuseUnknown();
   return surface;
 }
 
+bool hasSurfaceForm(const Settings& settings) {
+  return countForms(settings) > 0;
+}
+
 Surface readSurfaceFile(const std::string& path, MatrixSize size) {
-  return readSurface(Settings::fromFile(path), size);
+  const Settings settings = Settings::fromFile(path);
+  const Surface surface = readSurface(settings, size);
+  settings.refuseUnknown();
+  return surface;
 }
 
 }  // namespace fsr

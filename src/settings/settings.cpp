@@ -87,6 +87,10 @@ bool Settings::has(const std::string& key) const {
   return static_cast<bool>(node_->yaml[key]);
 }
 
+bool Settings::isList(const std::string& key) const {
+  return has(key) && node_->yaml[key].IsSequence();
+}
+
 InputError Settings::error(const std::string& key, const std::string& complaint) const {
   const YAML::Node value = node_->yaml[key];
   const std::string is = value ? " is " + oneLine(value) + ", but " : " is missing; ";

@@ -20,8 +20,10 @@ constexpr double kMaxCurvature = 100.0;  // [1/m]
 ///
 /// or `flat: true`. A cylinder with its axis along y bends the rows (curvature x); `inside` makes it
 /// negative. `deviation` [1/m] is optional. `size` checks the number of values in a `taxels` form.
-/// Throws InputError.
+/// Throws InputError; readSurface() leaves keys of its caller's alone, readSurfaceFile() refuses them.
 Surface readSurface(const Settings& settings, MatrixSize size);
+/// Whether the settings hold a form, and not a name alone.
+bool hasSurfaceForm(const Settings& settings);
 Surface readSurfaceFile(const std::string& path, MatrixSize size);
 
 }  // namespace fsr

@@ -22,6 +22,7 @@ class Settings {
   static Settings fromText(const std::string& yaml, const std::string& origin);
 
   bool has(const std::string& key) const;
+  bool isList(const std::string& key) const;
 
   double number(const std::string& key, const Range& range) const;
   double number(const std::string& key, const Range& range, double fallback) const;
