@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "fsr_pressure_map/simulation/effects/effect_library.h"
 
 namespace fsr {
 
 namespace {
+
+const char* const kClock = "clock";  // of the chain itself, in its state
+enum { kStarted, kLastTime, kClockState };
 
 std::vector<double> principalCurvatures(const Surface& surface, std::size_t taxels) {
   if (surface.curvature.size() != 1 && surface.curvature.size() != taxels) {
@@ -24,33 +28,68 @@ bool earlier(const EffectEntry& a, const EffectEntry& b) {
   return a.info.stage < b.info.stage;
 }
 
+double pressureAt(const RigMoment& moment, double time) {
+  if (moment.course == nullptr) {
+    throw std::invalid_argument("time_skew and scan_skew need the course of the pressure");
+  }
+  return (*moment.course)(time);
+}
+
 }  // namespace
 
 SensorChain::SensorChain(const SimulationSettings& settings)
-    : size_(settings.layout.size), full_scale_(settings.fullScale()) {
+    : layout_(settings.layout), full_scale_(settings.fullScale()), clock_(kClockState, 0.0) {
   std::vector<EffectEntry> order = effectLibrary();
   std::stable_sort(order.begin(), order.end(), earlier);
   for (const EffectEntry& entry : order) {
     const EnabledEffect* enabled = settings.effect(entry.info.id);
-    if (enabled)
-      links_.push_back({enabled->id, entry.make(enabled->values, {settings.layout, settings.seed})});
+    if (!enabled || entry.info.stage == ChainStage::kReference) continue;
+    links_.push_back(
+        {enabled->id, entry.info.stage, entry.make(enabled->values, {settings.layout, settings.seed})});
   }
-  const std::size_t taxels = size_.taxels();
-  signals_ = {std::vector<double>(taxels), std::vector<double>(taxels), std::vector<double>(taxels),
-              std::vector<double>(taxels)};
-  counts_.resize(taxels);
+  const std::vector<double> zeros(layout_.size.taxels());
+  signals_ = {0, zeros, zeros, zeros, zeros, zeros};
+  counts_.resize(zeros.size());
   mount(Surface{"flat", 0, {Curvature{}}, {}});
 }
 
-void SensorChain::mount(const Surface& surface) {
-  const std::vector<double> curvatures = principalCurvatures(surface, size_.taxels());
-  for (Link& link : links_) link.effect->mount(curvatures);
+void SensorChain::mount(const Surface& surface, const LoadPattern& pattern) {
+  Mounting mounting{surface.mount, principalCurvatures(surface, layout_.size.taxels()),
+                    loadShares(pattern, layout_)};
+  for (Link& link : links_) link.effect->place(mounting);
+  for (Link& link : links_) link.effect->mount(mounting);
+  share_ = mounting.share;
 }
 
-const std::vector<std::uint16_t>& SensorChain::read(const RigMoment& moment) {
-  std::fill(signals_.load.begin(), signals_.load.end(), moment.pressure);
+RigMoment SensorChain::clocked(const RigMoment& moment) {
+  RigMoment with_clock = moment;
+  with_clock.first = clock_[kStarted] == 0;
+  with_clock.elapsed = with_clock.first ? 0 : std::max(moment.time - clock_[kLastTime], 0.0);
+  clock_ = {1, moment.time};
+  return with_clock;
+}
+
+void SensorChain::load(const RigMoment& moment) {
+  for (std::size_t i = 0; i < share_.size(); ++i) {
+    const double offset = signals_.offset[i];
+    const double pressure = offset == 0 ? moment.pressure : pressureAt(moment, moment.time + offset);
+    signals_.load[i] = share_[i] * pressure;
+  }
+}
+
+const std::vector<std::uint16_t>& SensorChain::read(const RigMoment& stamped) {
+  RigMoment moment = clocked(stamped);
+  signals_.skew = 0;
+  std::fill(signals_.offset.begin(), signals_.offset.end(), 0.0);
   std::fill(signals_.gain.begin(), signals_.gain.end(), 1.0);
-  for (Link& link : links_) link.effect->apply(moment, signals_);
+  auto link = links_.begin();
+  for (; link->stage == ChainStage::kTiming; ++link) link->effect->apply(moment, signals_);
+  if (signals_.skew != 0) {
+    moment.time -= signals_.skew;
+    moment.pressure = pressureAt(moment, moment.time);
+  }
+  load(moment);
+  for (; link != links_.end(); ++link) link->effect->apply(moment, signals_);
   const double full_scale = full_scale_;
   for (std::size_t i = 0; i < counts_.size(); ++i) {
     counts_[i] = static_cast<std::uint16_t>(std::lround(std::clamp(signals_.reading[i], 0.0, full_scale)));
@@ -59,7 +98,7 @@ const std::vector<std::uint16_t>& SensorChain::read(const RigMoment& moment) {
 }
 
 ChainState SensorChain::state() const {
-  ChainState state;
+  ChainState state{{kClock, clock_}};
   for (const Link& link : links_) {
     if (!link.effect->state().empty()) state[link.id] = link.effect->state();
   }
@@ -74,6 +113,7 @@ void SensorChain::restore(const ChainState& state) {
   if (mine.size() != state.size() || !std::equal(mine.begin(), mine.end(), state.begin(), fits)) {
     throw InputError("the state of a simulated matrix does not fit: it has other effects or another size");
   }
+  clock_ = state.at(kClock);
   for (Link& link : links_) {
     const auto saved = state.find(link.id);
     if (saved != state.end()) link.effect->state() = saved->second;
@@ -81,6 +121,7 @@ void SensorChain::restore(const ChainState& state) {
 }
 
 void SensorChain::reset() {
+  std::fill(clock_.begin(), clock_.end(), 0.0);
   for (Link& link : links_) std::fill(link.effect->state().begin(), link.effect->state().end(), 0.0);
 }
 

@@ -1,56 +1,16 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "fsr_pressure_map/matrix/layout.h"
-#include "fsr_pressure_map/settings/range.h"
+#include "fsr_pressure_map/simulation/effect_info.h"
 
 namespace fsr {
-
-/// Where in the forward chain an effect acts; effects run in this order, within a stage in the order
-/// of the library.
-///
-///     chamber P -> load P_e -> memory u -> gain g -> G = curve(u, g) -> read-out -> sample y -> reading
-enum class ChainStage {
-  kLoad,         ///< what presses on a taxel: TaxelSignals::load
-  kMemory,       ///< history of the load: TaxelSignals::load
-  kGain,         ///< factors of the conductance: TaxelSignals::gain
-  kConductance,  ///< static curve: load and gain -> TaxelSignals::conductance
-  kReadOut,      ///< wires and supply: TaxelSignals::conductance
-  kSample,       ///< conductance -> TaxelSignals::reading
-  kReading,      ///< what disturbs the reading before it is rounded: TaxelSignals::reading
-};
-
-/// What one set of an effect's parameters belongs to.
-enum class EffectLevel { kRig, kRow, kColumn, kTaxel, kMount };
-
-/// One parameter of an effect. Values outside `permitted` are refused.
-struct EffectParameter {
-  std::string name;
-  std::string meaning;
-  Range permitted;   ///< with the unit
-  double usual = 0;  ///< where the settings do not give it
-  /// At this value the parameter changes nothing, bit for bit; NaN where it only gives the shape of
-  /// what another parameter scales.
-  double neutral = std::numeric_limits<double>::quiet_NaN();
-};
-
-/// What an effect says about itself.
-struct EffectInfo {
-  std::string id;
-  std::string summary;
-  std::string equation;
-  std::string source;
-  ChainStage stage = ChainStage::kLoad;
-  EffectLevel level = EffectLevel::kRig;
-  bool required = false;  ///< no chain runs without it
-  std::vector<EffectParameter> parameters;
-};
 
 /// Values of all parameters of one effect, by name, in SI units.
 using EffectValues = std::map<std::string, double>;
@@ -61,15 +21,37 @@ struct EffectContext {
   std::uint64_t seed = 0;  ///< of the whole simulation; see randomStream()
 };
 
+/// Gauge pressure of the chamber [Pa] at any rig time [s].
+using PressureCourse = std::function<double(double)>;
+
+/// Temperature where nothing says otherwise, and to which sensitivities refer [degree Celsius].
+constexpr double kRoomTemperature = 23;
+
 /// What the rig does at the time of one scan.
 struct RigMoment {
-  double time = 0;         ///< rig time, middle of the scan [s]
-  double pressure = 0;     ///< chamber, gauge [Pa]
-  std::uint64_t scan = 0;  ///< number of the scan: picks its noise
+  double time = 0;                        ///< rig time, middle of the scan [s]
+  double pressure = 0;                    ///< chamber, gauge [Pa]
+  std::uint64_t scan = 0;                 ///< number of the scan: picks its noise
+  double temperature = kRoomTemperature;  ///< of the chamber [degree Celsius]
+  /// The pressure before and after this moment, which effects of timing need; nullptr = not known.
+  const PressureCourse* course = nullptr;
+  // The chain fills in:
+  bool first = false;  ///< first scan since the matrix was reset
+  double elapsed = 0;  ///< since the scan before, 0 at the first [s]
 };
 
-/// The chain's signals, one value for each taxel, row-major. Effects change them in place.
+/// How the matrix lies and what presses on it. One value for each taxel, row-major.
+struct Mounting {
+  std::uint32_t number = 0;       ///< raised at each remounting; 0 = unknown
+  std::vector<double> curvature;  ///< principal curvature [1/m]
+  std::vector<double> share;      ///< of the chamber's pressure that reaches the taxel, 0 to 1
+};
+
+/// The chain's signals. Effects change them in place; the vectors hold one value for each taxel,
+/// row-major.
 struct TaxelSignals {
+  double skew = 0;                  ///< the scan was really taken this much before its stamp [s]
+  std::vector<double> offset;       ///< each taxel was read this much after the scan's middle [s]
   std::vector<double> load;         ///< [Pa]
   std::vector<double> gain;         ///< factor of the conductance
   std::vector<double> conductance;  ///< [S]
@@ -81,11 +63,22 @@ class Effect {
  public:
   virtual ~Effect() = default;
 
-  /// The matrix was laid on a surface of these principal curvatures, one for each taxel [1/m].
-  virtual void mount(const std::vector<double>& curvature) { static_cast<void>(curvature); }
+  /// The matrix is about to be mounted: changes how it comes to lie. Runs for all effects before any
+  /// mount().
+  virtual void place(Mounting& mounting) { static_cast<void>(mounting); }
 
-  /// Acts on the signals of its stage. Called once a scan, in time order; allocates nothing.
-  virtual void apply(const RigMoment& moment, TaxelSignals& signals) = 0;
+  /// The matrix was mounted so.
+  virtual void mount(const Mounting& mounting) { static_cast<void>(mounting); }
+
+  /// Acts on the signals of its stage. Called once a scan, in time order; allocates nothing. From the
+  /// second stage on, time and pressure of `moment` are those at which the scan was really taken.
+  virtual void apply(const RigMoment& moment, TaxelSignals& signals) {
+    static_cast<void>(moment);
+    static_cast<void>(signals);
+  }
+
+  /// What the chamber's transducer makes of a gauge pressure [Pa].
+  virtual double transduce(double pressure) const { return pressure; }
 
   /// The whole memory of the effect, for saving and restoring; all zeros in a matrix that was never
   /// loaded. Empty where it has no memory.
@@ -99,8 +92,8 @@ class Effect {
 struct EffectEntry {
   EffectInfo info;
   /// `values` holds every parameter, each within its permitted range. Throws InputError where they do
-  /// not go together.
-  std::unique_ptr<Effect> (*make)(const EffectValues& values, const EffectContext& context);
+  /// not go together. nullptr where the effect is only listed.
+  std::unique_ptr<Effect> (*make)(const EffectValues& values, const EffectContext& context) = nullptr;
 };
 
 /// EffectEntry::make of an effect whose constructor takes values and context.

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "fsr_pressure_map/matrix/curvature.h"
+#include "fsr_pressure_map/simulation/load_pattern.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
 
 namespace fsr {
 
-/// Memory of all effects of a chain, by effect id.
+/// Memory of all effects of a chain, by effect id, and of its own clock.
 using ChainState = std::map<std::string, std::vector<double>>;
 
 /// The sensor matrix in its chamber: gauge pressure in, converter counts out, through the effects that
@@ -22,16 +23,20 @@ class SensorChain {
   /// Lies on the flat at first, never loaded. Throws InputError.
   explicit SensorChain(const SimulationSettings& settings);
 
-  /// Lays the matrix on a surface; the sheet remembers what it went through before. Throws InputError
-  /// where the number of curvatures is neither 1 nor that of the taxels, or none is known.
-  void mount(const Surface& surface);
+  /// Lays the matrix on a surface and says what part of it is loaded; the sheet remembers what it went
+  /// through before. Throws InputError where the number of curvatures is neither 1 nor that of the
+  /// taxels, or none is known.
+  void mount(const Surface& surface, const LoadPattern& pattern = {});
 
   /// Counts of one scan, [rows x columns], row-major; valid until the next call. Moments must come in
-  /// time order.
+  /// time order. Throws std::invalid_argument where an effect of timing is on and the moment has no
+  /// course of pressure.
   const std::vector<std::uint16_t>& read(const RigMoment& moment);
 
   /// The last scan before it was rounded and clipped [counts], [rows x columns], row-major.
   const std::vector<double>& reading() const { return signals_.reading; }
+  /// All signals of the last scan: load and gain are what the static curve saw.
+  const TaxelSignals& signals() const { return signals_; }
 
   std::uint16_t fullScale() const { return full_scale_; }
 
@@ -44,11 +49,17 @@ class SensorChain {
  private:
   struct Link {
     std::string id;
+    ChainStage stage;
     std::unique_ptr<Effect> effect;
   };
-  MatrixSize size_;
+  RigMoment clocked(const RigMoment& moment);
+  void load(const RigMoment& moment);
+
+  Layout layout_;
   std::uint16_t full_scale_;
-  std::vector<Link> links_;  // in the order in which they act
+  std::vector<Link> links_;    // in the order in which they act
+  std::vector<double> share_;  // [taxels], of the chamber's pressure
+  std::vector<double> clock_;  // whether a scan was read, and when the last one [s]
   TaxelSignals signals_;
   std::vector<std::uint16_t> counts_;
 };

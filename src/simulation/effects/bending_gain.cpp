@@ -26,14 +26,20 @@ EffectInfo info() {
   info.source = "the paper's tables, -10 to -23 %, scatter 3 %";
   info.stage = ChainStage::kGain;
   info.level = EffectLevel::kTaxel;
+  info.kind = EffectKind::kGrid;
   info.parameters = {
-      {"change", "b, change of gain in a tight bend", {-0.9, 1, ""}, -0.17, 0},
-      {"curvature_constant", "kg, curvature at which 63 % of b is there", {0.01, 1000, "1/m"}, 6},
-      {"change_scatter", "deviation of b from taxel to taxel, relative", {0, 0.5, ""}, 0, 0},
-      {"scatter", "c, deviation of the gain from curvature to curvature", {0, 0.2, ""}, 0, 0},
-      {"scatter_length", "l, curvature over which that scatter changes", {0.01, 1000, "1/m"}, 1.5},
-      {"concave_share", "share of b under a concave bend", {0, 1, ""}, 0.6},
+      strength("change", "b, change of gain in a tight bend", {-0.9, 1, ""}, -0.17).within(-0.5, 0),
+      shape("curvature_constant", "kg, curvature at which 63 % of b is there", {0.01, 1000, "1/m"}, 6)
+          .trying({1, 6, 15}),
+      scatter("change_scatter", "deviation of b from taxel to taxel, relative", {0, 0.5, ""}, 0),
+      scatter("scatter", "c, deviation of the gain from curvature to curvature", {0, 0.2, ""}, 0),
+      shape("scatter_length", "l, curvature over which that scatter changes", {0.01, 1000, "1/m"}, 1.5),
+      shape("concave_share", "share of b under a concave bend", {0, 1, ""}, 0.6),
   };
+  info.sign = SignRule::kNegative;
+  info.depends_on = {Covariate::kCurvature, Covariate::kPressure, Covariate::kTaxel};
+  info.collinear = {"bending_preload", "repositioning"};
+  info.experiment = Experiment::kFlatAgain;
   return info;
 }
 
@@ -50,8 +56,8 @@ class BendingGain : public Effect {
     }
   }
 
-  void mount(const std::vector<double>& curvature) override {
-    for (std::size_t i = 0; i < gain_.size(); ++i) gain_[i] = gain(i, curvature[i]);
+  void mount(const Mounting& mounting) override {
+    for (std::size_t i = 0; i < gain_.size(); ++i) gain_[i] = gain(i, mounting.curvature[i]);
   }
 
   void apply(const RigMoment&, TaxelSignals& signals) override {

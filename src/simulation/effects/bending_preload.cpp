@@ -24,13 +24,19 @@ EffectInfo info() {
   info.source = "bending step of the paper's Fig. 5 and tables, 30 to 60 kPa";
   info.stage = ChainStage::kLoad;
   info.level = EffectLevel::kTaxel;
+  info.kind = EffectKind::kGrid;
   info.parameters = {
-      {"amplitude", "A, preload of a tight bend", {0, 300e3, "Pa"}, 34e3, 0},
-      {"curvature_constant", "k0, curvature at which 63 % of A is there", {0.01, 1000, "1/m"}, 3},
-      {"slope", "B, further preload by curvature", {0, 20e3, "Pa m"}, 0, 0},
-      {"scatter", "deviation from taxel to taxel, relative", {0, 0.5, ""}, 0, 0},
-      {"concave_share", "share of it under a concave bend", {0, 1, ""}, 0.6},
+      strength("amplitude", "A, preload of a tight bend", {0, 300e3, "Pa"}, 34e3).within(2e3, 150e3),
+      strength("slope", "B, further preload by curvature", {0, 20e3, "Pa m"}, 0).within(0, 5e3),
+      shape("curvature_constant", "k0, curvature at which 63 % of A is there", {0.01, 1000, "1/m"}, 3)
+          .trying({1, 3, 10}),
+      scatter("scatter", "deviation from taxel to taxel, relative", {0, 0.5, ""}, 0),
+      shape("concave_share", "share of it under a concave bend", {0, 1, ""}, 0.6),
   };
+  info.sign = SignRule::kPositive;
+  info.depends_on = {Covariate::kCurvature, Covariate::kPressure};
+  info.collinear = {"turn_on", "bending_gain", "repositioning"};
+  info.experiment = Experiment::kFlatAgain;
   return info;
 }
 
@@ -44,8 +50,10 @@ class BendingPreload : public Effect {
         scatter_(scatteredValues(1, values.at("scatter"), "bending_preload", context)),
         preload_(context.layout.size.taxels(), 0.0) {}
 
-  void mount(const std::vector<double>& curvature) override {
-    for (std::size_t i = 0; i < preload_.size(); ++i) preload_[i] = scatter_[i] * common(curvature[i]);
+  void mount(const Mounting& mounting) override {
+    for (std::size_t i = 0; i < preload_.size(); ++i) {
+      preload_[i] = scatter_[i] * common(mounting.curvature[i]);
+    }
   }
 
   void apply(const RigMoment&, TaxelSignals& signals) override {

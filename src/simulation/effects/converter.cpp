@@ -23,11 +23,12 @@ EffectInfo info() {
   info.source = "zero-potential circuit of the paper's Fig. 2";
   info.stage = ChainStage::kSample;
   info.level = EffectLevel::kRig;
+  info.kind = EffectKind::kBase;
   info.required = true;
   info.parameters = {
-      {"full_scale", "largest count", {1, 65535, "counts"}, 4095},
-      {"feedback_resistance", "R_f", {1, 1e9, "ohm"}, 3600},
-      {"offset", "reading at no conductance", {0, 65535, "counts"}, 0, 0},
+      shape("full_scale", "largest count", {1, 65535, "counts"}, 4095),
+      shape("feedback_resistance", "R_f", {1, 1e9, "ohm"}, 3600),
+      strength("offset", "reading at no conductance", {0, 65535, "counts"}, 0).within(0, 500),
   };
   return info;
 }

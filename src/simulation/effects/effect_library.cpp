@@ -6,7 +6,12 @@ namespace fsr {
 
 const std::vector<EffectEntry>& effectLibrary() {
   static const std::vector<EffectEntry> library = {
-      bendingPreload(), hysteresis(), bendingGain(), staticCurve(), converter(), whiteNoise(),
+      timeSkew(),       scanSkew(),    sealLeak(),        trappedGas(), edgeStiffness(), repositioning(),
+      bendingPreload(), turnOn(),      hysteresis(),      creep(),      bendingGain(),   temperature(),
+      breakIn(),        wear(),        staticCurve(),     deadTaxel(),  rowFault(),      columnFault(),
+      crosstalk(),      supplyDroop(), converter(),       drift(),      mainsPickup(),   whiteNoise(),
+      saturation(),     stuckTaxel(),  transducerError(), compliance(), shear(),         wrinkle(),
+      humidity(),
   };
   return library;
 }

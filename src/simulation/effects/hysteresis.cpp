@@ -1,12 +1,15 @@
 // The reading is higher on the way down than on the way up, at any speed.
 //
-//     u = P_e - h sum_i w_i (P_e - play_{r_i}(P_e)),   r_i = R i / n,  w_i = 1 / n,  i = 1 .. n = 6
+//     u = P_e - h sum_i w_i (P_e - play_{r_i}(P_e + s r_i)),   r_i = R i / n,  w_i = 1 / n,  i = 1 .. n = 6
 //
 // A Prandtl-Ishlinskii operator with h of its weight spread over the plays and 1 - h without memory.
 // Once every play has turned round, the branches lie 2 h sum_i w_i r_i apart [Pa]: this is set as a share
-// `loop_width` of the `span`. Size: Tangio TPE-500 5 %, Interlink FSR 400 10 %, FlexiForce A201 < 4.5 %
-// of full scale (data sheets; FlexiForce's from memory, not verified). Source of the operator: M. Brokate,
-// J. Sprekels, Hysteresis and Phase Transitions, Springer 1996.
+// `loop_width` of the `span`. Loops of FSRs are not symmetric: with s = 1 each play has all its slack above
+// the input, so that a first loading follows the static curve and only unloading departs from it; with
+// s = 0 both branches depart alike. Size: 5 % (Tangio TPE-500 data sheet v1.8, 2018, 1 kg), 10 %
+// (Interlink FSR 400 data sheet PDS-10004-C, of the reading); FlexiForce A201 < 4.5 % of full scale (from
+// memory, not verified). Source of the operator: M. Brokate, J. Sprekels, Hysteresis and Phase
+// Transitions, Springer 1996.
 
 #include <sstream>
 
@@ -24,50 +27,65 @@ EffectInfo info() {
   EffectInfo info;
   info.id = "hysteresis";
   info.summary = "loading against unloading, whatever the rate";
-  info.equation = "u = P_e - h sum_i w_i (P_e - play_{r_i}(P_e))";
-  info.source = "Prandtl-Ishlinskii; Tangio TPE-500 5 % FS, Interlink FSR 400 10 % FS";
+  info.equation = "u = P_e - h sum_i w_i (P_e - play_{r_i}(P_e + s r_i))";
+  info.source = "Prandtl-Ishlinskii; Tangio TPE-500 5 %, Interlink FSR 400 10 %";
   info.stage = ChainStage::kMemory;
   info.level = EffectLevel::kRig;
+  info.kind = EffectKind::kGrid;
   info.parameters = {
-      {"loop_width", "distance of the branches of a wide loop, share of the span", {0, 0.5, ""}, 0.05, 0},
-      {"span", "pressure that loop_width is a share of", {1e3, 10e6, "Pa"}, 620e3},
-      {"reach", "R, half the way after a turn over which the loop opens", {100, 10e6, "Pa"}, 150e3},
+      strength("loop_width", "distance of the branches of a wide loop, share of the span", {0, 0.5, ""}, 0.05)
+          .within(0.005, 0.2),
+      shape("span", "pressure that loop_width is a share of", {1e3, 10e6, "Pa"}, 620e3),
+      shape("reach", "R, half the way after a turn over which the loop opens", {100, 10e6, "Pa"}, 150e3)
+          .trying({50e3, 100e3, 150e3, 250e3}),
+      shape("one_sided", "s, 0 = both branches depart alike, 1 = only unloading", {0, 1, ""}, 0)
+          .trying({0, 1}),
   };
+  info.sign = SignRule::kPositive;
+  info.depends_on = {Covariate::kDirection, Covariate::kPressure, Covariate::kPreviousExtremes};
+  info.needs = {Evidence::kTwoRampRates};
+  info.collinear = {"creep", "time_skew", "seal_leak"};
+  info.experiment = Experiment::kTwoRampRates;
   return info;
-}
-
-PrandtlIshlinskii plays(double reach) {
-  std::vector<double> radii;
-  for (int i = 1; i <= kPlays; ++i) radii.push_back(reach * i / kPlays);
-  return {radii, std::vector<double>(kPlays, 1.0 / kPlays)};
 }
 
 class Hysteresis : public Effect {
  public:
-  Hysteresis(const EffectValues& values, const EffectContext& context)
-      : plays_(plays(values.at("reach"))),
-        share_(values.at("loop_width") * values.at("span") / plays_.fullLoopWidth()) {
+  Hysteresis(const EffectValues& values, const EffectContext& context) {
+    double mean_radius = 0;  // [Pa]
+    for (int i = 1; i <= kPlays; ++i) {
+      radii_.push_back(values.at("reach") * i / kPlays);
+      shifts_.push_back(values.at("one_sided") * radii_.back());
+      mean_radius += radii_.back() / kPlays;
+    }
+    const double widest = 2 * mean_radius / values.at("span");
+    weight_ = values.at("loop_width") / widest / kPlays;
     // With more than all of its weight on the plays, the load would fall while the pressure rises.
-    if (share_ > 1) {
+    if (values.at("loop_width") > widest) {
       std::ostringstream sentence;
       sentence << "effects.hysteresis: loop_width is " << values.at("loop_width") << ", but must be at most "
-               << plays_.fullLoopWidth() / values.at("span") << " with this span and reach";
+               << widest << " with this span and reach";
       throw InputError(sentence.str());
     }
-    state_.assign(context.layout.size.taxels() * plays_.stateSize(), 0.0);
+    state_.assign(context.layout.size.taxels() * kPlays, 0.0);
   }
 
   void apply(const RigMoment&, TaxelSignals& signals) override {
-    double* state = state_.data();
+    double* play = state_.data();
     for (double& load : signals.load) {
-      load -= share_ * (load - plays_.step(load, state));
-      state += plays_.stateSize();
+      double behind = 0;
+      for (int i = 0; i < kPlays; ++i, ++play) {
+        *play = playStep(load + shifts_[i], radii_[i], *play);
+        behind += load - *play;
+      }
+      load -= weight_ * behind;
     }
   }
 
  private:
-  PrandtlIshlinskii plays_;
-  double share_;  // h
+  std::vector<double> radii_;   // [plays], Pa
+  std::vector<double> shifts_;  // [plays], Pa
+  double weight_ = 0;           // h w
 };
 
 }  // namespace

@@ -30,4 +30,22 @@ double SmoothRandomFunction::operator()(double x) const {
   return sum * std::sqrt(2.0 / kWaves);
 }
 
+SmoothRandomField::SmoothRandomField(double length, std::uint64_t seed, const std::string& name,
+                                     std::uint64_t member) {
+  const RandomStream stream = randomStream(seed, name, member);
+  for (std::uint64_t i = 0; i < kWaves; ++i) {
+    frequency_x_[i] = stream.normal(3 * i) / length;
+    frequency_y_[i] = stream.normal(3 * i + 1) / length;
+    phase_[i] = 2 * M_PI * stream.uniform(3 * i + 2);
+  }
+}
+
+double SmoothRandomField::operator()(Position place) const {
+  double sum = 0;
+  for (int i = 0; i < kWaves; ++i) {
+    sum += std::cos(frequency_x_[i] * place.x + frequency_y_[i] * place.y + phase_[i]);
+  }
+  return sum * std::sqrt(2.0 / kWaves);
+}
+
 }  // namespace fsr

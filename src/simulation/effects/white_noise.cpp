@@ -23,9 +23,10 @@ EffectInfo info() {
   info.source = "Interlink FSR 400: repeatability of a single part 2 %";
   info.stage = ChainStage::kReading;
   info.level = EffectLevel::kTaxel;
+  info.kind = EffectKind::kBase;
   info.parameters = {
-      {"absolute", "a, deviation whatever the reading", {0, 10000, "counts"}, 2, 0},
-      {"relative", "r, deviation as a share of the reading", {0, 0.5, ""}, 0, 0},
+      scatter("absolute", "a, deviation whatever the reading", {0, 10000, "counts"}, 2),
+      scatter("relative", "r, deviation as a share of the reading", {0, 0.5, ""}, 0),
   };
   return info;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -25,6 +26,19 @@ class SmoothRandomFunction {
  private:
   static constexpr int kWaves = 16;
   double frequency_[kWaves];
+  double phase_[kWaves];
+};
+
+/// The same of a place on the sheet [m].
+class SmoothRandomField {
+ public:
+  SmoothRandomField(double length, std::uint64_t seed, const std::string& name, std::uint64_t member);
+  double operator()(Position place) const;
+
+ private:
+  static constexpr int kWaves = 32;
+  double frequency_x_[kWaves];
+  double frequency_y_[kWaves];
   double phase_[kWaves];
 };
 

@@ -1,0 +1,159 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/settings/range.h"
+
+namespace fsr {
+
+/// Where in the forward chain an effect acts; effects run in this order, within a stage in the order
+/// of the library.
+///
+///     chamber P(t) -> when was it read -> less the cavity -> load P_e -> memory u -> gain g
+///                  -> G = curve(u, g) -> read-out -> sample y -> reading
+///     and beside it: chamber P(t) -> reference
+enum class ChainStage {
+  kTiming,       ///< when the taxels were really read: TaxelSignals::skew and offset
+  kCavity,       ///< gas behind the taxels: TaxelSignals::load
+  kLoad,         ///< what presses on a taxel: TaxelSignals::load
+  kMemory,       ///< history of the load: TaxelSignals::load
+  kGain,         ///< factors of the conductance: TaxelSignals::gain
+  kConductance,  ///< static curve: load and gain -> TaxelSignals::conductance
+  kReadOut,      ///< wires and supply: TaxelSignals::conductance
+  kSample,       ///< conductance -> TaxelSignals::reading
+  kReading,      ///< what disturbs the reading before it is rounded: TaxelSignals::reading
+  kReference,    ///< the chamber's transducer: Effect::transduce()
+};
+
+/// What one set of an effect's parameters belongs to.
+enum class EffectLevel { kRig, kRow, kColumn, kTaxel, kMount };
+
+/// How somebody who looks for an effect in measurements tries it.
+enum class EffectKind {
+  kBase,      ///< part of every rig: never looked for
+  kAdditive,  ///< by the derivatives with respect to its strengths
+  kGrid,      ///< likewise, for each combination of the `tried` values of its shape parameters
+  kDetector,  ///< by a test of its own: faults, clipping, what differs from mount to mount by chance
+  kListed,    ///< not simulated: a gas chamber cannot show it
+};
+
+/// Which sign a strength may have.
+enum class SignRule { kEither, kPositive, kNegative };
+
+/// What the traces of an effect in a reading depend on.
+enum class Covariate {
+  kPressure,
+  kDirection,  ///< loading or unloading
+  kPressureRate,
+  kTimeSinceReversal,
+  kPreviousExtremes,
+  kCycle,
+  kAccumulatedChange,  ///< of the pressure, up and down alike
+  kClockTime,
+  kTemperature,
+  kCurvature,
+  kMount,
+  kRow,
+  kColumn,
+  kTaxel,
+  kCode,
+  kTotalLoad,
+};
+
+/// What a recording must hold before an effect may be named alone.
+enum class Evidence {
+  kThermometer,
+  kMountLabels,
+  kTwoRampRates,     ///< or dwells: one speed cannot tell a loop from a short memory
+  kUnevenLoad,       ///< under uniform pressure the static curve takes it all
+  kSecondReference,  ///< another pressure gauge
+  kVentedSheet,      ///< the same sheet without its seal
+  kManyCycles,       ///< 10,000 and more
+};
+
+/// What to do at the rig to see an effect.
+enum class Experiment {
+  kNone,  ///< ordinary cycles show it
+  kTwoRampRates,
+  kDwells,
+  kStepAndHold,
+  kMinorLoops,
+  kRest,
+  kSlowStart,  ///< slow ramps below 50 kPa
+  kTwoAmbients,
+  kManyCycles,
+  kRemount,
+  kFlatAgain,  ///< the flat once more at the end, other surfaces in random order
+  kUnevenLoad,
+  kOpenRow,
+  kVentedSheet,
+  kSecondReference,
+  kIndenterAndLiner,
+  kTwoHumidities,
+};
+
+/// What a parameter is for.
+enum class ParameterRole {
+  kStrength,  ///< scales the effect, which is linear in it where it acts, and off at `neutral`
+  kShape,     ///< gives the form of what a strength scales
+  kScatter,   ///< deviation between taxels or mounts, by the simulation's seed; off at `neutral`
+};
+
+/// One parameter of an effect.
+struct EffectParameter {
+  std::string name;
+  std::string meaning;
+  ParameterRole role = ParameterRole::kShape;
+  Range permitted;   ///< with the unit; settings outside it are refused
+  double usual = 0;  ///< where the settings do not give it
+  /// At this value the parameter changes nothing, bit for bit; NaN for a shape.
+  double neutral = std::numeric_limits<double>::quiet_NaN();
+  /// What a real rig may have: a fit outside it is no explanation.
+  Range plausible = {};
+  /// Of a shape: the values that are tried when the effect is looked for; empty = the usual one.
+  std::vector<double> tried = {};
+
+  EffectParameter within(double low, double high) const;     ///< sets `plausible`
+  EffectParameter offAt(double value) const;                 ///< sets `neutral`
+  EffectParameter trying(std::vector<double> values) const;  ///< sets `tried` and, by it, `plausible`
+};
+
+/// A strength or scatter that is off at 0, a shape; plausible is what is permitted until within().
+EffectParameter strength(std::string name, std::string meaning, const Range& permitted, double usual);
+EffectParameter scatter(std::string name, std::string meaning, const Range& permitted, double usual);
+EffectParameter shape(std::string name, std::string meaning, const Range& permitted, double usual);
+
+/// What an effect says about itself.
+struct EffectInfo {
+  std::string id;
+  std::string summary;
+  std::string equation;
+  std::string source;
+  ChainStage stage = ChainStage::kLoad;
+  EffectLevel level = EffectLevel::kRig;
+  EffectKind kind = EffectKind::kAdditive;
+  std::vector<EffectParameter> parameters;
+  SignRule sign = SignRule::kPositive;  ///< of its strengths
+  std::vector<Covariate> depends_on;
+  std::vector<Evidence> needs;         ///< to be named alone
+  std::vector<std::string> collinear;  ///< ids of effects that leave much the same traces
+  Experiment experiment = Experiment::kNone;
+  bool required = false;  ///< no chain runs without it
+};
+
+/// The parameter of that name; throws std::out_of_range.
+const EffectParameter& parameter(const EffectInfo& info, const std::string& name);
+std::vector<EffectParameter> strengths(const EffectInfo& info);
+
+/// Names as files and reports spell them, e.g. "time_since_reversal".
+std::string name(ChainStage stage);
+std::string name(EffectLevel level);
+std::string name(EffectKind kind);
+std::string name(SignRule sign);
+std::string name(Covariate covariate);
+std::string name(Evidence evidence);
+std::string name(Experiment experiment);
+
+}  // namespace fsr

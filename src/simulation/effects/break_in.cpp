@@ -1,0 +1,67 @@
+// The first cycles after mounting read differently, until the sheet has settled.
+//
+//     g = g (1 + a exp(-N / N_0)),   N = W / (2 P_span),   W = sum |dP| since it was mounted
+//
+// N counts cycles by the way that the pressure has gone, so that partial ones count in part. Why makers ask
+// for conditioning: FlexiForce's manual (rev. G) wants 110 % of the load four or five times before use. Size:
+// a few per cent, over in 3 to 10 cycles (estimate); the sign is free.
+
+#include <cmath>
+
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+
+namespace fsr {
+
+namespace {
+
+EffectInfo info() {
+  EffectInfo info;
+  info.id = "break_in";
+  info.summary = "the first cycles after mounting differ";
+  info.equation = "g *= 1 + a exp(-N / N_0), N cycles since mounting";
+  info.source = "FlexiForce manual: condition four or five times; size estimated";
+  info.stage = ChainStage::kGain;
+  info.level = EffectLevel::kMount;
+  info.kind = EffectKind::kGrid;
+  info.parameters = {
+      strength("change", "a, at the start", {-0.5, 0.5, ""}, -0.04).within(-0.12, 0.12),
+      shape("cycles", "N_0, that leave 37 % of it", {0.1, 1000, "cycles"}, 2).trying({1, 2, 4}),
+      shape("span", "P_span, peak of a whole cycle", {1e3, 10e6, "Pa"}, 620e3),
+  };
+  info.sign = SignRule::kEither;
+  info.depends_on = {Covariate::kCycle, Covariate::kMount};
+  info.needs = {Evidence::kMountLabels};
+  info.collinear = {"drift", "wear", "temperature"};
+  info.experiment = Experiment::kRemount;
+  return info;
+}
+
+class BreakIn : public Effect {
+ public:
+  BreakIn(const EffectValues& values, const EffectContext&)
+      : change_(values.at("change")), way_(values.at("cycles") * 2 * values.at("span")) {
+    state_.assign(kState, 0.0);
+  }
+
+  void mount(const Mounting&) override { state_[kWay] = 0; }
+
+  void apply(const RigMoment& moment, TaxelSignals& signals) override {
+    if (!moment.first) state_[kWay] += std::abs(moment.pressure - state_[kBefore]);
+    state_[kBefore] = moment.pressure;
+    const double factor = 1 + change_ * std::exp(-state_[kWay] / way_);
+    for (double& gain : signals.gain) gain *= factor;
+  }
+
+ private:
+  enum { kBefore, kWay, kState };  // chamber at the scan before, W [Pa]
+  double change_;
+  double way_;  // W that leaves 37 % [Pa]
+};
+
+}  // namespace
+
+EffectEntry breakIn() {
+  return {info(), makeEffect<BreakIn>};
+}
+
+}  // namespace fsr

@@ -1,0 +1,52 @@
+// A column's wire makes bad contact: all its taxels fade together, in bursts.
+//
+//     G_i = G_i (1 - depth) in a burst, for all taxels i of the column
+//
+// A crimped connector or a cracked tail; what a burst looks like is an assumption.
+
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "fsr_pressure_map/simulation/effects/faults.h"
+
+namespace fsr {
+
+namespace {
+
+EffectInfo info() {
+  EffectInfo info;
+  info.id = "column_fault";
+  info.summary = "a column loses contact in bursts";
+  info.equation = "G_i *= 1 - depth in a burst, i in the column";
+  info.source = "fault";
+  info.stage = ChainStage::kReadOut;
+  info.level = EffectLevel::kColumn;
+  info.kind = EffectKind::kDetector;
+  info.parameters = looseLineParameters("column");
+  info.depends_on = {Covariate::kColumn, Covariate::kClockTime};
+  info.collinear = {"row_fault"};
+  return info;
+}
+
+class ColumnFault : public Effect {
+ public:
+  ColumnFault(const EffectValues& values, const EffectContext& context)
+      : size_(context.layout.size), line_("column_fault", size_.columns, values, context) {}
+
+  void apply(const RigMoment& moment, TaxelSignals& signals) override {
+    const double contact = line_.contact(moment.time);
+    for (std::size_t row = 0; row < size_.rows; ++row) {
+      signals.conductance[row * size_.columns + line_.line()] *= contact;
+    }
+  }
+
+ private:
+  MatrixSize size_;
+  LooseLine line_;
+};
+
+}  // namespace
+
+EffectEntry columnFault() {
+  return {info(), makeEffect<ColumnFault>};
+}
+
+}  // namespace fsr

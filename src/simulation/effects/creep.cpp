@@ -1,0 +1,106 @@
+// Under a constant load the reading goes on rising, by the same share in each decade of time.
+//
+//     u = P_e + (1 - v) c(P_e),   g = g (1 + v c(P_e) / P_span),   c = a sum_i J_i * dP_e / 2
+//
+// J_i(t) = 1 - exp(-t / tau_i), tau_i two a decade from the fastest to the slowest: a step of the load
+// creeps by a for each decade between them, and fades alike when the load is gone. v: share of it that
+// changes the sensitivity instead of acting like more load. Data sheets call it "drift": < 2 % per log
+// time (Tangio TPE-500 v1.8, 2018: 1 kg, 48 h), < 5 % log10(time) (Interlink FSR 400, PDS-10004-C: 1 kg,
+// 35 days), < 5 % a decade (FlexiForce A201, from memory, not verified; its manual confirms the sign: the
+// resistance falls). Source of the series: W. N. Findley et al., Creep and Relaxation of Nonlinear
+// Viscoelastic Materials, Dover 1989, ch. 5.
+
+#include <cmath>
+
+#include "fsr_pressure_map/rheology/exponential_memory.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr double kElementsPerDecade = 2;
+
+EffectInfo info() {
+  EffectInfo info;
+  info.id = "creep";
+  info.summary = "rise under a constant load (data sheets: drift), and its fading";
+  info.equation = "u = P_e + a sum_i (1 - exp(-t / tau_i)) * dP_e / 2, tau_i two a decade";
+  info.source = "Tangio TPE-500 < 2 %, Interlink FSR 400 < 5 % per decade of time";
+  info.stage = ChainStage::kMemory;
+  info.level = EffectLevel::kRig;
+  info.kind = EffectKind::kGrid;
+  info.parameters = {
+      strength("per_decade", "a, change per decade of time", {0, 0.5, ""}, 0.03).within(0.003, 0.15),
+      shape("fastest", "shortest time constant", {1e-3, 1e6, "s"}, 1).trying({0.1, 1, 10}),
+      shape("slowest", "longest time constant", {1e-3, 1e6, "s"}, 1e4).trying({1e2, 1e3, 1e4}),
+      shape("gain_share", "v, 0 = acts like load, 1 = on the sensitivity", {0, 1, ""}, 0).trying({0, 1}),
+      shape("span", "P_span, load at which a creep of the sensitivity reaches a", {1e3, 10e6, "Pa"}, 620e3),
+  };
+  info.sign = SignRule::kPositive;
+  info.depends_on = {Covariate::kTimeSinceReversal, Covariate::kDirection, Covariate::kPressure};
+  info.needs = {Evidence::kTwoRampRates};
+  info.collinear = {"hysteresis", "drift", "temperature", "seal_leak", "time_skew"};
+  info.experiment = Experiment::kStepAndHold;
+  return info;
+}
+
+std::vector<ExponentialMemory> elements(double fastest, double slowest) {
+  if (slowest < fastest) throw InputError("effects.creep: slowest must not be shorter than fastest");
+  const long steps = std::lround(kElementsPerDecade * std::log10(slowest / fastest));
+  std::vector<ExponentialMemory> memories;
+  for (long i = 0; i <= steps; ++i) {
+    memories.emplace_back(fastest * std::pow(10, static_cast<double>(i) / kElementsPerDecade));
+  }
+  return memories;
+}
+
+class Creep : public Effect {
+ public:
+  Creep(const EffectValues& values, const EffectContext& context)
+      : weight_(values.at("per_decade") / kElementsPerDecade),
+        load_share_(1 - values.at("gain_share")),
+        gain_share_(values.at("gain_share") / values.at("span")),
+        memories_(elements(values.at("fastest"), values.at("slowest"))),
+        steps_(memories_.size()) {
+    state_.assign(context.layout.size.taxels() * (1 + memories_.size()), 0.0);
+  }
+
+  void apply(const RigMoment& moment, TaxelSignals& signals) override {
+    for (std::size_t k = 0; k < steps_.size(); ++k) steps_[k] = memories_[k].over(moment.elapsed);
+    double* state = state_.data();  // of each taxel: the load at the scan before, then the memories [Pa]
+    for (std::size_t i = 0; i < signals.load.size(); ++i) {
+      const double crept = weight_ * advance(signals.load[i], state);
+      signals.load[i] += load_share_ * crept;
+      signals.gain[i] *= 1 + gain_share_ * crept;
+      state += 1 + steps_.size();
+    }
+  }
+
+ private:
+  // Sum of a taxel's memories [Pa].
+  double advance(double load, double* state) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+      state[k + 1] = steps_[k](state[0], load, state[k + 1]);
+      sum += state[k + 1];
+    }
+    state[0] = load;
+    return sum;
+  }
+
+  double weight_;
+  double load_share_;
+  double gain_share_;  // [1/Pa]
+  std::vector<ExponentialMemory> memories_;
+  std::vector<ExponentialMemory::Step> steps_;  // of this scan
+};
+
+}  // namespace
+
+EffectEntry creep() {
+  return {info(), makeEffect<Creep>};
+}
+
+}  // namespace fsr

@@ -1,0 +1,50 @@
+// A taxel without contact.
+//
+//     G_i = 0 from some time on
+//
+// A cracked trace or a detached layer.
+
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "fsr_pressure_map/simulation/effects/faults.h"
+
+namespace fsr {
+
+namespace {
+
+EffectInfo info() {
+  EffectInfo info;
+  info.id = "dead_taxel";
+  info.summary = "a taxel that conducts nothing";
+  info.equation = "G_i = 0";
+  info.source = "fault";
+  info.stage = ChainStage::kConductance;
+  info.level = EffectLevel::kTaxel;
+  info.kind = EffectKind::kDetector;
+  info.parameters = faultyTaxelParameters();
+  info.depends_on = {Covariate::kTaxel};
+  info.collinear = {"stuck_taxel"};
+  return info;
+}
+
+class DeadTaxel : public Effect {
+ public:
+  DeadTaxel(const EffectValues& values, const EffectContext& context)
+      : start_(values.at("start")), dead_(faultyTaxels("dead_taxel", values, context)) {}
+
+  void apply(const RigMoment& moment, TaxelSignals& signals) override {
+    if (moment.time < start_) return;
+    for (const std::size_t taxel : dead_) signals.conductance[taxel] = 0;
+  }
+
+ private:
+  double start_;  // [s]
+  std::vector<std::size_t> dead_;
+};
+
+}  // namespace
+
+EffectEntry deadTaxel() {
+  return {info(), makeEffect<DeadTaxel>};
+}
+
+}  // namespace fsr

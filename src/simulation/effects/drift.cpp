@@ -1,0 +1,77 @@
+// The reading wanders off with clock time, loaded or not.
+//
+//     y = y + (r y + z) h(t),   h = tau (1 - exp(-t / tau))   [hours]
+//
+// r: share of the reading, z: counts, both an hour; without end where tau is infinite. Either common to all
+// taxels or scattered from taxel to taxel. 1 to 5 % an hour is an estimate from amplifiers and ageing
+// contacts; what data sheets call drift under load is `creep`.
+
+#include <cmath>
+
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "fsr_pressure_map/simulation/effects/taxel_scatter.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr double kHour = 3600;  // [s]
+
+EffectInfo info() {
+  EffectInfo info;
+  info.id = "drift";
+  info.summary = "slow change with clock time, whatever the load";
+  info.equation = "y += (r y + z) h(t), h = tau (1 - exp(-t / tau))";
+  info.source = "estimate, 1 to 5 % an hour";
+  info.stage = ChainStage::kReading;
+  info.level = EffectLevel::kTaxel;
+  info.kind = EffectKind::kGrid;
+  info.parameters = {
+      strength("rate_per_hour", "r, share of the reading", {-1, 1, "1/h"}, 0.02).within(-0.15, 0.15),
+      strength("zero_per_hour", "z", {-10000, 10000, "counts/h"}, 0).within(-600, 600),
+      shape("time_constant", "tau, .inf = it never ends", {1, INFINITY, "s"}, INFINITY)
+          .trying({600, 3600, INFINITY}),
+      scatter("scatter", "deviation from taxel to taxel, relative", {0, 2, ""}, 0),
+  };
+  info.sign = SignRule::kEither;
+  info.depends_on = {Covariate::kClockTime};
+  info.needs = {Evidence::kThermometer};
+  info.collinear = {"temperature", "wear", "break_in", "creep", "seal_leak", "mains_pickup"};
+  info.experiment = Experiment::kRest;
+  return info;
+}
+
+class Drift : public Effect {
+ public:
+  Drift(const EffectValues& values, const EffectContext& context)
+      : time_constant_(values.at("time_constant")),
+        zero_(values.at("zero_per_hour")),
+        rate_(scatteredValues(values.at("rate_per_hour"), values.at("scatter"), "drift", context)) {
+    state_.assign(1, 0.0);  // t [s]
+  }
+
+  void apply(const RigMoment& moment, TaxelSignals& signals) override {
+    state_[0] += moment.elapsed;
+    const double hours = effectiveTime(state_[0]) / kHour;
+    for (std::size_t i = 0; i < rate_.size(); ++i) {
+      signals.reading[i] += (rate_[i] * signals.reading[i] + zero_) * hours;
+    }
+  }
+
+ private:
+  double effectiveTime(double time) const {
+    return std::isinf(time_constant_) ? time : -time_constant_ * std::expm1(-time / time_constant_);
+  }
+
+  double time_constant_;      // [s]
+  double zero_;               // [counts/h]
+  std::vector<double> rate_;  // [taxels], 1/h
+};
+
+}  // namespace
+
+EffectEntry drift() {
+  return {info(), makeEffect<Drift>};
+}
+
+}  // namespace fsr

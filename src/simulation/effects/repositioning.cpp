@@ -1,0 +1,116 @@
+// Laid down once more, a sheet never lies as before.
+//
+//     P_e = P_e + o f_m(x, y),   g = g (1 + c h_m(x, y)),   map shifted by (s N, s N)
+//
+// f_m, h_m: smooth random fields over the sheet, of deviation 1 and correlation length l, fresh for each
+// mount m. The shift moves curvatures and loads that differ from taxel to taxel. No figure is published
+// for a matrix; the paper's was never remounted. The sizes are estimates from the few per cent that data
+// sheets give for repeatability with a repeated actuation (Tangio TPE-500, Interlink FSR 400: 2 %).
+
+#include <algorithm>
+#include <cmath>
+
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "fsr_pressure_map/simulation/effects/taxel_scatter.h"
+#include "fsr_pressure_map/statistics/random_stream.h"
+
+namespace fsr {
+
+namespace {
+
+EffectInfo info() {
+  EffectInfo info;
+  info.id = "repositioning";
+  info.summary = "every mount lies a little differently";
+  info.equation = "P_e += o f_m(x, y), g *= 1 + c h_m(x, y), map shifted by s N";
+  info.source = "estimate";
+  info.stage = ChainStage::kLoad;
+  info.level = EffectLevel::kMount;
+  info.kind = EffectKind::kDetector;
+  info.parameters = {
+      scatter("offset", "o, deviation of the load", {0, 100e3, "Pa"}, 3e3).within(500, 20e3),
+      scatter("gain", "c, deviation of the gain", {0, 0.5, ""}, 0.02).within(0.003, 0.1),
+      scatter("shift", "s, deviation of the place in each direction", {0, 0.1, "m"}, 0).within(0, 0.02),
+      shape("length", "l, over which the fields change", {1e-3, 10, "m"}, 0.04).within(0.01, 0.2),
+  };
+  info.depends_on = {Covariate::kMount, Covariate::kRow, Covariate::kColumn, Covariate::kPressure};
+  info.needs = {Evidence::kMountLabels};
+  info.collinear = {"bending_gain", "bending_preload", "edge_stiffness"};
+  info.experiment = Experiment::kRemount;
+  return info;
+}
+
+/// Values of a sheet's taxels at places between them, straight between neighbours, held at the edges.
+std::vector<double> shifted(const std::vector<double>& values, MatrixSize size, double columns, double rows) {
+  std::vector<double> result(values.size());
+  for (int row = 0; row < size.rows; ++row) {
+    for (int column = 0; column < size.columns; ++column) {
+      const double y = std::clamp(row + rows, 0.0, size.rows - 1.0);
+      const double x = std::clamp(column + columns, 0.0, size.columns - 1.0);
+      const auto top = static_cast<std::size_t>(y), left = static_cast<std::size_t>(x);
+      const std::size_t bottom = std::min<std::size_t>(top + 1, size.rows - 1u);
+      const std::size_t right = std::min<std::size_t>(left + 1, size.columns - 1u);
+      const auto at = [&](std::size_t r, std::size_t c) { return values[r * size.columns + c]; };
+      const double fx = x - static_cast<double>(left), fy = y - static_cast<double>(top);
+      const double upper = at(top, left) + fx * (at(top, right) - at(top, left));
+      const double lower = at(bottom, left) + fx * (at(bottom, right) - at(bottom, left));
+      result[std::size_t(row) * size.columns + std::size_t(column)] = upper + fy * (lower - upper);
+    }
+  }
+  return result;
+}
+
+class Repositioning : public Effect {
+ public:
+  Repositioning(const EffectValues& values, const EffectContext& context)
+      : context_(context),
+        offset_deviation_(values.at("offset")),
+        gain_deviation_(values.at("gain")),
+        shift_deviation_(values.at("shift")),
+        length_(values.at("length")),
+        offset_(context.layout.size.taxels(), 0.0),
+        gain_(context.layout.size.taxels(), 1.0) {}
+
+  void place(Mounting& mounting) override {
+    if (shift_deviation_ == 0) return;
+    const RandomStream stream = randomStream(context_.seed, "repositioning.shift", mounting.number);
+    const Layout& layout = context_.layout;
+    const double columns = shift_deviation_ * stream.normal(0) / layout.pitch_x;
+    const double rows = shift_deviation_ * stream.normal(1) / layout.pitch_y;
+    mounting.curvature = shifted(mounting.curvature, layout.size, columns, rows);
+    mounting.share = shifted(mounting.share, layout.size, columns, rows);
+  }
+
+  void mount(const Mounting& mounting) override {
+    const SmoothRandomField offset(length_, context_.seed, "repositioning.offset", mounting.number);
+    const SmoothRandomField gain(length_, context_.seed, "repositioning.gain", mounting.number);
+    for (std::size_t i = 0; i < gain_.size(); ++i) {
+      offset_[i] = offset_deviation_ * offset(context_.layout.position({i}));
+      gain_[i] = std::max(0.0, 1 + gain_deviation_ * gain(context_.layout.position({i})));
+    }
+  }
+
+  void apply(const RigMoment&, TaxelSignals& signals) override {
+    for (std::size_t i = 0; i < gain_.size(); ++i) {
+      signals.load[i] += offset_[i];
+      signals.gain[i] *= gain_[i];
+    }
+  }
+
+ private:
+  EffectContext context_;
+  double offset_deviation_;  // [Pa]
+  double gain_deviation_;
+  double shift_deviation_;      // [m]
+  double length_;               // [m]
+  std::vector<double> offset_;  // [taxels], Pa
+  std::vector<double> gain_;    // [taxels]
+};
+
+}  // namespace
+
+EffectEntry repositioning() {
+  return {info(), makeEffect<Repositioning>};
+}
+
+}  // namespace fsr

@@ -1,0 +1,53 @@
+// A row's wire makes bad contact: all its taxels fade together, in bursts.
+//
+//     G_i = G_i (1 - depth) in a burst, for all taxels i of the row
+//
+// A crimped connector or a cracked tail; what a burst looks like is an assumption.
+
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "fsr_pressure_map/simulation/effects/faults.h"
+
+namespace fsr {
+
+namespace {
+
+EffectInfo info() {
+  EffectInfo info;
+  info.id = "row_fault";
+  info.summary = "a row loses contact in bursts";
+  info.equation = "G_i *= 1 - depth in a burst, i in the row";
+  info.source = "fault";
+  info.stage = ChainStage::kReadOut;
+  info.level = EffectLevel::kRow;
+  info.kind = EffectKind::kDetector;
+  info.parameters = looseLineParameters("row");
+  info.depends_on = {Covariate::kRow, Covariate::kClockTime};
+  info.collinear = {"column_fault"};
+  return info;
+}
+
+class RowFault : public Effect {
+ public:
+  RowFault(const EffectValues& values, const EffectContext& context)
+      : size_(context.layout.size), line_("row_fault", size_.rows, values, context) {}
+
+  void apply(const RigMoment& moment, TaxelSignals& signals) override {
+    const double contact = line_.contact(moment.time);
+    const std::size_t columns = size_.columns;
+    for (std::size_t column = 0; column < columns; ++column) {
+      signals.conductance[line_.line() * columns + column] *= contact;
+    }
+  }
+
+ private:
+  MatrixSize size_;
+  LooseLine line_;
+};
+
+}  // namespace
+
+EffectEntry rowFault() {
+  return {info(), makeEffect<RowFault>};
+}
+
+}  // namespace fsr

@@ -1,0 +1,61 @@
+// The amplifier runs out of voltage before the converter runs out of codes.
+//
+//     y = y / (1 + (y / y_s)^q)^(1 / q)   [counts],   q infinite: y = min(y, y_s)
+//
+// A smooth limit at y_s, the sharper the larger q. Clipping at the converter's full scale is always there
+// and no effect.
+
+#include <algorithm>
+#include <cmath>
+
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+
+namespace fsr {
+
+namespace {
+
+EffectInfo info() {
+  EffectInfo info;
+  info.id = "saturation";
+  info.summary = "the amplifier limits high readings";
+  info.equation = "y = y / (1 + (y / y_s)^q)^(1 / q)";
+  info.source = "form: any smooth limit; level of the circuit";
+  info.stage = ChainStage::kReading;
+  info.level = EffectLevel::kRig;
+  info.kind = EffectKind::kDetector;
+  info.parameters = {
+      strength("level", "y_s, .inf = none", {1, INFINITY, "counts"}, 2500).offAt(INFINITY).within(100, 65535),
+      shape("sharpness", "q, .inf = hard", {1, INFINITY, ""}, 8).trying({4, 8, INFINITY}),
+  };
+  info.depends_on = {Covariate::kCode, Covariate::kPressure};
+  info.collinear = {"static_curve", "trapped_gas"};
+  return info;
+}
+
+class Saturation : public Effect {
+ public:
+  Saturation(const EffectValues& values, const EffectContext&)
+      : level_(values.at("level")), sharpness_(values.at("sharpness")) {}
+
+  void apply(const RigMoment&, TaxelSignals& signals) override {
+    for (double& reading : signals.reading) {
+      if (std::isinf(sharpness_)) {
+        reading = std::min(reading, level_);
+      } else if (reading > 0) {
+        reading /= std::pow(1 + std::pow(reading / level_, sharpness_), 1 / sharpness_);
+      }
+    }
+  }
+
+ private:
+  double level_;  // [counts]
+  double sharpness_;
+};
+
+}  // namespace
+
+EffectEntry saturation() {
+  return {info(), makeEffect<Saturation>};
+}
+
+}  // namespace fsr

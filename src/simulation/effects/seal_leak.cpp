@@ -1,0 +1,62 @@
+// Gas creeps behind the taxels and presses back: the sheet feels less and less of the chamber.
+//
+//     P_e = P - s P_cav,   dP_cav/dt = (P - P_cav) / tau   [Pa]
+//
+// s: share of the sheet's cavity that the leak reaches, 1 = all; tau: from minutes to hours. After venting
+// the cavity is still full and lifts the sheet. Common to all taxels, because air channels join them. The
+// paper's sheet was sealed with PDMS (section 2.2) and the seal not checked: tau is an estimate.
+
+#include "fsr_pressure_map/rheology/exponential_memory.h"
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+
+namespace fsr {
+
+namespace {
+
+EffectInfo info() {
+  EffectInfo info;
+  info.id = "seal_leak";
+  info.summary = "gas leaks behind the taxels: like creep, but downwards";
+  info.equation = "P_e = P - s P_cav, dP_cav/dt = (P - P_cav) / tau";
+  info.source = "gas through a small opening, linearised; minutes to hours, estimate";
+  info.stage = ChainStage::kCavity;
+  info.level = EffectLevel::kRig;
+  info.kind = EffectKind::kGrid;
+  info.parameters = {
+      strength("share", "s, share of the cavity that the leak reaches", {0, 1, ""}, 1).within(0.01, 1),
+      shape("time_constant", "tau", {1, 1e6, "s"}, 1800).trying({60, 180, 600, 1800, 6000, 18000}),
+  };
+  info.sign = SignRule::kPositive;
+  info.depends_on = {Covariate::kPressure, Covariate::kTimeSinceReversal, Covariate::kClockTime};
+  info.collinear = {"creep", "drift", "hysteresis"};
+  info.experiment = Experiment::kStepAndHold;
+  return info;
+}
+
+class SealLeak : public Effect {
+ public:
+  SealLeak(const EffectValues& values, const EffectContext&)
+      : share_(values.at("share")), leak_(values.at("time_constant")) {
+    state_.assign(kState, 0.0);
+  }
+
+  void apply(const RigMoment& moment, TaxelSignals& signals) override {
+    state_[kCavity] = leak_.step(state_[kBefore], moment.pressure, moment.elapsed, state_[kCavity]);
+    state_[kBefore] = moment.pressure;
+    const double back = share_ * state_[kCavity];
+    for (double& load : signals.load) load -= back;
+  }
+
+ private:
+  enum { kBefore, kCavity, kState };  // chamber at the scan before, cavity [Pa]
+  double share_;
+  ExponentialMemory leak_;
+};
+
+}  // namespace
+
+EffectEntry sealLeak() {
+  return {info(), makeEffect<SealLeak>};
+}
+
+}  // namespace fsr

@@ -1,0 +1,63 @@
+// A taxel that always reads the same.
+//
+//     y_i = const from some time on   [counts]
+//
+// A short, a crease, or a converter that answers with an old value: `value` -1 keeps the reading that the
+// taxel had when the fault began.
+
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "fsr_pressure_map/simulation/effects/faults.h"
+
+namespace fsr {
+
+namespace {
+
+EffectInfo info() {
+  EffectInfo info;
+  info.id = "stuck_taxel";
+  info.summary = "a taxel that always reads the same";
+  info.equation = "y_i = const";
+  info.source = "fault";
+  info.stage = ChainStage::kReading;
+  info.level = EffectLevel::kTaxel;
+  info.kind = EffectKind::kDetector;
+  info.parameters = faultyTaxelParameters();
+  info.parameters.push_back(
+      shape("value", "where it is stuck; -1 = where the fault found it", {-1, 65535, "counts"}, 1000));
+  info.depends_on = {Covariate::kTaxel};
+  info.collinear = {"dead_taxel"};
+  return info;
+}
+
+class StuckTaxel : public Effect {
+ public:
+  StuckTaxel(const EffectValues& values, const EffectContext& context)
+      : start_(values.at("start")),
+        value_(values.at("value")),
+        stuck_(faultyTaxels("stuck_taxel", values, context)) {
+    state_.assign(1 + stuck_.size(), 0.0);  // whether the fault has begun, then the readings [counts]
+  }
+
+  void apply(const RigMoment& moment, TaxelSignals& signals) override {
+    if (moment.time < start_) return;
+    for (std::size_t k = 0; k < stuck_.size(); ++k) {
+      double& reading = signals.reading[stuck_[k]];
+      if (state_[0] == 0) state_[k + 1] = value_ < 0 ? reading : value_;
+      reading = state_[k + 1];
+    }
+    state_[0] = 1;
+  }
+
+ private:
+  double start_;  // [s]
+  double value_;  // [counts]
+  std::vector<std::size_t> stuck_;
+};
+
+}  // namespace
+
+EffectEntry stuckTaxel() {
+  return {info(), makeEffect<StuckTaxel>};
+}
+
+}  // namespace fsr

@@ -1,0 +1,48 @@
+// The matrix's stamps and the chamber's stamps come from two clocks.
+//
+//     y(t) is the reading of t - d   [s]
+//
+// One d for the whole matrix: a board or driver that stamps a scan when it arrives, a transducer behind a
+// filter, two computers. At 17 kPa/s, 0.1 s is 1.7 kPa, 0.27 % of 620 kPa. The paper says that both were
+// synchronised in LabVIEW, not how well; the range is an estimate.
+
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+
+namespace fsr {
+
+namespace {
+
+EffectInfo info() {
+  EffectInfo info;
+  info.id = "time_skew";
+  info.summary = "the matrix's stamps are late or early by one delay";
+  info.equation = "y(t) = y_0(t - d)";
+  info.source = "estimate; 0.1 s is 0.27 % of full scale at 17 kPa/s";
+  info.stage = ChainStage::kTiming;
+  info.level = EffectLevel::kRig;
+  info.kind = EffectKind::kAdditive;
+  info.parameters = {strength("delay", "d, stamps are late by", {-60, 60, "s"}, 0.1).within(-1, 1)};
+  info.sign = SignRule::kEither;
+  info.depends_on = {Covariate::kPressureRate, Covariate::kDirection};
+  info.collinear = {"hysteresis", "creep", "scan_skew"};
+  info.experiment = Experiment::kTwoRampRates;
+  return info;
+}
+
+class TimeSkew : public Effect {
+ public:
+  TimeSkew(const EffectValues& values, const EffectContext&) : delay_(values.at("delay")) {}
+
+  void apply(const RigMoment&, TaxelSignals& signals) override { signals.skew += delay_; }
+
+ private:
+  double delay_;  // [s]
+};
+
+}  // namespace
+
+EffectEntry timeSkew() {
+  return {info(), makeEffect<TimeSkew>};
+}
+
+}  // namespace fsr

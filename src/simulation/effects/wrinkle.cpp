@@ -1,0 +1,28 @@
+// A crease of the sheet presses its layers together along a line.
+//
+//     P_e = P_e + P_w along the crease   [Pa]
+//
+// In a chamber it looks like one more preload of a few taxels, and whether the next mount has it is chance.
+// An indenter beside and on the crease shows it.
+
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+
+namespace fsr {
+
+EffectEntry wrinkle() {
+  EffectInfo info;
+  info.id = "wrinkle";
+  info.summary = "a crease presses the layers together in one place";
+  info.equation = "P_e += P_w along the crease";
+  info.source = "not simulated; shown by an indenter beside and on the crease, and a mount without it";
+  info.stage = ChainStage::kLoad;
+  info.level = EffectLevel::kMount;
+  info.kind = EffectKind::kListed;
+  info.sign = SignRule::kEither;
+  info.depends_on = {Covariate::kMount, Covariate::kTaxel, Covariate::kPressure};
+  info.collinear = {"repositioning", "bending_preload"};
+  info.experiment = Experiment::kIndenterAndLiner;
+  return {info, nullptr};
+}
+
+}  // namespace fsr

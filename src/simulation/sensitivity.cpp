@@ -1,0 +1,105 @@
+#include "fsr_pressure_map/simulation/sensitivity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+
+namespace fsr {
+
+namespace {
+
+// Steps as shares of the usual strength. The error of a forward difference grows with the step, that of a
+// central one with its square, that of rounding (1e-16 of the reading) falls with it.
+constexpr double kForwardStep = 1e-6;
+constexpr double kCentralStep = 1e-4;
+
+const EffectInfo& knownEffect(const std::string& id, const std::string& strength) {
+  const EffectEntry* entry = findEffect(id);
+  if (!entry || !entry->make) throw InputError("no effect that can be simulated is called " + id);
+  for (const EffectParameter& parameter : strengths(entry->info)) {
+    if (parameter.name == strength) return entry->info;
+  }
+  throw InputError("the effect " + id + " has no strength " + strength);
+}
+
+EffectValues valuesAt(const SimulationSettings& settings, const EffectInfo& info,
+                      const EffectValues& overruling) {
+  const EnabledEffect* enabled = settings.effect(info.id);
+  EffectValues values = overruling;
+  for (const EffectParameter& parameter : info.parameters) {
+    const bool shape = parameter.role == ParameterRole::kShape;
+    const double given = shape ? parameter.usual : parameter.neutral;
+    values.emplace(parameter.name, enabled ? enabled->values.at(parameter.name) : given);
+  }
+  return values;
+}
+
+double scaleOf(const EffectParameter& strength) {
+  return strength.usual != 0 ? std::abs(strength.usual) : 0.1 * strength.plausible.high;
+}
+
+SimulationSettings with(SimulationSettings settings, const std::string& id, const EffectValues& values) {
+  const auto unwanted = [&](const EnabledEffect& e) { return e.id == id || e.id == "white_noise"; };
+  auto& effects = settings.effects;
+  effects.erase(std::remove_if(effects.begin(), effects.end(), unwanted), effects.end());
+  effects.push_back({id, values});
+  return settings;
+}
+
+void difference(const std::vector<double>& upper, const std::vector<double>& lower, double step,
+                std::vector<double>& result) {
+  for (std::size_t i = 0; i < result.size(); ++i) result[i] = (upper[i] - lower[i]) / step;
+}
+
+}  // namespace
+
+Sensitivity::Side::Side(const SimulationSettings& settings) : chain(settings), reference(settings) {
+  course = [this](double time) { return reference.truePressure((*recorded)(time)); };
+}
+
+const TaxelSignals& Sensitivity::Side::read(const RigMoment& moment) {
+  RigMoment true_moment = moment;
+  true_moment.pressure = reference.truePressure(moment.pressure);
+  recorded = moment.course;
+  true_moment.course = recorded ? &course : nullptr;
+  chain.read(true_moment);
+  return chain.signals();
+}
+
+Sensitivity::Sensitivity(const SimulationSettings& settings, const std::string& effect,
+                         const std::string& strength, const EffectValues& values, double step) {
+  const EffectInfo& info = knownEffect(effect, strength);
+  const EffectParameter& varied = parameter(info, strength);
+  EffectValues at = valuesAt(settings, info, values);
+  const double centre = at.at(strength);
+  const double wide = scaleOf(varied) * (step > 0 ? step : kCentralStep);
+  const bool forward = centre - wide < varied.permitted.low;
+  const double low = forward ? centre : centre - wide;
+  const double high = centre + (forward && step == 0 ? scaleOf(varied) * kForwardStep : wide);
+  at[strength] = low;
+  lower_ = std::make_unique<Side>(with(settings, effect, at));
+  at[strength] = high;
+  upper_ = std::make_unique<Side>(with(settings, effect, at));
+  step_ = high - low;
+  derivative_ = lower_->chain.signals();
+}
+
+void Sensitivity::mount(const Surface& surface, const LoadPattern& pattern) {
+  lower_->chain.mount(surface, pattern);
+  upper_->chain.mount(surface, pattern);
+}
+
+const TaxelSignals& Sensitivity::read(const RigMoment& moment) {
+  const TaxelSignals& low = lower_->read(moment);
+  const TaxelSignals& high = upper_->read(moment);
+  derivative_.skew = (high.skew - low.skew) / step_;
+  difference(high.offset, low.offset, step_, derivative_.offset);
+  difference(high.load, low.load, step_, derivative_.load);
+  difference(high.gain, low.gain, step_, derivative_.gain);
+  difference(high.conductance, low.conductance, step_, derivative_.conductance);
+  difference(high.reading, low.reading, step_, derivative_.reading);
+  return derivative_;
+}
+
+}  // namespace fsr

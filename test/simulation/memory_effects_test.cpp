@@ -1,0 +1,249 @@
+// Effects that remember, measured from the counts: each does what its source says, in direction and size.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/simulated_rig.h"
+
+namespace {
+
+using fsr::InputError;
+using fsr::SensorChain;
+using test_support::cylinder;
+using test_support::fitLine;
+using test_support::kStraightCounts;
+using test_support::kStraightSpan;
+using test_support::profile;
+using test_support::readAlong;
+using test_support::Reading;
+using test_support::readingAt;
+using test_support::straightRig;
+
+constexpr double kCount = 1 / kStraightCounts;  // one step of the converter, share of full scale
+
+std::vector<Reading> along(const std::string& effect, const fsr::PressureProfile& course, double period) {
+  SensorChain chain(straightRig(effect));
+  return readAlong(chain, course, period);
+}
+
+/// Share of full scale.
+double share(const Reading& reading) {
+  return reading.counts / kStraightCounts;
+}
+
+// A reading of the ramp is 0.005 s off at most at 17 kPa/s, twice in a difference, and rounded.
+constexpr double kHalfScan = 2 * (0.005 * 17e3 / kStraightSpan + kCount);
+
+// --- hysteresis --------------------------------------------------------------------------------------
+
+// Two cycles to 620 kPa at 17 kPa/s: at 310 kPa after 18.235 s up, 54.706 s down (and 72.941 s later again).
+const fsr::PressureProfile kTwoCycles = fsr::pressureProfile({620e3, 17e3, 17e3, 0, 0, 2});
+constexpr double kCycle = 2 * 620.0 / 17;
+
+TEST(Hysteresis, OpensTheLoopByItsShareOfFullScale) {
+  for (const double width : {0.05, 0.10}) {  // Tangio, Interlink
+    const auto readings =
+        along("  hysteresis: {loop_width: " + std::to_string(width) + "}\n", kTwoCycles, 0.01);
+    const double up = share(readingAt(readings, 1.25 * kCycle)),
+                 down = share(readingAt(readings, 1.75 * kCycle));
+    EXPECT_NEAR(down - up, width, kHalfScan);
+    EXPECT_NEAR((up + down) / 2, 0.5, 0.001);
+  }
+}
+
+TEST(Hysteresis, DoesNotDependOnTheRate) {
+  const std::string effect = "  hysteresis: {loop_width: 0.08}\n";
+  const auto slow = along(effect, profile({{0, 0}, {1000, 6e5}, {1800, 1e5}, {2300, 4e5}, {3000, 0}}), 1);
+  const auto fast = along(effect, profile({{0, 0}, {10, 6e5}, {18, 1e5}, {23, 4e5}, {30, 0}}), 0.01);
+  ASSERT_EQ(slow.size(), fast.size());
+  for (std::size_t i = 0; i < slow.size(); ++i) EXPECT_NEAR(slow[i].counts, fast[i].counts, 1);
+}
+
+TEST(Hysteresis, ReturnsToTheOldBranchAfterAMinorLoop) {  // wiping-out
+  const std::string effect = "  hysteresis: {loop_width: 0.08}\n";
+  const auto straight = along(effect, profile({{0, 0}, {62, 620e3}}), 0.1);
+  const auto looped =
+      along(effect, profile({{0, 0}, {40, 400e3}, {60, 200e3}, {80, 400e3}, {102, 620e3}}), 0.1);
+  EXPECT_GT(readingAt(looped, 50).counts, readingAt(straight, 30).counts + 500);  // the loop was open
+  for (const double after : {0.0, 5.0, 22.0}) {
+    EXPECT_NEAR(readingAt(looped, 80 + after).counts, readingAt(straight, 40 + after).counts, 1);
+  }
+}
+
+TEST(Hysteresis, OneSidedLeavesTheFirstLoadingAloneAndOpensAsWide) {
+  const std::string effect = "  hysteresis: {loop_width: 0.05, one_sided: 1}\n";
+  const auto readings = along(effect, kTwoCycles, 0.01), without = along("", kTwoCycles, 0.01);
+  for (const double quarter : {0.05, 0.25, 0.45}) {
+    EXPECT_EQ(readingAt(readings, quarter * kCycle).counts, readingAt(without, quarter * kCycle).counts);
+  }
+  EXPECT_NEAR(share(readingAt(readings, 0.75 * kCycle)) - share(readingAt(without, 0.75 * kCycle)), 0.05,
+              2 * kCount);
+}
+
+TEST(Hysteresis, RefusesALoopThatWouldRunBackwards) {
+  EXPECT_THROW(SensorChain{straightRig("  hysteresis: {loop_width: 0.5, reach: 10e3}\n")}, InputError);
+}
+
+// --- creep -------------------------------------------------------------------------------------------
+
+const fsr::PressureProfile kHold = profile({{0, 0}, {0.1, 310e3}, {1000, 310e3}});
+const fsr::PressureProfile kStepAndHold = profile({{0, 0}, {1, 310e3}, {3000, 310e3}, {3001, 0}, {33000, 0}});
+
+/// Rise per decade of time since the step, share of the reading just after it.
+double perDecade(const std::vector<Reading>& readings, double from, double to) {
+  std::vector<double> decades, shares;
+  const double start = readingAt(readings, 0.2).counts;
+  for (double time = from; time <= to; time *= 1.1) {
+    decades.push_back(std::log10(time));
+    shares.push_back(readingAt(readings, time).counts / start);
+  }
+  return fitLine(decades, shares).slope;
+}
+
+TEST(Creep, RisesByItsShareInEachDecadeOfTime) {
+  for (const double rate : {0.02, 0.05}) {  // Tangio, Interlink
+    const auto readings = along("  creep: {per_decade: " + std::to_string(rate) + "}\n", kHold, 0.1);
+    EXPECT_NEAR(perDecade(readings, 3, 30), rate, 0.02 * rate);
+    EXPECT_NEAR(perDecade(readings, 30, 300), rate, 0.02 * rate);
+  }
+}
+
+TEST(Creep, FadesWhenTheLoadIsGone) {
+  const auto readings = along("  creep: {per_decade: 0.03}\n", kStepAndHold, 1);
+  double before = readingAt(readings, 3001).counts;
+  EXPECT_GT(before, 0.05 * 0.5 * kStraightCounts);
+  for (const double after : {10.0, 100.0, 1000.0, 10000.0}) {
+    const double now = readingAt(readings, 3000 + after).counts;
+    EXPECT_LT(now, 0.9 * before);
+    before = now;
+  }
+  EXPECT_LT(before, 0.006 * 0.5 * kStraightCounts);
+}
+
+TEST(Creep, IsTheSameAtAnyScanRate) {
+  const auto course = profile({{0, 0}, {1, 310e3}, {300, 310e3}, {301, 0}, {600, 0}});
+  const auto coarse = along("  creep: {per_decade: 0.05}\n", course, 1);
+  const auto fine = along("  creep: {per_decade: 0.05}\n", course, 0.1);
+  for (const Reading& reading : coarse) EXPECT_EQ(reading.counts, readingAt(fine, reading.time).counts);
+}
+
+TEST(Creep, OfTheSensitivityShowsOnlyUnderLoad) {
+  const std::string effect = "  creep: {per_decade: 0.03, gain_share: 1, span: 310e3}\n";
+  EXPECT_NEAR(perDecade(along(effect, kHold, 0.1), 30, 300), 0.03, 0.02 * 0.03);
+  EXPECT_EQ(readingAt(along(effect, kStepAndHold, 1), 3001).counts, 0);
+}
+
+TEST(Creep, RefusesTimeConstantsInTheWrongOrder) {
+  EXPECT_THROW(SensorChain{straightRig("  creep: {fastest: 100, slowest: 1}\n")}, InputError);
+}
+
+// --- cavity ------------------------------------------------------------------------------------------
+
+TEST(SealLeak, LosesTheLoadWithItsTimeConstant) {
+  const auto readings = along("  seal_leak: {time_constant: 600}\n", kStepAndHold, 1);
+  std::vector<double> times, logs;
+  for (double time = 10; time < 2000; time += 10) {
+    times.push_back(time);
+    logs.push_back(std::log(readingAt(readings, time).counts));
+  }
+  EXPECT_NEAR(-1 / fitLine(times, logs).slope, 600, 6);
+  EXPECT_EQ(readingAt(readings, 3010).counts, 0);  // the cavity, still full, lifts the sheet
+}
+
+TEST(SealLeak, LosesNoMoreThanTheShareThatItReaches) {
+  const auto readings = along("  seal_leak: {time_constant: 60, share: 0.3}\n", kStepAndHold, 1);
+  EXPECT_NEAR(readingAt(readings, 2900).counts, 0.7 * 0.5 * kStraightCounts, 2);
+}
+
+TEST(TrappedGas, PressesBackByBoylesLawWhateverTheHistory) {
+  const auto readings = along("  trapped_gas: {closing: 0.3, half_pressure: 200e3}\n", kTwoCycles, 0.01);
+  // p_a (1 / (1 - c P / (P + P_h)) - 1) for P = 310e3  ->  22597.66 Pa   (Python 3.11)
+  const double expected = (310e3 - 22597.66) / kStraightSpan * kStraightCounts;
+  const double tolerance = 2 + 17e3 * 0.005 / kStraightSpan * kStraightCounts;
+  EXPECT_NEAR(readingAt(readings, 0.25 * kCycle).counts, expected, tolerance);
+  EXPECT_NEAR(readingAt(readings, 0.75 * kCycle).counts, expected, tolerance);
+}
+
+// --- gain over time ----------------------------------------------------------------------------------
+
+/// Reading at 310 kPa after an hour at a temperature, share of that at 23 degree Celsius.
+double warm(const std::string& effect, double temperature) {
+  SensorChain chain(straightRig(effect));
+  const auto readings = readAlong(chain, profile({{0, 310e3}, {10, 310e3}}), 1, 0, temperature);
+  return readings.back().counts / (0.5 * kStraightCounts);
+}
+
+TEST(Temperature, ChangesTheReadingByItsShareAKelvin) {
+  for (const double coefficient : {0.0036, -0.0025}) {
+    const std::string effect = "  temperature: {coefficient: " + std::to_string(coefficient) + "}\n";
+    EXPECT_NEAR(warm(effect, 24) - 1, coefficient, 0.01 * std::abs(coefficient) + kCount * 2);
+    EXPECT_NEAR(warm(effect, 22) - 1, -coefficient, 0.01 * std::abs(coefficient) + kCount * 2);
+  }
+}
+
+// Resistance -5 % at -40 and -15 % at +85 degree Celsius (Interlink):
+//   T0 = 296.15; x = lambda d: d * T0 / (T0 + d)
+//   numpy.linalg.solve([[x(-63), 63**2], [x(62), 62**2]], [-log(.95), -log(.85)])
+//     -> [8.76298148e-04, 3.05914916e-05]
+TEST(Temperature, CanFallOrRiseAtBothEnds) {
+  const std::string effect = "  temperature: {coefficient: 8.76298148e-04, quadratic: 3.05914916e-05}\n";
+  EXPECT_NEAR(1 / warm(effect, -40), 0.95, 1e-4);
+  EXPECT_NEAR(1 / warm(effect, 85), 0.85, 1e-4);
+}
+
+TEST(Temperature, FollowsTheGasWithItsLag) {
+  SensorChain chain(straightRig("  temperature: {coefficient: 0.003, lag: 60}\n"));
+  std::vector<double> times, logs;
+  for (std::uint64_t second = 0; second < 200; ++second) {
+    fsr::RigMoment moment{double(second), 310e3, second, second == 0 ? 23.0 : 33.0};
+    const double rise = chain.read(moment)[0] / (0.5 * kStraightCounts) - 1;
+    if (second < 2 || second > 120) continue;
+    times.push_back(double(second));
+    logs.push_back(std::log(1 - rise / (warm("  temperature: {coefficient: 0.003}\n", 33) - 1)));
+  }
+  EXPECT_NEAR(-1 / fitLine(times, logs).slope, 60, 1);
+}
+
+TEST(BreakIn, FadesOverTheFirstCyclesAndComesBackWithEachMount) {
+  SensorChain chain(straightRig("  break_in: {change: -0.04, cycles: 2}\n"));
+  const fsr::PressureProfile cycles = fsr::pressureProfile({620e3, 62e3, 62e3, 0, 0, 4});
+  for (const std::uint32_t mount : {1u, 2u}) {
+    chain.mount(test_support::surfaceOf({}, mount));
+    const auto readings = readAlong(chain, cycles, 0.1);
+    double before = 0;
+    for (int cycle = 0; cycle < 4; ++cycle) {
+      const double missing = 1 - share(readingAt(readings, 20.0 * cycle + 10));
+      EXPECT_NEAR(missing, 0.04 * std::exp(-(cycle + 0.5) / 2), 3 * kCount);
+      if (cycle > 0) {
+        EXPECT_NEAR(missing / before, std::exp(-0.5), 0.005);
+      }
+      before = missing;
+    }
+  }
+}
+
+TEST(Wear, TakesItsShareInTenMillionCyclesAndHardlyAnyInSixty) {
+  const auto cycles = fsr::pressureProfile({620e3, 620e3, 620e3, 0, 0, 61});
+  const auto fresh = along("  wear: {loss: 0.07}\n", cycles, 0.1);
+  const auto old = along("  wear: {loss: 0.07, age: 1e7}\n", cycles, 0.1);
+  EXPECT_NEAR(share(readingAt(old, 1)), 0.93, 1e-3);
+  const double lost = share(readingAt(fresh, 1)) - share(readingAt(fresh, 121));
+  EXPECT_GT(lost, 5e-4);
+  EXPECT_LT(lost, 3e-3);
+}
+
+TEST(Drift, MovesByItsShareAnHourAndEndsWhereItIsTold) {
+  const auto hold = profile({{0, 310e3}, {7200, 310e3}});
+  const auto endless = along("  drift: {rate_per_hour: 0.02}\n", hold, 10);
+  const auto ending = along("  drift: {rate_per_hour: 0.02, time_constant: 600}\n", hold, 10);
+  const double start = endless.front().counts;
+  EXPECT_NEAR(readingAt(endless, 3600).counts / start, 1.02, 1e-4);
+  EXPECT_NEAR(readingAt(endless, 7200).counts / start, 1.04, 1e-4);
+  EXPECT_NEAR(readingAt(ending, 7200).counts / start, 1 + 0.02 * 600 / 3600, 1e-4);
+  const auto zero =
+      along("  drift: {rate_per_hour: 0, zero_per_hour: 600}\n", profile({{0, 0}, {7200, 0}}), 10);
+  EXPECT_EQ(readingAt(zero, 3600).counts, 600);
+}
+
+}  // namespace
