@@ -27,7 +27,7 @@ double Board::Source::due() const {
 }
 
 Board::Board(const SimulationSettings& simulation, const BoardClock& clock)
-    : settings_(simulation), clock_(clock), chain_(simulation), packet_(FSR_WIRE_MAX_PACKET) {
+    : settings_(simulation), clock_(clock), rig_(simulation), packet_(FSR_WIRE_MAX_PACKET) {
   sources_[kIdentity].period = 1;
   sources_[kTemperature].period = 1;
   sources_[kTransducer].period = period(simulation.board.transducer_rate);
@@ -62,11 +62,11 @@ std::size_t Board::encode(Kind kind, double time, const Pressure& pressure) {
       return encodeScan(sequence, time, pressure);
     case kTransducer:
       return fsr_wire_encode_transducer(packet_.data(), packet_.size(), sequence, device_time,
-                                        settings_.transducer.counts(pressure(time)));
+                                        rig_.transducer(time, pressure));
     case kTemperature:
       return fsr_wire_encode_temperature(
           packet_.data(), packet_.size(), sequence, device_time,
-          static_cast<std::int32_t>(std::lround(1000 * settings_.board.temperature)));
+          static_cast<std::int32_t>(std::lround(1000 * rig_.temperature(time, pressure))));
     default:
       return encodeIdentity(sequence, device_time);
   }
@@ -76,9 +76,9 @@ std::size_t Board::encodeScan(std::uint32_t sequence, double time, const Pressur
   fsr_wire_scan scan{};
   scan.rows = static_cast<std::uint8_t>(settings_.layout.size.rows);
   scan.columns = static_cast<std::uint8_t>(settings_.layout.size.columns);
-  scan.full_scale = chain_.fullScale();
+  scan.full_scale = rig_.chain().fullScale();
   scan.duration_us = microseconds(settings_.board.scan_duration);
-  scan.counts = chain_.read({time, pressure(time), scans_++}).data();
+  scan.counts = rig_.scan(time, pressure).data();
   return fsr_wire_encode_scan(packet_.data(), packet_.size(), sequence,
                               static_cast<std::uint32_t>(deviceTime(time)), &scan);
 }
@@ -90,7 +90,7 @@ std::size_t Board::encodeIdentity(std::uint32_t sequence, std::uint32_t device_t
   identity.model = settings_.board.model.c_str();
   identity.rows = static_cast<std::uint8_t>(settings_.layout.size.rows);
   identity.columns = static_cast<std::uint8_t>(settings_.layout.size.columns);
-  identity.full_scale = chain_.fullScale();
+  identity.full_scale = rig_.chain().fullScale();
   identity.scan_period_us = microseconds(sources_[kScan].period);
   return fsr_wire_encode_identity(packet_.data(), packet_.size(), sequence, device_time, &identity);
 }

@@ -48,15 +48,18 @@ double cycleDuration(const ChamberProtocol& p) {
   return p.dwell_rest + p.peak / p.fill_rate + p.dwell_peak + p.peak / p.vent_rate;
 }
 
-PressureProfile pressureProfile(const ChamberProtocol& p) {
+std::vector<PressurePoint> cyclePoints(const ChamberProtocol& p) {
   const double full = p.dwell_rest + p.peak / p.fill_rate;
+  return {{0, 0},
+          {p.dwell_rest, 0},
+          {full, p.peak},
+          {full + p.dwell_peak, p.peak},
+          {full + p.dwell_peak + p.peak / p.vent_rate, 0}};
+}
+
+PressureProfile pressureProfile(const ChamberProtocol& protocol) {
   PressureProfile profile;
-  profile.append({{0, 0},
-                  {p.dwell_rest, 0},
-                  {full, p.peak},
-                  {full + p.dwell_peak, p.peak},
-                  {full + p.dwell_peak + p.peak / p.vent_rate, 0}},
-                 p.cycles);
+  profile.append(cyclePoints(protocol), protocol.cycles);
   return profile;
 }
 

@@ -1,8 +1,11 @@
 #include "fsr_pressure_map/simulation/simulation_settings.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
+#include "fsr_pressure_map/matrix/surface_file.h"
+#include "fsr_pressure_map/simulation/chamber_program.h"
 #include "fsr_pressure_map/simulation/effects/effect_library.h"
 
 namespace fsr {
@@ -27,7 +30,6 @@ SimulatedBoard readBoard(const Settings& settings) {
   board.scan_rate = settings.number("scan_rate", {0.01, 10000, "Hz"}, board.scan_rate);
   board.scan_duration = settings.number("scan_duration", {0, 10, "s"}, board.scan_duration);
   board.transducer_rate = settings.number("transducer_rate", {0, 10000, "Hz"}, board.transducer_rate);
-  board.temperature = settings.number("temperature", {-40, 125, "degree Celsius"}, board.temperature);
   validate(board, settings.origin() + ": board");
   return board;
 }
@@ -43,6 +45,35 @@ Transducer readTransducer(const Settings& settings) {
   return transducer;
 }
 
+Surface surfaceOf(const Settings& settings, MatrixSize size) {
+  if (hasSurfaceForm(settings)) return readSurface(settings, size);
+  const auto beside = std::filesystem::path(settings.origin()).parent_path() / "../surfaces";
+  return readSurfaceFile((beside / (settings.text("surface") + ".yaml")).lexically_normal(), size);
+}
+
+Station readStation(const Settings& settings, const Station& usual, MatrixSize size) {
+  Station station = usual;
+  station.surface = surfaceOf(settings, size);
+  station.surface.mount = usual.surface.mount;
+  station.pause = settings.number("pause", {0, 1e7, "s"}, station.pause);
+  if (settings.has("load")) station.load = readLoadPattern(settings.section("load"));
+  if (settings.has("program")) station.program = readChamberProgram(settings.sections("program"));
+  return station;
+}
+
+std::vector<Station> readSession(const Settings& settings, const SimulationSettings& simulation) {
+  Station usual{{"flat", 1, {Curvature{}}, {}}, {}, Station{}.pause, pressureProfile(simulation.chamber)};
+  if (settings.has("program")) usual.program = readChamberProgram(settings.sections("program"));
+  if (!settings.has("session")) return {usual};
+  std::vector<Station> session;
+  for (const Settings& station : settings.sections("session")) {
+    session.push_back(readStation(station, usual, simulation.layout.size));
+    ++usual.surface.mount;
+  }
+  if (session.empty()) throw settings.error("session", "must hold one surface at least");
+  return session;
+}
+
 EffectValues readValues(const Settings& settings, const EffectInfo& info) {
   EffectValues values;
   for (const EffectParameter& parameter : info.parameters) {
@@ -51,9 +82,11 @@ EffectValues readValues(const Settings& settings, const EffectInfo& info) {
   return values;
 }
 
-void refuseUnknownEffects(const Settings& effects) {
+void refuseOtherEffects(const Settings& effects) {
   for (const std::string& id : effects.keys()) {
-    if (findEffect(id)) continue;
+    const EffectEntry* entry = findEffect(id);
+    if (entry && entry->make) continue;
+    if (entry) throw effects.error(id, "it is only listed: a gas chamber cannot show it");
     std::string known;
     for (const std::string& other : effectIds()) known += (known.empty() ? "" : ", ") + other;
     throw effects.error(id, "no effect has that name; the effects are " + known);
@@ -61,7 +94,7 @@ void refuseUnknownEffects(const Settings& effects) {
 }
 
 std::vector<EnabledEffect> readEffects(const Settings& effects) {
-  refuseUnknownEffects(effects);
+  refuseOtherEffects(effects);
   std::vector<EnabledEffect> enabled;
   for (const EffectEntry& entry : effectLibrary()) {
     if (effects.has(entry.info.id)) {
@@ -101,6 +134,9 @@ SimulationSettings readSimulation(const Settings& settings) {
   if (settings.has("matrix")) simulation.layout = readLayout(settings.section("matrix"), simulation.layout);
   if (settings.has("board")) simulation.board = readBoard(settings.section("board"));
   if (settings.has("chamber")) simulation.chamber = readChamberProtocol(settings.section("chamber"));
+  simulation.session = readSession(settings, simulation);
+  simulation.start = settings.number("start", {1, 4e9, "s since 1970"}, simulation.start);
+  if (settings.has("climate")) simulation.climate = readChamberClimate(settings.section("climate"));
   if (settings.has("transducer")) simulation.transducer = readTransducer(settings.section("transducer"));
   simulation.effects = readEffects(settings.section("effects"));
   settings.refuseUnknown();

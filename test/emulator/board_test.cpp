@@ -27,7 +27,7 @@ std::vector<std::string> packetsUntil(Board& board, double end) {
 }
 
 TEST(Board, SendsEachKindAtItsOwnRate) {
-  Board board(smallRig("{serial: A7, model: m, scan_rate: 4, transducer_rate: 2, temperature: 21.5}"), {});
+  Board board(smallRig("{serial: A7, model: m, scan_rate: 4, transducer_rate: 2}, climate: {room: 21.5}"), {});
   const std::vector<std::string> expected = {
       "identity #0 @0 A7/1.0.0/m 1x2 full 4095 every 250000",
       "temperature #0 @0 21500",

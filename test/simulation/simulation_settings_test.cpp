@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "fsr_pressure_map/simulation/sensor_chain.h"
@@ -33,10 +34,12 @@ TEST(SimulationSettings, EveryShippedFileIsReadAndRuns) {
     const auto settings = fsr::readSimulationFile(file.path());
     EXPECT_EQ(settings.name, file.path().stem()) << "the name inside is the file's";
     fsr::SensorChain chain(settings);
-    EXPECT_EQ(chain.read({0, 100e3, 0}).size(), settings.layout.size.taxels());
+    const fsr::PressureCourse course = [](double) { return 100e3; };
+    EXPECT_EQ(chain.read({0, 100e3, 0, 23, &course}).size(), settings.layout.size.taxels());
+    for (const auto& station : settings.session) EXPECT_TRUE(std::isfinite(station.program.duration()));
     ++files;
   }
-  EXPECT_GE(files, 4);
+  EXPECT_GE(files, 7);
 }
 
 TEST(SimulationSettings, CoreHoldsWhatEveryMatrixHasAndNothingElse) {
@@ -56,9 +59,11 @@ TEST(SimulationSettings, MissingPartsHaveTheirDefaults) {
 }
 
 TEST(SimulationSettings, UnknownEffectsAndKeysAreRefusedByName) {
-  EXPECT_EQ(complaintAbout(withEffects("hysterese: {}")),
-            "my.yaml: effects.hysterese is a mapping, but no effect has that name; the effects are "
-            "bending_preload, hysteresis, bending_gain, static_curve, converter, white_noise");
+  const std::string complaint = complaintAbout(withEffects("hysterese: {}"));
+  EXPECT_EQ(
+      complaint.find("my.yaml: effects.hysterese is a mapping, but no effect has that name; the effects are "
+                     "time_skew, scan_skew, "),
+      0u);
   EXPECT_NE(complaintAbout(withEffects("hysteresis: {width: 0.05}")).find("effects.hysteresis.width"),
             std::string::npos);
   EXPECT_NE(complaintAbout("{simulation: a, effects: {static_curve: {}, converter: {}}, chambre: {}}")
@@ -78,6 +83,33 @@ TEST(SimulationSettings, ValuesOutOfRangeAreRefusedByName) {
       complaintAbout("{simulation: a, chamber: {peak: 800e3}, effects: {static_curve: {}, converter: {}}}")
           .find("793"),
       std::string::npos);
+}
+
+std::string withSession(const std::string& station) {
+  return "{simulation: a, session: [{surface: s, " + station +
+         "}], effects: {static_curve: {}, converter: {}}}";
+}
+
+TEST(SimulationSettings, WhatARigCannotDoIsRefusedByName) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {withEffects("hysteresis: {}, hysteresis: {}"), "effects.hysteresis is given twice"},
+      {withEffects("seal_leak: {time_constant: -5}"), "effects.seal_leak.time_constant is -5"},
+      {withSession("cylinder: {radius: 0.009, axis: y}"), "session[0].cylinder.radius is 0.009"},
+      {withSession("two_planes: {x: 101, y: 0}"), "session[0].two_planes.x is 101"},
+      {withSession("flat: true, pauze: 5"), "session[0].pauze is not a known setting"},
+      {withSession("flat: true, load: {disc: {radius: 0}}"), "session[0].load.disc.radius is 0"},
+      {withSession("flat: true, load: {}"), "give exactly one of disc and edge"},
+      {withSession("flat: true, program: [{hold: {pressure: 794e3, duration: 1}}]"),
+       "session[0].program[0].hold.pressure is 794e3"},
+      {"{simulation: a, matrix: {rows: 0}, effects: {static_curve: {}, converter: {}}}", "matrix.rows is 0"},
+      {"{simulation: a, session: [], effects: {static_curve: {}, converter: {}}}", "must hold one surface"},
+      {withEffects("humidity: {}"), "it is only listed: a gas chamber cannot show it"},
+  };
+  for (const auto& [yaml, expected] : cases) {
+    const std::string complaint = complaintAbout(yaml);
+    EXPECT_EQ(complaint.find("my.yaml: "), 0u) << complaint;
+    EXPECT_NE(complaint.find(expected), std::string::npos) << complaint;
+  }
 }
 
 TEST(SimulationSettings, ASensorNeedsItsStaticCurveAndConverter) {

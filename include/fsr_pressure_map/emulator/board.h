@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "fsr_pressure_map/simulation/sensor_chain.h"
+#include "fsr_pressure_map/simulation/rig.h"
 
 namespace fsr {
 
@@ -20,7 +20,7 @@ struct BoardClock {
 class Board {
  public:
   /// Gauge pressure of the chamber [Pa] at a rig time [s].
-  using Pressure = std::function<double(double)>;
+  using Pressure = PressureCourse;
 
   /// Switched on at rig time 0. Throws InputError.
   Board(const SimulationSettings& simulation, const BoardClock& clock);
@@ -32,7 +32,7 @@ class Board {
   std::vector<std::uint8_t>& next(const Pressure& pressure);
 
   /// Lays the matrix on a surface. Throws InputError.
-  void mount(const Surface& surface) { chain_.mount(surface); }
+  void mount(const Surface& surface) { rig_.mount(surface); }
 
   /// Switches it off and on: clock and counters start again.
   void reset(double time);
@@ -42,7 +42,7 @@ class Board {
   /// The other way round, since the last reset.
   double rigTime(std::uint64_t device_time) const;
 
-  std::uint64_t scans() const { return scans_; }
+  std::uint64_t scans() const { return rig_.scans(); }
 
   /// What the link must carry [bits a second of rig time].
   double bitsPerSecond() const;
@@ -67,10 +67,9 @@ class Board {
 
   SimulationSettings settings_;
   BoardClock clock_;
-  SensorChain chain_;
+  Rig rig_;
   std::array<Source, kKinds> sources_;
   double switched_on_ = 0;  // [s rig time]
-  std::uint64_t scans_ = 0;
   std::vector<std::uint8_t> packet_;
 };
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "fsr_pressure_map/settings/settings.h"
 #include "fsr_pressure_map/simulation/pressure_profile.h"
 
@@ -29,6 +32,8 @@ void validate(const ChamberProtocol& protocol, const std::string& origin);
 /// Length of one cycle [s].
 double cycleDuration(const ChamberProtocol& protocol);
 
+/// One cycle, from its start.
+std::vector<PressurePoint> cyclePoints(const ChamberProtocol& protocol);
 PressureProfile pressureProfile(const ChamberProtocol& protocol);
 
 /// Straight from `pressure` down to 0 at the protocol's venting rate.

@@ -4,10 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "fsr_pressure_map/matrix/curvature.h"
 #include "fsr_pressure_map/matrix/layout.h"
 #include "fsr_pressure_map/settings/settings.h"
+#include "fsr_pressure_map/simulation/chamber_climate.h"
 #include "fsr_pressure_map/simulation/chamber_protocol.h"
 #include "fsr_pressure_map/simulation/effect.h"
+#include "fsr_pressure_map/simulation/load_pattern.h"
 #include "fsr_pressure_map/simulation/transducer.h"
 
 namespace fsr {
@@ -20,7 +23,6 @@ struct SimulatedBoard {
   double scan_rate = 10;        ///< [Hz]
   double scan_duration = 0;     ///< first to last taxel [s], 0 = all at once
   double transducer_rate = 10;  ///< [Hz], 0 = no transducer on this link
-  double temperature = 23;      ///< of the chamber [degree Celsius]
 };
 
 /// Throws InputError where a scan takes longer than the time from scan to scan; `origin` stands where
@@ -33,6 +35,14 @@ struct EnabledEffect {
   EffectValues values;
 };
 
+/// One mount of the matrix and what the chamber then does: one bag.
+struct Station {
+  Surface surface;  ///< mounts are numbered from 1
+  LoadPattern load;
+  double pause = 60;  ///< at rest before it, not recorded [s]
+  PressureProfile program;
+};
+
 /// A simulated rig: config/simulation/*.yaml.
 struct SimulationSettings {
   std::string origin;  ///< the file, for messages
@@ -40,7 +50,10 @@ struct SimulationSettings {
   std::uint64_t seed = 1;
   Layout layout{{7, 10}, 0.010, 0.010};
   SimulatedBoard board;
-  ChamberProtocol chamber;
+  ChamberProtocol chamber;       ///< cycles that the emulator runs
+  std::vector<Station> session;  ///< what `simulate` goes through, at least one
+  double start = 1704099600;     ///< date of rig time 0 [s since 1970]
+  ChamberClimate climate;
   Transducer transducer;
   std::vector<EnabledEffect> effects;  ///< in the library's order
 
@@ -57,6 +70,14 @@ struct SimulationSettings {
 ///     matrix: {rows: 7, columns: 10, pitch_x: 0.010, pitch_y: 0.010}   # [m]
 ///     board: {serial: SIM-0001, scan_rate: 10, ...}                    # fields of SimulatedBoard
 ///     chamber: {peak: 620000, rate: 17000, cycles: 10, ...}            # see readChamberProtocol()
+///     program: [{cycles: {...}}, {hold: {...}}, ...]                   # else `chamber`;
+///     readChamberProgram() session:                                                         # else once on
+///     the flat
+///       - {surface: cylinder_5cm}                  # ../surfaces/cylinder_5cm.yaml, seen from this file
+///       - {surface: saddle, two_planes: {x: 5, y: -3}, pause: 600, load: {disc: {radius: 0.02}}, program:
+///       [...]}
+///     start: 1704099600                                                # date of the first scan
+///     climate: {room: [{time: 0, temperature: 23}, ...], heating: 0}   # see readChamberClimate()
 ///     transducer: {low: -103000, high: 1034000, full_counts: 4096}
 ///     effects:
 ///       static_curve: {exponent: 0.9}   # effects that are named are enabled; {} = usual values

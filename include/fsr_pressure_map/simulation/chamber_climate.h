@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "fsr_pressure_map/rheology/exponential_memory.h"
+#include "fsr_pressure_map/settings/settings.h"
+
+namespace fsr {
+
+/// A moment of the room's temperature.
+struct TemperaturePoint {
+  double time = 0;         ///< rig time [s]
+  double temperature = 0;  ///< [degree Celsius]
+};
+
+/// Temperature round the matrix.
+struct ChamberClimate {
+  /// Of the room, by ascending time, straight between the points and held outside; empty = 23 all the time.
+  std::vector<TemperaturePoint> room;
+  /// Gas that is compressed gets warmer and cools down at the walls: rise by pressure [K/Pa], and time
+  /// constant of the cooling [s]. Off by default; nobody has published either for such a chamber.
+  double heating = 0;
+  double cooling = 20;
+};
+
+/// Reads the mapping `room: [{time: 0, temperature: 23}, ...]` (or one number), `heating`, `cooling`.
+/// Throws InputError.
+ChamberClimate readChamberClimate(const Settings& settings);
+
+/// The gas in the chamber, whose temperature follows the pressure's history.
+class ChamberGas {
+ public:
+  explicit ChamberGas(const ChamberClimate& climate);
+
+  /// Temperature at a time at which the chamber stands at that gauge pressure; the pressure ran straight
+  /// since the call before. Times must ascend.
+  double temperature(double time, double pressure);  // [degree Celsius]
+
+ private:
+  double room(double time) const;
+
+  ChamberClimate climate_;
+  ExponentialMemory cooling_;
+  bool started_ = false;
+  double time_ = 0;      // of the call before [s]
+  double pressure_ = 0;  // then [Pa]
+  double slow_ = 0;      // pressure to whose heat the gas has lost its own [Pa]
+};
+
+}  // namespace fsr

@@ -1,0 +1,58 @@
+#include "fsr_pressure_map/simulation/chamber_climate.h"
+
+#include <algorithm>
+
+#include "fsr_pressure_map/simulation/effect.h"
+
+namespace fsr {
+
+namespace {
+
+const Range kCelsius{-40, 125, "degree Celsius"};
+
+std::vector<TemperaturePoint> readRoom(const Settings& settings) {
+  if (!settings.isList("room")) return {{0, settings.number("room", kCelsius)}};
+  std::vector<TemperaturePoint> room;
+  for (const Settings& point : settings.sections("room")) {
+    room.push_back({point.number("time", {0, 1e9, "s"}), point.number("temperature", kCelsius)});
+    if (room.size() > 1 && room.back().time <= room[room.size() - 2].time) {
+      throw point.error("time", "must be later than the time before it");
+    }
+  }
+  return room;
+}
+
+}  // namespace
+
+ChamberClimate readChamberClimate(const Settings& settings) {
+  ChamberClimate climate;
+  if (settings.has("room")) climate.room = readRoom(settings);
+  climate.heating = settings.number("heating", {0, 1e-3, "K/Pa"}, climate.heating);
+  climate.cooling = settings.number("cooling", {0.1, 1e5, "s"}, climate.cooling);
+  return climate;
+}
+
+ChamberGas::ChamberGas(const ChamberClimate& climate) : climate_(climate), cooling_(climate.cooling) {}
+
+double ChamberGas::room(double time) const {
+  const auto& points = climate_.room;
+  if (points.empty()) return kRoomTemperature;
+  const auto next = std::find_if(points.begin(), points.end(),
+                                 [time](const TemperaturePoint& point) { return point.time > time; });
+  if (next == points.begin()) return points.front().temperature;
+  if (next == points.end()) return points.back().temperature;
+  const auto from = next - 1;
+  const double share = (time - from->time) / (next->time - from->time);
+  return from->temperature + share * (next->temperature - from->temperature);
+}
+
+double ChamberGas::temperature(double time, double pressure) {
+  // dT/dt = c dP/dt - T / tau above the room: what the pressure has over its own slow mean.
+  if (started_) slow_ = cooling_.step(pressure_, pressure, time - time_, slow_);
+  started_ = true;
+  time_ = time;
+  pressure_ = pressure;
+  return room(time) + climate_.heating * (pressure - slow_);
+}
+
+}  // namespace fsr

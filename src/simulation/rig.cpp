@@ -1,0 +1,30 @@
+#include "fsr_pressure_map/simulation/rig.h"
+
+namespace fsr {
+
+Rig::Rig(const SimulationSettings& settings)
+    : chain_(settings), reference_(settings), gas_(settings.climate) {}
+
+const std::vector<std::uint16_t>& Rig::scan(double time, const PressureCourse& pressure) {
+  RigMoment moment;
+  moment.time = time;
+  moment.pressure = pressure(time);
+  moment.scan = scans_++;
+  moment.temperature = gas_.temperature(time, moment.pressure);
+  moment.course = &pressure;
+  return chain_.read(moment);
+}
+
+std::int32_t Rig::transducer(double time, const PressureCourse& pressure) const {
+  return reference_.counts(pressure(time));
+}
+
+double Rig::reference(double time, const PressureCourse& pressure) const {
+  return reference_.recorded(pressure(time));
+}
+
+double Rig::temperature(double time, const PressureCourse& pressure) {
+  return gas_.temperature(time, pressure(time));
+}
+
+}  // namespace fsr

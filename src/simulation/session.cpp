@@ -1,0 +1,106 @@
+#include "fsr_pressure_map/simulation/session.h"
+
+#include <cmath>
+
+#include "fsr_pressure_map/dataset/recording_builder.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr double kThermometerRate = 1;  // [Hz]
+
+/// Something that is sampled at an even rate from a station's begin.
+struct Sampler {
+  double begin, rate;  // [s], [Hz]; rate 0 = never
+  std::uint64_t number = 0;
+
+  double due() const { return rate > 0 ? begin + static_cast<double>(number) / rate : INFINITY; }
+};
+
+std::int64_t nanoseconds(double time) {
+  return std::llround(time * 1e9);
+}
+
+}  // namespace
+
+Session::Session(const SimulationSettings& settings) : settings_(settings), rig_(settings) {
+  for (const Station& station : settings_.session) {
+    if (std::isfinite(station.program.duration())) continue;
+    throw InputError(settings_.origin + ": the cycles on " + station.surface.name +
+                     " never end; give `cycles` of 1 or more");
+  }
+}
+
+double Session::begin() const {
+  return next_ == 0 ? 0 : time_ + station(next_).pause;
+}
+
+void Session::runNext(const RigListener& listener) {
+  const Station& now = station(next_);
+  const double start = begin();
+  const PressureCourse course = [&](double time) { return now.program.at(time - start); };
+  rig_.mount(now.surface, now.load);
+  Sampler scan{start, settings_.board.scan_rate}, transducer{start, settings_.board.transducer_rate},
+      thermometer{start, kThermometerRate};
+  const double end = start + now.program.duration();
+  while (scan.due() <= end) {
+    if (thermometer.due() <= std::min(transducer.due(), scan.due())) {
+      const double time = thermometer.due();
+      if (listener.temperature) listener.temperature(time, rig_.temperature(time, course));
+      ++thermometer.number;
+    } else if (transducer.due() <= scan.due()) {
+      const double time = transducer.due();
+      if (listener.pressure) listener.pressure(time, rig_.reference(time, course));
+      ++transducer.number;
+    } else {
+      const double time = scan.due();
+      const auto& counts = rig_.scan(time, course);
+      if (listener.scan) listener.scan(time, counts);
+      ++scan.number;
+    }
+  }
+  time_ = end;
+  ++next_;
+}
+
+SensorIdentity identity(const SimulationSettings& settings) {
+  SensorIdentity sensor;
+  sensor.sensor_id = settings.board.serial;
+  sensor.serial = settings.board.serial;
+  sensor.firmware = settings.board.firmware;
+  sensor.model = settings.board.model;
+  return sensor;
+}
+
+std::string stationName(const Station& station) {
+  return std::to_string(station.surface.mount) + "_" + station.surface.name;
+}
+
+std::vector<Recording> simulateSession(const SimulationSettings& settings) {
+  Session session(settings);
+  std::vector<Recording> recordings;
+  for (std::size_t i = 0; i < session.stations(); ++i) {
+    RecordingBuilder builder;
+    std::uint32_t sequence = 0;
+    const auto stamp = [&](double time) { return nanoseconds(settings.start) + nanoseconds(time); };
+    builder.addDescription(stamp(session.begin()),
+                           {identity(settings), settings.layout, settings.fullScale(), kStandardAmbient, {}});
+    builder.addSurface(stamp(session.begin()), session.station(i).surface);
+    session.runNext({[&](double time, const std::vector<std::uint16_t>& counts) {
+                       builder.addScan(
+                           stamp(time), sequence++,
+                           {settings.layout.size, settings.fullScale(), counts.data(), counts.size()});
+                     },
+                     [&](double time, double gauge) {
+                       builder.addChamberPressure(stamp(time), gauge + kStandardAmbient);
+                     },
+                     [&](double time, double celsius) { builder.addTemperature(stamp(time), celsius); }});
+    RecordingOptions options;
+    options.name = stationName(session.station(i)) + ".bag";
+    recordings.push_back(builder.build(options));
+  }
+  return recordings;
+}
+
+}  // namespace fsr
