@@ -1,4 +1,5 @@
 """Scores of the demo's live runs against the chamber's own pressure, and its picture."""
+import functools
 import subprocess
 import time
 
@@ -9,17 +10,16 @@ UNDER_PRESSURE = 2e3  # [Pa] gauge: where a run's first cycle begins and its las
 
 
 def read_run(path, namespace, maps):
-    """Reference (stamps [s], gauge pressure [Pa]) and for each scheme (stamps, maps [scans x taxels], flags)."""
+    """Reference (stamps [s], gauge pressure [Pa]) and for each scheme (stamps [s], maps [scans x taxels])."""
     reference, ambient = [], 101325.0
-    series = {scheme: ([], [], []) for scheme in maps}
+    series = {scheme: ([], []) for scheme in maps}
     scheme_of = {f"/{namespace}/{topic}": scheme for scheme, topic in maps.items()}
     with rosbag.Bag(str(path)) as bag:
         for topic, message, _ in bag.read_messages():
             if topic in scheme_of:
-                stamps, pressures, flags = series[scheme_of[topic]]
+                stamps, pressures = series[scheme_of[topic]]
                 stamps.append(message.header.stamp.to_sec())
                 pressures.append(message.pressure)
-                flags.append(message.flags)
             elif topic.endswith("/chamber_pressure"):
                 reference.append((message.header.stamp.to_sec(), message.fluid_pressure))
             elif topic.endswith("/matrix_info"):
@@ -31,12 +31,14 @@ def read_run(path, namespace, maps):
 
 def score(path, namespace, maps):
     """For each scheme: RMSE [% of the run's range] and [kPa] and bias [kPa], means over taxels, over the
-    run's cycles (rest before and after left out), the share of readings within one stated deviation, n."""
+    run's cycles (rest before and after left out), readings missing, scans. Schemes are compared on the
+    scans that all of them answered: the recorder may meet one node's first map later than another's."""
     reference, series = read_run(path, namespace, maps)
     under = reference[reference[:, 1] > UNDER_PRESSURE, 0]
+    common = functools.reduce(numpy.intersect1d, [stamps for stamps, _ in series.values()])
     result = {}
-    for scheme, (stamps, pressures, flags) in series.items():
-        inside = (stamps >= under[0]) & (stamps <= under[-1])
+    for scheme, (stamps, pressures) in series.items():
+        inside = (stamps >= under[0]) & (stamps <= under[-1]) & numpy.isin(stamps, common)
         truth = numpy.interp(stamps[inside], reference[:, 0], reference[:, 1])[:, None]
         error = pressures[inside] - truth
         rmse = numpy.sqrt(numpy.nanmean(error**2, axis=0))  # one for each taxel
