@@ -35,4 +35,11 @@ CodeStatistics statisticsOf(const CodeSamples& samples) {
   return accumulator.take();
 }
 
+CodeHistogram histogramOf(const CodeSamples& samples) {
+  validate(samples);
+  CodeHistogram histogram(samples.full_scale);
+  for (std::size_t i = 0; i < samples.size(); ++i) histogram.add(samples.code[i], samples.pressure[i]);
+  return histogram;
+}
+
 }  // namespace fsr

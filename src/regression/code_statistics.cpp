@@ -11,12 +11,21 @@ namespace fsr {
 
 namespace {
 
+[[noreturn]] void refuseOverflow(std::uint16_t code) {
+  throw InputError("code " + std::to_string(code) +
+                   " occurs more often than its sums can hold; train on fewer scans");
+}
+
+[[noreturn]] void refuseCode(std::uint16_t code, std::size_t full_scale) {
+  throw InputError("a count is " + std::to_string(code) + ", but the converter's full scale is " +
+                   std::to_string(full_scale));
+}
+
 // Adds b's sums to a's; exact, or refused.
 void addSums(CodeSums& a, const CodeSums& b) {
   if (__builtin_add_overflow(a.count, b.count, &a.count) || __builtin_add_overflow(a.sum, b.sum, &a.sum) ||
       __builtin_add_overflow(a.sum_of_squares, b.sum_of_squares, &a.sum_of_squares)) {
-    throw InputError("code " + std::to_string(a.code) +
-                     " occurs more often than its sums can hold; train on fewer scans");
+    refuseOverflow(a.code);
   }
 }
 
@@ -73,10 +82,7 @@ CodeAccumulator::CodeAccumulator(std::uint16_t full_scale)
     : sums_(full_scale + 1u), occupied_(full_scale / 64u + 1u) {}
 
 void CodeAccumulator::add(std::uint16_t code, FixedPressure pressure) {
-  if (code >= sums_.size()) {
-    throw InputError("a count is " + std::to_string(code) + ", but the converter's full scale is " +
-                     std::to_string(sums_.size() - 1));
-  }
+  if (code >= sums_.size()) refuseCode(code, sums_.size() - 1);
   occupied_[code / 64u] |= std::uint64_t{1} << (code % 64u);
   sums_[code].code = code;
   addSums(sums_[code], {code, 1, pressure, Int128{pressure} * pressure});
@@ -93,6 +99,13 @@ CodeStatistics CodeAccumulator::take() {
     occupied_[word] = 0;
   }
   return statistics;
+}
+
+void CodeHistogram::add(std::uint16_t code, FixedPressure pressure) {
+  if (code >= count_.size()) refuseCode(code, count_.size() - 1);
+  if (__builtin_add_overflow(sum_[code], pressure, &sum_[code])) refuseOverflow(code);
+  ++count_[code];
+  ++samples_;
 }
 
 void CodeHistogram::add(const CodeStatistics& statistics) {

@@ -57,9 +57,7 @@ Fit Grnn::fit(const CodeHistogram& training) const {
 
 Fit Grnn::fitSamples(const CodeSamples& training) const {
   if (mergeable()) return Regressor::fitSamples(training);
-  CodeHistogram histogram(training.full_scale);
-  histogram.add(statisticsOf(training));
-  return fitWeighted(weightedByPressure(training), readingDeviation(histogram), options_);
+  return fitWeighted(weightedByPressure(training), readingDeviation(histogramOf(training)), options_);
 }
 
 }  // namespace fsr

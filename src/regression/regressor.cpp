@@ -5,8 +5,7 @@
 namespace fsr {
 
 Fit Regressor::fitSamples(const CodeSamples& training) const {
-  CodeHistogram histogram(training.full_scale);
-  histogram.add(statisticsOf(training));
+  const CodeHistogram histogram = histogramOf(training);
   return fit(histogram);
 }
 

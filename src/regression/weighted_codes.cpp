@@ -30,20 +30,30 @@ WeightedCodes weightedCodes(const CodeHistogram& training) {
   return samples;
 }
 
-double readingDeviation(const CodeHistogram& training) {
-  std::int64_t count = 0, sum = 0;
-  Int128 squares = 0;
-  for (std::size_t code = 0; code < training.count().size(); ++code) {
-    const std::int64_t here = training.count()[code];
+namespace {
+
+// (count - 1) count times the variance of the readings, exactly. `Sum` must hold samples x codes^2.
+template <typename Sum>
+Int128 scatterOf(const std::vector<std::int64_t>& count) {
+  Sum number = 0, sum = 0, squares = 0;
+  for (std::size_t code = 0; code < count.size(); ++code) {
     const auto reading = static_cast<std::int64_t>(code);
-    count += here;
-    sum += here * reading;
-    squares += Int128{here} * (reading * reading);
+    number += count[code];
+    sum += Sum{count[code]} * reading;
+    squares += Sum{count[code]} * (reading * reading);
   }
-  if (count < 2) return 0.0;
-  const Int128 scatter = count * squares - Int128{sum} * sum;
-  return std::sqrt(static_cast<double>(scatter) /
-                   (static_cast<double>(count) * static_cast<double>(count - 1)));
+  return Int128{number} * squares - Int128{sum} * sum;
+}
+
+}  // namespace
+
+double readingDeviation(const CodeHistogram& training) {
+  if (training.samples() < 2) return 0.0;
+  const bool small = training.samples() < std::uint64_t{1} << 31;  // times 2^32 fits 64 bits
+  const Int128 scatter =
+      small ? scatterOf<std::int64_t>(training.count()) : scatterOf<Int128>(training.count());
+  const auto number = static_cast<double>(training.samples());
+  return std::sqrt(static_cast<double>(scatter) / (number * (number - 1)));
 }
 
 Fit constantFit(const WeightedCodes& samples) {

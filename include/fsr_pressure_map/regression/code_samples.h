@@ -29,7 +29,8 @@ struct CodeSamples {
 /// Throws InputError where the vectors' lengths differ or a code is above full scale.
 void validate(const CodeSamples& samples);
 
-/// Throws InputError as validate() does, or where a sum would overflow.
+/// Both throw InputError as validate() does, or where a sum would overflow.
 CodeStatistics statisticsOf(const CodeSamples& samples);
+CodeHistogram histogramOf(const CodeSamples& samples);
 
 }  // namespace fsr

@@ -93,6 +93,8 @@ class CodeHistogram {
  public:
   explicit CodeHistogram(std::uint16_t full_scale) : count_(full_scale + 1u), sum_(full_scale + 1u) {}
 
+  /// One reading. Throws InputError where the code's sum would overflow or `code` is above full scale.
+  void add(std::uint16_t code, FixedPressure pressure);
   void add(const CodeStatistics& statistics);
   void subtract(const CodeStatistics& statistics);
 
