@@ -1,0 +1,199 @@
+#include "benchmark/grnn_study.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "benchmark/rig_readings.h"
+#include "fsr_pressure_map/regression/kernel_mean.h"
+
+namespace benchmark_data {
+
+const std::vector<std::string> kSchemeNames = {"baseline", "method_1", "method_2", "method_3", "method_4"};
+
+namespace {
+
+using fsr::CodeHistogram;
+using fsr::CodeStatistics;
+using fsr::FixedPressure;
+
+// One section's readings of a model: their sums by code, and their pressures' range.
+struct Part {
+  CodeStatistics sums;
+  double lowest = INFINITY, highest = -INFINITY;  // [Pa]
+};
+
+// Every `stride`-th reading.
+Part partOf(const fsr::CodeSamples& cell, std::size_t stride) {
+  fsr::CodeAccumulator accumulator(kFullScale);
+  Part part;
+  for (std::size_t i = 0; i < cell.size(); i += stride) {
+    accumulator.add(cell.code[i], cell.pressure[i]);
+    part.lowest = std::min(part.lowest, fsr::fromFixed(cell.pressure[i]));
+    part.highest = std::max(part.highest, fsr::fromFixed(cell.pressure[i]));
+  }
+  part.sums = accumulator.take();
+  return part;
+}
+
+// Inputs of a model besides the reading: one value for each group of conditions.
+struct Group {
+  double input;
+  std::vector<Part> sections;  // of all its conditions together
+};
+
+Group groupOf(const std::vector<fsr::CodeSamples>& cells, double input, std::size_t first, std::size_t last,
+              std::size_t stride) {
+  Group group{input, std::vector<Part>(kSections)};
+  for (std::size_t condition = first; condition < last; ++condition) {
+    for (std::size_t section = 0; section < kSections; ++section) {
+      const Part part = partOf(cells[condition * kSections + section], stride);
+      Part& whole = group.sections[section];
+      whole.sums.merge(part.sums);
+      whole.lowest = std::min(whole.lowest, part.lowest);
+      whole.highest = std::max(whole.highest, part.highest);
+    }
+  }
+  return group;
+}
+
+// Models of a scheme, each a list of groups.
+std::vector<std::vector<Group>> modelsOf(std::size_t scheme, const std::vector<fsr::CodeSamples>& cells) {
+  std::vector<std::vector<Group>> models;
+  switch (scheme) {
+    case 0:
+      return {{groupOf(cells, 0, 0, kConditions, 6)}};
+    case 1:
+      for (std::size_t k = 0; k < kConditions; ++k) models.push_back({groupOf(cells, 0, k, k + 1, 1)});
+      return models;
+    case 2:
+      models.resize(1);
+      for (std::size_t k = 0; k < kConditions; ++k)
+        models[0].push_back(groupOf(cells, kCurvature[k], k, k + 1, 6));
+      return models;
+    case 3:
+      return {{groupOf(cells, 0, 0, 1, 1)}, {groupOf(cells, 0, 1, kConditions, 5)}};
+    default:
+      return {{groupOf(cells, 0, 0, 1, 1), groupOf(cells, 1, 1, kConditions, 5)}};
+  }
+}
+
+// Sample deviation of the groups' inputs over the readings; 0 for one group.
+double inputDeviation(const std::vector<Group>& groups, const std::vector<CodeHistogram>& training) {
+  double number = 0, mean = 0, squares = 0;
+  for (const CodeHistogram& histogram : training) number += static_cast<double>(histogram.samples());
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    mean += groups[g].input * static_cast<double>(training[g].samples()) / number;
+  }
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    squares += static_cast<double>(training[g].samples()) * std::pow(groups[g].input - mean, 2);
+  }
+  return groups.size() > 1 ? std::sqrt(squares / (number - 1)) : 0.0;
+}
+
+// A model without one section.
+class FoldModel {
+ public:
+  FoldModel(const std::vector<Group>& groups, std::size_t held_out) : groups_(groups), held_out_(held_out) {
+    CodeHistogram all(kFullScale);
+    std::vector<CodeHistogram> training;
+    for (const Group& group : groups) {
+      training.emplace_back(kFullScale);
+      for (std::size_t section = 0; section < kSections; ++section) {
+        if (section == held_out) continue;
+        training.back().add(group.sections[section].sums);
+        all.add(group.sections[section].sums);
+      }
+      samples_.push_back(fsr::weightedCodes(training.back()));
+    }
+    deviation_ = fsr::readingDeviation(all);
+    input_deviation_ = inputDeviation(groups, training);
+  }
+
+  double rmsePercent(double bandwidth) const {
+    const auto log_weight = groups_.size() > 1 ? fsr::LogWeight::kYes : fsr::LogWeight::kNo;
+    std::vector<fsr::KernelMean> means;
+    for (const auto& samples : samples_) {
+      means.push_back(fsr::gaussianMean(samples, bandwidth * deviation_, log_weight));
+    }
+    double squares = 0, number = 0, lowest = INFINITY, highest = -INFINITY;
+    for (const Group& group : groups_) {
+      const Part& part = group.sections[held_out_];
+      squares += squaredErrors(part.sums, means, inputExponents(group.input, bandwidth));
+      number += static_cast<double>(part.sums.samples());
+      lowest = std::min(lowest, part.lowest);
+      highest = std::max(highest, part.highest);
+    }
+    return 100 * std::sqrt(squares / number) / (highest - lowest);
+  }
+
+ private:
+  // Of each group the logarithm of its input's kernel value.
+  std::vector<double> inputExponents(double input, double bandwidth) const {
+    std::vector<double> exponents;
+    for (const Group& group : groups_) {
+      const double d = groups_.size() > 1 ? (group.input - input) / input_deviation_ / bandwidth : 0.0;
+      exponents.push_back(-0.5 * d * d);
+    }
+    return exponents;
+  }
+
+  static double answer(const std::vector<fsr::KernelMean>& means, const std::vector<double>& exponents,
+                       std::size_t code) {
+    if (means.size() == 1) return means[0].pressure[code];
+    double largest = -INFINITY, sum = 0, weights = 0;
+    for (std::size_t g = 0; g < means.size(); ++g) {
+      largest = std::max(largest, exponents[g] + means[g].log_weight[code]);
+    }
+    for (std::size_t g = 0; g < means.size(); ++g) {
+      const double exponent = exponents[g] + means[g].log_weight[code] - largest;
+      if (exponent < -40) continue;
+      const double weight = std::exp(exponent);
+      sum += weight * means[g].pressure[code];
+      weights += weight;
+    }
+    return sum / weights;
+  }
+
+  static double squaredErrors(const CodeStatistics& sums, const std::vector<fsr::KernelMean>& means,
+                              const std::vector<double>& exponents) {
+    double squares = 0;
+    sums.forEach([&](const fsr::CodeSums& s) {
+      // sum of (p - f)^2 about the code's mean: exact in integers, but for the mean's own rounding
+      const auto mean = static_cast<FixedPressure>(s.sum / s.count);
+      const fsr::Int128 scatter =
+          s.sum_of_squares - fsr::Int128{mean} * (2 * fsr::Int128{s.sum} - fsr::Int128{mean} * s.count);
+      const double error = answer(means, exponents, s.code) - fsr::fromFixed(mean);
+      const double rest = fsr::fromFixed(s.sum - mean * s.count);
+      squares += static_cast<double>(scatter) * fsr::kFixedPressureUnit * fsr::kFixedPressureUnit +
+                 error * (s.count * error - 2 * rest);
+    });
+    return squares;
+  }
+
+  const std::vector<Group>& groups_;
+  std::size_t held_out_;
+  std::vector<fsr::WeightedCodes> samples_;  // of each group
+  double deviation_ = 0, input_deviation_ = 0;
+};
+
+}  // namespace
+
+std::vector<double> grnnStudy(const std::vector<fsr::CodeSamples>& cells,
+                              const std::vector<double>& bandwidths) {
+  std::vector<double> rmse(kSchemes * bandwidths.size(), 0.0);
+  for (std::size_t scheme = 0; scheme < kSchemes; ++scheme) {
+    const auto models = modelsOf(scheme, cells);
+    for (const std::vector<Group>& groups : models) {
+      for (std::size_t section = 0; section < kSections; ++section) {
+        const FoldModel model(groups, section);
+        for (std::size_t b = 0; b < bandwidths.size(); ++b) {
+          rmse[scheme * bandwidths.size() + b] +=
+              model.rmsePercent(bandwidths[b]) / static_cast<double>(kSections * models.size());
+        }
+      }
+    }
+  }
+  return rmse;
+}
+
+}  // namespace benchmark_data

@@ -1,0 +1,318 @@
+#!/usr/bin/python3
+"""Holds the regressors against other packages, in one run on the same data: one table of ratios.
+
+Peers that are not installed are left out: python3-sklearn, python3-scipy, python3-opencv, r-cran-ranger
+(with r-base-core), libdlib-dev (when the benchmarks were built). Times are CPU times of one thread,
+medians; on a shared machine only their ratios mean anything.
+
+    test/benchmark/peers.py FOLDER      the folder that holds regression_benchmark
+"""
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ[variable] = "1"
+import numpy as np  # noqa: E402  (reads the number of threads when loaded)
+
+CODES = 4096
+TREES, LEAF = 150, 5
+SECTIONS = 5
+TAXELS = 70
+SCHEMES = ["baseline", "method_1", "method_2", "method_3", "method_4"]
+CURVATURE = [0.0, 7.69, 9.09, 11.1, 14.3, 20.0]
+PAPER_BANDWIDTH = 2.0**-7
+
+
+def cpu_seconds(work, repetitions):
+    """Median CPU time of work(), and its last result."""
+    times = []
+    for _ in range(repetitions):
+        start = time.process_time()
+        result = work()
+        times.append(time.process_time() - start)
+    return float(np.median(times)), result
+
+
+def rmse_percent(answers, pressure):
+    return 100.0 * np.sqrt(np.mean((answers - pressure) ** 2)) / np.ptp(pressure)
+
+
+def read(path):
+    return np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+
+
+class Table:
+    """Rows of the report: what, who, seconds, ours, how good."""
+
+    def __init__(self, ours):
+        self.ours = ours
+        self.rows = []
+
+    def add(self, work, peer, seconds, ours, quality=""):
+        self.rows.append((work, peer, seconds, seconds / self.ours[ours], quality))
+
+    def show(self):
+        print("| work | peer | peer [ms] | ours is faster by | quality |")
+        print("|---|---|---|---|---|")
+        for work, peer, seconds, ratio, quality in self.rows:
+            print("| %s | %s | %.3g | %.3g | %s |" % (work, peer, 1e3 * seconds, ratio, quality))
+
+
+def our_times(binary, repetitions):
+    """Median CPU seconds of each benchmark."""
+    output = subprocess.run(
+        [binary, "--benchmark_format=json", "--benchmark_repetitions=%d" % repetitions, "--benchmark_min_time=0.2"],
+        check=True, stdout=subprocess.PIPE).stdout
+    scale = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3}
+    times = {}
+    for entry in json.loads(output)["benchmarks"]:
+        if entry.get("aggregate_name") == "median":
+            times[entry["run_name"]] = entry["cpu_time"] * scale[entry["time_unit"]]
+    return times
+
+
+# --- the GRNN -----------------------------------------------------------------------------------
+
+
+def dense_grnn(inputs, pressure, queries):
+    """The formula in float64, the smallest exponent taken out. Inputs [samples x inputs] in bandwidths."""
+    answers = np.empty(len(queries))
+    for start in range(0, len(queries), 100):
+        block = queries[start:start + 100]
+        exponent = sum((block[:, None, i] - inputs[None, :, i]) ** 2 for i in range(inputs.shape[1])) / 2.0
+        weight = np.exp(exponent.min(axis=1, keepdims=True) - exponent)
+        answers[start:start + 100] = weight @ pressure / weight.sum(axis=1)
+    return answers
+
+
+def filtered(values, sigma):
+    from scipy.ndimage import gaussian_filter1d
+    return gaussian_filter1d(values, sigma, mode="constant", truncate=min(9.0, (CODES - 1) / sigma))
+
+
+def scipy_grnn(code, pressure, queries, bandwidth):
+    """Histogram and filter: the best short GRNN that we know of. NaN where the filter does not reach."""
+    sigma = code.std(ddof=1) * bandwidth
+    count = np.bincount(code, minlength=CODES).astype(float)
+    total = np.bincount(code, weights=pressure, minlength=CODES)
+    with np.errstate(all="ignore"):
+        return (filtered(total, sigma) / filtered(count, sigma))[queries]
+
+
+def compare_grnn(table, folder, repetitions):
+    train, test = read(folder + "/6000_train.csv"), read(folder + "/6000_test.csv")
+    ours = read(folder + "/6000_grnn.csv")[:, 0]
+    work = "GRNN, 6,000 readings and %d answers" % len(test)
+    scale = train[:, 0].std(ddof=1) * PAPER_BANDWIDTH
+    seconds, dense = cpu_seconds(
+        lambda: dense_grnn(train[:, :1] / scale, train[:, 1], test[:, :1] / scale), repetitions)
+    apart = np.abs(dense - ours).max() / np.ptp(train[:, 1])
+    table.add(work, "numpy, dense", seconds, "GrnnTable/6000", "we differ by %.1e of the range" % apart)
+    table.rows.append((work, "Eigen, dense, same binary", table.ours["GrnnDenseEigen/6000"],
+                       table.ours["GrnnDenseEigen/6000"] / table.ours["GrnnTable/6000"], ""))
+    try:
+        code, queries = train[:, 0].astype(int), test[:, 0].astype(int)
+        scipy_grnn(code, train[:, 1], queries, PAPER_BANDWIDTH)
+    except ImportError:
+        return
+    seconds, answers = cpu_seconds(
+        lambda: [scipy_grnn(code, train[:, 1], queries, PAPER_BANDWIDTH) for _ in range(20)][-1], repetitions)
+    lost = int(np.isnan(answers).sum())
+    table.add(work, "numpy bincount, scipy filter", seconds / 20, "GrnnTable/6000", "NaN on %d answers" % lost)
+
+
+# --- the study ----------------------------------------------------------------------------------
+
+
+def models_of(scheme, cells):
+    """Models of a scheme: lists of groups (input, sections), a section being (code, pressure)."""
+
+    def group(value, conditions, stride):
+        def section(k):
+            parts = [cells[c][k][::stride] for c in conditions]
+            whole = np.concatenate(parts)
+            return whole[:, 0].astype(int), whole[:, 1]
+        return value, [section(k) for k in range(SECTIONS)]
+
+    bent = range(1, 6)
+    return {
+        "baseline": [[group(0.0, range(6), 6)]],
+        "method_1": [[group(0.0, [c], 1)] for c in range(6)],
+        "method_2": [[group(CURVATURE[c], [c], 6) for c in range(6)]],
+        "method_3": [[group(0.0, [0], 1)], [group(0.0, bent, 5)]],
+        "method_4": [[group(0.0, [0], 1), group(1.0, bent, 5)]],
+    }[scheme]
+
+
+def fold(groups, held_out):
+    """Training readings of each group, inputs' deviations, and the section held out."""
+    train = [(value, *(np.concatenate(x) for x in zip(*(s for k, s in enumerate(sections) if k != held_out))))
+             for value, sections in groups]
+    code = np.concatenate([g[1] for g in train])
+    value = np.concatenate([np.full(len(g[1]), g[0]) for g in train])
+    test = [(value, *sections[held_out]) for value, sections in groups]
+    return train, code.std(ddof=1), value.std(ddof=1) if len(groups) > 1 else 1.0, test
+
+
+def dense_fold(groups, held_out, bandwidth):
+    train, scale, input_scale, test = fold(groups, held_out)
+
+    def inputs(parts):
+        return np.concatenate([np.c_[c / scale, np.full(len(c), v / input_scale)] for v, c, _ in parts]) / bandwidth
+    columns = 2 if len(groups) > 1 else 1
+    pressure = np.concatenate([p for _, _, p in test])
+    answers = dense_grnn(inputs(train)[:, :columns], np.concatenate([p for _, _, p in train]),
+                         inputs(test)[:, :columns])
+    return rmse_percent(answers, pressure)
+
+
+def scipy_fold(groups, held_out, bandwidth):
+    train, scale, input_scale, test = fold(groups, held_out)
+    sums = [(v, filtered(np.bincount(c, weights=p, minlength=CODES), scale * bandwidth),
+             filtered(np.bincount(c, minlength=CODES).astype(float), scale * bandwidth)) for v, c, p in train]
+    answers = []
+    with np.errstate(all="ignore"):
+        for value, code, _ in test:
+            near = [np.exp(-0.5 * ((v - value) / input_scale / bandwidth) ** 2) for v, _, _ in sums]
+            total = sum(w * s for w, (_, s, _) in zip(near, sums))
+            weight = sum(w * n for w, (_, _, n) in zip(near, sums))
+            answers.append((total / weight)[code])
+    return np.concatenate(answers), np.concatenate([p for _, _, p in test])
+
+
+def compare_study(table, folder):
+    taxel = read(folder + "/taxel.csv")
+    cells = [[taxel[(taxel[:, 0] == c) & (taxel[:, 1] == k)][:, 2:] for k in range(SECTIONS)] for c in range(6)]
+    study = np.genfromtxt(folder + "/study.csv", delimiter=",", skip_header=1, dtype=None, encoding=None)
+    ours = {(row[0], row[1]): row[2] for row in study}
+    bandwidths = sorted({row[1] for row in study})
+    work = "GRNN study of a taxel, 5 schemes x %d bandwidths x %d sections" % (len(bandwidths), SECTIONS)
+
+    worst, seconds = 0.0, 0.0
+    for scheme in SCHEMES:
+        models = models_of(scheme, cells)
+        start = time.process_time()
+        rmse = np.mean([dense_fold(groups, k, PAPER_BANDWIDTH) for groups in models for k in range(SECTIONS)])
+        seconds += time.process_time() - start
+        worst = max(worst, abs(rmse - ours[scheme, PAPER_BANDWIDTH]))
+    table.add(work, "numpy, dense (one bandwidth timed)", seconds * len(bandwidths), "GrnnStudyOfATaxel",
+              "RMSE%% differs by %.0e" % worst)
+    try:
+        start, lost = time.process_time(), 0
+        for scheme in SCHEMES:
+            for groups in models_of(scheme, cells):
+                for k in range(SECTIONS):
+                    for bandwidth in bandwidths:
+                        lost += int(np.isnan(scipy_fold(groups, k, bandwidth)[0]).sum())
+        table.add(work, "numpy bincount, scipy filter", time.process_time() - start, "GrnnStudyOfATaxel",
+                  "NaN on %d answers" % lost)
+    except ImportError:
+        pass
+
+
+# --- the forest ---------------------------------------------------------------------------------
+
+
+def forest_scikit_learn(train, test, repetitions):
+    from sklearn.ensemble import RandomForestRegressor
+    forest = RandomForestRegressor(TREES, min_samples_leaf=LEAF, n_jobs=1)
+    seconds, _ = cpu_seconds(lambda: forest.fit(train[:, :1], train[:, 1]), repetitions)
+    predicting, answers = cpu_seconds(lambda: forest.predict(test[:, :1]), repetitions)
+    return seconds, rmse_percent(answers, test[:, 1]), predicting / len(test)
+
+
+def forest_opencv(train, test, repetitions):
+    import cv2
+    cv2.setNumThreads(1)
+    code, pressure = train[:, :1].astype(np.float32), train[:, 1].astype(np.float32)
+
+    def train_once():
+        forest = cv2.ml.RTrees_create()
+        forest.setTermCriteria((cv2.TERM_CRITERIA_MAX_ITER, TREES, 0))
+        forest.setMinSampleCount(2 * LEAF)
+        forest.setMaxDepth(30)
+        forest.setRegressionAccuracy(0)
+        forest.setActiveVarCount(1)
+        forest.train(code, cv2.ml.ROW_SAMPLE, pressure)
+        return forest
+    seconds, forest = cpu_seconds(train_once, repetitions)
+    predicting, answers = cpu_seconds(lambda: forest.predict(test[:, :1].astype(np.float32))[1][:, 0], repetitions)
+    return seconds, rmse_percent(answers, test[:, 1]), predicting / len(test)
+
+
+RANGER = """
+suppressMessages(library(ranger)); a <- commandArgs(TRUE)
+train <- read.csv(a[1]); test <- read.csv(a[2])
+for (i in seq_len(as.integer(a[3]))) {
+  t <- system.time(m <- ranger(pressure ~ code, train, num.trees = %d, mtry = 1, min.node.size = %d, num.threads = 1))
+  cat(t[["user.self"]] + t[["sys.self"]], "\\n") }
+cat(sqrt(mean((predict(m, test, num.threads = 1)$predictions - test$pressure)^2)), "\\n")
+""" % (TREES, 2 * LEAF)
+
+
+def forest_program(command, test):
+    """A program that prints CPU seconds of each training and last its RMSE [Pa]."""
+    run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    if run.returncode != 0:
+        raise ImportError(command[0])
+    values = [float(v) for v in run.stdout.split()]
+    return float(np.median(values[:-1])), 100.0 * values[-1] / np.ptp(test[:, 1]), None
+
+
+def compare_forest(table, folder, programs, repetitions):
+    for number in (6000, 36000):
+        files = ["%s/%d_%s.csv" % (folder, number, part) for part in ("train", "test")]
+        train, test = (read(path) for path in files)
+        ours, distinct = (rmse_percent(read("%s/%d_%s.csv" % (folder, number, name))[:, 0], test[:, 1])
+                          for name in ("forest", "forest_distinct"))
+        print("our forest at %d readings: RMSE%% %.3f, with a minimum leaf of distinct readings %.3f"
+              % (number, ours, distinct))
+        peers = {
+            "scikit-learn": lambda: forest_scikit_learn(train, test, repetitions),
+            "OpenCV": lambda: forest_opencv(train, test, repetitions),
+            "ranger": lambda: forest_program(["Rscript", "-e", RANGER, *files, str(repetitions)], test),
+            "dlib": lambda: forest_program(
+                [os.path.join(programs, "dlib_forest_peer"), *files, str(repetitions)], test),
+        }
+        for name, measure in peers.items():
+            try:
+                seconds, rmse, predicting = measure()
+            except (ImportError, OSError):
+                print("%s is not installed" % name)
+                continue
+            table.add("forest, %d readings" % number, name, seconds, "ForestTable/%d" % number,
+                      "its RMSE%% %.3f" % rmse)
+            if predicting is not None:
+                table.ours["TableLookUp/1"] = table.ours["TableLookUp"] / len(test)
+                table.add("forest, an answer", name, predicting, "TableLookUp/1")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("folder", help="the folder that holds regression_benchmark")
+    parser.add_argument("--repetitions", type=int, default=5)
+    arguments = parser.parse_args()
+    binary = os.path.join(arguments.folder, "regression_benchmark")
+    if not os.path.exists(binary):
+        sys.exit("%s does not exist; build the target benchmarks with -DFSR_BUILD_BENCHMARKS=ON" % binary)
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([binary, "--export=" + folder], check=True)
+        table = Table(our_times(binary, arguments.repetitions))
+        compare_grnn(table, folder, arguments.repetitions)
+        compare_study(table, folder)
+        compare_forest(table, folder, arguments.folder, arguments.repetitions)
+        again = our_times(binary, arguments.repetitions)
+    table.show()
+    print("\nours [ms], before and after the peers:")
+    for name, seconds in table.ours.items():
+        if name in again:
+            print("%-28s %10.4g %10.4g" % (name, 1e3 * seconds, 1e3 * again[name]))
+
+
+if __name__ == "__main__":
+    main()
