@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fsr_pressure_map/simulation/chamber_protocol.h"
+#include "fsr_pressure_map/settings/number_text.h"
 
 namespace fsr {
 
@@ -12,25 +12,71 @@ const Range kPressure{0, kChamberRating, "Pa gauge (the chamber is rated at 793 
 const Range kRate{1, 1e7, "Pa/s"};
 const Range kDuration{0, 1e7, "s"};
 const Range kLoops{1, 1e6, "loops"};
-constexpr double kUsualRate = 17e3;  // the paper's [Pa/s]
 
-class Program {
+HoldPart readHold(const Settings& settings) {
+  HoldPart hold;
+  hold.pressure = settings.number("pressure", kPressure);
+  hold.rate = settings.number("rate", kRate, hold.rate);
+  hold.duration = settings.number("duration", kDuration);
+  return hold;
+}
+
+LoopsPart readLoops(const Settings& settings) {
+  LoopsPart loops;
+  loops.low = settings.number("low", kPressure);
+  loops.high = settings.number("high", kPressure);
+  if (loops.high <= loops.low) throw settings.error("high", "must be above low");
+  loops.rate = settings.number("rate", kRate, loops.rate);
+  loops.loops = static_cast<unsigned>(settings.integer("loops", kLoops));
+  return loops;
+}
+
+RestPart readRest(const Settings& settings) {
+  RestPart rest;
+  rest.rate = settings.number("rate", kRate, rest.rate);
+  rest.duration = settings.number("duration", kDuration);
+  return rest;
+}
+
+ProgramPart readPart(const Settings& part) {
+  const char* const one_key = "give exactly one of cycles, hold, loops, rest";
+  const std::vector<std::string> keys = part.keys();
+  if (keys.size() != 1) throw part.error(keys.empty() ? "cycles" : keys[1], one_key);
+  if (part.has("cycles")) return readChamberProtocol(part.section("cycles"));
+  if (part.has("hold")) return readHold(part.section("hold"));
+  if (part.has("loops")) return readLoops(part.section("loops"));
+  if (part.has("rest")) return readRest(part.section("rest"));
+  throw part.error(keys[0], one_key);
+}
+
+bool endless(const ProgramPart& part) {
+  const auto* cycles = std::get_if<ChamberProtocol>(&part);
+  return cycles != nullptr && cycles->cycles == 0;
+}
+
+/// Appends parts to a profile; called by std::visit.
+class Builder {
  public:
-  void append(const Settings& part) {
-    const std::vector<std::string> keys = part.keys();
-    if (keys.size() != 1) throw part.error(keys.empty() ? "cycles" : keys[1], kOneKey);
-    if (std::isinf(profile_.duration())) throw part.error(keys[0], "the part before it never ends");
-    if (part.has("cycles")) return cycles(part.section("cycles"));
-    if (part.has("hold")) return hold(part.section("hold"));
-    if (part.has("loops")) return loops(part.section("loops"));
-    if (part.has("rest")) return rest(part.section("rest"));
-    throw part.error(keys[0], kOneKey);
+  void operator()(const ChamberProtocol& cycles) {
+    rampTo(0, cycles.vent_rate);
+    profile_.append(cyclePoints(cycles), cycles.cycles);
+  }
+  void operator()(const HoldPart& hold) {
+    rampTo(hold.pressure, hold.rate);
+    stay(hold.duration);
+  }
+  void operator()(const LoopsPart& loops) {
+    const double way = (loops.high - loops.low) / loops.rate;  // [s]
+    rampTo(loops.low, loops.rate);
+    profile_.append({{0, loops.low}, {way, loops.high}, {2 * way, loops.low}}, loops.loops);
+  }
+  void operator()(const RestPart& rest) {
+    rampTo(0, rest.rate);
+    stay(rest.duration);
   }
   const PressureProfile& profile() const { return profile_; }
 
  private:
-  static constexpr const char* kOneKey = "give exactly one of cycles, hold, loops, rest";
-
   void stay(double duration) {
     if (duration > 0) profile_.append({{0, pressure_}, {duration, pressure_}});
   }
@@ -41,40 +87,55 @@ class Program {
     pressure_ = pressure;
   }
 
-  void cycles(const Settings& settings) {
-    const ChamberProtocol protocol = readChamberProtocol(settings);
-    rampTo(0, protocol.vent_rate);
-    profile_.append(cyclePoints(protocol), protocol.cycles);
-  }
-  void hold(const Settings& settings) {
-    const double rate = settings.number("rate", kRate, kUsualRate);
-    rampTo(settings.number("pressure", kPressure), rate);
-    stay(settings.number("duration", kDuration));
-  }
-  void loops(const Settings& settings) {
-    const double low = settings.number("low", kPressure), high = settings.number("high", kPressure);
-    if (high <= low) throw settings.error("high", "must be above low");
-    const double rate = settings.number("rate", kRate, kUsualRate);
-    const double way = (high - low) / rate;  // [s]
-    rampTo(low, rate);
-    profile_.append({{0, low}, {way, high}, {2 * way, low}},
-                    static_cast<unsigned>(settings.integer("loops", kLoops)));
-  }
-  void rest(const Settings& settings) {
-    rampTo(0, settings.number("rate", kRate, kUsualRate));
-    stay(settings.number("duration", kDuration));
-  }
-
   PressureProfile profile_;
   double pressure_ = 0;  // where the chamber stands now [Pa]
 };
 
+using Fields = std::vector<std::pair<const char*, double>>;
+
+std::string text(const char* key, const Fields& fields) {
+  std::string result;
+  for (const auto& [name, value] : fields) {
+    result += std::string(result.empty() ? "" : ", ") + name + ": " + numberText(value);
+  }
+  return std::string(key) + ": {" + result + "}";
+}
+
+/// Called by std::visit.
+struct Writer {
+  std::string operator()(const ChamberProtocol& p) const { return "cycles: " + protocolText(p); }
+  std::string operator()(const HoldPart& p) const {
+    return text("hold", {{"pressure", p.pressure}, {"rate", p.rate}, {"duration", p.duration}});
+  }
+  std::string operator()(const LoopsPart& p) const {
+    return text("loops", {{"low", p.low}, {"high", p.high}, {"rate", p.rate}, {"loops", p.loops}});
+  }
+  std::string operator()(const RestPart& p) const {
+    return text("rest", {{"rate", p.rate}, {"duration", p.duration}});
+  }
+};
+
 }  // namespace
 
-PressureProfile readChamberProgram(const std::vector<Settings>& parts) {
-  Program program;
-  for (const Settings& part : parts) program.append(part);
-  return program.profile();
+ChamberProgram readChamberProgram(const std::vector<Settings>& parts) {
+  ChamberProgram program;
+  for (const Settings& part : parts) {
+    if (!program.empty() && endless(program.back())) {
+      throw part.error(part.keys().empty() ? "cycles" : part.keys()[0], "the part before it never ends");
+    }
+    program.push_back(readPart(part));
+  }
+  return program;
+}
+
+PressureProfile pressureProfile(const ChamberProgram& program) {
+  Builder builder;
+  for (const ProgramPart& part : program) std::visit(builder, part);
+  return builder.profile();
+}
+
+std::string programText(const ProgramPart& part) {
+  return std::visit(Writer{}, part);
 }
 
 }  // namespace fsr

@@ -2,6 +2,8 @@
 
 #include <sstream>
 
+#include "fsr_pressure_map/settings/number_text.h"
+
 namespace fsr {
 
 namespace {
@@ -42,6 +44,12 @@ ChamberProtocol readChamberProtocol(const Settings& settings, const ChamberProto
   protocol.dwell_rest = settings.number("dwell_rest", kDwell, defaults.dwell_rest);
   protocol.cycles = static_cast<unsigned>(settings.integer("cycles", kCycles, defaults.cycles));
   return protocol;
+}
+
+std::string protocolText(const ChamberProtocol& p) {
+  return "{peak: " + numberText(p.peak) + ", fill_rate: " + numberText(p.fill_rate) +
+         ", vent_rate: " + numberText(p.vent_rate) + ", dwell_peak: " + numberText(p.dwell_peak) +
+         ", dwell_rest: " + numberText(p.dwell_rest) + ", cycles: " + std::to_string(p.cycles) + "}";
 }
 
 double cycleDuration(const ChamberProtocol& p) {

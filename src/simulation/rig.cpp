@@ -19,10 +19,6 @@ std::int32_t Rig::transducer(double time, const PressureCourse& pressure) const 
   return reference_.counts(pressure(time));
 }
 
-double Rig::reference(double time, const PressureCourse& pressure) const {
-  return reference_.recorded(pressure(time));
-}
-
 double Rig::temperature(double time, const PressureCourse& pressure) {
   return gas_.temperature(time, pressure(time));
 }

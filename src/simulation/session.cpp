@@ -26,7 +26,7 @@ std::int64_t nanoseconds(double time) {
 
 Session::Session(const SimulationSettings& settings) : settings_(settings), rig_(settings) {
   for (const Station& station : settings_.session) {
-    if (std::isfinite(station.program.duration())) continue;
+    if (std::isfinite(pressureProfile(station.program).duration())) continue;
     throw InputError(settings_.origin + ": the cycles on " + station.surface.name +
                      " never end; give `cycles` of 1 or more");
   }
@@ -39,11 +39,12 @@ double Session::begin() const {
 void Session::runNext(const RigListener& listener) {
   const Station& now = station(next_);
   const double start = begin();
-  const PressureCourse course = [&](double time) { return now.program.at(time - start); };
+  const PressureProfile profile = pressureProfile(now.program);
+  const PressureCourse course = [&](double time) { return profile.at(time - start); };
   rig_.mount(now.surface, now.load);
   Sampler scan{start, settings_.board.scan_rate}, transducer{start, settings_.board.transducer_rate},
       thermometer{start, kThermometerRate};
-  const double end = start + now.program.duration();
+  const double end = start + profile.duration();
   while (scan.due() <= end) {
     if (thermometer.due() <= std::min(transducer.due(), scan.due())) {
       const double time = thermometer.due();
@@ -51,7 +52,7 @@ void Session::runNext(const RigListener& listener) {
       ++thermometer.number;
     } else if (transducer.due() <= scan.due()) {
       const double time = transducer.due();
-      if (listener.pressure) listener.pressure(time, rig_.reference(time, course));
+      if (listener.transducer) listener.transducer(time, rig_.transducer(time, course));
       ++transducer.number;
     } else {
       const double time = scan.due();
@@ -92,7 +93,8 @@ std::vector<Recording> simulateSession(const SimulationSettings& settings) {
                            stamp(time), sequence++,
                            {settings.layout.size, settings.fullScale(), counts.data(), counts.size()});
                      },
-                     [&](double time, double gauge) {
+                     [&](double time, std::int32_t counts) {
+                       const double gauge = settings.transducer.gaugePressure(counts);
                        builder.addChamberPressure(stamp(time), gauge + kStandardAmbient);
                      },
                      [&](double time, double celsius) { builder.addTemperature(stamp(time), celsius); }});

@@ -62,7 +62,7 @@ Station readStation(const Settings& settings, const Station& usual, MatrixSize s
 }
 
 std::vector<Station> readSession(const Settings& settings, const SimulationSettings& simulation) {
-  Station usual{{"flat", 1, {Curvature{}}, {}}, {}, Station{}.pause, pressureProfile(simulation.chamber)};
+  Station usual{{"flat", 1, {Curvature{}}, {}}, {}, Station{}.pause, {simulation.chamber}};
   if (settings.has("program")) usual.program = readChamberProgram(settings.sections("program"));
   if (!settings.has("session")) return {usual};
   std::vector<Station> session;

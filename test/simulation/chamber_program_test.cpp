@@ -11,7 +11,8 @@ using fsr::PressureProfile;
 using fsr::Settings;
 
 PressureProfile program(const std::string& parts) {
-  return fsr::readChamberProgram(Settings::fromText("program: " + parts, "a.yaml").sections("program"));
+  return pressureProfile(
+      fsr::readChamberProgram(Settings::fromText("program: " + parts, "a.yaml").sections("program")));
 }
 
 std::string complaintAbout(const std::string& parts) {

@@ -81,7 +81,7 @@ TEST(Session, HasAReferenceWithItsOwnErrors) {
 
 TEST(Session, RefusesCyclesWithoutEnd) {
   auto settings = test_support::rig();
-  settings.session[0].program = pressureProfile(fsr::ChamberProtocol{620e3, 17e3, 17e3, 1, 1, 0});
+  settings.session[0].program = {fsr::ChamberProtocol{620e3, 17e3, 17e3, 1, 1, 0}};
   EXPECT_THROW(Session{settings}, InputError);
 }
 

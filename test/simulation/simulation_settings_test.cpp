@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "fsr_pressure_map/simulation/sensor_chain.h"
+#include "fsr_pressure_map/simulation/simulation_text.h"
 
 namespace {
 
@@ -36,10 +37,64 @@ TEST(SimulationSettings, EveryShippedFileIsReadAndRuns) {
     fsr::SensorChain chain(settings);
     const fsr::PressureCourse course = [](double) { return 100e3; };
     EXPECT_EQ(chain.read({0, 100e3, 0, 23, &course}).size(), settings.layout.size.taxels());
-    for (const auto& station : settings.session) EXPECT_TRUE(std::isfinite(station.program.duration()));
+    for (const auto& station : settings.session)
+      EXPECT_TRUE(std::isfinite(pressureProfile(station.program).duration()));
     ++files;
   }
   EXPECT_GE(files, 7);
+}
+
+TEST(SimulationSettings, WrittenOutAndReadBackTheyAreTheSame) {
+  for (const auto& file : std::filesystem::directory_iterator(kFolder)) {
+    const auto settings = fsr::readSimulationFile(file.path());
+    const std::string text = simulationText(settings, "what it is\nand why");
+    const auto again = readSimulation(Settings::fromText(text, "again.yaml"));
+    EXPECT_EQ(simulationText(again, "what it is\nand why"), text);
+    EXPECT_EQ(again.seed, settings.seed);
+    EXPECT_EQ(again.session.size(), settings.session.size());
+    fsr::SensorChain before(settings), after(again);
+    before.mount(settings.session.back().surface);
+    after.mount(again.session.back().surface);
+    const fsr::PressureCourse course = [](double time) { return 5e3 * time; };
+    for (std::uint64_t i = 0; i < 100; ++i) {
+      const fsr::RigMoment moment{double(i), 5e3 * double(i), i, 23, &course};
+      EXPECT_EQ(before.read(moment), after.read(moment));
+    }
+  }
+}
+
+TEST(SimulationSettings, WrittenOutTheyKeepEveryFormOfSurfaceLoadAndProgram) {
+  const auto settings = readSimulation(Settings::fromText(
+      R"({simulation: 'a "strange" \ name', seed: 8999999999999999, matrix: {rows: 1, columns: 3},
+          board: {scan_rate: 33.3, scan_duration: 0.001}, start: 1704099600.25,
+          program: [{loops: {low: 1e5, high: 2e5, rate: 17e3, loops: 2}}, {rest: {duration: 7}}],
+          session: [{surface: bumpy, taxels: {x: [1.5, -2, 3], y: [0, 0.1, 0], xy: [0, 0, 1]}, pause: 0},
+                    {surface: flat, flat: true, load: {disc: {x: 0.01, y: 0, radius: 0.005}}},
+                    {surface: flat, flat: true, load: {edge: {x: 0, y: 0, angle: 0.3}},
+                     program: [{hold: {pressure: 1e5, rate: 1e4, duration: 0.1}}, {cycles: {cycles: 2}}]}],
+          climate: {room: [{time: 0, temperature: 20}, {time: 60, temperature: 21.5}], heating: 1e-5},
+          transducer: {low: 0, high: 1e6, full_counts: 1000},
+          effects: {static_curve: {}, converter: {}, creep: {per_decade: 0.012}}})",
+      "a.yaml"));
+  const std::string text = simulationText(settings);
+  const auto again = readSimulation(Settings::fromText(text, "again.yaml"));
+  EXPECT_EQ(simulationText(again), text);
+  EXPECT_EQ(again.name, "a \"strange\" \\ name");
+  EXPECT_EQ(again.seed, 8999999999999999u);
+  EXPECT_EQ(again.session[0].surface.curvature[1].y, 0.1);
+  EXPECT_EQ(again.session[2].load.kind, fsr::LoadPattern::Kind::kEdge);
+  EXPECT_EQ(pressureProfile(again.session[2].program).at(5),
+            pressureProfile(settings.session[2].program).at(5));
+  EXPECT_EQ(again.climate.room[1].temperature, 21.5);
+}
+
+TEST(SimulationSettings, WrittenOutTheySayUnitsMeaningsAndWhereAValueComesFrom) {
+  const auto settings = fsr::readSimulationFile(kFolder / "bench.yaml");
+  const std::string text = simulationText(settings, "Fitted.", {{"hysteresis.span", "95 %: 6 to\n7"}});
+  EXPECT_EQ(text.find("# Fitted.\n"), 0u);
+  EXPECT_NE(text.find("    span: 620000  # [Pa] pressure that loop_width is a share of; 95 %: 6 to 7\n"),
+            std::string::npos)
+      << text;
 }
 
 TEST(SimulationSettings, CoreHoldsWhatEveryMatrixHasAndNothingElse) {

@@ -29,6 +29,9 @@ ChamberProtocol readChamberProtocol(const Settings& settings, const ChamberProto
 /// Throws InputError that names what is out of range; `origin` stands where messages name the file.
 void validate(const ChamberProtocol& protocol, const std::string& origin);
 
+/// The protocol as a YAML mapping on one line, as readChamberProtocol() reads it.
+std::string protocolText(const ChamberProtocol& protocol);
+
 /// Length of one cycle [s].
 double cycleDuration(const ChamberProtocol& protocol);
 

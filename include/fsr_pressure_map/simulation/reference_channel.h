@@ -23,8 +23,6 @@ class ReferenceChannel {
 
   /// What its converter makes of the chamber's pressure [Pa].
   std::int32_t counts(double pressure) const { return transducer_.counts(indicated(pressure)); }
-  /// That, as a recording has it [Pa].
-  double recorded(double pressure) const { return transducer_.gaugePressure(counts(pressure)); }
 
  private:
   Transducer transducer_;

@@ -23,8 +23,6 @@ class Rig {
   const std::vector<std::uint16_t>& scan(double time, const PressureCourse& pressure);
   /// What the converter behind the transducer reads.
   std::int32_t transducer(double time, const PressureCourse& pressure) const;
-  /// The same as a gauge pressure [Pa].
-  double reference(double time, const PressureCourse& pressure) const;
   /// What the thermometer reads [degree Celsius].
   double temperature(double time, const PressureCourse& pressure);
 

@@ -33,6 +33,8 @@ class SensorChain {
   /// course of pressure.
   const std::vector<std::uint16_t>& read(const RigMoment& moment);
 
+  /// The last scan.
+  const std::vector<std::uint16_t>& counts() const { return counts_; }
   /// The last scan before it was rounded and clipped [counts], [rows x columns], row-major.
   const std::vector<double>& reading() const { return signals_.reading; }
   /// All signals of the last scan: load and gain are what the static curve saw.

@@ -12,8 +12,8 @@ namespace fsr {
 /// Who listens to a simulated rig; rig time [s]. Calls come in time order.
 struct RigListener {
   std::function<void(double time, const std::vector<std::uint16_t>& counts)> scan;
-  std::function<void(double time, double gauge_pressure)> pressure;
-  std::function<void(double time, double temperature)> temperature;
+  std::function<void(double time, std::int32_t counts)> transducer;
+  std::function<void(double time, double temperature)> temperature;  ///< [degree Celsius]
 };
 
 /// What a rig is put through, station after station: the sheet goes from one surface to the next and

@@ -8,7 +8,7 @@
 #include "fsr_pressure_map/matrix/layout.h"
 #include "fsr_pressure_map/settings/settings.h"
 #include "fsr_pressure_map/simulation/chamber_climate.h"
-#include "fsr_pressure_map/simulation/chamber_protocol.h"
+#include "fsr_pressure_map/simulation/chamber_program.h"
 #include "fsr_pressure_map/simulation/effect.h"
 #include "fsr_pressure_map/simulation/load_pattern.h"
 #include "fsr_pressure_map/simulation/transducer.h"
@@ -40,7 +40,7 @@ struct Station {
   Surface surface;  ///< mounts are numbered from 1
   LoadPattern load;
   double pause = 60;  ///< at rest before it, not recorded [s]
-  PressureProfile program;
+  ChamberProgram program;
 };
 
 /// A simulated rig: config/simulation/*.yaml.
@@ -70,12 +70,10 @@ struct SimulationSettings {
 ///     matrix: {rows: 7, columns: 10, pitch_x: 0.010, pitch_y: 0.010}   # [m]
 ///     board: {serial: SIM-0001, scan_rate: 10, ...}                    # fields of SimulatedBoard
 ///     chamber: {peak: 620000, rate: 17000, cycles: 10, ...}            # see readChamberProtocol()
-///     program: [{cycles: {...}}, {hold: {...}}, ...]                   # else `chamber`;
-///     readChamberProgram() session:                                                         # else once on
-///     the flat
-///       - {surface: cylinder_5cm}                  # ../surfaces/cylinder_5cm.yaml, seen from this file
-///       - {surface: saddle, two_planes: {x: 5, y: -3}, pause: 600, load: {disc: {radius: 0.02}}, program:
-///       [...]}
+///     program: [{cycles: {...}}, {hold: {...}}, ...]   # see readChamberProgram(); else `chamber`
+///     session:                                         # else once on the flat
+///       - {surface: cylinder_5cm}                      # ../surfaces/cylinder_5cm.yaml, seen from this file
+///       - {surface: saddle, two_planes: {x: 5, y: -3}, pause: 600, load: {disc: {radius: 0.02}}}
 ///     start: 1704099600                                                # date of the first scan
 ///     climate: {room: [{time: 0, temperature: 23}, ...], heating: 0}   # see readChamberClimate()
 ///     transducer: {low: -103000, high: 1034000, full_counts: 4096}

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace fsr {
+
+/// The shortest decimal text that a YAML or JSON reader turns back into the same number; `.inf` and `.nan`
+/// as YAML spells them.
+std::string numberText(double value);
+
+}  // namespace fsr

@@ -1,0 +1,115 @@
+#include "fsr_pressure_map/simulation/simulation_text.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "fsr_pressure_map/settings/number_text.h"
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+
+namespace fsr {
+
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  return '"' + result + '"';
+}
+
+std::string onOneLine(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+std::string commented(const std::string& head) {
+  std::istringstream lines(head);
+  std::string result, line;
+  while (std::getline(lines, line)) result += "# " + line + "\n";
+  return result;
+}
+
+std::string list(const Surface& surface, double Curvature::*component) {
+  std::string result;
+  for (const Curvature& curvature : surface.curvature) {
+    result += (result.empty() ? "" : ", ") + numberText(curvature.*component);
+  }
+  return surface.curvature.size() == 1 ? result : "[" + result + "]";
+}
+
+std::string text(const Surface& surface) {
+  std::string result = "surface: " + quoted(surface.name);
+  const char* form = surface.curvature.size() == 1 ? "two_planes" : "taxels";
+  result += std::string(", ") + form + ": {x: " + list(surface, &Curvature::x) +
+            ", y: " + list(surface, &Curvature::y) + ", xy: " + list(surface, &Curvature::xy) + "}";
+  if (!surface.deviation.empty()) result += ", deviation: " + numberText(surface.deviation.front());
+  return result;
+}
+
+std::string text(const LoadPattern& pattern) {
+  const std::string place =
+      "x: " + numberText(pattern.centre.x) + ", y: " + numberText(pattern.centre.y) + ", ";
+  if (pattern.kind == LoadPattern::Kind::kUniform) return "";
+  return pattern.kind == LoadPattern::Kind::kDisc
+             ? ", load: {disc: {" + place + "radius: " + numberText(pattern.radius) + "}}"
+             : ", load: {edge: {" + place + "angle: " + numberText(pattern.angle) + "}}";
+}
+
+std::string text(const Station& station) {
+  std::string result = "  - {" + text(station.surface) + text(station.load) +
+                       ", pause: " + numberText(station.pause) + ",\n     program: [";
+  for (std::size_t i = 0; i < station.program.size(); ++i) {
+    result += (i == 0 ? "{" : ",\n               {") + programText(station.program[i]) + "}";
+  }
+  return result + "]}\n";
+}
+
+std::string text(const SimulatedBoard& board) {
+  return "board: {serial: " + quoted(board.serial) + ", firmware: " + quoted(board.firmware) +
+         ", model: " + quoted(board.model) + ",\n        scan_rate: " + numberText(board.scan_rate) +
+         ", scan_duration: " + numberText(board.scan_duration) +
+         ", transducer_rate: " + numberText(board.transducer_rate) + "}\n";
+}
+
+std::string text(const ChamberClimate& climate) {
+  std::string room;
+  for (const TemperaturePoint& point : climate.room) {
+    room += (room.empty() ? "" : ", ") + ("{time: " + numberText(point.time)) +
+            ", temperature: " + numberText(point.temperature) + "}";
+  }
+  return "climate:\n" + (room.empty() ? "" : "  room: [" + room + "]\n") +
+         "  heating: " + numberText(climate.heating) + "\n  cooling: " + numberText(climate.cooling) + "\n";
+}
+
+std::string text(const EnabledEffect& effect, const ValueRemarks& remarks) {
+  std::string result = "  " + effect.id + ":\n";
+  for (const EffectParameter& parameter : findEffect(effect.id)->info.parameters) {
+    const std::string& unit = parameter.permitted.unit;
+    result += "    " + parameter.name + ": " + numberText(effect.values.at(parameter.name)) + "  # " +
+              (unit.empty() ? "" : "[" + unit + "] ") + parameter.meaning;
+    const auto remark = remarks.find(effect.id + "." + parameter.name);
+    result += (remark == remarks.end() ? "" : "; " + onOneLine(remark->second)) + "\n";
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string simulationText(const SimulationSettings& settings, const std::string& head,
+                           const ValueRemarks& remarks) {
+  const Layout& layout = settings.layout;
+  const Transducer& transducer = settings.transducer;
+  std::string result =
+      commented(head) + "simulation: " + quoted(settings.name) + "\nseed: " + std::to_string(settings.seed) +
+      "\nstart: " + numberText(settings.start) + "\nmatrix: {rows: " + std::to_string(layout.size.rows) +
+      ", columns: " + std::to_string(layout.size.columns) + ", pitch_x: " + numberText(layout.pitch_x) +
+      ", pitch_y: " + numberText(layout.pitch_y) + "}\n" + text(settings.board) +
+      "chamber: " + protocolText(settings.chamber) + "\nsession:\n";
+  for (const Station& station : settings.session) result += text(station);
+  result += text(settings.climate) + "transducer: {low: " + numberText(transducer.low) +
+            ", high: " + numberText(transducer.high) +
+            ", full_counts: " + std::to_string(transducer.full_counts) + "}\neffects:\n";
+  for (const EnabledEffect& effect : settings.effects) result += text(effect, remarks);
+  return result;
+}
+
+}  // namespace fsr

@@ -1,0 +1,24 @@
+#include "fsr_pressure_map/settings/number_text.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+namespace {
+
+TEST(NumberText, IsShortAndComesBackAsTheSameNumber) {
+  EXPECT_EQ(fsr::numberText(0.1), "0.1");
+  EXPECT_EQ(fsr::numberText(17000), "17000");
+  EXPECT_EQ(fsr::numberText(-3e-4), "-0.0003");
+  EXPECT_EQ(fsr::numberText(300000), "300000");
+  EXPECT_EQ(fsr::numberText(2e-9), "2e-09");
+  for (const double value : {1.0 / 3, M_PI * 1e20, 5e-324, 1704099600.25}) {
+    EXPECT_EQ(std::strtod(fsr::numberText(value).c_str(), nullptr), value);
+  }
+  EXPECT_EQ(fsr::numberText(INFINITY), ".inf");
+  EXPECT_EQ(fsr::numberText(-INFINITY), "-.inf");
+  EXPECT_EQ(fsr::numberText(NAN), ".nan");
+}
+
+}  // namespace
