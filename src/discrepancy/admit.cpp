@@ -1,0 +1,228 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+#include "fsr_pressure_map/dataset/cycles.h"
+#include "fsr_pressure_map/discrepancy/measured.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "fsr_pressure_map/statistics/random_stream.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr std::size_t kFewestCycles = 3;
+constexpr std::size_t kFewestScans = 200;
+constexpr double kLeastRange = 50e3;   // of the pressure [Pa]
+constexpr double kMostUnusable = 0.5;  // share of the taxels
+constexpr double kShowShare = 0.2;     // of the cycles
+
+std::string number(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+void requireWhole(const Recording& recording) {
+  const auto refuse = [&](const std::string& what) { throw InputError(recording.name + ": " + what); };
+  if (recording.scans() == 0) refuse("it has no scan");
+  if (recording.pressure.empty()) {
+    refuse("no chamber pressure is recorded, but without the topic chamber_pressure nothing can be compared");
+  }
+  const bool whole = recording.counts.size() == recording.scans() * recording.layout.size.taxels() &&
+                     recording.pressure.size() == recording.scans() &&
+                     recording.condition.size() == recording.scans() &&
+                     (recording.mask.empty() || recording.mask.size() == recording.layout.size.taxels()) &&
+                     (recording.temperature.empty() || recording.temperature.size() == recording.scans());
+  if (!whole) refuse("counts, pressure, temperature, condition and mask do not fit each other");
+  for (std::size_t i = 1; i < recording.scans(); ++i) {
+    if (recording.time[i] > recording.time[i - 1]) continue;
+    refuse("its stamps run backwards at " + number(recording.time[i]) + " s, but must ascend");
+  }
+}
+
+void requireFinite(const Recording& recording) {
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    if (std::isfinite(recording.pressure[i])) continue;
+    throw InputError(recording.name + ": chamber pressure at " + number(recording.time[i]) +
+                     " s is no number");
+  }
+}
+
+void requireFit(const Recording& recording, const SimulationSettings& simulation) {
+  if (recording.layout.size != simulation.layout.size) {
+    throw InputError(simulation.origin + ": matrix is " + sizeText(simulation.layout.size) + ", but " +
+                     recording.name + " has " + sizeText(recording.layout.size));
+  }
+}
+
+void requireKnown(const std::vector<std::string>& ids, const std::string& option) {
+  for (const std::string& id : ids) {
+    if (!findEffect(id)) throw InputError(option + ": no effect is called " + id);
+  }
+}
+
+std::vector<std::size_t> inOrderOfTime(const std::vector<Recording>& recordings) {
+  std::vector<std::size_t> order(recordings.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return recordings[a].start_ns < recordings[b].start_ns;
+  });
+  return order;
+}
+
+void appendScans(Measured& measured, const Recording& recording, double start, std::size_t from,
+                 std::size_t to) {
+  const auto at = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
+  std::vector<double> time;
+  for (std::size_t i = from; i < to; ++i) time.push_back(start + recording.time[i]);
+  const std::vector<double> pressure(recording.pressure.begin() + at(from),
+                                     recording.pressure.begin() + at(to));
+  std::vector<double> rate;
+  const std::vector<double> smooth = smoothCourse(time, pressure, rate);
+  measured.time.insert(measured.time.end(), time.begin(), time.end());
+  measured.pressure.insert(measured.pressure.end(), smooth.begin(), smooth.end());
+  measured.rate.insert(measured.rate.end(), rate.begin(), rate.end());
+  if (!recording.temperature.empty()) {
+    measured.temperature.insert(measured.temperature.end(), recording.temperature.begin() + at(from),
+                                recording.temperature.begin() + at(to));
+  }
+}
+
+void findCyclesOf(Measured& measured, std::size_t visit) {
+  const Visit& at = measured.visits[visit];
+  const auto offset = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
+  const std::vector<double> pressure(measured.pressure.begin() + offset(at.first),
+                                     measured.pressure.begin() + offset(at.last));
+  Cycles found = findCycles(pressure);
+  if (found.first.empty()) {
+    found.first = {0};
+    found.direction.assign(pressure.size(), LoadDirection::kNone);
+  }
+  for (std::size_t c = 0; c < found.count(); ++c) {
+    const std::size_t end = c + 1 < found.count() ? found.first[c + 1] : pressure.size();
+    measured.cycles.push_back({visit, at.first + found.first[c], at.first + end, 0, CycleUse::kFit});
+    measured.cycle.resize(at.first + end, static_cast<std::uint32_t>(measured.cycles.size() - 1));
+  }
+  for (const LoadDirection d : found.direction) {
+    measured.direction.push_back(d == LoadDirection::kLoading ? 1 : d == LoadDirection::kUnloading ? -1 : 0);
+  }
+}
+
+void appendRecording(Measured& measured, const ConditionClasses& classes, std::size_t r) {
+  const Recording& recording = (*measured.recordings)[r];
+  const double start = static_cast<double>(recording.start_ns - (*measured.recordings)[0].start_ns) * 1e-9;
+  for (std::size_t from = 0, to = 0; from < recording.scans(); from = to) {
+    while (to < recording.scans() && recording.condition[to] == recording.condition[from]) ++to;
+    const std::size_t condition = recording.condition[from];
+    Visit visit{r, recording.conditions.at(condition), classes.class_of[r][condition], measured.scans(), 0};
+    if (!visit.surface.known()) visit.surface.curvature = {Curvature{}};
+    visit.last = visit.first + (to - from);
+    measured.first_in_recording.push_back(from);
+    appendScans(measured, recording, start, from, to);
+    measured.visits.push_back(visit);
+    measured.visit.resize(visit.last, static_cast<std::uint32_t>(measured.visits.size() - 1));
+    findCyclesOf(measured, measured.visits.size() - 1);
+  }
+}
+
+// Interleaved folds, and cycles to show on: in each visit as many, drawn by the seed.
+void partCycles(Measured& measured, std::uint64_t seed) {
+  const RandomStream stream = randomStream(seed, "discrepancy.split");
+  std::vector<std::vector<std::size_t>> of_visit(measured.visits.size());
+  for (std::size_t c = 0; c < measured.cycles.size(); ++c) of_visit[measured.cycles[c].visit].push_back(c);
+  std::uint32_t next = 0;
+  double owed = 0;
+  for (std::size_t v = 0; v < of_visit.size(); ++v) {
+    std::vector<std::size_t>& cycles = of_visit[v];
+    owed += kShowShare * static_cast<double>(cycles.size());
+    for (; owed >= 1 && cycles.size() > 1; owed -= 1) {
+      const std::size_t drawn = stream.bits(v * 1000 + cycles.size()) % cycles.size();
+      measured.cycles[cycles[drawn]].use = CycleUse::kShow;
+      cycles.erase(cycles.begin() + static_cast<std::ptrdiff_t>(drawn));
+    }
+    for (const std::size_t c : cycles) measured.cycles[c].fold = next++ % Measured::kFolds;
+  }
+}
+
+void maskTaxels(Measured& measured) {
+  measured.used.assign(measured.taxels(), 1);
+  for (const Recording& recording : *measured.recordings) {
+    for (std::size_t i = 0; i < recording.mask.size(); ++i) {
+      if (recording.mask[i]) measured.used[i] = 0;
+    }
+  }
+  if (static_cast<double>(measured.usedTaxels()) <
+      (1 - kMostUnusable) * static_cast<double>(measured.taxels())) {
+    throw InputError(
+        (*measured.recordings)[0].name + ": " + std::to_string(measured.taxels() - measured.usedTaxels()) +
+        " of " + std::to_string(measured.taxels()) + " taxels are masked, but at least half must be usable");
+  }
+}
+
+void requireJudgeable(const Measured& measured) {
+  const std::string name = (*measured.recordings)[0].name;
+  const auto [low, high] = std::minmax_element(measured.pressure.begin(), measured.pressure.end());
+  if (*high - *low < kLeastRange) {
+    throw InputError(name + ": chamber pressure covers " + number((*high - *low) * 1e-3) +
+                     " kPa, but at least 50 kPa are needed to tell anything");
+  }
+  if (measured.cycles.size() < kFewestCycles) {
+    throw InputError(name + ": " + std::to_string(measured.cycles.size()) +
+                     " cycle of filling and venting, but at least 3 are needed: what was found must be held "
+                     "against others");
+  }
+  if (measured.scans() < kFewestScans) {
+    throw InputError(name + ": " + std::to_string(measured.scans()) + " scans, but at least 200 are needed");
+  }
+}
+
+}  // namespace
+
+std::size_t Measured::usedTaxels() const {
+  return static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
+}
+
+void validate(const DiscrepancyProblem& problem) {
+  if (problem.recordings.empty()) throw InputError("discrepancy: no bag was given");
+  for (const Recording& recording : problem.recordings) {
+    requireWhole(recording);
+    requireFinite(recording);
+    requireFit(recording, problem.simulation);
+  }
+  requireKnown(problem.options.ask, "--ask");
+  requireKnown(problem.options.leave_out, "--without");
+}
+
+Measured admit(const DiscrepancyProblem& problem) {
+  Measured measured;
+  measured.recordings = &problem.recordings;
+  const Recording& first = problem.recordings.front();
+  measured.layout = first.layout;
+  measured.full_scale = first.full_scale;
+  const ConditionClasses classes = poolConditions(problem.recordings);
+  measured.classes = classes.classes;
+  bool thermometer = true;
+  for (const std::size_t r : inOrderOfTime(problem.recordings)) {
+    appendRecording(measured, classes, r);
+    thermometer = thermometer && !problem.recordings[r].temperature.empty();
+  }
+  if (!thermometer) {
+    measured.temperature.clear();
+    measured.limitations.push_back("No temperature was recorded: what is slow cannot be told apart.");
+  }
+  const double start = measured.time.front();
+  for (double& time : measured.time) time -= start;
+  measured.way.assign(measured.scans(), 0);
+  for (std::size_t i = 1; i < measured.scans(); ++i) {
+    measured.way[i] = measured.way[i - 1] + std::abs(measured.pressure[i] - measured.pressure[i - 1]);
+  }
+  partCycles(measured, problem.options.seed);
+  maskTaxels(measured);
+  requireJudgeable(measured);
+  return measured;
+}
+
+}  // namespace fsr
