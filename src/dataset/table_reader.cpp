@@ -1,0 +1,187 @@
+#include "fsr_pressure_map/dataset/table_reader.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <locale>
+#include <sstream>
+
+namespace fsr {
+
+namespace {
+
+constexpr std::size_t kLongestLine = 1 << 20;  // [bytes]: longer is no table
+
+std::string trimmed(const std::string& text) {
+  const char* const blank = " \t\r\"";
+  const std::size_t first = text.find_first_not_of(blank);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+// The whole text as a number; `ok` false where it is none.
+double parsed(std::string text, bool decimal_comma, bool& ok) {
+  if (decimal_comma) std::replace(text.begin(), text.end(), ',', '.');
+  std::string lower = text;
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  ok = true;
+  if (lower == "inf" || lower == "+inf" || lower == "infinity") return INFINITY;
+  if (lower == "-inf" || lower == "-infinity") return -INFINITY;
+  if (lower == "nan" || lower == "na") return NAN;
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double value = NAN;
+  stream >> value;
+  ok = !stream.fail() && stream.peek() == std::istringstream::traits_type::eof();
+  return value;
+}
+
+// Tab and semicolon cannot be part of a number; a comma can, where it is the decimal one.
+char separatorOf(const std::string& line, bool decimal_comma) {
+  for (const char candidate : {'\t', ';', ','}) {
+    if (candidate == ',' && decimal_comma) continue;
+    if (line.find(candidate) != std::string::npos) return candidate;
+  }
+  return ' ';
+}
+
+std::vector<std::string> split(const std::string& line, char separator) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  if (separator == ' ') {
+    for (std::string cell; stream >> cell;) cells.push_back(trimmed(cell));
+    return cells;
+  }
+  for (std::string cell; std::getline(stream, cell, separator);) cells.push_back(trimmed(cell));
+  if (!line.empty() && line.back() == separator) cells.emplace_back();
+  return cells;
+}
+
+}  // namespace
+
+struct TableReader::Source {
+  gzFile file = nullptr;
+  std::string path;
+  std::size_t line = 0;
+
+  explicit Source(const std::string& name) : file(gzopen(name.c_str(), "rb")), path(name) {
+    if (file == nullptr) throw InputError(path + ": cannot be opened (" + std::strerror(errno) + ")");
+  }
+  ~Source() { gzclose(file); }
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+
+  bool getLine(std::string& text) {
+    text.clear();
+    std::array<char, 4096> part{};
+    while (gzgets(file, part.data(), static_cast<int>(part.size())) != nullptr) {
+      text += part.data();
+      if (text.size() > kLongestLine)
+        throw InputError(path + ": a line has no end; this is no table of text");
+      if (text.back() == '\n') break;
+    }
+    int error = Z_OK;
+    const char* const why = gzerror(file, &error);
+    if (error != Z_OK && error != Z_STREAM_END) {
+      throw InputError(path + ", after line " + std::to_string(line) + ": cannot be read on (" + why + ")");
+    }
+    if (text.empty()) return false;
+    ++line;
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
+    return true;
+  }
+};
+
+TableReader::TableReader(const std::string& path, const TableFormat& format)
+    : source_(std::make_unique<Source>(path)), path_(path), format_(format) {
+  begin();
+}
+
+TableReader::~TableReader() = default;
+
+bool TableReader::readCells() {
+  std::string line;
+  while (source_->getLine(line)) {
+    const std::string content = trimmed(line);
+    if (source_->line <= format_.skip_lines || content.empty() || content[0] == '#') continue;
+    if (format_.separator == 0) format_.separator = separatorOf(line, format_.decimal_comma);
+    cells_ = split(line, format_.separator);
+    return true;
+  }
+  return false;
+}
+
+void TableReader::begin() {
+  if (!readCells())
+    throw InputError(path_ + ": holds no row; a table of text with one row a reading is needed");
+  columns_ = cells_.size();
+  bool is_number = false;
+  parsed(cells_[0], format_.decimal_comma, is_number);
+  const bool told = format_.header == TableFormat::Header::kTold;
+  if (told ? is_number : format_.header == TableFormat::Header::kNo) {
+    first_is_pending_ = true;
+  } else {
+    names_ = cells_;
+  }
+}
+
+bool TableReader::next() {
+  if (first_is_pending_) {
+    first_is_pending_ = false;
+    return true;
+  }
+  if (!readCells()) return false;
+  if (cells_.size() != columns_) {
+    throw InputError(path_ + ", line " + std::to_string(line()) + ": has " + std::to_string(cells_.size()) +
+                     " columns, but the first row has " + std::to_string(columns_));
+  }
+  return true;
+}
+
+std::size_t TableReader::find(const std::string& column) const {
+  const auto named = std::find(names_.begin(), names_.end(), column);
+  if (named != names_.end()) return static_cast<std::size_t>(named - names_.begin());
+  bool is_number = false;
+  const double number = parsed(column, false, is_number);
+  if (is_number && number >= 1 && number <= static_cast<double>(columns_) && number == std::floor(number)) {
+    return static_cast<std::size_t>(number) - 1;
+  }
+  std::string known;
+  for (const std::string& name : names_) known += ", " + name;
+  throw InputError(path_ + ": has no column \"" + column + "\"; give 1 to " + std::to_string(columns_) +
+                   (names_.empty() ? " (it has no header)" : " or a name: " + known.substr(2)));
+}
+
+double TableReader::number(std::size_t column) const {
+  const double value = numberOrInfinity(column);
+  if (!std::isfinite(value)) throw error(column, "is " + cells_[column] + ", but must be a finite number");
+  return value;
+}
+
+double TableReader::numberOrInfinity(std::size_t column) const {
+  if (cells_[column].empty()) throw error(column, "is empty, but must be a number");
+  bool is_number = false;
+  const double value = parsed(cells_[column], format_.decimal_comma, is_number);
+  if (!is_number || std::isnan(value))
+    throw error(column, "is \"" + cells_[column] + "\", but must be a number");
+  return value;
+}
+
+std::size_t TableReader::line() const {
+  return source_->line;
+}
+
+std::string TableReader::nameOf(std::size_t column) const {
+  return column < names_.size() && !names_[column].empty() ? names_[column] : std::to_string(column + 1);
+}
+
+InputError TableReader::error(std::size_t column, const std::string& complaint) const {
+  return InputError(path_ + ", line " + std::to_string(line()) + ", column " + nameOf(column) + ": " +
+                    complaint);
+}
+
+}  // namespace fsr

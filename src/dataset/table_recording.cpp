@@ -1,0 +1,213 @@
+#include "fsr_pressure_map/dataset/table_recording.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <tuple>
+
+#include "fsr_pressure_map/dataset/table_units.h"
+
+namespace fsr {
+
+namespace {
+
+// A column of the plan, found in the table.
+struct Source {
+  std::size_t column;
+  TableUnit unit;
+};
+
+// One row in SI units.
+struct Row {
+  double time = 0;                    // [s]
+  std::vector<double> readings;       // counts, [V] or [S]
+  std::optional<double> pressure;     // gauge [Pa]
+  std::optional<double> temperature;  // [degree Celsius]
+  Surface surface;
+};
+
+double roundNumberAbove(double value) {
+  const double decade = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {1.0, 2.0, 5.0, 10.0}) {
+    if (step * decade >= value) return step * decade;
+  }
+  return value;
+}
+
+class Reader {
+ public:
+  Reader(const std::string& path, const TablePlan& plan)
+      : table_(path, plan.format), path_(path), plan_(plan) {
+    for (const TableColumn& column : plan.columns) {
+      const Source source{table_.find(column.column), unitOf(column)};
+      (column.role == ColumnRole::kReading ? readings_ : others_).emplace_back(column.role, source);
+    }
+    for (const auto& [role, source] : readings_) {
+      if (source.unit.quantity == quantity()) continue;
+      throw InputError(path + ": readings are in " + quantity() + " and in " + source.unit.quantity +
+                       ", but must be of one kind");
+    }
+    size_ =
+        plan.matrix.taxels() > 0 ? plan.matrix : MatrixSize{1, static_cast<std::uint16_t>(readings_.size())};
+    if (size_.taxels() != readings_.size()) {
+      throw InputError(path + ": --columns names " + std::to_string(readings_.size()) +
+                       " readings, but --matrix is " + sizeText(size_));
+    }
+  }
+
+  TableRecording read();
+
+ private:
+  const std::string& quantity() const { return readings_.front().second.unit.quantity; }
+  bool nextRow(TableRecording& result);
+  Row readRow() const;
+  void readOther(ColumnRole role, const Source& source, Row& row) const;
+  double reading(const Source& source) const;
+  void append(const Row& row, Recording& recording);
+  ReadingScale scale() const;
+  void convert(const ReadingScale& scale, Recording& recording) const;
+
+  TableReader table_;
+  std::string path_;
+  const TablePlan& plan_;
+  std::vector<std::pair<ColumnRole, Source>> readings_, others_;
+  MatrixSize size_;
+  std::vector<double> values_;      // [scans x taxels], counts, V or S
+  std::vector<std::size_t> lines_;  // of each scan
+};
+
+double Reader::reading(const Source& source) const {
+  const TableUnit& unit = source.unit;
+  if (!unit.inverse) return unit.factor * table_.number(source.column);
+  const double resistance = unit.factor * table_.numberOrInfinity(source.column);
+  if (!(resistance > 0))
+    throw table_.error(source.column,
+                       "is a resistance of " + table_.text(source.column) + ", but must be more than 0");
+  return 1 / resistance;
+}
+
+void Reader::readOther(ColumnRole role, const Source& source, Row& row) const {
+  if (role == ColumnRole::kSurface) {
+    row.surface.name = table_.text(source.column);
+    return;
+  }
+  const double value = source.unit.factor * (table_.number(source.column) + source.unit.offset);
+  if (role == ColumnRole::kTime) row.time = value;
+  if (role == ColumnRole::kTemperature) row.temperature = value;
+  if (role == ColumnRole::kCurvature) row.surface.curvature = {Curvature{value, 0, 0}};
+  if (role == ColumnRole::kReference) {
+    const double pressure = source.unit.quantity == "N" ? value / plan_.area : value;
+    row.pressure = pressure - plan_.ambient_pressure.value_or(0);
+  }
+  if (role == ColumnRole::kMount) {
+    if (value < 0 || value != std::floor(value))
+      throw table_.error(source.column, "must be a whole number, 0 or more");
+    row.surface.mount = static_cast<std::uint32_t>(value);
+  }
+}
+
+Row Reader::readRow() const {
+  Row row;
+  row.surface.name = plan_.surface;
+  if (plan_.curvature) row.surface.curvature = {Curvature{*plan_.curvature, 0, 0}};
+  for (const auto& [role, source] : others_) readOther(role, source, row);
+  for (const auto& [role, source] : readings_) row.readings.push_back(reading(source));
+  return row;
+}
+
+void Reader::append(const Row& row, Recording& recording) {
+  if (!recording.time.empty() && row.time <= recording.time.back()) {
+    const auto is_time = [](const auto& entry) { return entry.first == ColumnRole::kTime; };
+    const std::size_t column = std::find_if(others_.begin(), others_.end(), is_time)->second.column;
+    throw table_.error(column, "is " + table_.text(column) + ", but the time must move on from row to row");
+  }
+  const auto same = [&](const Surface& surface) { return sameCondition(surface, row.surface); };
+  auto found = std::find_if(recording.conditions.begin(), recording.conditions.end(), same);
+  if (found == recording.conditions.end()) found = recording.conditions.insert(found, row.surface);
+  recording.condition.push_back(static_cast<std::uint32_t>(found - recording.conditions.begin()));
+  recording.time.push_back(row.time);
+  if (row.pressure) recording.pressure.push_back(*row.pressure);
+  if (row.temperature) recording.temperature.push_back(*row.temperature);
+  values_.insert(values_.end(), row.readings.begin(), row.readings.end());
+  lines_.push_back(table_.line());
+}
+
+ReadingScale Reader::scale() const {
+  const auto [least, most] = std::minmax_element(values_.begin(), values_.end());
+  ReadingScale scale{0, 65535, quantity(), 65535};
+  if (quantity() == "counts") {
+    scale.full_scale = plan_.full_scale.value_or(*most <= 4095 ? 4095 : 65535);
+    scale.high = scale.full_scale;
+    return scale;
+  }
+  scale.high = *most > 0 ? roundNumberAbove(*most) : 1;
+  if (*least < 0) scale.low = -roundNumberAbove(-*least);
+  if (plan_.range) std::tie(scale.low, scale.high) = *plan_.range;
+  return scale;
+}
+
+void Reader::convert(const ReadingScale& scale, Recording& recording) const {
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const double share = (values_[i] - scale.low) / (scale.high - scale.low);
+    if (share < 0 || share > 1) {
+      std::ostringstream complaint;
+      complaint << path_ << ", line " << lines_[i / size_.taxels()] << ": a reading of " << values_[i] << " "
+                << scale.unit << " is outside " << scale.low << " to " << scale.high << " " << scale.unit
+                << "; widen " << (scale.unit == "counts" ? "--full-scale" : "--range");
+      throw InputError(complaint.str());
+    }
+    recording.counts.push_back(static_cast<std::uint16_t>(std::lround(share * scale.full_scale)));
+  }
+}
+
+// One row on; false at the end.
+bool Reader::nextRow(TableRecording& result) {
+  const std::size_t before = table_.line();
+  try {
+    if (!table_.next()) return false;
+    append(readRow(), result.recording);
+  } catch (const InputError&) {
+    const bool moved_on = table_.line() > before;  // else the file itself cannot be read
+    if (!plan_.skip_bad_rows || !moved_on) throw;
+    ++result.skipped;
+  }
+  return true;
+}
+
+TableRecording Reader::read() {
+  TableRecording result;
+  Recording& recording = result.recording;
+  recording.name = path_.substr(path_.find_last_of('/') + 1);
+  recording.layout = {size_, plan_.pitch, plan_.pitch};
+  while (nextRow(result)) {
+  }
+  if (recording.scans() < 2) throw InputError(path_ + ": holds fewer than two usable rows");
+  result.scale = scale();
+  convert(result.scale, recording);
+  recording.full_scale = result.scale.full_scale;
+  recording.sensor.model = result.scale.text();
+  recording.start_ns = plan_.start_ns + std::llround(recording.time.front() * 1e9);
+  const double first = recording.time.front();
+  for (double& time : recording.time) time -= first;
+  return result;
+}
+
+}  // namespace
+
+std::string ReadingScale::text() const {
+  std::ostringstream text;
+  if (unit == "counts") {
+    text << "counts as recorded, full scale " << full_scale;
+  } else if (low == 0) {
+    text << full_scale << " counts = " << high << " " << unit;
+  } else {
+    text << "0 counts = " << low << " " << unit << ", " << full_scale << " counts = " << high << " " << unit;
+  }
+  return text.str();
+}
+
+TableRecording readTable(const std::string& path, const TablePlan& plan) {
+  return Reader(path, plan).read();
+}
+
+}  // namespace fsr

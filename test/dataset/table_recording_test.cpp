@@ -1,0 +1,222 @@
+#include "fsr_pressure_map/dataset/table_recording.h"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Table : public testing::Test {
+ protected:
+  void SetUp() override {
+    path_ = (fs::path(testing::TempDir()) /
+             ("table_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv"))
+                .string();
+  }
+  void TearDown() override { fs::remove(path_); }
+
+  TableRecording read(const std::string& text, const std::string& columns, TablePlan plan = {}) const {
+    std::ofstream(path_) << text;
+    plan.columns = parseColumns(columns);
+    return readTable(path_, plan);
+  }
+  std::string complaint(const std::string& text, const std::string& columns,
+                        const TablePlan& plan = {}) const {
+    try {
+      read(text, columns, plan);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  void expectComplaint(const std::string& text, const std::string& columns,
+                       const std::vector<std::string>& parts, const TablePlan& plan = {}) const {
+    const std::string said = complaint(text, columns, plan);
+    for (const std::string& part : parts)
+      EXPECT_NE(said.find(part), std::string::npos) << part << " in: " << said;
+  }
+
+  std::string path_;
+};
+
+constexpr const char* kPlain = "t,force,left,right\n0,10,1.0,2.0\n0.5,20,1.5,3.0\n1,30,2.5,4.0\n";
+
+TEST_F(Table, BecomesARecordingInSiUnits) {
+  TablePlan plan;
+  plan.area = 2e-4;
+  plan.curvature = 12.5;
+  plan.surface = "cylinder_8cm";
+  const TableRecording table = read(kPlain, "time=t,reference=force:N,reading=left:V,reading=right:V", plan);
+  const Recording& recording = table.recording;
+  EXPECT_EQ(recording.layout.size, (MatrixSize{1, 2}));
+  EXPECT_EQ(recording.time, (std::vector<double>{0, 0.5, 1}));
+  EXPECT_EQ(recording.pressure, (std::vector<double>{50e3, 100e3, 150e3}));  // 10 N on 2 cm^2
+  EXPECT_EQ(table.scale.high, 5);
+  EXPECT_EQ(table.scale.text(), "65535 counts = 5 V");
+  EXPECT_EQ(recording.full_scale, 65535);
+  EXPECT_EQ(recording.counts, (std::vector<std::uint16_t>{13107, 26214, 19661, 39321, 32768, 52428}));
+  EXPECT_EQ(recording.conditions.size(), 1u);
+  EXPECT_EQ(recording.conditions[0].curvature[0].x, 12.5);
+}
+
+TEST_F(Table, IsTheSameHoweverItIsWrittenDown) {
+  const TableRecording plain = read(kPlain, "time=1,reading=3:V,reference=2:kPa");
+  const std::vector<std::string> others = {
+      "0 10 1.0 2.0\r\n0.5 20 1.5 3.0\r\n1 30 2.5 4.0\r\n",
+      "\n# by hand\n0\t10\t1.0\t2.0\n0.5\t20\t1.5\t3.0\n\n1\t30\t2.5\t4.0",
+      "\"t\";\"force\";\"left\";\"right\"\n0;10;1.0;2.0\n0.5;20;1.5;3.0\n1;30;2.5;4.0\n"};
+  for (const std::string& text : others) {
+    const TableRecording other = read(text, "time=1,reading=3:V,reference=2:kPa");
+    EXPECT_EQ(other.recording.counts, plain.recording.counts) << text;
+    EXPECT_EQ(other.recording.pressure, plain.recording.pressure) << text;
+  }
+  TablePlan labview;
+  labview.format.decimal_comma = true;
+  labview.format.skip_lines = 2;
+  const std::string text = "LabVIEW Measurement\n12,5\n0\t10\t1,0\t2,0\n0,5\t20\t1,5\t3,0\n1\t30\t2,5\t4,0\n";
+  EXPECT_EQ(read(text, "time=1,reading=3:V,reference=2:kPa", labview).recording.counts,
+            plain.recording.counts);
+}
+
+TEST_F(Table, MayBeGzipped) {
+  const TableRecording plain = read(kPlain, "time=t,reading=left:V");
+  gzFile file = gzopen(path_.c_str(), "wb");
+  gzputs(file, kPlain);
+  gzclose(file);
+  TablePlan plan;
+  plan.columns = parseColumns("time=t,reading=left:V");
+  EXPECT_EQ(readTable(path_, plan).recording.counts, plain.recording.counts);
+  fs::resize_file(path_, fs::file_size(path_) - 12);  // cut short
+  EXPECT_THROW(readTable(path_, plan), InputError);
+}
+
+TEST_F(Table, ConvertsEveryUnit) {
+  const char* const two = "0,100,2\n1,200,4\n";
+  EXPECT_NEAR(read(two, "time=1:ms,reading=3:V,reference=2:psi").recording.pressure[0], 689475.7293, 1e-3);
+  EXPECT_NEAR(read(two, "time=1,reading=3:V,reference=2:mmHg").recording.pressure[1], 26664.4774830, 1e-6);
+  EXPECT_NEAR(read(two, "time=1,reading=3:V,reference=2:bar").recording.pressure[0], 1e7, 1e-6);
+  EXPECT_NEAR(read(two, "time=1,reading=3:V,reference=2:2500Pa").recording.pressure[0], 250e3, 1e-6);
+  EXPECT_NEAR(read(two, "time=1:ms,reading=3:V").recording.time[1], 1e-3, 1e-15);
+  EXPECT_NEAR(read(two, "time=1:min,reading=3:V").recording.time[1], 60, 1e-12);
+  EXPECT_NEAR(read(two, "time=1,reading=3:V,temperature=2:F").recording.temperature[0], 37.7778, 1e-4);
+  EXPECT_NEAR(read(two, "time=1,reading=3:V,temperature=2:K").recording.temperature[0], -173.15, 1e-9);
+  EXPECT_NEAR(read(two, "time=1,reading=2:V,curvature=3:1/cm").recording.conditions[0].curvature[0].x, 200,
+              1e-9);
+}
+
+TEST_F(Table, TurnsResistancesIntoConductances) {
+  // 1 kohm = 1 mS, 500 ohm = 2 mS; no contact = no conductance
+  const TableRecording table = read("0,1\n1,0.5\n2,inf\n", "time=1,reading=2:kohm");
+  EXPECT_EQ(table.scale.unit, "S");
+  EXPECT_NEAR(table.scale.high, 2e-3, 1e-15);
+  EXPECT_EQ(table.recording.counts, (std::vector<std::uint16_t>{32768, 65535, 0}));
+  expectComplaint("0,1\n1,0\n", "time=1,reading=2:ohm", {"line 2, column 2", "more than 0"});
+}
+
+TEST_F(Table, LeavesCountsAsTheyAre) {
+  EXPECT_EQ(read("0,7\n1,4095\n", "time=1,reading=2:counts").recording.full_scale, 4095);
+  const TableRecording wide = read("0,7\n1,5000\n", "time=1,reading=2:counts");
+  EXPECT_EQ(wide.recording.full_scale, 65535);
+  EXPECT_EQ(wide.recording.counts, (std::vector<std::uint16_t>{7, 5000}));
+  TablePlan plan;
+  plan.full_scale = 1023;
+  expectComplaint("0,7\n1,2000\n", "time=1,reading=2", {"line 2", "2000", "--full-scale"}, plan);
+}
+
+TEST_F(Table, TakesAnAbsoluteReferenceByTheAmbientPressure) {
+  TablePlan plan;
+  plan.ambient_pressure = 100e3;
+  EXPECT_EQ(read("0,150,1\n1,160,1\n", "time=1,reference=2:kPa,reading=3:V", plan).recording.pressure,
+            (std::vector<double>{50e3, 60e3}));
+}
+
+TEST_F(Table, MakesAConditionOfEverySurfaceAndMount) {
+  const std::string text = "0,1,flat,1\n1,1,flat,1\n2,1,bent,2\n3,1,flat,3\n4,1,flat,1\n";
+  const Recording recording = read(text, "time=1,reading=2:V,surface=3,mount=4").recording;
+  EXPECT_EQ(recording.condition, (std::vector<std::uint32_t>{0, 0, 1, 2, 0}));
+  EXPECT_EQ(recording.conditions[1].name, "bent");
+  EXPECT_EQ(recording.conditions[2].mount, 3u);
+}
+
+TEST_F(Table, CountsItsTimeFromTheFirstRow) {
+  TablePlan plan;
+  plan.start_ns = 0;
+  const Recording recording = read("1600000000.5,1\n1600000001.5,1\n", "time=1,reading=2:V", plan).recording;
+  EXPECT_EQ(recording.start_ns, 1600000000500000000);
+  EXPECT_EQ(recording.time, (std::vector<double>{0, 1}));
+}
+
+TEST_F(Table, RefusesCellsThatAreNoNumbersByLineAndColumn) {
+  const std::string head = "t,x\n0,1\n1,2\n";
+  expectComplaint(head + "2,nan\n", "time=t,reading=x:V", {path_, "line 4, column x", "nan"});
+  expectComplaint(head + "2,\n", "time=t,reading=x:V", {"line 4, column x", "empty"});
+  expectComplaint(head + "2,1.5V\n", "time=t,reading=x:V", {"line 4, column x", "1.5V"});
+  expectComplaint(head + "2,inf\n", "time=t,reading=x:V", {"line 4, column x", "inf"});
+  expectComplaint(head + "2\n", "time=t,reading=x:V", {"line 4", "1 columns"});
+}
+
+TEST_F(Table, RefusesATimeThatDoesNotMoveOn) {
+  expectComplaint("0,1\n1,1\n0.5,1\n", "time=1,reading=2:V", {"line 3, column 1", "0.5", "move on"});
+  expectComplaint("0,1\n1,1\n1,1\n", "time=1,reading=2:V", {"line 3, column 1", "move on"});
+}
+
+TEST_F(Table, LeavesOutWhatItWouldRefuseWhereThatIsWanted) {
+  TablePlan plan;
+  plan.skip_bad_rows = true;
+  const TableRecording table = read("0,1\n1,nan\n2,1\n1.5,1\n3\n4,1\n", "time=1,reading=2:V", plan);
+  EXPECT_EQ(table.recording.time, (std::vector<double>{0, 2, 4}));
+  EXPECT_EQ(table.skipped, 3u);
+}
+
+TEST_F(Table, RefusesReadingsOutsideTheRange) {
+  TablePlan plan;
+  plan.range = {{0, 2}};
+  expectComplaint(kPlain, "time=t,reading=right:V", {"line 3", "3", "0 to 2 V", "--range"}, plan);
+  plan.range = {{-5, 5}};
+  const TableRecording table = read(kPlain, "time=t,reading=right:V", plan);
+  EXPECT_EQ(table.scale.text(), "0 counts = -5 V, 65535 counts = 5 V");
+  EXPECT_EQ(table.recording.counts[0], 45875);  // 7/10 of 65535
+}
+
+TEST_F(Table, RefusesAPlanThatDoesNotFit) {
+  expectComplaint(kPlain, "time=t,reading=middle", {"middle", "left"});
+  expectComplaint(kPlain, "time=t,reading=9", {"\"9\"", "1 to 4"});
+  expectComplaint(kPlain, "time=t,reading=left:V,reading=right:ohm", {"of one kind"});
+  TablePlan plan;
+  plan.matrix = {2, 2};
+  expectComplaint(kPlain, "time=t,reading=left:V", {"2 x 2"}, plan);
+  expectComplaint("", "time=1,reading=2", {"holds no row"});
+  expectComplaint("t,x\n0,1\n", "time=t,reading=x", {"fewer than two"});
+  TablePlan none;
+  none.columns = parseColumns("time=1,reading=2");
+  EXPECT_THROW(readTable("/no/such/table.csv", none), InputError);
+}
+
+TEST(TableColumns, AreRefusedWithWhatWouldBeRight) {
+  const auto complaint = [](const std::string& text) -> std::string {
+    try {
+      parseColumns(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(complaint("time=1,reeding=2").find("reeding"), std::string::npos);
+  EXPECT_NE(complaint("time=1,reading=2:kg").find("Mohm"), std::string::npos);
+  EXPECT_NE(complaint("time=1,time=2,reading=3").find("time twice"), std::string::npos);
+  EXPECT_NE(complaint("reading=2").find("no time"), std::string::npos);
+  EXPECT_NE(complaint("time=1").find("no reading"), std::string::npos);
+  EXPECT_NE(complaint("time=1,reading=").find("names no column"), std::string::npos);
+  EXPECT_NE(complaint("time=1,reading=2,reference=3:-5Pa").find("-5Pa"), std::string::npos);
+  EXPECT_EQ(parseColumns("time=1:ms,reading=a:b:V")[1].column, "a:b");  // a name with a colon, unit given
+}
+
+}  // namespace
+}  // namespace fsr
