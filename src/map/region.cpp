@@ -1,0 +1,99 @@
+#include "fsr_pressure_map/map/region.h"
+
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "fsr_pressure_map/settings/settings.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr double kMaxPressure = 10e6;  // [Pa]
+constexpr double kMaxDwell = 3600;     // [s]
+
+AlarmOptions readAlarm(const Settings& owner) {
+  AlarmOptions alarm;
+  if (!owner.has("alarm")) return alarm;
+  const Settings settings = owner.section("alarm");
+  alarm.threshold = settings.number("threshold", {1, kMaxPressure, "Pa"});
+  alarm.dwell = settings.number("dwell", {0, kMaxDwell, "s"}, alarm.dwell);
+  alarm.hysteresis = settings.number("hysteresis", {0, alarm.threshold, "Pa"}, alarm.hysteresis);
+  return alarm;
+}
+
+// First and last index of `key`, or all of them where it is left out.
+std::pair<int, int> readSpan(const Settings& settings, const std::string& key, int count) {
+  if (!settings.has(key)) return {0, count - 1};
+  const std::vector<double> span = settings.numbers(key, {0, double(count - 1)});
+  const bool whole = span.size() == 2 && std::floor(span[0]) == span[0] && std::floor(span[1]) == span[1];
+  if (!whole || span[0] > span[1]) {
+    throw settings.error(key, "must be two whole numbers, the first and the last");
+  }
+  return {static_cast<int>(span[0]), static_cast<int>(span[1])};
+}
+
+std::vector<std::uint8_t> rectangle(const Settings& settings, MatrixSize size) {
+  if (!settings.has("rows") && !settings.has("columns")) {
+    throw settings.error("name", "has neither rows and columns nor a mask");
+  }
+  const auto [top, bottom] = readSpan(settings, "rows", size.rows);
+  const auto [left, right] = readSpan(settings, "columns", size.columns);
+  std::vector<std::uint8_t> mask(size.taxels(), 0);
+  for (int row = top; row <= bottom; ++row) {
+    for (int column = left; column <= right; ++column) mask[std::size_t(row) * size.columns + column] = 1;
+  }
+  return mask;
+}
+
+std::vector<std::uint8_t> picture(const Settings& settings, MatrixSize size) {
+  std::istringstream lines(settings.text("mask"));
+  std::vector<std::uint8_t> mask;
+  bool fits = true;
+  for (std::string line; lines >> line;) {
+    fits = fits && line.size() == size.columns;
+    for (const char c : line) {
+      if (c != '0' && c != '1' && c != '.') throw settings.error("mask", "may hold 0, 1 and . only");
+      mask.push_back(c == '1');
+    }
+  }
+  if (fits && mask.size() == size.taxels()) return mask;
+  throw settings.error("mask", "must have one line for each row and one character for each column of the " +
+                                   sizeText(size) + " matrix");
+}
+
+Region readRegion(const Settings& settings, MatrixSize size) {
+  Region region;
+  region.name = settings.text("name");
+  if (region.name.empty()) throw settings.error("name", "must not be empty: that is the whole matrix");
+  region.mask = settings.has("mask") ? picture(settings, size) : rectangle(settings, size);
+  region.alarm = readAlarm(settings);
+  return region;
+}
+
+std::vector<Region> readAll(const Settings& settings, MatrixSize size) {
+  std::vector<Region> regions(1);
+  regions.front().alarm = readAlarm(settings);
+  std::set<std::string> names;
+  if (settings.has("regions")) {
+    for (const Settings& entry : settings.sections("regions")) {
+      regions.push_back(readRegion(entry, size));
+      if (!names.insert(regions.back().name).second) throw entry.error("name", "is used twice");
+    }
+  }
+  settings.refuseUnknown();
+  return regions;
+}
+
+}  // namespace
+
+std::vector<Region> readRegionFile(const std::string& path, MatrixSize size) {
+  return readAll(Settings::fromFile(path), size);
+}
+
+std::vector<Region> readRegions(const std::string& yaml, const std::string& origin, MatrixSize size) {
+  return readAll(Settings::fromText(yaml, origin), size);
+}
+
+}  // namespace fsr

@@ -1,0 +1,127 @@
+#include "fsr_pressure_map/map/alarm.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fsr_pressure_map/map/pressure_map.h"
+#include "fsr_pressure_map/map/region.h"
+
+namespace fsr {
+namespace {
+
+const AlarmOptions kOptions{100e3, 2.0, 10e3};  // [Pa, s, Pa]
+
+AlarmEvidence sure(double pressure) {
+  return {pressure, true};
+}
+
+TEST(Alarm, RisesOnlyAfterTheDwellTime) {
+  Alarm alarm(kOptions);
+  EXPECT_EQ(alarm.update(0, sure(120e3)), AlarmState::kOk);
+  EXPECT_EQ(alarm.update(1.9, sure(120e3)), AlarmState::kOk);
+  EXPECT_EQ(alarm.update(2.0, sure(120e3)), AlarmState::kAlarm);
+}
+
+TEST(Alarm, CountsTheDwellTimeAnewAfterADip) {
+  Alarm alarm(kOptions);
+  alarm.update(0, sure(120e3));
+  alarm.update(1.9, sure(99e3));
+  alarm.update(2.0, sure(120e3));
+  EXPECT_EQ(alarm.update(3.9, sure(120e3)), AlarmState::kOk);
+  EXPECT_EQ(alarm.update(4.0, sure(120e3)), AlarmState::kAlarm);
+}
+
+TEST(Alarm, FallsOnlyBelowTheHysteresis) {
+  Alarm alarm(kOptions);
+  alarm.update(0, sure(100e3));
+  EXPECT_EQ(alarm.update(2, sure(100e3)), AlarmState::kAlarm);
+  EXPECT_EQ(alarm.update(3, sure(90e3)), AlarmState::kAlarm);
+  EXPECT_EQ(alarm.update(4, sure(89e3)), AlarmState::kOk);
+  EXPECT_EQ(alarm.update(5, sure(95e3)), AlarmState::kOk);
+}
+
+TEST(Alarm, IsUnknownAndNeverOkWhereTheMapCannotAnswer) {
+  Alarm alarm(kOptions);
+  EXPECT_EQ(alarm.update(0, {20e3, false}), AlarmState::kUnknown);
+  EXPECT_EQ(alarm.update(1, {NAN, false}), AlarmState::kUnknown);
+  EXPECT_EQ(alarm.stale(), AlarmState::kUnknown);
+}
+
+TEST(Alarm, WhatIsSurelyAboveAlarmsWhateverTheRestSays) {
+  Alarm alarm(kOptions);
+  alarm.update(0, {120e3, false});
+  EXPECT_EQ(alarm.update(2, {120e3, false}), AlarmState::kAlarm);
+  EXPECT_EQ(alarm.update(3, {20e3, false}), AlarmState::kUnknown);  // it may be above elsewhere
+}
+
+TEST(Alarm, StartsTheDwellAnewWhenTimeRunsBack) {
+  Alarm alarm(kOptions);
+  alarm.update(100, sure(120e3));
+  EXPECT_EQ(alarm.update(1, sure(120e3)), AlarmState::kOk);
+  EXPECT_EQ(alarm.update(3, sure(120e3)), AlarmState::kAlarm);
+}
+
+TEST(Alarm, WithoutAThresholdStillSaysWhetherTheMapCanAnswer) {
+  Alarm alarm;
+  EXPECT_EQ(alarm.update(0, sure(500e3)), AlarmState::kOk);
+  EXPECT_EQ(alarm.update(1, {500e3, false}), AlarmState::kUnknown);
+}
+
+PressureMap soundMap() {
+  PressureMap map;
+  map.reset({{1, 3}, 0.01, 0.01});
+  map.state = MapState::kOk;
+  map.pressure = {10e3f, 20e3f, 30e3f};
+  return map;
+}
+
+TEST(AlarmEvidence, OfASoundMapIsItsPeak) {
+  const AlarmEvidence e = evidence(soundMap(), {});
+  EXPECT_DOUBLE_EQ(e.sure, 30e3);
+  EXPECT_TRUE(e.whole);
+}
+
+TEST(AlarmEvidence, IsNotWholeInAnyStateButOk) {
+  for (int state = 1; state <= 5; ++state) {
+    PressureMap map = soundMap();
+    map.state = static_cast<MapState>(state);
+    EXPECT_FALSE(evidence(map, {}).whole) << state;
+  }
+}
+
+TEST(AlarmEvidence, IsNotWholeWithAFlagThatHidesPressure) {
+  using namespace taxel_flag;
+  for (const std::uint16_t flag : {kSaturated, kDead, kStuck, kReadingExtrapolated, kCurvatureExtrapolated,
+                                   kLineFault, kTemperatureExtrapolated, kFilled}) {
+    PressureMap map = soundMap();
+    map.flags[2] = flag;
+    EXPECT_FALSE(evidence(map, {}).whole) << flag;
+    EXPECT_DOUBLE_EQ(evidence(map, {}).sure, flag == kSaturated ? 30e3 : 20e3) << flag;
+  }
+  for (const std::uint16_t flag : {kTared, kBetweenClasses, kBelowRange}) {
+    PressureMap map = soundMap();
+    map.flags[2] = flag;
+    EXPECT_TRUE(evidence(map, {}).whole) << flag;
+  }
+}
+
+TEST(AlarmEvidence, AZeroCodeBelowTrainingIsStillLittlePressure) {
+  PressureMap map = soundMap();
+  map.flags[0] = taxel_flag::kBelowRange | taxel_flag::kReadingExtrapolated;
+  EXPECT_TRUE(evidence(map, {}).whole);
+}
+
+TEST(AlarmEvidence, AMaskedTaxelAndOneOutsideTheRegionAreNobodysQuestion) {
+  PressureMap map = soundMap();
+  map.pressure[2] = NAN;
+  map.flags[2] = taxel_flag::kMasked;
+  EXPECT_TRUE(evidence(map, {}).whole);
+  map.flags[2] = taxel_flag::kDead;
+  EXPECT_TRUE(evidence(map, {"left", {1, 1, 0}, {}}).whole);
+  EXPECT_FALSE(evidence(map, {}).whole);
+  EXPECT_FALSE(evidence(map, {"none", {0, 0, 0}, {}}).whole);
+}
+
+}  // namespace
+}  // namespace fsr

@@ -1,0 +1,71 @@
+#include "fsr_pressure_map/map/region.h"
+
+#include <gtest/gtest.h>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+namespace {
+
+using Mask = std::vector<std::uint8_t>;
+
+std::vector<Region> read(const std::string& yaml) {
+  return readRegions(yaml, "regions.yaml", {2, 3});
+}
+
+std::string refusal(const std::string& yaml) {
+  try {
+    read(yaml);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Regions, AreRectanglesOrPictures) {
+  const auto regions = read(
+      "regions:\n"
+      "  - {name: right, columns: [1, 2]}\n"
+      "  - {name: corner, rows: [1, 1], columns: [0, 0]}\n"
+      "  - name: drawn\n"
+      "    mask: |\n"
+      "      1.0\n"
+      "      011\n"
+      "    alarm: {threshold: 120e3, dwell: 2}\n");
+  ASSERT_EQ(regions.size(), 4u);
+  EXPECT_EQ(regions[0].name, "");
+  EXPECT_TRUE(regions[0].mask.empty());
+  EXPECT_EQ(regions[1].mask, (Mask{0, 1, 1, 0, 1, 1}));
+  EXPECT_EQ(regions[2].mask, (Mask{0, 0, 0, 1, 0, 0}));
+  EXPECT_EQ(regions[3].mask, (Mask{1, 0, 0, 0, 1, 1}));
+  EXPECT_EQ(regions[3].alarm.threshold, 120e3);
+  EXPECT_EQ(regions[3].alarm.dwell, 2);
+  EXPECT_FALSE(regions[1].alarm.used());
+}
+
+TEST(Regions, TheWholeMatrixMayAlarmToo) {
+  const auto regions = read("alarm: {threshold: 250e3, hysteresis: 20e3}\n");
+  ASSERT_EQ(regions.size(), 1u);
+  EXPECT_EQ(regions[0].alarm.threshold, 250e3);
+  EXPECT_EQ(regions[0].alarm.hysteresis, 20e3);
+}
+
+TEST(Regions, RefuseWhatDoesNotFitTheMatrix) {
+  EXPECT_NE(refusal("regions: [{name: a, rows: [0, 2]}]"), "");
+  EXPECT_NE(refusal("regions: [{name: a, rows: [1, 0]}]").find("two whole numbers"), std::string::npos);
+  EXPECT_NE(refusal("regions: [{name: a, mask: \"11\\n11\"}]").find("2 x 3"), std::string::npos);
+  EXPECT_NE(refusal("regions: [{name: a, mask: \"111111\"}]").find("one line for each row"),
+            std::string::npos);
+  EXPECT_NE(refusal("regions: [{name: a, mask: \"111\\n1x1\"}]"), "");
+}
+
+TEST(Regions, RefuseMisspeltKeysAndDoubleNames) {
+  EXPECT_NE(refusal("regions: [{name: a, rows: [0, 1], colums: [0, 1]}]").find("colums"), std::string::npos);
+  EXPECT_NE(refusal("regions: [{name: a, rows: [0, 1]}, {name: a, rows: [0, 0]}]").find("twice"),
+            std::string::npos);
+  EXPECT_NE(refusal("regions: [{name: a}]").find("neither"), std::string::npos);
+  EXPECT_NE(refusal("alarm: {threshold: -5}").find("threshold"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace fsr
