@@ -1,0 +1,161 @@
+#include "fsr_pressure_map/view/heat_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fsr_pressure_map/view/taxel_look.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr int kMargin = 12;      // [pixels], as all that follow
+constexpr int kLineHeight = 16;  // of text
+constexpr int kBarWidth = 18;
+constexpr int kBarGap = 16;
+constexpr int kTickLength = 4;
+constexpr int kLabelWidth = 6 * 7;  // "-1234.5"
+constexpr int kKeySquare = 13;
+constexpr int kMinLongerSide = 160;  // the legend beside it needs as much
+constexpr Colour kPaper{32, 32, 32};
+constexpr Colour kInk{240, 240, 240};
+
+int rounded(double value) {
+  return static_cast<int>(std::lround(value));
+}
+
+Colour colourOf(const PressureScale& scale, double value) {
+  return std::isnan(value) ? kNoReadingColour : scale.colour(value);
+}
+
+}  // namespace
+
+/// Where things stand in the picture [pixels].
+struct HeatMap::Frame {
+  Layout layout;
+  Pixel corner;       // top left of the matrix
+  double pixels = 1;  // a metre of the sheet
+  int matrix_width = 0;
+  int matrix_height = 0;
+  int width = 0;
+  int height = 0;
+
+  int left(int column) const { return corner.x + rounded(column * layout.pitch_x * pixels); }
+  int top(int row) const { return corner.y + rounded(row * layout.pitch_y * pixels); }
+  Pixel at(double row, double column) const {
+    return {corner.x + rounded((column + 0.5) * layout.pitch_x * pixels),
+            corner.y + rounded((row + 0.5) * layout.pitch_y * pixels)};
+  }
+};
+
+HeatMap::Frame HeatMap::frame(const Layout& layout, std::size_t lines) const {
+  Frame frame;
+  frame.layout = layout;
+  const double width = layout.pitch_x * layout.size.columns;
+  const double height = layout.pitch_y * layout.size.rows;
+  frame.pixels = std::max(style_.longer_side, kMinLongerSide) / std::max(width, height);
+  frame.matrix_width = std::max(rounded(width * frame.pixels), int{layout.size.columns});
+  frame.matrix_height = std::max(rounded(height * frame.pixels), int{layout.size.rows});
+  const int heading = kLineHeight * static_cast<int>(lines + 1);
+  frame.corner = {kMargin, kMargin + heading + kLineHeight / 2};
+  const int key_rows = 2;
+  frame.width = frame.matrix_width + 2 * kMargin + kBarGap + kBarWidth + kTickLength + kLabelWidth;
+  frame.height = frame.corner.y + std::max(frame.matrix_height, kMinLongerSide) + key_rows * kLineHeight +
+                 kLineHeight / 2 + kMargin;
+  int longest = 0;
+  for (const TaxelLook look : markedLooks()) longest = std::max(longest, Image::textWidth(name(look)));
+  frame.width = std::max(frame.width, 2 * (longest + kKeySquare + 24) + 2 * kMargin);
+  return frame;
+}
+
+Pixel HeatMap::centre(const Layout& layout, TaxelIndex taxel, std::size_t lines) const {
+  return frame(layout, lines).at(layout.row(taxel), layout.column(taxel));
+}
+
+Image HeatMap::draw(const PressureMap& map, const std::vector<std::string>& lines) const {
+  requireShowable(map);
+  requireSound(style_.scale);
+  const Frame frame = this->frame(map.layout, lines.size());
+  Image image(frame.width, frame.height, kPaper);
+  Pixel at{kMargin, kMargin};
+  for (const std::string& line : lines) {
+    image.text(at, line, kInk);
+    at.y += kLineHeight;
+  }
+  image.text(at, std::string(name(style_.layer)) + " [" + name(style_.scale.unit) + "]", kInk);
+  drawTaxels(map, frame, image);
+  drawMarks(map, frame, image);
+  drawLegend(frame, image);
+  drawKey(frame, image);
+  return image;
+}
+
+void HeatMap::drawTaxels(const PressureMap& map, const Frame& frame, Image& image) const {
+  const std::vector<float>& values = layerOf(map, style_.layer);
+  const MatrixSize size = map.layout.size;
+  if (style_.smooth) {
+    const SmoothLayer layer(values, size);
+    for (int y = 0; y < frame.matrix_height; ++y) {
+      const double row = (y + 0.5) / frame.matrix_height * size.rows - 0.5;
+      for (int x = 0; x < frame.matrix_width; ++x) {
+        const double column = (x + 0.5) / frame.matrix_width * size.columns - 0.5;
+        image.set({frame.corner.x + x, frame.corner.y + y}, colourOf(style_.scale, layer.at(row, column)));
+      }
+    }
+    return;
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const int row = map.layout.row({i});
+    const int column = map.layout.column({i});
+    image.fill({frame.left(column), frame.top(row)}, frame.left(column + 1) - frame.left(column),
+               frame.top(row + 1) - frame.top(row), colourOf(style_.scale, double(values[i])));
+  }
+}
+
+void HeatMap::drawMarks(const PressureMap& map, const Frame& frame, Image& image) const {
+  const std::vector<float>& values = layerOf(map, style_.layer);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const int row = map.layout.row({i});
+    const int column = map.layout.column({i});
+    const Colour ink = markColour(colourOf(style_.scale, double(values[i])));
+    for (const Stroke& stroke : mark(lookOf(map.pressure[i], map.flags[i]))) {
+      image.line(frame.at(row + stroke.from.y, column + stroke.from.x),
+                 frame.at(row + stroke.to.y, column + stroke.to.x), ink, 2);
+    }
+  }
+}
+
+void HeatMap::drawLegend(const Frame& frame, Image& image) const {
+  const PressureScale& scale = style_.scale;
+  const int left = frame.corner.x + frame.matrix_width + kBarGap;
+  const int top = frame.corner.y;
+  const int height = std::max(frame.matrix_height, kMinLongerSide);
+  for (int y = 0; y < height; ++y) {
+    image.fill({left, top + y}, kBarWidth, 1, colourAt(scale.colours, 1 - (y + 0.5) / height));
+  }
+  for (const Tick& tick : ticks(scale, 7)) {
+    const double part = (tick.pressure - scale.low) / (scale.high - scale.low);
+    const int y = top + std::min(height - 1, rounded((1 - part) * height));
+    image.fill({left + kBarWidth, y}, kTickLength, 1, kInk);
+    image.text({left + kBarWidth + kTickLength + 3, y - Image::kTextHeight / 2}, tick.label, kInk);
+  }
+}
+
+void HeatMap::drawKey(const Frame& frame, Image& image) const {
+  const int top = frame.height - kMargin - 2 * kLineHeight;
+  const int half = (frame.width - 2 * kMargin) / 2;
+  for (std::size_t i = 0; i < markedLooks().size(); ++i) {
+    const TaxelLook look = markedLooks()[i];
+    const Pixel corner{kMargin + half * static_cast<int>(i % 2), top + kLineHeight * static_cast<int>(i / 2)};
+    const Colour under = look == TaxelLook::kNoReading ? kNoReadingColour : Colour{72, 72, 72};
+    image.fill(corner, kKeySquare, kKeySquare, under);
+    const auto at = [&](Position p) {
+      return Pixel{corner.x + rounded((p.x + 0.5) * (kKeySquare - 1)),
+                   corner.y + rounded((p.y + 0.5) * (kKeySquare - 1))};
+    };
+    for (const Stroke& stroke : mark(look)) image.line(at(stroke.from), at(stroke.to), kInk, 1);
+    image.text({corner.x + kKeySquare + 6, corner.y}, name(look), kInk);
+  }
+}
+
+}  // namespace fsr

@@ -1,0 +1,76 @@
+#include "fsr_pressure_map/view/pressure_scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+namespace {
+
+std::string number(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value == 0 ? 0.0 : value);  // never "-0"
+  return text;
+}
+
+// Smallest of 1, 2, 5 x 10^n that is no smaller than `least`.
+double roundStep(double least) {
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double digit : {1.0, 2.0, 5.0}) {
+    if (digit * power >= least * (1 - 1e-9)) return digit * power;
+  }
+  return 10 * power;
+}
+
+}  // namespace
+
+std::vector<std::string> pressureUnitNames() {
+  return {"kPa", "mmHg"};
+}
+
+PressureUnit pressureUnitOf(const std::string& name) {
+  if (name == "kPa") return PressureUnit::kKilopascal;
+  if (name == "mmHg") return PressureUnit::kMillimetreOfMercury;
+  throw InputError("unit is \"" + name + "\", but must be kPa or mmHg");
+}
+
+std::string name(PressureUnit unit) {
+  return unit == PressureUnit::kKilopascal ? "kPa" : "mmHg";
+}
+
+double pascals(PressureUnit unit) {
+  return unit == PressureUnit::kKilopascal ? 1000.0 : 133.322387415;
+}
+
+void requireSound(const PressureScale& scale) {
+  if (std::isfinite(scale.low) && std::isfinite(scale.high) && scale.low < scale.high) return;
+  throw InputError("the scale runs from " + pressureText(scale.low, scale.unit) + " to " +
+                   pressureText(scale.high, scale.unit) + ", but its end must be above its start");
+}
+
+std::string pressureText(double pressure, PressureUnit unit) {
+  if (!std::isfinite(pressure)) return "-";
+  const double value = pressure / pascals(unit);
+  return number(std::abs(value) < 9.95 ? std::round(value * 10) / 10 : std::round(value),
+                std::abs(value) < 9.95 ? 1 : 0) +
+         " " + name(unit);
+}
+
+std::vector<Tick> ticks(const PressureScale& scale, int most) {
+  const double unit = pascals(scale.unit);
+  const double low = scale.low / unit;
+  const double high = scale.high / unit;
+  const double step = roundStep((high - low) / std::max(1, most - 1));
+  const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
+  std::vector<Tick> result;
+  const double slack = 1e-9 * step;
+  for (double n = std::ceil((low - slack) / step); n * step <= high + slack; ++n) {
+    result.push_back({n * step * unit, number(n * step, decimals)});
+  }
+  return result;
+}
+
+}  // namespace fsr

@@ -1,0 +1,142 @@
+#include "fsr_pressure_map/view/sheet_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fsr {
+
+namespace {
+
+constexpr int kAreaFineness = 8;  // chords of 1/8 pitch: (k s)^2 / 24 = 2.6e-5 at 20/m and 1.25 mm
+
+// Bilinear mean of the taxels round a point of taxel coordinates; ends beyond the outer centres.
+Curvature blend(const Surface& surface, const Layout& layout, double row, double column) {
+  const double r = std::clamp(row, 0.0, layout.size.rows - 1.0);
+  const double c = std::clamp(column, 0.0, layout.size.columns - 1.0);
+  const int r0 = static_cast<int>(r), c0 = static_cast<int>(c);
+  const double dr = r - r0, dc = c - c0;
+  Curvature result;
+  const auto add = [&](int i, int j, double w) {
+    if (w == 0) return;
+    const Curvature& k = surface.curvature[std::size_t(i) * layout.size.columns + std::size_t(j)];
+    result = {result.x + w * k.x, result.y + w * k.y, result.xy + w * k.xy};
+  };
+  add(r0, c0, (1 - dr) * (1 - dc));
+  add(r0, c0 + 1, (1 - dr) * dc);
+  add(r0 + 1, c0, dr * (1 - dc));
+  add(r0 + 1, c0 + 1, dr * dc);
+  return result;
+}
+
+// The surface under the vertices of a mesh.
+Surface refined(const Surface& surface, const Layout& layout, const Layout& mesh, int fineness) {
+  if (surface.curvature.size() <= 1) return {surface.name, surface.mount, surface.curvature, {}};
+  Surface result;
+  result.curvature.reserve(mesh.size.taxels());
+  for (std::size_t i = 0; i < mesh.size.taxels(); ++i) {
+    const double row = double(mesh.row({i})) / fineness - 0.5;
+    const double column = double(mesh.column({i})) / fineness - 0.5;
+    result.curvature.push_back(blend(surface, layout, row, column));
+  }
+  return result;
+}
+
+double triangleArea(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+  const double vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
+  return 0.5 * std::hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx);
+}
+
+}  // namespace
+
+SheetMesh::SheetMesh(const Layout& layout, const Surface& surface, int fineness)
+    : layout_(layout), fineness_(std::clamp(fineness, 1, 16)) {
+  requireFit(surface, layout.size);
+  Layout mesh;
+  mesh.size = {static_cast<std::uint16_t>(layout.size.rows * fineness_ + 1),
+               static_cast<std::uint16_t>(layout.size.columns * fineness_ + 1)};
+  mesh.pitch_x = layout.pitch_x / fineness_;
+  mesh.pitch_y = layout.pitch_y / fineness_;
+  vertices_ = bendSheet(mesh, refined(surface, layout, mesh, fineness_));
+  corners_.reserve(layout.size.taxels() * cornersOfTaxel());
+  forEachCorner([this](int row, int column) { corners_.push_back(vertices_[vertex(row, column)].position); });
+}
+
+// Calls visit(row, column) with the mesh vertex of each corner, in the order of corners().
+template <typename Visit>
+void SheetMesh::forEachCorner(Visit visit) const {
+  for (std::size_t taxel = 0; taxel < layout_.size.taxels(); ++taxel) {
+    const int top = layout_.row({taxel}) * fineness_;
+    const int left = layout_.column({taxel}) * fineness_;
+    for (int row = top; row < top + fineness_; ++row) {
+      for (int column = left; column < left + fineness_; ++column) {
+        visit(row, column);
+        visit(row, column + 1);
+        visit(row + 1, column + 1);
+        visit(row, column);
+        visit(row + 1, column + 1);
+        visit(row + 1, column);
+      }
+    }
+  }
+}
+
+void SheetMesh::colourCells(const PressureMap& map, MapLayer layer, const PressureScale& scale,
+                            std::vector<Colour>& colours) const {
+  const std::vector<float>& values = layerOf(map, layer);
+  colours.clear();
+  colours.reserve(corners_.size());
+  for (const float value : values) {
+    colours.insert(colours.end(), cornersOfTaxel(),
+                   std::isnan(value) ? kNoReadingColour : scale.colour(double(value)));
+  }
+}
+
+void SheetMesh::colourSmoothly(const PressureMap& map, MapLayer layer, const PressureScale& scale,
+                               std::vector<Colour>& colours) const {
+  const SmoothLayer values(layerOf(map, layer), layout_.size);
+  std::vector<Colour> of_vertex(vertices_.size());
+  for (int row = 0; row <= layout_.size.rows * fineness_; ++row) {
+    for (int column = 0; column <= layout_.size.columns * fineness_; ++column) {
+      const double value = values.at(double(row) / fineness_ - 0.5, double(column) / fineness_ - 0.5);
+      of_vertex[vertex(row, column)] = std::isnan(value) ? kNoReadingColour : scale.colour(value);
+    }
+  }
+  colours.clear();
+  colours.reserve(corners_.size());
+  forEachCorner([&](int row, int column) { colours.push_back(of_vertex[vertex(row, column)]); });
+}
+
+Vector3 SheetMesh::point(double row, double column, double lift) const {
+  const double r = std::clamp((row + 0.5) * fineness_, 0.0, double(layout_.size.rows * fineness_));
+  const double c = std::clamp((column + 0.5) * fineness_, 0.0, double(layout_.size.columns * fineness_));
+  const int r0 = std::min(static_cast<int>(r), layout_.size.rows * fineness_ - 1);
+  const int c0 = std::min(static_cast<int>(c), layout_.size.columns * fineness_ - 1);
+  const double dr = r - r0, dc = c - c0;
+  Vector3 result;
+  const auto add = [&](int i, int j, double w) {
+    const TaxelPose& pose = vertices_[vertex(i, j)];
+    result.x += w * (pose.position.x + lift * pose.normal.x);
+    result.y += w * (pose.position.y + lift * pose.normal.y);
+    result.z += w * (pose.position.z + lift * pose.normal.z);
+  };
+  add(r0, c0, (1 - dr) * (1 - dc));
+  add(r0, c0 + 1, (1 - dr) * dc);
+  add(r0 + 1, c0, dr * (1 - dc));
+  add(r0 + 1, c0 + 1, dr * dc);
+  return result;
+}
+
+std::vector<double> SheetMesh::areas() const {
+  std::vector<double> result(layout_.size.taxels(), 0);
+  for (std::size_t i = 0; i < corners_.size(); i += 3) {
+    result[i / cornersOfTaxel()] += triangleArea(corners_[i], corners_[i + 1], corners_[i + 2]);
+  }
+  return result;
+}
+
+std::vector<double> taxelAreas(const Layout& layout, const Surface& surface) {
+  return SheetMesh(layout, surface, kAreaFineness).areas();
+}
+
+}  // namespace fsr

@@ -1,0 +1,79 @@
+#include "fsr_pressure_map/view/taxel_look.h"
+
+#include <cmath>
+
+namespace fsr {
+
+namespace {
+
+constexpr std::uint16_t kBad =
+    taxel_flag::kDead | taxel_flag::kStuck | taxel_flag::kMasked | taxel_flag::kLineFault;
+constexpr std::uint16_t kBeyondTraining = taxel_flag::kReadingExtrapolated |
+                                          taxel_flag::kCurvatureExtrapolated |
+                                          taxel_flag::kTemperatureExtrapolated;
+
+}  // namespace
+
+TaxelLook lookOf(float pressure, std::uint16_t flags) {
+  if (std::isnan(pressure) || (flags & kBad) != 0) return TaxelLook::kNoReading;
+  if ((flags & taxel_flag::kSaturated) != 0) return TaxelLook::kSaturated;
+  // No conductance is also beyond training's lowest code, but says more: the pressure is small.
+  if ((flags & taxel_flag::kBelowRange) != 0 && (flags & taxel_flag::kCurvatureExtrapolated) == 0) {
+    return TaxelLook::kBelowRange;
+  }
+  return (flags & kBeyondTraining) != 0 ? TaxelLook::kExtrapolated : TaxelLook::kGood;
+}
+
+const std::vector<TaxelLook>& markedLooks() {
+  static const std::vector<TaxelLook> looks = {TaxelLook::kBelowRange, TaxelLook::kExtrapolated,
+                                               TaxelLook::kSaturated, TaxelLook::kNoReading};
+  return looks;
+}
+
+std::string name(TaxelLook look) {
+  switch (look) {
+    case TaxelLook::kBelowRange:
+      return "below range";
+    case TaxelLook::kExtrapolated:
+      return "extrapolated";
+    case TaxelLook::kSaturated:
+      return "saturated";
+    case TaxelLook::kNoReading:
+      return "no reading";
+    case TaxelLook::kGood:
+      break;
+  }
+  return "";
+}
+
+const std::vector<Stroke>& mark(TaxelLook look) {
+  static const std::vector<Stroke> none;
+  static const std::vector<Stroke> dash = {{{-0.15, 0}, {0.15, 0}}};
+  static const std::vector<Stroke> diagonals = {{{-0.3, 0.1}, {0.1, -0.3}}, {{-0.1, 0.3}, {0.3, -0.1}}};
+  static const std::vector<Stroke> square = {{{-0.28, -0.28}, {0.28, -0.28}},
+                                             {{0.28, -0.28}, {0.28, 0.28}},
+                                             {{0.28, 0.28}, {-0.28, 0.28}},
+                                             {{-0.28, 0.28}, {-0.28, -0.28}}};
+  static const std::vector<Stroke> cross = {{{-0.3, -0.3}, {0.3, 0.3}}, {{-0.3, 0.3}, {0.3, -0.3}}};
+  switch (look) {
+    case TaxelLook::kBelowRange:
+      return dash;
+    case TaxelLook::kExtrapolated:
+      return diagonals;
+    case TaxelLook::kSaturated:
+      return square;
+    case TaxelLook::kNoReading:
+      return cross;
+    case TaxelLook::kGood:
+      break;
+  }
+  return none;
+}
+
+Colour markColour(Colour under) {
+  // Luma of Rec. ITU-R BT.601.
+  const double luma = 0.299 * under.red + 0.587 * under.green + 0.114 * under.blue;
+  return luma < 128.5 ? Colour{255, 255, 255} : Colour{0, 0, 0};
+}
+
+}  // namespace fsr

@@ -1,0 +1,125 @@
+#include "fsr_pressure_map/view/heat_map.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/view/taxel_look.h"
+
+namespace fsr {
+namespace {
+
+PressureMap ramp(MatrixSize size) {
+  PressureMap map;
+  map.reset({size, 0.010, 0.012});
+  map.state = MapState::kOk;
+  for (std::size_t i = 0; i < size.taxels(); ++i) {
+    map.pressure[i] = 8e3f * float(i);
+    map.deviation[i] = 1e3f * float(i);
+  }
+  return map;
+}
+
+TEST(HeatMap, ShowsEachTaxelInItsColourWithRowZeroOnTop) {
+  const PressureMap map = ramp({7, 10});
+  const HeatMap painter(HeatMapStyle{});
+  const Image image = painter.draw(map, {"one", "two"});
+  Pixel before{-1, -1};
+  for (std::size_t i = 0; i < 70; ++i) {
+    const Pixel centre = painter.centre(map.layout, {i}, 2);
+    EXPECT_EQ(image.at(centre), PressureScale{}.colour(map.pressure[i])) << i;
+    EXPECT_TRUE(i % 10 == 0 ? centre.y > before.y : centre.x > before.x) << i;
+    before = centre;
+  }
+}
+
+TEST(HeatMap, ShowsTheDeviationOnRequest) {
+  const PressureMap map = ramp({7, 10});
+  HeatMapStyle style;
+  style.layer = MapLayer::kDeviation;
+  style.scale.high = 70e3;
+  const HeatMap painter(style);
+  EXPECT_EQ(painter.draw(map).at(painter.centre(map.layout, {44}, 0)), style.scale.colour(44e3));
+}
+
+TEST(HeatMap, RunsOverFromTaxelToTaxelWhereSmooth) {
+  PressureMap map = ramp({1, 2});
+  map.pressure = {0, 600e3f};
+  HeatMapStyle style;
+  style.smooth = true;
+  const HeatMap painter(style);
+  const Image image = painter.draw(map);
+  const Pixel a = painter.centre(map.layout, {0}, 0), b = painter.centre(map.layout, {1}, 0);
+  const Colour middle = image.at({(a.x + b.x) / 2, a.y});
+  EXPECT_NEAR(middle.green, style.scale.colour(300e3).green, 3);
+}
+
+TEST(HeatMap, HoldsTheWholeScaleInItsColourBar) {
+  const HeatMap painter(HeatMapStyle{});
+  const PressureMap map = ramp({7, 10});
+  const Image image = painter.draw(map);
+  const int x = image.width() - 60;  // inside the bar
+  const Pixel top = painter.centre(map.layout, {0}, 0), bottom = painter.centre(map.layout, {60}, 0);
+  int last = 256;
+  for (int y = top.y; y < bottom.y; y += 10) {
+    const int green = image.at({x, y}).green;
+    EXPECT_LT(green, last + 1) << "at " << y;
+    last = green;
+  }
+}
+
+TEST(HeatMap, MarksTaxelsThatAreNotToBeBelieved) {
+  for (const TaxelLook look : markedLooks()) {
+    PressureMap map = ramp({3, 3});
+    if (look == TaxelLook::kNoReading) map.pressure[4] = NAN;
+    if (look == TaxelLook::kSaturated) map.flags[4] = taxel_flag::kSaturated;
+    if (look == TaxelLook::kExtrapolated) map.flags[4] = taxel_flag::kReadingExtrapolated;
+    if (look == TaxelLook::kBelowRange) map.flags[4] = taxel_flag::kBelowRange;
+    EXPECT_EQ(lookOf(map.pressure[4], map.flags[4]), look);
+    const HeatMap painter(HeatMapStyle{});
+    const Image plain = painter.draw(ramp({3, 3}));
+    const Image marked = painter.draw(map);
+    EXPECT_NE(plain.bytes(), marked.bytes()) << name(look);
+  }
+}
+
+TEST(HeatMap, HasOneSizeForAllMapsOfAMatrix) {
+  const HeatMap painter(HeatMapStyle{});
+  PressureMap dark = ramp({16, 10});
+  dark.pressure.assign(160, NAN);
+  const Image a = painter.draw(ramp({16, 10}), {"t = 1 s"}), b = painter.draw(dark, {"t = 2 s"});
+  EXPECT_EQ(a.width(), b.width());
+  EXPECT_EQ(a.height(), b.height());
+}
+
+TEST(HeatMap, TakesEveryMatrixSize) {
+  for (const MatrixSize size : {MatrixSize{1, 1}, MatrixSize{1, 64}, MatrixSize{64, 1}, MatrixSize{64, 64}}) {
+    EXPECT_NO_THROW(HeatMap(HeatMapStyle{}).draw(ramp(size)));
+  }
+}
+
+TEST(HeatMap, RefusesAMapThatContradictsItself) {
+  PressureMap map = ramp({3, 3});
+  map.flags.pop_back();
+  EXPECT_THROW(HeatMap(HeatMapStyle{}).draw(map), InputError);
+  EXPECT_THROW(HeatMap(HeatMapStyle{}).draw(PressureMap{}), InputError);
+}
+
+TEST(Image, DrawsNothingOutsideItself) {
+  Image image(10, 10, {1, 2, 3});
+  image.line({-50, -50}, {60, 60}, {9, 9, 9}, 3);
+  image.text({-3, 5}, "clipped \xff text", {7, 7, 7});
+  image.fill({8, 8}, 100, 100, {5, 5, 5});
+  EXPECT_EQ(image.at({9, 9}), (Colour{5, 5, 5}));
+  EXPECT_EQ(image.bytes().size(), 300u);
+}
+
+TEST(Image, BecomesAPngFile) {
+  const std::string png = pngOf(Image(3, 2, {10, 20, 30}));
+  EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
+  EXPECT_EQ(png.substr(png.size() - 8, 4), "IEND");
+}
+
+}  // namespace
+}  // namespace fsr

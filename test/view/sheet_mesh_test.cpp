@@ -1,0 +1,114 @@
+#include "fsr_pressure_map/view/sheet_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace fsr {
+namespace {
+
+const Layout kLayout{{7, 10}, 0.010, 0.012};
+
+Surface uniform(const Curvature& curvature) {
+  Surface surface;
+  surface.curvature = {curvature};
+  return surface;
+}
+
+double total(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+TEST(SheetMesh, CoversTheSheetToItsEdges) {
+  const SheetMesh mesh(kLayout, uniform({}), 2);
+  EXPECT_EQ(mesh.corners().size(), 70u * 24u);
+  EXPECT_NEAR(mesh.corners().front().x, -0.050, 1e-14);
+  EXPECT_NEAR(mesh.corners().front().y, -0.042, 1e-14);
+  for (const double area : mesh.areas()) EXPECT_NEAR(area, 1.2e-4, 1e-14);
+}
+
+TEST(SheetMesh, FacesTheSideThatPressureActsOn) {
+  const SheetMesh mesh(kLayout, uniform({20, 0, 0}), 3);
+  for (std::size_t i = 0; i < mesh.corners().size(); i += 3) {
+    const Vector3 &a = mesh.corners()[i], &b = mesh.corners()[i + 1], &c = mesh.corners()[i + 2];
+    EXPECT_GT((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x), 0);  // z of the normal
+  }
+}
+
+TEST(SheetMesh, PutsTaxelCentresWhereBendSheetPutsThem) {
+  Surface uneven;
+  for (std::size_t i = 0; i < 70; ++i) uneven.curvature.push_back({3.0 + double(i % 10), -4, 2});
+  for (const Surface& surface : {uniform({}), uniform({20, 0, 0}), uniform({7, -9, 4}), uneven}) {
+    const SheetMesh mesh(kLayout, surface, 2);
+    const auto poses = bendSheet(kLayout, surface);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const Vector3 p = mesh.point(kLayout.row({i}), kLayout.column({i}));
+      EXPECT_NEAR(p.x, poses[i].position.x, 3e-5);  // [m]; curvature runs over in finer steps
+      EXPECT_NEAR(p.y, poses[i].position.y, 3e-5);
+      EXPECT_NEAR(p.z, poses[i].position.z, 3e-5);
+    }
+  }
+}
+
+TEST(SheetMesh, LiftsAPointAlongTheNormal) {
+  const SheetMesh mesh(kLayout, uniform({}), 2);
+  EXPECT_NEAR(mesh.point(3, 4.5, 0.001).z, 0.001, 1e-15);
+}
+
+TEST(TaxelAreas, OfACylinderAreThoseOfTheFlatSheet) {
+  for (const Curvature k : {Curvature{20, 0, 0}, Curvature{0, -20, 0}, Curvature{10, 10, 10}}) {
+    for (const double area : taxelAreas(kLayout, uniform(k))) EXPECT_NEAR(area, 1.2e-4, 1e-4 * 1.2e-4);
+  }
+}
+
+// Rows are great circles at right angles to the middle one, ds^2 = dx^2 + cos^2(x / R) dy^2: the sheet's
+// area is H 2 R sin(W / 2 R).
+TEST(TaxelAreas, OfASphereShrinkTowardsTheEndsOfTheRows) {
+  const double radius = 0.08, width = 0.10, height = 0.084;
+  const auto areas = taxelAreas(kLayout, uniform({1 / radius, 1 / radius, 0}));
+  const double expected = height * 2 * radius * std::sin(width / (2 * radius));
+  EXPECT_NEAR(total(areas), expected, 2e-4 * expected);
+  EXPECT_LT(areas[30], areas[34]);
+}
+
+PressureMap ramp() {
+  PressureMap map;
+  map.reset(kLayout);
+  for (std::size_t i = 0; i < 70; ++i) map.pressure[i] = 8e3f * float(i);
+  return map;
+}
+
+TEST(SheetMesh, ColoursEachTaxelAlike) {
+  const SheetMesh mesh(kLayout, uniform({}), 2);
+  PressureMap map = ramp();
+  map.pressure[69] = NAN;
+  std::vector<Colour> colours;
+  mesh.colourCells(map, MapLayer::kPressure, {}, colours);
+  ASSERT_EQ(colours.size(), mesh.corners().size());
+  for (std::size_t i = 0; i < 69 * 24; ++i)
+    EXPECT_EQ(colours[i], PressureScale{}.colour(8e3 * double(i / 24)));
+  EXPECT_EQ(colours.back(), kNoReadingColour);
+}
+
+TEST(SheetMesh, ColoursRunOverBetweenTaxelsAndMeetThemAtTheirCentres) {
+  const SheetMesh mesh(kLayout, uniform({}), 2);
+  std::vector<Colour> colours;
+  mesh.colourSmoothly(ramp(), MapLayer::kPressure, {}, colours);
+  ASSERT_EQ(colours.size(), mesh.corners().size());
+  EXPECT_EQ(colours[24 * 34 + 2], PressureScale{}.colour(8e3 * 34));  // third corner of taxel 34: its centre
+  EXPECT_EQ(colours[24 * 34 + 0], PressureScale{}.colour(8e3 * (34 + 33 + 24 + 23) / 4));  // its corner
+}
+
+TEST(SmoothLayer, LeavesTaxelsWithoutAReadingOut) {
+  std::vector<float> values = {10, NAN, 30, 40};
+  const SmoothLayer layer(values, {2, 2});
+  EXPECT_DOUBLE_EQ(layer.at(0, 0), 10);
+  EXPECT_TRUE(std::isnan(layer.at(0, 1)));
+  EXPECT_DOUBLE_EQ(layer.at(0, 0.4), 10);
+  EXPECT_DOUBLE_EQ(layer.at(1, 0.5), 35);
+  EXPECT_DOUBLE_EQ(layer.at(-3, -3), 10);
+}
+
+}  // namespace
+}  // namespace fsr
