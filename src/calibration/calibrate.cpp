@@ -5,7 +5,7 @@
 #include "fsr_pressure_map/calibration/held_out_scoring.h"
 #include "fsr_pressure_map/calibration/sources.h"
 #include "fsr_pressure_map/calibration/training_scans.h"
-#include "fsr_pressure_map/compensation/scheme_plan.h"
+#include "fsr_pressure_map/compensation/fit_scheme.h"
 #include "fsr_pressure_map/matrix/for_each_taxel.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
@@ -32,6 +32,22 @@ CodeTable noModel(std::uint16_t full_scale) {
   table.pressure.assign(full_scale + 1u, std::numeric_limits<float>::quiet_NaN());
   table.deviation = table.support = table.pressure;
   return table;
+}
+
+RegressorOptions regressorOf(const CalibrationOptions& options) {
+  RegressorOptions regressor;
+  regressor.grnn.bandwidth = options.bandwidth;
+  return regressor;
+}
+
+SectionedReadings readingsOf(const TrainingStatistics& statistics, std::size_t taxel) {
+  SectionedReadings readings;
+  readings.full_scale = statistics.full_scale;
+  for (std::size_t k = 0; k < statistics.classes.size(); ++k) {
+    const CodeStatistics* const first = &statistics.cell(taxel, k, 0);
+    readings.sums.emplace_back(first, first + statistics.sections);
+  }
+  return readings;
 }
 
 // The recordings as training sees them, and what becomes of them taxel by taxel.
@@ -87,10 +103,11 @@ Calibration Training::describe() const {
   calibration.no_model = unionOfMasks(recordings, taxels);
   calibration.tables = {problem_.options.scheme, first.layout.size, first.full_scale, {}, {}, 0, 0};
   for (const SchemePlan::Model& model : plan_.models) {
-    calibration.tables.classes.push_back(model.answers_for);
     for (const std::size_t curvature_class : model.trained_on) trained[curvature_class] = true;
   }
-  calibration.tables.tables.resize(taxels * plan_.models.size());
+  calibration.tables.classes = plan_.classes;
+  if (!usesCurvature(plan_.scheme)) calibration.tables.classes = {plan_.models.front().answers_for};
+  calibration.tables.tables.resize(taxels * calibration.tables.classes.size());
   calibration.trained = findTrainedRanges(recordings, classes_, trained);
   calibration.tables.curvature_low = calibration.trained.curvature.low;
   calibration.tables.curvature_high = calibration.trained.curvature.high;
@@ -112,16 +129,18 @@ void Training::train(std::size_t taxel, Calibration& calibration, HeldOutScoring
   const auto constant = [&](const SchemePlan::Model& model) { return !varies(statistics, model, taxel); };
   if (std::any_of(plan_.models.begin(), plan_.models.end(), constant)) calibration.no_model[taxel] = 1;
 
-  CodeTable* const tables = &calibration.tables.tables[taxel * plan_.models.size()];
+  const std::size_t classes = calibration.tables.classes.size();
+  CodeTable* const tables = &calibration.tables.tables[taxel * classes];
   if (calibration.no_model[taxel] != 0) {
-    std::fill(tables, tables + plan_.models.size(), noModel(statistics.full_scale));
+    std::fill(tables, tables + classes, noModel(statistics.full_scale));
     return;
   }
   const HeldOutDeviation deviations =
       problem_.options.scores ? HeldOutDeviation::kYes : HeldOutDeviation::kNo;
-  auto models = fitTaxel(plan_, statistics, taxel, Grnn(problem_.options.bandwidth), deviations);
+  const auto models = crossValidateScheme(plan_, taxel, readingsOf(statistics, taxel),
+                                          regressorOf(problem_.options), deviations);
   if (problem_.options.scores) scoring.scoreTaxel(taxel, models);
-  for (std::size_t m = 0; m < models.size(); ++m) tables[m] = std::move(models[m].table);
+  for (std::size_t k = 0; k < classes; ++k) tables[k] = models[plan_.model_of_class[k]].table;
 }
 
 void Training::warnOfConstantTaxels(Calibration& calibration) const {

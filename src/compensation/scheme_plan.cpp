@@ -1,5 +1,6 @@
 #include "fsr_pressure_map/compensation/scheme_plan.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "fsr_pressure_map/settings/input_error.h"
@@ -7,6 +8,8 @@
 namespace fsr {
 
 namespace {
+
+using Indices = std::vector<std::size_t>;
 
 std::string listOf(const std::vector<CurvatureClass>& classes) {
   std::string list;
@@ -16,74 +19,93 @@ std::string listOf(const std::vector<CurvatureClass>& classes) {
   return list;
 }
 
-// One model answers everywhere.
-SchemePlan oneModel(const CurvatureClass& answers_for, std::vector<std::size_t> trained_on,
-                    std::size_t classes) {
-  return {{{answers_for, std::move(trained_on)}}, std::vector<std::size_t>(classes, 0)};
-}
-
-SchemePlan planFlatOnly(const std::vector<CurvatureClass>& classes) {
-  std::vector<std::size_t> flat;
-  for (std::size_t i = 0; i < classes.size(); ++i) {
-    if (isFlat(classes[i])) flat.push_back(i);
-  }
-  if (flat.empty()) {
-    throw InputError("scheme is flat_only, but no recording is of a flat surface (there is " +
-                     listOf(classes) + "); add one, or choose baseline or per_curvature");
-  }
-  return oneModel(classes[flat.front()], flat, classes.size());
-}
-
-SchemePlan planBaseline(const std::vector<CurvatureClass>& classes) {
-  std::vector<std::size_t> all(classes.size());
+Indices allOf(const std::vector<CurvatureClass>& classes) {
+  Indices all(classes.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  return oneModel({"all surfaces", {0.0}}, all, classes.size());
+  return all;
 }
 
-SchemePlan planPerCurvature(const std::vector<CurvatureClass>& classes) {
-  SchemePlan plan;
-  for (std::size_t i = 0; i < classes.size(); ++i) {
-    plan.models.push_back({classes[i], {i}});
-    plan.model_of_class.push_back(i);
+Indices classesThatAre(bool flat, const std::vector<CurvatureClass>& classes) {
+  Indices found;
+  for (std::size_t k = 0; k < classes.size(); ++k) {
+    if (isFlat(classes[k]) == flat) found.push_back(k);
   }
-  return plan;
+  return found;
 }
 
-// The statistics of a model's classes, section by section.
-std::vector<CodeStatistics> pooledSections(const SchemePlan::Model& model,
-                                           const TrainingStatistics& statistics, std::size_t taxel) {
-  std::vector<CodeStatistics> sections(statistics.sections);
-  for (std::size_t section = 0; section < sections.size(); ++section) {
-    for (const std::size_t curvature_class : model.trained_on) {
-      sections[section].merge(statistics.cell(taxel, curvature_class, section));
-    }
+Indices flatClasses(Scheme scheme, const std::vector<CurvatureClass>& classes) {
+  Indices flat = classesThatAre(true, classes);
+  if (flat.empty()) {
+    throw InputError("scheme is " + schemeName(scheme) +
+                     ", but no recording is of a flat surface (there is " + listOf(classes) +
+                     "); add one, or choose baseline or per_curvature");
   }
-  return sections;
+  return flat;
+}
+
+// One model answers everywhere.
+void planOneModel(const CurvatureClass& answers_for, Indices trained_on, SchemePlan& plan) {
+  plan.models = {{answers_for, std::move(trained_on)}};
+  plan.model_of_class.assign(plan.classes.size(), 0);
+}
+
+void planEachClass(bool trained_on_all, SchemePlan& plan) {
+  plan.model_of_class = allOf(plan.classes);
+  for (const std::size_t k : plan.model_of_class) {
+    plan.models.push_back({plan.classes[k], trained_on_all ? plan.model_of_class : Indices{k}});
+  }
+}
+
+void planFlatAndBent(bool trained_on_all, SchemePlan& plan) {
+  const Indices flat = flatClasses(plan.scheme, plan.classes), bent = classesThatAre(false, plan.classes);
+  if (bent.empty()) {
+    throw InputError("scheme is " + schemeName(plan.scheme) +
+                     ", but no recording is of a bent surface; add one, or choose flat_only");
+  }
+  const Indices all = allOf(plan.classes);
+  plan.models.push_back({plan.classes[flat.front()], trained_on_all ? all : flat});
+  plan.models.push_back({plan.classes[bent.front()], trained_on_all ? all : bent});
+  plan.models.back().answers_for.surface = "bent surfaces";
+  plan.model_of_class.assign(plan.classes.size(), 1);
+  for (const std::size_t k : flat) plan.model_of_class[k] = 0;
 }
 
 }  // namespace
 
-SchemePlan planScheme(Scheme scheme, const std::vector<CurvatureClass>& classes) {
-  switch (scheme) {
-    case Scheme::kFlatOnly:
-      return planFlatOnly(classes);
-    case Scheme::kBaseline:
-      return planBaseline(classes);
-    case Scheme::kPerCurvature:
-      return planPerCurvature(classes);
+std::vector<std::size_t> SchemePlan::testedOn(std::size_t model) const {
+  std::vector<std::size_t> tested;
+  for (const std::size_t k : models[model].trained_on) {
+    if (model_of_class[k] == model) tested.push_back(k);
   }
-  throw InputError("this scheme has no plan");
+  return tested;
 }
 
-std::vector<CrossValidatedModel> fitTaxel(const SchemePlan& plan, const TrainingStatistics& statistics,
-                                          std::size_t taxel, const Regressor& regressor,
-                                          HeldOutDeviation held_out_deviation) {
-  std::vector<CrossValidatedModel> models;
-  for (const SchemePlan::Model& model : plan.models) {
-    models.push_back(crossValidate(pooledSections(model, statistics, taxel), statistics.full_scale, regressor,
-                                   held_out_deviation));
+SchemePlan planScheme(Scheme scheme, const std::vector<CurvatureClass>& classes) {
+  SchemePlan plan{scheme, classes, {}, {}};
+  switch (scheme) {
+    case Scheme::kFlatOnly: {
+      const Indices flat = flatClasses(scheme, classes);
+      planOneModel(classes[flat.front()], flat, plan);
+      break;
+    }
+    case Scheme::kBaseline:
+      planOneModel({"all surfaces", {0.0}}, allOf(classes), plan);
+      break;
+    case Scheme::kPerCurvature:
+      planEachClass(false, plan);
+      break;
+    case Scheme::kCurvatureInput:
+    case Scheme::kOneHot:
+      planEachClass(true, plan);
+      break;
+    case Scheme::kFlatOrCurved:
+      planFlatAndBent(false, plan);
+      break;
+    case Scheme::kBinaryInput:
+      planFlatAndBent(true, plan);
+      break;
   }
-  return models;
+  return plan;
 }
 
 }  // namespace fsr

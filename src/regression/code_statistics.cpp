@@ -126,4 +126,12 @@ void CodeHistogram::subtract(const CodeStatistics& statistics) {
   }
 }
 
+void CodeHistogram::add(const CodeHistogram& other) {
+  for (std::size_t code = 0; code < count_.size(); ++code) {
+    count_[code] += other.count_[code];
+    sum_[code] += other.sum_[code];
+  }
+  samples_ += other.samples_;
+}
+
 }  // namespace fsr

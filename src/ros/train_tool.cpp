@@ -21,10 +21,8 @@ fsr::CommandLine options() {
   fsr::CommandLine line("train", "BAG... --output FILE",
                         "Trains a calibration from bags of a matrix in a pressure chamber: topics raw, "
                         "chamber_pressure and curvature, and matrix_info and temperature where recorded.");
-  std::string schemes;
-  for (const std::string& name : fsr::schemeNames()) schemes += (schemes.empty() ? "" : ", ") + name;
   line.option("output", "FILE", "calibration file to write (HDF5)")
-      .option("scheme", "NAME", schemes + "; default per_curvature")
+      .option("scheme", "NAME", fsr::schemeList() + "; default per_curvature")
       .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
       .option("namespace", "NS", "the sensor's namespace, where a bag holds several")
       .option("bandwidth", "SIGMA", "spread of the GRNN in deviations of the readings; default 2^-7")

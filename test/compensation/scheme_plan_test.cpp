@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "fsr_pressure_map/regression/grnn.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr {
@@ -48,23 +47,33 @@ TEST(SchemePlan, FlatOnlyNeedsAFlatClass) {
   }
 }
 
-CodeStatistics reading(std::uint16_t code, double pressure) {
-  CodeStatistics statistics;
-  const FixedPressure fixed = toFixed(pressure);
-  statistics.append({code, 1, fixed, Int128{fixed} * fixed});
-  return statistics;
+TEST(SchemePlan, FlatOrCurvedHasTwoModelsEachOfItsOwn) {
+  const SchemePlan plan = planScheme(Scheme::kFlatOrCurved, kClasses);
+  ASSERT_EQ(plan.models.size(), 2u);
+  EXPECT_EQ(plan.models[0].trained_on, Indices{1});
+  EXPECT_EQ(plan.models[1].trained_on, (Indices{0, 2, 3}));
+  EXPECT_EQ(plan.model_of_class, (Indices{1, 0, 1, 1}));
 }
 
-TEST(SchemePlan, AModelPoolsItsClassesSectionBySection) {
-  TrainingStatistics statistics{4095, 1, 2, {{"flat", {0.0}}, {"bent", {10.0}}}, {}};
-  statistics.cells = {reading(100, 1e3), reading(2000, 20e3), reading(100, 3e3), reading(2000, 40e3)};
-  const SchemePlan plan = planScheme(Scheme::kBaseline, statistics.classes);
-  const auto models = fitTaxel(plan, statistics, 0, Grnn(), HeldOutDeviation::kNo);
-  ASSERT_EQ(models.size(), 1u);
-  EXPECT_EQ(models[0].table.pressure[100], 2e3f);
-  EXPECT_EQ(models[0].table.pressure[2000], 30e3f);
-  // without section 0, which held both readings of code 100
-  EXPECT_EQ(models[0].held_out[0].pressure[100], 30e3);
+TEST(SchemePlan, ASecondInputTrainsEveryModelOnEverything) {
+  const SchemePlan binary = planScheme(Scheme::kBinaryInput, kClasses);
+  ASSERT_EQ(binary.models.size(), 2u);
+  EXPECT_EQ(binary.models[1].trained_on, (Indices{0, 1, 2, 3}));
+  EXPECT_EQ(binary.testedOn(1), (Indices{0, 2, 3}));
+  const SchemePlan input = planScheme(Scheme::kCurvatureInput, kClasses);
+  ASSERT_EQ(input.models.size(), 4u);
+  EXPECT_EQ(input.testedOn(2), Indices{2});
+}
+
+TEST(SchemePlan, FlatOrCurvedNeedsBoth) {
+  try {
+    planScheme(Scheme::kFlatOrCurved, {kClasses[1]});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "scheme is flat_or_curved, but no recording is of a bent surface; add one, or choose flat_only");
+  }
 }
 
 }  // namespace

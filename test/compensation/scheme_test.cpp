@@ -17,7 +17,8 @@ TEST(Scheme, AnUnknownNameIsRefusedWithTheKnownOnes) {
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "scheme is \"per_curve\", but must be one of flat_only, baseline, per_curvature");
+                 "scheme is \"per_curve\", but must be one of flat_only, baseline, per_curvature, "
+                 "curvature_input, one_hot, flat_or_curved, binary_input");
   }
 }
 

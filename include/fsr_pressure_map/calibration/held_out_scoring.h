@@ -6,6 +6,7 @@
 #include "fsr_pressure_map/calibration/scores.h"
 #include "fsr_pressure_map/calibration/training_scans.h"
 #include "fsr_pressure_map/compensation/scheme_plan.h"
+#include "fsr_pressure_map/regression/cross_validation.h"
 
 namespace fsr {
 

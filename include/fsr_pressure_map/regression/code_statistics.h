@@ -97,6 +97,8 @@ class CodeHistogram {
   void add(std::uint16_t code, FixedPressure pressure);
   void add(const CodeStatistics& statistics);
   void subtract(const CodeStatistics& statistics);
+  /// Another's sums, of the same full scale.
+  void add(const CodeHistogram& other);
 
   std::uint16_t fullScale() const { return static_cast<std::uint16_t>(count_.size() - 1); }
   std::uint64_t samples() const { return samples_; }

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fsr_pressure_map/compensation/class_readings.h"
+#include "fsr_pressure_map/compensation/scheme_plan.h"
+#include "fsr_pressure_map/regression/cross_validation.h"
+#include "fsr_pressure_map/regression/regressors.h"
+
+namespace fsr {
+
+/// The models of a plan, trained on the readings of one taxel, in the plan's order. A reading of code c
+/// taken on class k has the answer
+///
+///     fits[plan.model_of_class[k]].pressure[c].
+///
+/// A model of which no class has a reading comes back empty. With a second input, every input is standardised
+/// by its mean and deviation over all readings given; where they all are of one class, the second input
+/// has nothing to say and is left out.
+///
+/// Throws InputError where the regressor has no such model: curvature_input and binary_input are for
+/// linear, grnn and forest, one_hot for linear and grnn, and only a GRNN of Gaussian kernel on samples
+/// that weigh alike takes a second input.
+std::vector<Fit> fitScheme(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings,
+                           const RegressorOptions& regressor);
+
+/// Whether fitScheme() takes the plan's scheme with this regressor; throws InputError where not.
+void requireSchemeFor(Scheme scheme, const RegressorOptions& regressor);
+
+/// The readings of one taxel by class and section.
+struct SectionedReadings {
+  std::uint16_t full_scale = 0;
+  std::vector<std::vector<CodeStatistics>> sums;  ///< [classes][sections]
+  std::vector<std::vector<CodeSamples>> samples;  ///< likewise; empty where the regressor needs none
+};
+
+/// Trains the plan's models on all sections and, once for each, without it. Deviations of a model come from
+/// the classes that it is tested on.
+std::vector<CrossValidatedModel> crossValidateScheme(const SchemePlan& plan, std::size_t taxel,
+                                                     const SectionedReadings& readings,
+                                                     const RegressorOptions& regressor,
+                                                     HeldOutDeviation held_out_deviation);
+
+}  // namespace fsr

@@ -1,0 +1,60 @@
+#include "fsr_pressure_map/compensation/class_input.h"
+
+#include <cmath>
+#include <numeric>
+
+namespace fsr {
+
+namespace {
+
+std::vector<double> columnsOf(Scheme scheme, std::size_t curvature_class,
+                              const std::vector<double>& curvature, const std::vector<bool>& bent) {
+  if (scheme == Scheme::kCurvatureInput) return {curvature[curvature_class]};
+  if (scheme == Scheme::kBinaryInput) return {bent[curvature_class] ? 1.0 : 0.0};
+  std::vector<double> one_hot(curvature.size(), 0.0);
+  one_hot[curvature_class] = 1.0;
+  return one_hot;
+}
+
+// 1 / sample deviation of a column, 0 where it never changes.
+double scaleOf(const std::vector<std::vector<double>>& columns, std::size_t column,
+               const std::vector<std::uint64_t>& readings) {
+  double number = 0, mean = 0, squares = 0;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    number += static_cast<double>(readings[k]);
+    mean += static_cast<double>(readings[k]) * columns[k][column];
+  }
+  mean /= number;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const double from_mean = columns[k][column] - mean;
+    squares += static_cast<double>(readings[k]) * from_mean * from_mean;
+  }
+  const double deviation = std::sqrt(squares / (number - 1));
+  constexpr double kRounding = 1e-12;  // of the mean, by which equal values can differ from it
+  return deviation > kRounding * (1.0 + std::abs(mean)) ? 1.0 / deviation : 0.0;
+}
+
+}  // namespace
+
+double ClassInputs::squaredDistance(std::size_t a, std::size_t b) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < scale.size(); ++i) {
+    const double difference = (columns[a][i] - columns[b][i]) * scale[i];
+    sum += difference * difference;
+  }
+  return sum;
+}
+
+ClassInputs classInputs(Scheme scheme, const std::vector<double>& curvature, const std::vector<bool>& bent,
+                        const std::vector<std::uint64_t>& readings) {
+  ClassInputs inputs;
+  for (std::size_t k = 0; k < curvature.size(); ++k) {
+    inputs.columns.push_back(columnsOf(scheme, k, curvature, bent));
+  }
+  for (std::size_t i = 0; i < inputs.columns.front().size(); ++i) {
+    inputs.scale.push_back(scaleOf(inputs.columns, i, readings));
+  }
+  return inputs;
+}
+
+}  // namespace fsr

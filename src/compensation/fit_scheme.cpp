@@ -1,0 +1,160 @@
+#include "fsr_pressure_map/compensation/fit_scheme.h"
+
+#include "fsr_pressure_map/compensation/second_input.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+namespace {
+
+bool isPlainKernel(const GrnnOptions& options) {
+  return options.distance == KernelDistance::kSquared && options.weighting == SampleWeighting::kEachSample;
+}
+
+Fit fitClasses(const std::vector<std::size_t>& trained_on, const ClassReadings& readings,
+               const Regressor& regressor) {
+  if (regressor.mergeable()) {
+    CodeHistogram pooled(readings.full_scale);
+    for (const std::size_t k : trained_on) pooled.add(readings.sums[k]);
+    return pooled.samples() > 0 ? regressor.fit(pooled) : Fit{};
+  }
+  CodeSamples pooled;
+  pooled.full_scale = readings.full_scale;
+  for (const std::size_t k : trained_on) pooled.append(readings.samples[k]);
+  return pooled.size() > 0 ? regressor.fitSamples(pooled) : Fit{};
+}
+
+ClassInputs inputsOf(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings) {
+  std::vector<double> curvature;
+  std::vector<bool> bent;
+  std::vector<std::uint64_t> number;
+  for (std::size_t k = 0; k < plan.classes.size(); ++k) {
+    curvature.push_back(plan.classes[k].at(taxel));
+    bent.push_back(!isFlat(plan.classes[k]));
+    number.push_back(readings.readings(k));
+  }
+  return classInputs(plan.scheme, curvature, bent, number);
+}
+
+// Answers on each class.
+std::vector<Fit> fitOnInput(const ClassInputs& inputs, const ClassReadings& readings,
+                            const RegressorOptions& regressor) {
+  if (regressor.name == "grnn") return fitGrnnOnInput(readings, inputs, regressor.grnn);
+  if (regressor.name == "forest") return fitForestOnInput(readings, inputs, regressor.forest);
+  return fitLinearOnInput(readings, inputs);
+}
+
+// Readings of all sections but `left_out`.
+class Without {
+ public:
+  Without(const SectionedReadings& readings, bool by_samples) : readings_(readings), by_samples_(by_samples) {
+    all_.full_scale = readings.full_scale;
+    if (by_samples) return;
+    for (const std::vector<CodeStatistics>& sections : readings.sums) {
+      all_.sums.emplace_back(readings.full_scale);
+      for (const CodeStatistics& section : sections) all_.sums.back().add(section);
+    }
+  }
+
+  template <typename Use>
+  void operator()(std::size_t left_out, Use use) {
+    if (by_samples_) {
+      use(samplesWithout(left_out));
+      return;
+    }
+    const bool any = left_out < readings_.sums.front().size();
+    for (std::size_t k = 0; any && k < all_.sums.size(); ++k)
+      all_.sums[k].subtract(readings_.sums[k][left_out]);
+    use(all_);
+    for (std::size_t k = 0; any && k < all_.sums.size(); ++k) all_.sums[k].add(readings_.sums[k][left_out]);
+  }
+
+ private:
+  ClassReadings samplesWithout(std::size_t left_out) const {
+    ClassReadings rest;
+    rest.full_scale = readings_.full_scale;
+    for (const std::vector<CodeSamples>& sections : readings_.samples) {
+      rest.samples.emplace_back();
+      rest.samples.back().full_scale = readings_.full_scale;
+      for (std::size_t s = 0; s < sections.size(); ++s) {
+        if (s != left_out) rest.samples.back().append(sections[s]);
+      }
+    }
+    return rest;
+  }
+
+  const SectionedReadings& readings_;
+  bool by_samples_;
+  ClassReadings all_;
+};
+
+// What a model is tested on, section by section.
+std::vector<CodeStatistics> testedSections(const std::vector<std::size_t>& classes,
+                                           const SectionedReadings& readings) {
+  std::vector<CodeStatistics> sections(readings.sums.front().size());
+  for (const std::size_t k : classes) {
+    for (std::size_t s = 0; s < sections.size(); ++s) sections[s].merge(readings.sums[k][s]);
+  }
+  return sections;
+}
+
+}  // namespace
+
+void requireSchemeFor(Scheme scheme, const RegressorOptions& regressor) {
+  makeRegressor(regressor);
+  if (!hasSecondInput(scheme)) return;
+  const auto refuse = [&](const std::string& right) {
+    throw InputError("scheme " + schemeName(scheme) + " gives the model a second input, which " + right);
+  };
+  if (regressor.name == "monotone") refuse("monotone cannot take; choose linear, grnn or forest");
+  if (scheme == Scheme::kOneHot && regressor.name == "forest") {
+    refuse("a forest here takes as one column only; choose linear or grnn, or curvature_input");
+  }
+  if (regressor.name == "grnn" && !isPlainKernel(regressor.grnn)) {
+    refuse("a GRNN takes with the squared distance and samples of equal weight only");
+  }
+}
+
+std::vector<Fit> fitScheme(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings,
+                           const RegressorOptions& regressor) {
+  std::vector<Fit> fits;
+  if (!hasSecondInput(plan.scheme)) {
+    const std::unique_ptr<Regressor> model = makeRegressor(regressor);
+    for (const SchemePlan::Model& planned : plan.models) {
+      fits.push_back(fitClasses(planned.trained_on, readings, *model));
+    }
+    return fits;
+  }
+  requireSchemeFor(plan.scheme, regressor);
+  std::uint64_t number = 0;
+  for (std::size_t k = 0; k < readings.classes(); ++k) number += readings.readings(k);
+  if (number == 0) return std::vector<Fit>(plan.models.size());
+  const std::vector<Fit> on_class = fitOnInput(inputsOf(plan, taxel, readings), readings, regressor);
+  for (std::size_t m = 0; m < plan.models.size(); ++m) fits.push_back(on_class[plan.testedOn(m).front()]);
+  return fits;
+}
+
+std::vector<CrossValidatedModel> crossValidateScheme(const SchemePlan& plan, std::size_t taxel,
+                                                     const SectionedReadings& readings,
+                                                     const RegressorOptions& regressor,
+                                                     HeldOutDeviation held_out_deviation) {
+  const std::size_t sections = readings.sums.front().size();
+  Without without(readings, !makeRegressor(regressor)->mergeable());
+  std::vector<Fit> whole;
+  without(sections, [&](const ClassReadings& all) { whole = fitScheme(plan, taxel, all, regressor); });
+  std::vector<std::vector<std::vector<double>>> held_out(plan.models.size());  // [models][sections]
+  for (std::size_t s = 0; s < sections; ++s) {
+    without(s, [&](const ClassReadings& rest) {
+      std::vector<Fit> fits = fitScheme(plan, taxel, rest, regressor);
+      for (std::size_t m = 0; m < fits.size(); ++m) held_out[m].push_back(std::move(fits[m].pressure));
+    });
+  }
+  std::vector<CrossValidatedModel> models;
+  for (std::size_t m = 0; m < plan.models.size(); ++m) {
+    models.push_back(assembleModel(testedSections(plan.testedOn(m), readings), readings.full_scale, whole[m],
+                                   std::move(held_out[m]), held_out_deviation));
+  }
+  return models;
+}
+
+}  // namespace fsr
