@@ -22,6 +22,10 @@ std::vector<TemperaturePoint> readRoom(const Settings& settings) {
   return room;
 }
 
+// A gas's state: whether it was asked before, when [s], the pressure then [Pa], and the pressure to whose
+// heat it has lost its own [Pa].
+enum { kStarted, kTime, kPressure, kSlow, kGasState };
+
 }  // namespace
 
 ChamberClimate readChamberClimate(const Settings& settings) {
@@ -32,7 +36,8 @@ ChamberClimate readChamberClimate(const Settings& settings) {
   return climate;
 }
 
-ChamberGas::ChamberGas(const ChamberClimate& climate) : climate_(climate), cooling_(climate.cooling) {}
+ChamberGas::ChamberGas(const ChamberClimate& climate)
+    : climate_(climate), cooling_(climate.cooling), state_(kGasState) {}
 
 double ChamberGas::room(double time) const {
   const auto& points = climate_.room;
@@ -48,11 +53,11 @@ double ChamberGas::room(double time) const {
 
 double ChamberGas::temperature(double time, double pressure) {
   // dT/dt = c dP/dt - T / tau above the room: what the pressure has over its own slow mean.
-  if (started_) slow_ = cooling_.step(pressure_, pressure, time - time_, slow_);
-  started_ = true;
-  time_ = time;
-  pressure_ = pressure;
-  return room(time) + climate_.heating * (pressure - slow_);
+  const double slow = state_[kStarted] == 0
+                          ? 0
+                          : cooling_.step(state_[kPressure], pressure, time - state_[kTime], state_[kSlow]);
+  state_ = {1, time, pressure, slow};
+  return room(time) + climate_.heating * (pressure - slow);
 }
 
 }  // namespace fsr

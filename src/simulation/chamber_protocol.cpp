@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "fsr_pressure_map/settings/number_text.h"
+#include "fsr_pressure_map/settings/yaml_text.h"
 
 namespace fsr {
 

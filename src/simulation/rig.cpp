@@ -23,4 +23,16 @@ double Rig::temperature(double time, const PressureCourse& pressure) {
   return gas_.temperature(time, pressure(time));
 }
 
+void Rig::save(RigState& state) const {
+  state.scans = scans_;
+  state.gas = gas_.state();
+  state.sheet = chain_.state();
+}
+
+void Rig::restore(const RigState& state) {
+  chain_.restore(state.sheet);
+  if (state.gas.size() == gas_.state().size()) gas_.state() = state.gas;
+  scans_ = state.scans;
+}
+
 }  // namespace fsr

@@ -24,7 +24,8 @@ std::int64_t nanoseconds(double time) {
 
 }  // namespace
 
-Session::Session(const SimulationSettings& settings) : settings_(settings), rig_(settings) {
+Session::Session(const SimulationSettings& settings)
+    : settings_(settings), rig_(settings), origin_ns_(nanoseconds(settings.start)) {
   for (const Station& station : settings_.session) {
     if (std::isfinite(pressureProfile(station.program).duration())) continue;
     throw InputError(settings_.origin + ": the cycles on " + station.surface.name +
@@ -33,7 +34,27 @@ Session::Session(const SimulationSettings& settings) : settings_(settings), rig_
 }
 
 double Session::begin() const {
-  return next_ == 0 ? 0 : time_ + station(next_).pause;
+  return next_ == 0 && !resumed_ ? 0 : time_ + station(next_).pause;
+}
+
+void Session::resume(const RigState& state) {
+  rig_.restore(state);
+  origin_ns_ = state.origin_ns;
+  time_ = state.time;
+  resumed_ = true;
+  for (Station& station : settings_.session) station.surface.mount += state.mount;
+}
+
+RigState Session::state() const {
+  RigState state;
+  state.origin_ns = origin_ns_;
+  state.time = time_;
+  if (next_ > 0) {
+    state.mount = station(next_ - 1).surface.mount;
+    state.surface = station(next_ - 1).surface.name;
+  }
+  rig_.save(state);
+  return state;
 }
 
 void Session::runNext(const RigListener& listener) {
@@ -84,7 +105,7 @@ std::vector<Recording> simulateSession(const SimulationSettings& settings) {
   for (std::size_t i = 0; i < session.stations(); ++i) {
     RecordingBuilder builder;
     std::uint32_t sequence = 0;
-    const auto stamp = [&](double time) { return nanoseconds(settings.start) + nanoseconds(time); };
+    const auto stamp = [&](double time) { return session.origin() + nanoseconds(time); };
     builder.addDescription(stamp(session.begin()),
                            {identity(settings), settings.layout, settings.fullScale(), kStandardAmbient, {}});
     builder.addSurface(stamp(session.begin()), session.station(i).surface);

@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <sstream>
 
-#include "fsr_pressure_map/settings/number_text.h"
+#include "fsr_pressure_map/settings/yaml_text.h"
 #include "fsr_pressure_map/simulation/effects/effect_library.h"
 
 namespace fsr {
 
 namespace {
-
-std::string quoted(const std::string& text) {
-  std::string result;
-  for (const char c : text) result += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
-  return '"' + result + '"';
-}
 
 std::string onOneLine(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -37,7 +31,7 @@ std::string list(const Surface& surface, double Curvature::*component) {
 }
 
 std::string text(const Surface& surface) {
-  std::string result = "surface: " + quoted(surface.name);
+  std::string result = "surface: " + quotedText(surface.name);
   const char* form = surface.curvature.size() == 1 ? "two_planes" : "taxels";
   result += std::string(", ") + form + ": {x: " + list(surface, &Curvature::x) +
             ", y: " + list(surface, &Curvature::y) + ", xy: " + list(surface, &Curvature::xy) + "}";
@@ -64,8 +58,8 @@ std::string text(const Station& station) {
 }
 
 std::string text(const SimulatedBoard& board) {
-  return "board: {serial: " + quoted(board.serial) + ", firmware: " + quoted(board.firmware) +
-         ", model: " + quoted(board.model) + ",\n        scan_rate: " + numberText(board.scan_rate) +
+  return "board: {serial: " + quotedText(board.serial) + ", firmware: " + quotedText(board.firmware) +
+         ", model: " + quotedText(board.model) + ",\n        scan_rate: " + numberText(board.scan_rate) +
          ", scan_duration: " + numberText(board.scan_duration) +
          ", transducer_rate: " + numberText(board.transducer_rate) + "}\n";
 }
@@ -98,12 +92,13 @@ std::string simulationText(const SimulationSettings& settings, const std::string
                            const ValueRemarks& remarks) {
   const Layout& layout = settings.layout;
   const Transducer& transducer = settings.transducer;
-  std::string result =
-      commented(head) + "simulation: " + quoted(settings.name) + "\nseed: " + std::to_string(settings.seed) +
-      "\nstart: " + numberText(settings.start) + "\nmatrix: {rows: " + std::to_string(layout.size.rows) +
-      ", columns: " + std::to_string(layout.size.columns) + ", pitch_x: " + numberText(layout.pitch_x) +
-      ", pitch_y: " + numberText(layout.pitch_y) + "}\n" + text(settings.board) +
-      "chamber: " + protocolText(settings.chamber) + "\nsession:\n";
+  std::string result = commented(head) + "simulation: " + quotedText(settings.name) +
+                       "\nseed: " + std::to_string(settings.seed) + "\nstart: " + numberText(settings.start) +
+                       "\nmatrix: {rows: " + std::to_string(layout.size.rows) +
+                       ", columns: " + std::to_string(layout.size.columns) +
+                       ", pitch_x: " + numberText(layout.pitch_x) +
+                       ", pitch_y: " + numberText(layout.pitch_y) + "}\n" + text(settings.board) +
+                       "chamber: " + protocolText(settings.chamber) + "\nsession:\n";
   for (const Station& station : settings.session) result += text(station);
   result += text(settings.climate) + "transducer: {low: " + numberText(transducer.low) +
             ", high: " + numberText(transducer.high) +

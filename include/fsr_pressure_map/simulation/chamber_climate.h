@@ -36,15 +36,16 @@ class ChamberGas {
   /// since the call before. Times must ascend.
   double temperature(double time, double pressure);  // [degree Celsius]
 
+  /// What it remembers, for saving and restoring.
+  std::vector<double>& state() { return state_; }
+  const std::vector<double>& state() const { return state_; }
+
  private:
   double room(double time) const;
 
   ChamberClimate climate_;
   ExponentialMemory cooling_;
-  bool started_ = false;
-  double time_ = 0;      // of the call before [s]
-  double pressure_ = 0;  // then [Pa]
-  double slow_ = 0;      // pressure to whose heat the gas has lost its own [Pa]
+  std::vector<double> state_;
 };
 
 }  // namespace fsr

@@ -5,6 +5,7 @@
 
 #include "fsr_pressure_map/simulation/chamber_climate.h"
 #include "fsr_pressure_map/simulation/reference_channel.h"
+#include "fsr_pressure_map/simulation/rig_state.h"
 #include "fsr_pressure_map/simulation/sensor_chain.h"
 
 namespace fsr {
@@ -27,6 +28,10 @@ class Rig {
   double temperature(double time, const PressureCourse& pressure);
 
   std::uint64_t scans() const { return scans_; }
+  /// Fills in and takes back what sheet and gas remember, and the number of scans.
+  void save(RigState& state) const;
+  /// Throws InputError where the state belongs to another rig.
+  void restore(const RigState& state);
   SensorChain& chain() { return chain_; }
   const SensorChain& chain() const { return chain_; }
 

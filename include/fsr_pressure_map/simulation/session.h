@@ -23,6 +23,14 @@ class Session {
   /// Throws InputError where a station's program never ends.
   explicit Session(const SimulationSettings& settings);
 
+  /// Goes on from where another session or a driven rig was left: its date holds instead of the settings',
+  /// the first station has its pause before it too, and mounts are numbered on. Throws InputError where the
+  /// state belongs to another rig.
+  void resume(const RigState& state);
+  RigState state() const;
+
+  /// Date of rig time 0 [ns since 1970].
+  std::int64_t origin() const { return origin_ns_; }
   std::size_t stations() const { return settings_.session.size(); }
   const Station& station(std::size_t i) const { return settings_.session.at(i); }
   /// Rig time at which the next station begins [s].
@@ -35,7 +43,9 @@ class Session {
  private:
   SimulationSettings settings_;
   Rig rig_;
+  std::int64_t origin_ns_;
   std::size_t next_ = 0;
+  bool resumed_ = false;
   double time_ = 0;  // when the last station ended [s]
 };
 

@@ -1,13 +1,15 @@
-#include "fsr_pressure_map/settings/number_text.h"
+#include "fsr_pressure_map/settings/yaml_text.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 
+#include "fsr_pressure_map/settings/settings.h"
+
 namespace {
 
-TEST(NumberText, IsShortAndComesBackAsTheSameNumber) {
+TEST(YamlText, NumbersAreShortAndComesBackAsTheSameNumber) {
   EXPECT_EQ(fsr::numberText(0.1), "0.1");
   EXPECT_EQ(fsr::numberText(17000), "17000");
   EXPECT_EQ(fsr::numberText(-3e-4), "-0.0003");
@@ -19,6 +21,12 @@ TEST(NumberText, IsShortAndComesBackAsTheSameNumber) {
   EXPECT_EQ(fsr::numberText(INFINITY), ".inf");
   EXPECT_EQ(fsr::numberText(-INFINITY), "-.inf");
   EXPECT_EQ(fsr::numberText(NAN), ".nan");
+}
+
+TEST(YamlText, QuotedTextsComeBackWhole) {
+  const std::string text = "a \"b\" \\ c: # {x}\n'd'";
+  const auto settings = fsr::Settings::fromText("t: " + fsr::quotedText(text), "a.yaml");
+  EXPECT_EQ(settings.text("t"), text);
 }
 
 }  // namespace

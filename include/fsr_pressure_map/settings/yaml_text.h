@@ -8,4 +8,7 @@ namespace fsr {
 /// as YAML spells them.
 std::string numberText(double value);
 
+/// Any text in double quotes, as YAML escapes it.
+std::string quotedText(const std::string& text);
+
 }  // namespace fsr

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/settings/number_text.h"
+#include "fsr_pressure_map/settings/yaml_text.h"
 
 #include <charconv>
 #include <cmath>
@@ -14,6 +14,19 @@ std::string numberText(double value) {
   char text[64];
   const auto end = std::to_chars(text, text + sizeof text, value, format).ptr;
   return {text, end};
+}
+
+std::string quotedText(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '\n') {
+      result += "\\n";
+    } else {
+      if (c == '"' || c == '\\') result += '\\';
+      result += c;
+    }
+  }
+  return '"' + result + '"';
 }
 
 }  // namespace fsr

@@ -1,0 +1,120 @@
+#include "fsr_pressure_map/simulation/driven_rig.h"
+
+#include <algorithm>
+
+namespace fsr {
+
+namespace {
+
+/// A recording's pressure, straight between its scans and held outside. Asked about times that run on, it
+/// finds them near the last one.
+class RecordedCourse {
+ public:
+  RecordedCourse(const Recording& recording, double start) : recording_(recording), start_(start) {}
+
+  double operator()(double rig_time) {
+    const auto& time = recording_.time;
+    const auto& pressure = recording_.pressure;
+    const double wanted = rig_time - start_;
+    while (next_ > 0 && time[next_ - 1] > wanted) --next_;
+    while (next_ < time.size() && time[next_] <= wanted) ++next_;
+    if (next_ == 0) return pressure.front();
+    if (next_ == time.size()) return pressure.back();
+    const double share = (wanted - time[next_ - 1]) / (time[next_] - time[next_ - 1]);
+    return pressure[next_ - 1] + share * (pressure[next_] - pressure[next_ - 1]);
+  }
+
+ private:
+  const Recording& recording_;
+  double start_;          // rig time of the recording's time 0 [s]
+  std::size_t next_ = 0;  // first scan after the time asked about
+};
+
+}  // namespace
+
+SimulationSettings fitted(const SimulationSettings& settings, const Recording& recording) {
+  SimulationSettings result = settings;
+  result.layout = recording.layout;
+  for (EnabledEffect& effect : result.effects) {
+    if (effect.id == "converter") effect.values["full_scale"] = recording.full_scale;
+  }
+  return result;
+}
+
+DrivenRig::DrivenRig(const SimulationSettings& settings)
+    : settings_(settings), chain_(settings), reference_(settings) {}
+
+void DrivenRig::require(const Recording& recording) const {
+  if (recording.pressure.empty() || recording.scans() == 0) {
+    throw InputError(recording.name + ": holds no chamber pressure to drive a simulation with");
+  }
+  if (recording.layout.size != settings_.layout.size) {
+    throw InputError(recording.name + ": is of a matrix of " + sizeText(recording.layout.size) +
+                     ", but the simulated one has " + sizeText(settings_.layout.size));
+  }
+  const bool early =
+      origin_ns_ &&
+      1e-9 * static_cast<double>(recording.start_ns - *origin_ns_) + recording.time.front() < end_;
+  if (early) {
+    throw InputError(
+        recording.name +
+        ": begins before what the rig went through last had ended; give recordings in time order");
+  }
+}
+
+void DrivenRig::lie(const Surface& surface) {
+  if (surface_ && sameCondition(*surface_, surface)) return;
+  chain_.mount(surface.known() ? surface : Surface{surface.name, surface.mount, {Curvature{}}, {}});
+  surface_ = surface;
+  // Where it lay there already, it was not mounted anew.
+  if (resumed_ && surface.mount == resumed_->mount && surface.name == resumed_->surface) {
+    chain_.restore(resumed_->sheet);
+  }
+  resumed_.reset();
+}
+
+void DrivenRig::resume(const RigState& state) {
+  chain_.restore(state.sheet);
+  origin_ns_ = state.origin_ns;
+  end_ = state.time;
+  scans_ = state.scans;
+  surface_.reset();
+  resumed_ = state;
+}
+
+RigState DrivenRig::state() const {
+  RigState state;
+  state.origin_ns = origin_ns_.value_or(0);
+  state.time = end_;
+  state.scans = scans_;
+  if (surface_) {
+    state.mount = surface_->mount;
+    state.surface = surface_->name;
+  }
+  state.sheet = chain_.state();
+  return state;
+}
+
+void DrivenRig::run(const Recording& recording,
+                    const std::function<void(std::size_t, const SensorChain&)>& listener) {
+  require(recording);
+  if (!origin_ns_) origin_ns_ = recording.start_ns;
+  const double start = 1e-9 * static_cast<double>(recording.start_ns - *origin_ns_);
+  RecordedCourse recorded(recording, start);
+  const PressureCourse course = [&](double time) { return reference_.truePressure(recorded(time)); };
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    const Surface& surface = recording.conditions.at(recording.condition[i]);
+    lie(surface);
+    RigMoment moment;
+    moment.time = start + recording.time[i];
+    moment.pressure = reference_.truePressure(recording.pressure[i]);
+    moment.scan = scans_++;
+    if (!recording.temperature.empty()) moment.temperature = recording.temperature[i];
+    moment.course = &course;
+    chain_.read(moment);
+    listener(i, chain_);
+  }
+  end_ = start + recording.time.back();
+}
+
+}  // namespace fsr
