@@ -56,6 +56,18 @@ fsr_pressure_map::MatrixInfo describe(const fsr::Recording& recording, const Bag
   return info;
 }
 
+// The header of a connection whose publisher latches, as rosbag record keeps it, so that a replay latches
+// too; nullptr for other topics.
+template <typename Message>
+boost::shared_ptr<ros::M_string> latched(const std::string& topic) {
+  if (topic != "matrix_info" && topic != "curvature" && topic != "session") return nullptr;
+  return boost::make_shared<ros::M_string>(
+      ros::M_string{{"type", ros::message_traits::datatype<Message>()},
+                    {"md5sum", ros::message_traits::md5sum<Message>()},
+                    {"message_definition", ros::message_traits::definition<Message>()},
+                    {"latching", "1"}});
+}
+
 // Says what stands in the bag again and again: once a second and where the surface changes.
 class Repeater {
  public:
@@ -105,12 +117,43 @@ template <typename Message>
 void BagWriter::write(const std::string& topic, std::int64_t stamp_ns, Message& message) {
   message.header.stamp = rosTime(stamp_ns, path_);
   message.header.frame_id = frame_id_;
+  add(topic, message);
+}
+
+template <typename Write>
+void BagWriter::attempt(Write write) {
   try {
-    bag_->write("/" + topics_ + "/" + topic, message.header.stamp, message);
+    write(*bag_);
   } catch (const rosbag::BagException& error) {
     throw cannotWrite(path_, error.what());
   }
 }
+
+template <typename Message>
+void BagWriter::add(const std::string& topic, const Message& message) {
+  const std::string name = "/" + topics_ + "/" + topic;
+  attempt([&](rosbag::Bag& bag) { bag.write(name, message.header.stamp, message, latched<Message>(topic)); });
+}
+
+void BagWriter::copy(const rosbag::MessageInstance& instance) {
+  attempt([&](rosbag::Bag& bag) { bag.write(instance.getTopic(), instance.getTime(), instance); });
+}
+
+template <typename Message>
+void BagWriter::replace(const rosbag::MessageInstance& instance, const Message& message) {
+  attempt([&](rosbag::Bag& bag) {
+    bag.write(instance.getTopic(), instance.getTime(), message, instance.getConnectionHeader());
+  });
+}
+
+template void BagWriter::replace(const rosbag::MessageInstance&, const fsr_pressure_map::MatrixFrame&);
+template void BagWriter::replace(const rosbag::MessageInstance&, const fsr_pressure_map::MatrixInfo&);
+template void BagWriter::add(const std::string&, const fsr_pressure_map::MatrixFrame&);
+template void BagWriter::add(const std::string&, const fsr_pressure_map::MatrixInfo&);
+template void BagWriter::add(const std::string&, const fsr_pressure_map::Session&);
+template void BagWriter::add(const std::string&, const fsr_pressure_map::SurfaceCurvature&);
+template void BagWriter::add(const std::string&, const sensor_msgs::FluidPressure&);
+template void BagWriter::add(const std::string&, const sensor_msgs::Temperature&);
 
 void BagWriter::addScan(std::int64_t stamp_ns, std::uint32_t sequence, const fsr::ScanView& scan) {
   fsr::requireSound(scan);

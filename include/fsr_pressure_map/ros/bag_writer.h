@@ -3,6 +3,7 @@
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <fsr_pressure_map/Session.h>
 #include <rosbag/bag.h>
+#include <rosbag/message_instance.h>
 
 #include <cstdint>
 #include <memory>
@@ -36,12 +37,23 @@ class BagWriter {
   void addMatrixInfo(std::int64_t stamp_ns, fsr_pressure_map::MatrixInfo info);
   void addSession(std::int64_t stamp_ns, fsr_pressure_map::Session session);
 
+  /// A message as it stands, with its own header; defined for those of record.launch.
+  template <typename Message>
+  void add(const std::string& topic, const Message& message);
+
+  /// A message of another bag, with its topic and time; and one in its place.
+  void copy(const rosbag::MessageInstance& instance);
+  template <typename Message>
+  void replace(const rosbag::MessageInstance& instance, const Message& message);
+
   /// Gives the bag its name.
   void close();
 
  private:
   template <typename Message>
   void write(const std::string& topic, std::int64_t stamp_ns, Message& message);
+  template <typename Write>
+  void attempt(Write write);
 
   std::string path_;
   std::string fresh_;  // the temporary name

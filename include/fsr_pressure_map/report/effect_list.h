@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace fsr {
+
+/// Every effect of the library as text for a terminal: what it does, equation, source, parameters with
+/// unit, usual and neutral value and ranges, and what whoever looks for it must know.
+std::string effectListText();
+
+}  // namespace fsr

@@ -1,0 +1,140 @@
+#include "fsr_pressure_map/ros/simulate_tool.h"
+
+#include <filesystem>
+
+#include "fsr_pressure_map/report/effect_list.h"
+#include "fsr_pressure_map/report/portrait_json.h"
+#include "fsr_pressure_map/ros/figure_script.h"
+#include "fsr_pressure_map/ros/simulated_bags.h"
+#include "fsr_pressure_map/settings/command_line.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/settings/replace_file.h"
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "fsr_pressure_map/simulation/portrait.h"
+#include "fsr_pressure_map/simulation/simulation_text.h"
+
+namespace fsr_ros {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFiguresMissing = 3;  // exit status where all is there but the figures
+
+fsr::CommandLine options() {
+  fsr::CommandLine line(
+      "simulate", "--simulation FILE [--drive BAG...] --output DIR",
+      "Writes bags of a simulated rig: through the session of the simulation file, or on the "
+      "recorded pressure, surfaces and temperature of real bags. What the rig really is "
+      "stands in truth.yaml beside them and nowhere else.");
+  line.option("simulation", "FILE", "the rig, e.g. config/simulation/bench.yaml")
+      .option("output", "DIR", "folder to write to; it is made where it is not there")
+      .option("drive", "BAG", "run the model on these bags, in time order, instead of the session")
+      .option("namespace", "NS", "the sensor's namespace, where a bag holds several")
+      .option("seed", "N", "instead of the file's: another sheet and other noise")
+      .option("effect", "ID", "enable this effect, at its usual values where the file does not have it")
+      .option("state", "FILE",
+              "go on from the state that another run saved: what the sheet remembers, and when")
+      .option("save-state", "FILE", "save it at the end")
+      .flag("plot", "draw what the rig's effects do, or --effect alone, instead of writing bags")
+      .flag("list-effects", "describe every effect and leave");
+  return line;
+}
+
+fsr::SimulationSettings settingsOf(const fsr::CommandLine& line) {
+  fsr::SimulationSettings settings = fsr::readSimulationFile(line.requiredText("simulation"));
+  settings.seed = static_cast<std::uint64_t>(
+      line.integer("seed", static_cast<std::int64_t>(settings.seed), {0, 9e15, ""}));
+  return line.has("effect") ? fsr::withEffect(settings, line.text("effect", "")) : settings;
+}
+
+std::string folderOf(const fsr::CommandLine& line) {
+  const fs::path folder = fs::absolute(line.requiredText("output")).lexically_normal();
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    throw fsr::InputError(folder.string() + ": the folder cannot be made (" + error.message() +
+                          "); give another one with --output");
+  }
+  return folder;
+}
+
+std::vector<std::string> bagsOf(const fsr::CommandLine& line) {
+  std::vector<std::string> bags = line.files();
+  if (line.has("drive")) {
+    bags.insert(bags.begin(), line.text("drive", ""));
+  } else if (!bags.empty()) {
+    throw fsr::InputError(bags.front() + ": bags are given with --drive, to run the model on them");
+  }
+  return bags;
+}
+
+std::string remarkOf(const fsr::CommandLine& line, const std::vector<std::string>& driving) {
+  std::string remark = "What the simulated rig behind the bags beside this file really is.";
+  if (line.has("state"))
+    remark += "\nIt went on from " + fs::path(line.text("state", "")).filename().string() + ".";
+  for (const std::string& bag : driving) remark += "\nDriven by " + fs::path(bag).filename().string() + ".";
+  return remark;
+}
+
+void writeBags(const fsr::CommandLine& line, const fsr::SimulationSettings& settings, std::ostream& out) {
+  const std::vector<std::string> driving = bagsOf(line);
+  const std::string saved = line.text("save-state", "");
+  if (!saved.empty()) fsr::requireReplaceable(saved);
+  SimulatedBags bags;
+  bags.output = folderOf(line);
+  bags.progress = [&](const std::string& path) { out << path << std::endl; };
+  if (line.has("state")) {
+    bags.state = fsr::readRigState(fsr::Settings::fromFile(line.requiredText("state")));
+  }
+  const fsr::RigState end = driving.empty()
+                                ? writeSessionBags(settings, bags)
+                                : writeDrivenBags(settings, {driving, line.text("namespace", "")}, bags);
+  const fs::path truth = fs::path(bags.output) / "truth.yaml";
+  fsr::replaceFile(truth, simulationText(settings, remarkOf(line, driving)));
+  out << truth.string() << std::endl;
+  if (saved.empty()) return;
+  fsr::replaceFile(saved, stateText(end));
+  out << saved << std::endl;
+}
+
+int drawPlot(const fsr::CommandLine& line, const fsr::SimulationSettings& settings, std::ostream& out) {
+  const std::string id = line.text("effect", "");
+  fsr::SimulationSettings titled = settings;
+  if (!id.empty()) titled.name = id;
+  const fs::path folder = folderOf(line), data = folder / (titled.name + ".json"),
+                 picture = folder / (titled.name + ".png");
+  const auto before = id.empty() ? coreOf(settings) : withoutEffect(settings, id);
+  fsr::Portrait portrait = portray(titled, before);
+  if (!id.empty()) portrait.title += ": " + fsr::findEffect(id)->info.summary;
+  fsr::replaceFile(data, portraitJson(portrait));
+  out << data.string() << std::endl;
+  try {
+    drawFigures("simulation.py", {data, picture});
+  } catch (const fsr::InputError& error) {
+    out << error.what() << std::endl;
+    return kFiguresMissing;
+  }
+  out << picture.string() << std::endl;
+  return 0;
+}
+
+}  // namespace
+
+int simulateTool(int argc, const char* const* argv, std::ostream& out) {
+  fsr::CommandLine line = options();
+  if (!line.parse(argc, argv)) {
+    out << line.help();
+    return 0;
+  }
+  if (line.has("list-effects")) {
+    out << fsr::effectListText();
+    return 0;
+  }
+  const fsr::SimulationSettings settings = settingsOf(line);
+  if (line.has("plot")) return drawPlot(line, settings, out);
+  writeBags(line, settings, out);
+  return 0;
+}
+
+}  // namespace fsr_ros

@@ -1,0 +1,214 @@
+#include "fsr_pressure_map/ros/simulate_tool.h"
+
+#include <fsr_pressure_map/MatrixFrame.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+#include "fsr_pressure_map/ros/bag_reader.h"
+#include "fsr_pressure_map/ros/bag_writer.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/simulation/portrait.h"
+#include "fsr_pressure_map/simulation/session.h"
+#include "fsr_pressure_map/simulation/simulation_text.h"
+
+namespace fsr_ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kBench = FSR_SOURCE_DIR "/config/simulation/bench.yaml";
+
+class SimulateTool : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / ("simulate_tool_" + std::string(test->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string run(std::vector<std::string> words) {
+    words.insert(words.begin(), "simulate");
+    std::vector<const char*> arguments;
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    std::ostringstream out;
+    try {
+      status_ = simulateTool(static_cast<int>(arguments.size()), arguments.data(), out);
+      return out.str();
+    } catch (const fsr::InputError& error) {
+      return error.what();
+    }
+  }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  fs::path folder_;
+  int status_ = -1;
+};
+
+std::set<std::string> topicsOf(const std::string& bag_path) {
+  const rosbag::Bag bag(bag_path, rosbag::bagmode::Read);
+  rosbag::View view(bag);
+  std::set<std::string> topics;
+  for (const auto* connection : view.getConnections()) topics.insert(connection->topic);
+  return topics;
+}
+
+std::set<std::string> filesIn(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& file : fs::directory_iterator(folder)) names.insert(file.path().filename());
+  return names;
+}
+
+TEST_F(SimulateTool, WritesABagForEachStationAndTheTruthBeside) {
+  const std::string printed = run({"--simulation", kBench, "--output", path("out")});
+  EXPECT_EQ(status_, 0);
+  EXPECT_EQ(filesIn(path("out")), (std::set<std::string>{"1_flat.bag", "2_cylinder_5cm.bag", "truth.yaml"}));
+  EXPECT_NE(printed.find(path("out/1_flat.bag")), std::string::npos);
+  const auto truth = fsr::readSimulationFile(path("out/truth.yaml"));
+  const auto bench = fsr::readSimulationFile(kBench);
+  EXPECT_EQ(simulationText(truth), simulationText(bench));
+}
+
+TEST_F(SimulateTool, ItsBagsReadAsTheRigsRecordings) {
+  run({"--simulation", kBench, "--output", path("out")});
+  const auto expected = fsr::simulateSession(fsr::readSimulationFile(kBench));
+  for (const fsr::Recording& recording : expected) {
+    const fsr::Recording read = readBag(path("out/" + recording.name));
+    EXPECT_EQ(read.counts, recording.counts);
+    EXPECT_EQ(read.time, recording.time);
+    EXPECT_EQ(read.start_ns, recording.start_ns);
+    EXPECT_EQ(read.conditions.at(0).mount, recording.conditions.at(0).mount);
+    EXPECT_EQ(read.sensor.serial, "SIM-0001");
+    EXPECT_EQ(read.losses.lost_scans, 0u);
+    EXPECT_TRUE(read.warnings.empty());
+    ASSERT_EQ(read.pressure.size(), recording.pressure.size());
+    for (std::size_t i = 0; i < read.pressure.size(); ++i) {
+      EXPECT_NEAR(read.pressure[i], recording.pressure[i], 1e-6);
+    }
+    EXPECT_EQ(read.temperature, recording.temperature);
+  }
+}
+
+TEST_F(SimulateTool, ItsBagsHoldWhatARecordedOneHolds) {
+  run({"--simulation", kBench, "--output", path("out")});
+  EXPECT_EQ(topicsOf(path("out/1_flat.bag")),
+            (std::set<std::string>{"/fsr/raw", "/fsr/chamber_pressure", "/fsr/temperature",
+                                   "/fsr/matrix_info", "/fsr/curvature", "/fsr/session"}));
+  const rosbag::Bag bag(path("out/1_flat.bag"), rosbag::bagmode::Read);
+  rosbag::View view(bag);
+  ros::Time before;
+  for (const rosbag::MessageInstance& instance : view) {
+    EXPECT_GE(instance.getTime(), before);
+    before = instance.getTime();
+    const auto scan = instance.instantiate<fsr_pressure_map::MatrixFrame>();
+    if (!scan) continue;
+    EXPECT_EQ(scan->header.stamp, instance.getTime());
+    EXPECT_EQ(scan->header.frame_id, "fsr_matrix");
+    EXPECT_EQ(scan->device_time, scan->sequence * 50000u);  // 20 Hz
+  }
+}
+
+TEST_F(SimulateTool, ReplaysLatchWhatTheNodesLatch) {
+  run({"--simulation", kBench, "--output", path("out")});
+  const rosbag::Bag bag(path("out/1_flat.bag"), rosbag::bagmode::Read);
+  rosbag::View view(bag);
+  std::set<std::string> latched;
+  for (const auto* connection : view.getConnections()) {
+    if (connection->header->count("latching") > 0) latched.insert(connection->topic);
+  }
+  EXPECT_EQ(latched, (std::set<std::string>{"/fsr/matrix_info", "/fsr/curvature", "/fsr/session"}));
+  EXPECT_EQ(view.getConnections().size(), 6u);
+}
+
+TEST_F(SimulateTool, GoesOnFromASavedState) {
+  run({"--simulation", kBench, "--output", path("one"), "--save-state", path("state.yaml")});
+  ASSERT_EQ(status_, 0);
+  run({"--simulation", kBench, "--output", path("two"), "--state", path("state.yaml")});
+  EXPECT_EQ(filesIn(path("two")), (std::set<std::string>{"3_flat.bag", "4_cylinder_5cm.bag", "truth.yaml"}));
+  const fsr::Recording before = readBag(path("one/2_cylinder_5cm.bag")),
+                       after = readBag(path("two/3_flat.bag"));
+  EXPECT_GT(after.start_ns, before.start_ns + static_cast<std::int64_t>(1e9 * before.time.back()));
+  EXPECT_NE(after.counts, readBag(path("one/1_flat.bag")).counts);
+  run({"--simulation", kBench, "--output", path("model"), "--drive", path("two/3_flat.bag"), "--state",
+       path("state.yaml")});
+  EXPECT_EQ(status_, 0);
+}
+
+TEST_F(SimulateTool, DrivesTheModelWithRecordedBags) {
+  run({"--simulation", kBench, "--output", path("real")});
+  run({"--simulation", kBench, "--output", path("model"), "--drive", path("real/1_flat.bag"),
+       path("real/2_cylinder_5cm.bag"), "--seed", "7"});
+  EXPECT_EQ(status_, 0);
+  for (const std::string name : {"1_flat.bag", "2_cylinder_5cm.bag"}) {
+    const fsr::Recording real = readBag(path("real/" + name)), model = readBag(path("model/" + name));
+    EXPECT_EQ(topicsOf(path("model/" + name)), topicsOf(path("real/" + name)));
+    EXPECT_EQ(model.time, real.time);
+    EXPECT_EQ(model.start_ns, real.start_ns);
+    EXPECT_EQ(model.pressure, real.pressure);
+    EXPECT_EQ(model.conditions.size(), real.conditions.size());
+    EXPECT_NE(model.counts, real.counts);  // another sheet
+  }
+}
+
+TEST_F(SimulateTool, DrivenByItsOwnBagsTheRigReadsThemAgain) {
+  const std::string bare = path("bare.yaml");
+  const auto settings = fsr::withoutEffect(fsr::readSimulationFile(kBench), "white_noise");
+  std::ofstream(bare) << simulationText(settings);
+  run({"--simulation", bare, "--output", path("real")});
+  run({"--simulation", bare, "--output", path("model"), "--drive", path("real/1_flat.bag")});
+  const fsr::Recording real = readBag(path("real/1_flat.bag")), model = readBag(path("model/1_flat.bag"));
+  ASSERT_EQ(model.counts.size(), real.counts.size());
+  for (std::size_t i = 0; i < real.counts.size(); ++i) {
+    EXPECT_NEAR(model.counts[i], real.counts[i], 4);  // the recorded pressure is rounded to 278 Pa
+  }
+}
+
+TEST_F(SimulateTool, LeavesOtherSensorsAndTheOriginalAlone) {
+  run({"--simulation", kBench, "--output", path("real")});
+  const std::string complaint =
+      run({"--simulation", kBench, "--output", path("real"), "--drive", path("real/1_flat.bag")});
+  EXPECT_NE(complaint.find("would be overwritten"), std::string::npos) << complaint;
+}
+
+TEST_F(SimulateTool, ListsEveryEffect) {
+  const std::string text = run({"--list-effects"});
+  for (const char* word :
+       {"hysteresis: ", "loop_width", "plausible", "humidity: ", "two_humidities", "uneven_load"}) {
+    EXPECT_NE(text.find(word), std::string::npos) << word;
+  }
+}
+
+TEST_F(SimulateTool, DrawsWhatAnEffectDoes) {
+  const std::string printed =
+      run({"--simulation", kBench, "--output", path("out"), "--plot", "--effect", "creep"});
+  ASSERT_EQ(status_, 0) << printed;
+  std::ifstream picture(path("out/creep.png"), std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(picture), {}};
+  EXPECT_EQ(bytes.substr(1, 3), "PNG");
+  EXPECT_GT(bytes.size(), 10000u);
+  EXPECT_EQ(filesIn(path("out")), (std::set<std::string>{"creep.json", "creep.png"}));
+}
+
+TEST_F(SimulateTool, SaysWhatItCannotUse) {
+  EXPECT_NE(run({"--output", path("out")}).find("--simulation"), std::string::npos);
+  EXPECT_NE(run({"--simulation", kBench}).find("--output"), std::string::npos);
+  EXPECT_NE(run({"--simulation", kBench, "--output", path("out"), "some.bag"}).find("--drive"),
+            std::string::npos);
+  EXPECT_NE(run({"--simulation", kBench, "--output", path("out"), "--effect", "hysterese"}).find("hysterese"),
+            std::string::npos);
+  std::ofstream(path("file")) << "x";
+  EXPECT_NE(run({"--simulation", kBench, "--output", path("file")}).find("cannot be made"),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(path("out/1_flat.bag")));
+}
+
+}  // namespace
+}  // namespace fsr_ros
