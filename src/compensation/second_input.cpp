@@ -15,6 +15,31 @@ CodeHistogram pooled(const ClassReadings& readings) {
   return all;
 }
 
+// Classes whose inputs agree: one value of the second input each.
+struct Groups {
+  std::vector<std::size_t> group_of_class;
+  std::vector<std::vector<std::size_t>> classes;  // of each group
+};
+
+Groups groupsOf(const ClassInputs& inputs) {
+  Groups groups;
+  for (std::size_t k = 0; k < inputs.columns.size(); ++k) {
+    std::size_t g = 0;
+    while (g < groups.classes.size() && inputs.columns[groups.classes[g].front()] != inputs.columns[k]) ++g;
+    if (g == groups.classes.size()) groups.classes.emplace_back();
+    groups.classes[g].push_back(k);
+    groups.group_of_class.push_back(g);
+  }
+  return groups;
+}
+
+WeightedCodes samplesOf(const std::vector<std::size_t>& classes, const ClassReadings& readings) {
+  if (classes.size() == 1) return weightedCodes(readings.sums[classes.front()]);
+  CodeHistogram sums(readings.full_scale);
+  for (const std::size_t k : classes) sums.add(readings.sums[k]);
+  return weightedCodes(sums);
+}
+
 // Products of the standardised inputs (reading, then columns) and of the pressure, about their means.
 struct Moments {
   double readings = 0;
@@ -82,32 +107,33 @@ CodeSamples withInput(const ClassReadings& readings, const ClassInputs& inputs) 
 
 }  // namespace
 
-ClassKernels classKernels(const ClassReadings& readings, const GrnnOptions& options) {
-  const double sigma = sigmaOf(options) * readingDeviation(pooled(readings));  // [counts]
-  ClassKernels kernels;
-  for (std::size_t k = 0; k < readings.sums.size(); ++k) {
-    if (readings.readings(k) == 0) continue;
-    kernels.classes.push_back(k);
-    kernels.means.push_back(gaussianMean(weightedCodes(readings.sums[k]), sigma, LogWeight::kYes));
-  }
-  return kernels;
-}
-
 std::vector<Fit> fitGrnnOnInput(const ClassReadings& readings, const ClassInputs& inputs,
                                 const GrnnOptions& options) {
   const CodeHistogram all = pooled(readings);
-  if (readingDeviation(all) == 0) {
-    return std::vector<Fit>(readings.classes(), constantFit(weightedCodes(all)));
+  const double deviation = readingDeviation(all);
+  if (deviation == 0) return std::vector<Fit>(readings.classes(), constantFit(weightedCodes(all)));
+  const Groups groups = groupsOf(inputs);
+  const double sigma = sigmaOf(options), precision = 0.5 / (sigma * sigma);
+  std::vector<KernelMean> means;
+  std::vector<std::size_t> class_of_mean;
+  for (const std::vector<std::size_t>& classes : groups.classes) {
+    const WeightedCodes samples = samplesOf(classes, readings);
+    if (samples.code.empty()) continue;
+    means.push_back(gaussianMean(samples, sigma * deviation, LogWeight::kWhereZero));
+    class_of_mean.push_back(classes.front());
   }
-  const ClassKernels kernels = classKernels(readings, options);
-  const double precision = 0.5 / (sigmaOf(options) * sigmaOf(options));
   std::vector<Fit> fits;
-  for (std::size_t asked = 0; asked < readings.classes(); ++asked) {
+  for (std::size_t asked = 0; asked < groups.group_of_class.size(); ++asked) {
+    const std::size_t first = groups.classes[groups.group_of_class[asked]].front();
+    if (first < asked) {
+      fits.push_back(fits[first]);
+      continue;
+    }
     std::vector<double> exponent;
-    for (const std::size_t k : kernels.classes) {
+    for (const std::size_t k : class_of_mean) {
       exponent.push_back(precision * inputs.squaredDistance(asked, k));
     }
-    fits.push_back(blendKernels(kernels.means, exponent));
+    fits.push_back(blendKernels(means, exponent));
   }
   return fits;
 }

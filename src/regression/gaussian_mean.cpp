@@ -27,8 +27,9 @@ void divide(const double* numerator, const double* denominator, std::ptrdiff_t n
 
 class GaussianSums {
  public:
-  GaussianSums(const WeightedCodes& samples, double sigma, KernelMean& mean)
+  GaussianSums(const WeightedCodes& samples, double sigma, LogWeight log_weight, KernelMean& mean)
       : samples_(samples),
+        log_weight_(log_weight),
         codes_(static_cast<std::ptrdiff_t>(samples.table_size)),
         sigma_(sigma),
         precision_(0.5 / (sigma * sigma)),
@@ -94,7 +95,7 @@ class GaussianSums {
   void store(std::ptrdiff_t block, std::ptrdiff_t end, const double* sums, const double* weights) {
     divide(sums, weights, end - block, &mean_.pressure[static_cast<std::size_t>(block)]);
     std::copy(weights, weights + (end - block), mean_.weight.begin() + block);
-    if (mean_.log_weight.empty()) return;
+    if (log_weight_ != LogWeight::kYes) return;
     std::transform(weights, weights + (end - block), mean_.log_weight.begin() + block,
                    [](double weight) { return std::log(weight); });
   }
@@ -151,12 +152,13 @@ class GaussianSums {
     mean_.pressure[static_cast<std::size_t>(code)] = sum / weight;
     mean_.weight[static_cast<std::size_t>(code)] =
         exponent < kLargestExponent ? weight * std::exp(-exponent) : 0.0;
-    if (!mean_.log_weight.empty()) {
+    if (log_weight_ != LogWeight::kNo) {
       mean_.log_weight[static_cast<std::size_t>(code)] = std::log(weight) - exponent;
     }
   }
 
   const WeightedCodes& samples_;
+  LogWeight log_weight_;
   std::ptrdiff_t codes_;
   double sigma_;
   double precision_;       // 1 / 2 sigma^2 [1/counts^2]
@@ -173,8 +175,8 @@ class GaussianSums {
 
 KernelMean gaussianMean(const WeightedCodes& samples, double sigma, LogWeight log_weight) {
   KernelMean mean{std::vector<double>(samples.table_size), std::vector<double>(samples.table_size),
-                  std::vector<double>(log_weight == LogWeight::kYes ? samples.table_size : 0)};
-  GaussianSums(samples, sigma, mean).run();
+                  std::vector<double>(log_weight == LogWeight::kNo ? 0 : samples.table_size)};
+  GaussianSums(samples, sigma, log_weight, mean).run();
   return mean;
 }
 

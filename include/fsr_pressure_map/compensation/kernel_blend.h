@@ -13,8 +13,8 @@ namespace fsr {
 ///     f(c) = sum_k e^-x_k w_k(c) f_k(c) / sum_k e^-x_k w_k(c),
 ///
 /// w_k being the kernel sum of class k at code c and x_k = D_k^2 / 2 sigma^2 the exponent of the class's
-/// distance. `classes` [K] with log_weight, `exponent` [K] >= 0. Where everything underflows the logarithms
-/// decide, so that the nearest sample answers, as in gaussianMean().
+/// distance. `classes` [K] with log_weight (kWhereZero will do), `exponent` [K] >= 0. Where everything
+/// underflows the logarithms decide, so that the nearest sample answers, as in gaussianMean().
 Fit blendKernels(const std::vector<KernelMean>& classes, const std::vector<double>& exponent);
 
 }  // namespace fsr

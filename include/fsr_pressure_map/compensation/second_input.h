@@ -6,20 +6,12 @@
 #include "fsr_pressure_map/compensation/class_readings.h"
 #include "fsr_pressure_map/regression/forest.h"
 #include "fsr_pressure_map/regression/grnn.h"
-#include "fsr_pressure_map/regression/kernel_mean.h"
 
 namespace fsr {
 
 // Regressors of a reading and a second input that has one value for each class. Each gives the answers at
 // the inputs of every class [classes]. At least one class has readings; the inputs' scales are those of
 // the readings given.
-
-/// Kernel means of each class that has readings, all with the deviation of all readings together.
-struct ClassKernels {
-  std::vector<std::size_t> classes;  ///< which have readings
-  std::vector<KernelMean> means;     ///< one for each of them
-};
-ClassKernels classKernels(const ClassReadings& readings, const GrnnOptions& options);
 
 std::vector<Fit> fitGrnnOnInput(const ClassReadings& readings, const ClassInputs& inputs,
                                 const GrnnOptions& options);

@@ -17,7 +17,11 @@ struct KernelMean {
 
 /// Whether to give the logarithm of the weight: what combines the means of several curvatures where no
 /// sample of any is near.
-enum class LogWeight { kNo, kYes };
+enum class LogWeight {
+  kNo,
+  kYes,
+  kWhereZero,  ///< only where `weight` is 0, elsewhere unspecified: logarithms take longer than sums
+};
 
 /// Share of the pressure range that all left-out samples together may move an answer by.
 constexpr double kNegligibleShare = 1e-14;
