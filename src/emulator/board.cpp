@@ -102,6 +102,10 @@ void Board::reset(double time) {
   sources_[kIdentity].number = 0;
 }
 
+void Board::jumpClock(double seconds) {
+  clock_.offset += static_cast<std::uint32_t>(std::llround(seconds / kMicro));  // wraps as the board's does
+}
+
 std::uint64_t Board::deviceTime(double time) const {
   const double elapsed = std::max(time - switched_on_, 0.0) * (1 + clock_.drift * kMicro);
   return clock_.offset + static_cast<std::uint64_t>(std::llround(elapsed / kMicro));

@@ -122,6 +122,7 @@ void Emulator::catchUp() {
 void Emulator::sendNext() {
   advance(board_.nextDue());
   auto& packet = board_.next([this](double time) { return chamber_.gaugePressure(time); });
+  if (options_.on_packet) options_.on_packet(packet);
   const auto waited = link_.send(packet, time_);
   if (!schedule_.realTime()) schedule_.hold(waited);
 }
@@ -180,6 +181,12 @@ void Emulator::resetBoard() {
   const Turn turn(*this);
   catchUp();
   board_.reset(time_);
+}
+
+void Emulator::jumpClock(double seconds) {
+  const Turn turn(*this);
+  catchUp();
+  board_.jumpClock(seconds);
 }
 
 // --- questions, from any thread ----------------------------------------------------------------------

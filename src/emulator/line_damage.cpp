@@ -1,5 +1,6 @@
 #include "fsr_pressure_map/emulator/line_damage.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -45,11 +46,39 @@ class Waveform {
 void validate(const LineDamage& damage) {
   require("lost_bytes", damage.lost_bytes, {0, 1, ""});
   require("flipped_bits", damage.flipped_bits, {0, 1, ""});
+  require("lost_packets", damage.lost_packets, {0, 1, ""});
+  require("doubled_packets", damage.doubled_packets, {0, 1, ""});
+  require("noise", damage.noise, {0, 100, ""});
   require("pause", damage.pause, {0, 86400, "s"});
   require("baud", damage.baud, {0, 4e6, "1/s"});
 }
 
-void LossyLine::pass(const LineDamage& damage, std::vector<std::uint8_t>& bytes) {
+void LossyLine::pass(const LineDamage& damage, std::vector<std::uint8_t>& packet) {
+  const auto noise = static_cast<std::size_t>(damage.noise * static_cast<double>(packet.size()));
+  repeat(damage, packet);
+  damageBytes(damage, packet);
+  addNoise(noise, packet);
+}
+
+void LossyLine::repeat(const LineDamage& damage, std::vector<std::uint8_t>& packet) {
+  if (happens(damage.lost_packets)) {
+    ++counts_.lost_packets;
+    packet.clear();
+  } else if (happens(damage.doubled_packets)) {
+    ++counts_.doubled_packets;
+    const std::vector<std::uint8_t> again = packet;
+    packet.insert(packet.end(), again.begin(), again.end());
+  }
+}
+
+void LossyLine::addNoise(std::size_t size, std::vector<std::uint8_t>& bytes) {
+  counts_.noise_bytes += size;
+  for (std::size_t i = 0; i < size; ++i) {
+    bytes.push_back(static_cast<std::uint8_t>(256 * stream_.uniform(position_++)));
+  }
+}
+
+void LossyLine::damageBytes(const LineDamage& damage, std::vector<std::uint8_t>& bytes) {
   std::size_t kept = 0;
   for (std::uint8_t byte : bytes) {
     if (happens(damage.lost_bytes)) {
@@ -85,7 +114,8 @@ std::vector<std::uint8_t> heardByUart(const std::vector<std::uint8_t>& bytes, st
     unsigned byte = 0;
     for (std::size_t bit = 0; bit < 8; ++bit) byte |= line.high(sampled(bit + 1)) ? 1u << bit : 0u;
     heard.push_back(static_cast<std::uint8_t>(byte));
-    edge = line.fallingEdge(sampled(kFrame - 1));
+    edge = line.fallingEdge(
+        std::max(sampled(kFrame - 1), edge + 1));  // a fast receiver's frame ends within this bit
   }
   return heard;
 }

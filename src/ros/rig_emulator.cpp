@@ -24,8 +24,9 @@ std::string describe(const fsr::ChamberProtocol& protocol) {
 
 std::string describe(const fsr::LineDamage& damage) {
   std::ostringstream text;
-  text << "lost bytes " << damage.lost_bytes << ", flipped bits " << damage.flipped_bits << ", pause "
-       << damage.pause << " s";
+  text << "lost bytes " << damage.lost_bytes << ", flipped bits " << damage.flipped_bits
+       << ", lost packets " << damage.lost_packets << ", doubled packets " << damage.doubled_packets
+       << ", noise " << damage.noise << ", pause " << damage.pause << " s";
   if (damage.unplugged) text << ", unplugged";
   if (damage.baud != 0) text << ", sends at " << damage.baud << " baud";
   return text.str();
@@ -117,6 +118,9 @@ fsr::LineDamage RigEmulator::readDamage() const {
   fsr::LineDamage damage;
   damage.lost_bytes = parameters_.number("damage/lost_bytes", 0, {0, 1, ""});
   damage.flipped_bits = parameters_.number("damage/flipped_bits", 0, {0, 1, ""});
+  damage.lost_packets = parameters_.number("damage/lost_packets", 0, {0, 1, ""});
+  damage.doubled_packets = parameters_.number("damage/doubled_packets", 0, {0, 1, ""});
+  damage.noise = parameters_.number("damage/noise", 0, {0, 100, ""});
   damage.pause = parameters_.number("damage/pause", 0, {0, 86400, "s"});
   damage.unplugged = parameters_.flag("damage/unplug", false);
   damage.baud = static_cast<std::uint32_t>(parameters_.integer("damage/wrong_baud", 0, {0, 4e6, "1/s"}));
@@ -167,7 +171,10 @@ bool RigEmulator::setDamage(std_srvs::SetBool::Request& request, std_srvs::SetBo
     if (!request.data) return std::string("the line is healthy");
     const bool reset = parameters_.flag("damage/reset", false);
     if (reset) rig_->resetBoard();
-    return "the line is damaged: " + describe(damage) + (reset ? "; the board was reset" : "");
+    const double jump = parameters_.number("damage/clock_jump", 0, {-1000, 1000, "s"});
+    if (jump != 0) rig_->jumpClock(jump);
+    return "the line is damaged: " + describe(damage) + (reset ? "; the board was reset" : "") +
+           (jump != 0 ? "; its clock jumped" : "");
   });
 }
 

@@ -37,6 +37,36 @@ TEST(HeardByUart, SkipsEveryOtherBitAtHalfTheSpeed) {
   EXPECT_EQ(heardByUart({0x00}, 115200, 57600), Bytes{0xF8});
 }
 
+// A receiver sixteen times as fast is done with its frame within the start bit: all it ever sees is low.
+TEST(HeardByUart, AFarFasterReceiverHearsZerosAndComesToAnEnd) {
+  EXPECT_EQ(heardByUart({0xFF}, 57600, 921600), Bytes{0x00});
+  EXPECT_EQ(heardByUart({0x00, 0xFF}, 57600, 921600), (Bytes{0x00, 0x00}));
+}
+
+TEST(LossyLine, LosesAndDoublesWholePacketsAndAddsNoise) {
+  LossyLine line(3);
+  LineDamage damage;
+  damage.lost_packets = 0.2;
+  damage.doubled_packets = 0.1;
+  std::size_t lost = 0, doubled = 0;
+  for (int i = 0; i < 10000; ++i) {
+    Bytes packet = {1, 2, 3};
+    line.pass(damage, packet);
+    lost += packet.empty();
+    doubled += packet == Bytes{1, 2, 3, 1, 2, 3};
+  }
+  EXPECT_NEAR(static_cast<double>(lost), 2000, 160);    // four standard deviations
+  EXPECT_NEAR(static_cast<double>(doubled), 800, 110);  // of those that were not lost
+  EXPECT_EQ(line.counts().lost_packets, lost);
+  EXPECT_EQ(line.counts().doubled_packets, doubled);
+  damage = {};
+  damage.noise = 2;
+  Bytes packet = {1, 2, 3};
+  line.pass(damage, packet);
+  EXPECT_EQ(packet.size(), 9u);
+  EXPECT_EQ(line.counts().noise_bytes, 6u);
+}
+
 TEST(LossyLine, LosesAndFlipsAtTheRateAskedFor) {
   LossyLine line(3);
   LineDamage damage;

@@ -37,6 +37,9 @@ class Board {
   /// Switches it off and on: clock and counters start again.
   void reset(double time);
 
+  /// Its clock steps by `seconds`, forward or back, as by an upset of its crystal.
+  void jumpClock(double seconds);
+
   /// What the board's clock shows at a rig time [us]; on the wire it wraps at 2^32.
   std::uint64_t deviceTime(double time) const;
   /// The other way round, since the last reset.

@@ -42,6 +42,8 @@ struct EmulatorOptions {
   bool autostart = false;  ///< cycles begin at rig time 0
   /// Called with the rig time [s] before each scan is sent, at least every 5 ms, in ascending order.
   std::function<void(double)> on_clock;
+  /// Called with each packet as the board made it, before the line damages it: the truth of tests.
+  std::function<void(const std::vector<std::uint8_t>&)> on_packet;
   /// Called with the status at the start and at each change, in its caller's thread.
   std::function<void(const RigStatus&)> on_status;
 };
@@ -82,6 +84,8 @@ class Emulator {
   void setDamage(const LineDamage& damage);
   /// Switches the board off and on.
   void resetBoard();
+  /// Its clock steps by `seconds`, forward or back.
+  void jumpClock(double seconds);
 
   RigStatus status() const;
   LinkCounts counts() const;
