@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint32_t kQueue = 1000;  // messages: a second at 1 kHz
 constexpr int kLooksPerSecond = 10;
+constexpr std::size_t kMostHeld = 4096;  // scans that wait for their board's name
 
 std::int64_t rosTime() {
   return static_cast<std::int64_t>(ros::Time::now().toNSec());
@@ -82,9 +83,10 @@ Driver::Driver(const ros::NodeHandle& handle, const ros::NodeHandle& private_han
 
 void Driver::onScan(const fsr::PacketHeader& header, const fsr::ScanPacket& scan) {
   const fsr::PacketTime time = stamper_.scan(header, scan.duration);
+  if (std::exchange(jumps_, stamper_.clock().jumps()) != stamper_.clock().jumps()) doubtBoard();
   const bool expected = isExpected(scan.size);
   const auto message = scanMessage(header, scan, time, settings_);
-  if (expected && !message->header.stamp.isZero()) raw_.publish(message);
+  if (expected && !message->header.stamp.isZero()) publishScan(message);
   const std::lock_guard<std::mutex> lock(mutex_);
   health_.board.size = scan.size;
   health_.board.full_scale = scan.full_scale;
@@ -92,6 +94,32 @@ void Driver::onScan(const fsr::PacketHeader& header, const fsr::ScanPacket& scan
   health_.scan_time = time.device_time;
   health_.clock_drift = stamper_.clock().drift();
   health_.clock_jumps = stamper_.clock().jumps();
+}
+
+// At once, or when the board that sent it has named itself.
+void Driver::publishScan(const fsr_pressure_map::MatrixFramePtr& message) {
+  const bool hold = gate_.scan(arrival_) == fsr::BoardGate::Verdict::kHold;
+  if (gate_.gaveUp()) note({});
+  if (!hold) releaseHeld();
+  if (!hold) {
+    raw_.publish(message);
+  } else if (held_.size() < kMostHeld) {
+    held_.push_back(message);
+  }
+}
+
+void Driver::releaseHeld() {
+  for (const auto& message : held_) raw_.publish(message);
+  held_.clear();
+}
+
+void Driver::doubtBoard() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    health_.unclaimed_scans += held_.size();
+  }
+  held_.clear();
+  gate_.doubt();
 }
 
 void Driver::onTransducer(const fsr::PacketHeader& header, std::int32_t counts) {
@@ -106,13 +134,16 @@ void Driver::onTemperature(const fsr::PacketHeader& header, std::int32_t millide
 
 void Driver::onIdentity(const fsr::PacketHeader& /*header*/, const fsr::IdentityPacket& identity) {
   note(toBoard(identity));
+  if (gate_.identity(identity.serial, arrival_) == fsr::BoardGate::Board::kSame) releaseHeld();
 }
 
 void Driver::onOpen(std::uint32_t baud) {
   stamper_.startLine(baudInRosTime(baud));
+  doubtBoard();
 }
 
 void Driver::onBytes(std::int64_t receive_time) {
+  arrival_ = receive_time;
   stamper_.setArrival(receive_time);
 }
 

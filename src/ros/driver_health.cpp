@@ -70,6 +70,7 @@ void addCounts(const DriverHealth& now, Status& status) {
   status.add("duplicate scans", scans.duplicates);
   status.add("restarts of the board", scans.restarts);
   status.add("scans of another size", now.refused_scans);
+  status.add("dropped: board never named itself", now.unclaimed_scans);
   status.add("dropped: packet check", counts.bad_packet_check);
   status.add("dropped: header check", counts.bad_header_check);
   status.add("dropped: length", counts.bad_length);

@@ -7,7 +7,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <vector>
 
+#include "fsr_pressure_map/protocol/board_gate.h"
 #include "fsr_pressure_map/protocol/board_reader.h"
 #include "fsr_pressure_map/protocol/packet_stamper.h"
 #include "fsr_pressure_map/ros/driver_health.h"
@@ -41,6 +43,9 @@ class Driver : private fsr::LinkHandler {
   void onChange(const fsr::LinkReport& report) override;
 
   bool isExpected(fsr::MatrixSize size) const;
+  void publishScan(const fsr_pressure_map::MatrixFramePtr& message);
+  void releaseHeld();
+  void doubtBoard();
   void note(const Board& board);
   void publishInfo();
   bool setEnabled(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
@@ -55,7 +60,12 @@ class Driver : private fsr::LinkHandler {
   ros::Publisher pressure_;
   ros::Publisher temperature_;
   ros::Publisher info_;
-  fsr::PacketStamper stamper_;  // of the link's thread
+  // Of the link's thread:
+  fsr::PacketStamper stamper_;
+  fsr::BoardGate gate_;
+  std::vector<fsr_pressure_map::MatrixFramePtr> held_;  // scans of a board in doubt
+  std::uint64_t jumps_ = 0;                             // of the board's clock, so far
+  std::int64_t arrival_ = 0;                            // of the bytes at hand [ns]
 
   mutable std::mutex mutex_;  // over health_, which both threads use
   DriverHealth health_;

@@ -18,6 +18,7 @@ struct DriverHealth {
   std::uint64_t scans = 0;          ///< published
   std::uint64_t scan_time = 0;      ///< device time of the last of them [us]
   std::uint64_t refused_scans = 0;  ///< of another size than the parameters expect
+  std::uint64_t unclaimed_scans = 0;  ///< dropped: the port closed before their board named itself
   std::uint64_t clock_jumps = 0;
   double clock_drift = 0;  ///< how much faster the host's clock runs than the board's (ratio)
 };
