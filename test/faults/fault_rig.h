@@ -1,0 +1,189 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/calibration/calibrator.h"
+#include "fsr_pressure_map/emulator/emulator.h"
+#include "fsr_pressure_map/protocol/board_gate.h"
+#include "fsr_pressure_map/protocol/board_reader.h"
+#include "fsr_pressure_map/protocol/packet_stamper.h"
+#include "fsr_pressure_map/protocol/serial_port.h"
+#include "support/pty.h"
+#include "support/small_tables.h"
+
+namespace test_support {
+
+constexpr std::chrono::seconds kFaultPatience(30);  // for what must happen; nothing waits for it to pass
+
+/// All packets that boards made, byte for byte: what comes out of a damaged line must be one of them.
+class SentPackets {
+ public:
+  void add(const std::vector<std::uint8_t>& packet) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    packets_.insert(packet);
+  }
+  bool has(const std::vector<std::uint8_t>& packet) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return packets_.count(packet) == 1;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::set<std::vector<std::uint8_t>> packets_;
+};
+
+/// An emulated board, 3 x 4 taxels at 500 Hz, on a port that keeps its name.
+class FaultBoard {
+ public:
+  FaultBoard(const std::string& link, SentPackets& sent, const std::string& serial = "A",
+             std::uint32_t baud = 0, std::uint32_t clock_offset = 0) {
+    fsr::EmulatorOptions options;
+    options.simulation = fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/bench.yaml");
+    options.simulation.board.scan_rate = 500;
+    options.simulation.board.serial = serial;
+    options.link = link;
+    options.baud = baud;
+    options.clock.offset = clock_offset;
+    options.autostart = true;
+    options.on_packet = [&sent](const std::vector<std::uint8_t>& packet) { sent.add(packet); };
+    rig_ = std::make_unique<fsr::Emulator>(options);
+  }
+  fsr::Emulator* operator->() { return rig_.get(); }
+
+ private:
+  std::unique_ptr<fsr::Emulator> rig_;
+};
+
+/// From the port to pressure as driver and calibration node do it, each result held against the truth.
+class FaultListener : public fsr::LinkHandler {
+ public:
+  /// What was wrong; all stay 0 where the code is right.
+  struct Wrong {
+    std::uint64_t scans = 0;      ///< that no board sent
+    std::uint64_t pressures = 0;  ///< that are not the table's for the count that was sent
+    std::uint64_t stamps = 0;     ///< not later than the one before
+    std::uint64_t boards = 0;     ///< scans that passed as another board's than their own
+  };
+
+  explicit FaultListener(const SentPackets& sent)
+      : sent_(sent), calibrator_(smallTables({3, 4}, {0.0}, 4095), fsr::Layout{{3, 4}}) {}
+
+  void onScan(const fsr::PacketHeader& header, const fsr::ScanPacket& scan) override {
+    const fsr::PacketTime time = stamper_.scan(header, scan.duration);
+    if (std::exchange(jumps_, stamper_.clock().jumps()) != jumps_) gate_.doubt();
+    const bool held = gate_.scan(arrival_) == fsr::BoardGate::Verdict::kHold;
+    const fsr::ScanView view = {scan.size, scan.full_scale, scan.counts, scan.size.taxels()};
+    calibrator_.calibrate(view, 1e-9 * static_cast<double>(time.stamp), map_);
+    const bool sent = sent_.has(asSent(header, scan));
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++scans_;
+    if (held) ++held_;
+    if (!held && !expected_serial_.empty() && serial_ != expected_serial_) ++wrong_.boards;
+    if (!sent) ++wrong_.scans;
+    if (!pressureIsTheTables(scan)) ++wrong_.pressures;
+    if (time.stamp <= stamp_) ++wrong_.stamps;
+    stamp_ = time.stamp;
+    changed_.notify_all();
+  }
+  void onTransducer(const fsr::PacketHeader& header, std::int32_t) override { stamper_.transducer(header); }
+  void onTemperature(const fsr::PacketHeader& header, std::int32_t) override { stamper_.temperature(header); }
+  void onIdentity(const fsr::PacketHeader&, const fsr::IdentityPacket& identity) override {
+    gate_.identity(identity.serial, arrival_);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    serial_ = identity.serial;
+    changed_.notify_all();
+  }
+  void onOpen(std::uint32_t baud) override {
+    stamper_.startLine(baud);
+    gate_.doubt();
+  }
+  void onBytes(std::int64_t receive_time) override {
+    arrival_ = receive_time;
+    stamper_.setArrival(receive_time);
+  }
+  void onChange(const fsr::LinkReport& report) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    phase_ = report.phase;
+    changed_.notify_all();
+  }
+
+  template <typename Condition>
+  bool await(Condition condition) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    return changed_.wait_for(lock, kFaultPatience, condition);
+  }
+  /// So many scans more.
+  bool hears(std::uint64_t more) {
+    const std::uint64_t target = scans() + more;
+    return await([&] { return scans_ >= target; });
+  }
+  bool reaches(fsr::LinkPhase phase) {
+    return await([&] { return phase_ == phase; });
+  }
+  bool knows(const std::string& serial) {
+    return await([&] { return serial_ == serial; });
+  }
+  /// From now on the port's board is this one, whatever the listener believes.
+  void expectBoard(const std::string& serial) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    expected_serial_ = serial;
+  }
+  std::uint64_t scans() const { return locked(scans_); }
+  std::uint64_t held() const { return locked(held_); }
+  Wrong wrong() const { return locked(wrong_); }
+
+ private:
+  template <typename T>
+  T locked(const T& value) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return value;
+  }
+  static std::vector<std::uint8_t> asSent(const fsr::PacketHeader& header, const fsr::ScanPacket& scan) {
+    std::vector<std::uint8_t> packet(FSR_WIRE_MAX_PACKET);
+    const fsr_wire_scan content = {static_cast<std::uint8_t>(scan.size.rows),
+                                   static_cast<std::uint8_t>(scan.size.columns), scan.full_scale,
+                                   scan.duration, scan.counts};
+    packet.resize(
+        fsr_wire_encode_scan(packet.data(), packet.size(), header.sequence, header.device_time, &content));
+    return packet;
+  }
+  bool pressureIsTheTables(const fsr::ScanPacket& scan) const {
+    for (std::size_t i = 0; i < scan.size.taxels(); ++i) {
+      const float pressure = map_.pressure[i];
+      if (std::isnan(pressure)) {
+        if (map_.flags[i] == 0) return false;
+      } else if (pressure != knownPressure(i, 0, scan.counts[i])) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  const SentPackets& sent_;
+  // Of the link's thread:
+  fsr::PacketStamper stamper_;
+  fsr::BoardGate gate_;
+  fsr::Calibrator calibrator_;
+  fsr::PressureMap map_;
+  std::int64_t arrival_ = 0, stamp_ = 0;  // [ns]
+  std::uint64_t jumps_ = 0;
+
+  mutable std::mutex mutex_;  // over all that follows
+  std::condition_variable changed_;
+  std::uint64_t scans_ = 0, held_ = 0;
+  Wrong wrong_;
+  std::string serial_, expected_serial_;
+  fsr::LinkPhase phase_ = fsr::LinkPhase::kWaiting;
+};
+
+}  // namespace test_support
