@@ -1,11 +1,21 @@
 #include "fsr_pressure_map/ros/view_server.h"
 
+#include <fsr_pressure_map/PressureStatisticsArray.h>
+#include <geometry_msgs/PointStamped.h>
+#include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <algorithm>
+#include <cmath>
 
 #include "fsr_pressure_map/ros/bent_points.h"
-#include "fsr_pressure_map/ros/parameters.h"
+#include "fsr_pressure_map/ros/image_message.h"
 #include "fsr_pressure_map/ros/pressure_map_message.h"
+#include "fsr_pressure_map/ros/statistics_message.h"
+#include "fsr_pressure_map/ros/surface_markers.h"
 #include "fsr_pressure_map/ros/surface_message.h"
+#include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr_ros {
 
@@ -13,59 +23,141 @@ namespace {
 
 constexpr double kComplaintPeriod = 10.0;  // [s]
 
-bool same(const fsr::Layout& a, const fsr::Layout& b) {
-  return a.size == b.size && a.pitch_x == b.pitch_x && a.pitch_y == b.pitch_y;
-}
-
 }  // namespace
 
 ViewServer::ViewServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : handle_(handle),
-      queue_size_(static_cast<std::uint32_t>(
-          Parameters(private_handle).integer("queue_size", 10, {1, 100000, "messages"}))) {
-  const auto follow = [this](const ros::SingleSubscriberPublisher&) { followSubscribers(); };
-  points_ = handle_.advertise<sensor_msgs::PointCloud2>("points", queue_size_, follow, follow);
+      settings_(private_handle),
+      shape_(settings_.fineness),
+      statistics_({}, 0),
+      auto_range_(std::max(10e3, 1.5 * settings_.style.scale.low)) {
+  const ros::SubscriberStatusCallback follow = [this](const auto&) { followSubscribers(); };
+  const std::uint32_t queue = settings_.queue_size;
+  outputs_["points"] = handle_.advertise<sensor_msgs::PointCloud2>("points", queue, follow, follow);
+  outputs_["surface"] = handle_.advertise<visualization_msgs::MarkerArray>("surface", queue, follow, follow);
+  outputs_["image"] = handle_.advertise<sensor_msgs::Image>("image", queue, follow, follow);
+  outputs_["statistics"] =
+      handle_.advertise<fsr_pressure_map::PressureStatisticsArray>("statistics", queue, follow, follow);
+  outputs_["centre_of_pressure"] =
+      handle_.advertise<geometry_msgs::PointStamped>("centre_of_pressure", queue, follow, follow);
+  silence_ = handle_.createWallTimer(ros::WallDuration(0.5 * settings_.stale_after),
+                                     [this](const ros::WallTimerEvent&) { complainOfSilence(); });
 }
 
 void ViewServer::followSubscribers() {
-  if (points_.getNumSubscribers() == 0) {
+  const bool anybody = std::any_of(outputs_.begin(), outputs_.end(), [](const auto& output) {
+    return output.second && output.second.getNumSubscribers() > 0;
+  });
+  if (!anybody) {
     maps_.shutdown();
     curvature_.shutdown();
+    statistics_.resetIntegral();
   } else if (!maps_) {
-    curvature_ = handle_.subscribe("curvature", queue_size_, &ViewServer::onCurvature, this);
-    maps_ = handle_.subscribe("pressure_map", queue_size_, &ViewServer::onMap, this,
+    last_map_ = ros::WallTime::now();
+    curvature_ = handle_.subscribe("curvature", settings_.queue_size, &ViewServer::onCurvature, this);
+    maps_ = handle_.subscribe("pressure_map", settings_.queue_size, &ViewServer::onMap, this,
                               ros::TransportHints().tcpNoDelay());
   }
 }
 
 void ViewServer::onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& message) {
   try {
-    fsr::Surface surface = toSurface(*message);
-    if (fsr::sameCondition(surface, surface_)) return;
-    surface_ = std::move(surface);
-    poses_.clear();
+    shape_.setSurface(toSurface(*message));
   } catch (const fsr::InputError& error) {
     ROS_WARN_STREAM_THROTTLE(kComplaintPeriod, error.what());
   }
 }
 
 void ViewServer::onMap(const fsr_pressure_map::PressureMapConstPtr& message) {
+  last_map_ = ros::WallTime::now();
+  frame_id_ = message->header.frame_id;
   try {
     const fsr::PressureMap map = toPressureMap(*message);
-    sensor_msgs::PointCloud2 cloud = toPoints(map, poses(map.layout));
-    cloud.header = message->header;
-    points_.publish(cloud);
+    if (map.layout.size.taxels() == 0) return;
+    shape_.setLayout(map.layout);
+    if (map.layout.size != size_) prepare(map.layout);
+    now_ = statistics_.update(message->header.stamp.toSec(), map, shape_.areas());
+    publish(*message, map);
   } catch (const fsr::InputError& error) {
     ROS_WARN_STREAM_THROTTLE(kComplaintPeriod, error.what());
   }
 }
 
-const std::vector<fsr::TaxelPose>& ViewServer::poses(const fsr::Layout& layout) {
-  if (poses_.empty() || !same(layout, layout_)) {
-    poses_ = fsr::bendSheet(layout, surface_);
-    layout_ = layout;
+// Regions belong to a matrix size, which only the first map tells.
+void ViewServer::prepare(const fsr::Layout& layout) {
+  std::vector<fsr::Region> regions(1);
+  try {
+    if (!settings_.regions.empty()) regions = fsr::readRegionFile(settings_.regions, layout.size);
+  } catch (const fsr::InputError& error) {
+    ROS_ERROR_STREAM(error.what() << "; until the node is started again, statistics are of the whole matrix");
   }
-  return poses_;
+  statistics_ = fsr::MapStatistics(std::move(regions), settings_.contact_threshold);
+  size_ = layout.size;
+}
+
+void ViewServer::publish(const fsr_pressure_map::PressureMap& message, const fsr::PressureMap& map) {
+  if (wanted("statistics")) publishStatistics(message.header, now_);
+  if (wanted("centre_of_pressure")) publishCentre(message.header, whole());
+  if (wanted("points")) {
+    sensor_msgs::PointCloud2 cloud = toPoints(map, shape_.poses());
+    cloud.header = message.header;
+    outputs_["points"].publish(cloud);
+  }
+  if (settings_.auto_range) {
+    const std::vector<float>& values = fsr::layerOf(map, settings_.style.layer);
+    double highest = fsr::RegionStatistics::kNone;
+    for (const float value : values) highest = std::fmax(highest, double(value));
+    settings_.style.scale.high = auto_range_.update(message.header.stamp.toSec(), highest);
+  }
+  const ros::WallTime now = ros::WallTime::now();
+  if (now < next_picture_ || !(wanted("surface") || wanted("image"))) return;
+  next_picture_ = std::max(next_picture_ + ros::WallDuration(1 / settings_.rate), now);
+  publishPictures(message, map);
+}
+
+void ViewServer::publishPictures(const fsr_pressure_map::PressureMap& message, const fsr::PressureMap& map) {
+  if (wanted("surface")) {
+    outputs_["surface"].publish(toMarkers(message.header, map, shape_.mesh(), settings_.style, whole()));
+  }
+  if (wanted("image")) {
+    const std::string calibration =
+        message.scheme.empty() ? "no calibration" : "calibration " + message.scheme;
+    const std::string numbers = "peak " + fsr::pressureText(whole().peak, settings_.style.scale.unit) +
+                                "  mean " + fsr::pressureText(whole().mean, settings_.style.scale.unit);
+    const fsr::HeatMap painter(settings_.style);
+    outputs_["image"].publish(
+        toMessage(message.header, painter.draw(map, {calibration, numbers, stateText(map.state)})));
+  }
+}
+
+void ViewServer::publishStatistics(const std_msgs::Header& header,
+                                   const std::vector<fsr::RegionStatistics>& regions) {
+  fsr_pressure_map::PressureStatisticsArray array;
+  array.header = header;
+  fsr::Layout layout;
+  layout.size = size_;
+  for (const fsr::RegionStatistics& region : regions) array.regions.push_back(toMessage(region, layout));
+  outputs_["statistics"].publish(array);
+}
+
+void ViewServer::publishCentre(const std_msgs::Header& header, const fsr::RegionStatistics& whole) {
+  if (!whole.centre) return;
+  geometry_msgs::PointStamped message;
+  message.header = header;
+  message.point.x = whole.centre->x;
+  message.point.y = whole.centre->y;
+  outputs_["centre_of_pressure"].publish(message);
+}
+
+// Whoever waits for an alarm must hear that nobody knows, rather than nothing.
+void ViewServer::complainOfSilence() {
+  if (!maps_ || !wanted("statistics")) return;
+  if ((ros::WallTime::now() - last_map_).toSec() < settings_.stale_after) return;
+  if (size_.taxels() == 0) statistics_ = fsr::MapStatistics({fsr::Region{}}, settings_.contact_threshold);
+  std_msgs::Header header;
+  header.stamp = ros::Time::now();
+  header.frame_id = frame_id_;
+  publishStatistics(header, statistics_.stale());
 }
 
 }  // namespace fsr_ros

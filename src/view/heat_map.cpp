@@ -93,22 +93,27 @@ Image HeatMap::draw(const PressureMap& map, const std::vector<std::string>& line
 void HeatMap::drawTaxels(const PressureMap& map, const Frame& frame, Image& image) const {
   const std::vector<float>& values = layerOf(map, style_.layer);
   const MatrixSize size = map.layout.size;
-  if (style_.smooth) {
-    const SmoothLayer layer(values, size);
-    for (int y = 0; y < frame.matrix_height; ++y) {
-      const double row = (y + 0.5) / frame.matrix_height * size.rows - 0.5;
-      for (int x = 0; x < frame.matrix_width; ++x) {
-        const double column = (x + 0.5) / frame.matrix_width * size.columns - 0.5;
-        image.set({frame.corner.x + x, frame.corner.y + y}, colourOf(style_.scale, layer.at(row, column)));
-      }
-    }
-    return;
-  }
+  if (style_.smooth) return drawSmoothly(SmoothLayer(values, size), size, frame, image);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const int row = map.layout.row({i});
     const int column = map.layout.column({i});
     image.fill({frame.left(column), frame.top(row)}, frame.left(column + 1) - frame.left(column),
                frame.top(row + 1) - frame.top(row), colourOf(style_.scale, double(values[i])));
+  }
+}
+
+void HeatMap::drawSmoothly(const SmoothLayer& layer, MatrixSize size, const Frame& frame,
+                           Image& image) const {
+  std::vector<SmoothLayer::Place> columns;
+  for (int x = 0; x < frame.matrix_width; ++x) {
+    columns.push_back(layer.column((x + 0.5) / frame.matrix_width * size.columns - 0.5));
+  }
+  for (int y = 0; y < frame.matrix_height; ++y) {
+    const SmoothLayer::Place row = layer.row((y + 0.5) / frame.matrix_height * size.rows - 0.5);
+    for (int x = 0; x < frame.matrix_width; ++x) {
+      const double value = layer.at(row, columns[std::size_t(x)]);
+      image.set({frame.corner.x + x, frame.corner.y + y}, colourOf(style_.scale, value));
+    }
   }
 }
 

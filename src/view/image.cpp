@@ -32,7 +32,11 @@ Colour Image::at(Pixel pixel) const {
 }
 
 void Image::set(Pixel pixel, Colour colour) {
-  fill(pixel, 1, 1, colour);
+  if (pixel.x < 0 || pixel.y < 0 || pixel.x >= width_ || pixel.y >= height_) return;
+  std::uint8_t* rgb = bytes_.data() + 3 * (std::size_t(pixel.y) * width_ + pixel.x);
+  rgb[0] = colour.red;
+  rgb[1] = colour.green;
+  rgb[2] = colour.blue;
 }
 
 void Image::fill(Pixel corner, int width, int height, Colour colour) {

@@ -8,22 +8,6 @@
 
 namespace fsr {
 
-namespace {
-
-/// The two centres beside a coordinate and how far it is from the first to the second.
-struct Between {
-  int low, high;
-  double part;
-};
-
-Between between(double coordinate, int count) {
-  const double inside = std::clamp(coordinate, 0.0, double(count - 1));
-  const int low = std::min(static_cast<int>(inside), std::max(count - 2, 0));
-  return {low, std::min(low + 1, count - 1), inside - low};
-}
-
-}  // namespace
-
 const std::vector<float>& layerOf(const PressureMap& map, MapLayer layer) {
   return layer == MapLayer::kPressure ? map.pressure : map.deviation;
 }
@@ -32,12 +16,21 @@ const char* name(MapLayer layer) {
   return layer == MapLayer::kPressure ? "gauge pressure" : "standard deviation";
 }
 
-double SmoothLayer::at(double row, double column) const {
-  const Between r = between(row, size_.rows);
-  const Between c = between(column, size_.columns);
-  const auto value = [&](int i, int j) {
-    return double(values_[std::size_t(i) * size_.columns + std::size_t(j)]);
-  };
+SmoothLayer::Place SmoothLayer::place(double coordinate, int count) {
+  const double inside = std::clamp(coordinate, 0.0, double(count - 1));
+  const int low = std::min(static_cast<int>(inside), std::max(count - 2, 0));
+  return {low, std::min(low + 1, count - 1), inside - low};
+}
+
+double SmoothLayer::at(const Place& r, const Place& c) const {
+  const double first = value(r.low, c.low) * (1 - c.part) + value(r.low, c.high) * c.part;
+  const double second = value(r.high, c.low) * (1 - c.part) + value(r.high, c.high) * c.part;
+  const double result = first * (1 - r.part) + second * r.part;
+  return std::isnan(result) ? patched(r, c) : result;
+}
+
+// Where a taxel has no value: the others alone, unless the nearest is the one.
+double SmoothLayer::patched(const Place& r, const Place& c) const {
   if (std::isnan(value(r.part < 0.5 ? r.low : r.high, c.part < 0.5 ? c.low : c.high))) {
     return std::numeric_limits<double>::quiet_NaN();
   }

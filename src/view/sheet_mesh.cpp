@@ -96,10 +96,12 @@ void SheetMesh::colourSmoothly(const PressureMap& map, MapLayer layer, const Pre
                                std::vector<Colour>& colours) const {
   const SmoothLayer values(layerOf(map, layer), layout_.size);
   std::vector<Colour> of_vertex(vertices_.size());
+  std::size_t next = 0;
   for (int row = 0; row <= layout_.size.rows * fineness_; ++row) {
+    const SmoothLayer::Place place = values.row(double(row) / fineness_ - 0.5);
     for (int column = 0; column <= layout_.size.columns * fineness_; ++column) {
-      const double value = values.at(double(row) / fineness_ - 0.5, double(column) / fineness_ - 0.5);
-      of_vertex[vertex(row, column)] = std::isnan(value) ? kNoReadingColour : scale.colour(value);
+      const double value = values.at(place, values.column(double(column) / fineness_ - 0.5));
+      of_vertex[next++] = std::isnan(value) ? kNoReadingColour : scale.colour(value);
     }
   }
   colours.clear();

@@ -50,6 +50,12 @@ TEST(Regions, TheWholeMatrixMayAlarmToo) {
   EXPECT_EQ(regions[0].alarm.hysteresis, 20e3);
 }
 
+TEST(Regions, TheShippedExampleReads) {
+  const auto regions = readRegionFile(FSR_SOURCE_DIR "/config/regions/example.yaml", {7, 10});
+  ASSERT_EQ(regions.size(), 3u);
+  EXPECT_TRUE(regions[1].has(6) && regions[2].has(30) && !regions[2].has(0));
+}
+
 TEST(Regions, RefuseWhatDoesNotFitTheMatrix) {
   EXPECT_NE(refusal("regions: [{name: a, rows: [0, 2]}]"), "");
   EXPECT_NE(refusal("regions: [{name: a, rows: [1, 0]}]").find("two whole numbers"), std::string::npos);

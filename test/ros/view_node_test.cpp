@@ -1,10 +1,14 @@
 #include <fsr_pressure_map/PressureMap.h>
+#include <fsr_pressure_map/PressureStatisticsArray.h>
 #include <fsr_pressure_map/SurfaceCurvature.h>
+#include <geometry_msgs/PointStamped.h>
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <cmath>
 #include <functional>
@@ -94,6 +98,59 @@ TEST_F(View, SurvivesASurfaceOfAnotherMatrix) {
   bend(10.0f, 1);
   cloud.reset();
   EXPECT_TRUE(publishUntil([&] { return cloud && heightOfCorner() < -1e-3f; }));
+}
+
+TEST_F(View, DrawsTheSheetWithMarksCentrePeakAndLegend) {
+  visualization_msgs::MarkerArray::ConstPtr array;
+  const ros::Subscriber eyes = handle.subscribe<visualization_msgs::MarkerArray>(
+      "surface", 10, [&](const visualization_msgs::MarkerArray::ConstPtr& m) { array = m; });
+  ASSERT_TRUE(publishUntil([&] { return array != nullptr; }));
+  ASSERT_EQ(array->markers.size(), 5u);
+  const auto& sheet = array->markers[0];
+  EXPECT_EQ(sheet.header.frame_id, "left_sheet");
+  EXPECT_EQ(sheet.points.size(), 15u * 9 * 6);
+  EXPECT_EQ(sheet.colors.size(), sheet.points.size());
+  EXPECT_NEAR(array->markers[3].pose.position.x, 0.020, 1e-3);  // the peak: row 2, column 4, on whatever bend
+  EXPECT_NEAR(array->markers[3].pose.position.y, 0.010, 1e-3);
+  EXPECT_NE(array->markers[4].text.find("14 kPa"), std::string::npos) << array->markers[4].text;
+}
+
+TEST_F(View, PaintsAnImageForAnyViewer) {
+  sensor_msgs::Image::ConstPtr image;
+  const ros::Subscriber eyes = handle.subscribe<sensor_msgs::Image>(
+      "image", 10, [&](const sensor_msgs::Image::ConstPtr& m) { image = m; });
+  ASSERT_TRUE(publishUntil([&] { return image != nullptr; }));
+  EXPECT_EQ(image->encoding, "rgb8");
+  EXPECT_EQ(image->header.stamp, ros::Time(1234, 5));
+  EXPECT_EQ(image->data.size(), std::size_t(image->height) * image->width * 3);
+}
+
+// 10, 11, 12, 13, 14 kPa are in contact (10 kPa and more), 1e-4 m^2 each: 60 kPa x 1e-4 m^2 = 6 N.
+TEST_F(View, CountsAndThenSaysUnknownWhenMapsStop) {
+  using fsr_pressure_map::PressureStatistics;
+  using fsr_pressure_map::PressureStatisticsArray;
+  PressureStatisticsArray::ConstPtr array;
+  const ros::Subscriber ears = handle.subscribe<PressureStatisticsArray>(
+      "statistics", 10, [&](const PressureStatisticsArray::ConstPtr& m) { array = m; });
+  geometry_msgs::PointStamped::ConstPtr centre;
+  const ros::Subscriber eyes = handle.subscribe<geometry_msgs::PointStamped>(
+      "centre_of_pressure", 10, [&](const geometry_msgs::PointStamped::ConstPtr& m) { centre = m; });
+  ASSERT_TRUE(publishUntil([&] { return array && centre && array->regions.at(0).peak > 0; }));
+  const PressureStatistics whole = array->regions.at(0);
+  EXPECT_NEAR(whole.peak, 14e3, 1e-3);
+  EXPECT_EQ(whole.peak_row, 2);
+  EXPECT_EQ(whole.peak_column, 4);
+  EXPECT_NEAR(whole.force, 6.0, 1e-3);
+  EXPECT_NEAR(whole.contact_area, 5e-4, 1e-8);
+  EXPECT_EQ(whole.alarm, PressureStatistics::OK);
+  EXPECT_NEAR(centre->point.y, 0.010, 1e-6);  // all of row 2
+  const auto unknown = [&] { return array->regions.at(0).alarm == PressureStatistics::UNKNOWN; };
+  const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(30);
+  while (!unknown() && ros::WallTime::now() < give_up) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
+  }
+  EXPECT_TRUE(unknown());
+  EXPECT_TRUE(std::isnan(array->regions.at(0).peak));
 }
 
 TEST_F(View, ReceivesMapsOnlyWhileSomebodyLooks) {

@@ -4,37 +4,55 @@
 #include <fsr_pressure_map/SurfaceCurvature.h>
 #include <ros/node_handle.h>
 
+#include <map>
+#include <string>
 #include <vector>
 
-#include "fsr_pressure_map/matrix/curvature.h"
-#include "fsr_pressure_map/view/bent_sheet.h"
+#include "fsr_pressure_map/map/map_statistics.h"
+#include "fsr_pressure_map/ros/sheet_shape.h"
+#include "fsr_pressure_map/ros/view_settings.h"
+#include "fsr_pressure_map/view/auto_range.h"
 
 namespace fsr_ros {
 
-/// Publishes `points`: the pressure map on its sheet, bent by `curvature` (flat while that is unknown), in
-/// the frame of the scan. Works only while somebody subscribes: else it does not even receive maps.
-///
-/// Parameter: `~queue_size` of both ends [messages].
+/// Publishes pictures and numbers of the pressure map on its sheet, bent by `curvature` (flat while that is
+/// unknown), in the frame of the scan: `points`, `surface`, `image`, `statistics`, `centre_of_pressure`.
+/// Works only while somebody subscribes: else it does not even receive maps. `surface` and `image` come no
+/// more often than `~rate`, the rest for every map. Statistics count from the first subscriber on, and say
+/// UNKNOWN when maps stop. Parameters: ViewSettings.
 class ViewServer {
  public:
   /// Throws fsr::InputError.
   ViewServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
  private:
+  bool wanted(const std::string& topic) const { return outputs_.at(topic).getNumSubscribers() > 0; }
   void followSubscribers();
   void onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& message);
   void onMap(const fsr_pressure_map::PressureMapConstPtr& message);
-  const std::vector<fsr::TaxelPose>& poses(const fsr::Layout& layout);
+  void publish(const fsr_pressure_map::PressureMap& message, const fsr::PressureMap& map);
+  void publishPictures(const fsr_pressure_map::PressureMap& message, const fsr::PressureMap& map);
+  void publishStatistics(const std_msgs::Header& header, const std::vector<fsr::RegionStatistics>& regions);
+  void publishCentre(const std_msgs::Header& header, const fsr::RegionStatistics& whole);
+  void complainOfSilence();
+  void prepare(const fsr::Layout& layout);
+  const fsr::RegionStatistics& whole() const { return now_.front(); }
 
   ros::NodeHandle handle_;
-  std::uint32_t queue_size_;
-  ros::Publisher points_;
+  ViewSettings settings_;
+  std::map<std::string, ros::Publisher> outputs_;
   ros::Subscriber maps_;
   ros::Subscriber curvature_;
+  ros::WallTimer silence_;
 
-  fsr::Surface surface_;
-  fsr::Layout layout_;                 // that poses_ were made for
-  std::vector<fsr::TaxelPose> poses_;  // empty = to be made anew
+  SheetShape shape_;
+  fsr::MatrixSize size_;  // that statistics_ were made for
+  fsr::MapStatistics statistics_;
+  std::vector<fsr::RegionStatistics> now_;
+  fsr::AutoRange auto_range_;
+  std::string frame_id_;
+  ros::WallTime last_map_;
+  ros::WallTime next_picture_;
 };
 
 }  // namespace fsr_ros

@@ -39,6 +39,7 @@ class HeatMap {
   struct Frame;
   Frame frame(const Layout& layout, std::size_t lines) const;
   void drawTaxels(const PressureMap& map, const Frame& frame, Image& image) const;
+  void drawSmoothly(const SmoothLayer& layer, MatrixSize size, const Frame& frame, Image& image) const;
   void drawMarks(const PressureMap& map, const Frame& frame, Image& image) const;
   void drawLegend(const Frame& frame, Image& image) const;
   void drawKey(const Frame& frame, Image& image) const;

@@ -16,15 +16,31 @@ const std::vector<float>& layerOf(const PressureMap& map, MapLayer layer);
 /// "pressure, gauge" or "standard deviation": what a legend calls it.
 const char* name(MapLayer layer);
 
-/// The layer's value at taxel coordinates (0, 0 = centre of taxel 0, 0), bilinear between centres, ends
-/// beyond the outer centres. A taxel without a value gives none, and takes no part in its neighbours'.
+/// The layer between taxel centres, bilinear; level beyond the outer centres. A taxel without a value gives
+/// none, and takes no part in its neighbours'. The values must outlive it.
 class SmoothLayer {
  public:
-  SmoothLayer(const std::vector<float>& values, MatrixSize size) : values_(values), size_(size) {}
-  double at(double row, double column) const;
+  SmoothLayer(const std::vector<float>& values, MatrixSize size) : values_(values.data()), size_(size) {}
+
+  /// A coordinate along rows or columns: the two centres beside it, and how far it is from the first.
+  struct Place {
+    int low = 0;
+    int high = 0;
+    double part = 0;
+  };
+  /// Coordinate 0 is the centre of row (column) 0, 1 that of the next.
+  Place row(double coordinate) const { return place(coordinate, size_.rows); }
+  Place column(double coordinate) const { return place(coordinate, size_.columns); }
+
+  double at(const Place& row, const Place& column) const;
+  double at(double r, double c) const { return at(row(r), column(c)); }
 
  private:
-  const std::vector<float>& values_;
+  static Place place(double coordinate, int count);
+  double patched(const Place& row, const Place& column) const;
+  double value(int row, int column) const { return double(values_[row * size_.columns + column]); }
+
+  const float* values_;
   MatrixSize size_;
 };
 

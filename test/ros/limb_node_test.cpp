@@ -1,0 +1,58 @@
+#include <fsr_pressure_map/PressureStatisticsArray.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+
+#include "support/ros_listener.h"
+
+namespace {
+
+using fsr_pressure_map::PressureStatistics;
+using fsr_pressure_map::PressureStatisticsArray;
+
+/// A sheet with 10 N on 4 cm^2.
+PressureStatisticsArray sheet(std::uint8_t alarm) {
+  PressureStatistics region;
+  region.peak = region.mean = 25e3;
+  region.contact_area = 4e-4;
+  region.total_area = 7e-3;
+  region.force = 10;
+  region.alarm = alarm;
+  PressureStatisticsArray array;
+  array.regions.push_back(region);
+  return array;
+}
+
+TEST(Limb, SumsTheSheetsRoundItAndMissesTheSilentOne) {
+  ros::NodeHandle handle;
+  test_support::Listener<PressureStatisticsArray> ears("limb_statistics");
+  ros::Publisher left = handle.advertise<PressureStatisticsArray>("left/statistics", 10);
+  ros::Publisher right = handle.advertise<PressureStatisticsArray>("right/statistics", 10);
+  ASSERT_TRUE(ears.connected());
+  const auto last = [&] {
+    return ears.messages.empty() ? PressureStatistics() : ears.messages.back()->regions[0];
+  };
+  ASSERT_TRUE(test_support::await([&] {
+    left.publish(sheet(PressureStatistics::OK));
+    right.publish(sheet(PressureStatistics::OK));
+    return last().force == 20.0 && last().alarm == PressureStatistics::OK;
+  }));
+  EXPECT_NEAR(last().contact_area, 8e-4, 1e-12);
+  EXPECT_NEAR(last().mean, 25e3, 1e-6);
+  ASSERT_TRUE(test_support::await([&] {
+    left.publish(sheet(PressureStatistics::OK));  // the right one is silent from here on
+    return last().force == 10.0 && last().alarm == PressureStatistics::UNKNOWN;
+  }));
+  ASSERT_TRUE(test_support::await([&] {
+    left.publish(sheet(PressureStatistics::ALARM));
+    return last().alarm == PressureStatistics::ALARM;
+  }));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "limb_node_test");
+  const ros::NodeHandle keep_alive;
+  return RUN_ALL_TESTS();
+}
