@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <mutex>
 
+#include "fsr_pressure_map/calibration/bandwidth_choice.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/held_out_scoring.h"
 #include "fsr_pressure_map/calibration/sources.h"
@@ -34,12 +35,6 @@ CodeTable noModel(std::uint16_t full_scale) {
   return table;
 }
 
-RegressorOptions regressorOf(const CalibrationOptions& options) {
-  RegressorOptions regressor;
-  regressor.grnn.bandwidth = options.bandwidth;
-  return regressor;
-}
-
 SectionedReadings readingsOf(const TrainingStatistics& statistics, std::size_t taxel) {
   SectionedReadings readings;
   readings.full_scale = statistics.full_scale;
@@ -64,15 +59,21 @@ class Training {
 
   Calibration run(const CalibrationProgress& progress) {
     Calibration calibration = describe();
-    HeldOutScoring scoring(scans_, plan_, problem_.options.folds, calibration.statistics.taxels);
+    const std::size_t taxels = calibration.statistics.taxels;
+    forEachTaxel(taxels, problem_.options.threads, [&](std::size_t taxel) { sum(taxel, calibration); });
+    warnOfConstantTaxels(calibration);
+
+    const FoldRegressors regressors =
+        chooseRegressor(problem_.options, plan_, calibration.statistics, calibration.no_model);
+    calibration.regressor = regressors.whole;
+    HeldOutScoring scoring(scans_, plan_, problem_.options.folds, taxels);
     std::mutex reporting;
     std::size_t done = 0;
-    forEachTaxel(calibration.statistics.taxels, problem_.options.threads, [&](std::size_t taxel) {
-      train(taxel, calibration, scoring);
+    forEachTaxel(taxels, problem_.options.threads, [&](std::size_t taxel) {
+      train(taxel, regressors, calibration, scoring);
       const std::lock_guard<std::mutex> lock(reporting);
-      if (progress) progress(++done, calibration.statistics.taxels);
+      if (progress) progress(++done, taxels);
     });
-    warnOfConstantTaxels(calibration);
     if (problem_.options.scores) calibration.scores = scoring.summarise(classes_.classes);
     return calibration;
   }
@@ -80,7 +81,10 @@ class Training {
  private:
   // Everything but what is found taxel by taxel.
   Calibration describe() const;
-  void train(std::size_t taxel, Calibration& calibration, HeldOutScoring& scoring) const;
+  // The statistics of a taxel, and whether they carry a model.
+  void sum(std::size_t taxel, Calibration& calibration) const;
+  void train(std::size_t taxel, const FoldRegressors& regressors, Calibration& calibration,
+             HeldOutScoring& scoring) const;
   void warnOfConstantTaxels(Calibration& calibration) const;
 
   const CalibrationProblem& problem_;
@@ -96,7 +100,7 @@ Calibration Training::describe() const {
   const std::size_t taxels = first.layout.size.taxels();
   std::vector<bool> trained(classes_.classes.size(), false);
   Calibration calibration;
-  calibration.bandwidth = problem_.options.bandwidth;
+  calibration.bandwidth_chosen = choosesBandwidth(problem_.options);
   calibration.folds = problem_.options.folds;
   calibration.sensor = identityOf(recordings);
   calibration.layout = first.layout;
@@ -120,7 +124,7 @@ Calibration Training::describe() const {
   return calibration;
 }
 
-void Training::train(std::size_t taxel, Calibration& calibration, HeldOutScoring& scoring) const {
+void Training::sum(std::size_t taxel, Calibration& calibration) const {
   const TrainingStatistics& statistics = calibration.statistics;
   std::vector<CodeStatistics> cells =
       statisticsOfTaxel(scans_, statistics.sections, statistics.full_scale, taxel);
@@ -128,18 +132,24 @@ void Training::train(std::size_t taxel, Calibration& calibration, HeldOutScoring
             calibration.statistics.cells.begin() + static_cast<std::ptrdiff_t>(taxel * cells.size()));
   const auto constant = [&](const SchemePlan::Model& model) { return !varies(statistics, model, taxel); };
   if (std::any_of(plan_.models.begin(), plan_.models.end(), constant)) calibration.no_model[taxel] = 1;
+}
 
+void Training::train(std::size_t taxel, const FoldRegressors& regressors, Calibration& calibration,
+                     HeldOutScoring& scoring) const {
   const std::size_t classes = calibration.tables.classes.size();
   CodeTable* const tables = &calibration.tables.tables[taxel * classes];
   if (calibration.no_model[taxel] != 0) {
-    std::fill(tables, tables + classes, noModel(statistics.full_scale));
+    std::fill(tables, tables + classes, noModel(calibration.tables.full_scale));
     return;
   }
-  const HeldOutDeviation deviations =
-      problem_.options.scores ? HeldOutDeviation::kYes : HeldOutDeviation::kNo;
-  const auto models = crossValidateScheme(plan_, taxel, readingsOf(statistics, taxel),
-                                          regressorOf(problem_.options), deviations);
-  if (problem_.options.scores) scoring.scoreTaxel(taxel, models);
+  SectionedReadings readings = readingsOf(calibration.statistics, taxel);
+  if (!makeRegressor(regressors.whole)->mergeable()) {
+    readings.samples = samplesOfTaxel(scans_, readings.sums.front().size(), readings.full_scale, taxel);
+  }
+  const bool scores = problem_.options.scores;
+  const auto models = crossValidateScheme(plan_, taxel, readings, regressors,
+                                          scores ? HeldOutDeviation::kYes : HeldOutDeviation::kNo);
+  if (scores) scoring.scoreTaxel(taxel, models);
   for (std::size_t k = 0; k < classes; ++k) tables[k] = models[plan_.model_of_class[k]].table;
 }
 

@@ -1,5 +1,6 @@
 #include "fsr_pressure_map/calibration/calibration_hdf5.h"
 
+#include "fsr_pressure_map/regression/option_names.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr {
@@ -109,12 +110,40 @@ Provenance readProvenance(const Hdf5Reader& reader) {
   return provenance;
 }
 
+void writeModel(const Calibration& calibration, Hdf5Writer& writer) {
+  const GrnnOptions& grnn = calibration.regressor.grnn;
+  const ForestOptions& forest = calibration.regressor.forest;
+  writer.attribute("/", "model", calibration.regressor.name);
+  writer.attribute("/", "bandwidth", std::vector<double>{grnn.bandwidth});
+  writer.group("/model");
+  writer.attribute("/model", "bandwidth_chosen", calibration.bandwidth_chosen ? 1 : 0);
+  writer.attribute("/model", "spread", spreadName(grnn.spread));
+  writer.attribute("/model", "distance", distanceName(grnn.distance));
+  writer.attribute("/model", "weighting", weightingName(grnn.weighting));
+  writer.attribute("/model", "trees", forest.trees);
+  writer.attribute("/model", "minimum_leaf", forest.minimum_leaf);
+  writer.attribute("/model", "leaf_rule", leafRuleName(forest.leaf_count));
+}
+
+void readModel(const Hdf5Reader& reader, Calibration& calibration) {
+  RegressorOptions& options = calibration.regressor;
+  options.name = reader.text("/", "model");
+  options.grnn.bandwidth = reader.numbers("/", "bandwidth", 1)[0];
+  if (!reader.has("/model")) return;  // the first files, all of them of a GRNN as it is by default
+  calibration.bandwidth_chosen = reader.integer("/model", "bandwidth_chosen") != 0;
+  options.grnn.spread = spreadFromName(reader.text("/model", "spread"));
+  options.grnn.distance = distanceFromName(reader.text("/model", "distance"));
+  options.grnn.weighting = weightingFromName(reader.text("/model", "weighting"));
+  options.forest.trees = reader.integer("/model", "trees");
+  options.forest.minimum_leaf = reader.integer("/model", "minimum_leaf");
+  options.forest.leaf_count = leafRuleFromName(reader.text("/model", "leaf_rule"));
+}
+
 }  // namespace
 
 void writeCalibration(const Calibration& calibration, Hdf5Writer& writer) {
   writer.attribute("/", "scheme", schemeName(calibration.tables.scheme));
-  writer.attribute("/", "model", calibration.model);
-  writer.attribute("/", "bandwidth", std::vector<double>{calibration.bandwidth});
+  writeModel(calibration, writer);
   writer.attribute("/", "folds", calibration.folds);
   writer.attribute("/", "full_scale", calibration.tables.full_scale);
   writer.attribute("/", "curvature_rule", kCurvatureRule);
@@ -132,8 +161,7 @@ void writeCalibration(const Calibration& calibration, Hdf5Writer& writer) {
 
 Calibration readCalibration(const Hdf5Reader& reader, CalibrationParts parts) {
   Calibration calibration;
-  calibration.model = reader.text("/", "model");
-  calibration.bandwidth = reader.numbers("/", "bandwidth", 1)[0];
+  readModel(reader, calibration);
   calibration.folds = reader.integer("/", "folds");
   calibration.sensor = readSensor(reader);
   calibration.layout = readLayout(reader);

@@ -33,6 +33,10 @@ Hdf5Reader::~Hdf5Reader() {
   H5Fclose(file_);
 }
 
+bool Hdf5Reader::has(const std::string& path) const {
+  return H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0;
+}
+
 std::string Hdf5Reader::text(const std::string& path, const std::string& name) const {
   const std::string what = path + " " + name;
   const Handle attribute(H5Aopen_by_name(file_, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),

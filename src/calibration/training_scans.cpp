@@ -37,4 +37,18 @@ std::vector<CodeStatistics> statisticsOfTaxel(const TrainingScans& scans, std::s
   return cells;
 }
 
+std::vector<std::vector<CodeSamples>> samplesOfTaxel(const TrainingScans& scans, std::size_t sections,
+                                                     std::uint16_t full_scale, std::size_t taxel) {
+  CodeSamples none;
+  none.full_scale = full_scale;
+  std::vector<std::vector<CodeSamples>> readings;
+  for (const std::vector<TrainingScan>& of_class : scans) {
+    readings.emplace_back(sections, none);
+    for (const TrainingScan& scan : of_class) {
+      readings.back()[scan.section].add(scan.counts[taxel], scan.pressure);
+    }
+  }
+  return readings;
+}
+
 }  // namespace fsr

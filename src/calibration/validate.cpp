@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "fsr_pressure_map/calibration/calibration.h"
-#include "fsr_pressure_map/compensation/scheme_plan.h"
+#include "fsr_pressure_map/compensation/fit_scheme.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr {
@@ -104,7 +104,7 @@ void requireChange(const std::vector<Recording>& recordings) {
 void validate(const CalibrationProblem& problem) {
   const CalibrationOptions& options = problem.options;
   const std::vector<Recording>& recordings = problem.recordings;
-  Grnn{options.bandwidth};  // refuses one that cannot be
+  requireSchemeFor(options.scheme, options.regressor);
   if (options.folds < kFewestFolds || options.folds > kMostFolds) {
     throw InputError("folds is " + std::to_string(options.folds) + ", but must be 2 to 20");
   }

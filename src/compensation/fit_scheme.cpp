@@ -136,16 +136,16 @@ std::vector<Fit> fitScheme(const SchemePlan& plan, std::size_t taxel, const Clas
 
 std::vector<CrossValidatedModel> crossValidateScheme(const SchemePlan& plan, std::size_t taxel,
                                                      const SectionedReadings& readings,
-                                                     const RegressorOptions& regressor,
+                                                     const FoldRegressors& regressors,
                                                      HeldOutDeviation held_out_deviation) {
   const std::size_t sections = readings.sums.front().size();
-  Without without(readings, !makeRegressor(regressor)->mergeable());
+  Without without(readings, !makeRegressor(regressors.whole)->mergeable());
   std::vector<Fit> whole;
-  without(sections, [&](const ClassReadings& all) { whole = fitScheme(plan, taxel, all, regressor); });
+  without(sections, [&](const ClassReadings& all) { whole = fitScheme(plan, taxel, all, regressors.whole); });
   std::vector<std::vector<std::vector<double>>> held_out(plan.models.size());  // [models][sections]
   for (std::size_t s = 0; s < sections; ++s) {
     without(s, [&](const ClassReadings& rest) {
-      std::vector<Fit> fits = fitScheme(plan, taxel, rest, regressor);
+      std::vector<Fit> fits = fitScheme(plan, taxel, rest, regressors.at(s));
       for (std::size_t m = 0; m < fits.size(); ++m) held_out[m].push_back(std::move(fits[m].pressure));
     });
   }
@@ -155,6 +155,13 @@ std::vector<CrossValidatedModel> crossValidateScheme(const SchemePlan& plan, std
                                    std::move(held_out[m]), held_out_deviation));
   }
   return models;
+}
+
+std::vector<CrossValidatedModel> crossValidateScheme(const SchemePlan& plan, std::size_t taxel,
+                                                     const SectionedReadings& readings,
+                                                     const RegressorOptions& regressor,
+                                                     HeldOutDeviation held_out_deviation) {
+  return crossValidateScheme(plan, taxel, readings, FoldRegressors{regressor, {}}, held_out_deviation);
 }
 
 }  // namespace fsr

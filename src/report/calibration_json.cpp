@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "fsr_pressure_map/regression/option_names.h"
 #include "fsr_pressure_map/report/calibration_report.h"
 
 namespace fsr {
@@ -94,6 +95,24 @@ Json json(const Provenance& provenance) {
           {"bags", bags}};
 }
 
+// Only what the model looks at.
+Json model(const Calibration& calibration) {
+  const RegressorOptions& options = calibration.regressor;
+  Json model = {{"name", options.name}};
+  if (options.name == "grnn") {
+    model["bandwidth"] = options.grnn.bandwidth;
+    model["bandwidth_chosen"] = calibration.bandwidth_chosen;
+    model["spread"] = spreadName(options.grnn.spread);
+    model["distance"] = distanceName(options.grnn.distance);
+    model["weighting"] = weightingName(options.grnn.weighting);
+  } else if (options.name == "forest") {
+    model["trees"] = options.forest.trees;
+    model["minimum_leaf"] = options.forest.minimum_leaf;
+    model["leaf_rule"] = leafRuleName(options.forest.leaf_count);
+  }
+  return model;
+}
+
 }  // namespace
 
 std::string calibrationJson(const Calibration& calibration) {
@@ -101,8 +120,7 @@ std::string calibrationJson(const Calibration& calibration) {
   const TrainedRanges& trained = calibration.trained;
   const Json document = {{"id", calibration.id},
                          {"scheme", schemeName(calibration.tables.scheme)},
-                         {"model", calibration.model},
-                         {"bandwidth", calibration.bandwidth},
+                         {"model", model(calibration)},
                          {"folds", calibration.folds},
                          {"sensor", json(calibration.sensor)},
                          {"layout",

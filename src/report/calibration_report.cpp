@@ -149,4 +149,13 @@ std::string warningsText(const Calibration& calibration) {
   return text;
 }
 
+std::string modelText(const Calibration& calibration) {
+  const RegressorOptions& model = calibration.regressor;
+  if (model.name != "grnn") return model.name;
+  std::ostringstream text;
+  text << model.name << ", bandwidth " << std::setprecision(3) << model.grnn.bandwidth
+       << (calibration.bandwidth_chosen ? " (chosen)" : "");
+  return text.str();
+}
+
 }  // namespace fsr

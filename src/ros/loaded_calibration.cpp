@@ -35,7 +35,7 @@ fsr_pressure_map::CalibrationInfo toMessage(const fsr::Calibration& calibration,
   info.id = calibration.id;
   info.path = path;
   info.scheme = fsr::schemeName(calibration.tables.scheme);
-  info.model = calibration.model;
+  info.model = calibration.regressor.name;
   info.sensor_serial = calibration.sensor.serial;
   info.pressure_low = calibration.trained.pressure.low;
   info.pressure_high = calibration.trained.pressure.high;

@@ -7,6 +7,7 @@
 
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/regression/option_names.h"
 #include "fsr_pressure_map/report/calibration_report.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/command_line.h"
@@ -17,27 +18,76 @@ namespace fsr_ros {
 
 namespace {
 
+std::string list(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 fsr::CommandLine options() {
   fsr::CommandLine line("train", "BAG... --output FILE",
                         "Trains a calibration from bags of a matrix in a pressure chamber: topics raw, "
                         "chamber_pressure and curvature, and matrix_info and temperature where recorded.");
   line.option("output", "FILE", "calibration file to write (HDF5)")
       .option("scheme", "NAME", fsr::schemeList() + "; default per_curvature")
+      .option("model", "NAME", list(fsr::regressorNames()) + "; default grnn")
       .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
       .option("namespace", "NS", "the sensor's namespace, where a bag holds several")
-      .option("bandwidth", "SIGMA", "spread of the GRNN in deviations of the readings; default 2^-7")
+      .option("bandwidth", "SIGMA",
+              "spread of the GRNN in deviations of the readings (the paper: 0.0078125); default auto: "
+              "by nested cross-validation")
+      .option("spread", "NAME", "what the bandwidth means, sigma or matlab (newgrnn's spread); default sigma")
+      .option("distance", "NAME",
+              "in the GRNN's exponent, squared or literal (as the paper is worded); default squared")
+      .flag("equal-bins", "GRNN: every bin of chamber pressure weighs alike, however long it was held")
+      .option("trees", "N", "of the forest; default 150")
+      .option("minimum-leaf", "N", "readings that a leaf of the forest keeps; default 5")
+      .option("leaf-rule", "NAME",
+              "a reading drawn twice counts twice (draws, as MATLAB) or once (distinct, as scikit-learn); "
+              "default draws")
       .option("folds", "N", "sections of the cross-validation, 2 to 20; default 5")
-      .option("seed", "N", "kept in the file; default 1")
+      .option("seed", "N", "of the forest's draws, kept in the file; default 1")
       .option("threads", "N", "default: one for each core; the numbers do not depend on it")
       .flag("no-scores", "leave the cross-validated scores out")
       .option("report", "FILE", "also write coverage, scores and provenance as JSON");
   return line;
 }
 
+// Options of a model that was not chosen are refused: they would do nothing in silence.
+void refuseOptionsOfOthers(const fsr::CommandLine& line, const std::string& model) {
+  const std::vector<std::pair<std::string, std::string>> options = {
+      {"bandwidth", "grnn"}, {"spread", "grnn"},         {"distance", "grnn"},   {"equal-bins", "grnn"},
+      {"trees", "forest"},   {"minimum-leaf", "forest"}, {"leaf-rule", "forest"}};
+  for (const auto& [option, of] : options) {
+    if (line.has(option) && of != model) {
+      throw fsr::InputError("--" + option + " is an option of --model " + of + ", but the model is " + model);
+    }
+  }
+}
+
+fsr::RegressorOptions regressorOptions(const fsr::CommandLine& line) {
+  fsr::RegressorOptions options;
+  options.name = line.text("model", options.name);
+  fsr::makeRegressor(options);  // refuses a name that there is not
+  refuseOptionsOfOthers(line, options.name);
+  options.grnn.spread = fsr::spreadFromName(line.text("spread", fsr::spreadName(options.grnn.spread)));
+  options.grnn.distance =
+      fsr::distanceFromName(line.text("distance", fsr::distanceName(options.grnn.distance)));
+  if (line.has("equal-bins")) options.grnn.weighting = fsr::SampleWeighting::kEachPressureBin;
+  options.forest.trees = static_cast<std::size_t>(line.integer("trees", 150, {1, 1e5, ""}));
+  options.forest.minimum_leaf = static_cast<std::size_t>(line.integer("minimum-leaf", 5, {1, 1e6, ""}));
+  options.forest.leaf_count =
+      fsr::leafRuleFromName(line.text("leaf-rule", fsr::leafRuleName(options.forest.leaf_count)));
+  return options;
+}
+
 fsr::CalibrationOptions calibrationOptions(const fsr::CommandLine& line) {
   fsr::CalibrationOptions options;
   options.scheme = fsr::schemeFromName(line.text("scheme", fsr::schemeName(options.scheme)));
-  options.bandwidth = line.number("bandwidth", options.bandwidth, {1e-6, 1e3, ""});
+  options.regressor = regressorOptions(line);
+  const auto bandwidth = fsr::bandwidthFromText(line.text("bandwidth", "auto"));
+  options.choose_bandwidth = !bandwidth;
+  if (bandwidth) options.regressor.grnn.bandwidth = *bandwidth;
   options.folds = static_cast<std::size_t>(line.integer("folds", 5, {2, 20, ""}));
   options.seed = static_cast<std::uint64_t>(line.integer("seed", 1, {0, 1e15, ""}));
   options.threads = static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
@@ -85,8 +135,8 @@ int trainTool(int argc, const char* const* argv, std::ostream& out) {
   out << fsr::warningsText(calibration) << fsr::scoresText(calibration.scores) << std::endl;
   calibration.id = fsr::saveCalibration(calibration, output);
   if (!report.empty()) fsr::replaceFile(report, fsr::calibrationJson(calibration));
-  out << "Calibration " << calibration.id << " (" << fsr::schemeName(chosen.scheme) << ") is in "
-      << fullPath(output) << std::endl;
+  out << "Calibration " << calibration.id << " (" << fsr::schemeName(chosen.scheme) << ", "
+      << fsr::modelText(calibration) << ") is in " << fullPath(output) << std::endl;
   if (!report.empty()) out << "Report is in " << fullPath(report) << std::endl;
   return 0;
 }

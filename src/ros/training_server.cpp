@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/regression/option_names.h"
 #include "fsr_pressure_map/report/calibration_report.h"
 #include "fsr_pressure_map/ros/message_events.h"
 #include "fsr_pressure_map/ros/parameters.h"
@@ -20,11 +21,32 @@ namespace {
 constexpr std::uint32_t kQueue = 100000;
 constexpr double kReportPeriod = 0.5;  // [s], wall time
 
+fsr::RegressorOptions regressorOptions(const Parameters& parameters) {
+  fsr::RegressorOptions options;
+  options.name = parameters.choice("model", fsr::regressorNames(), options.name);
+  options.grnn.spread = fsr::spreadFromName(parameters.choice("spread", fsr::spreadNames(), "sigma"));
+  options.grnn.distance =
+      fsr::distanceFromName(parameters.choice("distance", fsr::distanceNames(), "squared"));
+  if (parameters.flag("equal_bins", false)) options.grnn.weighting = fsr::SampleWeighting::kEachPressureBin;
+  options.forest.trees = static_cast<std::size_t>(parameters.integer("trees", 150, {1, 1e5, ""}));
+  options.forest.minimum_leaf = static_cast<std::size_t>(parameters.integer("minimum_leaf", 5, {1, 1e6, ""}));
+  options.forest.leaf_count =
+      fsr::leafRuleFromName(parameters.choice("leaf_rule", fsr::leafRuleNames(), "draws"));
+  return options;
+}
+
 fsr::CalibrationOptions calibrationOptions(const Parameters& parameters) {
   fsr::CalibrationOptions options;
   options.scheme =
       fsr::schemeFromName(parameters.choice("scheme", fsr::schemeNames(), fsr::schemeName(options.scheme)));
-  options.bandwidth = parameters.number("bandwidth", options.bandwidth, {1e-6, 1e3, ""});
+  options.regressor = regressorOptions(parameters);
+  try {
+    const auto bandwidth = fsr::bandwidthFromText(parameters.text("bandwidth", "auto"));
+    options.choose_bandwidth = !bandwidth;
+    if (bandwidth) options.regressor.grnn.bandwidth = *bandwidth;
+  } catch (const fsr::InputError&) {
+    throw parameters.error("bandwidth", "must be auto, or a number, 1e-06 to 1000");
+  }
   options.folds = static_cast<std::size_t>(parameters.integer("folds", 5, {2, 20, ""}));
   options.scores = parameters.flag("scores", true);
   options.threads = static_cast<unsigned>(parameters.integer("threads", 0, {0, 1024, ""}));

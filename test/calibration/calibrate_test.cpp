@@ -24,6 +24,7 @@ SyntheticRig threeSurfaces() {
 Calibration train(const std::vector<Recording>& recordings, Scheme scheme, unsigned threads = 2) {
   CalibrationProblem problem{recordings, {}};
   problem.options.scheme = scheme;
+  problem.options.choose_bandwidth = false;
   problem.options.threads = threads;
   problem.options.date = "2024-05-06T07:08:09Z";
   return calibrate(problem);
@@ -105,6 +106,16 @@ TEST(Calibrate, ScoresAgreeWithNumpy) {
   EXPECT_DOUBLE_EQ(calibration.scores.whole.rmse_percent.mean, score.rmse_percent.mean);
 }
 
+TEST(Calibrate, ChoosesTheSameBandwidthOnAnyNumberOfThreads) {
+  CalibrationProblem problem{{syntheticRecording(threeSurfaces())}, {}};
+  problem.options.threads = 1;
+  const Calibration one = calibrate(problem);
+  problem.options.threads = 4;
+  const Calibration four = calibrate(problem);
+  EXPECT_EQ(one.regressor.grnn.bandwidth, four.regressor.grnn.bandwidth);
+  expectSameTables(one, four);
+}
+
 TEST(Calibrate, GivesTheSameNumbersOnAnyNumberOfThreads) {
   const Recording recording = syntheticRecording(threeSurfaces());
   const Calibration one = train({recording}, Scheme::kPerCurvature, 1);
@@ -158,6 +169,46 @@ TEST(Calibrate, WithoutScoresTheTablesAreTheSame) {
   const Calibration bare = calibrate(problem);
   expectSameTables(scored, bare);
   EXPECT_TRUE(bare.scores.conditions.empty());
+}
+
+Calibration trainWith(const RegressorOptions& regressor, bool choose_bandwidth = false) {
+  CalibrationProblem problem{{syntheticRecording(threeSurfaces())}, {}};
+  problem.options.regressor = regressor;
+  problem.options.choose_bandwidth = choose_bandwidth;
+  return calibrate(problem);
+}
+
+TEST(Calibrate, EveryRegressorRecoversTheCurves) {
+  for (const std::string& name : regressorNames()) {
+    RegressorOptions regressor;
+    regressor.name = name;
+    const Calibration calibration = trainWith(regressor);
+    EXPECT_EQ(calibration.regressor.name, name);
+    const double bound = name == "linear" ? 0.15 : 0.02;  // the curve is a root
+    EXPECT_LT(calibration.scores.whole.errors.whole.all.rmse, bound * 600e3) << name;
+    for (const CodeTable& table : calibration.tables.tables) {
+      for (const float deviation : table.deviation) ASSERT_GT(deviation, 0.0f) << name;
+    }
+  }
+}
+
+TEST(Calibrate, AChosenBandwidthBeatsThePapersOnHeldOutReadings) {
+  const Calibration chosen = trainWith({}, true);
+  const Calibration paper = trainWith({}, false);
+  EXPECT_TRUE(chosen.bandwidth_chosen);
+  EXPECT_FALSE(paper.bandwidth_chosen);
+  EXPECT_EQ(paper.regressor.grnn.bandwidth, kPaperBandwidth);
+  EXPECT_NE(chosen.regressor.grnn.bandwidth, kPaperBandwidth);
+  EXPECT_LT(chosen.scores.whole.rmse_percent.mean, paper.scores.whole.rmse_percent.mean);
+}
+
+TEST(Calibrate, TheSeedIsThatOfTheForest) {
+  CalibrationProblem problem{{plainRecording()}, {}};
+  problem.options.regressor.name = "forest";
+  const Calibration one = calibrate(problem);
+  expectSameTables(one, calibrate(problem));
+  problem.options.seed = 2;
+  EXPECT_NE(one.tables.tables[0].pressure, calibrate(problem).tables.tables[0].pressure);
 }
 
 TEST(Calibrate, SaysWhereItComesFrom) {
@@ -300,7 +351,7 @@ TEST(Calibrate, OptionsOutOfRangeAreRefused) {
   problem.options.folds = 1;
   EXPECT_EQ(complaint(problem), "folds is 1, but must be 2 to 20");
   problem.options.folds = 5;
-  problem.options.bandwidth = 0;
+  problem.options.regressor.grnn.bandwidth = 0;
   EXPECT_EQ(complaint(problem),
             "bandwidth is 0, but must be 1e-06 to 1000 standard deviations of the readings");
 }

@@ -106,12 +106,33 @@ TEST_F(CalibrationFile, GivesBackTheTablesBitForBit) {
   EXPECT_EQ(loaded.no_model, (std::vector<std::uint8_t>{0, 0, 1, 0}));
 }
 
+TEST_F(CalibrationFile, GivesBackHowTheModelWasSet) {
+  Calibration saved = small();
+  saved.bandwidth_chosen = true;
+  saved.regressor.grnn = {0.5, SpreadMeaning::kHalf, KernelDistance::kLiteral,
+                          SampleWeighting::kEachPressureBin};
+  saved.regressor.forest.trees = 20;
+  saved.regressor.forest.minimum_leaf = 9;
+  saved.regressor.forest.leaf_count = LeafCount::kDistinct;
+  saveCalibration(saved, path_);
+  const Calibration loaded = loadCalibration(path_);
+  EXPECT_TRUE(loaded.bandwidth_chosen);
+  EXPECT_EQ(loaded.regressor.grnn.bandwidth, saved.regressor.grnn.bandwidth);
+  EXPECT_EQ(loaded.regressor.grnn.bandwidth, 0.5);
+  EXPECT_EQ(loaded.regressor.grnn.spread, SpreadMeaning::kHalf);
+  EXPECT_EQ(loaded.regressor.grnn.distance, KernelDistance::kLiteral);
+  EXPECT_EQ(loaded.regressor.grnn.weighting, SampleWeighting::kEachPressureBin);
+  EXPECT_EQ(loaded.regressor.forest.trees, 20u);
+  EXPECT_EQ(loaded.regressor.forest.minimum_leaf, 9u);
+  EXPECT_EQ(loaded.regressor.forest.leaf_count, LeafCount::kDistinct);
+}
+
 TEST_F(CalibrationFile, GivesBackWhereTheNumbersComeFrom) {
   const Calibration saved = small();
   saveCalibration(saved, path_);
   const Calibration loaded = loadCalibration(path_);
-  EXPECT_EQ(loaded.model, "grnn");
-  EXPECT_EQ(loaded.bandwidth, kPaperBandwidth);
+  EXPECT_EQ(loaded.regressor.name, "grnn");
+  EXPECT_EQ(loaded.bandwidth_chosen, saved.bandwidth_chosen);
   EXPECT_EQ(loaded.folds, 5u);
   EXPECT_EQ(loaded.sensor.serial, "0001");
   EXPECT_EQ(loaded.sensor.transducer, "gauge 7, calibrated 2024-01-02");

@@ -27,6 +27,9 @@ TEST(OldCalibrationFiles, SchemaOneKeepsItsMeaning) {
   const Calibration calibration = loadCalibration(kFolder + "schema_1.h5");
   EXPECT_EQ(calibration.id, "6a1d3370726e");
   EXPECT_EQ(calibration.tables.scheme, Scheme::kPerCurvature);
+  EXPECT_EQ(calibration.regressor.name, "grnn");
+  EXPECT_EQ(calibration.regressor.grnn.bandwidth, kPaperBandwidth);
+  EXPECT_FALSE(calibration.bandwidth_chosen);
   EXPECT_EQ(calibration.tables.classes.at(1).surface, "cylinder_7cm");
   EXPECT_EQ(calibration.sensor.serial, "0001");
   EXPECT_FLOAT_EQ(calibration.tables.table(1, 1).pressure.at(100), 185000.0f);

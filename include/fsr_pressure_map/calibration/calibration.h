@@ -12,18 +12,20 @@
 #include "fsr_pressure_map/compensation/training_statistics.h"
 #include "fsr_pressure_map/dataset/coverage.h"
 #include "fsr_pressure_map/dataset/recording.h"
-#include "fsr_pressure_map/regression/grnn.h"
+#include "fsr_pressure_map/regression/regressors.h"
 
 namespace fsr {
 
 struct CalibrationOptions {
   Scheme scheme = Scheme::kPerCurvature;
-  double bandwidth = kPaperBandwidth;  ///< of the GRNN, in standardised units
-  std::size_t folds = 5;               ///< sections of each condition, 2 to 20
-  bool scores = true;                  ///< cross-validated scores; the deviation is held out either way
-  std::uint64_t seed = 1;              ///< kept in the file; nothing random in the GRNN uses it
-  unsigned threads = 0;                ///< 0 = one for each core; the numbers do not depend on it
-  std::string date;                    ///< ISO 8601, UTC; empty = now
+  RegressorOptions regressor;  ///< which model; its forest's seed is `seed`
+  /// Of a GRNN, by nested cross-validation; the one among the regressor's options is not looked at then.
+  bool choose_bandwidth = true;
+  std::size_t folds = 5;   ///< sections of each condition, 2 to 20
+  bool scores = true;      ///< cross-validated scores; the deviation is held out either way
+  std::uint64_t seed = 1;  ///< of the forest; kept in the file
+  unsigned threads = 0;    ///< 0 = one for each core; the numbers do not depend on it
+  std::string date;        ///< ISO 8601, UTC; empty = now
 };
 
 /// Bags in.
@@ -48,9 +50,9 @@ struct Provenance {
 
 /// Everything that turns scans into pressure, and what is known of how well.
 struct Calibration {
-  std::string id;  ///< first hex digits of its file's hash; empty until it was saved or loaded
-  std::string model = "grnn";
-  double bandwidth = 0;
+  std::string id;                 ///< first hex digits of its file's hash; empty until it was saved or loaded
+  RegressorOptions regressor;     ///< the model; of a GRNN with its bandwidth, chosen or told
+  bool bandwidth_chosen = false;  ///< from the data, and not told
   std::size_t folds = 0;
   SensorIdentity sensor;
   Layout layout;

@@ -10,6 +10,8 @@ namespace fsr {
 // The content of a calibration file, schema 1:
 //
 //     /            attributes scheme, model, bandwidth, folds, full_scale, curvature_rule, use
+//     /model       attributes bandwidth_chosen, spread, distance, weighting, trees, minimum_leaf, leaf_rule
+//                  (absent in the first files)
 //     /sensor      attributes sensor_id, serial, firmware, model, sealing, transducer
 //     /layout      attributes rows, columns, pitch_x [m], pitch_y [m]; no_model [taxels]
 //     /trained     attributes pressure, pressure_rate, curvature, temperature: lowest, highest

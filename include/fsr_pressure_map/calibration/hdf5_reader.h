@@ -17,6 +17,8 @@ class Hdf5Reader {
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
 
+  /// Whether there is a group or dataset of this path, whose parent must be there.
+  bool has(const std::string& path) const;
   std::string text(const std::string& path, const std::string& attribute) const;
   std::vector<double> numbers(const std::string& path, const std::string& attribute, std::size_t size) const;
   std::uint64_t integer(const std::string& path, const std::string& attribute) const;

@@ -8,6 +8,7 @@
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
 #include "fsr_pressure_map/dataset/sections.h"
+#include "fsr_pressure_map/regression/code_samples.h"
 #include "fsr_pressure_map/regression/code_statistics.h"
 
 namespace fsr {
@@ -31,5 +32,9 @@ TrainingScans gatherScans(const std::vector<Recording>& recordings, const Condit
 /// The statistics of one taxel: one cell for each class and section, section after section.
 std::vector<CodeStatistics> statisticsOfTaxel(const TrainingScans& scans, std::size_t sections,
                                               std::uint16_t full_scale, std::size_t taxel);
+
+/// Its readings one by one, [classes][sections].
+std::vector<std::vector<CodeSamples>> samplesOfTaxel(const TrainingScans& scans, std::size_t sections,
+                                                     std::uint16_t full_scale, std::size_t taxel);
 
 }  // namespace fsr

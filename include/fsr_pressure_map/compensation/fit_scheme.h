@@ -36,8 +36,23 @@ struct SectionedReadings {
   std::vector<std::vector<CodeSamples>> samples;  ///< likewise; empty where the regressor needs none
 };
 
+/// The regressor to train with: what is chosen from the data is chosen anew without the section held out.
+struct FoldRegressors {
+  RegressorOptions whole;
+  std::vector<RegressorOptions> without;  ///< [sections]; empty = `whole` throughout
+
+  const RegressorOptions& at(std::size_t left_out) const {
+    return left_out < without.size() ? without[left_out] : whole;
+  }
+};
+
 /// Trains the plan's models on all sections and, once for each, without it. Deviations of a model come from
 /// the classes that it is tested on.
+std::vector<CrossValidatedModel> crossValidateScheme(const SchemePlan& plan, std::size_t taxel,
+                                                     const SectionedReadings& readings,
+                                                     const FoldRegressors& regressors,
+                                                     HeldOutDeviation held_out_deviation);
+/// The same with one regressor throughout.
 std::vector<CrossValidatedModel> crossValidateScheme(const SchemePlan& plan, std::size_t taxel,
                                                      const SectionedReadings& readings,
                                                      const RegressorOptions& regressor,

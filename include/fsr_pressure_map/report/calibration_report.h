@@ -19,6 +19,9 @@ std::string scoresText(const CalibrationScores& scores);
 /// Warnings, one a line; "" where there are none.
 std::string warningsText(const Calibration& calibration);
 
+/// The model in a few words: "forest", "grnn, bandwidth 0.0312 (chosen)".
+std::string modelText(const Calibration& calibration);
+
 /// Everything but tables and statistics, indented. Numbers are SI; null = no value.
 std::string calibrationJson(const Calibration& calibration);
 

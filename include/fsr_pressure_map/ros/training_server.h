@@ -21,8 +21,8 @@ namespace fsr_ros {
 /// gathering meanwhile. `~gathered` (diagnostic_msgs/DiagnosticStatus, latched) tells what has come and
 /// what is still missing.
 ///
-/// Parameters: ~output, ~report, ~scheme, ~bandwidth, ~folds, ~scores, ~threads, ~seed,
-/// ~ambient_pressure; train.launch says what each means.
+/// Parameters: ~output, ~report, ~scheme, ~model, ~bandwidth, ~spread, ~distance, ~equal_bins, ~trees,
+/// ~minimum_leaf, ~leaf_rule, ~folds, ~scores, ~threads, ~seed, ~ambient_pressure; train.launch says what each means.
 class TrainingServer {
  public:
   /// Throws fsr::InputError.

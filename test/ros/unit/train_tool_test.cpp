@@ -61,11 +61,11 @@ TEST_F(TrainTool, PrintsCoverageThenScoresThenThePath) {
   const std::string text = run({flat, bend_, "--output", output});
   const fsr::Calibration calibration = fsr::loadCalibration(output);
   const std::size_t coverage = text.find("Coverage"), scores = text.find("Held-out readings");
-  const std::size_t path =
-      text.find("Calibration " + calibration.id + " (per_curvature) is in " + output + "\n");
+  const std::size_t path = text.find("Calibration " + calibration.id + " (per_curvature, grnn, bandwidth ");
   EXPECT_LT(coverage, scores);
   EXPECT_LT(scores, path);
   EXPECT_NE(path, std::string::npos) << text;
+  EXPECT_NE(text.find(" (chosen)) is in " + output + "\n", path), std::string::npos) << text;
   EXPECT_EQ(calibration.tables.classes.size(), 2u);
   EXPECT_EQ(calibration.provenance.bags.at(1).name, "bend.bag");
 }
@@ -78,7 +78,8 @@ TEST_F(TrainTool, TakesItsOptions) {
                                 "--no-scores", "--namespace", "fsr", "--report", report});
   const fsr::Calibration calibration = fsr::loadCalibration(output);
   EXPECT_EQ(calibration.tables.scheme, fsr::Scheme::kBaseline);
-  EXPECT_EQ(calibration.bandwidth, 0.05);
+  EXPECT_EQ(calibration.regressor.grnn.bandwidth, 0.05);
+  EXPECT_FALSE(calibration.bandwidth_chosen);
   EXPECT_EQ(calibration.folds, 4u);
   EXPECT_EQ(calibration.provenance.seed, 7u);
   EXPECT_NEAR(calibration.trained.pressure.low, 1325.0, 1e-6);  // the bag's ambient is 101325
@@ -86,6 +87,28 @@ TEST_F(TrainTool, TakesItsOptions) {
   EXPECT_NE(text.find("Scores were not asked for."), std::string::npos);
   EXPECT_TRUE(fs::exists(report));
   EXPECT_NE(text.find("Report is in " + report + "\n"), std::string::npos);
+}
+
+TEST_F(TrainTool, TrainsEachModelWithItsOptions) {
+  const auto trained = [&](std::vector<std::string> words) {
+    const std::string output = (folder_ / "calibration.h5").string();
+    words.insert(words.end(), {bend_, "--output", output});
+    const std::string text = run(words);
+    EXPECT_NE(text.find("is in " + output), std::string::npos) << text;
+    return fsr::loadCalibration(output);
+  };
+  EXPECT_EQ(trained({"--model", "linear"}).regressor.name, "linear");
+  EXPECT_EQ(trained({"--model", "monotone"}).regressor.name, "monotone");
+  const fsr::Calibration forest =
+      trained({"--model", "forest", "--trees", "20", "--minimum-leaf", "9", "--leaf-rule", "distinct"});
+  EXPECT_EQ(forest.regressor.forest.trees, 20u);
+  EXPECT_EQ(forest.regressor.forest.minimum_leaf, 9u);
+  EXPECT_EQ(forest.regressor.forest.leaf_count, fsr::LeafCount::kDistinct);
+  const fsr::Calibration grnn = trained({"--bandwidth", "auto", "--spread", "matlab", "--equal-bins"});
+  EXPECT_EQ(grnn.regressor.grnn.spread, fsr::SpreadMeaning::kHalf);
+  EXPECT_EQ(grnn.regressor.grnn.weighting, fsr::SampleWeighting::kEachPressureBin);
+  EXPECT_TRUE(grnn.bandwidth_chosen);
+  EXPECT_EQ(trained({"--distance=literal"}).regressor.grnn.distance, fsr::KernelDistance::kLiteral);
 }
 
 TEST_F(TrainTool, AFailureOverwritesNothing) {
@@ -103,7 +126,16 @@ TEST_F(TrainTool, WrongUsageIsOneSentence) {
   EXPECT_EQ(run({bend_}), "--output FILE is missing; see train --help");
   EXPECT_EQ(run({"--output", output}), "there is no recording to train on; give one bag or more");
   EXPECT_EQ(run({bend_, "--output", output, "--scheme", "best"}),
-            "scheme is \"best\", but must be one of flat_only, baseline, per_curvature");
+            "scheme is \"best\", but must be one of flat_only, baseline, per_curvature, "
+            "curvature_input, one_hot, flat_or_curved, binary_input");
+  EXPECT_EQ(run({bend_, "--output", output, "--model", "best"}),
+            "model is \"best\", but must be one of linear, grnn, forest, monotone");
+  EXPECT_EQ(run({bend_, "--output", output, "--trees", "5"}),
+            "--trees is an option of --model forest, but the model is grnn");
+  EXPECT_EQ(run({bend_, "--output", output, "--bandwidth", "wide"}),
+            "bandwidth is \"wide\", but must be auto, or a number of deviations");
+  EXPECT_EQ(run({bend_, "--output", output, "--leaf-rule", "few", "--model", "forest"}),
+            "leaf_rule is \"few\", but must be draws or distinct");
   EXPECT_EQ(run({bend_, "--output", output, "--folds", "1"}),
             "--folds is \"1\", but must be a whole number, 2 to 20");
   EXPECT_EQ(

@@ -1,0 +1,75 @@
+#include "fsr_pressure_map/calibration/bandwidth_choice.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "fsr_pressure_map/matrix/for_each_taxel.h"
+#include "fsr_pressure_map/regression/bandwidth_search.h"
+
+namespace fsr {
+
+namespace {
+
+// Up to kTaxelsOfSearch of those that have a model, evenly spread.
+std::vector<std::size_t> taxelsOfSearch(const std::vector<std::uint8_t>& no_model) {
+  std::vector<std::size_t> taxels;
+  for (std::size_t taxel = 0; taxel < no_model.size(); ++taxel) {
+    if (no_model[taxel] == 0) taxels.push_back(taxel);
+  }
+  const std::size_t number = std::min(taxels.size(), kTaxelsOfSearch);
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < number; ++i) chosen.push_back(taxels[i * taxels.size() / number]);
+  return chosen;
+}
+
+std::vector<CodeStatistics> sectionsOf(const std::vector<std::size_t>& classes,
+                                       const TrainingStatistics& statistics, std::size_t taxel) {
+  std::vector<CodeStatistics> sections(statistics.sections);
+  for (std::size_t section = 0; section < sections.size(); ++section) {
+    for (const std::size_t k : classes) sections[section].merge(statistics.cell(taxel, k, section));
+  }
+  return sections;
+}
+
+// Errors of all models of one taxel together.
+BandwidthErrors errorsOf(const GrnnOptions& options, const SchemePlan& plan,
+                         const TrainingStatistics& statistics, std::size_t taxel) {
+  GrnnOptions alike = options;
+  alike.weighting = SampleWeighting::kEachSample;
+  const auto errors = [&](std::size_t model) {
+    return BandwidthErrors(sectionsOf(plan.testedOn(model), statistics, taxel), statistics.full_scale, alike,
+                           bandwidthGrid());
+  };
+  BandwidthErrors all = errors(0);
+  for (std::size_t model = 1; model < plan.models.size(); ++model) all.add(errors(model));
+  return all;
+}
+
+}  // namespace
+
+bool choosesBandwidth(const CalibrationOptions& options) {
+  return options.choose_bandwidth && options.regressor.name == "grnn";
+}
+
+FoldRegressors chooseRegressor(const CalibrationOptions& options, const SchemePlan& plan,
+                               const TrainingStatistics& statistics,
+                               const std::vector<std::uint8_t>& no_model) {
+  FoldRegressors regressors{options.regressor, {}};
+  regressors.whole.forest.seed = options.seed;
+  if (!choosesBandwidth(options)) return regressors;
+  const std::vector<std::size_t> taxels = taxelsOfSearch(no_model);
+  std::vector<std::unique_ptr<BandwidthErrors>> errors(taxels.size());
+  forEachTaxel(taxels.size(), options.threads, [&](std::size_t i) {
+    errors[i] =
+        std::make_unique<BandwidthErrors>(errorsOf(options.regressor.grnn, plan, statistics, taxels[i]));
+  });
+  for (std::size_t i = 1; i < errors.size(); ++i) errors.front()->add(*errors[i]);  // in this order always
+  regressors.whole.grnn.bandwidth = errors.front()->best();
+  regressors.without.assign(statistics.sections, regressors.whole);
+  for (std::size_t section = 0; section < statistics.sections; ++section) {
+    regressors.without[section].grnn.bandwidth = errors.front()->best(section);
+  }
+  return regressors;
+}
+
+}  // namespace fsr
