@@ -1,0 +1,126 @@
+#include <nlohmann/json.hpp>
+
+#include "fsr_pressure_map/report/discrepancy_report.h"
+
+namespace fsr {
+
+namespace {
+
+using Json = nlohmann::ordered_json;  // NaN is written as null
+
+Json json(const Interval& interval) {
+  return Json::array({interval.low, interval.high});
+}
+
+Json json(const FoundEffect& effect) {
+  Json parameters = Json::array();
+  for (const FittedParameter& p : effect.parameters) {
+    parameters.push_back(
+        {{"name", p.name}, {"value", p.value}, {"unit", p.unit}, {"interval", json(p.interval)}});
+  }
+  return {{"id", effect.id},
+          {"summary", effect.summary},
+          {"parameters", parameters},
+          {"z", effect.z},
+          {"share_of_ceiling", effect.share_of_ceiling}};
+}
+
+Json json(const NotIdentifiable& effect) {
+  return {{"id", effect.id}, {"experiment", effect.experiment}, {"reason", effect.reason}};
+}
+
+Json json(const WhereItShows& where) {
+  return {{"taxels", where.taxels},
+          {"conditions", where.conditions},
+          {"pressure_pa", json(where.pressure)},
+          {"direction", where.direction},
+          {"times_s", where.times}};
+}
+
+Json json(const Gap& gap) {
+  return {{"unit", "fraction of full scale"},
+          {"before", gap.before},
+          {"before_interval", json(gap.before_interval)},
+          {"after", gap.after},
+          {"after_interval", json(gap.after_interval)},
+          {"floor", gap.floor},
+          {"floor_interval", json(gap.floor_interval)},
+          {"closed", gap.closed},
+          {"closed_interval", json(gap.closed_interval)},
+          {"before_pa", gap.before_pressure},
+          {"after_pa", gap.after_pressure},
+          {"floor_pa", gap.floor_pressure},
+          {"held_out_by", gap.held_out_by},
+          {"missing", gap.missing}};
+}
+
+Json json(const GapInUse& use) {
+  return {{"situation", use.situation}, {"before_pa", use.before}, {"after_pa", use.after}};
+}
+
+Json json(const CandidateScore& candidate) {
+  return {{"ids", candidate.ids},
+          {"outcome", candidate.outcome},
+          {"share_of_error", candidate.share_of_error},
+          {"share_of_ceiling", candidate.share_of_ceiling},
+          {"z", candidate.z}};
+}
+
+Json json(const NextExperiment& next) {
+  return {{"protocol", next.protocol},
+          {"sentence", next.sentence},
+          {"separation", next.separation},
+          {"separates", next.separates}};
+}
+
+Json json(const ResidualCurve& curve) {
+  return {{"covariate", curve.covariate}, {"unit", curve.unit},   {"at", curve.at},
+          {"before", curve.before},       {"after", curve.after}, {"error", curve.error}};
+}
+
+Json json(const InputUse& input) {
+  return {{"file", input.file},
+          {"sha256", input.sha256},
+          {"scans", input.scans},
+          {"show_opened", input.show_opened}};
+}
+
+Json json(const RepeatStep& step) {
+  return {{"added", step.added}, {"sentence", step.sentence}, {"share_of_error", step.share_of_error}};
+}
+
+template <typename Items>
+Json list(const Items& items) {
+  Json array = Json::array();
+  for (const auto& item : items) array.push_back(json(item));
+  return array;
+}
+
+}  // namespace
+
+std::string discrepancyJson(const DiscrepancyReport& report) {
+  const Json all = {{"verdict", name(report.verdict)},
+                    {"sentence", report.sentence},
+                    {"effects", list(report.effects)},
+                    {"credible_set", report.credible_set},
+                    {"depends_on", report.depends_on},
+                    {"not_identifiable", list(report.not_identifiable)},
+                    {"where", json(report.where)},
+                    {"gap", json(report.gap)},
+                    {"in_use", list(report.in_use)},
+                    {"next_experiment",
+                     report.next_experiment.empty() ? Json(nullptr) : json(report.next_experiment.front())},
+                    {"candidates", list(report.candidates)},
+                    {"tested", report.tested},
+                    {"limitations", report.limitations},
+                    {"curves", list(report.curves)},
+                    {"steps", list(report.steps)},
+                    {"simulation", report.base.name},
+                    {"prediction_hash", report.prediction.hash},
+                    {"inputs", list(report.inputs)},
+                    {"seed", report.seed},
+                    {"version", report.version}};
+  return all.dump(2) + "\n";
+}
+
+}  // namespace fsr

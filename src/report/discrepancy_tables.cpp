@@ -1,0 +1,67 @@
+#include <cmath>
+
+#include "fsr_pressure_map/report/discrepancy_report.h"
+#include "fsr_pressure_map/settings/yaml_text.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr double kPercent = 100;
+
+// Empty where there is no value, as spreadsheets read it.
+std::string cell(double value) {
+  return std::isfinite(value) ? numberText(value) : "";
+}
+
+double at(const std::vector<double>& values, std::size_t i) {
+  return i < values.size() ? values[i] : NAN;
+}
+
+std::string curveTable(const ResidualCurve& curve) {
+  std::string text = curve.covariate + (curve.unit.empty() ? "" : " [" + curve.unit + "]") +
+                     ",before [% FS],after [% FS],standard error [% FS]\n";
+  for (std::size_t i = 0; i < curve.at.size(); ++i) {
+    text += cell(curve.at[i]);
+    for (const auto* values : {&curve.before, &curve.after, &curve.error}) {
+      text += "," + cell(kPercent * at(*values, i));
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string gapRow(const std::string& name, double value, const Interval& interval, double pressure) {
+  return name + "," + cell(kPercent * value) + "," + cell(kPercent * interval.low) + "," +
+         cell(kPercent * interval.high) + "," + cell(pressure) + "\n";
+}
+
+std::string gapTable(const Gap& gap) {
+  return "gap,rms [% FS],low [% FS],high [% FS],rms [Pa]\n" +
+         gapRow("before", gap.before, gap.before_interval, gap.before_pressure) +
+         gapRow("after", gap.after, gap.after_interval, gap.after_pressure) +
+         gapRow("floor", gap.floor, gap.floor_interval, gap.floor_pressure);
+}
+
+std::string candidatesTable(const std::vector<CandidateScore>& candidates) {
+  std::string text = "effects,outcome,share of error [%],share of ceiling [%],z\n";
+  for (const CandidateScore& candidate : candidates) {
+    std::string ids;
+    for (const std::string& id : candidate.ids) ids += (ids.empty() ? "" : " + ") + id;
+    text += ids + "," + candidate.outcome + "," + cell(kPercent * candidate.share_of_error) + "," +
+            cell(kPercent * candidate.share_of_ceiling) + "," + cell(candidate.z) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> discrepancyTables(const DiscrepancyReport& report) {
+  std::map<std::string, std::string> tables = {{"gap.csv", gapTable(report.gap)},
+                                               {"candidates.csv", candidatesTable(report.candidates)}};
+  for (const ResidualCurve& curve : report.curves)
+    tables["residual_" + curve.covariate + ".csv"] = curveTable(curve);
+  return tables;
+}
+
+}  // namespace fsr

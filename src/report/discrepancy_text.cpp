@@ -1,0 +1,128 @@
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+#include "flow_yaml.h"
+#include "fsr_pressure_map/report/discrepancy_report.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr double kKilopascal = 1e3;  // [Pa]
+constexpr double kPercent = 100;
+
+std::string number(double value, int digits) {
+  if (!std::isfinite(value)) return "-";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(digits) << value;
+  return text.str();
+}
+
+std::string joined(const std::vector<std::string>& items, const std::string& between = ", ") {
+  std::string all;
+  for (const std::string& item : items) all += (all.empty() ? "" : between) + item;
+  return all;
+}
+
+// "3.10 % FS (19.2 kPa)".
+std::string gapPart(double value, double pressure) {
+  return number(kPercent * value, 2) + " % FS" +
+         (std::isfinite(pressure) ? " (" + number(pressure / kKilopascal, 1) + " kPa)" : "");
+}
+
+std::string gapLine(const Gap& gap) {
+  std::string text = "Gap, rms on data that took no part: " + gapPart(gap.before, gap.before_pressure) +
+                     " before, " + gapPart(gap.after, gap.after_pressure) + " after, floor " +
+                     gapPart(gap.floor, gap.floor_pressure);
+  if (std::isfinite(gap.closed)) {
+    text += "; closed " + number(kPercent * gap.closed, 0) + " %";
+    if (std::isfinite(gap.closed_interval.low)) {
+      text += " (" + number(kPercent * gap.closed_interval.low, 0) + " to " +
+              number(kPercent * gap.closed_interval.high, 0) + " %)";
+    }
+  }
+  return text + ".\n" + (gap.held_out_by.empty() ? "" : "Held out: " + joined(gap.held_out_by) + ".\n");
+}
+
+std::string notExcluded(const DiscrepancyReport& report) {
+  std::vector<std::string> sets;
+  for (const auto& ids : report.credible_set) sets.push_back(joined(ids, " + "));
+  return sets.empty() ? "" : "Not excluded: " + joined(sets, " | ") + ".\n";
+}
+
+std::string notTestable(const DiscrepancyReport& report) {
+  std::vector<std::string> effects;
+  for (const NotIdentifiable& effect : report.not_identifiable) {
+    const bool has_one = !effect.experiment.empty() && effect.experiment != "none";
+    effects.push_back(effect.id + (has_one ? " (" + effect.experiment + ")" : ""));
+  }
+  return effects.empty() ? "" : "Not testable here (what would show it): " + joined(effects) + ".\n";
+}
+
+std::string opened(const std::vector<InputUse>& inputs) {
+  int most = 0;
+  for (const InputUse& input : inputs) most = std::max(most, input.show_opened);
+  return most > 1 ? "The held-out part of a bag was looked at " + std::to_string(most) +
+                        " times by now: the gap is the less a proof.\n"
+                  : "";
+}
+
+std::string interval(const FittedParameter& parameter) {
+  const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
+  return flow_yaml::number(parameter.interval.low) + " to " + flow_yaml::number(parameter.interval.high) +
+         unit;
+}
+
+}  // namespace
+
+std::string discrepancyText(const DiscrepancyReport& report) {
+  std::string text = report.sentence + "\n" + notExcluded(report) + notTestable(report) + gapLine(report.gap);
+  for (const std::string& missing : report.gap.missing) text += missing + "\n";
+  for (const RepeatStep& step : report.steps) text += "Step: " + step.sentence + "\n";
+  if (!report.next_experiment.empty())
+    text += "Next experiment: " + report.next_experiment.front().sentence + "\n";
+  for (const std::string& limitation : report.limitations) text += "Limitation: " + limitation + "\n";
+  return text + opened(report.inputs);
+}
+
+ValueRemarks fitRemarks(const DiscrepancyReport& report) {
+  ValueRemarks remarks;
+  for (const FoundEffect& effect : report.effects) {
+    for (const FittedParameter& parameter : effect.parameters) {
+      const bool known = std::isfinite(parameter.interval.low);
+      remarks[effect.id + "." + parameter.name] =
+          known ? "fitted, 95 % interval " + interval(parameter) : "fitted";
+    }
+  }
+  return remarks;
+}
+
+std::string confirmationText(const Confirmation& confirmation) {
+  std::string text =
+      std::string(confirmation.passed ? "Confirmed" : "Not confirmed") + ": " + confirmation.sentence;
+  text += "\nSize " + number(confirmation.size, 2) + " of what was predicted (" +
+          number(confirmation.interval.low, 2) + " to " + number(confirmation.interval.high, 2) +
+          "); the prediction, nothing fitted, explains " + number(kPercent * confirmation.share_of_error, 0) +
+          " % of the squared error.\n";
+  if (!confirmation.best_rival.empty()) text += "A rival explains more: " + confirmation.best_rival + ".\n";
+  return text;
+}
+
+std::string confirmationYaml(const Confirmation& confirmation, const std::string& prediction_hash,
+                             const std::vector<InputUse>& inputs) {
+  namespace yaml = flow_yaml;
+  std::string text = "# " + confirmation.sentence + "\npassed: " + (confirmation.passed ? "true" : "false") +
+                     "\nsize: " + yaml::number(confirmation.size) +
+                     "\nsize_interval: " + yaml::pair(confirmation.interval.low, confirmation.interval.high) +
+                     "\nshare_of_error: " + yaml::number(confirmation.share_of_error) + "\nbest_rival: " +
+                     (confirmation.best_rival.empty() ? "null" : yaml::text(confirmation.best_rival)) +
+                     "\nprediction_hash: \"" + prediction_hash + "\"\ninputs:\n";
+  for (const InputUse& input : inputs) {
+    text +=
+        "  - " + yaml::map({{"file", yaml::text(input.file)}, {"sha256", "\"" + input.sha256 + "\""}}) + "\n";
+  }
+  return text;
+}
+
+}  // namespace fsr

@@ -1,0 +1,109 @@
+#include "flow_yaml.h"
+#include "fsr_pressure_map/report/verdict_file.h"
+
+namespace fsr {
+
+namespace {
+
+namespace yaml = flow_yaml;
+
+std::string parameterText(const FittedParameter& parameter) {
+  return yaml::map({{"name", yaml::text(parameter.name)},
+                    {"value", yaml::number(parameter.value)},
+                    {"unit", parameter.unit.empty() ? "null" : yaml::text(parameter.unit)},
+                    {"interval", yaml::pair(parameter.interval.low, parameter.interval.high)}});
+}
+
+std::string effectText(const FoundEffect& effect) {
+  std::vector<std::string> parameters;
+  for (const FittedParameter& parameter : effect.parameters) parameters.push_back(parameterText(parameter));
+  return "  - id: " + yaml::text(effect.id) + "\n    parameters: " + yaml::list(parameters) +
+         "\n    evidence: " +
+         yaml::map(
+             {{"z", yaml::number(effect.z)}, {"share_of_ceiling", yaml::number(effect.share_of_ceiling)}}) +
+         "\n";
+}
+
+std::string effectsText(const std::vector<FoundEffect>& effects) {
+  if (effects.empty()) return "effects: []\n";
+  std::string text = "effects:\n";
+  for (const FoundEffect& effect : effects) text += effectText(effect);
+  return text;
+}
+
+std::string credibleText(const std::vector<std::vector<std::string>>& sets) {
+  std::vector<std::string> items;
+  for (const auto& ids : sets) items.push_back(yaml::texts(ids));
+  return "credible_set: " + yaml::list(items) + "\n";
+}
+
+std::string notIdentifiableText(const std::vector<NotIdentifiable>& effects) {
+  std::vector<std::string> items;
+  for (const NotIdentifiable& effect : effects) {
+    const std::string experiment = effect.experiment.empty() ? "null" : yaml::text(effect.experiment);
+    items.push_back(yaml::map({{"id", yaml::text(effect.id)}, {"experiment", experiment}}));
+  }
+  return "not_identifiable: " + yaml::list(items) + "\n";
+}
+
+std::string whereText(const WhereItShows& where) {
+  std::vector<std::string> taxels, times;
+  for (const std::size_t taxel : where.taxels) taxels.push_back(std::to_string(taxel));
+  for (const auto& [from, to] : where.times) times.push_back(yaml::pair(from, to));
+  const auto orAll = [](const std::vector<std::string>& items) {
+    return items.empty() ? "all" : yaml::list(items);
+  };
+  return "where: " +
+         yaml::map({{"taxels", orAll(taxels)},
+                    {"conditions", where.conditions.empty() ? "all" : yaml::texts(where.conditions)},
+                    {"pressure", yaml::pair(where.pressure.low, where.pressure.high)},
+                    {"direction", yaml::text(where.direction)},
+                    {"time", orAll(times)}}) +
+         "\n";
+}
+
+std::string gapText(const Gap& gap) {
+  return "gap: " +
+         yaml::map({{"before", yaml::number(gap.before)},
+                    {"after", yaml::number(gap.after)},
+                    {"floor", yaml::number(gap.floor)},
+                    {"closed", yaml::number(gap.closed)},
+                    {"closed_interval", yaml::pair(gap.closed_interval.low, gap.closed_interval.high)},
+                    {"unit", "fraction of full scale"},
+                    {"held_out_by", yaml::texts(gap.held_out_by)}}) +
+         "\n";
+}
+
+std::string nextText(const std::vector<NextExperiment>& next) {
+  if (next.empty()) return "next_experiment: null\n";
+  return "next_experiment: " +
+         yaml::map({{"protocol", yaml::text(next.front().protocol)},
+                    {"sentence", yaml::text(next.front().sentence)},
+                    {"separation", yaml::number(next.front().separation)}}) +
+         "\n";
+}
+
+std::string inputsText(const std::vector<InputUse>& inputs) {
+  std::string text = "inputs:\n";
+  for (const InputUse& input : inputs) {
+    text += "  - " +
+            yaml::map({{"file", yaml::text(input.file)},
+                       {"sha256", "\"" + input.sha256 + "\""},
+                       {"show_opened", std::to_string(input.show_opened)}}) +
+            "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string verdictText(const DiscrepancyReport& report) {
+  const bool shows = report.verdict != Verdict::kNone && report.verdict != Verdict::kNotIdentifiable;
+  return "# " + report.sentence + "\nverdict: " + name(report.verdict) + "\n" + effectsText(report.effects) +
+         credibleText(report.credible_set) + "depends_on: " + yaml::texts(report.depends_on) + "\n" +
+         notIdentifiableText(report.not_identifiable) + (shows ? whereText(report.where) : "where: null\n") +
+         gapText(report.gap) + nextText(report.next_experiment) + "seed: " + std::to_string(report.seed) +
+         "\nversion: " + yaml::text(report.version) + "\n" + inputsText(report.inputs);
+}
+
+}  // namespace fsr

@@ -1,0 +1,89 @@
+#include "fsr_pressure_map/report/discrepancy_report.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "support/example_discrepancy.h"
+
+namespace fsr {
+namespace {
+
+using test_support::exampleDiscrepancy;
+
+void expectHolds(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts)
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in:\n" << text;
+}
+
+TEST(DiscrepancyText, SaysWhatIsNotExcludedAndWhatIsNotTestable) {
+  expectHolds(discrepancyText(exampleDiscrepancy()),
+              {"Best explanation among 23 effects tested", "Not excluded: hysteresis | hysteresis + creep.",
+               "crosstalk (uneven_load), wear (many_cycles)",
+               "3.10 % FS (19.2 kPa) before, 0.80 % FS (5.0 kPa) after, floor 0.60 % FS (3.7 kPa)",
+               "closed 92 % (90 to 94 %)", "Held out: cycles, condition", "Next experiment: Run five cycles",
+               "looked at 3 times"});
+}
+
+TEST(DiscrepancyText, LeavesOutWhatIsAbsent) {
+  const DiscrepancyReport nothing;
+  const std::string text = discrepancyText(nothing);
+  for (const char* part : {"Not excluded", "Not testable", "Next experiment", "looked at", "Held out"})
+    EXPECT_EQ(text.find(part), std::string::npos) << part;
+}
+
+TEST(DiscrepancyJson, HoldsEveryNumberAndNullForNone) {
+  const auto json = nlohmann::json::parse(discrepancyJson(exampleDiscrepancy()));
+  EXPECT_EQ(json["verdict"], "named");
+  EXPECT_EQ(json["gap"]["before"], 0.031);
+  EXPECT_EQ(json["gap"]["closed_interval"][1], 0.94);
+  EXPECT_EQ(json["effects"][0]["parameters"][0]["interval"][0], 0.058);
+  EXPECT_EQ(json["candidates"].size(), 3u);
+  EXPECT_EQ(json["curves"][0]["at"].size(), 20u);
+  const DiscrepancyReport nothing;
+  EXPECT_TRUE(json["in_use"][2]["after_pa"].is_null());
+  EXPECT_EQ(json["inputs"][1]["show_opened"], 3);
+  EXPECT_TRUE(nlohmann::json::parse(discrepancyJson(nothing))["next_experiment"].is_null());
+}
+
+TEST(DiscrepancyTables, AreOneForEachFigureWithUnitsInTheirHeadings) {
+  const auto tables = discrepancyTables(exampleDiscrepancy());
+  EXPECT_EQ(tables.size(), 4u);
+  const std::string& curve = tables.at("residual_pressure.csv");
+  EXPECT_EQ(curve.substr(0, curve.find('\n')),
+            "pressure [Pa],before [% FS],after [% FS],standard error [% FS]");
+  EXPECT_EQ(std::count(curve.begin(), curve.end(), '\n'), 21);
+  expectHolds(tables.at("gap.csv"), {"before,3.1,2.9", "floor,0.6,"});
+  expectHolds(tables.at("candidates.csv"), {"hysteresis + creep,credible,86.5,93.5,14.2"});
+}
+
+TEST(DiscrepancyTables, LeaveACellEmptyWhereThereIsNoValue) {
+  DiscrepancyReport report = exampleDiscrepancy();
+  report.gap.after = NAN;
+  report.gap.after_interval = {NAN, NAN};
+  report.gap.after_pressure = NAN;
+  expectHolds(discrepancyTables(report).at("gap.csv"), {"after,,,,\n"});
+}
+
+TEST(FitRemarks, TellTheIntervalOfWhatWasFitted) {
+  const ValueRemarks remarks = fitRemarks(exampleDiscrepancy());
+  EXPECT_EQ(remarks.at("hysteresis.loop_width"),
+            "fitted, 95 % interval 0.058 to 0.067 fraction of full scale");
+}
+
+TEST(ConfirmationText, SaysPassedOrNotAndTheRival) {
+  Confirmation confirmation;
+  confirmation.passed = false;
+  confirmation.sentence = "The loop did not keep its width.";
+  confirmation.size = 0.4;
+  confirmation.interval = {0.3, 0.5};
+  confirmation.best_rival = "creep";
+  expectHolds(confirmationText(confirmation), {"Not confirmed: The loop", "0.40 of what", "more: creep"});
+  expectHolds(
+      confirmationYaml(confirmation, "abc", {{"new.bag", "def", 10, 0}}),
+      {"passed: false", "size: 0.4", "best_rival: creep", "prediction_hash: \"abc\"", "sha256: \"def\""});
+}
+
+}  // namespace
+}  // namespace fsr

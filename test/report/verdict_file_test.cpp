@@ -1,0 +1,152 @@
+#include "fsr_pressure_map/report/verdict_file.h"
+
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "fsr_pressure_map/report/prediction_file.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "support/example_discrepancy.h"
+
+namespace fsr {
+namespace {
+
+namespace fs = std::filesystem;
+using test_support::exampleDiscrepancy;
+
+class VerdictOnDisk : public testing::Test {
+ protected:
+  void SetUp() override {
+    path_ =
+        fs::path(testing::TempDir()) /
+        ("verdict_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".yaml");
+  }
+  void TearDown() override { fs::remove(path_); }
+  void write(const std::string& text) const { std::ofstream(path_) << text; }
+  /// The example with `from` replaced, read back: what is said against it.
+  std::string complaint(const std::string& from, const std::string& to) const {
+    std::string text = verdictText(exampleDiscrepancy());
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    write(text.replace(at, from.size(), to));
+    try {
+      readVerdict(path_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  std::string path_;
+};
+
+TEST(VerdictText, IsLaidDownToTheLetter) {
+  const std::string expected = R"(verdict: named
+effects:
+  - id: hysteresis
+    parameters: [{name: loop_width, value: 0.062, unit: fraction of full scale, interval: [0.058, 0.067]}]
+    evidence: {z: 14.1, share_of_ceiling: 0.93}
+credible_set: [[hysteresis], [hysteresis, creep]]
+depends_on: [direction, pressure]
+not_identifiable: [{id: crosstalk, experiment: uneven_load}, {id: wear, experiment: many_cycles}]
+where: {taxels: [0, 3], conditions: [flat, cylinder_7cm], pressure: [50000, 400000], direction: both, time: all}
+gap: {before: 0.031, after: 0.008, floor: 0.006, closed: 0.92, closed_interval: [0.9, 0.94], unit: fraction of full scale, held_out_by: [cycles, condition]}
+)";
+  const std::string text = verdictText(exampleDiscrepancy());
+  const std::size_t begin = text.find("verdict:"), end = text.find("next_experiment:");
+  EXPECT_EQ(text.substr(begin, end - begin), expected);
+}
+
+TEST(VerdictText, HasNullForWhatIsAbsent) {
+  DiscrepancyReport report;
+  report.sentence = "Nothing: \"noise\" alone.";
+  report.gap.closed = NAN;
+  report.gap.closed_interval = {NAN, NAN};
+  report.version = "0.1.0";
+  const YAML::Node yaml = YAML::Load(verdictText(report));
+  EXPECT_EQ(yaml["verdict"].as<std::string>(), "none");
+  EXPECT_TRUE(yaml["where"].IsNull());
+  EXPECT_TRUE(yaml["next_experiment"].IsNull());
+  EXPECT_TRUE(yaml["gap"]["closed"].IsNull());
+  EXPECT_TRUE(yaml["gap"]["closed_interval"].IsNull());
+  EXPECT_TRUE(yaml["effects"].IsSequence());
+  EXPECT_EQ(yaml["effects"].size(), 0u);
+}
+
+TEST(VerdictText, SurvivesNamesThatYamlWouldReadOtherwise) {
+  DiscrepancyReport report = exampleDiscrepancy();
+  report.where.conditions = {"no", "12", "a, b: \"c\"", "tilde ~"};
+  report.inputs[0].file = "{strange}.bag";
+  const YAML::Node yaml = YAML::Load(verdictText(report));
+  EXPECT_EQ(yaml["where"]["conditions"].as<std::vector<std::string>>(), report.where.conditions);
+  EXPECT_EQ(yaml["inputs"][0]["file"].as<std::string>(), "{strange}.bag");
+}
+
+TEST(VerdictText, HasNumbersThatEveryYamlReaderKnows) {
+  DiscrepancyReport report = exampleDiscrepancy();
+  report.effects[0].parameters[0].value = 1e-6;
+  report.effects[0].parameters[0].interval = {-2.5e-7, 123456789};
+  const std::string text = verdictText(report);
+  // yaml.safe_load("[1e-06, 1.0e-06]") -> ['1e-06', 1e-06], PyYAML 6.0
+  EXPECT_NE(text.find("value: 1.0e-06"), std::string::npos) << text;
+  EXPECT_NE(text.find("interval: [-2.5e-07, 123460000]"), std::string::npos) << text;
+}
+
+TEST_F(VerdictOnDisk, ReadsBackTheSame) {
+  const DiscrepancyReport report = exampleDiscrepancy();
+  write(verdictText(report));
+  const VerdictFile verdict = readVerdict(path_);
+  EXPECT_EQ(verdict.verdict, "named");
+  EXPECT_EQ(verdict.effects, (std::vector<std::string>{"hysteresis"}));
+  EXPECT_EQ(verdict.credible_set, report.credible_set);
+  ASSERT_EQ(verdict.inputs.size(), 2u);
+  EXPECT_EQ(verdict.inputs[1].sha256, report.inputs[1].sha256);
+  EXPECT_EQ(verdict.inputs[1].show_opened, 3);
+  EXPECT_EQ(verdict.version, "0.1.0");
+}
+
+TEST_F(VerdictOnDisk, RefusesByFieldAndWhatWouldBeRight) {
+  const std::vector<std::vector<std::string>> cases = {
+      {"verdict: named", "verdict: sure", "sure", "not_identifiable"},
+      {"verdict: named", "verdikt: named", "verdikt", "unknown here"},
+      {"seed: 1", "# seed: 1", "seed is missing"},
+      {"seed: 1", "seed: many", "seed must be a whole number"},
+      {"- id: hysteresis", "- id: histeresis", "effects[0].id", "histeresis"},
+      {"[[hysteresis], ", "[[magic], ", "credible_set", "magic"},
+      {"[[hysteresis], [hysteresis, creep]]", "hysteresis", "credible_set must be a list of lists"},
+      {"show_opened: 3", "show_opened: -3", "inputs[1].show_opened", "0 or more"},
+      {"sha256: \"bb", "sha256: \"b", "inputs[1].sha256", "64"},
+  };
+  for (const auto& parts : cases) {
+    const std::string said = complaint(parts[0], parts[1]);
+    EXPECT_NE(said.find(path_), std::string::npos) << parts[1] << ": " << said;
+    for (std::size_t i = 2; i < parts.size(); ++i) EXPECT_NE(said.find(parts[i]), std::string::npos) << said;
+  }
+  write("verdict: [");
+  EXPECT_THROW(readVerdict(path_), InputError);
+  EXPECT_THROW(readVerdict("/no/such/verdict.yaml"), InputError);
+}
+
+TEST_F(VerdictOnDisk, PredictionKeepsEveryBit) {
+  const Prediction prediction = exampleDiscrepancy().prediction;
+  write(predictionText({prediction, std::string(64, 'd')}));
+  const FrozenPrediction read = readPrediction(path_);
+  EXPECT_EQ(read.verdict_sha256, std::string(64, 'd'));
+  EXPECT_EQ(read.prediction.hash, prediction.hash);
+  EXPECT_EQ(read.prediction.size.high, prediction.size.high);
+  ASSERT_EQ(read.prediction.effects.size(), 1u);
+  EXPECT_EQ(read.prediction.effects[0].values, prediction.effects[0].values);
+  ASSERT_EQ(read.prediction.rivals.size(), 2u);
+  EXPECT_EQ(read.prediction.rivals[1][0].id, "time_skew");
+}
+
+TEST_F(VerdictOnDisk, EmptyPredictionIsOneToo) {
+  write(predictionText({{}, "x"}));
+  EXPECT_TRUE(readPrediction(path_).prediction.effects.empty());
+  EXPECT_TRUE(readPrediction(path_).prediction.rivals.empty());
+}
+
+}  // namespace
+}  // namespace fsr

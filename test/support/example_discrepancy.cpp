@@ -1,0 +1,97 @@
+#include "example_discrepancy.h"
+
+#include <cmath>
+
+namespace test_support {
+
+namespace {
+
+// A loop: the residual is high while loading, low while unloading.
+fsr::ResidualCurve curve(const std::string& covariate, const std::string& unit, double low, double high) {
+  fsr::ResidualCurve curve;
+  curve.covariate = covariate;
+  curve.unit = unit;
+  for (int i = 0; i < 20; ++i) {
+    const double x = (i + 0.5) / 20;
+    curve.at.push_back(low + x * (high - low));
+    curve.before.push_back(0.03 * std::sin(3.1 * x) - 0.01);
+    curve.after.push_back(0.002 * std::sin(9 * x));
+    curve.error.push_back(0.001);
+  }
+  return curve;
+}
+
+fsr::Gap gap() {
+  fsr::Gap gap;
+  gap.before = 0.031;
+  gap.after = 0.008;
+  gap.floor = 0.006;
+  gap.closed = 0.92;
+  gap.before_interval = {0.029, 0.033};
+  gap.after_interval = {0.0075, 0.0086};
+  gap.floor_interval = {0.0058, 0.0063};
+  gap.closed_interval = {0.9, 0.94};
+  gap.before_pressure = 19220;
+  gap.after_pressure = 4960;
+  gap.floor_pressure = 3720;
+  gap.held_out_by = {"cycles", "condition"};
+  gap.missing = {"No second protocol was recorded, so none was held out."};
+  return gap;
+}
+
+fsr::FoundEffect loop() {
+  fsr::FoundEffect effect;
+  effect.id = "hysteresis";
+  effect.summary = "loading and unloading differ, at any speed";
+  effect.parameters = {{"loop_width", 0.062, "fraction of full scale", {0.058, 0.067}}};
+  effect.z = 14.1;
+  effect.share_of_ceiling = 0.93;
+  return effect;
+}
+
+}  // namespace
+
+fsr::DiscrepancyReport exampleDiscrepancy() {
+  fsr::DiscrepancyReport report;
+  report.verdict = fsr::Verdict::kNamed;
+  report.sentence =
+      "Best explanation among 23 effects tested, under this protocol: hysteresis (loop_width 0.062, 0.058 to "
+      "0.067).";
+  report.effects = {loop()};
+  report.credible_set = {{"hysteresis"}, {"hysteresis", "creep"}};
+  report.depends_on = {"direction", "pressure"};
+  report.not_identifiable = {{"crosstalk", "uneven_load", "The static curve takes all of it."},
+                             {"wear", "many_cycles", "60 cycles wear nothing off."}};
+  report.where.taxels = {0, 3};
+  report.where.conditions = {"flat", "cylinder_7cm"};
+  report.where.pressure = {50e3, 400e3};
+  report.gap = gap();
+  report.in_use = {{"ramp", 21e3, 5e3}, {"stance", 18e3, 4e3}, {"standing", 9e3, NAN}};
+  report.next_experiment = {{"two_speeds",
+                             "Run five cycles at 5 kPa/s and five at 40 kPa/s: a loop stays as wide, a short "
+                             "memory does not.",
+                             6.2,
+                             {{"hysteresis", "creep"}}}};
+  report.candidates = {{{"hysteresis"}, "named", 0.86, 0.93, 14.1},
+                       {{"hysteresis", "creep"}, "credible", 0.865, 0.935, 14.2},
+                       {{"time_skew"}, "refused", 0.31, 0.34, 6.0}};
+  report.tested = {"hysteresis", "creep", "time_skew"};
+  report.limitations = {"No temperature was recorded: what is slow cannot be told apart."};
+  report.curves = {curve("pressure", "Pa", 0, 620e3), curve("direction", "", -1, 1)};
+  report.steps = {{"hysteresis", "hysteresis was added; it explains 86 % of the squared error", 0.86}};
+  report.base.name = "core";
+  report.base.effects = {{"white_noise", {{"deviation", 2}}}};
+  report.added = report.base;
+  report.prediction.effects = {
+      {"hysteresis", {{"loop_width", 0.062000000000000003}, {"threshold", 1.0 / 3}}}};
+  report.prediction.rivals = {{{"creep", {{"strength", 0.04}}}}, {{"time_skew", {{"delay", 0.12}}}}};
+  report.prediction.size = {0.93, 1.08};
+  report.prediction.hash = std::string(64, 'c');
+  report.inputs = {{"1_flat.bag", std::string(64, 'a'), 4460, 1},
+                   {"2_bent.bag", std::string(64, 'b'), 4460, 3}};
+  report.seed = 1;
+  report.version = "0.1.0";
+  return report;
+}
+
+}  // namespace test_support

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "fsr_pressure_map/discrepancy/discrepancy.h"
+
+namespace test_support {
+
+/// A report with something in every field, for tests of those who write it down.
+fsr::DiscrepancyReport exampleDiscrepancy();
+
+}  // namespace test_support
