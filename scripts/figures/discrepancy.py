@@ -1,0 +1,295 @@
+#!/usr/bin/python3
+"""Draws the figures of a discrepancy run and writes its report: discrepancy.py DIR.
+
+DIR holds results.json and figures/*.csv as the tool `discrepancy` wrote them; figures/*.png and report.html are
+made beside them. Nothing is computed here that a reader could quote.
+"""
+
+import csv
+import html
+import json
+import math
+import os
+import sys
+
+import figure_style as style
+import matplotlib.pyplot as plt
+
+# Covariates in the order in which their curves are worth a look, where the verdict names none.
+ORDER = ["pressure", "direction", "time_since_reversal", "pressure_rate", "cycle", "clock_time", "temperature"]
+SCALES = {"Pa": (1e-3, "kPa"), "Pa/s": (1e-3, "kPa/s")}  # for screens
+WORDS = {
+    "named": "named", "none": "nothing is missing", "unknown": "unknown: no effect of the library explains it",
+    "ambiguous": "ambiguous: several explanations remain", "wrong_form": "right place, wrong form",
+    "not_identifiable": "not identifiable under this protocol",
+}
+SITUATIONS = {"ramp": "in a ramp", "stance": "in a stance of 0.6 s", "standing": "in ten minutes of standing"}
+
+LAYOUT = """<style>
+.first { display: grid; grid-template-columns: minmax(20em, 2fr) 3fr; gap: 0 1.6em; }
+.first figure { margin: 0; } .first p, .first ul { margin: 0.4em 0; } .first .verdict { grid-column: 1 / 3; margin: 0; }
+body { max-width: 76em; margin: 1em auto; } h1 { margin: 0.3em 0; }
+.gap td { padding: 0.15em 0.7em; } dt { font-weight: bold; margin-top: 0.5em; } dd { margin: 0; }
+@media (max-width: 50em) { .first { display: block; } }
+</style>"""
+
+
+def read_table(path):
+    """{heading: [cells]}; numbers where they are some, NaN where there is none."""
+    with open(path, newline="", encoding="utf-8") as table:
+        rows = list(csv.reader(table))
+
+    def cell(text):
+        try:
+            return float(text) if text else math.nan
+        except ValueError:
+            return text
+    return {heading: [cell(row[i]) for row in rows[1:]] for i, heading in enumerate(rows[0])}
+
+
+def spelt(name):
+    return name.replace("_", " ")
+
+
+# --- figures ----------------------------------------------------------------------------------------
+
+
+def curves(folder, results):
+    """Tables of residual curves, the most telling first."""
+    names = [curve["covariate"] for curve in results["curves"] if curve["at"]]
+    first = [name for name in results["depends_on"] if name in names]
+    rest = sorted(set(names) - set(first), key=lambda n: (ORDER.index(n) if n in ORDER else len(ORDER), n))
+    return [(name, read_table(os.path.join(folder, "residual_%s.csv" % name))) for name in first + rest]
+
+
+def draw_curve(axes, name, table):
+    heading, before, after, error = list(table)[:4]
+    unit = heading[len(name):].strip(" []")
+    factor, shown = SCALES.get(unit, (1, unit))
+    at = [factor * x for x in table[heading]]
+    axes.axhline(0, color="#999999", linewidth=0.6)
+    for column, colour, label in ((before, style.RED, "before"), (after, style.BLUE, "after")):
+        low = [m - 1.96 * e for m, e in zip(table[column], table[error])]
+        high = [m + 1.96 * e for m, e in zip(table[column], table[error])]
+        axes.fill_between(at, low, high, color=colour, alpha=0.2, linewidth=0)
+        axes.plot(at, table[column], color=colour, marker="." if len(at) < 30 else None, label=label)
+    axes.set_xlabel(spelt(name) + (" [%s]" % shown if shown else ""))
+    if name == "direction":
+        axes.set_xticks([-1, 1], ["unloading", "loading"])
+
+
+def draw_gap(axes, table):
+    names = [row for row, value in zip(table["gap"], table["rms [% FS]"]) if not math.isnan(value)]
+    colours = {"before": style.RED, "after": style.BLUE, "floor": "#888888"}
+    for i, name in enumerate(names):
+        row = table["gap"].index(name)
+        value, low, high = (table[c][row] for c in ("rms [% FS]", "low [% FS]", "high [% FS]"))
+        axes.bar(i, value, color=colours[name], width=0.7)
+        if low < high:
+            axes.errorbar(i, value, yerr=[[max(0, value - low)], [max(0, high - value)]], color="black", capsize=3)
+        pressure = table["rms [Pa]"][row]
+        text = "%.2g %%" % value + ("" if math.isnan(pressure) else "\n%.3g kPa" % (pressure / 1e3))
+        axes.annotate(text, (i, max(value, high if low < high else value)), ha="center", va="bottom", fontsize=7,
+                      xytext=(0, 2), textcoords="offset points")
+    axes.set_xticks(range(len(names)), names)
+    axes.margins(y=0.25)
+    axes.set_ylabel("gap, rms [% of full scale]")
+
+
+def draw_first(folder, results):
+    """The disagreement before and after, and its size: one picture."""
+    tables = curves(folder, results)[:2]
+    drawing, axes = plt.subplots(1, len(tables) + 1, figsize=(style.PAGE, 2.9),
+                                 width_ratios=[3] * len(tables) + [2])
+    axes = list(axes) if tables else [axes]
+    for i, (name, table) in enumerate(tables):
+        draw_curve(axes[i], name, table)
+    if tables:
+        axes[0].set_ylabel("measured - simulated [% of full scale]")
+        axes[0].legend(loc="best")
+    draw_gap(axes[-1], read_table(os.path.join(folder, "gap.csv")))
+    return style.save(drawing, os.path.join(folder, "disagreement"))
+
+
+def draw_rest(folder, results):
+    """All other curves, three in a row; None where there are none."""
+    tables = curves(folder, results)[2:]
+    if not tables:
+        return None
+    rows = (len(tables) + 2) // 3
+    drawing, axes = plt.subplots(rows, 3, figsize=(style.PAGE, 2.0 * rows), squeeze=False)
+    places = [place for row in axes for place in row]
+    for place, (name, table) in zip(places, tables):
+        draw_curve(place, name, table)
+    for place in places[len(tables):]:
+        place.set_visible(False)
+    for row in axes:
+        row[0].set_ylabel("measured - simulated\n[% of full scale]")
+    return style.save(drawing, os.path.join(folder, "covariates"))
+
+
+def draw_candidates(folder):
+    """What each candidate explains of the squared error, held out; None where there is none."""
+    table = read_table(os.path.join(folder, "candidates.csv"))
+    number = min(len(table["effects"]), 15)
+    if number == 0:
+        return None
+    drawing, axes = style.figure(style.PAGE, 0.5 + 0.2 * number)
+    shown = {"named": style.GREEN, "credible": style.ORANGE}
+    share = [max(0, s) if not math.isnan(s) else 0 for s in table["share of error [%]"][:number]]
+    axes.barh(range(number), share, color=[shown.get(o, "#bbbbbb") for o in table["outcome"][:number]])
+    axes.set_yticks(range(number), [spelt(str(e)) for e in table["effects"][:number]])
+    axes.invert_yaxis()
+    axes.set_xlabel("explained of the squared error on held-out cycles [%]")
+    for i, outcome in enumerate(table["outcome"][:number]):
+        axes.annotate(spelt(str(outcome)), (share[i], i), va="center", fontsize=6.5, xytext=(3, 0),
+                      textcoords="offset points")
+    axes.margins(x=0.15)
+    return style.save(drawing, os.path.join(folder, "candidates"))
+
+
+# --- the page ---------------------------------------------------------------------------------------
+
+
+def percent(value):
+    return "-" if value is None else "%.3g %%" % (100 * value)
+
+
+def kilopascal(value):
+    return "-" if value is None else "%.3g kPa" % (value / 1e3)
+
+
+def gap_table(gap):
+    def interval(name):
+        low, high = gap[name + "_interval"]
+        return "" if low is None or not low < high else "%s to %s" % (percent(low), percent(high))
+    rows = [(name, percent(gap[name]), interval(name), kilopascal(gap[name + "_pa"]))
+            for name in ("before", "after", "floor")]
+    if gap["closed"] is not None:
+        rows.append(("closed", percent(gap["closed"]), interval("closed"), ""))
+    return style.table(["gap", "of full scale", "95 % interval", "gauge pressure"], rows)
+
+
+def sentence_list(sentences):
+    return "<ul>%s</ul>" % "".join("<li>%s</li>" % html.escape(s) for s in sentences)
+
+
+def item(title, text):
+    return "<dt>%s</dt><dd>%s</dd>" % (html.escape(title), html.escape(text))
+
+
+def not_excluded(results):
+    sets = [" + ".join(spelt(i) for i in ids) for ids in results["credible_set"]]
+    return "; ".join(sets) if sets else "nothing: no effect of the library is an explanation"
+
+
+def not_testable(results):
+    def one(effect):
+        experiment = effect["experiment"]
+        return spelt(effect["id"]) + (" (%s)" % spelt(experiment) if experiment and experiment != "none" else "")
+    return ", ".join(one(e) for e in results["not_identifiable"]) or "none"
+
+
+def held_out(gap):
+    parts = ", ".join(gap["held_out_by"]) or "nothing"
+    return parts + (" (weak evidence: only cycles)" if gap["held_out_by"] == ["cycles"] else "")
+
+
+def opened(results):
+    most = max((i["show_opened"] for i in results["inputs"]), default=0)
+    return "once" if most <= 1 else "%d times by now" % most
+
+
+def first_screen(results, figure):
+    following = results["next_experiment"]
+    facts = "".join([
+        item("Not excluded", not_excluded(results)),
+        item("Not testable here (what would show it)", not_testable(results)),
+        item("Next experiment", following["sentence"] if following else "none is needed to tell explanations apart"),
+        item("Held out by", held_out(results["gap"]) + "; looked at " + opened(results)),
+    ])
+    caption = ("Measured minus simulated, mean with its 95 % interval, before and after what was found was added, "
+               "and its rms on data that took no part; floor = what no explanation could undercut")
+    return ("<div class=first><p class=verdict><b>%s.</b> %s</p><div><dl>%s</dl><div class=gap>%s</div></div>%s</div>"
+            % (html.escape(WORDS.get(results["verdict"], results["verdict"]).capitalize()),
+               html.escape(results["sentence"]), facts, gap_table(results["gap"]), style.picture(figure, caption)))
+
+
+def effects_section(results):
+    rows = []
+    for effect in results["effects"]:
+        for p in effect["parameters"] or [None]:
+            low, high = p["interval"] if p else (None, None)
+            rows.append((spelt(effect["id"]), p["name"] if p else "", p["value"] if p else "", p["unit"] if p else "",
+                         "" if low is None else "%.4g to %.4g" % (low, high), effect["z"], effect["share_of_ceiling"]))
+    pieces = [style.paragraph("%s: %s" % (spelt(e["id"]), e["summary"])) for e in results["effects"]]
+    if rows:
+        pieces.append(style.table(["effect", "parameter", "value", "unit", "95 % interval", "z", "share of ceiling"],
+                                  rows))
+    if any(e["id"] == "creep" for e in results["effects"]):
+        pieces.append(style.paragraph("Data sheets call creep \"drift under constant load\"."))
+    return pieces
+
+
+def where_section(results):
+    where = results["where"]
+    low, high = where["pressure_pa"]
+    rows = [("taxels", ", ".join(map(str, where["taxels"])) or "all"),
+            ("surfaces", ", ".join(where["conditions"]) or "all"),
+            ("gauge pressure", "all" if low is None else "%s to %s" % (kilopascal(low), kilopascal(high))),
+            ("direction", where["direction"]),
+            ("time", ", ".join("%.0f to %.0f s" % tuple(t) for t in where["times_s"]) or "all"),
+            ("depends on", ", ".join(spelt(c) for c in results["depends_on"]) or "-")]
+    return [style.table(["where", ""], rows)]
+
+
+def use_section(results):
+    rows = [(SITUATIONS.get(u["situation"], u["situation"]), kilopascal(u["before_pa"]), kilopascal(u["after_pa"]))
+            for u in results["in_use"]]
+    return [style.table(["largest error", "before", "after"], rows)] if rows else []
+
+
+def provenance(results):
+    rows = [(i["file"], i["sha256"], i["scans"], i["show_opened"]) for i in results["inputs"]]
+    tested = ", ".join(spelt(t) for t in results["tested"])
+    return [style.table(["bag", "SHA-256", "scans", "held-out part looked at"], rows),
+            style.paragraph("Started from the simulation \"%s\"; seed %d; version %s. Effects tested: %s." %
+                            (results["simulation"], results["seed"], results["version"], tested or "none")),
+            style.paragraph("Research use; not for diagnosis or fitting decisions.")]
+
+
+def sections(results, figures):
+    def pictures(*pairs):
+        return [style.picture(path, caption) for path, caption in pairs if path]
+    testable = [(spelt(e["id"]), spelt(e["experiment"]), e["reason"]) for e in results["not_identifiable"]]
+    shown = results["verdict"] not in ("none", "not_identifiable")
+    parts = [
+        (None, [LAYOUT, first_screen(results, figures["first"])]),
+        ("What was found", effects_section(results) + [style.paragraph(s["sentence"]) for s in results["steps"]]),
+        ("Where it shows", where_section(results) if shown else []),
+        ("What it costs in use", use_section(results)),
+        ("All candidates", pictures((figures["candidates"], "The best explanations, each alone or in pairs; green: "
+                                     "named, orange: not excluded, grey: refused"))),
+        ("Other covariates", pictures((figures["rest"], "The same residual over everything else that was recorded"))),
+        ("Not testable with these bags", [style.table(["effect", "would show it", "why"], testable)] if testable else []),
+        ("Limits", [sentence_list(results["limitations"] + results["gap"]["missing"])]
+         if results["limitations"] or results["gap"]["missing"] else []),
+        ("Where it comes from", provenance(results)),
+    ]
+    return [(heading, pieces) for heading, pieces in parts if pieces]
+
+
+def main(words):
+    if len(words) != 2:
+        sys.exit("usage: discrepancy.py DIR")
+    folder = words[1]
+    with open(os.path.join(folder, "results.json"), encoding="utf-8") as file:
+        results = json.load(file)
+    figures = os.path.join(folder, "figures")
+    drawn = {"first": draw_first(figures, results), "rest": draw_rest(figures, results),
+             "candidates": draw_candidates(figures)}
+    style.page(os.path.join(folder, "report.html"), "Simulation against measurement", sections(results, drawn))
+
+
+if __name__ == "__main__":
+    main(sys.argv)

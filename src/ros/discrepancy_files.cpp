@@ -1,0 +1,68 @@
+#include "fsr_pressure_map/ros/discrepancy_files.h"
+
+#include <filesystem>
+
+#include "fsr_pressure_map/report/discrepancy_report.h"
+#include "fsr_pressure_map/report/verdict_file.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/settings/replace_file.h"
+#include "fsr_pressure_map/settings/sha256.h"
+
+namespace fsr_ros {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string heading(const fsr::DiscrepancyReport& report) {
+  std::string text = report.sentence + "\nBy discrepancy " + report.version + ", seed " +
+                     std::to_string(report.seed) + ", from";
+  for (const fsr::InputUse& input : report.inputs) text += "\n  " + input.file + " " + input.sha256;
+  return text;
+}
+
+}  // namespace
+
+std::string outputFolder(const std::string& path) {
+  const fs::path folder = fs::absolute(path).lexically_normal();
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    throw fsr::InputError(folder.string() + ": the folder cannot be made (" + error.message() +
+                          "); give another one with --output");
+  }
+  return folder;
+}
+
+void writeDiscrepancy(const fsr::DiscrepancyReport& report, const std::string& folder) {
+  const std::string figures = outputFolder(folder + "/figures");
+  for (const auto& [name, table] : fsr::discrepancyTables(report))
+    fsr::replaceFile(figures + "/" + name, table);
+  fsr::replaceFile(folder + "/results.json", fsr::discrepancyJson(report));
+  fsr::replaceFile(folder + "/base.yaml",
+                   fsr::simulationText(report.base,
+                                       "The simulation before anything was added to it, fitted to "
+                                       "the recordings.\n" +
+                                           heading(report)));
+  fsr::replaceFile(folder + "/simulation.yaml",
+                   fsr::simulationText(report.added, heading(report), fsr::fitRemarks(report)));
+  const std::string verdict = fsr::verdictText(report);
+  fsr::replaceFile(folder + "/prediction.yaml",
+                   fsr::predictionText({report.prediction, fsr::sha256(verdict.data(), verdict.size())}));
+  fsr::replaceFile(folder + "/verdict.yaml", verdict);
+}
+
+StoredPrediction readPredictionBeside(const std::string& verdict_path) {
+  const std::string folder = fs::absolute(verdict_path).parent_path();
+  StoredPrediction stored{fsr::readPrediction(folder + "/prediction.yaml"),
+                          fsr::readSimulationFile(folder + "/base.yaml")};
+  if (fsr::sha256OfFile(verdict_path) != stored.frozen.verdict_sha256) {
+    throw fsr::InputError(
+        verdict_path +
+        ": is not the file that prediction.yaml was frozen with; an edited verdict cannot be "
+        "confirmed, run discrepancy again");
+  }
+  return stored;
+}
+
+}  // namespace fsr_ros

@@ -1,0 +1,111 @@
+#include "fsr_pressure_map/ros/discrepancy_files.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "fsr_pressure_map/report/verdict_file.h"
+#include "fsr_pressure_map/ros/figure_script.h"
+#include "fsr_pressure_map/ros/show_ledger.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "support/example_discrepancy.h"
+
+namespace fsr_ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+class DiscrepancyFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              ("discrepancy_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::remove_all(folder_);
+    report_.base = report_.added = fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/core.yaml");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string text(const std::string& name) const {
+    std::ifstream file(folder_ / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  /// Draws the report; what is wrong, or "".
+  std::string draw() const {
+    try {
+      runPython(FSR_SOURCE_DIR "/scripts/figures/discrepancy.py", {folder_.string()});
+    } catch (const fsr::InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  fs::path folder_;
+  fsr::DiscrepancyReport report_ = test_support::exampleDiscrepancy();
+};
+
+TEST_F(DiscrepancyFiles, AreAllThereAndReadBack) {
+  writeDiscrepancy(report_, outputFolder(folder_.string()));
+  EXPECT_EQ(fsr::readVerdict((folder_ / "verdict.yaml").string()).verdict, "named");
+  const fsr::SimulationSettings added = fsr::readSimulationFile((folder_ / "simulation.yaml").string());
+  EXPECT_EQ(added.effects.size(), report_.added.effects.size());
+  const StoredPrediction stored = readPredictionBeside((folder_ / "verdict.yaml").string());
+  EXPECT_EQ(stored.frozen.prediction.hash, report_.prediction.hash);
+  EXPECT_EQ(stored.base.effects.size(), report_.base.effects.size());
+  EXPECT_NE(text("simulation.yaml").find(report_.inputs[0].sha256), std::string::npos);
+}
+
+TEST_F(DiscrepancyFiles, RefuseAVerdictThatWasEditedSince) {
+  writeDiscrepancy(report_, outputFolder(folder_.string()));
+  std::ofstream(folder_ / "verdict.yaml", std::ios::app) << "# 0.07 looks better\n";
+  try {
+    readPredictionBeside((folder_ / "verdict.yaml").string());
+    FAIL() << "not refused";
+  } catch (const fsr::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("edited"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(DiscrepancyFiles, BecomeAReportThatNeedsNoNetwork) {
+  writeDiscrepancy(report_, outputFolder(folder_.string()));
+  ASSERT_EQ(draw(), "");
+  const std::string html = text("report.html");
+  for (const char* part : {"Best explanation among 23 effects tested", "Not excluded", "hysteresis + creep",
+                           "crosstalk (uneven load)", "Run five cycles", "3.1 %", "19.2 kPa", "floor",
+                           "data:image/png;base64", "3 times by now"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  for (const char* part : {"http://", "https://", "<script", "src=\"/", "file://"})
+    EXPECT_EQ(html.find(part), std::string::npos) << part;
+  EXPECT_TRUE(fs::exists(folder_ / "figures" / "disagreement.png"));
+}
+
+TEST_F(DiscrepancyFiles, BecomeAReportWhateverIsAbsent) {
+  fsr::DiscrepancyReport nothing;
+  nothing.sentence = "Nothing is missing.";
+  nothing.base = nothing.added = report_.base;
+  nothing.gap.closed = NAN;
+  nothing.gap.closed_interval = {NAN, NAN};
+  writeDiscrepancy(nothing, outputFolder(folder_.string()));
+  EXPECT_EQ(draw(), "");
+  EXPECT_NE(text("report.html").find("Nothing is missing."), std::string::npos);
+}
+
+TEST_F(DiscrepancyFiles, CountEveryLookAtABag) {
+  const ShowLedger ledger((folder_ / "ledger").string());
+  const std::string bag(64, 'a'), other(64, 'b');
+  EXPECT_EQ(ledger.open(bag, 1), 1);
+  EXPECT_EQ(ledger.open(bag, 1), 2);
+  EXPECT_EQ(ledger.open(other, 1), 1);
+  EXPECT_EQ(ShowLedger((folder_ / "ledger").string()).open(bag, 7), 3);
+}
+
+TEST_F(DiscrepancyFiles, SayWhereTheLedgerCannotBeWritten) {
+  fs::create_directories(folder_);
+  std::ofstream(folder_ / "ledger") << "a file, no folder";
+  EXPECT_THROW(ShowLedger((folder_ / "ledger").string()).open(std::string(64, 'a'), 1), fsr::InputError);
+}
+
+}  // namespace
+}  // namespace fsr_ros
