@@ -11,6 +11,7 @@ namespace fsr {
 
 namespace {
 
+constexpr double kOnClass = 1e-6;  // [1/m]
 constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
 
 // The flag, or 0.
@@ -34,6 +35,7 @@ Calibrator::Calibrator(const CurvatureTables& tables, const Layout& layout, cons
       layout_(layout),
       options_(options),
       needs_curvature_(tables.scheme != Scheme::kBaseline),
+      rule_(tables.rule),
       switch_(tables, options.class_hysteresis),
       watch_(tables.size, tables.full_scale, options.watch),
       mask_(tables.size.taxels(), 0),
@@ -47,7 +49,7 @@ Calibrator::Calibrator(const CurvatureTables& tables, const Layout& layout, cons
   if (layout.size != tables.size) throw InputError("calibration: its layout is not the size of its tables");
   masked_.reserve(tables.size.taxels());
   failed_.reserve(tables.size.taxels());
-  selectTables();
+  selectTables({});
 }
 
 void Calibrator::setSurface(const Surface& surface, double time) {
@@ -59,7 +61,7 @@ void Calibrator::setSurface(const Surface& surface, double time) {
   } else {
     switch_.fallBack();
   }
-  selectTables();
+  selectTables(surface);
 }
 
 void Calibrator::setMask(const std::vector<std::uint8_t>& mask) {
@@ -77,16 +79,44 @@ void Calibrator::setTare(const std::vector<float>& offset) {
   refreshStanding();
 }
 
-void Calibrator::selectTables() {
+// An unknown surface is taken for the class that the switch has fallen back to.
+void Calibrator::selectTables(const Surface& surface) {
   for (std::size_t taxel = 0; taxel < table_.size(); ++taxel) {
     const std::size_t chosen = switch_.choices()[taxel].curvature_class;
-    table_[taxel] = tables_.table(taxel, chosen);
-    const PackedTables::TrainedCodes trained = tables_.trained(taxel, chosen);
-    lowest_[taxel] = trained.lowest;
-    highest_[taxel] = trained.highest;
-    model_[taxel] = trained.model;
+    selectTable(taxel, surface.known() ? principalCurvature(surface.at({taxel}))
+                                       : tables_.tables(taxel).curvature[chosen]);
   }
   refreshStanding();
+}
+
+void Calibrator::selectTable(std::size_t taxel, double curvature) {
+  const ClassSwitch::Choice& choice = switch_.choices()[taxel];
+  const std::size_t chosen = choice.curvature_class;
+  const PackedTables::TrainedCodes trained = tables_.trained(taxel, chosen);
+  const bool on_class = std::abs(curvature - tables_.tables(taxel).curvature[chosen]) <= kOnClass;
+  const bool blend = trained.model && tables_.classes() > 1 &&
+                     (rule_.blend == BlendRule::kKernel || choice.flags != 0 ||
+                      (rule_.blend == BlendRule::kInterpolate && !on_class));
+  table_[taxel] = blend ? blended(taxel, curvature) : tables_.table(taxel, chosen);
+  lowest_[taxel] = trained.lowest;
+  highest_[taxel] = trained.highest;
+  model_[taxel] = trained.model;
+}
+
+const TableEntry* Calibrator::blended(std::size_t taxel, double curvature) {
+  const std::size_t stride = tables_.fullScale() + 1u + PackedTables::kPadding;
+  if (blended_.empty()) {
+    blended_.resize(table_.size() * stride);
+    blended_for_.assign(table_.size(), {std::numeric_limits<double>::quiet_NaN(), 0});
+  }
+  const std::size_t chosen = switch_.choices()[taxel].curvature_class;
+  TableEntry* const table = blended_.data() + taxel * stride;
+  Blended& now = blended_for_[taxel];
+  if (now.chosen == chosen && std::abs(now.curvature - curvature) <= options_.curvature_step) return table;
+  blendTable(rule_, rule_.blend == BlendRule::kKernel ? rule_.lengthScale(taxel) : 0, tables_.tables(taxel),
+             curvature, chosen, table);
+  now = {curvature, chosen};
+  return table;
 }
 
 void Calibrator::refreshStanding() noexcept {

@@ -1,5 +1,6 @@
 #include "fsr_pressure_map/calibration/class_switch.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fsr_pressure_map/map/pressure_map.h"
@@ -12,18 +13,30 @@ ClassSwitch::ClassSwitch(const CurvatureTables& tables, double hysteresis)
       high_(tables.curvature_high),
       tolerance_(tables.class_tolerance),
       hysteresis_(hysteresis),
+      by_name_(tables.rule.blend == BlendRule::kByName),
       choices_(tables.size.taxels()) {
   fallBack();
 }
 
 void ClassSwitch::choose(const Surface& surface) {
+  if (by_name_ && chooseByName(surface.name)) return;
   const bool same = last_.known() && last_.name == surface.name && last_.mount == surface.mount;
   for (std::size_t taxel = 0; taxel < choices_.size(); ++taxel) {
     const double curvature = principalCurvature(surface.at({taxel}));
     const std::size_t chosen = same ? keepOrLeave(taxel, curvature) : nearest(taxel, curvature);
     choices_[taxel] = {chosen, flags(taxel, chosen, curvature)};
+    if (by_name_ && choices_[taxel].flags == 0) choices_[taxel].flags = taxel_flag::kBetweenClasses;
   }
   last_ = {surface.name, surface.mount, {Curvature{}}, {}};
+}
+
+bool ClassSwitch::chooseByName(const std::string& name) {
+  const auto found = std::find_if(classes_.begin(), classes_.end(),
+                                  [&](const CurvatureClass& one) { return one.surface == name; });
+  if (found == classes_.end()) return false;
+  choices_.assign(choices_.size(), {static_cast<std::size_t>(found - classes_.begin()), 0});
+  last_ = {};
+  return true;
 }
 
 void ClassSwitch::fallBack() {

@@ -1,5 +1,6 @@
 #include "fsr_pressure_map/calibration/packed_tables.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -21,7 +22,8 @@ void requireWhole(const CurvatureTables& tables) {
 // One value for each code, all of them finite or, for want of a model, all of them NaN.
 void requireSound(const CodeTable& table, std::size_t codes, std::size_t number) {
   const std::string which = "calibration: table " + std::to_string(number);
-  if (table.pressure.size() != codes || table.deviation.size() != codes) {
+  if (table.pressure.size() != codes || table.deviation.size() != codes ||
+      (!table.log_weight.empty() && table.log_weight.size() != codes)) {
     throw InputError(which + " has " + std::to_string(table.pressure.size()) +
                      " codes, but must have full scale + 1, " + std::to_string(codes));
   }
@@ -40,18 +42,35 @@ void requireSound(const CodeTable& table, std::size_t codes, std::size_t number)
 PackedTables::PackedTables(const CurvatureTables& tables)
     : size_(tables.size), full_scale_(tables.full_scale), classes_(tables.classes.size()) {
   requireWhole(tables);
+  const bool kernels = tables.rule.blend == BlendRule::kKernel;
   entries_.resize(size_.taxels() * stride());
+  if (kernels) log_weight_.resize(size_.taxels() * classes_ * codes());
   for (std::size_t taxel = 0; taxel < size_.taxels(); ++taxel) {
+    TaxelTables& own = of_taxel_.emplace_back();
+    own.codes = codes();
     for (std::size_t k = 0; k < classes_; ++k) {
-      const CodeTable& table = tables.table(taxel, k);
-      requireSound(table, codes(), number(taxel, k));
+      const CodeTable& packed = tables.table(taxel, k);
+      requireSound(packed, codes(), number(taxel, k));
       TableEntry* entry = entries_.data() + taxel * stride() + k * codes();
+      own.curvature.push_back(tables.classes[k].at(taxel));
+      own.table.push_back(entry);
       for (std::size_t code = 0; code < codes(); ++code) {
-        *entry++ = {table.pressure[code], table.deviation[code]};
+        *entry++ = {packed.pressure[code], packed.deviation[code]};
       }
-      trained_.push_back({table.lowest, table.highest, !std::isnan(table.pressure.front())});
+      trained_.push_back({packed.lowest, packed.highest, !std::isnan(packed.pressure.front())});
+      if (kernels) own.log_weight.push_back(packLogWeight(packed, number(taxel, k)));
     }
   }
+}
+
+const float* PackedTables::packLogWeight(const CodeTable& table, std::size_t number) {
+  if (table.log_weight.empty()) {
+    throw InputError("calibration: table " + std::to_string(number) +
+                     " has no weights, but its scheme blends tables by weight");
+  }
+  float* const begin = log_weight_.data() + number * codes();
+  std::copy(table.log_weight.begin(), table.log_weight.end(), begin);
+  return begin;
 }
 
 }  // namespace fsr

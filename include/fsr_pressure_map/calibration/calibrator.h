@@ -16,12 +16,16 @@ namespace fsr {
 struct CalibratorOptions {
   double class_hysteresis = 0.5;  ///< a taxel leaves its class only when another is nearer by more [1/m]
   double curvature_timeout = 0;   ///< an older surface is stale [s]; 0 = never
-  bool fill_bad_taxels = false;   ///< dead and stuck taxels take the mean of their neighbours, flagged
+  double curvature_step =
+      0.02;  ///< a taxel's blended table is compiled anew when curvature moved by more [1/m]
+  bool fill_bad_taxels = false;  ///< dead and stuck taxels take the mean of their neighbours, flagged
   TaxelWatchOptions watch;
 };
 
-/// Turns scans into pressure maps, one table look-up a taxel. It owns what the live path remembers: the
-/// surface and the class switch, mask, tare, and the watch for dead and stuck taxels.
+/// Turns scans into pressure maps, one table look-up a taxel, whatever the scheme: a surface whose table is
+/// not among the calibration's has one compiled for each taxel when it comes (see blend_table.h). It owns
+/// what the live path remembers: the surface and the class switch, mask, tare, and the watch for dead and
+/// stuck taxels.
 ///
 /// Flags of a taxel:
 ///   kSaturated              code at full scale: "at least"
@@ -66,7 +70,9 @@ class Calibrator {
   const std::vector<ClassSwitch::Choice>& choices() const { return switch_.choices(); }
 
  private:
-  void selectTables();
+  void selectTables(const Surface& surface);
+  void selectTable(std::size_t taxel, double curvature);
+  const TableEntry* blended(std::size_t taxel, double curvature);
   void refreshStanding() noexcept;
   void noteTime(double time) noexcept;
   void clip(const std::uint16_t* counts) noexcept;
@@ -79,6 +85,7 @@ class Calibrator {
   Layout layout_;
   CalibratorOptions options_;
   bool needs_curvature_;
+  CurvatureRule rule_;
   ClassSwitch switch_;
   TaxelWatch watch_;
 
@@ -88,6 +95,14 @@ class Calibrator {
   bool wrong_sensor_ = false;
   std::vector<std::uint8_t> mask_;   // [taxels]
   std::vector<std::uint8_t> model_;  // [taxels], 0 = the table in use is empty
+
+  // Tables compiled for the curvature at hand, and what for; allocated with the first one.
+  struct Blended {
+    double curvature;
+    std::size_t chosen;
+  };
+  std::vector<TableEntry> blended_;   // [taxels x stride]
+  std::vector<Blended> blended_for_;  // [taxels]
   bool tared_ = false;
 
   // What the loop over taxels reads, each [taxels], row-major.

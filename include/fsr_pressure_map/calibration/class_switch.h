@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "fsr_pressure_map/compensation/curvature_tables.h"
@@ -11,7 +12,8 @@ namespace fsr {
 
 /// Chooses the curvature class of each taxel: the nearest by principal curvature, with hysteresis while
 /// the sheet stays on one surface and mount, so that a curvature that wavers between two classes does
-/// not make the pressure jump to and fro.
+/// not make the pressure jump to and fro. Where the rule is by name, a surface of a class's name takes that
+/// class, whatever its curvature, and any other surface lies between classes.
 class ClassSwitch {
  public:
   /// What was chosen for a taxel.
@@ -21,7 +23,7 @@ class ClassSwitch {
   };
 
   /// A taxel leaves its class only when another is nearer by more than `hysteresis` [1/m]. `tables` is
-  /// read for its classes, range and tolerance only.
+  /// read for its classes, range, tolerance and rule only.
   ClassSwitch(const CurvatureTables& tables, double hysteresis);
 
   /// Chooses anew for a surface of known curvature that fits the matrix.
@@ -35,6 +37,7 @@ class ClassSwitch {
 
  private:
   std::size_t nearest(std::size_t taxel, double curvature) const;
+  bool chooseByName(const std::string& name);
   std::size_t keepOrLeave(std::size_t taxel, double curvature) const;
   double distance(std::size_t taxel, std::size_t curvature_class, double curvature) const;
   std::uint16_t flags(std::size_t taxel, std::size_t curvature_class, double curvature) const;
@@ -44,6 +47,7 @@ class ClassSwitch {
   double high_;
   double tolerance_;
   double hysteresis_;
+  bool by_name_;
   Surface last_;  // name and mount only; unknown after fallBack()
   std::vector<Choice> choices_;
 };

@@ -4,20 +4,20 @@
 #include <cstdint>
 #include <vector>
 
+#include "fsr_pressure_map/compensation/blend_table.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
 
 namespace fsr {
-
-/// What a code means: one cache line holds eight neighbouring codes.
-struct TableEntry {
-  float pressure;   ///< gauge [Pa]
-  float deviation;  ///< one standard deviation of a held-out reading [Pa]
-};
 
 /// CurvatureTables laid out for look-up: [taxels x classes x (full_scale + 1)] in one block, so that a
 /// scan touches one line for each taxel. 7 x 10 taxels, 12 bit, six classes take 13.8 MB.
 class PackedTables {
  public:
+  /// Entries between the tables of one taxel and those of the next: a page (512 entries) and a cache line (8)
+  /// more than the tables take. 4,096 codes fill whole pages, and the same code of every taxel, as of a sheet
+  /// at rest, would want one and the same set of the cache. Halves the time of a look-up.
+  static constexpr std::size_t kPadding = 512 + 8;
+
   /// Codes beyond this lie outside of training on the low side (first) or the high side (second).
   struct TrainedCodes {
     std::uint16_t lowest;
@@ -27,6 +27,8 @@ class PackedTables {
 
   /// Throws InputError where a table has not one finite value for each code, nor NaN throughout.
   explicit PackedTables(const CurvatureTables& tables);
+  PackedTables(PackedTables&&) = default;  // not to be copied: it points into itself
+  PackedTables(const PackedTables&) = delete;
 
   MatrixSize size() const { return size_; }
   std::uint16_t fullScale() const { return full_scale_; }
@@ -36,16 +38,16 @@ class PackedTables {
   const TableEntry* table(std::size_t taxel, std::size_t curvature_class) const {
     return entries_.data() + taxel * stride() + curvature_class * codes();
   }
+  /// All tables of one taxel, for blendTable().
+  const TaxelTables& tables(std::size_t taxel) const { return of_taxel_[taxel]; }
   TrainedCodes trained(std::size_t taxel, std::size_t curvature_class) const {
     return trained_[number(taxel, curvature_class)];
   }
 
  private:
+  const float* packLogWeight(const CodeTable& table, std::size_t number);
   std::size_t codes() const { return std::size_t{full_scale_} + 1; }
-  // A page (512 entries) and a cache line (8) more than its tables take: 4,096 codes fill whole pages, and
-  // the same code of every taxel, as of a sheet at rest, would want one and the same set of the cache. Halves
-  // the time of a look-up.
-  std::size_t stride() const { return classes_ * codes() + 512 + 8; }
+  std::size_t stride() const { return classes_ * codes() + kPadding; }
   std::size_t number(std::size_t taxel, std::size_t curvature_class) const {
     return taxel * classes_ + curvature_class;
   }
@@ -55,6 +57,8 @@ class PackedTables {
   std::size_t classes_;
   std::vector<TableEntry> entries_;
   std::vector<TrainedCodes> trained_;  // [taxels x classes]
+  std::vector<float> log_weight_;      // [taxels x classes x codes]; empty unless kernels are blended
+  std::vector<TaxelTables> of_taxel_;
 };
 
 }  // namespace fsr

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fsr_pressure_map/compensation/curvature_rule.h"
 #include "fsr_pressure_map/compensation/scheme.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/matrix/layout.h"
@@ -12,7 +13,8 @@
 
 namespace fsr {
 
-/// A scheme, compiled: for each taxel one CodeTable for each curvature class.
+/// A scheme, compiled: for each taxel one CodeTable for each curvature class, and the rule that makes one
+/// table of them for any curvature (see blend_table.h).
 struct CurvatureTables {
   Scheme scheme = Scheme::kPerCurvature;
   MatrixSize size;
@@ -28,6 +30,7 @@ struct CurvatureTables {
   double curvature_high = 0;
   /// A taxel farther than this from every class curvature is flagged kBetweenClasses [1/m].
   double class_tolerance = 0.5;
+  CurvatureRule rule = {};
 
   const CodeTable& table(std::size_t taxel, std::size_t curvature_class) const {
     return tables[taxel * classes.size() + curvature_class];

@@ -1,0 +1,165 @@
+#include "fsr_pressure_map/compensation/blend_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace fsr {
+
+namespace {
+
+// Weights below exp(-40) of the largest do not count.
+constexpr float kNegligibleExponent = 40.0f;
+
+std::size_t nearestOf(double at, const std::vector<double>& curvature) {
+  std::size_t best = 0;
+  double least = INFINITY;
+  for (std::size_t k = 0; k < curvature.size(); ++k) {
+    const double distance = std::abs(curvature[k] - at);
+    if (!(distance < least)) continue;  // NaN is never nearer
+    least = distance;
+    best = k;
+  }
+  return best;
+}
+
+// The nearest class on one side of `from`; `from` itself where there is none. `sign` +1 = above, -1 = below.
+std::size_t nextOf(std::size_t from, double sign, const std::vector<double>& curvature) {
+  std::size_t best = from;
+  double least = INFINITY;
+  for (std::size_t k = 0; k < curvature.size(); ++k) {
+    const double distance = sign * (curvature[k] - curvature[from]);
+    if (!(distance > 0 && distance < least)) continue;
+    least = distance;
+    best = k;
+  }
+  return best;
+}
+
+void chosenPressure(const TableEntry* table, std::size_t codes, TableEntry* out) {
+  for (std::size_t code = 0; code < codes; ++code) out[code].pressure = table[code].pressure;
+}
+
+// With the law: P = gain(k) / gain of the straight line * (straight line - its offset) + offset(k).
+void interpolatedPressure(const EffectLaw& law, const TaxelTables& tables, const CurvaturePlace& place,
+                          double at, TableEntry* out) {
+  const TableEntry* const below = tables.table[place.below];
+  const TableEntry* const above = tables.table[place.above];
+  const EffectLaw::Effect here = law.at(at), low = law.at(tables.curvature[place.below]),
+                          high = law.at(tables.curvature[place.above]);
+  const double straight_gain = low.gain + place.share * (high.gain - low.gain);
+  const double straight_offset = low.offset + place.share * (high.offset - low.offset);
+  const double factor = here.gain / straight_gain;
+  const bool beyond = place.below == place.above;
+  const auto gain = static_cast<float>(beyond ? 1.0 : factor);
+  const auto offset = static_cast<float>(beyond ? 0.0 : here.offset - factor * straight_offset);
+  const auto share = static_cast<float>(place.share);
+  for (std::size_t code = 0; code < tables.codes; ++code) {
+    const float straight = below[code].pressure + share * (above[code].pressure - below[code].pressure);
+    out[code].pressure = gain * straight + offset;
+  }
+}
+
+// Codes that are blended together, so many that their sums stay in the nearest cache.
+constexpr std::size_t kBlock = 256;
+
+struct KernelSums {
+  std::array<float, kBlock> largest, sum, weight;
+};
+
+// Quotients of kernel sums kept as logarithms, the largest taken out of all.
+void kernelBlock(double precision, const TaxelTables& tables, double at, std::size_t begin,
+                 std::size_t number, KernelSums& sums) {
+  sums.largest.fill(-std::numeric_limits<float>::infinity());
+  sums.sum.fill(0.0f);
+  sums.weight.fill(0.0f);
+  const auto exponent = [&](std::size_t k) {
+    const double distance = at - tables.curvature[k];
+    return static_cast<float>(precision * distance * distance);
+  };
+  for (std::size_t k = 0; k < tables.curvature.size(); ++k) {
+    const float away = exponent(k);
+    if (std::isnan(away)) continue;
+    const float* const log_weight = tables.log_weight[k] + begin;
+    for (std::size_t i = 0; i < number; ++i)
+      sums.largest[i] = std::max(sums.largest[i], log_weight[i] - away);
+  }
+  for (std::size_t k = 0; k < tables.curvature.size(); ++k) {
+    const float away = exponent(k);
+    const float* const log_weight = tables.log_weight[k] + begin;
+    const TableEntry* const entry = tables.table[k] + begin;
+    for (std::size_t i = 0; i < number; ++i) {
+      const float below = sums.largest[i] - (log_weight[i] - away);
+      if (!(below < kNegligibleExponent)) continue;  // nor a class left out
+      const float share = std::exp(-below);
+      sums.sum[i] += share * entry[i].pressure;
+      sums.weight[i] += share;
+    }
+  }
+}
+
+void kernelPressure(double length_scale, const TaxelTables& tables, double at, TableEntry* out) {
+  const double precision = 0.5 / (length_scale * length_scale);
+  KernelSums sums;
+  for (std::size_t begin = 0; begin < tables.codes; begin += kBlock) {
+    const std::size_t number = std::min(kBlock, tables.codes - begin);
+    kernelBlock(precision, tables, at, begin, number, sums);
+    for (std::size_t i = 0; i < number; ++i) out[begin + i].pressure = sums.sum[i] / sums.weight[i];
+  }
+}
+
+// What stands in a square: of the neighbours by their shares, and of not having seen this curvature.
+void spreadDeviation(const UnseenDeviation& unseen, const TaxelTables& tables, const CurvaturePlace& place,
+                     TableEntry* out) {
+  const TableEntry* const below = tables.table[place.below];
+  const TableEntry* const above = tables.table[place.above];
+  const TableEntry* const inner = tables.table[place.inner];
+  const auto share = static_cast<float>(place.share), beyond = static_cast<float>(place.beyond);
+  const bool known = !unseen.pressure.empty();
+  const float between = 4 * share * (1 - share), outside = std::min(1.0f, 2 * beyond);
+  for (std::size_t code = 0; code < tables.codes; ++code) {
+    const float low = below[code].deviation, high = above[code].deviation;
+    const float half = 0.5f * (above[code].pressure - below[code].pressure);
+    const float off = known ? static_cast<float>(unseen.at(out[code].pressure)) : half;
+    const float away = beyond * (below[code].pressure - inner[code].pressure);
+    out[code].deviation = std::sqrt((1 - share) * low * low + share * high * high +
+                                    (between + outside * outside) * off * off + away * away);
+  }
+}
+
+}  // namespace
+
+CurvaturePlace placeOf(double at, const std::vector<double>& curvature) {
+  CurvaturePlace place;
+  const std::size_t nearest = nearestOf(at, curvature);
+  const double from_nearest = at - curvature[nearest];
+  const double sign = from_nearest >= 0 ? 1.0 : -1.0;
+  const std::size_t other = from_nearest == 0 ? nearest : nextOf(nearest, sign, curvature);
+  place.below = place.above = place.inner = nearest;
+  if (other != nearest) {
+    place.below = sign > 0 ? nearest : other;
+    place.above = sign > 0 ? other : nearest;
+    place.share = (at - curvature[place.below]) / (curvature[place.above] - curvature[place.below]);
+    place.inner = place.below;
+    return place;
+  }
+  place.inner = nextOf(nearest, -sign, curvature);
+  if (place.inner != nearest) place.beyond = from_nearest / (curvature[nearest] - curvature[place.inner]);
+  return place;
+}
+
+void blendTable(const CurvatureRule& rule, double length_scale, const TaxelTables& tables, double at,
+                std::size_t chosen, TableEntry* out) {
+  const CurvaturePlace place = placeOf(at, tables.curvature);
+  if (rule.blend == BlendRule::kKernel) {
+    kernelPressure(length_scale, tables, at, out);
+  } else if (rule.blend == BlendRule::kInterpolate) {
+    interpolatedPressure(rule.law, tables, place, at, out);
+  } else {
+    chosenPressure(tables.table[chosen], tables.codes, out);
+  }
+  spreadDeviation(rule.unseen, tables, place, out);
+}
+
+}  // namespace fsr

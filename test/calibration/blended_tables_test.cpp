@@ -1,0 +1,148 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fsr_pressure_map/calibration/calibrator.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "support/allocation_guard.h"
+#include "support/small_tables.h"
+
+namespace fsr {
+namespace {
+
+using test_support::knownDeviation;
+using test_support::knownPressure;
+using test_support::smallTables;
+namespace flag = taxel_flag;
+
+constexpr MatrixSize kSize{3, 4};
+constexpr std::uint16_t kFullScale = 1023;
+constexpr std::size_t kTaxel = 7;
+
+Surface bent(double curvature, const std::string& name = "surface") {
+  return {name, 1, {{curvature, 0, 0}}, {}};
+}
+
+CurvatureTables tablesWith(BlendRule blend) {
+  CurvatureTables tables = smallTables(kSize, {0.0, 10.0, 20.0});
+  tables.rule.blend = blend;
+  if (blend == BlendRule::kKernel) {
+    tables.rule.length_scale = {4.0};
+    for (CodeTable& table : tables.tables) table.log_weight.assign(kFullScale + 1u, 0.0f);
+  }
+  return tables;
+}
+
+struct Reading {
+  float pressure, deviation;
+  std::uint16_t flags;
+};
+
+Reading read(Calibrator& calibrator, std::uint16_t code = 500) {
+  const std::vector<std::uint16_t> counts(kSize.taxels(), code);
+  PressureMap map;
+  calibrator.calibrate({kSize, kFullScale, counts.data(), counts.size()}, 0, map);
+  return {map.pressure[kTaxel], map.deviation[kTaxel], map.flags[kTaxel]};
+}
+
+TEST(BlendedTables, InterpolationGivesEveryCurvatureATableOfItsOwn) {
+  Calibrator calibrator(tablesWith(BlendRule::kInterpolate), {kSize});
+  for (const double curvature : {0.0, 2.0, 5.0, 10.0, 18.0, 20.0}) {
+    calibrator.setSurface(bent(curvature), 0);
+    // classes differ by 10 Pa
+    EXPECT_NEAR(read(calibrator).pressure, knownPressure(kTaxel, 0, 500) + curvature, 0.01);
+  }
+}
+
+TEST(BlendedTables, InterpolationStillSaysWhatLiesBetweenOrBeyondTheClasses) {
+  Calibrator calibrator(tablesWith(BlendRule::kInterpolate), {kSize});
+  calibrator.setSurface(bent(10.4), 0);
+  EXPECT_EQ(read(calibrator).flags, 0);
+  calibrator.setSurface(bent(10.6), 0);
+  EXPECT_EQ(read(calibrator).flags, flag::kBetweenClasses);
+  calibrator.setSurface(bent(-3), 0);
+  EXPECT_EQ(read(calibrator).flags, flag::kCurvatureExtrapolated);
+  EXPECT_EQ(read(calibrator).pressure, knownPressure(kTaxel, 0, 500));
+}
+
+TEST(BlendedTables, AnUnknownSurfaceIsTakenForTheFlattest) {
+  for (const BlendRule blend : {BlendRule::kNearest, BlendRule::kInterpolate}) {
+    Calibrator calibrator(tablesWith(blend), {kSize});
+    calibrator.setSurface(bent(13), 0);
+    calibrator.setSurface({}, 0);
+    EXPECT_EQ(read(calibrator).pressure, knownPressure(kTaxel, 0, 500));
+  }
+}
+
+TEST(BlendedTables, KernelsAreBlendedOnAClassToo) {
+  Calibrator calibrator(tablesWith(BlendRule::kKernel), {kSize});
+  calibrator.setSurface(bent(0), 0);
+  const double ten = std::exp(-100.0 / 32), twenty = std::exp(-400.0 / 32);  // weights of the classes
+  const double expected = knownPressure(kTaxel, 0, 500) + (10 * ten + 20 * twenty) / (1 + ten + twenty);
+  EXPECT_NEAR(read(calibrator).pressure, expected, 0.01);
+}
+
+TEST(BlendedTables, KernelsNeedTheirWeights) {
+  CurvatureTables tables = tablesWith(BlendRule::kKernel);
+  tables.tables[2].log_weight.clear();
+  EXPECT_THROW(Calibrator(tables, {kSize}), InputError);
+}
+
+TEST(BlendedTables, ByNameASurfaceTakesTheTableOfItsName) {
+  Calibrator calibrator(tablesWith(BlendRule::kByName), {kSize});
+  calibrator.setSurface(bent(0.3, "surface_2"), 0);
+  EXPECT_EQ(read(calibrator).pressure, knownPressure(kTaxel, 2, 500));
+  EXPECT_EQ(read(calibrator).flags, 0);
+  calibrator.setSurface(bent(9.9, "another"), 0);
+  EXPECT_EQ(read(calibrator).pressure, knownPressure(kTaxel, 1, 500));
+  EXPECT_EQ(read(calibrator).flags, flag::kBetweenClasses);
+}
+
+TEST(BlendedTables, TheNearestClassIsLessSureOffItsCurvature) {
+  Calibrator calibrator(tablesWith(BlendRule::kNearest), {kSize});
+  calibrator.setSurface(bent(9.7), 0);  // within the tolerance
+  EXPECT_EQ(read(calibrator).deviation, knownDeviation(kTaxel, 1, 500));
+  calibrator.setSurface(bent(6), 0);
+  EXPECT_EQ(read(calibrator).pressure, knownPressure(kTaxel, 1, 500));
+  CurvatureTables unsure = tablesWith(BlendRule::kNearest);
+  unsure.rule.unseen = {{0}, {3e3}};
+  Calibrator less_sure(unsure, {kSize});
+  less_sure.setSurface(bent(6), 0);
+  EXPECT_GT(read(less_sure).deviation, 3e3 * std::sqrt(4 * 0.6 * 0.4));
+}
+
+TEST(BlendedTables, ASmallStepOfCurvatureKeepsTheTable) {
+  CalibratorOptions options;
+  options.curvature_step = 0.1;
+  Calibrator calibrator(tablesWith(BlendRule::kInterpolate), {kSize}, options);
+  calibrator.setSurface(bent(5), 0);
+  calibrator.setSurface(bent(5.09), 0);
+  EXPECT_NEAR(read(calibrator).pressure, knownPressure(kTaxel, 0, 500) + 5, 0.01);
+  calibrator.setSurface(bent(5.11), 0);
+  EXPECT_NEAR(read(calibrator).pressure, knownPressure(kTaxel, 0, 500) + 5.11, 0.01);
+}
+
+TEST(BlendedTables, SurvivesAMove) {
+  Calibrator first(tablesWith(BlendRule::kInterpolate), {kSize});
+  first.setSurface(bent(5), 0);
+  Calibrator second(std::move(first));
+  second.setSurface(bent(15), 0);
+  EXPECT_NEAR(read(second).pressure, knownPressure(kTaxel, 0, 500) + 15, 0.01);
+}
+
+TEST(BlendedTables, AScanAllocatesNothingWhateverTheRule) {
+  for (const BlendRule blend : {BlendRule::kNearest, BlendRule::kKernel, BlendRule::kInterpolate}) {
+    Calibrator calibrator(tablesWith(blend), {kSize});
+    calibrator.setSurface(bent(5), 0);
+    const std::vector<std::uint16_t> counts(kSize.taxels(), 500);
+    PressureMap map;
+    const ScanView scan{kSize, kFullScale, counts.data(), counts.size()};
+    calibrator.calibrate(scan, 0, map);
+    const test_support::AllocationGuard guard;
+    calibrator.calibrate(scan, 0.1, map);
+    EXPECT_EQ(guard.allocations(), 0u);
+  }
+}
+
+}  // namespace
+}  // namespace fsr
