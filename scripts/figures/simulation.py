@@ -1,90 +1,127 @@
 #!/usr/bin/python3
-"""Draws what the effects of a simulated rig do: plot_simulation.py DATA.json PICTURE.png
+"""Draws what the effects of a simulated rig do: simulation.py DATA.json STEM [PANEL...]
 
 The data are those that `simulate --plot` writes: readings in per cent of full scale, pressures in kPa.
+STEM.png and STEM.pdf are drawn; with panels by name, only those, and a small STEM.png alone.
 """
 import io
 import json
 import os
 import sys
 
-import matplotlib
+import matplotlib.pyplot as plt
+from PIL import Image  # comes with matplotlib
 
-matplotlib.use("Agg")  # no X needed
-import matplotlib.pyplot as plt  # noqa: E402
-from PIL import Image  # noqa: E402  comes with matplotlib
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import figure_style as style  # noqa: E402
 
 READING = "reading [% FS]"
 CHANGE = "change of the reading [% FS]"
 PRESSURE = "recorded pressure [kPa gauge]"
-STYLES = [{"color": "C3", "linewidth": 1.2}, {"color": "C0", "linewidth": 0.8}, {"color": "C2", "linewidth": 0.8}]
+STYLES = ({"color": style.RED, "linewidth": 1.3}, {"color": style.BLUE, "linewidth": 0.8},
+          {"color": style.GREEN, "linewidth": 0.8})
+LEGEND = {"frameon": True, "framealpha": 0.8, "edgecolor": "none"}
+SMALL_DPI = 100
 
 
-def draw_response(axes, data):
-    for line in data["response"]:
+def response(axes, data):
+    """The first loading with the effects, and without in grey."""
+    for line, colour in zip(data["response"], ("0.6", style.BLUE, "0.6", style.RED)):
         without = line["label"].endswith("without")
-        axes.plot(line["x"], line["y"], "--" if without else "-", color="0.6" if without else None,
-                  label=line["label"], linewidth=1.2)
+        axes.plot(line["x"], line["y"], "--" if without else "-", color=colour, label=line["label"])
     axes.set(title="first loading, middle taxel", xlabel=PRESSURE, ylabel=READING)
-    axes.legend(fontsize=7)
+    axes.legend(**LEGEND)
 
 
-def draw_loop(axes, data):
-    for line, style in zip(data["loop"], STYLES):
-        axes.plot(line["x"], line["y"], label=line["label"], **style)
+def loop(axes, data):
+    for line, look in zip(data["loop"], STYLES):
+        axes.plot(line["x"], line["y"], label=line["label"], **look)
     axes.set(title="three slow cycles, one fast", xlabel=PRESSURE, ylabel=CHANGE)
-    axes.legend(fontsize=7)
+    axes.legend(**LEGEND)
 
 
-def draw_hold(axes, data):
+def hold(axes, data):
     pressure = data["hold_pressure"][0]
     right = axes.twinx()
-    right.plot([x / 60 for x in pressure["x"]], pressure["y"], color="0.85", linewidth=0.8)
+    right.plot([x / 60 for x in pressure["x"]], pressure["y"], color="0.8", linewidth=0.8)
     right.set_ylabel("chamber [kPa gauge]", color="0.5")
     right.tick_params(colors="0.5")
+    right.spines["right"].set(visible=True, color="0.7")
     axes.set_zorder(right.get_zorder() + 1)
     axes.patch.set_visible(False)
-    for line, style in zip(data["hold"], STYLES):
-        axes.plot([x / 60 for x in line["x"]], line["y"], **style)
+    for line, look in zip(data["hold"], STYLES):
+        axes.plot([x / 60 for x in line["x"]], line["y"], label=line["label"], **look)
     axes.set(title="step, hold, vent, rest; room warms by 5 K", xlabel="time [min]", ylabel=CHANGE)
 
 
-def draw_map(figure, axes, rows, title, change):
+def low(axes, data):
+    """The begin of the response, where a turn-on pressure or a preload shows."""
+    response(axes, data)
+    readings = [y for line in data["response"] for x, y in zip(line["x"], line["y"]) if x <= 60]
+    axes.set(title="first loading, low pressures", xlim=(0, 60), ylim=(-0.5, 1.1 * max(readings)))
+
+
+def beginning(axes, data):
+    """The first half minute of the hold, at rest, where a beat shows."""
+    for line, look in zip(data["hold"], STYLES):
+        axes.plot(line["x"], line["y"], label=line["label"], **look)
+    axes.set(title="at rest", xlabel="time [s]", ylabel=CHANGE, xlim=(0, 30))
+    axes.legend(loc="upper right", **LEGEND)
+
+
+def rows_of(axes, rows, title, change):
+    """A map; few steps of colour, which can be told apart and make small files."""
     if change:
         largest = max(max(abs(value) for value in row) for row in rows) or 1
-        colours = {"cmap": "RdBu_r", "vmin": -largest, "vmax": largest}
+        colours = {"cmap": plt.get_cmap("RdBu_r", 21), "vmin": -largest, "vmax": largest}
     else:
-        colours = {"cmap": "viridis", "vmin": 0}
+        colours = {"cmap": plt.get_cmap("viridis", 20), "vmin": 0}
     image = axes.imshow(rows, **colours)  # row 0 on top, as arrays are printed
     axes.set(title=title, xlabel="column", ylabel="row")
-    figure.colorbar(image, ax=axes, shrink=0.75).set_label(CHANGE if change else READING, fontsize=8)
+    axes.figure.colorbar(image, ax=axes, shrink=0.8).set_label(CHANGE if change else READING)
 
 
-def save(figure, path):
+def disc(axes, data):
+    rows_of(axes, data["disc"], "under a disc of 300 kPa", False)
+
+
+def disc_change(axes, data):
+    rows_of(axes, data["disc_change"], "largest change under the disc", True)
+
+
+def gas_change(axes, data):
+    rows_of(axes, data["gas_change"], "largest change under gas to 300 kPa", True)
+
+
+PANELS = {panel.__name__: panel for panel in (response, loop, hold, disc, disc_change, gas_change)}
+DETAILS = {panel.__name__: panel for panel in (low, beginning)}
+
+
+def save_small(drawing, path):
     """Few colours make a small file; a new name at first, so that nothing half-written remains."""
     picture = io.BytesIO()
-    figure.savefig(picture, format="png")
-    fresh = path + ".new"
-    Image.open(picture).convert("RGB").quantize(96).save(fresh, format="png", optimize=True)
-    os.replace(fresh, path)
+    drawing.savefig(picture, format="png", dpi=SMALL_DPI)
+    plt.close(drawing)
+    Image.open(picture).convert("RGB").quantize(128).save(path + ".new", format="png", optimize=True)
+    os.replace(path + ".new", path)
+
+
+def draw(data, stem, names=()):
+    columns = len(names) or 3
+    rows = 1 if names else 2
+    drawing, axes = style.figure(3 * columns, 2.35 * rows + 0.2, nrows=rows, ncols=columns)
+    drawing.suptitle(data["title"], fontsize=10)
+    for name, place in zip(names or PANELS, axes.flat):
+        (PANELS | DETAILS)[name](place, data)
+    return save_small(drawing, stem + ".png") if names else style.save(drawing, stem)
 
 
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) < 3 or not set(sys.argv[3:]) <= set(PANELS | DETAILS):
         sys.exit(__doc__)
     with open(sys.argv[1], encoding="utf-8") as source:
         data = json.load(source)
-    plt.rcParams.update({"font.size": 8, "axes.titlesize": 9})
-    figure, axes = plt.subplots(2, 3, figsize=(11.5, 6), dpi=75)
-    figure.suptitle(data["title"], fontsize=12)
-    draw_response(axes[0][0], data)
-    draw_loop(axes[0][1], data)
-    draw_hold(axes[0][2], data)
-    draw_map(figure, axes[1][0], data["disc"], "under a disc of 300 kPa", False)
-    draw_map(figure, axes[1][1], data["disc_change"], "largest change under the disc", True)
-    draw_map(figure, axes[1][2], data["gas_change"], "largest change under gas, up to 300 kPa", True)
-    figure.tight_layout()
-    save(figure, sys.argv[2])
+    draw(data, sys.argv[2], sys.argv[3:])
 
 
 if __name__ == "__main__":

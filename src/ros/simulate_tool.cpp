@@ -103,19 +103,19 @@ int drawPlot(const fsr::CommandLine& line, const fsr::SimulationSettings& settin
   fsr::SimulationSettings titled = settings;
   if (!id.empty()) titled.name = id;
   const fs::path folder = folderOf(line), data = folder / (titled.name + ".json"),
-                 picture = folder / (titled.name + ".png");
+                 stem = folder / titled.name;
   const auto before = id.empty() ? coreOf(settings) : withoutEffect(settings, id);
   fsr::Portrait portrait = portray(titled, before);
   if (!id.empty()) portrait.title += ": " + fsr::findEffect(id)->info.summary;
   fsr::replaceFile(data, portraitJson(portrait));
   out << data.string() << std::endl;
   try {
-    drawFigures("simulation.py", {data, picture});
+    drawFigures("simulation.py", {data, stem});
   } catch (const fsr::InputError& error) {
     out << error.what() << std::endl;
     return kFiguresMissing;
   }
-  out << picture.string() << std::endl;
+  out << stem.string() + ".png" << std::endl << stem.string() + ".pdf" << std::endl;
   return 0;
 }
 

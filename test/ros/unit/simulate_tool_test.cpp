@@ -194,7 +194,7 @@ TEST_F(SimulateTool, DrawsWhatAnEffectDoes) {
   const std::string bytes{std::istreambuf_iterator<char>(picture), {}};
   EXPECT_EQ(bytes.substr(1, 3), "PNG");
   EXPECT_GT(bytes.size(), 10000u);
-  EXPECT_EQ(filesIn(path("out")), (std::set<std::string>{"creep.json", "creep.png"}));
+  EXPECT_EQ(filesIn(path("out")), (std::set<std::string>{"creep.json", "creep.pdf", "creep.png"}));
 }
 
 TEST_F(SimulateTool, SaysWhatItCannotUse) {

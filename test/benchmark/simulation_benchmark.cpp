@@ -1,0 +1,116 @@
+// Speed of the sensor chain. Counters: `real_time` is seconds of rig time simulated in a second of one core
+// at the scan rate of the case, `core` the share of a core that real time takes.
+
+#include <benchmark/benchmark.h>
+
+#include "fsr_pressure_map/emulator/board.h"
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "fsr_pressure_map/simulation/portrait.h"
+#include "fsr_pressure_map/simulation/sensitivity.h"
+
+namespace {
+
+constexpr double kPaperRate = 10;  // [Hz]
+
+/// The usual static curve and converter, and either nothing else or every effect at its usual size.
+fsr::SimulationSettings settingsOf(int rows, int columns, bool all) {
+  const std::string matrix =
+      "matrix: {rows: " + std::to_string(rows) + ", columns: " + std::to_string(columns);
+  fsr::SimulationSettings settings = fsr::readSimulation(fsr::Settings::fromText(
+      "{simulation: b, " + matrix + "}, effects: {static_curve: {}, converter: {}}}", "benchmark"));
+  for (const fsr::EffectEntry& entry : fsr::effectLibrary()) {
+    if (all && entry.make) settings = fsr::withEffect(settings, entry.info.id);
+  }
+  return settings;
+}
+
+void readScans(fsr::SensorChain& chain, const fsr::PressureProfile& profile, double rate,
+               std::uint64_t scans) {
+  const fsr::PressureCourse course = [&](double time) { return profile.at(time); };
+  for (std::uint64_t i = 0; i < scans; ++i) {
+    const double time = static_cast<double>(i) / rate;
+    benchmark::DoNotOptimize(chain.read({time, profile.at(time), i, 23, &course}).data());
+  }
+}
+
+// One scan of 7 x 10 taxels with one effect beside curve and converter: where the time goes.
+void oneEffect(benchmark::State& state, const std::string& id) {
+  const auto profile = pressureProfile(fsr::ChamberProtocol{});
+  fsr::SensorChain chain(id.empty() ? settingsOf(7, 10, false)
+                                    : fsr::withEffect(settingsOf(7, 10, false), id));
+  for (auto _ : state) readScans(chain, profile, kPaperRate, 750);
+  state.SetItemsProcessed(state.iterations() * 750);
+}
+
+// The paper's 45,000 scans of 70 taxels; target: 5,000 times real time.
+void paperWithAllEffects(benchmark::State& state) {
+  const auto settings = settingsOf(7, 10, true);
+  const auto profile = pressureProfile(fsr::ChamberProtocol{});
+  for (auto _ : state) {
+    fsr::SensorChain chain(settings);
+    readScans(chain, profile, kPaperRate, 45000);
+  }
+  state.counters["real_time"] =
+      benchmark::Counter(4500.0 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+
+void scans(benchmark::State& state) {
+  fsr::SensorChain chain(settingsOf(7, 10, true));
+  const auto profile = pressureProfile(fsr::ChamberProtocol{});
+  for (auto _ : state) readScans(chain, profile, kPaperRate, static_cast<std::uint64_t>(state.range(0)));
+  state.SetComplexityN(state.range(0));
+}
+
+void taxels(benchmark::State& state) {
+  const int side = static_cast<int>(state.range(0));
+  fsr::SensorChain chain(settingsOf(side, side, true));
+  const auto profile = pressureProfile(fsr::ChamberProtocol{});
+  for (auto _ : state) readScans(chain, profile, kPaperRate, 100);
+  state.SetComplexityN(std::int64_t{side} * side);
+}
+
+// What the emulated board does for a scan of 16 x 10 taxels at 1 kHz; target: under a fifth of a core.
+void boardAtOneKilohertz(benchmark::State& state) {
+  fsr::SimulationSettings settings = settingsOf(16, 10, true);
+  settings.board.scan_rate = settings.board.transducer_rate = 1000;
+  fsr::Board board(settings, {});
+  const auto profile = pressureProfile(fsr::ChamberProtocol{});
+  const fsr::PressureCourse course = [&](double time) { return profile.at(time); };
+  const std::uint64_t before = board.scans();
+  for (auto _ : state) benchmark::DoNotOptimize(board.next(course).data());
+  state.counters["core"] = benchmark::Counter(static_cast<double>(board.scans() - before) / 1000,
+                                              benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+// A signature for the search for effects: 7,500 scans of core.yaml's kind.
+void signature(benchmark::State& state) {
+  const auto settings = fsr::withEffect(settingsOf(7, 10, false), "bending_preload");
+  fsr::Sensitivity creep(settings, "creep", "per_decade");
+  const auto profile = pressureProfile(fsr::ChamberProtocol{});
+  std::uint64_t scan = 0;
+  for (auto _ : state) {
+    for (int i = 0; i < 7500; ++i, ++scan) {
+      const double time = static_cast<double>(scan) / kPaperRate;
+      benchmark::DoNotOptimize(creep.read({time, profile.at(time), scan}).reading.data());
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * 7500);
+}
+
+const int kRegistered = [] {
+  benchmark::RegisterBenchmark("effect/none", oneEffect, std::string())->Unit(benchmark::kMicrosecond);
+  for (const fsr::EffectEntry& entry : fsr::effectLibrary()) {
+    if (!entry.make || entry.info.required) continue;
+    benchmark::RegisterBenchmark(("effect/" + entry.info.id).c_str(), oneEffect, entry.info.id)
+        ->Unit(benchmark::kMicrosecond);
+  }
+  return 0;
+}();
+
+BENCHMARK(paperWithAllEffects)->Unit(benchmark::kMillisecond);
+BENCHMARK(scans)->Arg(1000)->Arg(4000)->Arg(16000)->Arg(45000)->Complexity()->Unit(benchmark::kMillisecond);
+BENCHMARK(taxels)->Arg(4)->Arg(8)->Arg(16)->Arg(32)->Arg(64)->Complexity()->Unit(benchmark::kMillisecond);
+BENCHMARK(boardAtOneKilohertz)->Unit(benchmark::kMicrosecond);
+BENCHMARK(signature)->Unit(benchmark::kMillisecond);
+
+}  // namespace

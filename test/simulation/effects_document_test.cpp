@@ -1,0 +1,29 @@
+// docs/effects.md tells of every effect of the library, with its picture.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+
+namespace {
+
+TEST(EffectsDocument, TellsOfEveryEffectAndShowsItsPicture) {
+  const std::filesystem::path docs = FSR_SOURCE_DIR "/docs";
+  std::ifstream file(docs / "effects.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  for (const fsr::EffectEntry& entry : fsr::effectLibrary()) {
+    const std::string& id = entry.info.id;
+    if (entry.info.kind == fsr::EffectKind::kBase) continue;
+    EXPECT_NE(text.find("`" + id + "`"), std::string::npos) << id;
+    if (!entry.make) continue;
+    const std::string picture = "images/effects/" + id + ".png";
+    EXPECT_NE(text.find(picture), std::string::npos) << id;
+    EXPECT_TRUE(std::filesystem::exists(docs / picture)) << id;
+    EXPECT_NE(text.find("| " + entry.info.summary + " |"), std::string::npos) << id;
+  }
+}
+
+}  // namespace
