@@ -8,6 +8,8 @@
    and prints their errors against the chamber's pressure.
 4. Shows the pressure map in rviz, kept as a picture: on the display where there is one, until its window is
    closed, else headless.
+5. Hides an effect in measurements made by formulas that the package does not know, asks `discrepancy` what is
+   missing, and prints its answer beside the key.
 
 Exit status 0 only where per-curvature beats both others on every bent surface of the training and is no
 worse than flat-only on the flat one.
@@ -23,6 +25,7 @@ import subprocess
 import sys
 import time
 
+import demo_discrepancy
 import demo_score
 
 NAMESPACE = "fsr"
@@ -252,6 +255,11 @@ def main():
     print("bags         " + "\n             ".join(map(str, bags)))
     print("calibrations " + "\n             ".join(map(str, calibrations.values())))
     print(f"screenshot   {picture or 'none'}")
+    try:
+        print(demo_discrepancy.find_hidden(output / "discrepancy", say))
+    except (OSError, subprocess.CalledProcessError) as error:
+        print(f"demo: discrepancy: {error}", file=sys.stderr)
+        return 1
     complaints = demo_score.complaints(scores, TRAINED)
     if not arguments.no_rviz and picture is None:
         complaints.append("no picture of the map could be taken")

@@ -29,6 +29,7 @@ PAPER = {"paper", "paper_remounted"}
 ALIASES = {"dP/dt": "pressure_rate", "rate": "pressure_rate", "direction x pressure": "direction", "P": "pressure",
            "previous extremes": "previous_extremes", "clock time": "clock_time", "time": "clock_time",
            "cycle number": "cycle", "accumulated abs(dP)": "accumulated_pressure",
+           "accumulated_change": "accumulated_pressure",
            "time since reversal": "time_since_reversal", "total load": "total_load"}
 
 
