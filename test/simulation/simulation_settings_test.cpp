@@ -4,7 +4,10 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 
+#include "fsr_pressure_map/settings/yaml_text.h"
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
 #include "fsr_pressure_map/simulation/sensor_chain.h"
 #include "fsr_pressure_map/simulation/simulation_text.h"
 
@@ -140,6 +143,12 @@ TEST(SimulationSettings, ValuesOutOfRangeAreRefusedByName) {
       std::string::npos);
 }
 
+std::map<std::string, fsr::Range> rangesOf(const fsr::EffectEntry& entry) {
+  std::map<std::string, fsr::Range> ranges;
+  for (const auto& parameter : entry.info.parameters) ranges[parameter.name] = parameter.permitted;
+  return ranges;
+}
+
 std::string withSession(const std::string& station) {
   return "{simulation: a, session: [{surface: s, " + station +
          "}], effects: {static_curve: {}, converter: {}}}";
@@ -165,6 +174,54 @@ TEST(SimulationSettings, WhatARigCannotDoIsRefusedByName) {
     EXPECT_EQ(complaint.find("my.yaml: "), 0u) << complaint;
     EXPECT_NE(complaint.find(expected), std::string::npos) << complaint;
   }
+}
+
+/// An effects section with this one of it.
+std::string oneEffect(const std::string& id, const std::string& values) {
+  std::string others;
+  for (const char* required : {"static_curve", "converter"}) {
+    if (id != required) others += std::string(required) + ": {}, ";
+  }
+  return "{simulation: a, effects: {" + others + id + ": {" + values + "}}}";
+}
+
+void expectRefused(const std::string& yaml, const std::string& field) {
+  const std::string complaint = complaintAbout(yaml);
+  EXPECT_EQ(complaint.find("my.yaml: " + field + " is "), 0u) << complaint << " instead of " << field;
+}
+
+TEST(SimulationSettings, EveryParameterOfEveryEffectIsRefusedByNameOutsideItsRange) {
+  for (const fsr::EffectEntry& entry : fsr::effectLibrary()) {
+    if (!entry.make) continue;
+    const std::string& id = entry.info.id;
+    expectRefused(oneEffect(id, "bogus: 1"), "effects." + id + ".bogus");
+    for (const auto& [name, range] : rangesOf(entry)) {
+      const std::string field = "effects." + id + "." + name;
+      expectRefused(oneEffect(id, name + ": .nan"), field);
+      expectRefused(oneEffect(id, name + ": much"), field);
+      if (std::isfinite(range.low)) {
+        expectRefused(oneEffect(id, name + ": " + fsr::numberText(range.low - 1 - std::abs(range.low))),
+                      field);
+      }
+      if (std::isfinite(range.high)) {
+        expectRefused(oneEffect(id, name + ": " + fsr::numberText(range.high + 1 + std::abs(range.high))),
+                      field);
+      }
+    }
+  }
+}
+
+TEST(SimulationSettings, NoTimeConstantMayBeNegative) {
+  int seen = 0;
+  for (const fsr::EffectEntry& entry : fsr::effectLibrary()) {
+    for (const auto& [name, range] : rangesOf(entry)) {
+      const bool delay = name == "delay" || name == "taxel_time";  // may be early, or backwards
+      if (range.unit != "s" || delay) continue;
+      EXPECT_GE(range.low, 0) << entry.info.id << "." << name;
+      ++seen;
+    }
+  }
+  EXPECT_GE(seen, 5);
 }
 
 TEST(SimulationSettings, ASensorNeedsItsStaticCurveAndConverter) {
