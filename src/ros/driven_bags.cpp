@@ -108,6 +108,17 @@ void copyBag(const std::string& from, const std::string& to, const fsr::Simulati
   out.close();
 }
 
+void warn(const fsr::Recording& recording, std::vector<std::string>& warnings) {
+  for (const std::string& warning : recording.warnings) warnings.push_back(recording.name + ": " + warning);
+  const auto& surfaces = recording.conditions;
+  const bool known = std::all_of(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.known(); });
+  if (!known)
+    warnings.push_back(recording.name + ": the surface is not known throughout; the model lies flat there");
+  if (recording.temperature.empty()) {
+    warnings.push_back(recording.name + ": holds no temperature; the model is at 23 degree Celsius");
+  }
+}
+
 std::string outputPath(const std::string& bag, const std::string& output) {
   const auto path = std::filesystem::path(output) / std::filesystem::path(bag).filename();
   std::error_code error;
@@ -119,20 +130,24 @@ std::string outputPath(const std::string& bag, const std::string& output) {
 
 }  // namespace
 
-fsr::RigState writeDrivenBags(const fsr::SimulationSettings& settings, const DrivingBags& driving,
-                              const SimulatedBags& bags) {
+SimulatedRun writeDrivenBags(const fsr::SimulationSettings& settings, const DrivingBags& driving,
+                             const SimulatedBags& bags) {
+  SimulatedRun run{settings, {}, {}};
   std::optional<fsr::DrivenRig> rig;
   for (const std::string& bag : driving.paths) {
     const std::string path = outputPath(bag, bags.output);
     if (bags.progress) bags.progress(path);
     const fsr::Recording recording = readWhole(bag, driving.topics);
+    warn(recording, run.warnings);
     if (!rig) {
-      rig.emplace(fitted(settings, recording));
+      run.rig = fitted(settings, recording);
+      rig.emplace(run.rig);
       if (bags.state) rig->resume(*bags.state);
     }
     copyBag(bag, path, settings, driving.topics, SimulatedScans(*rig, recording));
+    run.state = rig->state();
   }
-  return rig ? rig->state() : fsr::RigState{};
+  return run;
 }
 
 }  // namespace fsr_ros

@@ -96,7 +96,7 @@ class StationBag {
 
 }  // namespace
 
-fsr::RigState writeSessionBags(const fsr::SimulationSettings& settings, const SimulatedBags& bags) {
+SimulatedRun writeSessionBags(const fsr::SimulationSettings& settings, const SimulatedBags& bags) {
   fsr::Session session(settings);
   if (bags.state) session.resume(*bags.state);
   for (std::size_t i = 0; i < session.stations(); ++i) {
@@ -107,7 +107,7 @@ fsr::RigState writeSessionBags(const fsr::SimulationSettings& settings, const Si
     session.runNext(bag.listener());
     bag.close();
   }
-  return session.state();
+  return {settings, session.state(), {}};
 }
 
 }  // namespace fsr_ros

@@ -87,14 +87,15 @@ void writeBags(const fsr::CommandLine& line, const fsr::SimulationSettings& sett
   if (line.has("state")) {
     bags.state = fsr::readRigState(fsr::Settings::fromFile(line.requiredText("state")));
   }
-  const fsr::RigState end = driving.empty()
-                                ? writeSessionBags(settings, bags)
-                                : writeDrivenBags(settings, {driving, line.text("namespace", "")}, bags);
+  const SimulatedRun run = driving.empty()
+                               ? writeSessionBags(settings, bags)
+                               : writeDrivenBags(settings, {driving, line.text("namespace", "")}, bags);
+  for (const std::string& warning : run.warnings) out << warning << std::endl;
   const fs::path truth = fs::path(bags.output) / "truth.yaml";
-  fsr::replaceFile(truth, simulationText(settings, remarkOf(line, driving)));
+  fsr::replaceFile(truth, simulationText(run.rig, remarkOf(line, driving)));
   out << truth.string() << std::endl;
   if (saved.empty()) return;
-  fsr::replaceFile(saved, stateText(end));
+  fsr::replaceFile(saved, stateText(run.state));
   out << saved << std::endl;
 }
 

@@ -17,10 +17,17 @@ struct SimulatedBags {
   std::function<void(const std::string& path)> progress;  ///< told each bag that is about to be written
 };
 
+/// What came of it.
+struct SimulatedRun {
+  fsr::SimulationSettings rig;        ///< as it ran: with the matrix and full scale of bags that drove it
+  fsr::RigState state;                ///< what it remembers at the end
+  std::vector<std::string> warnings;  ///< sentences for the user about bags that drove it
+};
+
 /// Goes through the simulation's session and writes a bag for each station, "1_flat.bag",
 /// "2_cylinder_5cm.bag": the topics and messages of record.launch, made by the driver's own functions.
-/// Returns what the rig then remembers. Throws fsr::InputError.
-fsr::RigState writeSessionBags(const fsr::SimulationSettings& settings, const SimulatedBags& bags);
+/// Throws fsr::InputError.
+SimulatedRun writeSessionBags(const fsr::SimulationSettings& settings, const SimulatedBags& bags);
 
 /// What drives a simulated sensor.
 struct DrivingBags {
@@ -31,9 +38,8 @@ struct DrivingBags {
 /// Runs the simulated sensor on the recorded pressure, surfaces and temperature of real bags and writes
 /// copies of the same names in which `raw` holds what it reads, at the stamps of the recorded scans, and
 /// `matrix_info` says that it is the simulated sensor. Scans that no chamber pressure brackets are left
-/// out. The matrix and the full scale are those of the bags. Returns what the rig then remembers. Throws
-/// fsr::InputError.
-fsr::RigState writeDrivenBags(const fsr::SimulationSettings& settings, const DrivingBags& driving,
-                              const SimulatedBags& bags);
+/// out. The matrix and the full scale are those of the bags. Throws fsr::InputError.
+SimulatedRun writeDrivenBags(const fsr::SimulationSettings& settings, const DrivingBags& driving,
+                             const SimulatedBags& bags);
 
 }  // namespace fsr_ros

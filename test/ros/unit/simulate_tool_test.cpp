@@ -171,7 +171,49 @@ TEST_F(SimulateTool, DrivenByItsOwnBagsTheRigReadsThemAgain) {
   }
 }
 
-TEST_F(SimulateTool, LeavesOtherSensorsAndTheOriginalAlone) {
+TEST_F(SimulateTool, TakesTheOneSensorThatItIsTold) {
+  run({"--simulation", kBench, "--output", path("real")});
+  {
+    const rosbag::Bag one(path("real/1_flat.bag"), rosbag::bagmode::Read);
+    rosbag::Bag two(path("two.bag"), rosbag::bagmode::Write);
+    rosbag::View view(one);
+    for (const rosbag::MessageInstance& instance : view) {
+      const std::string name = instance.getTopic().substr(4);  // less "/fsr"
+      two.write("/left" + name, instance.getTime(), instance);
+      two.write("/right" + name, instance.getTime(), instance);
+    }
+  }
+  run({"--simulation", kBench, "--output", path("model"), "--drive", path("two.bag"), "--namespace", "left"});
+  ASSERT_EQ(status_, 0);
+  for (const std::string& topic : topicsOf(path("model/two.bag"))) EXPECT_EQ(topic.find("/left/"), 0u);
+  EXPECT_EQ(topicsOf(path("model/two.bag")).size(), 6u);
+}
+
+TEST_F(SimulateTool, SaysWhatADrivenModelIsLikeAndWhatItMissed) {
+  fsr::Recording recording;
+  recording.name = "bare";
+  recording.layout = {{2, 5}, 0.02, 0.02};
+  recording.full_scale = 1023;
+  recording.conditions = {fsr::Surface{}};
+  recording.start_ns = 1700000000000000000;
+  for (int i = 0; i < 20; ++i) {
+    recording.time.push_back(0.1 * i);
+    recording.pressure.push_back(1e4 * i);
+    recording.condition.push_back(0);
+    recording.counts.insert(recording.counts.end(), 10, std::uint16_t(i));
+  }
+  writeBag(path("bare.bag"), recording);
+  const std::string printed =
+      run({"--simulation", kBench, "--output", path("model"), "--drive", path("bare.bag")});
+  EXPECT_EQ(status_, 0) << printed;
+  EXPECT_NE(printed.find("holds no temperature"), std::string::npos) << printed;
+  EXPECT_NE(printed.find("the model lies flat there"), std::string::npos) << printed;
+  const auto truth = fsr::readSimulationFile(path("model/truth.yaml"));
+  EXPECT_EQ(truth.layout.size, (fsr::MatrixSize{2, 5}));
+  EXPECT_EQ(truth.fullScale(), 1023);
+}
+
+TEST_F(SimulateTool, LeavesTheOriginalAlone) {
   run({"--simulation", kBench, "--output", path("real")});
   const std::string complaint =
       run({"--simulation", kBench, "--output", path("real"), "--drive", path("real/1_flat.bag")});
