@@ -4,7 +4,6 @@
 
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -16,7 +15,6 @@ namespace {
 class FigureScript : public testing::Test {
  protected:
   void SetUp() override {
-    ::setenv("ROS_PACKAGE_PATH", FSR_SOURCE_DIR, 1);
     folder_ = testing::TempDir() + "figure_script_" + std::to_string(::getpid()) + "/";
     std::filesystem::create_directories(folder_);
   }
