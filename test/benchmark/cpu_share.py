@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""cpu_share.py ROWS COLUMNS RATE CALIBRATION|none [SECONDS]: CPU share of emulator, driver and calibration node.
+"""cpu_share.py ROWS COLUMNS RATE CALIBRATION|none [SECONDS [SIMULATION]]: CPU share of emulator, driver and calibration node.
 
 Starts an emulated board of that size and scan rate [Hz] in real time, driver, curvature and calibration node on
 a roscore of its own, waits until maps flow, then reads each process's CPU time from /proc over SECONDS (20).
 With `none` the size has no calibration: one is recorded at 20 x real time and trained first.
+SIMULATION is the emulated rig, a full path; all_effects.yaml beside this file has every effect.
 """
 import contextlib
 import os
@@ -52,13 +53,14 @@ def recorded_calibration(folder, rows, columns):
 
 LAUNCH = """<launch>
   <arg name="rows"/> <arg name="columns"/> <arg name="rate"/> <arg name="scale" default="1"/>
-  <arg name="bag" default=""/> <arg name="calibration" default=""/>
+  <arg name="bag" default=""/> <arg name="calibration" default=""/> <arg name="simulation" default=""/>
   <param if="$(eval scale != 1)" name="/use_sim_time" value="true"/>
   <group ns="fsr">
     <node pkg="fsr_pressure_map" type="rig_emulator_node" name="rig_emulator">
       <param name="rows" value="$(arg rows)"/> <param name="columns" value="$(arg columns)"/>
       <param name="scan_rate" value="$(arg rate)"/> <param name="time_scale" value="$(arg scale)"/>
       <param name="chamber/cycles" value="$(eval 5 if bag else 0)"/> <param name="link" value="FOLDER/port"/>
+      <param if="$(eval simulation != '')" name="simulation" value="$(arg simulation)"/>
     </node>
     <node pkg="fsr_pressure_map" type="driver_node" name="driver">
       <param name="serial_port" value="FOLDER/port"/> <param name="serial_baud" value="0"/>
@@ -82,13 +84,14 @@ def cpu_seconds(pid):
 def main():
     rows, columns, rate, calibration = sys.argv[1:5]
     seconds = float(sys.argv[5]) if len(sys.argv) > 5 else 20.0
+    simulation = sys.argv[6] if len(sys.argv) > 6 else ""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         (folder / "rig.launch").write_text(LAUNCH.replace("FOLDER", name))
         if calibration == "none":
             calibration = recorded_calibration(folder, rows, columns)
         with running("roslaunch", "-p", new_master(), str(folder / "rig.launch"), f"rows:={rows}", f"columns:={columns}",
-                     f"rate:={rate}", f"calibration:={calibration}"):
+                     f"rate:={rate}", f"calibration:={calibration}", f"simulation:={simulation}"):
             import rosgraph
             import xmlrpc.client
             while not first_line("rostopic", "echo", "-n", "1", "/fsr/pressure_map/state"):

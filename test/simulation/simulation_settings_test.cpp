@@ -107,6 +107,13 @@ TEST(SimulationSettings, CoreHoldsWhatEveryMatrixHasAndNothingElse) {
                                            "white_noise"}));
 }
 
+TEST(SimulationSettings, TheBenchmarksRigHasEveryEffect) {
+  const auto settings = fsr::readSimulationFile(FSR_SOURCE_DIR "/test/benchmark/all_effects.yaml");
+  for (const fsr::EffectEntry& entry : fsr::effectLibrary()) {
+    EXPECT_EQ(settings.effect(entry.info.id) != nullptr, entry.make != nullptr) << entry.info.id;
+  }
+}
+
 TEST(SimulationSettings, MissingPartsHaveTheirDefaults) {
   const auto settings = readSimulation(Settings::fromText(withEffects("hysteresis: {}"), "my.yaml"));
   EXPECT_EQ(settings.layout.size, (fsr::MatrixSize{7, 10}));
