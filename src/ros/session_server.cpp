@@ -13,6 +13,9 @@ namespace fsr_ros {
 
 namespace {
 
+constexpr double kPatience = 10.0;         // with a bag that stays the same [s]
+constexpr double kComplaintPeriod = 10.0;  // [s]
+
 const std::vector<std::string> kUses = {"chamber", "socket", "bench"};
 const std::vector<std::string> kMounts = {"fixture", "mould", "limb", "liner", "socket_wall"};
 const std::vector<std::string> kKinds = {"cycle_start", "conditioning", "don",  "doff",
@@ -57,6 +60,26 @@ SessionServer::SessionServer(const ros::NodeHandle& handle, const ros::NodeHandl
   service_ = services.advertiseService("mark", &SessionServer::mark, this);
   timer_ = handle_.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { publish(); });
   publish();
+  const Parameters parameters(private_handle);
+  const std::string bag = parameters.text("bag", "");
+  if (!bag.empty()) watchRecording(bag, parameters.number("min_space", 200, {0, 1e9, "MB"}));
+}
+
+void SessionServer::watchRecording(const std::string& bag, double least_space) {
+  recording_ = std::make_unique<RecordingWatch>(static_cast<std::uint64_t>(least_space * 1e6), kPatience);
+  diagnostics_ = std::make_unique<diagnostic_updater::Updater>();
+  diagnostics_->setHardwareID(bag);
+  diagnostics_->add("recording", [this, bag](auto& status) { judgeRecording(bag, status); });
+  recording_timer_ = handle_.createWallTimer(
+      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_->force_update(); });
+}
+
+void SessionServer::judgeRecording(const std::string& bag,
+                                   diagnostic_updater::DiagnosticStatusWrapper& status) {
+  recording_->judge(lookAtRecording(bag), ros::SteadyTime::now().toSec(), status);
+  if (status.level == diagnostic_msgs::DiagnosticStatus::ERROR) {
+    ROS_ERROR_STREAM_THROTTLE(kComplaintPeriod, status.message);
+  }
 }
 
 bool SessionServer::mark(fsr_pressure_map::Mark::Request& request,

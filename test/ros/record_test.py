@@ -2,6 +2,7 @@
 """record.launch makes bags that can be understood alone and lose at most the last second on kill -9."""
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -22,11 +23,11 @@ SCANS = 40
 class Recorder:
     """`roslaunch record.launch` with a bag of its own."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, *arguments):
         self.bag = pathlib.Path(folder) / "recorded"
         self.launch = subprocess.Popen(
             ["roslaunch", "fsr_pressure_map", "record.launch", f"bag:={self.bag}", "surface:=cylinder_7cm",
-             "subject:=S012", "trial:=2"])
+             "subject:=S012", "trial:=2", *arguments])
 
     def pid(self):
         uri = rosgraph.Master("/record_test").lookupNode("/fsr/record")
@@ -39,13 +40,20 @@ class RecordTest(unittest.TestCase):
         self.scans = rospy.Publisher("/fsr/raw", MatrixFrame, queue_size=100)
         self.info = rospy.Publisher("/fsr/matrix_info", MatrixInfo, queue_size=10, latch=True)
         self.info.publish(MatrixInfo(serial="FSR-0001", rows=7, columns=10, full_scale=4095))
-        self.recorder = Recorder(self.folder.name)
+        self.recorder = None
+        self.mounted = None
+
+    def record(self, folder=None, *arguments):
+        self.recorder = Recorder(folder or self.folder.name, *arguments)
         self.wait_for(lambda: self.scans.get_num_connections() > 0 and self.info.get_num_connections() > 0)
 
     def tearDown(self):
-        if self.recorder.launch.poll() is None:
+        if self.recorder and self.recorder.launch.poll() is None:
             self.recorder.launch.send_signal(signal.SIGINT)
-        self.recorder.launch.wait(30)
+        if self.recorder:
+            self.recorder.launch.wait(30)
+        if self.mounted:
+            subprocess.run(["umount", "-l", str(self.mounted)], check=True)
         self.folder.cleanup()
 
     def wait_for(self, condition):
@@ -72,7 +80,51 @@ class RecordTest(unittest.TestCase):
         with rosbag.Bag(str(path)) as bag:
             return [(topic, message) for topic, message, _ in bag.read_messages()]
 
+    def small_disk(self):
+        """Folder of a file system of 400 KB; the test is skipped where that cannot be had."""
+        folder = pathlib.Path(self.folder.name) / "small"
+        folder.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=400k", "none", str(folder)], stderr=subprocess.DEVNULL).returncode:
+            self.skipTest("a small file system can be mounted by root alone")
+        self.mounted = folder
+        return folder
+
+    def test_a_full_disk_ends_the_launch_and_leaves_a_bag_that_opens(self):
+        self.record(self.small_disk(), "min_space:=0")
+        for i in range(20000):
+            frame = MatrixFrame(sequence=i, rows=32, columns=32, full_scale=4095, counts=[i % 4096] * 1024)
+            frame.header.stamp = rospy.Time.now()
+            self.scans.publish(frame)
+            if self.recorder.launch.poll() is not None:
+                break
+            rospy.sleep(0.005)
+        self.recorder.launch.wait(30)
+        active = pathlib.Path(self.folder.name) / "rescued.bag"  # on a disk with room for the index
+        shutil.copy(f"{self.recorder.bag}.bag.active", active)
+        subprocess.run(["rosbag", "reindex", str(active)], check=True, stdout=subprocess.DEVNULL)
+        kept = [m.sequence for topic, m in self.recorded(active) if topic == "/fsr/raw"]
+        self.assertGreater(len(kept), 100)
+        self.assertEqual(kept, list(range(kept[0], kept[0] + len(kept))), "a hole before the end")
+
+    def test_what_a_recorder_that_lags_behind_loses_shows_as_a_gap(self):
+        self.record()
+        self.publish_scans()
+        pid = self.recorder.pid()
+        os.kill(pid, signal.SIGSTOP)  # a disk that takes nothing for a while
+        sent = list(range(SCANS, SCANS + 2000))
+        for i in sent:
+            self.scans.publish(MatrixFrame(sequence=i, rows=64, columns=64, full_scale=4095, counts=[1] * 4096))
+            rospy.sleep(0.0005)
+        os.kill(pid, signal.SIGCONT)
+        rospy.sleep(1.0)
+        self.recorder.launch.send_signal(signal.SIGINT)
+        self.recorder.launch.wait(30)
+        kept = [m.sequence for topic, m in self.recorded(f"{self.recorder.bag}.bag") if topic == "/fsr/raw"]
+        self.assertEqual(kept, sorted(set(kept)), "no scan twice, none out of order")
+        self.assertLess(len(kept), SCANS + len(sent), "the counter tells the loss")
+
     def test_kill_loses_at_most_the_last_second(self):
+        self.record()
         stamps = self.publish_scans()
         os.kill(self.recorder.pid(), signal.SIGKILL)
         self.recorder.launch.wait(30)  # the launch ends with its recorder
@@ -84,6 +136,7 @@ class RecordTest(unittest.TestCase):
         self.assertEqual(len(kept), sum(stamp <= kept[-1] + 1e-6 for stamp in stamps), "a hole before the kill")
 
     def test_a_bag_can_be_understood_alone(self):
+        self.record()
         self.publish_scans()
         self.recorder.launch.send_signal(signal.SIGINT)
         self.recorder.launch.wait(30)
