@@ -38,6 +38,8 @@ void writeLayout(const Calibration& calibration, Hdf5Writer& writer) {
   writer.attribute("/layout", "unit", "m");
   writer.dataset("/layout/no_model", calibration.no_model, {calibration.no_model.size()}, "",
                  "1 = masked, or the reading never changed: the taxel has no model");
+  writer.dataset("/layout/masked", calibration.masked, {calibration.masked.size()}, "",
+                 "1 = masked in the bags");
 }
 
 std::uint16_t readSide(const Hdf5Reader& reader, const std::string& name) {
@@ -166,6 +168,9 @@ Calibration readCalibration(const Hdf5Reader& reader, CalibrationParts parts) {
   calibration.sensor = readSensor(reader);
   calibration.layout = readLayout(reader);
   calibration.no_model = reader.dataset<std::uint8_t>("/layout/no_model", {calibration.layout.size.taxels()});
+  if (reader.has("/layout/masked")) {
+    calibration.masked = reader.dataset<std::uint8_t>("/layout/masked", reader.shape("/layout/masked"));
+  }
   calibration.trained = readTrained(reader);
   calibration.provenance = readProvenance(reader);
   calibration.warnings = reader.texts("/provenance/warnings");

@@ -55,12 +55,38 @@ std::vector<CodeStatistics> cellsOf(const Rows& rows) {
   return cells;
 }
 
+constexpr char kConditions[] = "/statistics/conditions";
+
+void writeConditions(const std::vector<RecordedCondition>& conditions, Hdf5Writer& writer) {
+  std::vector<CurvatureClass> classes;
+  std::vector<std::uint64_t> scans;
+  for (const RecordedCondition& recorded : conditions) {
+    classes.push_back(recorded.condition);
+    scans.push_back(recorded.scans);
+  }
+  writer.group(kConditions);
+  writeClasses(kConditions, classes, writer);
+  writer.dataset(kConditions + std::string("/scans"), scans, {scans.size()}, "",
+                 "of each condition of each bag, bag after bag: what the classes were pooled from");
+}
+
+// None in the first files.
+std::vector<RecordedCondition> readConditions(const Hdf5Reader& reader) {
+  if (!reader.has(kConditions)) return {};
+  std::vector<RecordedCondition> conditions;
+  const std::vector<CurvatureClass> classes = readClasses(kConditions, reader);
+  const auto scans = reader.dataset<std::uint64_t>(kConditions + std::string("/scans"), {classes.size()});
+  for (std::size_t i = 0; i < classes.size(); ++i) conditions.push_back({classes[i], scans[i]});
+  return conditions;
+}
+
 }  // namespace
 
 void writeStatistics(const TrainingStatistics& statistics, Hdf5Writer& writer) {
   const Rows rows = rowsOf(statistics.cells);
   writer.group("/statistics");
   writeClasses("/statistics", statistics.classes, writer);
+  writeConditions(statistics.conditions, writer);
   writer.attribute("/statistics", "taxels", statistics.taxels);
   writer.attribute("/statistics", "sections", statistics.sections);
   writer.dataset("/statistics/first", rows.first, {rows.first.size()}, "",
@@ -91,6 +117,7 @@ TrainingStatistics readStatistics(const Hdf5Reader& reader, bool cells) {
   rows.square_high = reader.dataset<std::int64_t>("/statistics/square_high", squares);
   rows.square_low = reader.dataset<std::uint64_t>("/statistics/square_low", squares);
   statistics.cells = cellsOf(rows);
+  statistics.conditions = readConditions(reader);
   return statistics;
 }
 

@@ -10,12 +10,11 @@ namespace fsr {
 
 namespace {
 
-// One condition of one recording on its way into a class.
+// A condition on its way into a class.
 struct Member {
   CurvatureClass condition;
-  std::size_t scans = 0;
-  std::size_t recording = 0;
-  std::size_t index = 0;  // of the condition within the recording
+  std::uint64_t scans = 0;
+  std::size_t index = 0;  // among all conditions
 };
 
 // One value where all taxels agree.
@@ -25,23 +24,6 @@ std::vector<double> principalCurvatures(const Surface& surface) {
   const auto differs = [&](double value) { return value != curvature.front(); };
   if (std::none_of(curvature.begin(), curvature.end(), differs)) curvature.resize(1);
   return curvature;
-}
-
-std::vector<Member> membersOf(const std::vector<Recording>& recordings) {
-  std::vector<Member> members;
-  for (std::size_t r = 0; r < recordings.size(); ++r) {
-    const std::size_t first = members.size();
-    for (std::size_t c = 0; c < recordings[r].conditions.size(); ++c) {
-      const Surface& surface = recordings[r].conditions[c];
-      if (!surface.known()) {
-        throw InputError(recordings[r].name +
-                         ": no curvature is recorded, but training needs the topic curvature");
-      }
-      members.push_back({{surface.name, principalCurvatures(surface)}, 0, r, c});
-    }
-    for (const std::uint32_t condition : recordings[r].condition) ++members[first + condition].scans;
-  }
-  return members;
 }
 
 // By curvature; of one curvature the condition with most scans first. Nothing in the key depends on
@@ -82,9 +64,12 @@ bool isFlat(const CurvatureClass& curvature_class) {
   return std::all_of(curvature_class.curvature.begin(), curvature_class.curvature.end(), flat);
 }
 
-ConditionClasses poolConditions(const std::vector<Recording>& recordings, double tolerance) {
-  std::vector<Member> members = membersOf(recordings);
-  std::sort(members.begin(), members.end(), precedes);
+PooledConditions poolConditions(const std::vector<RecordedCondition>& conditions, double tolerance) {
+  std::vector<Member> members;
+  for (const RecordedCondition& recorded : conditions) {
+    members.push_back({recorded.condition, recorded.scans, members.size()});
+  }
+  std::stable_sort(members.begin(), members.end(), precedes);
   auto groups = group(members, tolerance);
   const auto most_scans = [](const Member& a, const Member& b) { return a.scans < b.scans; };
   for (auto& candidates : groups) {  // the member that names the class to the front
@@ -93,15 +78,41 @@ ConditionClasses poolConditions(const std::vector<Recording>& recordings, double
   std::sort(groups.begin(), groups.end(),
             [](const auto& a, const auto& b) { return precedes(a.front(), b.front()); });
 
-  ConditionClasses pooled;
-  for (const Recording& recording : recordings) pooled.class_of.emplace_back(recording.conditions.size());
+  PooledConditions pooled{{}, std::vector<std::size_t>(conditions.size())};
   for (const auto& candidates : groups) {
-    for (const Member& member : candidates) {
-      pooled.class_of[member.recording][member.index] = pooled.classes.size();
-    }
+    for (const Member& member : candidates) pooled.class_of[member.index] = pooled.classes.size();
     pooled.classes.push_back(candidates.front().condition);
   }
   return pooled;
+}
+
+std::vector<RecordedCondition> conditionsOf(const Recording& recording) {
+  std::vector<RecordedCondition> conditions;
+  for (const Surface& surface : recording.conditions) {
+    if (!surface.known()) {
+      throw InputError(recording.name + ": no curvature is recorded, but training needs the topic curvature");
+    }
+    conditions.push_back({{surface.name, principalCurvatures(surface)}, 0});
+  }
+  for (const std::uint32_t condition : recording.condition) ++conditions[condition].scans;
+  return conditions;
+}
+
+ConditionClasses poolConditions(const std::vector<Recording>& recordings, double tolerance) {
+  std::vector<RecordedCondition> conditions;
+  for (const Recording& recording : recordings) {
+    const std::vector<RecordedCondition> own = conditionsOf(recording);
+    conditions.insert(conditions.end(), own.begin(), own.end());
+  }
+  const PooledConditions pooled = poolConditions(conditions, tolerance);
+  ConditionClasses classes{pooled.classes, {}};
+  auto next = pooled.class_of.begin();
+  for (const Recording& recording : recordings) {
+    const auto end = next + static_cast<std::ptrdiff_t>(recording.conditions.size());
+    classes.class_of.emplace_back(next, end);
+    next = end;
+  }
+  return classes;
 }
 
 }  // namespace fsr

@@ -62,7 +62,9 @@ void judgeCells(const ConditionCoverage& coverage, double highest, std::uint64_t
   }
 }
 
-std::vector<std::string> findThin(const std::vector<ConditionCoverage>& conditions, std::size_t sections) {
+}  // namespace
+
+std::vector<std::string> thinPlaces(const std::vector<ConditionCoverage>& conditions, std::size_t sections) {
   double highest = 0;
   for (const ConditionCoverage& condition : conditions) highest = std::max(highest, condition.pressure_high);
   std::vector<Thin> thin;
@@ -85,7 +87,24 @@ std::vector<std::string> findThin(const std::vector<ConditionCoverage>& conditio
   return sentences;
 }
 
-}  // namespace
+void addCoverage(const ConditionCoverage& more, ConditionCoverage& coverage) {
+  if (more.scans > 0) {
+    const bool first = coverage.scans == 0;
+    coverage.pressure_low = first ? more.pressure_low : std::min(coverage.pressure_low, more.pressure_low);
+    coverage.pressure_high =
+        first ? more.pressure_high : std::max(coverage.pressure_high, more.pressure_high);
+  }
+  coverage.scans += more.scans;
+  coverage.cycles += more.cycles;
+  const auto add = [](const auto& from, auto& to) {
+    for (std::size_t bin = 0; bin < kPressureBins; ++bin) {
+      to[bin].scans += from[bin].scans;
+      to[bin].cycles += from[bin].cycles;
+    }
+  };
+  add(more.loading, coverage.loading);
+  add(more.unloading, coverage.unloading);
+}
 
 Coverage measureCoverage(const std::vector<Recording>& recordings, const ConditionClasses& classes,
                          const std::vector<Sections>& sections) {
@@ -99,7 +118,7 @@ Coverage measureCoverage(const std::vector<Recording>& recordings, const Conditi
       addCondition(recordings[r], sections[r], c, coverage.conditions[classes.class_of[r][c]]);
     }
   }
-  coverage.thin = findThin(coverage.conditions, sections.empty() ? 0 : sections.front().number);
+  coverage.thin = thinPlaces(coverage.conditions, sections.empty() ? 0 : sections.front().number);
   return coverage;
 }
 

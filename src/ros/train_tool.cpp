@@ -7,6 +7,7 @@
 
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/calibration/merge.h"
 #include "fsr_pressure_map/regression/option_names.h"
 #include "fsr_pressure_map/report/calibration_report.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
@@ -25,10 +26,11 @@ std::string list(const std::vector<std::string>& names) {
 }
 
 fsr::CommandLine options() {
-  fsr::CommandLine line("train", "BAG... --output FILE",
+  fsr::CommandLine line("train", "BAG... --output FILE, or --merge CALIBRATION... --output FILE",
                         "Trains a calibration from bags of a matrix in a pressure chamber: topics raw, "
                         "chamber_pressure and curvature, and matrix_info and temperature where recorded.");
   line.option("output", "FILE", "calibration file to write (HDF5)")
+      .flag("merge", "of calibration files, what training on all their bags would give; without scores")
       .option("scheme", "NAME", fsr::schemeList() + "; default per_curvature")
       .option("model", "NAME", list(fsr::regressorNames()) + "; default grnn")
       .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
@@ -81,6 +83,10 @@ fsr::RegressorOptions regressorOptions(const fsr::CommandLine& line) {
   return options;
 }
 
+unsigned threadsOf(const fsr::CommandLine& line) {
+  return static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
+}
+
 fsr::CalibrationOptions calibrationOptions(const fsr::CommandLine& line) {
   fsr::CalibrationOptions options;
   options.scheme = fsr::schemeFromName(line.text("scheme", fsr::schemeName(options.scheme)));
@@ -90,7 +96,7 @@ fsr::CalibrationOptions calibrationOptions(const fsr::CommandLine& line) {
   if (bandwidth) options.regressor.grnn.bandwidth = *bandwidth;
   options.folds = static_cast<std::size_t>(line.integer("folds", 5, {2, 20, ""}));
   options.seed = static_cast<std::uint64_t>(line.integer("seed", 1, {0, 1e15, ""}));
-  options.threads = static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
+  options.threads = threadsOf(line);
   options.scores = !line.has("no-scores");
   return options;
 }
@@ -112,6 +118,42 @@ void showProgress(std::size_t done, std::size_t taxels) {
   std::cerr << "\rtaxel " << done << " of " << taxels << (done == taxels ? "\n" : "") << std::flush;
 }
 
+// What merging takes from the files, and cannot be told.
+void refuseOptionsOfTraining(const fsr::CommandLine& line) {
+  for (const char* const option :
+       {"scheme", "model", "bandwidth", "spread", "distance", "equal-bins", "trees", "minimum-leaf",
+        "leaf-rule", "folds", "seed", "ambient", "namespace"}) {
+    if (!line.has(option)) continue;
+    throw fsr::InputError("--" + std::string(option) + " cannot be given with --merge: the files decide");
+  }
+}
+
+fsr::Calibration merge(const fsr::CommandLine& line, std::ostream& out) {
+  refuseOptionsOfTraining(line);
+  std::vector<fsr::MergePart> parts;
+  for (const std::string& path : line.files()) {
+    parts.push_back({path, fsr::loadCalibration(path, fsr::CalibrationParts::kAll)});
+  }
+  fsr::MergeOptions options;
+  options.threads = threadsOf(line);
+  fsr::Calibration calibration = fsr::mergeCalibrations(parts, options);
+  out << fsr::coverageText(calibration.coverage) << '\n' << fsr::warningsText(calibration);
+  out << "Scores need the bags: train on all of them to have some.\n";
+  return calibration;
+}
+
+fsr::Calibration train(const fsr::CommandLine& line, std::ostream& out) {
+  const fsr::CalibrationOptions chosen = calibrationOptions(line);
+  const fsr::CalibrationProblem problem{readBags(line), chosen};
+  fsr::validate(problem);
+  out << fsr::coverageText(fsr::coverageOf(problem.recordings, chosen.folds)) << std::endl;
+  const bool terminal = ::isatty(STDERR_FILENO) != 0;
+  fsr::Calibration calibration =
+      fsr::calibrate(problem, terminal ? showProgress : fsr::CalibrationProgress{});
+  out << fsr::warningsText(calibration) << fsr::scoresText(calibration.scores);
+  return calibration;
+}
+
 }  // namespace
 
 int trainTool(int argc, const char* const* argv, std::ostream& out) {
@@ -122,20 +164,14 @@ int trainTool(int argc, const char* const* argv, std::ostream& out) {
   }
   const std::string output = line.requiredText("output");
   const std::string report = line.text("report", "");
-  const fsr::CalibrationOptions chosen = calibrationOptions(line);
   fsr::requireReplaceable(output);
   if (!report.empty()) fsr::requireReplaceable(report);
 
-  const fsr::CalibrationProblem problem{readBags(line), chosen};
-  fsr::validate(problem);
-  out << fsr::coverageText(fsr::coverageOf(problem.recordings, chosen.folds)) << std::endl;
-  const bool terminal = ::isatty(STDERR_FILENO) != 0;
-  fsr::Calibration calibration =
-      fsr::calibrate(problem, terminal ? showProgress : fsr::CalibrationProgress{});
-  out << fsr::warningsText(calibration) << fsr::scoresText(calibration.scores) << std::endl;
+  fsr::Calibration calibration = line.has("merge") ? merge(line, out) : train(line, out);
+  out << std::endl;
   calibration.id = fsr::saveCalibration(calibration, output);
   if (!report.empty()) fsr::replaceFile(report, fsr::calibrationJson(calibration));
-  out << "Calibration " << calibration.id << " (" << fsr::schemeName(chosen.scheme) << ", "
+  out << "Calibration " << calibration.id << " (" << fsr::schemeName(calibration.tables.scheme) << ", "
       << fsr::modelText(calibration) << ") is in " << fullPath(output) << std::endl;
   if (!report.empty()) out << "Report is in " << fullPath(report) << std::endl;
   return 0;

@@ -59,6 +59,7 @@ struct Calibration {
   /// 1 = this taxel has no model: masked in the bags, or its reading never changed. Its tables are
   /// NaN. One value for each taxel.
   std::vector<std::uint8_t> no_model;
+  std::vector<std::uint8_t> masked;  ///< 1 = masked in the bags, likewise
   CurvatureTables tables;
   TrainedRanges trained;
   Coverage coverage;

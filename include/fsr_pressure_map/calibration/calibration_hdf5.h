@@ -13,7 +13,7 @@ namespace fsr {
 //     /model       attributes bandwidth_chosen, spread, distance, weighting, trees, minimum_leaf, leaf_rule
 //                  (absent in the first files)
 //     /sensor      attributes sensor_id, serial, firmware, model, sealing, transducer
-//     /layout      attributes rows, columns, pitch_x [m], pitch_y [m]; no_model [taxels]
+//     /layout      attributes rows, columns, pitch_x [m], pitch_y [m]; no_model, masked [taxels]
 //     /trained     attributes pressure, pressure_rate, curvature, temperature: lowest, highest
 //     /provenance  attributes tool_version, date, seed; bags, sha256, scans [bags]; warnings
 //     /tables      surfaces [models], curvature [models x (1 or taxels)],

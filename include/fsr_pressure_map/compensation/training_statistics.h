@@ -17,6 +17,8 @@ struct TrainingStatistics {
   std::size_t sections = 0;
   std::vector<CurvatureClass> classes;  ///< by ascending curvature of taxel 0
   std::vector<CodeStatistics> cells;    ///< [taxels x classes x sections]
+  /// What the classes were pooled from: each bag's conditions, bag after bag.
+  std::vector<RecordedCondition> conditions;
 
   const CodeStatistics& cell(std::size_t taxel, std::size_t curvature_class, std::size_t section) const {
     return cells[(taxel * classes.size() + curvature_class) * sections + section];

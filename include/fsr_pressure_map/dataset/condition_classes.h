@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,26 @@ constexpr double kSameClassCurvature = 0.25;
 /// Flat at every taxel.
 bool isFlat(const CurvatureClass& curvature_class);
 
+/// One condition of one recording, as pooling sees it.
+struct RecordedCondition {
+  CurvatureClass condition;
+  std::uint64_t scans = 0;
+};
+
+/// Conditions pooled by curvature.
+struct PooledConditions {
+  std::vector<CurvatureClass> classes;  ///< by ascending curvature of taxel 0
+  std::vector<std::size_t> class_of;    ///< of each condition, index into `classes`
+};
+
+/// Name and curvature of a class are those of its member with the most scans. The classes do not depend
+/// on the order of the conditions.
+PooledConditions poolConditions(const std::vector<RecordedCondition>& conditions,
+                                double tolerance = kSameClassCurvature);
+
+/// The conditions of a recording, in its order. Throws InputError where one is of unknown curvature.
+std::vector<RecordedCondition> conditionsOf(const Recording& recording);
+
 /// The conditions of several recordings, pooled by curvature.
 struct ConditionClasses {
   /// By ascending curvature of taxel 0.
@@ -34,8 +55,7 @@ struct ConditionClasses {
   std::vector<std::vector<std::size_t>> class_of;
 };
 
-/// Name and curvature of a class are those of its member with the most scans. The result does not
-/// depend on the order of the recordings.
+/// The same for recordings.
 ConditionClasses poolConditions(const std::vector<Recording>& recordings,
                                 double tolerance = kSameClassCurvature);
 

@@ -39,6 +39,12 @@ struct Coverage {
 /// A cell with fewer scans than this, or fewer cycles than there are sections, is called thin.
 constexpr std::uint64_t kThinScans = 50;
 
+/// What is thin among `conditions`, worst first; `sections` is their number.
+std::vector<std::string> thinPlaces(const std::vector<ConditionCoverage>& conditions, std::size_t sections);
+
+/// Adds what other recordings hold of the same class.
+void addCoverage(const ConditionCoverage& more, ConditionCoverage& coverage);
+
 /// `sections` has one entry for each recording.
 Coverage measureCoverage(const std::vector<Recording>& recordings, const ConditionClasses& classes,
                          const std::vector<Sections>& sections);

@@ -111,6 +111,30 @@ TEST_F(TrainTool, TrainsEachModelWithItsOptions) {
   EXPECT_EQ(trained({"--distance=literal"}).regressor.grnn.distance, fsr::KernelDistance::kLiteral);
 }
 
+TEST_F(TrainTool, MergesCalibrations) {
+  const std::string flat = record("flat.bag", {"flat", 0.0});
+  const std::string a = (folder_ / "a.h5").string(), b = (folder_ / "b.h5").string();
+  const std::string merged = (folder_ / "merged.h5").string(), whole = (folder_ / "whole.h5").string();
+  run({flat, "--output", a});
+  run({bend_, "--output", b});
+  run({flat, bend_, "--output", whole});
+  const std::string text = run({"--merge", a, b, "--output", merged, "--threads", "1"});
+  EXPECT_NE(text.find("Scores need the bags"), std::string::npos) << text;
+  EXPECT_NE(text.find(" is in " + merged), std::string::npos) << text;
+  const fsr::CurvatureTables one = fsr::loadCalibration(merged).tables;
+  const fsr::CurvatureTables other = fsr::loadCalibration(whole).tables;
+  ASSERT_EQ(one.tables.size(), other.tables.size());
+  for (std::size_t i = 0; i < one.tables.size(); ++i) {
+    EXPECT_EQ(one.tables[i].pressure, other.tables[i].pressure);
+    EXPECT_EQ(one.tables[i].deviation, other.tables[i].deviation);
+  }
+  EXPECT_EQ(run({"--merge", a, "--output", merged}), "merging needs two calibration files or more");
+  EXPECT_EQ(run({"--merge", a, b, "--output", merged, "--model", "linear"}),
+            "--model cannot be given with --merge: the files decide");
+  EXPECT_EQ(run({"--merge", a, a, "--output", merged}),
+            a + ": was trained on flat.bag, as was " + a + "; each bag may count once");
+}
+
 TEST_F(TrainTool, AFailureOverwritesNothing) {
   const std::string output = (folder_ / "calibration.h5").string();
   std::ofstream(output) << "the old one";
@@ -144,7 +168,7 @@ TEST_F(TrainTool, WrongUsageIsOneSentence) {
       "exists and may be written to");
   EXPECT_EQ(run({bend_, bend_, "--output", output}),
             "bend.bag: has the same bytes as bend.bag; give each bag once");
-  EXPECT_EQ(run({"--help"}).rfind("train BAG... --output FILE\n", 0), 0u);
+  EXPECT_EQ(run({"--help"}).rfind("train BAG... --output FILE, or --merge", 0), 0u);
 }
 
 }  // namespace

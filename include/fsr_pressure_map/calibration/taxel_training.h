@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/calibration/calibration.h"
+#include "fsr_pressure_map/compensation/fit_scheme.h"
+
+namespace fsr {
+
+// From sums to tables: the half of training that needs no bag, and that merging has in common with it.
+
+/// Lays the tables out as the plan wants them, empty; layout, full scale and trained ranges stand in
+/// `calibration` already.
+void prepareTables(const SchemePlan& plan, Calibration& calibration);
+
+/// Sets no_model: masked, or constant throughout a condition that a model trains on, of which it warns.
+/// Throws InputError, as `origin`, where no taxel is left.
+void findTaxelsWithoutModel(const SchemePlan& plan, const std::string& origin, Calibration& calibration);
+
+/// Whether a warning is one of findTaxelsWithoutModel().
+bool isConstantTaxelWarning(const std::string& warning);
+
+/// The sums of one taxel, by class and section.
+SectionedReadings readingsOf(const TrainingStatistics& statistics, std::size_t taxel);
+
+/// Fills the tables of one taxel from models in the plan's order; from none where it has no model.
+void fillTables(const SchemePlan& plan, std::size_t taxel, const std::vector<CrossValidatedModel>& models,
+                Calibration& calibration);
+
+/// All of it, for a mergeable regressor: what stands in `calibration` already is statistics, coverage,
+/// masked, layout and the trained ranges but curvature. `origin` begins sentences.
+void trainOnStatistics(const CalibrationOptions& options, const std::string& origin,
+                       Calibration& calibration);
+
+}  // namespace fsr

@@ -1,0 +1,118 @@
+#include "fsr_pressure_map/calibration/taxel_training.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "fsr_pressure_map/calibration/bandwidth_choice.h"
+#include "fsr_pressure_map/matrix/for_each_taxel.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr char kConstantTaxels[] =
+    "these taxels (row * columns + column) read the same count throughout a condition and get no model: ";
+
+// A reading that never changes tells nothing.
+bool varies(const TrainingStatistics& statistics, const SchemePlan::Model& model, std::size_t taxel) {
+  TrainedInterval codes;
+  for (const std::size_t curvature_class : model.trained_on) {
+    for (std::size_t section = 0; section < statistics.sections; ++section) {
+      const CodeStatistics& cell = statistics.cell(taxel, curvature_class, section);
+      if (cell.empty()) continue;
+      codes.include(cell.code().front());
+      codes.include(cell.code().back());
+    }
+  }
+  return codes.low < codes.high;
+}
+
+CodeTable noModel(std::uint16_t full_scale) {
+  CodeTable table;
+  table.pressure.assign(full_scale + 1u, std::numeric_limits<float>::quiet_NaN());
+  table.deviation = table.support = table.pressure;
+  return table;
+}
+
+}  // namespace
+
+void prepareTables(const SchemePlan& plan, Calibration& calibration) {
+  CurvatureTables& tables = calibration.tables;
+  tables.scheme = plan.scheme;
+  tables.size = calibration.layout.size;
+  tables.full_scale = calibration.statistics.full_scale;
+  tables.classes = plan.classes;
+  if (!usesCurvature(plan.scheme)) tables.classes = {plan.models.front().answers_for};
+  tables.tables.resize(tables.size.taxels() * tables.classes.size());
+  tables.curvature_low = calibration.trained.curvature.low;
+  tables.curvature_high = calibration.trained.curvature.high;
+}
+
+void findTaxelsWithoutModel(const SchemePlan& plan, const std::string& origin, Calibration& calibration) {
+  calibration.no_model = calibration.masked;
+  std::string constant;
+  for (std::size_t taxel = 0; taxel < calibration.no_model.size(); ++taxel) {
+    const auto varying = [&](const auto& model) { return varies(calibration.statistics, model, taxel); };
+    if (calibration.masked[taxel] != 0) continue;
+    if (std::all_of(plan.models.begin(), plan.models.end(), varying)) continue;
+    calibration.no_model[taxel] = 1;
+    constant += (constant.empty() ? "" : ", ") + std::to_string(taxel);
+  }
+  const auto& none = calibration.no_model;
+  if (std::find(none.begin(), none.end(), 0) == none.end()) {
+    throw InputError(origin +
+                     ": every taxel is masked or reads the same count throughout; is the matrix connected?");
+  }
+  if (!constant.empty()) calibration.warnings.push_back(kConstantTaxels + constant);
+}
+
+bool isConstantTaxelWarning(const std::string& warning) {
+  return warning.rfind(kConstantTaxels, 0) == 0;
+}
+
+SectionedReadings readingsOf(const TrainingStatistics& statistics, std::size_t taxel) {
+  SectionedReadings readings;
+  readings.full_scale = statistics.full_scale;
+  for (std::size_t k = 0; k < statistics.classes.size(); ++k) {
+    const CodeStatistics* const first = &statistics.cell(taxel, k, 0);
+    readings.sums.emplace_back(first, first + statistics.sections);
+  }
+  return readings;
+}
+
+void fillTables(const SchemePlan& plan, std::size_t taxel, const std::vector<CrossValidatedModel>& models,
+                Calibration& calibration) {
+  const std::size_t classes = calibration.tables.classes.size();
+  CodeTable* const tables = &calibration.tables.tables[taxel * classes];
+  for (std::size_t k = 0; k < classes; ++k) {
+    tables[k] =
+        models.empty() ? noModel(calibration.tables.full_scale) : models[plan.model_of_class[k]].table;
+  }
+}
+
+void trainOnStatistics(const CalibrationOptions& options, const std::string& origin,
+                       Calibration& calibration) {
+  const TrainingStatistics& statistics = calibration.statistics;
+  const SchemePlan plan = planScheme(options.scheme, statistics.classes);
+  for (const SchemePlan::Model& model : plan.models) {
+    for (const std::size_t k : model.trained_on) {
+      for (const double curvature : plan.classes[k].curvature)
+        calibration.trained.curvature.include(curvature);
+    }
+  }
+  prepareTables(plan, calibration);
+  findTaxelsWithoutModel(plan, origin, calibration);
+  const FoldRegressors regressors = chooseRegressor(options, plan, statistics, calibration.no_model);
+  calibration.regressor = regressors.whole;
+  forEachTaxel(statistics.taxels, options.threads, [&](std::size_t taxel) {
+    std::vector<CrossValidatedModel> models;
+    if (calibration.no_model[taxel] == 0) {
+      models =
+          crossValidateScheme(plan, taxel, readingsOf(statistics, taxel), regressors, HeldOutDeviation::kNo);
+    }
+    fillTables(plan, taxel, models, calibration);
+  });
+}
+
+}  // namespace fsr

@@ -1,0 +1,194 @@
+#include "fsr_pressure_map/calibration/merge.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "support/synthetic_recording.h"
+
+namespace fsr {
+namespace {
+
+using test_support::syntheticRecording;
+using test_support::SyntheticRig;
+
+// A bag that differs from the others in everything that merging must put together.
+Recording bag(const std::string& name, unsigned seed,
+              const std::vector<test_support::SyntheticSurface>& surfaces, double peak = 600e3) {
+  SyntheticRig rig;
+  rig.name = name;
+  rig.seed = seed;
+  rig.surfaces = surfaces;
+  rig.peak = peak;
+  rig.cycles = 7 + seed;
+  Recording recording = syntheticRecording(rig);
+  recording.sha256 = std::string(64, static_cast<char>('0' + seed));
+  recording.temperature.assign(recording.scans(), 20.0 + seed);
+  recording.warnings = {"a warning"};
+  return recording;
+}
+
+std::vector<Recording> threeBags() {
+  std::vector<Recording> bags = {
+      bag("a.bag", 1, {{"cylinder_10cm", 10.0}}),
+      bag("b.bag", 2, {{"flat", 0.0}, {"cylinder_10cm_again", 10.1}}, 500e3),
+      bag("c.bag", 3, {{"cylinder_5cm", 20.0}, {"flat", 0.0}, {"nearly_flat", 0.1}}, 620e3)};
+  bags[1].mask = {0, 1, 0, 0, 0, 0};
+  for (std::size_t i = 0; i < bags[0].scans(); ++i)
+    bags[0].counts[6 * i + 4] = 7;  // constant in one part only
+  bags[0].sensor.serial.clear();
+  bags[2].sensor.transducer = "gauge 7";
+  return bags;
+}
+
+struct Setting {
+  std::string name;
+  Scheme scheme = Scheme::kPerCurvature;
+  RegressorOptions regressor;
+  bool choose_bandwidth = false;
+};
+
+Setting setting(const std::string& name, Scheme scheme, const std::string& model, bool choose = false) {
+  Setting set{name, scheme, {}, choose};
+  set.regressor.name = model;
+  return set;
+}
+
+Calibration train(const std::vector<Recording>& recordings, const Setting& set) {
+  CalibrationProblem problem{recordings, {}};
+  problem.options.scheme = set.scheme;
+  problem.options.regressor = set.regressor;
+  problem.options.choose_bandwidth = set.choose_bandwidth;
+  problem.options.scores = false;
+  problem.options.date = "2024-05-06T07:08:09Z";
+  return calibrate(problem);
+}
+
+class Merge : public testing::TestWithParam<Setting> {
+ protected:
+  std::string path(const std::string& name) const {
+    return (std::filesystem::path(testing::TempDir()) / ("merge_" + GetParam().name + name)).string();
+  }
+  // Through a file, as a user merges.
+  MergePart part(const std::string& name, const std::vector<Recording>& recordings) const {
+    saveCalibration(train(recordings, GetParam()), path(name));
+    return {name, loadCalibration(path(name), CalibrationParts::kAll)};
+  }
+};
+
+TEST_P(Merge, MakesTheFileThatTrainingOnAllBagsMakes) {
+  const auto bags = threeBags();
+  const MergeOptions options{2, "2024-05-06T07:08:09Z"};
+  const Calibration merged =
+      mergeCalibrations({part("ab.h5", {bags[0], bags[1]}), part("c.h5", {bags[2]})}, options);
+  const Calibration at_once = train(bags, GetParam());
+  EXPECT_EQ(merged.warnings, at_once.warnings);
+  EXPECT_EQ(merged.regressor.grnn.bandwidth, at_once.regressor.grnn.bandwidth);
+  // The id is the hash of all that the file holds.
+  EXPECT_EQ(saveCalibration(merged, path("merged.h5")), saveCalibration(at_once, path("at_once.h5")));
+}
+
+TEST_P(Merge, OfMergedFilesIsTheSameAgain) {
+  const auto bags = threeBags();
+  const MergeOptions options{1, "2024-05-06T07:08:09Z"};
+  const MergePart a = part("a.h5", {bags[0]}), b = part("b.h5", {bags[1]}), c = part("c.h5", {bags[2]});
+  const Calibration in_steps = mergeCalibrations({{"ab", mergeCalibrations({a, b}, options)}, c}, options);
+  EXPECT_EQ(saveCalibration(in_steps, path("steps.h5")),
+            saveCalibration(mergeCalibrations({a, b, c}, options), path("at_once.h5")));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Merge,
+                         testing::Values(setting("grnn", Scheme::kPerCurvature, "grnn"),
+                                         setting("tuned", Scheme::kPerCurvature, "grnn", true),
+                                         setting("baseline", Scheme::kBaseline, "grnn"),
+                                         setting("method_2", Scheme::kCurvatureInput, "grnn"),
+                                         setting("linear", Scheme::kPerCurvature, "linear")),
+                         [](const auto& set) { return set.param.name; });
+
+std::string complaint(const std::vector<MergePart>& parts) {
+  try {
+    mergeCalibrations(parts);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "merged";
+}
+
+TEST(MergeRefuses, WhatWasNotTrainedAlike) {
+  const Setting grnn = setting("grnn", Scheme::kBaseline, "grnn");
+  const auto bags = threeBags();
+  const MergePart first{"a.h5", train({bags[1]}, grnn)};
+  const auto refusal = [&](const Calibration& other) { return complaint({first, {"b.h5", other}}); };
+  const std::string rest = "; only calibrations that were trained alike can be merged";
+
+  EXPECT_EQ(refusal(train({bags[2]}, grnn)), "merged");
+  EXPECT_EQ(complaint({first}), "merging needs two calibration files or more");
+  EXPECT_EQ(refusal(train({bags[1]}, grnn)),
+            "b.h5: was trained on b.bag, as was a.h5; each bag may count once");
+  SyntheticRig wide;
+  wide.size = {3, 3};
+  EXPECT_EQ(refusal(train({syntheticRecording(wide)}, grnn)),
+            "b.h5: the matrix is 3 x 3, but that of a.h5 is 2 x 3" + rest);
+  SyntheticRig fine;
+  fine.full_scale = 8191;
+  EXPECT_EQ(refusal(train({syntheticRecording(fine)}, grnn)),
+            "b.h5: full_scale is 8191, but that of a.h5 is 4095" + rest);
+  EXPECT_EQ(refusal(train({bags[2]}, setting("", Scheme::kPerCurvature, "grnn"))),
+            "b.h5: the scheme is per_curvature, but that of a.h5 is baseline" + rest);
+  EXPECT_EQ(refusal(train({bags[2]}, setting("", Scheme::kBaseline, "linear"))),
+            "b.h5: the model is linear, but that of a.h5 is grnn" + rest);
+  EXPECT_EQ(refusal(train({bags[2]}, setting("", Scheme::kBaseline, "grnn", true))),
+            "b.h5: the bandwidth is auto, but that of a.h5 is 0.0078125" + rest);
+  Calibration other = train({bags[2]}, grnn);
+  other.folds = 4;
+  EXPECT_EQ(refusal(other), "b.h5: the number of sections is 4, but that of a.h5 is 5" + rest);
+  other = train({bags[2]}, grnn);
+  other.sensor.serial = "0002";
+  EXPECT_EQ(refusal(other), "b.h5: the serial number is \"0002\", but that of a.h5 is \"0001\"" + rest);
+}
+
+TEST(MergeRefuses, WhatNeedsTheBags) {
+  const auto bags = threeBags();
+  for (const std::string model : {"forest", "monotone"}) {
+    const Setting set = setting("", Scheme::kBaseline, model);
+    EXPECT_EQ(
+        complaint({{"a.h5", train({bags[0]}, set)}, {"c.h5", train({bags[2]}, set)}}),
+        "a.h5: the model " + model +
+            " needs the bags, the sums of a calibration file do not serve it; train on all bags instead");
+  }
+  const Setting grnn = setting("", Scheme::kBaseline, "grnn");
+  Calibration bare = train({bags[0]}, grnn);
+  bare.statistics = {};
+  EXPECT_EQ(complaint({{"a.h5", bare}, {"c.h5", train({bags[2]}, grnn)}}),
+            "a.h5: holds no statistics to merge; train on all bags instead");
+}
+
+TEST(MergeRefuses, CurvaturesThatWouldFormOtherClasses) {
+  const Setting grnn = setting("", Scheme::kPerCurvature, "grnn");
+  // 10.2 and 10.4 are one class, but next to 10.0 only 10.2 is near enough.
+  const Calibration pair = train({bag("pair.bag", 1, {{"one", 10.2}, {"two", 10.4}})}, grnn);
+  const Calibration lower = train({bag("lower.bag", 2, {{"three", 10.0}})}, grnn);
+  ASSERT_EQ(pair.tables.classes.size(), 1u);
+  EXPECT_EQ(
+      complaint({{"pair.h5", pair}, {"lower.h5", lower}}),
+      "pair.h5: its curvatures would form other classes together with those of the others; train on all "
+      "bags instead");
+}
+
+TEST(MergeRefuses, NothingOfTheFirstFiles) {
+  const std::string path = FSR_SOURCE_DIR "/test/data/calibrations/schema_1.h5";
+  const Calibration old = loadCalibration(path, CalibrationParts::kAll);
+  Calibration twin = old;
+  for (SourceBag& source : twin.provenance.bags) source.sha256.clear();
+  const Calibration merged = mergeCalibrations({{"old.h5", old}, {"twin.h5", twin}});
+  EXPECT_EQ(merged.tables.classes.size(), old.tables.classes.size());
+  EXPECT_EQ(merged.coverage.conditions.at(0).scans, 2 * old.coverage.conditions.at(0).scans);
+  for (std::size_t i = 0; i < old.tables.tables.size(); ++i) {
+    EXPECT_EQ(merged.tables.tables[i].lowest, old.tables.tables[i].lowest);
+  }
+}
+
+}  // namespace
+}  // namespace fsr
