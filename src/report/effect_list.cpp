@@ -24,11 +24,17 @@ std::string line(const std::string& title, const std::string& text) {
 std::string parameterText(const EffectParameter& parameter) {
   const std::string& unit = parameter.permitted.unit;
   std::string text = "      " + parameter.name + (unit.empty() ? "" : " [" + unit + "]") + ": " +
-                     parameter.meaning + "\n        usual " + numberText(parameter.usual);
+                     parameter.meaning + "\n        " + name(parameter.role) + ", usual " +
+                     numberText(parameter.usual);
   if (!std::isnan(parameter.neutral)) text += ", neutral " + numberText(parameter.neutral);
   text += ", plausible " + parameter.plausible.text() + ", permitted " + parameter.permitted.text();
+  for (const double value : parameter.tried) {
+    text += (value == parameter.tried.front() ? "; tried " : ", ") + numberText(value);
+  }
   return text + "\n";
 }
+
+}  // namespace
 
 std::string effectText(const EffectInfo& info) {
   std::string collinear;
@@ -44,6 +50,8 @@ std::string effectText(const EffectInfo& info) {
   for (const EffectParameter& parameter : info.parameters) text += parameterText(parameter);
   return text + "\n";
 }
+
+namespace {
 
 bool listedOnly(const EffectEntry& entry) {
   return entry.info.kind == EffectKind::kListed;

@@ -19,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kTruth = "truth.yaml";
 constexpr int kFiguresMissing = 3;  // exit status where all is there but the figures
 
 fsr::CommandLine options() {
@@ -37,7 +38,7 @@ fsr::CommandLine options() {
               "go on from the state that another run saved: what the sheet remembers, and when")
       .option("save-state", "FILE", "save it at the end")
       .flag("plot", "draw what the rig's effects do, or --effect alone, instead of writing bags")
-      .flag("list-effects", "describe every effect and leave");
+      .flag("list-effects", "describe every effect, or --effect alone, and leave");
   return line;
 }
 
@@ -57,6 +58,16 @@ std::string folderOf(const fsr::CommandLine& line) {
                           "); give another one with --output");
   }
   return folder;
+}
+
+/// Recorded bags must not be lost under the name of simulated ones.
+void refuseBagsOfOthers(const fs::path& folder) {
+  if (fs::exists(folder / kTruth)) return;
+  for (const auto& file : fs::directory_iterator(folder)) {
+    if (file.path().extension() != ".bag") continue;
+    throw fsr::InputError(folder.string() + ": holds " + file.path().filename().string() +
+                          ", which no simulation wrote; give another folder with --output");
+  }
 }
 
 std::vector<std::string> bagsOf(const fsr::CommandLine& line) {
@@ -83,6 +94,7 @@ void writeBags(const fsr::CommandLine& line, const fsr::SimulationSettings& sett
   if (!saved.empty()) fsr::requireReplaceable(saved);
   SimulatedBags bags;
   bags.output = folderOf(line);
+  refuseBagsOfOthers(bags.output);
   bags.progress = [&](const std::string& path) { out << path << std::endl; };
   if (line.has("state")) {
     bags.state = fsr::readRigState(fsr::Settings::fromFile(line.requiredText("state")));
@@ -91,7 +103,7 @@ void writeBags(const fsr::CommandLine& line, const fsr::SimulationSettings& sett
                                ? writeSessionBags(settings, bags)
                                : writeDrivenBags(settings, {driving, line.text("namespace", "")}, bags);
   for (const std::string& warning : run.warnings) out << warning << std::endl;
-  const fs::path truth = fs::path(bags.output) / "truth.yaml";
+  const fs::path truth = fs::path(bags.output) / kTruth;
   fsr::replaceFile(truth, simulationText(run.rig, remarkOf(line, driving)));
   out << truth.string() << std::endl;
   if (saved.empty()) return;
@@ -120,6 +132,14 @@ int drawPlot(const fsr::CommandLine& line, const fsr::SimulationSettings& settin
   return 0;
 }
 
+std::string listOf(const std::string& id) {
+  if (id.empty()) return fsr::effectListText();
+  const fsr::EffectEntry* entry = fsr::findEffect(id);
+  if (!entry)
+    throw fsr::InputError("--effect is " + id + ", but no effect has that name; see --list-effects");
+  return fsr::effectText(entry->info);
+}
+
 }  // namespace
 
 int simulateTool(int argc, const char* const* argv, std::ostream& out) {
@@ -129,7 +149,7 @@ int simulateTool(int argc, const char* const* argv, std::ostream& out) {
     return 0;
   }
   if (line.has("list-effects")) {
-    out << fsr::effectListText();
+    out << listOf(line.text("effect", ""));
     return 0;
   }
   const fsr::SimulationSettings settings = settingsOf(line);

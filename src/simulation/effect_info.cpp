@@ -81,6 +81,10 @@ std::string name(EffectKind kind) {
   return nameOf(kind, {"base", "additive", "grid", "detector", "listed"});
 }
 
+std::string name(ParameterRole role) {
+  return nameOf(role, {"strength", "shape", "scatter"});
+}
+
 std::string name(SignRule sign) {
   return nameOf(sign, {"either", "positive", "negative"});
 }

@@ -152,6 +152,7 @@ std::string name(ChainStage stage);
 std::string name(EffectLevel level);
 std::string name(EffectKind kind);
 std::string name(SignRule sign);
+std::string name(ParameterRole role);
 std::string name(Covariate covariate);
 std::string name(Evidence evidence);
 std::string name(Experiment experiment);

@@ -220,12 +220,25 @@ TEST_F(SimulateTool, LeavesTheOriginalAlone) {
   EXPECT_NE(complaint.find("would be overwritten"), std::string::npos) << complaint;
 }
 
+TEST_F(SimulateTool, OverwritesItsOwnBagsButNobodyElses) {
+  std::ofstream(path("recorded.bag")) << "x";
+  const std::string complaint = run({"--simulation", kBench, "--output", folder_});
+  EXPECT_NE(complaint.find("holds recorded.bag, which no simulation wrote"), std::string::npos) << complaint;
+  EXPECT_EQ(filesIn(folder_), (std::set<std::string>{"recorded.bag"}));
+  run({"--simulation", kBench, "--output", path("out")});
+  run({"--simulation", kBench, "--output", path("out")});
+  EXPECT_EQ(status_, 0);
+}
+
 TEST_F(SimulateTool, ListsEveryEffect) {
   const std::string text = run({"--list-effects"});
   for (const char* word :
        {"hysteresis: ", "loop_width", "plausible", "humidity: ", "two_humidities", "uneven_load"}) {
     EXPECT_NE(text.find(word), std::string::npos) << word;
   }
+  EXPECT_EQ(run({"--list-effects", "--effect", "humidity"}).find("humidity: "), 0u);
+  EXPECT_NE(run({"--list-effects", "--effect", "hysterese"}).find("no effect has that name"),
+            std::string::npos);
 }
 
 TEST_F(SimulateTool, DrawsWhatAnEffectDoes) {
