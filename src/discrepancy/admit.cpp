@@ -73,58 +73,95 @@ std::vector<std::size_t> inOrderOfTime(const std::vector<Recording>& recordings)
   return order;
 }
 
-void appendScans(Measured& measured, const Recording& recording, double start, std::size_t from,
-                 std::size_t to) {
+// One visit, scan by scan, before scans are pooled.
+struct VisitCourse {
+  std::vector<double> time, pressure, rate;
+  Cycles cycles;
+};
+
+VisitCourse courseOf(const Recording& recording, const Visit& visit, double start) {
+  VisitCourse course;
   const auto at = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
-  std::vector<double> time;
-  for (std::size_t i = from; i < to; ++i) time.push_back(start + recording.time[i]);
-  const std::vector<double> pressure(recording.pressure.begin() + at(from),
-                                     recording.pressure.begin() + at(to));
-  std::vector<double> rate;
-  const std::vector<double> smooth = smoothCourse(time, pressure, rate);
-  measured.time.insert(measured.time.end(), time.begin(), time.end());
-  measured.pressure.insert(measured.pressure.end(), smooth.begin(), smooth.end());
-  measured.rate.insert(measured.rate.end(), rate.begin(), rate.end());
-  if (!recording.temperature.empty()) {
-    measured.temperature.insert(measured.temperature.end(), recording.temperature.begin() + at(from),
-                                recording.temperature.begin() + at(to));
+  for (std::size_t i = visit.first_scan; i < visit.last_scan; ++i) {
+    course.time.push_back(start + recording.time[i]);
+  }
+  const std::vector<double> pressure(recording.pressure.begin() + at(visit.first_scan),
+                                     recording.pressure.begin() + at(visit.last_scan));
+  course.pressure = smoothCourse(course.time, pressure, course.rate);
+  course.cycles = findCycles(course.pressure);
+  if (course.cycles.first.empty()) {
+    course.cycles.first = {0};
+    course.cycles.direction.assign(pressure.size(), LoadDirection::kNone);
+  }
+  return course;
+}
+
+double mean(const std::vector<double>& values, std::size_t first, std::size_t last) {
+  const auto at = [&](std::size_t i) { return values.begin() + static_cast<std::ptrdiff_t>(i); };
+  return std::accumulate(at(first), at(last), 0.0) / static_cast<double>(last - first);
+}
+
+int sign(LoadDirection direction) {
+  return direction == LoadDirection::kLoading ? 1 : direction == LoadDirection::kUnloading ? -1 : 0;
+}
+
+// Scans first .. last - 1 of a visit become one moment.
+void appendMoment(Measured& measured, const VisitCourse& course, std::size_t first, std::size_t last) {
+  const Visit& visit = measured.visits.back();
+  const std::vector<double>& temperature = (*measured.recordings)[visit.recording].temperature;
+  measured.time.push_back(mean(course.time, first, last));
+  measured.pressure.push_back(mean(course.pressure, first, last));
+  measured.rate.push_back(mean(course.rate, first, last));
+  measured.direction.push_back(static_cast<std::int8_t>(sign(course.cycles.direction[first])));
+  measured.visit.push_back(static_cast<std::uint32_t>(measured.visits.size() - 1));
+  measured.cycle.push_back(static_cast<std::uint32_t>(measured.cycles.size() - 1));
+  measured.first_scan.push_back(visit.first_scan + first);
+  measured.scans.push_back(static_cast<std::uint32_t>(last - first));
+  if (!temperature.empty()) {
+    measured.temperature.push_back(mean(temperature, visit.first_scan + first, visit.first_scan + last));
   }
 }
 
-void findCyclesOf(Measured& measured, std::size_t visit) {
-  const Visit& at = measured.visits[visit];
-  const auto offset = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
-  const std::vector<double> pressure(measured.pressure.begin() + offset(at.first),
-                                     measured.pressure.begin() + offset(at.last));
-  Cycles found = findCycles(pressure);
-  if (found.first.empty()) {
-    found.first = {0};
-    found.direction.assign(pressure.size(), LoadDirection::kNone);
+void appendVisit(Measured& measured, double start, std::size_t pooled) {
+  Visit& visit = measured.visits.back();
+  const VisitCourse course = courseOf((*measured.recordings)[visit.recording], visit, start);
+  visit.first = measured.moments();
+  for (std::size_t c = 0; c < course.cycles.count(); ++c) {
+    const bool last = c + 1 == course.cycles.count();
+    const std::size_t end = last ? course.time.size() : course.cycles.first[c + 1];
+    measured.cycles.push_back({measured.visits.size() - 1, measured.moments(), 0, 0, CycleUse::kFit});
+    for (std::size_t i = course.cycles.first[c]; i < end; i += pooled) {
+      appendMoment(measured, course, i, std::min(i + pooled, end));
+    }
+    measured.cycles.back().last = measured.moments();
   }
-  for (std::size_t c = 0; c < found.count(); ++c) {
-    const std::size_t end = c + 1 < found.count() ? found.first[c + 1] : pressure.size();
-    measured.cycles.push_back({visit, at.first + found.first[c], at.first + end, 0, CycleUse::kFit});
-    measured.cycle.resize(at.first + end, static_cast<std::uint32_t>(measured.cycles.size() - 1));
-  }
-  for (const LoadDirection d : found.direction) {
-    measured.direction.push_back(d == LoadDirection::kLoading ? 1 : d == LoadDirection::kUnloading ? -1 : 0);
-  }
+  visit.last = measured.moments();
 }
 
-void appendRecording(Measured& measured, const ConditionClasses& classes, std::size_t r) {
+std::size_t scansPooled(const std::vector<Recording>& recordings) {
+  std::size_t scans = 0;
+  double shortest = INFINITY;  // mean time from scan to scan [s]
+  for (const Recording& recording : recordings) {
+    scans += recording.scans();
+    if (recording.scans() < 2) continue;
+    const double seconds = recording.time.back() - recording.time.front();
+    shortest = std::min(shortest, seconds / static_cast<double>(recording.scans() - 1));
+  }
+  const double most = std::max(1.0, std::floor(Measured::kLongestMoment / shortest));
+  const double wanted = static_cast<double>(scans) / static_cast<double>(Measured::kManyMoments);
+  return static_cast<std::size_t>(std::clamp(std::round(wanted), 1.0, most));
+}
+
+void appendRecording(Measured& measured, const ConditionClasses& classes, std::size_t r, std::size_t pooled) {
   const Recording& recording = (*measured.recordings)[r];
   const double start = static_cast<double>(recording.start_ns - (*measured.recordings)[0].start_ns) * 1e-9;
   for (std::size_t from = 0, to = 0; from < recording.scans(); from = to) {
     while (to < recording.scans() && recording.condition[to] == recording.condition[from]) ++to;
     const std::size_t condition = recording.condition[from];
-    Visit visit{r, recording.conditions.at(condition), classes.class_of[r][condition], measured.scans(), 0};
+    Visit visit{r, recording.conditions.at(condition), classes.class_of[r][condition], 0, 0, from, to};
     if (!visit.surface.known()) visit.surface.curvature = {Curvature{}};
-    visit.last = visit.first + (to - from);
-    measured.first_in_recording.push_back(from);
-    appendScans(measured, recording, start, from, to);
     measured.visits.push_back(visit);
-    measured.visit.resize(visit.last, static_cast<std::uint32_t>(measured.visits.size() - 1));
-    findCyclesOf(measured, measured.visits.size() - 1);
+    appendVisit(measured, start, pooled);
   }
 }
 
@@ -174,8 +211,9 @@ void requireJudgeable(const Measured& measured) {
                      " cycle of filling and venting, but at least 3 are needed: what was found must be held "
                      "against others");
   }
-  if (measured.scans() < kFewestScans) {
-    throw InputError(name + ": " + std::to_string(measured.scans()) + " scans, but at least 200 are needed");
+  if (measured.moments() < kFewestScans) {
+    throw InputError(name + ": " + std::to_string(measured.moments()) +
+                     " scans, but at least 200 are needed");
   }
 }
 
@@ -183,6 +221,16 @@ void requireJudgeable(const Measured& measured) {
 
 std::size_t Measured::usedTaxels() const {
   return static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
+}
+
+void Measured::readings(std::size_t moment, std::vector<double>& result) const {
+  const Recording& recording = (*recordings)[visits[visit[moment]].recording];
+  result.assign(taxels(), 0.0);
+  for (std::size_t s = 0; s < scans[moment]; ++s) {
+    const std::uint16_t* counts = recording.scan(first_scan[moment] + s);
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] += counts[i];
+  }
+  for (double& reading : result) reading /= full_scale * static_cast<double>(scans[moment]);
 }
 
 void validate(const DiscrepancyProblem& problem) {
@@ -205,8 +253,9 @@ Measured admit(const DiscrepancyProblem& problem) {
   const ConditionClasses classes = poolConditions(problem.recordings);
   measured.classes = classes.classes;
   bool thermometer = true;
+  const std::size_t pooled = scansPooled(problem.recordings);
   for (const std::size_t r : inOrderOfTime(problem.recordings)) {
-    appendRecording(measured, classes, r);
+    appendRecording(measured, classes, r, pooled);
     thermometer = thermometer && !problem.recordings[r].temperature.empty();
   }
   if (!thermometer) {
@@ -215,8 +264,8 @@ Measured admit(const DiscrepancyProblem& problem) {
   }
   const double start = measured.time.front();
   for (double& time : measured.time) time -= start;
-  measured.way.assign(measured.scans(), 0);
-  for (std::size_t i = 1; i < measured.scans(); ++i) {
+  measured.way.assign(measured.moments(), 0);
+  for (std::size_t i = 1; i < measured.moments(); ++i) {
     measured.way[i] = measured.way[i - 1] + std::abs(measured.pressure[i] - measured.pressure[i - 1]);
   }
   partCycles(measured, problem.options.seed);

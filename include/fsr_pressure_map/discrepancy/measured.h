@@ -10,19 +10,21 @@
 
 namespace fsr {
 
-/// A stay of the matrix on one surface: scans first .. last - 1.
+/// A stay of the matrix on one surface: moments first .. last - 1.
 struct Visit {
   std::size_t recording = 0;
   Surface surface;
   std::size_t curvature_class = 0;
   std::size_t first = 0;
   std::size_t last = 0;
+  std::size_t first_scan = 0;  ///< of the recording
+  std::size_t last_scan = 0;   ///< likewise, excluded
 };
 
-/// Which use the scans of a cycle serve. What is shown at the end takes no part in anything before.
+/// Which use a cycle serves. What is shown at the end takes no part in anything before.
 enum class CycleUse : std::uint8_t { kFit, kShow };
 
-/// One filling and venting.
+/// One filling and venting: moments first .. last - 1.
 struct MeasuredCycle {
   std::size_t visit = 0;
   std::size_t first = 0;
@@ -31,9 +33,12 @@ struct MeasuredCycle {
   CycleUse use = CycleUse::kFit;
 };
 
-/// All recordings of a problem as one course of events, scans in time order.
+/// All recordings of a problem as one course of events. A moment is one scan or the mean of a few
+/// consecutive ones: what is looked for is slower than scans are, and fewer moments are sooner done.
 struct Measured {
   static constexpr std::uint32_t kFolds = 4;
+  static constexpr std::size_t kManyMoments = 14000;  ///< above it scans are pooled, up to kLongestMoment
+  static constexpr double kLongestMoment = 0.5;       ///< [s]
 
   const std::vector<Recording>* recordings = nullptr;
   Layout layout;
@@ -43,25 +48,26 @@ struct Measured {
   std::vector<MeasuredCycle> cycles;
   std::vector<std::uint8_t> used;  ///< of each taxel; 0 = masked or faulty
 
-  std::vector<double> time;              ///< since the first scan of the first recording [s]
-  std::vector<double> pressure;          ///< gauge, its noise smoothed away where it runs straight [Pa]
-  std::vector<double> rate;              ///< [Pa/s]
-  std::vector<double> temperature;       ///< [degree Celsius]; empty where a recording has none
-  std::vector<double> way;               ///< sum of |dP| since the first scan [Pa]
-  std::vector<std::uint32_t> visit;      ///< of each scan
-  std::vector<std::uint32_t> cycle;      ///< of each scan
-  std::vector<std::int8_t> direction;    ///< +1 loading, -1 unloading, 0 = never changes
+  // Of each moment, in time order:
+  std::vector<double> time;         ///< since the first scan of the first recording [s]
+  std::vector<double> pressure;     ///< gauge, its noise smoothed away where it runs straight [Pa]
+  std::vector<double> rate;         ///< [Pa/s]
+  std::vector<double> temperature;  ///< [degree Celsius]; empty where a recording has none
+  std::vector<double> way;          ///< sum of |dP| since the first moment [Pa]
+  std::vector<std::uint32_t> visit;
+  std::vector<std::uint32_t> cycle;
+  std::vector<std::int8_t> direction;   ///< +1 loading, -1 unloading, 0 = never changes
+  std::vector<std::size_t> first_scan;  ///< of the visit's recording
+  std::vector<std::uint32_t> scans;     ///< how many
+
   std::vector<std::string> limitations;  ///< sentences
 
-  std::size_t scans() const { return time.size(); }
+  std::size_t moments() const { return time.size(); }
   std::size_t taxels() const { return layout.size.taxels(); }
   std::size_t usedTaxels() const;
-  std::size_t classOf(std::size_t scan) const { return visits[visit[scan]].curvature_class; }
-  const std::uint16_t* counts(std::size_t scan) const {
-    const Visit& at = visits[visit[scan]];
-    return (*recordings)[at.recording].scan(scan - at.first + first_in_recording[visit[scan]]);
-  }
-  std::vector<std::size_t> first_in_recording;  ///< scan of the recording with which each visit begins
+  std::size_t classOf(std::size_t moment) const { return visits[visit[moment]].curvature_class; }
+  /// Mean reading of every taxel [share of full scale], [taxels], row-major.
+  void readings(std::size_t moment, std::vector<double>& result) const;
 };
 
 /// Puts the recordings in order of time, finds visits and cycles, and parts the cycles, by the seed,

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/discrepancy/generic_terms.h"
+#include "fsr_pressure_map/discrepancy/selection.h"
+#include "fsr_pressure_map/discrepancy/signatures.h"
+
+namespace fsr {
+
+/// The explanations that compete for what the static curves leave of the common trace.
+class Competition {
+ public:
+  Competition(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
+              std::vector<Signature> signatures, unsigned threads);
+
+  const std::vector<Family>& effects() const { return effects_; }
+  const std::vector<Family>& generics() const { return generics_; }
+  const std::vector<Covariate>& covariates(std::size_t generic) const { return covariates_[generic]; }
+  const std::vector<Signature>& signatures() const { return signatures_; }
+  const Selection& selection() const { return *selection_; }
+
+  /// Share of the squared error that repeats from one half of the taxels to the other and from one
+  /// moment to one a second later: what anything could explain. 0 where nothing is hidden.
+  double repeating() const { return repeating_; }
+
+  /// Mean squared error of the common trace [share of full scale, squared].
+  double meanSquare() const { return mean_square_; }
+
+  /// What an explanation adds to the common trace, projected.
+  Trace explained(const Score& score) const;
+  Trace column(Eigen::Index i) const { return columns_.col(i); }
+
+ private:
+  void gather(const StaticFit& fit, const Measured& measured);
+  void judgeRepeating(const Measured& measured, const CommonTraces& common, const StaticFit& fit);
+
+  std::vector<Signature> signatures_;
+  std::vector<Family> effects_, generics_;
+  std::vector<std::vector<Covariate>> covariates_;  // of each generic
+  Eigen::MatrixXd columns_;                         // [moments x columns], the last one the target
+  std::unique_ptr<CycleGrams> grams_;
+  std::unique_ptr<Selection> selection_;
+  double repeating_ = 0;
+  double mean_square_ = 0;
+};
+
+/// Whether the traces of an effect depend on nothing but where the static curve depends on: under a
+/// uniform load they cannot be told from it.
+bool isStatic(const EffectInfo& info);
+
+}  // namespace fsr

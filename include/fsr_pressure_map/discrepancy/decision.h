@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/discrepancy/competition.h"
+#include "fsr_pressure_map/discrepancy/discrepancy.h"
+#include "fsr_pressure_map/discrepancy/taxel_fit.h"
+
+namespace fsr {
+
+/// What the common trace says.
+struct Decision {
+  Verdict verdict = Verdict::kNone;
+  Score explanation;  ///< put forward; where it is unknown, by generic terms
+  std::vector<std::vector<std::string>> credible;
+  std::vector<std::string> depends_on;
+  double ceiling = 0;         ///< share of the common trace's error that anything explains
+  double share = 0;           ///< that the explanation does
+  double share_of_error = 0;  ///< of the readings' squared error
+  double z = 0;
+  std::string reason;  ///< one sentence
+  std::vector<CandidateScore> candidates;
+};
+
+/// What the recordings hold, for effects that must not be named without it.
+struct EvidenceAtHand {
+  bool thermometer = false;
+  bool two_rates = false;  ///< or dwells
+  bool mount_labels = false;
+  bool has(Evidence evidence) const;
+};
+EvidenceAtHand evidenceIn(const Measured& measured);
+
+/// The first verdict that holds, of: none, unknown, ambiguous, wrong_form, named.
+Decision decide(const Measured& measured, const TaxelFit& taxels, const Competition& competition);
+
+}  // namespace fsr

@@ -1,0 +1,188 @@
+// Plants an effect in a simulated session and asks for its name.
+
+#include "fsr_pressure_map/discrepancy/discrepancy.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/simulation/session.h"
+
+namespace {
+
+using fsr::DiscrepancyProblem;
+using fsr::DiscrepancyReport;
+using fsr::Verdict;
+
+// Two speeds and dwells on three surfaces; a scan every 0.4 s keeps it quick.
+const char* const kTwoSpeeds = R"(
+simulation: planted
+seed: 7
+matrix: {rows: 3, columns: 4}
+board: {scan_rate: 2.5, transducer_rate: 2.5}
+program:
+  - hold: {pressure: 310000, rate: 40000, duration: 8}
+  - hold: {pressure: 620000, rate: 40000, duration: 8}
+  - rest: {rate: 40000, duration: 4}
+  - hold: {pressure: 310000, rate: 8000, duration: 15}
+  - hold: {pressure: 620000, rate: 8000, duration: 15}
+  - rest: {rate: 8000, duration: 4}
+  - cycles: {peak: 620000, rate: 40000, dwell_peak: 8, cycles: 3}
+  - cycles: {peak: 620000, rate: 8000, dwell_peak: 8, cycles: 1}
+  - cycles: {peak: 620000, rate: 40000, dwell_peak: 8, cycles: 2}
+session:
+  - {surface: flat, flat: true}
+  - {surface: cylinder_9cm, cylinder: {radius: 0.09, axis: y}, pause: 300}
+  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}
+effects:
+  static_curve: {conductance: 3.2e-4, exponent: 0.85, conductance_scatter: 0.05}
+  bending_preload: {amplitude: 30000}
+  bending_gain: {change: -0.15}
+  white_noise: {absolute: 8}
+  converter: {}
+)";
+
+// The paper's cycles: one speed, no dwells.
+const char* const kOneSpeed = R"(
+simulation: planted
+seed: 7
+matrix: {rows: 3, columns: 4}
+board: {scan_rate: 2.5, transducer_rate: 2.5}
+chamber: {cycles: 8}
+session:
+  - {surface: flat, flat: true}
+  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}
+effects:
+  static_curve: {conductance: 3.2e-4, exponent: 0.85, conductance_scatter: 0.05}
+  bending_preload: {amplitude: 30000}
+  bending_gain: {change: -0.15}
+  white_noise: {absolute: 8}
+  converter: {}
+)";
+
+fsr::SimulationSettings simulation(const std::string& text, const std::string& more = "") {
+  return fsr::readSimulation(fsr::Settings::fromText(text + more, "planted.yaml"));
+}
+
+// What a rig with `more` records, against a simulation without it.
+DiscrepancyProblem planted(const std::string& text, const std::string& more) {
+  DiscrepancyProblem problem;
+  problem.simulation = simulation(text);
+  problem.recordings = fsr::simulateSession(simulation(text, more));
+  problem.options.threads = 1;
+  return problem;
+}
+
+double valueOf(const DiscrepancyReport& report, const std::string& parameter) {
+  for (const fsr::FittedParameter& fitted : report.effects.at(0).parameters) {
+    if (fitted.name == parameter) return fitted.value;
+  }
+  return -1;
+}
+
+TEST(Investigate, IsSilentWhereNothingIsHidden) {
+  for (const char* text : {kTwoSpeeds, kOneSpeed}) {
+    const DiscrepancyReport report = investigate(planted(text, ""));
+    EXPECT_EQ(report.verdict, Verdict::kNone) << report.sentence;
+    EXPECT_TRUE(report.effects.empty());
+    EXPECT_EQ(report.gap.before, report.gap.after);
+  }
+}
+
+TEST(Investigate, NamesALoopAndFindsItsSize) {
+  const DiscrepancyReport report = investigate(planted(kTwoSpeeds, "  hysteresis: {loop_width: 0.05}\n"));
+  ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
+  EXPECT_EQ(report.effects.at(0).id, "hysteresis");
+  EXPECT_NEAR(valueOf(report, "loop_width"), 0.05, 0.005);
+  EXPECT_GT(report.gap.closed, 0.9);
+  EXPECT_LT(report.gap.after, 0.5 * report.gap.before);
+}
+
+TEST(Investigate, NamesALateClockAndByHowMuch) {
+  const DiscrepancyReport report = investigate(planted(kTwoSpeeds, "  time_skew: {delay: 0.25}\n"));
+  ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
+  EXPECT_EQ(report.effects.at(0).id, "time_skew");
+  EXPECT_NEAR(valueOf(report, "delay"), 0.25, 0.02);
+}
+
+TEST(Investigate, NamesCreepAndALeakApart) {
+  const DiscrepancyReport creep = investigate(planted(kTwoSpeeds, "  creep: {per_decade: 0.03}\n"));
+  ASSERT_FALSE(creep.credible_set.empty()) << creep.sentence;
+  EXPECT_EQ(creep.credible_set.at(0), std::vector<std::string>{"creep"});
+  const DiscrepancyReport leak = investigate(planted(kTwoSpeeds, "  seal_leak: {time_constant: 900}\n"));
+  ASSERT_FALSE(leak.credible_set.empty()) << leak.sentence;
+  EXPECT_EQ(leak.credible_set.at(0), std::vector<std::string>{"seal_leak"});
+}
+
+TEST(Investigate, DoesNotNameALoopAloneUnderOneSpeed) {
+  const DiscrepancyReport report = investigate(planted(kOneSpeed, "  hysteresis: {loop_width: 0.05}\n"));
+  ASSERT_EQ(report.verdict, Verdict::kAmbiguous) << report.sentence;
+  EXPECT_EQ(report.credible_set.at(0), std::vector<std::string>{"hysteresis"});
+  EXPECT_GE(report.credible_set.size(), 2u);
+}
+
+TEST(Investigate, ListsCrosstalkAsNotIdentifiableInAUniformChamber) {
+  const DiscrepancyReport report = investigate(planted(kTwoSpeeds, ""));
+  for (const fsr::NotIdentifiable& hidden : report.not_identifiable) {
+    if (hidden.id != "crosstalk") continue;
+    EXPECT_EQ(hidden.experiment, "uneven_load");
+  }
+  const auto crosstalk = [](const fsr::NotIdentifiable& hidden) { return hidden.id == "crosstalk"; };
+  EXPECT_EQ(std::count_if(report.not_identifiable.begin(), report.not_identifiable.end(), crosstalk), 1);
+}
+
+TEST(Investigate, SaysTheSameOnAnyNumberOfThreads) {
+  DiscrepancyProblem problem = planted(kOneSpeed, "  hysteresis: {loop_width: 0.05}\n");
+  const DiscrepancyReport one = investigate(problem);
+  problem.options.threads = 3;
+  const DiscrepancyReport three = investigate(problem);
+  EXPECT_EQ(one.sentence, three.sentence);
+  EXPECT_EQ(one.gap.after, three.gap.after);
+  ASSERT_EQ(one.candidates.size(), three.candidates.size());
+  for (std::size_t i = 0; i < one.candidates.size(); ++i)
+    EXPECT_EQ(one.candidates[i].z, three.candidates[i].z);
+}
+
+std::string refusal(const DiscrepancyProblem& problem) {
+  try {
+    investigate(problem);
+  } catch (const fsr::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Investigate, RefusesWhatCannotBeJudged) {
+  const DiscrepancyProblem good = planted(kOneSpeed, "");
+  DiscrepancyProblem bad = good;
+  bad.recordings.clear();
+  EXPECT_NE(refusal(bad).find("no bag"), std::string::npos);
+  bad = good;
+  bad.recordings[1].pressure.clear();
+  EXPECT_NE(refusal(bad).find("2_cylinder_5cm.bag: no chamber pressure"), std::string::npos);
+  bad = good;
+  std::swap(bad.recordings[0].time[10], bad.recordings[0].time[11]);
+  EXPECT_NE(refusal(bad).find("stamps run backwards"), std::string::npos);
+  bad = good;
+  bad.simulation.layout.size = {7, 10};
+  EXPECT_NE(refusal(bad).find("matrix is 7 x 10"), std::string::npos);
+  bad = good;
+  for (double& p : bad.recordings[0].pressure) p *= 0.05;
+  bad.recordings.resize(1);
+  EXPECT_NE(refusal(bad).find("at least 50 kPa"), std::string::npos);
+  bad = good;
+  bad.recordings[0].mask.assign(12, 1);
+  EXPECT_NE(refusal(bad).find("at least half must be usable"), std::string::npos);
+  bad = good;
+  bad.options.ask = {"gremlins"};
+  EXPECT_NE(refusal(bad).find("no effect is called gremlins"), std::string::npos);
+}
+
+TEST(Investigate, RefusesASingleCycle) {
+  std::string once = kOneSpeed;
+  once.replace(once.find("cycles: 8"), 9, "cycles: 1");
+  EXPECT_NE(refusal(planted(once, "")).find("at least 3 are needed"), std::string::npos);
+}
+
+}  // namespace
