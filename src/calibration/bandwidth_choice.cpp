@@ -10,18 +10,6 @@ namespace fsr {
 
 namespace {
 
-// Up to kTaxelsOfSearch of those that have a model, evenly spread.
-std::vector<std::size_t> taxelsOfSearch(const std::vector<std::uint8_t>& no_model) {
-  std::vector<std::size_t> taxels;
-  for (std::size_t taxel = 0; taxel < no_model.size(); ++taxel) {
-    if (no_model[taxel] == 0) taxels.push_back(taxel);
-  }
-  const std::size_t number = std::min(taxels.size(), kTaxelsOfSearch);
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < number; ++i) chosen.push_back(taxels[i * taxels.size() / number]);
-  return chosen;
-}
-
 std::vector<CodeStatistics> sectionsOf(const std::vector<std::size_t>& classes,
                                        const TrainingStatistics& statistics, std::size_t taxel) {
   std::vector<CodeStatistics> sections(statistics.sections);
@@ -46,6 +34,17 @@ BandwidthErrors errorsOf(const GrnnOptions& options, const SchemePlan& plan,
 }
 
 }  // namespace
+
+std::vector<std::size_t> taxelsOfSearch(const std::vector<std::uint8_t>& no_model) {
+  std::vector<std::size_t> taxels;
+  for (std::size_t taxel = 0; taxel < no_model.size(); ++taxel) {
+    if (no_model[taxel] == 0) taxels.push_back(taxel);
+  }
+  const std::size_t number = std::min(taxels.size(), kTaxelsOfSearch);
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < number; ++i) chosen.push_back(taxels[i * taxels.size() / number]);
+  return chosen;
+}
 
 bool choosesBandwidth(const CalibrationOptions& options) {
   return options.choose_bandwidth && options.regressor.name == "grnn";

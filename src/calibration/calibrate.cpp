@@ -3,6 +3,7 @@
 
 #include "fsr_pressure_map/calibration/bandwidth_choice.h"
 #include "fsr_pressure_map/calibration/calibration.h"
+#include "fsr_pressure_map/calibration/curvature_rule_learning.h"
 #include "fsr_pressure_map/calibration/held_out_scoring.h"
 #include "fsr_pressure_map/calibration/sources.h"
 #include "fsr_pressure_map/calibration/taxel_training.h"
@@ -19,7 +20,7 @@ namespace {
 class Training {
  public:
   explicit Training(const CalibrationProblem& problem)
-      : problem_(problem), classes_(poolConditions(problem.recordings)) {
+      : problem_(problem), classes_(poolConditions(problem.recordings, poolingOf(problem.options.scheme))) {
     for (const Recording& recording : problem.recordings) {
       sections_.push_back(divideIntoSections(recording, problem.options.folds));
     }
@@ -33,9 +34,7 @@ class Training {
     forEachTaxel(taxels, problem_.options.threads, [&](std::size_t taxel) { sum(taxel, calibration); });
     findTaxelsWithoutModel(plan_, problem_.recordings.front().name, calibration);
 
-    const FoldRegressors regressors =
-        chooseRegressor(problem_.options, plan_, calibration.statistics, calibration.no_model);
-    calibration.regressor = regressors.whole;
+    const FoldRegressors regressors = choose(problem_.options, calibration, plan_);
     HeldOutScoring scoring(scans_, plan_, problem_.options.folds, taxels);
     std::mutex reporting;
     std::size_t done = 0;
@@ -44,7 +43,11 @@ class Training {
       const std::lock_guard<std::mutex> lock(reporting);
       if (progress) progress(++done, taxels);
     });
-    if (problem_.options.scores) calibration.scores = scoring.summarise(classes_.classes);
+    const UnseenScore unseen = learnRule(plan_, problem_.options.threads, calibration);
+    if (problem_.options.scores) {
+      calibration.scores = scoring.summarise(classes_.classes);
+      calibration.scores.unseen = unseen;
+    }
     return calibration;
   }
 

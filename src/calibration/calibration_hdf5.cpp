@@ -156,6 +156,7 @@ void writeCalibration(const Calibration& calibration, Hdf5Writer& writer) {
   writeTrained(calibration.trained, writer);
   writeProvenance(calibration, writer);
   writeTables(calibration.tables, writer);
+  writeRule(calibration.tables, writer);
   writeCoverage(calibration.coverage, writer);
   if (!calibration.scores.conditions.empty()) writeScores(calibration.scores, writer);
   writeStatistics(calibration.statistics, writer);
@@ -175,6 +176,7 @@ Calibration readCalibration(const Hdf5Reader& reader, CalibrationParts parts) {
   calibration.provenance = readProvenance(reader);
   calibration.warnings = reader.texts("/provenance/warnings");
   calibration.tables = readTables(reader, calibration.layout.size);
+  readRule(reader, calibration.tables);
   calibration.tables.curvature_low = calibration.trained.curvature.low;
   calibration.tables.curvature_high = calibration.trained.curvature.high;
   TrainingStatistics statistics = readStatistics(reader, parts == CalibrationParts::kAll);

@@ -89,12 +89,13 @@ std::vector<std::uint8_t> masked(const Calibration& calibration) {
 
 class Merging {
  public:
-  explicit Merging(const std::vector<MergePart>& parts) : parts_(parts) {
+  explicit Merging(const std::vector<MergePart>& parts)
+      : parts_(parts), pooling_(poolingOf(parts.front().calibration.tables.scheme)) {
     for (const MergePart& part : parts) {
       const auto own = conditionsOf(part.calibration);
       conditions_.insert(conditions_.end(), own.begin(), own.end());
     }
-    pooled_ = poolConditions(conditions_);
+    pooled_ = poolConditions(conditions_, pooling_);
     std::size_t first = 0;
     for (const MergePart& part : parts) {
       classes_.push_back(classesOf(part, first));
@@ -111,6 +112,7 @@ class Merging {
   TrainingStatistics mergeStatistics() const;
 
   const std::vector<MergePart>& parts_;
+  PooledBy pooling_;
   std::vector<RecordedCondition> conditions_;
   PooledConditions pooled_;
   std::vector<std::vector<std::size_t>> classes_;  // [parts][classes of the part]
@@ -118,7 +120,7 @@ class Merging {
 
 std::vector<std::size_t> Merging::classesOf(const MergePart& part, std::size_t first) const {
   const auto own = conditionsOf(part.calibration);
-  const PooledConditions alone = poolConditions(own);
+  const PooledConditions alone = poolConditions(own, pooling_);
   const auto& classes = part.calibration.statistics.classes;
   constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   std::vector<std::size_t> becomes(classes.size(), kNone);

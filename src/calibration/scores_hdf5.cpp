@@ -59,6 +59,24 @@ struct Columns {
   }
 };
 
+void writeUnseen(const UnseenScore& unseen, Hdf5Writer& writer) {
+  writer.group("/scores/unseen");
+  writer.attribute("/scores/unseen", "meaning", "inner surfaces, each in turn answered from the others");
+  writer.attribute("/scores/unseen", "readings", unseen.readings);
+  writer.attribute("/scores/unseen", "rmse_percent",
+                   std::vector<double>{unseen.rmse_percent.mean, unseen.rmse_percent.deviation});
+  writer.attribute("/scores/unseen", "rmse", std::vector<double>{unseen.rmse});
+  writer.attribute("/scores/unseen", "unit", "Pa");
+}
+
+UnseenScore readUnseen(const Hdf5Reader& reader) {
+  if (!reader.has("/scores/unseen")) return {};  // a file of schema 1
+  const std::vector<double> percent = reader.numbers("/scores/unseen", "rmse_percent", 2);
+  return {reader.integer("/scores/unseen", "readings"),
+          {percent[0], percent[1]},
+          reader.numbers("/scores/unseen", "rmse", 1)[0]};
+}
+
 }  // namespace
 
 void writeScores(const CalibrationScores& scores, Hdf5Writer& writer) {
@@ -86,6 +104,7 @@ void writeScores(const CalibrationScores& scores, Hdf5Writer& writer) {
   writer.dataset("/scores/errors", columns.errors, {rows, 1 + kPressureBins, kDirections, kMeasures}, "Pa",
                  "[class][whole, then bins of 0, 50, 100, 200, 400 kPa and more][both, loading, unloading]"
                  "[count, bias, RMSE, lower and upper 95 % limit, 95th percentile of the absolute error]");
+  writeUnseen(scores.unseen, writer);
 }
 
 CalibrationScores readScores(const Hdf5Reader& reader, const std::vector<CurvatureClass>& classes) {
@@ -104,6 +123,7 @@ CalibrationScores readScores(const Hdf5Reader& reader, const std::vector<Curvatu
     scores.conditions.push_back({classes[c], trained[c] != 0, columns.row(c)});
   }
   scores.whole = columns.row(classes.size());
+  scores.unseen = readUnseen(reader);
   return scores;
 }
 

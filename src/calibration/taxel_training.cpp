@@ -4,6 +4,9 @@
 #include <limits>
 
 #include "fsr_pressure_map/calibration/bandwidth_choice.h"
+#include "fsr_pressure_map/calibration/curvature_rule_learning.h"
+#include "fsr_pressure_map/compensation/learn_scheme.h"
+#include "fsr_pressure_map/compensation/second_input.h"
 #include "fsr_pressure_map/matrix/for_each_taxel.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
@@ -28,11 +31,29 @@ bool varies(const TrainingStatistics& statistics, const SchemePlan::Model& model
   return codes.low < codes.high;
 }
 
-CodeTable noModel(std::uint16_t full_scale) {
+CodeTable noModel(std::uint16_t full_scale, bool kernels) {
   CodeTable table;
   table.pressure.assign(full_scale + 1u, std::numeric_limits<float>::quiet_NaN());
   table.deviation = table.support = table.pressure;
+  if (kernels) table.log_weight = table.pressure;
   return table;
+}
+
+// Where kernels are blended, the tables are those of the classes alone.
+void useKernels(const ClassReadings& readings, const GrnnOptions& grnn, CodeTable* tables) {
+  const std::vector<KernelMean> means = classKernels(readings, grnn);
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    tables[k].pressure.assign(means[k].pressure.begin(), means[k].pressure.end());
+    tables[k].log_weight.assign(means[k].log_weight.begin(), means[k].log_weight.end());
+  }
+}
+
+// The model that schemes are learned with.
+GrnnOptions plainKernel(const GrnnOptions& options) {
+  GrnnOptions plain;
+  plain.bandwidth = options.bandwidth;
+  plain.spread = options.spread;
+  return plain;
 }
 
 }  // namespace
@@ -81,20 +102,33 @@ SectionedReadings readingsOf(const TrainingStatistics& statistics, std::size_t t
   return readings;
 }
 
+FoldRegressors choose(const CalibrationOptions& options, Calibration& calibration, SchemePlan& plan) {
+  const FoldRegressors regressors =
+      chooseRegressor(options, plan, calibration.statistics, calibration.no_model);
+  calibration.regressor = regressors.whole;
+  learnScheme(calibration.statistics, plainKernel(regressors.whole.grnn),
+              taxelsOfSearch(calibration.no_model), options.threads, plan);
+  return regressors;
+}
+
 void fillTables(const SchemePlan& plan, std::size_t taxel, const std::vector<CrossValidatedModel>& models,
                 Calibration& calibration) {
   const std::size_t classes = calibration.tables.classes.size();
   CodeTable* const tables = &calibration.tables.tables[taxel * classes];
+  const bool kernels = blendOf(plan.scheme, calibration.regressor) == BlendRule::kKernel;
   for (std::size_t k = 0; k < classes; ++k) {
-    tables[k] =
-        models.empty() ? noModel(calibration.tables.full_scale) : models[plan.model_of_class[k]].table;
+    tables[k] = models.empty() ? noModel(calibration.tables.full_scale, kernels)
+                               : models[plan.model_of_class[k]].table;
+  }
+  if (kernels && !models.empty()) {
+    useKernels(allSections(readingsOf(calibration.statistics, taxel)), calibration.regressor.grnn, tables);
   }
 }
 
 void trainOnStatistics(const CalibrationOptions& options, const std::string& origin,
                        Calibration& calibration) {
   const TrainingStatistics& statistics = calibration.statistics;
-  const SchemePlan plan = planScheme(options.scheme, statistics.classes);
+  SchemePlan plan = planScheme(options.scheme, statistics.classes);
   for (const SchemePlan::Model& model : plan.models) {
     for (const std::size_t k : model.trained_on) {
       for (const double curvature : plan.classes[k].curvature)
@@ -103,8 +137,7 @@ void trainOnStatistics(const CalibrationOptions& options, const std::string& ori
   }
   prepareTables(plan, calibration);
   findTaxelsWithoutModel(plan, origin, calibration);
-  const FoldRegressors regressors = chooseRegressor(options, plan, statistics, calibration.no_model);
-  calibration.regressor = regressors.whole;
+  const FoldRegressors regressors = choose(options, calibration, plan);
   forEachTaxel(statistics.taxels, options.threads, [&](std::size_t taxel) {
     std::vector<CrossValidatedModel> models;
     if (calibration.no_model[taxel] == 0) {
@@ -113,6 +146,7 @@ void trainOnStatistics(const CalibrationOptions& options, const std::string& ori
     }
     fillTables(plan, taxel, models, calibration);
   });
+  learnRule(plan, options.threads, calibration);
 }
 
 }  // namespace fsr

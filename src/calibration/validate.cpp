@@ -113,7 +113,7 @@ void validate(const CalibrationProblem& problem) {
   for (const Recording& recording : recordings) requireSameMatrix(recordings.front(), recording);
   for (const Recording& recording : recordings) requirePressures(recording);
   requireChange(recordings);
-  planScheme(options.scheme, poolConditions(recordings).classes);
+  planScheme(options.scheme, poolConditions(recordings, poolingOf(options.scheme)).classes);
   requireDifferentBags(recordings);
 }
 

@@ -41,19 +41,13 @@ void chosenPressure(const TableEntry* table, std::size_t codes, TableEntry* out)
   for (std::size_t code = 0; code < codes; ++code) out[code].pressure = table[code].pressure;
 }
 
-// With the law: P = gain(k) / gain of the straight line * (straight line - its offset) + offset(k).
 void interpolatedPressure(const EffectLaw& law, const TaxelTables& tables, const CurvaturePlace& place,
                           double at, TableEntry* out) {
   const TableEntry* const below = tables.table[place.below];
   const TableEntry* const above = tables.table[place.above];
-  const EffectLaw::Effect here = law.at(at), low = law.at(tables.curvature[place.below]),
-                          high = law.at(tables.curvature[place.above]);
-  const double straight_gain = low.gain + place.share * (high.gain - low.gain);
-  const double straight_offset = low.offset + place.share * (high.offset - low.offset);
-  const double factor = here.gain / straight_gain;
-  const bool beyond = place.below == place.above;
-  const auto gain = static_cast<float>(beyond ? 1.0 : factor);
-  const auto offset = static_cast<float>(beyond ? 0.0 : here.offset - factor * straight_offset);
+  const EffectLaw::Effect bend =
+      straightening(law, tables.curvature[place.below], tables.curvature[place.above], place.share, at);
+  const auto gain = static_cast<float>(bend.gain), offset = static_cast<float>(bend.offset);
   const auto share = static_cast<float>(place.share);
   for (std::size_t code = 0; code < tables.codes; ++code) {
     const float straight = below[code].pressure + share * (above[code].pressure - below[code].pressure);

@@ -9,7 +9,9 @@ namespace {
 
 std::vector<double> columnsOf(Scheme scheme, std::size_t curvature_class,
                               const std::vector<double>& curvature, const std::vector<bool>& bent) {
-  if (scheme == Scheme::kCurvatureInput) return {curvature[curvature_class]};
+  if (scheme == Scheme::kCurvatureInput || scheme == Scheme::kScaledCurvature) {
+    return {curvature[curvature_class]};
+  }
   if (scheme == Scheme::kBinaryInput) return {bent[curvature_class] ? 1.0 : 0.0};
   std::vector<double> one_hot(curvature.size(), 0.0);
   one_hot[curvature_class] = 1.0;

@@ -42,6 +42,16 @@ EffectLaw::Effect EffectLaw::at(double at) const {
   return {cubic(curvature, gain, i, at), cubic(curvature, offset, i, at)};
 }
 
+// P = gain(k) / straight gain * (straight P - straight offset) + offset(k)
+EffectLaw::Effect straightening(const EffectLaw& law, double low, double high, double share, double at) {
+  if (law.curvature.empty() || low == high) return {1.0, 0.0};
+  const EffectLaw::Effect below = law.at(low), above = law.at(high), here = law.at(at);
+  const double straight_gain = below.gain + share * (above.gain - below.gain);
+  const double straight_offset = below.offset + share * (above.offset - below.offset);
+  const double gain = here.gain / straight_gain;
+  return {gain, here.offset - gain * straight_offset};
+}
+
 double UnseenDeviation::at(double asked) const {
   if (asked <= pressure.front()) return deviation.front();
   if (asked >= pressure.back()) return deviation.back();

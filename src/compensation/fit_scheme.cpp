@@ -1,5 +1,8 @@
 #include "fsr_pressure_map/compensation/fit_scheme.h"
 
+#include <cmath>
+
+#include "fsr_pressure_map/compensation/blend_table.h"
 #include "fsr_pressure_map/compensation/second_input.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
@@ -24,18 +27,6 @@ Fit fitClasses(const std::vector<std::size_t>& trained_on, const ClassReadings& 
   return pooled.size() > 0 ? regressor.fitSamples(pooled) : Fit{};
 }
 
-ClassInputs inputsOf(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings) {
-  std::vector<double> curvature;
-  std::vector<bool> bent;
-  std::vector<std::uint64_t> number;
-  for (std::size_t k = 0; k < plan.classes.size(); ++k) {
-    curvature.push_back(plan.classes[k].at(taxel));
-    bent.push_back(!isFlat(plan.classes[k]));
-    number.push_back(readings.readings(k));
-  }
-  return classInputs(plan.scheme, curvature, bent, number);
-}
-
 // Answers on each class.
 std::vector<Fit> fitOnInput(const ClassInputs& inputs, const ClassReadings& readings,
                             const RegressorOptions& regressor) {
@@ -47,14 +38,10 @@ std::vector<Fit> fitOnInput(const ClassInputs& inputs, const ClassReadings& read
 // Readings of all sections but `left_out`.
 class Without {
  public:
-  Without(const SectionedReadings& readings, bool by_samples) : readings_(readings), by_samples_(by_samples) {
-    all_.full_scale = readings.full_scale;
-    if (by_samples) return;
-    for (const std::vector<CodeStatistics>& sections : readings.sums) {
-      all_.sums.emplace_back(readings.full_scale);
-      for (const CodeStatistics& section : sections) all_.sums.back().add(section);
-    }
-  }
+  Without(const SectionedReadings& readings, bool by_samples)
+      : readings_(readings),
+        by_samples_(by_samples),
+        all_(by_samples ? ClassReadings{} : allSections(readings)) {}
 
   template <typename Use>
   void operator()(std::size_t left_out, Use use) {
@@ -100,6 +87,75 @@ std::vector<CodeStatistics> testedSections(const std::vector<std::size_t>& class
 
 }  // namespace
 
+ClassReadings allSections(const SectionedReadings& readings) {
+  ClassReadings all;
+  all.full_scale = readings.full_scale;
+  for (const std::vector<CodeStatistics>& sections : readings.sums) {
+    all.sums.emplace_back(readings.full_scale);
+    for (const CodeStatistics& section : sections) all.sums.back().add(section);
+  }
+  return all;
+}
+
+ClassInputs inputsOf(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings,
+                     const RegressorOptions& regressor) {
+  std::vector<double> curvature;
+  std::vector<bool> bent;
+  std::vector<std::uint64_t> number;
+  for (std::size_t k = 0; k < plan.classes.size(); ++k) {
+    curvature.push_back(plan.classes[k].at(taxel));
+    bent.push_back(!isFlat(plan.classes[k]));
+    number.push_back(readings.readings(k));
+  }
+  ClassInputs inputs = classInputs(plan.scheme, curvature, bent, number);
+  // so that squared distances over 2 sigma^2 are those over 2 scale^2
+  if (plan.curvature_scale > 0) inputs.scale.front() = sigmaOf(regressor.grnn) / plan.curvature_scale;
+  return inputs;
+}
+
+BlendRule blendOf(Scheme scheme, const RegressorOptions& regressor) {
+  switch (scheme) {
+    case Scheme::kInterpolated:
+    case Scheme::kCurvatureMap:
+      return BlendRule::kInterpolate;
+    case Scheme::kPerSurface:
+      return BlendRule::kByName;
+    case Scheme::kCurvatureInput:
+    case Scheme::kScaledCurvature:
+      if (regressor.name == "grnn") return BlendRule::kKernel;
+      // a plane is straight between any two classes; a forest steps between them
+      return regressor.name == "linear" ? BlendRule::kInterpolate : BlendRule::kNearest;
+    default:
+      return BlendRule::kNearest;
+  }
+}
+
+std::vector<double> answerOn(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings,
+                             const std::vector<Fit>& fits, std::size_t k, const EffectLaw& law) {
+  const std::vector<double>& own = fits[plan.model_of_class[k]].pressure;
+  if (!usesCurvature(plan.scheme) || hasSecondInput(plan.scheme) || readings.readings(k) > 0) return own;
+  std::vector<double> curvature;
+  bool any = false;
+  for (std::size_t c = 0; c < plan.classes.size(); ++c) {
+    any = any || readings.readings(c) > 0;
+    curvature.push_back(readings.readings(c) > 0 ? plan.classes[c].at(taxel) : std::nan(""));
+  }
+  if (!any) return {};
+  const double at = plan.classes[k].at(taxel);
+  const CurvaturePlace place = placeOf(at, curvature);
+  const std::vector<double>& below = fits[plan.model_of_class[place.below]].pressure;
+  const std::vector<double>& above = fits[plan.model_of_class[place.above]].pressure;
+  const bool interpolate = plan.scheme == Scheme::kInterpolated || plan.scheme == Scheme::kCurvatureMap;
+  if (!interpolate) return place.share > 0.5 ? above : below;
+  const EffectLaw::Effect bend =
+      straightening(law, curvature[place.below], curvature[place.above], place.share, at);
+  std::vector<double> answer(below.size());
+  for (std::size_t code = 0; code < answer.size(); ++code) {
+    answer[code] = bend.gain * (below[code] + place.share * (above[code] - below[code])) + bend.offset;
+  }
+  return answer;
+}
+
 void requireSchemeFor(Scheme scheme, const RegressorOptions& regressor) {
   makeRegressor(regressor);
   if (!hasSecondInput(scheme)) return;
@@ -109,6 +165,9 @@ void requireSchemeFor(Scheme scheme, const RegressorOptions& regressor) {
   if (regressor.name == "monotone") refuse("monotone cannot take; choose linear, grnn or forest");
   if (scheme == Scheme::kOneHot && regressor.name == "forest") {
     refuse("a forest here takes as one column only; choose linear or grnn, or curvature_input");
+  }
+  if (scheme == Scheme::kScaledCurvature && regressor.name != "grnn") {
+    refuse("only a GRNN has a length scale for; choose grnn, or curvature_input");
   }
   if (regressor.name == "grnn" && !isPlainKernel(regressor.grnn)) {
     refuse("a GRNN takes with the squared distance and samples of equal weight only");
@@ -129,7 +188,8 @@ std::vector<Fit> fitScheme(const SchemePlan& plan, std::size_t taxel, const Clas
   std::uint64_t number = 0;
   for (std::size_t k = 0; k < readings.classes(); ++k) number += readings.readings(k);
   if (number == 0) return std::vector<Fit>(plan.models.size());
-  const std::vector<Fit> on_class = fitOnInput(inputsOf(plan, taxel, readings), readings, regressor);
+  const std::vector<Fit> on_class =
+      fitOnInput(inputsOf(plan, taxel, readings, regressor), readings, regressor);
   for (std::size_t m = 0; m < plan.models.size(); ++m) fits.push_back(on_class[plan.testedOn(m).front()]);
   return fits;
 }

@@ -14,7 +14,9 @@ struct Entry {
   const char* in_paper;
 };
 
-constexpr std::array<Entry, 7> kEntries = {{
+constexpr char kBeyond[] = "not in the paper";
+
+constexpr std::array<Entry, 12> kEntries = {{
     {Scheme::kFlatOnly, "flat_only", "Table 2, flat"},
     {Scheme::kBaseline, "baseline", "baseline"},
     {Scheme::kPerCurvature, "per_curvature", "method 1"},
@@ -22,6 +24,11 @@ constexpr std::array<Entry, 7> kEntries = {{
     {Scheme::kOneHot, "one_hot", "method 2, one-hot"},
     {Scheme::kFlatOrCurved, "flat_or_curved", "method 3"},
     {Scheme::kBinaryInput, "binary_input", "method 4"},
+    {Scheme::kScaledCurvature, "scaled_curvature", kBeyond},
+    {Scheme::kCurvatureMap, "curvature_map", kBeyond},
+    {Scheme::kCurvatureRanges, "curvature_ranges", kBeyond},
+    {Scheme::kInterpolated, "interpolated", kBeyond},
+    {Scheme::kPerSurface, "per_surface", kBeyond},
 }};
 
 const Entry& entryOf(Scheme scheme) {
@@ -69,7 +76,8 @@ bool usesCurvature(Scheme scheme) {
 }
 
 bool hasSecondInput(Scheme scheme) {
-  return scheme == Scheme::kCurvatureInput || scheme == Scheme::kOneHot || scheme == Scheme::kBinaryInput;
+  return scheme == Scheme::kCurvatureInput || scheme == Scheme::kOneHot || scheme == Scheme::kBinaryInput ||
+         scheme == Scheme::kScaledCurvature;
 }
 
 }  // namespace fsr

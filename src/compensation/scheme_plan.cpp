@@ -92,8 +92,13 @@ SchemePlan planScheme(Scheme scheme, const std::vector<CurvatureClass>& classes)
       planOneModel({"all surfaces", {0.0}}, allOf(classes), plan);
       break;
     case Scheme::kPerCurvature:
+    case Scheme::kCurvatureMap:
+    case Scheme::kCurvatureRanges:
+    case Scheme::kInterpolated:
+    case Scheme::kPerSurface:
       planEachClass(false, plan);
       break;
+    case Scheme::kScaledCurvature:
     case Scheme::kCurvatureInput:
     case Scheme::kOneHot:
       planEachClass(true, plan);
@@ -106,6 +111,20 @@ SchemePlan planScheme(Scheme scheme, const std::vector<CurvatureClass>& classes)
       break;
   }
   return plan;
+}
+
+PooledBy poolingOf(Scheme scheme) {
+  return scheme == Scheme::kPerSurface ? PooledBy::kName : PooledBy::kCurvature;
+}
+
+void planRanges(const std::vector<std::vector<std::size_t>>& ranges, SchemePlan& plan) {
+  plan.models.clear();
+  for (const Indices& range : ranges) {
+    CurvatureClass answers_for = plan.classes[range.front()];
+    if (range.size() > 1) answers_for.surface += " to " + plan.classes[range.back()].surface;
+    for (const std::size_t k : range) plan.model_of_class[k] = plan.models.size();
+    plan.models.push_back({answers_for, range});
+  }
 }
 
 }  // namespace fsr

@@ -107,6 +107,15 @@ CodeSamples withInput(const ClassReadings& readings, const ClassInputs& inputs) 
 
 }  // namespace
 
+std::vector<KernelMean> classKernels(const ClassReadings& readings, const GrnnOptions& options) {
+  const double sigma = sigmaOf(options) * readingDeviation(pooled(readings));
+  std::vector<KernelMean> means;
+  for (const CodeHistogram& sums : readings.sums) {
+    means.push_back(gaussianMean(weightedCodes(sums), sigma, LogWeight::kYes));
+  }
+  return means;
+}
+
 std::vector<Fit> fitGrnnOnInput(const ClassReadings& readings, const ClassInputs& inputs,
                                 const GrnnOptions& options) {
   const CodeHistogram all = pooled(readings);

@@ -33,20 +33,21 @@ bool precedes(const Member& a, const Member& b) {
          std::tie(b.condition.curvature, a.scans, b.condition.surface);
 }
 
-bool agree(const CurvatureClass& a, const CurvatureClass& b, double tolerance) {
+bool agree(const CurvatureClass& a, const CurvatureClass& b, PooledBy by) {
+  if (by == PooledBy::kName) return a.surface == b.surface;
   const std::size_t values = std::max(a.curvature.size(), b.curvature.size());
   for (std::size_t taxel = 0; taxel < values; ++taxel) {
-    if (std::abs(a.at(taxel) - b.at(taxel)) > tolerance) return false;
+    if (std::abs(a.at(taxel) - b.at(taxel)) > kSameClassCurvature) return false;
   }
   return true;
 }
 
 // The first of each group is its seed: the lowest curvature, which every member must agree with.
-std::vector<std::vector<Member>> group(const std::vector<Member>& members, double tolerance) {
+std::vector<std::vector<Member>> group(const std::vector<Member>& members, PooledBy by) {
   std::vector<std::vector<Member>> groups;
   for (const Member& member : members) {
     const auto found = std::find_if(groups.begin(), groups.end(), [&](const std::vector<Member>& candidates) {
-      return agree(candidates.front().condition, member.condition, tolerance);
+      return agree(candidates.front().condition, member.condition, by);
     });
     if (found != groups.end()) {
       found->push_back(member);
@@ -64,13 +65,13 @@ bool isFlat(const CurvatureClass& curvature_class) {
   return std::all_of(curvature_class.curvature.begin(), curvature_class.curvature.end(), flat);
 }
 
-PooledConditions poolConditions(const std::vector<RecordedCondition>& conditions, double tolerance) {
+PooledConditions poolConditions(const std::vector<RecordedCondition>& conditions, PooledBy by) {
   std::vector<Member> members;
   for (const RecordedCondition& recorded : conditions) {
     members.push_back({recorded.condition, recorded.scans, members.size()});
   }
   std::stable_sort(members.begin(), members.end(), precedes);
-  auto groups = group(members, tolerance);
+  auto groups = group(members, by);
   const auto most_scans = [](const Member& a, const Member& b) { return a.scans < b.scans; };
   for (auto& candidates : groups) {  // the member that names the class to the front
     std::iter_swap(candidates.begin(), std::max_element(candidates.begin(), candidates.end(), most_scans));
@@ -98,13 +99,19 @@ std::vector<RecordedCondition> conditionsOf(const Recording& recording) {
   return conditions;
 }
 
-ConditionClasses poolConditions(const std::vector<Recording>& recordings, double tolerance) {
+ConditionClasses poolConditions(const std::vector<Recording>& recordings, PooledBy by) {
   std::vector<RecordedCondition> conditions;
   for (const Recording& recording : recordings) {
     const std::vector<RecordedCondition> own = conditionsOf(recording);
+    const auto nameless = [](const RecordedCondition& recorded) {
+      return recorded.condition.surface.empty();
+    };
+    if (by == PooledBy::kName && std::any_of(own.begin(), own.end(), nameless)) {
+      throw InputError(recording.name + ": a surface has no name, but to be pooled by name each needs one");
+    }
     conditions.insert(conditions.end(), own.begin(), own.end());
   }
-  const PooledConditions pooled = poolConditions(conditions, tolerance);
+  const PooledConditions pooled = poolConditions(conditions, by);
   ConditionClasses classes{pooled.classes, {}};
   auto next = pooled.class_of.begin();
   for (const Recording& recording : recordings) {

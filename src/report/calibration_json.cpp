@@ -54,7 +54,13 @@ Json json(const CalibrationScores& scores) {
     row.update(json(condition.score));
     conditions.push_back(row);
   }
-  return {{"conditions", conditions}, {"whole", json(scores.whole)}};
+  return {{"conditions", conditions},
+          {"whole", json(scores.whole)},
+          {"unseen_curvature",
+           {{"readings", scores.unseen.readings},
+            {"rmse", scores.unseen.rmse},
+            {"rmse_percent_mean", scores.unseen.rmse_percent.mean},
+            {"rmse_percent_deviation", scores.unseen.rmse_percent.deviation}}}};
 }
 
 Json json(const std::array<CoverageCell, kPressureBins>& cells) {

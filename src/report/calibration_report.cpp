@@ -137,6 +137,10 @@ std::string scoresText(const CalibrationScores& scores) {
   binHeads(out);
   forEachRow(scores, [&](const std::string& name, const Score& score) { binRow(out, name, score); });
   const auto untrained = [](const ConditionScore& condition) { return !condition.trained; };
+  if (scores.unseen.readings > 0) {
+    out << "A curvature that training had not seen (inner surfaces, each in turn): RMSE "
+        << kilopascal(scores.unseen.rmse) << " kPa, " << spread(scores.unseen.rmse_percent, 2) << " %\n";
+  }
   if (std::any_of(scores.conditions.begin(), scores.conditions.end(), untrained)) {
     out << "* the model that answers has not been trained on this surface\n";
   }

@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "fsr_pressure_map/settings/yaml_text.h"
 #include "fsr_pressure_map/settings/settings.h"
+#include "fsr_pressure_map/settings/yaml_text.h"
 #include "fsr_pressure_map/simulation/effects/effect_library.h"
 
 namespace fsr {

@@ -177,7 +177,7 @@ TEST_F(CalibrationFile, TheSameCalibrationMakesTheSameBytes) {
 TEST_F(CalibrationFile, BeginsWithOneLineOfText) {
   saveCalibration(small(), path_);
   const std::string content = bytes();
-  EXPECT_EQ(content.substr(0, 45), "fsr_pressure_map calibration schema=1 sha256=");
+  EXPECT_EQ(content.substr(0, 45), "fsr_pressure_map calibration schema=2 sha256=");
   EXPECT_EQ(content[45 + 64], '\n');
   EXPECT_EQ(content.find_first_not_of('\0', 45 + 65), 512u);
   EXPECT_EQ(content.substr(513, 3), "HDF");
@@ -241,9 +241,9 @@ TEST_F(CalibrationFile, AForeignFileIsRefused) {
 TEST_F(CalibrationFile, ALaterSchemaAsksForAnUpdate) {
   saveCalibration(small(), path_);
   std::string content = bytes();
-  content.replace(content.find("schema=1"), 8, "schema=7");
+  content.replace(content.find("schema=2"), 8, "schema=7");
   write(content);
-  EXPECT_EQ(complaint(), path_ + ": has schema 7, but this version reads up to 1; update the package");
+  EXPECT_EQ(complaint(), path_ + ": has schema 7, but this version reads up to 2; update the package");
 }
 
 TEST_F(CalibrationFile, WhatCannotBeWrittenLeavesTheOldFile) {

@@ -18,7 +18,8 @@ TEST(Scheme, AnUnknownNameIsRefusedWithTheKnownOnes) {
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
                  "scheme is \"per_curve\", but must be one of flat_only, baseline, per_curvature, "
-                 "curvature_input, one_hot, flat_or_curved, binary_input");
+                 "curvature_input, one_hot, flat_or_curved, binary_input, scaled_curvature, curvature_map, "
+                 "curvature_ranges, interpolated, per_surface");
   }
 }
 

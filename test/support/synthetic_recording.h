@@ -27,6 +27,8 @@ struct SyntheticRig {
   double peak = 600e3;  // gauge [Pa]
   double noise = 10.0;  // half width of the uniform noise [counts]
   double loop = 0.0;    // counts by which unloading lies above loading
+  /// Bending acts as if the curvature were this [1/m]; null = the curvature itself.
+  double (*felt_curvature)(double curvature) = nullptr;
   unsigned seed = 1;
 };
 

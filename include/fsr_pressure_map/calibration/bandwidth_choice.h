@@ -26,4 +26,7 @@ FoldRegressors chooseRegressor(const CalibrationOptions& options, const SchemePl
 
 constexpr std::size_t kTaxelsOfSearch = 16;
 
+/// Up to kTaxelsOfSearch of the taxels that have a model, evenly spread.
+std::vector<std::size_t> taxelsOfSearch(const std::vector<std::uint8_t>& no_model);
+
 }  // namespace fsr

@@ -9,7 +9,7 @@ namespace fsr {
 // A calibration on disk: HDF5 (h5dump, h5py, MATLAB and R read it) behind a user block of 512 bytes,
 // one line of text:
 //
-//     fsr_pressure_map calibration schema=1 sha256=<64 hex digits of all that follows byte 512>
+//     fsr_pressure_map calibration schema=2 sha256=<64 hex digits of all that follows byte 512>
 //
 // The hash is verified before HDF5 sees a byte: HDF5's own checksums let damage through.
 

@@ -7,7 +7,7 @@
 
 namespace fsr {
 
-// The content of a calibration file, schema 1:
+// The content of a calibration file, schema 2:
 //
 //     /            attributes scheme, model, bandwidth, folds, full_scale, curvature_rule, use
 //     /model       attributes bandwidth_chosen, spread, distance, weighting, trees, minimum_leaf, leaf_rule
@@ -19,13 +19,15 @@ namespace fsr {
 //     /tables      surfaces [models], curvature [models x (1 or taxels)],
 //                  pressure, deviation, support [taxels x models x codes], trained_codes [taxels x models x
 //                  2]
+//     /rule        attribute blend; length_scale, law_curvature, law_gain, law_offset, unseen_pressure,
+//                  unseen_deviation, log_weight where the scheme has them (absent in schema 1: nearest)
 //     /coverage    scans, cycles [classes x bins x 2], totals, pressure, thin
 //     /scores      see scores_hdf5 (absent where not asked for)
 //     /statistics  surfaces, curvature of the classes; first [taxels x classes x sections + 1] and the rows
 //                  code, count, sum that it points into; square_high, square_low of the rows with count > 1
 //
 // Taxels are row-major. Numbers carry `unit`, everything says its `meaning`.
-constexpr std::uint64_t kCalibrationSchema = 1;
+constexpr std::uint64_t kCalibrationSchema = 2;
 
 void writeCalibration(const Calibration& calibration, Hdf5Writer& writer);
 
@@ -35,6 +37,8 @@ Calibration readCalibration(const Hdf5Reader& reader, CalibrationParts parts);
 // Parts with a file of their own.
 void writeTables(const CurvatureTables& tables, Hdf5Writer& writer);
 CurvatureTables readTables(const Hdf5Reader& reader, MatrixSize size);
+void writeRule(const CurvatureTables& tables, Hdf5Writer& writer);
+void readRule(const Hdf5Reader& reader, CurvatureTables& tables);
 void writeCoverage(const Coverage& coverage, Hdf5Writer& writer);
 Coverage readCoverage(const Hdf5Reader& reader, const std::vector<CurvatureClass>& classes);
 void writeScores(const CalibrationScores& scores, Hdf5Writer& writer);

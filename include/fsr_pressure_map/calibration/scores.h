@@ -32,9 +32,18 @@ struct ConditionScore {
   Score score;
 };
 
+/// Inner surfaces, each in turn answered as if training had not seen it: what a new curvature may expect.
+struct UnseenScore {
+  std::uint64_t readings =
+      0;                ///< scans x taxels; 0 = there is no inner surface, or the scheme has no classes
+  Spread rmse_percent;  ///< mean and deviation over taxels, of the range of pressure
+  double rmse = std::numeric_limits<double>::quiet_NaN();  ///< of all readings together [Pa]
+};
+
 struct CalibrationScores {
   std::vector<ConditionScore> conditions;  ///< empty = not asked for
   Score whole;                             ///< all conditions together
+  UnseenScore unseen;
 };
 
 }  // namespace fsr

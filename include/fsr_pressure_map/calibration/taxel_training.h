@@ -22,6 +22,10 @@ void findTaxelsWithoutModel(const SchemePlan& plan, const std::string& origin, C
 /// Whether a warning is one of findTaxelsWithoutModel().
 bool isConstantTaxelWarning(const std::string& warning);
 
+/// What is found from the data of the whole matrix before its taxels are trained: the regressor, put down in
+/// `calibration` too, and what the scheme takes from them, put down in `plan`.
+FoldRegressors choose(const CalibrationOptions& options, Calibration& calibration, SchemePlan& plan);
+
 /// The sums of one taxel, by class and section.
 SectionedReadings readingsOf(const TrainingStatistics& statistics, std::size_t taxel);
 

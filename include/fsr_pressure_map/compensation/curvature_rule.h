@@ -29,6 +29,10 @@ struct EffectLaw {
   Effect at(double curvature) const;
 };
 
+/// What to do to the straight interpolation between two classes so that it follows a law: gain P + offset.
+/// 1 and 0 where there is no law, and beyond the classes (`low` = `high`).
+EffectLaw::Effect straightening(const EffectLaw& law, double low, double high, double share, double at);
+
 /// How far predictions for a curvature that training left out were off, beyond the stated deviation, by
 /// pressure: what a reading midway between two classes is uncertain by.
 struct UnseenDeviation {

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "fsr_pressure_map/compensation/class_input.h"
 #include "fsr_pressure_map/compensation/class_readings.h"
+#include "fsr_pressure_map/compensation/curvature_rule.h"
 #include "fsr_pressure_map/compensation/scheme_plan.h"
 #include "fsr_pressure_map/regression/cross_validation.h"
 #include "fsr_pressure_map/regression/regressors.h"
@@ -21,10 +23,23 @@ namespace fsr {
 /// has nothing to say and is left out.
 ///
 /// Throws InputError where the regressor has no such model: curvature_input and binary_input are for
-/// linear, grnn and forest, one_hot for linear and grnn, and only a GRNN of Gaussian kernel on samples
-/// that weigh alike takes a second input.
+/// linear, grnn and forest, one_hot for linear and grnn, scaled_curvature for grnn, and only a GRNN of
+/// Gaussian kernel on samples that weigh alike takes a second input.
 std::vector<Fit> fitScheme(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings,
                            const RegressorOptions& regressor);
+
+/// The inputs that the plan's scheme gives a model with a second input.
+ClassInputs inputsOf(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings,
+                     const RegressorOptions& regressor);
+
+/// Pressure of each code on class k [Pa], whether it had readings or not: of a class without any, by the
+/// scheme's rule from the classes that had some, as the live map would answer there (with `law` for
+/// curvature_map). `fits` as fitScheme() made them of `readings`. Empty where there are no readings at all.
+std::vector<double> answerOn(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings,
+                             const std::vector<Fit>& fits, std::size_t k, const EffectLaw& law = {});
+
+/// How tables of a plan's classes become the table of any curvature.
+BlendRule blendOf(Scheme scheme, const RegressorOptions& regressor);
 
 /// Whether fitScheme() takes the plan's scheme with this regressor; throws InputError where not.
 void requireSchemeFor(Scheme scheme, const RegressorOptions& regressor);
@@ -35,6 +50,8 @@ struct SectionedReadings {
   std::vector<std::vector<CodeStatistics>> sums;  ///< [classes][sections]
   std::vector<std::vector<CodeSamples>> samples;  ///< likewise; empty where the regressor needs none
 };
+
+ClassReadings allSections(const SectionedReadings& readings);
 
 /// The regressor to train with: what is chosen from the data is chosen anew without the section held out.
 struct FoldRegressors {

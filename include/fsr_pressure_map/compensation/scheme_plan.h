@@ -20,12 +20,22 @@ struct SchemePlan {
   std::vector<CurvatureClass> classes;
   std::vector<Model> models;
   std::vector<std::size_t> model_of_class;
+  /// scaled_curvature: distance in curvature at which a reading's weight falls by e^-1/2, as learnScheme()
+  /// finds it [1/m]; 0 = standardised like the reading, as curvature_input.
+  double curvature_scale = 0;
 
   /// Classes that a model both trains on and answers for, ascending: what it is tested on.
   std::vector<std::size_t> testedOn(std::size_t model) const;
 };
 
-/// Throws InputError where the classes do not carry the scheme (flat_only without a flat class).
+/// curvature_ranges begins with a range for each class; learnScheme() merges them. Throws InputError where
+/// the classes do not carry the scheme (flat_only without a flat class).
 SchemePlan planScheme(Scheme scheme, const std::vector<CurvatureClass>& classes);
+
+/// How the scheme's classes are formed.
+PooledBy poolingOf(Scheme scheme);
+
+/// One model for each of `ranges`, which hold each class once, in ascending order.
+void planRanges(const std::vector<std::vector<std::size_t>>& ranges, SchemePlan& plan);
 
 }  // namespace fsr

@@ -6,12 +6,17 @@
 #include "fsr_pressure_map/compensation/class_readings.h"
 #include "fsr_pressure_map/regression/forest.h"
 #include "fsr_pressure_map/regression/grnn.h"
+#include "fsr_pressure_map/regression/kernel_mean.h"
 
 namespace fsr {
 
 // Regressors of a reading and a second input that has one value for each class. Each gives the answers at
 // the inputs of every class [classes]. At least one class has readings; the inputs' scales are those of
 // the readings given.
+
+/// The kernel mean of each class, with the deviation of all readings, and all logarithms: what a calibration
+/// keeps where it blends kernels. Every class has a reading.
+std::vector<KernelMean> classKernels(const ClassReadings& readings, const GrnnOptions& options);
 
 std::vector<Fit> fitGrnnOnInput(const ClassReadings& readings, const ClassInputs& inputs,
                                 const GrnnOptions& options);

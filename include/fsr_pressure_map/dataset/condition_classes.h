@@ -33,7 +33,13 @@ struct RecordedCondition {
   std::uint64_t scans = 0;
 };
 
-/// Conditions pooled by curvature.
+/// What makes conditions one class.
+enum class PooledBy {
+  kCurvature,  ///< agreement to kSameClassCurvature at every taxel
+  kName,       ///< the surface's name
+};
+
+/// Conditions pooled into classes.
 struct PooledConditions {
   std::vector<CurvatureClass> classes;  ///< by ascending curvature of taxel 0
   std::vector<std::size_t> class_of;    ///< of each condition, index into `classes`
@@ -42,12 +48,12 @@ struct PooledConditions {
 /// Name and curvature of a class are those of its member with the most scans. The classes do not depend
 /// on the order of the conditions.
 PooledConditions poolConditions(const std::vector<RecordedCondition>& conditions,
-                                double tolerance = kSameClassCurvature);
+                                PooledBy by = PooledBy::kCurvature);
 
 /// The conditions of a recording, in its order. Throws InputError where one is of unknown curvature.
 std::vector<RecordedCondition> conditionsOf(const Recording& recording);
 
-/// The conditions of several recordings, pooled by curvature.
+/// The conditions of several recordings, pooled.
 struct ConditionClasses {
   /// By ascending curvature of taxel 0.
   std::vector<CurvatureClass> classes;
@@ -55,8 +61,7 @@ struct ConditionClasses {
   std::vector<std::vector<std::size_t>> class_of;
 };
 
-/// The same for recordings.
-ConditionClasses poolConditions(const std::vector<Recording>& recordings,
-                                double tolerance = kSameClassCurvature);
+/// The same for recordings. By name it throws InputError where a surface has none.
+ConditionClasses poolConditions(const std::vector<Recording>& recordings, PooledBy by = PooledBy::kCurvature);
 
 }  // namespace fsr

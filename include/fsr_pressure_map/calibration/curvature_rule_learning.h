@@ -1,0 +1,13 @@
+#pragma once
+
+#include "fsr_pressure_map/calibration/calibration.h"
+#include "fsr_pressure_map/compensation/scheme_plan.h"
+
+namespace fsr {
+
+/// Fills in the rule of calibration.tables, which is otherwise complete, as are statistics and regressor:
+/// length scale, law, and what a curvature that training has not seen is uncertain by. Returns the errors
+/// behind the last.
+UnseenScore learnRule(const SchemePlan& plan, unsigned threads, Calibration& calibration);
+
+}  // namespace fsr

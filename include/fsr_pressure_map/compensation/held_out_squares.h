@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "fsr_pressure_map/regression/code_statistics.h"
+
+namespace fsr {
+
+/// Sum of the squared errors of `pressure` [Pa, one for each code] on readings of which the sums are known
+/// [Pa^2].
+double squaredErrors(const CodeStatistics& readings, const std::vector<double>& pressure);
+
+}  // namespace fsr

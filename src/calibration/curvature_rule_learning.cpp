@@ -1,0 +1,89 @@
+#include "fsr_pressure_map/calibration/curvature_rule_learning.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fsr_pressure_map/compensation/effect_law.h"
+#include "fsr_pressure_map/compensation/fit_scheme.h"
+#include "fsr_pressure_map/compensation/unseen_curvature.h"
+#include "fsr_pressure_map/matrix/for_each_taxel.h"
+
+namespace fsr {
+
+namespace {
+
+// Of a GRNN on curvature: its bandwidth in units of the training curvatures' deviation, unless it has a
+// scale of its own.
+double lengthScale(const SchemePlan& plan, const RegressorOptions& regressor,
+                   const TrainingStatistics& statistics, std::size_t taxel) {
+  if (plan.curvature_scale > 0) return plan.curvature_scale;
+  std::vector<double> curvature;
+  std::vector<std::uint64_t> readings;
+  for (std::size_t k = 0; k < statistics.classes.size(); ++k) {
+    curvature.push_back(statistics.classes[k].at(taxel));
+    readings.push_back(0);
+    for (std::size_t s = 0; s < statistics.sections; ++s)
+      readings[k] += statistics.cell(taxel, k, s).samples();
+  }
+  const ClassInputs inputs = classInputs(plan.scheme, curvature, {}, readings);
+  return inputs.scale.front() > 0 ? sigmaOf(regressor.grnn) / inputs.scale.front() : INFINITY;
+}
+
+std::vector<double> lengthScales(const SchemePlan& plan, const RegressorOptions& regressor,
+                                 const TrainingStatistics& statistics) {
+  std::vector<double> scales;
+  for (std::size_t taxel = 0; taxel < statistics.taxels; ++taxel) {
+    scales.push_back(lengthScale(plan, regressor, statistics, taxel));
+  }
+  if (std::all_of(scales.begin(), scales.end(), [&](double scale) { return scale == scales.front(); })) {
+    scales.resize(1);
+  }
+  return scales;
+}
+
+UnseenScore scoreOf(const std::vector<UnseenErrors>& taxels) {
+  UnseenScore score;
+  std::vector<double> percent;
+  double squares = 0, readings = 0;
+  for (const UnseenErrors& taxel : taxels) {
+    if (taxel.readings() == 0) continue;
+    readings += taxel.readings();
+    squares += taxel.rmse() * taxel.rmse() * taxel.readings();
+    percent.push_back(100 * taxel.rmse() / (taxel.highest - taxel.lowest));
+  }
+  if (readings == 0) return score;
+  score.readings = static_cast<std::uint64_t>(readings);
+  score.rmse = std::sqrt(squares / readings);
+  score.rmse_percent = spreadOf(percent);
+  return score;
+}
+
+}  // namespace
+
+UnseenScore learnRule(const SchemePlan& plan, unsigned threads, Calibration& calibration) {
+  const TrainingStatistics& statistics = calibration.statistics;
+  CurvatureTables& tables = calibration.tables;
+  if (!usesCurvature(plan.scheme)) return {};
+  tables.rule.blend = blendOf(plan.scheme, calibration.regressor);
+  const std::size_t classes = tables.classes.size();
+  if (tables.rule.blend == BlendRule::kKernel) {
+    tables.rule.length_scale = lengthScales(plan, calibration.regressor, statistics);
+  }
+  std::vector<EffectLaw> law_without;
+  if (plan.scheme == Scheme::kCurvatureMap) {
+    std::vector<TaxelEffect> effects;
+    for (std::size_t t = 0; t < statistics.taxels; ++t)
+      effects.push_back(effectOf(&tables.table(t, 0), classes));
+    tables.rule.law = learnLaw(tables.classes, effects);
+    for (std::size_t k = 0; k < classes; ++k) law_without.push_back(learnLaw(tables.classes, effects, k));
+  }
+  std::vector<UnseenErrors> errors(statistics.taxels);
+  forEachTaxel(statistics.taxels, threads, [&](std::size_t taxel) {
+    if (std::isnan(tables.table(taxel, 0).pressure.front())) return;
+    errors[taxel] = leaveClassesOut(tables, taxel, statistics, law_without);
+  });
+  tables.rule.unseen = unseenDeviation(errors);
+  return scoreOf(errors);
+}
+
+}  // namespace fsr

@@ -1,0 +1,91 @@
+#include "fsr_pressure_map/calibration/calibration_hdf5.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+namespace {
+
+const std::vector<std::pair<BlendRule, std::string>> kBlends = {{BlendRule::kNearest, "nearest"},
+                                                                {BlendRule::kKernel, "kernel"},
+                                                                {BlendRule::kInterpolate, "interpolate"},
+                                                                {BlendRule::kByName, "by_name"}};
+
+std::string blendName(BlendRule blend) {
+  for (const auto& [known, name] : kBlends) {
+    if (known == blend) return name;
+  }
+  return "";
+}
+
+BlendRule blendFromName(const std::string& name) {
+  for (const auto& [blend, known] : kBlends) {
+    if (known == name) return blend;
+  }
+  throw InputError("its /rule blend is \"" + name +
+                   "\", which this version does not know; update the package");
+}
+
+// Columns of equal length, or none of them.
+std::vector<double> readColumn(const std::string& path, const Hdf5Reader& reader) {
+  return reader.has(path) ? reader.dataset<double>(path, reader.shape(path)) : std::vector<double>{};
+}
+
+void requireSameLength(const std::vector<double>& a, const std::vector<double>& b, const std::string& group) {
+  if (a.size() != b.size()) throw InputError("its columns of " + group + " differ in length");
+}
+
+}  // namespace
+
+void writeRule(const CurvatureTables& tables, Hdf5Writer& writer) {
+  const CurvatureRule& rule = tables.rule;
+  writer.group("/rule");
+  writer.attribute("/rule", "blend", blendName(rule.blend));
+  writer.attribute("/rule", "meaning", "how the tables of the classes become the table of any curvature");
+  const auto column = [&](const std::string& path, const std::vector<double>& values, const std::string& unit,
+                          const std::string& meaning) {
+    if (!values.empty()) writer.dataset(path, values, {values.size()}, unit, meaning);
+  };
+  column(
+      "/rule/length_scale", rule.length_scale, "1/m",
+      "distance in curvature at which a class's weight falls by exp(-1/2), one for all taxels or one each");
+  column("/rule/law_curvature", rule.law.curvature, "1/m", "knots of the matrix's law of bending");
+  column("/rule/law_gain", rule.law.gain, "", "pressure = gain x pressure without bending effects + offset");
+  column("/rule/law_offset", rule.law.offset, "Pa", "likewise");
+  column("/rule/unseen_pressure", rule.unseen.pressure, "Pa",
+         "knots of the deviation of an unseen curvature");
+  column("/rule/unseen_deviation", rule.unseen.deviation, "Pa",
+         "midway between classes, beside the tables' own");
+  if (rule.blend != BlendRule::kKernel) return;
+  std::vector<float> log_weight;
+  for (const CodeTable& table : tables.tables) {
+    log_weight.insert(log_weight.end(), table.log_weight.begin(), table.log_weight.end());
+  }
+  writer.dataset("/rule/log_weight", log_weight,
+                 {tables.size.taxels(), tables.classes.size(), tables.full_scale + 1u}, "",
+                 "[taxels x models x codes], logarithm of the kernel sum of each reading");
+}
+
+void readRule(const Hdf5Reader& reader, CurvatureTables& tables) {
+  if (!reader.has("/rule")) return;  // a file of schema 1: nearest
+  CurvatureRule& rule = tables.rule;
+  rule.blend = blendFromName(reader.text("/rule", "blend"));
+  rule.length_scale = readColumn("/rule/length_scale", reader);
+  rule.law = {readColumn("/rule/law_curvature", reader), readColumn("/rule/law_gain", reader),
+              readColumn("/rule/law_offset", reader)};
+  rule.unseen = {readColumn("/rule/unseen_pressure", reader), readColumn("/rule/unseen_deviation", reader)};
+  requireSameLength(rule.law.curvature, rule.law.gain, "/rule/law");
+  requireSameLength(rule.law.curvature, rule.law.offset, "/rule/law");
+  requireSameLength(rule.unseen.pressure, rule.unseen.deviation, "/rule/unseen");
+  if (rule.blend != BlendRule::kKernel) return;
+  const std::size_t taxels = tables.size.taxels(), codes = tables.full_scale + 1u;
+  if (rule.length_scale.size() != 1 && rule.length_scale.size() != taxels) {
+    throw InputError("its /rule/length_scale has neither one value nor one for each taxel");
+  }
+  const auto weights = reader.dataset<float>("/rule/log_weight", {taxels, tables.classes.size(), codes});
+  for (std::size_t i = 0; i < tables.tables.size(); ++i) {
+    const auto first = weights.begin() + static_cast<std::ptrdiff_t>(i * codes);
+    tables.tables[i].log_weight.assign(first, first + static_cast<std::ptrdiff_t>(codes));
+  }
+}
+
+}  // namespace fsr

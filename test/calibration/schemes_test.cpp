@@ -1,0 +1,222 @@
+// Every scheme from recordings through the file to the live map, on surfaces of training and on two that
+// none has seen.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "fsr_pressure_map/calibration/calibration.h"
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/calibration/calibrator.h"
+#include "support/synthetic_recording.h"
+
+namespace fsr {
+namespace {
+
+using test_support::syntheticReading;
+using test_support::syntheticRecording;
+using test_support::SyntheticRig;
+namespace flag = taxel_flag;
+
+const std::vector<double> kTrained = {0, 7.7, 9, 11, 14, 20};  // [1/m]
+const std::vector<double> kUnseen = {1 / 0.08, 1 / 0.06};
+
+// Most of what bending does is done by 10 1/m.
+double saturating(double curvature) {
+  return 15 * (1 - std::exp(-curvature / 6));
+}
+
+SyntheticRig paperLikeRig() {
+  SyntheticRig rig;
+  rig.surfaces.clear();
+  for (const double curvature : kTrained) {
+    rig.surfaces.push_back({"surface_" + std::to_string(rig.surfaces.size()), curvature});
+  }
+  rig.cycles = 5;
+  rig.size = {1, 3};
+  rig.felt_curvature = saturating;
+  return rig;
+}
+
+const Recording& recording() {
+  static const Recording made = syntheticRecording(paperLikeRig());
+  return made;
+}
+
+const Calibration& train(Scheme scheme) {
+  static std::map<Scheme, Calibration> trained;
+  const auto found = trained.find(scheme);
+  if (found != trained.end()) return found->second;
+  CalibrationProblem problem{{recording()}, {}};
+  problem.options.scheme = scheme;
+  problem.options.regressor.grnn.bandwidth = 1.0 / 32;
+  problem.options.choose_bandwidth = false;
+  return trained[scheme] = calibrate(problem);
+}
+
+// Root mean squared error of the live map on one curvature, over taxels and pressures [Pa].
+struct Live {
+  double rmse = 0;
+  double within = 0;  // share of the errors within one stated deviation
+  std::uint16_t flags = 0;
+};
+
+Live live(Calibrator& calibrator, double curvature, const std::string& name = "new") {
+  const SyntheticRig rig = paperLikeRig();
+  calibrator.setSurface({name, 1, {{curvature, 0, 0}}, {}}, 0);
+  Live result;
+  PressureMap map;
+  double number = 0;
+  for (double pressure = 20e3; pressure <= 580e3; pressure += 1.37e3) {
+    std::vector<std::uint16_t> counts;
+    for (std::size_t taxel = 0; taxel < 3; ++taxel) {
+      const double noise = 3.0 * std::sin(pressure);  // within that of training
+      counts.push_back(
+          static_cast<std::uint16_t>(std::lround(syntheticReading(rig, taxel, curvature, pressure) + noise)));
+    }
+    calibrator.calibrate({rig.size, rig.full_scale, counts.data(), 3}, 0, map);
+    for (std::size_t taxel = 0; taxel < 3; ++taxel) {
+      const double error = map.pressure[taxel] - pressure;
+      result.rmse += error * error;
+      result.within += std::abs(error) <= map.deviation[taxel];
+      result.flags |= map.flags[taxel];
+      number += 1;
+    }
+  }
+  return {std::sqrt(result.rmse / number), result.within / number, result.flags};
+}
+
+double unseen(Scheme scheme) {
+  Calibrator calibrator(train(scheme).tables, {{1, 3}});
+  double squares = 0;
+  for (const double curvature : kUnseen) squares += std::pow(live(calibrator, curvature).rmse, 2);
+  return std::sqrt(squares / 2);
+}
+
+double seen(Scheme scheme) {
+  Calibrator calibrator(train(scheme).tables, {{1, 3}});
+  double squares = 0;
+  for (const double curvature : kTrained) squares += std::pow(live(calibrator, curvature).rmse, 2);
+  return std::sqrt(squares / static_cast<double>(kTrained.size()));
+}
+
+TEST(Schemes, BetweenTheClassesInterpolationBeatsTheNearest) {
+  const double nearest = unseen(Scheme::kPerCurvature);
+  EXPECT_LT(unseen(Scheme::kInterpolated), 0.6 * nearest);
+  EXPECT_LT(unseen(Scheme::kCurvatureMap), 0.6 * nearest);
+  EXPECT_LT(unseen(Scheme::kScaledCurvature), 0.9 * nearest);
+}
+
+TEST(Schemes, OnTheClassesNothingIsLost) {
+  const double nearest = seen(Scheme::kPerCurvature);
+  EXPECT_NEAR(seen(Scheme::kInterpolated), nearest, 1.0);
+  EXPECT_NEAR(seen(Scheme::kCurvatureMap), nearest, 1.0);
+  EXPECT_LT(seen(Scheme::kScaledCurvature), 1.2 * nearest);  // its neighbours weigh in on a class too
+  EXPECT_LT(seen(Scheme::kCurvatureInput), 1.05 * nearest);
+  EXPECT_LT(seen(Scheme::kOneHot), 1.05 * nearest);
+}
+
+TEST(Schemes, WhatDoesNotKnowTheCurvatureIsWorse) {
+  const double nearest = seen(Scheme::kPerCurvature);
+  EXPECT_GT(seen(Scheme::kBaseline), 2 * nearest);
+  EXPECT_GT(seen(Scheme::kFlatOnly), 2 * nearest);
+  EXPECT_GT(seen(Scheme::kFlatOrCurved), 1.2 * nearest);
+}
+
+TEST(Schemes, TheLawFollowsTheBendOfTheCurve) {
+  // A gap that straight lines cut across: between flat and 9 1/m most of the effect comes with the first
+  // bend.
+  const auto error = [&](Scheme scheme) {
+    Calibrator calibrator(train(scheme).tables, {{1, 3}});
+    return live(calibrator, 4.0).rmse;
+  };
+  EXPECT_LT(error(Scheme::kCurvatureMap), 0.8 * error(Scheme::kInterpolated));
+}
+
+TEST(Schemes, TheStatedDeviationHoldsOnUnseenCurvatures) {
+  for (const Scheme scheme : {Scheme::kPerCurvature, Scheme::kInterpolated, Scheme::kCurvatureMap}) {
+    Calibrator calibrator(train(scheme).tables, {{1, 3}});
+    for (const double curvature : kUnseen) {
+      EXPECT_GT(live(calibrator, curvature).within, 0.6) << schemeName(scheme) << ", " << curvature << " 1/m";
+    }
+  }
+}
+
+TEST(Schemes, TrainingSaysWhatANewCurvatureMayExpect) {
+  const UnseenScore nearest = train(Scheme::kPerCurvature).scores.unseen;
+  const UnseenScore interpolated = train(Scheme::kInterpolated).scores.unseen;
+  EXPECT_EQ(nearest.readings, 4u * 500 * 3);  // four inner surfaces
+  EXPECT_LT(interpolated.rmse, 0.6 * nearest.rmse);
+  EXPECT_GT(interpolated.rmse_percent.mean, 0.1);
+  EXPECT_EQ(train(Scheme::kBaseline).scores.unseen.readings, 0u);
+}
+
+TEST(Schemes, RangesMergeWhatBendsAlike) {
+  SyntheticRig rig = paperLikeRig();
+  rig.felt_curvature = [](double curvature) { return curvature < 5 ? 0.0 : curvature < 12 ? 9.0 : 18.0; };
+  CalibrationProblem problem{{syntheticRecording(rig)}, {}};
+  problem.options.scheme = Scheme::kCurvatureRanges;
+  problem.options.regressor.grnn.bandwidth = 1.0 / 32;
+  problem.options.choose_bandwidth = false;
+  const Calibration calibration = calibrate(problem);
+  const auto same = [&](std::size_t a, std::size_t b) {
+    return calibration.tables.table(0, a).pressure == calibration.tables.table(0, b).pressure;
+  };
+  EXPECT_FALSE(same(0, 1));
+  EXPECT_TRUE(same(1, 2));
+  EXPECT_TRUE(same(2, 3));
+  EXPECT_FALSE(same(3, 4));
+  EXPECT_TRUE(same(4, 5));
+}
+
+TEST(Schemes, RangesKeepApartWhatDoesNot) {
+  const Calibration ranges = train(Scheme::kCurvatureRanges), each = train(Scheme::kPerCurvature);
+  EXPECT_EQ(ranges.tables.table(0, 0).pressure, each.tables.table(0, 0).pressure);
+}
+
+TEST(Schemes, PerSurfaceGoesByTheName) {
+  SyntheticRig rig = paperLikeRig();
+  rig.surfaces = {{"left_mould", 10.0}, {"right_mould", 10.1}};  // one class by curvature
+  CalibrationProblem problem{{syntheticRecording(rig)}, {}};
+  problem.options.scheme = Scheme::kPerSurface;
+  const Calibration calibration = calibrate(problem);
+  ASSERT_EQ(calibration.tables.classes.size(), 2u);
+  Calibrator calibrator(calibration.tables, {{1, 3}});
+  EXPECT_EQ(live(calibrator, 10.1, "left_mould").flags, 0);
+  EXPECT_EQ(live(calibrator, 10.1, "a_third").flags, flag::kBetweenClasses);
+}
+
+TEST(Schemes, EveryOneGoesThroughItsFileToTheLiveMap) {
+  const std::string path = testing::TempDir() + "schemes.h5";
+  for (const std::string& name : schemeNames()) {
+    const Calibration calibration = train(schemeFromName(name));
+    saveCalibration(calibration, path);
+    const Calibration loaded = loadCalibration(path);
+    EXPECT_EQ(loaded.tables.scheme, calibration.tables.scheme);
+    EXPECT_EQ(loaded.scores.unseen.readings, calibration.scores.unseen.readings) << name;
+    Calibrator before(calibration.tables, calibration.layout), after(loaded.tables, loaded.layout);
+    for (const double curvature : {0.0, 3.0, 9.0, 12.5, 20.0, 25.0}) {
+      const Live here = live(before, curvature, "surface_2"), there = live(after, curvature, "surface_2");
+      EXPECT_EQ(here.rmse, there.rmse) << name << ", " << curvature << " 1/m";
+      EXPECT_EQ(here.within, there.within) << name;
+      EXPECT_TRUE(std::isfinite(here.rmse)) << name;
+    }
+  }
+  std::filesystem::remove(path);
+}
+
+TEST(Schemes, AnswersOnTheClassesAreThoseOfTheOfflineModels) {
+  // The live blend of kernels in floats against the model with two inputs in doubles.
+  for (const Scheme scheme : {Scheme::kCurvatureInput, Scheme::kScaledCurvature}) {
+    const Calibration calibration = train(scheme);
+    Calibrator calibrator(calibration.tables, {{1, 3}});
+    const double whole = calibration.scores.whole.errors.whole.all.rmse;
+    double squares = 0;
+    for (const double curvature : kTrained) squares += std::pow(live(calibrator, curvature).rmse, 2);
+    EXPECT_LT(std::sqrt(squares / 6), 1.2 * whole);
+  }
+}
+
+}  // namespace
+}  // namespace fsr
