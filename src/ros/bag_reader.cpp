@@ -9,7 +9,9 @@
 #include <memory>
 #include <set>
 
+#include "fsr_pressure_map/ros/bag_check.h"
 #include "fsr_pressure_map/ros/message_events.h"
+#include "fsr_pressure_map/ros/message_lengths.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/settings/sha256.h"
 
@@ -108,32 +110,50 @@ class Feeder {
     }
     rosbag::View view(bag_, rosbag::TopicQuery(topic));
     for (const rosbag::MessageInstance& instance : view) {
-      const auto message = instance.instantiate<Message>();
-      if (message == nullptr) {
+      if (instance.getMD5Sum() != ros::message_traits::md5sum<Message>()) {
         throw fsr::InputError(topic + " was recorded with another definition of " + type +
                               "; convert the bag with rosbag fix");
       }
-      addEvent(*message, builder_);
+      addEvent(read<Message>(instance), builder_);
     }
   }
 
+  // ROS makes room for as many values as a message merely claims to hold, up to 16 GB: looked at before.
+  template <typename Message>
+  Message read(const rosbag::MessageInstance& instance) {
+    bytes_.resize(instance.size());
+    ros::serialization::OStream into(bytes_.data(), static_cast<std::uint32_t>(bytes_.size()));
+    instance.write(into);
+    if (!lengthsAreHonest<Message>(bytes_)) throw ros::serialization::StreamOverrunException("");
+    ros::serialization::IStream from(bytes_.data(), static_cast<std::uint32_t>(bytes_.size()));
+    Message message;
+    ros::serialization::deserialize(from, message);
+    return message;
+  }
+
   const rosbag::Bag& bag_;
+  std::vector<std::uint8_t> bytes_;
   std::map<std::string, std::string> types_;
   fsr::RecordingBuilder& builder_;
   std::string prefix_;
 };
 
 void feed(const std::string& path, const std::string& topics, fsr::RecordingBuilder& builder) {
+  const std::string way_out = "; copy it again, or save what is left with: rosbag reindex " + path;
+  try {
+    requireSoundBag(path);
+  } catch (const rosbag::BagUnindexedException&) {
+    throw fsr::InputError("the bag was not closed and has no index; run: rosbag reindex " + path);
+  } catch (const fsr::InputError& complaint) {
+    throw fsr::InputError(complaint.what() + way_out);
+  }
   try {
     const rosbag::Bag bag(path, rosbag::bagmode::Read);
     Feeder(bag, topics, builder).run();
-  } catch (const rosbag::BagUnindexedException&) {
-    throw fsr::InputError("the bag was not closed and has no index; run: rosbag reindex " + path);
   } catch (const rosbag::BagException& error) {
-    throw fsr::InputError(std::string("is no whole bag (") + error.what() +
-                          "); copy it again, or save what is left with: rosbag reindex " + path);
+    throw fsr::InputError(std::string("is no whole bag (") + error.what() + ")" + way_out);
   } catch (const ros::serialization::StreamOverrunException&) {
-    throw fsr::InputError("a message in it is cut short; save what is left with: rosbag reindex " + path);
+    throw fsr::InputError("a message in it is cut short" + way_out);
   }
 }
 

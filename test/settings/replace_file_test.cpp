@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/file_size_limit.h"
 
 namespace fsr {
 namespace {
@@ -49,6 +50,14 @@ TEST_F(ReplaceFile, NamesThePathWhereItsFolderIsMissing) {
                  "/nowhere/a.yaml: cannot be written (No such file or directory); give a path in a directory "
                  "that exists and may be written to");
   }
+}
+
+TEST_F(ReplaceFile, AFullDiskLeavesTheOldContentAndNothingElse) {
+  replaceFile(folder / "a.yaml", "old");
+  const test_support::FileSizeLimit disk(1000);
+  EXPECT_THROW(replaceFile(folder / "a.yaml", std::string(2000, 'x')), InputError);
+  EXPECT_EQ(contentOf(folder / "a.yaml"), "old");
+  EXPECT_EQ(files(), 1u);
 }
 
 TEST_F(ReplaceFile, LeavesNothingBehindWhenTheRenameFails) {

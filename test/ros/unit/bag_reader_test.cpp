@@ -18,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kMutants = 400;
+
 class BagReader : public testing::Test {
  protected:
   void SetUp() override {
@@ -146,6 +148,36 @@ TEST_F(BagReader, ATruncatedBagIsRefusedWithTheWayOut) {
     EXPECT_NE(sentence.find(path_ + ": "), std::string::npos);
     EXPECT_NE(sentence.find("rosbag reindex " + path_), std::string::npos) << kept << ": " << sentence;
   }
+}
+
+TEST_F(BagReader, ABagCutAnywhereIsRefusedInASentence) {
+  writeBag(path_, twoSurfaces(), inNamespace("fsr"));
+  const std::uintmax_t whole = fs::file_size(path_);
+  for (std::uintmax_t share = 99; share > 0; --share) {
+    keepBytes(whole * share / 100);
+    EXPECT_NE(complaint().find("rosbag reindex " + path_), std::string::npos)
+        << share << " %: " << complaint();
+  }
+}
+
+// Bags come from other people. A changed byte may go unnoticed (rosbag has no check of its own), but never
+// ends the program.
+TEST_F(BagReader, ABagWithAnyByteChangedIsReadOrRefused) {
+  fsr::Recording small = twoSurfaces();
+  writeBag(path_, small, inNamespace("fsr"));
+  std::string bytes(fs::file_size(path_), ' ');
+  std::ifstream(path_, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  int refused = 0;
+  for (std::size_t i = 0; i < kMutants; ++i) {
+    std::string changed = bytes;
+    // Half of them in the header and the first records, where lengths and offsets stand.
+    const std::size_t within = i % 2 == 0 ? bytes.size() : std::min<std::size_t>(bytes.size(), 20000);
+    char& byte = changed[i * 2654435761U % within];
+    byte = static_cast<char>(byte ^ (1 << (i % 8)));
+    std::ofstream(path_, std::ios::binary | std::ios::trunc) << changed;
+    refused += complaint() != "accepted";
+  }
+  EXPECT_GT(refused, 10);
 }
 
 TEST_F(BagReader, ABagThatWasNotClosedAsksForReindexing) {
