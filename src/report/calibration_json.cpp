@@ -1,47 +1,23 @@
-#include <nlohmann/json.hpp>
-
 #include "fsr_pressure_map/regression/option_names.h"
 #include "fsr_pressure_map/report/calibration_report.h"
+#include "result_json.h"
 
 namespace fsr {
 
 namespace {
 
-using Json = nlohmann::ordered_json;  // NaN is written as null
-
-Json json(const Spread& spread) {
-  return {{"mean", spread.mean}, {"deviation", spread.deviation}};
-}
-
 Json json(const TrainedInterval& interval) {
   return Json::array({interval.low, interval.high});
 }
 
-Json json(const ErrorSummary& errors) {
-  return {{"count", errors.count},
-          {"bias", errors.bias},
-          {"rmse", errors.rmse},
-          {"limits_95", Json::array({errors.limit_low, errors.limit_high})},
-          {"p95_absolute", errors.p95_absolute}};
-}
-
-Json json(const BinnedErrors::Directions& errors) {
-  return {
-      {"all", json(errors.all)}, {"loading", json(errors.loading)}, {"unloading", json(errors.unloading)}};
-}
-
 Json json(const Score& score) {
-  Json bins = Json::object();
-  for (std::size_t bin = 0; bin < kPressureBins; ++bin) {
-    bins[pressureBinName(bin) + " kPa"] = json(score.errors.bins[bin]);
-  }
   return {{"readings", score.readings},
           {"r2", json(score.r2)},
           {"rmse_percent", json(score.rmse_percent)},
           {"worst_taxel", score.worst_taxel},
           {"worst_rmse_percent", score.worst_rmse_percent},
           {"within_one_deviation", score.within_one_deviation},
-          {"errors_pa", {{"whole", json(score.errors.whole)}, {"bins", bins}}}};
+          {"errors_pa", json(score.errors)}};
 }
 
 Json json(const CalibrationScores& scores) {
@@ -83,22 +59,6 @@ Json json(const Coverage& coverage) {
                           {"unloading", json(row.unloading)}});
   }
   return {{"conditions", conditions}, {"thin", coverage.thin}};
-}
-
-Json json(const SensorIdentity& sensor) {
-  return {{"sensor_id", sensor.sensor_id}, {"serial", sensor.serial},   {"firmware", sensor.firmware},
-          {"model", sensor.model},         {"sealing", sensor.sealing}, {"transducer", sensor.transducer}};
-}
-
-Json json(const Provenance& provenance) {
-  Json bags = Json::array();
-  for (const SourceBag& bag : provenance.bags) {
-    bags.push_back({{"name", bag.name}, {"sha256", bag.sha256}, {"scans", bag.scans}});
-  }
-  return {{"tool_version", provenance.tool_version},
-          {"date", provenance.date},
-          {"seed", provenance.seed},
-          {"bags", bags}};
 }
 
 // Only what the model looks at.
@@ -144,7 +104,7 @@ std::string calibrationJson(const Calibration& calibration) {
                          {"warnings", calibration.warnings},
                          {"coverage", json(calibration.coverage)},
                          {"scores", json(calibration.scores)}};
-  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return dump(document);
 }
 
 }  // namespace fsr
