@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/compensation/scheme_plan.h"
+#include "fsr_pressure_map/study/study_data.h"
+
+namespace fsr {
+
+/// One column of the paper's tables: a scheme, and which part of the data it takes.
+struct StudyMethod {
+  std::string id;     ///< the scheme's name, e.g. per_curvature
+  std::string label;  ///< the paper's, e.g. "Method 1"
+  SchemePlan plan;
+  std::vector<std::size_t> one_of;  ///< of each class one scan of so many; 0 = none
+
+  /// Models whose scores are averaged; with a second input there is one.
+  std::size_t models() const;
+  /// The one of them that trains on the class; models() where none does.
+  std::size_t modelOf(std::size_t curvature_class) const;
+  /// Classes that it trains on.
+  const std::vector<std::size_t>& trainedOn(std::size_t model) const { return plan.models[model].trained_on; }
+};
+
+/// The paper's seven, in the order of its tables: flat, baseline, methods 1 to 4, method 2 with a one-hot
+/// input. Methods 3 and 4 need a bent class beside the flat one; without one they are left out. Throws
+/// InputError where there is no flat class.
+std::vector<StudyMethod> paperMethods(const StudyData& data, BinaryShare binary_share);
+
+}  // namespace fsr

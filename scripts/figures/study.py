@@ -1,0 +1,386 @@
+#!/usr/bin/python3
+"""Draws a study's figures and its report: study.py FOLDER, which holds results.json and tables/.
+
+Writes figures/*.png, *.pdf and *.csv in the manner of the paper's Figs 5 to 10, and report.html.
+"""
+
+import csv
+import json
+import os
+import sys
+
+import figure_style as style
+
+PAPER_ALGORITHM = {"linear": "LR", "grnn": "GRNN", "forest": "RF"}
+NOT_FOR_PATIENTS = "For research; not for diagnosis or fitting decisions."
+
+
+def read_table(folder, name):
+    """{heading: values}; numbers where all of a column are."""
+    with open(os.path.join(folder, "tables", name), newline="", encoding="utf-8") as table:
+        rows = list(csv.DictReader(table))
+    columns = {}
+    for heading in rows[0] if rows else []:
+        values = [row[heading] for row in rows]
+        try:
+            columns[heading] = [float(value) for value in values]
+        except ValueError:
+            columns[heading] = values
+    return columns
+
+
+def radius(curvature):
+    """Curvature [1/m] as a figure names it."""
+    if abs(curvature) < 0.25:
+        return "flat"
+    return f"{100 / abs(curvature):.0f} cm" + (" inside" if curvature < 0 else "")
+
+
+def curves(response):
+    """[(curvature, times, pressures, readings)] by ascending bend."""
+    kept = {}
+    for surface, curvature, *values in zip(*(response[name] for name in (
+            "surface", "curvature [1/m]", "time [s]", "pressure [kPa]", "reading [counts]"))):
+        kept.setdefault((curvature, surface), []).append(values)
+    ordered = sorted(kept.items(), key=lambda item: abs(item[0][0]))
+    return [(curvature, *map(list, zip(*rows))) for (curvature, _), rows in ordered]
+
+
+def response_columns(chosen, highest):
+    columns = {"radius": [], "pressure [kPa]": [], "reading [counts]": []}
+    for curvature, _, pressures, readings in chosen:
+        for pressure, reading in zip(pressures, readings):
+            if pressure <= highest:
+                columns["radius"].append(radius(curvature))
+                columns["pressure [kPa]"].append(pressure)
+                columns["reading [counts]"].append(reading)
+    return columns
+
+
+def draw_response(stem, chosen, highest=float("inf"), width=style.COLUMN, height=2.4):
+    drawing, axes = style.figure(width, height)
+    for number, (curvature, _, pressures, readings) in enumerate(chosen):
+        kept = [(p, r) for p, r in zip(pressures, readings) if p <= highest]
+        name = radius(curvature)
+        axes.plot([p for p, _ in kept], [r for _, r in kept], ".", markersize=1.6, alpha=0.7, label=name,
+                  color=style.COLOURS[number % len(style.COLOURS)], rasterized=True)
+    axes.set(xlabel="chamber pressure [kPa gauge]", ylabel="reading [counts]")
+    axes.legend(title="radius", markerscale=5, loc="best")
+    return style.save(drawing, stem, response_columns(chosen, highest))
+
+
+def boxes(axes, values, names, label):
+    axes.boxplot(values, widths=0.55, medianprops={"color": style.RED}, flierprops={"marker": ".", "markersize": 3})
+    axes.set_xticklabels(names)
+    axes.set_ylabel(label)
+
+
+def box_columns(scores):
+    columns = {"method": [], "taxel": [], "R2": [], "RMSE [%]": []}
+    for score in scores:
+        for taxel, (r2, percent) in enumerate(zip(score["taxels"]["r2"], score["taxels"]["rmse_percent"])):
+            columns["method"].append(score["label"])
+            columns["taxel"].append(taxel)
+            columns["R2"].append(r2)
+            columns["RMSE [%]"].append(percent)
+    return columns
+
+
+def draw_boxes(stem, scores, names, stacked):
+    drawing, pair = style.figure(style.COLUMN if stacked else style.PAGE, 4.2 if stacked else 2.4,
+                                 nrows=2 if stacked else 1, ncols=1 if stacked else 2)
+    boxes(pair[0], [score["taxels"]["rmse_percent"] for score in scores], names, "RMSE [% of range]")
+    boxes(pair[1], [score["taxels"]["r2"] for score in scores], names, "R²")
+    return style.save(drawing, stem, box_columns(scores))
+
+
+def one_cycle(table):
+    """The part of a prediction that shows a cycle: from the rest before the first filling to the next rest."""
+    pressure = table["reference [kPa]"]
+    level = 0.02 * max(pressure)
+    above = [i for i, value in enumerate(pressure) if value > level]
+    first = above[0]
+    last = next((i for i in range(first, len(pressure)) if pressure[i] <= level), len(pressure) - 1)
+    margin = max(5, (last - first) // 10)
+    return max(0, first - margin), min(len(pressure), last + margin)
+
+
+def draw_prediction(stem, table, curvature):
+    begin, end = one_cycle(table)
+    part = {name: values[begin:end] for name, values in table.items()}
+    drawing, axes = style.figure(style.PAGE, 2.8)
+    axes.plot(part["time [s]"], part["without curvature [kPa]"], ".", color=style.RED, markersize=3,
+              label="predicted without curvature (one model for all)")
+    axes.plot(part["time [s]"], part["with curvature [kPa]"], ".", color=style.BLUE, markersize=3,
+              label="predicted with curvature (one model a curvature)")
+    axes.plot(part["time [s]"], part["reference [kPa]"], "-", color=style.BLACK, label="chamber")
+    axes.set(xlabel="time [s]", ylabel="pressure [kPa gauge]", title=f"radius {radius(curvature)}")
+    axes.legend(loc="upper right")
+    axes.set_ylim(top=1.35 * max(part["reference [kPa]"]))
+    return style.save(drawing, stem, part)
+
+
+def draw_bandwidths(stem, table, chosen):
+    drawing, axes = style.figure(style.PAGE, 2.8)
+    grid = table["bandwidth [deviations]"]
+    for number, (name, values) in enumerate((n, v) for n, v in table.items() if n.endswith("RMSE [%]")):
+        axes.plot(grid, values, ("o-", "s--", "^-", "v--", "D-", "x--", "+:")[number % 7], markersize=3,
+                  label=name.replace(" RMSE [%]", ""))
+    axes.axvline(chosen, color="0.6", linewidth=0.8)
+    axes.annotate("the paper's 2⁻⁷", (chosen, 0), xycoords=("data", "axes fraction"), xytext=(3, 4),
+                  textcoords="offset points", color="0.4", fontsize=7)
+    axes.set_xscale("log", base=2)
+    axes.set_ylim(0, min(15, max(max(v) for n, v in table.items() if n.endswith("%]"))))
+    axes.set(xlabel="bandwidth [deviations of the readings]", ylabel="RMSE [% of range]")
+    axes.legend(ncol=2)
+    return style.save(drawing, stem, table)
+
+
+def draw_bins(stem, split):
+    """RMSE by pressure and direction of the methods on all scans."""
+    scores = split["scores"]
+    names = list(scores[0]["errors_pa"]["bins"])
+    drawing, axes = style.figure(style.PAGE, 2.8)
+    columns = {"method": [], "pressure [kPa]": [], "direction": [], "RMSE [kPa]": []}
+    width = 0.8 / len(scores)
+    for number, score in enumerate(scores):
+        for direction in ("loading", "unloading"):
+            values = [score["errors_pa"]["bins"][name][direction]["rmse"] for name in names]
+            places = [i + (number - (len(scores) - 1) / 2) * width for i in range(len(names))]
+            heights = [float("nan") if value is None else value / 1e3 for value in values]
+            axes.plot(places, heights, linestyle="", marker="^" if direction == "loading" else "v", markersize=4,
+                      markerfacecolor=style.COLOURS[number % 7] if direction == "loading" else "none",
+                      color=style.COLOURS[number % 7], label=score["label"] if direction == "loading" else None)
+            for name, height in zip(names, heights):
+                columns["method"].append(score["label"])
+                columns["pressure [kPa]"].append(name.replace(" kPa", ""))
+                columns["direction"].append(direction)
+                columns["RMSE [kPa]"].append(height)
+    axes.set_xticks(range(len(names)))
+    axes.set_xticklabels([name.replace(" kPa", "") for name in names])
+    axes.set(xlabel="chamber pressure [kPa gauge]", ylabel="RMSE [kPa]")
+    axes.set_ylim(bottom=0)
+    axes.legend(ncol=2, title="filled: loading, open: unloading")
+    return style.save(drawing, stem, columns)
+
+
+def draw_splits(stem, splits):
+    drawing, axes = style.figure(style.PAGE, 2.8)
+    columns = {"split": [], "method": [], "RMSE [kPa]": [], "low [kPa]": [], "high [kPa]": []}
+    labels = [score["label"] for score in splits[-1]["scores"]]
+    for number, split in enumerate(splits):
+        places, heights, errors = [], [], [[], []]
+        for score in split["scores"]:
+            interval = score["rmse_pa_interval"]
+            rmse = score["errors_pa"]["whole"]["all"]["rmse"]
+            if rmse is None or score["label"] not in labels:
+                continue
+            low, high = interval["interval_95"] if interval else (rmse, rmse)
+            places.append(labels.index(score["label"]) + (number - (len(splits) - 1) / 2) * 0.2)
+            heights.append(rmse / 1e3)
+            errors[0].append(max(0, rmse - low) / 1e3)
+            errors[1].append(max(0, high - rmse) / 1e3)
+            for name, value in zip(columns, (split["id"], score["label"], rmse / 1e3, low / 1e3, high / 1e3)):
+                columns[name].append(value)
+        axes.errorbar(places, heights, errors, fmt="o", markersize=4, capsize=2,
+                      color=style.COLOURS[number % 7], label=split["id"].replace("_", " "))
+    axes.set_xticks(range(len(labels)))
+    axes.set_xticklabels(labels)
+    axes.set(ylabel="RMSE [kPa]")
+    axes.set_ylim(bottom=0)
+    axes.legend()
+    return style.save(drawing, stem, columns)
+
+
+# --- the report ---------------------------------------------------------------------------------------
+
+
+def number(value, digits=2):
+    return "–" if value is None else f"{value:.{digits}f}"
+
+
+def spread(value, digits, deviation_digits):
+    if value is None or value["mean"] is None:
+        return "–"
+    return f"{number(value['mean'], digits)} ± {number(value['deviation'], deviation_digits)}"
+
+
+def kilopascal(value, digits=1):
+    return "–" if value is None else f"{value / 1e3:.{digits}f}"
+
+
+def probability(p):
+    if p is None:
+        return "–"
+    return "< 0.001" if p < 0.001 else f"{p:.3f}"
+
+
+def interval_text(interval, unit=1.0, digits=2):
+    if interval is None:
+        return "none: holds for these recordings only"
+    low, high = interval["interval_95"]
+    return (f"{low / unit:.{digits}f} to {high / unit:.{digits}f} "
+            f"({interval['method']}, {interval['n']} {interval['unit']}s)")
+
+
+def score_rows(scores):
+    rows = []
+    for score in scores:
+        paper = score["paper"] or {"r2": None, "rmse_percent": None}
+        rows.append([score["label"], spread(score["r2"], 3, 4), spread(paper["r2"], 2, 4),
+                     spread(score["rmse_percent"], 2, 2), spread(paper["rmse_percent"], 2, 2),
+                     interval_text(score["rmse_percent_interval"]), score["scored"]])
+    return rows
+
+
+def paper_table(comparison):
+    return style.table(["", "R²", "paper's R²", "RMSE%", "paper's RMSE%", "95 % interval of our RMSE%", "scored"],
+                       score_rows(comparison["scores"]),
+                       "Mean ± deviation over taxels; interval: whole units resampled, readings of a model pooled.")
+
+
+def use_table(scores, caption):
+    rows = []
+    for score in scores:
+        whole = score["errors_pa"]["whole"]
+        low, high = whole["all"]["limits_95"]
+        rows.append([score["label"], kilopascal(whole["all"]["rmse"]), kilopascal(whole["all"]["bias"]),
+                     f"{kilopascal(low)} to {kilopascal(high)}", kilopascal(whole["all"]["p95_absolute"]),
+                     f"{kilopascal(whole['loading']['rmse'])} / {kilopascal(whole['unloading']['rmse'])}",
+                     f"{kilopascal(score['first_cycle_pa']['rmse'])} / {kilopascal(score['later_cycles_pa']['rmse'])}",
+                     f"{number(score['worst_rmse_percent'])} % (no. {score['worst_taxel']})",
+                     interval_text(score["rmse_pa_interval"], 1e3, 1)])
+    return style.table(["", "RMSE [kPa]", "bias [kPa]", "95 % limits [kPa]", "95th percentile of |error| [kPa]",
+                        "RMSE loading / unloading [kPa]", "RMSE first / later cycles [kPa]", "worst taxel",
+                        "95 % interval of the RMSE [kPa]"], rows, caption)
+
+
+def bin_table(scores, caption):
+    names = list(scores[0]["errors_pa"]["bins"])
+    rows = [[score["label"]] + [
+        f"{kilopascal(score['errors_pa']['bins'][name]['all']['rmse'])} "
+        f"({kilopascal(score['errors_pa']['bins'][name]['all']['bias'])})" for name in names] for score in scores]
+    return style.table(["RMSE (bias) [kPa]"] + names, rows, caption)
+
+
+def test_line(test, p):
+    freedom = ", ".join(f"{value:g}" for value in test["degrees_of_freedom"])
+    symbol = test["symbol"] + (f"({freedom})" if freedom else "")
+    return f"{test['test']}: {symbol} = {number(test['statistic'])}, p {probability(p)}, n = {test['n']} taxels"
+
+
+def tests_of(comparison):
+    pieces = []
+    published = comparison["as_published_taxels_treated_as_independent"]
+    for name, measure in (("R²", "r2"), ("RMSE%", "rmse_percent")):
+        rule = published[measure]
+        pieces.append(style.paragraph(f"{name}: {test_line(rule['test'], rule['p'])}"))
+        if rule["pairs"]:
+            rows = [[f"{pair['first']} – {pair['second']}", pair["test"]["test"],
+                     f"{pair['test']['symbol']} = {number(pair['test']['statistic'])}",
+                     probability(pair["adjusted_p"]), "yes" if pair["differ"] else "not shown"]
+                    for pair in rule["pairs"]]
+            pieces.append(style.table(["pair", "test", "statistic", "p, Bonferroni", "differ"], rows, f"{name}, pairs"))
+    for sentence in comparison["paper"]["statements"]:
+        pieces.append(style.paragraph("The paper: " + sentence))
+    rows = [[f"{d['first']} – {d['second']}",
+             number(d["rmse_percent"]["estimate"] if d["rmse_percent"] else None),
+             interval_text(d["rmse_percent"])] for d in comparison["differences_of_rmse_percent"]]
+    pieces.append(style.table(["pair", "difference of RMSE%", "95 % interval"], rows,
+                              "Beside it: whole units resampled, the highest level that has five."))
+    return pieces
+
+
+def comparison_section(comparison, pictures):
+    return (comparison["title"],
+            [paper_table(comparison)] + pictures +
+            [use_table(comparison["scores"], "The same held-out readings in kPa."),
+             "<h3>As published, taxels treated as independent</h3>"] + tests_of(comparison))
+
+
+def condition_rows(results):
+    return [[row["surface"], radius(row["curvature"][0]), number(row["curvature"][0]),
+             number(row["curvature"][0] / 100, 3), row["scans"], row["cycles"], row["mounts"]]
+            for row in results["conditions"]]
+
+
+def write_report(folder, results, pictures):
+    comparisons = {comparison["id"]: comparison for comparison in results["comparisons"]}
+    first = results["splits"][0]
+    sections = [
+        (None, [f"<p class=verdict>{style.html.escape(results['headline']['text'])}</p>"] +
+         [style.paragraph(sentence) for sentence in results["holds_for"] + results["warnings"]] +
+         [style.paragraph(NOT_FOR_PATIENTS)]),
+        ("Data", [style.table(["surface", "radius", "1/m", "1/cm", "scans", "cycles", "mounts"],
+                              condition_rows(results)),
+                  style.paragraph(f"{results['scans']} scans of {len(results['taxels'])} taxels."),
+                  pictures["response"], pictures["response_low"], pictures["all_curvatures"]]),
+        comparison_section(comparisons["algorithms"], [pictures["algorithms"]]),
+        comparison_section(comparisons["flat_against_all"], []),
+        comparison_section(comparisons["methods"], [pictures["methods"], pictures["prediction"]]),
+        comparison_section(comparisons["one_hot"], []),
+        ("Numbers of the paper that cannot be matched", [style.paragraph(text) for text in results["unmatchable"]]),
+        ("Bandwidth", [pictures["bandwidths"]]),
+        ("Beyond the paper: all scans, bandwidth by nested cross-validation, harder splits",
+         [pictures["splits"], pictures["bins"]] +
+         [piece for split in results["splits"] for piece in (
+             use_table(split["scores"], f"{split['id'].replace('_', ' ')}: {split['description']}"),
+             bin_table(split["scores"], f"{split['id'].replace('_', ' ')}, by chamber pressure"))]),
+        ("Where the paper leaves a choice", [style.table(
+            ["", "the paper", "this study"],
+            [[row["subject"], row["paper"], row["study"]] for row in results["decisions"]])]),
+        ("Provenance", [style.table(["bag", "scans", "SHA-256"], [
+            [bag["name"], bag["scans"], bag["sha256"]] for bag in results["provenance"]["bags"]]),
+            style.paragraph(f"fsr_pressure_map {results['provenance']['tool_version']}, "
+                            f"{results['provenance']['date']}, seed {results['provenance']['seed']}.")]),
+    ]
+    assert first["id"] == "five_sections"
+    style.page(os.path.join(folder, "report.html"), "The paper's study, repeated", sections)
+
+
+def main(folder):
+    with open(os.path.join(folder, "results.json"), encoding="utf-8") as source:
+        results = json.load(source)
+    comparisons = {comparison["id"]: comparison for comparison in results["comparisons"]}
+    drawn = curves(read_table(folder, "response.csv"))
+    taxel = results["figure_taxel"]
+    pair = drawn[:2]
+
+    def stem(name):
+        return os.path.join(folder, "figures", name)
+
+    bent = radius(pair[-1][0])
+    prediction = read_table(folder, "prediction.csv")
+    algorithms = comparisons["algorithms"]["scores"]
+    methods = comparisons["methods"]["scores"]
+    low = 0.1 * max(max(pressures) for _, _, pressures, _ in drawn)
+    pictures = {
+        "response": (draw_response(stem("fig5_response"), pair),
+                     f"Taxel {taxel} flat and on a radius of {bent} (the paper's Fig. 5)."),
+        "response_low": (draw_response(stem("fig8_low_pressure"), pair, low),
+                         "The same at low pressure: bending changes the reading at rest (Fig. 8)."),
+        "all_curvatures": (draw_response(stem("fig10_all_curvatures"), drawn, width=style.PAGE, height=3.4),
+                           f"Taxel {taxel} on all surfaces (Fig. 10)."),
+        "algorithms": (draw_boxes(stem("fig6_algorithms"), algorithms,
+                                  [PAPER_ALGORITHM[score["id"]] for score in algorithms], stacked=False),
+                       "Algorithms on the baseline, one point a taxel (Fig. 6)."),
+        "methods": (draw_boxes(stem("fig7_methods"), methods,
+                               [score["label"].replace("Method ", "M") for score in methods], stacked=True),
+                    "Methods, one point a taxel (Fig. 7)."),
+        "prediction": (draw_prediction(stem("fig9_prediction"), prediction, pair[-1][0]),
+                       f"Held-out predictions of taxel {taxel}, without and with curvature (Fig. 9)."),
+        "bandwidths": (draw_bandwidths(stem("bandwidths"), read_table(folder, "bandwidths.csv"),
+                                       results["plan"]["bandwidth"]),
+                       "RMSE% over the grid of bandwidths, on the data of the paper's tables."),
+        "bins": (draw_bins(stem("errors_by_pressure"), results["splits"][0]),
+                 "All scans, five sections: RMSE by chamber pressure and direction."),
+        "splits": (draw_splits(stem("splits"), results["splits"]),
+                   "All scans: RMSE by how the held-out readings were chosen; bars: 95 % intervals."),
+    }
+    write_report(folder, results, {name: style.picture(*made) for name, made in pictures.items()})
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit("usage: study.py FOLDER")
+    main(sys.argv[1])

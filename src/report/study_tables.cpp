@@ -1,0 +1,212 @@
+#include <cmath>
+#include <sstream>
+
+#include "fsr_pressure_map/report/study_report.h"
+#include "fsr_pressure_map/study/paper_numbers.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr double kKilopascal = 1e3;  // [Pa]
+
+// One CSV file. Numbers keep nine digits; NaN is left empty.
+class Table {
+ public:
+  explicit Table(const std::string& headings) {
+    text_ << headings;
+    text_.precision(9);
+  }
+
+  Table& row() {
+    text_ << '\n';
+    first_ = true;
+    return *this;
+  }
+  Table& operator<<(double value) {
+    separate();
+    if (!std::isnan(value)) text_ << value;
+    return *this;
+  }
+  Table& operator<<(const std::string& value) {
+    separate();
+    text_ << '"';
+    for (const char letter : value) text_ << (letter == '"' ? "\"\"" : std::string(1, letter));
+    text_ << '"';
+    return *this;
+  }
+  std::string text() const { return text_.str() + '\n'; }
+
+ private:
+  void separate() {
+    if (!first_) text_ << ',';
+    first_ = false;
+  }
+  std::ostringstream text_;
+  bool first_ = true;
+};
+
+// Visits (comparison or split, score) of all.
+template <typename Visit>
+void forEachScore(const StudyResult& result, Visit visit) {
+  for (const StudyComparison& comparison : result.comparisons) {
+    for (const StudyScore& score : comparison.scores) visit(comparison.id, score);
+  }
+  for (const SplitResult& split : result.splits) {
+    for (const StudyScore& score : split.scores) visit(split.id, score);
+  }
+}
+
+void addInterval(Table& table, const BootstrapResult& interval, double unit) {
+  table << interval.low / unit << interval.high / unit << interval.level
+        << static_cast<double>(interval.units);
+}
+
+void addErrors(Table& table, const ErrorSummary& errors) {
+  table << static_cast<double>(errors.count) << errors.bias / kKilopascal << errors.rmse / kKilopascal
+        << errors.limit_low / kKilopascal << errors.limit_high / kKilopascal
+        << errors.p95_absolute / kKilopascal;
+}
+
+std::string scoresTable(const StudyResult& result) {
+  Table table(
+      "part,method,label,model,scored,R2,R2 deviation,RMSE [%],RMSE deviation [%],paper R2,paper R2 "
+      "deviation,"
+      "paper RMSE [%],paper RMSE deviation [%],readings,bias [kPa],RMSE [kPa],limit low [kPa],limit high "
+      "[kPa],"
+      "p95 [kPa],first cycle RMSE [kPa],later cycles RMSE [kPa],worst taxel,worst taxel RMSE [%],"
+      "RMSE low [kPa],RMSE high [kPa],unit,units");
+  forEachScore(result, [&](const std::string& part, const StudyScore& score) {
+    const PaperScore paper = paperScore(score.id).value_or(PaperScore{});
+    table.row() << part << score.id << score.label << score.model << score.scored << score.r2_spread.mean
+                << score.r2_spread.deviation << score.rmse_percent_spread.mean
+                << score.rmse_percent_spread.deviation << paper.r2.mean << paper.r2.deviation
+                << paper.rmse_percent.mean << paper.rmse_percent.deviation;
+    addErrors(table, score.errors.whole.all);
+    table << score.first_cycle.rmse / kKilopascal << score.later_cycles.rmse / kKilopascal
+          << static_cast<double>(score.worst_taxel) << score.worst_rmse_percent;
+    addInterval(table, score.rmse_interval, kKilopascal);
+  });
+  return table.text();
+}
+
+std::string taxelTable(const StudyResult& result) {
+  Table table("part,method,taxel,R2,RMSE [%]");
+  forEachScore(result, [&](const std::string& part, const StudyScore& score) {
+    for (std::size_t t = 0; t < result.taxels.size(); ++t) {
+      table.row() << part << score.id << static_cast<double>(result.taxels[t]) << score.r2[t]
+                  << score.rmse_percent[t];
+    }
+  });
+  return table.text();
+}
+
+std::string binTable(const StudyResult& result) {
+  Table table(
+      "part,method,pressure [kPa],direction,readings,bias [kPa],RMSE [kPa],limit low [kPa],limit high "
+      "[kPa],p95 "
+      "[kPa]");
+  forEachScore(result, [&](const std::string& part, const StudyScore& score) {
+    for (std::size_t bin = 0; bin < kPressureBins; ++bin) {
+      const BinnedErrors::Directions& errors = score.errors.bins[bin];
+      const auto add = [&](const std::string& direction, const ErrorSummary& summary) {
+        addErrors(table.row() << part << score.id << pressureBinName(bin) << direction, summary);
+      };
+      add("all", errors.all);
+      add("loading", errors.loading);
+      add("unloading", errors.unloading);
+    }
+  });
+  return table.text();
+}
+
+void addTest(Table& table, const TestResult& test) {
+  std::string freedom;
+  for (const double degrees : test.degrees_of_freedom) {
+    std::ostringstream text;
+    text << degrees;
+    freedom += (freedom.empty() ? "" : " ") + text.str();
+  }
+  table << test.test << test.symbol << test.statistic << freedom << test.p << static_cast<double>(test.n);
+}
+
+void addRule(Table& table, const StudyComparison& comparison, const std::string& measure,
+             const PaperRuleResult& rule) {
+  for (const Decision& decision : rule.decisions) {
+    table.row() << comparison.id << measure << decision.subject;
+    addTest(table, decision.test);
+    table << NAN << decision.conclusion;
+  }
+  for (const PairComparison& pair : rule.pairs) {
+    table.row() << comparison.id << measure
+                << comparison.scores[pair.first].label + " - " + comparison.scores[pair.second].label;
+    addTest(table, pair.test);
+    table << pair.adjusted_p << std::string(pair.differ ? "differ" : "no difference shown");
+  }
+}
+
+std::string testTable(const StudyResult& result) {
+  Table table(
+      "comparison,measure,subject,test,symbol,statistic,degrees of freedom,p,taxels,adjusted p,conclusion");
+  for (const StudyComparison& comparison : result.comparisons) {
+    addRule(table, comparison, "R2", comparison.r2);
+    addRule(table, comparison, "RMSE%", comparison.rmse_percent);
+  }
+  return table.text();
+}
+
+std::string differenceTable(const StudyResult& result) {
+  Table table("comparison,first,second,difference of RMSE [%],low [%],high [%],unit,units");
+  for (const StudyComparison& comparison : result.comparisons) {
+    for (const StudyDifference& difference : comparison.differences) {
+      table.row() << comparison.id << difference.first << difference.second
+                  << difference.rmse_percent.estimate;
+      addInterval(table, difference.rmse_percent, 1.0);
+    }
+  }
+  return table.text();
+}
+
+std::string bandwidthTable(const StudyResult& result) {
+  std::string headings = "bandwidth [deviations]";
+  for (const BandwidthCurve& curve : result.bandwidths) headings += "," + curve.id + " RMSE [%]";
+  Table table(headings);
+  for (std::size_t b = 0; b < result.plan.bandwidths.size(); ++b) {
+    table.row() << result.plan.bandwidths[b];
+    for (const BandwidthCurve& curve : result.bandwidths) table << curve.rmse_percent[b];
+  }
+  return table.text();
+}
+
+std::string responseTable(const StudyResult& result) {
+  Table table("surface,curvature [1/m],time [s],pressure [kPa],reading [counts]");
+  for (const TaxelResponse::Curve& curve : result.response.curves) {
+    for (std::size_t i = 0; i < curve.time.size(); ++i) {
+      table.row() << curve.surface << curve.curvature << curve.time[i] << curve.pressure[i] / kKilopascal
+                  << curve.counts[i];
+    }
+  }
+  return table.text();
+}
+
+std::string predictionTable(const StudyResult& result) {
+  Table table("time [s],reference [kPa],without curvature [kPa],with curvature [kPa]");
+  const TaxelResponse::Prediction& prediction = result.response.prediction;
+  for (std::size_t i = 0; i < prediction.with_curvature.size(); ++i) {
+    table.row() << prediction.time[i] << prediction.reference[i] / kKilopascal
+                << prediction.without_curvature[i] / kKilopascal
+                << prediction.with_curvature[i] / kKilopascal;
+  }
+  return table.text();
+}
+
+}  // namespace
+
+std::map<std::string, std::string> studyTables(const StudyResult& result) {
+  return {{"scores.csv", scoresTable(result)},          {"taxel_scores.csv", taxelTable(result)},
+          {"errors_by_bin.csv", binTable(result)},      {"tests.csv", testTable(result)},
+          {"differences.csv", differenceTable(result)}, {"bandwidths.csv", bandwidthTable(result)},
+          {"response.csv", responseTable(result)},      {"prediction.csv", predictionTable(result)}};
+}
+
+}  // namespace fsr

@@ -1,0 +1,118 @@
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+#include "fsr_pressure_map/report/study_report.h"
+#include "fsr_pressure_map/study/paper_numbers.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr int kNameWidth = 20;
+constexpr double kKilopascal = 1e3;  // [Pa]
+
+std::string number(double value, int digits) {
+  if (std::isnan(value)) return "-";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(digits) << value;
+  return text.str();
+}
+
+std::string spread(const Spread& value, int digits, int deviation_digits) {
+  if (std::isnan(value.mean)) return "-";
+  return number(value.mean, digits) + " +- " + number(value.deviation, deviation_digits);
+}
+
+void cell(std::ostream& out, const std::string& text, int width) {
+  out << std::setw(width) << text;
+}
+
+std::string probability(double p) {
+  if (std::isnan(p)) return "p -";
+  return p < 0.001 ? "p < 0.001" : "p = " + number(p, 3);
+}
+
+std::string testText(const TestResult& test, double p) {
+  std::string freedom;
+  for (const double degrees : test.degrees_of_freedom) {
+    freedom += (freedom.empty() ? "(" : ", ") + number(degrees, std::floor(degrees) == degrees ? 0 : 2);
+  }
+  return test.test + ", " + test.symbol + (freedom.empty() ? "" : freedom + ")") + " = " +
+         number(test.statistic, 2) + ", " + probability(p) + ", n = " + std::to_string(test.n) + " taxels";
+}
+
+void scoreHeads(std::ostream& out) {
+  out << std::left << std::setw(kNameWidth) << "" << std::right;
+  for (const char* const head : {"R2", "paper", "RMSE%", "paper"}) cell(out, head, 18);
+  for (const char* const head : {"RMSE", "bias", "p95", "worst taxel"}) cell(out, head, 12);
+  out << '\n' << std::setw(kNameWidth + 4 * 18) << "";
+  for (const char* const unit : {"kPa", "kPa", "kPa", "RMSE% (no.)"}) cell(out, unit, 12);
+  out << '\n';
+}
+
+void scoreRow(std::ostream& out, const StudyScore& score) {
+  const PaperScore paper = paperScore(score.id == "grnn" ? "baseline" : score.id).value_or(PaperScore{});
+  const ErrorSummary& errors = score.errors.whole.all;
+  out << std::left << std::setw(kNameWidth) << score.label << std::right;
+  cell(out, spread(score.r2_spread, 3, 4), 18);
+  cell(out, spread(paper.r2, 2, 4), 18);
+  cell(out, spread(score.rmse_percent_spread, 2, 2), 18);
+  cell(out, spread(paper.rmse_percent, 2, 2), 18);
+  for (const double value : {errors.rmse, errors.bias, errors.p95_absolute}) {
+    cell(out, number(value / kKilopascal, 1), 12);
+  }
+  cell(out, number(score.worst_rmse_percent, 2) + " (" + std::to_string(score.worst_taxel) + ")", 14);
+  out << '\n';
+}
+
+void comparisonText(std::ostream& out, const StudyComparison& comparison) {
+  out << '\n' << comparison.title << '\n';
+  scoreHeads(out);
+  for (const StudyScore& score : comparison.scores) scoreRow(out, score);
+  out << "As published, taxels treated as independent:\n";
+  out << "  R2:    " << testText(comparison.r2.test, comparison.r2.p) << '\n';
+  out << "  RMSE%: " << testText(comparison.rmse_percent.test, comparison.rmse_percent.p) << '\n';
+  for (const std::string& sentence : paperStatements(comparison.id))
+    out << "  The paper: " << sentence << '\n';
+  out << "Difference of RMSE%, whole units resampled:\n";
+  for (const StudyDifference& difference : comparison.differences) {
+    const BootstrapResult& interval = difference.rmse_percent;
+    out << "  " << std::left << std::setw(2 * kNameWidth) << difference.first + " - " + difference.second
+        << std::right;
+    if (interval.method == IntervalMethod::kNone) {
+      out << number(interval.estimate, 2) << ", holds for these recordings only\n";
+      continue;
+    }
+    out << number(interval.estimate, 2) << "  95 % interval " << number(interval.low, 2) << " to "
+        << number(interval.high, 2) << " (" << interval.units << ' ' << interval.level << "s)\n";
+  }
+}
+
+void splitText(std::ostream& out, const SplitResult& split) {
+  out << '\n' << split.id << ": " << split.description << '\n';
+  for (const StudyScore& score : split.scores) {
+    out << "  " << std::left << std::setw(kNameWidth) << score.label << std::right
+        << number(score.errors.whole.all.rmse / kKilopascal, 1) << " kPa  ("
+        << number(score.rmse_interval.low / kKilopascal, 1) << " to "
+        << number(score.rmse_interval.high / kKilopascal, 1) << "), RMSE% "
+        << number(score.rmse_percent_spread.mean, 2) << '\n';
+  }
+}
+
+}  // namespace
+
+std::string studyText(const StudyResult& result) {
+  std::ostringstream out;
+  out << result.scans << " scans of " << result.taxels.size() << " taxels on " << result.classes.size()
+      << " conditions, " << result.cycles << " cycles, " << result.mounts << " mounts\n";
+  for (const std::string& warning : result.warnings) out << "Warning: " << warning << '\n';
+  for (const StudyComparison& comparison : result.comparisons) comparisonText(out, comparison);
+  out << "\nOn all scans, bandwidth chosen by nested cross-validation: RMSE with 95 % interval\n";
+  for (const SplitResult& split : result.splits) splitText(out, split);
+  out << '\n' << result.headline.text << '\n';
+  for (const std::string& sentence : result.holds_for) out << sentence << '\n';
+  return out.str();
+}
+
+}  // namespace fsr

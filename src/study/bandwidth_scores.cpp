@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <cmath>
+
+#include "fsr_pressure_map/compensation/fit_scheme.h"
+#include "fsr_pressure_map/matrix/for_each_taxel.h"
+#include "fsr_pressure_map/study/evaluation.h"
+
+namespace fsr {
+
+namespace {
+
+// Readings of one class that are held out together: mean pressure and number of each code, and the
+// scatter about the means, which no table can change.
+struct TestedClass {
+  std::vector<std::uint16_t> code;
+  std::vector<double> count, mean;  // mean [Pa]
+  double readings = 0;
+  double scatter = 0;  // [Pa^2]
+
+  void add(const CodeStatistics& cell) {
+    cell.forEach([&](const CodeSums& sums) {
+      const Int128 spread = sums.sum_of_squares * sums.count - Int128{sums.sum} * sums.sum;
+      code.push_back(sums.code);
+      count.push_back(sums.count);
+      mean.push_back(fromFixed(sums.sum) / sums.count);
+      readings += sums.count;
+      scatter += static_cast<double>(spread) / sums.count * kFixedPressureUnit * kFixedPressureUnit;
+    });
+  }
+  double squares(const std::vector<double>& table) const {
+    double sum = scatter;
+    for (std::size_t i = 0; i < code.size(); ++i) {
+      const double error = table[code[i]] - mean[i];
+      sum += count[i] * error * error;
+    }
+    return sum;
+  }
+};
+
+std::vector<TestedClass> testedClasses(const TestPart& part, const Fold& fold,
+                                       const TaxelReadings& readings) {
+  std::vector<TestedClass> tested(part.tested.size());
+  for (const Cell& cell : fold.test) {
+    const auto place = std::find(part.tested.begin(), part.tested.end(), cell.curvature_class);
+    if (place == part.tested.end()) continue;
+    tested[static_cast<std::size_t>(place - part.tested.begin())].add(readings.cell(cell));
+  }
+  return tested;
+}
+
+// Range of pressure of a part's readings, the same for all taxels [Pa].
+double rangeOf(const StudyData& data, const Grouping& grouping, const Fold& fold, const TestPart& part,
+               ScoreRange rule) {
+  if (rule == ScoreRange::kAll) return data.highest - data.lowest;
+  double low = INFINITY, high = -INFINITY;
+  for (const Cell& cell : fold.test) {
+    if (std::find(part.tested.begin(), part.tested.end(), cell.curvature_class) == part.tested.end())
+      continue;
+    for (const std::uint32_t i : grouping.scans[cell.curvature_class][cell.group]) {
+      const double pressure = fromFixed(data.scans[cell.curvature_class][i].pressure);
+      low = std::min(low, pressure);
+      high = std::max(high, pressure);
+    }
+  }
+  return high - low;
+}
+
+// 100 RMSE of the part [Pa].
+double percentOf(const StudyMethod& method, const TestPart& part, const std::vector<TestedClass>& tested,
+                 const std::vector<Fit>& fits) {
+  double squares = 0, number = 0;
+  for (std::size_t k = 0; k < tested.size(); ++k) {
+    squares += tested[k].squares(fits[method.plan.model_of_class[part.asked[k]]].pressure);
+    number += tested[k].readings;
+  }
+  return 100.0 * std::sqrt(squares / number);
+}
+
+}  // namespace
+
+std::vector<double> bandwidthScores(const StudyData& data, const StudyMethod& method,
+                                    const Grouping& grouping, const std::vector<Fold>& folds,
+                                    const StudyPlan& plan) {
+  const std::vector<TestPart> parts = testParts(data, method, grouping, folds);
+  std::vector<double> range;
+  for (const TestPart& part : parts)
+    range.push_back(rangeOf(data, grouping, folds[part.fold], part, plan.range));
+  std::vector<std::vector<double>> of_taxel(data.taxels.size());
+  forEachTaxel(data.taxels.size(), plan.threads, [&](std::size_t t) {
+    const TaxelReadings readings(data, grouping, data.taxels[t]);
+    std::vector<double> sums(plan.bandwidths.size(), 0.0);
+    for (std::size_t f = 0; f < folds.size(); ++f) {
+      const ClassReadings training = readings.training(folds[f].train, false);
+      std::vector<std::vector<TestedClass>> tested;
+      for (const TestPart& part : parts) tested.push_back(testedClasses(part, folds[part.fold], readings));
+      for (std::size_t b = 0; b < sums.size(); ++b) {
+        const std::vector<Fit> fits = fitScheme(method.plan, data.taxels[t], training,
+                                                kernels({plan.bandwidths[b]}, plan.grnn).front());
+        for (std::size_t p = 0; p < parts.size(); ++p) {
+          if (parts[p].fold == f) sums[b] += percentOf(method, parts[p], tested[p], fits) / range[p];
+        }
+      }
+    }
+    of_taxel[t] = sums;
+  });
+  std::vector<double> scores(plan.bandwidths.size(), 0.0);
+  for (const auto& sums : of_taxel) {
+    for (std::size_t b = 0; b < scores.size(); ++b) {
+      scores[b] += sums[b] / static_cast<double>(parts.size() * of_taxel.size());
+    }
+  }
+  return scores;
+}
+
+}  // namespace fsr

@@ -1,0 +1,57 @@
+#include <algorithm>
+#include <numeric>
+
+#include "fsr_pressure_map/statistics/random_stream.h"
+#include "fsr_pressure_map/study/study_data.h"
+
+namespace fsr {
+
+namespace {
+
+// The first `kept` places of a random order of 0 .. scans - 1 (Fisher and Yates), ascending.
+std::vector<std::uint32_t> drawn(std::size_t scans, std::size_t kept, const RandomStream& stream) {
+  std::vector<std::uint32_t> places(scans);
+  std::iota(places.begin(), places.end(), 0u);
+  for (std::size_t i = 0; i < kept; ++i) {
+    const auto left = static_cast<double>(scans - i);
+    std::swap(places[i], places[i + static_cast<std::size_t>(stream.uniform(i) * left)]);
+  }
+  places.resize(kept);
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+std::vector<std::uint32_t> placesKept(std::size_t scans, std::size_t one_of, DownSampling rule,
+                                      const RandomStream& stream) {
+  const std::size_t kept = (scans + one_of - 1) / one_of;
+  if (rule == DownSampling::kRandom) return drawn(scans, kept, stream);
+  std::vector<std::uint32_t> places(kept);
+  const auto begin = static_cast<std::size_t>(stream.uniform(0) * static_cast<double>(scans - kept + 1));
+  for (std::size_t i = 0; i < kept; ++i) {
+    places[i] = static_cast<std::uint32_t>(rule == DownSampling::kEveryNth ? i * one_of : begin + i);
+  }
+  return places;
+}
+
+}  // namespace
+
+Grouping downSampled(const Grouping& whole, const std::vector<std::size_t>& one_of, DownSampling rule,
+                     std::uint64_t seed) {
+  Grouping kept{whole.groups, {}};
+  for (std::size_t c = 0; c < whole.scans.size(); ++c) {
+    std::vector<std::vector<std::uint32_t>> groups(whole.groups);
+    for (std::size_t g = 0; g < whole.groups && one_of[c] > 0; ++g) {
+      const std::vector<std::uint32_t>& all = whole.scans[c][g];
+      const RandomStream stream =
+          randomStream(seed, "down_sampling_" + std::to_string(one_of[c]), c * whole.groups + g);
+      if (all.empty()) continue;
+      for (const std::uint32_t place : placesKept(all.size(), one_of[c], rule, stream)) {
+        groups[g].push_back(all[place]);
+      }
+    }
+    kept.scans.push_back(std::move(groups));
+  }
+  return kept;
+}
+
+}  // namespace fsr

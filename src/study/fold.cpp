@@ -1,0 +1,122 @@
+#include "fsr_pressure_map/study/fold.h"
+
+#include <algorithm>
+#include <set>
+
+namespace fsr {
+
+namespace {
+
+// The cells that hold scans.
+std::vector<Cell> occupied(const Grouping& grouping) {
+  std::vector<Cell> cells;
+  for (std::size_t c = 0; c < grouping.scans.size(); ++c) {
+    for (std::size_t g = 0; g < grouping.groups; ++g) {
+      if (!grouping.scans[c][g].empty()) cells.push_back({c, g});
+    }
+  }
+  return cells;
+}
+
+template <typename HeldOut>
+Fold foldOf(const std::string& name, const std::vector<Cell>& cells, HeldOut held_out) {
+  Fold fold{name, {}, {}};
+  for (const Cell& cell : cells) (held_out(cell) ? fold.test : fold.train).push_back(cell);
+  return fold;
+}
+
+bool everyClassMountedTwice(const Grouping& mounts) {
+  return std::all_of(mounts.scans.begin(), mounts.scans.end(), [](const auto& of_class) {
+    return std::count_if(of_class.begin(), of_class.end(), [](const auto& list) { return !list.empty(); }) >
+           1;
+  });
+}
+
+}  // namespace
+
+Split leaveSectionOut(const StudyData& data) {
+  Split split{"five_sections",
+              std::to_string(data.sections) +
+                  " sections of each condition, contiguous in time and cut between cycles; each is predicted "
+                  "by the others, earlier and later ones",
+              bySection(data),
+              {}};
+  const std::vector<Cell> cells = occupied(split.grouping);
+  for (std::size_t k = 0; k < data.sections; ++k) {
+    split.folds.push_back(
+        foldOf("section " + std::to_string(k + 1), cells, [&](const Cell& cell) { return cell.group == k; }));
+  }
+  return split;
+}
+
+Split pastToFuture(const StudyData& data) {
+  const std::size_t past = std::max<std::size_t>(1, data.sections * 3 / 5);
+  Split split{"past_to_future",
+              "the first " + std::to_string(past) + " of " + std::to_string(data.sections) +
+                  " sections of each condition predict the later ones",
+              bySection(data),
+              {}};
+  split.folds.push_back(foldOf("later sections", occupied(split.grouping),
+                               [&](const Cell& cell) { return cell.group >= past; }));
+  return split;
+}
+
+Split leaveCurvatureOut(const StudyData& data) {
+  Split split{"leave_curvature_out",
+              "each curvature is predicted by models that have seen only the others",
+              bySection(data),
+              {}};
+  if (data.classes.size() < 3) return split;
+  const std::vector<Cell> cells = occupied(split.grouping);
+  for (std::size_t c = 0; c < data.classes.size(); ++c) {
+    split.folds.push_back(
+        foldOf(data.classes[c].surface, cells, [&](const Cell& cell) { return cell.curvature_class == c; }));
+  }
+  return split;
+}
+
+Split leaveMountOut(const StudyData& data) {
+  Split split{
+      "leave_mount_out", "each mount is predicted by the other mounts of the matrix", byMount(data), {}};
+  if (!everyClassMountedTwice(split.grouping)) return split;
+  const std::vector<Cell> cells = occupied(split.grouping);
+  for (std::size_t mount = 0; mount < data.mounts; ++mount) {
+    split.folds.push_back(foldOf("mount " + std::to_string(mount + 1), cells,
+                                 [&](const Cell& cell) { return cell.group == mount; }));
+  }
+  return split;
+}
+
+TaxelReadings::TaxelReadings(const StudyData& data, const Grouping& grouping, std::size_t taxel)
+    : data_(data), grouping_(grouping), taxel_(taxel) {
+  CodeAccumulator accumulator(data.full_scale);
+  for (std::size_t c = 0; c < data.classes.size(); ++c) {
+    for (std::size_t g = 0; g < grouping.groups; ++g) {
+      for (const std::uint32_t i : grouping.scans[c][g]) {
+        accumulator.add(data.scans[c][i].counts[taxel], data.scans[c][i].pressure);
+      }
+      cells_.push_back(accumulator.take());
+    }
+  }
+}
+
+ClassReadings TaxelReadings::training(const std::vector<Cell>& cells, bool by_samples) const {
+  ClassReadings readings;
+  readings.full_scale = data_.full_scale;
+  if (!by_samples) {
+    readings.sums.assign(data_.classes.size(), CodeHistogram(data_.full_scale));
+    for (const Cell& part : cells) readings.sums[part.curvature_class].add(cell(part));
+    return readings;
+  }
+  readings.samples.resize(data_.classes.size());
+  for (CodeSamples& samples : readings.samples) samples.full_scale = data_.full_scale;
+  for (const Cell& part : cells) {
+    for (const std::uint32_t i : grouping_.scans[part.curvature_class][part.group]) {
+      const StudyScan& scan = data_.scans[part.curvature_class][i];
+      readings.samples[part.curvature_class].add(scan.counts[taxel_], scan.pressure);
+    }
+  }
+  return readings;
+}
+
+}  // namespace fsr

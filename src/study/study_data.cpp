@@ -1,0 +1,162 @@
+#include "fsr_pressure_map/study/study_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "fsr_pressure_map/calibration/calibration.h"
+#include "fsr_pressure_map/calibration/sources.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+namespace {
+
+// A calibration asks the same of its recordings.
+void requireUsable(const std::vector<Recording>& recordings, std::size_t sections) {
+  CalibrationProblem problem{recordings, {}};
+  problem.options.scheme = Scheme::kBaseline;
+  problem.options.folds = sections;
+  validate(problem);
+}
+
+// Numbers mounts in order of appearance. A mount number of 0 is unknown: then each condition of each
+// recording is taken for one.
+class MountNumbers {
+ public:
+  std::uint32_t of(std::size_t recording, std::size_t condition, std::uint32_t mount) {
+    const auto key = mount == 0 ? std::make_tuple(recording, condition, mount)
+                                : std::make_tuple(std::size_t{0}, std::size_t{0}, mount);
+    return numbers_.emplace(key, static_cast<std::uint32_t>(numbers_.size())).first->second;
+  }
+  std::size_t count() const { return numbers_.size(); }
+
+ private:
+  std::map<std::tuple<std::size_t, std::size_t, std::uint32_t>, std::uint32_t> numbers_;
+};
+
+bool varies(const std::vector<StudyScan>& scans, std::size_t taxel) {
+  return std::any_of(scans.begin(), scans.end(), [&](const StudyScan& scan) {
+    return scan.counts[taxel] != scans.front().counts[taxel];
+  });
+}
+
+void chooseTaxels(const std::vector<Recording>& recordings, StudyData& data) {
+  const std::vector<std::uint8_t> masked = unionOfMasks(recordings, data.matrix_taxels);
+  std::string constant;
+  for (std::size_t taxel = 0; taxel < data.matrix_taxels; ++taxel) {
+    if (masked[taxel] != 0) continue;
+    const auto lives = [&](const auto& scans) { return varies(scans, taxel); };
+    if (std::all_of(data.scans.begin(), data.scans.end(), lives)) {
+      data.taxels.push_back(taxel);
+    } else {
+      constant += (constant.empty() ? "" : ", ") + std::to_string(taxel);
+    }
+  }
+  if (data.taxels.empty()) {
+    throw InputError(recordings.front().name +
+                     ": every taxel is masked or reads the same count throughout a condition; is the matrix "
+                     "connected?");
+  }
+  if (!constant.empty()) {
+    data.warnings.push_back("taxels that read the same count throughout a condition are left out: " +
+                            constant);
+  }
+}
+
+void findRange(StudyData& data) {
+  data.lowest = INFINITY;
+  data.highest = -INFINITY;
+  for (const auto& scans : data.scans) {
+    for (const StudyScan& scan : scans) {
+      data.lowest = std::min(data.lowest, fromFixed(scan.pressure));
+      data.highest = std::max(data.highest, fromFixed(scan.pressure));
+    }
+  }
+}
+
+void addRecording(const Recording& recording, std::size_t number, const Sections& sections,
+                  const std::vector<std::size_t>& class_of, MountNumbers& mounts, StudyData& data) {
+  std::vector<std::size_t> first_cycle(recording.conditions.size());
+  for (std::size_t i = 0; i < first_cycle.size(); ++i) {
+    first_cycle[i] = data.cycles;
+    data.cycles += sections.cycles[i];
+  }
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    if (sections.section[i] == kNoSection) continue;
+    const std::size_t condition = recording.condition[i];
+    StudyScan scan;
+    scan.counts = recording.scan(i);
+    scan.pressure = toFixed(recording.pressure[i]);
+    scan.time = recording.time[i];
+    scan.section = sections.section[i];
+    scan.cycle = static_cast<std::uint32_t>(first_cycle[condition] + sections.cycle[i]);
+    scan.first_cycle = sections.cycle[i] == 0;
+    scan.mount = mounts.of(number, condition, recording.conditions[condition].mount);
+    scan.recording = static_cast<std::uint32_t>(number);
+    scan.direction = sections.direction[i];
+    data.scans[class_of[condition]].push_back(scan);
+  }
+}
+
+template <typename GroupOf>
+Grouping grouped(const StudyData& data, std::size_t groups, GroupOf group_of) {
+  Grouping grouping{groups, {}};
+  for (const auto& scans : data.scans) {
+    std::vector<std::vector<std::uint32_t>> lists(groups);
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      lists[group_of(scans[i])].push_back(static_cast<std::uint32_t>(i));
+    }
+    grouping.scans.push_back(std::move(lists));
+  }
+  return grouping;
+}
+
+}  // namespace
+
+std::size_t StudyData::scanCount() const {
+  std::size_t count = 0;
+  for (const auto& of_class : scans) count += of_class.size();
+  return count;
+}
+
+std::size_t StudyData::flatClass() const {
+  const auto flat = std::find_if(classes.begin(), classes.end(), isFlat);
+  if (flat == classes.end()) {
+    throw InputError("the study compares with the flat surface, but no recording is of one; add it");
+  }
+  return static_cast<std::size_t>(flat - classes.begin());
+}
+
+StudyData gatherStudyData(const std::vector<Recording>& recordings, std::size_t sections) {
+  requireUsable(recordings, sections);
+  const ConditionClasses pooled = poolConditions(recordings);
+  StudyData data;
+  data.classes = pooled.classes;
+  data.scans.resize(data.classes.size());
+  data.sections = sections;
+  data.full_scale = recordings.front().full_scale;
+  data.matrix_taxels = recordings.front().layout.size.taxels();
+  MountNumbers mounts;
+  std::vector<Sections> divided;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    divided.push_back(divideIntoSections(recordings[r], sections));
+    addRecording(recordings[r], r, divided.back(), pooled.class_of[r], mounts, data);
+  }
+  data.mounts = mounts.count();
+  data.warnings = warningsOf(recordings, divided);
+  findRange(data);
+  chooseTaxels(recordings, data);
+  return data;
+}
+
+Grouping bySection(const StudyData& data) {
+  return grouped(data, data.sections, [](const StudyScan& scan) { return scan.section; });
+}
+
+Grouping byMount(const StudyData& data) {
+  return grouped(data, data.mounts, [](const StudyScan& scan) { return scan.mount; });
+}
+
+}  // namespace fsr

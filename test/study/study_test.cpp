@@ -1,0 +1,286 @@
+#include "fsr_pressure_map/study/study.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "fsr_pressure_map/report/study_report.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/simulation/session.h"
+#include "fsr_pressure_map/study/evaluation.h"
+#include "support/synthetic_recording.h"
+
+using namespace fsr;
+
+namespace {
+
+test_support::SyntheticRig bentRig() {
+  test_support::SyntheticRig rig;
+  rig.surfaces = {{"flat", 0.0}, {"cylinder_13cm", 7.7}, {"cylinder_5cm", 20.0}};
+  rig.scans_per_cycle = 60;
+  rig.noise = 60;
+  return rig;
+}
+
+StudyProblem smallProblem() {
+  StudyProblem problem{{test_support::syntheticRecording(bentRig())}, {}, ""};
+  problem.plan.forest.trees = 10;
+  problem.plan.resamples = 199;
+  problem.plan.bandwidths = {1.0 / 128, 1.0 / 16};
+  problem.plan.bandwidth_taxels = 2;
+  problem.plan.date = "2024-01-01T00:00:00Z";
+  problem.plan.threads = 1;
+  return problem;
+}
+
+const StudyMethod& methodOf(const std::vector<StudyMethod>& methods, const std::string& id) {
+  return *std::find_if(methods.begin(), methods.end(), [&](const StudyMethod& m) { return m.id == id; });
+}
+
+// RMSE% of one GRNN on the reading, five sections, written down once more without tables.
+double plainRmsePercent(const StudyData& data, const Grouping& kept, std::size_t taxel, double bandwidth) {
+  double sum = 0;
+  for (std::size_t k = 0; k < data.sections; ++k) {
+    std::vector<const StudyScan*> train, test;
+    for (std::size_t c = 0; c < data.classes.size(); ++c) {
+      for (std::size_t g = 0; g < kept.groups; ++g) {
+        for (const std::uint32_t i : kept.scans[c][g]) (g == k ? test : train).push_back(&data.scans[c][i]);
+      }
+    }
+    double mean = 0, variance = 0;
+    for (const StudyScan* scan : train) mean += scan->counts[taxel] / static_cast<double>(train.size());
+    for (const StudyScan* scan : train) variance += std::pow(scan->counts[taxel] - mean, 2);
+    const double deviation = std::sqrt(variance / static_cast<double>(train.size() - 1));
+    double squares = 0, low = INFINITY, high = -INFINITY;
+    for (const StudyScan* asked : test) {
+      double nearest = INFINITY, weight = 0, weighted = 0;
+      const auto distance = [&](const StudyScan* scan) {
+        return std::pow((asked->counts[taxel] - scan->counts[taxel]) / deviation, 2) /
+               (2 * bandwidth * bandwidth);
+      };
+      for (const StudyScan* scan : train) nearest = std::min(nearest, distance(scan));
+      for (const StudyScan* scan : train) {
+        const double share = std::exp(nearest - distance(scan));
+        weight += share;
+        weighted += share * fromFixed(scan->pressure);
+      }
+      const double truth = fromFixed(asked->pressure);
+      squares += std::pow(weighted / weight - truth, 2);
+      low = std::min(low, truth);
+      high = std::max(high, truth);
+    }
+    sum += 100 * std::sqrt(squares / static_cast<double>(test.size())) / (high - low);
+  }
+  return sum / static_cast<double>(data.sections);
+}
+
+}  // namespace
+
+TEST(Study, GivesTheSameDigitsOnOneThreadAndMany) {
+  StudyProblem problem = smallProblem();
+  const StudyResult one = study(problem);
+  problem.plan.threads = 3;
+  const StudyResult three = study(problem);
+  EXPECT_EQ(studyJson(one), studyJson(three));
+  EXPECT_EQ(studyTables(one), studyTables(three));
+}
+
+TEST(Study, AnotherSeedDrawsOtherScans) {
+  StudyProblem problem = smallProblem();
+  const StudyResult first = study(problem);
+  problem.plan.seed = 2;
+  const StudyResult second = study(problem);
+  EXPECT_NE(first.comparisons[2].scores[0].rmse_percent, second.comparisons[2].scores[0].rmse_percent);
+  // Method 1 draws nothing.
+  EXPECT_EQ(first.comparisons[2].scores[1].rmse_percent, second.comparisons[2].scores[1].rmse_percent);
+}
+
+TEST(Study, AnswersThePapersQuestionsInItsOrder) {
+  const StudyResult result = study(smallProblem());
+  ASSERT_EQ(result.comparisons.size(), 4u);
+  EXPECT_EQ(result.comparisons[0].id, "algorithms");
+  EXPECT_EQ(result.comparisons[0].scores.size(), 3u);
+  EXPECT_EQ(result.comparisons[1].scores[0].label, "Flat");
+  EXPECT_EQ(result.comparisons[2].scores.size(), 5u);
+  EXPECT_EQ(result.comparisons[3].scores[1].label, "Method 2, one-hot");
+  // The GRNN among the algorithms is the baseline of the methods.
+  EXPECT_EQ(result.comparisons[0].scores[1].rmse_percent, result.comparisons[2].scores[0].rmse_percent);
+}
+
+TEST(Study, QuotesTheHardestSplitThatTheDataPermit) {
+  const StudyResult once = study(smallProblem());
+  EXPECT_EQ(once.headline.split, "leave_curvature_out");
+
+  StudyProblem twice = smallProblem();
+  test_support::SyntheticRig again = bentRig();
+  again.seed = 2;
+  for (std::uint32_t mount = 0; mount < 3; ++mount) twice.recordings[0].conditions[mount].mount = mount + 1;
+  twice.recordings.push_back(test_support::syntheticRecording(again));
+  for (std::uint32_t mount = 0; mount < 3; ++mount) twice.recordings[1].conditions[mount].mount = mount + 4;
+  const StudyResult mounted = study(twice);
+  EXPECT_EQ(mounted.headline.split, "leave_mount_out");
+  EXPECT_EQ(mounted.mounts, 6u);
+  EXPECT_EQ(mounted.headline.interval.level, "mount");
+  EXPECT_EQ(mounted.headline.interval.units, 6u);
+}
+
+TEST(Study, SaysThatOneMountIsAConditionEffect) {
+  const StudyResult result = study(smallProblem());
+  const auto says = [](const std::string& text) {
+    return text.find("condition effect") != std::string::npos;
+  };
+  EXPECT_TRUE(std::any_of(result.holds_for.begin(), result.holds_for.end(), says));
+}
+
+TEST(Study, RefusesRecordingsWithoutAFlatSurface) {
+  StudyProblem problem = smallProblem();
+  test_support::SyntheticRig rig = bentRig();
+  rig.surfaces = {{"cylinder_13cm", 7.7}, {"cylinder_5cm", 20.0}};
+  problem.recordings = {test_support::syntheticRecording(rig)};
+  try {
+    study(problem);
+    FAIL() << "took it";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("flat"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Study, LeavesOutTaxelsThatNeverChangeAndSaysSo) {
+  StudyProblem problem = smallProblem();
+  Recording& recording = problem.recordings[0];
+  for (std::size_t i = 0; i < recording.scans(); ++i) recording.counts[i * 6 + 4] = 7;
+  const StudyResult result = study(problem);
+  EXPECT_EQ(result.taxels, (std::vector<std::size_t>{0, 1, 2, 3, 5}));
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_NE(result.warnings.back().find("left out: 4"), std::string::npos) << result.warnings.back();
+}
+
+TEST(Evaluation, ScoresTheBaselineAsTheFormulaDoes) {
+  const StudyProblem problem = smallProblem();
+  const StudyData data = gatherStudyData(problem.recordings, 5);
+  const Split split = leaveSectionOut(data);
+  const auto methods = paperMethods(data, BinaryShare::kFullFlat);
+  const StudyMethod& baseline = methodOf(methods, "baseline");
+  const Grouping kept = downSampled(split.grouping, baseline.one_of, DownSampling::kRandom, 1);
+  const Evaluation evaluation =
+      evaluate(data, baseline, kept, split.folds, kernels({1.0 / 128}, {}), problem.plan, {});
+  for (std::size_t taxel = 0; taxel < 6; ++taxel) {
+    EXPECT_NEAR(evaluation.rmse_percent[taxel], plainRmsePercent(data, kept, taxel, 1.0 / 128), 1e-9);
+  }
+}
+
+TEST(Evaluation, GridAgreesWithTheSingleBandwidth) {
+  const StudyProblem problem = smallProblem();
+  const StudyData data = gatherStudyData(problem.recordings, 5);
+  const Split split = leaveSectionOut(data);
+  for (const StudyMethod& method : paperMethods(data, BinaryShare::kFullFlat)) {
+    const Grouping kept = downSampled(split.grouping, method.one_of, DownSampling::kRandom, 1);
+    const auto grid = bandwidthScores(data, method, kept, split.folds, problem.plan);
+    const Evaluation one =
+        evaluate(data, method, kept, split.folds, kernels({1.0 / 16}, {}), problem.plan, {});
+    EXPECT_NEAR(grid[1], spreadOf(one.rmse_percent).mean, 1e-9) << method.id;
+  }
+}
+
+TEST(Evaluation, AsksTheNearestCurvatureWhereNoneWasTrained) {
+  const StudyProblem problem = smallProblem();
+  const StudyData data = gatherStudyData(problem.recordings, 5);
+  const Split split = leaveCurvatureOut(data);
+  const auto methods = paperMethods(data, BinaryShare::kFullFlat);
+  const auto parts = testParts(data, methodOf(methods, "per_curvature"), split.grouping, split.folds);
+  ASSERT_EQ(parts.size(), 3u);
+  EXPECT_EQ(parts[0].asked, std::vector<std::size_t>{1});  // flat: the gentlest bend
+  EXPECT_EQ(parts[2].asked, std::vector<std::size_t>{1});  // 20 1/m: 7.7 1/m, not the flat
+}
+
+TEST(Evaluation, NeverTrainsOnWhatItTests) {
+  const StudyData data = gatherStudyData(smallProblem().recordings, 5);
+  for (const Split& split : {leaveSectionOut(data), pastToFuture(data), leaveCurvatureOut(data)}) {
+    for (const Fold& fold : split.folds) {
+      for (const Cell& tested : fold.test) {
+        for (const Cell& trained : fold.train) {
+          EXPECT_FALSE(tested.curvature_class == trained.curvature_class && tested.group == trained.group);
+        }
+      }
+    }
+  }
+}
+
+TEST(StudyMethods, TakeAsManyScansAsOneConditionHas) {
+  const StudyData data = gatherStudyData(smallProblem().recordings, 5);
+  const auto methods = paperMethods(data, BinaryShare::kFullFlat);
+  EXPECT_EQ(methodOf(methods, "flat_only").one_of, (std::vector<std::size_t>{1, 0, 0}));
+  EXPECT_EQ(methodOf(methods, "baseline").one_of, (std::vector<std::size_t>{3, 3, 3}));
+  EXPECT_EQ(methodOf(methods, "per_curvature").one_of, (std::vector<std::size_t>{1, 1, 1}));
+  EXPECT_EQ(methodOf(methods, "flat_or_curved").one_of, (std::vector<std::size_t>{1, 2, 2}));
+  EXPECT_EQ(methodOf(methods, "binary_input").one_of, (std::vector<std::size_t>{1, 2, 2}));
+  const auto half = paperMethods(data, BinaryShare::kHalfAndHalf);
+  EXPECT_EQ(methodOf(half, "binary_input").one_of, (std::vector<std::size_t>{2, 4, 4}));
+  EXPECT_EQ(methodOf(half, "flat_or_curved").one_of, (std::vector<std::size_t>{1, 2, 2}));
+}
+
+TEST(DownSampled, KeepsTheShareOfEachGroupAndTheSameForAllTaxels) {
+  const Grouping whole{1, {{{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}, {{0, 1, 2}}}};
+  const Grouping random = downSampled(whole, {3, 1}, DownSampling::kRandom, 1);
+  EXPECT_EQ(random.scans[0][0].size(), 4u);
+  EXPECT_EQ(random.scans[1][0], whole.scans[1][0]);
+  EXPECT_TRUE(std::is_sorted(random.scans[0][0].begin(), random.scans[0][0].end()));
+  const Grouping every = downSampled(whole, {3, 0}, DownSampling::kEveryNth, 1);
+  EXPECT_EQ(every.scans[0][0], (std::vector<std::uint32_t>{0, 3, 6, 9}));
+  EXPECT_TRUE(every.scans[1][0].empty());
+  const std::vector<std::uint32_t> run = downSampled(whole, {3, 1}, DownSampling::kContiguous, 1).scans[0][0];
+  EXPECT_EQ(run.back() - run.front(), 3u);
+}
+
+TEST(StudyPlan, ShippedFileHoldsTheDefaults) {
+  const StudyPlan plan = readStudyPlanFile(std::string(FSR_SOURCE_DIR) + "/config/study/paper.yaml");
+  const StudyPlan usual;
+  EXPECT_EQ(plan.grnn.bandwidth, usual.grnn.bandwidth);
+  EXPECT_EQ(plan.bandwidths, usual.bandwidths);
+  EXPECT_EQ(plan.down_sampling, usual.down_sampling);
+  EXPECT_EQ(plan.forest.trees, usual.forest.trees);
+  EXPECT_EQ(plan.bandwidth_taxels, usual.bandwidth_taxels);
+  EXPECT_EQ(plan.resamples, usual.resamples);
+  EXPECT_EQ(plan.seed, usual.seed);
+}
+
+TEST(StudyPlan, RefusesWhatItDoesNotKnow) {
+  EXPECT_THROW(readStudyPlan(Settings::fromText("study: x\nsectoins: 5\n", "x.yaml")), InputError);
+  EXPECT_THROW(readStudyPlan(Settings::fromText("study: x\ndown_sampling: some\n", "x.yaml")), InputError);
+  EXPECT_THROW(readStudyPlan(Settings::fromText("study: x\nsections: 1\n", "x.yaml")), InputError);
+}
+
+// The setting was fitted on seeds 1 and 2; these it has not seen. Twelve taxels instead of 70 scatter by some
+// 0.1 %, which the tolerance of 10 % covers.
+TEST(PaperSetting, ReachesThePapersTableOnAnotherSheet) {
+  SimulationSettings settings =
+      readSimulationFile(std::string(FSR_SOURCE_DIR) + "/config/simulation/paper.yaml");
+  settings.layout.size = {3, 4};
+  for (const std::uint64_t seed : {201, 202}) {
+    settings.seed = seed;
+    const std::vector<Recording> recordings = simulateSession(settings);
+    const StudyData data = gatherStudyData(recordings, 5);
+    const Split split = leaveSectionOut(data);
+    std::map<std::string, double> rmse;
+    for (const StudyMethod& method : paperMethods(data, BinaryShare::kFullFlat)) {
+      const Grouping kept = downSampled(split.grouping, method.one_of, DownSampling::kRandom, 1);
+      const Evaluation evaluation =
+          evaluate(data, method, kept, split.folds, kernels({kPaperBandwidth}, {}), StudyPlan{}, {});
+      rmse[method.id] = spreadOf(evaluation.rmse_percent).mean;
+    }
+    EXPECT_NEAR(rmse["flat_only"], 3.51, 0.351);
+    EXPECT_NEAR(rmse["per_curvature"], 4.26, 0.426);
+    EXPECT_NEAR(rmse["flat_or_curved"], 4.66, 0.466);
+    EXPECT_NEAR(rmse["binary_input"], 4.96, 0.496);
+    EXPECT_NEAR(rmse["curvature_input"], 5.03, 0.503);
+    EXPECT_NEAR(rmse["baseline"], 6.93, 0.693);
+    EXPECT_LT(rmse["flat_only"], rmse["per_curvature"]);
+    EXPECT_LT(rmse["per_curvature"], rmse["flat_or_curved"]);
+    EXPECT_LT(rmse["flat_or_curved"], rmse["binary_input"]);
+    EXPECT_LT(rmse["binary_input"], rmse["curvature_input"]);
+    EXPECT_LT(rmse["curvature_input"], rmse["baseline"]);
+    EXPECT_NEAR(rmse["one_hot"], rmse["curvature_input"], 0.01 * rmse["curvature_input"]);
+  }
+}
