@@ -3,8 +3,8 @@
 
 1. Records one bag for each surface of the paper: chamber cycles of the emulated rig through the real
    serial driver.
-2. Trains three calibrations from these bags: flat-only, one for all (baseline), per curvature.
-3. Runs three live calibration nodes on new cycles, on each surface and on one that none was trained on,
+2. Trains four calibrations from these bags: flat-only, one for all (baseline), per curvature, and interpolated.
+3. Runs four live calibration nodes on new cycles, on each surface and on one that none was trained on,
    and prints their errors against the chamber's pressure.
 4. Shows the pressure map in rviz, kept as a picture: on the display where there is one, until its window is
    closed, else headless.
@@ -31,7 +31,7 @@ import demo_score
 NAMESPACE = "fsr"
 TRAINED = ["flat", "cylinder_13cm", "cylinder_11cm", "cylinder_9cm", "cylinder_7cm", "cylinder_5cm"]
 UNSEEN = "cylinder_8cm"
-SCHEMES = ["flat_only", "baseline", "per_curvature"]
+SCHEMES = ["flat_only", "baseline", "per_curvature", "interpolated"]
 START_LIMIT = 60.0  # [s] for a process to come up; then something is wrong
 SHOW_PRESSURE = 300e3  # [Pa] gauge; the picture is taken above it
 
@@ -214,11 +214,11 @@ def run(arguments, output, logs):
     files = [f"{scheme}:={calibrations[scheme]}" for scheme in SCHEMES]
     log = logs / "compare.log"
     with process(["roslaunch", "fsr_pressure_map", "compare.launch", *files], log) as child:
-        nodes = ["calibration_flat_only", "calibration_baseline", "calibration"]
+        nodes = ["calibration_flat_only", "calibration_baseline", "calibration_per_curvature", "calibration"]
         wait_until(lambda: all(rig.subscribed(node, "raw") for node in nodes), child, "compare.launch", log)
-        say("three calibration nodes are live; new cycles on every surface, and on one never trained on")
+        say("four calibration nodes are live; new cycles on every surface, and on one never trained on")
         live = {}
-        maps = ["flat_only/pressure_map", "baseline/pressure_map", "pressure_map"]
+        maps = ["flat_only/pressure_map", "baseline/pressure_map", "per_curvature/pressure_map", "pressure_map"]
         for mount, surface in enumerate(TRAINED + [UNSEEN], start=len(TRAINED) + 1):
             rig.mount(surface, mount)
             live[surface] = rig.record(output / f"live_{surface}", surface, mount, arguments.live_cycles, cycle_limit, maps)

@@ -54,11 +54,11 @@ def score(path, namespace, maps):
 
 def table(scores, trained, unseen):
     lines = ["", "Live error against the chamber's pressure (mean over taxels of the RMSE over new cycles)", "",
-             f"{'surface':24s}{'flat-only':>20s}{'one for all':>20s}{'per curvature':>20s}{'scans':>8s}",
-             " " * 24 + f"{'% of range    kPa':>20s}" * 3]
+             f"{'surface':24s}{'flat-only':>20s}{'one for all':>20s}{'per curvature':>20s}{'interpolated':>20s}{'scans':>8s}",
+             " " * 24 + f"{'% of range    kPa':>20s}" * 4]
     for surface in trained + [unseen]:
         name = surface + (" (not trained)" if surface == unseen else "")
-        cells = [scores[surface][scheme] for scheme in ("flat_only", "baseline", "per_curvature")]
+        cells = [scores[surface][scheme] for scheme in ("flat_only", "baseline", "per_curvature", "interpolated")]
         lines.append(f"{name:24s}" + "".join(f"{cell['rmse_percent']:12.2f}{cell['rmse_kpa']:8.1f}" for cell in cells)
                      + f"{cells[0]['scans']:8d}")
     return "\n".join(lines) + "\n"

@@ -31,7 +31,8 @@ fsr::CommandLine options() {
                         "chamber_pressure and curvature, and matrix_info and temperature where recorded.");
   line.option("output", "FILE", "calibration file to write (HDF5)")
       .flag("merge", "of calibration files, what training on all their bags would give; without scores")
-      .option("scheme", "NAME", fsr::schemeList() + "; default per_curvature")
+      .option("scheme", "NAME",
+              fsr::schemeList() + "; default " + fsr::schemeName(fsr::CalibrationOptions{}.scheme))
       .option("model", "NAME", list(fsr::regressorNames()) + "; default grnn")
       .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
       .option("namespace", "NS", "the sensor's namespace, where a bag holds several")

@@ -87,7 +87,7 @@ TEST_F(CalibrationFile, GivesBackTheTablesBitForBit) {
   const Calibration loaded = loadCalibration(path_);
   EXPECT_EQ(loaded.id, id);
   EXPECT_EQ(id.size(), 12u);
-  EXPECT_EQ(loaded.tables.scheme, Scheme::kPerCurvature);
+  EXPECT_EQ(loaded.tables.scheme, Scheme::kInterpolated);
   EXPECT_EQ(loaded.tables.size, saved.tables.size);
   EXPECT_EQ(loaded.tables.full_scale, 1023);
   EXPECT_EQ(loaded.tables.curvature_high, saved.tables.curvature_high);
@@ -276,7 +276,7 @@ TEST_F(CalibrationFile, OpensInPythonWithUnits) {
     GTEST_SKIP() << "python3-h5py is not installed";
   char expected[512];
   std::snprintf(expected, sizeof(expected),
-                "512 (4, 2, 1024) float32 Pa %.9g cylinder_5cm per_curvature 2400 m 600000.0\n",
+                "512 (4, 2, 1024) float32 Pa %.9g cylinder_5cm interpolated 2400 m 600000.0\n",
                 static_cast<double>(saved.tables.table(1, 1).pressure[500]));
   EXPECT_STREQ(printed, expected);
 }

@@ -157,6 +157,35 @@ TEST_F(CalibrationNode, FlagsEachTaxelByItsCodeAndCurvature) {
   EXPECT_EQ(map.flags[10], PressureMap::FLAG_SATURATED | PressureMap::FLAG_READING_EXTRAPOLATED);
 }
 
+TEST_F(CalibrationNode, BlendsItsTablesByTheRuleOfTheFile) {
+  // between classes of 0 and 10 1/m, whose tables differ by 10 Pa
+  struct Expected {
+    fsr::BlendRule blend;
+    std::string surface;
+    double above_flat;  // [Pa]
+  };
+  const double ten = std::exp(-49.0 / 32 + 9.0 / 32),
+               twenty = std::exp(-289.0 / 32 + 9.0 / 32);  // scale 4 1/m
+  for (const Expected& e :
+       {Expected{fsr::BlendRule::kNearest, "new", 0.0}, Expected{fsr::BlendRule::kInterpolate, "new", 3.0},
+        Expected{fsr::BlendRule::kKernel, "new", (10 * ten + 20 * twenty) / (1 + ten + twenty)},
+        Expected{fsr::BlendRule::kByName, "surface_2", 20.0}}) {
+    fsr::Calibration calibration = test_support::smallCalibration(kSize, {0.0, 10.0, 20.0});
+    calibration.tables.rule.blend = e.blend;
+    calibration.tables.rule.length_scale = {4.0};
+    for (fsr::CodeTable& table : calibration.tables.tables) table.log_weight.assign(kRigFullScale + 1u, 0.0f);
+    const std::string path = kFolder / "blended.h5";
+    const std::string id = fsr::saveCalibration(calibration, path);
+    ASSERT_TRUE(load(path).success);
+    rig.lieOn({3.0f}, e.surface, ++mount);
+    const PressureMap map = reach([&](const PressureMap& m) {
+      const bool between = (m.flags[0] & PressureMap::FLAG_BETWEEN_CLASSES) != 0;
+      return m.calibration == id && between == (e.blend != fsr::BlendRule::kByName);
+    });
+    EXPECT_NEAR(map.pressure[3], knownPressure(3, 0, 500) + e.above_flat, 0.02);
+  }
+}
+
 TEST_F(CalibrationNode, SaysWhenCurvatureIsUnknown) {
   rig.lieOn({});
   reach([](const PressureMap& m) { return m.state == PressureMap::STATE_CURVATURE_UNKNOWN; });

@@ -17,8 +17,8 @@
 namespace fsr {
 
 struct CalibrationOptions {
-  Scheme scheme = Scheme::kPerCurvature;
-  RegressorOptions regressor;  ///< which model; its forest's seed is `seed`
+  Scheme scheme = Scheme::kInterpolated;  ///< as kPerCurvature on surfaces of training, better between them
+  RegressorOptions regressor;             ///< which model; its forest's seed is `seed`
   /// Of a GRNN, by nested cross-validation; the one among the regressor's options is not looked at then.
   bool choose_bandwidth = true;
   std::size_t folds = 5;   ///< sections of each condition, 2 to 20

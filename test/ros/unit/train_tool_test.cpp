@@ -61,7 +61,7 @@ TEST_F(TrainTool, PrintsCoverageThenScoresThenThePath) {
   const std::string text = run({flat, bend_, "--output", output});
   const fsr::Calibration calibration = fsr::loadCalibration(output);
   const std::size_t coverage = text.find("Coverage"), scores = text.find("Held-out readings");
-  const std::size_t path = text.find("Calibration " + calibration.id + " (per_curvature, grnn, bandwidth ");
+  const std::size_t path = text.find("Calibration " + calibration.id + " (interpolated, grnn, bandwidth ");
   EXPECT_LT(coverage, scores);
   EXPECT_LT(scores, path);
   EXPECT_NE(path, std::string::npos) << text;
@@ -151,7 +151,8 @@ TEST_F(TrainTool, WrongUsageIsOneSentence) {
   EXPECT_EQ(run({"--output", output}), "there is no recording to train on; give one bag or more");
   EXPECT_EQ(run({bend_, "--output", output, "--scheme", "best"}),
             "scheme is \"best\", but must be one of flat_only, baseline, per_curvature, "
-            "curvature_input, one_hot, flat_or_curved, binary_input");
+            "curvature_input, one_hot, flat_or_curved, binary_input, scaled_curvature, curvature_map, "
+            "curvature_ranges, interpolated, per_surface");
   EXPECT_EQ(run({bend_, "--output", output, "--model", "best"}),
             "model is \"best\", but must be one of linear, grnn, forest, monotone");
   EXPECT_EQ(run({bend_, "--output", output, "--trees", "5"}),
