@@ -1,5 +1,6 @@
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "fsr_pressure_map/ros/bag_writer.h"
 #include "fsr_pressure_map/ros/driver_messages.h"
@@ -54,7 +55,7 @@ class StationBag {
   fsr::RigListener listener() {
     return {[this](double time, const std::vector<std::uint16_t>& counts) { scan(time, counts); },
             [this](double time, std::int32_t counts) {
-              bag_.add("chamber_pressure", *pressureMessage(counts, timeOf(time), driver_));
+              publish("chamber_pressure", *pressureMessage(counts, timeOf(time), driver_));
             },
             [this](double time, double temperature) { second(time, temperature); }};
   }
@@ -70,7 +71,7 @@ class StationBag {
     header.sequence = sequence_++;
     fsr::ScanPacket packet{settings_.layout.size, settings_.fullScale(), 0, counts.data()};
     packet.duration = static_cast<std::uint32_t>(std::lround(settings_.board.scan_duration * 1e6));
-    bag_.add("raw", *scanMessage(header, packet, timeOf(time), driver_));
+    publish("raw", *scanMessage(header, packet, timeOf(time), driver_));
   }
 
   void second(double time, double temperature) {
@@ -78,10 +79,17 @@ class StationBag {
     const auto message = temperatureMessage(millidegrees, timeOf(time), driver_);
     info_.header = surface_.header = message->header;
     session_.header.stamp = message->header.stamp;
-    bag_.add("matrix_info", info_);
-    bag_.add("curvature", surface_);
-    bag_.add("session", session_);
-    bag_.add("temperature", *message);
+    publish("matrix_info", info_);
+    publish("curvature", surface_);
+    publish("session", session_);
+    publish("temperature", *message);
+  }
+
+  /// Numbers the messages of a topic, as a publisher does.
+  template <typename Message>
+  void publish(const std::string& topic, Message& message) {
+    message.header.seq = published_[topic]++;
+    bag_.add(topic, message);
   }
 
   const fsr::SimulationSettings& settings_;
@@ -92,6 +100,7 @@ class StationBag {
   fsr_pressure_map::Session session_;
   BagWriter bag_;
   std::uint32_t sequence_ = 0;
+  std::map<std::string, std::uint32_t> published_;  // messages of each topic
 };
 
 }  // namespace

@@ -112,6 +112,7 @@ TEST_F(SimulateTool, ItsBagsHoldWhatARecordedOneHolds) {
     if (!scan) continue;
     EXPECT_EQ(scan->header.stamp, instance.getTime());
     EXPECT_EQ(scan->header.frame_id, "fsr_matrix");
+    EXPECT_EQ(scan->header.seq, scan->sequence);
     EXPECT_EQ(scan->device_time, scan->sequence * 50000u);  // 20 Hz
   }
 }
