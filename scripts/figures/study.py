@@ -11,6 +11,7 @@ import sys
 
 import figure_style as style
 
+SHOWN_BY_PRESSURE = ("baseline", "per_curvature", "flat_or_curved", "curvature_map")
 PAPER_ALGORITHM = {"linear": "LR", "grnn": "GRNN", "forest": "RF"}
 NOT_FOR_PATIENTS = "For research; not for diagnosis or fitting decisions."
 
@@ -27,6 +28,12 @@ def read_table(folder, name):
         except ValueError:
             columns[heading] = values
     return columns
+
+
+def plain_name(score):
+    """per curvature (Method 1)."""
+    name = score["id"].replace("_", " ")
+    return f"{name} ({score['label']})" if score["paper"] and score["label"].startswith("Method") else name
 
 
 def radius(curvature):
@@ -57,15 +64,29 @@ def response_columns(chosen, highest):
     return columns
 
 
+def medians(points):
+    """Median reading of equal bins of pressure: a line to guide the eye."""
+    low, high = min(p for p, _ in points), max(p for p, _ in points)
+    bins = max(3, min(16, sum(p > low + 0.02 * (high - low) for p, _ in points) // 12))
+    lists = [[] for _ in range(bins)]
+    for pressure, reading in points:
+        lists[min(bins - 1, int(bins * (pressure - low) / (high - low)))].append((pressure, reading))
+    middle = [sorted(part, key=lambda point: point[1])[len(part) // 2][1] for part in lists if part]
+    places = [sum(p for p, _ in part) / len(part) for part in lists if part]
+    return places, middle
+
+
 def draw_response(stem, chosen, highest=float("inf"), width=style.COLUMN, height=2.4):
     drawing, axes = style.figure(width, height)
     for number, (curvature, _, pressures, readings) in enumerate(chosen):
         kept = [(p, r) for p, r in zip(pressures, readings) if p <= highest]
         name = radius(curvature)
-        axes.plot([p for p, _ in kept], [r for _, r in kept], ".", markersize=1.6, alpha=0.7, label=name,
-                  color=style.COLOURS[number % len(style.COLOURS)], rasterized=True)
+        colour = style.COLOURS[number % len(style.COLOURS)]
+        axes.plot([p for p, _ in kept], [r for _, r in kept], ".", markersize=1.6, alpha=0.35, color=colour,
+                  rasterized=True)
+        axes.plot(*medians(kept), "-", color=colour, label=name)
     axes.set(xlabel="chamber pressure [kPa gauge]", ylabel="reading [counts]")
-    axes.legend(title="radius", markerscale=5, loc="best")
+    axes.legend(title="radius; line: median", loc="best")
     return style.save(drawing, stem, response_columns(chosen, highest))
 
 
@@ -130,7 +151,7 @@ def draw_bandwidths(stem, table, chosen):
     axes.annotate("the paper's 2⁻⁷", (chosen, 0), xycoords=("data", "axes fraction"), xytext=(3, 4),
                   textcoords="offset points", color="0.4", fontsize=7)
     axes.set_xscale("log", base=2)
-    axes.set_ylim(0, min(15, max(max(v) for n, v in table.items() if n.endswith("%]"))))
+    axes.set_ylim(0, min(10, max(max(v) for n, v in table.items() if n.endswith("%]"))))
     axes.set(xlabel="bandwidth [deviations of the readings]", ylabel="RMSE [% of range]")
     axes.legend(ncol=2)
     return style.save(drawing, stem, table)
@@ -138,7 +159,7 @@ def draw_bandwidths(stem, table, chosen):
 
 def draw_bins(stem, split):
     """RMSE by pressure and direction of the methods on all scans."""
-    scores = split["scores"]
+    scores = [score for score in split["scores"] if score["id"] in SHOWN_BY_PRESSURE]
     names = list(scores[0]["errors_pa"]["bins"])
     drawing, axes = style.figure(style.PAGE, 2.8)
     columns = {"method": [], "pressure [kPa]": [], "direction": [], "RMSE [kPa]": []}
@@ -148,9 +169,10 @@ def draw_bins(stem, split):
             values = [score["errors_pa"]["bins"][name][direction]["rmse"] for name in names]
             places = [i + (number - (len(scores) - 1) / 2) * width for i in range(len(names))]
             heights = [float("nan") if value is None else value / 1e3 for value in values]
-            axes.plot(places, heights, linestyle="", marker="^" if direction == "loading" else "v", markersize=4,
+            axes.plot(places, heights, linestyle="", marker="^" if direction == "loading" else "v", markersize=5,
                       markerfacecolor=style.COLOURS[number % 7] if direction == "loading" else "none",
-                      color=style.COLOURS[number % 7], label=score["label"] if direction == "loading" else None)
+                      color=style.COLOURS[number % 7],
+                      label=plain_name(score) if direction == "loading" else None)
             for name, height in zip(names, heights):
                 columns["method"].append(score["label"])
                 columns["pressure [kPa]"].append(name.replace(" kPa", ""))
@@ -165,27 +187,27 @@ def draw_bins(stem, split):
 
 
 def draw_splits(stem, splits):
-    drawing, axes = style.figure(style.PAGE, 2.8)
+    drawing, axes = style.figure(style.PAGE, 3.4)
     columns = {"split": [], "method": [], "RMSE [kPa]": [], "low [kPa]": [], "high [kPa]": []}
-    labels = [score["label"] for score in splits[-1]["scores"]]
+    labels = [plain_name(score) for score in splits[-1]["scores"]]
     for number, split in enumerate(splits):
         places, heights, errors = [], [], [[], []]
         for score in split["scores"]:
             interval = score["rmse_pa_interval"]
             rmse = score["errors_pa"]["whole"]["all"]["rmse"]
-            if rmse is None or score["label"] not in labels:
+            if rmse is None or plain_name(score) not in labels:
                 continue
             low, high = interval["interval_95"] if interval else (rmse, rmse)
-            places.append(labels.index(score["label"]) + (number - (len(splits) - 1) / 2) * 0.2)
+            places.append(labels.index(plain_name(score)) + (number - (len(splits) - 1) / 2) * 0.2)
             heights.append(rmse / 1e3)
             errors[0].append(max(0, rmse - low) / 1e3)
             errors[1].append(max(0, high - rmse) / 1e3)
-            for name, value in zip(columns, (split["id"], score["label"], rmse / 1e3, low / 1e3, high / 1e3)):
+            for name, value in zip(columns, (split["id"], score["id"], rmse / 1e3, low / 1e3, high / 1e3)):
                 columns[name].append(value)
         axes.errorbar(places, heights, errors, fmt="o", markersize=4, capsize=2,
                       color=style.COLOURS[number % 7], label=split["id"].replace("_", " "))
     axes.set_xticks(range(len(labels)))
-    axes.set_xticklabels(labels)
+    axes.set_xticklabels([label.replace(" (", "\n(") for label in labels], rotation=35, ha="right")
     axes.set(ylabel="RMSE [kPa]")
     axes.set_ylim(bottom=0)
     axes.legend()
@@ -244,7 +266,7 @@ def use_table(scores, caption):
     for score in scores:
         whole = score["errors_pa"]["whole"]
         low, high = whole["all"]["limits_95"]
-        rows.append([score["label"], kilopascal(whole["all"]["rmse"]), kilopascal(whole["all"]["bias"]),
+        rows.append([plain_name(score), kilopascal(whole["all"]["rmse"]), kilopascal(whole["all"]["bias"]),
                      f"{kilopascal(low)} to {kilopascal(high)}", kilopascal(whole["all"]["p95_absolute"]),
                      f"{kilopascal(whole['loading']['rmse'])} / {kilopascal(whole['unloading']['rmse'])}",
                      f"{kilopascal(score['first_cycle_pa']['rmse'])} / {kilopascal(score['later_cycles_pa']['rmse'])}",
@@ -257,7 +279,7 @@ def use_table(scores, caption):
 
 def bin_table(scores, caption):
     names = list(scores[0]["errors_pa"]["bins"])
-    rows = [[score["label"]] + [
+    rows = [[plain_name(score)] + [
         f"{kilopascal(score['errors_pa']['bins'][name]['all']['rmse'])} "
         f"({kilopascal(score['errors_pa']['bins'][name]['all']['bias'])})" for name in names] for score in scores]
     return style.table(["RMSE (bias) [kPa]"] + names, rows, caption)

@@ -92,7 +92,7 @@ void comparisonText(std::ostream& out, const StudyComparison& comparison) {
 void splitText(std::ostream& out, const SplitResult& split) {
   out << '\n' << split.id << ": " << split.description << '\n';
   for (const StudyScore& score : split.scores) {
-    out << "  " << std::left << std::setw(kNameWidth) << score.label << std::right
+    out << "  " << std::left << std::setw(kNameWidth) << score.id << std::right
         << number(score.errors.whole.all.rmse / kKilopascal, 1) << " kPa  ("
         << number(score.rmse_interval.low / kKilopascal, 1) << " to "
         << number(score.rmse_interval.high / kKilopascal, 1) << "), RMSE% "

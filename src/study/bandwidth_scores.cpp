@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/compensation/fit_scheme.h"
 #include "fsr_pressure_map/matrix/for_each_taxel.h"
 #include "fsr_pressure_map/study/evaluation.h"
 
@@ -65,12 +64,12 @@ double rangeOf(const StudyData& data, const Grouping& grouping, const Fold& fold
   return high - low;
 }
 
-// 100 RMSE of the part [Pa].
-double percentOf(const StudyMethod& method, const TestPart& part, const std::vector<TestedClass>& tested,
-                 const std::vector<Fit>& fits) {
+// 100 RMSE of a part [Pa], the answers being those for its classes.
+double percentOf(const std::vector<TestedClass>& tested,
+                 std::vector<std::vector<double>>::const_iterator answer) {
   double squares = 0, number = 0;
   for (std::size_t k = 0; k < tested.size(); ++k) {
-    squares += tested[k].squares(fits[method.plan.model_of_class[part.asked[k]]].pressure);
+    squares += tested[k].squares(*answer++);
     number += tested[k].readings;
   }
   return 100.0 * std::sqrt(squares / number);
@@ -79,25 +78,30 @@ double percentOf(const StudyMethod& method, const TestPart& part, const std::vec
 }  // namespace
 
 std::vector<double> bandwidthScores(const StudyData& data, const StudyMethod& method,
-                                    const Grouping& grouping, const std::vector<Fold>& folds,
-                                    const StudyPlan& plan) {
-  const std::vector<TestPart> parts = testParts(data, method, grouping, folds);
+                                    const Examination& examination, const StudyPlan& plan) {
+  const std::vector<Fold>& folds = examination.folds;
+  const std::vector<TestPart> parts = testParts(method, examination);
   std::vector<double> range;
-  for (const TestPart& part : parts)
-    range.push_back(rangeOf(data, grouping, folds[part.fold], part, plan.range));
+  for (const TestPart& part : parts) {
+    range.push_back(rangeOf(data, examination.grouping, folds[part.fold], part, plan.range));
+  }
   std::vector<std::vector<double>> of_taxel(data.taxels.size());
   forEachTaxel(data.taxels.size(), plan.threads, [&](std::size_t t) {
-    const TaxelReadings readings(data, grouping, data.taxels[t]);
+    const TaxelReadings readings(data, examination.grouping, data.taxels[t]);
     std::vector<double> sums(plan.bandwidths.size(), 0.0);
-    for (std::size_t f = 0; f < folds.size(); ++f) {
-      const ClassReadings training = readings.training(folds[f].train, false);
+    for (const FoldParts& of_fold : partsByFold(parts)) {
+      const ClassReadings training = readings.training(folds[of_fold.fold].train, false);
       std::vector<std::vector<TestedClass>> tested;
-      for (const TestPart& part : parts) tested.push_back(testedClasses(part, folds[part.fold], readings));
+      for (std::size_t p = of_fold.first; p < of_fold.end; ++p) {
+        tested.push_back(testedClasses(parts[p], folds[of_fold.fold], readings));
+      }
       for (std::size_t b = 0; b < sums.size(); ++b) {
-        const std::vector<Fit> fits = fitScheme(method.plan, data.taxels[t], training,
-                                                kernels({plan.bandwidths[b]}, plan.grnn).front());
-        for (std::size_t p = 0; p < parts.size(); ++p) {
-          if (parts[p].fold == f) sums[b] += percentOf(method, parts[p], tested[p], fits) / range[p];
+        const FoldModel model = plainModel(method, grnnOf(plan.grnn, plan.bandwidths[b]));
+        const auto answers = answersOf(model, data.taxels[t], training, of_fold.asked);
+        auto answer = answers.begin();  // in the order of parts and their classes
+        for (std::size_t p = of_fold.first; p < of_fold.end; ++p) {
+          sums[b] += percentOf(tested[p - of_fold.first], answer) / range[p];
+          answer += static_cast<std::ptrdiff_t>(parts[p].tested.size());
         }
       }
     }

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
-#include "fsr_pressure_map/compensation/fit_scheme.h"
 #include "fsr_pressure_map/matrix/for_each_taxel.h"
 #include "fsr_pressure_map/statistics/metrics.h"
 
@@ -12,73 +10,48 @@ namespace fsr {
 
 namespace {
 
-using Classes = std::vector<std::size_t>;
-
-bool contains(const Classes& classes, std::size_t c) {
-  return std::find(classes.begin(), classes.end(), c) != classes.end();
-}
-
-// Classes of the method's models that the fold trains on.
-Classes trainedClasses(const StudyMethod& method, const Grouping& grouping, const Fold& fold) {
-  Classes trained;
-  for (const Cell& cell : fold.train) {
-    const bool used = method.modelOf(cell.curvature_class) < method.models() &&
-                      !grouping.scans[cell.curvature_class][cell.group].empty();
-    if (used && !contains(trained, cell.curvature_class)) trained.push_back(cell.curvature_class);
-  }
-  return trained;
-}
-
-std::size_t nearest(const StudyData& data, const Classes& trained, std::size_t c) {
-  return *std::min_element(trained.begin(), trained.end(), [&](std::size_t a, std::size_t b) {
-    const auto distance = [&](std::size_t d) {
-      return std::abs(data.classes[d].at(0) - data.classes[c].at(0));
-    };
-    return distance(a) < distance(b);
+bool holds(const Grouping& grouping, const std::vector<Cell>& cells, std::size_t c) {
+  return std::any_of(cells.begin(), cells.end(), [&](const Cell& cell) {
+    return cell.curvature_class == c && !grouping.scans[c][cell.group].empty();
   });
 }
 
-// Which model answers for class c, and what it is asked.
-std::pair<std::size_t, std::size_t> answering(const StudyData& data, const StudyMethod& method,
-                                              const Classes& trained, std::size_t c) {
-  const std::size_t own = method.modelOf(c);
-  if (own < method.models()) {
-    const Classes& classes = method.trainedOn(own);
-    const auto knows = [&](std::size_t other) { return contains(classes, other); };
-    if (std::any_of(trained.begin(), trained.end(), knows)) return {own, c};
+// Whether the fold trains any of the method's models.
+bool trains(const StudyMethod& method, const Grouping& grouping, const Fold& fold) {
+  for (const SchemePlan::Model& model : method.plan.models) {
+    for (const std::size_t c : model.trained_on) {
+      if (holds(grouping, fold.train, c)) return true;
+    }
   }
-  const std::size_t stand_in = nearest(data, trained, c);
-  return {method.modelOf(stand_in), stand_in};
+  return false;
 }
 
-std::vector<TestPart> partsOfFold(const StudyData& data, const StudyMethod& method, const Grouping& grouping,
-                                  const Fold& fold, std::size_t number) {
-  std::vector<TestPart> parts;
-  const Classes trained = trainedClasses(method, grouping, fold);
-  for (std::size_t m = 0; m < method.models(); ++m) parts.push_back({number, m, {}, {}});
-  for (std::size_t c = 0; c < data.classes.size() && !trained.empty(); ++c) {
-    const auto tests = [&](const Cell& cell) {
-      return cell.curvature_class == c && !grouping.scans[c][cell.group].empty();
-    };
-    if (std::none_of(fold.test.begin(), fold.test.end(), tests)) continue;
-    const auto [model, asked] = answering(data, method, trained, c);
-    parts[model].tested.push_back(c);
-    parts[model].asked.push_back(asked);
+std::vector<TestPart> partsOfFold(const StudyMethod& method, const Grouping& grouping, const Fold& fold,
+                                  std::size_t number, Scoring scoring) {
+  std::vector<TestPart> parts(scoring == Scoring::kPooled ? 1 : method.models());
+  if (!trains(method, grouping, fold)) return {};
+  for (std::size_t c = 0; c < grouping.scans.size(); ++c) {
+    if (!holds(grouping, fold.test, c)) continue;
+    parts[scoring == Scoring::kPooled ? 0 : method.modelOf(c)].tested.push_back(c);
   }
-  parts.erase(std::remove_if(parts.begin(), parts.end(), [](const TestPart& p) { return p.tested.empty(); }),
-              parts.end());
+  for (std::size_t m = 0; m < parts.size(); ++m) {
+    parts[m].fold = number;
+    parts[m].model = m;
+  }
+  parts.erase(
+      std::remove_if(parts.begin(), parts.end(), [](const TestPart& part) { return part.tested.empty(); }),
+      parts.end());
   return parts;
 }
 
-// Visits (index of the class in part.tested, scan) of the held-out scans of a part.
+// Visits (class, scan) of the held-out scans of a part.
 template <typename Visit>
 void forEachTested(const StudyData& data, const Grouping& grouping, const Fold& fold, const TestPart& part,
                    Visit visit) {
-  for (std::size_t k = 0; k < part.tested.size(); ++k) {
-    const std::size_t c = part.tested[k];
+  for (const std::size_t c : part.tested) {
     for (const Cell& cell : fold.test) {
       if (cell.curvature_class != c) continue;
-      for (const std::uint32_t i : grouping.scans[c][cell.group]) visit(k, data.scans[c][i]);
+      for (const std::uint32_t i : grouping.scans[c][cell.group]) visit(c, data.scans[c][i]);
     }
   }
 }
@@ -119,31 +92,39 @@ class TaxelScoring {
 
 }  // namespace
 
-SplitRegressors kernels(const std::vector<double>& bandwidth, const GrnnOptions& options) {
-  SplitRegressors regressors;
-  for (const double value : bandwidth) {
-    regressors.emplace_back();
-    regressors.back().grnn = options;
-    regressors.back().grnn.bandwidth = value;
-  }
-  return regressors;
-}
-
-std::vector<TestPart> testParts(const StudyData& data, const StudyMethod& method, const Grouping& grouping,
-                                const std::vector<Fold>& folds) {
+std::vector<TestPart> testParts(const StudyMethod& method, const Examination& examination) {
   std::vector<TestPart> parts;
-  for (std::size_t k = 0; k < folds.size(); ++k) {
-    const auto of_fold = partsOfFold(data, method, grouping, folds[k], k);
+  for (std::size_t k = 0; k < examination.folds.size(); ++k) {
+    const auto of_fold =
+        partsOfFold(method, examination.grouping, examination.folds[k], k, examination.scoring);
     parts.insert(parts.end(), of_fold.begin(), of_fold.end());
   }
   return parts;
 }
 
-Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Grouping& grouping,
-                    const std::vector<Fold>& folds, const SplitRegressors& regressors, const StudyPlan& plan,
+std::vector<FoldParts> partsByFold(const std::vector<TestPart>& parts) {
+  std::vector<FoldParts> folds;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (folds.empty() || folds.back().fold != parts[p].fold) folds.push_back({parts[p].fold, p, p, {}});
+    FoldParts& fold = folds.back();
+    fold.end = p + 1;
+    fold.asked.insert(fold.asked.end(), parts[p].tested.begin(), parts[p].tested.end());
+  }
+  return folds;
+}
+
+std::size_t FoldParts::placeOf(std::size_t curvature_class) const {
+  return static_cast<std::size_t>(std::find(asked.begin(), asked.end(), curvature_class) - asked.begin());
+}
+
+Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Examination& examination,
+                    const std::vector<FoldModel>& models, const StudyPlan& plan,
                     const std::function<void()>& done) {
+  const Grouping& grouping = examination.grouping;
+  const std::vector<Fold>& folds = examination.folds;
   Evaluation result;
-  result.parts = testParts(data, method, grouping, folds);
+  result.parts = testParts(method, examination);
+  result.models = examination.scoring == Scoring::kPooled ? 1 : method.models();
   for (const TestPart& part : result.parts) {
     result.begin.push_back(result.scans.size());
     forEachTested(data, grouping, folds[part.fold], part,
@@ -153,25 +134,23 @@ Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Grou
   result.errors.resize(data.taxels.size());
   result.r2.resize(data.taxels.size());
   result.rmse_percent.resize(data.taxels.size());
-  const bool by_samples = !makeRegressor(regressors.front())->mergeable();
+  const bool by_samples = !makeRegressor(models.front().regressor)->mergeable();
   forEachTaxel(data.taxels.size(), plan.threads, [&](std::size_t t) {
     const std::size_t taxel = data.taxels[t];
     const TaxelReadings readings(data, grouping, taxel);
     TaxelScoring scoring(data, plan);
     scoring.errors.reserve(result.scans.size());
-    std::vector<Fit> fits;
-    for (std::size_t p = 0; p < result.parts.size(); ++p) {
-      const TestPart& part = result.parts[p];
-      if (p == 0 || part.fold != result.parts[p - 1].fold) {
-        fits = fitScheme(method.plan, taxel, readings.training(folds[part.fold].train, by_samples),
-                         regressors[regressors.size() == 1 ? 0 : part.fold]);
+    for (const FoldParts& fold : partsByFold(result.parts)) {
+      const auto answers = answersOf(models[models.size() == 1 ? 0 : fold.fold], taxel,
+                                     readings.training(folds[fold.fold].train, by_samples), fold.asked);
+      for (std::size_t p = fold.first; p < fold.end; ++p) {
+        scoring.begin();
+        forEachTested(data, grouping, folds[fold.fold], result.parts[p],
+                      [&](std::size_t c, const StudyScan& scan) {
+                        scoring.add(answers[fold.placeOf(c)][scan.counts[taxel]], fromFixed(scan.pressure));
+                      });
+        scoring.end();
       }
-      scoring.begin();
-      forEachTested(data, grouping, folds[part.fold], part, [&](std::size_t k, const StudyScan& scan) {
-        const std::vector<double>& table = fits[method.plan.model_of_class[part.asked[k]]].pressure;
-        scoring.add(table[scan.counts[taxel]], fromFixed(scan.pressure));
-      });
-      scoring.end();
     }
     result.r2[t] = scoring.r2();
     result.rmse_percent[t] = scoring.rmsePercentMean();

@@ -7,6 +7,7 @@
 #include "fsr_pressure_map/calibration/sources.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/statistics/random_stream.h"
+#include "fsr_pressure_map/study/paper_numbers.h"
 #include "fsr_pressure_map/study/study_score.h"
 
 namespace fsr {
@@ -27,6 +28,10 @@ RepeatedMeasures measuresOf(const std::vector<const Scored*>& scored,
     measures.values.push_back(one->score.*measure);
   }
   return measures;
+}
+
+bool isFurther(const StudyMethod& method) {
+  return paperScore(method.id) == std::nullopt;
 }
 
 // The paper's questions, one after the other, and those that it left.
@@ -56,10 +61,13 @@ class Study {
   void reproduce(StudyResult& result);
   void findBandwidths(StudyResult& result);
   SplitResult holdOut(const Split& split, StudyResult& result);
+  // Schemes beyond the paper take the bandwidths of one model a curvature.
+  std::vector<double> bandwidthsFor(const StudyMethod& method, const Examination& examination,
+                                    const SplitResult& before);
 
-  Evaluation evaluateMethod(const StudyMethod& method, const Split& split, const Grouping& grouping,
-                            const SplitRegressors& regressors, const std::string& stage);
-  Scored score(const StudyMethod& method, const Split& split, const SplitRegressors& regressors,
+  Evaluation evaluateMethod(const StudyMethod& method, const Examination& examination,
+                            const std::vector<FoldModel>& models, const std::string& stage);
+  Scored score(const StudyMethod& method, const Split& split, const RegressorOptions& regressor,
                const std::string& stage);
   std::vector<Scored> algorithms(const Split& split);
   StudyComparison compare(const std::string& id, const std::string& title,
@@ -107,21 +115,22 @@ StudyResult Study::describe() const {
   return result;
 }
 
-Evaluation Study::evaluateMethod(const StudyMethod& method, const Split& split, const Grouping& grouping,
-                                 const SplitRegressors& regressors, const std::string& stage) {
+Evaluation Study::evaluateMethod(const StudyMethod& method, const Examination& examination,
+                                 const std::vector<FoldModel>& models, const std::string& stage) {
   std::mutex reporting;
   std::size_t done = 0;
-  return evaluate(data_, method, grouping, split.folds, regressors, plan_, [&] {
+  return evaluate(data_, method, examination, models, plan_, [&] {
     const std::lock_guard<std::mutex> lock(reporting);
     say(stage, ++done, data_.taxels.size());
   });
 }
 
-Scored Study::score(const StudyMethod& method, const Split& split, const SplitRegressors& regressors,
+Scored Study::score(const StudyMethod& method, const Split& split, const RegressorOptions& regressor,
                     const std::string& stage) {
   const Grouping kept = downSampled(split.grouping, method.one_of, plan_.down_sampling, plan_.seed);
-  const Evaluation evaluation = evaluateMethod(method, split, kept, regressors, stage);
-  Scored scored{scoreOf(data_, method, evaluation), CycleSums(data_, method, evaluation)};
+  const Evaluation evaluation =
+      evaluateMethod(method, {kept, split.folds, Scoring::kByModel}, {plainModel(method, regressor)}, stage);
+  Scored scored{scoreOf(data_, method, evaluation), CycleSums(data_, evaluation)};
   scored.score.rmse_percent_interval = rmsePercentInterval(scored.sums, data_, plan_);
   scored.score.rmse_interval = rmseInterval(scored.sums, data_, plan_);
   return scored;
@@ -134,7 +143,7 @@ std::vector<Scored> Study::algorithms(const Split& split) {
   const auto add = [&](const std::string& id, const std::string& label) {
     RegressorOptions regressor{id, plan_.grnn, plan_.forest};
     regressor.forest.seed = randomStream(plan_.seed, "forest").bits(0);
-    scored.push_back(score(*baseline, split, {regressor}, label + " on the baseline"));
+    scored.push_back(score(*baseline, split, regressor, label + " on the baseline"));
     scored.back().score.id = scored.back().score.model = id;
     scored.back().score.label = label;
   };
@@ -164,7 +173,7 @@ void Study::reproduce(StudyResult& result) {
   const std::vector<Scored> of_algorithms = algorithms(split);
   std::vector<Scored> scored;
   for (const StudyMethod& method : methods_) {
-    scored.push_back(score(method, split, kernels({plan_.grnn.bandwidth}, plan_.grnn), method.label));
+    scored.push_back(score(method, split, grnnOf(plan_.grnn, plan_.grnn.bandwidth), method.label));
   }
   const auto pick = [&](const std::vector<std::string>& ids) {
     std::vector<const Scored*> picked;
@@ -191,25 +200,40 @@ void Study::findBandwidths(StudyResult& result) {
   const Split split = leaveSectionOut(data_);
   for (std::size_t m = 0; m < methods_.size(); ++m) {
     say("Grid of bandwidths", m, methods_.size());
-    const Grouping kept = downSampled(split.grouping, methods_[m].one_of, plan_.down_sampling, plan_.seed);
+    const StudyMethod& method = methods_[m];
+    if (method.plan.scheme == Scheme::kOneHot) continue;  // as curvature_input, but for widths of no use
+    const Grouping kept = downSampled(split.grouping, method.one_of, plan_.down_sampling, plan_.seed);
     result.bandwidths.push_back(
-        {methods_[m].id, methods_[m].label, bandwidthScores(data_, methods_[m], kept, split.folds, plan_)});
+        {method.id, method.label,
+         bandwidthScores(data_, method, {kept, split.folds, Scoring::kByModel}, plan_)});
   }
   say("Grid of bandwidths", methods_.size(), methods_.size());
+}
+
+std::vector<double> Study::bandwidthsFor(const StudyMethod& method, const Examination& examination,
+                                         const SplitResult& before) {
+  for (const StudyScore& score : before.scores) {
+    if (isFurther(method) && score.id == schemeName(Scheme::kPerCurvature)) return score.bandwidth;
+  }
+  return chooseBandwidths(data_, method, examination, plan_);
 }
 
 SplitResult Study::holdOut(const Split& split, StudyResult& result) {
   SplitResult held_out{split.id, split.description, {}, {}};
   for (const Fold& fold : split.folds) held_out.folds.push_back(fold.name);
+  const Examination examination{split.grouping, split.folds, Scoring::kPooled};
+  std::vector<StudyMethod> methods = methods_;
+  for (const StudyMethod& further : furtherMethods(data_)) methods.push_back(further);
   std::vector<Evaluation> kept;
-  for (const StudyMethod& method : methods_) {
-    const std::string stage = split.id + ", " + method.label;
-    const std::vector<double> bandwidth = chooseBandwidths(data_, method, split.grouping, split.folds, plan_);
-    Evaluation evaluation =
-        evaluateMethod(method, split, split.grouping, kernels(bandwidth, plan_.grnn), stage);
+  for (const StudyMethod& method : methods) {
+    const std::vector<double> bandwidth = bandwidthsFor(method, examination, held_out);
+    std::vector<FoldModel> models;
+    for (std::size_t k = 0; k < split.folds.size(); ++k) {
+      models.push_back(learnedModel(data_, method, split.grouping, split.folds[k], bandwidth[k], plan_));
+    }
+    Evaluation evaluation = evaluateMethod(method, examination, models, split.id + ", " + method.label);
     StudyScore score = scoreOf(data_, method, evaluation);
-    const CycleSums sums(data_, method, evaluation);
-    score.rmse_interval = rmseInterval(sums, data_, plan_);
+    score.rmse_interval = rmseInterval(CycleSums(data_, evaluation), data_, plan_);
     score.bandwidth = bandwidth;
     held_out.scores.push_back(score);
     const bool drawn = method.id == "baseline" || method.id == "per_curvature";

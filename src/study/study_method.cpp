@@ -41,11 +41,7 @@ std::size_t StudyMethod::models() const {
 }
 
 std::size_t StudyMethod::modelOf(std::size_t curvature_class) const {
-  for (std::size_t m = 0; m < models(); ++m) {
-    const std::vector<std::size_t>& classes = trainedOn(m);
-    if (std::binary_search(classes.begin(), classes.end(), curvature_class)) return m;
-  }
-  return models();
+  return models() == 1 ? 0 : plan.model_of_class[curvature_class];
 }
 
 std::vector<StudyMethod> paperMethods(const StudyData& data, BinaryShare binary_share) {
@@ -65,6 +61,20 @@ std::vector<StudyMethod> paperMethods(const StudyData& data, BinaryShare binary_
     add(Scheme::kBinaryInput, "Method 4");
   }
   add(Scheme::kOneHot, "Method 2, one-hot");
+  return methods;
+}
+
+std::vector<StudyMethod> furtherMethods(const StudyData& data) {
+  std::vector<StudyMethod> methods;
+  if (std::all_of(data.classes.begin(), data.classes.end(), isFlat)) return methods;
+  const std::vector<std::size_t> all(data.classes.size(), 1);
+  const auto add = [&](Scheme scheme, const std::string& label) {
+    methods.push_back({schemeName(scheme), label, planScheme(scheme, data.classes), all});
+  };
+  add(Scheme::kScaledCurvature, "Scaled curvature");
+  add(Scheme::kCurvatureMap, "Curvature map");
+  add(Scheme::kInterpolated, "Interpolated");
+  add(Scheme::kCurvatureRanges, "Curvature ranges");
   return methods;
 }
 

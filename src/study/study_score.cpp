@@ -6,9 +6,10 @@ namespace fsr {
 
 namespace {
 
-std::string howScored(const StudyMethod& method) {
+std::string howScored(const StudyMethod& method, const Evaluation& evaluation) {
   if (method.models() == 1) return "one model, its readings pooled";
-  return "mean of the scores of " + std::to_string(method.models()) + " models";
+  const std::string models = std::to_string(method.models()) + " models";
+  return evaluation.models == 1 ? "the readings of " + models + " pooled" : "mean of the scores of " + models;
 }
 
 void summarise(const Evaluation& evaluation, StudyScore& score) {
@@ -33,7 +34,7 @@ StudyScore scoreOf(const StudyData& data, const StudyMethod& method, const Evalu
   score.id = method.id;
   score.label = method.label;
   score.model = "grnn";
-  score.scored = howScored(method);
+  score.scored = howScored(method, evaluation);
   score.scans = evaluation.scans.size();
   score.r2 = evaluation.r2;
   score.rmse_percent = evaluation.rmse_percent;

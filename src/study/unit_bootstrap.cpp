@@ -47,22 +47,25 @@ BootstrapResult interval(const StudyData& data, const StudyPlan& plan, const std
 
 }  // namespace
 
-CycleSums::CycleSums(const StudyData& data, const StudyMethod& method, const Evaluation& evaluation)
+CycleSums::CycleSums(const StudyData& data, const Evaluation& evaluation)
     : taxels_(evaluation.errors.size()),
-      models_(method.models()),
+      models_(evaluation.models),
       cycles_(data.cycles),
       range_(data.highest - data.lowest),
       squares_(cycles_ * models_ * taxels_, 0.0),
       readings_(cycles_ * models_, 0.0),
       all_squares_(cycles_, 0.0) {
+  std::vector<std::size_t> place(evaluation.scans.size());
   for (std::size_t p = 0; p < evaluation.parts.size(); ++p) {
     for (std::size_t i = evaluation.begin[p]; i < evaluation.begin[p + 1]; ++i) {
-      const std::size_t place = evaluation.scans[i]->cycle * models_ + evaluation.parts[p].model;
-      readings_[place] += 1;
-      for (std::size_t t = 0; t < taxels_; ++t) {
-        const double error = evaluation.errors[t][i];
-        squares_[place * taxels_ + t] += error * error;
-      }
+      place[i] = evaluation.scans[i]->cycle * models_ + evaluation.parts[p].model;
+      readings_[place[i]] += 1;
+    }
+  }
+  for (std::size_t t = 0; t < taxels_; ++t) {
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      const double error = evaluation.errors[t][i];
+      squares_[place[i] * taxels_ + t] += error * error;
     }
   }
   for (std::size_t i = 0; i < squares_.size(); ++i) all_squares_[i / (models_ * taxels_)] += squares_[i];

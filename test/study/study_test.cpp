@@ -164,8 +164,8 @@ TEST(Evaluation, ScoresTheBaselineAsTheFormulaDoes) {
   const auto methods = paperMethods(data, BinaryShare::kFullFlat);
   const StudyMethod& baseline = methodOf(methods, "baseline");
   const Grouping kept = downSampled(split.grouping, baseline.one_of, DownSampling::kRandom, 1);
-  const Evaluation evaluation =
-      evaluate(data, baseline, kept, split.folds, kernels({1.0 / 128}, {}), problem.plan, {});
+  const Evaluation evaluation = evaluate(data, baseline, {kept, split.folds, Scoring::kByModel},
+                                         {plainModel(baseline, grnnOf({}, 1.0 / 128))}, problem.plan, {});
   for (std::size_t taxel = 0; taxel < 6; ++taxel) {
     EXPECT_NEAR(evaluation.rmse_percent[taxel], plainRmsePercent(data, kept, taxel, 1.0 / 128), 1e-9);
   }
@@ -177,22 +177,45 @@ TEST(Evaluation, GridAgreesWithTheSingleBandwidth) {
   const Split split = leaveSectionOut(data);
   for (const StudyMethod& method : paperMethods(data, BinaryShare::kFullFlat)) {
     const Grouping kept = downSampled(split.grouping, method.one_of, DownSampling::kRandom, 1);
-    const auto grid = bandwidthScores(data, method, kept, split.folds, problem.plan);
-    const Evaluation one =
-        evaluate(data, method, kept, split.folds, kernels({1.0 / 16}, {}), problem.plan, {});
+    const auto grid = bandwidthScores(data, method, {kept, split.folds, Scoring::kByModel}, problem.plan);
+    const Evaluation one = evaluate(data, method, {kept, split.folds, Scoring::kByModel},
+                                    {plainModel(method, grnnOf({}, 1.0 / 16))}, problem.plan, {});
     EXPECT_NEAR(grid[1], spreadOf(one.rmse_percent).mean, 1e-9) << method.id;
   }
 }
 
-TEST(Evaluation, AsksTheNearestCurvatureWhereNoneWasTrained) {
+TEST(Evaluation, AnswersFromTheNearestCurvatureWhereNoneWasTrained) {
   const StudyProblem problem = smallProblem();
   const StudyData data = gatherStudyData(problem.recordings, 5);
   const Split split = leaveCurvatureOut(data);
   const auto methods = paperMethods(data, BinaryShare::kFullFlat);
-  const auto parts = testParts(data, methodOf(methods, "per_curvature"), split.grouping, split.folds);
-  ASSERT_EQ(parts.size(), 3u);
-  EXPECT_EQ(parts[0].asked, std::vector<std::size_t>{1});  // flat: the gentlest bend
-  EXPECT_EQ(parts[2].asked, std::vector<std::size_t>{1});  // 20 1/m: 7.7 1/m, not the flat
+  const StudyMethod& method = methodOf(methods, "per_curvature");
+  const FoldModel model = plainModel(method, grnnOf({}, 1.0 / 16));
+  const TaxelReadings readings(data, split.grouping, 0);
+  const auto answers = answersOf(model, 0, readings.training(split.folds[2].train, false), {1, 2});
+  EXPECT_EQ(answers[0], answers[1]);  // 20 1/m left out: the answer of 7.7 1/m, not of the flat
+}
+
+TEST(Evaluation, SchemesLearnNothingFromTheCurvatureLeftOut) {
+  const StudyProblem problem = smallProblem();
+  const StudyData data = gatherStudyData(problem.recordings, 5);
+  Recording spoilt = problem.recordings[0];
+  for (std::size_t i = 0; i < spoilt.scans(); ++i) {
+    if (spoilt.condition[i] != 1) continue;
+    for (std::size_t taxel = 0; taxel < 6; ++taxel) spoilt.counts[i * 6 + taxel] /= 2;
+  }
+  const std::vector<Recording> recordings = {spoilt};
+  const StudyData other = gatherStudyData(recordings, 5);
+  const Split split = leaveCurvatureOut(data), other_split = leaveCurvatureOut(other);
+  for (const StudyMethod& method : furtherMethods(data)) {
+    const auto answer = [&](const StudyData& of, const Split& held_out) {
+      const FoldModel model =
+          learnedModel(of, method, held_out.grouping, held_out.folds[1], 1.0 / 16, problem.plan);
+      return answersOf(model, 0,
+                       TaxelReadings(of, held_out.grouping, 0).training(held_out.folds[1].train, false), {1});
+    };
+    EXPECT_EQ(answer(data, split), answer(other, other_split)) << method.id;
+  }
 }
 
 TEST(Evaluation, NeverTrainsOnWhatItTests) {
@@ -267,7 +290,8 @@ TEST(PaperSetting, ReachesThePapersTableOnAnotherSheet) {
     for (const StudyMethod& method : paperMethods(data, BinaryShare::kFullFlat)) {
       const Grouping kept = downSampled(split.grouping, method.one_of, DownSampling::kRandom, 1);
       const Evaluation evaluation =
-          evaluate(data, method, kept, split.folds, kernels({kPaperBandwidth}, {}), StudyPlan{}, {});
+          evaluate(data, method, {kept, split.folds, Scoring::kByModel},
+                   {plainModel(method, grnnOf({}, kPaperBandwidth))}, StudyPlan{}, {});
       rmse[method.id] = spreadOf(evaluation.rmse_percent).mean;
     }
     EXPECT_NEAR(rmse["flat_only"], 3.51, 0.351);

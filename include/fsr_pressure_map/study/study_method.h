@@ -29,4 +29,9 @@ struct StudyMethod {
 /// InputError where there is no flat class.
 std::vector<StudyMethod> paperMethods(const StudyData& data, BinaryShare binary_share);
 
+/// Schemes beyond the paper, on all scans: curvature with a length scale of its own, a learned monotone law
+/// of curvature, interpolation between curvatures, ranges of curvature chosen from data. None where nothing
+/// is bent.
+std::vector<StudyMethod> furtherMethods(const StudyData& data);
+
 }  // namespace fsr

@@ -47,8 +47,9 @@ struct StudyPlan {
   PaperRuleOptions tests;
   /// Bandwidths of the grid, and of the choice by nested cross-validation.
   std::vector<double> bandwidths = bandwidthGrid();
-  /// The choice looks at every n-th taxel, n such that about so many are seen, and holds for all.
-  std::size_t bandwidth_taxels = 14;
+  /// What a whole method learns (bandwidth, length scale, ranges) is learned on every n-th taxel, n such that
+  /// about so many are seen, and holds for all.
+  std::size_t bandwidth_taxels = 10;
   std::size_t resamples = 1999;  ///< of the bootstrap
   /// Taxel that the figures of single responses show; beyond the matrix: the one of median RMSE% in
   /// method 1.
@@ -72,7 +73,7 @@ void validate(const StudyPlan& plan, const std::string& origin);
 ///     forest: {trees: 150, minimum_leaf: 5}
 ///     tests: {level: 0.05, normality_of: treatments}                   # differences
 ///     bandwidths: [0.0009765625, 0.001953125]
-///     bandwidth_taxels: 14
+///     bandwidth_taxels: 10
 ///     resamples: 1999
 ///     figure_taxel: 34
 ///     seed: 1

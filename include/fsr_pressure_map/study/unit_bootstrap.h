@@ -13,7 +13,7 @@ namespace fsr {
 /// are drawn anew.
 class CycleSums {
  public:
-  CycleSums(const StudyData& data, const StudyMethod& method, const Evaluation& evaluation);
+  CycleSums(const StudyData& data, const Evaluation& evaluation);
 
   /// Those with readings, ascending.
   std::vector<std::size_t> cycles() const;

@@ -1,0 +1,147 @@
+#include "fsr_pressure_map/study/fold_model.h"
+
+#include <algorithm>
+
+#include "fsr_pressure_map/compensation/effect_law.h"
+#include "fsr_pressure_map/compensation/fit_scheme.h"
+#include "fsr_pressure_map/compensation/learn_scheme.h"
+#include "fsr_pressure_map/matrix/for_each_taxel.h"
+
+namespace fsr {
+
+namespace {
+
+// Classes of which the fold has training readings, ascending. What a scheme learns must not hear of the
+// others: a class without readings cannot be held out.
+std::vector<std::size_t> trainedClasses(const Grouping& grouping, const Fold& fold) {
+  std::vector<std::size_t> trained;
+  for (const Cell& cell : fold.train) {
+    if (!grouping.scans[cell.curvature_class][cell.group].empty()) trained.push_back(cell.curvature_class);
+  }
+  std::sort(trained.begin(), trained.end());
+  trained.erase(std::unique(trained.begin(), trained.end()), trained.end());
+  return trained;
+}
+
+std::vector<CurvatureClass> conditionsOf(const StudyData& data, const std::vector<std::size_t>& classes) {
+  std::vector<CurvatureClass> conditions;
+  for (const std::size_t c : classes) conditions.push_back(data.classes[c]);
+  return conditions;
+}
+
+// The fold's training cells of some taxels, numbered from 0, as schemes learn from them.
+TrainingStatistics statisticsOf(const StudyData& data, const Grouping& grouping, const Fold& fold,
+                                const std::vector<std::size_t>& classes,
+                                const std::vector<std::size_t>& taxels) {
+  TrainingStatistics statistics;
+  statistics.full_scale = data.full_scale;
+  statistics.taxels = taxels.size();
+  statistics.sections = grouping.groups;
+  statistics.classes = conditionsOf(data, classes);
+  statistics.cells.resize(taxels.size() * classes.size() * grouping.groups);
+  for (std::size_t t = 0; t < taxels.size(); ++t) {
+    const TaxelReadings readings(data, grouping, taxels[t]);
+    for (const Cell& cell : fold.train) {
+      const auto place = std::find(classes.begin(), classes.end(), cell.curvature_class);
+      if (place == classes.end()) continue;
+      const auto k = static_cast<std::size_t>(place - classes.begin());
+      statistics.cells[(t * classes.size() + k) * grouping.groups + cell.group] = readings.cell(cell);
+    }
+  }
+  return statistics;
+}
+
+// The ranges that were learned, in numbers of all classes; a class without readings stays alone.
+void takeRanges(const SchemePlan& learned, const std::vector<std::size_t>& trained, SchemePlan& plan) {
+  std::vector<std::vector<std::size_t>> ranges;
+  for (const SchemePlan::Model& model : learned.models) {
+    ranges.emplace_back();
+    for (const std::size_t k : model.trained_on) ranges.back().push_back(trained[k]);
+  }
+  for (std::size_t c = 0; c < plan.classes.size(); ++c) {
+    if (!std::binary_search(trained.begin(), trained.end(), c)) ranges.push_back({c});
+  }
+  std::sort(ranges.begin(), ranges.end());
+  planRanges(ranges, plan);
+}
+
+CodeTable tableOf(const std::vector<double>& pressure, const CodeHistogram& readings) {
+  CodeTable table;
+  table.pressure.assign(pressure.begin(), pressure.end());
+  const auto& count = readings.count();
+  const auto occurs = [](std::int64_t number) { return number > 0; };
+  const auto first = std::find_if(count.begin(), count.end(), occurs);
+  const auto last = std::find_if(count.rbegin(), count.rend(), occurs);
+  table.lowest = static_cast<std::uint16_t>(first - count.begin());
+  table.highest = static_cast<std::uint16_t>(count.rend() - last - 1);
+  return table;
+}
+
+EffectLaw lawOf(const StudyData& data, const Grouping& grouping, const Fold& fold, const FoldModel& model,
+                const std::vector<std::size_t>& trained, unsigned threads) {
+  std::vector<TaxelEffect> effects(data.taxels.size());
+  forEachTaxel(data.taxels.size(), threads, [&](std::size_t t) {
+    const TaxelReadings readings(data, grouping, data.taxels[t]);
+    const ClassReadings training = readings.training(fold.train, false);
+    const std::vector<Fit> fits = fitScheme(model.plan, data.taxels[t], training, model.regressor);
+    std::vector<CodeTable> tables;
+    for (const std::size_t c : trained) {
+      tables.push_back(tableOf(fits[model.plan.model_of_class[c]].pressure, training.sums[c]));
+    }
+    effects[t] = effectOf(tables.data(), tables.size());
+  });
+  return learnLaw(conditionsOf(data, trained), effects);
+}
+
+}  // namespace
+
+RegressorOptions grnnOf(const GrnnOptions& options, double bandwidth) {
+  RegressorOptions regressor;
+  regressor.grnn = options;
+  regressor.grnn.bandwidth = bandwidth;
+  return regressor;
+}
+
+FoldModel plainModel(const StudyMethod& method, const RegressorOptions& regressor) {
+  return {method.plan, regressor, {}};
+}
+
+FoldModel learnedModel(const StudyData& data, const StudyMethod& method, const Grouping& grouping,
+                       const Fold& fold, double bandwidth, const StudyPlan& plan) {
+  FoldModel model = plainModel(method, grnnOf(plan.grnn, bandwidth));
+  const Scheme scheme = method.plan.scheme;
+  const std::vector<std::size_t> trained = trainedClasses(grouping, fold);
+  if (scheme == Scheme::kCurvatureMap) {
+    model.law = lawOf(data, grouping, fold, model, trained, plan.threads);
+  }
+  if (scheme != Scheme::kScaledCurvature && scheme != Scheme::kCurvatureRanges) return model;
+  const std::vector<std::size_t> taxels = someTaxels(data, plan);
+  const TrainingStatistics statistics = statisticsOf(data, grouping, fold, trained, taxels);
+  std::vector<std::size_t> all(taxels.size());
+  for (std::size_t t = 0; t < all.size(); ++t) all[t] = t;
+  SchemePlan learned = planScheme(scheme, statistics.classes);
+  learnScheme(statistics, model.regressor.grnn, all, plan.threads, learned);
+  model.plan.curvature_scale = learned.curvature_scale;
+  if (scheme == Scheme::kCurvatureRanges) takeRanges(learned, trained, model.plan);
+  return model;
+}
+
+std::vector<std::vector<double>> answersOf(const FoldModel& model, std::size_t taxel,
+                                           const ClassReadings& training,
+                                           const std::vector<std::size_t>& asked) {
+  const std::vector<Fit> fits = fitScheme(model.plan, taxel, training, model.regressor);
+  std::vector<std::vector<double>> answers;
+  for (const std::size_t c : asked) {
+    answers.push_back(answerOn(model.plan, taxel, training, fits, c, model.law));
+  }
+  return answers;
+}
+
+std::vector<std::size_t> someTaxels(const StudyData& data, const StudyPlan& plan) {
+  const std::size_t step = std::max<std::size_t>(1, data.taxels.size() / plan.bandwidth_taxels);
+  std::vector<std::size_t> some;
+  for (std::size_t t = 0; t < data.taxels.size(); t += step) some.push_back(data.taxels[t]);
+  return some;
+}
+
+}  // namespace fsr
