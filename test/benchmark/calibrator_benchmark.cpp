@@ -58,6 +58,38 @@ void Calibrate(benchmark::State& state) {
   }
 }
 
+/// Between classes, where every taxel has a table of its own.
+void CalibrateBlended(benchmark::State& state) {
+  const fsr::MatrixSize matrix = size(state);
+  fsr::CurvatureTables tables = test_support::smallTables(matrix, kCurvatures, kFullScale);
+  tables.rule.blend = fsr::BlendRule::kInterpolate;
+  fsr::Calibrator calibrator(tables, {matrix});
+  calibrator.setSurface({"bend", 1, {{12.5, 0, 0}}, {}}, 0);
+  const auto counts = loadCycles(matrix.taxels());
+  fsr::PressureMap map;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const std::uint16_t* scan = counts.data() + (i % kScans) * matrix.taxels();
+    calibrator.calibrate({matrix, kFullScale, scan, matrix.taxels()}, double(i) / kRate, map);
+    benchmark::DoNotOptimize(map.pressure.data());
+    benchmark::ClobberMemory();
+    ++i;
+  }
+}
+
+/// What a new curvature costs once, by rule: 0 nearest, 1 kernel, 2 interpolate.
+void CompileTables(benchmark::State& state) {
+  const fsr::MatrixSize matrix = size(state);
+  fsr::CurvatureTables tables = test_support::smallTables(matrix, kCurvatures, kFullScale);
+  tables.rule = {static_cast<fsr::BlendRule>(state.range(2)), {2.0}, {}, {{0, 300e3}, {10e3, 20e3}}};
+  for (fsr::CodeTable& table : tables.tables) table.log_weight.assign(kFullScale + 1u, 1.0f);
+  fsr::Calibrator calibrator(tables, {matrix});
+  std::uint32_t i = 0;
+  for (auto _ : state) {
+    calibrator.setSurface({"bend", ++i, {{i % 2 == 0 ? 12.5 : 16.5, 0, 0}}, {}}, 0);
+  }
+}
+
 void CopyScanToFloat(benchmark::State& state) {
   const std::size_t taxels = size(state).taxels();
   const auto counts = loadCycles(taxels);
@@ -74,4 +106,6 @@ void CopyScanToFloat(benchmark::State& state) {
 }  // namespace
 
 BENCHMARK(Calibrate)->Args({7, 10})->Args({16, 10})->Args({32, 32});
+BENCHMARK(CalibrateBlended)->Args({7, 10})->Args({16, 10})->Args({32, 32});
+BENCHMARK(CompileTables)->Unit(benchmark::kMillisecond)->Args({7, 10, 0})->Args({7, 10, 1})->Args({7, 10, 2});
 BENCHMARK(CopyScanToFloat)->Args({7, 10})->Args({16, 10})->Args({32, 32});
