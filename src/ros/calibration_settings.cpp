@@ -25,6 +25,8 @@ CalibrationSettings readCalibrationSettings(const ros::NodeHandle& private_handl
   s.calibration = resolveResource(parameters.text("calibration", ""));
   s.calibrator.class_hysteresis =
       parameters.number("class_hysteresis", s.calibrator.class_hysteresis, {0, 1000, "1/m"});
+  s.calibrator.curvature_step =
+      parameters.number("curvature_step", s.calibrator.curvature_step, {0, 1000, "1/m"});
   s.calibrator.curvature_timeout =
       parameters.number("curvature_timeout", s.calibrator.curvature_timeout, {0, kNoBound, "s"});
   s.calibrator.fill_bad_taxels = parameters.flag("fill_bad_taxels", s.calibrator.fill_bad_taxels);

@@ -104,6 +104,9 @@ INSTANTIATE_TEST_SUITE_P(All, Merge,
                                          setting("tuned", Scheme::kPerCurvature, "grnn", true),
                                          setting("baseline", Scheme::kBaseline, "grnn"),
                                          setting("method_2", Scheme::kCurvatureInput, "grnn"),
+                                         setting("scaled", Scheme::kScaledCurvature, "grnn"),
+                                         setting("ranges", Scheme::kCurvatureRanges, "grnn", true),
+                                         setting("by_name", Scheme::kPerSurface, "grnn"),
                                          setting("linear", Scheme::kPerCurvature, "linear")),
                          [](const auto& set) { return set.param.name; });
 

@@ -206,6 +206,22 @@ TEST(Schemes, EveryOneGoesThroughItsFileToTheLiveMap) {
   std::filesystem::remove(path);
 }
 
+TEST(Schemes, WhatIsLearnedDoesNotDependOnThreads) {
+  for (const Scheme scheme : {Scheme::kScaledCurvature, Scheme::kCurvatureRanges, Scheme::kCurvatureMap}) {
+    CalibrationProblem problem{{recording()}, {}};
+    problem.options.scheme = scheme;
+    problem.options.scores = false;
+    problem.options.threads = 1;
+    const Calibration one = calibrate(problem);
+    problem.options.threads = 3;
+    const Calibration three = calibrate(problem);
+    EXPECT_EQ(one.tables.rule.length_scale, three.tables.rule.length_scale);
+    EXPECT_EQ(one.tables.rule.law.gain, three.tables.rule.law.gain);
+    EXPECT_EQ(one.tables.rule.unseen.deviation, three.tables.rule.unseen.deviation);
+    EXPECT_EQ(one.tables.table(2, 3).pressure, three.tables.table(2, 3).pressure);
+  }
+}
+
 TEST(Schemes, AnswersOnTheClassesAreThoseOfTheOfflineModels) {
   // The live blend of kernels in floats against the model with two inputs in doubles.
   for (const Scheme scheme : {Scheme::kCurvatureInput, Scheme::kScaledCurvature}) {

@@ -138,7 +138,7 @@ TEST_F(BlendTable, AllocatesNothing) {
   }
 }
 
-TEST(EffectLaw, IsMonotoneBetweenItsKnots) {
+TEST(EffectLawCurve, IsMonotoneBetweenItsKnots) {
   const EffectLaw law{{-10, 0, 1, 20}, {0.8, 1.0, 1.5, 1.6}, {0, 0, 1, 1}};
   double last = 0;
   for (double k = -12; k < 22; k += 0.125) {

@@ -176,6 +176,25 @@ TEST(FitScheme, AClassWithoutReadingsIsAnsweredByItsNeighboursWhereCurvatureIsAn
   }
 }
 
+TEST(FitScheme, AClassWithoutReadingsIsAnsweredByTheSchemesRule) {
+  ClassReadings readings = threeClasses();
+  readings.samples.clear();
+  readings.sums[1] = CodeHistogram(kFullScale);
+  const auto answer = [&](Scheme scheme, const EffectLaw& law = {}) {
+    const SchemePlan plan = planScheme(scheme, kClasses);
+    return answerOn(plan, 0, readings, fitScheme(plan, 0, readings, grnn(0.1)), 1, law);
+  };
+  const auto alone = fitScheme(planScheme(Scheme::kPerCurvature, kClasses), 0, readings, grnn(0.1));
+  const std::vector<double>&flat = alone[0].pressure, &bent = alone[2].pressure;
+  EXPECT_EQ(answer(Scheme::kPerCurvature), flat);  // midway, and the first of two as near
+  EXPECT_EQ(answer(Scheme::kFlatOrCurved), flat);
+  EXPECT_NEAR(answer(Scheme::kInterpolated)[500], 0.5 * (flat[500] + bent[500]), 1e-6);
+  EXPECT_EQ(answer(Scheme::kBaseline),
+            fitScheme(planScheme(Scheme::kBaseline, kClasses), 0, readings, grnn(0.1))[0].pressure);
+  const EffectLaw law{{0, 10, 20}, {1.0, 0.8, 0.8}, {0, 0, 0}};  // all of the effect by 10 1/m
+  EXPECT_NEAR(answer(Scheme::kCurvatureMap, law)[500], 0.8 / 0.9 * 0.5 * (flat[500] + bent[500]), 1e-6);
+}
+
 TEST(FitScheme, OneClassHasNothingToLearnFromItsCurvature) {
   ClassReadings readings = threeClasses();
   readings.sums.erase(readings.sums.begin() + 1, readings.sums.end());
@@ -230,6 +249,10 @@ TEST(FitScheme, SaysWhichRegressorTakesASecondInput) {
   EXPECT_EQ(refusal(Scheme::kOneHot, options),
             "scheme one_hot gives the model a second input, which a forest here takes as one column only; "
             "choose linear or grnn, or curvature_input");
+  EXPECT_EQ(
+      refusal(Scheme::kScaledCurvature, options),
+      "scheme scaled_curvature gives the model a second input, which only a GRNN has a length scale for; "
+      "choose grnn, or curvature_input");
   options.name = "grnn";
   options.grnn.distance = KernelDistance::kLiteral;
   EXPECT_EQ(

@@ -14,7 +14,7 @@ namespace fsr_ros {
 /// Every parameter of the calibration node with its default.
 struct CalibrationSettings {
   std::string calibration;            ///< resolved path; empty = wait for ~load_calibration
-  fsr::CalibratorOptions calibrator;  ///< ~class_hysteresis, ~curvature_timeout, ~fill_bad_taxels
+  fsr::CalibratorOptions calibrator;  ///< ~class_hysteresis, ~curvature_step, ~curvature_timeout, ~fill_bad_taxels
   fsr::TareOptions tare;              ///< ~tare_limit, ~tare_scatter, ~tare_window
   std::string tare_file;              ///< resolved path; empty = in ${ROS_HOME}, named after the node
   double contact_threshold = 10e3;    ///< from here on diagnostics count a taxel as in contact [Pa]
