@@ -38,7 +38,14 @@ double pressureAt(const RigMoment& moment, double time) {
 }  // namespace
 
 SensorChain::SensorChain(const SimulationSettings& settings)
-    : layout_(settings.layout), full_scale_(settings.fullScale()), clock_(kClockState, 0.0) {
+    : layout_(settings.layout),
+      full_scale_(settings.fullScale()),
+      curves_(settings.taxel_curves),
+      clock_(kClockState, 0.0) {
+  if (curves_ && curves_->taxels != layout_.size.taxels()) {
+    throw InputError(settings.taxel_curves_file + ": is of " + std::to_string(curves_->taxels) +
+                     " taxels, but the matrix has " + std::to_string(layout_.size.taxels()));
+  }
   std::vector<EffectEntry> order = effectLibrary();
   std::stable_sort(order.begin(), order.end(), earlier);
   for (const EffectEntry& entry : order) {
@@ -59,6 +66,7 @@ void SensorChain::mount(const Surface& surface, const LoadPattern& pattern) {
   for (Link& link : links_) link.effect->place(mounting);
   for (Link& link : links_) link.effect->mount(mounting);
   share_ = mounting.share;
+  if (curves_) on_surface_ = &curves_->nearest(mounting.curvature.front());
 }
 
 RigMoment SensorChain::clocked(const RigMoment& moment) {
@@ -77,6 +85,12 @@ void SensorChain::load(const RigMoment& moment) {
   }
 }
 
+void SensorChain::addCurves(double pressure) {
+  for (std::size_t i = 0; i < share_.size(); ++i) {
+    signals_.reading[i] += full_scale_ * addedAt(*on_surface_, share_.size(), i, share_[i] * pressure);
+  }
+}
+
 const std::vector<std::uint16_t>& SensorChain::read(const RigMoment& stamped) {
   RigMoment moment = clocked(stamped);
   signals_.skew = 0;
@@ -90,6 +104,7 @@ const std::vector<std::uint16_t>& SensorChain::read(const RigMoment& stamped) {
   }
   load(moment);
   for (; link != links_.end(); ++link) link->effect->apply(moment, signals_);
+  if (on_surface_ != nullptr) addCurves(moment.pressure);
   const double full_scale = full_scale_;
   for (std::size_t i = 0; i < counts_.size(); ++i) {
     counts_[i] = static_cast<std::uint16_t>(std::lround(std::clamp(signals_.reading[i], 0.0, full_scale)));

@@ -106,6 +106,12 @@ std::vector<EnabledEffect> readEffects(const Settings& effects) {
   return enabled;
 }
 
+void readCurves(const Settings& settings, SimulationSettings& simulation) {
+  simulation.taxel_curves_file = settings.text("taxel_curves");
+  const auto path = std::filesystem::path(settings.origin()).parent_path() / simulation.taxel_curves_file;
+  simulation.taxel_curves = std::make_shared<const TaxelCurves>(readTaxelCurves(path));
+}
+
 }  // namespace
 
 void validate(const SimulatedBoard& board, const std::string& origin) {
@@ -139,6 +145,7 @@ SimulationSettings readSimulation(const Settings& settings) {
   if (settings.has("climate")) simulation.climate = readChamberClimate(settings.section("climate"));
   if (settings.has("transducer")) simulation.transducer = readTransducer(settings.section("transducer"));
   simulation.effects = readEffects(settings.section("effects"));
+  if (settings.has("taxel_curves")) readCurves(settings, simulation);
   settings.refuseUnknown();
   return simulation;
 }

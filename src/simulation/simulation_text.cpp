@@ -104,6 +104,9 @@ std::string simulationText(const SimulationSettings& settings, const std::string
             ", high: " + numberText(transducer.high) +
             ", full_counts: " + std::to_string(transducer.full_counts) + "}\neffects:\n";
   for (const EnabledEffect& effect : settings.effects) result += text(effect, remarks);
+  if (!settings.taxel_curves_file.empty()) {
+    result += "taxel_curves: " + quotedText(settings.taxel_curves_file) + "\n";
+  }
   return result;
 }
 

@@ -56,12 +56,15 @@ class SensorChain {
   };
   RigMoment clocked(const RigMoment& moment);
   void load(const RigMoment& moment);
+  void addCurves(double pressure);
 
   Layout layout_;
   std::uint16_t full_scale_;
-  std::vector<Link> links_;    // in the order in which they act
-  std::vector<double> share_;  // [taxels], of the chamber's pressure
-  std::vector<double> clock_;  // whether a scan was read, and when the last one [s]
+  std::vector<Link> links_;  // in the order in which they act
+  std::shared_ptr<const TaxelCurves> curves_;
+  const TaxelCurves::OnSurface* on_surface_ = nullptr;  // of `curves_`, where it lies now
+  std::vector<double> share_;                           // [taxels], of the chamber's pressure
+  std::vector<double> clock_;                           // whether a scan was read, and when the last one [s]
   TaxelSignals signals_;
   std::vector<std::uint16_t> counts_;
 };

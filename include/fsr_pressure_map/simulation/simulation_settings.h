@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "fsr_pressure_map/simulation/chamber_program.h"
 #include "fsr_pressure_map/simulation/effect.h"
 #include "fsr_pressure_map/simulation/load_pattern.h"
+#include "fsr_pressure_map/simulation/taxel_curves.h"
 #include "fsr_pressure_map/simulation/transducer.h"
 
 namespace fsr {
@@ -55,7 +57,9 @@ struct SimulationSettings {
   double start = 1704099600;     ///< date of rig time 0 [s since 1970]
   ChamberClimate climate;
   Transducer transducer;
-  std::vector<EnabledEffect> effects;  ///< in the library's order
+  std::vector<EnabledEffect> effects;               ///< in the library's order
+  std::shared_ptr<const TaxelCurves> taxel_curves;  ///< beyond the static law; none = nothing
+  std::string taxel_curves_file;                    ///< where they come from, as the settings name it
 
   /// nullptr where it is not enabled.
   const EnabledEffect* effect(const std::string& id) const;
@@ -79,6 +83,7 @@ struct SimulationSettings {
 ///     transducer: {low: -103000, high: 1034000, full_counts: 4096}
 ///     effects:
 ///       static_curve: {exponent: 0.9}   # effects that are named are enabled; {} = usual values
+///     taxel_curves: taxel_curves.csv    # beside this file; see TaxelCurves
 ///
 /// Throws InputError that names unknown effects and keys, and values out of range.
 SimulationSettings readSimulation(const Settings& settings);

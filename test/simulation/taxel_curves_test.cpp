@@ -1,0 +1,109 @@
+#include "fsr_pressure_map/simulation/taxel_curves.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/simulation/sensor_chain.h"
+#include "fsr_pressure_map/simulation/simulation_text.h"
+
+namespace fsr {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TaxelCurvesFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              ("curves_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+  std::string complaint(const std::string& text) const {
+    try {
+      readTaxelCurves(write("bad.csv", text));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  fs::path folder_;
+};
+
+// 1 x 2 taxels, flat and bent.
+TaxelCurves example() {
+  return {{{0, {0, 100e3}, {0.0, 0.01, 0.02, 0.03}}, {14.25, {50e3}, {-0.01, 1.0 / 3}}}, 2};
+}
+
+SimulationSettings smallRig() {
+  SimulationSettings settings = readSimulationFile(FSR_SOURCE_DIR "/config/simulation/core.yaml");
+  settings.layout.size = {1, 2};
+  return settings;
+}
+
+TEST(TaxelCurves, AreStraightBetweenPressuresAndHeldBeyond) {
+  const TaxelCurves curves = example();
+  const auto& flat = curves.nearest(0.5);
+  EXPECT_EQ(addedAt(flat, 2, 0, -5e3), 0.0);
+  EXPECT_DOUBLE_EQ(addedAt(flat, 2, 0, 50e3), 0.01);
+  EXPECT_DOUBLE_EQ(addedAt(flat, 2, 1, 50e3), 0.02);
+  EXPECT_EQ(addedAt(flat, 2, 1, 200e3), 0.03);
+  EXPECT_EQ(addedAt(curves.nearest(20), 2, 0, 0), -0.01);
+}
+
+TEST(TaxelCurves, AddToWhatTheChainReads) {
+  SimulationSettings settings = smallRig();
+  SensorChain plain(settings);
+  settings.taxel_curves = std::make_shared<const TaxelCurves>(example());
+  SensorChain corrected(settings);
+  RigMoment moment;
+  moment.pressure = 50e3;
+  plain.read(moment);
+  corrected.read(moment);
+  EXPECT_NEAR(corrected.reading()[0] - plain.reading()[0], 4095 * 0.01, 1e-9);
+  EXPECT_NEAR(corrected.reading()[1] - plain.reading()[1], 4095 * 0.02, 1e-9);
+  corrected.mount(Surface{"bent", 1, {Curvature{13, 0, 0}}, {}});
+  plain.mount(Surface{"bent", 1, {Curvature{13, 0, 0}}, {}});
+  moment.time = 1;
+  plain.read(moment);
+  corrected.read(moment);
+  EXPECT_NEAR(corrected.reading()[1] - plain.reading()[1], 4095 / 3.0, 1e-9);
+}
+
+TEST(TaxelCurves, RefuseAnotherMatrix) {
+  SimulationSettings settings = smallRig();
+  settings.layout.size = {2, 2};
+  settings.taxel_curves = std::make_shared<const TaxelCurves>(example());
+  EXPECT_THROW(SensorChain chain(settings), InputError);
+}
+
+TEST_F(TaxelCurvesFile, KeepsEveryBitBesideItsSimulation) {
+  write("curves.csv", taxelCurvesText(example()));
+  SimulationSettings settings = smallRig();
+  settings.taxel_curves_file = "curves.csv";
+  const SimulationSettings read = readSimulationFile(write("rig.yaml", simulationText(settings)));
+  ASSERT_TRUE(read.taxel_curves);
+  EXPECT_EQ(read.taxel_curves_file, "curves.csv");
+  EXPECT_EQ(read.taxel_curves->taxels, 2u);
+  ASSERT_EQ(read.taxel_curves->surfaces.size(), 2u);
+  EXPECT_EQ(read.taxel_curves->surfaces[0].pressure, example().surfaces[0].pressure);
+  EXPECT_EQ(read.taxel_curves->surfaces[1].added, example().surfaces[1].added);
+}
+
+TEST_F(TaxelCurvesFile, IsRefusedByLineAndColumn) {
+  const std::string head = "curvature_per_m,pressure_Pa,taxel_0\n";
+  EXPECT_NE(complaint(head + "0,0,0\n0,0,1\n").find("line 3, column pressure_Pa"), std::string::npos);
+  EXPECT_NE(complaint(head + "0,0,x\n").find("line 2, column taxel_0"), std::string::npos);
+  EXPECT_NE(complaint(head).find("no row"), std::string::npos);
+  EXPECT_NE(complaint("a,b\n0,0\n").find("no column for a taxel"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace fsr
