@@ -62,19 +62,34 @@ def curves(folder, results):
     return [(name, read_table(os.path.join(folder, "residual_%s.csv" % name))) for name in first + rest]
 
 
+def branches(name, at):
+    """[(style, rows)]: one curve, or loading and unloading apart where unloading is given as negative pressure."""
+    if name != "direction" or max(at) <= 1:
+        return [("-", range(len(at)))]
+    up, down = ([i for i, x in enumerate(at) if (x >= 0) == side] for side in (True, False))
+    return [(line, rows) for line, rows in (("-", up), ("--", down)) if rows]
+
+
 def draw_curve(axes, name, table):
     heading, before, after, error = list(table)[:4]
     unit = heading[len(name):].strip(" []")
-    factor, shown = SCALES.get(unit, (1, unit))
+    factor, shown = SCALES.get(unit.split(",")[0], (1, unit))
     at = [factor * x for x in table[heading]]
+    parts = branches(name, at)
     axes.axhline(0, color="#999999", linewidth=0.6)
     for column, colour, label in ((before, style.RED, "before"), (after, style.BLUE, "after")):
-        low = [m - 1.96 * e for m, e in zip(table[column], table[error])]
-        high = [m + 1.96 * e for m, e in zip(table[column], table[error])]
-        axes.fill_between(at, low, high, color=colour, alpha=0.2, linewidth=0)
-        axes.plot(at, table[column], color=colour, marker="." if len(at) < 30 else None, label=label)
+        for line, rows in parts:
+            x = [abs(at[i]) if len(parts) > 1 else at[i] for i in rows]
+            mean = [table[column][i] for i in rows]
+            band = [1.96 * table[error][i] for i in rows]
+            axes.fill_between(x, [m - e for m, e in zip(mean, band)], [m + e for m, e in zip(mean, band)],
+                              color=colour, alpha=0.2, linewidth=0)
+            axes.plot(x, mean, line, color=colour, marker="." if len(at) < 30 else None,
+                      label=label if line == "-" else None)
     axes.set_xlabel(spelt(name) + (" [%s]" % shown if shown else ""))
-    if name == "direction":
+    if len(parts) > 1:
+        axes.set_xlabel("pressure [kPa], filling solid, venting dashed")
+    elif name == "direction":
         axes.set_xticks([-1, 1], ["unloading", "loading"])
 
 

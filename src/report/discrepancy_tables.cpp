@@ -19,8 +19,8 @@ double at(const std::vector<double>& values, std::size_t i) {
 }
 
 std::string curveTable(const ResidualCurve& curve) {
-  std::string text = curve.covariate + (curve.unit.empty() ? "" : " [" + curve.unit + "]") +
-                     ",before [% FS],after [% FS],standard error [% FS]\n";
+  std::string text = "\"" + curve.covariate + (curve.unit.empty() ? "" : " [" + curve.unit + "]") +
+                     "\",before [% FS],after [% FS],standard error [% FS]\n";
   for (std::size_t i = 0; i < curve.at.size(); ++i) {
     text += cell(curve.at[i]);
     for (const auto* values : {&curve.before, &curve.after, &curve.error}) {

@@ -21,6 +21,15 @@ std::string heading(const fsr::DiscrepancyReport& report) {
   return text;
 }
 
+// A simulation and, beside it, the curves of its taxels.
+void writeSimulation(const fsr::SimulationSettings& settings, const std::string& folder,
+                     const std::string& name, const std::string& head, const fsr::ValueRemarks& remarks) {
+  if (settings.taxel_curves) {
+    fsr::replaceFile(folder + "/" + settings.taxel_curves_file, fsr::taxelCurvesText(*settings.taxel_curves));
+  }
+  fsr::replaceFile(folder + "/" + name, fsr::simulationText(settings, head, remarks));
+}
+
 }  // namespace
 
 std::string outputFolder(const std::string& path) {
@@ -39,13 +48,10 @@ void writeDiscrepancy(const fsr::DiscrepancyReport& report, const std::string& f
   for (const auto& [name, table] : fsr::discrepancyTables(report))
     fsr::replaceFile(figures + "/" + name, table);
   fsr::replaceFile(folder + "/results.json", fsr::discrepancyJson(report));
-  fsr::replaceFile(folder + "/base.yaml",
-                   fsr::simulationText(report.base,
-                                       "The simulation before anything was added to it, fitted to "
-                                       "the recordings.\n" +
-                                           heading(report)));
-  fsr::replaceFile(folder + "/simulation.yaml",
-                   fsr::simulationText(report.added, heading(report), fsr::fitRemarks(report)));
+  writeSimulation(
+      report.base, folder, "base.yaml",
+      "The simulation before anything was added to it, fitted to the recordings.\n" + heading(report), {});
+  writeSimulation(report.added, folder, "simulation.yaml", heading(report), fsr::fitRemarks(report));
   const std::string verdict = fsr::verdictText(report);
   fsr::replaceFile(folder + "/prediction.yaml",
                    fsr::predictionText({report.prediction, fsr::sha256(verdict.data(), verdict.size())}));

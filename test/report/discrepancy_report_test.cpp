@@ -52,7 +52,7 @@ TEST(DiscrepancyTables, AreOneForEachFigureWithUnitsInTheirHeadings) {
   EXPECT_EQ(tables.size(), 4u);
   const std::string& curve = tables.at("residual_pressure.csv");
   EXPECT_EQ(curve.substr(0, curve.find('\n')),
-            "pressure [Pa],before [% FS],after [% FS],standard error [% FS]");
+            "\"pressure [Pa]\",before [% FS],after [% FS],standard error [% FS]");
   EXPECT_EQ(std::count(curve.begin(), curve.end(), '\n'), 21);
   expectHolds(tables.at("gap.csv"), {"before,3.1,2.9", "floor,0.6,"});
   expectHolds(tables.at("candidates.csv"), {"hysteresis + creep,credible,86.5,93.5,14.2"});

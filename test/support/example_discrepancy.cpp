@@ -77,7 +77,8 @@ fsr::DiscrepancyReport exampleDiscrepancy() {
                        {{"time_skew"}, "refused", 0.31, 0.34, 6.0}};
   report.tested = {"hysteresis", "creep", "time_skew"};
   report.limitations = {"No temperature was recorded: what is slow cannot be told apart."};
-  report.curves = {curve("pressure", "Pa", 0, 620e3), curve("direction", "", -1, 1)};
+  report.curves = {curve("pressure", "Pa", 0, 620e3),
+                   curve("direction", "Pa, venting negative", -620e3, 620e3)};
   report.steps = {{"hysteresis", "hysteresis was added; it explains 86 % of the squared error", 0.86}};
   report.base.name = "core";
   report.base.effects = {{"white_noise", {{"deviation", 2}}}};
