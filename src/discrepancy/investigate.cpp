@@ -5,6 +5,7 @@
 #include "fsr_pressure_map/discrepancy/decision.h"
 #include "fsr_pressure_map/discrepancy/refine.h"
 #include "fsr_pressure_map/discrepancy/show.h"
+#include "fsr_pressure_map/discrepancy/taxel_curves_fit.h"
 #include "fsr_pressure_map/simulation/effects/effect_library.h"
 
 namespace fsr {
@@ -158,6 +159,8 @@ DiscrepancyReport investigate(const DiscrepancyProblem& problem, const Discrepan
                           std::min(1.0, decision.ceiling * to_error), problem.options.seed);
   const Trace before = fit.residual(common.all);
   report.curves = residualCurves(measured, before, before - left);
+  report.base = withTaxelCurves(measured, report.base, "base_curves.csv");
+  report.added = withTaxelCurves(measured, report.added, "simulation_curves.csv");
   tell("done", 1);
   return report;
 }

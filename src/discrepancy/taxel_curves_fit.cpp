@@ -60,12 +60,17 @@ std::vector<const Recording*> inOrderOfTime(const Measured& measured) {
 // Drives the simulation through everything that was recorded.
 void forEachScan(const Measured& measured, const SimulationSettings& simulation,
                  const std::function<void(const Pair&)>& use) {
-  DrivenRig rig(withoutNoise(simulation));
+  const SimulationSettings quiet = withoutNoise(simulation);
+  DrivenRig rig(quiet);
+  double end = -INFINITY;
   const std::vector<const Recording*> order = inOrderOfTime(measured);
   const auto shown = shownTimes(measured);
   const double first = order.front()->time.front();
   for (const Recording* recording : order) {
     const double start = 1e-9 * static_cast<double>(recording->start_ns - order.front()->start_ns) - first;
+    // Tables that became bags may all begin at one date: then each has a sheet of its own.
+    if (start + recording->time.front() < end) rig = DrivenRig(quiet);
+    end = start + recording->time.back();
     rig.run(*recording, [&](std::size_t scan, const SensorChain& chain) {
       const Surface& surface = recording->conditions.at(recording->condition[scan]);
       const double curvature = surface.known() ? principalCurvature(surface.at({0})) : 0;

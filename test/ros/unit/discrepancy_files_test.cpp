@@ -1,6 +1,7 @@
 #include "fsr_pressure_map/ros/discrepancy_files.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -22,7 +23,8 @@ class DiscrepancyFiles : public testing::Test {
  protected:
   void SetUp() override {
     folder_ = fs::path(testing::TempDir()) /
-              ("discrepancy_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+              ("discrepancy_" + std::to_string(::getpid()) +
+               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder_);
     report_.base = report_.added = fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/core.yaml");
   }

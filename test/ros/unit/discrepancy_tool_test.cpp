@@ -1,6 +1,7 @@
 #include "fsr_pressure_map/ros/discrepancy_tool.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -25,7 +26,8 @@ class DiscrepancyTool : public testing::Test {
  protected:
   void SetUp() override {
     folder_ = fs::path(testing::TempDir()) /
-              ("tool_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+              ("tool_" + std::to_string(::getpid()) +
+               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "session");
     ::setenv("ROS_HOME", folder_.c_str(), 1);
