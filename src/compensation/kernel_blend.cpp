@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsr_pressure_map/regression/vector_width.h"
+
 namespace fsr {
 
 namespace {
@@ -12,17 +14,22 @@ namespace {
 const double kSafeWeight = std::exp(-500.0);
 // Weights below exp(-40) of the largest do not count.
 constexpr double kNegligibleExponent = 40.0;
+// No class has more readings, each of weight 1 at most.
+constexpr double kLargestLogWeight = 40.0;
 constexpr std::size_t kCodesInCache = 512;
 
 double logWeight(const KernelMean& mean, std::size_t code) {
   return mean.weight[code] > 0 ? std::log(mean.weight[code]) : mean.log_weight[code];
 }
 
-// The answer at one code by logarithms. `log_weight` [K] is room for them.
+// The answer at one code by logarithms. `log_weight` [K] is room for them; `nearest` = class of the least
+// exponent, from which on most others need not be looked at.
 double byLogarithms(const std::vector<KernelMean>& classes, const std::vector<double>& exponent,
-                    std::size_t code, std::vector<double>& log_weight) {
-  double largest = -INFINITY;
+                    std::size_t nearest, std::size_t code, std::vector<double>& log_weight) {
+  double largest = logWeight(classes[nearest], code) - exponent[nearest];
   for (std::size_t k = 0; k < classes.size(); ++k) {
+    log_weight[k] = -INFINITY;
+    if (kLargestLogWeight - exponent[k] < largest - kNegligibleExponent) continue;
     log_weight[k] = logWeight(classes[k], code) - exponent[k];
     largest = std::max(largest, log_weight[k]);
   }
@@ -37,17 +44,20 @@ double byLogarithms(const std::vector<KernelMean>& classes, const std::vector<do
   return sum / weight;
 }
 
-// Adds one class's share at the codes begin .. end - 1.
-void addClass(const KernelMean& mean, double factor, std::size_t begin, std::size_t end, Fit& sums) {
-  const double* __restrict__ pressure = mean.pressure.data();
-  const double* __restrict__ weight = mean.weight.data();
-  double* __restrict__ sum = sums.pressure.data();
-  double* __restrict__ share = sums.support.data();
-  for (std::size_t code = begin; code < end; ++code) {
+// Adds one class's share at `codes` codes.
+FSR_EACH_VECTOR_WIDTH
+void addClass(const double* __restrict__ pressure, const double* __restrict__ weight, double factor,
+              std::size_t codes, double* __restrict__ sum, double* __restrict__ share) {
+  for (std::size_t code = 0; code < codes; ++code) {
     const double own = factor * weight[code];
     sum[code] += own * pressure[code];
     share[code] += own;
   }
+}
+
+FSR_EACH_VECTOR_WIDTH
+void divide(const double* __restrict__ share, std::size_t codes, double* __restrict__ sum) {
+  for (std::size_t code = 0; code < codes; ++code) sum[code] /= share[code];
 }
 
 }  // namespace
@@ -58,16 +68,20 @@ Fit blendKernels(const std::vector<KernelMean>& classes, const std::vector<doubl
   std::vector<double> factor;
   for (const double x : exponent) factor.push_back(std::exp(-x));
   for (std::size_t begin = 0; begin < codes; begin += kCodesInCache) {
-    const std::size_t end = std::min(codes, begin + kCodesInCache);
+    const std::size_t number = std::min(codes - begin, kCodesInCache);
     for (std::size_t k = 0; k < classes.size(); ++k) {
-      if (factor[k] > 0) addClass(classes[k], factor[k], begin, end, fit);
+      if (factor[k] == 0) continue;
+      addClass(classes[k].pressure.data() + begin, classes[k].weight.data() + begin, factor[k], number,
+               fit.pressure.data() + begin, fit.support.data() + begin);
     }
+    divide(fit.support.data() + begin, number, fit.pressure.data() + begin);
   }
-  for (std::size_t code = 0; code < codes; ++code) fit.pressure[code] /= fit.support[code];
+  const auto nearest =
+      static_cast<std::size_t>(std::min_element(exponent.begin(), exponent.end()) - exponent.begin());
   std::vector<double> log_weight(classes.size());
   for (std::size_t code = 0; code < codes; ++code) {
     if (!(fit.support[code] > kSafeWeight)) {
-      fit.pressure[code] = byLogarithms(classes, exponent, code, log_weight);
+      fit.pressure[code] = byLogarithms(classes, exponent, nearest, code, log_weight);
     }
   }
   return fit;
