@@ -6,9 +6,11 @@
 #include <iostream>
 
 #include "fsr_pressure_map/calibration/calibration.h"
+#include "fsr_pressure_map/calibration/calibration_check.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/merge.h"
 #include "fsr_pressure_map/regression/option_names.h"
+#include "fsr_pressure_map/report/calibration_check_report.h"
 #include "fsr_pressure_map/report/calibration_report.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/command_line.h"
@@ -26,10 +28,11 @@ std::string list(const std::vector<std::string>& names) {
 }
 
 fsr::CommandLine options() {
-  fsr::CommandLine line("train", "BAG... --output FILE, or --merge CALIBRATION... --output FILE",
+  fsr::CommandLine line("train", "BAG... --output FILE, or --merge CALIBRATION... --output FILE, or --check FILE BAG...",
                         "Trains a calibration from bags of a matrix in a pressure chamber: topics raw, "
                         "chamber_pressure and curvature, and matrix_info and temperature where recorded.");
   line.option("output", "FILE", "calibration file to write (HDF5)")
+      .option("check", "FILE", "score this calibration on the bags instead: still good, or recalibrate?")
       .flag("merge", "of calibration files, what training on all their bags would give; without scores")
       .option("scheme", "NAME",
               fsr::schemeList() + "; default " + fsr::schemeName(fsr::CalibrationOptions{}.scheme))
@@ -119,6 +122,16 @@ void showProgress(std::size_t done, std::size_t taxels) {
   std::cerr << "\rtaxel " << done << " of " << taxels << (done == taxels ? "\n" : "") << std::flush;
 }
 
+int check(const fsr::CommandLine& line, std::ostream& out) {
+  if (line.has("output")) throw fsr::InputError("--check writes no calibration: leave --output out");
+  const std::string path = line.text("check", "");
+  const fsr::Calibration calibration = fsr::loadCalibration(path, fsr::CalibrationParts::kWithoutStatistics);
+  out << "Calibration " << calibration.id << " (" << fsr::schemeName(calibration.tables.scheme) << ", "
+      << calibration.provenance.date << ") on " << line.files().size() << " bags\n"
+      << fsr::checkText(fsr::checkCalibration(calibration, readBags(line)));
+  return 0;
+}
+
 // What merging takes from the files, and cannot be told.
 void refuseOptionsOfTraining(const fsr::CommandLine& line) {
   for (const char* const option :
@@ -163,6 +176,7 @@ int trainTool(int argc, const char* const* argv, std::ostream& out) {
     out << line.help();
     return 0;
   }
+  if (line.has("check")) return check(line, out);
   const std::string output = line.requiredText("output");
   const std::string report = line.text("report", "");
   fsr::requireReplaceable(output);

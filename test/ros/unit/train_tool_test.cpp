@@ -145,6 +145,19 @@ TEST_F(TrainTool, AFailureOverwritesNothing) {
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "the old one");
 }
 
+TEST_F(TrainTool, ChecksACalibrationOnNewBags) {
+  const std::string output = (folder_ / "calibration.h5").string();
+  run({bend_, "--output", output, "--no-scores", "--bandwidth", "0.05"});
+  const std::string good = run({"--check", output, bend_});
+  EXPECT_NE(good.find("cylinder_7cm"), std::string::npos) << good;
+  EXPECT_NE(good.find("Still good."), std::string::npos) << good;
+  const std::string other = record("flat.bag", {"flat", 0.0});
+  const std::string bad = run({"--check", output, other});
+  EXPECT_NE(bad.find("Recalibrate, because"), std::string::npos) << bad;
+  EXPECT_EQ(run({"--check", output, "--output", output, bend_}),
+            "--check writes no calibration: leave --output out");
+}
+
 TEST_F(TrainTool, WrongUsageIsOneSentence) {
   const std::string output = (folder_ / "calibration.h5").string();
   EXPECT_EQ(run({bend_}), "--output FILE is missing; see train --help");

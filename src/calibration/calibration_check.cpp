@@ -1,0 +1,226 @@
+#include "fsr_pressure_map/calibration/calibration_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <map>
+#include <sstream>
+
+#include "fsr_pressure_map/calibration/calibrator.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr std::uint64_t kLeastReadings = 100;  // of a taxel, before it can be conspicuous
+
+// Sums over readings of one surface, one taxel, or all.
+struct Sums {
+  std::uint64_t readings = 0;
+  std::uint64_t within = 0;
+  std::uint64_t beyond = 0;
+  double error = 0;     // [Pa]
+  double square = 0;    // [Pa^2]
+  double expected = 0;  // of the stated deviations [Pa^2]
+
+  void add(double e, double deviation, bool is_beyond) {
+    ++readings;
+    within += std::abs(e) <= deviation;
+    beyond += is_beyond;
+    error += e;
+    square += e * e;
+    expected += deviation * deviation;
+  }
+  double rmse() const { return std::sqrt(square / double(readings)); }
+  double expectedRmse() const { return std::sqrt(expected / double(readings)); }
+
+  CheckedClass summary(const std::string& name) const {
+    CheckedClass result;
+    result.name = name;
+    result.readings = readings;
+    if (readings == 0) return result;
+    const auto n = double(readings);
+    result.expected_rmse = expectedRmse();
+    result.rmse = rmse();
+    result.bias = error / n;
+    result.within_one_deviation = double(within) / n;
+    result.beyond_training = double(beyond) / n;
+    return result;
+  }
+};
+
+std::string text(double value, int digits = 1) {
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(digits) << value;
+  return out.str();
+}
+
+std::string kilopascals(double value) {
+  return text(value / 1000) + " kPa";
+}
+
+std::string percent(double share) {
+  return text(100 * share) + " %";
+}
+
+std::string places(const std::vector<std::size_t>& taxels, const Layout& layout) {
+  constexpr std::size_t kListed = 8;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(taxels.size(), kListed); ++i) {
+    list += (i == 0 ? "(" : ", (") + std::to_string(layout.row({taxels[i]})) + ", " +
+            std::to_string(layout.column({taxels[i]})) + ")";
+  }
+  return taxels.size() > kListed ? list + ", ..." : list;
+}
+
+void requireFitting(const Calibration& calibration, const Recording& recording) {
+  if (recording.pressure.empty()) {
+    throw InputError(recording.name +
+                     ": has no chamber_pressure, so that there is nothing to hold maps against; "
+                     "without a chamber use check_bag --use socket");
+  }
+  const MatrixSize size = recording.layout.size;
+  if (size.rows != calibration.layout.size.rows || size.columns != calibration.layout.size.columns ||
+      recording.full_scale != calibration.tables.full_scale) {
+    throw InputError(recording.name + ": has " + sizeText(size) + " taxels up to " +
+                     std::to_string(recording.full_scale) + " counts, but the calibration is for " +
+                     sizeText(calibration.layout.size) + " up to " +
+                     std::to_string(calibration.tables.full_scale));
+  }
+}
+
+class Checker {
+ public:
+  explicit Checker(const Calibration& calibration)
+      : calibration_(calibration), taxels_(calibration.layout.size.taxels()) {}
+
+  void take(const Recording& recording) {
+    Calibrator calibrator(calibration_.tables, calibration_.layout);
+    calibrator.setMask(recording.mask);
+    std::size_t surface = recording.conditions.size();
+    for (std::size_t i = 0; i < recording.scans(); ++i) {
+      if (recording.condition[i] != surface) {
+        surface = recording.condition[i];
+        calibrator.setSurface(recording.conditions[surface], recording.time[i]);
+      }
+      calibrator.calibrate({recording.layout.size, recording.full_scale, recording.scan(i), taxels_.size()},
+                           recording.time[i], map_);
+      add(recording.pressure[i], sumsOf(recording.conditions[surface]));
+    }
+    noteFaults(calibrator.watch().flags());
+  }
+
+  CalibrationCheck result(const CalibrationCheckOptions& options) const {
+    CalibrationCheck check;
+    check.whole = whole_.summary("");
+    for (const std::string& name : order_) check.classes.push_back(surfaces_.at(name).summary(name));
+    for (std::size_t i = 0; i < taxels_.size(); ++i) {
+      const Sums& sums = taxels_[i];
+      if (sums.readings >= kLeastReadings && sums.rmse() > options.taxel_ratio * sums.expectedRmse()) {
+        check.suspicious.push_back(i);
+      }
+    }
+    check.dead = dead_;
+    check.stuck = stuck_;
+    return check;
+  }
+
+ private:
+  Sums& sumsOf(const Surface& surface) {
+    const auto [place, fresh] = surfaces_.try_emplace(surface.name);
+    if (fresh) order_.push_back(surface.name);
+    return place->second;
+  }
+
+  // Readings below a taxel's turn-on pressure say "less than", and saturated ones "more than": no errors.
+  void add(double pressure, Sums& surface) {
+    constexpr std::uint16_t kNoValue = taxel_flag::kBelowRange | taxel_flag::kSaturated;
+    constexpr std::uint16_t kBeyond = taxel_flag::kReadingExtrapolated | taxel_flag::kCurvatureExtrapolated;
+    for (std::size_t i = 0; i < taxels_.size(); ++i) {
+      if (std::isnan(map_.pressure[i]) || (map_.flags[i] & kNoValue) != 0) continue;
+      const double error = map_.pressure[i] - pressure;
+      for (Sums* sums : {&whole_, &surface, &taxels_[i]}) {
+        sums->add(error, map_.deviation[i], (map_.flags[i] & kBeyond) != 0);
+      }
+    }
+  }
+
+  void noteFaults(const std::vector<std::uint16_t>& flags) {
+    for (std::size_t i = 0; i < flags.size(); ++i) {
+      if (flags[i] == taxel_flag::kDead) dead_.push_back(i);
+      if (flags[i] == taxel_flag::kStuck) stuck_.push_back(i);
+    }
+  }
+
+  const Calibration& calibration_;
+  PressureMap map_;
+  Sums whole_;
+  std::map<std::string, Sums> surfaces_;
+  std::vector<std::string> order_;
+  std::vector<Sums> taxels_;
+  std::vector<std::size_t> dead_, stuck_;
+};
+
+void judgeClass(const CheckedClass& checked, double range, const CalibrationCheckOptions& options,
+                std::vector<std::string>& reasons) {
+  const std::string where = checked.name.empty() ? "" : "on " + checked.name + " ";
+  if (checked.readings == 0) return;
+  if (checked.beyond_training > options.beyond_share) {
+    reasons.push_back(
+        where + percent(checked.beyond_training) +
+        " of the readings lie beyond what training saw (allowed: " + percent(options.beyond_share) + ")");
+  }
+  if (checked.rmse > options.rmse_ratio * checked.expected_rmse) {
+    reasons.push_back(where + "errors are " + text(checked.rmse / checked.expected_rmse, 2) +
+                      " times what they were (RMSE " + kilopascals(checked.rmse) + " where " +
+                      kilopascals(checked.expected_rmse) +
+                      " was expected; allowed: " + text(options.rmse_ratio, 2) + " times)");
+  }
+  if (std::abs(checked.bias) > options.bias_share * range) {
+    reasons.push_back(where + "maps lie " + kilopascals(std::abs(checked.bias)) +
+                      (checked.bias > 0 ? " above" : " below") + " the chamber on average, " +
+                      percent(std::abs(checked.bias) / range) +
+                      " of the range (allowed: " + percent(options.bias_share) + ")");
+  }
+}
+
+}  // namespace
+
+CalibrationCheck checkCalibration(const Calibration& calibration, const std::vector<Recording>& recordings,
+                                  const CalibrationCheckOptions& options) {
+  if (recordings.empty()) throw InputError("there is no bag to check the calibration on; give one at least");
+  Checker checker(calibration);
+  for (const Recording& recording : recordings) {
+    requireFitting(calibration, recording);
+    checker.take(recording);
+  }
+  CalibrationCheck check = checker.result(options);
+  if (check.whole.readings == 0)
+    throw InputError("no reading of the bags gives a pressure; is every taxel masked?");
+  const double range = calibration.trained.pressure.high - calibration.trained.pressure.low;
+  const Layout& layout = calibration.layout;
+  judgeClass(check.whole, range, options, check.reasons);
+  for (const CheckedClass& checked : check.classes) judgeClass(checked, range, options, check.reasons);
+  if (double(check.suspicious.size()) > options.taxel_share * double(layout.size.taxels())) {
+    check.reasons.push_back(std::to_string(check.suspicious.size()) + " taxels (row, column) err more than " +
+                            text(options.taxel_ratio) +
+                            " times what they did: " + places(check.suspicious, layout));
+  } else if (!check.suspicious.empty()) {
+    check.remarks.push_back("taxels (row, column) that err more than " + text(options.taxel_ratio) +
+                            " times what they did: " + places(check.suspicious, layout));
+  }
+  if (!check.dead.empty()) check.reasons.push_back("taxels are dead: " + places(check.dead, layout));
+  if (!check.stuck.empty()) check.reasons.push_back("taxels are stuck: " + places(check.stuck, layout));
+  for (const Recording& recording : recordings) {
+    const std::string& serial = recording.sensor.serial;
+    if (!serial.empty() && !calibration.sensor.serial.empty() && serial != calibration.sensor.serial) {
+      check.reasons.push_back(recording.name + " is of sensor " + serial +
+                              ", but the calibration was made with " + calibration.sensor.serial);
+    }
+  }
+  check.still_good = check.reasons.empty();
+  return check;
+}
+
+}  // namespace fsr
