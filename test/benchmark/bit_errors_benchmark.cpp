@@ -17,7 +17,8 @@ constexpr std::size_t kTaxels = 70;
 
 // What scan `number` holds, so that a receiver can tell a scan that was never sent.
 std::uint16_t countOf(std::uint32_t number, std::size_t taxel) {
-  return static_cast<std::uint16_t>((number * 2654435761U + taxel * 40503U) >> 20);
+  return static_cast<std::uint16_t>((number * 2654435761U + static_cast<std::uint32_t>(taxel) * 40503U) >>
+                                    20);
 }
 
 class Receiver : public fsr::PacketHandler {

@@ -10,6 +10,7 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fsr_pressure_map/calibration/calibrator.h"
@@ -80,14 +81,16 @@ class FaultListener : public fsr::LinkHandler {
 
   void onScan(const fsr::PacketHeader& header, const fsr::ScanPacket& scan) override {
     const fsr::PacketTime time = stamper_.scan(header, scan.duration);
-    if (std::exchange(jumps_, stamper_.clock().jumps()) != jumps_) gate_.doubt();
+    const std::uint64_t jumps = stamper_.clock().jumps();
+    if (std::exchange(jumps_, jumps) != jumps) gate_.doubt();
     const bool held = gate_.scan(arrival_) == fsr::BoardGate::Verdict::kHold;
     const fsr::ScanView view = {scan.size, scan.full_scale, scan.counts, scan.size.taxels()};
     calibrator_.calibrate(view, 1e-9 * static_cast<double>(time.stamp), map_);
     const bool sent = sent_.has(asSent(header, scan));
     const std::lock_guard<std::mutex> lock(mutex_);
     ++scans_;
-    if (held) ++held_;
+    held_ += held;
+    if (!held) passed_ = scans_;
     if (!held && !expected_serial_.empty() && serial_ != expected_serial_) ++wrong_.boards;
     if (!sent) ++wrong_.scans;
     if (!pressureIsTheTables(scan)) ++wrong_.pressures;
@@ -98,8 +101,9 @@ class FaultListener : public fsr::LinkHandler {
   void onTransducer(const fsr::PacketHeader& header, std::int32_t) override { stamper_.transducer(header); }
   void onTemperature(const fsr::PacketHeader& header, std::int32_t) override { stamper_.temperature(header); }
   void onIdentity(const fsr::PacketHeader&, const fsr::IdentityPacket& identity) override {
-    gate_.identity(identity.serial, arrival_);
+    const bool same = gate_.identity(identity.serial, arrival_) == fsr::BoardGate::Board::kSame;
     const std::lock_guard<std::mutex> lock(mutex_);
+    if (same) passed_ = scans_;
     serial_ = identity.serial;
     changed_.notify_all();
   }
@@ -139,6 +143,9 @@ class FaultListener : public fsr::LinkHandler {
     expected_serial_ = serial;
   }
   std::uint64_t scans() const { return locked(scans_); }
+  /// Scans that a driver has published by now, or held and then published.
+  std::uint64_t passed() const { return locked(passed_); }
+  std::uint64_t passedLocked() const { return passed_; }  ///< inside await() only
   std::uint64_t held() const { return locked(held_); }
   Wrong wrong() const { return locked(wrong_); }
 
@@ -180,7 +187,7 @@ class FaultListener : public fsr::LinkHandler {
 
   mutable std::mutex mutex_;  // over all that follows
   std::condition_variable changed_;
-  std::uint64_t scans_ = 0, held_ = 0;
+  std::uint64_t scans_ = 0, held_ = 0, passed_ = 0;
   Wrong wrong_;
   std::string serial_, expected_serial_;
   fsr::LinkPhase phase_ = fsr::LinkPhase::kWaiting;

@@ -1,0 +1,83 @@
+#!/usr/bin/python3
+"""Links that exist outlive their master: a recorder goes on, without a hole, while roscore is gone and after it came back."""
+import os
+import pathlib
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import rosbag
+import rostest
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class MasterTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.port = free_port()
+        self.environment = dict(os.environ, ROS_MASTER_URI=f"http://127.0.0.1:{self.port}", ROS_IP="127.0.0.1")
+        self.children = []
+
+    def tearDown(self):
+        for child in self.children:
+            child.kill()
+            child.wait()
+        self.folder.cleanup()
+
+    def start(self, *command):
+        child = subprocess.Popen(command, env=self.environment, stdout=subprocess.DEVNULL)
+        self.children.append(child)
+        return child
+
+    def start_master(self):
+        master = self.start("rosmaster", "--core", "-p", str(self.port))
+        self.wait_for(self.master_answers)
+        return master
+
+    def master_answers(self):
+        with socket.socket() as probe:
+            return probe.connect_ex(("127.0.0.1", self.port)) == 0
+
+    def wait_for(self, condition):
+        for _ in range(600):
+            if condition():
+                return
+            time.sleep(0.05)
+        self.fail("did not happen within 30 s")
+
+    def test_a_recording_goes_on_without_its_master(self):
+        master = self.start_master()
+        port = pathlib.Path(self.folder.name) / "board"
+        programs = pathlib.Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]) / "lib" / "fsr_pressure_map"
+        self.start(str(programs / "rig_emulator_node"), f"_link:={port}", "_scan_rate:=100")
+        self.start(str(programs / "driver_node"), f"_serial_port:={port}", "_serial_baud:=0")
+        bag = pathlib.Path(self.folder.name) / "recorded.bag"
+        recorder = self.start("/usr/lib/rosbag/record", "-O", str(bag), "--chunksize=1", "/raw")
+        active = pathlib.Path(f"{bag}.active")
+        self.wait_for(lambda: active.exists() and active.stat().st_size > 50_000)
+        master.kill()
+        master.wait()
+        size = active.stat().st_size
+        self.wait_for(lambda: active.stat().st_size > size + 30_000)
+        self.start_master()
+        size = active.stat().st_size
+        self.wait_for(lambda: active.stat().st_size > size + 30_000)
+        recorder.send_signal(signal.SIGINT)
+        recorder.wait(30)
+        with rosbag.Bag(str(bag)) as recorded:
+            numbers = [message.sequence for _, message, _ in recorded.read_messages("/raw")]
+        self.assertGreater(len(numbers), 500)
+        self.assertEqual(numbers, list(range(numbers[0], numbers[0] + len(numbers))), "a hole")
+
+
+if __name__ == "__main__":
+    rostest.rosrun("fsr_pressure_map", "master_test", MasterTest, sys.argv)
