@@ -112,7 +112,9 @@ Json planJson(const StudyPlan& plan) {
           {"trees", plan.forest.trees},
           {"minimum_leaf", plan.forest.minimum_leaf},
           {"level", plan.tests.level},
+          {"bandwidth_taxels", plan.bandwidth_taxels},
           {"resamples", plan.resamples},
+          {"beyond_the_paper", plan.beyond_the_paper},
           {"seed", plan.seed}};
 }
 

@@ -100,6 +100,12 @@ void splitText(std::ostream& out, const SplitResult& split) {
   }
 }
 
+std::string sentences(const std::vector<std::string>& list) {
+  std::string text;
+  for (const std::string& sentence : list) text += sentence + '\n';
+  return text;
+}
+
 }  // namespace
 
 std::string studyText(const StudyResult& result) {
@@ -108,11 +114,11 @@ std::string studyText(const StudyResult& result) {
       << " conditions, " << result.cycles << " cycles, " << result.mounts << " mounts\n";
   for (const std::string& warning : result.warnings) out << "Warning: " << warning << '\n';
   for (const StudyComparison& comparison : result.comparisons) comparisonText(out, comparison);
+  if (!result.plan.beyond_the_paper) return out.str() + '\n' + sentences(result.holds_for);
   out << "\nOn all scans, bandwidth chosen by nested cross-validation: RMSE with 95 % interval\n";
   for (const SplitResult& split : result.splits) splitText(out, split);
   out << '\n' << result.headline.text << '\n';
-  for (const std::string& sentence : result.holds_for) out << sentence << '\n';
-  return out.str();
+  return out.str() + sentences(result.holds_for);
 }
 
 }  // namespace fsr

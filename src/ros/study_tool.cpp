@@ -35,6 +35,7 @@ fsr::CommandLine options() {
       .option("namespace", "NS", "the sensor's namespace, where a bag holds several")
       .option("seed", "N", "of down-sampling, forest and bootstrap; default: the plan's")
       .option("threads", "N", "default: one for each core; the numbers do not depend on it")
+      .flag("paper-only", "leave out what goes beyond the paper: harder splits, further schemes")
       .flag("no-figures", "write results.json and the tables only");
   return line;
 }
@@ -43,6 +44,7 @@ fsr::StudyPlan planOf(const fsr::CommandLine& line) {
   fsr::StudyPlan plan = line.has("plan") ? fsr::readStudyPlanFile(line.text("plan", "")) : fsr::StudyPlan{};
   plan.seed =
       static_cast<std::uint64_t>(line.integer("seed", static_cast<std::int64_t>(plan.seed), {0, 1e15, ""}));
+  plan.beyond_the_paper = plan.beyond_the_paper && !line.has("paper-only");
   plan.threads = static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
   return plan;
 }

@@ -13,6 +13,8 @@ namespace fsr {
 
 namespace {
 
+constexpr std::size_t kFewestTaxels = 3;  // Shapiro and Wilk's test
+
 // A calibration asks the same of its recordings.
 void requireUsable(const std::vector<Recording>& recordings, std::size_t sections) {
   CalibrationProblem problem{recordings, {}};
@@ -58,6 +60,10 @@ void chooseTaxels(const std::vector<Recording>& recordings, StudyData& data) {
     throw InputError(recordings.front().name +
                      ": every taxel is masked or reads the same count throughout a condition; is the matrix "
                      "connected?");
+  }
+  if (data.taxels.size() < kFewestTaxels) {
+    throw InputError(recordings.front().name + ": the matrix has " + std::to_string(data.taxels.size()) +
+                     " living taxels, but the study's tests need at least 3 taxels");
   }
   if (!constant.empty()) {
     data.warnings.push_back("taxels that read the same count throughout a condition are left out: " +

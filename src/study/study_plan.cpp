@@ -87,6 +87,7 @@ StudyPlan readStudyPlan(const Settings& settings) {
   if (settings.has("bandwidths")) plan.bandwidths = settings.numbers("bandwidths", kBandwidth);
   plan.bandwidth_taxels = whole(settings, "bandwidth_taxels", kTaxels, plan.bandwidth_taxels);
   plan.resamples = whole(settings, "resamples", kResamples, plan.resamples);
+  plan.beyond_the_paper = settings.flag("beyond_the_paper", plan.beyond_the_paper);
   if (settings.has("figure_taxel")) plan.figure_taxel = whole(settings, "figure_taxel", {0, 4095, ""}, 0);
   plan.seed = static_cast<std::uint64_t>(settings.integer("seed", {0, 1e15, ""}, 1));
   settings.refuseUnknown();

@@ -308,3 +308,77 @@ TEST(PaperSetting, ReachesThePapersTableOnAnotherSheet) {
     EXPECT_NEAR(rmse["one_hot"], rmse["curvature_input"], 0.01 * rmse["curvature_input"]);
   }
 }
+
+// --- input that carries little --------------------------------------------------------------------------
+
+namespace {
+
+std::string refusal(const StudyProblem& problem) {
+  try {
+    study(problem);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+TEST(StudyInput, OneConditionIsAStudyWithoutDifferences) {
+  StudyProblem problem = smallProblem();
+  test_support::SyntheticRig rig = bentRig();
+  rig.surfaces = {{"flat", 0.0}};
+  problem.recordings = {test_support::syntheticRecording(rig)};
+  const StudyResult result = study(problem);
+  const StudyComparison& comparison = result.comparisons[1];
+  EXPECT_EQ(comparison.scores[0].rmse_percent, comparison.scores[1].rmse_percent);
+  EXPECT_FALSE(comparison.rmse_percent.differ);
+  EXPECT_EQ(result.headline.split, "past_to_future");
+}
+
+TEST(StudyInput, FewerCyclesThanSectionsAreScoredWithAWarning) {
+  StudyProblem problem = smallProblem();
+  test_support::SyntheticRig rig = bentRig();
+  rig.cycles = 2;
+  rig.scans_per_cycle = 150;
+  problem.recordings = {test_support::syntheticRecording(rig)};
+  const StudyResult result = study(problem);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_NE(result.warnings.front().find("scores flatter"), std::string::npos);
+}
+
+TEST(StudyInput, ScansWithoutAPressureAreLeftOut) {
+  StudyProblem problem = smallProblem();
+  for (std::size_t i = 0; i < 40; ++i) problem.recordings[0].pressure[3 * i] = NAN;
+  EXPECT_EQ(study(problem).scans, problem.recordings[0].scans() - 40);
+}
+
+TEST(StudyInput, RefusesAPressureThatNeverChanges) {
+  StudyProblem problem = smallProblem();
+  for (double& pressure : problem.recordings[0].pressure) pressure = 0.0;
+  EXPECT_NE(refusal(problem).find("never changes"), std::string::npos) << refusal(problem);
+}
+
+TEST(StudyInput, RefusesBagsOfDifferentMatrices) {
+  StudyProblem problem = smallProblem();
+  test_support::SyntheticRig rig = bentRig();
+  rig.size = {3, 3};
+  problem.recordings.push_back(test_support::syntheticRecording(rig));
+  EXPECT_NE(refusal(problem).find("3 x 3"), std::string::npos) << refusal(problem);
+}
+
+TEST(StudyInput, RefusesAMatrixOfTooFewTaxelsToTest) {
+  StudyProblem problem = smallProblem();
+  test_support::SyntheticRig rig = bentRig();
+  rig.size = {1, 2};
+  problem.recordings = {test_support::syntheticRecording(rig)};
+  EXPECT_NE(refusal(problem).find("3 taxels"), std::string::npos) << refusal(problem);
+}
+
+TEST(StudyInput, LiteralDistanceLeavesSecondInputsOutAndSaysSo) {
+  StudyProblem problem = smallProblem();
+  problem.plan.grnn.distance = KernelDistance::kLiteral;
+  const StudyResult result = study(problem);
+  EXPECT_EQ(result.comparisons.size(), 3u);
+  EXPECT_NE(result.warnings.back().find("literal"), std::string::npos);
+}

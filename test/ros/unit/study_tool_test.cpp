@@ -1,0 +1,98 @@
+#include "fsr_pressure_map/ros/study_tool.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "fsr_pressure_map/ros/bag_writer.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "support/synthetic_recording.h"
+
+namespace fsr_ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contentOf(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class StudyTool : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / ("study_tool_" + std::string(test->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "plan.yaml")
+        << "study: quick\nforest: {trees: 5}\nresamples: 99\nbandwidths: [0.0078125, 0.0625]\n";
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string record() const {
+    test_support::SyntheticRig rig;
+    rig.surfaces = {{"flat", 0.0}, {"cylinder_13cm", 7.7}, {"cylinder_5cm", 20.0}};
+    rig.scans_per_cycle = 60;
+    rig.noise = 60;
+    fsr::Recording recording = test_support::syntheticRecording(rig);
+    recording.start_ns = 1500000000000000000;
+    const std::string path = (folder_ / "session.bag").string();
+    writeBag(path, recording);
+    return path;
+  }
+
+  std::string run(std::vector<std::string> words) {
+    words.insert(words.begin(), "study");
+    std::vector<const char*> arguments;
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    std::ostringstream out;
+    try {
+      EXPECT_EQ(studyTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
+      return out.str();
+    } catch (const fsr::InputError& error) {
+      return error.what();
+    }
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(StudyTool, WritesResultsTablesFiguresAndAReportThatNeedsNoNetwork) {
+  const fs::path output = folder_ / "results";
+  const std::string text =
+      run({record(), "--plan", (folder_ / "plan.yaml").string(), "--output", output.string()});
+  EXPECT_NE(text.find("As published, taxels treated as independent"), std::string::npos) << text;
+  EXPECT_NE(text.find((output / "report.html").string()), std::string::npos) << text;
+  const std::string report = contentOf(output / "report.html");
+  EXPECT_NE(report.find("data:image/png;base64"), std::string::npos);
+  EXPECT_EQ(report.find("http"), std::string::npos);
+  EXPECT_NE(contentOf(output / "results.json").find("\"headline\""), std::string::npos);
+  for (const std::string name : {"fig5_response", "fig6_algorithms", "fig7_methods", "fig8_low_pressure",
+                                 "fig9_prediction", "fig10_all_curvatures", "splits"}) {
+    for (const std::string ending : {".png", ".pdf", ".csv"}) {
+      EXPECT_GT(fs::file_size(output / "figures" / (name + ending)), 100u) << name << ending;
+    }
+  }
+  EXPECT_EQ(contentOf(output / "tables" / "scores.csv").rfind("part,method", 0), 0u);
+}
+
+TEST_F(StudyTool, RefusesBagsAndASimulationTogetherAndNeither) {
+  const std::string output = (folder_ / "results").string();
+  EXPECT_NE(run({"--output", output}).find("either bags or --simulation"), std::string::npos);
+  EXPECT_NE(run({"a.bag", "--simulation", "x.yaml", "--output", output}).find("either bags"),
+            std::string::npos);
+}
+
+TEST_F(StudyTool, RefusesAPlanThatItDoesNotUnderstandBeforeItReadsBags) {
+  std::ofstream(folder_ / "plan.yaml") << "study: x\nsectoins: 5\n";
+  const std::string text = run({"missing.bag", "--plan", (folder_ / "plan.yaml").string(), "--output",
+                                (folder_ / "results").string()});
+  EXPECT_NE(text.find("sectoins"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace fsr_ros
