@@ -228,7 +228,7 @@ def spread(value, digits, deviation_digits):
 
 
 def kilopascal(value, digits=1):
-    return "–" if value is None else f"{value / 1e3:.{digits}f}"
+    return "–" if value is None else f"{round(value / 1e3, digits) + 0.0:.{digits}f}"
 
 
 def probability(p):

@@ -16,7 +16,8 @@ std::string number(double value, int digits) {
   if (std::isnan(value)) return "-";
   std::ostringstream text;
   text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
+  const bool nothing = text.str().find_first_not_of("-0.") == std::string::npos;
+  return nothing && text.str().front() == '-' ? text.str().substr(1) : text.str();
 }
 
 std::string spread(const Spread& value, int digits, int deviation_digits) {

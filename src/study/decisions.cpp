@@ -67,7 +67,7 @@ std::vector<StudyDecision> studyDecisions(const StudyPlan& plan, const StudyData
            number(plan.tests.level) + ". " + std::to_string(data.taxels.size()) +
            " taxels of one sheet are no independent samples: a bootstrap over the highest level that has "
            "five units "
-           "stands beside."},
+           "stands beside; cycles of all conditions are drawn together."},
       {"Mounting", "The matrix was never remounted.",
        "Mount and curvature are taken as one condition effect where the recordings cannot tell them apart."},
       {"Bent axis", "Not said which side of the matrix goes round the cylinder.",
@@ -91,6 +91,11 @@ std::vector<std::string> unmatchable() {
       "The paper's explanation of method 2, that the model reads differences of curvature as differences of "
       "response, "
       "needs a bandwidth at which it does read them.",
+      "Fitted were the means of RMSE% alone. R2, deviations over taxels and test statistics come out as they "
+      "do: "
+      "Friedman's chi2 is at its largest (n (k - 1)) where all taxels rank alike, as simulated taxels do "
+      "more than "
+      "real ones.",
       "The tables can be matched without hysteresis, by noise of 3 to 3.5 %: they do not show whether there "
       "is any.",
   };

@@ -23,19 +23,20 @@ void requireUsable(const std::vector<Recording>& recordings, std::size_t section
   validate(problem);
 }
 
-// Numbers mounts in order of appearance. A mount number of 0 is unknown: then each condition of each
-// recording is taken for one.
+// Numbers mounts in order of appearance: a mount is a surface with a mount number, whatever the recording. A
+// number of 0 is unknown: then each condition of each recording is taken for one.
 class MountNumbers {
  public:
-  std::uint32_t of(std::size_t recording, std::size_t condition, std::uint32_t mount) {
-    const auto key = mount == 0 ? std::make_tuple(recording, condition, mount)
-                                : std::make_tuple(std::size_t{0}, std::size_t{0}, mount);
+  std::uint32_t of(std::size_t recording, std::size_t condition, const Surface& surface) {
+    const bool known = surface.mount != 0;
+    const auto key =
+        std::make_tuple(surface.name, surface.mount, known ? 0 : recording, known ? 0 : condition);
     return numbers_.emplace(key, static_cast<std::uint32_t>(numbers_.size())).first->second;
   }
   std::size_t count() const { return numbers_.size(); }
 
  private:
-  std::map<std::tuple<std::size_t, std::size_t, std::uint32_t>, std::uint32_t> numbers_;
+  std::map<std::tuple<std::string, std::uint32_t, std::size_t, std::size_t>, std::uint32_t> numbers_;
 };
 
 bool varies(const std::vector<StudyScan>& scans, std::size_t taxel) {
@@ -99,7 +100,7 @@ void addRecording(const Recording& recording, std::size_t number, const Sections
     scan.section = sections.section[i];
     scan.cycle = static_cast<std::uint32_t>(first_cycle[condition] + sections.cycle[i]);
     scan.first_cycle = sections.cycle[i] == 0;
-    scan.mount = mounts.of(number, condition, recording.conditions[condition].mount);
+    scan.mount = mounts.of(number, condition, recording.conditions[condition]);
     scan.recording = static_cast<std::uint32_t>(number);
     scan.direction = sections.direction[i];
     data.scans[class_of[condition]].push_back(scan);

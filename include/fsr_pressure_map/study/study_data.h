@@ -21,7 +21,7 @@ struct StudyScan {
   std::uint32_t section = 0;
   std::uint32_t cycle = 0;      ///< numbered through all recordings and conditions
   bool first_cycle = false;     ///< of its condition
-  std::uint32_t mount = 0;      ///< numbered through all recordings: name, mount and recording's session
+  std::uint32_t mount = 0;      ///< numbered through all recordings, by surface and mount
   std::uint32_t recording = 0;  ///< index
   LoadDirection direction = LoadDirection::kNone;
 };

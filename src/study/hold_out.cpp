@@ -1,0 +1,108 @@
+#include <algorithm>
+#include <sstream>
+
+#include "fsr_pressure_map/study/paper_numbers.h"
+#include "fsr_pressure_map/study/study_score.h"
+#include "study_context.h"
+
+namespace fsr {
+
+namespace {
+
+bool isFurther(const StudyMethod& method) {
+  return paperScore(method.id) == std::nullopt;
+}
+
+std::vector<Split> splitsOf(const StudyContext& study) {
+  std::vector<Split> possible;
+  for (const Split& split : {leaveSectionOut(study.data), pastToFuture(study.data),
+                             leaveCurvatureOut(study.data), leaveMountOut(study.data)}) {
+    if (!split.folds.empty()) possible.push_back(split);
+    if (!study.plan.beyond_the_paper) break;
+  }
+  return possible;
+}
+
+std::vector<StudyMethod> methodsOf(const StudyContext& study) {
+  std::vector<StudyMethod> methods;
+  const std::vector<StudyMethod> further = furtherMethods(study.data);
+  for (const StudyMethod& method : study.methods) {
+    // The figure of predictions needs these two.
+    const bool drawn = method.id == "baseline" || method.id == "per_curvature";
+    if (study.plan.beyond_the_paper || drawn) methods.push_back(method);
+  }
+  for (const StudyMethod& method : further) {
+    const bool possible =
+        study.plan.grnn.distance == KernelDistance::kSquared || !hasSecondInput(method.plan.scheme);
+    if (study.plan.beyond_the_paper && possible) methods.push_back(method);
+  }
+  return methods;
+}
+
+// Schemes beyond the paper take the bandwidths of one model a curvature.
+std::vector<double> bandwidthsFor(const StudyContext& study, const StudyMethod& method,
+                                  const Examination& examination, const SplitResult& before) {
+  for (const StudyScore& score : before.scores) {
+    if (isFurther(method) && score.id == schemeName(Scheme::kPerCurvature)) return score.bandwidth;
+  }
+  return chooseBandwidths(study.data, method, examination, study.plan);
+}
+
+SplitResult holdOutOne(const StudyContext& study, const Split& split, HeldOut& result) {
+  SplitResult held_out{split.id, split.description, {}, {}};
+  for (const Fold& fold : split.folds) held_out.folds.push_back(fold.name);
+  const Examination examination{split.grouping, split.folds, Scoring::kPooled};
+  const std::vector<StudyMethod> methods = methodsOf(study);
+  std::vector<Evaluation> kept;
+  for (const StudyMethod& method : methods) {
+    const std::string stage = split.id + ", " + method.id;
+    study.say(stage, 0, study.data.taxels.size());
+    const std::vector<double> bandwidth = bandwidthsFor(study, method, examination, held_out);
+    std::vector<FoldModel> models;
+    for (std::size_t k = 0; k < split.folds.size(); ++k) {
+      models.push_back(
+          learnedModel(study.data, method, split.grouping, split.folds[k], bandwidth[k], study.plan));
+    }
+    Evaluation evaluation = study.evaluateMethod(method, examination, models, stage);
+    StudyScore score = scoreOf(study.data, method, evaluation);
+    score.rmse_interval = rmseInterval(CycleSums(study.data, evaluation), study.data, study.plan);
+    score.bandwidth = bandwidth;
+    held_out.scores.push_back(score);
+    const bool drawn = method.id == "baseline" || method.id == "per_curvature";
+    if (result.splits.empty() && drawn) kept.push_back(std::move(evaluation));
+  }
+  if (kept.size() == 2) {
+    const std::size_t place = figureTaxel(study.data, study.plan, kept[1].rmse_percent);
+    result.response = taxelResponse(study.data, place, kept[0], kept[1]);
+  }
+  return held_out;
+}
+
+}  // namespace
+
+HeldOut holdOut(const StudyContext& study) {
+  HeldOut result;
+  for (const Split& split : splitsOf(study)) result.splits.push_back(holdOutOne(study, split, result));
+  return result;
+}
+
+StudyHeadline headlineOf(const SplitResult& split) {
+  const auto best = std::min_element(split.scores.begin(), split.scores.end(),
+                                     [](const StudyScore& a, const StudyScore& b) {
+                                       return a.errors.whole.all.rmse < b.errors.whole.all.rmse;
+                                     });
+  StudyHeadline headline{split.id, best->id, best->errors.whole.all.rmse, best->rmse_interval, ""};
+  std::ostringstream text;
+  text.precision(3);
+  text << "Where " << split.description << ", " << best->id << " errs least of " << split.scores.size()
+       << " methods: RMSE " << headline.rmse / 1e3 << " kPa";
+  if (headline.interval.method != IntervalMethod::kNone) {
+    text << " (95 % interval " << headline.interval.low / 1e3 << " to " << headline.interval.high / 1e3
+         << " kPa over " << headline.interval.units << " " << headline.interval.level << "s)";
+  }
+  text << '.';
+  headline.text = text.str();
+  return headline;
+}
+
+}  // namespace fsr
