@@ -29,6 +29,8 @@ const BaseParameter kBase[] = {
     {"bending_preload", "amplitude"},
     {"bending_preload", "curvature_constant"},
     {"bending_gain", "change"},
+    {"saturation", "level"},
+    {"saturation", "sharpness"},
     {"bending_gain", "curvature_constant"},
 };
 
@@ -48,7 +50,8 @@ std::vector<Fitted> fittedOf(const SimulationSettings& settings, bool bent) {
   std::vector<Fitted> fitted;
   for (const auto& [effect, name] : kBase) {
     const EnabledEffect* present = settings.effect(effect);
-    if (!present || (!bent && std::string(effect) != "static_curve")) continue;
+    const bool by_bending = std::string(effect).rfind("bending", 0) == 0;
+    if (!present || (!bent && by_bending)) continue;
     const Range& range = parameter(findEffect(effect)->info, name).permitted;
     double start = present->values.at(name);
     if (std::string(name) == "offset" && start == 0) start = 0.01 * present->values.at("conductance");

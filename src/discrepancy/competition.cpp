@@ -51,6 +51,18 @@ Family familyOf(const std::string& id, const std::vector<Signature>& signatures)
   return family;
 }
 
+// Every alternative once more, confined to where the surface is bent.
+void addBentOnly(Family& family) {
+  std::vector<ColumnSet> bent = family.alternatives;
+  for (ColumnSet& set : bent) set.bent_only = true;
+  family.alternatives.insert(family.alternatives.end(), bent.begin(), bent.end());
+}
+
+bool someFlatSomeBent(const Measured& measured) {
+  const auto flat = std::count_if(measured.classes.begin(), measured.classes.end(), isFlat);
+  return flat > 0 && static_cast<std::size_t>(flat) < measured.classes.size();
+}
+
 }  // namespace
 
 bool isStatic(const EffectInfo& info) {
@@ -72,14 +84,17 @@ bool isStatic(const EffectInfo& info) {
 
 Competition::Competition(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                          std::vector<Signature> signatures, unsigned threads)
-    : signatures_(std::move(signatures)) {
+    : measured_(measured), signatures_(std::move(signatures)) {
   std::vector<std::string> ids;
   for (const Signature& s : signatures_) {
     const EffectInfo& info = findEffect(s.id)->info;
     if (!isStatic(info) && s.id != "scan_skew" && !std::count(ids.begin(), ids.end(), s.id))
       ids.push_back(s.id);
   }
-  for (const std::string& id : ids) effects_.push_back(familyOf(id, signatures_));
+  for (const std::string& id : ids) {
+    effects_.push_back(familyOf(id, signatures_));
+    if (someFlatSomeBent(measured)) addBentOnly(effects_.back());
+  }
   gather(fit, measured);
   columns_.conservativeResize(Eigen::NoChange, columns_.cols() + 1);
   columns_.col(columns_.cols() - 1) = fit.project(common.all);
@@ -140,6 +155,9 @@ Trace Competition::explained(const Score& score) const {
   for (std::size_t i = 0; i < score.set.columns.size(); ++i) {
     const double b = score.coefficients[static_cast<Eigen::Index>(i)];
     if (b != 0) trace += b * columns_.col(score.set.columns[i]);
+  }
+  for (std::size_t i = 0; score.set.bent_only && i < measured_.moments(); ++i) {
+    if (isFlat(measured_.classes[measured_.classOf(i)])) trace[static_cast<Eigen::Index>(i)] = 0;
   }
   return trace;
 }

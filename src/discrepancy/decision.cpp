@@ -15,7 +15,15 @@ constexpr double kLeastShareOfCeiling = 0.5;  // of an effect, else it is unknow
 constexpr double kGenericBetter = 0.1;        // of the ceiling
 constexpr double kRivalWithin = 0.05;         // of what the best explains
 constexpr double kSignificant = 2;            // standard errors
-constexpr double kSecondOfRest = 0.2;         // of what remains explainable
+constexpr double kRivalFar = 0.15;            // likewise: behind it by more it is none, whatever the errors
+constexpr double kSecondOfRest =
+    0.45;  // of what remains explainable: a wrong form alone leaves room for a fifth
+constexpr double kSecondOfFirst = 0.1;  // of what the first effect explains
+constexpr std::size_t kPairsRefined = 4;
+constexpr double kGoodForm = 0.7;        // of the ceiling
+constexpr double kWorthRefining = 0.35;  // of what the best one explains
+constexpr double kClear = 0.9;           // of the ceiling: an explanation that leaves nothing open
+constexpr double kFarBehind = 0.35;      // of the best: no rival of a clear one
 
 bool within(const std::vector<Covariate>& covariates, const Score& effects) {
   return std::all_of(covariates.begin(), covariates.end(), [&](Covariate c) {
@@ -26,13 +34,66 @@ bool within(const std::vector<Covariate>& covariates, const Score& effects) {
   });
 }
 
+// The single signatures that do most of what a mixture did, one for each effect, as settings.
+struct Start {
+  std::vector<EnabledEffect> effects;
+  bool carried = true;
+};
+
+Start startOf(const Competition& competition, const Score& explanation) {
+  ColumnSet chosen;
+  for (const std::string& id : explanation.ids) {
+    Score best;
+    best.total = INFINITY;
+    for (std::size_t s = 0; s < competition.signatures().size(); ++s) {
+      const Signature& signature = competition.signatures()[s];
+      if (signature.id != id) continue;
+      const ColumnSet one{{static_cast<Eigen::Index>(s)}, {signature.free_sign}, explanation.set.bent_only};
+      const Score now = competition.selection().score(together(chosen, one));
+      if (now.total < best.total) best = now;
+    }
+    chosen = best.set;
+  }
+  const Eigen::VectorXd coefficients = competition.selection().score(chosen).coefficients;
+  Start start;
+  for (std::size_t k = 0; k < chosen.columns.size(); ++k) {
+    const Signature& signature = competition.signatures()[static_cast<std::size_t>(chosen.columns[k])];
+    EnabledEffect effect{signature.id, signature.values};
+    const EffectParameter& strength = parameter(findEffect(signature.id)->info, signature.strength);
+    const double value = coefficients[static_cast<Eigen::Index>(k)] * signature.scale;
+    effect.values[signature.strength] = std::clamp(value, strength.permitted.low, strength.permitted.high);
+    start.effects.push_back(effect);
+    start.carried = signature.carried;
+  }
+  return start;
+}
+
+// An explanation by effects, as signatures and, where it came near, through the forward model.
+struct Explanation {
+  Score score;
+  double share = 0;  // the better of the two
+  bool is_refined = false;
+  Refined refined;
+};
+
 // Everything that was scored, and what the decision needs of it.
 class Contest {
  public:
-  Contest(const Measured& measured, const TaxelFit& taxels, const Competition& competition)
-      : measured_(measured), taxels_(taxels), competition_(competition), nothing_(selection().nothing()) {
-    for (const Family& family : competition.effects())
-      singles_.push_back(selection().score(nothing_, family));
+  Contest(const Measured& measured, const CommonTraces& common, const StaticFit& fit, const TaxelFit& taxels,
+          const Competition& competition, const SimulationSettings& base)
+      : measured_(measured),
+        common_(common),
+        fit_(fit),
+        taxels_(taxels),
+        competition_(competition),
+        base_(base),
+        nothing_(selection().nothing()) {
+    for (const Family& family : competition.effects()) {
+      Explanation single;
+      single.score = selection().score(nothing_, family);
+      single.share = shareOf(single.score);
+      singles_.push_back(single);
+    }
     for (const Family& family : competition.generics())
       generics_.push_back(selection().score(nothing_, family));
   }
@@ -46,19 +107,33 @@ class Contest {
   bool shows(const Score& score) const {
     return selection().z(nothing_, score) > kLeastZ && shareOfError(score) >= kLeastShareOfError;
   }
-  const Score* best(const std::vector<Score>& scores) const;
-  void tryPairs();
-  bool unknown(const Score& best);
-  void gatherRivals(const Score& best);
+  bool shows(const Explanation& explanation) const;
+  Explanation* best();
+  const Score* bestGeneric() const;
+  void refineOne(Explanation& explanation) const;
+  void refineNear();
+  std::vector<Explanation> bestPairs() const;
+  bool isWorthIt(const Explanation& one, const Explanation& two) const;
+  void tryPairs(const Explanation& one);
+  bool unknown(const Explanation& best);
+  Trace leftBy(const Explanation& explanation) const;
+  double behindInErrors(const Explanation& worse, const Explanation& better) const;
+  void gatherRivals(const Explanation& best);
   void weigh(const EvidenceAtHand& evidence);
+  Explanation& frontOf(Explanation& best);
+  void nameIt(Explanation& best);
   void listCandidates();
 
   const Measured& measured_;
+  const CommonTraces& common_;
+  const StaticFit& fit_;
   const TaxelFit& taxels_;
   const Competition& competition_;
+  const SimulationSettings& base_;
   const Score& nothing_;
-  std::vector<Score> singles_, generics_;
-  std::vector<Score> pair_;  // none or the one that is accepted
+  std::vector<Explanation> singles_;
+  std::vector<Score> generics_;
+  std::vector<Explanation> pair_;  // none or the one that is accepted
   Decision decision_;
 };
 
@@ -67,61 +142,153 @@ double Contest::shareOfError(const Score& score) const {
   return spread.square > 0 ? shareOf(score) * competition_.meanSquare() * spread.local / spread.square : 0;
 }
 
-const Score* Contest::best(const std::vector<Score>& scores) const {
-  const auto better = [](const Score& a, const Score& b) { return a.total < b.total; };
-  const auto found = std::min_element(scores.begin(), scores.end(), better);
-  return found == scores.end() ? nullptr : &*found;
+bool Contest::shows(const Explanation& explanation) const {
+  Explanation nothing;
+  nothing.score = nothing_;
+  const double by_signatures = shareOf(explanation.score);
+  const double more = by_signatures > 0 ? explanation.share / by_signatures : 1;
+  return behindInErrors(nothing, explanation) > kLeastZ &&
+         more * shareOfError(explanation.score) >= kLeastShareOfError;
 }
 
-// Two effects, where the second closes enough of what remains and no other pair does as well.
-void Contest::tryPairs() {
-  const Score* one = best(singles_);
-  if (!one || !shows(*one)) return;
-  Score two;
-  two.total = INFINITY;
+Explanation* Contest::best() {
+  const auto worse = [](const Explanation& a, const Explanation& b) { return a.share < b.share; };
+  const auto found = std::max_element(singles_.begin(), singles_.end(), worse);
+  return found == singles_.end() ? nullptr : &*found;
+}
+
+const Score* Contest::bestGeneric() const {
+  const auto better = [](const Score& a, const Score& b) { return a.total < b.total; };
+  const auto found = std::min_element(generics_.begin(), generics_.end(), better);
+  return found == generics_.end() ? nullptr : &*found;
+}
+
+void Contest::refineOne(Explanation& explanation) const {
+  if (explanation.is_refined) return;
+  const Start start = startOf(competition_, explanation.score);
+  explanation.refined =
+      refine(measured_, common_, fit_, base_, start.effects, start.carried, explanation.score.set.bent_only);
+  explanation.is_refined = true;
+  explanation.share = std::max(explanation.share, explanation.refined.share);
+}
+
+// Those that may yet be the best; none where the best has no rival worth the time.
+void Contest::refineNear() {
+  const Explanation* first = best();
+  const double least = kWorthRefining * first->share;
+  double second = 0;
+  for (const Explanation& single : singles_) {
+    if (&single != first) second = std::max(second, single.share);
+  }
+  const bool clear = first->share > kClear * decision_.ceiling && second < kFarBehind * first->share;
+  if (clear) return;
+  for (Explanation& single : singles_) {
+    if (single.share >= least) refineOne(single);
+  }
+}
+
+// The pairs that do best as signatures, best first.
+std::vector<Explanation> Contest::bestPairs() const {
+  std::vector<Explanation> pairs;
   for (std::size_t a = 0; a < singles_.size(); ++a) {
     for (std::size_t b = a + 1; b < singles_.size(); ++b) {
-      const Score now = selection().score(singles_[a], competition_.effects()[b]);
-      if (now.total < two.total) two = now;
+      Explanation pair;
+      pair.score = selection().score(singles_[a].score, competition_.effects()[b]);
+      if (!std::isfinite(pair.score.total)) continue;
+      pair.share = shareOf(pair.score);
+      pairs.push_back(pair);
     }
   }
-  if (!std::isfinite(two.total)) return;
-  const double gain = shareOf(two) - shareOf(*one);
-  const double rest = std::max(decision_.ceiling, shareOf(two)) - shareOf(*one);
-  const bool enough = gain >= kSecondOfRest * rest && gain >= 0.1 * shareOf(*one) &&
-                      selection().z(*one, two) > kSignificant &&
-                      gain / shareOf(two) * shareOfError(two) >= kLeastShareOfError / 2;
-  // Each of the two must be needed: without it the other one alone must do clearly worse.
-  if (enough) pair_.push_back(two);
+  const auto better = [](const Explanation& a, const Explanation& b) { return a.share > b.share; };
+  std::sort(pairs.begin(), pairs.end(), better);
+  pairs.resize(std::min(pairs.size(), kPairsRefined));
+  return pairs;
 }
 
-bool Contest::unknown(const Score& best) {
-  const Score* generic = this->best(generics_);
+bool Contest::isWorthIt(const Explanation& one, const Explanation& two) const {
+  const double gain = two.share - one.share, rest = std::max(decision_.ceiling, two.share) - one.share;
+  return gain >= kSecondOfRest * rest && gain >= kSecondOfFirst * one.share &&
+         behindInErrors(one, two) > kSignificant &&
+         gain / two.share * shareOfError(two.score) >= kLeastShareOfError;
+}
+
+// Two effects, where the second closes enough of what remains and no other pair does as well; with drift,
+// which everything slow looks like, only where no pair without it comes near.
+void Contest::tryPairs(const Explanation& one) {
+  std::vector<Explanation> pairs = bestPairs();
+  if (pairs.empty() || !isWorthIt(one, pairs.front())) return;
+  for (Explanation& pair : pairs) refineOne(pair);
+  const auto merit = [](const Explanation& e) {
+    const bool drift = std::count(e.score.ids.begin(), e.score.ids.end(), "drift") > 0;
+    return e.share * (drift ? 1 - kRivalWithin : 1);
+  };
+  const auto best = std::max_element(pairs.begin(), pairs.end(),
+                                     [&](const auto& a, const auto& b) { return merit(a) < merit(b); });
+  if (isWorthIt(one, *best)) pair_.push_back(*best);
+}
+
+bool Contest::unknown(const Explanation& best) {
+  const Score* generic = bestGeneric();
   if (!generic || !shows(*generic)) return false;
   const auto number = static_cast<std::size_t>(generic - generics_.data());
-  const double more = shareOf(*generic) - shareOf(best);
+  const double more = shareOf(*generic) - best.share;
   const bool beaten =
-      more > kGenericBetter * decision_.ceiling && selection().z(best, *generic) > kSignificant;
-  const bool weak = !shows(best) || shareOf(best) < kLeastShareOfCeiling * decision_.ceiling;
-  if (!weak && !(beaten && !within(competition_.covariates(number), best))) return false;
+      more > kGenericBetter * decision_.ceiling && selection().z(best.score, *generic) > kSignificant;
+  const bool weak = !shows(best) || best.share < kLeastShareOfCeiling * decision_.ceiling;
+  if (!weak && !(beaten && !within(competition_.covariates(number), best.score))) return false;
   decision_.verdict = Verdict::kUnknown;
   decision_.explanation = *generic;
+  decision_.share = shareOf(*generic);
   for (const Covariate c : competition_.covariates(number)) decision_.depends_on.push_back(name(c));
   return true;
 }
 
-void Contest::gatherRivals(const Score& best) {
-  std::vector<const Score*> rivals;
-  for (const Score& single : singles_) {
-    if (&single == &best || single.ids == best.ids || !shows(single)) continue;
-    const double behind = shareOf(best) - shareOf(single);
-    const bool close = behind <= kRivalWithin * shareOf(best);
-    const bool indistinct = selection().z(single, best) < kSignificant && behind < 0.3 * shareOf(best);
+// What an explanation leaves of the projected common trace.
+Trace Contest::leftBy(const Explanation& explanation) const {
+  if (explanation.is_refined && explanation.refined.share >= shareOf(explanation.score)) {
+    return explanation.refined.left;
+  }
+  Trace left = competition_.target() - competition_.explained(explanation.score);
+  for (const MeasuredCycle& cycle : measured_.cycles) {
+    if (cycle.use == CycleUse::kFit) continue;
+    left.segment(static_cast<Eigen::Index>(cycle.first), static_cast<Eigen::Index>(cycle.last - cycle.first))
+        .setZero();
+  }
+  return left;
+}
+
+// By how many standard errors `worse` is behind; see Selection::z().
+double Contest::behindInErrors(const Explanation& worse, const Explanation& better) const {
+  const Trace least = leftBy(better), more = leftBy(worse) - least;
+  double squares = 0;
+  for (const MeasuredCycle& cycle : measured_.cycles) {
+    const auto first = static_cast<Eigen::Index>(cycle.first);
+    const auto moments = static_cast<Eigen::Index>(cycle.last - cycle.first);
+    squares += std::pow(more.segment(first, moments).dot(least.segment(first, moments)), 2);
+  }
+  const double gained = more.squaredNorm() + 2 * more.dot(least);
+  return squares > 0 ? gained / (2 * std::sqrt(squares)) : 0;
+}
+
+void Contest::gatherRivals(const Explanation& best) {
+  std::vector<const Explanation*> rivals;
+  for (const Explanation& single : singles_) {
+    if (single.score.ids == best.score.ids || !shows(single)) continue;
+    const double behind = best.share - single.share;
+    const bool close = behind <= kRivalWithin * best.share;
+    const bool indistinct = behindInErrors(single, best) < kSignificant && behind < kRivalFar * best.share;
     if (close || indistinct) rivals.push_back(&single);
   }
-  std::sort(rivals.begin(), rivals.end(), [](const Score* a, const Score* b) { return a->total < b->total; });
-  decision_.credible.push_back(best.ids);
-  for (const Score* rival : rivals) decision_.credible.push_back(rival->ids);
+  std::sort(rivals.begin(), rivals.end(),
+            [](const Explanation* a, const Explanation* b) { return a->share > b->share; });
+  decision_.credible.push_back(best.score.ids);
+  for (const Explanation* rival : rivals) decision_.credible.push_back(rival->score.ids);
+  // Drift is what everything slow looks like: it stands behind whatever comes near it.
+  const auto is_drift = [](const std::vector<std::string>& ids) {
+    return ids == std::vector<std::string>{"drift"};
+  };
+  std::stable_partition(decision_.credible.begin(), decision_.credible.end(),
+                        [&](const auto& ids) { return !is_drift(ids); });
 }
 
 // An effect that needs what was not recorded is not named alone: the best of its partners stays beside it.
@@ -131,60 +298,75 @@ void Contest::weigh(const EvidenceAtHand& evidence) {
   const bool all =
       std::all_of(info.needs.begin(), info.needs.end(), [&](Evidence e) { return evidence.has(e); });
   if (all) return;
-  const Score* partner = nullptr;
-  for (const Score& single : singles_) {
-    const bool listed = std::count(info.collinear.begin(), info.collinear.end(), single.ids.front()) > 0;
-    if (listed && shows(single) && (!partner || single.total < partner->total)) partner = &single;
+  const Explanation* partner = nullptr;
+  for (const Explanation& single : singles_) {
+    const bool listed =
+        std::count(info.collinear.begin(), info.collinear.end(), single.score.ids.front()) > 0;
+    if (listed && shows(single) && (!partner || single.share > partner->share)) partner = &single;
   }
-  if (partner) decision_.credible.push_back(partner->ids);
+  if (partner) decision_.credible.push_back(partner->score.ids);
 }
 
 void Contest::listCandidates() {
-  std::vector<const Score*> all;
-  for (const Score& s : singles_) all.push_back(&s);
-  for (const Score& s : generics_) all.push_back(&s);
-  for (const Score& s : pair_) all.push_back(&s);
-  std::sort(all.begin(), all.end(), [](const Score* a, const Score* b) { return a->total < b->total; });
-  for (const Score* s : all) {
-    CandidateScore candidate{s->ids, "", 0, 0, selection().z(nothing_, *s)};
-    candidate.share_of_ceiling = decision_.ceiling > 0 ? shareOf(*s) / decision_.ceiling : 0;
-    candidate.share_of_error =
-        shareOf(*s) * competition_.meanSquare() /
-        std::max(
-            1e-300,
-            spreadOf(measured_, taxels_, Trace::Zero(static_cast<Eigen::Index>(measured_.moments()))).square);
+  const Trace none = Trace::Zero(static_cast<Eigen::Index>(measured_.moments()));
+  const double square = std::max(1e-300, spreadOf(measured_, taxels_, none).square);
+  const auto add = [&](const Score& score, double share) {
+    CandidateScore candidate{score.ids, "refused", 0, 0, selection().z(nothing_, score)};
+    candidate.share_of_ceiling = decision_.ceiling > 0 ? share / decision_.ceiling : 0;
+    candidate.share_of_error = share * competition_.meanSquare() / square;
     const auto& credible = decision_.credible;
-    candidate.outcome = std::count(credible.begin(), credible.end(), s->ids) ? "credible" : "refused";
+    if (std::count(credible.begin(), credible.end(), score.ids)) candidate.outcome = "credible";
     decision_.candidates.push_back(candidate);
+  };
+  for (const Explanation& e : singles_) add(e.score, e.share);
+  for (const Explanation& e : pair_) add(e.score, e.share);
+  for (const Score& score : generics_) add(score, shareOf(score));
+  std::stable_sort(decision_.candidates.begin(), decision_.candidates.end(),
+                   [](const CandidateScore& a, const CandidateScore& b) {
+                     return a.share_of_ceiling > b.share_of_ceiling;
+                   });
+}
+
+// The explanation that stands first in the credible set.
+Explanation& Contest::frontOf(Explanation& best) {
+  for (Explanation& single : singles_) {
+    if (single.score.ids == decision_.credible.front()) return single;
+  }
+  return best;
+}
+
+void Contest::nameIt(Explanation& best) {
+  gatherRivals(best);
+  Explanation& first = frontOf(best);
+  refineOne(first);
+  decision_.refined = first.refined;
+  decision_.explanation = first.score;
+  decision_.share = first.share;
+  weigh(evidenceIn(measured_));
+  const bool good = first.share >= kGoodForm * decision_.ceiling && !first.refined.at_bound;
+  decision_.verdict = decision_.credible.size() > 1 ? Verdict::kAmbiguous
+                      : good                        ? Verdict::kNamed
+                                                    : Verdict::kWrongForm;
+  for (const std::string& id : first.score.ids) {
+    for (const Covariate c : findEffect(id)->info.depends_on) {
+      auto& told = decision_.depends_on;
+      if (!std::count(told.begin(), told.end(), name(c))) told.push_back(name(c));
+    }
   }
 }
 
 Decision Contest::decide() {
-  const Score* one = best(singles_);
-  const Score* generic = best(generics_);
+  const Score* generic = bestGeneric();
   decision_.ceiling = competition_.repeating();
-  for (const Score* s : {one, generic}) {
-    if (s) decision_.ceiling = std::max(decision_.ceiling, shareOf(*s));
-  }
-  const bool anything = (one && shows(*one)) || (generic && shows(*generic));
-  if (anything && one) {
-    tryPairs();
-    const Score& put = pair_.empty() ? *one : pair_.front();
-    decision_.explanation = put;
-    if (!unknown(put)) {
-      gatherRivals(put);
-      weigh(evidenceIn(measured_));
-      decision_.verdict = decision_.credible.size() > 1 ? Verdict::kAmbiguous : Verdict::kNamed;
-      const double share = shareOf(put) / decision_.ceiling;
-      if (decision_.verdict == Verdict::kNamed && share < 0.7) decision_.verdict = Verdict::kWrongForm;
-      for (const std::string& id : put.ids) {
-        for (const Covariate c : findEffect(id)->info.depends_on) {
-          if (!std::count(decision_.depends_on.begin(), decision_.depends_on.end(), name(c)))
-            decision_.depends_on.push_back(name(c));
-        }
-      }
-    }
-    decision_.share = shareOf(decision_.explanation);
+  if (best()) decision_.ceiling = std::max(decision_.ceiling, best()->share);
+  if (generic) decision_.ceiling = std::max(decision_.ceiling, shareOf(*generic));
+  const bool anything = best() && (shows(*best()) || (generic && shows(*generic)));
+  if (anything) {
+    refineNear();
+    decision_.ceiling = std::max(decision_.ceiling, best()->share);
+    tryPairs(*best());
+    Explanation& put = pair_.empty() ? *best() : pair_.front();
+    if (!unknown(put)) nameIt(put);
     decision_.z = selection().z(nothing_, decision_.explanation);
     decision_.share_of_error = shareOfError(decision_.explanation);
   }
@@ -236,8 +418,9 @@ EvidenceAtHand evidenceIn(const Measured& measured) {
   return evidence;
 }
 
-Decision decide(const Measured& measured, const TaxelFit& taxels, const Competition& competition) {
-  return Contest(measured, taxels, competition).decide();
+Decision decide(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
+                const TaxelFit& taxels, const Competition& competition, const SimulationSettings& base) {
+  return Contest(measured, common, fit, taxels, competition, base).decide();
 }
 
 }  // namespace fsr

@@ -1,11 +1,15 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "fsr_pressure_map/discrepancy/base_fit.h"
 #include "fsr_pressure_map/discrepancy/decision.h"
+#include "fsr_pressure_map/discrepancy/findings.h"
 #include "fsr_pressure_map/discrepancy/refine.h"
 #include "fsr_pressure_map/discrepancy/show.h"
 #include "fsr_pressure_map/discrepancy/taxel_curves_fit.h"
+#include "fsr_pressure_map/discrepancy/wording.h"
+#include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/effects/effect_library.h"
 
 namespace fsr {
@@ -14,155 +18,264 @@ namespace {
 
 constexpr double kNotIdentifiable = 0.05;  // of a signature, that the static curves leave
 
-// The single signature of each effect that does most of what the mixture did, as settings.
-std::vector<EnabledEffect> startOf(const Competition& competition, const Score& explanation, bool& carried) {
-  ColumnSet chosen;
-  std::vector<EnabledEffect> effects;
-  for (const std::string& id : explanation.ids) {
-    Score best;
-    best.total = INFINITY;
-    for (const Family& family : competition.effects()) {
-      if (family.id != id) continue;
-      for (const ColumnSet& set : family.alternatives) {
-        for (std::size_t k = 0; k < set.columns.size(); ++k) {
-          const ColumnSet one{{set.columns[k]}, {set.free[k]}};
-          const Score now = competition.selection().score(together(chosen, one));
-          if (now.total < best.total) best = now;
-        }
-      }
-    }
-    chosen = best.set;
+using Ids = std::vector<std::string>;
+
+// One run, step by step; each step needs those before it.
+class Investigation {
+ public:
+  Investigation(const DiscrepancyProblem& problem, const DiscrepancyProgress& progress)
+      : problem_(problem), progress_(progress), measured_(admit(problem)) {}
+
+  DiscrepancyReport run();
+
+ private:
+  void tell(const char* step, double share) const {
+    if (progress_) progress_(step, share);
   }
-  const Eigen::VectorXd coefficients = competition.selection().score(chosen).coefficients;
-  for (std::size_t k = 0; k < chosen.columns.size(); ++k) {
-    const Signature& signature = competition.signatures()[static_cast<std::size_t>(chosen.columns[k])];
-    EnabledEffect effect{signature.id, signature.values};
-    effect.values[signature.strength] = coefficients[static_cast<Eigen::Index>(k)] * signature.scale;
-    effects.push_back(effect);
-    carried = signature.carried;
+  bool sought(const std::string& id) const {
+    const auto& out = problem_.options.leave_out;
+    return !problem_.simulation.effect(id) && !std::count(out.begin(), out.end(), id);
   }
-  return effects;
+  void detectFaults();
+  void takeOutStatics();
+  void takeOutMains();
+  void lookAtMounts();
+  void compete();
+  void lookAtStaticCurves();
+  void put();
+  void putFindings();
+  void show();
+  void listNotIdentifiable();
+  void answerQuestions();
+  double squareOfReadings() const {
+    return spreadOf(measured_, *taxels_, Trace::Zero(common_.all.size())).square;
+  }
+
+  const DiscrepancyProblem& problem_;
+  const DiscrepancyProgress& progress_;
+  Measured measured_;
+  CommonTraces common_;
+  std::unique_ptr<StaticFit> fit_;
+  std::unique_ptr<TaxelFit> taxels_;
+  std::unique_ptr<Competition> competition_;
+  Decision decision_;
+  StaticMisfit misfit_;
+  bool unknown_statics_ = false;
+  std::vector<Finding> findings_;
+  Trace left_;  // what the effects take from the common trace's residual
+  DiscrepancyReport report_;
+};
+
+void Investigation::detectFaults() {
+  Faults faults = findFaults(measured_);
+  for (const Fault& fault : faults.faults) {
+    if (!sought(fault.id)) continue;
+    findings_.push_back(findingOf(fault, faults.readings, 0));
+    for (const std::size_t t : fault.taxels) measured_.used[t] = 0;
+  }
+  // What one fault adds to the gap is counted once.
+  for (std::size_t f = 1; f < findings_.size(); ++f) findings_[f].before_more = 0;
+  const std::size_t usable = measured_.usedTaxels(), all = measured_.taxels();
+  if (2 * usable >= all && usable > 0) return;
+  throw InputError(problem_.recordings[0].name + ": " + std::to_string(all - usable) + " of " +
+                   std::to_string(all) +
+                   " taxels are masked, dead, stuck or on a failing line, but at least half must be usable");
 }
 
-void listNotIdentifiable(const Measured& measured, const std::vector<Signature>& signatures,
-                         const DiscrepancyProblem& problem, DiscrepancyReport& report) {
+void Investigation::takeOutStatics() {
+  common_ = commonTraces(measured_);
+  fit_ = std::make_unique<StaticFit>(measured_, CurvePer::kClass, common_.all);
+  taxels_ = std::make_unique<TaxelFit>(measured_, *fit_);
+  report_.base = fitBase(measured_, *fit_, problem_.simulation);
+}
+
+void Investigation::takeOutMains() {
+  if (!sought("mains_pickup")) return;
+  const Mains mains = findMains(measured_, *taxels_);
+  if (!mains.found) return;
+  findings_.push_back(findingOf(mains, squareOfReadings(), measured_));
+  takeOut(mains, *fit_, common_);
+}
+
+// Where the same surface reads otherwise after each remounting, every mount has curves of its own.
+void Investigation::lookAtMounts() {
+  if (!sought("repositioning")) return;
+  const Repositioning mounts = findRepositioning(measured_, *fit_, *taxels_, Trace(), Eigen::MatrixXd());
+  if (!mounts.found) return;
+  findings_.push_back(findingOf(mounts, squareOfReadings()));
+  fit_ = std::make_unique<StaticFit>(measured_, CurvePer::kVisit, common_.all);
+  taxels_ = std::make_unique<TaxelFit>(measured_, *fit_);
+}
+
+void Investigation::compete() {
+  tell("signatures", 0.2);
+  const auto& options = problem_.options;
+  competition_ = std::make_unique<Competition>(
+      measured_, common_, *fit_,
+      signatures(measured_, *fit_, report_.base, options.leave_out, options.threads), options.threads);
+  tell("naming", 0.6);
+  decision_ = decide(measured_, common_, *fit_, *taxels_, *competition_, report_.base);
+}
+
+void Investigation::lookAtStaticCurves() {
+  misfit_ = findStaticMisfit(measured_, *fit_, common_.all, squareOfReadings());
+  const bool else_found = !findings_.empty() || decision_.verdict != Verdict::kNone;
+  if (!isMisfit(misfit_, else_found)) return;
+  if (isSaturation(misfit_, measured_)) {
+    if (sought("saturation")) findings_.push_back(saturationOf(misfit_, measured_, *fit_, report_.base));
+    unknown_statics_ = !sought("saturation");
+  } else {
+    unknown_statics_ = decision_.verdict == Verdict::kNone && findings_.empty();
+  }
+}
+
+// What the common trace says goes into the report.
+void Investigation::put() {
+  report_.verdict = decision_.verdict;
+  report_.credible_set = decision_.credible;
+  report_.depends_on = decision_.depends_on;
+  report_.candidates = decision_.candidates;
+  report_.added = report_.base;
+  left_ = Trace::Zero(common_.all.size());
+  if (decision_.verdict == Verdict::kUnknown)
+    left_ = fit_->residual(competition_->explained(decision_.explanation));
+  if (decision_.credible.empty()) return;
+  const Refined& refined = decision_.refined;
+  for (std::size_t e = 0; e < refined.effects.size(); ++e) {
+    report_.added = withEffect(report_.added, refined.effects[e]);
+    const EffectInfo& info = findEffect(refined.effects[e].id)->info;
+    report_.effects.push_back({info.id, info.summary, refined.parameters[e], decision_.z,
+                               std::min(1.0, decision_.share / decision_.ceiling)});
+  }
+  left_ = refined.trace;
+}
+
+// What detectors found stands beside every explanation of the common trace.
+void Investigation::putFindings() {
+  if (unknown_statics_) {
+    report_.verdict = Verdict::kUnknown;
+    report_.depends_on = {name(Covariate::kPressure), name(Covariate::kCurvature)};
+    report_.where.pressure = misfit_.pressure;
+    report_.where.conditions = misfit_.conditions;
+  }
+  if (findings_.empty()) return;
+  if (report_.verdict == Verdict::kUnknown) {
+    report_.limitations.push_back("Beside what is unknown there is " + findings_.front().effect.id + ".");
+    return;
+  }
+  if (report_.verdict == Verdict::kNone) {
+    report_.verdict = Verdict::kNamed;
+    report_.credible_set = {{}};
+    report_.where = findings_.front().where;
+  }
+  for (const Finding& finding : findings_) {
+    for (Ids& ids : report_.credible_set) ids.push_back(finding.effect.id);
+    report_.effects.push_back(finding.effect);
+    for (const EnabledEffect& effect : finding.enable) report_.added = withEffect(report_.added, effect);
+    for (const std::string& covariate : finding.depends_on) {
+      auto& told = report_.depends_on;
+      if (!std::count(told.begin(), told.end(), covariate)) told.push_back(covariate);
+    }
+  }
+}
+
+void Investigation::show() {
+  tell("showing", 0.9);
+  const Spread spread = spreadOf(measured_, *taxels_, left_);
+  const double to_error = spread.square > 0 ? competition_->meanSquare() * spread.local / spread.square : 0;
+  const bool in_common = decision_.verdict != Verdict::kNone;
+  if (in_common) report_.where = placeOf(measured_, left_, spread);
+  const Eigen::MatrixXd mask = maskOf(measured_, report_.where, spread);
+  GapExtras extras;
+  for (const Finding& finding : findings_) {
+    extras.before_more += finding.before_more;
+    extras.after_less += finding.after_less;
+  }
+  if (unknown_statics_) extras.before_more += misfit_.rms * misfit_.rms;
+  const double ceiling = in_common ? std::min(1.0, decision_.ceiling * to_error) : 0;
+  report_.gap = measureGap(measured_, *fit_, *taxels_, left_, mask, ceiling, extras, problem_.options.seed);
+  const Trace before = fit_->residual(common_.all);
+  report_.curves = residualCurves(measured_, before, before - left_);
+}
+
+void Investigation::listNotIdentifiable() {
   for (const EffectEntry& entry : effectLibrary()) {
     const EffectInfo& info = entry.info;
-    if (problem.simulation.effect(info.id) || info.kind == EffectKind::kBase) continue;
+    if (!sought(info.id) || info.kind == EffectKind::kBase) continue;
     double left = 0;
     bool tried = false;
-    for (const Signature& s : signatures) {
+    for (const Signature& s : competition_->signatures()) {
       if (s.id != info.id) continue;
       tried = true;
       left = std::max(left, s.left);
     }
-    const bool listed = info.kind == EffectKind::kListed;
-    const bool hidden = tried && (isStatic(info) || left < kNotIdentifiable);
-    if (!listed && !hidden) {
-      report.tested.push_back(info.id);
-      continue;
+    const bool remounted = measured_.classes.size() < measured_.visits.size();
+    std::string reason;
+    if (info.kind == EffectKind::kListed) reason = "A gas chamber cannot show it.";
+    if (tried && isStatic(info)) reason = "Under a uniform pressure the static curves take all of it.";
+    if (tried && !isStatic(info) && left < kNotIdentifiable)
+      reason = "The static curves leave hardly anything of it under this protocol.";
+    if (info.id == "repositioning" && !remounted) reason = "No surface was mounted twice.";
+    if (info.id == "scan_skew") reason = "It is not looked for in this version.";
+    if (reason.empty()) {
+      report_.tested.push_back(info.id);
+    } else {
+      report_.not_identifiable.push_back({info.id, name(info.experiment), reason});
     }
-    const std::string reason = listed ? "A gas chamber cannot show it."
-                               : isStatic(info)
-                                   ? "Under this protocol the static curves take all of it."
-                                   : "Under this protocol the static curves leave hardly anything of it.";
-    report.not_identifiable.push_back({info.id, name(info.experiment), reason});
   }
-  static_cast<void>(measured);
 }
 
-std::string listOf(const std::vector<std::string>& ids, const std::string& between) {
-  std::string text;
-  for (const std::string& id : ids) text += (text.empty() ? "" : between) + id;
-  return text;
+// Somebody asked for an effect that these recordings cannot show: that is the answer, unless there is
+// another one.
+void Investigation::answerQuestions() {
+  if (report_.verdict != Verdict::kNone) return;
+  Ids hidden;
+  for (const std::string& id : problem_.options.ask) {
+    for (const NotIdentifiable& one : report_.not_identifiable) {
+      if (one.id == id) hidden.push_back(id);
+    }
+  }
+  if (hidden.empty()) return;
+  report_.verdict = Verdict::kNotIdentifiable;
+  report_.credible_set.clear();
+  for (const std::string& id : hidden) report_.credible_set.push_back({id});
 }
 
-std::string sentenceOf(const DiscrepancyReport& report) {
-  const std::string number = std::to_string(report.tested.size());
-  switch (report.verdict) {
-    case Verdict::kNone:
-      return "Among " + number + " effects tested, none is missing that these recordings show.";
-    case Verdict::kUnknown:
-      return "Something is missing that none of the " + number + " effects tested explains; it depends on " +
-             listOf(report.depends_on, ", ") + ".";
-    case Verdict::kAmbiguous: {
-      std::vector<std::string> sets;
-      for (const auto& ids : report.credible_set) sets.push_back(listOf(ids, " with "));
-      return "Among " + number +
-             " effects tested, these recordings do not tell apart: " + listOf(sets, ", or ") + ".";
-    }
-    case Verdict::kWrongForm:
-      return "Best explanation among " + number +
-             " effects tested: " + listOf(report.credible_set.front(), " and ") +
-             ", but its form in the library does not fit well.";
-    default:
-      return "Best explanation among " + number +
-             " effects tested, under this protocol: " + listOf(report.credible_set.front(), " and ") + ".";
+DiscrepancyReport Investigation::run() {
+  report_.seed = problem_.options.seed;
+  report_.version = FSR_VERSION;
+  for (const Recording& recording : problem_.recordings) {
+    report_.inputs.push_back({recording.name, recording.sha256, recording.scans(), 1});
   }
+  tell("faults", 0.05);
+  detectFaults();
+  tell("static curves", 0.1);
+  takeOutStatics();
+  lookAtMounts();
+  takeOutMains();
+  compete();
+  lookAtStaticCurves();
+  put();
+  putFindings();
+  show();
+  listNotIdentifiable();
+  answerQuestions();
+  tell("curves", 0.95);
+  report_.base = withTaxelCurves(measured_, report_.base, "base_curves.csv");
+  report_.added = withTaxelCurves(measured_, report_.added, "simulation_curves.csv");
+  report_.limitations.insert(report_.limitations.begin(), measured_.limitations.begin(),
+                             measured_.limitations.end());
+  report_.sentence = sentenceOf(report_);
+  tell("done", 1);
+  return std::move(report_);
 }
 
 }  // namespace
 
 DiscrepancyReport investigate(const DiscrepancyProblem& problem, const DiscrepancyProgress& progress) {
-  const auto tell = [&](const char* step, double share) {
-    if (progress) progress(step, share);
-  };
   validate(problem);
-  tell("reading", 0);
-  const Measured measured = admit(problem);
-  tell("static curves", 0.1);
-  const CommonTraces common = commonTraces(measured);
-  const StaticFit fit(measured, CurvePer::kClass, common.all);
-  DiscrepancyReport report;
-  report.seed = problem.options.seed;
-  report.version = FSR_VERSION;
-  report.limitations = measured.limitations;
-  for (const Recording& recording : problem.recordings) {
-    report.inputs.push_back({recording.name, recording.sha256, recording.scans(), 1});
-  }
-  report.base = report.added = fitBase(measured, fit, problem.simulation);
-  tell("signatures", 0.2);
-  const Competition competition(
-      measured, common, fit,
-      signatures(measured, fit, report.base, problem.options.leave_out, problem.options.threads),
-      problem.options.threads);
-  listNotIdentifiable(measured, competition.signatures(), problem, report);
-  tell("naming", 0.7);
-  const TaxelFit taxels(measured, fit);
-  const Decision decision = decide(measured, taxels, competition);
-  report.verdict = decision.verdict;
-  report.credible_set = decision.credible;
-  report.depends_on = decision.depends_on;
-  report.candidates = decision.candidates;
-  report.sentence = sentenceOf(report);
-  Trace left = Trace::Zero(common.all.size());
-  if (!decision.credible.empty()) {
-    tell("refining", 0.8);
-    bool carried = true;
-    const std::vector<EnabledEffect> start = startOf(competition, decision.explanation, carried);
-    const Refined refined = refine(measured, common, report.base, start, carried);
-    for (std::size_t e = 0; e < refined.effects.size(); ++e) {
-      report.added = withEffect(report.added, refined.effects[e]);
-      const EffectInfo& info = findEffect(refined.effects[e].id)->info;
-      report.effects.push_back(
-          {info.id, info.summary, refined.parameters[e], decision.z, decision.share / decision.ceiling});
-    }
-    left = fit.residual(refined.trace);
-  } else if (decision.verdict == Verdict::kUnknown) {
-    left = fit.residual(competition.explained(decision.explanation));
-  }
-  tell("showing", 0.9);
-  const Spread spread = spreadOf(measured, taxels, left);
-  const double to_error = spread.square > 0 ? competition.meanSquare() * spread.local / spread.square : 0;
-  if (decision.verdict != Verdict::kNone) report.where = placeOf(measured, left, spread);
-  report.gap = measureGap(measured, fit, taxels, left, maskOf(measured, report.where, spread),
-                          std::min(1.0, decision.ceiling * to_error), problem.options.seed);
-  const Trace before = fit.residual(common.all);
-  report.curves = residualCurves(measured, before, before - left);
-  report.base = withTaxelCurves(measured, report.base, "base_curves.csv");
-  report.added = withTaxelCurves(measured, report.added, "simulation_curves.csv");
-  tell("done", 1);
-  return report;
+  if (progress) progress("reading", 0);
+  return Investigation(problem, progress).run();
 }
 
 }  // namespace fsr

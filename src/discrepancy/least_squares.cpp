@@ -119,6 +119,8 @@ Eigen::MatrixXd CycleGrams::sum(const std::vector<bool>& wanted) const {
 
 ColumnSet together(const ColumnSet& a, const ColumnSet& b) {
   ColumnSet both = a;
+  both.bent_only = (a.bent_only || a.columns.empty()) && (b.bent_only || b.columns.empty()) &&
+                   !(a.columns.empty() && b.columns.empty());
   both.columns.insert(both.columns.end(), b.columns.begin(), b.columns.end());
   both.free.insert(both.free.end(), b.free.begin(), b.free.end());
   return both;

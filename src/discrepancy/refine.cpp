@@ -16,7 +16,7 @@ namespace fsr {
 
 namespace {
 
-constexpr int kRounds = 2;            // of curves and parameters in turn
+constexpr int kRounds = 8;            // of curves and parameters in turn
 constexpr double kDifference = 0.02;  // of a parameter's scale
 constexpr double kBeyondTried = 3;    // factor that a shape may leave its tried values by
 constexpr double kTwoSided = 1.96;    // 95 % of a normal distribution
@@ -60,7 +60,7 @@ std::vector<Knob> knobsOf(const std::vector<EnabledEffect>& effects) {
   return knobs;
 }
 
-// Effects on load and gain go through the measured curves, those of the read-out add up.
+// Without the effects of the other kind: those up to the gain, or those of the read-out.
 SimulationSettings keepStages(SimulationSettings settings, const SimulationSettings& base, bool read_out) {
   auto& effects = settings.effects;
   effects.erase(std::remove_if(effects.begin(), effects.end(),
@@ -73,52 +73,62 @@ SimulationSettings keepStages(SimulationSettings settings, const SimulationSetti
   return settings;
 }
 
-Trace throughCurves(const Measured& measured, const StaticFit& fit, const DrivenSignals& without,
-                    const DrivenSignals& with) {
-  Trace added(without.load.size());
-  for (Eigen::Index i = 0; i < added.size(); ++i) {
-    const auto moment = static_cast<std::size_t>(i);
-    const double value = fit.curveAt(moment, measured.pressure[moment] + with.load[i] - without.load[i]);
-    const double ratio = without.gain[i] > 0 ? with.gain[i] / without.gain[i] : 1;
-    const double zero = fit.curve()[i] - fit.rise()[i];
-    added[i] = zero + (value - zero) * ratio - fit.curve()[i];
-  }
-  return added;
-}
+// What effects do to load, gain and reading.
+struct Changes {
+  Trace load, gain, reading;  // [Pa], factor, [share of full scale]
+};
 
-Trace traceBetween(const Measured& measured, const StaticFit& fit, const SimulationSettings& base,
-                   const SimulationSettings& added, const DrivenSignals& without, bool carried) {
+Changes changesBy(const Measured& measured, const SimulationSettings& base, const SimulationSettings& added,
+                  const DrivenSignals& without, bool carried) {
   const SimulationSettings early = keepStages(added, base, false), late = keepStages(added, base, true);
-  Trace trace = Trace::Zero(without.load.size());
+  const auto moments = without.load.size();
+  Changes changes{Trace::Zero(moments), Trace::Ones(moments), Trace::Zero(moments)};
   if (early.effects.size() > base.effects.size()) {
-    trace += throughCurves(measured, fit, without, driven(measured, early, carried));
+    const DrivenSignals with = driven(measured, early, carried);
+    changes.load = with.load - without.load;
+    changes.gain = with.gain.cwiseQuotient(without.gain.cwiseMax(1e-9));
   }
   if (late.effects.size() > base.effects.size()) {
-    trace += driven(measured, late, carried).reading - without.reading;
+    changes.reading = driven(measured, late, carried).reading - without.reading;
   }
-  return trace;
+  return changes;
+}
+
+// Nothing happens on flat surfaces.
+void onlyWhereBent(const Measured& measured, Changes& changes) {
+  for (std::size_t i = 0; i < measured.moments(); ++i) {
+    if (!isFlat(measured.classes[measured.classOf(i)])) continue;
+    const auto at = static_cast<Eigen::Index>(i);
+    changes.load[at] = changes.reading[at] = 0;
+    changes.gain[at] = 1;
+  }
+}
+
+Trace freedOf(const Trace& common, double unloaded, const Changes& changes) {
+  return ((common - changes.reading).array() - unloaded) / changes.gain.array().max(0.05) + unloaded;
+}
+
+Trace loadOf(const Measured& measured, const Changes& changes) {
+  return Eigen::Map<const Trace>(measured.pressure.data(), changes.load.size()) + changes.load;
 }
 
 class Refiner {
  public:
-  Refiner(const Measured& measured, const CommonTraces& common, const SimulationSettings& base,
-          std::vector<EnabledEffect> effects, bool carried)
-      : measured_(measured), common_(common), base_(base), effects_(std::move(effects)), carried_(carried) {
+  Refiner(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
+          const SimulationSettings& base, std::vector<EnabledEffect> effects, bool carried, bool bent_only)
+      : measured_(measured),
+        common_(common),
+        fit_(fit),
+        base_(base),
+        effects_(std::move(effects)),
+        carried_(carried),
+        bent_only_(bent_only),
+        plain_(driven(measured, base, carried)) {
     knobs_ = knobsOf(effects_);
     for (const Knob& knob : knobs_) at_.push_back(knob.read(effects_[knob.effect].values.at(knob.name)));
-    plain_ = driven(measured, base, carried);
   }
 
-  Refined run() {
-    Trace added = Trace::Zero(common_.all.size());
-    for (int round = 0; round < kRounds; ++round) {
-      fit_ = std::make_unique<StaticFit>(measured_, CurvePer::kClass, common_.all - added);
-      target_ = fit_->project(common_.all);
-      search();
-      added = trace(at_);
-    }
-    return result(added);
-  }
+  Refined run();
 
  private:
   std::vector<EnabledEffect> effectsAt(const std::vector<double>& at) const {
@@ -128,79 +138,88 @@ class Refiner {
     }
     return effects;
   }
-  // Throws InputError where parameters do not go together.
-  Trace trace(const std::vector<double>& at) const {
+  Changes changesAt(const std::vector<double>& at) const {
     SimulationSettings with = base_;
     for (const EnabledEffect& effect : effectsAt(at)) with = withEffect(with, effect);
-    return traceBetween(measured_, *fit_, base_, with, plain_, carried_);
+    Changes changes = changesBy(measured_, base_, with, plain_, carried_);
+    if (bent_only_) onlyWhereBent(measured_, changes);
+    return changes;
   }
-  Trace masked(const Trace& projected) const {
-    Trace result = projected;
+  Trace withoutShown(Trace trace) const {
     for (const MeasuredCycle& cycle : measured_.cycles) {
       if (cycle.use == CycleUse::kFit) continue;
-      result
-          .segment(static_cast<Eigen::Index>(cycle.first),
-                   static_cast<Eigen::Index>(cycle.last - cycle.first))
-          .setZero();
+      const auto moments = static_cast<Eigen::Index>(cycle.last - cycle.first);
+      trace.segment(static_cast<Eigen::Index>(cycle.first), moments).setZero();
     }
-    return result;
+    return trace;
   }
-  Trace error(const std::vector<double>& at) const { return masked(target_ - fit_->project(trace(at))); }
-  std::optional<Eigen::VectorXd> tryError(const std::vector<double>& at) const {
+  // Variable projection: for given parameters the curves are those of least squares.
+  std::optional<Eigen::VectorXd> error(const std::vector<double>& at) const {
     try {
-      return error(at);
+      const Changes changes = changesAt(at);
+      const Trace freed = freedOf(common_.all, fit_.unloaded(), changes);
+      return withoutShown(StaticFit(fit_, freed, loadOf(measured_, changes)).project(freed));
     } catch (const InputError&) {
       return std::nullopt;
     }
   }
-  void search();
-  Refined result(const Trace& added) const;
+  std::vector<double> deviations(const Eigen::VectorXd& left) const;
 
   const Measured& measured_;
   const CommonTraces& common_;
+  const StaticFit& fit_;
   const SimulationSettings& base_;
   std::vector<EnabledEffect> effects_;
-  bool carried_;
+  bool carried_, bent_only_;
   std::vector<Knob> knobs_;
   std::vector<double> at_;
   DrivenSignals plain_;
-  std::unique_ptr<StaticFit> fit_;
-  Trace target_;
 };
 
-void Refiner::search() {
-  at_ = levenberg([this](const std::vector<double>& at) { return tryError(at); }, at_);
-  for (std::size_t k = 0; k < at_.size(); ++k) at_[k] = knobs_[k].read(knobs_[k].write(at_[k]));
-}
-
-Refined Refiner::result(const Trace& added) const {
-  Refined refined;
-  refined.effects = effectsAt(at_);
-  refined.parameters.resize(effects_.size());
-  refined.trace = added;
-  const Trace left = error(at_);
-  refined.share = 1 - left.squaredNorm() / masked(target_).squaredNorm();
-  const auto residuals = [this](const std::vector<double>& at) { return tryError(at); };
+// Of the knobs, by cycles: what is left of one cycle hangs together.
+std::vector<double> Refiner::deviations(const Eigen::VectorXd& left) const {
+  const auto residuals = [this](const std::vector<double>& at) { return error(at); };
   const Eigen::MatrixXd jacobian = derivatives(residuals, at_, left, kDifference);
-  // By cycles: what is left of one cycle hangs together.
   Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
   for (const MeasuredCycle& cycle : measured_.cycles) {
-    const auto first = static_cast<Eigen::Index>(cycle.first),
-               n = static_cast<Eigen::Index>(cycle.last - cycle.first);
-    const Eigen::VectorXd pull = jacobian.middleRows(first, n).transpose() * left.segment(first, n);
+    const auto first = static_cast<Eigen::Index>(cycle.first);
+    const auto moments = static_cast<Eigen::Index>(cycle.last - cycle.first);
+    const Eigen::VectorXd pull =
+        jacobian.middleRows(first, moments).transpose() * left.segment(first, moments);
     spread += pull * pull.transpose();
   }
   Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
   normal.diagonal().array() *= 1 + 1e-9;
+  normal.diagonal().array() += 1e-300;
   const Eigen::MatrixXd inverse =
       normal.ldlt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
-  const Eigen::MatrixXd covariance = inverse * spread * inverse;
+  const Eigen::VectorXd variance = (inverse * spread * inverse).diagonal();
+  std::vector<double> deviations;
+  for (Eigen::Index k = 0; k < variance.size(); ++k)
+    deviations.push_back(std::sqrt(std::max(0.0, variance[k])));
+  return deviations;
+}
+
+Refined Refiner::run() {
+  at_ = levenberg([this](const std::vector<double>& at) { return error(at); }, at_);
+  for (std::size_t k = 0; k < at_.size(); ++k) at_[k] = knobs_[k].read(knobs_[k].write(at_[k]));
+  Refined refined;
+  refined.effects = effectsAt(at_);
+  refined.parameters.resize(effects_.size());
+  refined.trace = Trace::Zero(common_.all.size());
+  const auto left = error(at_);
+  if (!left) return refined;
+  refined.left = *left;
+  refined.share = 1 - left->squaredNorm() / withoutShown(fit_.project(common_.all)).squaredNorm();
+  const Changes changes = changesAt(at_);
+  const Trace freed = freedOf(common_.all, fit_.unloaded(), changes);
+  const Trace after = StaticFit(fit_, freed, loadOf(measured_, changes)).residual(freed);
+  refined.trace = fit_.residual(common_.all) - after.cwiseProduct(changes.gain);
+  const std::vector<double> deviation = deviations(*left);
   for (std::size_t k = 0; k < knobs_.size(); ++k) {
     const Knob& knob = knobs_[k];
-    const auto kk = static_cast<Eigen::Index>(k);
-    const double half = kTwoSided * std::sqrt(std::max(0.0, covariance(kk, kk)));
     const EffectParameter& info = parameter(findEffect(effects_[knob.effect].id)->info, knob.name);
-    const double value = knob.write(at_[k]);
+    const double value = knob.write(at_[k]), half = kTwoSided * deviation[k];
     refined.parameters[knob.effect].push_back(
         {knob.name, value, info.permitted.unit, {knob.write(at_[k] - half), knob.write(at_[k] + half)}});
     const bool strength = info.role == ParameterRole::kStrength;
@@ -224,14 +243,10 @@ SimulationSettings withEffect(SimulationSettings settings, const EnabledEffect& 
   return settings;
 }
 
-Trace addedTrace(const Measured& measured, const StaticFit& fit, const SimulationSettings& base,
-                 const SimulationSettings& added, bool carried) {
-  return traceBetween(measured, fit, base, added, driven(measured, base, carried), carried);
-}
-
-Refined refine(const Measured& measured, const CommonTraces& common, const SimulationSettings& base,
-               const std::vector<EnabledEffect>& start, bool carried) {
-  return Refiner(measured, common, base, start, carried).run();
+Refined refine(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
+               const SimulationSettings& base, const std::vector<EnabledEffect>& start, bool carried,
+               bool bent_only) {
+  return Refiner(measured, common, fit, base, start, carried, bent_only).run();
 }
 
 }  // namespace fsr

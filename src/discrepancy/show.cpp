@@ -97,7 +97,8 @@ std::vector<CycleSums> sumsOf(const Measured& measured, const StaticFit& fit, co
 }
 
 // Of the squared errors before and after, and of what anything explains.
-Gap gapOf(const std::vector<CycleSums>& sums, const std::vector<std::size_t>& chosen, double ceiling) {
+Gap gapOf(const std::vector<CycleSums>& sums, const std::vector<std::size_t>& chosen, double ceiling,
+          const GapExtras& extras) {
   CycleSums total;
   for (const std::size_t c : chosen) {
     total.before += sums[c].before;
@@ -109,14 +110,17 @@ Gap gapOf(const std::vector<CycleSums>& sums, const std::vector<std::size_t>& ch
   }
   Gap gap;
   const double n = std::max(1.0, total.number), np = std::max(1.0, total.in_pressure);
-  const double before = total.before / n, after = total.after / n;
-  const double floor = std::min(after, before * (1 - ceiling));
+  const double common = total.before / n, before = common + extras.before_more;
+  const double after = std::max(0.0, total.after / n - extras.after_less);
+  const double floor = std::min(after, common * (1 - ceiling));
   gap.before = std::sqrt(before);
   gap.after = std::sqrt(after);
   gap.floor = std::sqrt(std::max(0.0, floor));
-  gap.closed = before > floor ? (before - after) / (before - floor) : NAN;
+  gap.closed = before > floor * (1 + 1e-9) ? (before - after) / (before - floor) : NAN;
   gap.before_pressure = std::sqrt(total.before_pressure / np);
   gap.after_pressure = std::sqrt(total.after_pressure / np);
+  if (common > 0) gap.before_pressure *= std::sqrt(before / common);
+  if (total.after > 0) gap.after_pressure *= std::sqrt(after / (total.after / n));
   gap.floor_pressure = gap.before > 0 ? gap.before_pressure * gap.floor / gap.before : 0;
   return gap;
 }
@@ -227,11 +231,11 @@ Eigen::MatrixXd maskOf(const Measured& measured, const WhereItShows& where, cons
 }
 
 Gap measureGap(const Measured& measured, const StaticFit& fit, const TaxelFit& taxels, const Trace& left,
-               const Eigen::MatrixXd& mask, double ceiling, std::uint64_t seed) {
+               const Eigen::MatrixXd& mask, double ceiling, const GapExtras& extras, std::uint64_t seed) {
   const std::vector<CycleSums> sums = sumsOf(measured, fit, taxels, left, mask);
   std::vector<std::size_t> all;
   for (std::size_t c = 0; c < sums.size(); ++c) all.push_back(c);
-  Gap gap = gapOf(sums, all, ceiling);
+  Gap gap = gapOf(sums, all, ceiling, extras);
   const RandomStream stream = randomStream(seed, "discrepancy.gap");
   std::vector<double> before, after, floor, closed;
   for (int draw = 0; draw < kDraws && !all.empty(); ++draw) {
@@ -239,7 +243,7 @@ Gap measureGap(const Measured& measured, const StaticFit& fit, const TaxelFit& t
     for (std::size_t c = 0; c < all.size(); ++c) {
       chosen.push_back(stream.bits(static_cast<std::uint64_t>(draw) * all.size() + c) % all.size());
     }
-    const Gap one = gapOf(sums, chosen, ceiling);
+    const Gap one = gapOf(sums, chosen, ceiling, extras);
     before.push_back(one.before);
     after.push_back(one.after);
     floor.push_back(one.floor);

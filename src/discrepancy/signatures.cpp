@@ -180,7 +180,8 @@ SimulationSettings representative(const SimulationSettings& settings) {
   auto& effects = one.effects;
   const auto unwanted = [](const EnabledEffect& effect) {
     const EffectEntry* entry = findEffect(effect.id);
-    return effect.id == "white_noise" || entry->info.kind == EffectKind::kDetector;
+    const bool detected = entry->info.kind == EffectKind::kDetector && effect.id != "saturation";
+    return effect.id == "white_noise" || detected;
   };
   effects.erase(std::remove_if(effects.begin(), effects.end(), unwanted), effects.end());
   for (EnabledEffect& effect : effects) {

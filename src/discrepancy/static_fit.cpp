@@ -24,11 +24,15 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-std::vector<double> knotsOf(const Measured& measured) {
-  const auto [low, high] = std::minmax_element(measured.pressure.begin(), measured.pressure.end());
+std::vector<double> knotsOf(const Trace& load) {
+  const double low = load.minCoeff(), high = std::max(load.maxCoeff(), low + 1);
   std::vector<double> knots;
-  for (const double share : kKnots) knots.push_back(*low + share * (*high - *low));
+  for (const double share : kKnots) knots.push_back(low + share * (high - low));
   return knots;
+}
+
+Trace pressureOf(const Measured& measured) {
+  return Eigen::Map<const Trace>(measured.pressure.data(), static_cast<Eigen::Index>(measured.moments()));
 }
 
 template <typename Use>
@@ -69,25 +73,37 @@ CommonTraces commonTraces(const Measured& measured) {
   return traces;
 }
 
-StaticFit::StaticFit(const Measured& measured, CurvePer per, const Trace& common)
-    : measured_(measured), basis_(knotsOf(measured)) {
+StaticFit::StaticFit(const Measured& measured, CurvePer per, const Trace& common) : measured_(measured) {
   for (std::size_t i = 0; i < measured.moments(); ++i) {
     group_.push_back(per == CurvePer::kVisit ? measured.visit[i]
                                              : static_cast<std::uint32_t>(measured.classOf(i)));
-    splines_.push_back(basis_.at(measured.pressure[i]));
   }
   groups_ = per == CurvePer::kVisit ? measured.visits.size() : measured.classes.size();
-  kept_.assign(measured.cycles.size(), 1.0);
-  std::vector<Eigen::MatrixXd> normal(groups_,
-                                      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(basis_.size()),
-                                                            static_cast<Eigen::Index>(basis_.size())));
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  fitCurves(common, pressureOf(measured));
+  judgeGainScatter(residual(common));
+}
+
+StaticFit::StaticFit(const StaticFit& like, const Trace& common, const Trace& load)
+    : measured_(like.measured_),
+      group_(like.group_),
+      groups_(like.groups_),
+      gain_scatter_(like.gain_scatter_),
+      kept_(like.kept_) {
+  fitCurves(common, load);
+  prepare();
+}
+
+void StaticFit::fitCurves(const Trace& common, const Trace& load) {
+  basis_ = SplineBasis(knotsOf(load));
+  for (Eigen::Index i = 0; i < load.size(); ++i) splines_.push_back(basis_.at(load[i]));
+  const auto size = static_cast<Eigen::Index>(basis_.size());
+  std::vector<Eigen::MatrixXd> normal(groups_, Eigen::MatrixXd::Zero(size, size));
+  for (std::size_t i = 0; i < splines_.size(); ++i) {
     eachSpline(splines_[i], [&](Eigen::Index a, double x, double) {
       eachSpline(splines_[i], [&](Eigen::Index b, double y, double) { normal[group_[i]](a, b) += x * y; });
     });
   }
   for (Eigen::MatrixXd& matrix : normal) plain_.push_back(decompose(matrix));
-  shrunk_ = plain_;
   fitted_ = coefficientsOf(common, plain_);
   curve_ = curveFrom(fitted_);
   slope_.resize(common.size());
@@ -100,7 +116,6 @@ StaticFit::StaticFit(const Measured& measured, CurvePer per, const Trace& common
   }
   zero_ = curve_.minCoeff();
   rise_ = curve_.array() - zero_;
-  judgeGainScatter(residual(common));
 }
 
 double StaticFit::curveAt(std::size_t scan, double load) const {
@@ -180,6 +195,7 @@ void StaticFit::judgeGainScatter(const Trace& left) {
     if (measured_.cycles[c].visit != measured_.cycles[c - 1].visit) continue;
     steps.push_back(std::abs(gain[c] - gain[c - 1]));
   }
+  kept_.resize(gain.size());
   gain_scatter_ = std::max(kLeastScatter, kDeviationPerMedian / std::sqrt(2.0) * median(steps));
   const double noise = left.squaredNorm() / static_cast<double>(left.size());
   for (std::size_t c = 0; c < gain.size(); ++c) {

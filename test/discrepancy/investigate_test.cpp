@@ -144,6 +144,58 @@ TEST(Investigate, SaysTheSameOnAnyNumberOfThreads) {
     EXPECT_EQ(one.candidates[i].z, three.candidates[i].z);
 }
 
+TEST(Investigate, FindsFaultsByTestsOfTheirOwn) {
+  const DiscrepancyReport dead =
+      investigate(planted(kTwoSpeeds, "  dead_taxel: {taxels: 1, first: 5, start: 700}\n"));
+  ASSERT_EQ(dead.verdict, Verdict::kNamed) << dead.sentence;
+  EXPECT_EQ(dead.effects.at(0).id, "dead_taxel");
+  EXPECT_EQ(dead.where.taxels, std::vector<std::size_t>{5});
+  EXPECT_GT(dead.gap.before, dead.gap.after);
+  const DiscrepancyReport stuck =
+      investigate(planted(kTwoSpeeds, "  stuck_taxel: {taxels: 1, first: 2, start: 700, value: -1}\n"));
+  ASSERT_EQ(stuck.verdict, Verdict::kNamed) << stuck.sentence;
+  EXPECT_EQ(stuck.effects.at(0).id, "stuck_taxel");
+  EXPECT_EQ(stuck.where.taxels, std::vector<std::size_t>{2});
+  const DiscrepancyReport row =
+      investigate(planted(kTwoSpeeds, "  row_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n"));
+  ASSERT_EQ(row.verdict, Verdict::kNamed) << row.sentence;
+  EXPECT_EQ(row.effects.at(0).id, "row_fault");
+  EXPECT_EQ(row.where.taxels, (std::vector<std::size_t>{4, 5, 6, 7}));
+}
+
+TEST(Investigate, FindsTheHumOfTheMains) {
+  const DiscrepancyReport report = investigate(
+      planted(kTwoSpeeds, "  mains_pickup: {amplitude: 25, frequency: 50.03, taxel_time: 2.0e-3}\n"));
+  ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
+  EXPECT_EQ(report.effects.at(0).id, "mains_pickup");
+  EXPECT_NEAR(valueOf(report, "amplitude"), 25, 5);
+}
+
+TEST(Investigate, NamesTwoEffectsTogether) {
+  const DiscrepancyReport report =
+      investigate(planted(kTwoSpeeds, "  hysteresis: {loop_width: 0.04}\n  time_skew: {delay: 0.3}\n"));
+  ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
+  std::vector<std::string> ids = report.credible_set.at(0);
+  std::sort(ids.begin(), ids.end());
+  EXPECT_EQ(ids, (std::vector<std::string>{"hysteresis", "time_skew"}));
+}
+
+TEST(Investigate, SaysUnknownWhereTheLibraryHasNoAnswer) {
+  DiscrepancyProblem problem = planted(kTwoSpeeds, "  time_skew: {delay: 0.3}\n");
+  problem.options.leave_out = {"time_skew"};
+  const DiscrepancyReport report = investigate(problem);
+  ASSERT_EQ(report.verdict, Verdict::kUnknown) << report.sentence;
+  EXPECT_EQ(report.depends_on.at(0), "pressure_rate");
+}
+
+TEST(Investigate, AnswersAQuestionThatTheRecordingsCannotAnswer) {
+  DiscrepancyProblem problem = planted(kTwoSpeeds, "");
+  problem.options.ask = {"crosstalk"};
+  const DiscrepancyReport report = investigate(problem);
+  EXPECT_EQ(report.verdict, Verdict::kNotIdentifiable);
+  EXPECT_EQ(report.credible_set, (std::vector<std::vector<std::string>>{{"crosstalk"}}));
+}
+
 std::string refusal(const DiscrepancyProblem& problem) {
   try {
     investigate(problem);

@@ -31,12 +31,14 @@ class Competition {
 
   /// What an explanation adds to the common trace, projected.
   Trace explained(const Score& score) const;
-  Trace column(Eigen::Index i) const { return columns_.col(i); }
+  /// The projected common trace.
+  Trace target() const { return columns_.col(columns_.cols() - 1); }
 
  private:
   void gather(const StaticFit& fit, const Measured& measured);
   void judgeRepeating(const Measured& measured, const CommonTraces& common, const StaticFit& fit);
 
+  const Measured& measured_;
   std::vector<Signature> signatures_;
   std::vector<Family> effects_, generics_;
   std::vector<std::vector<Covariate>> covariates_;  // of each generic

@@ -5,6 +5,7 @@
 
 #include "fsr_pressure_map/discrepancy/competition.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
+#include "fsr_pressure_map/discrepancy/refine.h"
 #include "fsr_pressure_map/discrepancy/taxel_fit.h"
 
 namespace fsr {
@@ -13,6 +14,7 @@ namespace fsr {
 struct Decision {
   Verdict verdict = Verdict::kNone;
   Score explanation;  ///< put forward; where it is unknown, by generic terms
+  Refined refined;    ///< the same through the true forward model; empty where it is unknown
   std::vector<std::vector<std::string>> credible;
   std::vector<std::string> depends_on;
   double ceiling = 0;         ///< share of the common trace's error that anything explains
@@ -33,6 +35,10 @@ struct EvidenceAtHand {
 EvidenceAtHand evidenceIn(const Measured& measured);
 
 /// The first verdict that holds, of: none, unknown, ambiguous, wrong_form, named.
-Decision decide(const Measured& measured, const TaxelFit& taxels, const Competition& competition);
+///
+/// Effects are compared by what their signatures explain of cycles that took no part; those that come
+/// near the best once more through the true forward model, because a large effect bends.
+Decision decide(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
+                const TaxelFit& taxels, const Competition& competition, const SimulationSettings& base);
 
 }  // namespace fsr

@@ -36,7 +36,9 @@ class CycleGrams {
 struct ColumnSet {
   std::vector<Eigen::Index> columns;
   std::vector<bool> free;
+  bool bent_only = false;  ///< they act where the surface is bent, and nowhere else
 };
+/// Both; the one without columns has no say in where they act.
 ColumnSet together(const ColumnSet& a, const ColumnSet& b);
 
 /// Coefficients of the set by the sum of grams.

@@ -44,10 +44,13 @@ class Selection {
   double z(const Score& before, const Score& after) const;
 
  private:
+  double acts(const Score& score, std::size_t cycle) const;
+
   const Measured& measured_;
   const CycleGrams& grams_;
-  std::vector<Eigen::MatrixXd> without_fold_;  // sums of all but one fold
-  Eigen::MatrixXd all_;
+  // Sums of all cycles but one fold, in the end of all; on all surfaces and where it is bent.
+  std::vector<Eigen::MatrixXd> sums_[2];
+  std::vector<bool> bent_;  // of each cycle
   Score nothing_;
 };
 

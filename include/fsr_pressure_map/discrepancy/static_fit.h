@@ -32,6 +32,9 @@ class StaticFit {
  public:
   /// `common`: the trace that the curves are fitted to.
   StaticFit(const Measured& measured, CurvePer per, const Trace& common);
+  /// The same as functions of another load than the chamber's pressure [Pa], with the cycles' gains
+  /// weighed as in `like`.
+  StaticFit(const StaticFit& like, const Trace& common, const Trace& load);
 
   const Trace& curve() const { return curve_; }  ///< static reading at each scan [share of full scale]
   const Trace& slope() const { return slope_; }  ///< never negative [share of full scale / Pa]
@@ -40,6 +43,9 @@ class StaticFit {
   /// Reading of a scan's curve at another load [Pa]; straight on beyond its ends, never below the unloaded
   /// one.
   double curveAt(std::size_t scan, double load) const;
+
+  /// Lowest curve's lowest reading: a taxel without load [share of full scale].
+  double unloaded() const { return zero_; }
 
   /// Deviation of the gain from cycle to cycle by chance, relative.
   double gainScatter() const { return gain_scatter_; }
@@ -64,9 +70,10 @@ class StaticFit {
   Eigen::MatrixXd coefficientsOf(const Trace& trace, const std::vector<Normal>& normal) const;
   Trace curveFrom(const Eigen::MatrixXd& coefficients) const;
   void prepare();
+  void fitCurves(const Trace& common, const Trace& load);
 
   const Measured& measured_;
-  SplineBasis basis_;
+  SplineBasis basis_{{0, 1}};
   std::vector<std::uint32_t> group_;  // of each scan
   std::size_t groups_ = 0;
   std::vector<SplineBasis::Values> splines_;  // of each scan
