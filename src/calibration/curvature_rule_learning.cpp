@@ -66,6 +66,7 @@ UnseenScore learnRule(const SchemePlan& plan, unsigned threads, Calibration& cal
   if (!usesCurvature(plan.scheme)) return {};
   tables.rule.blend = blendOf(plan.scheme, calibration.regressor);
   const std::size_t classes = tables.classes.size();
+  if (plan.models.size() < classes) tables.rule.model_of_class = plan.model_of_class;
   if (tables.rule.blend == BlendRule::kKernel) {
     tables.rule.length_scale = lengthScales(plan, calibration.regressor, statistics);
   }

@@ -37,11 +37,32 @@ void requireSound(const CodeTable& table, std::size_t codes, std::size_t number)
   }
 }
 
+// Models numbered in the order of the classes.
+std::vector<std::size_t> slotsOf(const CurvatureTables& tables) {
+  const std::vector<std::size_t>& model = tables.rule.model_of_class;
+  if (!model.empty() && model.size() != tables.classes.size()) {
+    throw InputError("calibration has " + std::to_string(model.size()) +
+                     " model numbers, but must have none, or one for each curvature class");
+  }
+  std::vector<std::size_t> slots;
+  std::size_t used = 0;
+  for (std::size_t k = 0; k < tables.classes.size(); ++k) {
+    const auto twin =
+        model.empty() ? model.end()
+                      : std::find(model.begin(), model.begin() + static_cast<std::ptrdiff_t>(k), model[k]);
+    const bool shared = !model.empty() && twin != model.begin() + static_cast<std::ptrdiff_t>(k);
+    slots.push_back(shared ? slots[static_cast<std::size_t>(twin - model.begin())] : used++);
+  }
+  return slots;
+}
+
 }  // namespace
 
 PackedTables::PackedTables(const CurvatureTables& tables)
     : size_(tables.size), full_scale_(tables.full_scale), classes_(tables.classes.size()) {
   requireWhole(tables);
+  slot_of_class_ = slotsOf(tables);
+  slots_ = 1 + *std::max_element(slot_of_class_.begin(), slot_of_class_.end());
   const bool kernels = tables.rule.blend == BlendRule::kKernel;
   entries_.resize(size_.taxels() * stride());
   if (kernels) log_weight_.resize(size_.taxels() * classes_ * codes());
@@ -51,7 +72,7 @@ PackedTables::PackedTables(const CurvatureTables& tables)
     for (std::size_t k = 0; k < classes_; ++k) {
       const CodeTable& packed = tables.table(taxel, k);
       requireSound(packed, codes(), number(taxel, k));
-      TableEntry* entry = entries_.data() + taxel * stride() + k * codes();
+      TableEntry* entry = entries_.data() + taxel * stride() + slot_of_class_[k] * codes();
       own.curvature.push_back(tables.classes[k].at(taxel));
       own.table.push_back(entry);
       for (std::size_t code = 0; code < codes(); ++code) {

@@ -45,6 +45,11 @@ void writeRule(const CurvatureTables& tables, Hdf5Writer& writer) {
                           const std::string& meaning) {
     if (!values.empty()) writer.dataset(path, values, {values.size()}, unit, meaning);
   };
+  const std::vector<std::uint64_t> models(rule.model_of_class.begin(), rule.model_of_class.end());
+  if (!models.empty()) {
+    writer.dataset("/rule/model_of_class", models, {models.size()}, "",
+                   "classes of one number share their tables; absent = each has its own");
+  }
   column(
       "/rule/length_scale", rule.length_scale, "1/m",
       "distance in curvature at which a class's weight falls by exp(-1/2), one for all taxels or one each");
@@ -73,6 +78,10 @@ void readRule(const Hdf5Reader& reader, CurvatureTables& tables) {
   rule.law = {readColumn("/rule/law_curvature", reader), readColumn("/rule/law_gain", reader),
               readColumn("/rule/law_offset", reader)};
   rule.unseen = {readColumn("/rule/unseen_pressure", reader), readColumn("/rule/unseen_deviation", reader)};
+  if (reader.has("/rule/model_of_class")) {
+    const auto models = reader.dataset<std::uint64_t>("/rule/model_of_class", {tables.classes.size()});
+    rule.model_of_class.assign(models.begin(), models.end());
+  }
   requireSameLength(rule.law.curvature, rule.law.gain, "/rule/law");
   requireSameLength(rule.law.curvature, rule.law.offset, "/rule/law");
   requireSameLength(rule.unseen.pressure, rule.unseen.deviation, "/rule/unseen");

@@ -76,7 +76,8 @@ UnseenErrors leaveClassesOut(const CurvatureTables& tables, std::size_t taxel,
   for (std::size_t k = 0; k < curvature.size(); ++k) {
     if (!isInner(curvature, k)) continue;
     entries.tables.curvature[k] = std::nan("");
-    CurvatureRule rule{tables.rule.blend, {}, {}, {}};
+    CurvatureRule rule;
+    rule.blend = tables.rule.blend;
     if (!law_without.empty()) rule.law = law_without[k];
     const CurvaturePlace place = placeOf(curvature[k], entries.tables.curvature);
     blendTable(rule, scale, entries.tables, curvature[k], place.share > 0.5 ? place.above : place.below,

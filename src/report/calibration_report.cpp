@@ -153,6 +153,25 @@ std::string warningsText(const Calibration& calibration) {
   return text;
 }
 
+std::string learnedText(const Calibration& calibration) {
+  const CurvatureTables& tables = calibration.tables;
+  std::ostringstream text;
+  if (tables.scheme == Scheme::kScaledCurvature && !tables.rule.length_scale.empty()) {
+    text << "Length scale of curvature: " << std::setprecision(3) << tables.rule.length_scale.front()
+         << " 1/m\n";
+  }
+  if (tables.scheme == Scheme::kCurvatureRanges) {
+    text << "Curvature ranges: ";
+    const std::vector<std::size_t>& model = tables.rule.model_of_class;
+    for (std::size_t k = 0; k < tables.classes.size(); ++k) {
+      const bool same = k > 0 && !model.empty() && model[k] == model[k - 1];
+      text << (k == 0 ? "" : same ? ", " : "; ") << tables.classes[k].surface;
+    }
+    text << '\n';
+  }
+  return text.str();
+}
+
 std::string modelText(const Calibration& calibration) {
   const RegressorOptions& model = calibration.regressor;
   if (model.name != "grnn") return model.name;

@@ -28,9 +28,10 @@ std::string list(const std::vector<std::string>& names) {
 }
 
 fsr::CommandLine options() {
-  fsr::CommandLine line("train", "BAG... --output FILE, or --merge CALIBRATION... --output FILE, or --check FILE BAG...",
-                        "Trains a calibration from bags of a matrix in a pressure chamber: topics raw, "
-                        "chamber_pressure and curvature, and matrix_info and temperature where recorded.");
+  fsr::CommandLine line(
+      "train", "BAG... --output FILE, or --merge CALIBRATION... --output FILE, or --check FILE BAG...",
+      "Trains a calibration from bags of a matrix in a pressure chamber: topics raw, "
+      "chamber_pressure and curvature, and matrix_info and temperature where recorded.");
   line.option("output", "FILE", "calibration file to write (HDF5)")
       .option("check", "FILE", "score this calibration on the bags instead: still good, or recalibrate?")
       .flag("merge", "of calibration files, what training on all their bags would give; without scores")
@@ -164,7 +165,8 @@ fsr::Calibration train(const fsr::CommandLine& line, std::ostream& out) {
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
   fsr::Calibration calibration =
       fsr::calibrate(problem, terminal ? showProgress : fsr::CalibrationProgress{});
-  out << fsr::warningsText(calibration) << fsr::scoresText(calibration.scores);
+  out << fsr::warningsText(calibration) << fsr::scoresText(calibration.scores)
+      << fsr::learnedText(calibration);
   return calibration;
 }
 

@@ -168,7 +168,9 @@ std::string TrainingServer::trainNow() {
   fsr::validate(problem);
   ROS_INFO_STREAM('\n' << fsr::coverageText(fsr::coverageOf(problem.recordings, options_.folds)));
   fsr::Calibration calibration = fsr::calibrate(problem);
-  ROS_INFO_STREAM('\n' << fsr::warningsText(calibration) << fsr::scoresText(calibration.scores));
+  ROS_INFO_STREAM('\n'
+                  << fsr::warningsText(calibration) << fsr::scoresText(calibration.scores)
+                  << fsr::learnedText(calibration));
   calibration.id = fsr::saveCalibration(calibration, output_);
   if (!report_.empty()) fsr::replaceFile(report_, fsr::calibrationJson(calibration));
   return summary(calibration, output_);

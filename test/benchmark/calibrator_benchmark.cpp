@@ -81,7 +81,9 @@ void CalibrateBlended(benchmark::State& state) {
 void CompileTables(benchmark::State& state) {
   const fsr::MatrixSize matrix = size(state);
   fsr::CurvatureTables tables = test_support::smallTables(matrix, kCurvatures, kFullScale);
-  tables.rule = {static_cast<fsr::BlendRule>(state.range(2)), {2.0}, {}, {{0, 300e3}, {10e3, 20e3}}};
+  tables.rule.blend = static_cast<fsr::BlendRule>(state.range(2));
+  tables.rule.length_scale = {2.0};
+  tables.rule.unseen = {{0, 300e3}, {10e3, 20e3}};
   for (fsr::CodeTable& table : tables.tables) table.log_weight.assign(kFullScale + 1u, 1.0f);
   fsr::Calibrator calibrator(tables, {matrix});
   std::uint32_t i = 0;

@@ -62,6 +62,19 @@ TEST(CalibrationReport, MarksSurfacesThatTheModelNeverSaw) {
   EXPECT_EQ(scoresText(trained(Scheme::kBaseline).scores).find('*'), std::string::npos);
 }
 
+TEST(CalibrationReport, SaysWhatTheSchemeLearned) {
+  Calibration calibration;
+  EXPECT_EQ(learnedText(calibration), "");
+  calibration.tables.scheme = Scheme::kScaledCurvature;
+  calibration.tables.rule.length_scale = {1.25};
+  EXPECT_EQ(learnedText(calibration), "Length scale of curvature: 1.25 1/m\n");
+  calibration.tables.scheme = Scheme::kCurvatureRanges;
+  calibration.tables.classes = {{"flat", {0.0}}, {"cylinder_13cm", {7.7}}, {"cylinder_11cm", {9.1}}};
+  EXPECT_EQ(learnedText(calibration), "Curvature ranges: flat; cylinder_13cm; cylinder_11cm\n");
+  calibration.tables.rule.model_of_class = {0, 1, 1};
+  EXPECT_EQ(learnedText(calibration), "Curvature ranges: flat; cylinder_13cm, cylinder_11cm\n");
+}
+
 TEST(CalibrationReport, SaysThatScoresWereNotAskedFor) {
   EXPECT_EQ(scoresText({}), "Scores were not asked for.\n");
 }

@@ -19,8 +19,9 @@ namespace fsr {
 //     /tables      surfaces [models], curvature [models x (1 or taxels)],
 //                  pressure, deviation, support [taxels x models x codes], trained_codes [taxels x models x
 //                  2]
-//     /rule        attribute blend; length_scale, law_curvature, law_gain, law_offset, unseen_pressure,
-//                  unseen_deviation, log_weight where the scheme has them (absent in schema 1: nearest)
+//     /rule        attribute blend; model_of_class, length_scale, law_curvature, law_gain, law_offset,
+//                  unseen_pressure, unseen_deviation, log_weight where the scheme has them (absent in schema
+//                  1: nearest)
 //     /coverage    scans, cycles [classes x bins x 2], totals, pressure, thin
 //     /scores      see scores_hdf5 (absent where not asked for)
 //     /statistics  surfaces, curvature of the classes; first [taxels x classes x sections + 1] and the rows

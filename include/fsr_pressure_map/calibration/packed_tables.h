@@ -9,7 +9,7 @@
 
 namespace fsr {
 
-/// CurvatureTables laid out for look-up: [taxels x classes x (full_scale + 1)] in one block, so that a
+/// CurvatureTables laid out for look-up: [taxels x models x (full_scale + 1)] in one block, so that a
 /// scan touches one line for each taxel. 7 x 10 taxels, 12 bit, six classes take 13.8 MB.
 class PackedTables {
  public:
@@ -36,7 +36,7 @@ class PackedTables {
 
   /// The full_scale + 1 entries of one taxel in one class.
   const TableEntry* table(std::size_t taxel, std::size_t curvature_class) const {
-    return entries_.data() + taxel * stride() + curvature_class * codes();
+    return entries_.data() + taxel * stride() + slot_of_class_[curvature_class] * codes();
   }
   /// All tables of one taxel, for blendTable().
   const TaxelTables& tables(std::size_t taxel) const { return of_taxel_[taxel]; }
@@ -47,7 +47,7 @@ class PackedTables {
  private:
   const float* packLogWeight(const CodeTable& table, std::size_t number);
   std::size_t codes() const { return std::size_t{full_scale_} + 1; }
-  std::size_t stride() const { return classes_ * codes() + kPadding; }
+  std::size_t stride() const { return slots_ * codes() + kPadding; }
   std::size_t number(std::size_t taxel, std::size_t curvature_class) const {
     return taxel * classes_ + curvature_class;
   }
@@ -55,6 +55,8 @@ class PackedTables {
   MatrixSize size_;
   std::uint16_t full_scale_;
   std::size_t classes_;
+  std::size_t slots_ = 0;
+  std::vector<std::size_t> slot_of_class_;  // classes of one model share a table
   std::vector<TableEntry> entries_;
   std::vector<TrainedCodes> trained_;  // [taxels x classes]
   std::vector<float> log_weight_;      // [taxels x classes x codes]; empty unless kernels are blended

@@ -45,6 +45,8 @@ struct UnseenDeviation {
 
 struct CurvatureRule {
   BlendRule blend = BlendRule::kNearest;
+  /// Which model each class has its tables from, where classes share one; empty = each has its own.
+  std::vector<std::size_t> model_of_class;
   /// kKernel: distance in curvature at which a class's weight falls by e^-1/2, one for all taxels or one
   /// each [1/m]; infinite = curvature has no effect.
   std::vector<double> length_scale;

@@ -19,6 +19,10 @@ std::string scoresText(const CalibrationScores& scores);
 /// Warnings, one a line; "" where there are none.
 std::string warningsText(const Calibration& calibration);
 
+/// What the scheme learned from the bags, one line: "Curvature ranges: flat; cylinder_13cm, cylinder_11cm",
+/// "Length scale of curvature: 1.25 1/m"; "" where it learns nothing.
+std::string learnedText(const Calibration& calibration);
+
 /// The model in a few words: "forest", "grnn, bandwidth 0.0312 (chosen)".
 std::string modelText(const Calibration& calibration);
 
