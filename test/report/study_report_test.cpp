@@ -1,0 +1,95 @@
+#include "fsr_pressure_map/report/study_report.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "support/synthetic_recording.h"
+
+namespace {
+
+const fsr::StudyResult& smallStudy() {
+  static const fsr::StudyResult result = [] {
+    test_support::SyntheticRig rig;
+    rig.size = {1, 3};
+    rig.surfaces = {{"flat", 0.0}, {"a \"bent\", sheet", 7.7}, {"cylinder_5cm", 20.0}};
+    rig.scans_per_cycle = 40;
+    fsr::StudyProblem problem{{test_support::syntheticRecording(rig)}, {}, "paper"};
+    problem.plan.forest.trees = 2;
+    problem.plan.resamples = 99;
+    problem.plan.bandwidths = {1.0 / 128, 1.0 / 16};
+    return fsr::study(problem);
+  }();
+  return result;
+}
+
+// Number of cells of a CSV line, quoted commas aside.
+std::size_t cells(const std::string& line) {
+  bool quoted = false;
+  std::size_t number = 1;
+  for (const char letter : line) {
+    quoted = quoted != (letter == '"');
+    number += letter == ',' && !quoted;
+  }
+  return number;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST(StudyTables, HaveAsManyCellsInEachRowAsHeadings) {
+  const auto tables = fsr::studyTables(smallStudy());
+  EXPECT_EQ(tables.size(), 8u);
+  for (const auto& [name, content] : tables) {
+    std::istringstream lines(content);
+    std::string headings, line;
+    std::getline(lines, headings);
+    std::size_t rows = 0;
+    for (; std::getline(lines, line); ++rows) EXPECT_EQ(cells(line), cells(headings)) << name << ": " << line;
+    EXPECT_GT(rows, 0u) << name;
+  }
+}
+
+TEST(StudyTables, QuoteNamesAndLeaveUnknownNumbersEmpty) {
+  const auto tables = fsr::studyTables(smallStudy());
+  EXPECT_TRUE(contains(tables.at("response.csv"), "\"a \"\"bent\"\", sheet\",7.7,"));
+  for (const auto& [name, content] : tables) EXPECT_FALSE(contains(content, ",nan")) << name;
+}
+
+TEST(StudyTables, HoldEveryMethodOfEverySplit) {
+  const fsr::StudyResult& result = smallStudy();
+  const std::string scores = fsr::studyTables(result).at("scores.csv");
+  std::size_t expected = 0;
+  for (const auto& comparison : result.comparisons) expected += comparison.scores.size();
+  for (const auto& split : result.splits) expected += split.scores.size();
+  EXPECT_EQ(static_cast<std::size_t>(std::count(scores.begin(), scores.end(), '\n')), expected + 1);
+}
+
+TEST(StudyText, PutsThePapersNumbersBesideOursAndSaysWhatTheyAreWorth) {
+  const std::string text = fsr::studyText(smallStudy());
+  EXPECT_TRUE(contains(text, "6.93 +- 0.81")) << text;
+  EXPECT_TRUE(contains(text, "As published, taxels treated as independent")) << text;
+  EXPECT_TRUE(contains(text, "FITTED to the paper's tables")) << text;
+  EXPECT_TRUE(contains(text, "n = 3 taxels")) << text;
+}
+
+TEST(StudyJson, NamesTheHeadingOfThePublishedTestsAndEveryDecision) {
+  const fsr::StudyResult& result = smallStudy();
+  const std::string json = fsr::studyJson(result);
+  EXPECT_TRUE(contains(json, "\"as_published_taxels_treated_as_independent\""));
+  for (const fsr::StudyDecision& decision : result.decisions) {
+    EXPECT_TRUE(contains(json, "\"subject\": \"" + decision.subject + '"')) << decision.subject;
+  }
+  EXPECT_GE(result.decisions.size(), 12u);
+}
+
+TEST(StudyJson, WritesNullWhereANumberIsNotKnown) {
+  fsr::StudyResult result = smallStudy();
+  result.comparisons.front().scores.front().r2_spread.mean = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(contains(fsr::studyJson(result), "\"mean\": null"));
+}
