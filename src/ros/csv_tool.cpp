@@ -1,6 +1,7 @@
 #include "fsr_pressure_map/ros/csv_tool.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -32,7 +33,8 @@ fsr::CommandLine commandLine() {
       .flag("skip-bad-rows", "leave out rows that would be refused, and say how many")
       .option("matrix", "ROWSxCOLUMNS", "how the readings lie, row-major (one row)")
       .option("pitch", "M", "distance of neighbouring taxels [m] (0.010)")
-      .option("range", "LOW,HIGH", "of the readings, in V or S, for counts 0 to 65535 (0 to a round number)")
+      .option("range", "LOW,HIGH",
+              "of the readings, in V or S, for counts 0 to 65535 (0 to a round number); 5,0 where it falls")
       .option("full-scale", "N", "largest count, where readings are counts (4095, or 65535)")
       .option("area", "M2", "that a reference in N acts on [m^2] (1e-4)")
       .flag("absolute", "the reference is absolute pressure, not gauge")
@@ -112,9 +114,8 @@ fsr::TablePlan planFrom(const fsr::CommandLine& line) {
   }
   if (line.has("range")) {
     plan.range = twoNumbers(line, "range", ',', "e.g. 0,5: the readings at count 0 and at full scale");
-    if (!(plan.range->first < plan.range->second)) {
-      throw fsr::InputError("--range is " + line.text("range", "") +
-                            ", but its first number must be the smaller");
+    if (plan.range->first == plan.range->second) {
+      throw fsr::InputError("--range is " + line.text("range", "") + ", but its two numbers must differ");
     }
   }
   return plan;
@@ -124,7 +125,7 @@ BagOptions bagOptions(const fsr::CommandLine& line, const fsr::ReadingScale& sca
   BagOptions options;
   options.topics = line.text("namespace", "fsr");
   options.ambient_pressure = line.number("ambient", kStandardAmbient, {3e4, 2e5, "Pa"});
-  if (scale.unit == "V") options.reference_voltage = scale.high - scale.low;
+  if (scale.unit == "V") options.reference_voltage = std::abs(scale.high - scale.low);
   // Of a read-out whose output is full scale at the largest conductance.
   if (scale.unit == "S") options.feedback_resistance = 1 / scale.high;
   options.session.session_id = "table";

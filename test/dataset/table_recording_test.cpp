@@ -183,6 +183,8 @@ TEST_F(Table, RefusesReadingsOutsideTheRange) {
   const TableRecording table = read(kPlain, "time=t,reading=right:V", plan);
   EXPECT_EQ(table.scale.text(), "0 counts = -5 V, 65535 counts = 5 V");
   EXPECT_EQ(table.recording.counts[0], 45875);  // 7/10 of 65535
+  plan.range = {{5, -5}};                       // falls with the pressure
+  EXPECT_EQ(read(kPlain, "time=t,reading=right:V", plan).recording.counts[0], 19661);  // 3/10
 }
 
 TEST_F(Table, RefusesAPlanThatDoesNotFit) {

@@ -32,7 +32,8 @@ struct TableColumn {
 ///     mount        its number
 std::vector<TableColumn> parseColumns(const std::string& text);
 
-/// How readings become counts: counts = 65535 (reading - low) / (high - low). Counts stay as they are.
+/// How readings become counts: counts = 65535 (reading - low) / (high - low). Counts stay as they are. A
+/// reading that falls with the pressure has its low above its high.
 struct ReadingScale {
   double low = 0;
   double high = 0;

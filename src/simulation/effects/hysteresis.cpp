@@ -1,15 +1,17 @@
 // The reading is higher on the way down than on the way up, at any speed.
 //
-//     u = P_e - h sum_i w_i (P_e - play_{r_i}(P_e + s r_i)),   r_i = R i / n,  w_i = 1 / n,  i = 1 .. n = 6
+//     u = P_e - (1 - v) b,   g = g (1 - v b / P_span),   b = h sum_i w_i (P_e - play_{r_i}(P_e + s r_i)),
+//     r_i = R i / n,  w_i = 1 / n,  i = 1 .. n = 6
 //
 // A Prandtl-Ishlinskii operator with h of its weight spread over the plays and 1 - h without memory.
 // Once every play has turned round, the branches lie 2 h sum_i w_i r_i apart [Pa]: this is set as a share
 // `loop_width` of the `span`. Loops of FSRs are not symmetric: with s = 1 each play has all its slack above
 // the input, so that a first loading follows the static curve and only unloading departs from it; with
-// s = 0 both branches depart alike. Size: 5 % (Tangio TPE-500 data sheet v1.8, 2018, 1 kg), 10 %
-// (Interlink FSR 400 data sheet PDS-10004-C, of the reading); FlexiForce A201 < 4.5 % of full scale (from
-// memory, not verified). Source of the operator: M. Brokate, J. Sprekels, Hysteresis and Phase
-// Transitions, Springer 1996.
+// s = 0 both branches depart alike. v: share of it that changes the sensitivity instead of the load, as
+// friction does where the reading hardly depends on what it is read against. Size: 5 % (Tangio TPE-500 data
+// sheet v1.8, 2018, 1 kg), 10 % (Interlink FSR 400 data sheet PDS-10004-C, of the reading); FlexiForce A201
+// < 4.5 % of full scale (from memory, not verified). Source of the operator: M. Brokate, J. Sprekels,
+// Hysteresis and Phase Transitions, Springer 1996.
 
 #include <sstream>
 
@@ -40,6 +42,7 @@ EffectInfo info() {
           .trying({50e3, 100e3, 150e3, 250e3}),
       shape("one_sided", "s, 0 = both branches depart alike, 1 = only unloading", {0, 1, ""}, 0)
           .trying({0, 1}),
+      shape("gain_share", "v, 0 = acts like load, 1 = on the sensitivity", {0, 1, ""}, 0).trying({0, 1}),
   };
   info.sign = SignRule::kPositive;
   info.depends_on = {Covariate::kDirection, Covariate::kPressure, Covariate::kPreviousExtremes};
@@ -60,8 +63,10 @@ class Hysteresis : public Effect {
     }
     const double widest = 2 * mean_radius / values.at("span");
     weight_ = values.at("loop_width") / widest / kPlays;
+    load_share_ = 1 - values.at("gain_share");
+    gain_share_ = values.at("gain_share") / values.at("span");
     // With more than all of its weight on the plays, the load would fall while the pressure rises.
-    if (values.at("loop_width") > widest) {
+    if (load_share_ * values.at("loop_width") > widest) {
       std::ostringstream sentence;
       sentence << "effects.hysteresis: loop_width is " << values.at("loop_width") << ", but must be at most "
                << widest << " with this span and reach";
@@ -72,13 +77,15 @@ class Hysteresis : public Effect {
 
   void apply(const RigMoment&, TaxelSignals& signals) override {
     double* play = state_.data();
-    for (double& load : signals.load) {
+    for (std::size_t taxel = 0; taxel < signals.load.size(); ++taxel) {
+      const double load = signals.load[taxel];
       double behind = 0;
       for (int i = 0; i < kPlays; ++i, ++play) {
         *play = playStep(load + shifts_[i], radii_[i], *play);
         behind += load - *play;
       }
-      load -= weight_ * behind;
+      signals.load[taxel] -= load_share_ * weight_ * behind;
+      signals.gain[taxel] *= 1 - gain_share_ * weight_ * behind;
     }
   }
 
@@ -86,6 +93,8 @@ class Hysteresis : public Effect {
   std::vector<double> radii_;   // [plays], Pa
   std::vector<double> shifts_;  // [plays], Pa
   double weight_ = 0;           // h w
+  double load_share_ = 1;
+  double gain_share_ = 0;  // [1/Pa]
 };
 
 }  // namespace
