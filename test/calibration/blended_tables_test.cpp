@@ -54,6 +54,23 @@ TEST(BlendedTables, InterpolationGivesEveryCurvatureATableOfItsOwn) {
   }
 }
 
+TEST(BlendedTables, EachTaxelIsBlendedForItsOwnCurvature) {
+  CurvatureTables tables = tablesWith(BlendRule::kInterpolate);
+  tables.classes[1].curvature.assign(12, 10.0);
+  tables.classes[1].curvature[kTaxel] = 4.0;  // trained on a limb
+  Calibrator calibrator(tables, {kSize});
+  Surface limb{"limb", 1, {}, {}};
+  for (std::size_t taxel = 0; taxel < 12; ++taxel)
+    limb.curvature.push_back({static_cast<double>(taxel), 0, 0});
+  calibrator.setSurface(limb, 0);
+  const std::vector<std::uint16_t> counts(12, 500);
+  PressureMap map;
+  calibrator.calibrate({kSize, kFullScale, counts.data(), 12}, 0, map);
+  EXPECT_NEAR(map.pressure[3], knownPressure(3, 0, 500) + 3, 0.01);
+  EXPECT_NEAR(map.pressure[11], knownPressure(11, 0, 500) + 11, 0.01);
+  EXPECT_NEAR(map.pressure[kTaxel], knownPressure(kTaxel, 1, 500) + 10 * 3.0 / 16, 0.01);  // 7 of 4 to 20 1/m
+}
+
 TEST(BlendedTables, InterpolationStillSaysWhatLiesBetweenOrBeyondTheClasses) {
   Calibrator calibrator(tablesWith(BlendRule::kInterpolate), {kSize});
   calibrator.setSurface(bent(10.4), 0);

@@ -89,6 +89,16 @@ TEST_F(TrainTool, TakesItsOptions) {
   EXPECT_NE(text.find("Report is in " + report + "\n"), std::string::npos);
 }
 
+TEST_F(TrainTool, TrainsEverySchemeByItsName) {
+  const std::string flat = record("flat.bag", {"flat", 0.0});
+  const std::string output = (folder_ / "calibration.h5").string();
+  for (const std::string& scheme : fsr::schemeNames()) {
+    const std::string text = run({flat, bend_, "--scheme", scheme, "--bandwidth", "0.1", "--output", output});
+    EXPECT_NE(text.find(" (" + scheme + ", grnn, bandwidth 0.1) is in " + output), std::string::npos) << text;
+    EXPECT_EQ(fsr::schemeName(fsr::loadCalibration(output).tables.scheme), scheme);
+  }
+}
+
 TEST_F(TrainTool, TrainsEachModelWithItsOptions) {
   const auto trained = [&](std::vector<std::string> words) {
     const std::string output = (folder_ / "calibration.h5").string();
