@@ -15,4 +15,12 @@ double squaredErrors(const CodeStatistics& readings, const std::vector<double>& 
   return squares;
 }
 
+std::vector<double> sumOverTaxels(const std::vector<std::vector<double>>& of_taxel) {
+  std::vector<double> sums(of_taxel.front().size(), 0.0);
+  for (const std::vector<double>& values : of_taxel) {
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += values[i];
+  }
+  return sums;
+}
+
 }  // namespace fsr

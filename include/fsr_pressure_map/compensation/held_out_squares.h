@@ -10,4 +10,7 @@ namespace fsr {
 /// [Pa^2].
 double squaredErrors(const CodeStatistics& readings, const std::vector<double>& pressure);
 
+/// [taxels][values] summed over taxels, always in their order.
+std::vector<double> sumOverTaxels(const std::vector<std::vector<double>>& of_taxel);
+
 }  // namespace fsr
