@@ -17,6 +17,7 @@ constexpr std::size_t kFewestCycles = 3;
 constexpr std::size_t kFewestScans = 200;
 constexpr double kLeastRange = 50e3;   // of the pressure [Pa]
 constexpr double kMostUnusable = 0.5;  // share of the taxels
+constexpr double kBetween = 60;        // bags whose stamps overlap, one after the other [s]
 constexpr double kShowShare = 0.2;     // of the cycles
 
 std::string number(double value) {
@@ -154,7 +155,12 @@ std::size_t scansPooled(const std::vector<Recording>& recordings) {
 
 void appendRecording(Measured& measured, const ConditionClasses& classes, std::size_t r, std::size_t pooled) {
   const Recording& recording = (*measured.recordings)[r];
-  const double start = static_cast<double>(recording.start_ns - (*measured.recordings)[0].start_ns) * 1e-9;
+  double start = static_cast<double>(recording.start_ns - (*measured.recordings)[0].start_ns) * 1e-9;
+  if (!measured.time.empty() && start + recording.time.front() <= measured.time.back()) {
+    start = measured.time.back() + kBetween - recording.time.front();
+    measured.limitations.push_back(recording.name +
+                                   " overlaps another bag in time; it is taken to follow it.");
+  }
   for (std::size_t from = 0, to = 0; from < recording.scans(); from = to) {
     while (to < recording.scans() && recording.condition[to] == recording.condition[from]) ++to;
     const std::size_t condition = recording.condition[from];

@@ -21,6 +21,8 @@ constexpr double kSecondOfRest =
 constexpr double kSecondOfFirst = 0.1;  // of what the first effect explains
 constexpr std::size_t kPairsRefined = 4;
 constexpr double kGoodForm = 0.7;        // of the ceiling
+constexpr double kTemperatureMoved = 5;  // [K]
+constexpr double kNearBadForm = 0.6;     // of the best one's share, where its form is wrong
 constexpr double kWorthRefining = 0.35;  // of what the best one explains
 constexpr double kClear = 0.9;           // of the ceiling: an explanation that leaves nothing open
 constexpr double kFarBehind = 0.35;      // of the best: no rival of a clear one
@@ -118,9 +120,12 @@ class Contest {
   bool unknown(const Explanation& best);
   Trace leftBy(const Explanation& explanation) const;
   double behindInErrors(const Explanation& worse, const Explanation& better) const;
+  bool temperatureMoved() const;
   void gatherRivals(const Explanation& best);
   void weigh(const EvidenceAtHand& evidence);
   Explanation& frontOf(Explanation& best);
+  bool fitsWell(const Explanation& explanation) const;
+  void keepNearest(const Explanation& best);
   void nameIt(Explanation& best);
   void listCandidates();
 
@@ -137,9 +142,16 @@ class Contest {
   Decision decision_;
 };
 
+// Of the readings, where the cycles' gains count in full; as far as it holds on cycles that took no part.
 double Contest::shareOfError(const Score& score) const {
-  const Spread spread = spreadOf(measured_, taxels_, competition_.explained(score));
-  return spread.square > 0 ? shareOf(score) * competition_.meanSquare() * spread.local / spread.square : 0;
+  const Trace explained = competition_.explained(score);
+  const double moments = static_cast<double>(explained.size());
+  const double fitted = explained.squaredNorm() / moments / competition_.meanSquare();
+  if (!(fitted > 0)) return 0;
+  const Trace grown = fit_.grown(explained);
+  const Spread spread = spreadOf(measured_, taxels_, grown);
+  const double holds = std::clamp(shareOf(score) / fitted, 0.0, 1.0);
+  return spread.square > 0 ? holds * grown.squaredNorm() / moments * spread.local / spread.square : 0;
 }
 
 bool Contest::shows(const Explanation& explanation) const {
@@ -270,6 +282,12 @@ double Contest::behindInErrors(const Explanation& worse, const Explanation& bett
   return squares > 0 ? gained / (2 * std::sqrt(squares)) : 0;
 }
 
+bool Contest::temperatureMoved() const {
+  if (measured_.temperature.empty()) return false;
+  const auto [low, high] = std::minmax_element(measured_.temperature.begin(), measured_.temperature.end());
+  return *high - *low > kTemperatureMoved;
+}
+
 void Contest::gatherRivals(const Explanation& best) {
   std::vector<const Explanation*> rivals;
   for (const Explanation& single : singles_) {
@@ -283,6 +301,11 @@ void Contest::gatherRivals(const Explanation& best) {
             [](const Explanation* a, const Explanation* b) { return a->share > b->share; });
   decision_.credible.push_back(best.score.ids);
   for (const Explanation* rival : rivals) decision_.credible.push_back(rival->score.ids);
+  // A temperature that was measured, and moved, comes before what was not.
+  if (temperatureMoved()) {
+    std::stable_partition(decision_.credible.begin(), decision_.credible.end(),
+                          [](const auto& ids) { return ids == std::vector<std::string>{"temperature"}; });
+  }
   // Drift is what everything slow looks like: it stands behind whatever comes near it.
   const auto is_drift = [](const std::vector<std::string>& ids) {
     return ids == std::vector<std::string>{"drift"};
@@ -327,6 +350,19 @@ void Contest::listCandidates() {
                    });
 }
 
+bool Contest::fitsWell(const Explanation& explanation) const {
+  return explanation.share >= kGoodForm * decision_.ceiling && !explanation.refined.at_bound;
+}
+
+// Where the best one does not fit well, others that do not either stay credible.
+void Contest::keepNearest(const Explanation& best) {
+  if (decision_.credible.size() > 1) return;
+  for (const Explanation& single : singles_) {
+    if (single.score.ids == best.score.ids || !shows(single)) continue;
+    if (single.share >= kNearBadForm * best.share) decision_.credible.push_back(single.score.ids);
+  }
+}
+
 // The explanation that stands first in the credible set.
 Explanation& Contest::frontOf(Explanation& best) {
   for (Explanation& single : singles_) {
@@ -343,7 +379,15 @@ void Contest::nameIt(Explanation& best) {
   decision_.explanation = first.score;
   decision_.share = first.share;
   weigh(evidenceIn(measured_));
-  const bool good = first.share >= kGoodForm * decision_.ceiling && !first.refined.at_bound;
+  if (!fitsWell(first)) keepNearest(first);
+  for (std::size_t r = 1; r < decision_.credible.size(); ++r) {
+    for (Explanation& single : singles_) {
+      if (single.score.ids != decision_.credible[r]) continue;
+      refineOne(single);
+      decision_.rivals.push_back(single.refined);
+    }
+  }
+  const bool good = fitsWell(first);
   decision_.verdict = decision_.credible.size() > 1 ? Verdict::kAmbiguous
                       : good                        ? Verdict::kNamed
                                                     : Verdict::kWrongForm;

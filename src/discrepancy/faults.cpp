@@ -16,6 +16,7 @@ constexpr std::size_t kStuckScans = 8;  // and as many scans
 constexpr double kDeadBelow = 0.35;     // of what the others say
 constexpr double kLoaded = 0.12;        // reading from which on that tells anything [share of full scale]
 constexpr double kWellLoaded = 0.25;    // likewise: here a taxel without a reading is dead
+constexpr double kNothing = 0.1;        // of what the others say
 constexpr std::size_t kDeadScans = 4;
 constexpr double kSudden = 0.02;       // a line leaves the others by more than this [share of full scale],
 constexpr double kSuddenShare = 0.12;  // and by more than this share of the reading,
@@ -126,10 +127,15 @@ std::vector<bool> deadScans(const Sheet& sheet, std::size_t taxel) {
     dead[i] = sheet.middle[i] > kLoaded && sheet.reading(i, taxel) < kDeadBelow * sheet.middle[i];
   }
   dropShort(dead, kDeadScans);
-  // A taxel that is only lifted reads nothing at low pressure; a dead one nothing at high.
-  eachRun(dead, [&](std::size_t from, std::size_t to) {
-    const auto at = [&](std::size_t i) { return sheet.middle.begin() + static_cast<std::ptrdiff_t>(i); };
-    if (*std::max_element(at(from), at(to)) < kWellLoaded) clear(dead, from, to);
+  // A taxel that is only lifted, or has drifted, reads little at low pressure; a dead one nothing at high.
+  const std::vector<bool> low = dead;
+  eachRun(low, [&](std::size_t from, std::size_t to) {
+    bool nothing = false;
+    for (std::size_t i = from; i < to; ++i) {
+      const double middle = sheet.middle[i];
+      nothing = nothing || (middle > kWellLoaded && sheet.reading(i, taxel) < kNothing * middle);
+    }
+    if (!nothing) clear(dead, from, to);
   });
   return dead;
 }

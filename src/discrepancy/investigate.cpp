@@ -5,6 +5,7 @@
 #include "fsr_pressure_map/discrepancy/base_fit.h"
 #include "fsr_pressure_map/discrepancy/decision.h"
 #include "fsr_pressure_map/discrepancy/findings.h"
+#include "fsr_pressure_map/discrepancy/next_experiment.h"
 #include "fsr_pressure_map/discrepancy/refine.h"
 #include "fsr_pressure_map/discrepancy/show.h"
 #include "fsr_pressure_map/discrepancy/taxel_curves_fit.h"
@@ -16,6 +17,8 @@ namespace fsr {
 
 namespace {
 
+// A size that was fitted holds that well under another protocol: forms are never quite right.
+constexpr double kPredictedLow = 0.6, kPredictedHigh = 1.6;
 constexpr double kNotIdentifiable = 0.05;  // of a signature, that the static curves leave
 
 using Ids = std::vector<std::string>;
@@ -47,6 +50,7 @@ class Investigation {
   void show();
   void listNotIdentifiable();
   void answerQuestions();
+  void foresee();
   double squareOfReadings() const {
     return spreadOf(measured_, *taxels_, Trace::Zero(common_.all.size())).square;
   }
@@ -241,6 +245,19 @@ void Investigation::answerQuestions() {
   for (const std::string& id : hidden) report_.credible_set.push_back({id});
 }
 
+// The next experiment, and what it will show.
+void Investigation::foresee() {
+  if (decision_.credible.empty()) return;
+  std::vector<std::vector<EnabledEffect>> explanations = {decision_.refined.effects};
+  for (const Refined& rival : decision_.rivals) explanations.push_back(rival.effects);
+  report_.next_experiment =
+      nextExperiment(report_.base, explanations, evidenceIn(measured_), report_.gap.floor);
+  Prediction& prediction = report_.prediction;
+  prediction.effects = explanations.front();
+  prediction.rivals.assign(explanations.begin() + 1, explanations.end());
+  prediction.size = {kPredictedLow, kPredictedHigh};
+}
+
 DiscrepancyReport Investigation::run() {
   report_.seed = problem_.options.seed;
   report_.version = FSR_VERSION;
@@ -260,9 +277,13 @@ DiscrepancyReport Investigation::run() {
   show();
   listNotIdentifiable();
   answerQuestions();
+  foresee();
   tell("curves", 0.95);
   report_.base = withTaxelCurves(measured_, report_.base, "base_curves.csv");
   report_.added = withTaxelCurves(measured_, report_.added, "simulation_curves.csv");
+  if (!report_.prediction.effects.empty()) {
+    report_.prediction.hash = hashOf(report_.prediction, report_.base);
+  }
   report_.limitations.insert(report_.limitations.begin(), measured_.limitations.begin(),
                              measured_.limitations.end());
   report_.sentence = sentenceOf(report_);

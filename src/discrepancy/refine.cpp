@@ -243,6 +243,46 @@ SimulationSettings withEffect(SimulationSettings settings, const EnabledEffect& 
   return settings;
 }
 
+Foretold foretell(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
+                  const SimulationSettings& base, const std::vector<EnabledEffect>& effects) {
+  const DrivenSignals plain = driven(measured, base, true);
+  const Residuals residuals = [&](const std::vector<double>& at) -> std::optional<Eigen::VectorXd> {
+    SimulationSettings with = base;
+    for (EnabledEffect effect : effects) {
+      for (const EffectParameter& parameter : strengths(findEffect(effect.id)->info)) {
+        effect.values[parameter.name] *= std::exp(std::clamp(at[0], -4.0, 2.0));
+      }
+      with = withEffect(with, effect);
+    }
+    try {
+      const Changes changes = changesBy(measured, base, with, plain, true);
+      const Trace freed = freedOf(common.all, fit.unloaded(), changes);
+      return StaticFit(fit, freed, loadOf(measured, changes)).project(freed);
+    } catch (const InputError&) {
+      return std::nullopt;
+    }
+  };
+  Foretold told;
+  const double before = fit.project(common.all).squaredNorm();
+  const auto as_told = residuals({0});
+  if (!as_told || before <= 0) return told;
+  told.share = 1 - as_told->squaredNorm() / before;
+  const std::vector<double> at = levenberg(residuals, {0}, {12, 0.02, 1e-5});
+  const auto best = residuals(at);
+  told.best_share = 1 - best->squaredNorm() / before;
+  told.size = std::exp(std::clamp(at[0], -4.0, 2.0));
+  const Eigen::VectorXd slope = derivatives(residuals, at, *best, kDifference).col(0);
+  double squares = 0;
+  for (const MeasuredCycle& cycle : measured.cycles) {
+    const auto first = static_cast<Eigen::Index>(cycle.first);
+    const auto moments = static_cast<Eigen::Index>(cycle.last - cycle.first);
+    squares += std::pow(slope.segment(first, moments).dot(best->segment(first, moments)), 2);
+  }
+  const double half = kTwoSided * std::sqrt(squares) / std::max(1e-300, slope.squaredNorm());
+  told.interval = {told.size * std::exp(-half), told.size * std::exp(half)};
+  return told;
+}
+
 Refined refine(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                const SimulationSettings& base, const std::vector<EnabledEffect>& start, bool carried,
                bool bent_only) {

@@ -177,6 +177,7 @@ bool possible(const EffectValues& values) {
 SimulationSettings representative(const SimulationSettings& settings) {
   SimulationSettings one = settings;
   one.layout.size = {1, 1};
+  one.taxel_curves = nullptr;
   auto& effects = one.effects;
   const auto unwanted = [](const EnabledEffect& effect) {
     const EffectEntry* entry = findEffect(effect.id);

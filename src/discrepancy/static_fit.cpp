@@ -14,6 +14,8 @@ constexpr double kRidge = 1e-10;
 // Cycle gains that scatter less than this are no matter [relative].
 constexpr double kLeastScatter = 1e-5;
 
+// Gains that were shrunk to less than this are not grown by more.
+constexpr double kLeastKept = 0.02;
 // Of the median of absolute normal numbers.
 constexpr double kDeviationPerMedian = 1.4826;
 
@@ -158,7 +160,9 @@ Trace StaticFit::residual(const Trace& trace) const {
   return trace - curveFrom(coefficientsOf(trace, plain_));
 }
 
-void StaticFit::shrink(Trace& trace) const {
+// Multiplies each cycle's share along its gain by factor(cycle).
+template <typename Factor>
+void StaticFit::scaleGains(Trace& trace, Factor factor) const {
   for (std::size_t c = 0; c < measured_.cycles.size(); ++c) {
     const MeasuredCycle& cycle = measured_.cycles[c];
     const auto first = static_cast<Eigen::Index>(cycle.first);
@@ -166,8 +170,18 @@ void StaticFit::shrink(Trace& trace) const {
     const auto gain = rise_.segment(first, scans);
     const double square = gain.squaredNorm();
     if (square <= 0) continue;
-    trace.segment(first, scans) -= (1 - kept_[c]) * gain.dot(trace.segment(first, scans)) / square * gain;
+    trace.segment(first, scans) += (factor(c) - 1) * gain.dot(trace.segment(first, scans)) / square * gain;
   }
+}
+
+void StaticFit::shrink(Trace& trace) const {
+  scaleGains(trace, [&](std::size_t cycle) { return kept_[cycle]; });
+}
+
+Trace StaticFit::grown(const Trace& projected) const {
+  Trace trace = projected;
+  scaleGains(trace, [&](std::size_t cycle) { return 1 / std::max(kept_[cycle], kLeastKept); });
+  return trace;
 }
 
 // The curves live in shrunk space too: x' = W x, B' = W B, and B'^T x' = B^T W (W x).

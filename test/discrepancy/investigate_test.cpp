@@ -196,6 +196,32 @@ TEST(Investigate, AnswersAQuestionThatTheRecordingsCannotAnswer) {
   EXPECT_EQ(report.credible_set, (std::vector<std::vector<std::string>>{{"crosstalk"}}));
 }
 
+// One speed cannot tell a loop from a short memory. The experiment that is recommended can, and the
+// prediction that was made before it passes for the truth and fails for the other.
+TEST(Investigate, RecommendsAnExperimentThatSettlesIt) {
+  const std::string loop = "  hysteresis: {loop_width: 0.05}\n";
+  DiscrepancyProblem problem = planted(kOneSpeed, loop);
+  const DiscrepancyReport before = investigate(problem);
+  ASSERT_EQ(before.verdict, Verdict::kAmbiguous);
+  ASSERT_EQ(before.next_experiment.size(), 1u);
+  const std::vector<std::string> with_two_speeds = {"two_speeds", "step_hold", "random_order"};
+  EXPECT_EQ(std::count(with_two_speeds.begin(), with_two_speeds.end(), before.next_experiment[0].protocol),
+            1);
+
+  const std::vector<fsr::Recording> experiment = fsr::simulateSession(simulation(kTwoSpeeds, loop));
+  EXPECT_TRUE(confirm(before.prediction, before.base, experiment).passed);
+  fsr::Prediction wrong = before.prediction;
+  std::swap(wrong.effects, wrong.rivals.at(0));
+  EXPECT_THROW(confirm(wrong, before.base, experiment), fsr::InputError) << "it was changed afterwards";
+  wrong.hash = hashOf(wrong, before.base);
+  EXPECT_FALSE(confirm(wrong, before.base, experiment).passed);
+
+  problem.recordings.insert(problem.recordings.end(), experiment.begin(), experiment.end());
+  const DiscrepancyReport after = investigate(problem);
+  ASSERT_EQ(after.verdict, Verdict::kNamed) << after.sentence;
+  EXPECT_EQ(after.effects.at(0).id, "hysteresis");
+}
+
 std::string refusal(const DiscrepancyProblem& problem) {
   try {
     investigate(problem);

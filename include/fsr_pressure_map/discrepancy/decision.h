@@ -13,8 +13,9 @@ namespace fsr {
 /// What the common trace says.
 struct Decision {
   Verdict verdict = Verdict::kNone;
-  Score explanation;  ///< put forward; where it is unknown, by generic terms
-  Refined refined;    ///< the same through the true forward model; empty where it is unknown
+  Score explanation;            ///< put forward; where it is unknown, by generic terms
+  Refined refined;              ///< the same through the true forward model; empty where it is unknown
+  std::vector<Refined> rivals;  ///< likewise, of the other credible explanations
   std::vector<std::vector<std::string>> credible;
   std::vector<std::string> depends_on;
   double ceiling = 0;         ///< share of the common trace's error that anything explains

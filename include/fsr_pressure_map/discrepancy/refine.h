@@ -29,4 +29,14 @@ Refined refine(const Measured& measured, const CommonTraces& common, const Stati
                const SimulationSettings& base, const std::vector<EnabledEffect>& start, bool carried,
                bool bent_only);
 
+/// What fixed effects explain of new recordings.
+struct Foretold {
+  double share = 0;       ///< of the squared error of the projected common trace, nothing fitted
+  double best_share = 0;  ///< the same with the effects' size free
+  double size = 1;        ///< that fits best, common factor of all strengths
+  Interval interval;      ///< of it
+};
+Foretold foretell(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
+                  const SimulationSettings& base, const std::vector<EnabledEffect>& effects);
+
 }  // namespace fsr

@@ -52,6 +52,8 @@ class StaticFit {
 
   /// Shrinks along the cycles' gains, then takes out the static curves.
   Trace project(const Trace& trace) const;
+  /// Undoes the shrinking of what project() returned.
+  Trace grown(const Trace& projected) const;
   /// Takes out the static curves, nothing shrunk.
   Trace residual(const Trace& trace) const;
 
@@ -66,6 +68,8 @@ class StaticFit {
 
  private:
   using Normal = Eigen::LDLT<Eigen::MatrixXd>;
+  template <typename Factor>
+  void scaleGains(Trace& trace, Factor factor) const;
   void shrink(Trace& trace) const;
   Eigen::MatrixXd coefficientsOf(const Trace& trace, const std::vector<Normal>& normal) const;
   Trace curveFrom(const Eigen::MatrixXd& coefficients) const;

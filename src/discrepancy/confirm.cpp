@@ -1,0 +1,93 @@
+// A fit finds what it looks for. So the next experiment's outcome is foretold, the prediction frozen under
+// its hash, and new recordings pass or fail it with nothing fitted but the static curves.
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "fsr_pressure_map/discrepancy/base_fit.h"
+#include "fsr_pressure_map/discrepancy/refine.h"
+#include "fsr_pressure_map/discrepancy/wording.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/settings/sha256.h"
+#include "fsr_pressure_map/simulation/effects/effect_library.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr double kLeastShare = 0.3;    // of the common trace's squared error that a true prediction explains
+constexpr double kRivalBetter = 0.03;  // of it: a rival that explains more by this fails the prediction
+
+void write(std::ostream& out, const std::vector<EnabledEffect>& effects) {
+  for (const EnabledEffect& effect : effects) {
+    out << effect.id << "{";
+    for (const auto& [name, value] : effect.values) out << name << "=" << value << ";";
+    out << "}";
+  }
+  out << "\n";
+}
+
+std::string idsOf(const std::vector<EnabledEffect>& effects) {
+  std::vector<std::string> ids;
+  for (const EnabledEffect& effect : effects) ids.push_back(effect.id);
+  return listText(ids, " with ");
+}
+
+}  // namespace
+
+std::string hashOf(const Prediction& prediction, const SimulationSettings& simulation) {
+  std::ostringstream text;
+  text.precision(9);
+  write(text, prediction.effects);
+  for (const auto& rival : prediction.rivals) write(text, rival);
+  text << prediction.size.low << " " << prediction.size.high << "\n";
+  text << simulation.layout.size.rows << " x " << simulation.layout.size.columns << "\n";
+  write(text, simulation.effects);
+  const std::string bytes = text.str();
+  return sha256(bytes.data(), bytes.size());
+}
+
+Confirmation confirm(const Prediction& prediction, const SimulationSettings& simulation,
+                     const std::vector<Recording>& recordings) {
+  if (prediction.effects.empty())
+    throw InputError("prediction: it names no effect, there is nothing to confirm");
+  if (hashOf(prediction, simulation) != prediction.hash) {
+    throw InputError("prediction: its hash does not fit what it says; it was changed after it was made");
+  }
+  DiscrepancyProblem problem;
+  problem.simulation = simulation;
+  problem.recordings = recordings;
+  validate(problem);
+  const Measured measured = admit(problem);
+  const CommonTraces common = commonTraces(measured);
+  const StaticFit fit(measured, CurvePer::kClass, common.all);
+  const SimulationSettings base = fitBase(measured, fit, simulation);
+  Confirmation confirmation;
+  const Foretold told = foretell(measured, common, fit, base, prediction.effects);
+  confirmation.share_of_error = told.share;
+  confirmation.size = told.size;
+  confirmation.interval = told.interval;
+  double most = told.share;
+  for (const auto& rival : prediction.rivals) {
+    const double share = foretell(measured, common, fit, base, rival).best_share;
+    if (share <= std::max(most, told.best_share + kRivalBetter)) continue;
+    most = share;
+    confirmation.best_rival = idsOf(rival);
+  }
+  const bool size_fits =
+      told.interval.high >= prediction.size.low && told.interval.low <= prediction.size.high;
+  confirmation.passed = told.share >= kLeastShare && size_fits && confirmation.best_rival.empty();
+  std::ostringstream text;
+  text.precision(3);
+  text << idsOf(prediction.effects) << (confirmation.passed ? " is confirmed: " : " is not confirmed: ")
+       << "as foretold it explains " << 100 * std::max(0.0, told.share)
+       << " % of the common squared error, at " << told.size << " times its size";
+  if (!confirmation.best_rival.empty()) text << "; " << confirmation.best_rival << " explains more";
+  if (!size_fits) text << ", foretold were " << prediction.size.low << " to " << prediction.size.high;
+  text << ".";
+  confirmation.sentence = text.str();
+  return confirmation;
+}
+
+}  // namespace fsr
