@@ -148,8 +148,8 @@ class Checker {
 
   void noteFaults(const std::vector<std::uint16_t>& flags) {
     for (std::size_t i = 0; i < flags.size(); ++i) {
-      if (flags[i] == taxel_flag::kDead) dead_.push_back(i);
-      if (flags[i] == taxel_flag::kStuck) stuck_.push_back(i);
+      if ((flags[i] & taxel_flag::kDead) != 0) dead_.push_back(i);
+      if ((flags[i] & taxel_flag::kStuck) != 0) stuck_.push_back(i);
     }
   }
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace fsr {
 
 namespace {
 
+constexpr std::uint16_t kVerdict = taxel_flag::kDead | taxel_flag::kStuck;
 constexpr std::uint16_t kHighestCode = 65535;
 
 std::uint16_t codes(double share, std::uint16_t full_scale) {
@@ -41,7 +43,9 @@ bool TaxelWatch::observe(const std::uint16_t* counts, double time) noexcept {
   widen(counts);
   ++scans_;
   // One row a scan: the worst scan costs hardly more than the others.
-  return next_row_ < size_.rows && judgeRow(next_row_++);
+  if (next_row_ == size_.rows) return false;
+  const bool changed = judgeRow(next_row_++);
+  return (next_row_ == size_.rows && judgeLines()) || changed;
 }
 
 void TaxelWatch::open(double time) noexcept {
@@ -70,17 +74,59 @@ bool TaxelWatch::judge(std::uint16_t row, std::uint16_t column) noexcept {
   const std::uint16_t low = closed_.low[taxel];
   const std::uint16_t high = closed_.high[taxel];
   const Neighbours around = neighbours(row, column);
-  std::uint16_t verdict = flags_[taxel];
+  const std::uint16_t before = flags_[taxel] & kVerdict;
+  std::uint16_t verdict = before;
   if (high <= floor_) {
     if (2 * around.loaded > around.count) verdict = taxel_flag::kDead;
   } else if (low != high) {
     verdict = 0;
-  } else if (high < full_scale_ && 2 * around.moved > around.count) {
+  } else if (high < full_scale_ ? 2 * around.moved > around.count : around.count > 0 && around.risen == 0) {
     verdict = taxel_flag::kStuck;
   }
-  if (verdict == flags_[taxel]) return false;
+  if (verdict == before) return false;
   if (verdict == 0) ++revivals_;
   flags_[taxel] = verdict;
+  return true;
+}
+
+bool TaxelWatch::judgeLines() noexcept {
+  for (std::uint16_t& flags : flags_) flags &= static_cast<std::uint16_t>(~taxel_flag::kLineFault);
+  bool found = false;
+  const std::size_t rows = size_.rows, columns = size_.columns;
+  for (std::size_t row = 0; row < rows; ++row) {
+    found |= flagLine({row * columns, columns, 1, columns, row > 0, row + 1 < rows});
+  }
+  for (std::size_t column = 0; column < columns; ++column) {
+    found |= flagLine({column, rows, columns, 1, column > 0, column + 1 < columns});
+  }
+  return std::exchange(line_fault_, found) || found;
+}
+
+bool TaxelWatch::flagLine(const Line& line) noexcept {
+  const std::uint16_t verdict = line.count > 1 ? lineVerdict(line) : std::uint16_t{0};
+  if (verdict == 0) return false;
+  for (std::size_t i = 0; i < line.count; ++i) {
+    flags_[line.first + i * line.step] |= static_cast<std::uint16_t>(verdict | taxel_flag::kLineFault);
+  }
+  return true;
+}
+
+// kDead or kStuck where it holds for the whole line, else 0.
+std::uint16_t TaxelWatch::lineVerdict(const Line& line) const noexcept {
+  std::uint16_t common = kVerdict;
+  for (std::size_t i = 0; i < line.count; ++i) common &= flags_[line.first + i * line.step];
+  if (common == 0 && isShorted(line)) return taxel_flag::kStuck;
+  return common;
+}
+
+bool TaxelWatch::isShorted(const Line& line) const noexcept {
+  if (!line.has_before && !line.has_behind) return false;
+  for (std::size_t i = 0; i < line.count; ++i) {
+    const std::size_t taxel = line.first + i * line.step;
+    if (closed_.low[taxel] != full_scale_) return false;
+    if (line.has_before && closed_.high[taxel - line.beside] >= travel_) return false;
+    if (line.has_behind && closed_.high[taxel + line.beside] >= travel_) return false;
+  }
   return true;
 }
 
@@ -94,6 +140,7 @@ TaxelWatch::Neighbours TaxelWatch::neighbours(std::uint16_t row, std::uint16_t c
       const std::size_t taxel = std::size_t(r) * size_.columns + std::size_t(c);
       ++result.count;
       result.loaded += closed_.high[taxel] >= loaded_;
+      result.risen += closed_.high[taxel] >= travel_;
       result.moved += closed_.high[taxel] - closed_.low[taxel] >= travel_;
     }
   }

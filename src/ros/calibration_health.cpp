@@ -54,6 +54,7 @@ void addPressures(const fsr::PressureMap& map, double contact_threshold, Status&
 void addFlags(const fsr::PressureMap& map, Status& status) {
   status.add("dead taxels (row, column)", places(map, flag::kDead));
   status.add("stuck taxels (row, column)", places(map, flag::kStuck));
+  status.add("taxels of a broken or shorted line (row, column)", places(map, flag::kLineFault));
   status.add("masked taxels", flagged(map, flag::kMasked));
   status.add("saturated taxels", flagged(map, flag::kSaturated));
   status.add("taxels below range", flagged(map, flag::kBelowRange));

@@ -80,7 +80,7 @@ TEST(TaxelWatch, FindsAWholeDeadRowAndColumn) {
   for (std::size_t row = 2; row < 7; ++row) sheet.overruled.push_back({row * 10 + 5, 0});
   sheet.run(kTwoWindows, constantLoad);
   for (const auto& [taxel, value] : sheet.overruled) {
-    EXPECT_EQ(sheet.watch.flags()[taxel], taxel_flag::kDead) << "taxel " << taxel;
+    EXPECT_EQ(sheet.watch.flags()[taxel] & ~taxel_flag::kLineFault, taxel_flag::kDead) << "taxel " << taxel;
   }
 }
 
@@ -121,11 +121,49 @@ TEST(TaxelWatch, TakesASmallLoadedPatchForWhatItIs) {
   EXPECT_EQ(flagged(sheet.watch), 0);
 }
 
-TEST(TaxelWatch, LeavesASaturatedTaxelToItsOwnFlag) {
+TEST(TaxelWatch, LeavesATaxelThatSaturatesUnderLoadToItsOwnFlag) {
   Sheet sheet;
   sheet.overruled = {{47, kFullScale}};
-  sheet.run(kCycle, cycles);
+  sheet.run(kTwoWindows, constantLoad);
   EXPECT_EQ(flagged(sheet.watch), 0);
+}
+
+// What a row's or column's taxels all do, its wire does.
+TEST(TaxelWatch, FindsABrokenRowAsALineFault) {
+  Sheet sheet;
+  for (std::size_t column = 0; column < 10; ++column) sheet.overruled.push_back({30 + column, 0});
+  sheet.run(kTwoWindows, constantLoad);
+  for (std::size_t taxel = 0; taxel < kTaxels; ++taxel) {
+    EXPECT_EQ(sheet.watch.flags()[taxel], taxel / 10 == 3 ? taxel_flag::kDead | taxel_flag::kLineFault : 0);
+  }
+  sheet.overruled.clear();
+  sheet.run(kCycle, cycles);
+  EXPECT_EQ(flagged(sheet.watch), 0) << "mended";
+}
+
+TEST(TaxelWatch, FindsAShortedTaxelAndAShortedColumnAtRest) {
+  Sheet sheet;
+  sheet.overruled = {{47, kFullScale}};
+  for (std::size_t row = 0; row < 7; ++row) sheet.overruled.push_back({row * 10 + 2, kFullScale});
+  sheet.run(kTwoWindows, noLoad);
+  EXPECT_EQ(sheet.watch.flags()[47], taxel_flag::kStuck);
+  for (std::size_t row = 0; row < 7; ++row) {
+    EXPECT_EQ(sheet.watch.flags()[row * 10 + 2], taxel_flag::kStuck | taxel_flag::kLineFault) << row;
+  }
+  EXPECT_EQ(flagged(sheet.watch), 8);
+}
+
+TEST(TaxelWatch, TellsOfAChangeOfALineOnce) {
+  Sheet sheet;
+  for (std::size_t column = 0; column < 10; ++column) sheet.overruled.push_back({column, 0});
+  sheet.run(100.0, constantLoad);
+  int changes = 0;
+  for (int i = 0; i < 500; ++i) {
+    std::vector<std::uint16_t> counts(kTaxels, 2000);
+    for (std::size_t column = 0; column < 10; ++column) counts[column] = 0;
+    changes += sheet.watch.observe(counts.data(), sheet.time += 0.1);
+  }
+  EXPECT_LE(changes, 5) << "once a window at most";
 }
 
 TEST(TaxelWatch, KeepsAVerdictWhileNothingSpeaksAgainstIt) {
