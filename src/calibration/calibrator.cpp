@@ -4,6 +4,10 @@
 #include <limits>
 #include <string>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include "fsr_pressure_map/map/fill.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
@@ -17,6 +21,39 @@ constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
 // The flag, or 0.
 inline std::uint16_t flagWhere(bool condition, std::uint16_t flag) {
   return static_cast<std::uint16_t>(-static_cast<int>(condition) & flag);
+}
+
+inline void copyOne(const TableEntry& entry, float& pressure, float& deviation) {
+  pressure = entry.pressure;
+  deviation = entry.deviation;
+}
+
+// The entries of four taxels, pressures and deviations sorted apart: the loads go on side by side, which no
+// compiler finds.
+inline void copyFour(const TableEntry* const* table, const std::uint16_t* codes, float* pressure,
+                     float* deviation) {
+#ifdef __SSE2__
+  const auto pair = [&](int first) {
+    const auto* low = reinterpret_cast<const __m64*>(table[first] + codes[first]);
+    const auto* high = reinterpret_cast<const __m64*>(table[first + 1] + codes[first + 1]);
+    return _mm_loadh_pi(_mm_loadl_pi(_mm_setzero_ps(), low), high);
+  };
+  const __m128 a = pair(0);
+  const __m128 b = pair(2);
+  _mm_storeu_ps(pressure, _mm_shuffle_ps(a, b, _MM_SHUFFLE(2, 0, 2, 0)));
+  _mm_storeu_ps(deviation, _mm_shuffle_ps(a, b, _MM_SHUFFLE(3, 1, 3, 1)));
+#else
+  for (int i = 0; i < 4; ++i) copyOne(table[i][codes[i]], pressure[i], deviation[i]);
+#endif
+}
+
+// Of a code between two entries, on the line that joins them.
+inline TableEntry between(const TableEntry* table, std::uint16_t code, unsigned shift) {
+  const TableEntry* const entry = table + (code >> shift);
+  const unsigned step = 1u << shift;
+  const float share = static_cast<float>(code & (step - 1)) / static_cast<float>(step);
+  return {entry[0].pressure + share * (entry[1].pressure - entry[0].pressure),
+          entry[0].deviation + share * (entry[1].deviation - entry[0].deviation)};
 }
 
 void requireEach(const char* what, std::size_t values, MatrixSize size) {
@@ -104,7 +141,7 @@ void Calibrator::selectTable(std::size_t taxel, double curvature) {
 }
 
 const TableEntry* Calibrator::blended(std::size_t taxel, double curvature) {
-  const std::size_t stride = tables_.fullScale() + 1u + PackedTables::kPadding;
+  const std::size_t stride = tables_.entries() + PackedTables::kPadding;
   if (blended_.empty()) {
     blended_.resize(table_.size() * stride);
     blended_for_.assign(table_.size(), {std::numeric_limits<double>::quiet_NaN(), 0});
@@ -171,10 +208,14 @@ void Calibrator::lookUp(PressureMap& out) const noexcept {
   float* pressure = out.pressure.data();
   float* deviation = out.deviation.data();
   const std::size_t n = codes_.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const TableEntry& entry = table[i][codes[i]];
-    pressure[i] = entry.pressure;
-    deviation[i] = entry.deviation;
+  if (tables_.shift() == 0) {
+    std::size_t i = 0;
+    for (; i + 4 <= n; i += 4) copyFour(table + i, codes + i, pressure + i, deviation + i);
+    for (; i < n; ++i) copyOne(table[i][codes[i]], pressure[i], deviation[i]);
+  } else {
+    for (std::size_t i = 0; i < n; ++i) {
+      copyOne(between(table[i], codes[i], tables_.shift()), pressure[i], deviation[i]);
+    }
   }
   if (!tared_) return;
   for (std::size_t i = 0; i < n; ++i) pressure[i] -= offset_[i];
@@ -200,6 +241,7 @@ void Calibrator::flagCodes(PressureMap& out) const noexcept {
 }
 
 void Calibrator::strikeBad(PressureMap& out) const noexcept {
+  if (masked_.empty() && failed_.empty()) return;
   for (const auto* taxels : {&masked_, &failed_}) {
     for (const std::size_t taxel : *taxels) {
       out.pressure[taxel] = kNoReading;

@@ -64,24 +64,35 @@ PackedTables::PackedTables(const CurvatureTables& tables)
   slot_of_class_ = slotsOf(tables);
   slots_ = 1 + *std::max_element(slot_of_class_.begin(), slot_of_class_.end());
   const bool kernels = tables.rule.blend == BlendRule::kKernel;
+  while ((std::size_t{full_scale_} >> shift_) >= kMostCodes) ++shift_;
   entries_.resize(size_.taxels() * stride());
-  if (kernels) log_weight_.resize(size_.taxels() * classes_ * codes());
+  if (kernels) log_weight_.resize(size_.taxels() * classes_ * entries());
   for (std::size_t taxel = 0; taxel < size_.taxels(); ++taxel) {
     TaxelTables& own = of_taxel_.emplace_back();
-    own.codes = codes();
+    own.codes = entries();
     for (std::size_t k = 0; k < classes_; ++k) {
       const CodeTable& packed = tables.table(taxel, k);
-      requireSound(packed, codes(), number(taxel, k));
-      TableEntry* entry = entries_.data() + taxel * stride() + slot_of_class_[k] * codes();
+      requireSound(packed, full_scale_ + 1u, number(taxel, k));
+      TableEntry* entry = entries_.data() + taxel * stride() + slot_of_class_[k] * entries();
       own.curvature.push_back(tables.classes[k].at(taxel));
       own.table.push_back(entry);
-      for (std::size_t code = 0; code < codes(); ++code) {
-        *entry++ = {packed.pressure[code], packed.deviation[code]};
+      for (std::size_t i = 0; i < entries(); ++i) {
+        entry[i] = {packed.pressure[codeOf(i)], packed.deviation[codeOf(i)]};
       }
+      if (shift_ != 0) endAtFullScale(entry);
       trained_.push_back({packed.lowest, packed.highest, !std::isnan(packed.pressure.front())});
       if (kernels) own.log_weight.push_back(packLogWeight(packed, number(taxel, k)));
     }
   }
+}
+
+void PackedTables::endAtFullScale(TableEntry* table) const {
+  const TableEntry& before = table[entries() - 2];
+  TableEntry& last = table[entries() - 1];
+  const std::size_t step = std::size_t{1} << shift_, left = full_scale_ & (step - 1);
+  if (left == 0) return;  // nobody reads it
+  last.pressure = before.pressure +
+                  (last.pressure - before.pressure) * static_cast<float>(step) / static_cast<float>(left);
 }
 
 const float* PackedTables::packLogWeight(const CodeTable& table, std::size_t number) {
@@ -89,8 +100,8 @@ const float* PackedTables::packLogWeight(const CodeTable& table, std::size_t num
     throw InputError("calibration: table " + std::to_string(number) +
                      " has no weights, but its scheme blends tables by weight");
   }
-  float* const begin = log_weight_.data() + number * codes();
-  std::copy(table.log_weight.begin(), table.log_weight.end(), begin);
+  float* const begin = log_weight_.data() + number * entries();
+  for (std::size_t i = 0; i < entries(); ++i) begin[i] = table.log_weight[codeOf(i)];
   return begin;
 }
 

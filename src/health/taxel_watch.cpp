@@ -59,8 +59,11 @@ void TaxelWatch::widen(const std::uint16_t* counts) noexcept {
   const std::size_t n = size_.taxels();
   std::uint16_t* low = current_.low.data();
   std::uint16_t* high = current_.high.data();
-  for (std::size_t i = 0; i < n; ++i) low[i] = std::min(low[i], counts[i]);
-  for (std::size_t i = 0; i < n; ++i) high[i] = std::max(high[i], counts[i]);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint16_t code = counts[i];
+    low[i] = std::min(low[i], code);
+    high[i] = std::max(high[i], code);
+  }
 }
 
 bool TaxelWatch::judgeRow(std::uint16_t row) noexcept {

@@ -1,6 +1,7 @@
 // Cost of calibrating a scan, with pressure, deviation, flags and the watch for dead and stuck taxels,
 // beside the mere copy of a scan from counts to floats. Scans follow load cycles with noise, a taxel
-// scatter of 4 % and a new scan each time, so that the tables' cache lines really move.
+// scatter of 4 % and a new scan each time, so that the tables' cache lines really move; under a standing load
+// they do not.
 
 #include <benchmark/benchmark.h>
 
@@ -40,7 +41,8 @@ fsr::MatrixSize size(const benchmark::State& state) {
   return {std::uint16_t(state.range(0)), std::uint16_t(state.range(1))};
 }
 
-void Calibrate(benchmark::State& state) {
+// `scans`: how many different ones follow each other, a power of two.
+void Calibrate(benchmark::State& state, std::size_t scans) {
   const fsr::MatrixSize matrix = size(state);
   fsr::Calibrator calibrator(test_support::smallTables(matrix, kCurvatures, kFullScale), {matrix});
   fsr::Surface surface;
@@ -50,12 +52,22 @@ void Calibrate(benchmark::State& state) {
   fsr::PressureMap map;
   std::size_t i = 0;
   for (auto _ : state) {
-    const std::uint16_t* scan = counts.data() + (i % kScans) * matrix.taxels();
+    const std::uint16_t* scan = counts.data() + (i % scans + kScans - scans) * matrix.taxels();
     calibrator.calibrate({matrix, kFullScale, scan, matrix.taxels()}, double(i) / kRate, map);
     benchmark::DoNotOptimize(map.pressure.data());
     benchmark::ClobberMemory();
     ++i;
   }
+  state.counters["MB"] = static_cast<double>(calibrator.bytes()) / 1e6;
+}
+
+// What a calibration of a converter of 16 bits takes: of two taxels, scaled up.
+void FineConverter(benchmark::State& state) {
+  const fsr::MatrixSize matrix = size(state), pair{1, 2};
+  const fsr::Calibrator calibrator(test_support::smallTables(pair, kCurvatures, 65535), {pair});
+  for (auto _ : state) benchmark::DoNotOptimize(calibrator.bytes());
+  state.counters["MB"] =
+      static_cast<double>(calibrator.bytes()) / 1e6 / double(pair.taxels()) * double(matrix.taxels());
 }
 
 /// Between classes, where every taxel has a table of its own.
@@ -107,7 +119,9 @@ void CopyScanToFloat(benchmark::State& state) {
 
 }  // namespace
 
-BENCHMARK(Calibrate)->Args({7, 10})->Args({16, 10})->Args({32, 32});
+BENCHMARK_CAPTURE(Calibrate, load_cycles, kScans)->Args({7, 10})->Args({16, 10})->Args({32, 32});
+BENCHMARK_CAPTURE(Calibrate, standing_load, 1)->Args({7, 10})->Args({16, 10})->Args({32, 32});
+BENCHMARK(FineConverter)->Args({16, 10});
 BENCHMARK(CalibrateBlended)->Args({7, 10})->Args({16, 10})->Args({32, 32});
 BENCHMARK(CompileTables)->Unit(benchmark::kMillisecond)->Args({7, 10, 0})->Args({7, 10, 1})->Args({7, 10, 2});
 BENCHMARK(CopyScanToFloat)->Args({7, 10})->Args({16, 10})->Args({32, 32});

@@ -61,6 +61,22 @@ TEST_F(CalibratorTest, GivesTheTablesValuesExactly) {
   }
 }
 
+TEST(Calibrator, GivesTheTablesValuesOfAnyNumberOfTaxels) {
+  for (std::uint16_t columns = 1; columns <= 9; ++columns) {
+    const MatrixSize size{1, columns};
+    Calibrator calibrator(smallTables(size, {0.0}), {size});
+    calibrator.setSurface(bent(0), 0);
+    std::vector<std::uint16_t> counts;
+    for (std::uint16_t i = 0; i < columns; ++i) counts.push_back(static_cast<std::uint16_t>(100 + 50 * i));
+    PressureMap map;
+    calibrator.calibrate({size, kFullScale, counts.data(), counts.size()}, 0, map);
+    for (std::size_t i = 0; i < columns; ++i) {
+      EXPECT_EQ(map.pressure[i], knownPressure(i, 0, counts[i])) << i << " of " << columns;
+      EXPECT_EQ(map.deviation[i], knownDeviation(i, 0, counts[i])) << i << " of " << columns;
+    }
+  }
+}
+
 TEST_F(CalibratorTest, FlagsWhatTheCodeSays) {
   calibrator.setSurface(bent(0), 0);
   counts = {0, 19, 20, 500, 928, 929, 1022, 1023, 2000, 500, 500, 500};
@@ -310,6 +326,43 @@ TEST(Calibrator, ATaxelWithoutAModelIsMasked) {
   EXPECT_TRUE(std::isnan(map.pressure[5]));
   EXPECT_EQ(map.flags[5], flag::kMasked);
   EXPECT_EQ(map.flags[6], 0);
+}
+
+const std::vector<double> kPapersCurvatures = {0, 7.69, 9.09, 11.1, 14.3, 20};
+
+TEST(Calibrator, AFineConverterIsReadBetweenItsEntries) {
+  constexpr std::uint16_t kFine = 65535;
+  constexpr MatrixSize kPair{1, 2};
+  CurvatureTables tables = smallTables(kPair, {0.0}, kFine);
+  for (CodeTable& table : tables.tables) {
+    for (std::size_t code = 0; code <= kFine; ++code) {
+      table.pressure[code] = static_cast<float>(620e3 * std::pow(static_cast<double>(code) / kFine, 1.5));
+    }
+  }
+  Calibrator calibrator(tables, {kPair});
+  calibrator.setSurface(bent(0), 0);
+  PressureMap map;
+  double worst = 0;
+  for (unsigned code = 0; code <= kFine; ++code) {
+    const std::vector<std::uint16_t> counts(2, static_cast<std::uint16_t>(code));
+    calibrator.calibrate({kPair, kFine, counts.data(), counts.size()}, 0, map);
+    worst = std::max(worst, std::abs(double{map.pressure[1]} - tables.table(1, 0).pressure[code]));
+    if (code % 4 == 0) {
+      ASSERT_EQ(map.pressure[1], tables.table(1, 0).pressure[code]) << code;
+    }
+    ASSERT_NEAR(map.deviation[1], tables.table(1, 0).deviation[code], 0.1);
+  }
+  EXPECT_LT(worst, 0.2);  // [Pa]; one count at full scale is 14
+}
+
+TEST(Calibrator, TakesLittleMemory) {
+  constexpr MatrixSize kPair{1, 2};
+  const auto bytesOf = [&](std::uint16_t full_scale, std::size_t taxels) {
+    const Calibrator calibrator(smallTables(kPair, kPapersCurvatures, full_scale), {kPair});
+    return calibrator.bytes() / kPair.taxels() * taxels;
+  };
+  EXPECT_LT(bytesOf(4095, 70), 25e6);
+  EXPECT_LT(bytesOf(65535, 160), 200e6);
 }
 
 TEST(Calibrator, RefusesTablesThatAreNotWhole) {

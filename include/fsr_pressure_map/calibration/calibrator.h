@@ -66,6 +66,8 @@ class Calibrator {
   void calibrate(const ScanView& scan, double time, PressureMap& out) noexcept;
 
   const Layout& layout() const { return layout_; }
+  /// What the tables take [bytes].
+  std::size_t bytes() const { return tables_.bytes() + blended_.size() * sizeof(TableEntry); }
   const TaxelWatch& watch() const { return watch_; }
   const std::vector<ClassSwitch::Choice>& choices() const { return switch_.choices(); }
 
