@@ -70,8 +70,8 @@ std::string saveCalibration(const Calibration& calibration, const std::string& p
     writeCalibration(calibration, writer);
     bytes = writer.finish();
   }
-  const std::string hash = sha256(bytes.data(), bytes.size());
-  bytes.insert(0, userBlock(kCalibrationSchema, hash));
+  const std::string hash = sha256(bytes.data() + kUserBlock, bytes.size() - kUserBlock);
+  bytes.replace(0, kUserBlock, userBlock(kCalibrationSchema, hash));
   replaceFile(path, bytes);
   return hash.substr(0, kIdDigits);
 }

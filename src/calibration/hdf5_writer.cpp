@@ -1,7 +1,9 @@
 #include "fsr_pressure_map/calibration/hdf5_writer.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
+#include <type_traits>
 
 #include "hdf5_handle.h"
 
@@ -85,11 +87,30 @@ void Hdf5Writer::attribute(const std::string& path, const std::string& name, std
   writeAttribute(file_, path, name, H5T_NATIVE_UINT64, space, &value);
 }
 
+namespace {
+
+// Whether all values fit into Narrow.
+template <typename Narrow, typename T>
+bool fits(const std::vector<T>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return values.empty() || (*low >= static_cast<T>(std::numeric_limits<Narrow>::min()) &&
+                            *high <= static_cast<T>(std::numeric_limits<Narrow>::max()));
+}
+
+}  // namespace
+
 template <typename T>
 void Hdf5Writer::dataset(const std::string& path, const std::vector<T>& values,
                          const std::vector<std::size_t>& shape, const std::string& unit,
                          const std::string& meaning) {
   if (elements(shape) != values.size()) throw std::logic_error(path + " is not " + shapeText(shape));
+  if constexpr (std::is_integral_v<T> && sizeof(T) > 2) {
+    using Narrower = std::conditional_t<sizeof(T) == 8, std::uint32_t, std::uint16_t>;
+    if (fits<Narrower>(values)) {
+      dataset(path, std::vector<Narrower>(values.begin(), values.end()), shape, unit, meaning);
+      return;
+    }
+  }
   writeDataset(file_, path, typeOf<T>(), shape, values.data());
   if (!unit.empty()) attribute(path, "unit", unit);
   if (!meaning.empty()) attribute(path, "meaning", meaning);
@@ -110,8 +131,8 @@ std::string Hdf5Writer::finish() {
   require(H5Fflush(file_, H5F_SCOPE_GLOBAL), "file");
   const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
   if (size <= 0) throw std::runtime_error("HDF5 gives no image of its file");
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(file_, bytes.data(), bytes.size()) != size) {
+  std::string bytes(kUserBlock + static_cast<std::size_t>(size), '\0');
+  if (H5Fget_file_image(file_, bytes.data() + kUserBlock, static_cast<std::size_t>(size)) != size) {
     throw std::runtime_error("HDF5 gives no image of its file");
   }
   return bytes;

@@ -22,6 +22,16 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
 
 Rows rowsOf(const std::vector<CodeStatistics>& cells) {
   Rows rows;
+  std::size_t number = 0, repeated = 0;
+  for (const CodeStatistics& cell : cells) {
+    number += cell.codes();
+    repeated += cell.square().size();
+  }
+  rows.code.reserve(number);
+  rows.count.reserve(number);
+  rows.sum.reserve(number);
+  rows.square_high.reserve(repeated);
+  rows.square_low.reserve(repeated);
   for (const CodeStatistics& cell : cells) {
     append(rows.code, cell.code());
     append(rows.count, cell.count());

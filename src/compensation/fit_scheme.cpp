@@ -17,6 +17,10 @@ bool isPlainKernel(const GrnnOptions& options) {
 Fit fitClasses(const std::vector<std::size_t>& trained_on, const ClassReadings& readings,
                const Regressor& regressor) {
   if (regressor.mergeable()) {
+    if (trained_on.size() == 1) {
+      const CodeHistogram& only = readings.sums[trained_on.front()];
+      return only.samples() > 0 ? regressor.fit(only) : Fit{};
+    }
     CodeHistogram pooled(readings.full_scale);
     for (const std::size_t k : trained_on) pooled.add(readings.sums[k]);
     return pooled.samples() > 0 ? regressor.fit(pooled) : Fit{};

@@ -27,13 +27,14 @@ class Hdf5Writer {
   void attribute(const std::string& path, const std::string& name, const std::string& text);
   void attribute(const std::string& path, const std::string& name, const std::vector<double>& values);
   void attribute(const std::string& path, const std::string& name, std::uint64_t value);
-  /// Row-major; `unit` and `meaning` become attributes where they are not empty.
+  /// Row-major; `unit` and `meaning` become attributes where they are not empty. Integers of more than two
+  /// bytes are stored in the narrowest type that holds all of them; readers give them back as they were.
   template <typename T>
   void dataset(const std::string& path, const std::vector<T>& values, const std::vector<std::size_t>& shape,
                const std::string& unit, const std::string& meaning);
   void texts(const std::string& path, const std::vector<std::string>& texts, const std::string& meaning);
 
-  /// The bytes of the file behind its first kUserBlock, which the caller puts in front. The writer is done
+  /// The bytes of the file, the first kUserBlock of them zeros that the caller may fill. The writer is done
   /// then.
   std::string finish();
 
