@@ -78,6 +78,15 @@ SplitResult holdOutOne(const StudyContext& study, const Split& split, HeldOut& r
   return held_out;
 }
 
+double rmse(const StudyScore& score) {
+  return score.errors.whole.all.rmse;
+}
+
+const StudyScore& best(const SplitResult& split) {
+  return *std::min_element(split.scores.begin(), split.scores.end(),
+                           [](const StudyScore& a, const StudyScore& b) { return rmse(a) < rmse(b); });
+}
+
 }  // namespace
 
 HeldOut holdOut(const StudyContext& study) {
@@ -86,21 +95,22 @@ HeldOut holdOut(const StudyContext& study) {
   return result;
 }
 
-StudyHeadline headlineOf(const SplitResult& split) {
-  const auto best = std::min_element(split.scores.begin(), split.scores.end(),
-                                     [](const StudyScore& a, const StudyScore& b) {
-                                       return a.errors.whole.all.rmse < b.errors.whole.all.rmse;
-                                     });
-  StudyHeadline headline{split.id, best->id, best->errors.whole.all.rmse, best->rmse_interval, ""};
+StudyHeadline headlineOf(const std::vector<SplitResult>& splits) {
+  const auto harder = [](const SplitResult& a, const SplitResult& b) {
+    return rmse(best(a)) < rmse(best(b));
+  };
+  const SplitResult& split = *std::max_element(splits.begin(), splits.end(), harder);
+  const StudyScore& score = best(split);
+  StudyHeadline headline{split.id, score.id, rmse(score), score.rmse_interval, ""};
   std::ostringstream text;
   text.precision(3);
-  text << "Where " << split.description << ", " << best->id << " errs least of " << split.scores.size()
+  text << "Where " << split.description << ", " << score.id << " errs least of " << split.scores.size()
        << " methods: RMSE " << headline.rmse / 1e3 << " kPa";
   if (headline.interval.method != IntervalMethod::kNone) {
     text << " (95 % interval " << headline.interval.low / 1e3 << " to " << headline.interval.high / 1e3
          << " kPa over " << headline.interval.units << " " << headline.interval.level << "s)";
   }
-  text << '.';
+  text << ". Of " << splits.size() << " ways to hold data out this is the hardest.";
   headline.text = text.str();
   return headline;
 }

@@ -75,7 +75,7 @@ StudyResult study(const StudyProblem& problem, const StudyProgress& progress) {
   HeldOut held_out = holdOut(context);
   result.splits = std::move(held_out.splits);
   result.response = std::move(held_out.response);
-  if (problem.plan.beyond_the_paper) result.headline = headlineOf(result.splits.back());
+  if (problem.plan.beyond_the_paper) result.headline = headlineOf(result.splits);
   return result;
 }
 

@@ -36,7 +36,7 @@ struct HeldOut {
 };
 HeldOut holdOut(const StudyContext& study);
 
-/// Of the hardest split.
-StudyHeadline headlineOf(const SplitResult& split);
+/// Of the hardest split: the one where the best method errs most.
+StudyHeadline headlineOf(const std::vector<SplitResult>& splits);
 
 }  // namespace fsr

@@ -74,7 +74,8 @@ struct SplitResult {
   std::vector<StudyScore> scores;
 };
 
-/// The number to quote: the best method where the data are held out as hard as they permit.
+/// The number to quote: the best method where the data are held out as hard as they permit, in the split where
+/// the best method errs most.
 struct StudyHeadline {
   std::string split;
   std::string method;
