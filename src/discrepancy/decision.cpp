@@ -16,10 +16,10 @@ constexpr double kGenericBetter = 0.1;        // of the ceiling
 constexpr double kRivalWithin = 0.05;         // of what the best explains
 constexpr double kSignificant = 2;            // standard errors
 constexpr double kRivalFar = 0.15;            // likewise: behind it by more it is none, whatever the errors
-constexpr double kSecondOfRest =
-    0.45;  // of what remains explainable: a wrong form alone leaves room for a fifth
+constexpr double kSecondOfRest = 0.45;  // of what remains explainable: a wrong form alone leaves that much
 constexpr double kSecondOfFirst = 0.1;  // of what the first effect explains
 constexpr std::size_t kPairsRefined = 4;
+constexpr double kMuchOpen = 0.75;       // of the common trace's error: less explained leaves room for two
 constexpr double kGoodForm = 0.7;        // of the ceiling
 constexpr double kTemperatureMoved = 5;  // [K]
 constexpr double kNearBadForm = 0.6;     // of the best one's share, where its form is wrong
@@ -228,7 +228,7 @@ bool Contest::isWorthIt(const Explanation& one, const Explanation& two) const {
 // which everything slow looks like, only where no pair without it comes near.
 void Contest::tryPairs(const Explanation& one) {
   std::vector<Explanation> pairs = bestPairs();
-  if (pairs.empty() || !isWorthIt(one, pairs.front())) return;
+  if (pairs.empty() || !(isWorthIt(one, pairs.front()) || one.share < kMuchOpen)) return;
   for (Explanation& pair : pairs) refineOne(pair);
   const auto merit = [](const Explanation& e) {
     const bool drift = std::count(e.score.ids.begin(), e.score.ids.end(), "drift") > 0;

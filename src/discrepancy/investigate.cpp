@@ -19,6 +19,7 @@ namespace {
 
 // A size that was fitted holds that well under another protocol: forms are never quite right.
 constexpr double kPredictedLow = 0.6, kPredictedHigh = 1.6;
+constexpr double kFormHolds = 0.7;         // of what a mixture of forms explains
 constexpr double kNotIdentifiable = 0.05;  // of a signature, that the static curves leave
 
 using Ids = std::vector<std::string>;
@@ -152,6 +153,11 @@ void Investigation::put() {
                                std::min(1.0, decision_.share / decision_.ceiling)});
   }
   left_ = refined.trace;
+  if (refined.share >= kFormHolds * decision_.share) return;
+  // The gap is that of the mixture of forms that was found; the simulation holds the nearest single form.
+  left_ = fit_->grown(competition_->explained(decision_.explanation));
+  report_.limitations.push_back(
+      "The form in the simulation closes less of the gap than the mixture of forms that was found.");
 }
 
 // What detectors found stands beside every explanation of the common trace.

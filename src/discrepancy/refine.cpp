@@ -19,7 +19,8 @@ namespace {
 constexpr int kRounds = 8;            // of curves and parameters in turn
 constexpr double kDifference = 0.02;  // of a parameter's scale
 constexpr double kBeyondTried = 3;    // factor that a shape may leave its tried values by
-constexpr double kTwoSided = 1.96;    // 95 % of a normal distribution
+constexpr int kMostHalved = 8;
+constexpr double kTwoSided = 1.96;  // 95 % of a normal distribution
 
 // One number that is fitted, on a scale on which steps of about 1 are large.
 struct Knob {
@@ -28,6 +29,7 @@ struct Knob {
   Range range;
   bool logarithmic;
   double scale;
+  bool is_strength;
 
   double read(double value) const { return logarithmic ? std::log(value) : value / scale; }
   double write(double x) const {
@@ -54,7 +56,7 @@ std::vector<Knob> knobsOf(const std::vector<EnabledEffect>& effects) {
       if (!(strength ? value != parameter.neutral : shape) || !std::isfinite(value)) continue;
       const bool logarithmic = shape && value > 0 && parameter.permitted.low > 0;
       const double scale = strength ? std::max(std::abs(value), 1e-12) : 1;
-      knobs.push_back({e, parameter.name, rangeOf(parameter), logarithmic, scale});
+      knobs.push_back({e, parameter.name, rangeOf(parameter), logarithmic, scale, strength});
     }
   }
   return knobs;
@@ -163,6 +165,7 @@ class Refiner {
       return std::nullopt;
     }
   }
+  void makePermitted();
   std::vector<double> deviations(const Eigen::VectorXd& left) const;
 
   const Measured& measured_;
@@ -200,7 +203,17 @@ std::vector<double> Refiner::deviations(const Eigen::VectorXd& left) const {
   return deviations;
 }
 
+// Signatures are straight lines: what they say of a large effect may be more than the effect permits.
+void Refiner::makePermitted() {
+  for (int halved = 0; halved < kMostHalved && !error(at_); ++halved) {
+    for (std::size_t k = 0; k < knobs_.size(); ++k) {
+      if (!knobs_[k].logarithmic && knobs_[k].is_strength) at_[k] /= 2;
+    }
+  }
+}
+
 Refined Refiner::run() {
+  makePermitted();
   at_ = levenberg([this](const std::vector<double>& at) { return error(at); }, at_);
   for (std::size_t k = 0; k < at_.size(); ++k) at_[k] = knobs_[k].read(knobs_[k].write(at_[k]));
   Refined refined;
