@@ -1,0 +1,97 @@
+#!/usr/bin/python3
+"""Driver on one machine, calibration on another: two network namespaces on one cable that is cut and mended."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import rostest
+
+RIG, STATION = "10.77.13.1", "10.77.13.2"
+
+LISTENER = """
+import sys, rospy
+from fsr_pressure_map.msg import PressureMap
+def keep(map):
+    print(map.header.seq, map.state, len(map.pressure), flush=True)
+rospy.init_node("listener", anonymous=True)
+rospy.Subscriber("/pressure_map", PressureMap, keep)
+rospy.spin()
+"""
+
+
+def run(*command):
+    subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
+
+
+class TwoMachinesTest(unittest.TestCase):
+    def setUp(self):
+        self.children = []
+        self.folder = tempfile.TemporaryDirectory()
+        tag = str(os.getpid())
+        self.rig, self.station = f"fsr_rig_{tag}", f"fsr_station_{tag}"
+        self.cable = f"fsrc{tag}"[:14]
+        self.made = []
+        try:
+            for space, address, end in ((self.rig, RIG, "a"), (self.station, STATION, "b")):
+                run("ip", "netns", "add", space)
+                self.made.append(space)
+            run("ip", "link", "add", self.cable + "a", "netns", self.rig, "type", "veth", "peer", "name", self.cable + "b", "netns", self.station)
+            for space, address, end in ((self.rig, RIG, "a"), (self.station, STATION, "b")):
+                run("ip", "-n", space, "addr", "add", f"{address}/24", "dev", self.cable + end)
+                for device in ("lo", self.cable + end):
+                    run("ip", "-n", space, "link", "set", device, "up")
+        except (subprocess.CalledProcessError, FileNotFoundError):
+            self.tearDown()
+            self.skipTest("network namespaces can be made by root alone")
+
+    def tearDown(self):
+        for child in self.children:
+            child.kill()
+            child.wait()
+        for space in self.made:
+            subprocess.run(["ip", "netns", "del", space], stderr=subprocess.DEVNULL, check=False)
+        self.made = []
+        self.folder.cleanup()
+
+    def start(self, space, address, *command, **options):
+        environment = dict(os.environ, ROS_MASTER_URI=f"http://{RIG}:11311", ROS_IP=address)
+        child = subprocess.Popen(["ip", "netns", "exec", space, *command], env=environment, **options)
+        self.children.append(child)
+        return child
+
+    def wait_for(self, condition):
+        for _ in range(1200):
+            if condition():
+                return
+            time.sleep(0.05)
+        self.fail("did not happen within a minute")
+
+    def test_maps_come_back_after_the_cable(self):
+        programs = pathlib.Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]) / "lib" / "fsr_pressure_map"
+        port = pathlib.Path(self.folder.name) / "board"
+        heard = pathlib.Path(self.folder.name) / "heard"
+        self.start(self.rig, RIG, "rosmaster", "--core", "-p", "11311")
+        time.sleep(0.5)
+        self.start(self.rig, RIG, str(programs / "rig_emulator_node"), f"_link:={port}")
+        self.start(self.rig, RIG, str(programs / "driver_node"), f"_serial_port:={port}", "_serial_baud:=0")
+        self.start(self.station, STATION, str(programs / "calibration_node"))
+        with open(heard, "w", encoding="ascii") as file:
+            self.start(self.station, STATION, "/usr/bin/python3", "-c", LISTENER, stdout=file)
+        lines = lambda: heard.read_text(encoding="ascii").splitlines()
+        self.wait_for(lambda: len(lines()) > 10)
+        self.assertTrue(all(line.split()[1] == "1" for line in lines()), "no calibration was given: each map says so")
+        run("ip", "-n", self.rig, "link", "set", self.cable + "a", "down")
+        time.sleep(3)
+        during = len(lines())
+        time.sleep(1)
+        self.assertLessEqual(len(lines()), during + 1, "nothing comes over a cut cable")
+        run("ip", "-n", self.rig, "link", "set", self.cable + "a", "up")
+        self.wait_for(lambda: len(lines()) > during + 20)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("fsr_pressure_map", "two_machines_test", TwoMachinesTest, sys.argv)
