@@ -229,7 +229,7 @@ std::size_t Measured::usedTaxels() const {
   return static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
 }
 
-void Measured::readings(std::size_t moment, std::vector<double>& result) const {
+void Measured::recorded(std::size_t moment, std::vector<double>& result) const {
   const Recording& recording = (*recordings)[visits[visit[moment]].recording];
   result.assign(taxels(), 0.0);
   for (std::size_t s = 0; s < scans[moment]; ++s) {
@@ -237,6 +237,12 @@ void Measured::readings(std::size_t moment, std::vector<double>& result) const {
     for (std::size_t i = 0; i < result.size(); ++i) result[i] += counts[i];
   }
   for (double& reading : result) reading /= full_scale * static_cast<double>(scans[moment]);
+}
+
+void Measured::readings(std::size_t moment, std::vector<double>& result) const {
+  recorded(moment, result);
+  if (gain.empty()) return;
+  for (double& reading : result) reading = (reading - added[moment] - unloaded) / gain[moment] + unloaded;
 }
 
 void validate(const DiscrepancyProblem& problem) {

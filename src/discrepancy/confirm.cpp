@@ -59,10 +59,13 @@ Confirmation confirm(const Prediction& prediction, const SimulationSettings& sim
   problem.simulation = simulation;
   problem.recordings = recordings;
   validate(problem);
-  const Measured measured = admit(problem);
+  Measured measured = admit(problem);
+  const CommonTraces first = commonTraces(measured);
+  const StaticFit first_fit(measured, CurvePer::kClass, first.all);
+  const SimulationSettings base = fitBase(measured, first_fit, simulation);
+  takeOutEnabled(measured, first, first_fit, base, false);
   const CommonTraces common = commonTraces(measured);
   const StaticFit fit(measured, CurvePer::kClass, common.all);
-  const SimulationSettings base = fitBase(measured, fit, simulation);
   Confirmation confirmation;
   const Foretold told = foretell(measured, common, fit, base, prediction.effects);
   confirmation.share_of_error = told.share;

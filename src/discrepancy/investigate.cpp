@@ -19,6 +19,8 @@ namespace {
 
 // A size that was fitted holds that well under another protocol: forms are never quite right.
 constexpr double kPredictedLow = 0.6, kPredictedHigh = 1.6;
+constexpr double kFarLevel = 1.8;          // of the highest reading: a limit that far off limits nothing
+constexpr int kMostRounds = 4;             // of repeat()
 constexpr double kFormHolds = 0.7;         // of what a mixture of forms explains
 constexpr double kNotIdentifiable = 0.05;  // of a signature, that the static curves leave
 
@@ -36,17 +38,23 @@ class Investigation {
   void tell(const char* step, double share) const {
     if (progress_) progress_(step, share);
   }
-  bool sought(const std::string& id) const {
+  bool sought(const std::string& id) const { return inLibrary(id) && !current_.effect(id); }
+  bool inLibrary(const std::string& id) const {
     const auto& out = problem_.options.leave_out;
     return !problem_.simulation.effect(id) && !std::count(out.begin(), out.end(), id);
   }
   void detectFaults();
   void takeOutStatics();
+  void refitStatics();
+  void sizeTogether();
+  void repeat();
+  void moreEffects();
   void takeOutMains();
   void lookAtMounts();
   void compete();
   void lookAtStaticCurves();
   void put();
+  void startAgain();
   void putFindings();
   void show();
   void listNotIdentifiable();
@@ -64,9 +72,12 @@ class Investigation {
   std::unique_ptr<TaxelFit> taxels_;
   std::unique_ptr<Competition> competition_;
   Decision decision_;
+  Mains mains_;
   StaticMisfit misfit_;
   bool unknown_statics_ = false;
-  std::vector<Finding> findings_;
+  std::vector<Finding> findings_, later_;
+  SimulationSettings current_;  // with all that was taken out
+  bool quiet_ = false;
   Trace left_;  // what the effects take from the common trace's residual
   DiscrepancyReport report_;
 };
@@ -92,14 +103,88 @@ void Investigation::takeOutStatics() {
   fit_ = std::make_unique<StaticFit>(measured_, CurvePer::kClass, common_.all);
   taxels_ = std::make_unique<TaxelFit>(measured_, *fit_);
   report_.base = fitBase(measured_, *fit_, problem_.simulation);
+  report_.base = takeOutEnabled(measured_, common_, *fit_, report_.base, true);
+  current_ = report_.base;
+  if (!measured_.gain.empty()) refitStatics();
+}
+
+// After something was taken out.
+void Investigation::refitStatics() {
+  common_ = commonTraces(measured_);
+  if (mains_.found) takeOut(mains_, *fit_, common_);
+  fit_ = std::make_unique<StaticFit>(measured_, fit_->per(), common_.all);
+  taxels_ = std::make_unique<TaxelFit>(measured_, *fit_);
+}
+
+// What the simulation enables was sized as if nothing else were there. Now that something is found, both are
+// sized together, and the search is made once more.
+void Investigation::sizeTogether() {
+  if (measured_.gain.empty() || decision_.credible.empty()) return;
+  const std::vector<EnabledEffect> found = {decision_.refined.effects.front()};
+  measured_.load.clear();
+  measured_.gain.clear();
+  measured_.added.clear();
+  refitStatics();
+  report_.base = current_ = takeOutEnabled(measured_, common_, *fit_, report_.base, true, found);
+  refitStatics();
+  compete();
+}
+
+// Round after round, what was named is taken out and the rest is searched again, until nothing is named. The
+// part to show on stays closed.
+void Investigation::repeat() {
+  const Trace before = fit_->residual(common_.all);
+  const Decision first = decision_;
+  std::vector<EnabledEffect> found;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const bool named = decision_.verdict == Verdict::kNamed;
+    report_.steps.push_back({});
+    report_.steps.back().share_of_error = decision_.share_of_error;
+    if (!named) break;
+    report_.steps.back().added = listText(decision_.credible.front(), " with ");
+    report_.steps.back().sentence = "Added " + report_.steps.back().added + ".";
+    SimulationSettings with = current_;
+    for (const EnabledEffect& effect : decision_.refined.effects) with = withEffect(with, effect);
+    if (round > 0) moreEffects();
+    takeOut(measured_, *fit_, current_, with);
+    current_ = with;
+    refitStatics();
+    compete();
+  }
+  report_.steps.back().sentence = "No further effect is named: " + name(decision_.verdict) + ".";
+  if (report_.steps.size() < 2) return;
+  const Decision last = decision_;
+  decision_ = first;
+  quiet_ = last.verdict == Verdict::kNone;
+  if (!quiet_)
+    report_.limitations.push_back("What is left after the last round is not quiet: " + name(last.verdict) +
+                                  ".");
+  const Eigen::Map<const Trace> gain(measured_.gain.data(), before.size());
+  left_ = before - fit_->residual(common_.all).cwiseProduct(gain);
+}
+
+// Effects of a later round stand beside those of the first.
+void Investigation::moreEffects() {
+  for (std::size_t e = 0; e < decision_.refined.effects.size(); ++e) {
+    const EffectInfo& info = findEffect(decision_.refined.effects[e].id)->info;
+    later_.push_back({{info.id, info.summary, decision_.refined.parameters[e], decision_.z,
+                       std::min(1.0, decision_.share / decision_.ceiling)},
+                      {decision_.refined.effects[e]},
+                      {},
+                      {},
+                      0,
+                      0,
+                      false});
+    for (const Covariate c : info.depends_on) later_.back().depends_on.push_back(name(c));
+  }
 }
 
 void Investigation::takeOutMains() {
   if (!sought("mains_pickup")) return;
-  const Mains mains = findMains(measured_, *taxels_);
-  if (!mains.found) return;
-  findings_.push_back(findingOf(mains, squareOfReadings(), measured_));
-  takeOut(mains, *fit_, common_);
+  mains_ = findMains(measured_, *taxels_);
+  if (!mains_.found) return;
+  findings_.push_back(findingOf(mains_, squareOfReadings(), measured_));
+  takeOut(mains_, *fit_, common_);
 }
 
 // Where the same surface reads otherwise after each remounting, every mount has curves of its own.
@@ -116,18 +201,22 @@ void Investigation::compete() {
   tell("signatures", 0.2);
   const auto& options = problem_.options;
   competition_ = std::make_unique<Competition>(
-      measured_, common_, *fit_,
-      signatures(measured_, *fit_, report_.base, options.leave_out, options.threads), options.threads);
+      measured_, common_, *fit_, signatures(measured_, *fit_, current_, options.leave_out, options.threads),
+      options.threads);
   tell("naming", 0.6);
-  decision_ = decide(measured_, common_, *fit_, *taxels_, *competition_, report_.base);
+  decision_ = decide(measured_, common_, *fit_, *taxels_, *competition_, current_);
 }
 
 void Investigation::lookAtStaticCurves() {
   misfit_ = findStaticMisfit(measured_, *fit_, common_.all, squareOfReadings());
-  const bool else_found = !findings_.empty() || decision_.verdict != Verdict::kNone;
+  const bool else_found =
+      !findings_.empty() || decision_.verdict != Verdict::kNone || !measured_.gain.empty();
   if (!isMisfit(misfit_, else_found)) return;
   if (isSaturation(misfit_, measured_)) {
-    if (sought("saturation")) findings_.push_back(saturationOf(misfit_, measured_, *fit_, report_.base));
+    const Finding saturation = saturationOf(misfit_, measured_, *fit_, report_.base);
+    const double level = saturation.enable.front().values.at("level") / measured_.full_scale;
+    if (level > kFarLevel * fit_->curve().maxCoeff()) return;
+    if (sought("saturation")) findings_.push_back(saturation);
     unknown_statics_ = !sought("saturation");
   } else {
     unknown_statics_ = decision_.verdict == Verdict::kNone && findings_.empty();
@@ -158,6 +247,16 @@ void Investigation::put() {
   left_ = fit_->grown(competition_->explained(decision_.explanation));
   report_.limitations.push_back(
       "The form in the simulation closes less of the gap than the mixture of forms that was found.");
+}
+
+// Readings and curves as they were before the rounds of repeat(): what is shown is shown against them.
+void Investigation::startAgain() {
+  measured_.load.clear();
+  measured_.gain.clear();
+  measured_.added.clear();
+  refitStatics();
+  takeOutEnabled(measured_, common_, *fit_, report_.base, false);
+  refitStatics();
 }
 
 // What detectors found stands beside every explanation of the common trace.
@@ -211,7 +310,7 @@ void Investigation::show() {
 void Investigation::listNotIdentifiable() {
   for (const EffectEntry& entry : effectLibrary()) {
     const EffectInfo& info = entry.info;
-    if (!sought(info.id) || info.kind == EffectKind::kBase) continue;
+    if (!inLibrary(info.id) || info.kind == EffectKind::kBase) continue;
     double left = 0;
     bool tried = false;
     for (const Signature& s : competition_->signatures()) {
@@ -277,8 +376,14 @@ DiscrepancyReport Investigation::run() {
   lookAtMounts();
   takeOutMains();
   compete();
+  sizeTogether();
   lookAtStaticCurves();
   put();
+  if (problem_.options.repeat) {
+    repeat();
+    findings_.insert(findings_.begin(), later_.begin(), later_.end());
+    startAgain();
+  }
   putFindings();
   show();
   listNotIdentifiable();

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 
+#include "fsr_pressure_map/discrepancy/competition.h"
 #include "fsr_pressure_map/discrepancy/levenberg.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/effects/effect_library.h"
@@ -111,7 +112,8 @@ Trace freedOf(const Trace& common, double unloaded, const Changes& changes) {
 }
 
 Trace loadOf(const Measured& measured, const Changes& changes) {
-  return Eigen::Map<const Trace>(measured.pressure.data(), changes.load.size()) + changes.load;
+  const std::vector<double>& load = measured.load.empty() ? measured.pressure : measured.load;
+  return Eigen::Map<const Trace>(load.data(), changes.load.size()) + changes.load;
 }
 
 class Refiner {
@@ -254,6 +256,49 @@ SimulationSettings withEffect(SimulationSettings settings, const EnabledEffect& 
                                   [&](const EnabledEffect& e) { return place(e.id) > place(effect.id); });
   effects.insert(after, effect);
   return settings;
+}
+
+void takeOut(Measured& measured, const StaticFit& fit, const SimulationSettings& without,
+             const SimulationSettings& with) {
+  const Changes changes = changesBy(measured, without, with, driven(measured, without, true), true);
+  const Trace load = loadOf(measured, changes);
+  if (measured.gain.empty()) {
+    measured.unloaded = fit.unloaded();
+    measured.gain.assign(measured.moments(), 1.0);
+    measured.added.assign(measured.moments(), 0.0);
+  }
+  measured.load.assign(load.data(), load.data() + load.size());
+  for (std::size_t i = 0; i < measured.moments(); ++i) {
+    measured.gain[i] *= changes.gain[static_cast<Eigen::Index>(i)];
+    measured.added[i] += changes.reading[static_cast<Eigen::Index>(i)];
+  }
+}
+
+bool hasTimeCourse(const EffectInfo& info) {
+  return (info.kind == EffectKind::kAdditive || info.kind == EffectKind::kGrid) && !isStatic(info) &&
+         info.id != "mains_pickup";
+}
+
+SimulationSettings takeOutEnabled(Measured& measured, const CommonTraces& common, const StaticFit& fit,
+                                  const SimulationSettings& base, bool fit_sizes,
+                                  const std::vector<EnabledEffect>& beside) {
+  SimulationSettings still = base, with = base;
+  std::vector<EnabledEffect> moving;
+  still.effects.clear();
+  for (const EnabledEffect& effect : base.effects) {
+    const bool moves = hasTimeCourse(findEffect(effect.id)->info);
+    (moves ? moving : still.effects).push_back(effect);
+  }
+  if (moving.empty()) return base;
+  const std::size_t enabled = moving.size();
+  moving.insert(moving.end(), beside.begin(), beside.end());
+  if (fit_sizes) {
+    const Refined refined = refine(measured, common, fit, still, moving, true, false);
+    for (std::size_t e = 0; refined.share > 0 && e < enabled; ++e)
+      with = withEffect(with, refined.effects[e]);
+  }
+  takeOut(measured, fit, still, with);
+  return with;
 }
 
 Foretold foretell(const Measured& measured, const CommonTraces& common, const StaticFit& fit,

@@ -33,8 +33,9 @@ std::vector<double> knotsOf(const Trace& load) {
   return knots;
 }
 
-Trace pressureOf(const Measured& measured) {
-  return Eigen::Map<const Trace>(measured.pressure.data(), static_cast<Eigen::Index>(measured.moments()));
+Trace loadOf(const Measured& measured) {
+  const std::vector<double>& load = measured.load.empty() ? measured.pressure : measured.load;
+  return Eigen::Map<const Trace>(load.data(), static_cast<Eigen::Index>(measured.moments()));
 }
 
 template <typename Use>
@@ -80,8 +81,9 @@ StaticFit::StaticFit(const Measured& measured, CurvePer per, const Trace& common
     group_.push_back(per == CurvePer::kVisit ? measured.visit[i]
                                              : static_cast<std::uint32_t>(measured.classOf(i)));
   }
+  per_ = per;
   groups_ = per == CurvePer::kVisit ? measured.visits.size() : measured.classes.size();
-  fitCurves(common, pressureOf(measured));
+  fitCurves(common, loadOf(measured));
   judgeGainScatter(residual(common));
 }
 
@@ -89,6 +91,7 @@ StaticFit::StaticFit(const StaticFit& like, const Trace& common, const Trace& lo
     : measured_(like.measured_),
       group_(like.group_),
       groups_(like.groups_),
+      per_(like.per_),
       gain_scatter_(like.gain_scatter_),
       kept_(like.kept_) {
   fitCurves(common, load);

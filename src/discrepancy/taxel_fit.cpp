@@ -58,7 +58,7 @@ void TaxelFit::judgeWithin() {
   std::vector<double> mean;
   for (std::size_t m = 0; m < measured_.moments(); ++m) {
     if (measured_.scans[m] < 2) continue;
-    measured_.readings(m, mean);
+    measured_.recorded(m, mean);
     const Visit& visit = measured_.visits[measured_.visit[m]];
     const Recording& recording = (*measured_.recordings)[visit.recording];
     const double slope = fit_.slope()[static_cast<Eigen::Index>(m)];

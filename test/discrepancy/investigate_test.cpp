@@ -222,6 +222,31 @@ TEST(Investigate, RecommendsAnExperimentThatSettlesIt) {
   EXPECT_EQ(after.effects.at(0).id, "hysteresis");
 }
 
+TEST(Investigate, StartsFromWhatTheSimulationHasAlready) {
+  const std::string loop = "  hysteresis: {loop_width: 0.05}\n";
+  DiscrepancyProblem problem = planted(kTwoSpeeds, loop + "  time_skew: {delay: 0.25}\n");
+  problem.simulation = simulation(kTwoSpeeds, "  hysteresis: {loop_width: 0.03}\n");
+  const DiscrepancyReport report = investigate(problem);
+  ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
+  EXPECT_EQ(report.credible_set.at(0), std::vector<std::string>{"time_skew"});
+  EXPECT_NEAR(report.base.effect("hysteresis")->values.at("loop_width"), 0.05, 0.005) << "sized together";
+  problem.recordings = fsr::simulateSession(simulation(kTwoSpeeds, loop));
+  const DiscrepancyReport quiet = investigate(problem);
+  EXPECT_EQ(quiet.verdict, Verdict::kNone) << quiet.sentence;
+}
+
+TEST(Investigate, RepeatsUntilQuiet) {
+  DiscrepancyProblem problem = planted(kTwoSpeeds, "  time_skew: {delay: 0.3}\n");
+  problem.options.repeat = true;
+  const DiscrepancyReport report = investigate(problem);
+  ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
+  ASSERT_EQ(report.steps.size(), 2u);
+  EXPECT_EQ(report.steps[0].added, "time_skew");
+  EXPECT_TRUE(report.steps[1].added.empty());
+  EXPECT_GT(report.gap.closed, 0.9);
+  EXPECT_EQ(report.credible_set, (std::vector<std::vector<std::string>>{{"time_skew"}}));
+}
+
 std::string refusal(const DiscrepancyProblem& problem) {
   try {
     investigate(problem);

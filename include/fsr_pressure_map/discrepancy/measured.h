@@ -60,13 +60,21 @@ struct Measured {
   std::vector<std::size_t> first_scan;  ///< of the visit's recording
   std::vector<std::uint32_t> scans;     ///< how many
 
+  // Effects that were taken out; empty = none.
+  std::vector<double> load;   ///< what the taxels felt, the chamber's pressure and its history [Pa]
+  std::vector<double> gain;   ///< factor of what they read above `unloaded`
+  std::vector<double> added;  ///< to their readings [share of full scale]
+  double unloaded = 0;        ///< reading without load [share of full scale]
+
   std::vector<std::string> limitations;  ///< sentences
 
   std::size_t moments() const { return time.size(); }
   std::size_t taxels() const { return layout.size.taxels(); }
   std::size_t usedTaxels() const;
   std::size_t classOf(std::size_t moment) const { return visits[visit[moment]].curvature_class; }
-  /// Mean reading of every taxel [share of full scale], [taxels], row-major.
+  /// Mean reading of every taxel as it was recorded [share of full scale], [taxels], row-major.
+  void recorded(std::size_t moment, std::vector<double>& result) const;
+  /// The same without the gain and the reading of effects that were taken out.
   void readings(std::size_t moment, std::vector<double>& result) const;
 };
 

@@ -29,6 +29,17 @@ Refined refine(const Measured& measured, const CommonTraces& common, const Stati
                const SimulationSettings& base, const std::vector<EnabledEffect>& start, bool carried,
                bool bent_only);
 
+/// Takes what `with` has beyond `without` out of the readings: from now on curves are functions of the load
+/// that the chain computes, and readings are as they would be without.
+void takeOut(Measured& measured, const StaticFit& fit, const SimulationSettings& without,
+             const SimulationSettings& with);
+
+/// The same for all effects with a time course that the simulation enables, their sizes fitted first.
+/// Returns the simulation with these sizes. `beside`: effects that are fitted together with them and stay in.
+SimulationSettings takeOutEnabled(Measured& measured, const CommonTraces& common, const StaticFit& fit,
+                                  const SimulationSettings& base, bool fit_sizes,
+                                  const std::vector<EnabledEffect>& beside = {});
+
 /// What fixed effects explain of new recordings.
 struct Foretold {
   double share = 0;       ///< of the squared error of the projected common trace, nothing fitted

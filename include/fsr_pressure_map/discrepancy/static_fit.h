@@ -63,6 +63,7 @@ class StaticFit {
 
   std::size_t groupOf(std::size_t scan) const { return group_[scan]; }
   std::size_t groups() const { return groups_; }
+  CurvePer per() const { return per_; }
   std::size_t coefficients() const { return basis_.size(); }
   const SplineBasis::Values& splines(std::size_t scan) const { return splines_[scan]; }
 
@@ -80,6 +81,7 @@ class StaticFit {
   SplineBasis basis_{{0, 1}};
   std::vector<std::uint32_t> group_;  // of each scan
   std::size_t groups_ = 0;
+  CurvePer per_ = CurvePer::kClass;
   std::vector<SplineBasis::Values> splines_;  // of each scan
   std::vector<Normal> plain_, shrunk_;        // of each group
   Eigen::MatrixXd fitted_;                    // [coefficients x groups]
