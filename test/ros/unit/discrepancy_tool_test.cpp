@@ -35,12 +35,15 @@ class DiscrepancyTool : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  fsr::Recording recording(const std::string& surface, double curvature) const {
-    test_support::SyntheticRig rig;
-    rig.surfaces = {{surface, curvature}};
+  static fsr::Recording recorded(const test_support::SyntheticRig& rig) {
     fsr::Recording recording = test_support::syntheticRecording(rig);
     recording.start_ns = 1500000000000000000;
     return recording;
+  }
+  static fsr::Recording recording(const std::string& surface, double curvature) {
+    test_support::SyntheticRig rig;
+    rig.surfaces = {{surface, curvature}};
+    return recorded(rig);
   }
   std::string bag(const std::string& name, const fsr::Recording& recording) const {
     writeBag(path(name), recording);
@@ -116,13 +119,26 @@ TEST_F(DiscrepancyTool, RefusesWithOneSentenceAndLeavesNoVerdict) {
   EXPECT_FALSE(fs::exists(folder_ / "out" / "verdict.yaml"));
 }
 
-TEST_F(DiscrepancyTool, ConfirmsOnlyWhatPredictsSomethingByBagsThatAreNew) {
-  const std::string flat = bag("flat.bag", recording("flat", 0));
-  run({flat, "--simulation", simulation(), "--output", path("out"), "--no-report"});
-  expectSaid(run({"--confirm", path("none.yaml"), flat}), {"none.yaml", "cannot be opened"});
-  if (fsr::readVerdict(path("out/verdict.yaml")).verdict == "none") {
-    expectSaid(run({"--confirm", path("out/verdict.yaml"), flat}), {"verdict is none", "predicts nothing"});
-  }
+TEST_F(DiscrepancyTool, ConfirmsByBagsThatAreNewWhatItPredicted) {
+  test_support::SyntheticRig rig;
+  rig.cycles = 12;
+  const std::string nothing = bag("nothing.bag", recorded(rig));
+  run({nothing, "--simulation", simulation(), "--output", path("none"), "--no-report"});
+  expectSaid(run({"--confirm", path("nowhere.yaml"), nothing}), {"nowhere.yaml", "cannot be opened"});
+  expectSaid(run({"--confirm", path("none/verdict.yaml"), nothing}), {"verdict is none", "predicts nothing"});
+  rig.loop = 200;
+  const std::string loop = bag("loop.bag", recorded(rig));
+  run({loop, "--simulation", simulation(), "--output", path("out"), "--no-report"});
+  const fsr::VerdictFile verdict = fsr::readVerdict(path("out/verdict.yaml"));
+  ASSERT_FALSE(verdict.effects.empty()) << verdict.verdict;
+  expectSaid(run({"--confirm", path("out/verdict.yaml"), loop}), {"loop.bag", "made from this bag"});
+  rig.seed = 2;
+  const std::string again = bag("again.bag", recorded(rig));
+  expectSaid(run({"--confirm", path("out/verdict.yaml"), again}), {"Confirmed: "});
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "confirmation.yaml"));
+  rig.loop = 0;
+  const std::string without = bag("without.bag", recorded(rig));
+  expectSaid(run({"--confirm", path("out/verdict.yaml"), without}), {"Not confirmed: "});
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+// What simulate --drive leaves of the recordings is the gap that the report states.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fsr_pressure_map/discrepancy/taxel_curves_fit.h"
+#include "fsr_pressure_map/simulation/session.h"
+
+namespace fsr {
+namespace {
+
+constexpr double kAlike = 0.15;  // spline curves there, hats over pressure here
+
+const char* const kSession = R"(
+simulation: planted
+seed: 7
+matrix: {rows: 2, columns: 3}
+board: {scan_rate: 2.5, transducer_rate: 2.5}
+program:
+  - cycles: {peak: 620000, rate: 40000, dwell_peak: 8, cycles: 5}
+  - cycles: {peak: 620000, rate: 8000, dwell_peak: 8, cycles: 2}
+  - cycles: {peak: 620000, rate: 40000, dwell_peak: 8, cycles: 3}
+session:
+  - {surface: flat, flat: true}
+  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}
+effects:
+  static_curve: {conductance: 3.2e-4, exponent: 0.85, conductance_scatter: 0.05}
+  bending_preload: {amplitude: 30000}
+  bending_gain: {change: -0.15}
+  white_noise: {absolute: 8}
+  converter: {}
+)";
+
+SimulationSettings simulation(const std::string& more) {
+  return readSimulation(Settings::fromText(kSession + more, "planted.yaml"));
+}
+
+TEST(ReproducedGap, IsTheStatedOneBeforeAndAfter) {
+  DiscrepancyProblem problem;
+  problem.simulation = simulation("");
+  problem.recordings = simulateSession(simulation("  hysteresis: {loop_width: 0.06}\n"));
+  const DiscrepancyReport report = investigate(problem);
+  ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
+  const Measured measured = admit(problem);
+  const double before = simulatedGap(measured, report.base), after = simulatedGap(measured, report.added);
+  EXPECT_NEAR(before, report.gap.before, kAlike * report.gap.before);
+  EXPECT_NEAR(after, report.gap.after, kAlike * report.gap.after);
+}
+
+}  // namespace
+}  // namespace fsr
