@@ -105,7 +105,7 @@ def score_case(key, verdict, run):
     elif kind == "left_out":
         case["right_first"] = left_out_right(verdict, run)
     follow = run.get("follow_up")
-    case["resolved"] = None if not follow else follow == {"verdict": "named", "effects": sorted(truth)}
+    case["resolved"] = None if not follow or run.get("left_out") else follow == {"verdict": "named", "effects": sorted(truth)}
     return case
 
 
