@@ -36,6 +36,11 @@ bool within(const std::vector<Covariate>& covariates, const Score& effects) {
   });
 }
 
+// Effects that change from cycle to cycle: some dozens of gains do not hold two of them.
+bool isSlow(const std::string& id) {
+  return id == "drift" || id == "temperature" || id == "wear" || id == "break_in";
+}
+
 // The single signatures that do most of what a mixture did, one for each effect, as settings.
 struct Start {
   std::vector<EnabledEffect> effects;
@@ -204,6 +209,7 @@ std::vector<Explanation> Contest::bestPairs() const {
   std::vector<Explanation> pairs;
   for (std::size_t a = 0; a < singles_.size(); ++a) {
     for (std::size_t b = a + 1; b < singles_.size(); ++b) {
+      if (isSlow(competition_.effects()[a].id) && isSlow(competition_.effects()[b].id)) continue;
       Explanation pair;
       pair.score = selection().score(singles_[a].score, competition_.effects()[b]);
       if (!std::isfinite(pair.score.total)) continue;
