@@ -1,0 +1,111 @@
+#include "fsr_pressure_map/ros/scrub_tool.h"
+
+#include <fsr_pressure_map/Event.h>
+#include <fsr_pressure_map/MatrixFrame.h>
+#include <fsr_pressure_map/Session.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <rosgraph_msgs/Log.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "support/pty.h"
+
+namespace {
+
+constexpr double kNow = 1763690400.25;  // [s]
+
+class ScrubTool : public testing::Test {
+ protected:
+  void SetUp() override {
+    rosbag::Bag bag(path_, rosbag::bagmode::Write);
+    const ros::Time time(kNow);
+    const boost::shared_ptr<ros::M_string> connection(new ros::M_string);
+    (*connection)["callerid"] = "/record_SECRETHOST_4711";
+    (*connection)["topic"] = "/fsr/raw";
+    (*connection)["type"] = ros::message_traits::datatype<fsr_pressure_map::MatrixFrame>();
+    (*connection)["md5sum"] = ros::message_traits::md5sum<fsr_pressure_map::MatrixFrame>();
+    (*connection)["message_definition"] = ros::message_traits::definition<fsr_pressure_map::MatrixFrame>();
+    fsr_pressure_map::MatrixFrame frame;
+    frame.header.stamp = time;
+    frame.sequence = 7;
+    frame.counts = {1, 2, 3};
+    bag.write("/fsr/raw", time, frame, connection);
+    fsr_pressure_map::Session session;
+    session.header.stamp = time;
+    session.session_id = "SECRETDATE";
+    session.subject_code = "S012";
+    session.notes.resize(1);
+    session.notes[0].value = "SECRETNOTE";
+    bag.write("/fsr/session", time, session);
+    fsr_pressure_map::Event event;
+    event.header.stamp = time;
+    event.kind = "note";
+    event.label = "SECRETLABEL";
+    bag.write("/fsr/events", time, event);
+    event.kind = "step";
+    event.label = "stairs";
+    bag.write("/fsr/events", time + ros::Duration(1.5), event);
+    rosgraph_msgs::Log log;
+    log.msg = "SECRETLOG";
+    bag.write("/rosout", time, log);
+    bag.close();
+  }
+  std::string run(const std::vector<std::string>& words) {
+    std::vector<const char*> arguments = {"scrub"};
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    std::ostringstream out;
+    try {
+      EXPECT_EQ(fsr_ros::scrubTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
+      return out.str();
+    } catch (const fsr::InputError& error) {
+      return error.what();
+    }
+  }
+
+  test_support::TemporaryFolder folder_;
+  std::string path_ = folder_.path("in.bag");
+  std::string output_ = folder_.path("out.bag");
+};
+
+TEST_F(ScrubTool, LeavesNoSecretAndKeepsTheScans) {
+  const std::string said = run({path_, "--output", output_});
+  std::ifstream file(output_, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(bytes.find("SECRET"), std::string::npos) << bytes.substr(bytes.find("SECRET"), 20);
+  ASSERT_TRUE(std::filesystem::exists(output_)) << said;
+  rosbag::Bag bag(output_);
+  std::size_t messages = 0;
+  for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+    ++messages;
+    EXPECT_LT(message.getTime().toSec(), 946684802.0) << message.getTopic();
+    if (const auto frame = message.instantiate<fsr_pressure_map::MatrixFrame>()) {
+      EXPECT_EQ(frame->sequence, 7u);
+      EXPECT_EQ(frame->counts, (std::vector<std::uint16_t>{1, 2, 3}));
+      EXPECT_DOUBLE_EQ(frame->header.stamp.toSec(), 946684800.25);
+    }
+    if (const auto session = message.instantiate<fsr_pressure_map::Session>()) {
+      EXPECT_EQ(session->subject_code, "S012");
+    }
+  }
+  EXPECT_EQ(messages, 4u);
+  EXPECT_NE(bytes.find("stairs"), std::string::npos) << "what is no note stays";
+  for (const char* removed : {"/rosout", "session ids", "notes of the session",
+                              "labels of events of kind note", "names of the nodes", "absolute times"}) {
+    EXPECT_NE(said.find(removed), std::string::npos) << removed << " in:\n" << said;
+  }
+}
+
+TEST_F(ScrubTool, RefusesToWriteOverTheBagAndWhatIsNone) {
+  EXPECT_EQ(run({path_, "--output", path_}), "--output is the bag itself: give another name");
+  std::ofstream(folder_.path("text")) << "no bag";
+  EXPECT_NE(run({folder_.path("text"), "--output", output_}).find("is no whole bag"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(output_));
+}
+
+}  // namespace
