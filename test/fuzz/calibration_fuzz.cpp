@@ -1,0 +1,13 @@
+// A calibration file is refused before HDF5 sees it unless its bytes have the hash of its first line.
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fuzz/fuzz_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  const fuzz::MemoryFile file(bytes, size);
+  try {
+    fsr::loadCalibration(file.path());
+  } catch (const fsr::InputError&) {
+  }
+  return 0;
+}

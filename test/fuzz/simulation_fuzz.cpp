@@ -1,0 +1,13 @@
+// A simulation file is read or refused in one sentence.
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/simulation/simulation_settings.h"
+#include "fuzz/fuzz_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  const fuzz::MemoryFile file(bytes, size);
+  try {
+    fsr::readSimulationFile(file.path());
+  } catch (const fsr::InputError&) {
+  }
+  return 0;
+}
