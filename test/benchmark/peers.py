@@ -1,15 +1,21 @@
 #!/usr/bin/python3
-"""Holds the regressors against other packages, in one run on the same data: one table of ratios.
+"""Holds the package against others and against its targets, in one run on the same data.
 
-Peers that are not installed are left out: python3-sklearn, python3-scipy, python3-opencv, r-cran-ranger
-(with r-base-core), libdlib-dev (when the benchmarks were built). Times are CPU times of one thread,
-medians; on a shared machine only their ratios mean anything.
+Prints the targets with what was reached, then every comparison. Peers that are not installed are left out:
+python3-sklearn, python3-scipy, python3-opencv, r-cran-ranger (with r-base-core), libdlib-dev (when the
+benchmarks were built). Times are CPU times of one thread, medians; on a shared machine only their ratios
+mean anything.
 
-    test/benchmark/peers.py FOLDER      the folder that holds regression_benchmark
+    test/benchmark/peers.py FOLDER [--tools FOLDER] the folder that holds regression_benchmark and
+                                                    calibrator_benchmark, and that of train, simulate, study and
+                                                    rosbag_peer
 """
 import argparse
+import datetime
 import json
 import os
+import platform
+import resource
 import subprocess
 import sys
 import tempfile
@@ -47,14 +53,40 @@ def read(path):
 
 
 class Table:
-    """Rows of the report: what, who, seconds, ours, how good."""
+    """Rows of the report: what, who, seconds, ours, how good; and the targets."""
 
     def __init__(self, ours):
         self.ours = ours
         self.rows = []
+        self.targets = []
 
     def add(self, work, peer, seconds, ours, quality=""):
+        """Returns by how much ours is faster."""
         self.rows.append((work, peer, seconds, seconds / self.ours[ours], quality))
+        return seconds / self.ours[ours]
+
+    def ratio(self, work, peer):
+        """By how much ours is faster, None where the peer is not installed."""
+        return next((row[3] for row in self.rows if row[0] == work and row[1] == peer), None)
+
+    def target(self, what, wanted, value, met, unit):
+        number = None if value is None else "%.3g" % value if value < 1000 else "{:,.0f}".format(value)
+        reached = "not measured" if value is None else number + " " + unit
+        self.targets.append((what, wanted, reached, "" if value is None else "yes" if met(value) else "NO"))
+
+    def at_least(self, what, least, value):
+        self.target(what, ">= %g x" % least, value, lambda v: v >= least, "x")
+
+    def at_most(self, what, most, unit, value):
+        self.target(what, "<= %g %s" % (most, unit), value, lambda v: v <= most, unit)
+
+    def show_targets(self):
+        print("%s, %s, %d cores\n" % (datetime.date.today(), processor(), os.cpu_count()))
+        print("| what | wanted | reached | met |")
+        print("|---|---|---|---|")
+        for row in self.targets:
+            print("| %s | %s | %s | %s |" % row)
+        print()
 
     def show(self):
         print("| work | peer | peer [ms] | ours is faster by | quality |")
@@ -63,17 +95,25 @@ class Table:
             print("| %s | %s | %.3g | %.3g | %s |" % (work, peer, 1e3 * seconds, ratio, quality))
 
 
+def processor():
+    with open("/proc/cpuinfo") as file:
+        names = [line.split(":", 1)[1].strip() for line in file if line.startswith("model name")]
+    return names[0] if names else platform.machine()
+
+
+def benchmarks(binary, repetitions):
+    """Medians of each benchmark, as Google Benchmark writes them."""
+    output = subprocess.run(
+        [binary, "--benchmark_format=json", "--benchmark_repetitions=%d" % repetitions, "--benchmark_min_time=0.1"],
+        check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout
+    return {e["run_name"]: e for e in json.loads(output)["benchmarks"] if e.get("aggregate_name") == "median"}
+
+
 def our_times(binary, repetitions):
     """Median CPU seconds of each benchmark."""
-    output = subprocess.run(
-        [binary, "--benchmark_format=json", "--benchmark_repetitions=%d" % repetitions, "--benchmark_min_time=0.2"],
-        check=True, stdout=subprocess.PIPE).stdout
     scale = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3}
-    times = {}
-    for entry in json.loads(output)["benchmarks"]:
-        if entry.get("aggregate_name") == "median":
-            times[entry["run_name"]] = entry["cpu_time"] * scale[entry["time_unit"]]
-    return times
+    return {name: entry["cpu_time"] * scale[entry["time_unit"]]
+            for name, entry in benchmarks(binary, repetitions).items()}
 
 
 # --- the GRNN -----------------------------------------------------------------------------------
@@ -113,8 +153,8 @@ def compare_grnn(table, folder, repetitions):
         lambda: dense_grnn(train[:, :1] / scale, train[:, 1], test[:, :1] / scale), repetitions)
     apart = np.abs(dense - ours).max() / np.ptp(train[:, 1])
     table.add(work, "numpy, dense", seconds, "GrnnTable/6000", "we differ by %.1e of the range" % apart)
-    table.rows.append((work, "Eigen, dense, same binary", table.ours["GrnnDenseEigen/6000"],
-                       table.ours["GrnnDenseEigen/6000"] / table.ours["GrnnTable/6000"], ""))
+    table.at_least("GRNN of 6,000 readings and 1,500 answers, against dense sums in Eigen", 300,
+                   table.add(work, "Eigen, dense, same binary", table.ours["GrnnDenseEigen/6000"], "GrnnTable/6000"))
     try:
         code, queries = train[:, 0].astype(int), test[:, 0].astype(int)
         scipy_grnn(code, train[:, 1], queries, PAPER_BANDWIDTH)
@@ -123,7 +163,25 @@ def compare_grnn(table, folder, repetitions):
     seconds, answers = cpu_seconds(
         lambda: [scipy_grnn(code, train[:, 1], queries, PAPER_BANDWIDTH) for _ in range(20)][-1], repetitions)
     lost = int(np.isnan(answers).sum())
-    table.add(work, "numpy bincount, scipy filter", seconds / 20, "GrnnTable/6000", "NaN on %d answers" % lost)
+    table.at_least("the same, against numpy's histogram and scipy's filter", 3, table.add(
+        work, "numpy bincount, scipy filter", seconds / 20, "GrnnTable/6000", "NaN on %d answers" % lost))
+    compare_every_code(table, train, folder)
+
+
+def compare_every_code(table, train, folder):
+    """The whole table against log-sum-exp in long double, far codes and gaps included."""
+    ours = read(folder + "/6000_grnn_table.csv")[:, 0]
+    code, counts = np.unique(train[:, 0].astype(int), return_counts=True)
+    sums = np.bincount(train[:, 0].astype(int), weights=train[:, 1], minlength=CODES)[code].astype(np.longdouble)
+    sigma = np.longdouble(train[:, 0].std(ddof=1)) * np.longdouble(PAPER_BANDWIDTH)
+    worst = 0.0
+    for reading in range(CODES):
+        exponent = ((code - reading) / sigma) ** 2 / 2
+        weight = np.exp(exponent.min() - exponent)
+        exact = (weight * sums).sum() / (weight * counts).sum()
+        worst = max(worst, abs(float(exact - ours[reading])))
+    table.at_most("GRNN at every code, error against long double", 1e-12, "of the range",
+                  worst / np.ptp(train[:, 1]) if np.isfinite(ours).all() else float("inf"))
 
 
 # --- the study ----------------------------------------------------------------------------------
@@ -200,8 +258,10 @@ def compare_study(table, folder):
         rmse = np.mean([dense_fold(groups, k, PAPER_BANDWIDTH) for groups in models for k in range(SECTIONS)])
         seconds += time.process_time() - start
         worst = max(worst, abs(rmse - ours[scheme, PAPER_BANDWIDTH]))
-    table.add(work, "numpy, dense (one bandwidth timed)", seconds * len(bandwidths), "GrnnStudyOfATaxel",
-              "RMSE%% differs by %.0e" % worst)
+    table.at_least("GRNN study of the paper's schemes, against numpy", 400, table.add(
+        work, "numpy, dense (one bandwidth timed)", seconds * len(bandwidths), "GrnnStudyOfATaxel",
+        "RMSE%% differs by %.0e" % worst))
+    table.at_most("the same, RMSE % against dense sums", 1e-8, "RMSE %", worst)
     try:
         start, lost = time.process_time(), 0
         for scheme in SCHEMES:
@@ -209,8 +269,9 @@ def compare_study(table, folder):
                 for k in range(SECTIONS):
                     for bandwidth in bandwidths:
                         lost += int(np.isnan(scipy_fold(groups, k, bandwidth)[0]).sum())
-        table.add(work, "numpy bincount, scipy filter", time.process_time() - start, "GrnnStudyOfATaxel",
-                  "NaN on %d answers" % lost)
+        table.at_least("the same, against numpy's histogram and scipy's filter", 5, table.add(
+            work, "numpy bincount, scipy filter", time.process_time() - start, "GrnnStudyOfATaxel",
+            "NaN on %d answers" % lost))
     except ImportError:
         pass
 
@@ -270,8 +331,7 @@ def compare_forest(table, folder, programs, repetitions):
         train, test = (read(path) for path in files)
         ours, distinct = (rmse_percent(read("%s/%d_%s.csv" % (folder, number, name))[:, 0], test[:, 1])
                           for name in ("forest", "forest_distinct"))
-        print("our forest at %d readings: RMSE%% %.3f, with a minimum leaf of distinct readings %.3f"
-              % (number, ours, distinct))
+        trained = []
         peers = {
             "scikit-learn": lambda: forest_scikit_learn(train, test, repetitions),
             "OpenCV": lambda: forest_opencv(train, test, repetitions),
@@ -285,16 +345,70 @@ def compare_forest(table, folder, programs, repetitions):
             except (ImportError, OSError):
                 print("%s is not installed" % name)
                 continue
-            table.add("forest, %d readings" % number, name, seconds, "ForestTable/%d" % number,
-                      "its RMSE%% %.3f" % rmse)
+            trained.append(table.add("forest, %d readings" % number, name, seconds, "ForestTable/%d" % number,
+                                     "RMSE%% %.3f, ours %.3f" % (rmse, distinct if name == "scikit-learn" else ours)))
+            if name == "scikit-learn":  # the one whose minimum leaf means what ours can mean
+                table.at_most("forest of %d readings, RMSE %% against scikit-learn's, same leaf rule" % number,
+                              0.05, "RMSE %", abs(rmse - distinct))
             if predicting is not None:
                 table.ours["TableLookUp/1"] = table.ours["TableLookUp"] / len(test)
-                table.add("forest, an answer", name, predicting, "TableLookUp/1")
+                times = table.add("forest, an answer", name, predicting, "TableLookUp/1")
+                if name == "scikit-learn" and number == 6000:
+                    table.at_least("an answer of the forest, against scikit-learn", 10000, times)
+        if trained:
+            table.at_least("forest of %d readings, against the fastest peer" % number, 20 if number == 6000 else 60,
+                           min(trained))
+
+
+# --- the live path, training, memory -----------------------------------------------------------
+
+
+def compare_calibrator(table, binary, repetitions):
+    found = benchmarks(binary, repetitions)
+    names = {"70": ("Calibrate/load_cycles/7/10", "CopyScanToFloat/7/10", 100),
+             "1,024": ("Calibrate/load_cycles/32/32", "CopyScanToFloat/32/32", 10000)}
+    for taxels, (name, copy, most) in names.items():
+        nanoseconds = found[name]["cpu_time"]
+        table.at_most("a scan of %s taxels to pressure, deviation and flags (%.0f x copying it)"
+                      % (taxels, nanoseconds / found[copy]["cpu_time"]), most, "ns", nanoseconds)
+    table.at_most("tables in use, 7 x 10 taxels, 12 bit, six classes", 25, "MB", found["Calibrate/load_cycles/7/10"]["MB"])
+    table.at_most("tables in use, 16 x 10 taxels, 16 bit, six classes", 200, "MB", found["FineConverter/16/10"]["MB"])
+
+
+def children_seconds(command, repetitions):
+    """Median CPU time of a program."""
+    times = []
+    for _ in range(repetitions):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        times.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+    return float(np.median(times))
+
+
+def compare_training(table, tools, folder, repetitions):
+    """Six bags of 7,500 scans x 70 taxels, made here."""
+    settings = os.path.join(os.path.dirname(__file__), "..", "..", "config", "simulation", "paper.yaml")
+    bags, output = os.path.join(folder, "bags"), os.path.join(folder, "calibration.h5")
+    children_seconds([os.path.join(tools, "simulate"), "--simulation", settings, "--output", bags], 1)
+    files = sorted(os.path.join(bags, name) for name in os.listdir(bags) if name.endswith(".bag"))
+    reader = subprocess.run([os.path.join(tools, "rosbag_peer"), str(repetitions), *files], check=True,
+                            stdout=subprocess.PIPE).stdout
+    reading = float(np.median([float(v) for v in reader.split()]))
+    train = [os.path.join(tools, "train"), *files, "--output", output]
+    fixed = children_seconds(train + ["--bandwidth", str(PAPER_BANDWIDTH), "--no-scores"], repetitions)
+    table.at_most("train on six bags, bandwidth given, no scores, in times of merely reading them with rosbag",
+                  4, "x", fixed / reading)
+    table.at_most("train on six bags, bandwidth chosen, with scores", 8, "s of CPU", children_seconds(train, repetitions))
+    study = [os.path.join(tools, "study"), *files, "--paper-only", "--no-figures",
+             "--output", os.path.join(folder, "study")]
+    table.at_most("the whole study of the paper", 20, "s of CPU", children_seconds(study, 1))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("folder", help="the folder that holds regression_benchmark")
+    parser.add_argument("folder", help="the folder that holds regression_benchmark and calibrator_benchmark")
+    parser.add_argument("--tools", help="the folder that holds train, simulate, study and rosbag_peer")
     parser.add_argument("--repetitions", type=int, default=5)
     arguments = parser.parse_args()
     binary = os.path.join(arguments.folder, "regression_benchmark")
@@ -306,7 +420,11 @@ def main():
         compare_grnn(table, folder, arguments.repetitions)
         compare_study(table, folder)
         compare_forest(table, folder, arguments.folder, arguments.repetitions)
+        compare_calibrator(table, os.path.join(arguments.folder, "calibrator_benchmark"), arguments.repetitions)
+        if arguments.tools:
+            compare_training(table, arguments.tools, folder, min(3, arguments.repetitions))
         again = our_times(binary, arguments.repetitions)
+    table.show_targets()
     table.show()
     print("\nours [ms], before and after the peers:")
     for name, seconds in table.ours.items():

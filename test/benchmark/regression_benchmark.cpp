@@ -124,6 +124,7 @@ void exportAll(const std::string& folder) {
     writeSamples(name + "_train.csv", data.train);
     writeSamples(name + "_test.csv", data.test);
     writeAnswers(name + "_grnn.csv", answersOf(fsr::Grnn().fitSamples(data.train).pressure, data.test));
+    writeAnswers(name + "_grnn_table.csv", fsr::Grnn().fitSamples(data.train).pressure);
     fsr::ForestOptions options;
     writeAnswers(name + "_forest.csv",
                  answersOf(fsr::Forest(options).fitSamples(data.train).pressure, data.test));
