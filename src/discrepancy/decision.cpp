@@ -22,6 +22,7 @@ constexpr std::size_t kPairsRefined = 4;
 constexpr double kMuchOpen = 0.75;       // of the common trace's error: less explained leaves room for two
 constexpr double kGoodForm = 0.7;        // of the ceiling
 constexpr double kTemperatureMoved = 5;  // [K]
+constexpr double kDriftHides = 0.5;      // of what drift explains: it may be any slow effect that near
 constexpr double kNearBadForm = 0.6;     // of the best one's share, where its form is wrong
 constexpr double kWorthRefining = 0.35;  // of what the best one explains
 constexpr double kClear = 0.9;           // of the ceiling: an explanation that leaves nothing open
@@ -299,7 +300,10 @@ void Contest::gatherRivals(const Explanation& best) {
   for (const Explanation& single : singles_) {
     if (single.score.ids == best.score.ids || !shows(single)) continue;
     const double behind = best.share - single.share;
-    const bool close = behind <= kRivalWithin * best.share;
+    // What everything slow looks like excludes nothing slow.
+    const bool near_drift = best.score.ids == std::vector<std::string>{"drift"} &&
+                            isSlow(single.score.ids.front()) && behind <= kDriftHides * best.share;
+    const bool close = behind <= kRivalWithin * best.share || near_drift;
     const bool indistinct = behindInErrors(single, best) < kSignificant && behind < kRivalFar * best.share;
     if (close || indistinct) rivals.push_back(&single);
   }
