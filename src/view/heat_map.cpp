@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsr_pressure_map/view/legend.h"
 #include "fsr_pressure_map/view/taxel_look.h"
 
 namespace fsr {
@@ -85,8 +86,9 @@ Image HeatMap::draw(const PressureMap& map, const std::vector<std::string>& line
   image.text(at, std::string(name(style_.layer)) + " [" + name(style_.scale.unit) + "]", kInk);
   drawTaxels(map, frame, image);
   drawMarks(map, frame, image);
-  drawLegend(frame, image);
-  drawKey(frame, image);
+  drawColourBar(style_.scale, {frame.corner.x + frame.matrix_width + kBarGap, frame.corner.y}, kBarWidth,
+                std::max(frame.matrix_height, kMinLongerSide), kInk, image);
+  drawKey({kMargin, frame.height - kMargin - 2 * kKeyRowHeight}, 2, frame.width / 2 - kMargin, kInk, image);
   return image;
 }
 
@@ -127,39 +129,6 @@ void HeatMap::drawMarks(const PressureMap& map, const Frame& frame, Image& image
       image.line(frame.at(row + stroke.from.y, column + stroke.from.x),
                  frame.at(row + stroke.to.y, column + stroke.to.x), ink, 2);
     }
-  }
-}
-
-void HeatMap::drawLegend(const Frame& frame, Image& image) const {
-  const PressureScale& scale = style_.scale;
-  const int left = frame.corner.x + frame.matrix_width + kBarGap;
-  const int top = frame.corner.y;
-  const int height = std::max(frame.matrix_height, kMinLongerSide);
-  for (int y = 0; y < height; ++y) {
-    image.fill({left, top + y}, kBarWidth, 1, colourAt(scale.colours, 1 - (y + 0.5) / height));
-  }
-  for (const Tick& tick : ticks(scale, 7)) {
-    const double part = (tick.pressure - scale.low) / (scale.high - scale.low);
-    const int y = top + std::min(height - 1, rounded((1 - part) * height));
-    image.fill({left + kBarWidth, y}, kTickLength, 1, kInk);
-    image.text({left + kBarWidth + kTickLength + 3, y - Image::kTextHeight / 2}, tick.label, kInk);
-  }
-}
-
-void HeatMap::drawKey(const Frame& frame, Image& image) const {
-  const int top = frame.height - kMargin - 2 * kLineHeight;
-  const int half = (frame.width - 2 * kMargin) / 2;
-  for (std::size_t i = 0; i < markedLooks().size(); ++i) {
-    const TaxelLook look = markedLooks()[i];
-    const Pixel corner{kMargin + half * static_cast<int>(i % 2), top + kLineHeight * static_cast<int>(i / 2)};
-    const Colour under = look == TaxelLook::kNoReading ? kNoReadingColour : Colour{72, 72, 72};
-    image.fill(corner, kKeySquare, kKeySquare, under);
-    const auto at = [&](Position p) {
-      return Pixel{corner.x + rounded((p.x + 0.5) * (kKeySquare - 1)),
-                   corner.y + rounded((p.y + 0.5) * (kKeySquare - 1))};
-    };
-    for (const Stroke& stroke : mark(look)) image.line(at(stroke.from), at(stroke.to), kInk, 1);
-    image.text({corner.x + kKeySquare + 6, corner.y}, name(look), kInk);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/view/legend.h"
 #include "fsr_pressure_map/view/taxel_look.h"
 
 namespace fsr {
@@ -104,6 +105,21 @@ TEST(HeatMap, RefusesAMapThatContradictsItself) {
   map.flags.pop_back();
   EXPECT_THROW(HeatMap(HeatMapStyle{}).draw(map), InputError);
   EXPECT_THROW(HeatMap(HeatMapStyle{}).draw(PressureMap{}), InputError);
+}
+
+TEST(Legend, HoldsTheScaleFromItsHighEndDown) {
+  Legend legend;
+  legend.lines = {"one"};
+  const Image image = drawLegend(legend);
+  int bright = 0, dark = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    if (image.at({15, y}) == legend.scale.colour(599e3)) bright = y;
+    if (image.at({15, y}) == legend.scale.colour(1e3)) dark = y;
+  }
+  EXPECT_GT(bright, 0);
+  EXPECT_GT(dark, bright + 150);
+  legend.lines = {std::string(300, 'x')};
+  EXPECT_EQ(drawLegend(legend).width(), image.width());
 }
 
 TEST(Image, DrawsNothingOutsideItself) {

@@ -41,8 +41,6 @@ class HeatMap {
   void drawTaxels(const PressureMap& map, const Frame& frame, Image& image) const;
   void drawSmoothly(const SmoothLayer& layer, MatrixSize size, const Frame& frame, Image& image) const;
   void drawMarks(const PressureMap& map, const Frame& frame, Image& image) const;
-  void drawLegend(const Frame& frame, Image& image) const;
-  void drawKey(const Frame& frame, Image& image) const;
 
   HeatMapStyle style_;
 };

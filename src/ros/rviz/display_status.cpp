@@ -1,0 +1,61 @@
+#include "display_status.h"
+
+#include <map>
+
+#include "fsr_pressure_map/ros/surface_markers.h"
+#include "fsr_pressure_map/view/taxel_look.h"
+
+namespace fsr_rviz {
+
+namespace {
+
+using rviz::StatusProperty;
+
+constexpr double kSilence = 2.0;  // [s] without a map before the status speaks of it
+
+}  // namespace
+
+StatusLine stateStatus(fsr::MapState state) {
+  const std::string text = fsr_ros::stateText(state);
+  switch (state) {
+    case fsr::MapState::kOk:
+      return {StatusProperty::Ok, "calibrated"};
+    case fsr::MapState::kUncalibrated:
+      return {StatusProperty::Error, text + "; load a calibration (calibration:=FILE or ~load_calibration)"};
+    case fsr::MapState::kSizeMismatch:
+      return {StatusProperty::Error, text + ": no pressure to show"};
+    case fsr::MapState::kWrongSensor:
+      return {StatusProperty::Error, text + ": pressures are not to be believed"};
+    default:
+      return {StatusProperty::Warn, text};
+  }
+}
+
+StatusLine mapStatus(double seconds, const std::string& topic) {
+  if (seconds < 0) return {StatusProperty::Warn, "no map has come on " + topic};
+  if (seconds < kSilence) return {StatusProperty::Ok, "maps are coming"};
+  return {StatusProperty::Warn, "no map for " + std::to_string(static_cast<long>(seconds)) + " s on " +
+                                    topic + ": the last one is shown"};
+}
+
+StatusLine curvatureStatus(const fsr::Surface& surface, const std::string& error, const std::string& topic) {
+  if (!error.empty()) return {StatusProperty::Error, error};
+  if (!surface.known()) return {StatusProperty::Warn, "none on " + topic + ": the sheet is drawn flat"};
+  return {StatusProperty::Ok, surface.name.empty() ? "received" : surface.name};
+}
+
+StatusLine taxelStatus(const fsr::PressureMap& map) {
+  std::map<fsr::TaxelLook, int> counts;
+  for (std::size_t i = 0; i < map.pressure.size(); ++i) ++counts[fsr::lookOf(map.pressure[i], map.flags[i])];
+  std::string text;
+  for (const fsr::TaxelLook look : fsr::markedLooks()) {
+    if (counts[look] == 0) continue;
+    text += (text.empty() ? "" : ", ") + std::to_string(counts[look]) + " " + fsr::name(look);
+  }
+  if (text.empty()) return {StatusProperty::Ok, "all read within range"};
+  const bool harmless = counts[fsr::TaxelLook::kGood] + counts[fsr::TaxelLook::kBelowRange] ==
+                        static_cast<int>(map.pressure.size());
+  return {harmless ? StatusProperty::Ok : StatusProperty::Warn, text};
+}
+
+}  // namespace fsr_rviz

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <OgrePrerequisites.h>
+#include <OgreTexture.h>
+
+#include "fsr_pressure_map/view/image.h"
+
+namespace Ogre {
+class Overlay;
+class PanelOverlayElement;
+}  // namespace Ogre
+
+namespace fsr_rviz {
+
+/// A picture that stands before the 3D scene, at one place of the window.
+class LegendOverlay {
+ public:
+  LegendOverlay();
+  ~LegendOverlay();
+  LegendOverlay(const LegendOverlay&) = delete;
+  LegendOverlay& operator=(const LegendOverlay&) = delete;
+
+  void show(const fsr::Image& image);
+  void hide();
+  /// Of the top left corner [pixels].
+  void moveTo(int left, int top);
+
+ private:
+  void makeTexture(const fsr::Image& image);
+
+  std::string name_;
+  Ogre::Overlay* overlay_;
+  Ogre::PanelOverlayElement* panel_;
+  Ogre::MaterialPtr material_;
+  Ogre::TexturePtr texture_;
+};
+
+}  // namespace fsr_rviz

@@ -1,0 +1,278 @@
+#include "pressure_panel.h"
+
+#include <fsr_pressure_map/Mark.h>
+#include <ros/service.h>
+#include <std_srvs/Trigger.h>
+
+#include <QComboBox>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <cmath>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "fsr_pressure_map/view/pressure_scale.h"
+
+namespace fsr_rviz {
+
+namespace {
+
+using fsr_pressure_map::PressureStatistics;
+
+constexpr double kSilence = 3.0;         // [s] after which a number is no longer shown
+constexpr int kRefresh = 200;            // [ms]
+constexpr double kStandardAir = 101325;  // [Pa], where matrix_info says nothing
+constexpr std::uint32_t kQueueSize = 10;
+
+QString text(const std::string& words) {
+  return words.empty() ? QString("-") : QString::fromStdString(words);
+}
+
+QString number(double value, double unit, const char* name, int decimals) {
+  if (!std::isfinite(value)) return "-";
+  return QString::number(value / unit, 'f', decimals) + " " + name;
+}
+
+// The answer of a service, or why there is none.
+template <typename Service>
+std::string answerOf(const std::string& name, Service& service) {
+  if (!ros::service::exists(name, false)) return "there is no service " + name;
+  if (!ros::service::call(name, service)) return name + " did not answer";
+  return service.response.message;
+}
+
+}  // namespace
+
+template <typename Message>
+bool PressurePanel::Last<Message>::fresh() const {
+  return message && (ros::WallTime::now() - received).toSec() < kSilence;
+}
+
+PressurePanel::PressurePanel(QWidget* parent) : Panel(parent) {
+  auto* column = new QVBoxLayout;
+  auto* grid = new QGridLayout;
+  namespace_ = new QLineEdit("/fsr");
+  grid->addWidget(new QLabel("Sensor"), 0, 0);
+  grid->addWidget(namespace_, 0, 1);
+  addNumbers(grid);
+  column->addLayout(grid);
+
+  auto* actions = new QHBoxLayout;
+  auto* events = new QHBoxLayout;
+  const auto button = [this](const char* label, const char* slot, QHBoxLayout* row) {
+    buttons_.push_back(new QPushButton(label));
+    row->addWidget(buttons_.back());
+    connect(buttons_.back(), SIGNAL(clicked()), this, slot);
+  };
+  button("Tare", SLOT(tare()), actions);
+  button("Reload calibration", SLOT(reload()), actions);
+  event_kind_ = new QComboBox;
+  event_kind_->addItems({"note", "cycle_start", "conditioning", "don", "doff", "step", "sync", "reject"});
+  event_label_ = new QLineEdit;
+  event_label_->setPlaceholderText("label");
+  events->addWidget(event_kind_);
+  events->addWidget(event_label_);
+  button("Mark event", SLOT(markEvent()), events);
+  column->addLayout(actions);
+  column->addLayout(events);
+  reply_ = new QLabel;
+  reply_->setWordWrap(true);
+  column->addWidget(reply_);
+  column->addStretch();
+  auto* warning = new QLabel("<b>Research use, not for diagnosis or fitting decisions</b>");
+  warning->setWordWrap(true);
+  column->addWidget(warning);
+  setLayout(column);
+
+  timer_ = new QTimer(this);
+  connect(timer_, SIGNAL(timeout()), this, SLOT(refresh()));
+  connect(namespace_, SIGNAL(editingFinished()), this, SLOT(listen()));
+}
+
+PressurePanel::~PressurePanel() {
+  if (caller_.joinable()) caller_.join();
+}
+
+QLabel* PressurePanel::addLine(QGridLayout* grid, const QString& name) {
+  const int row = grid->rowCount();
+  auto* value = new QLabel("-");
+  value->setWordWrap(true);
+  grid->addWidget(new QLabel(name), row, 0, Qt::AlignTop);
+  grid->addWidget(value, row, 1);
+  return value;
+}
+
+void PressurePanel::addNumbers(QGridLayout* grid) {
+  chamber_ = addLine(grid, "Chamber");
+  surface_ = addLine(grid, "Surface, mount");
+  session_ = addLine(grid, "Session");
+  calibration_ = addLine(grid, "Calibration");
+  peak_ = addLine(grid, "Peak");
+  mean_ = addLine(grid, "Mean over contact");
+  area_ = addLine(grid, "Contact area");
+  force_ = addLine(grid, "Force");
+  integral_ = addLine(grid, "Pressure x time");
+  alarms_ = addLine(grid, "Alarms");
+  unit_ = new QComboBox;
+  for (const std::string& unit : fsr::pressureUnitNames()) unit_->addItem(QString::fromStdString(unit));
+  const int row = grid->rowCount();
+  grid->addWidget(new QLabel("Unit"), row, 0);
+  grid->addWidget(unit_, row, 1);
+}
+
+void PressurePanel::onInitialize() {
+  listen();
+  timer_->start(kRefresh);
+}
+
+void PressurePanel::load(const rviz::Config& config) {
+  Panel::load(config);
+  QString value;
+  if (config.mapGetString("Sensor", &value)) namespace_->setText(value);
+  if (config.mapGetString("Unit", &value)) unit_->setCurrentText(value);
+  listen();
+}
+
+void PressurePanel::save(rviz::Config config) const {
+  Panel::save(config);
+  config.mapSetValue("Sensor", namespace_->text());
+  config.mapSetValue("Unit", unit_->currentText());
+}
+
+std::string PressurePanel::name(const std::string& relative) const {
+  std::string result = namespace_->text().trimmed().toStdString();
+  while (!result.empty() && result.back() == '/') result.pop_back();
+  return result + "/" + relative;
+}
+
+template <typename Message>
+void PressurePanel::keep(const std::string& topic, Last<Message>& last) {
+  last = {};
+  const auto store = [&last](const typename Message::ConstPtr& message) {
+    last.message = message;
+    last.received = ros::WallTime::now();
+  };
+  subscribers_.push_back(handle_.subscribe<Message>(name(topic), kQueueSize, store));
+}
+
+void PressurePanel::listen() {
+  subscribers_.clear();
+  try {
+    keep("chamber_pressure", last_chamber_);
+    keep("curvature", last_surface_);
+    keep("session", last_session_);
+    keep("calibration_info", last_calibration_);
+    keep("matrix_info", last_matrix_);
+    keep("statistics", last_statistics_);
+    reply_->clear();
+  } catch (const ros::Exception& error) {
+    subscribers_.clear();
+    reply_->setText(text(error.what()));
+  }
+  Q_EMIT configChanged();
+}
+
+void PressurePanel::refresh() {
+  const fsr::PressureUnit unit = fsr::pressureUnitOf(unit_->currentText().toStdString());
+  const double air = last_matrix_.message ? last_matrix_.message->ambient_pressure : kStandardAir;
+  chamber_->setText(last_chamber_.fresh()
+                        ? text(fsr::pressureText(last_chamber_.message->fluid_pressure - air, unit)) +
+                              " gauge"
+                        : QString("-"));
+  const auto& surface = last_surface_.message;
+  surface_->setText(surface ? text(surface->surface) + ", " +
+                                  (surface->mount > 0 ? QString::number(surface->mount) : QString("-"))
+                            : QString("-"));
+  const auto& session = last_session_.message;
+  session_->setText(session ? text(session->session_id) + " " + QString::fromStdString(session->subject_code)
+                            : QString("-"));
+  const auto& calibration = last_calibration_.message;
+  calibration_->setText(calibration && !calibration->id.empty()
+                            ? text(calibration->scheme) + ", " + text(calibration->id.substr(0, 12))
+                            : QString("none"));
+  calibration_->setToolTip(calibration ? QString::fromStdString(calibration->id) : QString());
+  showStatistics();
+  showAlarms();
+}
+
+void PressurePanel::showStatistics() {
+  PressureStatistics whole;
+  const bool fresh = last_statistics_.fresh() && !last_statistics_.message->regions.empty();
+  if (fresh) whole = last_statistics_.message->regions.front();
+  const fsr::PressureUnit unit = fsr::pressureUnitOf(unit_->currentText().toStdString());
+  const double none = std::nan("");
+  const QString place = fresh && std::isfinite(whole.peak)
+                            ? QString(", row %1, column %2").arg(whole.peak_row).arg(whole.peak_column)
+                            : QString();
+  peak_->setText(text(fsr::pressureText(fresh ? whole.peak : none, unit)) + place);
+  mean_->setText(text(fsr::pressureText(fresh ? whole.mean : none, unit)));
+  area_->setText(number(fresh ? whole.contact_area : none, 1e-4, "cm\u00b2", 1));
+  force_->setText(number(fresh ? whole.force : none, 1, "N", 1));
+  integral_->setText(number(fresh ? whole.pressure_time_integral : none, 1000, "kPa s", 0) +
+                     (fresh ? QString(" in %1 s").arg(whole.duration, 0, 'f', 0) : QString()));
+}
+
+// In words first, in colour second.
+void PressurePanel::showAlarms() {
+  QStringList alarm, unknown;
+  if (last_statistics_.fresh()) {
+    for (const PressureStatistics& region : last_statistics_.message->regions) {
+      const QString name = region.region.empty() ? QString("whole matrix") : text(region.region);
+      if (region.alarm == PressureStatistics::ALARM) alarm << name;
+      if (region.alarm == PressureStatistics::UNKNOWN) unknown << name;
+    }
+  } else {
+    unknown << "no statistics";
+  }
+  QStringList lines;
+  if (!alarm.empty()) lines << "ALARM: " + alarm.join(", ");
+  if (!unknown.empty()) lines << "UNKNOWN: " + unknown.join(", ");
+  alarms_->setText(lines.empty() ? QString("OK") : lines.join("\n"));
+  alarms_->setStyleSheet(!alarm.empty()     ? "background: #b00020; color: white; font-weight: bold"
+                         : !unknown.empty() ? "background: #606060; color: white"
+                                            : "");
+}
+
+void PressurePanel::tare() {
+  call("tare", [service = name("calibration/tare")] {
+    std_srvs::Trigger trigger;
+    return answerOf(service, trigger);
+  });
+}
+
+void PressurePanel::reload() {
+  call("reload", [service = name("calibration/reload")] {
+    std_srvs::Trigger trigger;
+    return answerOf(service, trigger);
+  });
+}
+
+void PressurePanel::markEvent() {
+  fsr_pressure_map::Mark mark;
+  mark.request.kind = event_kind_->currentText().toStdString();
+  mark.request.label = event_label_->text().toStdString();
+  call("mark", [service = name("session/mark"), mark]() mutable { return answerOf(service, mark); });
+}
+
+void PressurePanel::call(const std::string& what, const std::function<std::string()>& service) {
+  if (caller_.joinable()) caller_.join();  // it has answered: the buttons would be off otherwise
+  for (QPushButton* button : buttons_) button->setEnabled(false);
+  reply_->setText(text(what) + " ...");
+  caller_ = std::thread([this, service] {
+    const QString reply = QString::fromStdString(service());
+    QMetaObject::invokeMethod(this, "showReply", Qt::QueuedConnection, Q_ARG(QString, reply));
+  });
+}
+
+void PressurePanel::showReply(const QString& reply) {
+  for (QPushButton* button : buttons_) button->setEnabled(true);
+  reply_->setText(reply);
+}
+
+}  // namespace fsr_rviz
+
+PLUGINLIB_EXPORT_CLASS(fsr_rviz::PressurePanel, rviz::Panel)

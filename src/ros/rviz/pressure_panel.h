@@ -1,0 +1,88 @@
+#pragma once
+
+#ifndef Q_MOC_RUN
+#include <fsr_pressure_map/CalibrationInfo.h>
+#include <fsr_pressure_map/MatrixInfo.h>
+#include <fsr_pressure_map/PressureMap.h>
+#include <fsr_pressure_map/PressureStatisticsArray.h>
+#include <fsr_pressure_map/Session.h>
+#include <fsr_pressure_map/SurfaceCurvature.h>
+#include <ros/node_handle.h>
+#include <rviz/panel.h>
+#include <sensor_msgs/FluidPressure.h>
+
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+#endif
+
+class QComboBox;
+class QGridLayout;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QTimer;
+
+namespace fsr_rviz {
+
+/// The numbers of one sensor beside its picture, and buttons for what is done most: tare, reload, mark an
+/// event. Everything is read from the sensor's namespace; what has not come yet, or not for 3 s, reads "-".
+/// Services run beside the window, which never waits for them.
+class PressurePanel : public rviz::Panel {
+  Q_OBJECT
+
+ public:
+  explicit PressurePanel(QWidget* parent = nullptr);
+  ~PressurePanel() override;
+
+  void onInitialize() override;
+  void load(const rviz::Config& config) override;
+  void save(rviz::Config config) const override;
+
+ private Q_SLOTS:
+  void listen();
+  void refresh();
+  void tare();
+  void reload();
+  void markEvent();
+  void showReply(const QString& reply);
+
+ private:
+  template <typename Message>
+  struct Last {
+    typename Message::ConstPtr message;
+    ros::WallTime received;
+    bool fresh() const;
+  };
+  template <typename Message>
+  void keep(const std::string& topic, Last<Message>& last);
+  QLabel* addLine(QGridLayout* grid, const QString& name);
+  void addNumbers(QGridLayout* grid);
+  void showStatistics();
+  void showAlarms();
+  void call(const std::string& what, const std::function<std::string()>& service);
+  std::string name(const std::string& relative) const;
+
+  ros::NodeHandle handle_;
+  QLineEdit* namespace_;
+  QComboBox* unit_;
+  QLabel *chamber_, *surface_, *session_, *calibration_, *peak_, *mean_, *area_, *force_, *integral_,
+      *alarms_;
+  QComboBox* event_kind_;
+  QLineEdit* event_label_;
+  std::vector<QPushButton*> buttons_;
+  QLabel* reply_;
+  QTimer* timer_;
+
+  std::vector<ros::Subscriber> subscribers_;
+  Last<sensor_msgs::FluidPressure> last_chamber_;
+  Last<fsr_pressure_map::SurfaceCurvature> last_surface_;
+  Last<fsr_pressure_map::Session> last_session_;
+  Last<fsr_pressure_map::CalibrationInfo> last_calibration_;
+  Last<fsr_pressure_map::MatrixInfo> last_matrix_;
+  Last<fsr_pressure_map::PressureStatisticsArray> last_statistics_;
+  std::thread caller_;
+};
+
+}  // namespace fsr_rviz

@@ -1,0 +1,147 @@
+#include "sheet_visual.h"
+
+#include <OgreManualObject.h>
+#include <OgreMaterialManager.h>
+#include <OgreSceneManager.h>
+#include <OgreSceneNode.h>
+#include <OgreTechnique.h>
+
+#include <cmath>
+
+namespace fsr_rviz {
+
+namespace {
+
+constexpr double kMarkLift = 0.0004;  // [m] above the face, so that strokes are not hidden in it
+constexpr double kMarkWidth = 0.06;   // of a taxel's side
+
+Ogre::Vector3 toOgre(const fsr::Vector3& v) {
+  return {static_cast<Ogre::Real>(v.x), static_cast<Ogre::Real>(v.y), static_cast<Ogre::Real>(v.z)};
+}
+
+Ogre::ColourValue toOgre(fsr::Colour c) {
+  return Ogre::ColourValue(static_cast<float>(c.red) / 255, static_cast<float>(c.green) / 255,
+                           static_cast<float>(c.blue) / 255);
+}
+
+// Colours as they are, both faces visible; the same for the second pass of rviz's selection.
+Ogre::MaterialPtr plainMaterial() {
+  static int count = 0;
+  Ogre::MaterialPtr material =
+      Ogre::MaterialManager::getSingleton().create("fsr_pressure_map_sheet_" + std::to_string(count++),
+                                                   Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
+  for (const char* scheme : {"Default", "Pick1"}) {
+    Ogre::Technique* technique =
+        scheme == std::string("Default") ? material->getTechnique(0) : material->createTechnique();
+    technique->setSchemeName(scheme);
+    Ogre::Pass* pass = technique->getNumPasses() > 0 ? technique->getPass(0) : technique->createPass();
+    pass->setLightingEnabled(false);
+    pass->setCullingMode(Ogre::CULL_NONE);
+    pass->setManualCullingMode(Ogre::MANUAL_CULL_NONE);
+  }
+  return material;
+}
+
+// Four corners of a stroke as a narrow band on the face.
+void addBand(Ogre::ManualObject& object, const fsr::SheetMesh& mesh, double row, double column,
+             const fsr::Stroke& stroke, const Ogre::ColourValue& colour) {
+  const double dx = stroke.to.x - stroke.from.x, dy = stroke.to.y - stroke.from.y;
+  const double half = 0.5 * kMarkWidth / std::hypot(dx, dy);
+  const auto corner = [&](const fsr::Position& end, double side) {
+    object.position(
+        toOgre(mesh.point(row + end.y + side * half * dx, column + end.x - side * half * dy, kMarkLift)));
+    object.colour(colour);
+  };
+  corner(stroke.from, -1);
+  corner(stroke.to, -1);
+  corner(stroke.to, 1);
+  corner(stroke.from, -1);
+  corner(stroke.to, 1);
+  corner(stroke.from, 1);
+}
+
+}  // namespace
+
+SheetVisual::SheetVisual(Ogre::SceneManager* scene, Ogre::SceneNode* parent)
+    : scene_(scene),
+      node_(parent->createChildSceneNode()),
+      sheet_(scene->createManualObject()),
+      marks_(scene->createManualObject()),
+      material_(plainMaterial()) {
+  sheet_->setDynamic(true);
+  marks_->setDynamic(true);
+  node_->attachObject(sheet_);
+  node_->attachObject(marks_);
+}
+
+SheetVisual::~SheetVisual() {
+  scene_->destroyManualObject(sheet_);
+  scene_->destroyManualObject(marks_);
+  scene_->destroySceneNode(node_);
+  Ogre::MaterialManager::getSingleton().remove(material_);
+}
+
+void SheetVisual::setVisible(bool visible) {
+  node_->setVisible(visible);
+}
+
+void SheetVisual::show(const fsr::PressureMap& map, const fsr::SheetMesh& mesh,
+                       const fsr::HeatMapStyle& style, bool marks) {
+  if (style.smooth) {
+    mesh.colourSmoothly(map, style.layer, style.scale, colours_);
+  } else {
+    mesh.colourCells(map, style.layer, style.scale, colours_);
+  }
+  draw(mesh, colours_);
+  if (marks) {
+    drawMarks(map, mesh, style);
+  } else {
+    marks_->clear();
+  }
+}
+
+void SheetVisual::showIndices(const fsr::SheetMesh& mesh) {
+  std::vector<fsr::Colour> indices;
+  for (std::size_t i = 0; i < mesh.corners().size(); ++i) {
+    const std::size_t value = i / mesh.cornersOfTaxel() + 1;
+    indices.push_back({static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8),
+                       static_cast<std::uint8_t>(value)});
+  }
+  draw(mesh, indices);
+}
+
+void SheetVisual::draw(const fsr::SheetMesh& mesh, const std::vector<fsr::Colour>& colours) {
+  if (drawn_) {
+    sheet_->beginUpdate(0);
+  } else {
+    sheet_->begin(material_->getName(), Ogre::RenderOperation::OT_TRIANGLE_LIST);
+  }
+  drawn_ = true;
+  sheet_->estimateVertexCount(colours.size());
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    sheet_->position(toOgre(mesh.corners()[i]));
+    sheet_->colour(toOgre(colours[i]));
+  }
+  sheet_->end();
+}
+
+void SheetVisual::drawMarks(const fsr::PressureMap& map, const fsr::SheetMesh& mesh,
+                            const fsr::HeatMapStyle& style) {
+  marks_->clear();
+  bool any = false;
+  for (std::size_t i = 0; i < map.pressure.size(); ++i) {
+    const auto& strokes = fsr::mark(fsr::lookOf(map.pressure[i], map.flags[i]));
+    if (strokes.empty()) continue;
+    if (!any) marks_->begin(material_->getName(), Ogre::RenderOperation::OT_TRIANGLE_LIST);
+    any = true;
+    const double value = double(fsr::layerOf(map, style.layer)[i]);
+    const auto under = std::isnan(value) ? fsr::kNoReadingColour : style.scale.colour(value);
+    for (const fsr::Stroke& stroke : strokes) {
+      addBand(*marks_, mesh, map.layout.row({i}), map.layout.column({i}), stroke,
+              toOgre(fsr::markColour(under)));
+    }
+  }
+  if (any) marks_->end();
+}
+
+}  // namespace fsr_rviz

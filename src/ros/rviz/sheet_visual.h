@@ -1,0 +1,46 @@
+#pragma once
+
+#include <OgreMaterial.h>
+#include <OgrePrerequisites.h>
+
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/view/heat_map.h"
+#include "fsr_pressure_map/view/sheet_mesh.h"
+
+namespace fsr_rviz {
+
+/// The coloured sheet and its marks in rviz's scene. Colours are those of the scale, without light or shade:
+/// what a colour means must not depend on where one looks from.
+class SheetVisual {
+ public:
+  SheetVisual(Ogre::SceneManager* scene, Ogre::SceneNode* parent);
+  ~SheetVisual();
+  SheetVisual(const SheetVisual&) = delete;
+  SheetVisual& operator=(const SheetVisual&) = delete;
+
+  /// Draws the map on the mesh; `marks` on taxels that are not to be believed.
+  void show(const fsr::PressureMap& map, const fsr::SheetMesh& mesh, const fsr::HeatMapStyle& style,
+            bool marks);
+  /// In colours that tell the index of a taxel + 1 (red highest), for rviz's selection.
+  void showIndices(const fsr::SheetMesh& mesh);
+  void setVisible(bool visible);
+
+  Ogre::SceneNode* node() { return node_; }
+  Ogre::ManualObject* sheet() { return sheet_; }
+
+ private:
+  void draw(const fsr::SheetMesh& mesh, const std::vector<fsr::Colour>& colours);
+  void drawMarks(const fsr::PressureMap& map, const fsr::SheetMesh& mesh, const fsr::HeatMapStyle& style);
+
+  Ogre::SceneManager* scene_;
+  Ogre::SceneNode* node_;
+  Ogre::ManualObject* sheet_;
+  Ogre::ManualObject* marks_;
+  Ogre::MaterialPtr material_;
+  bool drawn_ = false;                // the sheet has its section
+  std::vector<fsr::Colour> colours_;  // of the corners, as last drawn
+};
+
+}  // namespace fsr_rviz

@@ -1,0 +1,271 @@
+// rviz itself, with the shipped configuration, on a recorded map: what is on the screen is held against the
+// map. Needs an X server; test/ros/rviz/rviz.test brings a headless one.
+
+#include <OgreCamera.h>
+#include <OgreSceneNode.h>
+#include <fsr_pressure_map/PressureMap.h>
+#include <fsr_pressure_map/SurfaceCurvature.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <rviz/display.h>
+#include <rviz/display_group.h>
+#include <rviz/properties/property_tree_model.h>
+#include <rviz/render_panel.h>
+#include <rviz/selection/selection_manager.h>
+#include <rviz/visualization_frame.h>
+#include <rviz/visualization_manager.h>
+
+#include <QApplication>
+#include <QImage>
+#include <QLabel>
+#include <QPixmap>
+#include <QScreen>
+#include <QTimer>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+
+#include "fsr_pressure_map/view/pressure_scale.h"
+
+namespace {
+
+using fsr_pressure_map::PressureMap;
+using fsr_pressure_map::SurfaceCurvature;
+
+const char* const kBag = FSR_SOURCE_DIR "/test/data/indenter_map.bag";
+const char* const kConfig = FSR_SOURCE_DIR "/config/rviz/live.rviz";
+
+template <typename Message>
+typename Message::ConstPtr lastOf(const std::string& topic) {
+  rosbag::Bag bag(kBag);
+  typename Message::ConstPtr last;
+  for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topic))) {
+    last = instance.instantiate<Message>();
+  }
+  return last;
+}
+
+/// rviz's window, once for all tests: its renderer cannot be started twice in a process.
+class Rviz : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    frame = new rviz::VisualizationFrame;
+    frame->setSplashPath("");
+    frame->initialize(kConfig);
+    frame->resize(1280, 900);
+    frame->show();
+    handle = new ros::NodeHandle;
+    maps = handle->advertise<PressureMap>("/fsr/pressure_map", 10);
+    curvature = handle->advertise<SurfaceCurvature>("/fsr/curvature", 10, true);
+    map = lastOf<PressureMap>("/fsr/pressure_map");
+    surface = lastOf<SurfaceCurvature>("/fsr/curvature");
+    display = displayNamed("Pressure map");
+  }
+
+  void SetUp() override {
+    ASSERT_NE(map, nullptr);
+    ASSERT_NE(display, nullptr);
+  }
+
+  static rviz::Display* displayNamed(const QString& name) {
+    rviz::DisplayGroup* group = frame->getManager()->getRootDisplayGroup();
+    for (int i = 0; i < group->numDisplays(); ++i) {
+      if (group->getDisplayAt(i)->getName() == name) return group->getDisplayAt(i);
+    }
+    return nullptr;
+  }
+
+  /// Runs rviz, with the map now and then where `publishing`, until `done`; false after 20 s.
+  static bool runUntil(const std::function<bool()>& done, bool publishing = true) {
+    const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(20);
+    while (!done() && ros::WallTime::now() < give_up) {
+      if (publishing) maps.publish(map);
+      QApplication::processEvents(QEventLoop::AllEvents, 50);
+    }
+    return done();
+  }
+
+  static void set(const QString& property, const QVariant& value) {
+    ASSERT_NE(display->subProp(property), nullptr);
+    ASSERT_TRUE(display->subProp(property)->setValue(value)) << property.toStdString();
+  }
+
+  /// A line of the display's status as "Level text", e.g. "Warn no map has come on ...".
+  static std::string status(const QString& name) {
+    for (int i = 0; i < display->numChildren(); ++i) {
+      rviz::Property* list = display->childAt(i);
+      if (!list->getName().startsWith("Status")) continue;
+      for (int j = 0; j < list->numChildren(); ++j) {
+        if (list->childAt(j)->getName() == name) return list->childAt(j)->getValue().toString().toStdString();
+      }
+    }
+    return "";
+  }
+
+  static bool says(const QString& name, const std::string& words) {
+    return status(name).find(words) != std::string::npos;
+  }
+
+  /// The 3D scene as it stands on the screen, overlays included.
+  static QImage picture() {
+    rviz::RenderPanel* panel = frame->getManager()->getRenderPanel();
+    return QApplication::primaryScreen()->grabWindow(panel->winId()).toImage();
+  }
+
+  /// Where a taxel's centre is on the screen: on a cylinder of the recorded curvature, worked out here.
+  static QPoint place(std::size_t taxel, const QImage& image) {
+    const double k = double(surface->x.front());  // [1/m]
+    const double along = double(map->pitch_x) * (double(taxel % map->columns) - 0.5 * (map->columns - 1));
+    const double y = double(map->pitch_y) * (double(taxel / map->columns) - 0.5 * (map->rows - 1));
+    const Ogre::Vector4 point(static_cast<float>(std::sin(k * along) / k), static_cast<float>(y),
+                              static_cast<float>((std::cos(k * along) - 1) / k), 1);
+    const Ogre::Camera* camera = frame->getManager()->getRenderPanel()->getCamera();
+    const Ogre::Vector4 clip = camera->getProjectionMatrix() * (camera->getViewMatrix() * point);
+    return {static_cast<int>(0.5 * double(1 + clip.x / clip.w) * image.width()),
+            static_cast<int>(0.5 * double(1 - clip.y / clip.w) * image.height())};
+  }
+
+  static bool hasColour(const QImage& image, const QPoint& at, fsr::Colour colour, int tolerance) {
+    const QColor pixel = image.pixelColor(at);
+    return std::abs(pixel.red() - colour.red) <= tolerance &&
+           std::abs(pixel.green() - colour.green) <= tolerance &&
+           std::abs(pixel.blue() - colour.blue) <= tolerance;
+  }
+
+  static std::size_t rightTaxels(const std::vector<float>& values, const fsr::PressureScale& scale,
+                                 int tolerance) {
+    const QImage image = picture();
+    std::size_t right = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      right += hasColour(image, place(i, image), scale.colour(double(values[i])), tolerance);
+    }
+    return right;
+  }
+
+  static rviz::VisualizationFrame* frame;
+  static ros::NodeHandle* handle;
+  static ros::Publisher maps, curvature;
+  static PressureMap::ConstPtr map;
+  static SurfaceCurvature::ConstPtr surface;
+  static rviz::Display* display;
+};
+
+rviz::VisualizationFrame* Rviz::frame = nullptr;
+ros::NodeHandle* Rviz::handle = nullptr;
+ros::Publisher Rviz::maps, Rviz::curvature;
+PressureMap::ConstPtr Rviz::map;
+SurfaceCurvature::ConstPtr Rviz::surface;
+rviz::Display* Rviz::display = nullptr;
+
+TEST_F(Rviz, A1SaysThatNoMapHasCome) {
+  EXPECT_EQ(display->getClassId(), "fsr_pressure_map/PressureMap");  // and not rviz's FailedDisplay
+  EXPECT_TRUE(runUntil([] { return says("Map", "no map has come on /fsr/pressure_map"); }, false));
+  EXPECT_TRUE(says("Curvature", "drawn flat"));
+}
+
+TEST_F(Rviz, A2SaysWhyAnUncalibratedMapShowsNoPressure) {
+  PressureMap uncalibrated = *map;
+  uncalibrated.state = PressureMap::STATE_UNCALIBRATED;
+  uncalibrated.pressure.assign(uncalibrated.pressure.size(), NAN);
+  const auto publish = [&] {
+    maps.publish(uncalibrated);
+    return says("State", "uncalibrated");
+  };
+  EXPECT_TRUE(runUntil(publish, false));
+  EXPECT_TRUE(says("Taxels", "70 no reading"));
+}
+
+TEST_F(Rviz, BShowsTheRecordedMapInTheColoursOfItsScale) {
+  curvature.publish(surface);
+  displayNamed("Matrix frame")->setEnabled(false);  // it would stand before some taxels, as would the legend
+  set("Legend", false);
+  set("Marks", false);
+  set("Style", "Cells");
+  const auto all = map->pressure.size();
+  EXPECT_TRUE(runUntil([&] {
+    return says("Curvature", "cylinder_7cm") && rightTaxels(map->pressure, {}, 2) == all;
+  })) << rightTaxels(map->pressure, {}, 2)
+      << " of " << all << " taxels have their colour";
+  EXPECT_TRUE(says("State", "calibrated"));
+}
+
+TEST_F(Rviz, CShowsItSmoothlyToo) {
+  set("Style", "Smooth");
+  const auto all = map->pressure.size();
+  EXPECT_TRUE(runUntil([&] { return rightTaxels(map->pressure, {}, 16) == all; }))
+      << rightTaxels(map->pressure, {}, 16) << " of " << all << " taxels have their colour";
+}
+
+TEST_F(Rviz, DShowsTheDeviationOnItsOwnScale) {
+  set("Style", "Cells");
+  set("Layer", "Deviation");
+  set("High (kPa)", 40);
+  fsr::PressureScale scale;
+  scale.high = 40e3;
+  const auto all = map->deviation.size();
+  EXPECT_TRUE(runUntil([&] { return rightTaxels(map->deviation, scale, 2) == all; }));
+  set("Layer", "Pressure");
+  set("High (kPa)", 600);
+}
+
+TEST_F(Rviz, EShowsItsLegendFromTheHighEndDown) {
+  set("Legend", true);
+  const fsr::PressureScale scale;
+  const auto bar = [&] {
+    const QImage image = picture();
+    const int x = 30, top = 76, height = 190;  // of the bar in the window [pixels]
+    int right = 0;
+    for (int i = 0; i < 10; ++i) {
+      const double part = (i + 0.5) / 10;
+      right += hasColour(image, {x, top + static_cast<int>(part * height)},
+                         fsr::colourAt(scale.colours, 1 - part), 8);
+    }
+    return right;
+  };
+  EXPECT_TRUE(runUntil([&] { return bar() == 10; })) << bar() << " of 10 places of the bar are right";
+}
+
+TEST_F(Rviz, FReadsATaxelOutWhenItIsSelected) {
+  set("Legend", false);
+  const std::size_t taxel = 36;  // row 3, column 6
+  ASSERT_TRUE(runUntil([&] { return rightTaxels(map->pressure, {}, 2) == map->pressure.size(); }));
+  const QPoint at = place(taxel, picture());
+  rviz::SelectionManager* selection = frame->getManager()->getSelectionManager();
+  selection->select(frame->getManager()->getRenderPanel()->getViewport(), at.x() - 2, at.y() - 2, at.x() + 2,
+                    at.y() + 2, rviz::SelectionManager::Replace);
+  rviz::Property* root = selection->getPropertyModel()->getRoot();
+  const auto readOut = [&] { return root->numChildren() > 0 ? root->childAt(0) : nullptr; };
+  ASSERT_TRUE(runUntil([&] { return readOut() != nullptr; }));
+  EXPECT_EQ(readOut()->getName().toStdString(), "Taxel row 3, column 6");
+  EXPECT_EQ(readOut()->subProp("Gauge pressure")->getValue().toString().toStdString(),
+            fsr::pressureText(double(map->pressure[taxel]), fsr::PressureUnit::kKilopascal));
+}
+
+TEST_F(Rviz, GShowsTheNumbersInItsPanelAndWhatItIsNotFor) {
+  QString all;
+  for (const QLabel* label : frame->findChildren<QLabel*>()) all += label->text() + "\n";
+  EXPECT_TRUE(all.contains("Research use, not for diagnosis or fitting decisions"));
+  EXPECT_TRUE(all.contains("Contact area"));
+  EXPECT_TRUE(all.contains("UNKNOWN: no statistics"));
+}
+
+TEST_F(Rviz, HSaysThatTheFixedFrameIsWrong) {
+  frame->getManager()->setFixedFrame("nowhere");
+  EXPECT_TRUE(runUntil([] { return says("Transform", "nowhere"); })) << status("Transform");
+  frame->getManager()->setFixedFrame("fsr_matrix");
+  EXPECT_TRUE(runUntil([] { return rightTaxels(map->pressure, {}, 2) == map->pressure.size(); }));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "rviz_test");
+  QApplication application(argc, argv);
+  const int status = RUN_ALL_TESTS();
+  std::fflush(nullptr);
+  std::_Exit(status);  // rviz's own static objects may not outlive the display server in any order
+}
