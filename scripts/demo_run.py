@@ -186,7 +186,7 @@ def show(rig, output, logs, limit):
         log = logs / "rviz.log"
         child = stack.enter_context(process(rviz, log, env=environment))
         wait_until(lambda: any("rviz" in node for node in
-                               dict(rig.master.getSystemState()[1]).get(f"/{NAMESPACE}/points", [])), child, "rviz", log)
+                               dict(rig.master.getSystemState()[1]).get(f"/{NAMESPACE}/pressure_map", [])), child, "rviz", log)
         taken = demo_score.screenshot(rig, picture, environment, SHOW_PRESSURE, limit)
         if os.environ.get("DISPLAY") and sys.stdout.isatty():
             say("rviz shows the live map; close its window to end the demo")
