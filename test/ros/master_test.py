@@ -66,16 +66,20 @@ class MasterTest(unittest.TestCase):
         self.wait_for(lambda: active.exists() and active.stat().st_size > 50_000)
         master.kill()
         master.wait()
+        gone = time.time()
         size = active.stat().st_size
         self.wait_for(lambda: active.stat().st_size > size + 30_000)
         self.start_master()
+        back = time.time()
         size = active.stat().st_size
         self.wait_for(lambda: active.stat().st_size > size + 30_000)
         recorder.send_signal(signal.SIGINT)
         recorder.wait(30)
         with rosbag.Bag(str(bag)) as recorded:
-            numbers = [message.sequence for _, message, _ in recorded.read_messages("/raw")]
-        self.assertGreater(len(numbers), 500)
+            scans = [(message.sequence, received.to_sec()) for _, message, received in recorded.read_messages("/raw")]
+        numbers = [number for number, _ in scans]
+        self.assertTrue(any(gone < received < back for _, received in scans), "nothing recorded while the master was gone")
+        self.assertTrue(any(received > back for _, received in scans), "nothing recorded after the master came back")
         self.assertEqual(numbers, list(range(numbers[0], numbers[0] + len(numbers))), "a hole")
 
 
