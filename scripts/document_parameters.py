@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""document_parameters.py [--check] README.md: the parameter tables of the README, from the launch files.
+"""document_parameters.py [--check] PAGE.md: the parameter tables of a page (docs/nodes.md), from the launch files.
 
 A table stands between `<!-- parameters: launch/NAME.launch -->` and `<!-- end -->`; each row is an
 <arg> with its default and doc. --check changes nothing and leaves with status 1 where one is out of date.
@@ -23,14 +23,15 @@ def table(launch):
 
 def main():
     check = "--check" in sys.argv
-    readme = pathlib.Path(sys.argv[-1])
-    old = readme.read_text()
-    new = BLOCK.sub(lambda match: match[1] + table(readme.parent / match[2]) + match[4], old)
+    page = pathlib.Path(sys.argv[-1])
+    house = pathlib.Path(__file__).resolve().parent.parent
+    old = page.read_text()
+    new = BLOCK.sub(lambda match: match[1] + table(house / match[2]) + match[4], old)
     if check and new != old:
-        print(f"{readme}: parameter tables are out of date; run scripts/document_parameters.py {readme}", file=sys.stderr)
+        print(f"{page}: parameter tables are out of date; run scripts/document_parameters.py {page}", file=sys.stderr)
         return 1
     if not check:
-        readme.write_text(new)
+        page.write_text(new)
     return 0
 
 
