@@ -18,6 +18,8 @@ from fsr_pressure_map.msg import MatrixFrame, MatrixInfo
 
 SCAN_RATE = 10.0  # [Hz], the paper's: the slowest stream, so the one whose chunk stays open longest
 SCANS = 40
+# What may lie in the sockets between publisher and recorder.
+SOCKET_BYTES = sum(int(pathlib.Path(f"/proc/sys/net/ipv4/{name}").read_text().split()[2]) for name in ("tcp_rmem", "tcp_wmem"))
 
 
 class Recorder:
@@ -76,6 +78,24 @@ class RecordTest(unittest.TestCase):
             rate.sleep()
         return stamps
 
+    def scans_on_disk(self):
+        """The scans that a kill -9 would leave by now."""
+        copy = pathlib.Path(self.folder.name) / "so_far.bag"
+        shutil.copy(f"{self.recorder.bag}.bag.active", copy)
+        with rosbag.Bag(str(copy), "a", allow_unindexed=True) as bag:
+            for _ in bag.reindex():
+                pass
+        return [message for topic, message in self.recorded(copy) if topic == "/fsr/raw"]
+
+    def wait_until_written(self, count):
+        """Goes on publishing until the first `count` scans are in the file."""
+        for i in range(count, count + 600):
+            if len(self.scans_on_disk()) >= count:
+                return
+            self.scans.publish(MatrixFrame(sequence=i, rows=7, columns=10, full_scale=4095, counts=[i] * 70))
+            rospy.sleep(0.05)
+        self.fail("the scans were not written within 30 s")
+
     def recorded(self, path):
         with rosbag.Bag(str(path)) as bag:
             return [(topic, message) for topic, message, _ in bag.read_messages()]
@@ -91,13 +111,16 @@ class RecordTest(unittest.TestCase):
 
     def test_a_full_disk_ends_the_launch_and_leaves_a_bag_that_opens(self):
         self.record(self.small_disk(), "min_space:=0")
-        for i in range(20000):
+        written = pathlib.Path(f"{self.recorder.bag}.bag.active")
+        for i in range(400):  # twice what the disk takes
             frame = MatrixFrame(sequence=i, rows=32, columns=32, full_scale=4095, counts=[i % 4096] * 1024)
             frame.header.stamp = rospy.Time.now()
             self.scans.publish(frame)
-            if self.recorder.launch.poll() is not None:
-                break
-            rospy.sleep(0.005)
+            # No more under way than every queue on the way holds, so that nothing but the disk loses a scan.
+            for _ in range(600):
+                if self.recorder.launch.poll() is not None or written.stat().st_size > 2048 * (i - 50):
+                    break
+                rospy.sleep(0.05)
         self.recorder.launch.wait(30)
         active = pathlib.Path(self.folder.name) / "rescued.bag"  # on a disk with room for the index
         shutil.copy(f"{self.recorder.bag}.bag.active", active)
@@ -111,12 +134,15 @@ class RecordTest(unittest.TestCase):
         self.publish_scans()
         pid = self.recorder.pid()
         os.kill(pid, signal.SIGSTOP)  # a disk that takes nothing for a while
-        sent = list(range(SCANS, SCANS + 2000))
+        scan = MatrixFrame(rows=128, columns=128, full_scale=4095, counts=[1] * 128 ** 2)
+        sent = list(range(SCANS, SCANS + 200 + SOCKET_BYTES // (2 * len(scan.counts))))  # 200: more than any queue
         for i in sent:
-            self.scans.publish(MatrixFrame(sequence=i, rows=64, columns=64, full_scale=4095, counts=[1] * 4096))
+            scan.sequence = i
+            self.scans.publish(scan)
             rospy.sleep(0.0005)
+        size = os.path.getsize(f"{self.recorder.bag}.bag.active")
         os.kill(pid, signal.SIGCONT)
-        rospy.sleep(1.0)
+        self.wait_for(lambda: os.path.getsize(f"{self.recorder.bag}.bag.active") > size)
         self.recorder.launch.send_signal(signal.SIGINT)
         self.recorder.launch.wait(30)
         kept = [m.sequence for topic, m in self.recorded(f"{self.recorder.bag}.bag") if topic == "/fsr/raw"]
@@ -126,6 +152,8 @@ class RecordTest(unittest.TestCase):
     def test_kill_loses_at_most_the_last_second(self):
         self.record()
         stamps = self.publish_scans()
+        # However far the recorder lags behind, it gets there; were the chunks larger, it would not.
+        self.wait_for(lambda: stamps[-1] - self.scans_on_disk()[-1].header.stamp.to_sec() < 1.0)
         os.kill(self.recorder.pid(), signal.SIGKILL)
         self.recorder.launch.wait(30)  # the launch ends with its recorder
         active = pathlib.Path(f"{self.recorder.bag}.bag.active")
@@ -138,6 +166,7 @@ class RecordTest(unittest.TestCase):
     def test_a_bag_can_be_understood_alone(self):
         self.record()
         self.publish_scans()
+        self.wait_until_written(SCANS)
         self.recorder.launch.send_signal(signal.SIGINT)
         self.recorder.launch.wait(30)
         messages = self.recorded(f"{self.recorder.bag}.bag")
@@ -146,7 +175,8 @@ class RecordTest(unittest.TestCase):
         self.assertEqual(last["/fsr/session"].trial, "2")
         self.assertEqual(last["/fsr/curvature"].surface, "cylinder_7cm")
         self.assertEqual(last["/fsr/matrix_info"].serial, "FSR-0001")
-        self.assertEqual(sum(topic == "/fsr/raw" for topic, _ in messages), SCANS)
+        scans = [message.sequence for topic, message in messages if topic == "/fsr/raw"]
+        self.assertEqual(scans[:SCANS], list(range(SCANS)))
 
 
 if __name__ == "__main__":
