@@ -206,8 +206,16 @@ def not_testable(results):
 
 
 def held_out(gap):
-    parts = ", ".join(gap["held_out_by"]) or "nothing"
+    closed = {held["by"]: " (closed %s)" % percent(held["closed"]) for held in gap["foretold"]}
+    parts = ", ".join(by + closed.get(by, "") for by in gap["held_out_by"]) or "nothing"
     return parts + (" (weak evidence: only cycles)" if gap["held_out_by"] == ["cycles"] else "")
+
+
+def foretold_section(results):
+    rows = [(held["by"], part["part"], percent(part["closed"]))
+            for held in results["gap"]["foretold"] for part in held["parts"]]
+    return [style.paragraph("What was found, sized on all the others, closes of the gap on"),
+            style.table(["held out", "", "closed"], rows)] if rows else []
 
 
 def opened(results):
@@ -261,7 +269,8 @@ def where_section(results):
 def use_section(results):
     rows = [(SITUATIONS.get(u["situation"], u["situation"]), kilopascal(u["before_pa"]), kilopascal(u["after_pa"]))
             for u in results["in_use"]]
-    return [style.table(["largest error", "before", "after"], rows)] if rows else []
+    return [style.paragraph("Of who reads the sheet through static curves alone, and of who models what was found:"),
+            style.table(["largest error", "before", "after"], rows)] if rows else []
 
 
 def provenance(results):
@@ -282,6 +291,7 @@ def sections(results, figures):
         (None, [LAYOUT, first_screen(results, figures["first"])]),
         ("What was found", effects_section(results) + [style.paragraph(s["sentence"]) for s in results["steps"]]),
         ("Where it shows", where_section(results) if shown else []),
+        ("Does it hold elsewhere", foretold_section(results)),
         ("What it costs in use", use_section(results)),
         ("All candidates", pictures((figures["candidates"], "The best explanations, each alone or in pairs; green: "
                                      "named, orange: not excluded, grey: refused"))),

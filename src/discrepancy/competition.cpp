@@ -151,12 +151,27 @@ void Competition::judgeRepeating(const Measured& measured, const CommonTraces& c
 }
 
 Trace Competition::explained(const Score& score) const {
-  Trace trace = Trace::Zero(columns_.rows());
-  for (std::size_t i = 0; i < score.set.columns.size(); ++i) {
-    const double b = score.coefficients[static_cast<Eigen::Index>(i)];
-    if (b != 0) trace += b * columns_.col(score.set.columns[i]);
+  return explainedBy(score.set, score.coefficients);
+}
+
+Trace Competition::explainedWithout(const Score& score, const std::vector<bool>& cycles) const {
+  std::vector<bool> wanted(measured_.cycles.size());
+  for (std::size_t c = 0; c < wanted.size(); ++c) {
+    const MeasuredCycle& cycle = measured_.cycles[c];
+    const bool acts =
+        !score.set.bent_only || !isFlat(measured_.classes[measured_.visits[cycle.visit].curvature_class]);
+    wanted[c] = acts && cycle.use == CycleUse::kFit && !cycles[c];
   }
-  for (std::size_t i = 0; score.set.bent_only && i < measured_.moments(); ++i) {
+  return explainedBy(score.set, fitColumns(grams_->sum(wanted), score.set));
+}
+
+Trace Competition::explainedBy(const ColumnSet& set, const Eigen::VectorXd& coefficients) const {
+  Trace trace = Trace::Zero(columns_.rows());
+  for (std::size_t i = 0; i < set.columns.size(); ++i) {
+    const double b = coefficients[static_cast<Eigen::Index>(i)];
+    if (b != 0) trace += b * columns_.col(set.columns[i]);
+  }
+  for (std::size_t i = 0; set.bent_only && i < measured_.moments(); ++i) {
     if (isFlat(measured_.classes[measured_.classOf(i)])) trace[static_cast<Eigen::Index>(i)] = 0;
   }
   return trace;

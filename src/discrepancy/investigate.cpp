@@ -3,8 +3,10 @@
 #include <memory>
 
 #include "fsr_pressure_map/discrepancy/base_fit.h"
+#include "fsr_pressure_map/discrepancy/costs_in_use.h"
 #include "fsr_pressure_map/discrepancy/decision.h"
 #include "fsr_pressure_map/discrepancy/findings.h"
+#include "fsr_pressure_map/discrepancy/held_out.h"
 #include "fsr_pressure_map/discrepancy/next_experiment.h"
 #include "fsr_pressure_map/discrepancy/refine.h"
 #include "fsr_pressure_map/discrepancy/show.h"
@@ -22,6 +24,7 @@ constexpr double kPredictedLow = 0.6, kPredictedHigh = 1.6;
 constexpr double kFarLevel = 1.8;          // of the highest reading: a limit that far off limits nothing
 constexpr int kMostRounds = 4;             // of repeat()
 constexpr double kFormHolds = 0.7;         // of what a mixture of forms explains
+constexpr double kHoldsElsewhere = 0.5;    // of the gap closed on cycles: less on a part is worth a word
 constexpr double kNotIdentifiable = 0.05;  // of a signature, that the static curves leave
 
 using Ids = std::vector<std::string>;
@@ -57,6 +60,10 @@ class Investigation {
   void startAgain();
   void putFindings();
   void show();
+  Trace leftWithout(const Part& part) const;
+  std::vector<Part> surfacesWhereItShows() const;
+  void holdOut(const std::string& by, const std::vector<Part>& parts, const GapGround& ground,
+               const std::string& missing);
   void listNotIdentifiable();
   void answerQuestions();
   void foresee();
@@ -78,7 +85,8 @@ class Investigation {
   std::vector<Finding> findings_, later_;
   SimulationSettings current_;  // with all that was taken out
   bool quiet_ = false;
-  Trace left_;  // what the effects take from the common trace's residual
+  bool by_terms_ = false;  // what is shown are fitted terms, not the effects in the simulation
+  Trace left_;             // what the effects take from the common trace's residual
   DiscrepancyReport report_;
 };
 
@@ -159,6 +167,7 @@ void Investigation::repeat() {
   if (!quiet_)
     report_.limitations.push_back("What is left after the last round is not quiet: " + name(last.verdict) +
                                   ".");
+  by_terms_ = false;
   const Eigen::Map<const Trace> gain(measured_.gain.data(), before.size());
   left_ = before - fit_->residual(common_.all).cwiseProduct(gain);
 }
@@ -231,8 +240,8 @@ void Investigation::put() {
   report_.candidates = decision_.candidates;
   report_.added = report_.base;
   left_ = Trace::Zero(common_.all.size());
-  if (decision_.verdict == Verdict::kUnknown)
-    left_ = fit_->residual(competition_->explained(decision_.explanation));
+  by_terms_ = decision_.verdict == Verdict::kUnknown;
+  if (by_terms_) left_ = fit_->residual(competition_->explained(decision_.explanation));
   if (decision_.credible.empty()) return;
   const Refined& refined = decision_.refined;
   for (std::size_t e = 0; e < refined.effects.size(); ++e) {
@@ -244,6 +253,7 @@ void Investigation::put() {
   left_ = refined.trace;
   if (refined.share >= kFormHolds * decision_.share) return;
   // The gap is that of the mixture of forms that was found; the simulation holds the nearest single form.
+  by_terms_ = true;
   left_ = fit_->grown(competition_->explained(decision_.explanation));
   report_.limitations.push_back(
       "The form in the simulation closes less of the gap than the mixture of forms that was found.");
@@ -288,6 +298,59 @@ void Investigation::putFindings() {
   }
 }
 
+// What the explanation takes from the common trace where it was sized without one part.
+Trace Investigation::leftWithout(const Part& part) const {
+  if (by_terms_) {
+    std::vector<bool> unseen(measured_.cycles.size());
+    for (const std::size_t c : part.cycles) unseen[c] = true;
+    const Trace trace = competition_->explainedWithout(decision_.explanation, unseen);
+    return decision_.verdict == Verdict::kUnknown ? fit_->residual(trace) : fit_->grown(trace);
+  }
+  std::vector<EnabledEffect> effects = decision_.refined.effects;
+  for (const Finding& more : later_) effects.insert(effects.end(), more.enable.begin(), more.enable.end());
+  return refine(withoutPart(measured_, part), common_, *fit_, report_.base, effects,
+                decision_.refined.carried, decision_.explanation.set.bent_only)
+      .trace;
+}
+
+std::vector<Part> Investigation::surfacesWhereItShows() const {
+  std::vector<Part> surfaces = partsByCondition(measured_);
+  const Ids& where = report_.where.conditions;
+  const auto elsewhere = [&](const Part& part) {
+    return !where.empty() && !std::count(where.begin(), where.end(), part.name);
+  };
+  surfaces.erase(std::remove_if(surfaces.begin(), surfaces.end(), elsewhere), surfaces.end());
+  return surfaces.size() < 2 ? std::vector<Part>() : surfaces;
+}
+
+// The gap once more, each part foretold by what was fitted to the others.
+void Investigation::holdOut(const std::string& by, const std::vector<Part>& parts, const GapGround& ground,
+                            const std::string& missing) {
+  if (decision_.verdict == Verdict::kNone) return;
+  if (parts.empty()) {
+    report_.gap.missing.push_back(missing);
+    return;
+  }
+  const Trace foretold = foretoldByTheRest(measured_, parts, problem_.options.threads,
+                                           [this](const Part& part) { return leftWithout(part); });
+  HeldOutGap held{by, 0, {}, {}};
+  std::vector<std::size_t> cycles;
+  for (const Part& part : parts) {
+    cycles.insert(cycles.end(), part.cycles.begin(), part.cycles.end());
+    held.parts.emplace_back(part.name, measureGap(ground, foretold, part.cycles).closed);
+  }
+  const Gap all = measureGap(ground, foretold, cycles);
+  held.closed = all.closed;
+  held.closed_interval = all.closed_interval;
+  for (const auto& [part, closed] : held.parts) {
+    if (closed >= kHoldsElsewhere * report_.gap.closed) continue;
+    report_.limitations.push_back("On " + part + " it holds badly: sized on all the others it closes " +
+                                  std::to_string(std::lround(100 * closed)) + " % of the gap there.");
+  }
+  report_.gap.held_out_by.push_back(by);
+  report_.gap.foretold.push_back(held);
+}
+
 void Investigation::show() {
   tell("showing", 0.9);
   const Spread spread = spreadOf(measured_, *taxels_, left_);
@@ -302,7 +365,14 @@ void Investigation::show() {
   }
   if (unknown_statics_) extras.before_more += misfit_.rms * misfit_.rms;
   const double ceiling = in_common ? std::min(1.0, decision_.ceiling * to_error) : 0;
-  report_.gap = measureGap(measured_, *fit_, *taxels_, left_, mask, ceiling, extras, problem_.options.seed);
+  const GapGround ground{measured_, *fit_, *taxels_, mask, ceiling, extras, problem_.options.seed};
+  report_.gap = measureGap(ground, left_, allCycles(measured_));
+  holdOut("condition", surfacesWhereItShows(), ground,
+          "It shows on one surface alone, so none was held out.");
+  holdOut("protocol", partsByProtocol(measured_), ground,
+          "All cycles are run alike, so no protocol was held out.");
+  if (report_.gap.held_out_by.size() < 2)
+    report_.gap.missing.push_back("Cycles alone are weak evidence that it holds elsewhere.");
   const Trace before = fit_->residual(common_.all);
   report_.curves = residualCurves(measured_, before, before - left_);
 }
@@ -389,6 +459,9 @@ DiscrepancyReport Investigation::run() {
   listNotIdentifiable();
   answerQuestions();
   foresee();
+  if (!decision_.credible.empty() && !by_terms_) {
+    report_.in_use = costsInUse(measured_, report_.base, report_.added, report_.gap.closed_interval.low);
+  }
   tell("curves", 0.95);
   report_.base = withTaxelCurves(measured_, report_.base, "base_curves.csv");
   report_.added = withTaxelCurves(measured_, report_.added, "simulation_curves.csv");

@@ -220,6 +220,7 @@ Refined Refiner::run() {
   for (std::size_t k = 0; k < at_.size(); ++k) at_[k] = knobs_[k].read(knobs_[k].write(at_[k]));
   Refined refined;
   refined.effects = effectsAt(at_);
+  refined.carried = carried_;
   refined.parameters.resize(effects_.size());
   refined.trace = Trace::Zero(common_.all.size());
   const auto left = error(at_);

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numeric>
 
+#include "fsr_pressure_map/matrix/for_each_taxel.h"
 #include "fsr_pressure_map/simulation/effect_info.h"
 #include "fsr_pressure_map/statistics/random_stream.h"
 
@@ -66,34 +68,28 @@ struct CycleSums {
   double in_pressure = 0;                          // readings with a slope
 };
 
-std::vector<CycleSums> sumsOf(const Measured& measured, const StaticFit& fit, const TaxelFit& taxels,
-                              const Trace& left, const Eigen::MatrixXd& mask) {
-  const double steepest = fit.slope().maxCoeff();
-  std::vector<CycleSums> sums;
+CycleSums sumsOf(const GapGround& ground, const Trace& left, const MeasuredCycle& cycle) {
+  const double steepest = ground.fit.slope().maxCoeff(), within = ground.taxels.within();
+  CycleSums sum;
   std::vector<double> residual;
-  for (const MeasuredCycle& cycle : measured.cycles) {
-    if (cycle.use == CycleUse::kFit) continue;
-    CycleSums sum;
-    for (std::size_t i = cycle.first; i < cycle.last; ++i) {
-      taxels.residuals(i, residual);
-      const auto at = static_cast<Eigen::Index>(i), c = static_cast<Eigen::Index>(measured.classOf(i));
-      const double slope = fit.slope()[at];
-      for (std::size_t t = 0; t < residual.size(); ++t) {
-        if (!measured.used[t]) continue;
-        const double before = residual[t] * residual[t];
-        const double after = std::pow(residual[t] - mask(static_cast<Eigen::Index>(t), c) * left[at], 2);
-        sum.before += before + taxels.within();
-        sum.after += after + taxels.within();
-        ++sum.number;
-        if (slope < 0.05 * steepest) continue;
-        sum.before_pressure += (before + taxels.within()) / (slope * slope);
-        sum.after_pressure += (after + taxels.within()) / (slope * slope);
-        ++sum.in_pressure;
-      }
+  for (std::size_t i = cycle.first; i < cycle.last; ++i) {
+    ground.taxels.residuals(i, residual);
+    const auto at = static_cast<Eigen::Index>(i), c = static_cast<Eigen::Index>(ground.measured.classOf(i));
+    const double slope = ground.fit.slope()[at];
+    for (std::size_t t = 0; t < residual.size(); ++t) {
+      if (!ground.measured.used[t]) continue;
+      const double before = residual[t] * residual[t];
+      const double after = std::pow(residual[t] - ground.mask(static_cast<Eigen::Index>(t), c) * left[at], 2);
+      sum.before += before + within;
+      sum.after += after + within;
+      ++sum.number;
+      if (slope < 0.05 * steepest) continue;
+      sum.before_pressure += (before + within) / (slope * slope);
+      sum.after_pressure += (after + within) / (slope * slope);
+      ++sum.in_pressure;
     }
-    sums.push_back(sum);
   }
-  return sums;
+  return sum;
 }
 
 // Of the squared errors before and after, and of what anything explains.
@@ -230,20 +226,29 @@ Eigen::MatrixXd maskOf(const Measured& measured, const WhereItShows& where, cons
   return number > 0 ? Eigen::MatrixXd(mask * (sum / number)) : mask;
 }
 
-Gap measureGap(const Measured& measured, const StaticFit& fit, const TaxelFit& taxels, const Trace& left,
-               const Eigen::MatrixXd& mask, double ceiling, const GapExtras& extras, std::uint64_t seed) {
-  const std::vector<CycleSums> sums = sumsOf(measured, fit, taxels, left, mask);
-  std::vector<std::size_t> all;
-  for (std::size_t c = 0; c < sums.size(); ++c) all.push_back(c);
-  Gap gap = gapOf(sums, all, ceiling, extras);
-  const RandomStream stream = randomStream(seed, "discrepancy.gap");
+std::vector<std::size_t> allCycles(const Measured& measured) {
+  std::vector<std::size_t> all(measured.cycles.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+Gap measureGap(const GapGround& ground, const Trace& left, const std::vector<std::size_t>& cycles) {
+  std::vector<CycleSums> sums;
+  for (const std::size_t c : cycles) {
+    const MeasuredCycle& cycle = ground.measured.cycles[c];
+    if (cycle.use == CycleUse::kShow) sums.push_back(sumsOf(ground, left, cycle));
+  }
+  std::vector<std::size_t> all(sums.size());
+  std::iota(all.begin(), all.end(), 0);
+  Gap gap = gapOf(sums, all, ground.ceiling, ground.extras);
+  const RandomStream stream = randomStream(ground.seed, "discrepancy.gap");
   std::vector<double> before, after, floor, closed;
   for (int draw = 0; draw < kDraws && !all.empty(); ++draw) {
     std::vector<std::size_t> chosen;
     for (std::size_t c = 0; c < all.size(); ++c) {
       chosen.push_back(stream.bits(static_cast<std::uint64_t>(draw) * all.size() + c) % all.size());
     }
-    const Gap one = gapOf(sums, chosen, ceiling, extras);
+    const Gap one = gapOf(sums, chosen, ground.ceiling, ground.extras);
     before.push_back(one.before);
     after.push_back(one.after);
     floor.push_back(one.floor);
@@ -253,9 +258,23 @@ Gap measureGap(const Measured& measured, const StaticFit& fit, const TaxelFit& t
   gap.after_interval = middle95(after);
   gap.floor_interval = middle95(floor);
   gap.closed_interval = middle95(closed);
-  gap.held_out_by = {"cycles"};
-  gap.missing = {"No condition and no protocol was held out: cycles alone are weak evidence."};
+  if (!all.empty()) gap.held_out_by = {"cycles"};
   return gap;
+}
+
+Trace foretoldByTheRest(const Measured& measured, const std::vector<Part>& parts, unsigned threads,
+                        const std::function<Trace(const Part& part)>& left) {
+  std::vector<Trace> without(parts.size());
+  forEachTaxel(parts.size(), threads, [&](std::size_t p) { without[p] = left(parts[p]); });
+  Trace foretold = Trace::Zero(static_cast<Eigen::Index>(measured.moments()));
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    for (const std::size_t c : parts[p].cycles) {
+      const auto first = static_cast<Eigen::Index>(measured.cycles[c].first);
+      const auto moments = static_cast<Eigen::Index>(measured.cycles[c].last) - first;
+      foretold.segment(first, moments) = without[p].segment(first, moments);
+    }
+  }
+  return foretold;
 }
 
 std::vector<ResidualCurve> residualCurves(const Measured& measured, const Trace& before, const Trace& after) {

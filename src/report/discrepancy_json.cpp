@@ -37,7 +37,18 @@ Json json(const WhereItShows& where) {
           {"times_s", where.times}};
 }
 
+Json json(const HeldOutGap& held) {
+  Json parts = Json::array();
+  for (const auto& [part, closed] : held.parts) parts.push_back({{"part", part}, {"closed", closed}});
+  return {{"by", held.by},
+          {"closed", held.closed},
+          {"closed_interval", json(held.closed_interval)},
+          {"parts", parts}};
+}
+
 Json json(const Gap& gap) {
+  Json foretold = Json::array();
+  for (const HeldOutGap& held : gap.foretold) foretold.push_back(json(held));
   return {{"unit", "fraction of full scale"},
           {"before", gap.before},
           {"before_interval", json(gap.before_interval)},
@@ -51,6 +62,7 @@ Json json(const Gap& gap) {
           {"after_pa", gap.after_pressure},
           {"floor_pa", gap.floor_pressure},
           {"held_out_by", gap.held_out_by},
+          {"foretold", foretold},
           {"missing", gap.missing}};
 }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <iomanip>
+#include <map>
 #include <sstream>
 
 #include "flow_yaml.h"
@@ -45,6 +46,29 @@ std::string gapLine(const Gap& gap) {
   return text + ".\n" + (gap.held_out_by.empty() ? "" : "Held out: " + joined(gap.held_out_by) + ".\n");
 }
 
+// "Sized without it, closed on each condition: 93 % (flat 95 %, cylinder_5cm 90 %)."
+std::string foretoldLine(const HeldOutGap& held) {
+  std::vector<std::string> parts;
+  for (const auto& [part, closed] : held.parts)
+    parts.push_back(part + " " + number(kPercent * closed, 0) + " %");
+  return "Closed on each " + held.by + " by what the others foretell: " + number(kPercent * held.closed, 0) +
+         " % (" + joined(parts) + ").\n";
+}
+
+std::string useLine(const std::vector<GapInUse>& costs) {
+  static const std::map<std::string, std::string> kSituations = {
+      {"ramp", "a ramp"}, {"stance", "a stance of 0.6 s"}, {"standing", "ten minutes of standing"}};
+  std::vector<std::string> parts;
+  for (const GapInUse& cost : costs) {
+    const auto found = kSituations.find(cost.situation);
+    parts.push_back(
+        number(cost.before / kKilopascal, 1) + " kPa in " +
+        (found == kSituations.end() ? cost.situation : found->second) +
+        (std::isfinite(cost.after) ? " (" + number(cost.after / kKilopascal, 1) + " with it)" : ""));
+  }
+  return parts.empty() ? "" : "Largest error of who leaves it out: " + joined(parts) + ".\n";
+}
+
 std::string notExcluded(const DiscrepancyReport& report) {
   std::vector<std::string> sets;
   for (const auto& ids : report.credible_set) sets.push_back(joined(ids, " + "));
@@ -78,6 +102,8 @@ std::string interval(const FittedParameter& parameter) {
 
 std::string discrepancyText(const DiscrepancyReport& report) {
   std::string text = report.sentence + "\n" + notExcluded(report) + notTestable(report) + gapLine(report.gap);
+  for (const HeldOutGap& held : report.gap.foretold) text += foretoldLine(held);
+  text += useLine(report.in_use);
   for (const std::string& missing : report.gap.missing) text += missing + "\n";
   for (const RepeatStep& step : report.steps) text += "Step: " + step.sentence + "\n";
   if (!report.next_experiment.empty())

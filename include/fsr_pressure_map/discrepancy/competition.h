@@ -31,11 +31,14 @@ class Competition {
 
   /// What an explanation adds to the common trace, projected.
   Trace explained(const Score& score) const;
+  /// The same with coefficients that have not seen some cycles, of which there is one flag each.
+  Trace explainedWithout(const Score& score, const std::vector<bool>& cycles) const;
   /// The projected common trace.
   Trace target() const { return columns_.col(columns_.cols() - 1); }
 
  private:
   void gather(const StaticFit& fit, const Measured& measured);
+  Trace explainedBy(const ColumnSet& set, const Eigen::VectorXd& coefficients) const;
   void judgeRepeating(const Measured& measured, const CommonTraces& common, const StaticFit& fit);
 
   const Measured& measured_;

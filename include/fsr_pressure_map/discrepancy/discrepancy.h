@@ -71,6 +71,15 @@ struct WhereItShows {
   std::vector<std::pair<double, double>> times;  ///< [s] since the first scan; empty = all
 };
 
+/// How much of the gap is closed where what was found was sized without seeing it: each surface foretold by
+/// the others, each protocol by the others. Naming and static curves have seen all of them.
+struct HeldOutGap {
+  std::string by;     ///< condition, protocol
+  double closed = 0;  ///< see Gap; over all parts
+  Interval closed_interval;
+  std::vector<std::pair<std::string, double>> parts;  ///< what was left out, and how much is closed there
+};
+
 /// How far simulation and measurement are apart, as rms over scans and taxels [share of full scale], on
 /// data that took no part.
 struct Gap {
@@ -83,6 +92,7 @@ struct Gap {
   double after_pressure = 0;
   double floor_pressure = 0;
   std::vector<std::string> held_out_by;  ///< of cycles, condition, protocol
+  std::vector<HeldOutGap> foretold;      ///< of the last two
   std::vector<std::string> missing;      ///< sentences: what no data were held out for
 };
 

@@ -22,6 +22,7 @@ struct Refined {
   Trace left;             ///< of the projected common trace, 0 in cycles to show on
   double share = 0;       ///< of the squared error of the projected common trace
   bool at_bound = false;  ///< a strength left its plausible range
+  bool carried = true;    ///< as it was asked for
 };
 
 /// `bent_only`: the effects act where the surface is bent, and nowhere else.

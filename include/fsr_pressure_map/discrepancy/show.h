@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "fsr_pressure_map/discrepancy/decision.h"
+#include "fsr_pressure_map/discrepancy/held_out.h"
 #include "fsr_pressure_map/discrepancy/taxel_fit.h"
 
 namespace fsr {
@@ -22,10 +24,28 @@ struct GapExtras {
   double after_less = 0;   ///< that the gap after, and the floor, have less
 };
 
-/// The gap on the cycles that took no part. `left`: what the static curves leave of the trace that the
-/// effects add; `mask` as above; `ceiling`: share of the squared error before that anything explains.
-Gap measureGap(const Measured& measured, const StaticFit& fit, const TaxelFit& taxels, const Trace& left,
-               const Eigen::MatrixXd& mask, double ceiling, const GapExtras& extras, std::uint64_t seed);
+/// What a gap is measured against.
+struct GapGround {
+  const Measured& measured;
+  const StaticFit& fit;
+  const TaxelFit& taxels;
+  const Eigen::MatrixXd& mask;  ///< as above
+  double ceiling = 0;           ///< share of the squared error before that anything explains
+  GapExtras extras;
+  std::uint64_t seed = 0;
+};
+
+/// The gap on those of the cycles that took no part. `left`: what the static curves leave of the trace that
+/// the effects add.
+Gap measureGap(const GapGround& ground, const Trace& left, const std::vector<std::size_t>& cycles);
+
+/// What an explanation takes from the common trace, each part foretold by the rest: `left` is asked for the
+/// whole trace as it comes out without one part. Parts are independent of each other.
+Trace foretoldByTheRest(const Measured& measured, const std::vector<Part>& parts, unsigned threads,
+                        const std::function<Trace(const Part& part)>& left);
+
+/// Indices of all cycles.
+std::vector<std::size_t> allCycles(const Measured& measured);
 
 /// Mean residual of the common trace over covariates, before and after, on the cycles that took no part.
 std::vector<ResidualCurve> residualCurves(const Measured& measured, const Trace& before, const Trace& after);
