@@ -1,0 +1,311 @@
+#include "fsr_pressure_map/calibration/socket_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <iomanip>
+#include <sstream>
+
+#include "fsr_pressure_map/calibration/calibrator.h"
+#include "fsr_pressure_map/health/recording_health.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr double kAtTheEnds = 0.25;     // of the recording: rest is looked for in its first and last part
+constexpr double kShortestCell = 0.25;  // loads are followed by means over it: short beside a step [s],
+constexpr double kScansOfCell = 2.5;    // and long beside the time from scan to scan
+
+std::string text(double value, int digits = 1) {
+  std::ostringstream out;
+  out << std::fixed << std::setprecision(digits) << value;
+  return out.str();
+}
+
+std::string percent(double share) {
+  return text(100 * share) + " %";
+}
+
+std::string place(const Layout& layout, std::size_t taxel) {
+  return "(" + std::to_string(layout.row({taxel})) + ", " + std::to_string(layout.column({taxel})) + ")";
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+class SocketChecker {
+ public:
+  SocketChecker(const Recording& recording, const Calibration* calibration, const SocketCheckOptions& options)
+      : recording_(recording), calibration_(calibration), options_(options) {
+    for (std::size_t t = 0; t < taxels(); ++t) {
+      if (recording.mask.empty() || recording.mask[t] == 0) used_.push_back(t);
+    }
+    for (std::size_t i = 0; i < recording.scans(); ++i) mean_.push_back(sheetMean(i));
+  }
+
+  SocketCheck run(const DonDoff& events) {
+    check_.name = recording_.name;
+    check_.layout = recording_.layout;
+    findRests(events);
+    compareRests();
+    const RecordingHealth health = recordingHealth(recording_);
+    check_.saturated = health.saturated;
+    check_.dead = health.dead;
+    check_.stuck = health.stuck;
+    if (calibration_ != nullptr) calibrate();
+    findStaticLoad();
+    judge();
+    return check_;
+  }
+
+ private:
+  std::size_t taxels() const { return recording_.layout.size.taxels(); }
+  double reading(std::size_t scan, std::size_t taxel) const {
+    return double(recording_.scan(scan)[taxel]) / double(recording_.full_scale);
+  }
+  double sheetMean(std::size_t scan) const {
+    double sum = 0;
+    for (const std::size_t t : used_) sum += reading(scan, t);
+    return used_.empty() ? 0 : sum / double(used_.size());
+  }
+
+  // What the sheet reads when it is loaded: the median of the scans that read more than half of the most.
+  double usualLoad() const {
+    const double most = *std::max_element(mean_.begin(), mean_.end());
+    std::vector<double> loaded;
+    std::copy_if(mean_.begin(), mean_.end(), std::back_inserter(loaded),
+                 [&](double value) { return value >= 0.5 * most; });
+    return median(loaded);
+  }
+
+  // The lowest stretch of rest_time within [from, to] [s].
+  std::optional<SocketRest> restWithin(double from, double to) const {
+    const std::vector<double>& time = recording_.time;
+    std::optional<std::pair<std::size_t, std::size_t>> best;
+    double least = options_.rest_share * usualLoad(), sum = 0;
+    for (std::size_t first = 0, end = 0; first < time.size(); ++first) {
+      while (end < time.size() && (end <= first || time[end - 1] - time[first] < options_.rest_time)) {
+        sum += mean_[end++];
+      }
+      if (time[end - 1] - time[first] < options_.rest_time || time[end - 1] > to) break;
+      const double mean = sum / double(end - first);
+      if (time[first] >= from && mean <= least) {
+        least = mean;
+        best = {first, end};
+      }
+      sum -= mean_[first];
+    }
+    if (!best) return std::nullopt;
+    return restOf(best->first, best->second);
+  }
+
+  SocketRest restOf(std::size_t first, std::size_t end) const {
+    SocketRest rest{recording_.time[first], recording_.time[end - 1], std::vector<double>(taxels(), 0.0), {}};
+    for (std::size_t i = first; i < end; ++i) {
+      for (std::size_t t = 0; t < taxels(); ++t) rest.readings[t] += reading(i, t) / double(end - first);
+    }
+    return rest;
+  }
+
+  void findRests(const DonDoff& events) {
+    const double end = recording_.time.back(), part = kAtTheEnds * end;
+    check_.before = restWithin(0, events.don.value_or(part));
+    check_.after = restWithin(events.doff.value_or(end - part), end);
+  }
+
+  void compareRests() {
+    if (!check_.before || !check_.after) return;
+    check_.change.assign(taxels(), 0.0);
+    std::vector<double> changes;
+    check_.worst = used_.empty() ? 0 : used_.front();
+    for (const std::size_t t : used_) {
+      check_.change[t] = check_.after->readings[t] - check_.before->readings[t];
+      changes.push_back(check_.change[t]);
+      check_.changed += std::abs(check_.change[t]) > options_.rest_change;
+      if (std::abs(check_.change[t]) > std::abs(check_.change[check_.worst])) check_.worst = t;
+    }
+    check_.median_change = median(changes);
+  }
+
+  void requireFit() const {
+    const Calibration& calibration = *calibration_;
+    if (calibration.layout.size == recording_.layout.size &&
+        calibration.tables.full_scale == recording_.full_scale) {
+      return;
+    }
+    throw InputError(recording_.name + ": has " + sizeText(recording_.layout.size) + " taxels up to " +
+                     std::to_string(recording_.full_scale) + " counts, but the calibration is for " +
+                     sizeText(calibration.layout.size) + " up to " +
+                     std::to_string(calibration.tables.full_scale));
+  }
+
+  void calibrate() {
+    requireFit();
+    Calibrator calibrator(calibration_->tables, calibration_->layout);
+    calibrator.setMask(recording_.mask);
+    std::size_t surface = recording_.conditions.size(), readings = 0, beyond = 0, bent = 0;
+    PressureMap map;
+    RestMeans before(check_.before, taxels()), after(check_.after, taxels());
+    for (std::size_t i = 0; i < recording_.scans(); ++i) {
+      const double time = recording_.time[i];
+      if (recording_.condition[i] != surface) {
+        surface = recording_.condition[i];
+        calibrator.setSurface(recording_.conditions[surface], time);
+      }
+      calibrator.calibrate({recording_.layout.size, recording_.full_scale, recording_.scan(i), taxels()},
+                           time, map);
+      for (const std::size_t t : used_) {
+        if (std::isnan(map.pressure[t])) continue;
+        ++readings;
+        beyond += (map.flags[t] & taxel_flag::kReadingExtrapolated) != 0;
+        bent += (map.flags[t] & taxel_flag::kCurvatureExtrapolated) != 0;
+      }
+      before.add(map, time);
+      after.add(map, time);
+    }
+    if (readings == 0) return;
+    check_.beyond = double(beyond) / double(readings);
+    check_.bent_beyond = double(bent) / double(readings);
+    before.store();
+    after.store();
+    noteOffset();
+  }
+
+  void noteOffset() {
+    if (!check_.before || !check_.after) return;
+    std::vector<double> changes;
+    for (const std::size_t t : used_) {
+      const double change = check_.after->pressure[t] - check_.before->pressure[t];
+      if (!std::isnan(change)) changes.push_back(change);
+    }
+    check_.median_pressure_change = median(changes);
+  }
+
+  /// Mean pressure of each taxel over a rest.
+  class RestMeans {
+   public:
+    RestMeans(std::optional<SocketRest>& rest, std::size_t taxels)
+        : rest_(rest), sums_(taxels, 0.0), counts_(taxels, 0.0) {}
+    void add(const PressureMap& map, double time) {
+      if (!rest_ || time < rest_->from || time > rest_->to) return;
+      for (std::size_t t = 0; t < sums_.size(); ++t) {
+        if (std::isnan(map.pressure[t])) continue;
+        sums_[t] += double(map.pressure[t]);
+        counts_[t] += 1;
+      }
+    }
+    void store() {
+      if (!rest_) return;
+      rest_->pressure.clear();
+      for (std::size_t t = 0; t < sums_.size(); ++t) rest_->pressure.push_back(sums_[t] / counts_[t]);
+    }
+
+   private:
+    std::optional<SocketRest>& rest_;
+    std::vector<double> sums_, counts_;
+  };
+
+  // Span over which a load is averaged [s].
+  double cell() const {
+    const double period = recording_.time.back() / double(std::max<std::size_t>(1, recording_.scans() - 1));
+    return std::max(kShortestCell, kScansOfCell * period);
+  }
+
+  // Mean reading of a taxel in each cell; NaN where there is no scan.
+  std::vector<double> byCell(std::size_t taxel, double span) const {
+    const auto cells = static_cast<std::size_t>(recording_.time.back() / span) + 1;
+    std::vector<double> sums(cells, 0.0), counts(cells, 0.0);
+    for (std::size_t i = 0; i < recording_.scans(); ++i) {
+      const auto c = static_cast<std::size_t>(recording_.time[i] / span);
+      sums[c] += reading(i, taxel);
+      counts[c] += 1;
+    }
+    for (std::size_t c = 0; c < cells; ++c) sums[c] /= counts[c];
+    return sums;
+  }
+
+  // The longest run in which a taxel stays loaded and ranges over no more than static_range of its largest
+  // reading: two ends that only move forward, extremes of what lies between kept in deques.
+  void followLoad(std::size_t taxel, double span) {
+    const std::vector<double> load = byCell(taxel, span);
+    std::deque<std::size_t> high, low;
+    for (std::size_t from = 0, to = 0; to < load.size(); ++to) {
+      if (!(load[to] >= options_.contact_share)) {  // also NaN
+        from = to + 1;
+        high.clear();
+        low.clear();
+        continue;
+      }
+      while (!high.empty() && load[high.back()] <= load[to]) high.pop_back();
+      while (!low.empty() && load[low.back()] >= load[to]) low.pop_back();
+      high.push_back(to);
+      low.push_back(to);
+      while (load[high.front()] - load[low.front()] > options_.static_range * load[high.front()]) {
+        ++from;
+        if (high.front() < from) high.pop_front();
+        if (low.front() < from) low.pop_front();
+      }
+      const double seconds = double(to - from + 1) * span;
+      if (seconds > check_.longest.seconds) check_.longest = {seconds, double(from) * span, taxel};
+    }
+  }
+
+  void findStaticLoad() {
+    for (const std::size_t t : used_) followLoad(t, cell());
+  }
+
+  void judge() {
+    auto& reasons = check_.reasons;
+    if (!check_.before) reasons.push_back("no rest was recorded before: start to record before it is put on");
+    if (!check_.after) reasons.push_back("no rest was recorded after: record until it is off again");
+    if (double(check_.changed) > options_.changed_share * double(used_.size())) {
+      reasons.push_back(std::to_string(check_.changed) +
+                        " taxels read another rest after than before, by more "
+                        "than " +
+                        percent(options_.rest_change) + " of full scale");
+    }
+    if (check_.saturated > options_.saturated_share) {
+      reasons.push_back(percent(check_.saturated) + " of the readings are at full scale (allowed: " +
+                        percent(options_.saturated_share) + ")");
+    }
+    if (check_.beyond > options_.beyond_share) {
+      reasons.push_back(percent(check_.beyond) + " of the readings lie beyond those of training (allowed: " +
+                        percent(options_.beyond_share) + ")");
+    }
+    if (check_.bent_beyond > options_.beyond_share) {
+      reasons.push_back(percent(check_.bent_beyond) +
+                        " of the readings lie on a curvature beyond those of "
+                        "training (allowed: " +
+                        percent(options_.beyond_share) + ")");
+    }
+    if (check_.longest.seconds > options_.static_load) {
+      reasons.push_back("taxel " + place(check_.layout, check_.longest.taxel) + " carried a still load for " +
+                        text(check_.longest.seconds, 0) + " s: by then creep counts");
+    }
+    if (!check_.dead.empty()) reasons.push_back(std::to_string(check_.dead.size()) + " taxels are dead");
+    if (!check_.stuck.empty()) reasons.push_back(std::to_string(check_.stuck.size()) + " taxels are stuck");
+  }
+
+  const Recording& recording_;
+  const Calibration* calibration_;
+  const SocketCheckOptions& options_;
+  std::vector<std::size_t> used_;  // taxels that are not masked
+  std::vector<double> mean_;       // of each scan over them [share of full scale]
+  SocketCheck check_;
+};
+
+}  // namespace
+
+SocketCheck checkSocket(const Recording& recording, const DonDoff& events, const Calibration* calibration,
+                        const SocketCheckOptions& options) {
+  if (recording.scans() == 0) throw InputError(recording.name + ": holds no scan that could be judged");
+  return SocketChecker(recording, calibration, options).run(events);
+}
+
+}  // namespace fsr

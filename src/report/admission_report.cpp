@@ -1,0 +1,160 @@
+#include "fsr_pressure_map/report/admission_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+#include "fsr_pressure_map/report/calibration_report.h"
+
+namespace fsr {
+
+namespace {
+
+std::string number(double value, int digits) {
+  if (std::isnan(value)) return "-";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(digits) << value;
+  return text.str();
+}
+
+std::string percent(double share, int digits = 1) {
+  return std::isnan(share) ? "not known" : number(100 * share, digits) + " %";
+}
+
+// "(row, column)" of at most eight of them.
+std::string places(const std::vector<std::size_t>& taxels, const Layout& layout) {
+  constexpr std::size_t kListed = 8;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(taxels.size(), kListed); ++i) {
+    list += (i == 0 ? "(" : ", (") + std::to_string(layout.row({taxels[i]})) + ", " +
+            std::to_string(layout.column({taxels[i]})) + ")";
+  }
+  return taxels.size() > kListed ? list + ", ..." : list;
+}
+
+std::string numbers(const std::vector<std::size_t>& values) {
+  std::string list;
+  for (const std::size_t value : values) list += (list.empty() ? "" : ", ") + std::to_string(value);
+  return list;
+}
+
+std::string lagText(const AdmittedRecording& recording) {
+  return recording.lag ? number(recording.lag->seconds, 2) : "-";
+}
+
+void addRow(const AdmittedRecording& row, int width, std::ostringstream& out) {
+  out << std::left << std::setw(width) << row.name << std::right << std::setw(8) << row.scans << std::setw(10)
+      << number(row.seconds, 1) << std::setw(10) << row.surfaces << std::setw(7) << row.losses.lost_scans
+      << std::setw(7) << row.losses.sequence_gaps << std::setw(9) << lagText(row) << std::setw(13)
+      << number(100 * row.health.saturated, 2) << std::setw(6) << row.health.dead.size() << std::setw(7)
+      << row.health.stuck.size() << '\n';
+}
+
+void addTable(const Admission& admission, std::ostringstream& out) {
+  std::size_t width = 6;
+  for (const AdmittedRecording& row : admission.recordings) width = std::max(width, row.name.size() + 2);
+  out << std::left << std::setw(static_cast<int>(width)) << "bag" << std::right << std::setw(8) << "scans"
+      << std::setw(10) << "time [s]" << std::setw(10) << "surfaces" << std::setw(7) << "lost" << std::setw(7)
+      << "gaps" << std::setw(9) << "lag [s]" << std::setw(13) << "saturated %" << std::setw(6) << "dead"
+      << std::setw(7) << "stuck" << '\n';
+  for (const AdmittedRecording& row : admission.recordings) addRow(row, static_cast<int>(width), out);
+}
+
+void addHealth(const AdmittedRecording& row, const Layout& layout, std::ostringstream& out) {
+  const RecordingHealth& health = row.health;
+  if (!health.dead.empty())
+    out << row.name << ": dead (row, column): " << places(health.dead, layout) << '\n';
+  if (!health.stuck.empty())
+    out << row.name << ": stuck (row, column): " << places(health.stuck, layout) << '\n';
+  if (!health.rows.empty()) out << row.name << ": rows that fail: " << numbers(health.rows) << '\n';
+  if (!health.columns.empty()) out << row.name << ": columns that fail: " << numbers(health.columns) << '\n';
+  if (health.saturated_taxels == 0) return;
+  out << row.name << ": " << health.saturated_taxels << " taxels are clipped at full scale";
+  if (!std::isnan(health.saturated_from)) {
+    out << ", from " << number(health.saturated_from / 1000, 0) << " kPa on";
+  }
+  out << '\n';
+}
+
+std::string faultText(const Fault& fault, const Layout& layout) {
+  const bool line = fault.id == "row_fault" || fault.id == "column_fault";
+  const std::string where =
+      line ? " " + std::to_string(fault.line) : " (row, column): " + places(fault.taxels, layout);
+  return fault.id + where + ", " + percent(fault.share, 2) + " of the scans, longest " +
+         number(fault.longest, 1) + " s";
+}
+
+// ", because A; and 2 more": the line is to be read at a glance, all of them stand above it.
+std::string because(const std::vector<std::string>& reasons) {
+  if (reasons.empty()) return "";
+  const std::string more = reasons.size() == 1 ? "" : "; and " + std::to_string(reasons.size() - 1) + " more";
+  return ", because " + reasons.front() + more;
+}
+
+std::string verdict(const Admission& admission, const std::vector<std::string>& problems) {
+  if (!problems.empty()) return "Not fit" + because(problems) + ".";
+  if (admission.discrepancy.empty()) return "Fit for training and for discrepancy.";
+  return "Fit for training; not for discrepancy, because " + admission.discrepancy + ".";
+}
+
+void addRests(const SocketCheck& check, std::ostringstream& out) {
+  for (const auto& [name, rest] : {std::pair{"before", &check.before}, std::pair{"after", &check.after}}) {
+    out << "Rest " << name << ": ";
+    if (*rest) {
+      out << number((*rest)->from, 1) << " to " << number((*rest)->to, 1) << " s\n";
+    } else {
+      out << "none recorded\n";
+    }
+  }
+  if (check.change.empty()) return;
+  const double worst = check.change[check.worst];
+  out << "Rest after less rest before: median " << percent(check.median_change, 2) << " of full scale";
+  if (!std::isnan(check.median_pressure_change)) {
+    out << " (" << number(check.median_pressure_change / 1000, 1) << " kPa)";
+  }
+  out << ", most " << percent(worst, 2) << " at (row, column) " << places({check.worst}, check.layout) << "; "
+      << check.changed << " taxels beyond the limit\n";
+}
+
+}  // namespace
+
+std::string admissionText(const Admission& admission) {
+  std::ostringstream out;
+  addTable(admission, out);
+  for (const AdmittedRecording& row : admission.recordings) addHealth(row, admission.layout, out);
+  for (const Fault& fault : admission.faults) {
+    out << "Spells of failure: " << faultText(fault, admission.layout) << '\n';
+  }
+  if (!admission.coverage.conditions.empty()) out << '\n' << coverageText(admission.coverage);
+  out << '\n';
+  for (const std::string& remark : admission.remarks) out << "Note: " << remark << '\n';
+  std::vector<std::string> problems = admission.problems;
+  if (!admission.training.empty()) problems.insert(problems.begin(), admission.training);
+  for (const std::string& problem : problems) out << "Problem: " << problem << '\n';
+  out << verdict(admission, problems) << '\n';
+  return out.str();
+}
+
+std::string socketText(const SocketCheck& check) {
+  std::ostringstream out;
+  out << check.name << '\n';
+  addRests(check, out);
+  out << "At full scale: " << percent(check.saturated, 2) << " of the readings\n"
+      << "Beyond the readings of training: " << percent(check.beyond, 2)
+      << "; beyond its curvatures: " << percent(check.bent_beyond, 2)
+      << (std::isnan(check.beyond) ? " (give --calibration)" : "") << '\n'
+      << "Longest static load: " << number(check.longest.seconds, 0) << " s";
+  if (check.longest.seconds > 0) {
+    out << ", from " << number(check.longest.from, 0) << " s on, at (row, column) "
+        << places({check.longest.taxel}, check.layout);
+  }
+  out << "\nDead (row, column): " << (check.dead.empty() ? "none" : places(check.dead, check.layout))
+      << "; stuck: " << (check.stuck.empty() ? "none" : places(check.stuck, check.layout)) << '\n';
+  for (const std::string& reason : check.reasons) out << "Problem: " << reason << '\n';
+  out << (check.reasons.empty() ? "Readings are usable" : "Look again" + because(check.reasons))
+      << "; no reference: accuracy not assessed.\n";
+  return out.str();
+}
+
+}  // namespace fsr

@@ -1,0 +1,72 @@
+#include "fsr_pressure_map/dataset/reference_lag.h"
+
+#include <gtest/gtest.h>
+
+#include "support/synthetic_recording.h"
+
+namespace fsr {
+namespace {
+
+constexpr double kTolerance = 0.03;  // of a lag on a sheet without a loop, a third of a scan [s]
+
+Recording recorded(double loop = 0) {
+  test_support::SyntheticRig rig;
+  rig.loop = loop;
+  return test_support::syntheticRecording(rig);
+}
+
+// The reference of `scans` later: the matrix answers later than it says.
+Recording late(std::ptrdiff_t scans) {
+  Recording recording = recorded();
+  const std::vector<double> pressure = recording.pressure;
+  const auto last = static_cast<std::ptrdiff_t>(pressure.size()) - 1;
+  for (std::ptrdiff_t i = 0; i <= last; ++i) {
+    const auto from = std::min(last, std::max<std::ptrdiff_t>(0, i + scans));
+    recording.pressure[static_cast<std::size_t>(i)] = pressure[static_cast<std::size_t>(from)];
+  }
+  return recording;
+}
+
+TEST(ReferenceLag, IsNothingWhereStampsAreRight) {
+  const auto lag = referenceLag(recorded());
+  ASSERT_TRUE(lag);
+  EXPECT_NEAR(lag->seconds, 0, kTolerance);
+  EXPECT_GT(lag->correlation, 0.8);
+}
+
+TEST(ReferenceLag, IsFoundEitherWay) {
+  for (const int scans : {-30, -7, 4, 25}) {
+    const auto lag = referenceLag(late(scans));
+    ASSERT_TRUE(lag) << scans;
+    EXPECT_NEAR(lag->seconds, 0.1 * scans, kTolerance) << scans;
+  }
+}
+
+TEST(ReferenceLag, TakesALoopForNoLag) {
+  const auto lag = referenceLag(recorded(200));  // 5 % of full scale
+  ASSERT_TRUE(lag);
+  EXPECT_NEAR(lag->seconds, 0, 0.3);
+}
+
+TEST(ReferenceLag, IsUnknownWithoutReferenceOrMotion) {
+  Recording none = recorded();
+  none.pressure.clear();
+  EXPECT_FALSE(referenceLag(none));
+  Recording still = recorded();
+  std::fill(still.counts.begin(), still.counts.end(), 100);
+  EXPECT_FALSE(referenceLag(still));
+}
+
+TEST(ReferenceLag, IgnoresMaskedTaxels) {
+  Recording recording = recorded();
+  recording.mask = {1, 1, 1, 1, 0, 0};
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    for (std::size_t t = 0; t < 4; ++t) recording.counts[i * 6 + t] = 4095;
+  }
+  const auto lag = referenceLag(recording);
+  ASSERT_TRUE(lag);
+  EXPECT_NEAR(lag->seconds, 0, kTolerance);
+}
+
+}  // namespace
+}  // namespace fsr

@@ -1,0 +1,89 @@
+#include "fsr_pressure_map/discrepancy/admission.h"
+
+#include <gtest/gtest.h>
+
+#include "support/synthetic_recording.h"
+
+namespace fsr {
+namespace {
+
+Recording recorded(const std::string& surface = "flat", double curvature = 0) {
+  test_support::SyntheticRig rig;
+  rig.name = surface + ".bag";
+  rig.size = {4, 5};
+  rig.surfaces = {{surface, curvature}};
+  return test_support::syntheticRecording(rig);
+}
+
+bool tells(const std::vector<std::string>& sentences, const std::string& word) {
+  for (const std::string& sentence : sentences) {
+    if (sentence.find(word) != std::string::npos) return true;
+  }
+  return false;
+}
+
+TEST(Admission, FindsSoundRecordingsFitForBothUses) {
+  Recording second = recorded("cylinder_7cm", 14.25);
+  second.sha256 = "another";
+  second.start_ns += 600'000'000'000;
+  const Admission admission = inspectRecordings({recorded(), second});
+  EXPECT_TRUE(admission.fit());
+  EXPECT_EQ(admission.training, "");
+  EXPECT_EQ(admission.discrepancy, "");
+  EXPECT_EQ(admission.coverage.conditions.size(), 2u);
+  EXPECT_EQ(admission.recordings.at(1).name, "cylinder_7cm.bag");
+}
+
+TEST(Admission, SaysWhyTrainingWouldRefuse) {
+  Recording recording = recorded();
+  recording.pressure.clear();
+  const Admission admission = inspectRecordings({recording});
+  EXPECT_FALSE(admission.fit());
+  EXPECT_NE(admission.training.find("chamber_pressure"), std::string::npos) << admission.training;
+}
+
+TEST(Admission, IsFitForTrainingThoughNotForDiscrepancyWhereCyclesAreFew) {
+  test_support::SyntheticRig rig;
+  rig.size = {4, 5};
+  rig.cycles = 2;
+  const Admission admission = inspectRecordings({test_support::syntheticRecording(rig)});
+  EXPECT_TRUE(admission.fit());
+  EXPECT_NE(admission.discrepancy.find("at least 3"), std::string::npos) << admission.discrepancy;
+}
+
+TEST(Admission, TakesClocksThatDifferForAProblem) {
+  Recording recording = recorded();
+  std::rotate(recording.pressure.begin(), recording.pressure.begin() + 20, recording.pressure.end());
+  const Admission admission = inspectRecordings({recording});
+  EXPECT_FALSE(admission.fit());
+  EXPECT_TRUE(tells(admission.problems, "2.0")) << admission.problems.at(0);
+}
+
+TEST(Admission, RemarksOnOneBadTaxelAndRefusesMany) {
+  Recording recording = recorded();
+  const auto kill = [&](std::size_t taxel) {
+    for (std::size_t i = 0; i < recording.scans(); ++i) recording.counts[i * 20 + taxel] = 700;
+  };
+  kill(7);
+  const Admission one = inspectRecordings({recording});
+  EXPECT_TRUE(one.fit());
+  EXPECT_TRUE(tells(one.remarks, "1 of 20 taxels"));
+  kill(12);
+  kill(14);
+  const Admission three = inspectRecordings({recording});
+  EXPECT_FALSE(three.fit());
+  EXPECT_TRUE(tells(three.problems, "3 of 20 taxels"));
+}
+
+TEST(Admission, RemarksOnLostScansAndFullScale) {
+  Recording recording = recorded();
+  recording.losses.sequence_gaps = 2;
+  recording.losses.lost_scans = 30;
+  for (std::size_t i = 0; i < recording.counts.size(); i += 10) recording.counts[i] = 4095;
+  const Admission admission = inspectRecordings({recording});
+  EXPECT_TRUE(tells(admission.remarks, "scans are lost (2 gaps"));
+  EXPECT_TRUE(tells(admission.remarks, "at full scale"));
+}
+
+}  // namespace
+}  // namespace fsr

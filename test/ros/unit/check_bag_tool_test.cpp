@@ -1,0 +1,132 @@
+#include "fsr_pressure_map/ros/check_bag_tool.h"
+
+#include <fsr_pressure_map/Event.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+
+#include <filesystem>
+#include <sstream>
+
+#include "fsr_pressure_map/ros/bag_topics.h"
+#include "fsr_pressure_map/ros/bag_writer.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "support/synthetic_recording.h"
+
+namespace fsr_ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kStart = 1500000000000000000;  // [ns]
+
+class CheckBagTool : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / ("check_bag_" + std::string(test->name()));
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string record(bool with_chamber = true) const {
+    test_support::SyntheticRig rig;
+    rig.size = {3, 4};
+    fsr::Recording recording = test_support::syntheticRecording(rig);
+    recording.start_ns = kStart;
+    if (!with_chamber) recording.pressure.clear();
+    const std::string path = (folder_ / "session.bag").string();
+    writeBag(path, recording);
+    return path;
+  }
+
+  // The exit status, -1 where it was refused; what was said is in said_.
+  int run(std::vector<std::string> words) {
+    words.insert(words.begin(), "check_bag");
+    std::vector<const char*> arguments;
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    std::ostringstream out;
+    try {
+      const int status = checkBagTool(static_cast<int>(arguments.size()), arguments.data(), out);
+      said_ = out.str();
+      return status;
+    } catch (const fsr::InputError& error) {
+      said_ = error.what();
+      return -1;
+    }
+  }
+  bool says(const std::string& words) const { return said_.find(words) != std::string::npos; }
+  bool ends(const std::string& words) const {
+    return said_.size() >= words.size() && said_.substr(said_.size() - words.size()) == words;
+  }
+
+  fs::path folder_;
+  std::string said_;
+};
+
+TEST_F(CheckBagTool, EndsWithItsVerdict) {
+  EXPECT_EQ(run({record()}), 0);
+  EXPECT_TRUE(ends("\nFit for training and for discrepancy.\n")) << said_;
+  EXPECT_TRUE(says("/fsr/raw"));
+  EXPECT_TRUE(says("Coverage"));
+}
+
+TEST_F(CheckBagTool, SaysNotFitAndByStatusWhereAskedTo) {
+  const std::string bag = record(false);
+  EXPECT_EQ(run({bag}), 0);
+  EXPECT_TRUE(says("\nNot fit, because session.bag: no chamber pressure is recorded")) << said_;
+  EXPECT_EQ(run({bag, "--strict"}), 1);
+}
+
+TEST_F(CheckBagTool, JudgesASocketWithoutReference) {
+  EXPECT_EQ(run({"--use", "socket", record(false)}), 0);
+  EXPECT_TRUE(ends("no reference: accuracy not assessed.\n")) << said_;
+  EXPECT_TRUE(says("Longest static load"));
+}
+
+TEST_F(CheckBagTool, TakesDonAndDoffFromTheEvents) {
+  const std::string path = record(false);
+  {
+    rosbag::Bag bag(path, rosbag::bagmode::Append);
+    for (const auto& [kind, seconds] : {std::pair{"don", 5}, std::pair{"doff", 45}}) {
+      fsr_pressure_map::Event event;
+      event.header.stamp.fromNSec(static_cast<std::uint64_t>(kStart + seconds * 1'000'000'000LL));
+      event.kind = kind;
+      bag.write("/fsr/events", event.header.stamp, event);
+    }
+  }
+  EXPECT_EQ(eventTimes(path, "don"), std::vector<std::int64_t>{kStart + 5'000'000'000});
+  EXPECT_EQ(run({"--use=socket", path}), 0);
+}
+
+TEST_F(CheckBagTool, CountsStampsThatRunBackwards) {
+  const std::string path = (folder_ / "stamps.bag").string();
+  {
+    rosbag::Bag bag(path, rosbag::bagmode::Write);
+    double arrival = 3.0;
+    for (const double stamp : {1.0, 1.1, 1.2, 1.2, 1.15, 1.3, 2.3}) {
+      fsr_pressure_map::Event event;
+      event.header.stamp = ros::Time(stamp);
+      bag.write("/fsr/events", ros::Time(arrival += 0.1), event);
+    }
+  }
+  const TopicCourse course = topicCourses(path).at(0);
+  EXPECT_TRUE(course.stamped);
+  EXPECT_EQ(course.messages, 7u);
+  EXPECT_EQ(course.backwards, 1u);
+  EXPECT_EQ(course.repeated, 1u);
+  EXPECT_NEAR(course.longest_gap, 1.0, 1e-6);
+  EXPECT_NEAR(course.latest, 3.5 - 1.15, 1e-6);
+}
+
+TEST_F(CheckBagTool, RefusesWhatItCannotRead) {
+  EXPECT_EQ(run({}), -1);
+  EXPECT_EQ(run({(folder_ / "none.bag").string()}), -1);
+  EXPECT_TRUE(says("no such file"));
+  EXPECT_EQ(run({"--use", "shoe", record()}), -1);
+  EXPECT_TRUE(says("must be chamber or socket"));
+  EXPECT_EQ(run({"--calibration", "c.h5", record()}), -1);
+}
+
+}  // namespace
+}  // namespace fsr_ros
