@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hdf5_handle.h"
+#include "fsr_pressure_map/calibration/hdf5_handle.h"
 
 namespace fsr {
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "hdf5_handle.h"
+#include "fsr_pressure_map/calibration/hdf5_handle.h"
 
 namespace fsr {
 

@@ -8,8 +8,6 @@
 #include <cstring>
 #include <filesystem>
 
-#include "fsr_pressure_map/settings/input_error.h"
-
 namespace fsr {
 
 namespace {
@@ -33,12 +31,12 @@ int writeFresh(const std::string& path, const std::string& content) {
   return ::close(file) != 0 && error == 0 ? errno : error;
 }
 
+}  // namespace
+
 InputError cannotWrite(const std::string& path, int error) {
   return InputError(path + ": cannot be written (" + std::strerror(error) +
                     "); give a path in a directory that exists and may be written to");
 }
-
-}  // namespace
 
 void replaceFile(const std::string& path, const std::string& content) {
   const std::string fresh = path + ".new-" + std::to_string(::getpid());

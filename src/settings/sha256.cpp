@@ -16,43 +16,50 @@ namespace fsr {
 
 namespace {
 
-class Digest {
- public:
-  Digest() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
-    require(EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr));
-  }
-  void add(const void* bytes, std::size_t size) { require(EVP_DigestUpdate(context_.get(), bytes, size)); }
-  std::string hexadecimal() {
-    std::array<unsigned char, 32> digest{};
-    require(EVP_DigestFinal_ex(context_.get(), digest.data(), nullptr));
-    constexpr char kDigits[] = "0123456789abcdef";
-    std::string text;
-    for (const unsigned char byte : digest) {
-      text += kDigits[byte >> 4];
-      text += kDigits[byte & 15];
-    }
-    return text;
-  }
-
- private:
-  static void require(int done) {
-    if (done != 1) throw std::runtime_error("the crypto library does not offer SHA-256");
-  }
-  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
-};
+void require(int done) {
+  if (done != 1) throw std::runtime_error("the crypto library does not offer SHA-256");
+}
 
 }  // namespace
 
+struct Sha256::Context {
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> digest{EVP_MD_CTX_new(), EVP_MD_CTX_free};
+};
+
+Sha256::Sha256() : context_(std::make_unique<Context>()) {
+  require(EVP_DigestInit_ex(context_->digest.get(), EVP_sha256(), nullptr));
+}
+
+Sha256::~Sha256() = default;
+Sha256::Sha256(Sha256&&) noexcept = default;
+
+void Sha256::add(const void* bytes, std::size_t size) {
+  require(EVP_DigestUpdate(context_->digest.get(), bytes, size));
+}
+
+std::string Sha256::hexadecimal() {
+  std::array<unsigned char, 32> digest{};
+  require(EVP_DigestFinal_ex(context_->digest.get(), digest.data(), nullptr));
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  for (const unsigned char byte : digest) {
+    text += kDigits[byte >> 4];
+    text += kDigits[byte & 15];
+  }
+  return text;
+}
+
 std::string sha256(const void* bytes, std::size_t size) {
-  Digest digest;
+  Sha256 digest;
   digest.add(bytes, size);
   return digest.hexadecimal();
 }
 
-std::string sha256OfFile(const std::string& path) {
+std::string sha256OfFile(const std::string& path, std::size_t skip) {
   const std::unique_ptr<std::FILE, decltype(&std::fclose)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-  Digest digest;
+  Sha256 digest;
   std::vector<char> chunk(1 << 20);
+  if (file) std::fseek(file.get(), static_cast<long>(skip), SEEK_SET);
   while (file) {
     const std::size_t size = std::fread(chunk.data(), 1, chunk.size(), file.get());
     if (size == 0) break;

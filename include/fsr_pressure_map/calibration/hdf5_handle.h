@@ -1,6 +1,7 @@
 #pragma once
 
-// What writer and reader share; seen by these two files alone, so that no other needs HDF5's header.
+// What files that speak to HDF5 share; sources include it, other headers do not, so that nobody else needs
+// HDF5's own header.
 
 #include <hdf5.h>
 

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <rosbag/bag.h>
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace fsr_ros {
+
+/// Opens a bag whose records tile the file and runs `use` on it. Throws fsr::InputError, one sentence that
+/// names the file and what would be right: no such file, empty, no bag, not indexed, cut short, a message
+/// that is cut short; and what `use` throws, with the file's name before it.
+void withSoundBag(const std::string& path, const std::function<void(const rosbag::Bag&)>& use);
+
+/// The topics of one sensor in a bag: those of one namespace, by base name.
+class SensorTopics {
+ public:
+  /// A topic that tells where a sensor is.
+  struct Mark {
+    std::string base, type;
+  };
+
+  /// `topics`: namespace of the sensor; empty = the only one in the bag with a topic among `marks`. Throws
+  /// fsr::InputError that lists what there is.
+  SensorTopics(const rosbag::Bag& bag, const std::string& topics, const std::vector<Mark>& marks);
+
+  /// The topic's name as the bag spells it, "" where it is not there.
+  std::string find(const std::string& base) const;
+  const std::string& typeOf(const std::string& topic) const { return types_.at(topic); }
+  /// All topics of the bag, "a, b".
+  std::string list() const;
+  /// Throws fsr::InputError where the topic is of another type.
+  void requireType(const std::string& topic, const std::string& type) const;
+
+ private:
+  std::string findNamespace(const std::vector<Mark>& marks) const;
+
+  std::map<std::string, std::string> types_;  // of each topic
+  std::string prefix_;                        // without slashes at its ends
+};
+
+}  // namespace fsr_ros

@@ -1,0 +1,131 @@
+#include "fsr_pressure_map/exports/tekscan_file.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+
+#include "fsr_pressure_map/exports/exact_text.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr {
+
+namespace {
+
+constexpr char kEnd[] = "\r\n";
+constexpr char kNoSensel[] = "B";
+constexpr std::size_t kRoom = 12;  // for a number that only the end knows [characters]
+
+std::string formatted(const char* format, double value) {
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), format, value);
+  return text.data();
+}
+
+std::string padded(std::string text) {
+  text.resize(std::max(text.size(), kRoom), ' ');
+  return text;
+}
+
+// Month/day/year and time of day, UTC.
+std::string date(std::int64_t stamp_ns) {
+  const std::time_t seconds = stamp_ns / 1000000000;
+  std::tm parts{};
+  gmtime_r(&seconds, &parts);
+  std::array<char, 40> text{};
+  std::strftime(text.data(), text.size(), "%m/%d/%Y %H:%M:%S", &parts);
+  return std::string(text.data()) + secondsText(stamp_ns % 1000000000).substr(1, 4);
+}
+
+// Nine digits give back each float32 of the map [kPa].
+std::string pressureValue(float pressure) {
+  return std::isnan(pressure) ? kNoSensel : formatted("%.9g", double(pressure) * 1e-3);
+}
+
+std::string value(const ScanRecord& scan, bool maps, std::size_t taxel) {
+  if (maps) return scan.map ? pressureValue(scan.map->pressure[taxel]) : kNoSensel;
+  return scan.counts.empty() ? kNoSensel : std::to_string(scan.counts[taxel]);
+}
+
+}  // namespace
+
+void TekscanFile::line(const std::string& key, const std::string& value, std::string& text) const {
+  if (!value.empty()) text += key + ' ' + value + kEnd;
+}
+
+std::string TekscanFile::header(const ScanRecord& first) {
+  const bool maps = subject_.maps;
+  const double area = layout_.pitch_x * layout_.pitch_y * 1e6;
+  std::string text;
+  line("DATA_TYPE", "MOVIE", text);
+  line("VERSION", "fsr_pressure_map " FSR_VERSION, text);
+  line("FILENAME", subject_.name, text);
+  line("SENSOR_TYPE", subject_.model.empty() ? subject_.sensor : subject_.model, text);
+  line("ROWS", std::to_string(layout_.size.rows), text);
+  line("COLS", std::to_string(layout_.size.columns), text);
+  line("ROW_SPACING", formatted("%.6g mm", layout_.pitch_y * 1e3), text);
+  line("COL_SPACING", formatted("%.6g mm", layout_.pitch_x * 1e3), text);
+  line("SENSEL_AREA", formatted("%.6g mm2", area), text);
+  line("NOISE_THRESHOLD", "0", text);
+  text += "SECONDS_PER_FRAME ";
+  period_at_ = text.size();
+  text += padded("") + kEnd;
+  line("TIME", date(first.stamp_ns), text);
+  line("SCALE_FACTOR", "1", text);
+  line("EXPONENT", "1", text);
+  if (!maps) {
+    line("SATURATION_PRESSURE", std::to_string(first.full_scale) + " RAW", text);
+  } else if (!std::isnan(subject_.trained_high)) {
+    line("SATURATION_PRESSURE", formatted("%.9g kPa", subject_.trained_high * 1e-3), text);
+    line("CALIBRATION_POINT_1", formatted("%.9g kPa", subject_.trained_low * 1e-3), text);
+    line("CALIBRATION_POINT_2", formatted("%.9g kPa", subject_.trained_high * 1e-3), text);
+  }
+  if (maps) line("CALIBRATION_INFO", subject_.calibration + ' ' + subject_.scheme, text);
+  line("UNITS", maps ? "kPa" : "RAW", text);
+  line("MIRROR_ROW", "0", text);
+  line("MIRROR_COL", "0", text);
+  line("START_FRAME", "1", text);
+  text += "END_FRAME ";
+  end_frame_at_ = text.size();
+  text += padded("") + kEnd;
+  line("COMMENTS:",
+       "research use, not for diagnosis or fitting decisions; TIME is UTC; B = no sensel or no reading",
+       text);
+  return text + "ASCII_DATA @@" + kEnd + kEnd;
+}
+
+void TekscanFile::add(const ScanRecord& scan) {
+  if (times_.empty()) {
+    layout_ = scan.layout;
+    file_.write(header(scan));
+  }
+  if (scan.layout.size != layout_.size) {
+    throw InputError(subject_.name + ": the matrix changes from " + sizeText(layout_.size) + " to " +
+                     sizeText(scan.layout.size) +
+                     " taxels, but a Tekscan file has one size; cut with --until");
+  }
+  times_.push_back(scan.since_ns);
+  std::string text = "Frame " + std::to_string(times_.size()) + kEnd;
+  for (std::size_t taxel = 0; taxel < layout_.size.taxels(); ++taxel) {
+    const bool last = layout_.column({taxel}) + 1 == layout_.size.columns;
+    text += value(scan, subject_.maps, taxel) + (last ? kEnd : ",");
+  }
+  file_.write(text + kEnd);
+}
+
+void TekscanFile::finish() {
+  const std::size_t frames = times_.size();
+  if (frames == 0) throw InputError(path_ + ": there is no scan to write; widen --from and --until");
+  const double span = 1e-9 * static_cast<double>(times_.back() - times_.front());
+  std::string text = std::string("@@") + kEnd;
+  for (std::size_t i = 0; i < frames; ++i) {
+    text += "FRAME_TIME " + std::to_string(i + 1) + ' ' + secondsText(times_[i]) + kEnd;
+  }
+  file_.write(text);
+  const double period = frames > 1 ? span / static_cast<double>(frames - 1) : 0;
+  file_.patch(period_at_, padded(formatted("%.9f", period)));
+  file_.patch(end_frame_at_, padded(std::to_string(frames)));
+  file_.finish();
+}
+
+}  // namespace fsr

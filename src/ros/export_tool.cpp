@@ -1,0 +1,130 @@
+#include "fsr_pressure_map/ros/export_tool.h"
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "fsr_pressure_map/exports/csv_table.h"
+#include "fsr_pressure_map/exports/tekscan_file.h"
+#include "fsr_pressure_map/ros/scan_source.h"
+#include "fsr_pressure_map/settings/command_line.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr_ros {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fsr::CommandLine options() {
+  fsr::CommandLine line(
+      "export", "BAG... --to FORMAT --output PATH",
+      "Writes a recording for those who have no ROS. FORMAT is\n"
+      "  csv      tidy table, a row for each taxel and scan (.gz: compressed); several bags in one\n"
+      "  tekscan  ASCII as Tekscan's I-Scan and F-Scan save it (*.asf)\n"
+      "docs/exports.md describes every column.");
+  line.option("to", "FORMAT", "what to write")
+      .option("output", "PATH", "file to write; a file that is there is replaced")
+      .option("calibration", "FILE",
+              "compute the maps with this calibration, instead of taking recorded ones")
+      .option("from", "S", "leave out what is earlier, in seconds since the first scan (0)")
+      .option("until", "S", "leave out what is later, likewise (all)")
+      .option("rate", "HZ", "at most as many scans a second (all)")
+      .option("map", "TOPIC", "topic of the maps, where a bag holds several (pressure_map)")
+      .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
+      .option("namespace", "NS", "the sensor's namespace, where a bag holds several");
+  return line;
+}
+
+ScanSelection selectionOf(const fsr::CommandLine& line) {
+  ScanSelection selection;
+  selection.topics = line.text("namespace", "");
+  selection.map = line.text("map", selection.map);
+  selection.calibration = line.text("calibration", "");
+  if (line.has("ambient")) selection.ambient = line.number("ambient", 0, {0, 120e3, "Pa"});
+  selection.from = line.number("from", 0, {0, 1e9, "s"});
+  selection.until = line.number("until", selection.until, {0, 1e9, "s"});
+  selection.rate = line.number("rate", 0, {1e-3, 1e5, "Hz"});
+  if (selection.from > selection.until) {
+    throw fsr::InputError("--from is " + line.text("from", "0") + ", but must not be later than --until, " +
+                          line.text("until", ""));
+  }
+  return selection;
+}
+
+void requireOne(const fsr::CommandLine& line) {
+  if (line.files().size() == 1) return;
+  throw fsr::InputError("give one file for --to " + line.text("to", "") + "; only csv takes several bags");
+}
+
+std::string outputOf(const fsr::CommandLine& line) {
+  const std::string output = line.requiredText("output");
+  std::error_code error;
+  for (const std::string& input : line.files()) {
+    if (fs::equivalent(input, output, error)) {
+      throw fsr::InputError("--output is " + input + " itself: give another name");
+    }
+  }
+  return output;
+}
+
+std::string fullPath(const std::string& path) {
+  return fs::absolute(path).lexically_normal().string();
+}
+
+void sendAll(const fsr::CommandLine& line, const ScanSelection& selection, fsr::ScanSink& sink,
+             std::ostream& out) {
+  std::size_t scans = 0;
+  for (const std::string& bag : line.files()) scans += sendScans(bag, selection, sink);
+  if (scans == 0) {
+    throw fsr::InputError(line.files().front() + ": holds no scan between --from and --until; widen them");
+  }
+  sink.finish();
+  out << scans << " scans are in " << fullPath(line.text("output", "")) << std::endl;
+}
+
+void writeCsv(const fsr::CommandLine& line, std::ostream& out) {
+  const ScanSelection selection = selectionOf(line);
+  fsr::CsvTable table(outputOf(line));
+  sendAll(line, selection, table, out);
+}
+
+void writeTekscan(const fsr::CommandLine& line, std::ostream& out) {
+  requireOne(line);
+  const ScanSelection selection = selectionOf(line);
+  const std::string output = outputOf(line);
+  if (fs::path(output).extension() == ".gz") {
+    throw fsr::InputError("--output is " + output + ", but only csv is written compressed");
+  }
+  fsr::TekscanFile file(output);
+  sendAll(line, selection, file, out);
+}
+
+using Writer = void (*)(const fsr::CommandLine&, std::ostream&);
+
+Writer writerOf(const std::string& format) {
+  static const std::map<std::string, Writer> kWriters = {{"csv", writeCsv}, {"tekscan", writeTekscan}};
+  const auto found = kWriters.find(format);
+  if (found != kWriters.end()) return found->second;
+  std::string names;
+  for (const auto& writer : kWriters) names += (names.empty() ? "" : ", ") + writer.first;
+  throw fsr::InputError("--to is \"" + format + "\", but must be one of " + names);
+}
+
+}  // namespace
+
+int exportTool(int argc, const char* const* argv, std::ostream& out) {
+  fsr::CommandLine line = options();
+  if (!line.parse(argc, argv)) {
+    out << line.help();
+    return 0;
+  }
+  const Writer write = writerOf(line.requiredText("to"));
+  if (line.files().empty()) throw fsr::InputError("give at least one BAG; see export --help");
+  write(line, out);
+  return 0;
+}
+
+}  // namespace fsr_ros

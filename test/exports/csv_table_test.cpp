@@ -1,0 +1,129 @@
+#include "fsr_pressure_map/exports/csv_table.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "exports/scan_examples.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "support/file_size_limit.h"
+#include "support/program_output.h"
+#include "support/pty.h"
+
+namespace {
+
+using export_test::bareScan;
+using export_test::exampleScan;
+using test_support::outputOf;
+
+class CsvTable : public testing::Test {
+ protected:
+  void write(const std::vector<fsr::ScanRecord>& scans) {
+    fsr::CsvTable table(path_);
+    table.begin(export_test::exampleSubject());
+    for (const fsr::ScanRecord& scan : scans) table.add(scan);
+    table.finish();
+  }
+  std::vector<std::string> lines() const {
+    std::ifstream file(path_);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(file, line);) lines.push_back(line);
+    return lines;
+  }
+
+  test_support::TemporaryFolder folder_;
+  std::string path_ = folder_.path("scans.csv");
+};
+
+TEST_F(CsvTable, HasARowForEachTaxelAndScan) {
+  write({exampleScan(), bareScan()});
+  const std::vector<std::string> rows = lines();
+  ASSERT_EQ(rows.size(), 1u + 2 * 6);
+  EXPECT_EQ(rows[0], fsr::kCsvHeader);
+  const std::string head =
+      "2_cylinder.bag,2026-03-01,cylinder_7cm,3,2,\"note:wet, \"\"warm\"\"\","
+      "0.050000001,7,";
+  const std::string tail = ",OK,100.1,23.5,14.25,1700000000.123456789";
+  EXPECT_EQ(rows[1], head + "0,0,0,0.1,1,none" + tail);
+  EXPECT_EQ(rows[2], head + "0,1,1,-14.892578,2.5,TARED|BELOW_RANGE" + tail);
+  EXPECT_EQ(rows[5], head + "1,1,17,NA,NA,DEAD" + tail);
+}
+
+TEST_F(CsvTable, SaysNaForWhatIsNotKnown) {
+  write({bareScan()});
+  EXPECT_EQ(lines().at(1),
+            "2_cylinder.bag,NA,NA,NA,NA,NA,0.150000001,NA,0,0,9,NA,NA,NA,NA,NA,NA,NA,1700000000.223456789");
+}
+
+TEST_F(CsvTable, RReadsBackTheExactNumbers) {
+  if (!test_support::hasProgram("Rscript")) {
+    GTEST_SKIP() << "Rscript is not installed (Debian package r-base-core): R was NOT tried";
+  }
+  write({exampleScan(), bareScan()});
+  const auto r = outputOf("Rscript -e 'd <- read.csv(\"" + path_ +
+                          "\"); cat(sprintf(\"%.9g\", d$pressure_Pa[1:6]), d$event[1], d$flags[2],"
+                          " sum(is.na(d$pressure_Pa)), class(d$counts), max(d$counts), d$surface[7])'");
+  ASSERT_EQ(r.status, 0) << r.text;
+  std::istringstream words(r.text);
+  std::string word;
+  const fsr::ScanRecord written = exampleScan();
+  for (const float pressure : written.map->pressure) {
+    words >> word;
+    if (std::isnan(pressure)) {
+      EXPECT_EQ(word, "NA");
+    } else {
+      EXPECT_EQ(std::stof(word), pressure);
+    }
+  }
+  std::getline(words, word);
+  EXPECT_EQ(word, " note:wet, \"warm\" TARED|BELOW_RANGE 7 integer 4095 NA");
+}
+
+// The reading line is that of docs/exports.md.
+TEST_F(CsvTable, OctaveReadsBackTheExactNumbers) {
+  if (!test_support::hasProgram("octave-cli")) {
+    GTEST_SKIP() << "octave-cli is not installed (Debian package octave): Octave was NOT tried";
+  }
+  write({exampleScan(), bareScan()});
+  std::ofstream(folder_.path("read.m"))
+      << "f = fopen('" << path_ << "'); names = strsplit(fgetl(f), ',');\n"
+      << "c = textscan(f, '%q%q%q%f%f%q%f%f%f%f%f%f%f%q%q%f%f%f%f', 'Delimiter', ',', "
+         "'TreatAsEmpty', 'NA');\n"
+      << "fclose(f); printf('%d %s %s %d ', numel(names), c{6}{1}, c{14}{2}, sum(isnan(c{12})));\n"
+      << "printf('%.9g ', c{12}(1:6)); printf('%.9g %.9g', c{11}(6), c{7}(1));\n";
+  const auto octave = outputOf("octave-cli --norc --no-history " + folder_.path("read.m") + " 2>/dev/null");
+  EXPECT_EQ(octave.text,
+            "19 note:wet, \"warm\" TARED|BELOW_RANGE 7 0.1 -14.892578 1e-30 123456.79 NaN 600000.06 4095 "
+            "0.050000001");
+}
+
+TEST_F(CsvTable, IsCompressedWhereItsNameSaysSo) {
+  path_ += ".gz";
+  write({bareScan()});
+  EXPECT_EQ(outputOf("zcat " + path_ + " | wc -l").text, "7\n");
+}
+
+TEST_F(CsvTable, LeavesNothingBehindWhereItIsNotFinishedOrTheDiskIsFull) {
+  std::ofstream(path_) << "old";
+  {
+    fsr::CsvTable table(path_);
+    table.begin(export_test::exampleSubject());
+    table.add(exampleScan());
+  }
+  try {
+    const test_support::FileSizeLimit limit(1000);
+    write(std::vector<fsr::ScanRecord>(2000, exampleScan()));
+    FAIL() << "a full disk passed";
+  } catch (const fsr::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(path_ + ": cannot be written"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(lines(), std::vector<std::string>{"old"});
+  const std::filesystem::directory_iterator files(folder_.path());
+  EXPECT_EQ(std::distance(begin(files), end(files)), 1);
+}
+
+}  // namespace

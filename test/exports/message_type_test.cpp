@@ -1,0 +1,99 @@
+#include "fsr_pressure_map/exports/message_type.h"
+
+#include <gtest/gtest.h>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace {
+
+// One of everything: constants, comments, arrays, messages in arrays of messages.
+const char* const kDefinition = R"(# A test.
+uint8 OK=0
+string NAME=a#b
+Header header   # when
+float32[] values  # [Pa], row-major
+int16[3] triple
+Pair[] pairs
+bool last
+================================================================================
+MSG: std_msgs/Header
+uint32 seq
+time stamp
+string frame_id
+================================================================================
+MSG: test/Pair
+string key
+string[] words
+)";
+
+fsr::MessageType type() {
+  return fsr::parseMessageType("test/Everything", kDefinition);
+}
+
+std::string number(std::uint32_t value) {
+  return {reinterpret_cast<const char*>(&value), sizeof(value)};
+}
+
+std::string text(const std::string& text) {
+  return number(static_cast<std::uint32_t>(text.size())) + text;
+}
+
+std::string message() {
+  const std::string header = number(1) + number(2) + number(3) + text("frame");
+  const std::string values = number(2) + number(0x3f800000) + number(0x40000000);
+  const std::string pairs = number(2) + text("a") + number(1) + text("x") + text("b") + number(0);
+  return header + values + std::string(6, '\1') + pairs + std::string(1, '\1');
+}
+
+struct Told {
+  std::string all;
+  void count(const fsr::MessageField& field, std::uint32_t n) {
+    all += field.name + "#" + std::to_string(n) + " ";
+  }
+  void values(const fsr::MessageField& field, const char*, std::size_t n) {
+    all += field.name + "*" + std::to_string(n) + " ";
+  }
+  void text(const fsr::MessageField& field, std::string_view text) {
+    all += field.name + "=" + std::string(text) + " ";
+  }
+};
+
+TEST(MessageType, TakesAMessageApartAsItsDefinitionSays) {
+  Told told;
+  ASSERT_TRUE(fsr::visitMessage(type(), message(), told));
+  EXPECT_EQ(told.all,
+            "header.seq*1 header.stamp*1 header.frame_id=frame values#2 values*2 triple*3 pairs#2 "
+            "pairs.key=a pairs.words#1 pairs.words=x pairs.key=b pairs.words#0 last*1 ");
+}
+
+TEST(MessageType, KnowsCommentsAndWhatIsRepeated) {
+  const fsr::MessageType everything = type();
+  EXPECT_EQ(everything.fields.at(1).comment, "[Pa], row-major");
+  EXPECT_FALSE(everything.fields.at(1).repeated);
+  EXPECT_TRUE(everything.fields.at(3).fields.at(1).repeated);
+  EXPECT_EQ(everything.count, 10u);
+}
+
+TEST(MessageType, RefusesEveryTruncationAndEveryExcess) {
+  const std::string whole = message();
+  EXPECT_TRUE(fsr::isMessageOf(type(), whole));
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    EXPECT_FALSE(fsr::isMessageOf(type(), whole.substr(0, size))) << size;
+  }
+  EXPECT_FALSE(fsr::isMessageOf(type(), whole + '\0'));
+}
+
+TEST(MessageType, RefusesAnArrayThatClaimsMoreThanThereIs) {
+  std::string lying = message();
+  const std::size_t at = number(1).size() * 4 + 5;  // the length of `values`
+  lying.replace(at, 4, number(0xffffffff));
+  EXPECT_FALSE(fsr::isMessageOf(type(), lying));
+}
+
+TEST(MessageType, RefusesATypeThatIsMissingOrContainsItself) {
+  EXPECT_THROW(fsr::parseMessageType("test/A", "B b\n"), fsr::InputError);
+  EXPECT_THROW(fsr::parseMessageType("test/A", "A[] a\n"), fsr::InputError);
+  EXPECT_THROW(fsr::parseMessageType("test/A", "uint8\n"), fsr::InputError);
+}
+
+}  // namespace

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "fsr_pressure_map/exports/scan_record.h"
+
+namespace export_test {
+
+/// A scan of 2 x 3 taxels with a map; taxel 4 is dead, taxel 5 saturated.
+inline fsr::ScanRecord exampleScan() {
+  fsr::ScanRecord scan;
+  scan.stamp_ns = 1700000000123456789;
+  scan.since_ns = 50000001;
+  scan.layout = {{2, 3}, 0.010, 0.008};
+  scan.sequence = 7;
+  scan.full_scale = 4095;
+  scan.counts = {0, 1, 2, 300, 17, 4095};
+  scan.map.emplace();
+  scan.map->reset(scan.layout);
+  scan.map->state = fsr::MapState::kOk;
+  scan.map->pressure = {0.1f, -14.892578f, 1e-30f, 123456.79f, std::nanf(""), 600000.06f};
+  scan.map->deviation = {1.0f, 2.5f, 1.0f / 3, 4409.3486f, std::nanf(""), 5.0f};
+  scan.map->flags = {0,
+                     fsr::taxel_flag::kTared | fsr::taxel_flag::kBelowRange,
+                     0,
+                     0,
+                     fsr::taxel_flag::kDead,
+                     fsr::taxel_flag::kSaturated};
+  scan.chamber_pressure = 100.1;
+  scan.temperature = 23.5;
+  fsr::Surface surface;
+  surface.name = "cylinder_7cm";
+  surface.mount = 3;
+  surface.curvature = {{14.25, 0, 0}};
+  scan.surface = std::make_shared<fsr::Surface>(surface);
+  scan.session = "2026-03-01";
+  scan.cycle = 2;
+  scan.event = "note:wet, \"warm\"";
+  return scan;
+}
+
+/// The same without anything but counts.
+inline fsr::ScanRecord bareScan() {
+  fsr::ScanRecord scan;
+  scan.stamp_ns = 1700000000223456789;
+  scan.since_ns = 150000001;
+  scan.layout = {{2, 3}};
+  scan.full_scale = 4095;
+  scan.counts = {9, 8, 7, 6, 5, 4};
+  return scan;
+}
+
+inline fsr::ExportSubject exampleSubject() {
+  fsr::ExportSubject subject;
+  subject.name = "2_cylinder.bag";
+  subject.maps = true;
+  subject.model = "S5051";
+  subject.calibration = "0123456789ab";
+  subject.scheme = "interpolated";
+  subject.trained_low = 0;
+  subject.trained_high = 620000;
+  return subject;
+}
+
+}  // namespace export_test

@@ -1,0 +1,207 @@
+#include "fsr_pressure_map/ros/export_tool.h"
+
+#include <fsr_pressure_map/Event.h>
+#include <fsr_pressure_map/MatrixFrame.h>
+#include <fsr_pressure_map/PressureMap.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <std_msgs/Float64.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/ros/bag_writer.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "support/pty.h"
+#include "support/small_calibration.h"
+#include "support/synthetic_recording.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kStart = 1500000000123456789;  // [ns]
+
+/// A bag of two surfaces and ten cycles, 1,000 scans of 2 x 3 taxels at 10 Hz, two minutes long.
+class ExportTool : public testing::Test {
+ protected:
+  void SetUp() override {
+    test_support::SyntheticRig rig;
+    rig.surfaces = {{"flat", 0.0}, {"cylinder_7cm", 14.25}};
+    rig.full_scale = 1023;
+    recording_ = test_support::syntheticRecording(rig);
+    recording_.start_ns = kStart;
+    recording_.temperature.assign(recording_.scans(), 23.5);
+    recording_.sensor.serial = "board-1";
+    fsr_ros::BagOptions options;
+    options.session.session_id = "s1";
+    fsr_ros::writeBag(bag_, recording_, options);
+  }
+
+  std::string run(const std::vector<std::string>& words) {
+    std::vector<const char*> arguments = {"export"};
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    std::ostringstream out;
+    try {
+      EXPECT_EQ(fsr_ros::exportTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
+      return out.str();
+    } catch (const fsr::InputError& error) {
+      return error.what();
+    }
+  }
+
+  // The table's columns by name.
+  static std::map<std::string, std::vector<std::string>> table(const std::string& path) {
+    std::ifstream file(path);
+    std::vector<std::string> names;
+    std::map<std::string, std::vector<std::string>> columns;
+    for (std::string line; std::getline(file, line);) {
+      std::istringstream cells(line);
+      std::size_t i = 0;
+      const bool head = names.empty();
+      for (std::string cell; std::getline(cells, cell, ',');) {
+        if (head) {
+          names.push_back(cell);
+        } else {
+          columns[names.at(i++)].push_back(cell);
+        }
+      }
+    }
+    return columns;
+  }
+
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_.path()), {}));
+  }
+
+  // The bag with a map for each scan, and an event at second 5.
+  std::string withMaps() {
+    const std::string path = folder_.path("maps.bag");
+    rosbag::Bag from(bag_), to(path, rosbag::bagmode::Write);
+    for (const rosbag::MessageInstance& instance : rosbag::View(from)) {
+      to.write(instance.getTopic(), instance.getTime(), instance, instance.getConnectionHeader());
+      const auto frame = instance.instantiate<fsr_pressure_map::MatrixFrame>();
+      if (frame == nullptr) continue;
+      fsr_pressure_map::PressureMap map;
+      map.header = frame->header;
+      map.calibration = "0123456789ab";
+      map.scheme = "interpolated";
+      map.rows = 2;
+      map.columns = 3;
+      map.pitch_x = map.pitch_y = 0.01f;
+      for (const std::uint16_t counts : frame->counts)
+        map.pressure.push_back(static_cast<float>(counts) * 100.1f);
+      map.deviation.assign(6, 1000);
+      map.flags.assign(6, 0);
+      to.write("/fsr/pressure_map", instance.getTime() + ros::Duration(0.003), map);
+    }
+    fsr_pressure_map::Event event;
+    event.header.stamp.fromNSec(kStart + 5000000000);
+    event.kind = "note";
+    event.label = "wet";
+    to.write("/fsr/events", event.header.stamp, event);
+    to.close();
+    return path;
+  }
+
+  test_support::TemporaryFolder folder_;
+  std::string bag_ = folder_.path("1_flat.bag");
+  std::string csv_ = folder_.path("out.csv");
+  fsr::Recording recording_;
+};
+
+TEST_F(ExportTool, WritesEveryScanOfABagWithoutMaps) {
+  const std::string said = run({bag_, "--to", "csv", "--output", csv_});
+  EXPECT_EQ(said, "1000 scans are in " + csv_ + "\n");
+  const auto columns = table(csv_);
+  ASSERT_EQ(columns.at("counts").size(), 6000u);
+  for (std::size_t scan = 0; scan < 1000; scan += 37) {
+    for (std::size_t taxel = 0; taxel < 6; ++taxel) {
+      const std::size_t row = scan * 6 + taxel;
+      EXPECT_EQ(columns.at("counts")[row], std::to_string(recording_.scan(scan)[taxel]));
+      EXPECT_NEAR(std::stod(columns.at("chamber_pressure_gauge_Pa")[row]), recording_.pressure[scan], 1e-6);
+      EXPECT_NEAR(std::stod(columns.at("time_s")[row]), recording_.time[scan] - recording_.time[0], 1e-6);
+      EXPECT_EQ(columns.at("surface")[row], recording_.conditions[recording_.condition[scan]].name);
+      EXPECT_EQ(columns.at("pressure_Pa")[row], "NA");
+      EXPECT_EQ(columns.at("session")[row], "s1");
+    }
+  }
+  const std::set<std::string> cycles(columns.at("cycle").begin(), columns.at("cycle").end());
+  EXPECT_EQ(cycles.size(), 10u);
+}
+
+TEST_F(ExportTool, JoinsScansWithTheirMapsAndEvents) {
+  run({withMaps(), "--to", "csv", "--output", csv_});
+  const auto columns = table(csv_);
+  ASSERT_EQ(columns.at("counts").size(), 6000u);
+  for (std::size_t row = 0; row < 6000; ++row) {
+    const float expected = static_cast<float>(std::stoi(columns.at("counts")[row])) * 100.1f;
+    ASSERT_EQ(std::stof(columns.at("pressure_Pa")[row]), expected) << row;
+    ASSERT_EQ(columns.at("event")[row], std::stod(columns.at("time_s")[row]) < 5 ? "NA" : "note:wet") << row;
+  }
+}
+
+TEST_F(ExportTool, ComputesMapsWithACalibration) {
+  const std::string calibration = folder_.path("calibration.h5");
+  fsr::saveCalibration(test_support::smallCalibration({2, 3}, {0.0, 14.25}), calibration);
+  run({bag_, "--to", "csv", "--output", csv_, "--calibration", calibration});
+  const auto columns = table(csv_);
+  ASSERT_EQ(columns.at("pressure_Pa").size(), 6000u);
+  EXPECT_EQ(columns.at("state").front(), "OK");
+  EXPECT_NE(columns.at("pressure_Pa").front(), "NA");
+}
+
+TEST_F(ExportTool, TakesATimeRangeARateAndSeveralBags) {
+  run({bag_, bag_, "--to", "csv", "--output", csv_, "--from", "1", "--until", "3", "--rate", "2"});
+  const auto columns = table(csv_);
+  EXPECT_EQ(columns.at("time_s").size(), 2u * 5 * 6);
+  EXPECT_EQ(columns.at("time_s").front(), "1.000000000");
+  EXPECT_EQ(columns.at("time_s").back(), "3.000000000");
+}
+
+TEST_F(ExportTool, WritesTekscanFrames) {
+  run({bag_, "--to", "tekscan", "--output", folder_.path("a.asf")});
+  std::ifstream file(folder_.path("a.asf"));
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(text.find("\nEND_FRAME 1000 "), std::string::npos);
+  EXPECT_NE(text.find("SECONDS_PER_FRAME 0.1000"), std::string::npos);
+}
+
+TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
+  const auto refusal = [&](const std::vector<std::string>& more, const std::string& to = "csv") {
+    std::vector<std::string> words = {"--to", to, "--output", csv_};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  };
+  EXPECT_EQ(refusal({folder_.path("none.bag")}), folder_.path("none.bag") + ": there is no such file");
+  EXPECT_NE(refusal({bag_}, "pdf").find("--to is \"pdf\", but must be one of "), std::string::npos);
+  EXPECT_NE(refusal({bag_, "--namespace", "left"}).find("holds no topic /left/raw"), std::string::npos);
+  EXPECT_NE(refusal({bag_, "--map", "map_b"}).find("holds no topic map_b, but /fsr/"), std::string::npos);
+  EXPECT_NE(refusal({bag_, "--from", "500"}).find("holds no scan between"), std::string::npos);
+  EXPECT_NE(refusal({bag_, "--from", "5", "--until", "4"}).find("--from is 5"), std::string::npos);
+  EXPECT_NE(refusal({bag_, bag_}, "tekscan").find("give one file"), std::string::npos);
+  const std::string foreign = folder_.path("foreign.bag");
+  {
+    rosbag::Bag bag(foreign, rosbag::bagmode::Write);
+    bag.write("/other", ros::Time(1), std_msgs::Float64());
+  }
+  EXPECT_NE(refusal({foreign}).find("holds no topic raw of type"), std::string::npos);
+  const std::string cut = folder_.path("cut.bag");
+  fs::copy_file(bag_, cut);
+  fs::resize_file(cut, fs::file_size(cut) / 2);
+  EXPECT_NE(refusal({cut}).find("is no whole bag"), std::string::npos);
+  EXPECT_EQ(files(), 3u) << "the bags alone";
+  EXPECT_EQ(run({bag_, "--to", "csv", "--output", bag_}),
+            "--output is " + bag_ + " itself: give another name");
+  EXPECT_NE(run({bag_, "--to", "csv", "--output", folder_.path("no/a.csv")}).find("cannot be written"),
+            std::string::npos);
+}
+
+}  // namespace
