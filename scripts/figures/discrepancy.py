@@ -266,6 +266,16 @@ def where_section(results):
     return [style.table(["where", ""], rows)]
 
 
+def covariates_section(results):
+    methods = {"sign_flips": "signs of whole cycles changed", "block_bootstrap": "cycles or blocks drawn anew"}
+    rows = [(spelt(t["covariate"]), "yes" if t["depends"] else "no", "%.2g" % t["p"], "%.2g" % t["adjusted_p"],
+             percent(max(0, t["share_of_error"])), methods.get(t["method"], t["method"]))
+            for t in results["covariates"]]
+    return [style.paragraph("What the static curves leave, asked before any effect was named; p adjusted by Benjamini and "
+                            "Yekutieli; yes: at most 0.05, and at least 2 % of the squared error."),
+            style.table(["covariate", "depends", "p", "adjusted", "of the squared error", "by"], rows)] if rows else []
+
+
 def use_section(results):
     rows = [(SITUATIONS.get(u["situation"], u["situation"]), kilopascal(u["before_pa"]), kilopascal(u["after_pa"]))
             for u in results["in_use"]]
@@ -291,6 +301,7 @@ def sections(results, figures):
         (None, [LAYOUT, first_screen(results, figures["first"])]),
         ("What was found", effects_section(results) + [style.paragraph(s["sentence"]) for s in results["steps"]]),
         ("Where it shows", where_section(results) if shown else []),
+        ("On what the residual depends", covariates_section(results)),
         ("Does it hold elsewhere", foretold_section(results)),
         ("What it costs in use", use_section(results)),
         ("All candidates", pictures((figures["candidates"], "The best explanations, each alone or in pairs; green: "

@@ -150,6 +150,13 @@ void Competition::judgeRepeating(const Measured& measured, const CommonTraces& c
   repeating_ = number > 0 && mean_square_ > 0 ? std::max(0.0, sum / number / mean_square_) : 0;
 }
 
+Eigen::MatrixXd Competition::columns(const std::vector<Eigen::Index>& chosen) const {
+  Eigen::MatrixXd columns(columns_.rows(), static_cast<Eigen::Index>(chosen.size()));
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    columns.col(static_cast<Eigen::Index>(k)) = columns_.col(chosen[k]);
+  return columns;
+}
+
 Trace Competition::explained(const Score& score) const {
   return explainedBy(score.set, score.coefficients);
 }

@@ -4,6 +4,7 @@
 
 #include "fsr_pressure_map/discrepancy/base_fit.h"
 #include "fsr_pressure_map/discrepancy/costs_in_use.h"
+#include "fsr_pressure_map/discrepancy/covariate_tests.h"
 #include "fsr_pressure_map/discrepancy/decision.h"
 #include "fsr_pressure_map/discrepancy/findings.h"
 #include "fsr_pressure_map/discrepancy/held_out.h"
@@ -67,6 +68,7 @@ class Investigation {
   void listNotIdentifiable();
   void answerQuestions();
   void foresee();
+  void doubtSilence();
   double squareOfReadings() const {
     return spreadOf(measured_, *taxels_, Trace::Zero(common_.all.size())).square;
   }
@@ -433,6 +435,18 @@ void Investigation::foresee() {
   prediction.size = {kPredictedLow, kPredictedHigh};
 }
 
+// No explanation stands out, and yet what is left is no noise.
+void Investigation::doubtSilence() {
+  if (report_.verdict != Verdict::kNone) return;
+  Ids covariates;
+  for (const CovariateTest& test : report_.covariates) {
+    if (test.depends) covariates.push_back(test.covariate);
+  }
+  if (covariates.empty()) return;
+  report_.limitations.push_back("What is left depends on " + listText(covariates) +
+                                ", though no explanation stands out from noise: more cycles would tell.");
+}
+
 DiscrepancyReport Investigation::run() {
   report_.seed = problem_.options.seed;
   report_.version = FSR_VERSION;
@@ -447,6 +461,9 @@ DiscrepancyReport Investigation::run() {
   takeOutMains();
   compete();
   sizeTogether();
+  tell("covariates", 0.75);
+  report_.covariates =
+      CovariateTests{measured_, common_, *fit_, *taxels_, *competition_, problem_.options.seed}.run();
   lookAtStaticCurves();
   put();
   if (problem_.options.repeat) {
@@ -470,6 +487,7 @@ DiscrepancyReport Investigation::run() {
   }
   report_.limitations.insert(report_.limitations.begin(), measured_.limitations.begin(),
                              measured_.limitations.end());
+  doubtSilence();
   report_.sentence = sentenceOf(report_);
   tell("done", 1);
   return std::move(report_);

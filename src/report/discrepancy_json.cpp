@@ -29,6 +29,15 @@ Json json(const NotIdentifiable& effect) {
   return {{"id", effect.id}, {"experiment", effect.experiment}, {"reason", effect.reason}};
 }
 
+Json json(const CovariateTest& test) {
+  return {{"covariate", test.covariate},
+          {"method", test.method},
+          {"p", test.p},
+          {"adjusted_p", test.adjusted},
+          {"share_of_error", test.share_of_error},
+          {"depends", test.depends}};
+}
+
 Json json(const WhereItShows& where) {
   return {{"taxels", where.taxels},
           {"conditions", where.conditions},
@@ -117,6 +126,7 @@ std::string discrepancyJson(const DiscrepancyReport& report) {
                     {"credible_set", report.credible_set},
                     {"depends_on", report.depends_on},
                     {"not_identifiable", list(report.not_identifiable)},
+                    {"covariates", list(report.covariates)},
                     {"where", json(report.where)},
                     {"gap", json(report.gap)},
                     {"in_use", list(report.in_use)},

@@ -42,6 +42,8 @@ TEST(DiscrepancyJson, HoldsEveryNumberAndNullForNone) {
   EXPECT_EQ(json["gap"]["closed_interval"][1], 0.94);
   EXPECT_EQ(json["effects"][0]["parameters"][0]["interval"][0], 0.058);
   EXPECT_EQ(json["candidates"].size(), 3u);
+  EXPECT_EQ(json["covariates"][0]["adjusted_p"], 3e-3);
+  EXPECT_EQ(json["gap"]["foretold"][0]["parts"][1]["part"], "cylinder_7cm");
   EXPECT_EQ(json["curves"][0]["at"].size(), 20u);
   const DiscrepancyReport nothing;
   EXPECT_TRUE(json["in_use"][2]["after_pa"].is_null());

@@ -24,6 +24,12 @@ TEST(MultipleComparisons, HolmAgreesWithRAndKeepsTheOrderGiven) {
   expectAll(fsr::holm({0.04, 0.001, 0.2, 0.013, 0.9, 0.013}), {0.12, 0.006, 0.4, 0.065, 0.9, 0.065});
 }
 
+// p.adjust(c(0.01, 0.02, 0.03, 0.04, 0.05, 0.5), "BY"); p.adjust(c(0.04, 0.001, 0.2, 0.013, 0.9, 0.013), "BY")
+TEST(MultipleComparisons, BenjaminiYekutieliAgreesWithRAndKeepsTheOrderGiven) {
+  expectAll(fsr::benjaminiYekutieli({0.01, 0.02, 0.03, 0.04, 0.05, 0.5}), {0.147, 0.147, 0.147, 0.147, 0.147, 1});
+  expectAll(fsr::benjaminiYekutieli({0.04, 0.001, 0.2, 0.013, 0.9, 0.013}), {0.147, 0.0147, 0.588, 0.0637, 1, 0.0637});
+}
+
 TEST(MultipleComparisons, HolmIsNeverAboveBonferroni) {
   const Values p = uniform(3, 40);
   const Values strict = fsr::bonferroni(p), stepped = fsr::holm(p);

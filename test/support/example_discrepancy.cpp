@@ -63,6 +63,8 @@ fsr::DiscrepancyReport exampleDiscrepancy() {
   report.depends_on = {"direction", "pressure"};
   report.not_identifiable = {{"crosstalk", "uneven_load", "The static curve takes all of it."},
                              {"wear", "many_cycles", "60 cycles wear nothing off."}};
+  report.covariates = {{"direction x pressure", "sign_flips", 1e-4, 3e-3, 0.8, true},
+                       {"temperature", "block_bootstrap", 0.4, 1, 0, false}};
   report.where.taxels = {0, 3};
   report.where.conditions = {"flat", "cylinder_7cm"};
   report.where.pressure = {50e3, 400e3};

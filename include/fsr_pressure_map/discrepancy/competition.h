@@ -21,6 +21,9 @@ class Competition {
   const std::vector<Covariate>& covariates(std::size_t generic) const { return covariates_[generic]; }
   const std::vector<Signature>& signatures() const { return signatures_; }
   const Selection& selection() const { return *selection_; }
+  const CycleGrams& grams() const { return *grams_; }
+  /// Some of the projected columns, signatures before generic terms, [moments x chosen].
+  Eigen::MatrixXd columns(const std::vector<Eigen::Index>& chosen) const;
 
   /// Share of the squared error that repeats from one half of the taxels to the other and from one
   /// moment to one a second later: what anything could explain. 0 where nothing is hidden.

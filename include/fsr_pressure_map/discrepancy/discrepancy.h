@@ -62,6 +62,16 @@ struct NotIdentifiable {
   std::string reason;      ///< one sentence
 };
 
+/// Whether what the static curves leave depends on a covariate, asked before any effect is named.
+struct CovariateTest {
+  std::string covariate;      ///< as in name(Covariate)
+  std::string method;         ///< sign_flips, block_bootstrap
+  double p = 1;               ///< by chance alone, as much or more
+  double adjusted = 1;        ///< by Benjamini and Yekutieli, over all covariates
+  double share_of_error = 0;  ///< of the readings' squared error that it explains
+  bool depends = false;       ///< adjusted p <= 0.05 and share >= 2 %
+};
+
 /// Where the discrepancy shows.
 struct WhereItShows {
   std::vector<std::size_t> taxels;               ///< row-major; empty = all
@@ -161,6 +171,7 @@ struct DiscrepancyReport {
   std::vector<std::vector<std::string>> credible_set;  ///< every explanation not excluded, best first
   std::vector<std::string> depends_on;                 ///< covariates, as in name(Covariate)
   std::vector<NotIdentifiable> not_identifiable;
+  std::vector<CovariateTest> covariates;
   WhereItShows where;
   Gap gap;
   std::vector<GapInUse> in_use;

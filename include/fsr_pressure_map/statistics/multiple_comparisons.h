@@ -18,4 +18,9 @@ std::vector<double> bonferroni(const std::vector<double>& p);
 /// As R's p.adjust(p, "holm").
 std::vector<double> holm(const std::vector<double>& p);
 
+/// The i-th smallest p times m (1 + 1/2 + ... + 1/m) / i, made monotone, at most 1: bounds the share of false
+/// ones among what is found. Source: Y. Benjamini, D. Yekutieli, Ann. Statistics 29 (2001) 1165-1188.
+/// As R's p.adjust(p, "BY").
+std::vector<double> benjaminiYekutieli(const std::vector<double>& p);
+
 }  // namespace fsr
