@@ -1,15 +1,15 @@
 #include "fsr_pressure_map/ros/bag_reader.h"
 
 #include <ros/message_traits.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 
 #include <filesystem>
+#include <functional>
+#include <map>
 
+#include "fsr_pressure_map/ros/bag_walk.h"
 #include "fsr_pressure_map/ros/message_events.h"
 #include "fsr_pressure_map/ros/message_reader.h"
 #include "fsr_pressure_map/ros/sensor_topics.h"
-#include "fsr_pressure_map/settings/sha256.h"
 
 namespace fsr_ros {
 
@@ -20,47 +20,62 @@ const std::string kRaw = "raw";
 // Feeds the messages of one sensor to a builder.
 class Feeder {
  public:
-  Feeder(const rosbag::Bag& bag, const std::string& topics, fsr::RecordingBuilder& builder)
+  Feeder(const BagWalk& bag, const std::string& topics, fsr::RecordingBuilder& builder)
       : bag_(bag),
-        topics_(bag, topics, {{kRaw, ros::message_traits::datatype<fsr_pressure_map::MatrixFrame>()}}),
+        topics_(typesOf(bag), topics, {{kRaw, ros::message_traits::datatype<fsr_pressure_map::MatrixFrame>()}}),
         builder_(builder) {}
 
-  void run() {
+  // Returns the SHA-256 of the bag.
+  std::string run() {
     take<fsr_pressure_map::MatrixFrame>(kRaw);
     take<sensor_msgs::FluidPressure>("chamber_pressure");
     take<fsr_pressure_map::SurfaceCurvature>("curvature");
     take<sensor_msgs::Temperature>("temperature");
     take<fsr_pressure_map::MatrixInfo>("matrix_info");
+    return bag_.run([&](std::uint32_t connection, MessageBytes bytes) {
+      const auto found = readers_.find(connection);
+      if (found != readers_.end()) found->second(bytes);
+    });
   }
 
  private:
+  static SensorTopics::Types typesOf(const BagWalk& bag) {
+    SensorTopics::Types types;
+    for (const auto& [id, connection] : bag.connections()) types[connection.topic] = connection.type;
+    return types;
+  }
+
   template <typename Message>
   void take(const std::string& base) {
     const std::string topic = topics_.find(base);
     if (topic.empty()) return;
     topics_.requireType(topic, ros::message_traits::datatype<Message>());
-    rosbag::View view(bag_, rosbag::TopicQuery(topic));
-    for (const rosbag::MessageInstance& instance : view) {
-      addEvent(reader_.read<Message>(instance), builder_);
+    for (const auto& [id, connection] : bag_.connections()) {
+      if (connection.topic != topic) continue;
+      requireDefinition<Message>(topic, connection.md5sum);
+      readers_[id] = [this, message = Message()](MessageBytes bytes) mutable {
+        readMessage(bytes.data, bytes.size, message);
+        addEvent(message, builder_);
+      };
     }
   }
 
-  const rosbag::Bag& bag_;
-  MessageReader reader_;
+  const BagWalk& bag_;
   SensorTopics topics_;
   fsr::RecordingBuilder& builder_;
+  std::map<std::uint32_t, std::function<void(MessageBytes)>> readers_;  // of each connection that is taken
 };
 
 }  // namespace
 
 fsr::Recording readBag(const std::string& path, const BagReadOptions& options) {
   fsr::Recording recording;
-  withSoundBag(path, [&](const rosbag::Bag& bag) {
+  tellingOfDamage(path, [&] {
     fsr::RecordingBuilder builder;
-    Feeder(bag, options.topics, builder).run();
+    const BagWalk bag(path);
     fsr::RecordingOptions chosen = options.recording;
     chosen.name = std::filesystem::path(path).filename().string();
-    chosen.sha256 = fsr::sha256OfFile(path);
+    chosen.sha256 = Feeder(bag, options.topics, builder).run();
     recording = builder.build(chosen);
   });
   return recording;

@@ -16,7 +16,7 @@
 #include <map>
 #include <string>
 
-#include "fsr_pressure_map/ros/bag_check.h"
+#include "fsr_pressure_map/ros/bag_walk.h"
 #include "fsr_pressure_map/settings/command_line.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/settings/replace_file.h"
@@ -97,6 +97,8 @@ Ledger scrub(const std::string& path, const std::string& fresh) {
     const Ledger ledger = Scrubber(from, to).run();
     to.close();
     return ledger;
+  } catch (const rosbag::BagFormatException& error) {
+    throw fsr::InputError(path + ": is no whole bag (" + error.what() + ")");
   } catch (const rosbag::BagException& error) {
     throw fsr::InputError(path + ": cannot be copied (" + error.what() + ")");
   } catch (const fsr::InputError& error) {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <set>
 
-#include "fsr_pressure_map/ros/bag_check.h"
+#include "fsr_pressure_map/ros/bag_walk.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr_ros {
@@ -33,25 +33,24 @@ void requireFile(const std::string& path) {
   }
 }
 
-void requireRecords(const std::string& path, const std::string& way_out) {
-  try {
-    requireSoundBag(path);
-  } catch (const rosbag::BagUnindexedException&) {
-    throw fsr::InputError("the bag was not closed and has no index; run: rosbag reindex " + path);
-  } catch (const fsr::InputError& complaint) {
-    throw fsr::InputError(complaint.what() + way_out);
+SensorTopics::Types typesOf(const rosbag::Bag& bag) {
+  SensorTopics::Types types;
+  rosbag::View view(bag);
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    types[connection->topic] = connection->datatype;
   }
+  return types;
 }
 
 }  // namespace
 
-void withSoundBag(const std::string& path, const std::function<void(const rosbag::Bag&)>& use) {
+void tellingOfDamage(const std::string& path, const std::function<void()>& read) {
   const std::string way_out = "; copy it again, or save what is left with: rosbag reindex " + path;
   try {
     requireFile(path);
-    requireRecords(path, way_out);
-    const rosbag::Bag bag(path, rosbag::bagmode::Read);
-    use(bag);
+    read();
+  } catch (const rosbag::BagUnindexedException&) {
+    throw fsr::InputError(path + ": the bag was not closed and has no index; run: rosbag reindex " + path);
   } catch (const rosbag::BagException& error) {
     throw fsr::InputError(path + ": is no whole bag (" + error.what() + ")" + way_out);
   } catch (const ros::serialization::StreamOverrunException&) {
@@ -61,12 +60,19 @@ void withSoundBag(const std::string& path, const std::function<void(const rosbag
   }
 }
 
-SensorTopics::SensorTopics(const rosbag::Bag& bag, const std::string& topics,
-                           const std::vector<Mark>& marks) {
-  rosbag::View view(bag);
-  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
-    types_[connection->topic] = connection->datatype;
-  }
+void withSoundBag(const std::string& path, const std::function<void(const rosbag::Bag&)>& use) {
+  tellingOfDamage(path, [&] {
+    requireSoundBag(path);
+    const rosbag::Bag bag(path, rosbag::bagmode::Read);
+    use(bag);
+  });
+}
+
+SensorTopics::SensorTopics(const rosbag::Bag& bag, const std::string& topics, const std::vector<Mark>& marks)
+    : SensorTopics(typesOf(bag), topics, marks) {}
+
+SensorTopics::SensorTopics(Types types, const std::string& topics, const std::vector<Mark>& marks)
+    : types_(std::move(types)) {
   prefix_ = withoutSlashes(topics);
   if (prefix_.empty()) prefix_ = findNamespace(marks);
   for (const Mark& mark : marks) {

@@ -14,6 +14,28 @@
 
 namespace fsr_ros {
 
+/// Throws fsr::InputError where a bag's definition of a topic's type, known by its hash, is another one.
+template <typename Message>
+void requireDefinition(const std::string& topic, const std::string& md5sum) {
+  if (md5sum == ros::message_traits::md5sum<Message>()) return;
+  throw fsr::InputError(topic + " was recorded with another definition of " +
+                        ros::message_traits::datatype<Message>() + "; convert the bag with rosbag fix");
+}
+
+/// Reads a serialised message. Throws ros::serialization::StreamOverrunException where it is cut short or
+/// claims more than it has: ROS would make room for as many values as a message merely claims to hold, up to
+/// 16 GB.
+template <typename Message>
+void readMessage(std::uint8_t* bytes, std::size_t size, Message& message) {
+  static const fsr::MessageType structure = fsr::parseMessageType(
+      ros::message_traits::datatype<Message>(), ros::message_traits::definition<Message>());
+  if (!fsr::isMessageOf(structure, {reinterpret_cast<const char*>(bytes), size})) {
+    throw ros::serialization::StreamOverrunException("");
+  }
+  ros::serialization::IStream from(bytes, static_cast<std::uint32_t>(size));
+  ros::serialization::deserialize(from, message);
+}
+
 /// Reads messages out of a bag that may be damaged.
 class MessageReader {
  public:
@@ -25,22 +47,13 @@ class MessageReader {
     return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
   }
 
-  /// Throws fsr::InputError where the bag's definition of the type is another one,
-  /// ros::serialization::StreamOverrunException where the message is cut short or claims more than it has:
-  /// ROS would make room for as many values as a message merely claims to hold, up to 16 GB.
+  /// Throws as the two functions above.
   template <typename Message>
   Message read(const rosbag::MessageInstance& instance) {
-    const std::string type = ros::message_traits::datatype<Message>();
-    if (instance.getMD5Sum() != ros::message_traits::md5sum<Message>()) {
-      throw fsr::InputError(instance.getTopic() + " was recorded with another definition of " + type +
-                            "; convert the bag with rosbag fix");
-    }
-    static const fsr::MessageType structure =
-        fsr::parseMessageType(type, ros::message_traits::definition<Message>());
-    if (!fsr::isMessageOf(structure, bytes(instance))) throw ros::serialization::StreamOverrunException("");
-    ros::serialization::IStream from(bytes_.data(), static_cast<std::uint32_t>(bytes_.size()));
+    requireDefinition<Message>(instance.getTopic(), instance.getMD5Sum());
+    bytes(instance);
     Message message;
-    ros::serialization::deserialize(from, message);
+    readMessage(bytes_.data(), bytes_.size(), message);
     return message;
   }
 

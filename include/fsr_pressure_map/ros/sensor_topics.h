@@ -9,14 +9,19 @@
 
 namespace fsr_ros {
 
-/// Opens a bag whose records tile the file and runs `use` on it. Throws fsr::InputError, one sentence that
-/// names the file and what would be right: no such file, empty, no bag, not indexed, cut short, a message
-/// that is cut short; and what `use` throws, with the file's name before it.
+/// Runs `read` on the bag's file. Throws fsr::InputError, one sentence that names the file and what would be
+/// right: no such file, empty, and where `read` throws a rosbag::BagException or fsr::InputError or meets a
+/// message that is cut short.
+void tellingOfDamage(const std::string& path, const std::function<void()>& read);
+
+/// Opens a bag whose records tile the file and runs `use` on it; throws likewise.
 void withSoundBag(const std::string& path, const std::function<void(const rosbag::Bag&)>& use);
 
 /// The topics of one sensor in a bag: those of one namespace, by base name.
 class SensorTopics {
  public:
+  using Types = std::map<std::string, std::string>;  ///< of each topic
+
   /// A topic that tells where a sensor is.
   struct Mark {
     std::string base, type;
@@ -24,6 +29,7 @@ class SensorTopics {
 
   /// `topics`: namespace of the sensor; empty = the only one in the bag with a topic among `marks`. Throws
   /// fsr::InputError that lists what there is.
+  SensorTopics(Types types, const std::string& topics, const std::vector<Mark>& marks);
   SensorTopics(const rosbag::Bag& bag, const std::string& topics, const std::vector<Mark>& marks);
 
   /// The topic's name as the bag spells it, "" where it is not there.
@@ -37,8 +43,8 @@ class SensorTopics {
  private:
   std::string findNamespace(const std::vector<Mark>& marks) const;
 
-  std::map<std::string, std::string> types_;  // of each topic
-  std::string prefix_;                        // without slashes at its ends
+  Types types_;
+  std::string prefix_;  // without slashes at its ends
 };
 
 }  // namespace fsr_ros

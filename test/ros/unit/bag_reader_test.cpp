@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
+#include <rosbag/view.h>
 #include <std_msgs/Float64.h>
 
 #include <filesystem>
@@ -31,11 +32,12 @@ class BagReader : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  std::string complaint(const std::string& topics = "") const {
+  std::string complaint(const std::string& topics = "") const { return complaintOf(path_, topics); }
+  static std::string complaintOf(const std::string& path, const std::string& topics = "") {
     BagReadOptions options;
     options.topics = topics;
     try {
-      readBag(path_, options);
+      readBag(path, options);
     } catch (const fsr::InputError& error) {
       return error.what();
     }
@@ -87,6 +89,29 @@ TEST_F(BagReader, GivesBackTheRecordingThatWasWritten) {
     EXPECT_NEAR(read.pressure[scan], written.pressure[scan], 1e-9);
     EXPECT_EQ(read.scan(scan)[5], written.scan(scan)[5]);
     EXPECT_EQ(read.temperature[scan], 23.5);
+  }
+}
+
+// The same bag, packed as rosbag record does it.
+TEST_F(BagReader, ReadsPackedBags) {
+  writeBag(path_, twoSurfaces(), inNamespace("fsr"));
+  const fsr::Recording plain = readBag(path_);
+  for (const auto packing : {rosbag::compression::LZ4, rosbag::compression::BZ2}) {
+    const std::string packed = (folder_ / "packed.bag").string();
+    {
+      const rosbag::Bag from(path_);
+      rosbag::Bag to(packed, rosbag::bagmode::Write);
+      to.setCompression(packing);
+      for (const rosbag::MessageInstance& message : rosbag::View(from)) {
+        to.write(message.getTopic(), message.getTime(), message);
+      }
+    }
+    const fsr::Recording read = readBag(packed);
+    EXPECT_EQ(read.counts, plain.counts);
+    EXPECT_EQ(read.pressure, plain.pressure);
+    EXPECT_EQ(read.sha256, fsr::sha256OfFile(packed));
+    std::fstream(packed, std::ios::in | std::ios::out | std::ios::binary).seekp(6000).write("!!!!!!!!", 8);
+    EXPECT_NE(complaintOf(packed).find("is no whole bag"), std::string::npos) << complaintOf(packed);
   }
 }
 
