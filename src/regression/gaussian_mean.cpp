@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "fsr_pressure_map/regression/coarse_grid.h"
+#include "fsr_pressure_map/regression/far_gaussian.h"
 #include "fsr_pressure_map/regression/gaussian_table.h"
 #include "fsr_pressure_map/regression/kernel_mean.h"
 #include "fsr_pressure_map/regression/vector_width.h"
@@ -12,13 +13,11 @@ namespace fsr {
 
 namespace {
 
-// Kernel values down to exp(-600) are kept: far from the smallest double, so that quotients of sums
-// of them keep full precision.
-constexpr double kLargestExponent = 600.0;
 // The coarse grid answers where its error, a share of the samples within reach, is this far below their
 // weight; near enough to a sample also that what it leaves out does not count.
 constexpr double kLeastShareOfWeight = 0.01;
 constexpr double kFarthestOnGrid = 3.0;  // [sigma]
+constexpr double kNoGap = 0.5;           // [sigma]
 
 FSR_EACH_VECTOR_WIDTH
 void divide(const double* numerator, const double* denominator, std::ptrdiff_t number, double* quotient) {
@@ -34,7 +33,8 @@ class GaussianSums {
         sigma_(sigma),
         precision_(0.5 / (sigma * sigma)),
         beyond_nearest_(std::log(samples.samples / kNegligibleShare) / precision_),
-        mean_(mean) {}
+        mean_(mean),
+        far_(samples, precision_, beyond_nearest_, log_weight) {}
 
   void run() {
     findFarthest();
@@ -46,7 +46,7 @@ class GaussianSums {
       if (isNear(far)) {
         directBlock(block, end, far);
       } else {
-        for (std::ptrdiff_t code = block; code < end; ++code) farCode(code);
+        far_.sumBlock(block, end, mean_);
       }
     }
   }
@@ -59,18 +59,21 @@ class GaussianSums {
 
   // Whether no kernel value that counts there underflows.
   bool isNear(double nearest) const {
-    return precision_ * (nearest * nearest + beyond_nearest_) <= kLargestExponent;
+    return precision_ * (nearest * nearest + beyond_nearest_) <= kLargestKernelExponent;
   }
 
-  // Of each block the largest distance of a code to its nearest sample.
+  // Of each block the largest distance of a code to its nearest sample; what is less than `kNoGap` lengthens
+  // no reach and counts as that.
   void findFarthest() {
-    farthest_.assign(static_cast<std::size_t>((codes_ + kCodeBlock - 1) / kCodeBlock), 0.0);
+    const double no_gap = kNoGap * sigma_;
+    farthest_.assign(static_cast<std::size_t>((codes_ + kCodeBlock - 1) / kCodeBlock), no_gap);
+    const auto narrow = static_cast<std::ptrdiff_t>(std::min(2 * no_gap, static_cast<double>(codes_))) + 1;
     std::ptrdiff_t before = -codes_;
-    for (std::size_t next = 0; before < codes_; ++next) {
-      const std::ptrdiff_t after = next < samples_.code.size() ? samples_.code[next] : 2 * codes_;
-      if (after > before + 1) noteGap(before, after);
+    for (const std::int32_t after : samples_.code) {
+      if (after - before > narrow) noteGap(before, after);
       before = after;
     }
+    noteGap(before, 2 * codes_);
   }
 
   void noteGap(std::ptrdiff_t before, std::ptrdiff_t after) {
@@ -125,38 +128,6 @@ class GaussianSums {
     store(block, end, sums.data(), weights.data());
   }
 
-  // So far from every sample that only quotients of kernel values can be formed.
-  void farCode(std::ptrdiff_t code) {
-    const std::size_t middle = samples_.firstFrom(code);
-    const auto square = [&](std::size_t s) {
-      const auto d = static_cast<double>(samples_.code[s] - code);
-      return d * d;
-    };
-    double nearest = INFINITY;
-    if (middle > 0) nearest = square(middle - 1);
-    if (middle < samples_.code.size()) nearest = std::min(nearest, square(middle));
-    double sum = 0, weight = 0;
-    const auto counts = [&](std::size_t s) {
-      const double excess = square(s) - nearest;
-      if (excess > beyond_nearest_) return false;
-      const double value = std::exp(-precision_ * excess);
-      sum += samples_.sum[s] * value;
-      weight += samples_.count[s] * value;
-      return true;
-    };
-    for (std::size_t s = middle; s > 0 && counts(s - 1); --s) {
-    }
-    for (std::size_t s = middle; s < samples_.code.size() && counts(s); ++s) {
-    }
-    const double exponent = precision_ * nearest;
-    mean_.pressure[static_cast<std::size_t>(code)] = sum / weight;
-    mean_.weight[static_cast<std::size_t>(code)] =
-        exponent < kLargestExponent ? weight * std::exp(-exponent) : 0.0;
-    if (log_weight_ != LogWeight::kNo) {
-      mean_.log_weight[static_cast<std::size_t>(code)] = std::log(weight) - exponent;
-    }
-  }
-
   const WeightedCodes& samples_;
   LogWeight log_weight_;
   std::ptrdiff_t codes_;
@@ -169,6 +140,7 @@ class GaussianSums {
   std::optional<CoarseGrid> grid_;
   std::vector<double> count_before_;  // of all samples before each
   std::optional<GaussianTable> table_;
+  FarGaussian far_;
 };
 
 }  // namespace
