@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "fsr_pressure_map/calibration/calibration_hdf5.h"
+#include "fsr_pressure_map/settings/fresh_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/settings/replace_file.h"
 #include "fsr_pressure_map/settings/sha256.h"
@@ -64,15 +65,22 @@ std::string verified(const std::string& bytes, std::uint64_t schema) {
 }  // namespace
 
 std::string saveCalibration(const Calibration& calibration, const std::string& path) {
-  std::string bytes;
-  {
-    Hdf5Writer writer;
+  FreshPath fresh(path);
+  errno = 0;
+  try {
+    Hdf5Writer writer(fresh.name());
     writeCalibration(calibration, writer);
-    bytes = writer.finish();
+    writer.finish();
+  } catch (const InputError&) {
+    throw cannotWrite(path, errno == 0 ? EIO : errno);
   }
-  const std::string hash = sha256(bytes.data() + kUserBlock, bytes.size() - kUserBlock);
-  bytes.replace(0, kUserBlock, userBlock(kCalibrationSchema, hash));
-  replaceFile(path, bytes);
+  const std::string hash = sha256OfFile(fresh.name(), kUserBlock);
+  const std::string first_line = userBlock(kCalibrationSchema, hash);
+  std::fstream file(fresh.name(), std::ios::in | std::ios::out | std::ios::binary);
+  if (!file.write(first_line.data(), static_cast<std::streamsize>(first_line.size())).flush()) {
+    throw cannotWrite(path, errno);
+  }
+  fresh.finish();
   return hash.substr(0, kIdDigits);
 }
 

@@ -45,20 +45,19 @@ void writeDataset(hid_t file, const std::string& path, hid_t type, const std::ve
   if (elements(shape) > 0) require(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);
 }
 
-hid_t createImage() {
+hid_t createFile(const std::string& name) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors become exceptions, not text on stderr
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file");
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file");
-  constexpr std::size_t kGrowth = 16 << 20;
-  require(H5Pset_fapl_core(access, kGrowth, false), "file");
+  require(H5Pset_file_locking(access, false, true), "file");  // not every file system has locks
   require(H5Pset_userblock(creation, kUserBlock), "file");
-  return H5Fcreate("image", H5F_ACC_TRUNC, creation, access);
+  return H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation, access);
 }
 
 }  // namespace
 
-Hdf5Writer::Hdf5Writer() : lock_(hdf5Mutex()), file_(createImage()) {
-  if (file_ < 0) throw std::runtime_error("HDF5 cannot make a file in memory");
+Hdf5Writer::Hdf5Writer(const std::string& name) : lock_(hdf5Mutex()), file_(createFile(name)) {
+  require(file_ < 0 ? -1 : 0, "file");
 }
 
 Hdf5Writer::~Hdf5Writer() {
@@ -104,8 +103,9 @@ void Hdf5Writer::dataset(const std::string& path, const std::vector<T>& values,
                          const std::vector<std::size_t>& shape, const std::string& unit,
                          const std::string& meaning) {
   if (elements(shape) != values.size()) throw std::logic_error(path + " is not " + shapeText(shape));
-  if constexpr (std::is_integral_v<T> && sizeof(T) > 2) {
-    using Narrower = std::conditional_t<sizeof(T) == 8, std::uint32_t, std::uint16_t>;
+  if constexpr (std::is_integral_v<T> && sizeof(T) > 1) {
+    using OfHalf = std::conditional_t<sizeof(T) == 4, std::uint16_t, std::uint8_t>;
+    using Narrower = std::conditional_t<sizeof(T) == 8, std::uint32_t, OfHalf>;
     if (fits<Narrower>(values)) {
       dataset(path, std::vector<Narrower>(values.begin(), values.end()), shape, unit, meaning);
       return;
@@ -127,15 +127,10 @@ void Hdf5Writer::texts(const std::string& path, const std::vector<std::string>& 
   if (!meaning.empty()) attribute(path, "meaning", meaning);
 }
 
-std::string Hdf5Writer::finish() {
-  require(H5Fflush(file_, H5F_SCOPE_GLOBAL), "file");
-  const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
-  if (size <= 0) throw std::runtime_error("HDF5 gives no image of its file");
-  std::string bytes(kUserBlock + static_cast<std::size_t>(size), '\0');
-  if (H5Fget_file_image(file_, bytes.data() + kUserBlock, static_cast<std::size_t>(size)) != size) {
-    throw std::runtime_error("HDF5 gives no image of its file");
-  }
-  return bytes;
+void Hdf5Writer::finish() {
+  const herr_t closed = H5Fclose(file_);
+  file_ = -1;
+  require(closed, "file");
 }
 
 template void Hdf5Writer::dataset(const std::string&, const std::vector<std::uint8_t>&,

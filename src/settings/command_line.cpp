@@ -1,5 +1,9 @@
 #include "fsr_pressure_map/settings/command_line.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -128,7 +132,21 @@ std::int64_t CommandLine::integer(const std::string& name, std::int64_t fallback
   return static_cast<std::int64_t>(value);
 }
 
+namespace {
+
+// Vectors of tens of kilobytes come and go by the thousand in a tool: handing each back to the system and
+// having its pages cleared again takes a sixth of the time of training.
+void keepFreedMemory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // [bytes], the most that glibc takes
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+#endif
+}
+
+}  // namespace
+
 int runTool(const std::string& tool, const std::function<int()>& run) {
+  keepFreedMemory();
   try {
     return run();
   } catch (const InputError& error) {

@@ -12,12 +12,13 @@ namespace fsr {
 constexpr std::size_t kUserBlock = 512;
 
 /// Just as much of HDF5 as a calibration needs: groups, attributes, datasets of numbers and of texts,
-/// written to the bytes of a whole file in memory. T is one of uint8_t, uint16_t, uint32_t, uint64_t,
+/// written to a file behind kUserBlock bytes of zeros that the caller may fill. T is one of uint8_t, uint16_t, uint32_t, uint64_t,
 /// int64_t, float, double. HDF5 is not thread-safe: there is one writer or reader at a time in the
 /// process, others wait in their constructors.
 class Hdf5Writer {
  public:
-  Hdf5Writer();
+  /// Overwrites the file of this name. All members throw InputError where it cannot be written.
+  explicit Hdf5Writer(const std::string& name);
   ~Hdf5Writer();
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
@@ -27,16 +28,14 @@ class Hdf5Writer {
   void attribute(const std::string& path, const std::string& name, const std::string& text);
   void attribute(const std::string& path, const std::string& name, const std::vector<double>& values);
   void attribute(const std::string& path, const std::string& name, std::uint64_t value);
-  /// Row-major; `unit` and `meaning` become attributes where they are not empty. Integers of more than two
-  /// bytes are stored in the narrowest type that holds all of them; readers give them back as they were.
+  /// Row-major; `unit` and `meaning` become attributes where they are not empty. Integers are stored in the narrowest type that holds all of them; readers give them back as they were.
   template <typename T>
   void dataset(const std::string& path, const std::vector<T>& values, const std::vector<std::size_t>& shape,
                const std::string& unit, const std::string& meaning);
   void texts(const std::string& path, const std::vector<std::string>& texts, const std::string& meaning);
 
-  /// The bytes of the file, the first kUserBlock of them zeros that the caller may fill. The writer is done
-  /// then.
-  std::string finish();
+  /// Closes the file. The writer is done then.
+  void finish();
 
  private:
   std::lock_guard<std::mutex> lock_;
