@@ -16,9 +16,9 @@ struct Entries {
     tables.codes = source.full_scale + 1u;
     for (std::size_t k = 0; k < source.classes.size(); ++k) {
       const CodeTable& table = source.table(taxel, k);
-      std::vector<TableEntry>& entries = of_class.emplace_back();
+      std::vector<TableEntry>& entries = of_class.emplace_back(tables.codes);
       for (std::size_t code = 0; code < tables.codes; ++code) {
-        entries.push_back({table.pressure[code], table.deviation[code]});
+        entries[code] = {table.pressure[code], table.deviation[code]};
       }
       tables.curvature.push_back(source.classes[k].at(taxel));
       tables.log_weight.push_back(table.log_weight.data());
@@ -32,16 +32,22 @@ bool isInner(const std::vector<double>& curvature, std::size_t k) {
   return curvature[k] > *low && curvature[k] < *high;
 }
 
+// Sum of the squared distances of a code's readings from their mean [Pa^2].
+double spreadOf(const CodeSums& sums) {
+  if (sums.count == 1) return 0.0;
+  const Int128 spread = sums.sum_of_squares * sums.count - Int128{sums.sum} * sums.sum;
+  return static_cast<double>(spread) / sums.count * kFixedPressureUnit * kFixedPressureUnit;
+}
+
 void addReadings(const CodeStatistics& readings, const std::vector<TableEntry>& answer,
                  const std::vector<TableEntry>& own, UnseenErrors& errors) {
   readings.forEach([&](const CodeSums& sums) {
-    const double count = sums.count, mean = fromFixed(sums.sum) / count;
-    const Int128 spread = sums.sum_of_squares * sums.count - Int128{sums.sum} * sums.sum;
+    const double count = sums.count,
+                 mean = sums.count == 1 ? fromFixed(sums.sum) : fromFixed(sums.sum) / count;
     const double error = answer[sums.code].pressure - mean, deviation = own[sums.code].deviation;
     UnseenErrors::Bin& bin = errors.bins[pressureBin(answer[sums.code].pressure)];
     bin.readings += count;
-    bin.squares +=
-        count * error * error + static_cast<double>(spread) / count * kFixedPressureUnit * kFixedPressureUnit;
+    bin.squares += count * error * error + spreadOf(sums);
     bin.stated += count * deviation * deviation;
     bin.pressure += count * answer[sums.code].pressure;
     errors.lowest = std::min(errors.lowest, mean);

@@ -43,6 +43,13 @@ std::uint64_t CodeStatistics::samples() const {
   return std::accumulate(count_.begin(), count_.end(), std::uint64_t{0});
 }
 
+void CodeStatistics::reserve(std::size_t codes, std::size_t repeated) {
+  code_.reserve(codes);
+  count_.reserve(codes);
+  sum_.reserve(codes);
+  square_.reserve(repeated);
+}
+
 void CodeStatistics::append(const CodeSums& sums) {
   code_.push_back(sums.code);
   count_.push_back(sums.count);
@@ -85,11 +92,16 @@ void CodeAccumulator::add(std::uint16_t code, FixedPressure pressure) {
   if (code >= sums_.size()) refuseCode(code, sums_.size() - 1);
   occupied_[code / 64u] |= std::uint64_t{1} << (code % 64u);
   sums_[code].code = code;
+  repeated_ += sums_[code].count == 1;
   addSums(sums_[code], {code, 1, pressure, Int128{pressure} * pressure});
 }
 
 CodeStatistics CodeAccumulator::take() {
   CodeStatistics statistics;
+  std::size_t codes = 0;
+  for (const std::uint64_t bits : occupied_) codes += static_cast<std::size_t>(__builtin_popcountll(bits));
+  statistics.reserve(codes, repeated_);
+  repeated_ = 0;
   for (std::size_t word = 0; word < occupied_.size(); ++word) {
     for (std::uint64_t bits = occupied_[word]; bits != 0; bits &= bits - 1) {
       CodeSums& sums = sums_[word * 64 + static_cast<std::size_t>(__builtin_ctzll(bits))];

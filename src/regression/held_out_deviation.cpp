@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "fsr_pressure_map/regression/deviation_scale.h"
 
@@ -28,6 +29,11 @@ const std::vector<double>& pointsOf(double count) {
   return count > 2 ? kMore : count > 1 ? kTwo : kOne;
 }
 
+inline FixedPressure nearestFixed(double pressure) {
+  const double units = pressure / kFixedPressureUnit;
+  return static_cast<FixedPressure>(units < 0 ? units - 0.5 : units + 0.5);
+}
+
 // Sums over a box of 2 half + 1 values, cut at the ends.
 std::vector<double> boxSums(const std::vector<double>& values, std::size_t half) {
   std::vector<double> prefix(values.size() + 1, 0.0);
@@ -45,8 +51,12 @@ void HeldOutErrors::addSection(const CodeStatistics& held_out, const std::vector
   std::vector<Errors> section;
   section.reserve(held_out.codes());
   held_out.forEach([&](const CodeSums& sums) {
+    const FixedPressure answer = nearestFixed(pressure[sums.code]);
+    if (sums.count == 1) {
+      section.push_back({sums.code, 1.0, fromFixed(sums.sum - answer), 0.0});
+      return;
+    }
     // sum of (p - f)^2 = sum of p^2 - 2 f sum of p + n f^2: exact in integers
-    const FixedPressure answer = std::llround(pressure[sums.code] / kFixedPressureUnit);
     const Int128 error = Int128{sums.sum} - Int128{answer} * sums.count;
     const Int128 squares =
         sums.sum_of_squares - Int128{answer} * (2 * Int128{sums.sum} - Int128{answer} * sums.count);
@@ -70,40 +80,42 @@ void HeldOutErrors::forEach(std::size_t left_out, Visit visit) const {
   }
 }
 
-std::vector<double> HeldOutErrors::rootMeanSquare(std::size_t left_out, std::size_t window) const {
-  std::vector<double> count(codes_, 0.0), squares(codes_, 0.0);
-  double all_count = 0, all_squares = 0;
+HeldOutErrors::Sums HeldOutErrors::sums(std::size_t left_out) const {
+  Sums sums{std::vector<double>(codes_, 0.0), std::vector<double>(codes_, 0.0)};
   forEach(left_out, [&](const Errors& errors) {
-    const double square = errors.count * (errors.mean * errors.mean + errors.spread * errors.spread);
-    count[errors.code] += errors.count;
-    squares[errors.code] += square;
-    all_count += errors.count;
-    all_squares += square;
+    sums.count[errors.code] += errors.count;
+    sums.squares[errors.code] += errors.count * (errors.mean * errors.mean + errors.spread * errors.spread);
   });
+  return sums;
+}
+
+std::vector<double> HeldOutErrors::rootMeanSquare(const Sums& sums, std::size_t window) const {
+  const double all_count = std::accumulate(sums.count.begin(), sums.count.end(), 0.0);
+  const double all_squares = std::accumulate(sums.squares.begin(), sums.squares.end(), 0.0);
   const double pooled = all_count > 0 ? all_squares / all_count : 0.0;
-  const std::vector<double> near_count = boxSums(count, window);
-  const std::vector<double> near_squares = boxSums(squares, window);
+  const std::vector<double> near_count = boxSums(sums.count, window);
+  const std::vector<double> near_squares = boxSums(sums.squares, window);
   std::vector<double> root(codes_);
   for (std::size_t code = 0; code < codes_; ++code) {
     // a difference of prefix sums can come out a rounding below zero
     const double near =
         (std::max(0.0, near_squares[code]) + kPriorReadings * pooled) / (near_count[code] + kPriorReadings);
-    root[code] = std::sqrt((squares[code] + kPriorReadings * near) / (count[code] + kPriorReadings));
+    root[code] = (sums.squares[code] + kPriorReadings * near) / (sums.count[code] + kPriorReadings);
   }
+  for (double& square : root) square = std::sqrt(square);
   return root;
 }
 
 // The factor on `root` at each code.
-std::vector<double> HeldOutErrors::scale(const std::vector<double>& root, std::size_t left_out) const {
-  std::vector<double> count(codes_, 0.0);
-  forEach(left_out, [&](const Errors& errors) { count[errors.code] += errors.count; });
-  DeviationScale scale(count);
+std::vector<double> HeldOutErrors::scale(const Sums& sums, const std::vector<double>& root,
+                                         std::size_t left_out) const {
+  DeviationScale scale(sums.count);
   forEach(left_out, [&](const Errors& errors) {
     const double unit = std::max(root[errors.code], kLeastDeviation);
     const std::vector<double>& points = pointsOf(errors.count);
+    const double weight = errors.count / static_cast<double>(points.size());
     for (const double point : points) {
-      scale.add(errors.code, (errors.mean + point * errors.spread) / unit,
-                errors.count / static_cast<double>(points.size()));
+      scale.add(errors.code, (errors.mean + point * errors.spread) / unit, weight);
     }
   });
   return scale.factors();
@@ -118,8 +130,9 @@ std::vector<float> HeldOutErrors::deviation(const std::vector<double>& pressure,
   lowest = std::min(lowest, highest);  // where there was no error at all
   const auto window = std::max<std::size_t>(
       1, static_cast<std::size_t>(kNeighbourhood * static_cast<double>(highest - lowest)));
-  const std::vector<double> root = rootMeanSquare(left_out, window);
-  const std::vector<double> factor = scale(root, left_out);
+  const Sums of_codes = sums(left_out);
+  const std::vector<double> root = rootMeanSquare(of_codes, window);
+  const std::vector<double> factor = scale(of_codes, root, left_out);
 
   std::vector<float> deviation(codes_);
   for (std::size_t code = 0; code < codes_; ++code) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsr_pressure_map/regression/vector_width.h"
+
 namespace fsr {
 
 WeightedCodes weightedCodes(const CodeHistogram& training) {
@@ -34,7 +36,7 @@ namespace {
 
 // (count - 1) count times the variance of the readings, exactly. `Sum` must hold samples x codes^2.
 template <typename Sum>
-Int128 scatterOf(const std::vector<std::int64_t>& count) {
+inline __attribute__((always_inline)) Int128 scatterOf(const std::vector<std::int64_t>& count) {
   Sum number = 0, sum = 0, squares = 0;
   for (std::size_t code = 0; code < count.size(); ++code) {
     const auto reading = static_cast<std::int64_t>(code);
@@ -45,13 +47,17 @@ Int128 scatterOf(const std::vector<std::int64_t>& count) {
   return Int128{number} * squares - Int128{sum} * sum;
 }
 
+FSR_EACH_VECTOR_WIDTH
+Int128 smallScatterOf(const std::vector<std::int64_t>& count) {
+  return scatterOf<std::int64_t>(count);
+}
+
 }  // namespace
 
 double readingDeviation(const CodeHistogram& training) {
   if (training.samples() < 2) return 0.0;
   const bool small = training.samples() < std::uint64_t{1} << 31;  // times 2^32 fits 64 bits
-  const Int128 scatter =
-      small ? scatterOf<std::int64_t>(training.count()) : scatterOf<Int128>(training.count());
+  const Int128 scatter = small ? smallScatterOf(training.count()) : scatterOf<Int128>(training.count());
   const auto number = static_cast<double>(training.samples());
   return std::sqrt(static_cast<double>(scatter) / (number * (number - 1)));
 }

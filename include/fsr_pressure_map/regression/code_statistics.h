@@ -41,6 +41,8 @@ class CodeStatistics {
   std::size_t codes() const { return code_.size(); }
   std::uint64_t samples() const;
 
+  /// Makes room for so many codes, `repeated` of which occur more than once.
+  void reserve(std::size_t codes, std::size_t repeated);
   /// Appends a code larger than all before it.
   void append(const CodeSums& sums);
   /// Adds another's sums. Throws InputError where a sum would overflow.
@@ -86,6 +88,7 @@ class CodeAccumulator {
  private:
   std::vector<CodeSums> sums_;           // of every code
   std::vector<std::uint64_t> occupied_;  // one bit for every code
+  std::size_t repeated_ = 0;             // codes with more than one reading
 };
 
 /// Counts and sums of every code, 0 .. full scale: what models train on.

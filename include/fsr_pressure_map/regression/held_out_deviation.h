@@ -45,8 +45,14 @@ class HeldOutErrors {
 
   template <typename Visit>
   void forEach(std::size_t left_out, Visit visit) const;
-  std::vector<double> rootMeanSquare(std::size_t left_out, std::size_t window) const;
-  std::vector<double> scale(const std::vector<double>& root, std::size_t left_out) const;
+  // Of each code.
+  struct Sums {
+    std::vector<double> count;
+    std::vector<double> squares;  // [Pa^2]
+  };
+  Sums sums(std::size_t left_out) const;
+  std::vector<double> rootMeanSquare(const Sums& sums, std::size_t window) const;
+  std::vector<double> scale(const Sums& sums, const std::vector<double>& root, std::size_t left_out) const;
 
   std::size_t codes_;
   std::vector<std::vector<Errors>> sections_;
