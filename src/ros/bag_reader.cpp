@@ -22,7 +22,8 @@ class Feeder {
  public:
   Feeder(const BagWalk& bag, const std::string& topics, fsr::RecordingBuilder& builder)
       : bag_(bag),
-        topics_(typesOf(bag), topics, {{kRaw, ros::message_traits::datatype<fsr_pressure_map::MatrixFrame>()}}),
+        topics_(typesOf(bag), topics,
+                {{kRaw, ros::message_traits::datatype<fsr_pressure_map::MatrixFrame>()}}),
         builder_(builder) {}
 
   // Returns the SHA-256 of the bag.

@@ -27,8 +27,8 @@ void requireDefinition(const std::string& topic, const std::string& md5sum) {
 /// 16 GB.
 template <typename Message>
 void readMessage(std::uint8_t* bytes, std::size_t size, Message& message) {
-  static const fsr::MessageType structure = fsr::parseMessageType(
-      ros::message_traits::datatype<Message>(), ros::message_traits::definition<Message>());
+  static const fsr::MessageType structure = fsr::parseMessageType(ros::message_traits::datatype<Message>(),
+                                                                  ros::message_traits::definition<Message>());
   if (!fsr::isMessageOf(structure, {reinterpret_cast<const char*>(bytes), size})) {
     throw ros::serialization::StreamOverrunException("");
   }
