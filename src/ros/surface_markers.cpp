@@ -45,9 +45,9 @@ Marker sheet(const std_msgs::Header& header, const fsr::PressureMap& map, const 
   Marker result = marker(header, "sheet", Marker::TRIANGLE_LIST);
   std::vector<fsr::Colour> colours;
   if (style.smooth) {
-    mesh.colourSmoothly(map, style.layer, style.scale, colours);
+    mesh.colourSmoothly(fsr::layerOf(map, style.layer), style.scale, colours);
   } else {
-    mesh.colourCells(map, style.layer, style.scale, colours);
+    mesh.colourCells(fsr::layerOf(map, style.layer), style.scale, colours);
   }
   result.points.reserve(colours.size());
   result.colors.reserve(colours.size());

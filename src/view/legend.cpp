@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "fsr_pressure_map/view/taxel_look.h"
 
@@ -56,6 +57,15 @@ void drawKey(Pixel corner, int in_a_row, int width, Colour ink, Image& image) {
   }
 }
 
+bool operator==(const Legend& a, const Legend& b) {
+  const auto parts = [](const Legend& legend) {
+    const PressureScale& scale = legend.scale;
+    return std::tie(scale.low, scale.high, scale.unit, scale.colours, legend.title, legend.lines,
+                    legend.marks);
+  };
+  return parts(a) == parts(b);
+}
+
 Image drawLegend(const Legend& legend) {
   requireSound(legend.scale);
   const int heading = kLineHeight * static_cast<int>(legend.lines.size() + 1);
@@ -65,7 +75,7 @@ Image drawLegend(const Legend& legend) {
     image.text(at, line, kInk);
     at.y += kLineHeight;
   }
-  image.text(at, std::string(name(legend.layer)) + " [" + name(legend.scale.unit) + "]", kInk);
+  image.text(at, legend.title + " [" + name(legend.scale.unit) + "]", kInk);
   at.y += kLineHeight + kLineHeight / 2;
   drawColourBar(legend.scale, at, kBarWidth, kBarHeight, kInk, image);
   const int key_height = kKeyRowHeight * static_cast<int>(markedLooks().size());

@@ -38,11 +38,27 @@ PressureUnit pressureUnitOf(const std::string& name) {
 }
 
 std::string name(PressureUnit unit) {
-  return unit == PressureUnit::kKilopascal ? "kPa" : "mmHg";
+  switch (unit) {
+    case PressureUnit::kKilopascal:
+      return "kPa";
+    case PressureUnit::kMillimetreOfMercury:
+      return "mmHg";
+    case PressureUnit::kCount:
+      break;
+  }
+  return "counts";
 }
 
 double pascals(PressureUnit unit) {
-  return unit == PressureUnit::kKilopascal ? 1000.0 : 133.322387415;
+  switch (unit) {
+    case PressureUnit::kKilopascal:
+      return 1000;
+    case PressureUnit::kMillimetreOfMercury:
+      return 133.322387415;
+    case PressureUnit::kCount:
+      break;
+  }
+  return 1;
 }
 
 void requireSound(const PressureScale& scale) {

@@ -81,9 +81,8 @@ void SheetMesh::forEachCorner(Visit visit) const {
   }
 }
 
-void SheetMesh::colourCells(const PressureMap& map, MapLayer layer, const PressureScale& scale,
+void SheetMesh::colourCells(const std::vector<float>& values, const PressureScale& scale,
                             std::vector<Colour>& colours) const {
-  const std::vector<float>& values = layerOf(map, layer);
   colours.clear();
   colours.reserve(corners_.size());
   for (const float value : values) {
@@ -92,15 +91,15 @@ void SheetMesh::colourCells(const PressureMap& map, MapLayer layer, const Pressu
   }
 }
 
-void SheetMesh::colourSmoothly(const PressureMap& map, MapLayer layer, const PressureScale& scale,
+void SheetMesh::colourSmoothly(const std::vector<float>& values, const PressureScale& scale,
                                std::vector<Colour>& colours) const {
-  const SmoothLayer values(layerOf(map, layer), layout_.size);
+  const SmoothLayer layer(values, layout_.size);
   std::vector<Colour> of_vertex(vertices_.size());
   std::size_t next = 0;
   for (int row = 0; row <= layout_.size.rows * fineness_; ++row) {
-    const SmoothLayer::Place place = values.row(double(row) / fineness_ - 0.5);
+    const SmoothLayer::Place place = layer.row(double(row) / fineness_ - 0.5);
     for (int column = 0; column <= layout_.size.columns * fineness_; ++column) {
-      const double value = values.at(place, values.column(double(column) / fineness_ - 0.5));
+      const double value = layer.at(place, layer.column(double(column) / fineness_ - 0.5));
       of_vertex[next++] = std::isnan(value) ? kNoReadingColour : scale.colour(value);
     }
   }

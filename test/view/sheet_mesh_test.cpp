@@ -84,7 +84,7 @@ TEST(SheetMesh, ColoursEachTaxelAlike) {
   PressureMap map = ramp();
   map.pressure[69] = NAN;
   std::vector<Colour> colours;
-  mesh.colourCells(map, MapLayer::kPressure, {}, colours);
+  mesh.colourCells(map.pressure, {}, colours);
   ASSERT_EQ(colours.size(), mesh.corners().size());
   for (std::size_t i = 0; i < 69 * 24; ++i)
     EXPECT_EQ(colours[i], PressureScale{}.colour(8e3 * double(i / 24)));
@@ -94,7 +94,7 @@ TEST(SheetMesh, ColoursEachTaxelAlike) {
 TEST(SheetMesh, ColoursRunOverBetweenTaxelsAndMeetThemAtTheirCentres) {
   const SheetMesh mesh(kLayout, uniform({}), 2);
   std::vector<Colour> colours;
-  mesh.colourSmoothly(ramp(), MapLayer::kPressure, {}, colours);
+  mesh.colourSmoothly(ramp().pressure, {}, colours);
   ASSERT_EQ(colours.size(), mesh.corners().size());
   EXPECT_EQ(colours[24 * 34 + 2], PressureScale{}.colour(8e3 * 34));  // third corner of taxel 34: its centre
   EXPECT_EQ(colours[24 * 34 + 0], PressureScale{}.colour(8e3 * (34 + 33 + 24 + 23) / 4));  // its corner

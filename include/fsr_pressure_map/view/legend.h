@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "fsr_pressure_map/view/image.h"
-#include "fsr_pressure_map/view/map_layer.h"
 #include "fsr_pressure_map/view/pressure_scale.h"
 
 namespace fsr {
@@ -12,10 +11,12 @@ namespace fsr {
 /// What a bent mesh cannot say of itself.
 struct Legend {
   PressureScale scale;
-  MapLayer layer = MapLayer::kPressure;
-  std::vector<std::string> lines;  ///< of text, on top, cut where they are too long
-  bool marks = true;               ///< with the key of the marks (taxel_look.h)
+  std::string title = "gauge pressure";  ///< of the colour bar; its unit follows in brackets
+  std::vector<std::string> lines;        ///< of text, on top, cut where they are too long
+  bool marks = true;                     ///< with the key of the marks (taxel_look.h)
 };
+
+bool operator==(const Legend& a, const Legend& b);
 
 /// Colour bar with unit and range, key of the marks, lines of text; one size for a number of lines.
 Image drawLegend(const Legend& legend);

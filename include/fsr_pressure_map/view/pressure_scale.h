@@ -7,14 +7,15 @@
 
 namespace fsr {
 
-/// Units of screens; everything else is in Pa.
-enum class PressureUnit { kKilopascal, kMillimetreOfMercury };
+/// Units of screens; everything else is in Pa. Only a picture of raw scans has counts, which are no pressure.
+enum class PressureUnit { kKilopascal, kMillimetreOfMercury, kCount };
 
 std::vector<std::string> pressureUnitNames();  ///< kPa, mmHg
 /// Throws InputError for a name that pressureUnitNames() does not have.
 PressureUnit pressureUnitOf(const std::string& name);
 std::string name(PressureUnit unit);
-/// One unit [Pa]; the conventional mmHg is 133.322387415 Pa (ISO 80000-4:2006).
+/// One unit [Pa]; the conventional mmHg is 133.322387415 Pa (ISO 80000-4:2006). A scale of counts holds
+/// counts.
 double pascals(PressureUnit unit);
 
 /// From pressure to colour, and what a legend says about it.

@@ -25,9 +25,10 @@ class SheetMesh {
   std::size_t cornersOfTaxel() const { return std::size_t(6) * fineness_ * fineness_; }
 
   /// Colours of corners(): one for each taxel, or running over from taxel to taxel; no reading is grey.
-  void colourCells(const PressureMap& map, MapLayer layer, const PressureScale& scale,
+  /// `values` [rows x columns], row-major, in what the scale measures, NaN = no reading.
+  void colourCells(const std::vector<float>& values, const PressureScale& scale,
                    std::vector<Colour>& colours) const;
-  void colourSmoothly(const PressureMap& map, MapLayer layer, const PressureScale& scale,
+  void colourSmoothly(const std::vector<float>& values, const PressureScale& scale,
                       std::vector<Colour>& colours) const;
 
   /// The point of the sheet at taxel coordinates (0, 0 = centre of taxel 0, 0), `lift` [m] above its face.

@@ -3,7 +3,6 @@
 #include <map>
 
 #include "fsr_pressure_map/ros/surface_markers.h"
-#include "fsr_pressure_map/view/taxel_look.h"
 
 namespace fsr_rviz {
 
@@ -31,11 +30,12 @@ StatusLine stateStatus(fsr::MapState state) {
   }
 }
 
-StatusLine mapStatus(double seconds, const std::string& topic) {
-  if (seconds < 0) return {StatusProperty::Warn, "no map has come on " + topic};
-  if (seconds < kSilence) return {StatusProperty::Ok, "maps are coming"};
-  return {StatusProperty::Warn, "no map for " + std::to_string(static_cast<long>(seconds)) + " s on " +
-                                    topic + ": the last one is shown"};
+StatusLine messageStatus(double seconds, const std::string& noun, const std::string& topic) {
+  if (topic.empty()) return {StatusProperty::Warn, "no topic is chosen"};
+  if (seconds < 0) return {StatusProperty::Warn, "no " + noun + " has come on " + topic};
+  if (seconds < kSilence) return {StatusProperty::Ok, noun + "s are coming"};
+  return {StatusProperty::Warn, "no " + noun + " for " + std::to_string(static_cast<long>(seconds)) +
+                                    " s on " + topic + ": the last one is shown"};
 }
 
 StatusLine curvatureStatus(const fsr::Surface& surface, const std::string& error, const std::string& topic) {
@@ -44,17 +44,17 @@ StatusLine curvatureStatus(const fsr::Surface& surface, const std::string& error
   return {StatusProperty::Ok, surface.name.empty() ? "received" : surface.name};
 }
 
-StatusLine taxelStatus(const fsr::PressureMap& map) {
+StatusLine taxelStatus(const std::vector<fsr::TaxelLook>& looks) {
   std::map<fsr::TaxelLook, int> counts;
-  for (std::size_t i = 0; i < map.pressure.size(); ++i) ++counts[fsr::lookOf(map.pressure[i], map.flags[i])];
+  for (const fsr::TaxelLook look : looks) ++counts[look];
   std::string text;
   for (const fsr::TaxelLook look : fsr::markedLooks()) {
     if (counts[look] == 0) continue;
     text += (text.empty() ? "" : ", ") + std::to_string(counts[look]) + " " + fsr::name(look);
   }
   if (text.empty()) return {StatusProperty::Ok, "all read within range"};
-  const bool harmless = counts[fsr::TaxelLook::kGood] + counts[fsr::TaxelLook::kBelowRange] ==
-                        static_cast<int>(map.pressure.size());
+  const bool harmless =
+      counts[fsr::TaxelLook::kGood] + counts[fsr::TaxelLook::kBelowRange] == static_cast<int>(looks.size());
   return {harmless ? StatusProperty::Ok : StatusProperty::Warn, text};
 }
 

@@ -3,9 +3,11 @@
 #include <rviz/properties/status_property.h>
 
 #include <string>
+#include <vector>
 
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/matrix/curvature.h"
+#include "fsr_pressure_map/view/taxel_look.h"
 
 namespace fsr_rviz {
 
@@ -18,13 +20,13 @@ struct StatusLine {
 /// Why no pressure is shown, or what is to be kept in mind about the one that is.
 StatusLine stateStatus(fsr::MapState state);
 
-/// `seconds` since the last map; below 0 = none ever came on `topic`.
-StatusLine mapStatus(double seconds, const std::string& topic);
+/// `seconds` since the last message; below 0 = none ever came on `topic`. `noun`: what it is, e.g. "map".
+StatusLine messageStatus(double seconds, const std::string& noun, const std::string& topic);
 
 /// What the sheet's shape comes from; `error` where the last message could not be used.
 StatusLine curvatureStatus(const fsr::Surface& surface, const std::string& error, const std::string& topic);
 
 /// How many taxels are not to be believed as they stand.
-StatusLine taxelStatus(const fsr::PressureMap& map);
+StatusLine taxelStatus(const std::vector<fsr::TaxelLook>& looks);
 
 }  // namespace fsr_rviz

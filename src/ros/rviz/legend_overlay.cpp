@@ -70,7 +70,13 @@ void LegendOverlay::makeTexture(const fsr::Image& image) {
   panel_->setDimensions(static_cast<Ogre::Real>(image.width()), static_cast<Ogre::Real>(image.height()));
 }
 
-void LegendOverlay::show(const fsr::Image& image) {
+void LegendOverlay::show(const fsr::Legend& legend) {
+  if (!texture_ || !(legend == drawn_)) blit(fsr::drawLegend(legend));
+  drawn_ = legend;
+  overlay_->show();
+}
+
+void LegendOverlay::blit(const fsr::Image& image) {
   const bool fits = texture_ && texture_->getWidth() == static_cast<Ogre::uint32>(image.width()) &&
                     texture_->getHeight() == static_cast<Ogre::uint32>(image.height());
   if (!fits) makeTexture(image);
@@ -79,7 +85,6 @@ void LegendOverlay::show(const fsr::Image& image) {
   const Ogre::PixelBox box(static_cast<Ogre::uint32>(image.width()),
                            static_cast<Ogre::uint32>(image.height()), 1, Ogre::PF_BYTE_RGB, bytes.data());
   texture_->getBuffer()->blitFromMemory(box);
-  overlay_->show();
 }
 
 }  // namespace fsr_rviz

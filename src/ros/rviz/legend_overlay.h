@@ -3,7 +3,7 @@
 #include <OgrePrerequisites.h>
 #include <OgreTexture.h>
 
-#include "fsr_pressure_map/view/image.h"
+#include "fsr_pressure_map/view/legend.h"
 
 namespace Ogre {
 class Overlay;
@@ -12,7 +12,7 @@ class PanelOverlayElement;
 
 namespace fsr_rviz {
 
-/// A picture that stands before the 3D scene, at one place of the window.
+/// A legend that stands before the 3D scene, at one place of the window. Drawn anew only where it changed.
 class LegendOverlay {
  public:
   LegendOverlay();
@@ -20,19 +20,21 @@ class LegendOverlay {
   LegendOverlay(const LegendOverlay&) = delete;
   LegendOverlay& operator=(const LegendOverlay&) = delete;
 
-  void show(const fsr::Image& image);
+  void show(const fsr::Legend& legend);
   void hide();
   /// Of the top left corner [pixels].
   void moveTo(int left, int top);
 
  private:
   void makeTexture(const fsr::Image& image);
+  void blit(const fsr::Image& image);
 
   std::string name_;
   Ogre::Overlay* overlay_;
   Ogre::PanelOverlayElement* panel_;
   Ogre::MaterialPtr material_;
   Ogre::TexturePtr texture_;
+  fsr::Legend drawn_;
 };
 
 }  // namespace fsr_rviz

@@ -85,19 +85,15 @@ void SheetVisual::setVisible(bool visible) {
   node_->setVisible(visible);
 }
 
-void SheetVisual::show(const fsr::PressureMap& map, const fsr::SheetMesh& mesh,
-                       const fsr::HeatMapStyle& style, bool marks) {
-  if (style.smooth) {
-    mesh.colourSmoothly(map, style.layer, style.scale, colours_);
+void SheetVisual::show(const SheetPicture& picture, const fsr::SheetMesh& mesh) {
+  if (picture.smooth) {
+    mesh.colourSmoothly(picture.values, picture.scale, colours_);
   } else {
-    mesh.colourCells(map, style.layer, style.scale, colours_);
+    mesh.colourCells(picture.values, picture.scale, colours_);
   }
   draw(mesh, colours_);
-  if (marks) {
-    drawMarks(map, mesh, style);
-  } else {
-    marks_->clear();
-  }
+  marks_->clear();
+  if (picture.marks) drawMarks(picture, mesh);
 }
 
 void SheetVisual::showIndices(const fsr::SheetMesh& mesh) {
@@ -125,19 +121,17 @@ void SheetVisual::draw(const fsr::SheetMesh& mesh, const std::vector<fsr::Colour
   sheet_->end();
 }
 
-void SheetVisual::drawMarks(const fsr::PressureMap& map, const fsr::SheetMesh& mesh,
-                            const fsr::HeatMapStyle& style) {
-  marks_->clear();
+void SheetVisual::drawMarks(const SheetPicture& picture, const fsr::SheetMesh& mesh) {
   bool any = false;
-  for (std::size_t i = 0; i < map.pressure.size(); ++i) {
-    const auto& strokes = fsr::mark(fsr::lookOf(map.pressure[i], map.flags[i]));
+  for (std::size_t i = 0; i < picture.looks.size(); ++i) {
+    const auto& strokes = fsr::mark(picture.looks[i]);
     if (strokes.empty()) continue;
     if (!any) marks_->begin(material_->getName(), Ogre::RenderOperation::OT_TRIANGLE_LIST);
     any = true;
-    const double value = double(fsr::layerOf(map, style.layer)[i]);
-    const auto under = std::isnan(value) ? fsr::kNoReadingColour : style.scale.colour(value);
+    const auto value = double(picture.values[i]);
+    const auto under = std::isnan(value) ? fsr::kNoReadingColour : picture.scale.colour(value);
     for (const fsr::Stroke& stroke : strokes) {
-      addBand(*marks_, mesh, map.layout.row({i}), map.layout.column({i}), stroke,
+      addBand(*marks_, mesh, picture.layout.row({i}), picture.layout.column({i}), stroke,
               toOgre(fsr::markColour(under)));
     }
   }

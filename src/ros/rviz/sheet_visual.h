@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/view/heat_map.h"
 #include "fsr_pressure_map/view/sheet_mesh.h"
+#include "sheet_picture.h"
 
 namespace fsr_rviz {
 
@@ -20,9 +20,7 @@ class SheetVisual {
   SheetVisual(const SheetVisual&) = delete;
   SheetVisual& operator=(const SheetVisual&) = delete;
 
-  /// Draws the map on the mesh; `marks` on taxels that are not to be believed.
-  void show(const fsr::PressureMap& map, const fsr::SheetMesh& mesh, const fsr::HeatMapStyle& style,
-            bool marks);
+  void show(const SheetPicture& picture, const fsr::SheetMesh& mesh);
   /// In colours that tell the index of a taxel + 1 (red highest), for rviz's selection.
   void showIndices(const fsr::SheetMesh& mesh);
   void setVisible(bool visible);
@@ -32,7 +30,7 @@ class SheetVisual {
 
  private:
   void draw(const fsr::SheetMesh& mesh, const std::vector<fsr::Colour>& colours);
-  void drawMarks(const fsr::PressureMap& map, const fsr::SheetMesh& mesh, const fsr::HeatMapStyle& style);
+  void drawMarks(const SheetPicture& picture, const fsr::SheetMesh& mesh);
 
   Ogre::SceneManager* scene_;
   Ogre::SceneNode* node_;

@@ -2,23 +2,31 @@
 
 #include <rviz/selection/selection_handler.h>
 
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "sheet_visual.h"
 
 namespace fsr_rviz {
 
-/// What the display shows at the moment, for a read-out of single taxels.
-struct ShownMap {
-  fsr::PressureMap map;
-  const fsr::SheetMesh* mesh = nullptr;
-  fsr::HeatMapStyle style;
-  bool marks = true;
+/// What a display shows at the moment.
+struct ShownSheet {
+  SheetPicture picture;
+  std::optional<fsr::SheetMesh> mesh;
 };
 
-/// Reads taxels out in rviz's selection panel: row, column, pressure, deviation, flags in words.
+/// What is known of a taxel, as names and values.
+using ReadOut = std::vector<std::pair<std::string, std::string>>;
+
+/// Reads taxels out in rviz's selection panel: row, column, and what the display knows of them.
 class TaxelSelection : public rviz::SelectionHandler {
  public:
-  /// Both must outlive it.
-  TaxelSelection(rviz::DisplayContext* context, SheetVisual& visual, const ShownMap& shown);
+  /// All must outlive it.
+  TaxelSelection(rviz::DisplayContext* context, SheetVisual& visual, const ShownSheet& shown,
+                 std::function<ReadOut(std::size_t taxel)> read_out);
 
   void createProperties(const rviz::Picked& picked, rviz::Property* parent) override;
   bool needsAdditionalRenderPass(uint32_t pass) override { return pass == 1; }
@@ -32,10 +40,8 @@ class TaxelSelection : public rviz::SelectionHandler {
   bool taxelOf(uint64_t extra_handle, std::size_t& taxel) const;
 
   SheetVisual& visual_;
-  const ShownMap& shown_;
+  const ShownSheet& shown_;
+  std::function<ReadOut(std::size_t taxel)> read_out_;
 };
-
-/// The flags of a taxel in words, e.g. "saturated, tared"; "none".
-std::string flagsText(std::uint16_t flags);
 
 }  // namespace fsr_rviz

@@ -3,6 +3,7 @@
 
 #include <OgreCamera.h>
 #include <OgreSceneNode.h>
+#include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/PressureMap.h>
 #include <fsr_pressure_map/SurfaceCurvature.h>
 #include <gtest/gtest.h>
@@ -18,25 +19,30 @@
 #include <rviz/visualization_manager.h>
 
 #include <QApplication>
+#include <QDir>
 #include <QImage>
 #include <QLabel>
 #include <QPixmap>
 #include <QScreen>
 #include <QTimer>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <typeinfo>
 
 #include "fsr_pressure_map/view/pressure_scale.h"
+#include "fsr_pressure_map/view/taxel_look.h"
 
 namespace {
 
+using fsr_pressure_map::MatrixFrame;
 using fsr_pressure_map::PressureMap;
 using fsr_pressure_map::SurfaceCurvature;
 
 const char* const kBag = FSR_SOURCE_DIR "/test/data/indenter_map.bag";
-const char* const kConfig = FSR_SOURCE_DIR "/config/rviz/live.rviz";
+const char* const kConfigs = FSR_SOURCE_DIR "/config/rviz";
 
 template <typename Message>
 typename Message::ConstPtr lastOf(const std::string& topic) {
@@ -54,7 +60,7 @@ class Rviz : public testing::Test {
   static void SetUpTestSuite() {
     frame = new rviz::VisualizationFrame;
     frame->setSplashPath("");
-    frame->initialize(kConfig);
+    frame->initialize(QString(kConfigs) + "/live.rviz");
     frame->resize(1280, 900);
     frame->show();
     handle = new ros::NodeHandle;
@@ -162,7 +168,7 @@ rviz::Display* Rviz::display = nullptr;
 
 TEST_F(Rviz, A1SaysThatNoMapHasCome) {
   EXPECT_EQ(display->getClassId(), "fsr_pressure_map/PressureMap");  // and not rviz's FailedDisplay
-  EXPECT_TRUE(runUntil([] { return says("Map", "no map has come on /fsr/pressure_map"); }, false));
+  EXPECT_TRUE(runUntil([] { return says("Messages", "no map has come on /fsr/pressure_map"); }, false));
   EXPECT_TRUE(says("Curvature", "drawn flat"));
 }
 
@@ -178,6 +184,40 @@ TEST_F(Rviz, A2SaysWhyAnUncalibratedMapShowsNoPressure) {
   EXPECT_TRUE(says("Taxels", "70 no reading"));
 }
 
+TEST_F(Rviz, A3SaysInWhichStateAMapIs) {
+  const std::pair<int, std::string> states[] = {
+      {PressureMap::STATE_CURVATURE_UNKNOWN, "curvature unknown: fallback in use"},
+      {PressureMap::STATE_CURVATURE_STALE, "curvature stale"},
+      {PressureMap::STATE_SIZE_MISMATCH, "the calibration is for another matrix size: no pressure to show"},
+      {PressureMap::STATE_WRONG_SENSOR,
+       "the calibration is of another sensor: pressures are not to be believed"},
+      {PressureMap::STATE_OK, "calibrated"}};
+  for (const auto& [state, words] : states) {
+    PressureMap other = *map;
+    other.state = static_cast<std::uint8_t>(state);
+    EXPECT_TRUE(runUntil([&] { return maps.publish(other), status("State") == words; }, false))
+        << status("State");
+  }
+}
+
+TEST_F(Rviz, A4SaysThatAMapCannotBeShown) {
+  PressureMap broken = *map;
+  broken.pressure.pop_back();
+  EXPECT_TRUE(runUntil([&] { return maps.publish(broken), says("State", "69"); }, false)) << status("State");
+}
+
+TEST_F(Rviz, A5SaysThatMapsStoppedComing) {
+  EXPECT_TRUE(runUntil([] { return says("Messages", "maps are coming"); }));
+  EXPECT_TRUE(runUntil([] { return says("Messages", "no map for 2 s on /fsr/pressure_map"); }, false));
+}
+
+TEST_F(Rviz, A6SaysThatASurfaceIsOfAnotherMatrix) {
+  SurfaceCurvature other;
+  other.x = {1.0F, 2.0F, 3.0F};
+  curvature.publish(other);
+  EXPECT_TRUE(runUntil([] { return says("Curvature", "3"); })) << status("Curvature");
+}
+
 TEST_F(Rviz, BShowsTheRecordedMapInTheColoursOfItsScale) {
   curvature.publish(surface);
   displayNamed("Matrix frame")->setEnabled(false);  // it would stand before some taxels, as would the legend
@@ -190,6 +230,39 @@ TEST_F(Rviz, BShowsTheRecordedMapInTheColoursOfItsScale) {
   })) << rightTaxels(map->pressure, {}, 2)
       << " of " << all << " taxels have their colour";
   EXPECT_TRUE(says("State", "calibrated"));
+}
+
+// What the check of colours is worth: it sees one wrong taxel, and a picture that is the wrong way round.
+TEST_F(Rviz, CTheCheckOfColoursSeesWhatIsWrong) {
+  std::vector<float> other = map->pressure;
+  other[36] += 60e3F;
+  EXPECT_EQ(rightTaxels(other, {}, 2), other.size() - 1);
+  other = map->pressure;
+  for (std::size_t row = 0; row < map->rows; ++row) {
+    std::reverse(other.begin() + row * map->columns, other.begin() + (row + 1) * map->columns);
+  }
+  EXPECT_LT(rightTaxels(other, {}, 2), other.size() / 2);
+}
+
+TEST_F(Rviz, CShowsATaxelWithoutAReadingInGreyWithItsMark) {
+  PressureMap gap = *map;
+  gap.pressure[36] = NAN;
+  gap.flags[36] = PressureMap::FLAG_DEAD;
+  const auto grey = [&](const QPoint& off) {
+    const QImage image = picture();
+    return hasColour(image, place(36, image) + off, fsr::kNoReadingColour, 2);
+  };
+  const auto publish = [&] { return maps.publish(gap), grey({0, 0}); };
+  EXPECT_TRUE(runUntil(publish, false));
+  set("Marks", true);
+  EXPECT_TRUE(runUntil(
+      [&] {
+        return maps.publish(gap), !grey({0, 0}) && grey({0, 9});
+      },
+      false))
+      << "a cross goes through the middle and leaves the sides";
+  EXPECT_TRUE(says("Taxels", "1 no reading"));
+  set("Marks", false);
 }
 
 TEST_F(Rviz, CShowsItSmoothlyToo) {
@@ -253,11 +326,48 @@ TEST_F(Rviz, GShowsTheNumbersInItsPanelAndWhatItIsNotFor) {
   EXPECT_TRUE(all.contains("UNKNOWN: no statistics"));
 }
 
+TEST_F(Rviz, GShowsRawCountsOnTheirOwnScale) {
+  const auto scan = lastOf<MatrixFrame>("/fsr/raw");
+  ros::Publisher raw = handle->advertise<MatrixFrame>("/fsr/raw", 10);
+  display->setEnabled(false);
+  rviz::Display* counts = frame->getManager()->createDisplay("fsr_pressure_map/RawCounts", "Raw", true);
+  for (const auto& [name, value] : std::vector<std::pair<QString, QVariant>>{
+           {"Topic", "/fsr/raw"}, {"Style", "Cells"}, {"Marks", false}, {"Legend", false}}) {
+    counts->subProp(name)->setValue(value);
+  }
+  fsr::PressureScale scale;
+  scale.high = scan->full_scale;
+  const std::vector<float> values(scan->counts.begin(), scan->counts.end());
+  const auto shown = [&] { return raw.publish(scan), rightTaxels(values, scale, 2) == values.size(); };
+  EXPECT_TRUE(runUntil(shown, false)) << rightTaxels(values, scale, 2) << " taxels have their colour";
+  delete counts;
+  display->setEnabled(true);
+}
+
 TEST_F(Rviz, HSaysThatTheFixedFrameIsWrong) {
   frame->getManager()->setFixedFrame("nowhere");
   EXPECT_TRUE(runUntil([] { return says("Transform", "nowhere"); })) << status("Transform");
   frame->getManager()->setFixedFrame("fsr_matrix");
   EXPECT_TRUE(runUntil([] { return rightTaxels(map->pressure, {}, 2) == map->pressure.size(); }));
+}
+
+TEST_F(Rviz, IOpensEveryShippedConfiguration) {
+  const QStringList files = QDir(QString(kConfigs)).entryList({"*.rviz"});
+  EXPECT_GE(files.size(), 4);
+  // What stands in for a plugin that could not be loaded tells it by its class alone.
+  const auto failed = [](const QObject& part) {
+    return std::string(typeid(part).name()).find("Failed") != std::string::npos;
+  };
+  for (const QString& file : files) {
+    ASSERT_TRUE(frame->loadDisplayConfigHelper((QString(kConfigs) + "/" + file).toStdString(), true));
+    for (const QWidget* part : frame->findChildren<QWidget*>())
+      EXPECT_FALSE(failed(*part)) << qPrintable(file);
+    rviz::DisplayGroup* group = frame->getManager()->getRootDisplayGroup();
+    EXPECT_GT(group->numDisplays(), 2) << qPrintable(file);
+    for (int i = 0; i < group->numDisplays(); ++i) {
+      EXPECT_FALSE(failed(*group->getDisplayAt(i))) << qPrintable(file);
+    }
+  }
 }
 
 }  // namespace

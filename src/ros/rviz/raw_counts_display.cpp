@@ -1,0 +1,92 @@
+#include "raw_counts_display.h"
+
+#include <rviz/properties/float_property.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr_rviz {
+
+namespace {
+
+constexpr std::uint32_t kQueueSize = 10;  // [messages]
+constexpr double kUsualFullScale = 4095;  // until a scan tells its own
+
+fsr::Layout layoutOf(const fsr_pressure_map::MatrixFrame& scan,
+                     const fsr_pressure_map::MatrixInfoConstPtr& info) {
+  fsr::Layout layout;
+  layout.size = {scan.rows, scan.columns};
+  if (info && info->pitch_x > 0 && info->pitch_y > 0) {
+    layout.pitch_x = double(info->pitch_x);
+    layout.pitch_y = double(info->pitch_y);
+  }
+  return layout;
+}
+
+}  // namespace
+
+RawCountsDisplay::RawCountsDisplay() : SheetDisplay("scan") {
+  addSource(ros::message_traits::datatype<fsr_pressure_map::MatrixFrame>(), "Raw scans to show.");
+  high_ =
+      new rviz::FloatProperty("High (counts)", 0, "Counts at the bright end; 0 = the converter's largest.",
+                              this, SLOT(updateStyle()));
+  high_->setMin(0);
+  addLook();
+}
+
+ros::Subscriber RawCountsDisplay::listen(const std::string& topic) {
+  infos_ = update_nh_.subscribe(besideTopic("matrix_info"), kQueueSize, &RawCountsDisplay::onInfo, this);
+  return update_nh_.subscribe(topic, kQueueSize, &RawCountsDisplay::onScan, this);
+}
+
+void RawCountsDisplay::onScan(const fsr_pressure_map::MatrixFrameConstPtr& message) {
+  last_ = message;
+  received(message->header);
+}
+
+fsr::PressureScale RawCountsDisplay::scale() const {
+  const double full_scale = last_ && last_->full_scale > 0 ? last_->full_scale : kUsualFullScale;
+  fsr::PressureScale scale;
+  scale.high = high_->getFloat() > 0 ? double(high_->getFloat()) : full_scale;
+  scale.unit = fsr::PressureUnit::kCount;
+  scale.colours = colours();
+  return scale;
+}
+
+void RawCountsDisplay::paint(SheetPicture& picture) {
+  const fsr::Layout layout = layoutOf(*last_, info_);
+  const std::size_t taxels = layout.size.taxels();
+  if (taxels == 0 || last_->counts.size() != taxels) {
+    throw fsr::InputError("a scan of " + fsr::sizeText(layout.size) + " taxels has " +
+                          std::to_string(last_->counts.size()) + " counts, but must have one for each taxel");
+  }
+  picture.layout = layout;
+  picture.values.assign(last_->counts.begin(), last_->counts.end());
+  picture.looks.clear();
+  for (const std::uint16_t count : last_->counts) {
+    picture.looks.push_back(count >= last_->full_scale ? fsr::TaxelLook::kSaturated : fsr::TaxelLook::kGood);
+  }
+  picture.scale = scale();
+}
+
+fsr::Legend RawCountsDisplay::legend() const {
+  fsr::Legend legend;
+  legend.scale = scale();
+  legend.title = "raw reading";
+  legend.lines = {last_ ? "not calibrated" : "no scan yet"};
+  return legend;
+}
+
+ReadOut RawCountsDisplay::readOut(std::size_t taxel) const {
+  return {{"Raw reading",
+           std::to_string(last_->counts[taxel]) + " of " + std::to_string(last_->full_scale) + " counts"}};
+}
+
+void RawCountsDisplay::sayState() {
+  say("State", {rviz::StatusProperty::Ok, "raw counts of the converter, no pressure"});
+  say("Taxels", taxelStatus(picture().looks));
+}
+
+}  // namespace fsr_rviz
+
+PLUGINLIB_EXPORT_CLASS(fsr_rviz::RawCountsDisplay, rviz::Display)

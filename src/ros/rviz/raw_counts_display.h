@@ -1,0 +1,39 @@
+#pragma once
+
+#ifndef Q_MOC_RUN
+#include <fsr_pressure_map/MatrixFrame.h>
+#include <fsr_pressure_map/MatrixInfo.h>
+
+#include "sheet_display.h"
+#endif
+
+namespace fsr_rviz {
+
+/// Shows the converter's counts of a scan on the bent sheet: what the board says before any calibration, on a
+/// scale of counts. The pitch is that of `matrix_info` beside the scans' topic, 10 mm while that is silent.
+class RawCountsDisplay : public SheetDisplay {
+  Q_OBJECT
+
+ public:
+  RawCountsDisplay();
+
+ protected:
+  ros::Subscriber listen(const std::string& topic) override;
+  void paint(SheetPicture& picture) override;
+  fsr::Legend legend() const override;
+  ReadOut readOut(std::size_t taxel) const override;
+  void sayState() override;
+  void forget() override { last_.reset(); }
+
+ private:
+  void onScan(const fsr_pressure_map::MatrixFrameConstPtr& message);
+  void onInfo(const fsr_pressure_map::MatrixInfoConstPtr& message) { info_ = message; }
+  fsr::PressureScale scale() const;
+
+  rviz::FloatProperty* high_;
+  ros::Subscriber infos_;
+  fsr_pressure_map::MatrixInfoConstPtr info_;
+  fsr_pressure_map::MatrixFrameConstPtr last_;
+};
+
+}  // namespace fsr_rviz

@@ -1,0 +1,269 @@
+#include "sheet_display.h"
+
+#include <OgreManualObject.h>
+#include <OgreSceneNode.h>
+#include <rviz/display_context.h>
+#include <rviz/frame_manager.h>
+#include <rviz/properties/bool_property.h>
+#include <rviz/properties/enum_property.h>
+#include <rviz/properties/int_property.h>
+#include <rviz/properties/ros_topic_property.h>
+#include <rviz/properties/string_property.h>
+#include <rviz/properties/vector_property.h>
+
+#include <cmath>
+
+#include "fsr_pressure_map/ros/surface_message.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr_rviz {
+
+namespace {
+
+constexpr std::uint32_t kQueueSize = 10;  // [messages]
+
+// A title with the mean of all taxels that have a value, e.g. "flat only: mean 329 kPa"; empty without one.
+std::string titleLine(const std::string& title, const SheetPicture& picture) {
+  if (title.empty()) return title;
+  double sum = 0, count = 0;
+  for (const float value : picture.values) {
+    if (std::isnan(value)) continue;
+    sum += double(value);
+    ++count;
+  }
+  return title + ": mean " + fsr::pressureText(sum / count, picture.scale.unit);
+}
+
+}  // namespace
+
+rviz::EnumProperty* choice(const char* name, const std::vector<std::string>& options, const char* help,
+                           rviz::Property* parent, const char* slot) {
+  auto* property = new rviz::EnumProperty(name, QString::fromStdString(options.front()), help, parent, slot);
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    property->addOption(QString::fromStdString(options[i]), static_cast<int>(i));
+  }
+  return property;
+}
+
+void SheetDisplay::addSource(const std::string& message_type, const char* help) {
+  topic_ = new rviz::RosTopicProperty("Topic", "", QString::fromStdString(message_type), help, this,
+                                      SLOT(updateTopic()));
+  curvature_topic_ = new rviz::RosTopicProperty(
+      "Curvature Topic", "",
+      QString::fromStdString(ros::message_traits::datatype<fsr_pressure_map::SurfaceCurvature>()),
+      "Shape of the surface under the matrix; empty = `curvature` beside the other topic.", this,
+      SLOT(updateTopic()));
+}
+
+void SheetDisplay::addLook() {
+  shape_ = choice("Style", {"Smooth", "Cells"}, "Colours run over between taxels, or a square each.", this,
+                  SLOT(updateStyle()));
+  colours_ =
+      choice("Colour Map", fsr::colourMapNames(), "Dark = low, bright = high.", this, SLOT(updateStyle()));
+  fineness_ = new rviz::IntProperty("Fineness", 4, "Squares of the mesh along each side of a taxel.", this,
+                                    SLOT(updateStyle()));
+  fineness_->setMin(1);
+  fineness_->setMax(16);
+  marks_ = new rviz::BoolProperty("Marks", true, "On taxels that are not to be believed as they stand.", this,
+                                  SLOT(updateStyle()));
+  title_ = new rviz::StringProperty("Title", "", "Text before the first row; the mean of all taxels follows.",
+                                    this, SLOT(updateStyle()));
+  offset_ = new rviz::VectorProperty("Offset", Ogre::Vector3::ZERO,
+                                     "Moves the picture in its own frame [m], to set several side by side.",
+                                     this, SLOT(updatePlace()));
+  legend_ = new rviz::BoolProperty("Legend", true, "Colour bar with unit and range, over the scene.", this,
+                                   SLOT(updateLegend()));
+  left_ = new rviz::IntProperty("Left", 10, "Of the legend [pixels].", legend_, SLOT(updateLegend()), this);
+  top_ = new rviz::IntProperty("Top", 10, "Of the legend [pixels].", legend_, SLOT(updateLegend()), this);
+}
+
+SheetDisplay::~SheetDisplay() {
+  unsubscribe();
+  selection_.reset();  // before what it points to
+}
+
+void SheetDisplay::onInitialize() {
+  visual_ = std::make_unique<SheetVisual>(context_->getSceneManager(), scene_node_);
+  title_text_ = std::make_unique<SheetTitle>(context_->getSceneManager(), scene_node_);
+  overlay_ = std::make_unique<LegendOverlay>();
+  overlay_->hide();
+}
+
+void SheetDisplay::onEnable() {
+  subscribe();
+  updateLegend();
+}
+
+void SheetDisplay::onDisable() {
+  unsubscribe();
+  reset();
+  overlay_->hide();
+}
+
+void SheetDisplay::reset() {
+  Display::reset();
+  last_.reset();
+  forget();
+  selection_.reset();
+  shown_ = ShownSheet();
+  if (visual_) visual_->setVisible(false);
+  if (title_text_) title_text_->hide();
+}
+
+void SheetDisplay::setTopic(const QString& topic, const QString& /*datatype*/) {
+  topic_->setString(topic);
+}
+
+void SheetDisplay::updateTopic() {
+  unsubscribe();
+  reset();
+  subscribe();
+  context_->queueRender();
+}
+
+std::string SheetDisplay::besideTopic(const std::string& name) const {
+  const std::string topic = topic_->getTopicStd();
+  return topic.substr(0, topic.rfind('/') + 1) + name;
+}
+
+std::string SheetDisplay::curvatureTopic() const {
+  const std::string own = curvature_topic_->getTopicStd();
+  return own.empty() ? besideTopic("curvature") : own;
+}
+
+void SheetDisplay::subscribe() {
+  if (!isEnabled() || topic_->getTopicStd().empty()) return;
+  surface_ = fsr::Surface();
+  surface_error_.clear();
+  try {
+    data_ = listen(topic_->getTopicStd());
+    curvature_ = update_nh_.subscribe(curvatureTopic(), kQueueSize, &SheetDisplay::onCurvature, this);
+    deleteStatus("Topic");
+  } catch (const ros::Exception& error) {
+    setStatus(rviz::StatusProperty::Error, "Topic", error.what());
+  }
+}
+
+void SheetDisplay::unsubscribe() {
+  data_.shutdown();
+  curvature_.shutdown();
+}
+
+void SheetDisplay::onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& message) {
+  surface_error_.clear();
+  try {
+    fsr::Surface surface = fsr_ros::toSurface(*message);
+    if (fsr::sameCondition(surface, surface_)) return;
+    surface_ = std::move(surface);
+    shown_.mesh.reset();
+    if (last_) redraw();
+  } catch (const fsr::InputError& error) {
+    surface_error_ = error.what();
+  }
+}
+
+void SheetDisplay::received(const std_msgs::Header& header) {
+  last_ = header;
+  last_time_ = ros::WallTime::now();
+  redraw();
+}
+
+fsr::ColourMap SheetDisplay::colours() const {
+  return fsr::colourMapOf(colours_->getStdString());
+}
+
+// A surface that does not fit the matrix is said in the status, and the sheet drawn flat.
+void SheetDisplay::makeMesh() {
+  selection_.reset();
+  const fsr::Layout& layout = shown_.picture.layout;
+  try {
+    shown_.mesh.emplace(layout, surface_, fineness_->getInt());
+  } catch (const fsr::InputError& error) {
+    surface_error_ = error.what();
+    shown_.mesh.emplace(layout, fsr::Surface(), fineness_->getInt());
+  }
+}
+
+bool SheetDisplay::repaint() {
+  const fsr::Layout old = shown_.picture.layout;
+  try {
+    paint(shown_.picture);
+  } catch (const fsr::InputError& error) {
+    setStatus(rviz::StatusProperty::Error, "State", error.what());
+    return false;
+  }
+  const fsr::Layout& now = shown_.picture.layout;
+  if (now.size != old.size || now.pitch_x != old.pitch_x || now.pitch_y != old.pitch_y) shown_.mesh.reset();
+  shown_.picture.smooth = shape_->getOptionInt() == 0;
+  shown_.picture.marks = marks_->getBool();
+  return true;
+}
+
+void SheetDisplay::redraw() {
+  if (!repaint()) return;
+  if (!shown_.mesh) makeMesh();
+  visual_->show(shown_.picture, *shown_.mesh);
+  if (!selection_) {
+    selection_ = std::make_unique<TaxelSelection>(context_, *visual_, shown_,
+                                                  [this](std::size_t taxel) { return readOut(taxel); });
+    selection_->addTrackedObject(visual_->sheet());
+  }
+  placeSheet();
+  sayState();
+  updateLegend();
+}
+
+void SheetDisplay::placeSheet() {
+  Ogre::Vector3 position;
+  Ogre::Quaternion orientation;
+  const bool known =
+      context_->getFrameManager()->getTransform(last_->frame_id, ros::Time(), position, orientation);
+  const bool shown = known && shown_.mesh;
+  visual_->setVisible(shown);
+  if (!shown) title_text_->hide();
+  if (!known) {
+    setStatus(rviz::StatusProperty::Error, "Transform",
+              QString("no transform from the %1's frame [%2] to the fixed frame [%3]")
+                  .arg(noun_, QString::fromStdString(last_->frame_id), fixed_frame_));
+    return;
+  }
+  setStatus(rviz::StatusProperty::Ok, "Transform", QString::fromStdString(last_->frame_id));
+  if (shown) title_text_->show(titleLine(title_->getStdString(), shown_.picture), shown_.picture.layout);
+  scene_node_->setPosition(position + orientation * offset_->getVector());
+  scene_node_->setOrientation(orientation);
+}
+
+void SheetDisplay::updateStyle() {
+  if (!last_) return updateLegend();
+  shown_.mesh.reset();  // fineness may be another
+  redraw();
+  context_->queueRender();
+}
+
+void SheetDisplay::updatePlace() {
+  if (last_) placeSheet();
+  context_->queueRender();
+}
+
+void SheetDisplay::updateLegend() {
+  if (!overlay_) return;
+  if (!isEnabled() || !legend_->getBool()) return overlay_->hide();
+  fsr::Legend now = legend();
+  now.marks = marks_->getBool();
+  now.lines.push_back(surface_.name.empty() ? "surface not named" : "surface " + surface_.name);
+  overlay_->moveTo(left_->getInt(), top_->getInt());
+  overlay_->show(now);
+}
+
+void SheetDisplay::say(const char* name, const StatusLine& line) {
+  setStatus(line.level, name, QString::fromStdString(line.text));
+}
+
+void SheetDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
+  const double age = last_ ? (ros::WallTime::now() - last_time_).toSec() : -1;
+  say("Messages", messageStatus(age, noun_, topic_->getTopicStd()));
+  say("Curvature", curvatureStatus(surface_, surface_error_, curvatureTopic()));
+  if (last_) placeSheet();
+}
+
+}  // namespace fsr_rviz

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <OgrePrerequisites.h>
+
+#include <memory>
+#include <string>
+
+#include "fsr_pressure_map/matrix/layout.h"
+
+namespace rviz {
+class MovableText;
+}
+
+namespace fsr_rviz {
+
+/// A line of text before the sheet's first row, so that sheets beside each other can be told apart.
+class SheetTitle {
+ public:
+  SheetTitle(Ogre::SceneManager* scene, Ogre::SceneNode* parent);
+  ~SheetTitle();
+  SheetTitle(const SheetTitle&) = delete;
+  SheetTitle& operator=(const SheetTitle&) = delete;
+
+  /// Empty = none.
+  void show(const std::string& text, const fsr::Layout& layout);
+  void hide();
+
+ private:
+  Ogre::SceneManager* scene_;
+  Ogre::SceneNode* node_;
+  std::unique_ptr<rviz::MovableText> text_;
+};
+
+}  // namespace fsr_rviz
