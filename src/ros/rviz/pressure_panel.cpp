@@ -15,6 +15,10 @@
 #include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "display_status.h"
+#include "fsr_pressure_map/ros/pressure_map_message.h"
+#include "fsr_pressure_map/ros/surface_markers.h"
+#include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/view/pressure_scale.h"
 
 namespace fsr_rviz {
@@ -56,6 +60,7 @@ PressurePanel::PressurePanel(QWidget* parent) : Panel(parent) {
   auto* column = new QVBoxLayout;
   auto* grid = new QGridLayout;
   namespace_ = new QLineEdit("/fsr");
+  namespace_->setObjectName("sensor");
   grid->addWidget(new QLabel("Sensor"), 0, 0);
   grid->addWidget(namespace_, 0, 1);
   addNumbers(grid);
@@ -73,6 +78,7 @@ PressurePanel::PressurePanel(QWidget* parent) : Panel(parent) {
   event_kind_ = new QComboBox;
   event_kind_->addItems({"note", "cycle_start", "conditioning", "don", "doff", "step", "sync", "reject"});
   event_label_ = new QLineEdit;
+  event_label_->setObjectName("label");
   event_label_->setPlaceholderText("label");
   events->addWidget(event_kind_);
   events->addWidget(event_label_);
@@ -80,8 +86,13 @@ PressurePanel::PressurePanel(QWidget* parent) : Panel(parent) {
   column->addLayout(actions);
   column->addLayout(events);
   reply_ = new QLabel;
+  reply_->setObjectName("reply");
   reply_->setWordWrap(true);
   column->addWidget(reply_);
+  waiting_ = new QLabel;
+  waiting_->setObjectName("waiting");
+  waiting_->setWordWrap(true);
+  column->addWidget(waiting_);
   column->addStretch();
   auto* warning = new QLabel("<b>Research use, not for diagnosis or fitting decisions</b>");
   warning->setWordWrap(true);
@@ -100,6 +111,7 @@ PressurePanel::~PressurePanel() {
 QLabel* PressurePanel::addLine(QGridLayout* grid, const QString& name) {
   const int row = grid->rowCount();
   auto* value = new QLabel("-");
+  value->setObjectName(name);
   value->setWordWrap(true);
   grid->addWidget(new QLabel(name), row, 0, Qt::AlignTop);
   grid->addWidget(value, row, 1);
@@ -168,6 +180,7 @@ void PressurePanel::listen() {
     keep("calibration_info", last_calibration_);
     keep("matrix_info", last_matrix_);
     keep("statistics", last_statistics_);
+    keep("pressure_map", last_map_);
     reply_->clear();
   } catch (const ros::Exception& error) {
     subscribers_.clear();
@@ -197,6 +210,20 @@ void PressurePanel::refresh() {
   calibration_->setToolTip(calibration ? QString::fromStdString(calibration->id) : QString());
   showStatistics();
   showAlarms();
+  showWaiting();
+}
+
+// A node that is there repeats what it knows each second, whether data flow or not.
+void PressurePanel::showWaiting() {
+  QStringList lines;
+  const auto want = [&](bool there, const char* topic, const char* what) {
+    if (!there) lines << QString("Nothing on %1: %2").arg(text(name(topic)), what);
+  };
+  want(last_calibration_.fresh(), "calibration_info", "tare and reload wait for the calibration node.");
+  want(last_statistics_.fresh(), "statistics", "the numbers wait for the view node.");
+  want(last_surface_.message != nullptr, "curvature", "the surface is unknown.");
+  want(last_session_.fresh(), "session", "events can be marked while record.launch runs.");
+  waiting_->setText(lines.join("\n"));
 }
 
 void PressurePanel::showStatistics() {
@@ -216,14 +243,33 @@ void PressurePanel::showStatistics() {
                      (fresh ? QString(" in %1 s").arg(whole.duration, 0, 'f', 0) : QString()));
 }
 
+// Why the map cannot answer for the whole matrix; empty where that is not known.
+QString PressurePanel::doubt() const {
+  if (!last_map_.fresh()) return " (no maps)";
+  try {
+    const fsr::PressureMap map = fsr_ros::toPressureMap(*last_map_.message);
+    const std::string state = fsr_ros::stateText(map.state);
+    if (!state.empty()) return " (" + QString::fromStdString(state) + ")";
+    std::vector<fsr::TaxelLook> looks;
+    for (std::size_t i = 0; i < map.flags.size(); ++i) {
+      looks.push_back(fsr::lookOf(map.pressure[i], map.flags[i]));
+    }
+    const StatusLine taxels = taxelStatus(looks);
+    return taxels.level == rviz::StatusProperty::Ok ? "" : " (" + text(taxels.text) + ")";
+  } catch (const fsr::InputError&) {
+    return "";  // the display says what is wrong with it
+  }
+}
+
 // In words first, in colour second.
 void PressurePanel::showAlarms() {
   QStringList alarm, unknown;
   if (last_statistics_.fresh()) {
     for (const PressureStatistics& region : last_statistics_.message->regions) {
-      const QString name = region.region.empty() ? QString("whole matrix") : text(region.region);
+      const bool whole = region.region.empty();
+      const QString name = whole ? QString("whole matrix") : text(region.region);
       if (region.alarm == PressureStatistics::ALARM) alarm << name;
-      if (region.alarm == PressureStatistics::UNKNOWN) unknown << name;
+      if (region.alarm == PressureStatistics::UNKNOWN) unknown << (whole ? name + doubt() : name);
     }
   } else {
     unknown << "no statistics";

@@ -27,8 +27,9 @@ class QTimer;
 namespace fsr_rviz {
 
 /// The numbers of one sensor beside its picture, and buttons for what is done most: tare, reload, mark an
-/// event. Everything is read from the sensor's namespace; what has not come yet, or not for 3 s, reads "-".
-/// Services run beside the window, which never waits for them.
+/// event. Everything is read from the sensor's namespace; what has not come yet, or not for 3 s, reads "-",
+/// and below the buttons stands which node is missing. Services run beside the window, which never waits for
+/// them.
 class PressurePanel : public rviz::Panel {
   Q_OBJECT
 
@@ -61,6 +62,8 @@ class PressurePanel : public rviz::Panel {
   void addNumbers(QGridLayout* grid);
   void showStatistics();
   void showAlarms();
+  void showWaiting();
+  QString doubt() const;
   void call(const std::string& what, const std::function<std::string()>& service);
   std::string name(const std::string& relative) const;
 
@@ -72,7 +75,7 @@ class PressurePanel : public rviz::Panel {
   QComboBox* event_kind_;
   QLineEdit* event_label_;
   std::vector<QPushButton*> buttons_;
-  QLabel* reply_;
+  QLabel *reply_, *waiting_;
   QTimer* timer_;
 
   std::vector<ros::Subscriber> subscribers_;
@@ -82,6 +85,7 @@ class PressurePanel : public rviz::Panel {
   Last<fsr_pressure_map::CalibrationInfo> last_calibration_;
   Last<fsr_pressure_map::MatrixInfo> last_matrix_;
   Last<fsr_pressure_map::PressureStatisticsArray> last_statistics_;
+  Last<fsr_pressure_map::PressureMap> last_map_;
   std::thread caller_;
 };
 

@@ -1,0 +1,148 @@
+// The panel's numbers and buttons with the real calibration, view and session nodes of panel.test.
+
+#include <fsr_pressure_map/Event.h>
+#include <gtest/gtest.h>
+#include <rviz/panel.h>
+#include <pluginlib/class_loader.hpp>
+
+#include <QApplication>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <filesystem>
+#include <memory>
+
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/ros/resource_path.h"
+#include "support/calibration_rig.h"
+#include "support/small_calibration.h"
+#include "support/small_tables.h"
+
+namespace {
+
+using test_support::CalibrationRig;
+
+const std::filesystem::path kFolder = fsr_ros::rosHome() + "/panel_test";  // as in panel.test
+const std::string kFile = kFolder / "calibration.h5";
+
+class Panel : public testing::Test {
+ protected:
+  Panel() : loader("rviz", "rviz::Panel"), panel(loader.createInstance("fsr_pressure_map/PressurePanel")) {
+    panel->initialize(nullptr);
+  }
+
+  void SetUp() override {
+    fsr::saveCalibration(test_support::smallCalibration({3, 4}, {0.0, 10.0}), kFile);
+    rig.identify("board-1");
+    rig.lieOn({0.0f}, "flat", 3);
+  }
+
+  void listenTo(const QString& sensor) {
+    auto* line = panel->findChild<QLineEdit*>("sensor");
+    line->setText(sensor);
+    Q_EMIT line->editingFinished();
+  }
+
+  std::string label(const char* name) {
+    auto* found = panel->findChild<QLabel*>(name);
+    return found == nullptr ? "no such label" : found->text().toStdString();
+  }
+
+  bool says(const char* name, const std::string& words) {
+    return label(name).find(words) != std::string::npos;
+  }
+
+  void press(const QString& name) {
+    for (auto* button : panel->findChildren<QPushButton*>()) {
+      if (button->text() == name) button->click();
+    }
+  }
+
+  /// Runs the panel while scans of `code` come, until `done`; false after 30 s.
+  bool runUntil(const std::function<bool()>& done, std::uint16_t code = 50) {
+    return CalibrationRig::waitFor([&] {
+      rig.publishScan(code);
+      QApplication::processEvents(QEventLoop::AllEvents, 10);
+      return done();
+    });
+  }
+
+  pluginlib::ClassLoader<rviz::Panel> loader;
+  boost::shared_ptr<rviz::Panel> panel;
+  CalibrationRig rig;
+};
+
+TEST_F(Panel, SaysWhichNodesItWaitsFor) {
+  listenTo("/nobody");
+  ASSERT_TRUE(runUntil([&] { return says("waiting", "Nothing on /nobody/calibration_info"); }));
+  EXPECT_TRUE(says("waiting", "Nothing on /nobody/statistics: the numbers wait for the view node."));
+  EXPECT_TRUE(says("waiting", "Nothing on /nobody/session: events can be marked while record.launch runs."));
+  EXPECT_TRUE(says("Alarms", "UNKNOWN: no statistics"));
+  press("Tare");
+  EXPECT_TRUE(runUntil([&] { return says("reply", "there is no service /nobody/calibration/tare"); }));
+  press("Mark event");
+  EXPECT_TRUE(runUntil([&] { return says("reply", "there is no service /nobody/session/mark"); }));
+}
+
+// 12 taxels of 1 cm x 1.2 cm.
+TEST_F(Panel, ShowsTheNumbersOfTheNodesThatAreThere) {
+  ASSERT_TRUE(runUntil([&] { return says("Contact area", "14.4 cm"); }, 500)) << label("waiting");
+  EXPECT_TRUE(says("Surface, mount", "flat, 3"));
+  EXPECT_TRUE(runUntil([&] { return says("Session", "2026-03-01"); }));
+  EXPECT_TRUE(runUntil([&] { return says("Calibration", "per_curvature"); })) << label("Calibration");
+  EXPECT_TRUE(runUntil([&] { return label("waiting").empty(); })) << label("waiting");
+}
+
+TEST_F(Panel, SaysWhyAnAlarmIsUnknown) {
+  EXPECT_TRUE(runUntil([&] { return says("Alarms", "UNKNOWN: whole matrix (12 saturated)"); },
+                       test_support::kRigFullScale))
+      << label("Alarms");
+}
+
+TEST_F(Panel, TaresTheSheet) {
+  ASSERT_TRUE(runUntil([&] { return says("Calibration", "per_curvature"); }));
+  press("Tare");
+  EXPECT_TRUE(runUntil([&] { return says("reply", "tare.yaml"); })) << label("reply");
+  EXPECT_TRUE(runUntil([&] {
+    return !rig.maps().empty() && rig.maps().back()->flags[0] == fsr_pressure_map::PressureMap::FLAG_TARED;
+  }));
+}
+
+TEST_F(Panel, ReloadsTheCalibration) {
+  const std::string id = fsr::saveCalibration(test_support::smallCalibration({3, 4}, {0.0, 30.0}), kFile);
+  press("Reload calibration");
+  EXPECT_TRUE(runUntil([&] { return says("reply", kFile); })) << label("reply");
+  EXPECT_TRUE(runUntil([&] { return says("Calibration", id.substr(0, 12)); })) << label("Calibration");
+}
+
+TEST_F(Panel, MarksAnEvent) {
+  std::vector<fsr_pressure_map::Event> events;
+  ros::NodeHandle handle;
+  const ros::Subscriber ear = handle.subscribe<fsr_pressure_map::Event>(
+      "events", 10, [&](const fsr_pressure_map::Event::ConstPtr& event) { events.push_back(*event); });
+  ASSERT_TRUE(runUntil([&] { return ear.getNumPublishers() > 0 && says("Session", "2026-03-01"); }));
+  panel->findChild<QLineEdit*>("label")->setText("socket don");
+  press("Mark event");
+  ASSERT_TRUE(runUntil([&] { return !events.empty(); }));
+  EXPECT_EQ(events.front().kind, "note");
+  EXPECT_EQ(events.front().label, "socket don");
+  EXPECT_TRUE(runUntil([&] { return says("reply", "marked note 'socket don'"); })) << label("reply");
+}
+
+TEST_F(Panel, SaysWhatItIsNotFor) {
+  QString all;
+  for (const QLabel* part : panel->findChildren<QLabel*>()) all += part->text() + "\n";
+  EXPECT_TRUE(all.contains("Research use, not for diagnosis or fitting decisions"));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "panel_test");
+  QApplication application(argc, argv);
+  std::filesystem::remove_all(kFolder);
+  std::filesystem::create_directories(kFolder);
+  const ros::NodeHandle keep_alive;
+  return RUN_ALL_TESTS();
+}
