@@ -12,6 +12,7 @@
 #include <cstring>
 #include <limits>
 
+#include "fsr_pressure_map/ros/abandon_bag.h"
 #include "fsr_pressure_map/ros/surface_message.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
@@ -105,11 +106,7 @@ BagWriter::BagWriter(const std::string& path, const std::string& topics, const s
 
 BagWriter::~BagWriter() {
   if (bag_ == nullptr) return;
-  try {
-    bag_->close();
-  } catch (const rosbag::BagException&) {
-    // It is thrown away all the same.
-  }
+  abandonBag(std::move(bag_));
   ::unlink(fresh_.c_str());
 }
 

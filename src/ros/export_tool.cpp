@@ -5,9 +5,12 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <sstream>
+#include <vector>
 
 #include "fsr_pressure_map/exports/csv_table.h"
 #include "fsr_pressure_map/exports/tekscan_file.h"
+#include "fsr_pressure_map/ros/bag_archive.h"
 #include "fsr_pressure_map/ros/scan_source.h"
 #include "fsr_pressure_map/settings/command_line.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -31,6 +34,7 @@ fsr::CommandLine options() {
               "compute the maps with this calibration, instead of taking recorded ones")
       .option("from", "S", "leave out what is earlier, in seconds since the first scan (0)")
       .option("until", "S", "leave out what is later, likewise (all)")
+      .option("topics", "A,B", "hdf5: only these topics, full names or names under the namespace (all)")
       .option("rate", "HZ", "at most as many scans a second (all)")
       .option("map", "TOPIC", "topic of the maps, where a bag holds several (pressure_map)")
       .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
@@ -57,6 +61,14 @@ ScanSelection selectionOf(const fsr::CommandLine& line) {
 void requireOne(const fsr::CommandLine& line) {
   if (line.files().size() == 1) return;
   throw fsr::InputError("give one file for --to " + line.text("to", "") + "; only csv takes several bags");
+}
+
+// Throws where an option was given that this format has no use for.
+void refuseOthers(const fsr::CommandLine& line, const std::vector<std::string>& options) {
+  for (const std::string& option : options) {
+    if (!line.has(option)) continue;
+    throw fsr::InputError("--" + option + " does not go with --to " + line.text("to", ""));
+  }
 }
 
 std::string outputOf(const fsr::CommandLine& line) {
@@ -86,6 +98,7 @@ void sendAll(const fsr::CommandLine& line, const ScanSelection& selection, fsr::
 }
 
 void writeCsv(const fsr::CommandLine& line, std::ostream& out) {
+  refuseOthers(line, {"topics"});
   const ScanSelection selection = selectionOf(line);
   fsr::CsvTable table(outputOf(line));
   sendAll(line, selection, table, out);
@@ -93,6 +106,7 @@ void writeCsv(const fsr::CommandLine& line, std::ostream& out) {
 
 void writeTekscan(const fsr::CommandLine& line, std::ostream& out) {
   requireOne(line);
+  refuseOthers(line, {"topics"});
   const ScanSelection selection = selectionOf(line);
   const std::string output = outputOf(line);
   if (fs::path(output).extension() == ".gz") {
@@ -102,10 +116,35 @@ void writeTekscan(const fsr::CommandLine& line, std::ostream& out) {
   sendAll(line, selection, file, out);
 }
 
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> parts;
+  std::istringstream text(list);
+  for (std::string part; std::getline(text, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+void writeArchive(const fsr::CommandLine& line, std::ostream& out) {
+  requireOne(line);
+  refuseOthers(line, {"calibration", "rate", "map", "ambient"});
+  const ScanSelection range = selectionOf(line);
+  const ArchiveSelection selection{range.topics, split(line.text("topics", "")), range.from, range.until};
+  const std::uint64_t messages = archiveBag(line.files().front(), selection, outputOf(line));
+  out << messages << " messages are in " << fullPath(line.text("output", "")) << std::endl;
+}
+
+void writeBag(const fsr::CommandLine& line, std::ostream& out) {
+  requireOne(line);
+  refuseOthers(line, {"calibration", "rate", "map", "ambient", "topics", "from", "until", "namespace"});
+  const std::uint64_t messages = restoreBag(line.files().front(), outputOf(line));
+  out << messages << " messages, each as it was in the bag, are in " << fullPath(line.text("output", ""))
+      << std::endl;
+}
+
 using Writer = void (*)(const fsr::CommandLine&, std::ostream&);
 
 Writer writerOf(const std::string& format) {
-  static const std::map<std::string, Writer> kWriters = {{"csv", writeCsv}, {"tekscan", writeTekscan}};
+  static const std::map<std::string, Writer> kWriters = {
+      {"csv", writeCsv}, {"tekscan", writeTekscan}, {"hdf5", writeArchive}, {"bag", writeBag}};
   const auto found = kWriters.find(format);
   if (found != kWriters.end()) return found->second;
   std::string names;

@@ -14,8 +14,10 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 
+#include "fsr_pressure_map/ros/abandon_bag.h"
 #include "fsr_pressure_map/ros/bag_walk.h"
 #include "fsr_pressure_map/settings/command_line.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -90,16 +92,18 @@ class Scrubber {
 };
 
 Ledger scrub(const std::string& path, const std::string& fresh) {
+  auto to = std::make_unique<rosbag::Bag>();
   try {
     requireSoundBag(path);
     const rosbag::Bag from(path, rosbag::bagmode::Read);
-    rosbag::Bag to(fresh, rosbag::bagmode::Write);
-    const Ledger ledger = Scrubber(from, to).run();
-    to.close();
+    to->open(fresh, rosbag::bagmode::Write);
+    const Ledger ledger = Scrubber(from, *to).run();
+    to->close();
     return ledger;
   } catch (const rosbag::BagFormatException& error) {
     throw fsr::InputError(path + ": is no whole bag (" + error.what() + ")");
   } catch (const rosbag::BagException& error) {
+    abandonBag(std::move(to));
     throw fsr::InputError(path + ": cannot be copied (" + error.what() + ")");
   } catch (const fsr::InputError& error) {
     throw fsr::InputError(path + ": " + error.what());

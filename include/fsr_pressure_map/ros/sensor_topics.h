@@ -34,7 +34,8 @@ class SensorTopics {
 
   /// The topic's name as the bag spells it, "" where it is not there.
   std::string find(const std::string& base) const;
-  const std::string& typeOf(const std::string& topic) const { return types_.at(topic); }
+  /// Whether the bag has a topic of this full name.
+  bool has(const std::string& topic) const { return types_.count(topic) > 0; }
   /// All topics of the bag, "a, b".
   std::string list() const;
   /// Throws fsr::InputError where the topic is of another type.

@@ -11,6 +11,7 @@
 #include <map>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/file_size_limit.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr_ros {
@@ -122,6 +123,13 @@ TEST_F(BagFile, CannotHoldTheYear1970AndSaysSo) {
   } catch (const fsr::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("1_flat.bag"), std::string::npos) << error.what();
   }
+  EXPECT_EQ(filesLeft(), 0u);
+}
+
+// rosbag throws once more as such a bag is destroyed, which would end the process.
+TEST_F(BagFile, SaysThatTheDiskIsFullAndLeavesNothingBehind) {
+  const test_support::FileSizeLimit limit(6000);
+  EXPECT_THROW(writeBag(path_, twoSurfaces()), fsr::InputError);
   EXPECT_EQ(filesLeft(), 0u);
 }
 

@@ -1,12 +1,17 @@
 #include "fsr_pressure_map/ros/export_tool.h"
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <fsr_pressure_map/Event.h>
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/PressureMap.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <std_msgs/Duration.h>
+#include <std_msgs/Empty.h>
 #include <std_msgs/Float64.h>
+#include <std_msgs/String.h>
+#include <std_msgs/UInt8MultiArray.h>
 
 #include <cmath>
 #include <filesystem>
@@ -15,10 +20,14 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/ros/bag_writer.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/settings/sha256.h"
+#include "support/file_size_limit.h"
+#include "support/program_output.h"
 #include "support/pty.h"
 #include "support/small_calibration.h"
 #include "support/synthetic_recording.h"
@@ -172,6 +181,134 @@ TEST_F(ExportTool, WritesTekscanFrames) {
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   EXPECT_NE(text.find("\nEND_FRAME 1000 "), std::string::npos);
   EXPECT_NE(text.find("SECONDS_PER_FRAME 0.1000"), std::string::npos);
+}
+
+// A message as a bag holds it.
+using Held = std::tuple<std::string, std::string, std::uint64_t, std::string, ros::M_string>;
+
+std::vector<Held> messagesOf(const std::string& path) {
+  std::vector<Held> messages;
+  const rosbag::Bag bag(path);
+  for (const rosbag::MessageInstance& instance : rosbag::View(bag)) {
+    std::string bytes(instance.size(), '\0');
+    ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(bytes.data()), instance.size());
+    instance.write(stream);
+    messages.emplace_back(instance.getTopic(), instance.getDataType(), instance.getTime().toNSec(), bytes,
+                          *instance.getConnectionHeader());
+  }
+  return messages;
+}
+
+// Two publishers of one topic, types of others, texts and times that columns cannot hold, arrays of all
+// sizes.
+void addOddMessages(const std::string& path) {
+  rosbag::Bag bag(path, rosbag::bagmode::Append);
+  const auto header = [](const char* caller) {
+    return boost::make_shared<ros::M_string>(
+        ros::M_string{{"callerid", caller},
+                      {"latching", "1"},
+                      {"topic", "/twice"},
+                      {"type", ros::message_traits::datatype<std_msgs::String>()},
+                      {"md5sum", ros::message_traits::md5sum<std_msgs::String>()},
+                      {"message_definition", ros::message_traits::definition<std_msgs::String>()}});
+  };
+  for (int i = 0; i < 40; ++i) {
+    const ros::Time time(1500000001, 1000 * (i / 4));  // ten moments, four messages each
+    std_msgs::String text;
+    text.data = i % 7 == 3 ? std::string("a\0b", 3) : "text " + std::to_string(i);
+    bag.write("/twice", time, text, header(i % 2 == 0 ? "/one" : "/two"));
+    diagnostic_msgs::DiagnosticArray diagnostics;
+    diagnostics.header.stamp = time;
+    diagnostics.status.resize(static_cast<std::size_t>(i % 3));
+    for (auto& status : diagnostics.status) status.values.resize(static_cast<std::size_t>(i % 4));
+    if (i % 3 == 2) diagnostics.status[1].values.resize(9);
+    bag.write("/diagnostics", time, diagnostics);
+    std_msgs::Duration duration;
+    duration.data = ros::Duration(-3, 7 + i);
+    bag.write("/fsr", time, duration);  // the beginning of other topics' names
+    std_msgs::UInt8MultiArray array;
+    array.data.assign(static_cast<std::size_t>(i % 5), 7);
+    bag.write("/odd name", time, array);
+    bag.write("/empty", time, std_msgs::Empty());
+  }
+}
+
+TEST_F(ExportTool, AnArchiveTurnsBackIntoTheBagByteForByte) {
+  const std::string bag = withMaps(), archive = folder_.path("all.h5"), back = folder_.path("back.bag");
+  addOddMessages(bag);
+  const std::vector<Held> before = messagesOf(bag);
+  EXPECT_EQ(run({bag, "--to", "hdf5", "--output", archive}),
+            std::to_string(before.size()) + " messages are in " + archive + "\n");
+  run({archive, "--to", "bag", "--output", back});
+  const std::vector<Held> after = messagesOf(back);
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    ASSERT_TRUE(after[i] == before[i]) << "message " << i << " of " << std::get<0>(before[i]);
+  }
+}
+
+TEST_F(ExportTool, AnArchiveIsReadPlainlyByH5py) {
+  if (test_support::outputOf("/usr/bin/python3 -c 'import h5py' 2>&1").status != 0) {
+    GTEST_SKIP() << "h5py is not installed (Debian package python3-h5py): it was NOT tried";
+  }
+  const std::string archive = folder_.path("all.h5");
+  run({withMaps(), "--to", "hdf5", "--output", archive});
+  const auto python = test_support::outputOf(
+      "/usr/bin/python3 -c 'import h5py; f = h5py.File(\"" + archive +
+      "\"); c = f[\"fsr/raw/counts\"]; p = f[\"fsr/pressure_map/pressure\"];"
+      "print(c.shape, c[500, 1, 2], p.shape, p.attrs[\"unit\"].decode(), p.compression,"
+      " f[\"fsr/session/session_id\"][0].decode(), f[\"fsr/raw/header.stamp\"][0],"
+      " f[\"archive\"].attrs[\"sha256\"].decode())'");
+  EXPECT_EQ(python.text, "(1000, 2, 3) " + std::to_string(recording_.scan(500)[5]) +
+                             " (1000, 2, 3) Pa gzip s1 " + std::to_string(kStart) + " " +
+                             fsr::sha256OfFile(folder_.path("maps.bag")) + "\n");
+}
+
+TEST_F(ExportTool, ArchivesATopicAndATimeRange) {
+  const std::string archive = folder_.path("part.h5"), back = folder_.path("back.bag");
+  run({bag_, "--to", "hdf5", "--output", archive, "--topics", "raw,/fsr/temperature", "--from", "1",
+       "--until", "2"});
+  run({archive, "--to", "bag", "--output", back});
+  EXPECT_EQ(messagesOf(back).size(), 2u * 11);
+  EXPECT_NE(
+      run({bag_, "--to", "hdf5", "--output", archive, "--topics", "no"}).find("holds no topic no, but /fsr/"),
+      std::string::npos);
+}
+
+TEST_F(ExportTool, RefusesADamagedArchive) {
+  const std::string archive = folder_.path("all.h5"), back = folder_.path("back.bag");
+  run({bag_, "--to", "hdf5", "--output", archive});
+  {
+    std::fstream file(archive, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(5000);
+    file.put('x');
+  }
+  EXPECT_NE(run({archive, "--to", "bag", "--output", back}).find("is damaged or cut short"),
+            std::string::npos);
+  fs::resize_file(archive, 700);
+  EXPECT_NE(run({archive, "--to", "bag", "--output", back}).find("is damaged or cut short"),
+            std::string::npos);
+  EXPECT_EQ(run({bag_, "--to", "bag", "--output", back}),
+            bag_ + ": is no archive; give one that export --to hdf5 has written");
+  EXPECT_FALSE(fs::exists(back));
+}
+
+TEST_F(ExportTool, LeavesNothingBehindWhereTheDiskIsFull) {
+  const std::string maps = withMaps(), archive = folder_.path("all.h5");
+  run({maps, "--to", "hdf5", "--output", archive});
+  const std::size_t before = files();
+  const test_support::FileSizeLimit limit(20000);
+  for (const char* format : {"hdf5", "csv", "tekscan"}) {
+    const std::string path = folder_.path("full");
+    EXPECT_NE(
+        run({maps, "--to", format, "--output", path}).find(path + ": cannot be written (File too large)"),
+        std::string::npos)
+        << format;
+    EXPECT_EQ(files(), before) << format;
+  }
+  EXPECT_NE(run({archive, "--to", "bag", "--output", folder_.path("b.bag")}).find("cannot be written"),
+            std::string::npos);
+  EXPECT_EQ(files(), before);
 }
 
 TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
