@@ -101,11 +101,16 @@ HiddenTruth truthOf(const Active& active, double strength, const Rig& rig, const
   return truth;
 }
 
+std::vector<std::string> protocolsOf(const CaseSpec& spec) {
+  if (spec.then.empty()) return {spec.protocol};
+  return {spec.protocol, spec.then};
+}
+
 // Makes one case, step by step; each step needs those before it.
 class Maker {
  public:
   explicit Maker(const CaseSpec& spec)
-      : campaign_(runCampaign({spec.matrix, 0.010, 0.010}, spec.protocol, spec.size, spec.seed)),
+      : campaign_(runCampaign({spec.matrix, 0.010, 0.010}, protocolsOf(spec), spec.size, spec.seed)),
         sheet_(campaign_, spec.seed),
         rig_(campaign_, sheet_),
         noise_(campaign_, spec.seed),
@@ -242,12 +247,13 @@ void Maker::readOut() {
 }
 
 void Maker::record(const std::vector<std::vector<std::uint16_t>>& counts) {
-  Random random(made_.spec.seed, "reference noise " + made_.spec.protocol);
+  Random random(made_.spec.seed, "reference noise " + made_.spec.protocol + made_.spec.then);
   std::uint32_t mount = 0;
   for (const Visit& visit : campaign_.visits) {
     fsr::Recording recording;
     fsr::Surface surface = campaign_.surfaces[visit.surface];
     surface.mount = ++mount;
+    if (!made_.spec.then.empty() && mount <= campaign_.first_visits) continue;
     recording.name = std::to_string(mount) + "_" + surface.name + ".bag";
     recording.sensor = {"blind_matrix", "BLIND-1", "1.0", "printed matrix", "pdms", "transducer 0.1 %"};
     recording.layout = campaign_.layout;

@@ -29,6 +29,7 @@ struct CaseSpec {
   /// rms that each effect leaves after the best static fit / rms of all noise; 0 = nothing is hidden.
   double snr = 1;
   std::string protocol = "two_speeds";
+  std::string then;  ///< protocol of a second campaign after the first; it alone is recorded; empty = none
   fsr::MatrixSize matrix{7, 10};
   ProtocolSize size;
   bool thermometer = true;

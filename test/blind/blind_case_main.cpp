@@ -27,7 +27,8 @@ fsr::CommandLine commandLine() {
       .option("snr", "S", "rms left by each effect after the static fit, by the rms of all noise (1)")
       .option("protocol", "NAME", "what the chamber does (two_speeds)")
       .option("size", "full|small", "7 x 10 taxels and six surfaces, or 3 x 4 and three (full)")
-      .option("follow", "KEY", "same sheet, effects, strength and noise as in this key, under --protocol")
+      .option("follow", "KEY",
+              "the campaign of this key goes on, under --protocol: same sheet, effects, strength, noise")
       .flag("no-thermometer", "record no temperature")
       .flag("everywhere", "confine no effect to some taxels or surfaces")
       .flag("list", "print the effects and their forms");
@@ -49,7 +50,7 @@ blind::CaseSpec specFrom(const fsr::CommandLine& line) {
   blind::CaseSpec spec;
   if (line.has("follow")) {
     spec = blind::specFromKey(line.text("follow", ""));
-    spec.protocol = line.text("protocol", spec.protocol);
+    spec.then = line.text("protocol", spec.protocol);
     return spec;
   }
   const std::string size = line.text("size", "full");
@@ -80,7 +81,7 @@ void write(const blind::BlindCase& made, const std::string& output, const std::s
   options.session.session_id = "blind";
   options.session.use = "chamber";
   options.session.mounted_on = "fixture";
-  options.session.protocol = made.spec.protocol;
+  options.session.protocol = made.spec.then.empty() ? made.spec.protocol : made.spec.then;
   for (const fsr::Recording& recording : made.recordings) {
     fsr_ros::writeBag(output + "/" + recording.name, recording, options);
   }

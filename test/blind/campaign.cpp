@@ -124,26 +124,31 @@ std::vector<fsr::Surface> surfacesOf(std::size_t number) {
   return surfaces;
 }
 
-Campaign runCampaign(const fsr::Layout& layout, const std::string& protocol, const ProtocolSize& size,
-                     std::uint64_t seed) {
+Campaign runCampaign(const fsr::Layout& layout, const std::vector<std::string>& protocols,
+                     const ProtocolSize& size, std::uint64_t seed) {
   Campaign campaign;
   campaign.layout = layout;
   campaign.surfaces = surfacesOf(size.surfaces);
-  Random random(seed, "campaign " + protocol);
+  Random random(seed, "campaign " + protocols.front());
   // No board keeps its rate to better than some hundred parts in a million.
   campaign.scan_period = 0.1 * (1 + 2e-4 * random.normal());
-  const Climate climate{Random(seed, "climate " + protocol)};
+  const Climate climate{Random(seed, "climate " + protocols.front())};
   double clock = 0;
-  for (const PlannedVisit& plan : planVisits(protocol, size, Random(seed, "order " + protocol))) {
-    Visit visit;
-    visit.surface = plan.surface;
-    visit.pause = plan.pause;
-    visit.start = clock + plan.pause;
-    visit.fine_pressure = finePressure(plan.path);
-    appendScans(plan, visit, campaign);
-    clock = campaign.time.back() + campaign.scan_period;
-    climate.run(visit, plan.ambient_step, campaign, random);
-    campaign.visits.push_back(std::move(visit));
+  for (const std::string& protocol : protocols) {
+    for (const PlannedVisit& plan : planVisits(protocol, size, Random(seed, "order " + protocol))) {
+      Visit visit;
+      visit.surface = plan.surface;
+      visit.pause = plan.pause;
+      visit.start = clock + plan.pause;
+      visit.fine_pressure = finePressure(plan.path);
+      appendScans(plan, visit, campaign);
+      clock = campaign.time.back() + campaign.scan_period;
+      climate.run(visit, plan.ambient_step, campaign, random);
+      campaign.visits.push_back(std::move(visit));
+    }
+    if (campaign.first_visits > 0) continue;
+    campaign.first_visits = campaign.visits.size();
+    campaign.first_scans = campaign.scans();
   }
   return campaign;
 }

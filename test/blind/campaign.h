@@ -33,6 +33,8 @@ struct Campaign {
   double scan_period = 0.1;            ///< [s]
   std::vector<fsr::Surface> surfaces;  ///< the first one flat
   std::vector<Visit> visits;
+  std::size_t first_visits = 0;  ///< of the first protocol
+  std::size_t first_scans = 0;   ///< likewise
 
   Trace time;                        ///< campaign clock [s]
   Trace pressure;                    ///< gauge [Pa]
@@ -53,7 +55,9 @@ struct Campaign {
 /// Surfaces: flat, then cylinders from wide to tight, names as in config/surfaces.
 std::vector<fsr::Surface> surfacesOf(std::size_t number);
 
-Campaign runCampaign(const fsr::Layout& layout, const std::string& protocol, const ProtocolSize& size,
-                     std::uint64_t seed);
+/// One protocol after the other, on the same sheet in the same room; the first alone is the same campaign up
+/// to its end.
+Campaign runCampaign(const fsr::Layout& layout, const std::vector<std::string>& protocols,
+                     const ProtocolSize& size, std::uint64_t seed);
 
 }  // namespace blind

@@ -17,7 +17,7 @@ const fsr::Layout kLayout{{3, 4}, 0.010, 0.010};
 class EveryProtocol : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryProtocol, LoadsEverySurfaceOverTheWholeRangeInTime) {
-  const Campaign campaign = runCampaign(kLayout, GetParam(), {3, 0.5}, 4);
+  const Campaign campaign = runCampaign(kLayout, {GetParam()}, {3, 0.5}, 4);
   std::set<std::size_t> surfaces;
   for (const Visit& visit : campaign.visits) {
     surfaces.insert(visit.surface);
@@ -40,7 +40,7 @@ TEST_P(EveryProtocol, LoadsEverySurfaceOverTheWholeRangeInTime) {
 INSTANTIATE_TEST_SUITE_P(Blind, EveryProtocol, testing::ValuesIn(protocolNames()));
 
 TEST(BlindProtocol, OfThePaperIs45000ScansOnSixSurfaces) {
-  const Campaign campaign = runCampaign({{7, 10}, 0.010, 0.010}, "paper", {}, 1);
+  const Campaign campaign = runCampaign({{7, 10}, 0.010, 0.010}, {"paper"}, {}, 1);
   EXPECT_NEAR(static_cast<double>(campaign.scans()), 45000, 100);
   EXPECT_EQ(campaign.visits.size(), 6u);
   EXPECT_EQ(campaign.cycle.back() + 1, 60u);
@@ -49,7 +49,7 @@ TEST(BlindProtocol, OfThePaperIs45000ScansOnSixSurfaces) {
 }
 
 TEST(BlindProtocol, OfTwoSpeedsHasTwo) {
-  const Campaign campaign = runCampaign(kLayout, "two_speeds", {1, 1}, 1);
+  const Campaign campaign = runCampaign(kLayout, {"two_speeds"}, {1, 1}, 1);
   const auto at = [&](double rate) {
     const auto near = [&](double value) { return std::abs(value - rate) < 300; };
     return std::count_if(campaign.rate.begin(), campaign.rate.end(), near);
@@ -60,16 +60,26 @@ TEST(BlindProtocol, OfTwoSpeedsHasTwo) {
 }
 
 TEST(BlindProtocol, OfTwoAmbientsIsWarmerTheSecondTime) {
-  const Campaign campaign = runCampaign(kLayout, "two_ambients", {2, 0.5}, 1);
+  const Campaign campaign = runCampaign(kLayout, {"two_ambients"}, {2, 0.5}, 1);
   EXPECT_GT(campaign.thermometer.back() - campaign.thermometer.front(), 5);
 }
 
+TEST(BlindProtocol, GoesOnWhereTheOneBeforeItEnded) {
+  const Campaign first = runCampaign(kLayout, {"paper"}, {2, 0.5}, 1);
+  const Campaign both = runCampaign(kLayout, {"paper", "rest"}, {2, 0.5}, 1);
+  ASSERT_EQ(both.first_scans, first.scans());
+  EXPECT_EQ(both.first_visits, first.visits.size());
+  EXPECT_GT(both.scans(), first.scans());
+  EXPECT_TRUE(std::equal(first.thermometer.begin(), first.thermometer.end(), both.thermometer.begin()));
+  EXPECT_GT(both.time[both.first_scans], first.time.back() + 200);
+}
+
 TEST(BlindProtocol, OfAnUnknownNameIsRefused) {
-  EXPECT_THROW(runCampaign(kLayout, "papers", {}, 1), fsr::InputError);
+  EXPECT_THROW(runCampaign(kLayout, {"papers"}, {}, 1), fsr::InputError);
 }
 
 TEST(BlindSheet, RisesWithTheLoadUnderEveryLaw) {
-  const Campaign campaign = runCampaign(kLayout, "paper", {3, 0.2}, 1);
+  const Campaign campaign = runCampaign(kLayout, {"paper"}, {3, 0.2}, 1);
   std::set<std::string> laws;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Sheet sheet(campaign, seed);

@@ -86,6 +86,7 @@ void specOf(YAML::Emitter& out, const CaseSpec& spec) {
   out << YAML::BeginMap;
   out << YAML::Key << "seed" << YAML::Value << spec.seed;
   out << YAML::Key << "protocol" << YAML::Value << spec.protocol;
+  if (!spec.then.empty()) out << YAML::Key << "then" << YAML::Value << spec.then;
   out << YAML::Key << "snr" << YAML::Value << spec.snr;
   out << YAML::Key << "rows" << YAML::Value << spec.matrix.rows;
   out << YAML::Key << "columns" << YAML::Value << spec.matrix.columns;
@@ -144,8 +145,9 @@ std::string publicText(const BlindCase& blind_case, const std::string& key_sha25
   out << YAML::BeginMap;
   out << YAML::Key << "blind_case" << YAML::Value << kFormat;
   out << YAML::Key << "key_sha256" << YAML::Value << key_sha256;
-  out << YAML::Key << "protocol" << YAML::Value << spec.protocol;
-  out << YAML::Key << "description" << YAML::Value << protocolDescription(spec.protocol);
+  const std::string& protocol = spec.then.empty() ? spec.protocol : spec.then;
+  out << YAML::Key << "protocol" << YAML::Value << protocol;
+  out << YAML::Key << "description" << YAML::Value << protocolDescription(protocol);
   out << YAML::Key << "matrix" << YAML::Value << YAML::Flow << YAML::BeginMap << YAML::Key << "rows"
       << YAML::Value << spec.matrix.rows << YAML::Key << "columns" << YAML::Value << spec.matrix.columns
       << YAML::Key << "full_scale" << YAML::Value << kFullScale << YAML::EndMap;

@@ -55,10 +55,11 @@ TEST_F(CaseFiles, AKeyIsFollowedByTheSameSheetUnderAnotherProtocol) {
   const BlindCase same = makeCase(again);
   EXPECT_NEAR(same.noise, made_.noise, 1e-4 * made_.noise);
   EXPECT_NEAR(same.hidden[0].strength, made_.hidden[0].strength, 1e-9);
-  again.protocol = "minor_loops";
+  again.then = "minor_loops";
   const BlindCase followed = makeCase(again);
   EXPECT_NEAR(followed.noise, made_.noise, 0.01 * made_.noise);
   EXPECT_NEAR(followed.hidden[0].parameters[0].value, made_.hidden[0].parameters[0].value, 1e-9);
+  EXPECT_GT(followed.recordings.front().start_ns, made_.recordings.back().start_ns);
   // Without load the same taxel reads the same.
   EXPECT_NEAR(followed.base[7][0], made_.base[7][0], 1e-6);
 }

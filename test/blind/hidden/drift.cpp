@@ -47,7 +47,7 @@ class Settling : public Drift {
  public:
   explicit Settling(const HiddenSetup& setup) : Drift(setup) {
     const double time_constant = random_.uniform(1500, 6000), sign = random_.sign();  // [s]
-    const double end = 1 - std::exp(-setup.campaign.time.back() / time_constant);
+    const double end = 1 - std::exp(-setup.campaign.time[setup.campaign.first_scans - 1] / time_constant);
     for (std::size_t scan = 0; scan < zero_.size(); ++scan) {
       zero_[scan] = sign * 2 * size_ * (1 - std::exp(-setup.campaign.time[scan] / time_constant)) / end;
     }
@@ -59,10 +59,10 @@ class Settling : public Drift {
 class Steps : public Drift {
  public:
   explicit Steps(const HiddenSetup& setup) : Drift(setup) {
-    const std::size_t number = setup.campaign.visits.size() / 2 + 2;
+    const std::size_t number = setup.campaign.first_visits / 2 + 2;
     for (std::size_t i = 0; i < number; ++i) {
       // In the middle part of some mount, where it shows.
-      const Visit& visit = setup.campaign.visits[random_.below(setup.campaign.visits.size())];
+      const Visit& visit = setup.campaign.visits[random_.below(setup.campaign.first_visits)];
       const double share = random_.uniform(0.2, 0.8);
       const double when =
           visit.start + share * static_cast<double>(visit.last - visit.first) * setup.campaign.scan_period;

@@ -36,9 +36,9 @@ class Fault : public Hidden {
   void failForGood() {
     if (setup_.strength <= 0) return;
     const double share = std::min(0.95, random_.uniform(0.2, 0.4) * setup_.strength);
-    const std::size_t scans = setup_.campaign.scans();
+    const std::size_t scans = setup_.campaign.first_scans;
     addSpell(scans - std::max<std::size_t>(10, static_cast<std::size_t>(share * static_cast<double>(scans))),
-             scans);
+             setup_.campaign.scans());
   }
   // Spells of `seconds` on average, `share` of the time in all, at usual strength; a stronger fault has
   // more of them and longer ones, among them those of the weaker.

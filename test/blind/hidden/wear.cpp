@@ -27,13 +27,13 @@ class Wear : public Hidden {
     parameters_ = {{"lost_by_the_end", size_, "1"}};
   }
   void endAtOne() {
-    const double end = lost_.back();
+    const double end = lost_[setup_.campaign.first_scans - 1];
     for (double& lost : lost_) lost /= end;
   }
   HiddenSetup setup_;
   Random random_;
   std::vector<double> scatter_;
-  Trace lost_;  // 0 at the start, 1 at the end
+  Trace lost_;  // 0 at the start, 1 at the end of the first protocol
   double size_;
 };
 
@@ -81,7 +81,7 @@ class WornOff : public Wear {
       distance += std::abs(setup.campaign.rate[scan]) * setup.campaign.scan_period;
       lost = distance;
     }
-    const double scale = distance * random_.uniform(0.5, 1);
+    const double scale = lost_[setup.campaign.first_scans - 1] * random_.uniform(0.5, 1);
     for (double& lost : lost_) lost = 1 - std::exp(-lost / scale);
     parameters_.push_back({"scale", scale, "Pa"});
     endAtOne();
