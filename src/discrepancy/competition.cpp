@@ -47,6 +47,7 @@ Family familyOf(const std::string& id, const std::vector<Signature>& signatures)
     ColumnSet& set = family.alternatives[static_cast<std::size_t>(head - heads.begin())];
     set.columns.push_back(static_cast<Eigen::Index>(s));
     set.free.push_back(signatures[s].free_sign);
+    set.bent_only.push_back(false);
   }
   return family;
 }
@@ -54,7 +55,7 @@ Family familyOf(const std::string& id, const std::vector<Signature>& signatures)
 // Every alternative once more, confined to where the surface is bent.
 void addBentOnly(Family& family) {
   std::vector<ColumnSet> bent = family.alternatives;
-  for (ColumnSet& set : bent) set.bent_only = true;
+  for (ColumnSet& set : bent) set.bent_only.assign(set.columns.size(), true);
   family.alternatives.insert(family.alternatives.end(), bent.begin(), bent.end());
 }
 
@@ -126,6 +127,7 @@ void Competition::gather(const StaticFit& fit, const Measured& measured) {
     for (const Trace& column : terms.columns) {
       family.alternatives.front().columns.push_back(next);
       family.alternatives.front().free.push_back(true);
+      family.alternatives.front().bent_only.push_back(false);
       columns_.col(next++) = column;
     }
     generics_.push_back(family);
@@ -162,26 +164,27 @@ Trace Competition::explained(const Score& score) const {
 }
 
 Trace Competition::explainedWithout(const Score& score, const std::vector<bool>& cycles) const {
-  std::vector<bool> wanted(measured_.cycles.size());
-  for (std::size_t c = 0; c < wanted.size(); ++c) {
+  const auto size = static_cast<Eigen::Index>(score.set.columns.size());
+  Eigen::MatrixXd part = Eigen::MatrixXd::Zero(size + 1, size + 1);
+  for (std::size_t c = 0; c < measured_.cycles.size(); ++c) {
     const MeasuredCycle& cycle = measured_.cycles[c];
-    const bool acts =
-        !score.set.bent_only || !isFlat(measured_.classes[measured_.visits[cycle.visit].curvature_class]);
-    wanted[c] = acts && cycle.use == CycleUse::kFit && !cycles[c];
+    if (cycle.use != CycleUse::kFit || cycles[c]) continue;
+    const bool flat = isFlat(measured_.classes[measured_.visits[cycle.visit].curvature_class]);
+    part += partOf(grams_->of(c), score.set, flat);
   }
-  return explainedBy(score.set, fitColumns(grams_->sum(wanted), score.set));
+  return explainedBy(score.set, fitColumns(part, score.set));
 }
 
 Trace Competition::explainedBy(const ColumnSet& set, const Eigen::VectorXd& coefficients) const {
-  Trace trace = Trace::Zero(columns_.rows());
+  Trace everywhere = Trace::Zero(columns_.rows()), bent = everywhere;
   for (std::size_t i = 0; i < set.columns.size(); ++i) {
     const double b = coefficients[static_cast<Eigen::Index>(i)];
-    if (b != 0) trace += b * columns_.col(set.columns[i]);
+    if (b != 0) (set.bent_only[i] ? bent : everywhere) += b * columns_.col(set.columns[i]);
   }
-  for (std::size_t i = 0; set.bent_only && i < measured_.moments(); ++i) {
-    if (isFlat(measured_.classes[measured_.classOf(i)])) trace[static_cast<Eigen::Index>(i)] = 0;
+  for (std::size_t i = 0; i < measured_.moments(); ++i) {
+    if (isFlat(measured_.classes[measured_.classOf(i)])) bent[static_cast<Eigen::Index>(i)] = 0;
   }
-  return trace;
+  return everywhere + bent;
 }
 
 }  // namespace fsr

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fsr_pressure_map/simulation/effects/effect_library.h"
 
@@ -16,8 +17,10 @@ constexpr double kGenericBetter = 0.1;        // of the ceiling
 constexpr double kRivalWithin = 0.05;         // of what the best explains
 constexpr double kSignificant = 2;            // standard errors
 constexpr double kRivalFar = 0.15;            // likewise: behind it by more it is none, whatever the errors
-constexpr double kSecondOfRest = 0.45;  // of what remains explainable: a wrong form alone leaves that much
-constexpr double kSecondOfFirst = 0.1;  // of what the first effect explains
+constexpr double kSecondOfRest = 0.45;   // of what remains explainable: a wrong form alone leaves that much
+constexpr double kSecondOfFirst = 0.03;  // of what the first effect explains
+constexpr double kSecondLookalike = 5;   // standard errors, where a wrong form of one looks like the other
+constexpr double kSecondRival = 0.7;     // of what the second adds: another that adds as much is as good
 constexpr std::size_t kPairsRefined = 4;
 constexpr double kMuchOpen = 0.75;       // of the common trace's error: less explained leaves room for two
 constexpr double kGoodForm = 0.7;        // of the ceiling
@@ -42,28 +45,45 @@ bool isSlow(const std::string& id) {
   return id == "drift" || id == "temperature" || id == "wear" || id == "break_in";
 }
 
+// A creep whose form is not quite the library's leaves something of a loop, and goes on otherwise in the
+// first cycles of every mount, as a break-in does.
+bool lookAlike(const std::vector<std::string>& ids) {
+  const auto has = [&](const char* id) { return std::count(ids.begin(), ids.end(), id) > 0; };
+  return has("creep") && (has("break_in") || has("hysteresis"));
+}
+
 // The single signatures that do most of what a mixture did, one for each effect, as settings.
 struct Start {
   std::vector<EnabledEffect> effects;
+  std::vector<bool> bent_only;  // of each
   bool carried = true;
 };
 
+bool isBentOnly(const Competition& competition, const Score& explanation, const std::string& id) {
+  const ColumnSet& set = explanation.set;
+  for (std::size_t i = 0; i < set.columns.size(); ++i) {
+    if (competition.signatures()[static_cast<std::size_t>(set.columns[i])].id == id) return set.bent_only[i];
+  }
+  return false;
+}
+
 Start startOf(const Competition& competition, const Score& explanation) {
   ColumnSet chosen;
+  Start start;
   for (const std::string& id : explanation.ids) {
+    start.bent_only.push_back(isBentOnly(competition, explanation, id));
     Score best;
     best.total = INFINITY;
     for (std::size_t s = 0; s < competition.signatures().size(); ++s) {
       const Signature& signature = competition.signatures()[s];
       if (signature.id != id) continue;
-      const ColumnSet one{{static_cast<Eigen::Index>(s)}, {signature.free_sign}, explanation.set.bent_only};
+      const ColumnSet one{{static_cast<Eigen::Index>(s)}, {signature.free_sign}, {start.bent_only.back()}};
       const Score now = competition.selection().score(together(chosen, one));
       if (now.total < best.total) best = now;
     }
     chosen = best.set;
   }
   const Eigen::VectorXd coefficients = competition.selection().score(chosen).coefficients;
-  Start start;
   for (std::size_t k = 0; k < chosen.columns.size(); ++k) {
     const Signature& signature = competition.signatures()[static_cast<std::size_t>(chosen.columns[k])];
     EnabledEffect effect{signature.id, signature.values};
@@ -116,20 +136,22 @@ class Contest {
     return selection().z(nothing_, score) > kLeastZ && shareOfError(score) >= kLeastShareOfError;
   }
   bool shows(const Explanation& explanation) const;
-  Explanation* best();
+  const Explanation* best() const;
+  Explanation* best() { return const_cast<Explanation*>(std::as_const(*this).best()); }
   const Score* bestGeneric() const;
   void refineOne(Explanation& explanation) const;
   void refineNear();
-  std::vector<Explanation> bestPairs() const;
+  std::vector<Explanation> bestPairs(const Explanation& one) const;
   bool isWorthIt(const Explanation& one, const Explanation& two) const;
   void tryPairs(const Explanation& one);
   bool unknown(const Explanation& best);
   Trace leftBy(const Explanation& explanation) const;
   double behindInErrors(const Explanation& worse, const Explanation& better) const;
   bool temperatureMoved() const;
+  bool isRival(const Explanation& other, const Explanation& best) const;
   void gatherRivals(const Explanation& best);
   void weigh(const EvidenceAtHand& evidence);
-  Explanation& frontOf(Explanation& best);
+  Explanation* find(const std::vector<std::string>& ids);
   bool fitsWell(const Explanation& explanation) const;
   void keepNearest(const Explanation& best);
   void nameIt(Explanation& best);
@@ -144,7 +166,7 @@ class Contest {
   const Score& nothing_;
   std::vector<Explanation> singles_;
   std::vector<Score> generics_;
-  std::vector<Explanation> pair_;  // none or the one that is accepted
+  std::vector<Explanation> pairs_;  // those that are worth it, best first
   Decision decision_;
 };
 
@@ -169,7 +191,7 @@ bool Contest::shows(const Explanation& explanation) const {
          more * shareOfError(explanation.score) >= kLeastShareOfError;
 }
 
-Explanation* Contest::best() {
+const Explanation* Contest::best() const {
   const auto worse = [](const Explanation& a, const Explanation& b) { return a.share < b.share; };
   const auto found = std::max_element(singles_.begin(), singles_.end(), worse);
   return found == singles_.end() ? nullptr : &*found;
@@ -185,7 +207,7 @@ void Contest::refineOne(Explanation& explanation) const {
   if (explanation.is_refined) return;
   const Start start = startOf(competition_, explanation.score);
   explanation.refined =
-      refine(measured_, common_, fit_, base_, start.effects, start.carried, explanation.score.set.bent_only);
+      refine(measured_, common_, fit_, base_, start.effects, start.carried, start.bent_only);
   explanation.is_refined = true;
   explanation.share = std::max(explanation.share, explanation.refined.share);
 }
@@ -205,45 +227,58 @@ void Contest::refineNear() {
   }
 }
 
-// The pairs that do best as signatures, best first.
-std::vector<Explanation> Contest::bestPairs() const {
+// The pairs that do best as signatures, best first, and the best single effect with each of the others: a
+// large effect bends, and its signature alone says too little of it.
+std::vector<Explanation> Contest::bestPairs(const Explanation& one) const {
   std::vector<Explanation> pairs;
   for (std::size_t a = 0; a < singles_.size(); ++a) {
     for (std::size_t b = a + 1; b < singles_.size(); ++b) {
       if (isSlow(competition_.effects()[a].id) && isSlow(competition_.effects()[b].id)) continue;
       Explanation pair;
       pair.score = selection().score(singles_[a].score, competition_.effects()[b]);
-      if (!std::isfinite(pair.score.total)) continue;
+      Score swapped = selection().score(singles_[b].score, competition_.effects()[a]);
+      std::swap(swapped.ids.front(), swapped.ids.back());
+      if (swapped.total < pair.score.total) pair.score = swapped;
       pair.share = shareOf(pair.score);
       pairs.push_back(pair);
     }
   }
   const auto better = [](const Explanation& a, const Explanation& b) { return a.share > b.share; };
   std::sort(pairs.begin(), pairs.end(), better);
-  pairs.resize(std::min(pairs.size(), kPairsRefined));
+  const auto with_one = [&](const Explanation& pair) {
+    return std::count(pair.score.ids.begin(), pair.score.ids.end(), one.score.ids.front()) > 0;
+  };
+  const auto first = pairs.begin() + static_cast<std::ptrdiff_t>(std::min(pairs.size(), kPairsRefined));
+  pairs.erase(std::remove_if(first, pairs.end(), [&](const auto& pair) { return !with_one(pair); }),
+              pairs.end());
   return pairs;
 }
 
 bool Contest::isWorthIt(const Explanation& one, const Explanation& two) const {
   const double gain = two.share - one.share, rest = std::max(decision_.ceiling, two.share) - one.share;
+  if (lookAlike(two.score.ids) && selection().z(one.score, two.score) < kSecondLookalike) return false;
   return gain >= kSecondOfRest * rest && gain >= kSecondOfFirst * one.share &&
          behindInErrors(one, two) > kSignificant &&
          gain / two.share * shareOfError(two.score) >= kLeastShareOfError;
 }
 
 // Two effects, where the second closes enough of what remains and no other pair does as well; with drift,
-// which everything slow looks like, only where no pair without it comes near.
+// which everything slow looks like, or beyond what is plausible, only where no other pair adds half as much.
 void Contest::tryPairs(const Explanation& one) {
-  std::vector<Explanation> pairs = bestPairs();
-  if (pairs.empty() || !(isWorthIt(one, pairs.front()) || one.share < kMuchOpen)) return;
-  for (Explanation& pair : pairs) refineOne(pair);
-  const auto merit = [](const Explanation& e) {
-    const bool drift = std::count(e.score.ids.begin(), e.score.ids.end(), "drift") > 0;
-    return e.share * (drift ? 1 - kRivalWithin : 1);
+  pairs_ = bestPairs(one);
+  if (pairs_.empty()) return;
+  const double open = std::max(decision_.ceiling, pairs_.front().share) - one.share;
+  if (open < kSecondOfFirst * one.share && one.share > kMuchOpen) pairs_.clear();
+  for (Explanation& pair : pairs_) refineOne(pair);
+  const auto hopeless = [&](const Explanation& pair) { return !isWorthIt(one, pair); };
+  pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), hopeless), pairs_.end());
+  const auto merit = [&](const Explanation& pair) {
+    const bool drift = std::count(pair.score.ids.begin(), pair.score.ids.end(), "drift") > 0;
+    return one.share + (pair.share - one.share) * (drift || pair.refined.at_bound ? kDriftHides : 1);
   };
-  const auto best = std::max_element(pairs.begin(), pairs.end(),
-                                     [&](const auto& a, const auto& b) { return merit(a) < merit(b); });
-  if (isWorthIt(one, *best)) pair_.push_back(*best);
+  std::stable_sort(pairs_.begin(), pairs_.end(),
+                   [&](const auto& a, const auto& b) { return merit(a) > merit(b); });
+  decision_.ceiling = std::max(decision_.ceiling, pairs_.empty() ? 0 : pairs_.front().share);
 }
 
 bool Contest::unknown(const Explanation& best) {
@@ -295,17 +330,27 @@ bool Contest::temperatureMoved() const {
   return *high - *low > kTemperatureMoved;
 }
 
+// Whether the recordings do not tell them apart.
+bool Contest::isRival(const Explanation& other, const Explanation& best) const {
+  const double behind = best.share - other.share;
+  if (behindInErrors(other, best) < kSignificant && behind < kRivalFar * best.share) return true;
+  // One effect against two was weighed by what the second adds; two against two by the same.
+  if (best.score.ids.size() > 1 && other.score.ids.size() == 1) return false;
+  if (best.score.ids.size() > 1) return behind <= (1 - kSecondRival) * (best.share - this->best()->share);
+  // What everything slow looks like excludes nothing slow.
+  const bool near_drift = best.score.ids == std::vector<std::string>{"drift"} &&
+                          isSlow(other.score.ids.front()) && behind <= kDriftHides * best.share;
+  return near_drift || behind <= kRivalWithin * best.share;
+}
+
 void Contest::gatherRivals(const Explanation& best) {
   std::vector<const Explanation*> rivals;
   for (const Explanation& single : singles_) {
-    if (single.score.ids == best.score.ids || !shows(single)) continue;
-    const double behind = best.share - single.share;
-    // What everything slow looks like excludes nothing slow.
-    const bool near_drift = best.score.ids == std::vector<std::string>{"drift"} &&
-                            isSlow(single.score.ids.front()) && behind <= kDriftHides * best.share;
-    const bool close = behind <= kRivalWithin * best.share || near_drift;
-    const bool indistinct = behindInErrors(single, best) < kSignificant && behind < kRivalFar * best.share;
-    if (close || indistinct) rivals.push_back(&single);
+    if (single.score.ids != best.score.ids && shows(single) && isRival(single, best))
+      rivals.push_back(&single);
+  }
+  for (const Explanation& pair : pairs_) {
+    if (pair.score.ids != best.score.ids && isRival(pair, best)) rivals.push_back(&pair);
   }
   std::sort(rivals.begin(), rivals.end(),
             [](const Explanation* a, const Explanation* b) { return a->share > b->share; });
@@ -352,7 +397,7 @@ void Contest::listCandidates() {
     decision_.candidates.push_back(candidate);
   };
   for (const Explanation& e : singles_) add(e.score, e.share);
-  for (const Explanation& e : pair_) add(e.score, e.share);
+  for (const Explanation& e : pairs_) add(e.score, e.share);
   for (const Score& score : generics_) add(score, shareOf(score));
   std::stable_sort(decision_.candidates.begin(), decision_.candidates.end(),
                    [](const CandidateScore& a, const CandidateScore& b) {
@@ -373,17 +418,18 @@ void Contest::keepNearest(const Explanation& best) {
   }
 }
 
-// The explanation that stands first in the credible set.
-Explanation& Contest::frontOf(Explanation& best) {
-  for (Explanation& single : singles_) {
-    if (single.score.ids == decision_.credible.front()) return single;
+Explanation* Contest::find(const std::vector<std::string>& ids) {
+  for (std::vector<Explanation>* all : {&singles_, &pairs_}) {
+    for (Explanation& explanation : *all) {
+      if (explanation.score.ids == ids) return &explanation;
+    }
   }
-  return best;
+  return nullptr;
 }
 
 void Contest::nameIt(Explanation& best) {
   gatherRivals(best);
-  Explanation& first = frontOf(best);
+  Explanation& first = *find(decision_.credible.front());
   refineOne(first);
   decision_.refined = first.refined;
   decision_.explanation = first.score;
@@ -391,11 +437,9 @@ void Contest::nameIt(Explanation& best) {
   weigh(evidenceIn(measured_));
   if (!fitsWell(first)) keepNearest(first);
   for (std::size_t r = 1; r < decision_.credible.size(); ++r) {
-    for (Explanation& single : singles_) {
-      if (single.score.ids != decision_.credible[r]) continue;
-      refineOne(single);
-      decision_.rivals.push_back(single.refined);
-    }
+    Explanation& rival = *find(decision_.credible[r]);
+    refineOne(rival);
+    decision_.rivals.push_back(rival.refined);
   }
   const bool good = fitsWell(first);
   decision_.verdict = decision_.credible.size() > 1 ? Verdict::kAmbiguous
@@ -419,7 +463,7 @@ Decision Contest::decide() {
     refineNear();
     decision_.ceiling = std::max(decision_.ceiling, best()->share);
     tryPairs(*best());
-    Explanation& put = pair_.empty() ? *best() : pair_.front();
+    Explanation& put = pairs_.empty() ? *best() : pairs_.front();
     if (!unknown(put)) nameIt(put);
     decision_.z = selection().z(nothing_, decision_.explanation);
     decision_.share_of_error = shareOfError(decision_.explanation);

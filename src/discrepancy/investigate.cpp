@@ -9,6 +9,7 @@
 #include "fsr_pressure_map/discrepancy/findings.h"
 #include "fsr_pressure_map/discrepancy/held_out.h"
 #include "fsr_pressure_map/discrepancy/next_experiment.h"
+#include "fsr_pressure_map/discrepancy/odd_taxels.h"
 #include "fsr_pressure_map/discrepancy/refine.h"
 #include "fsr_pressure_map/discrepancy/show.h"
 #include "fsr_pressure_map/discrepancy/taxel_curves_fit.h"
@@ -57,6 +58,7 @@ class Investigation {
   void lookAtMounts();
   void compete();
   void lookAtStaticCurves();
+  void lookAtTaxels();
   void put();
   void startAgain();
   void putFindings();
@@ -84,6 +86,7 @@ class Investigation {
   Mains mains_;
   StaticMisfit misfit_;
   bool unknown_statics_ = false;
+  OddTaxels odd_;
   std::vector<Finding> findings_, later_;
   SimulationSettings current_;  // with all that was taken out
   bool quiet_ = false;
@@ -234,6 +237,12 @@ void Investigation::lookAtStaticCurves() {
   }
 }
 
+// Where neither all taxels together nor a detector has anything to say, single taxels or lines may.
+void Investigation::lookAtTaxels() {
+  const bool else_found = unknown_statics_ || !findings_.empty() || decision_.verdict != Verdict::kNone;
+  if (!else_found) odd_ = findOddTaxels(measured_, *taxels_);
+}
+
 // What the common trace says goes into the report.
 void Investigation::put() {
   report_.verdict = decision_.verdict;
@@ -278,6 +287,11 @@ void Investigation::putFindings() {
     report_.depends_on = {name(Covariate::kPressure), name(Covariate::kCurvature)};
     report_.where.pressure = misfit_.pressure;
     report_.where.conditions = misfit_.conditions;
+  }
+  if (!odd_.taxels.empty() && report_.verdict == Verdict::kNone) {
+    report_.verdict = Verdict::kUnknown;
+    report_.depends_on = {name(odd_.by)};
+    report_.where.taxels = odd_.taxels;
   }
   if (findings_.empty()) return;
   if (report_.verdict == Verdict::kUnknown) {
@@ -465,6 +479,7 @@ DiscrepancyReport Investigation::run() {
   report_.covariates =
       CovariateTests{measured_, common_, *fit_, *taxels_, *competition_, problem_.options.seed}.run();
   lookAtStaticCurves();
+  lookAtTaxels();
   put();
   if (problem_.options.repeat) {
     repeat();

@@ -119,38 +119,39 @@ Eigen::MatrixXd CycleGrams::sum(const std::vector<bool>& wanted) const {
 
 ColumnSet together(const ColumnSet& a, const ColumnSet& b) {
   ColumnSet both = a;
-  both.bent_only = (a.bent_only || a.columns.empty()) && (b.bent_only || b.columns.empty()) &&
-                   !(a.columns.empty() && b.columns.empty());
   both.columns.insert(both.columns.end(), b.columns.begin(), b.columns.end());
   both.free.insert(both.free.end(), b.free.begin(), b.free.end());
+  both.bent_only.insert(both.bent_only.end(), b.bent_only.begin(), b.bent_only.end());
   return both;
 }
 
-Eigen::VectorXd fitColumns(const Eigen::MatrixXd& gram, const ColumnSet& set) {
+Eigen::MatrixXd partOf(const Eigen::MatrixXd& gram, const ColumnSet& set, bool flat) {
   const auto size = static_cast<Eigen::Index>(set.columns.size());
-  Eigen::MatrixXd part(size, size);
-  Eigen::VectorXd right(size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    right[i] = gram(set.columns[static_cast<std::size_t>(i)], gram.cols() - 1);
-    for (Eigen::Index j = 0; j < size; ++j) {
-      part(i, j) = gram(set.columns[static_cast<std::size_t>(i)], set.columns[static_cast<std::size_t>(j)]);
+  const auto at = [&](Eigen::Index i) {
+    return i < size ? set.columns[static_cast<std::size_t>(i)] : gram.cols() - 1;
+  };
+  const auto acts = [&](Eigen::Index i) {
+    return i == size || !flat || !set.bent_only[static_cast<std::size_t>(i)];
+  };
+  Eigen::MatrixXd part = Eigen::MatrixXd::Zero(size + 1, size + 1);
+  for (Eigen::Index i = 0; i <= size; ++i) {
+    if (!acts(i)) continue;
+    for (Eigen::Index j = 0; j <= size; ++j) {
+      if (acts(j)) part(i, j) = gram(at(i), at(j));
     }
   }
-  return solveSigned(part, right, set.free);
+  return part;
 }
 
-double squaredError(const Eigen::MatrixXd& gram, const ColumnSet& set, const Eigen::VectorXd& coefficients) {
-  const Eigen::Index target = gram.cols() - 1;
-  double error = gram(target, target);
-  for (std::size_t i = 0; i < set.columns.size(); ++i) {
-    const double b = coefficients[static_cast<Eigen::Index>(i)];
-    if (b == 0) continue;
-    error -= 2 * b * gram(set.columns[i], target);
-    for (std::size_t j = 0; j < set.columns.size(); ++j) {
-      error += b * coefficients[static_cast<Eigen::Index>(j)] * gram(set.columns[i], set.columns[j]);
-    }
-  }
-  return error;
+Eigen::VectorXd fitColumns(const Eigen::MatrixXd& part, const ColumnSet& set) {
+  const Eigen::Index size = part.cols() - 1;
+  return solveSigned(part.topLeftCorner(size, size), part.col(size).head(size), set.free);
+}
+
+double squaredError(const Eigen::MatrixXd& part, const Eigen::VectorXd& coefficients) {
+  const Eigen::Index size = part.cols() - 1;
+  return part(size, size) - 2 * coefficients.dot(part.col(size).head(size)) +
+         coefficients.dot(part.topLeftCorner(size, size) * coefficients);
 }
 
 }  // namespace fsr

@@ -17,7 +17,6 @@ namespace fsr {
 
 namespace {
 
-constexpr int kRounds = 8;            // of curves and parameters in turn
 constexpr double kDifference = 0.02;  // of a parameter's scale
 constexpr double kBeyondTried = 3;    // factor that a shape may leave its tried values by
 constexpr int kMostHalved = 8;
@@ -97,13 +96,14 @@ Changes changesBy(const Measured& measured, const SimulationSettings& base, cons
   return changes;
 }
 
-// Nothing happens on flat surfaces.
-void onlyWhereBent(const Measured& measured, Changes& changes) {
+// On flat surfaces the changes are those of `flat`.
+void onFlat(const Measured& measured, const Changes& flat, Changes& changes) {
   for (std::size_t i = 0; i < measured.moments(); ++i) {
     if (!isFlat(measured.classes[measured.classOf(i)])) continue;
     const auto at = static_cast<Eigen::Index>(i);
-    changes.load[at] = changes.reading[at] = 0;
-    changes.gain[at] = 1;
+    changes.load[at] = flat.load[at];
+    changes.reading[at] = flat.reading[at];
+    changes.gain[at] = flat.gain[at];
   }
 }
 
@@ -119,15 +119,17 @@ Trace loadOf(const Measured& measured, const Changes& changes) {
 class Refiner {
  public:
   Refiner(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
-          const SimulationSettings& base, std::vector<EnabledEffect> effects, bool carried, bool bent_only)
+          const SimulationSettings& base, std::vector<EnabledEffect> effects, bool carried,
+          std::vector<bool> bent_only)
       : measured_(measured),
         common_(common),
         fit_(fit),
         base_(base),
         effects_(std::move(effects)),
         carried_(carried),
-        bent_only_(bent_only),
+        bent_only_(std::move(bent_only)),
         plain_(driven(measured, base, carried)) {
+    bent_only_.resize(effects_.size(), false);
     knobs_ = knobsOf(effects_);
     for (const Knob& knob : knobs_) at_.push_back(knob.read(effects_[knob.effect].values.at(knob.name)));
   }
@@ -143,10 +145,15 @@ class Refiner {
     return effects;
   }
   Changes changesAt(const std::vector<double>& at) const {
-    SimulationSettings with = base_;
-    for (const EnabledEffect& effect : effectsAt(at)) with = withEffect(with, effect);
-    Changes changes = changesBy(measured_, base_, with, plain_, carried_);
-    if (bent_only_) onlyWhereBent(measured_, changes);
+    SimulationSettings bent = base_, flat = base_;
+    const std::vector<EnabledEffect> effects = effectsAt(at);
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+      bent = withEffect(bent, effects[e]);
+      if (!bent_only_[e]) flat = withEffect(flat, effects[e]);
+    }
+    Changes changes = changesBy(measured_, base_, bent, plain_, carried_);
+    if (flat.effects.size() < bent.effects.size())
+      onFlat(measured_, changesBy(measured_, base_, flat, plain_, carried_), changes);
     return changes;
   }
   Trace withoutShown(Trace trace) const {
@@ -175,7 +182,8 @@ class Refiner {
   const StaticFit& fit_;
   const SimulationSettings& base_;
   std::vector<EnabledEffect> effects_;
-  bool carried_, bent_only_;
+  bool carried_;
+  std::vector<bool> bent_only_;  // of each effect
   std::vector<Knob> knobs_;
   std::vector<double> at_;
   DrivenSignals plain_;
@@ -294,7 +302,7 @@ SimulationSettings takeOutEnabled(Measured& measured, const CommonTraces& common
   const std::size_t enabled = moving.size();
   moving.insert(moving.end(), beside.begin(), beside.end());
   if (fit_sizes) {
-    const Refined refined = refine(measured, common, fit, still, moving, true, false);
+    const Refined refined = refine(measured, common, fit, still, moving, true, {});
     for (std::size_t e = 0; refined.share > 0 && e < enabled; ++e)
       with = withEffect(with, refined.effects[e]);
   }
@@ -344,8 +352,8 @@ Foretold foretell(const Measured& measured, const CommonTraces& common, const St
 
 Refined refine(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                const SimulationSettings& base, const std::vector<EnabledEffect>& start, bool carried,
-               bool bent_only) {
-  return Refiner(measured, common, fit, base, start, carried, bent_only).run();
+               std::vector<bool> bent_only) {
+  return Refiner(measured, common, fit, base, start, carried, std::move(bent_only)).run();
 }
 
 }  // namespace fsr

@@ -9,33 +9,20 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// Square of what columns with these coefficients make.
-double squareOf(const Eigen::MatrixXd& gram, const ColumnSet& set, const Eigen::VectorXd& coefficients) {
-  double square = 0;
-  for (std::size_t i = 0; i < set.columns.size(); ++i) {
-    const double b = coefficients[static_cast<Eigen::Index>(i)];
-    if (b == 0) continue;
-    for (std::size_t j = 0; j < set.columns.size(); ++j) {
-      square += b * coefficients[static_cast<Eigen::Index>(j)] * gram(set.columns[i], set.columns[j]);
-    }
-  }
-  return square;
-}
-
 }  // namespace
 
 Selection::Selection(const Measured& measured, const CycleGrams& grams) : measured_(measured), grams_(grams) {
   for (const MeasuredCycle& cycle : measured.cycles) {
-    bent_.push_back(!isFlat(measured.classes[measured.visits[cycle.visit].curvature_class]));
+    flat_.push_back(isFlat(measured.classes[measured.visits[cycle.visit].curvature_class]));
   }
   std::vector<bool> wanted(measured.cycles.size());
-  for (const bool bent_only : {false, true}) {
+  for (const bool flat : {false, true}) {
     for (std::uint32_t fold = 0; fold <= Measured::kFolds; ++fold) {
       for (std::size_t c = 0; c < wanted.size(); ++c) {
-        wanted[c] = measured.cycles[c].use == CycleUse::kFit && measured.cycles[c].fold != fold &&
-                    (bent_[c] || !bent_only);
+        wanted[c] =
+            measured.cycles[c].use == CycleUse::kFit && measured.cycles[c].fold != fold && flat_[c] == flat;
       }
-      sums_[bent_only].push_back(grams.sum(wanted));
+      sums_[flat].push_back(grams.sum(wanted));
     }
   }
   nothing_ = score(ColumnSet{});
@@ -44,16 +31,17 @@ Selection::Selection(const Measured& measured, const CycleGrams& grams) : measur
 Score Selection::score(const ColumnSet& set) const {
   Score score;
   score.set = set;
-  for (const Eigen::MatrixXd& gram : sums_[set.bent_only]) score.of_fold.push_back(fitColumns(gram, set));
+  for (std::size_t fold = 0; fold < sums_[0].size(); ++fold) {
+    const Eigen::MatrixXd part = partOf(sums_[0][fold], set, false) + partOf(sums_[1][fold], set, true);
+    score.of_fold.push_back(fitColumns(part, set));
+  }
   score.coefficients = score.of_fold.back();
   for (std::size_t c = 0; c < measured_.cycles.size(); ++c) {
     const MeasuredCycle& cycle = measured_.cycles[c];
-    const Eigen::MatrixXd& gram = grams_.of(c);
-    const bool acts = bent_[c] || !set.bent_only;
-    const double error =
-        acts ? squaredError(gram, set, score.of_fold[cycle.fold]) : gram(gram.rows() - 1, gram.rows() - 1);
-    score.error.push_back(cycle.use == CycleUse::kShow ? kNaN : error);
-    if (cycle.use == CycleUse::kFit) score.total += error;
+    const bool shown = cycle.use == CycleUse::kShow;
+    score.error.push_back(
+        shown ? kNaN : squaredError(partOf(grams_.of(c), set, flat_[c]), score.of_fold[cycle.fold]));
+    if (!shown) score.total += score.error.back();
   }
   return score;
 }
@@ -62,8 +50,6 @@ Score Selection::score(const Score& with, const Family& family) const {
   Score best;
   best.total = std::numeric_limits<double>::infinity();
   for (const ColumnSet& alternative : family.alternatives) {
-    const bool fits = with.set.columns.empty() || with.set.bent_only == alternative.bent_only;
-    if (!fits) continue;
     Score now = score(together(with.set, alternative));
     if (now.total < best.total) best = now;
   }
@@ -76,10 +62,6 @@ double Selection::share(const Score& before, const Score& after) {
   return before.total > 0 ? (before.total - after.total) / before.total : 0;
 }
 
-double Selection::acts(const Score& score, std::size_t cycle) const {
-  return bent_[cycle] || !score.set.bent_only ? 1 : 0;
-}
-
 double Selection::z(const Score& before, const Score& after) const {
   const ColumnSet both = together(after.set, before.set);
   double sum = 0, squares = 0;
@@ -88,9 +70,11 @@ double Selection::z(const Score& before, const Score& after) const {
     if (std::isnan(gained)) continue;
     const std::uint32_t fold = measured_.cycles[c].fold;
     Eigen::VectorXd difference(after.of_fold[fold].size() + before.of_fold[fold].size());
-    difference << after.of_fold[fold] * acts(after, c), -before.of_fold[fold] * acts(before, c);
+    difference << after.of_fold[fold], -before.of_fold[fold];
+    const Eigen::Index size = difference.size();
+    const Eigen::MatrixXd part = partOf(grams_.of(c), both, flat_[c]).topLeftCorner(size, size);
     sum += gained;
-    squares += std::pow((gained - squareOf(grams_.of(c), both, difference)) / 2, 2);
+    squares += std::pow((gained - difference.dot(part * difference)) / 2, 2);
   }
   return squares > 0 ? sum / (2 * std::sqrt(squares)) : 0;
 }

@@ -180,6 +180,28 @@ TEST(Investigate, NamesTwoEffectsTogether) {
   EXPECT_EQ(ids, (std::vector<std::string>{"hysteresis", "time_skew"}));
 }
 
+// After the loop is out, the break-in is all that is left, however little of the whole it is.
+TEST(Investigate, SeesASecondEffectThatAddsLittle) {
+  const DiscrepancyReport report =
+      investigate(planted(kTwoSpeeds, "  hysteresis: {loop_width: 0.05}\n  break_in: {change: -0.07}\n"));
+  ASSERT_FALSE(report.credible_set.empty()) << report.sentence;
+  std::vector<std::string> ids = report.credible_set.at(0);
+  std::sort(ids.begin(), ids.end());
+  EXPECT_EQ(ids, (std::vector<std::string>{"break_in", "hysteresis"}));
+}
+
+TEST(Investigate, SaysWhichTaxelsAreOddWhereNoFaultIsInTheLibrary) {
+  DiscrepancyProblem row = planted(kTwoSpeeds, "  row_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n");
+  row.options.leave_out = {"row_fault", "stuck_taxel", "dead_taxel"};
+  const DiscrepancyReport by_row = investigate(row);
+  ASSERT_EQ(by_row.verdict, Verdict::kUnknown) << by_row.sentence;
+  EXPECT_EQ(by_row.depends_on, std::vector<std::string>{"row"});
+  EXPECT_EQ(by_row.where.taxels, (std::vector<std::size_t>{4, 5, 6, 7}));
+  DiscrepancyProblem dead = planted(kTwoSpeeds, "  dead_taxel: {taxels: 1, first: 5, start: 700}\n");
+  dead.options.leave_out = {"dead_taxel", "stuck_taxel"};
+  EXPECT_EQ(investigate(dead).verdict, Verdict::kUnknown);
+}
+
 TEST(Investigate, SaysUnknownWhereTheLibraryHasNoAnswer) {
   DiscrepancyProblem problem = planted(kTwoSpeeds, "  time_skew: {delay: 0.3}\n");
   problem.options.leave_out = {"time_skew"};

@@ -32,19 +32,21 @@ class CycleGrams {
   std::vector<Eigen::MatrixXd> grams_;
 };
 
-/// Columns that are fitted together, and the signs that they may have.
+/// Columns that are fitted together, and what is known of each.
 struct ColumnSet {
   std::vector<Eigen::Index> columns;
-  std::vector<bool> free;
-  bool bent_only = false;  ///< they act where the surface is bent, and nowhere else
+  std::vector<bool> free;       ///< of sign
+  std::vector<bool> bent_only;  ///< it acts where the surface is bent, and nowhere else
 };
-/// Both; the one without columns has no say in where they act.
 ColumnSet together(const ColumnSet& a, const ColumnSet& b);
 
-/// Coefficients of the set by the sum of grams.
-Eigen::VectorXd fitColumns(const Eigen::MatrixXd& gram, const ColumnSet& set);
+/// The set's part of a gram, the target last; `flat`: of cycles where the surface is flat.
+Eigen::MatrixXd partOf(const Eigen::MatrixXd& gram, const ColumnSet& set, bool flat);
 
-/// Squared error of one cycle with these coefficients.
-double squaredError(const Eigen::MatrixXd& gram, const ColumnSet& set, const Eigen::VectorXd& coefficients);
+/// Coefficients of the set by its part of the sum of grams.
+Eigen::VectorXd fitColumns(const Eigen::MatrixXd& part, const ColumnSet& set);
+
+/// Squared error with these coefficients.
+double squaredError(const Eigen::MatrixXd& part, const Eigen::VectorXd& coefficients);
 
 }  // namespace fsr

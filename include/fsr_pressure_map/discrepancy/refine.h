@@ -25,10 +25,10 @@ struct Refined {
   bool carried = true;    ///< as it was asked for
 };
 
-/// `bent_only`: the effects act where the surface is bent, and nowhere else.
+/// `bent_only`, of each effect: it acts where the surface is bent, and nowhere else; empty = none does.
 Refined refine(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                const SimulationSettings& base, const std::vector<EnabledEffect>& start, bool carried,
-               bool bent_only);
+               std::vector<bool> bent_only);
 
 /// Takes what `with` has beyond `without` out of the readings: from now on curves are functions of the load
 /// that the chain computes, and readings are as they would be without.

@@ -44,13 +44,11 @@ class Selection {
   double z(const Score& before, const Score& after) const;
 
  private:
-  double acts(const Score& score, std::size_t cycle) const;
-
   const Measured& measured_;
   const CycleGrams& grams_;
-  // Sums of all cycles but one fold, in the end of all; on all surfaces and where it is bent.
+  // Sums of all cycles but one fold, in the end of all; where the surface is bent, and where it is flat.
   std::vector<Eigen::MatrixXd> sums_[2];
-  std::vector<bool> bent_;  // of each cycle
+  std::vector<bool> flat_;  // of each cycle
   Score nothing_;
 };
 
