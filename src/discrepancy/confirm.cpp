@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "fsr_pressure_map/discrepancy/base_fit.h"
+#include "fsr_pressure_map/discrepancy/decision.h"
 #include "fsr_pressure_map/discrepancy/refine.h"
 #include "fsr_pressure_map/discrepancy/wording.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -32,6 +33,20 @@ std::string idsOf(const std::vector<EnabledEffect>& effects) {
   std::vector<std::string> ids;
   for (const EnabledEffect& effect : effects) ids.push_back(effect.id);
   return listText(ids, " with ");
+}
+
+// What the new recordings say, asked without knowing what was foretold: an explanation that excludes the
+// foretold one, or empty.
+std::string excludedBy(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
+                       const SimulationSettings& base, const std::string& id) {
+  const TaxelFit taxels(measured, fit);
+  const Competition competition(measured, common, fit, signatures(measured, fit, base, {}, 0), 0);
+  const Decision decision = decide(measured, common, fit, taxels, competition, base);
+  const auto& credible = decision.credible;
+  const bool in = std::any_of(credible.begin(), credible.end(), [&](const std::vector<std::string>& ids) {
+    return std::count(ids.begin(), ids.end(), id) > 0;
+  });
+  return in || credible.empty() ? "" : listText(credible.front(), " with ");
 }
 
 }  // namespace
@@ -78,6 +93,8 @@ Confirmation confirm(const Prediction& prediction, const SimulationSettings& sim
     most = share;
     confirmation.best_rival = idsOf(rival);
   }
+  if (confirmation.best_rival.empty())
+    confirmation.best_rival = excludedBy(measured, common, fit, base, prediction.effects.front().id);
   const bool size_fits =
       told.interval.high >= prediction.size.low && told.interval.low <= prediction.size.high;
   confirmation.passed = told.share >= kLeastShare && size_fits && confirmation.best_rival.empty();

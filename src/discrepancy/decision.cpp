@@ -139,6 +139,8 @@ class Contest {
   const Explanation* best() const;
   Explanation* best() { return const_cast<Explanation*>(std::as_const(*this).best()); }
   const Score* bestGeneric() const;
+  const Score* simplestGeneric() const;
+  bool leavesOfItsForm(const Explanation& explanation) const;
   void refineOne(Explanation& explanation) const;
   void refineNear();
   std::vector<Explanation> bestPairs(const Explanation& one) const;
@@ -281,8 +283,27 @@ void Contest::tryPairs(const Explanation& one) {
   decision_.ceiling = std::max(decision_.ceiling, pairs_.empty() ? 0 : pairs_.front().share);
 }
 
+// Of the generic terms that do nearly as well as the best those with the fewest covariates: more are not said
+// to matter unless they do.
+const Score* Contest::simplestGeneric() const {
+  const Score* chosen = bestGeneric();
+  if (!chosen) return nullptr;
+  const double least = (1 - kRivalWithin) * shareOf(*chosen);
+  const auto covariates = [&](const Score& score) {
+    return competition_.covariates(static_cast<std::size_t>(&score - generics_.data()));
+  };
+  const std::vector<Covariate> all = covariates(*chosen);
+  for (const Score& score : generics_) {
+    const std::vector<Covariate> own = covariates(score);
+    const bool part = std::all_of(own.begin(), own.end(),
+                                  [&](Covariate c) { return std::count(all.begin(), all.end(), c) > 0; });
+    if (part && own.size() < covariates(*chosen).size() && shareOf(score) >= least) chosen = &score;
+  }
+  return chosen;
+}
+
 bool Contest::unknown(const Explanation& best) {
-  const Score* generic = bestGeneric();
+  const Score* generic = simplestGeneric();
   if (!generic || !shows(*generic)) return false;
   const auto number = static_cast<std::size_t>(generic - generics_.data());
   const double more = shareOf(*generic) - best.share;
@@ -405,8 +426,21 @@ void Contest::listCandidates() {
                    });
 }
 
+// Whether generic terms of the effects' own covariates still add to them: then their form is not quite it.
+bool Contest::leavesOfItsForm(const Explanation& explanation) const {
+  for (std::size_t g = 0; g < generics_.size(); ++g) {
+    if (!within(competition_.covariates(g), explanation.score)) continue;
+    const Score both = selection().score(explanation.score, competition_.generics()[g]);
+    const double more = shareOf(both) - explanation.share;
+    if (more > kGenericBetter * decision_.ceiling && selection().z(explanation.score, both) > kSignificant)
+      return true;
+  }
+  return false;
+}
+
 bool Contest::fitsWell(const Explanation& explanation) const {
-  return explanation.share >= kGoodForm * decision_.ceiling && !explanation.refined.at_bound;
+  return explanation.share >= kGoodForm * decision_.ceiling && !explanation.refined.at_bound &&
+         !leavesOfItsForm(explanation);
 }
 
 // Where the best one does not fit well, others that do not either stay credible.
@@ -435,7 +469,7 @@ void Contest::nameIt(Explanation& best) {
   decision_.explanation = first.score;
   decision_.share = first.share;
   weigh(evidenceIn(measured_));
-  if (!fitsWell(first)) keepNearest(first);
+  if (first.share < kGoodForm * decision_.ceiling) keepNearest(first);
   for (std::size_t r = 1; r < decision_.credible.size(); ++r) {
     Explanation& rival = *find(decision_.credible[r]);
     refineOne(rival);

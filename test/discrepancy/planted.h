@@ -1,8 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <string>
+#include <vector>
 
-#include "fsr_pressure_map/discrepancy/discrepancy.h"
+#include "fsr_pressure_map/discrepancy/measured.h"
+#include "fsr_pressure_map/simulation/driven_rig.h"
 #include "fsr_pressure_map/simulation/session.h"
 
 namespace fsr::planted {
@@ -46,6 +50,24 @@ effects:
   converter: {}
 )";
 
+/// The paper's cycles on two surfaces: one speed, no dwells.
+inline const char* const kOneSpeed = R"(
+simulation: planted
+seed: 7
+matrix: {rows: 3, columns: 4}
+board: {scan_rate: 2.5, transducer_rate: 2.5}
+chamber: {cycles: 8}
+session:
+  - {surface: flat, flat: true}
+  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}
+effects:
+  static_curve: {conductance: 3.2e-4, exponent: 0.85, conductance_scatter: 0.05}
+  bending_preload: {amplitude: 30000}
+  bending_gain: {change: -0.15}
+  white_noise: {absolute: 8}
+  converter: {}
+)";
+
 inline SimulationSettings simulation(const std::string& text, const std::string& more = "") {
   return readSimulation(Settings::fromText(text + more, "planted.yaml"));
 }
@@ -57,6 +79,38 @@ inline DiscrepancyProblem problem(const std::string& text, const std::string& mo
   problem.recordings = simulateSession(simulation(text, more));
   problem.options.threads = 1;
   return problem;
+}
+
+/// A rig whose matrix feels the chamber's pressure [Pa] and `more` of it, a function of the pressure as a
+/// share of 620 kPa and of the direction: forms that the library does not have.
+template <typename More>
+DiscrepancyProblem problemFeeling(const std::string& text, More more) {
+  DiscrepancyProblem problem = planted::problem(text, "");
+  const Measured measured = admit(problem);
+  std::vector<Recording> felt = problem.recordings;
+  for (std::size_t m = 0; m < measured.moments(); ++m) {
+    const double share = std::clamp(measured.pressure[m] / 620e3, 0.0, 1.0);
+    Recording& recording = felt[measured.visits[measured.visit[m]].recording];
+    recording.pressure[measured.first_scan[m]] += more(share, measured.direction[m]);
+  }
+  DrivenRig rig(problem.simulation);
+  for (std::size_t r = 0; r < felt.size(); ++r) {
+    rig.run(felt[r], [&](std::size_t scan, const SensorChain& chain) {
+      const auto& counts = chain.counts();
+      std::copy(counts.begin(), counts.end(),
+                problem.recordings[r].counts.begin() + static_cast<std::ptrdiff_t>(scan * counts.size()));
+    });
+  }
+  return problem;
+}
+
+/// Branches that are far apart where the pressure is low and cross where it is high: friction that
+/// changes its sign, as no play operator does.
+inline DiscrepancyProblem crossedLoop() {
+  constexpr double kPi = 3.14159265358979323846;
+  return problemFeeling(kTwoSpeeds, [](double share, int direction) {
+    return -direction * 20e3 * (std::sin(kPi * share) + std::sin(2 * kPi * share));
+  });
 }
 
 }  // namespace fsr::planted

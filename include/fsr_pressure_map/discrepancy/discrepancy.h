@@ -206,7 +206,9 @@ struct Confirmation {
   double size = 0;  ///< of the first effect, 1 = as predicted
   Interval interval;
   double share_of_error = 0;  ///< that the prediction explains, nothing fitted
-  std::string best_rival;     ///< id of a rival that explains more; empty = none
+  /// A rival that explains more; or, asked without knowing what was foretold, an explanation of the new
+  /// recordings that excludes it. Empty = none.
+  std::string best_rival;
 };
 
 /// Whether recordings that nobody had seen bear out what was predicted. `simulation` is the `base` of the

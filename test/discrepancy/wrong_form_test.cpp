@@ -1,0 +1,40 @@
+// The right place, but not the form that the library has: said so, and neither named nor unknown.
+#include <gtest/gtest.h>
+
+#include "discrepancy/planted.h"
+
+namespace fsr {
+namespace {
+
+TEST(WrongForm, IsSaidOfALoopWhoseBranchesCross) {
+  const DiscrepancyReport report = investigate(planted::crossedLoop());
+  ASSERT_EQ(report.verdict, Verdict::kWrongForm) << report.sentence;
+  EXPECT_EQ(report.credible_set, (std::vector<std::vector<std::string>>{{"hysteresis"}}));
+  EXPECT_NE(report.sentence.find("not in the form"), std::string::npos) << report.sentence;
+}
+
+// 0.28 of the span is beyond any loop that a data sheet knows of.
+TEST(WrongForm, IsSaidOfASizeThatIsNotPlausible) {
+  const DiscrepancyReport report =
+      investigate(planted::problem(planted::kTwoSpeeds, "  hysteresis: {loop_width: 0.28, reach: 200000}\n"));
+  ASSERT_EQ(report.verdict, Verdict::kWrongForm) << report.sentence;
+  EXPECT_EQ(report.effects.at(0).id, "hysteresis");
+}
+
+TEST(WrongForm, IsNotSaidOfALoopInTheLibrarysOwnForm) {
+  const DiscrepancyReport report =
+      investigate(planted::problem(planted::kTwoSpeeds, "  hysteresis: {loop_width: 0.1, reach: 200000}\n"));
+  EXPECT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
+}
+
+// Bent surfaces need not be mentioned where the same terms do as well without them.
+TEST(Unknown, SaysNoMoreCovariatesThanItMust) {
+  DiscrepancyProblem problem = planted::crossedLoop();
+  problem.options.leave_out = {"hysteresis", "creep", "time_skew", "seal_leak"};
+  const DiscrepancyReport report = investigate(problem);
+  ASSERT_EQ(report.verdict, Verdict::kUnknown) << report.sentence;
+  EXPECT_EQ(report.depends_on, (std::vector<std::string>{"direction", "pressure"}));
+}
+
+}  // namespace
+}  // namespace fsr
