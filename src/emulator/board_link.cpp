@@ -12,8 +12,8 @@ constexpr std::chrono::milliseconds kPatience{500};  // with a reader that is be
 
 }  // namespace
 
-BoardLink::BoardLink(const std::string& link, std::uint32_t baud, bool patient, std::uint64_t seed)
-    : link_(link), baud_(baud), patient_(patient), line_(seed) {
+BoardLink::BoardLink(const std::string& link, std::uint32_t baud, std::uint64_t seed)
+    : link_(link), baud_(baud), line_(seed) {
   plugIn();
 }
 
@@ -32,7 +32,7 @@ void BoardLink::setDamage(const LineDamage& damage, double time) {
   silent_until_ = time + damage.pause;
 }
 
-WallClock::duration BoardLink::send(std::vector<std::uint8_t>& packet, double time) {
+WallClock::duration BoardLink::send(std::vector<std::uint8_t>& packet, double time, bool patient) {
   if (!port_ || time < silent_until_) {
     ++counts_.unheard;
     return {};
@@ -46,7 +46,7 @@ WallClock::duration BoardLink::send(std::vector<std::uint8_t>& packet, double ti
   }
   const auto start = WallClock::now();
   Outcome outcome = port_->write(packet.data(), packet.size());
-  while (outcome == Outcome::kFull && patient_ && reader_keeps_up_) {
+  while (outcome == Outcome::kFull && patient && reader_keeps_up_) {
     const auto left = kPatience - (WallClock::now() - start);
     reader_keeps_up_ =
         left.count() > 0 && port_->waitForRoom(std::chrono::duration_cast<std::chrono::milliseconds>(left));

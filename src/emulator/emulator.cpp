@@ -12,9 +12,11 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr int kPacketsATurn = 64;  // then others may have the mutex
-constexpr milliseconds kTick{4};   // between two looks at the clock
-constexpr milliseconds kLag{50};   // that scaled rig time may have before it waits
+constexpr int kPacketsATurn = 64;            // then others may have the mutex
+constexpr milliseconds kTick{4};             // between two looks at the clock
+constexpr milliseconds kLag{50};             // that scaled rig time may have before it waits
+constexpr milliseconds kHiccup{5};           // of the scheduler; a thread that comes later is behind
+constexpr milliseconds kMostPatience{2000};  // with the reader, until the emulator has caught up
 
 const EmulatorOptions& checked(const EmulatorOptions& options) {
   const Range scale{0.01, 1000, ""};
@@ -71,7 +73,7 @@ class Emulator::Turn {
 Emulator::Emulator(const EmulatorOptions& options)
     : options_(checked(options)),
       board_(options.simulation, options.clock),
-      link_(options.link, options.baud, options.time_scale != 1, options.simulation.seed),
+      link_(options.link, options.baud, options.simulation.seed),
       schedule_(options.time_scale) {
   refuseOverload(board_, options_);
   board_.mount(options_.surface);
@@ -103,7 +105,9 @@ void Emulator::run() {
       std::this_thread::yield();
       lock.lock();
     }
-    const auto wake = std::min(schedule_.wallTime(board_.nextDue()), RigSchedule::WallClock::now() + kTick);
+    const auto now = RigSchedule::WallClock::now();
+    const auto wake = std::min(schedule_.wallTime(board_.nextDue()), now + kTick);
+    expected_ = std::max(wake, now);
     changed_.wait_until(lock, wake, [this] { return stopping_; });
   }
 }
@@ -113,17 +117,37 @@ void Emulator::run() {
 void Emulator::catchUp() {
   const double now = schedule_.now();
   for (int i = 0; i < kPacketsATurn && board_.nextDue() <= now; ++i) sendNext();
+  noteLateness();
+  behind_ = behind_ && board_.nextDue() <= schedule_.now();
   advance(std::min(now, board_.nextDue()));
   if (schedule_.realTime()) return;
   const auto lag = RigSchedule::WallClock::now() - schedule_.wallTime(board_.nextDue());
   if (lag > kLag) schedule_.hold(lag);
 }
 
+// Whether the thread was kept from running, by the scheduler or a callback: no board is.
+void Emulator::noteLateness() {
+  const auto now = RigSchedule::WallClock::now();
+  if (now - expected_ > kHiccup) {
+    behind_ = true;
+    waited_ = {};
+  }
+  expected_ = now;
+}
+
+bool Emulator::patient() const {
+  return !schedule_.realTime() || (behind_ && waited_ < kMostPatience);
+}
+
 void Emulator::sendNext() {
+  noteLateness();
   advance(board_.nextDue());
   auto& packet = board_.next([this](double time) { return chamber_.gaugePressure(time); });
   if (options_.on_packet) options_.on_packet(packet);
-  const auto waited = link_.send(packet, time_);
+  noteLateness();
+  const auto waited = link_.send(packet, time_, patient());
+  expected_ += waited;  // that was the reader's fault
+  waited_ += waited;
   if (!schedule_.realTime()) schedule_.hold(waited);
 }
 

@@ -9,7 +9,7 @@
 namespace fsr_ros {
 namespace {
 
-constexpr std::uint32_t kQueue = 1000;  // messages: a second at 1 kHz
+constexpr std::uint32_t kQueue = 10000;  // messages for a subscriber that is behind: ten seconds at 1 kHz
 constexpr int kLooksPerSecond = 10;
 constexpr std::size_t kMostHeld = 4096;  // scans that wait for their board's name
 

@@ -263,6 +263,24 @@ TEST(EmulatorLine, ASlowReaderLosesWholePacketsAndNeverBlocksTheBoard) {
   EXPECT_EQ(listener.counts().skipped_bytes, 0u) << "no packet in pieces";
 }
 
+// On a busy computer the emulator's thread comes late; a board does not, and its packets are not lost for
+// that.
+TEST(EmulatorLine, ItsOwnLatenessLosesNothing) {
+  EmulatorOptions options = bench();
+  options.time_scale = 1;
+  options.simulation.layout.size = {32, 32};
+  options.simulation.board.scan_rate = 100;  // the port holds 0.3 s of it
+  int packets = 0;
+  options.on_packet = [&packets](const std::vector<std::uint8_t>&) {
+    if (++packets == 50) std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+  };
+  Emulator rig(options);
+  BoardListener listener(rig.port());
+  ASSERT_TRUE(listener.untilScans(250));
+  EXPECT_EQ(listener.counts().of(FSR_WIRE_SCAN).lost, 0u);
+  EXPECT_EQ(rig.counts().dropped, 0u);
+}
+
 TEST(EmulatorLine, ScaledRigTimeWaitsForASlowReaderButNotForEver) {
   EmulatorOptions options = bench();
   options.time_scale = 500;

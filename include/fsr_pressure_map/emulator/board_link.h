@@ -24,14 +24,15 @@ struct LinkCounts {
 class BoardLink {
  public:
   /// `link`: where a link to the port is put, empty = none. `baud`: of the board's UART [1/s], 0 = native
-  /// USB. `patient`: waits for a slow reader instead of dropping at once. Throws InputError.
-  BoardLink(const std::string& link, std::uint32_t baud, bool patient, std::uint64_t seed);
+  /// USB. Throws InputError.
+  BoardLink(const std::string& link, std::uint32_t baud, std::uint64_t seed);
 
   /// Damage from `time` [s rig time] on. Throws InputError.
   void setDamage(const LineDamage& damage, double time);
 
-  /// Sends a packet, changing it where it is damaged. Returns how long it waited for the reader.
-  std::chrono::steady_clock::duration send(std::vector<std::uint8_t>& packet, double time);
+  /// Sends a packet, changing it where it is damaged. `patient`: waits for a slow reader, up to half a
+  /// second, instead of dropping at once. Returns how long it waited.
+  std::chrono::steady_clock::duration send(std::vector<std::uint8_t>& packet, double time, bool patient);
 
   /// What to open; empty while a port without a link is unplugged.
   std::string port() const { return port_ ? port_->path() : link_; }
@@ -44,7 +45,6 @@ class BoardLink {
 
   std::string link_;
   std::uint32_t baud_;
-  bool patient_;
   bool reader_keeps_up_ = true;  // worth waiting for
   LossyLine line_;
   LineDamage damage_;

@@ -59,8 +59,9 @@ struct EmulatorOptions {
 /// Everything follows rig time, which is wall time since the start times the time scale, on an absolute
 /// schedule. At a scale other than 1 rig time waits where the computer or a reader cannot follow, so
 /// that a slow computer changes nothing but the duration; at scale 1 packets that the reader leaves in
-/// the port are dropped, as by a UART. All functions may be called from any thread; the callbacks
-/// must not call back.
+/// the port are dropped, as by a UART. Where the emulator itself came late, which no board does, it waits for
+/// the reader to take what is overdue: what is lost then was lost by the reader. All functions may be called
+/// from any thread; the callbacks must not call back.
 class Emulator {
  public:
   /// Opens the port and starts. Throws InputError.
@@ -115,6 +116,8 @@ class Emulator {
   void run();
   void catchUp();
   void sendNext();
+  void noteLateness();
+  bool patient() const;
   void advance(double time);
   void setState(RigStatus::State state);
   template <typename Condition>
@@ -130,8 +133,11 @@ class Emulator {
   RigSchedule schedule_;
   std::vector<Mounting> mountings_;
   RigStatus status_;
-  bool heard_ = false;  // a reader is there
-  double time_ = -1;    // rig time up to which all was sent [s]; nothing yet
+  bool heard_ = false;                                                          // a reader is there
+  RigSchedule::WallClock::time_point expected_{RigSchedule::WallClock::now()};  // the thread meant to run
+  bool behind_ = false;                        // it came late, and is catching up
+  RigSchedule::WallClock::duration waited_{};  // for the reader since then
+  double time_ = -1;                           // rig time up to which all was sent [s]; nothing yet
   bool stopping_ = false;
   std::thread thread_;
 };

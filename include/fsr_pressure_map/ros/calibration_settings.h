@@ -18,7 +18,7 @@ struct CalibrationSettings {
   fsr::TareOptions tare;              ///< ~tare_limit, ~tare_scatter, ~tare_window
   std::string tare_file;              ///< resolved path; empty = in ${ROS_HOME}, named after the node
   double contact_threshold = 10e3;    ///< from here on diagnostics count a taxel as in contact [Pa]
-  std::uint32_t queue_size = 1000;    ///< of scans in and maps out [messages]: a second at 1 kHz
+  std::uint32_t queue_size = 10000;    ///< of scans in and maps out [messages]: ten seconds at 1 kHz
 };
 
 /// Reads and checks the private parameters. Throws fsr::InputError.
