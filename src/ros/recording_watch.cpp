@@ -58,7 +58,7 @@ void RecordingWatch::judge(const RecordingLook& look, double time,
   if (!endsWith(look.file, ".active")) {
     status.summary(Level::WARN, "the recording is over: " + look.file + " is closed");
   } else if (look.space < least_space_) {
-    status.summary(Level::ERROR, "NOTHING IS RECORDED: " + left + ", and rosbag stops below " +
+    status.summary(Level::ERROR, "NOTHING IS RECORDED: " + left + ", and recording stops below " +
                                      megabytes(least_space_) + "; make room, then start a new recording");
   } else if (still > patience_) {
     status.summary(Level::ERROR, look.file + " has not grown for " + seconds(still) +

@@ -69,8 +69,10 @@ LAUNCH = """<launch>
     <node if="$(eval calibration != '')" pkg="fsr_pressure_map" type="calibration_node" name="calibration">
       <param name="calibration" value="$(arg calibration)"/>
     </node>
-    <node if="$(eval bag != '')" pkg="rosbag" type="record" name="record"
-          args="-O $(arg bag) /fsr/raw /fsr/chamber_pressure /fsr/curvature /fsr/matrix_info"/>
+    <node if="$(eval bag != '')" pkg="fsr_pressure_map" type="recorder_node" name="record">
+      <param name="bag" type="str" value="$(arg bag)"/>
+      <param name="topics" value="/fsr/raw /fsr/chamber_pressure /fsr/curvature /fsr/matrix_info"/>
+    </node>
   </group>
 </launch>
 """

@@ -61,7 +61,7 @@ class MasterTest(unittest.TestCase):
         self.start(str(programs / "rig_emulator_node"), f"_link:={port}", "_scan_rate:=100")
         self.start(str(programs / "driver_node"), f"_serial_port:={port}", "_serial_baud:=0")
         bag = pathlib.Path(self.folder.name) / "recorded.bag"
-        recorder = self.start("/usr/lib/rosbag/record", "-O", str(bag), "--chunksize=1", "/raw")
+        recorder = self.start(str(programs / "recorder_node"), f"_bag:={bag}", "_topics:=/raw")
         active = pathlib.Path(f"{bag}.active")
         self.wait_for(lambda: active.exists() and active.stat().st_size > 50_000)
         master.kill()

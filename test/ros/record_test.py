@@ -100,34 +100,48 @@ class RecordTest(unittest.TestCase):
         with rosbag.Bag(str(path)) as bag:
             return [(topic, message) for topic, message, _ in bag.read_messages()]
 
-    def small_disk(self):
-        """Folder of a file system of 400 KB; the test is skipped where that cannot be had."""
+    def small_disk(self, size):
+        """Folder of a file system of that size; the test is skipped, loudly, where the kernel forbids it."""
         folder = pathlib.Path(self.folder.name) / "small"
         folder.mkdir()
-        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=400k", "none", str(folder)], stderr=subprocess.DEVNULL).returncode:
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", str(folder)], stderr=subprocess.DEVNULL).returncode:
+            print("SKIPPED: a small file system can be mounted by root alone", file=sys.stderr, flush=True)
             self.skipTest("a small file system can be mounted by root alone")
         self.mounted = folder
         return folder
 
-    def test_a_full_disk_ends_the_launch_and_leaves_a_bag_that_opens(self):
-        self.record(self.small_disk(), "min_space:=0")
+    def publish_until_the_launch_ends(self, scans):
         written = pathlib.Path(f"{self.recorder.bag}.bag.active")
-        for i in range(400):  # twice what the disk takes
+        size = lambda: written.stat().st_size if written.exists() else 0  # closed at the end
+        for i in range(scans):
             frame = MatrixFrame(sequence=i, rows=32, columns=32, full_scale=4095, counts=[i % 4096] * 1024)
             frame.header.stamp = rospy.Time.now()
             self.scans.publish(frame)
             # No more under way than every queue on the way holds, so that nothing but the disk loses a scan.
             for _ in range(600):
-                if self.recorder.launch.poll() is not None or written.stat().st_size > 2048 * (i - 50):
+                if self.recorder.launch.poll() is not None or size() > 2048 * (i - 50):
                     break
                 rospy.sleep(0.05)
         self.recorder.launch.wait(30)
+
+    def check_without_hole(self, bag, least):
+        kept = [m.sequence for topic, m in self.recorded(bag) if topic == "/fsr/raw"]
+        self.assertGreater(len(kept), least)
+        self.assertEqual(kept, list(range(kept[0], kept[0] + len(kept))), "a hole before the end")
+
+    def test_a_disk_that_fills_ends_the_launch_with_a_closed_bag(self):
+        self.record(self.small_disk("2m"), "min_space:=1")
+        self.publish_until_the_launch_ends(800)  # half of them are more than it may take
+        self.assertFalse(pathlib.Path(f"{self.recorder.bag}.bag.active").exists())
+        self.check_without_hole(f"{self.recorder.bag}.bag", 300)
+
+    def test_a_full_disk_ends_the_launch_and_leaves_what_was_written(self):
+        self.record(self.small_disk("400k"), "min_space:=0")
+        self.publish_until_the_launch_ends(400)  # twice what the disk takes
         active = pathlib.Path(self.folder.name) / "rescued.bag"  # on a disk with room for the index
         shutil.copy(f"{self.recorder.bag}.bag.active", active)
         subprocess.run(["rosbag", "reindex", str(active)], check=True, stdout=subprocess.DEVNULL)
-        kept = [m.sequence for topic, m in self.recorded(active) if topic == "/fsr/raw"]
-        self.assertGreater(len(kept), 100)
-        self.assertEqual(kept, list(range(kept[0], kept[0] + len(kept))), "a hole before the end")
+        self.check_without_hole(active, 100)
 
     def test_what_a_recorder_that_lags_behind_loses_shows_as_a_gap(self):
         self.record()

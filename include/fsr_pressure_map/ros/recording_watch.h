@@ -15,14 +15,14 @@ struct RecordingLook {
   std::uint64_t space = 0;  ///< that its disk has left [bytes]
 };
 
-/// `bag`: the path that `rosbag record -O` was given, with or without .bag.
+/// `bag`: the path that the recorder was given, with or without .bag.
 RecordingLook lookAtRecording(const std::string& bag);
 
-/// Sees whether a recording goes on. `rosbag record` stops writing without ending where the disk is nearly
-/// full, and nothing else would say so.
+/// Sees from outside whether a recording goes on: a recorder that was killed or hangs cannot say so itself, and
+/// `rosbag record` stops writing without ending where the disk is nearly full.
 class RecordingWatch {
  public:
-  /// `least_space`: below it rosbag stops [bytes]. `patience`: how long a bag may stay the same size [s].
+  /// `least_space`: below it recording stops [bytes]. `patience`: how long a bag may stay the same size [s].
   RecordingWatch(std::uint64_t least_space, double patience)
       : least_space_(least_space), patience_(patience) {}
 

@@ -33,7 +33,7 @@ TEST_F(RecordingWatch, IsContentWhileTheBagGrows) {
   EXPECT_TRUE(says(status, "x.bag.active")) << status.message;
 }
 
-TEST_F(RecordingWatch, CriesWhereTheDiskIsAsFullAsRosbagStandsFor) {
+TEST_F(RecordingWatch, CriesWhereTheDiskIsAsFullAsItMayGet) {
   const auto status = at(0, {"x.bag.active", 1000, kLeast - 1});
   EXPECT_EQ(status.level, Level::ERROR);
   EXPECT_TRUE(says(status, "NOTHING IS RECORDED: 200.0 MB are left")) << status.message;

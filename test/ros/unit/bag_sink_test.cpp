@@ -1,0 +1,112 @@
+#include "fsr_pressure_map/ros/bag_sink.h"
+
+#include <gtest/gtest.h>
+#include <rosbag/view.h>
+#include <std_msgs/String.h>
+
+#include <filesystem>
+#include <future>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "support/file_size_limit.h"
+#include "support/pty.h"
+
+namespace fsr_ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BagSinkTest : public testing::Test {
+ protected:
+  BagSinkOptions options() const {
+    BagSinkOptions options;
+    options.bag = folder_.path("run");
+    options.least_space = 0;
+    return options;
+  }
+  BagSink::Write text(const std::string& content) const {
+    return [content](rosbag::Bag& bag) {
+      std_msgs::String message;
+      message.data = content;
+      bag.write("/text", ros::Time(1), message);
+    };
+  }
+  std::vector<std::string> content() const {
+    rosbag::Bag bag(folder_.path("run.bag"), rosbag::bagmode::Read);
+    rosbag::View view(bag);
+    std::vector<std::string> texts;
+    for (const rosbag::MessageInstance& instance : view) {
+      texts.push_back(instance.instantiate<std_msgs::String>()->data);
+    }
+    return texts;
+  }
+
+  test_support::TemporaryFolder folder_;
+};
+
+TEST_F(BagSinkTest, WritesWhatWaitsBeforeItCloses) {
+  std::vector<std::string> sent;
+  {
+    BagSink sink(options(), nullptr);
+    EXPECT_TRUE(fs::exists(folder_.path("run.bag.active")));
+    for (int i = 0; i < 3000; ++i) {
+      sent.push_back(std::to_string(i));
+      EXPECT_TRUE(sink.add(1, text(sent.back())));
+    }
+  }
+  EXPECT_EQ(content(), sent);
+  EXPECT_FALSE(fs::exists(folder_.path("run.bag.active")));
+}
+
+TEST_F(BagSinkTest, CountsWhatItsBufferDoesNotTakeAndHoldsNobodyUp) {
+  BagSinkOptions small = options();
+  small.buffer = 100;
+  std::promise<void> disk;  // stands still until it is told otherwise
+  auto wait = std::make_shared<std::shared_future<void>>(disk.get_future().share());
+  BagSink sink(small, nullptr);
+  EXPECT_TRUE(sink.add(60, [wait](rosbag::Bag&) { wait->get(); }));
+  EXPECT_TRUE(sink.add(40, text("second")));
+  EXPECT_FALSE(sink.add(1, text("third")));
+  EXPECT_EQ(sink.report().lost, 1u);
+  EXPECT_EQ(sink.report().waiting, 100u);
+  disk.set_value();
+}
+
+TEST_F(BagSinkTest, ClosesAWholeBagWhereTheDiskIsNearlyFull) {
+  std::promise<std::string> ended;
+  BagSinkOptions other = options();
+  other.bag = folder_.path("full.bag");
+  other.least_space = UINT64_MAX;  // no disk has as much
+  BagSink full(other, [&](const std::string& complaint) { ended.set_value(complaint); });
+  full.add(1, text("never"));
+  const std::string complaint = ended.get_future().get();
+  EXPECT_NE(complaint.find("NOTHING IS RECORDED any more"), std::string::npos) << complaint;
+  EXPECT_EQ(full.report().file, other.bag);
+  EXPECT_NO_THROW(rosbag::Bag(other.bag, rosbag::bagmode::Read)) << "closed, with its index";
+  EXPECT_FALSE(full.add(1, text("late")));
+}
+
+TEST_F(BagSinkTest, LeavesWhatWasWrittenWhereAWriteFails) {
+  std::promise<std::string> ended;
+  const test_support::FileSizeLimit disk(20'000);
+  BagSink sink(options(), [&](const std::string& complaint) { ended.set_value(complaint); });
+  for (int i = 0; i < 1000; ++i) sink.add(100, text(std::string(100, 'x')));
+  const std::string complaint = ended.get_future().get();
+  EXPECT_NE(complaint.find("cannot be written"), std::string::npos) << complaint;
+  EXPECT_GT(fs::file_size(folder_.path("run.bag.active")), 10'000u);
+  EXPECT_FALSE(fs::exists(folder_.path("run.bag")));
+  EXPECT_GT(sink.report().lost, 0u);
+}
+
+TEST_F(BagSinkTest, OverwritesNoRecording) {
+  { const BagSink sink(options(), nullptr); }
+  EXPECT_THROW(BagSink(options(), nullptr), fsr::InputError);
+  fs::rename(folder_.path("run.bag"), folder_.path("run.bag.active"));  // as a kill leaves it
+  EXPECT_THROW(BagSink(options(), nullptr), fsr::InputError);
+  BagSinkOptions nowhere = options();
+  nowhere.bag = folder_.path("none/run");
+  EXPECT_THROW(BagSink(nowhere, nullptr), fsr::InputError);
+}
+
+}  // namespace
+}  // namespace fsr_ros
