@@ -138,13 +138,14 @@ visualization_msgs::MarkerArray toMarkers(const std_msgs::Header& header, const 
   const fsr::Position centre = whole.centre.value_or(fsr::Position{nowhere, nowhere});
   const bool peak = !std::isnan(whole.peak);
   visualization_msgs::MarkerArray array;
-  array.markers = {
-      sheet(header, map, mesh, style), marks(header, map, mesh, style),
-      dot(header, "centre_of_pressure", mesh, centre.y / layout.pitch_y + 0.5 * (layout.size.rows - 1),
-          centre.x / layout.pitch_x + 0.5 * (layout.size.columns - 1), {255, 255, 255}),
-      dot(header, "peak", mesh, peak ? layout.row(whole.peak_taxel) : nowhere,
-          peak ? layout.column(whole.peak_taxel) : nowhere, {0, 0, 0}),
-      legend(header, map, style, whole)};
+  array.markers.push_back(sheet(header, map, mesh, style));  // large: moved, not copied from a list
+  array.markers.push_back(marks(header, map, mesh, style));
+  array.markers.push_back(dot(header, "centre_of_pressure", mesh,
+                              centre.y / layout.pitch_y + 0.5 * (layout.size.rows - 1),
+                              centre.x / layout.pitch_x + 0.5 * (layout.size.columns - 1), {255, 255, 255}));
+  array.markers.push_back(dot(header, "peak", mesh, peak ? layout.row(whole.peak_taxel) : nowhere,
+                              peak ? layout.column(whole.peak_taxel) : nowhere, {0, 0, 0}));
+  array.markers.push_back(legend(header, map, style, whole));
   return array;
 }
 

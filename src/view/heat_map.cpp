@@ -110,12 +110,18 @@ void HeatMap::drawSmoothly(const SmoothLayer& layer, MatrixSize size, const Fram
   for (int x = 0; x < frame.matrix_width; ++x) {
     columns.push_back(layer.column((x + 0.5) / frame.matrix_width * size.columns - 0.5));
   }
+  const PressureScale& scale = style_.scale;
+  const std::uint8_t* table = colourTable(scale.colours);
+  std::vector<double> values;
+  std::vector<Colour> colours(columns.size());
   for (int y = 0; y < frame.matrix_height; ++y) {
-    const SmoothLayer::Place row = layer.row((y + 0.5) / frame.matrix_height * size.rows - 0.5);
-    for (int x = 0; x < frame.matrix_width; ++x) {
-      const double value = layer.at(row, columns[std::size_t(x)]);
-      image.set({frame.corner.x + x, frame.corner.y + y}, colourOf(style_.scale, value));
+    layer.alongRow(layer.row((y + 0.5) / frame.matrix_height * size.rows - 0.5), columns, values);
+    for (std::size_t x = 0; x < values.size(); ++x) {
+      colours[x] = std::isnan(values[x])
+                       ? kNoReadingColour
+                       : colourAt(table, (values[x] - scale.low) / (scale.high - scale.low));
     }
+    image.setRow({frame.corner.x, frame.corner.y + y}, colours);
   }
 }
 

@@ -39,6 +39,19 @@ void Image::set(Pixel pixel, Colour colour) {
   rgb[2] = colour.blue;
 }
 
+void Image::setRow(Pixel left, const std::vector<Colour>& colours) {
+  if (left.y < 0 || left.y >= height_) return;
+  const std::size_t first = std::size_t(std::max(0, -left.x));
+  const std::size_t end = std::min(colours.size(), std::size_t(std::max(0, width_ - left.x)));
+  if (first >= end) return;
+  std::uint8_t* rgb = bytes_.data() + 3 * (std::size_t(left.y) * width_ + std::size_t(left.x + int(first)));
+  for (std::size_t i = first; i < end; ++i, rgb += 3) {
+    rgb[0] = colours[i].red;
+    rgb[1] = colours[i].green;
+    rgb[2] = colours[i].blue;
+  }
+}
+
 void Image::fill(Pixel corner, int width, int height, Colour colour) {
   const int left = std::max(corner.x, 0), right = std::min(corner.x + width, width_);
   const int top = std::max(corner.y, 0), bottom = std::min(corner.y + height, height_);

@@ -29,6 +29,20 @@ double SmoothLayer::at(const Place& r, const Place& c) const {
   return std::isnan(result) ? patched(r, c) : result;
 }
 
+void SmoothLayer::alongRow(const Place& row, const std::vector<Place>& columns,
+                           std::vector<double>& result) const {
+  std::vector<double> between(std::size_t{size_.columns});  // the rows' mean at each column's centre
+  for (int c = 0; c < size_.columns; ++c) {
+    between[std::size_t(c)] = value(row.low, c) * (1 - row.part) + value(row.high, c) * row.part;
+  }
+  result.resize(columns.size());
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Place& c = columns[i];
+    const double blend = between[std::size_t(c.low)] * (1 - c.part) + between[std::size_t(c.high)] * c.part;
+    result[i] = std::isnan(blend) ? at(row, c) : blend;
+  }
+}
+
 // Where a taxel has no value: the others alone, unless the nearest is the one.
 double SmoothLayer::patched(const Place& r, const Place& c) const {
   if (std::isnan(value(r.part < 0.5 ? r.low : r.high, c.part < 0.5 ? c.low : c.high))) {

@@ -94,13 +94,17 @@ void SheetMesh::colourCells(const std::vector<float>& values, const PressureScal
 void SheetMesh::colourSmoothly(const std::vector<float>& values, const PressureScale& scale,
                                std::vector<Colour>& colours) const {
   const SmoothLayer layer(values, layout_.size);
-  std::vector<Colour> of_vertex(vertices_.size());
-  std::size_t next = 0;
+  std::vector<SmoothLayer::Place> columns;
+  for (int column = 0; column <= layout_.size.columns * fineness_; ++column) {
+    columns.push_back(layer.column(double(column) / fineness_ - 0.5));
+  }
+  std::vector<Colour> of_vertex;
+  of_vertex.reserve(vertices_.size());
+  std::vector<double> along;
   for (int row = 0; row <= layout_.size.rows * fineness_; ++row) {
-    const SmoothLayer::Place place = layer.row(double(row) / fineness_ - 0.5);
-    for (int column = 0; column <= layout_.size.columns * fineness_; ++column) {
-      const double value = layer.at(place, layer.column(double(column) / fineness_ - 0.5));
-      of_vertex[next++] = std::isnan(value) ? kNoReadingColour : scale.colour(value);
+    layer.alongRow(layer.row(double(row) / fineness_ - 0.5), columns, along);
+    for (const double value : along) {
+      of_vertex.push_back(std::isnan(value) ? kNoReadingColour : scale.colour(value));
     }
   }
   colours.clear();

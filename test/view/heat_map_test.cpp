@@ -131,6 +131,17 @@ TEST(Image, DrawsNothingOutsideItself) {
   EXPECT_EQ(image.bytes().size(), 300u);
 }
 
+TEST(Image, SetsARowWithinItself) {
+  Image image(10, 10, {1, 2, 3});
+  for (const Pixel left : {Pixel{-2, 4}, Pixel{0, -1}, Pixel{0, 10}, Pixel{30, 4}, Pixel{-30, 4}}) {
+    image.setRow(left, std::vector<Colour>(4, {1, 1, 9}));
+  }
+  EXPECT_EQ(image.at({1, 4}), (Colour{1, 1, 9}));
+  EXPECT_EQ(image.at({2, 4}), (Colour{1, 2, 3}));
+  EXPECT_EQ(image.at({0, 5}), (Colour{1, 2, 3}));
+  EXPECT_EQ(image.at({9, 3}), (Colour{1, 2, 3}));
+}
+
 TEST(Image, BecomesAPngFile) {
   const std::string png = pngOf(Image(3, 2, {10, 20, 30}));
   EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "fsr_pressure_map/map/map_statistics.h"
+
 namespace fsr {
 namespace {
 
@@ -72,6 +74,20 @@ TEST(TaxelAreas, OfASphereShrinkTowardsTheEndsOfTheRows) {
   EXPECT_LT(areas[30], areas[34]);
 }
 
+// An even 200 kPa on a sphere of 8 cm radius: the area above, 0.084 m x 0.16 m x sin(0.625) = 78.64 cm^2,
+// times 200 kPa = 1572.8 N; on the flat sheet of 84 cm^2 it would be 1680 N.
+TEST(TaxelAreas, MakeTheForceOnABentSheetThatOfItsOwnArea) {
+  PressureMap map;
+  map.reset(kLayout);
+  map.pressure.assign(70, 200e3f);
+  const RegionStatistics bent =
+      regionStatistics(map, {}, taxelAreas(kLayout, uniform({12.5, 12.5, 0})), 10e3);
+  EXPECT_NEAR(bent.force, 1572.8, 0.5);
+  EXPECT_NEAR(bent.contact_area, 78.64e-4, 0.02e-4);
+  EXPECT_NEAR(bent.mean, 200e3, 1e-3);
+  EXPECT_NEAR(regionStatistics(map, {}, taxelAreas(kLayout, uniform({})), 10e3).force, 1680.0, 1e-6);
+}
+
 PressureMap ramp() {
   PressureMap map;
   map.reset(kLayout);
@@ -108,6 +124,26 @@ TEST(SmoothLayer, LeavesTaxelsWithoutAReadingOut) {
   EXPECT_DOUBLE_EQ(layer.at(0, 0.4), 10);
   EXPECT_DOUBLE_EQ(layer.at(1, 0.5), 35);
   EXPECT_DOUBLE_EQ(layer.at(-3, -3), 10);
+}
+
+TEST(SmoothLayer, GivesAWholeRowAsItGivesPoints) {
+  std::vector<float> values = ramp().pressure;
+  values[13] = NAN;
+  const SmoothLayer layer(values, kLayout.size);
+  std::vector<SmoothLayer::Place> columns;
+  for (double c = -0.6; c < 9.7; c += 0.13) columns.push_back(layer.column(c));
+  std::vector<double> along;
+  for (double r = -0.6; r < 6.7; r += 0.17) {
+    layer.alongRow(layer.row(r), columns, along);
+    ASSERT_EQ(along.size(), columns.size());
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const double point = layer.at(layer.row(r), columns[i]);
+      EXPECT_EQ(std::isnan(along[i]), std::isnan(point));
+      if (!std::isnan(point)) {
+        EXPECT_NEAR(along[i], point, 1e-6);
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -28,6 +28,8 @@ class Image {
 
   Colour at(Pixel pixel) const;
   void set(Pixel pixel, Colour colour);
+  /// Pixels to the right of `left`, itself the first.
+  void setRow(Pixel left, const std::vector<Colour>& colours);
   /// `corner` is the top left one.
   void fill(Pixel corner, int width, int height, Colour colour);
   /// `thickness` pixels wide.

@@ -33,6 +33,8 @@ class SmoothLayer {
   Place column(double coordinate) const { return place(coordinate, size_.columns); }
 
   double at(const Place& row, const Place& column) const;
+  /// at() for all `columns` of one row; quicker than one by one where every taxel has a value.
+  void alongRow(const Place& row, const std::vector<Place>& columns, std::vector<double>& result) const;
   double at(double r, double c) const { return at(row(r), column(c)); }
 
  private:
