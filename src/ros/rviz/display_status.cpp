@@ -30,10 +30,32 @@ StatusLine stateStatus(fsr::MapState state) {
   }
 }
 
+bool isSilent(double seconds) {
+  return seconds < 0 || seconds >= kSilence;
+}
+
+std::string stateHeadline(fsr::MapState state) {
+  switch (state) {
+    case fsr::MapState::kOk:
+      return "";
+    case fsr::MapState::kUncalibrated:
+      return "UNCALIBRATED";
+    case fsr::MapState::kCurvatureUnknown:
+      return "CURVATURE UNKNOWN";
+    case fsr::MapState::kCurvatureStale:
+      return "CURVATURE STALE";
+    case fsr::MapState::kSizeMismatch:
+      return "ANOTHER MATRIX SIZE";
+    case fsr::MapState::kWrongSensor:
+      return "ANOTHER SENSOR";
+  }
+  return "";
+}
+
 StatusLine messageStatus(double seconds, const std::string& noun, const std::string& topic) {
   if (topic.empty()) return {StatusProperty::Warn, "no topic is chosen"};
   if (seconds < 0) return {StatusProperty::Warn, "no " + noun + " has come on " + topic};
-  if (seconds < kSilence) return {StatusProperty::Ok, noun + "s are coming"};
+  if (!isSilent(seconds)) return {StatusProperty::Ok, noun + "s are coming"};
   return {StatusProperty::Warn, "no " + noun + " for " + std::to_string(static_cast<long>(seconds)) +
                                     " s on " + topic + ": the last one is shown"};
 }

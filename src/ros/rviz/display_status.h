@@ -23,6 +23,12 @@ StatusLine stateStatus(fsr::MapState state);
 /// `seconds` since the last message; below 0 = none ever came on `topic`. `noun`: what it is, e.g. "map".
 StatusLine messageStatus(double seconds, const std::string& noun, const std::string& topic);
 
+/// Whether data of that age [s] are no longer what is there now.
+bool isSilent(double seconds);
+
+/// The state for a legend, in capitals: it must not be overlooked; empty = nothing to say.
+std::string stateHeadline(fsr::MapState state);
+
 /// What the sheet's shape comes from; `error` where the last message could not be used.
 StatusLine curvatureStatus(const fsr::Surface& surface, const std::string& error, const std::string& topic);
 

@@ -84,7 +84,10 @@ fsr::Legend PressureMapDisplay::legend() const {
   fsr::Legend legend;
   legend.scale = scale();
   legend.title = fsr::name(layer());
-  legend.lines = {last_ ? "calibration " + (last_->scheme.empty() ? "none" : last_->scheme) : "no map yet"};
+  legend.lines = {last_ ? "calibration " + (last_->scheme.empty() ? "none" : last_->scheme)
+                        : "waiting for maps"};
+  const std::string state = last_ ? stateHeadline(map_.state) : "";
+  if (!state.empty()) legend.lines.push_back(state);
   return legend;
 }
 

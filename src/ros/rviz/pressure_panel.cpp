@@ -197,7 +197,7 @@ void PressurePanel::refresh() {
                               " gauge"
                         : QString("-"));
   const auto& surface = last_surface_.message;
-  surface_->setText(surface ? text(surface->surface) + ", " +
+  surface_->setText(surface ? text(surface->x.empty() ? "unknown" : surface->surface) + ", " +
                                   (surface->mount > 0 ? QString::number(surface->mount) : QString("-"))
                             : QString("-"));
   const auto& session = last_session_.message;

@@ -73,7 +73,7 @@ fsr::Legend RawCountsDisplay::legend() const {
   fsr::Legend legend;
   legend.scale = scale();
   legend.title = "raw reading";
-  legend.lines = {last_ ? "not calibrated" : "no scan yet"};
+  legend.lines = {last_ ? "not calibrated" : "waiting for scans"};
   return legend;
 }
 

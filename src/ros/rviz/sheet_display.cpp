@@ -103,6 +103,7 @@ void SheetDisplay::onDisable() {
 void SheetDisplay::reset() {
   Display::reset();
   last_.reset();
+  fresh_ = false;
   forget();
   selection_.reset();
   shown_ = ShownSheet();
@@ -156,7 +157,7 @@ void SheetDisplay::onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr&
     if (fsr::sameCondition(surface, surface_)) return;
     surface_ = std::move(surface);
     shown_.mesh.reset();
-    if (last_) redraw();
+    fresh_ = last_.has_value();
   } catch (const fsr::InputError& error) {
     surface_error_ = error.what();
   }
@@ -165,7 +166,7 @@ void SheetDisplay::onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr&
 void SheetDisplay::received(const std_msgs::Header& header) {
   last_ = header;
   last_time_ = ros::WallTime::now();
-  redraw();
+  fresh_ = true;
 }
 
 fsr::ColourMap SheetDisplay::colours() const {
@@ -200,6 +201,7 @@ bool SheetDisplay::repaint() {
 }
 
 void SheetDisplay::redraw() {
+  fresh_ = false;
   if (!repaint()) return;
   if (!shown_.mesh) makeMesh();
   visual_->show(shown_.picture, *shown_.mesh);
@@ -208,9 +210,7 @@ void SheetDisplay::redraw() {
                                                   [this](std::size_t taxel) { return readOut(taxel); });
     selection_->addTrackedObject(visual_->sheet());
   }
-  placeSheet();
   sayState();
-  updateLegend();
 }
 
 void SheetDisplay::placeSheet() {
@@ -236,8 +236,7 @@ void SheetDisplay::placeSheet() {
 void SheetDisplay::updateStyle() {
   if (!last_) return updateLegend();
   shown_.mesh.reset();  // fineness may be another
-  redraw();
-  context_->queueRender();
+  fresh_ = true;
 }
 
 void SheetDisplay::updatePlace() {
@@ -250,6 +249,7 @@ void SheetDisplay::updateLegend() {
   if (!isEnabled() || !legend_->getBool()) return overlay_->hide();
   fsr::Legend now = legend();
   now.marks = marks_->getBool();
+  if (last_ && isSilent(age())) now.lines.push_back("STOPPED: no more " + std::string(noun_) + "s");
   now.lines.push_back(surface_.name.empty() ? "surface not named" : "surface " + surface_.name);
   overlay_->moveTo(left_->getInt(), top_->getInt());
   overlay_->show(now);
@@ -259,9 +259,24 @@ void SheetDisplay::say(const char* name, const StatusLine& line) {
   setStatus(line.level, name, QString::fromStdString(line.text));
 }
 
+double SheetDisplay::age() const {
+  return last_ ? (ros::WallTime::now() - last_time_).toSec() : -1;
+}
+
+// Once: from then on it is the user's.
+void SheetDisplay::openStatus() {
+  for (int i = 0; i < numChildren() && !status_opened_; ++i) {
+    if (!childAt(i)->getName().startsWith("Status")) continue;
+    childAt(i)->expand();
+    status_opened_ = true;
+  }
+}
+
 void SheetDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
-  const double age = last_ ? (ros::WallTime::now() - last_time_).toSec() : -1;
-  say("Messages", messageStatus(age, noun_, topic_->getTopicStd()));
+  say("Messages", messageStatus(age(), noun_, topic_->getTopicStd()));
+  openStatus();
+  if (fresh_) redraw();
+  updateLegend();
   say("Curvature", curvatureStatus(surface_, surface_error_, curvatureTopic()));
   if (last_) placeSheet();
 }

@@ -62,7 +62,7 @@ class SheetDisplay : public rviz::Display {
   virtual void sayState() = 0;
   virtual void forget() = 0;
 
-  /// To be called with each message.
+  /// To be called with each message. Drawn once a frame, however many come.
   void received(const std_msgs::Header& header);
   void say(const char* name, const StatusLine& line);
   std::string besideTopic(const std::string& name) const;
@@ -93,6 +93,8 @@ class SheetDisplay : public rviz::Display {
   void redraw();
   void makeMesh();
   void placeSheet();
+  void openStatus();
+  double age() const;  // of what came last [s]; below 0 = nothing came
 
   const char* noun_;
   rviz::RosTopicProperty* topic_ = nullptr;
@@ -113,6 +115,8 @@ class SheetDisplay : public rviz::Display {
   std::string surface_error_;
   std::optional<std_msgs::Header> last_;  // of what came last; none = nothing came
   ros::WallTime last_time_;
+  bool fresh_ = false;  // something changed since it was drawn
+  bool status_opened_ = false;
   ShownSheet shown_;
 
   std::unique_ptr<SheetVisual> visual_;
