@@ -1,5 +1,6 @@
 #include "fsr_pressure_map/regression/best_cut.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
@@ -13,7 +14,7 @@ namespace {
 constexpr std::size_t kHalf = kCutLanes / 2;
 using Lanes = double __attribute__((vector_size(kHalf * sizeof(double))));
 using Indices = std::int64_t __attribute__((vector_size(kHalf * sizeof(std::int64_t))));
-#define FSR_INLINE inline __attribute__((always_inline))  // into each clone of bestCut()
+#define FSR_INLINE inline __attribute__((always_inline))  // into each clone of bestOfMany()
 
 const Lanes kNone = {0, 0, 0, 0};
 const Lanes kOne = {1, 1, 1, 1};
@@ -84,10 +85,31 @@ FSR_INLINE void swapNeighbours(Values& v) {
   v = Values{v[1], v[0], v[3], v[2]};
 }
 
-}  // namespace
+// Most nodes of a tree hold so few entries that one cut after the other is sooner tried.
+constexpr std::size_t kFew = 5;
+
+std::size_t bestOfFew(const CutProblem& p) {
+  const Node node(p);
+  double best_gain = 0, best_weight = 1;
+  std::size_t best = kNoCut;
+  for (std::size_t i = p.begin + 1; i < p.end; ++i) {
+    const double size = p.size[i] - node.size_before;
+    const double left = p.count[i] - node.count_before;
+    const double excess = (p.sum[i] - node.sum_before) - node.mean * left;
+    const double gain = excess * excess, weight = left * (node.count - left);
+    // no branch to mispredict
+    const bool better = (std::min(size, node.size - size) >= p.minimum_leaf) &
+                        (gain * best_weight > best_gain * weight) &
+                        (!p.codes_repeat | (p.code[i] != p.code[i - 1]));
+    best_gain = better ? gain : best_gain;
+    best_weight = better ? weight : best_weight;
+    best = better ? i : best;
+  }
+  return best;
+}
 
 FSR_EACH_VECTOR_WIDTH
-std::size_t bestCut(const CutProblem& p) {
+std::size_t bestOfMany(const CutProblem& p) {
   const Node node(p);
   Best best, other;
   Indices here = Indices{1, 2, 3, 4} + static_cast<std::int64_t>(p.begin);
@@ -105,6 +127,12 @@ std::size_t bestCut(const CutProblem& p) {
   swapNeighbours(other.gain), swapNeighbours(other.weight), swapNeighbours(other.at);
   merge(other, best);
   return best.gain[0] > 0 ? static_cast<std::size_t>(best.at[0]) : kNoCut;
+}
+
+}  // namespace
+
+std::size_t bestCut(const CutProblem& p) {
+  return p.end - p.begin <= kFew ? bestOfFew(p) : bestOfMany(p);
 }
 
 }  // namespace fsr

@@ -11,15 +11,35 @@ namespace fsr {
 
 namespace {
 
-// What was drawn of readings in a row adds to their entries' counts and sums.
-FSR_EACH_VECTOR_WIDTH
-void addDrawn(const std::uint8_t* times, const double* pressure, std::size_t entries, double* count,
-              double* sum) {
-  for (std::size_t i = 0; i < entries; ++i) {
-    const double drawn = times[i];
-    count[i] += drawn;
-    sum[i] += drawn * pressure[i];
+constexpr std::size_t kLanes = 8;
+
+// Of `number` entries, lanes of the vector unit, what was drawn of their readings, which stand `stride`
+// apart.
+template <std::size_t number>
+inline __attribute__((always_inline)) void sumLanes(const std::uint8_t* times, const double* pressure,
+                                                    std::size_t stride, std::size_t readings, double* count,
+                                                    double* sum) {
+  double counts[number] = {}, sums[number] = {};
+  for (std::size_t reading = 0; reading < readings; ++reading, times += stride, pressure += stride) {
+    for (std::size_t i = 0; i < number; ++i) {
+      const double drawn = times[i];
+      counts[i] += drawn;
+      sums[i] += drawn * pressure[i];
+    }
   }
+  std::copy(counts, counts + number, count);
+  std::copy(sums, sums + number, sum);
+}
+
+// Of each entry of a class what was drawn of its readings.
+FSR_EACH_VECTOR_WIDTH
+void sumDrawn(const std::uint8_t* times, const double* pressure, std::size_t entries, std::size_t readings,
+              double* count, double* sum) {
+  std::size_t i = 0;
+  for (; i + kLanes <= entries; i += kLanes) {
+    sumLanes<kLanes>(times + i, pressure + i, entries, readings, count + i, sum + i);
+  }
+  for (; i < entries; ++i) sumLanes<1>(times + i, pressure + i, entries, readings, count + i, sum + i);
 }
 
 FSR_EACH_VECTOR_WIDTH
@@ -64,14 +84,12 @@ void TreeGrower::draw(RandomStream stream) {
 
 // Sums of the entries that were drawn; returns their number.
 std::size_t TreeGrower::pool() {
-  std::fill(slot_count_.begin(), slot_count_.end(), 0.0);
-  std::fill(slot_sum_.begin(), slot_sum_.end(), 0.0);
   std::fill(slot_distinct_.begin(), slot_distinct_.end(), 0.0);
   std::size_t reading = 0, slot = 0;
   for (const ForestData::SizeClass& size_class : data_.classes) {
+    sumDrawn(&times_drawn_[reading], &data_.pressure[reading], size_class.entries, size_class.readings_each,
+             &slot_count_[slot], &slot_sum_[slot]);
     for (std::size_t i = 0; i < size_class.readings_each; ++i, reading += size_class.entries) {
-      addDrawn(&times_drawn_[reading], &data_.pressure[reading], size_class.entries, &slot_count_[slot],
-               &slot_sum_[slot]);
       if (distinct_) addDistinct(&times_drawn_[reading], size_class.entries, &slot_distinct_[slot]);
     }
     slot += size_class.entries;
@@ -117,12 +135,15 @@ const std::vector<ForestLeaf>& TreeGrower::grow(std::uint64_t tree) {
 void TreeGrower::addNode(std::size_t begin, std::size_t end, std::int32_t first_code, std::int32_t end_code,
                          double low, double high) {
   Node& node = nodes_.emplace_back();
-  node.begin = begin;
-  node.end = end;
+  node.begin = static_cast<std::uint32_t>(begin);
+  node.end = static_cast<std::uint32_t>(end);
   node.first_code = first_code;
   node.end_code = end_code;
   node.low = low;
   node.high = high;
+  if (data_.curvatures.size() > 1 || mayBeCut(node)) return;  // draws of inputs go by nodes' numbers
+  addLeaf(node);
+  nodes_.pop_back();
 }
 
 void TreeGrower::addLeaf(const Node& node) {
@@ -135,10 +156,13 @@ void TreeGrower::addLeaf(const Node& node) {
   leaf.pressure = (sum_before_[node.end] - sum_before_[node.begin]) / leaf.readings;
 }
 
+bool TreeGrower::mayBeCut(const Node& node) {
+  return node.end - node.begin > 1 && sizeBefore()[node.end] - sizeBefore()[node.begin] >= 2 * minimum_leaf_;
+}
+
 bool TreeGrower::cut(const Node& node, std::uint64_t number) {
-  if (node.end - node.begin < 2) return false;
-  if (sizeBefore()[node.end] - sizeBefore()[node.begin] < 2 * minimum_leaf_) return false;
   if (data_.curvatures.size() == 1) return cutCode(node);
+  if (!mayBeCut(node)) return false;
   const bool code_first = input_stream_.bits(number) >> 63 != 0;
   if (code_first ? cutCode(node) : cutCurvature(node)) return true;
   if (sampling_ == InputSampling::kLeaf) return false;

@@ -7,6 +7,13 @@
 
 namespace fsr {
 
+namespace {
+
+// So many times the square of a code of 16 bits is exact in a double.
+constexpr std::uint64_t kExactSamples = std::uint64_t{1} << 21;
+
+}  // namespace
+
 WeightedCodes weightedCodes(const CodeHistogram& training) {
   const std::vector<std::int64_t>& count = training.count();
   const std::size_t occupied = count.size() - std::count(count.begin(), count.end(), 0);
@@ -34,32 +41,58 @@ WeightedCodes weightedCodes(const CodeHistogram& training) {
 
 namespace {
 
-// (count - 1) count times the variance of the readings, exactly. `Sum` must hold samples x codes^2.
-template <typename Sum>
-inline __attribute__((always_inline)) Int128 scatterOf(const std::vector<std::int64_t>& count) {
-  Sum number = 0, sum = 0, squares = 0;
-  for (std::size_t code = 0; code < count.size(); ++code) {
-    const auto reading = static_cast<std::int64_t>(code);
-    number += count[code];
-    sum += Sum{count[code]} * reading;
-    squares += Sum{count[code]} * (reading * reading);
+struct Moments {
+  double sum = 0, squares = 0;
+};
+
+// Sums of count x code and count x code^2. In doubles, lane by lane: whole numbers, all of them exact.
+FSR_EACH_VECTOR_WIDTH
+Moments momentsOf(const std::int64_t* count, std::size_t codes) {
+  constexpr std::size_t kLanes = 8;
+  Moments lane[kLanes], all;
+  std::size_t code = 0;
+  for (; code + kLanes <= codes; code += kLanes) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const double reading = static_cast<double>(static_cast<std::int32_t>(code + i));
+      const double product = static_cast<double>(static_cast<std::int32_t>(count[code + i])) * reading;
+      lane[i].sum += product;
+      lane[i].squares += product * reading;
+    }
   }
-  return Int128{number} * squares - Int128{sum} * sum;
+  for (; code < codes; ++code) {
+    lane[0].sum += static_cast<double>(count[code]) * static_cast<double>(code);
+    lane[0].squares += static_cast<double>(count[code]) * static_cast<double>(code * code);
+  }
+  for (const Moments& one : lane) {
+    all.sum += one.sum;
+    all.squares += one.squares;
+  }
+  return all;
 }
 
-FSR_EACH_VECTOR_WIDTH
-Int128 smallScatterOf(const std::vector<std::int64_t>& count) {
-  return scatterOf<std::int64_t>(count);
+// number (number - 1) times the variance of the readings, exactly.
+Int128 scatterOf(const CodeHistogram& training) {
+  const std::vector<std::int64_t>& count = training.count();
+  const Int128 number = training.samples();
+  if (training.samples() <= kExactSamples) {
+    const Moments moments = momentsOf(count.data(), count.size());
+    const auto sum = static_cast<std::int64_t>(moments.sum);
+    return number * static_cast<std::int64_t>(moments.squares) - Int128{sum} * sum;
+  }
+  Int128 sum = 0, squares = 0;
+  for (std::size_t code = 0; code < count.size(); ++code) {
+    sum += Int128{count[code]} * code;
+    squares += Int128{count[code]} * (code * code);
+  }
+  return number * squares - sum * sum;
 }
 
 }  // namespace
 
 double readingDeviation(const CodeHistogram& training) {
   if (training.samples() < 2) return 0.0;
-  const bool small = training.samples() < std::uint64_t{1} << 31;  // times 2^32 fits 64 bits
-  const Int128 scatter = small ? smallScatterOf(training.count()) : scatterOf<Int128>(training.count());
   const auto number = static_cast<double>(training.samples());
-  return std::sqrt(static_cast<double>(scatter) / (number * (number - 1)));
+  return std::sqrt(static_cast<double>(scatterOf(training)) / (number * (number - 1)));
 }
 
 Fit constantFit(const WeightedCodes& samples) {

@@ -56,7 +56,7 @@ class TreeGrower {
  private:
   // Entries [begin, end) of the arrays below, and the box of inputs that leads to them.
   struct Node {
-    std::size_t begin, end;
+    std::uint32_t begin, end;
     std::int32_t first_code, end_code;
     double low, high;
   };
@@ -70,8 +70,10 @@ class TreeGrower {
   std::size_t pool();
   // Readings before each entry, as the minimum leaf counts them.
   std::vector<double>& sizeBefore() { return distinct_ ? distinct_before_ : count_before_; }
+  // To the nodes; of one input to the leaves where the minimum leaf lets nothing be cut.
   void addNode(std::size_t begin, std::size_t end, std::int32_t first_code, std::int32_t end_code, double low,
                double high);
+  bool mayBeCut(const Node& node);
   // These add both sides to the nodes, or return false and change nothing.
   bool cut(const Node& node, std::uint64_t number);
   bool cutCode(const Node& node);
