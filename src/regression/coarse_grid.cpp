@@ -94,23 +94,37 @@ CoarseGrid::CoarseGrid(const WeightedCodes& samples, double sigma, double reach)
   grid.table_size = cells_ + kNodes - 1;
   grid.code.resize(grid.table_size);
   std::iota(grid.code.begin(), grid.code.end(), 0);
-  grid.sum = toNodes(samples, samples.sum);
-  grid.count = toNodes(samples, samples.count);
+  const std::vector<std::size_t> places = placesOf(samples);
+  grid.sum = toNodes(places, samples.sum);
+  grid.count = toNodes(places, samples.count);
   const auto spacing = static_cast<double>(spacing_);
   convolve(grid, sigma / spacing, reach / spacing);
   sum_ = toCodes(grid.sum);
   weight_ = toCodes(grid.count);
 }
 
-// Node n of the result is the (n - 7)th of the grid.
-std::vector<double> CoarseGrid::toNodes(const WeightedCodes& samples,
-                                        const std::vector<double>& values) const {
-  const std::size_t row = cells_ + 2 * (kNodes - 1);  // fifteen empty cells on either side
-  std::vector<double> by_offset(spacing_ * row), nodes(cells_ + kNodes - 1);
-  for (std::size_t s = 0; s < samples.code.size(); ++s) {
+// Where each sample stands among the cells, those of one offset together, fifteen empty cells on either side.
+std::vector<std::size_t> CoarseGrid::placesOf(const WeightedCodes& samples) const {
+  std::vector<std::size_t> places(samples.code.size());
+  std::size_t cell = 0, cell_begin = 0;
+  for (std::size_t s = 0; s < places.size(); ++s) {
     const auto code = static_cast<std::size_t>(samples.code[s]);
-    by_offset[code % spacing_ * row + code / spacing_ + kNodes - 1] = values[s];
+    for (; code >= cell_begin + spacing_; cell_begin += spacing_) ++cell;  // sooner than to divide
+    places[s] = (code - cell_begin) * paddedCells() + cell + kNodes - 1;
   }
+  return places;
+}
+
+std::size_t CoarseGrid::paddedCells() const {
+  return cells_ + 2 * (kNodes - 1);
+}
+
+// Node n of the result is the (n - 7)th of the grid.
+std::vector<double> CoarseGrid::toNodes(const std::vector<std::size_t>& places,
+                                        const std::vector<double>& values) const {
+  const std::size_t row = paddedCells();
+  std::vector<double> by_offset(spacing_ * row), nodes(cells_ + kNodes - 1);
+  for (std::size_t s = 0; s < places.size(); ++s) by_offset[places[s]] = values[s];
   for (std::size_t offset = 0; offset < spacing_; ++offset) {
     std::array<double, kNodes> taps;  // node n gets from cell n - i by weight i
     std::reverse_copy(&lagrange_[offset * kNodes], &lagrange_[(offset + 1) * kNodes], taps.begin());

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "fsr_pressure_map/regression/coarse_grid.h"
@@ -22,6 +23,17 @@ constexpr double kNoGap = 0.5;           // [sigma]
 FSR_EACH_VECTOR_WIDTH
 void divide(const double* numerator, const double* denominator, std::ptrdiff_t number, double* quotient) {
   for (std::ptrdiff_t i = 0; i < number; ++i) quotient[i] = numerator[i] / denominator[i];
+}
+
+double leastOf(const double* values, std::size_t number) {
+  std::array<double, 8> lane;
+  lane.fill(INFINITY);
+  std::size_t i = 0;
+  for (; i + lane.size() <= number; i += lane.size()) {
+    for (std::size_t k = 0; k < lane.size(); ++k) lane[k] = std::min(lane[k], values[i + k]);
+  }
+  for (; i < number; ++i) lane[0] = std::min(lane[0], values[i]);
+  return *std::min_element(lane.begin(), lane.end());
 }
 
 class GaussianSums {
@@ -90,9 +102,16 @@ class GaussianSums {
     const double grid_reach = reach(kFarthestOnGrid * sigma_);
     grid_.emplace(samples_, sigma_, grid_reach);
     grid_reach_ = static_cast<std::ptrdiff_t>(grid_reach);
-    count_before_.reserve(samples_.count.size() + 1);
-    count_before_.push_back(0);
-    for (const double count : samples_.count) count_before_.push_back(count_before_.back() + count);
+  }
+
+  // Of the samples within the grid's reach of some code of the block.
+  double weightWithinReach(std::ptrdiff_t block, std::ptrdiff_t end) {
+    if (count_before_.empty()) {
+      count_before_.assign(samples_.count.size() + 1, 0.0);
+      std::partial_sum(samples_.count.begin(), samples_.count.end(), count_before_.begin() + 1);
+    }
+    return count_before_[samples_.firstFrom(end + grid_reach_)] -
+           count_before_[samples_.firstFrom(block - grid_reach_)];
   }
 
   void store(std::ptrdiff_t block, std::ptrdiff_t end, const double* sums, const double* weights) {
@@ -107,10 +126,11 @@ class GaussianSums {
     if (!grid_ || far > kFarthestOnGrid * sigma_) return false;
     std::array<double, kCodeBlock> sums, weights;
     grid_->sumCodes(block, end, sums.data(), weights.data());
-    const double within_reach = count_before_[samples_.firstFrom(end + grid_reach_)] -
-                                count_before_[samples_.firstFrom(block - grid_reach_)];
-    const double least = *std::min_element(weights.begin(), weights.begin() + (end - block));
-    if (least < kLeastShareOfWeight * within_reach) return false;
+    const double least = leastOf(weights.data(), static_cast<std::size_t>(end - block));
+    if (least < kLeastShareOfWeight * samples_.samples &&
+        least < kLeastShareOfWeight * weightWithinReach(block, end)) {
+      return false;
+    }
     store(block, end, sums.data(), weights.data());
     return true;
   }

@@ -25,14 +25,19 @@ WeightedCodes weightedCodes(const CodeHistogram& training) {
                         std::vector<double>(occupied + 1),
                         std::vector<std::int32_t>(count.size() + 1)};
   std::size_t found = 0;
-  for (std::size_t code = 0; code < count.size(); ++code) {
+  const auto occurs = [](std::int64_t number) { return number != 0; };
+  const auto first =
+      static_cast<std::size_t>(std::find_if(count.begin(), count.end(), occurs) - count.begin());
+  std::size_t code = first;  // none occurs below it, and none from where all are found
+  for (; found < occupied; ++code) {
     samples.code[found] = static_cast<std::int32_t>(code);
     samples.count[found] = static_cast<double>(count[code]);
     samples.sum[found] = fromFixed(training.sum()[code]);
     samples.below[code] = static_cast<std::int32_t>(found);
     found += count[code] != 0;
   }
-  samples.below.back() = static_cast<std::int32_t>(found);
+  std::fill(samples.below.begin() + static_cast<std::ptrdiff_t>(code), samples.below.end(),
+            static_cast<std::int32_t>(found));
   samples.code.pop_back();
   samples.count.pop_back();
   samples.sum.pop_back();
@@ -49,23 +54,25 @@ struct Moments {
 FSR_EACH_VECTOR_WIDTH
 Moments momentsOf(const std::int64_t* count, std::size_t codes) {
   constexpr std::size_t kLanes = 8;
-  Moments lane[kLanes], all;
+  double reading[kLanes], sum[kLanes] = {}, squares[kLanes] = {};
+  for (std::size_t i = 0; i < kLanes; ++i) reading[i] = static_cast<double>(i);
   std::size_t code = 0;
   for (; code + kLanes <= codes; code += kLanes) {
     for (std::size_t i = 0; i < kLanes; ++i) {
-      const double reading = static_cast<double>(static_cast<std::int32_t>(code + i));
-      const double product = static_cast<double>(static_cast<std::int32_t>(count[code + i])) * reading;
-      lane[i].sum += product;
-      lane[i].squares += product * reading;
+      const double product = static_cast<double>(count[code + i]) * reading[i];
+      sum[i] += product;
+      squares[i] += product * reading[i];
+      reading[i] += kLanes;
     }
   }
+  Moments all;
   for (; code < codes; ++code) {
-    lane[0].sum += static_cast<double>(count[code]) * static_cast<double>(code);
-    lane[0].squares += static_cast<double>(count[code]) * static_cast<double>(code * code);
+    all.sum += static_cast<double>(count[code]) * static_cast<double>(code);
+    all.squares += static_cast<double>(count[code]) * static_cast<double>(code * code);
   }
-  for (const Moments& one : lane) {
-    all.sum += one.sum;
-    all.squares += one.squares;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    all.sum += sum[i];
+    all.squares += squares[i];
   }
   return all;
 }

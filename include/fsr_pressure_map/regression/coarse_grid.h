@@ -30,7 +30,10 @@ class CoarseGrid {
   // together, [spacing x cells].
   using CellValues = std::vector<double>;
 
-  std::vector<double> toNodes(const WeightedCodes& samples, const std::vector<double>& values) const;
+  std::vector<std::size_t> placesOf(const WeightedCodes& samples) const;
+  std::vector<double> toNodes(const std::vector<std::size_t>& places,
+                              const std::vector<double>& values) const;
+  std::size_t paddedCells() const;
   CellValues toCodes(const std::vector<double>& nodes) const;
 
   std::size_t spacing_;  // [codes]
