@@ -8,9 +8,13 @@
 #include <sstream>
 #include <vector>
 
+#include "fsr_pressure_map/exports/animated_png.h"
 #include "fsr_pressure_map/exports/csv_table.h"
+#include "fsr_pressure_map/exports/picture_folder.h"
 #include "fsr_pressure_map/exports/tekscan_file.h"
+#include "fsr_pressure_map/exports/video_file.h"
 #include "fsr_pressure_map/ros/bag_archive.h"
+#include "fsr_pressure_map/ros/picture_options.h"
 #include "fsr_pressure_map/ros/scan_source.h"
 #include "fsr_pressure_map/settings/command_line.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -23,11 +27,15 @@ namespace fs = std::filesystem;
 
 fsr::CommandLine options() {
   fsr::CommandLine line(
-      "export", "BAG... --to FORMAT --output PATH",
+      "export", "BAG... --to FORMAT --output PATH, or ARCHIVE --to bag --output BAG",
       "Writes a recording for those who have no ROS. FORMAT is\n"
       "  csv      tidy table, a row for each taxel and scan (.gz: compressed); several bags in one\n"
       "  tekscan  ASCII as Tekscan's I-Scan and F-Scan save it (*.asf)\n"
-      "docs/exports.md describes every column.");
+      "  hdf5     archive of every topic, from which\n"
+      "  bag      gives back the bag, message by message, byte for byte\n"
+      "  png      a picture of each map, in a new folder\n"
+      "  movie    NAME.png (animated, needs no other program), or .mp4 .webm .mkv .avi .gif by ffmpeg\n"
+      "docs/exports.md describes every column and dataset.");
   line.option("to", "FORMAT", "what to write")
       .option("output", "PATH", "file to write; a file that is there is replaced")
       .option("calibration", "FILE",
@@ -35,10 +43,11 @@ fsr::CommandLine options() {
       .option("from", "S", "leave out what is earlier, in seconds since the first scan (0)")
       .option("until", "S", "leave out what is later, likewise (all)")
       .option("topics", "A,B", "hdf5: only these topics, full names or names under the namespace (all)")
-      .option("rate", "HZ", "at most as many scans a second (all)")
+      .option("rate", "HZ", "at most as many scans a second (all; pictures: 10)")
       .option("map", "TOPIC", "topic of the maps, where a bag holds several (pressure_map)")
       .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
       .option("namespace", "NS", "the sensor's namespace, where a bag holds several");
+  declarePictureOptions(line);
   return line;
 }
 
@@ -99,6 +108,7 @@ void sendAll(const fsr::CommandLine& line, const ScanSelection& selection, fsr::
 
 void writeCsv(const fsr::CommandLine& line, std::ostream& out) {
   refuseOthers(line, {"topics"});
+  refuseOthers(line, pictureOptionNames());
   const ScanSelection selection = selectionOf(line);
   fsr::CsvTable table(outputOf(line));
   sendAll(line, selection, table, out);
@@ -107,6 +117,7 @@ void writeCsv(const fsr::CommandLine& line, std::ostream& out) {
 void writeTekscan(const fsr::CommandLine& line, std::ostream& out) {
   requireOne(line);
   refuseOthers(line, {"topics"});
+  refuseOthers(line, pictureOptionNames());
   const ScanSelection selection = selectionOf(line);
   const std::string output = outputOf(line);
   if (fs::path(output).extension() == ".gz") {
@@ -114,6 +125,36 @@ void writeTekscan(const fsr::CommandLine& line, std::ostream& out) {
   }
   fsr::TekscanFile file(output);
   sendAll(line, selection, file, out);
+}
+
+ScanSelection picturesSelection(const fsr::CommandLine& line, const fsr::PictureOptions& pictures) {
+  requireOne(line);
+  refuseOthers(line, {"topics"});
+  ScanSelection selection = selectionOf(line);
+  selection.rate = pictures.rate;
+  selection.counts = false;
+  return selection;
+}
+
+void writePictures(const fsr::CommandLine& line, std::ostream& out) {
+  const fsr::PictureOptions pictures = pictureOptions(line);
+  const ScanSelection selection = picturesSelection(line, pictures);
+  fsr::PictureFolder folder(outputOf(line), pictures);
+  sendAll(line, selection, folder, out);
+}
+
+void writeMovie(const fsr::CommandLine& line, std::ostream& out) {
+  const fsr::PictureOptions pictures = pictureOptions(line);
+  const ScanSelection selection = picturesSelection(line, pictures);
+  const std::string output = outputOf(line);
+  const fs::path ending = fs::path(output).extension();
+  std::unique_ptr<fsr::ScanSink> movie;
+  if (ending == ".png" || ending == ".apng") {
+    movie = std::make_unique<fsr::AnimatedPng>(output, pictures);
+  } else {
+    movie = std::make_unique<fsr::VideoFile>(output, pictures);
+  }
+  sendAll(line, selection, *movie, out);
 }
 
 std::vector<std::string> split(const std::string& list) {
@@ -126,6 +167,7 @@ std::vector<std::string> split(const std::string& list) {
 void writeArchive(const fsr::CommandLine& line, std::ostream& out) {
   requireOne(line);
   refuseOthers(line, {"calibration", "rate", "map", "ambient"});
+  refuseOthers(line, pictureOptionNames());
   const ScanSelection range = selectionOf(line);
   const ArchiveSelection selection{range.topics, split(line.text("topics", "")), range.from, range.until};
   const std::uint64_t messages = archiveBag(line.files().front(), selection, outputOf(line));
@@ -135,6 +177,7 @@ void writeArchive(const fsr::CommandLine& line, std::ostream& out) {
 void writeBag(const fsr::CommandLine& line, std::ostream& out) {
   requireOne(line);
   refuseOthers(line, {"calibration", "rate", "map", "ambient", "topics", "from", "until", "namespace"});
+  refuseOthers(line, pictureOptionNames());
   const std::uint64_t messages = restoreBag(line.files().front(), outputOf(line));
   out << messages << " messages, each as it was in the bag, are in " << fullPath(line.text("output", ""))
       << std::endl;
@@ -143,8 +186,9 @@ void writeBag(const fsr::CommandLine& line, std::ostream& out) {
 using Writer = void (*)(const fsr::CommandLine&, std::ostream&);
 
 Writer writerOf(const std::string& format) {
-  static const std::map<std::string, Writer> kWriters = {
-      {"csv", writeCsv}, {"tekscan", writeTekscan}, {"hdf5", writeArchive}, {"bag", writeBag}};
+  static const std::map<std::string, Writer> kWriters = {{"csv", writeCsv},      {"tekscan", writeTekscan},
+                                                         {"hdf5", writeArchive}, {"bag", writeBag},
+                                                         {"png", writePictures}, {"movie", writeMovie}};
   const auto found = kWriters.find(format);
   if (found != kWriters.end()) return found->second;
   std::string names;

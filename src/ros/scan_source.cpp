@@ -56,6 +56,12 @@ class MapMaker {
     fsr::PressureMap map;
     loaded_->calibrator.calibrate({scan.layout.size, scan.full_scale, scan.counts.data(), scan.counts.size()},
                                   time, map);
+    if (map.state == fsr::MapState::kSizeMismatch) {
+      throw fsr::InputError("the scans are of " + fsr::sizeText(scan.layout.size) + " taxels up to " +
+                            std::to_string(scan.full_scale) + " counts, but the calibration is of " +
+                            fsr::sizeText(loaded_->calibrator.layout().size) +
+                            " or another full scale; give the one that belongs to this matrix");
+    }
     scan.layout = map.layout;
     scan.map = std::move(map);
   }

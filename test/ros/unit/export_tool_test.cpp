@@ -183,6 +183,35 @@ TEST_F(ExportTool, WritesTekscanFrames) {
   EXPECT_NE(text.find("SECONDS_PER_FRAME 0.1000"), std::string::npos);
 }
 
+TEST_F(ExportTool, DrawsMapsInThePaceThatIsAskedFor) {
+  const std::string bag = withMaps(), pictures = folder_.path("pictures");
+  EXPECT_EQ(run({bag, "--to", "png", "--output", pictures, "--rate", "2", "--until", "3"}),
+            "7 scans are in " + pictures + "\n");
+  EXPECT_EQ(std::distance(fs::directory_iterator(pictures), {}), 7);
+  EXPECT_NE(run({bag, "--to", "png", "--output", pictures}).find("is there already"), std::string::npos);
+  run({bag, "--to", "movie", "--output", folder_.path("maps.png"), "--until", "2", "--unit", "mmHg"});
+  EXPECT_GT(fs::file_size(folder_.path("maps.png")), 20000u);
+  EXPECT_NE(run({bag_, "--to", "png", "--output", folder_.path("none")})
+                .find("compute the maps with --calibration"),
+            std::string::npos);
+  EXPECT_NE(
+      run({bag, "--to", "png", "--output", folder_.path("none"), "--range", "5"}).find("--range is \"5\""),
+      std::string::npos);
+  EXPECT_NE(
+      run({bag, "--to", "csv", "--output", csv_, "--unit", "kPa"}).find("--unit does not go with --to csv"),
+      std::string::npos);
+  EXPECT_FALSE(fs::exists(folder_.path("none")));
+}
+
+TEST_F(ExportTool, RefusesACalibrationOfAnotherMatrix) {
+  const std::string calibration = folder_.path("calibration.h5");
+  fsr::saveCalibration(test_support::smallCalibration({3, 3}, {0.0}), calibration);
+  EXPECT_NE(run({bag_, "--to", "csv", "--output", csv_, "--calibration", calibration})
+                .find("the scans are of 2 x 3 taxels up to 1023 counts, but the calibration is of 3 x 3"),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(csv_));
+}
+
 // A message as a bag holds it.
 using Held = std::tuple<std::string, std::string, std::uint64_t, std::string, ros::M_string>;
 

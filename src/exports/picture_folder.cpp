@@ -1,0 +1,47 @@
+#include "fsr_pressure_map/exports/picture_folder.h"
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/settings/replace_file.h"
+
+namespace fsr {
+
+namespace {
+
+// Checked before FreshPath, which would only say that it is a directory.
+std::string newFolder(const std::string& path) {
+  if (std::filesystem::exists(path)) {
+    throw InputError(path + ": is there already; give the name of a new folder with --output");
+  }
+  return path;
+}
+
+}  // namespace
+
+PictureFolder::PictureFolder(const std::string& path, const PictureOptions& options)
+    : PictureSink(options), path_(newFolder(path)), fresh_(path) {
+  std::error_code error;
+  if (!std::filesystem::create_directory(fresh_.name(), error)) throw cannotWrite(path, error.value());
+}
+
+void PictureFolder::picture(std::int64_t /*since_ns*/, const Image& image) {
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "/map_%06zu.png", ++pictures_);
+  const std::string bytes = pngOf(image);
+  std::ofstream file(fresh_.name() + name.data(), std::ios::binary);
+  errno = 0;
+  if (!file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush()) {
+    throw cannotWrite(path_, errno != 0 ? errno : EIO);
+  }
+}
+
+void PictureFolder::finish() {
+  fresh_.finish();
+}
+
+}  // namespace fsr
