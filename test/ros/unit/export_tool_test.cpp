@@ -10,6 +10,7 @@
 #include <std_msgs/Duration.h>
 #include <std_msgs/Empty.h>
 #include <std_msgs/Float64.h>
+#include <std_msgs/Header.h>
 #include <std_msgs/String.h>
 #include <std_msgs/UInt8MultiArray.h>
 
@@ -109,7 +110,7 @@ class ExportTool : public testing::Test {
         map.pressure.push_back(static_cast<float>(counts) * 100.1f);
       map.deviation.assign(6, 1000);
       map.flags.assign(6, 0);
-      to.write("/fsr/pressure_map", instance.getTime() + ros::Duration(0.003), map);
+      to.write("/fsr/pressure_map", instance.getTime() + ros::Duration(0.25), map);  // after the next scans
     }
     fsr_pressure_map::Event event;
     event.header.stamp.fromNSec(kStart + 5000000000);
@@ -258,6 +259,9 @@ void addOddMessages(const std::string& path) {
     std_msgs::UInt8MultiArray array;
     array.data.assign(static_cast<std::size_t>(i % 5), 7);
     bag.write("/odd name", time, array);
+    std_msgs::Header unusual;
+    unusual.stamp.nsec = 2000000000;  // more than a second of them
+    bag.write("/unusual", time, unusual);
     bag.write("/empty", time, std_msgs::Empty());
   }
 }
