@@ -19,25 +19,14 @@ namespace {
 
 constexpr char kFormat[] = "fsr_pressure_map calibration";
 constexpr std::size_t kIdDigits = 12;
+// 32 x 32 taxels of 16 bit with six classes fit [bytes].
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{4} << 30;
 
 // The whole user block: a line of text, the rest zeros.
 std::string userBlock(std::uint64_t schema, const std::string& hash) {
   std::string block = std::string(kFormat) + " schema=" + std::to_string(schema) + " sha256=" + hash + "\n";
   block.resize(kUserBlock, '\0');
   return block;
-}
-
-std::string readWhole(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError("cannot be opened (" + std::string(std::strerror(errno)) + ")");
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) throw InputError("is no file; give the path of a calibration file");
-  std::string bytes(size, '\0');
-  if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) {
-    throw InputError("cannot be read to its end; is it being written?");
-  }
-  return bytes;
 }
 
 // The schema that the user block names; refuses what is no calibration file.
@@ -50,11 +39,36 @@ std::uint64_t schemaOf(const std::string& bytes) {
   return std::strtoull(bytes.c_str() + start.size(), nullptr, 10);
 }
 
+void readUpTo(std::uintmax_t size, std::ifstream& file, std::string& bytes) {
+  const std::size_t begin = bytes.size();
+  bytes.resize(size);
+  if (!file.read(bytes.data() + begin, static_cast<std::streamsize>(size - begin))) {
+    throw InputError("cannot be read to its end; is it being written?");
+  }
+}
+
+// The file; of one that is no calibration no more than its first line.
+std::string readWhole(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError("cannot be opened (" + std::string(std::strerror(errno)) + ")");
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) throw InputError("is no file; give the path of a calibration file");
+  std::string bytes;
+  readUpTo(std::min<std::uintmax_t>(size, kUserBlock), file, bytes);
+  schemaOf(bytes);
+  if (size > kLargestFile) throw InputError("is larger than 4 GiB, which no calibration is");
+  readUpTo(size, file, bytes);
+  return bytes;
+}
+
 // The id; refuses bytes that do not have the hash that the user block names.
-std::string verified(const std::string& bytes, std::uint64_t schema) {
+std::string verified(const std::string& bytes) {
   const std::size_t content = bytes.size() - std::min(bytes.size(), kUserBlock);
   const std::string hash = sha256(bytes.data() + bytes.size() - content, content);
-  if (content == 0 || bytes.compare(0, kUserBlock, userBlock(schema, hash)) != 0) {
+  // The hash does not cover the line's own number, so that this is held against what the schema brought.
+  const std::uint64_t own = bytes.find(kRuleMeaning) == std::string::npos ? 1 : kCalibrationSchema;
+  if (content == 0 || bytes.compare(0, kUserBlock, userBlock(own, hash)) != 0) {
     throw InputError(
         "is damaged or cut short: its bytes do not have the SHA-256 that its first line names; "
         "copy the file again or train again");
@@ -92,7 +106,7 @@ Calibration loadCalibration(const std::string& path, CalibrationParts parts) {
       throw InputError("has schema " + std::to_string(schema) + ", but this version reads up to " +
                        std::to_string(kCalibrationSchema) + "; update the package");
     }
-    const std::string id = verified(bytes, schema);
+    const std::string id = verified(bytes);
     Calibration calibration = readCalibration(Hdf5Reader(bytes), parts);
     calibration.id = id;
     return calibration;

@@ -42,6 +42,12 @@ void writeLayout(const Calibration& calibration, Hdf5Writer& writer) {
                  "1 = masked in the bags");
 }
 
+void requireNoneOrEach(std::size_t values, MatrixSize size) {
+  if (values == 0 || values == size.taxels()) return;
+  throw InputError("its /layout/masked has " + std::to_string(values) +
+                   " values, but must have one for each of " + std::to_string(size.taxels()) + " taxels");
+}
+
 std::uint16_t readSide(const Hdf5Reader& reader, const std::string& name) {
   const std::uint64_t side = reader.integer("/layout", name);
   if (side < 1 || side > kMaxMatrixSide) {
@@ -171,6 +177,7 @@ Calibration readCalibration(const Hdf5Reader& reader, CalibrationParts parts) {
   calibration.no_model = reader.dataset<std::uint8_t>("/layout/no_model", {calibration.layout.size.taxels()});
   if (reader.has("/layout/masked")) {
     calibration.masked = reader.dataset<std::uint8_t>("/layout/masked", reader.shape("/layout/masked"));
+    requireNoneOrEach(calibration.masked.size(), calibration.layout.size);
   }
   calibration.trained = readTrained(reader);
   calibration.provenance = readProvenance(reader);
@@ -179,7 +186,8 @@ Calibration readCalibration(const Hdf5Reader& reader, CalibrationParts parts) {
   readRule(reader, calibration.tables);
   calibration.tables.curvature_low = calibration.trained.curvature.low;
   calibration.tables.curvature_high = calibration.trained.curvature.high;
-  TrainingStatistics statistics = readStatistics(reader, parts == CalibrationParts::kAll);
+  TrainingStatistics statistics =
+      readStatistics(reader, calibration.layout.size, parts == CalibrationParts::kAll);
   calibration.coverage = readCoverage(reader, statistics.classes);
   if (reader.integer("/", "scored") != 0) calibration.scores = readScores(reader, statistics.classes);
   statistics.full_scale = calibration.tables.full_scale;

@@ -1,6 +1,7 @@
 #include "fsr_pressure_map/calibration/calibrator.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -54,6 +55,11 @@ inline TableEntry between(const TableEntry* table, std::uint16_t code, unsigned 
   const float share = static_cast<float>(code & (step - 1)) / static_cast<float>(step);
   return {entry[0].pressure + share * (entry[1].pressure - entry[0].pressure),
           entry[0].deviation + share * (entry[1].deviation - entry[0].deviation)};
+}
+
+bool allFinite(const TableEntry* table, std::size_t entries) {
+  return std::all_of(table, table + entries,
+                     [](const TableEntry& entry) { return std::isfinite(entry.pressure); });
 }
 
 void requireEach(const char* what, std::size_t values, MatrixSize size) {
@@ -137,14 +143,14 @@ void Calibrator::selectTable(std::size_t taxel, double curvature) {
   table_[taxel] = blend ? blended(taxel, curvature) : tables_.table(taxel, chosen);
   lowest_[taxel] = trained.lowest;
   highest_[taxel] = trained.highest;
-  model_[taxel] = trained.model;
+  model_[taxel] = trained.model && (!blend || blended_for_[taxel].finite);
 }
 
 const TableEntry* Calibrator::blended(std::size_t taxel, double curvature) {
   const std::size_t stride = tables_.entries() + PackedTables::kPadding;
   if (blended_.empty()) {
     blended_.resize(table_.size() * stride);
-    blended_for_.assign(table_.size(), {std::numeric_limits<double>::quiet_NaN(), 0});
+    blended_for_.assign(table_.size(), {std::numeric_limits<double>::quiet_NaN(), 0, false});
   }
   const std::size_t chosen = switch_.choices()[taxel].curvature_class;
   TableEntry* const table = blended_.data() + taxel * stride;
@@ -152,7 +158,8 @@ const TableEntry* Calibrator::blended(std::size_t taxel, double curvature) {
   if (now.chosen == chosen && std::abs(now.curvature - curvature) <= options_.curvature_step) return table;
   blendTable(rule_, rule_.blend == BlendRule::kKernel ? rule_.lengthScale(taxel) : 0, tables_.tables(taxel),
              curvature, chosen, table);
-  now = {curvature, chosen};
+  // A rule that is off, or a class without a model, may blend to what is no pressure: then there is none.
+  now = {curvature, chosen, allFinite(table, tables_.entries())};
   return table;
 }
 

@@ -25,7 +25,8 @@ hid_t openImage(const std::string& bytes) {
 
 }  // namespace
 
-Hdf5Reader::Hdf5Reader(const std::string& bytes) : lock_(hdf5Mutex()), file_(openImage(bytes)) {
+Hdf5Reader::Hdf5Reader(const std::string& bytes)
+    : lock_(hdf5Mutex()), file_(openImage(bytes)), size_(bytes.size()) {
   if (file_ < 0) throw InputError("what follows its first 512 bytes is no HDF5 file");
 }
 
@@ -44,6 +45,10 @@ std::string Hdf5Reader::text(const std::string& path, const std::string& name) c
   const Handle type(H5Aget_type(attribute), H5Tclose, what);
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) {
     throw InputError("its HDF5 part holds " + what + ", but not as a text of fixed length");
+  }
+  const Handle space(H5Aget_space(attribute), H5Sclose, what);
+  if (H5Sget_simple_extent_npoints(space) != 1) {
+    throw InputError("its HDF5 part holds " + what + ", but not as one text");
   }
   std::string text(H5Tget_size(type), '\0');
   require(H5Aread(attribute, type, text.data()), what);
@@ -82,7 +87,18 @@ std::vector<std::size_t> Hdf5Reader::shape(const std::string& path) const {
   const Handle space(H5Dget_space(dataset), H5Sclose, path);
   std::vector<hsize_t> size(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
   require(H5Sget_simple_extent_dims(space, size.data(), nullptr), path);
+  requireRoom(path, {size.begin(), size.end()}, 1);
   return {size.begin(), size.end()};
+}
+
+// Shapes are claims; nothing is compressed, so that values need at least a byte each in the file.
+void Hdf5Reader::requireRoom(const std::string& path, const std::vector<std::size_t>& shape,
+                             std::size_t bytes) const {
+  std::size_t left = size_ / std::max<std::size_t>(bytes, 1);
+  for (const std::size_t length : shape) {
+    if (length > left) throw InputError("its " + path + " claims more values than the file has bytes");
+    left /= std::max<std::size_t>(length, 1);
+  }
 }
 
 template <typename T>
@@ -105,7 +121,9 @@ std::vector<std::string> Hdf5Reader::texts(const std::string& path) const {
     throw InputError("its " + path + " does not hold texts of fixed length");
   }
   const std::size_t length = H5Tget_size(type);
-  std::string padded(length * elements(shape(path)), '\0');
+  const std::vector<std::size_t> size = shape(path);
+  requireRoom(path, size, length);
+  std::string padded(length * elements(size), '\0');
   if (!padded.empty()) require(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, padded.data()), path);
   std::vector<std::string> texts;
   for (std::size_t at = 0; at < padded.size(); at += length) texts.push_back(trimmed(&padded[at], length));

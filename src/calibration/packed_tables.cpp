@@ -19,7 +19,14 @@ void requireWhole(const CurvatureTables& tables) {
   }
 }
 
-// One value for each code, all of them finite or, for want of a model, all of them NaN.
+// No sensor's, and far from where sums and differences of floats run over [Pa].
+constexpr float kBeyondAnyPressure = 1e12f;
+
+bool usable(float value) {
+  return std::abs(value) < kBeyondAnyPressure;
+}
+
+// One usable value for each code or, for want of a model, NaN throughout.
 void requireSound(const CodeTable& table, std::size_t codes, std::size_t number) {
   const std::string which = "calibration: table " + std::to_string(number);
   if (table.pressure.size() != codes || table.deviation.size() != codes ||
@@ -29,7 +36,7 @@ void requireSound(const CodeTable& table, std::size_t codes, std::size_t number)
   }
   const bool model = !std::isnan(table.pressure.front());
   for (std::size_t code = 0; code < codes; ++code) {
-    const bool finite = std::isfinite(table.pressure[code]) && std::isfinite(table.deviation[code]);
+    const bool finite = usable(table.pressure[code]) && usable(table.deviation[code]);
     const bool absent = std::isnan(table.pressure[code]) && std::isnan(table.deviation[code]);
     if (model ? !finite : !absent) {
       throw InputError(which + " is not finite at code " + std::to_string(code) + ", but must be in Pa");

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "fsr_pressure_map/calibration/calibration_hdf5.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
@@ -34,13 +36,21 @@ void requireSameLength(const std::vector<double>& a, const std::vector<double>& 
   if (a.size() != b.size()) throw InputError("its columns of " + group + " differ in length");
 }
 
+void requireAscending(const std::vector<double>& knots, const std::string& group) {
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    if (!std::isfinite(knots[i]) || (i > 0 && !(knots[i - 1] < knots[i]))) {
+      throw InputError("its knots of " + group + " do not ascend");
+    }
+  }
+}
+
 }  // namespace
 
 void writeRule(const CurvatureTables& tables, Hdf5Writer& writer) {
   const CurvatureRule& rule = tables.rule;
   writer.group("/rule");
   writer.attribute("/rule", "blend", blendName(rule.blend));
-  writer.attribute("/rule", "meaning", "how the tables of the classes become the table of any curvature");
+  writer.attribute("/rule", "meaning", kRuleMeaning);
   const auto column = [&](const std::string& path, const std::vector<double>& values, const std::string& unit,
                           const std::string& meaning) {
     if (!values.empty()) writer.dataset(path, values, {values.size()}, unit, meaning);
@@ -82,6 +92,8 @@ void readRule(const Hdf5Reader& reader, CurvatureTables& tables) {
     const auto models = reader.dataset<std::uint64_t>("/rule/model_of_class", {tables.classes.size()});
     rule.model_of_class.assign(models.begin(), models.end());
   }
+  requireAscending(rule.law.curvature, "/rule/law");
+  requireAscending(rule.unseen.pressure, "/rule/unseen");
   requireSameLength(rule.law.curvature, rule.law.gain, "/rule/law");
   requireSameLength(rule.law.curvature, rule.law.offset, "/rule/law");
   requireSameLength(rule.unseen.pressure, rule.unseen.deviation, "/rule/unseen");

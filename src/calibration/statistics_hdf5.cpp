@@ -65,6 +65,7 @@ std::vector<CodeStatistics> cellsOf(const Rows& rows) {
   return cells;
 }
 
+constexpr std::size_t kMostSections = 1000;  // far beyond what training cuts
 constexpr char kConditions[] = "/statistics/conditions";
 
 void writeConditions(const std::vector<RecordedCondition>& conditions, Hdf5Writer& writer) {
@@ -81,10 +82,10 @@ void writeConditions(const std::vector<RecordedCondition>& conditions, Hdf5Write
 }
 
 // None in the first files.
-std::vector<RecordedCondition> readConditions(const Hdf5Reader& reader) {
+std::vector<RecordedCondition> readConditions(MatrixSize size, const Hdf5Reader& reader) {
   if (!reader.has(kConditions)) return {};
   std::vector<RecordedCondition> conditions;
-  const std::vector<CurvatureClass> classes = readClasses(kConditions, reader);
+  const std::vector<CurvatureClass> classes = readClasses(kConditions, size, reader);
   const auto scans = reader.dataset<std::uint64_t>(kConditions + std::string("/scans"), {classes.size()});
   for (std::size_t i = 0; i < classes.size(); ++i) conditions.push_back({classes[i], scans[i]});
   return conditions;
@@ -111,14 +112,18 @@ void writeStatistics(const TrainingStatistics& statistics, Hdf5Writer& writer) {
                  "lower 64 bits, likewise");
 }
 
-TrainingStatistics readStatistics(const Hdf5Reader& reader, bool cells) {
+TrainingStatistics readStatistics(const Hdf5Reader& reader, MatrixSize size, bool cells) {
   TrainingStatistics statistics;
-  statistics.classes = readClasses("/statistics", reader);
+  statistics.classes = readClasses("/statistics", size, reader);
   statistics.taxels = reader.integer("/statistics", "taxels");
   statistics.sections = reader.integer("/statistics", "sections");
+  const bool whole = statistics.taxels == size.taxels() || statistics.classes.empty();
+  if (!whole || statistics.sections > kMostSections) {
+    throw InputError("its /statistics taxels or sections do not fit the matrix");
+  }
   if (!cells) return statistics;
   Rows rows;
-  const std::size_t number = statistics.taxels * statistics.classes.size() * statistics.sections;
+  const std::size_t number = size.taxels() * statistics.classes.size() * statistics.sections;
   rows.first = reader.dataset<std::uint64_t>("/statistics/first", {number + 1});
   rows.code = reader.dataset<std::uint16_t>("/statistics/code", {rows.first.back()});
   rows.count = reader.dataset<std::uint32_t>("/statistics/count", {rows.first.back()});
@@ -127,7 +132,7 @@ TrainingStatistics readStatistics(const Hdf5Reader& reader, bool cells) {
   rows.square_high = reader.dataset<std::int64_t>("/statistics/square_high", squares);
   rows.square_low = reader.dataset<std::uint64_t>("/statistics/square_low", squares);
   statistics.cells = cellsOf(rows);
-  statistics.conditions = readConditions(reader);
+  statistics.conditions = readConditions(size, reader);
   return statistics;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "fsr_pressure_map/calibration/calibration_hdf5.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -21,13 +22,16 @@ void writeClasses(const std::string& group, const std::vector<CurvatureClass>& c
                  "principal curvature of each class, one for all taxels or one each");
 }
 
-std::vector<CurvatureClass> readClasses(const std::string& group, const Hdf5Reader& reader) {
+std::vector<CurvatureClass> readClasses(const std::string& group, MatrixSize size, const Hdf5Reader& reader) {
   const std::vector<std::string> surfaces = reader.texts(group + "/surfaces");
   const std::vector<std::size_t> shape = reader.shape(group + "/curvature");
-  if (shape.size() != 2 || shape[0] != surfaces.size() || shape[1] == 0) {
-    throw InputError("its " + group + "/curvature does not fit " + group + "/surfaces");
+  if (shape.size() != 2 || shape[0] != surfaces.size() || (shape[1] != 1 && shape[1] != size.taxels())) {
+    throw InputError("its " + group + "/curvature does not fit " + group + "/surfaces and the matrix");
   }
   const auto curvature = reader.dataset<double>(group + "/curvature", shape);
+  if (!std::all_of(curvature.begin(), curvature.end(), [](double value) { return std::isfinite(value); })) {
+    throw InputError("its " + group + "/curvature is not finite");
+  }
   std::vector<CurvatureClass> classes;
   for (std::size_t c = 0; c < surfaces.size(); ++c) {
     const auto row = curvature.begin() + static_cast<std::ptrdiff_t>(c * shape[1]);
@@ -73,7 +77,7 @@ CurvatureTables readTables(const Hdf5Reader& reader, MatrixSize size) {
   tables.size = size;
   tables.full_scale =
       static_cast<std::uint16_t>(std::min<std::uint64_t>(reader.integer("/", "full_scale"), 65535));
-  tables.classes = readClasses("/tables", reader);
+  tables.classes = readClasses("/tables", size, reader);
   tables.class_tolerance = reader.numbers("/tables", "class_tolerance", 1)[0];
   const std::size_t codes = tables.full_scale + 1u;
   tables.tables.resize(size.taxels() * tables.classes.size());

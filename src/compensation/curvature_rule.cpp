@@ -36,7 +36,7 @@ double cubic(const std::vector<double>& x, const std::vector<double>& y, std::si
 EffectLaw::Effect EffectLaw::at(double at) const {
   if (curvature.empty()) return {1.0, 0.0};
   if (at <= curvature.front()) return {gain.front(), offset.front()};
-  if (at >= curvature.back()) return {gain.back(), offset.back()};
+  if (!(at < curvature.back())) return {gain.back(), offset.back()};  // nor NaN
   const auto above = std::upper_bound(curvature.begin(), curvature.end(), at);
   const auto i = static_cast<std::size_t>(above - curvature.begin()) - 1;
   return {cubic(curvature, gain, i, at), cubic(curvature, offset, i, at)};
@@ -54,7 +54,7 @@ EffectLaw::Effect straightening(const EffectLaw& law, double low, double high, d
 
 double UnseenDeviation::at(double asked) const {
   if (asked <= pressure.front()) return deviation.front();
-  if (asked >= pressure.back()) return deviation.back();
+  if (!(asked < pressure.back())) return deviation.back();  // nor NaN
   const auto above = std::upper_bound(pressure.begin(), pressure.end(), asked);
   const auto i = static_cast<std::size_t>(above - pressure.begin()) - 1;
   const double share = (asked - pressure[i]) / (pressure[i + 1] - pressure[i]);

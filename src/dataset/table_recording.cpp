@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <tuple>
 
@@ -10,6 +11,9 @@
 namespace fsr {
 
 namespace {
+
+constexpr double kLargestValue = 1e15;  // of no sensor, in any unit
+constexpr double kLatestTime = 4e9;     // [s]: what nanoseconds in 64 bits hold, with the year 2000 before it
 
 // A column of the plan, found in the table.
 struct Source {
@@ -63,6 +67,7 @@ class Reader {
   Row readRow() const;
   void readOther(ColumnRole role, const Source& source, Row& row) const;
   double reading(const Source& source) const;
+  double inRange(const Source& source, double value, double largest) const;
   void append(const Row& row, Recording& recording);
   ReadingScale scale() const;
   void convert(const ReadingScale& scale, Recording& recording) const;
@@ -76,14 +81,21 @@ class Reader {
   std::vector<std::size_t> lines_;  // of each scan
 };
 
+double Reader::inRange(const Source& source, double value, double largest) const {
+  if (std::abs(value) <= largest) return value;
+  std::ostringstream complaint;
+  complaint << "is " << table_.text(source.column) << ", but in SI units must be " << largest << " at most";
+  throw table_.error(source.column, complaint.str());
+}
+
 double Reader::reading(const Source& source) const {
   const TableUnit& unit = source.unit;
-  if (!unit.inverse) return unit.factor * table_.number(source.column);
+  if (!unit.inverse) return inRange(source, unit.factor * table_.number(source.column), kLargestValue);
   const double resistance = unit.factor * table_.numberOrInfinity(source.column);
   if (!(resistance > 0))
     throw table_.error(source.column,
                        "is a resistance of " + table_.text(source.column) + ", but must be more than 0");
-  return 1 / resistance;
+  return inRange(source, 1 / resistance, kLargestValue);
 }
 
 void Reader::readOther(ColumnRole role, const Source& source, Row& row) const {
@@ -91,7 +103,9 @@ void Reader::readOther(ColumnRole role, const Source& source, Row& row) const {
     row.surface.name = table_.text(source.column);
     return;
   }
-  const double value = source.unit.factor * (table_.number(source.column) + source.unit.offset);
+  const double value =
+      inRange(source, source.unit.factor * (table_.number(source.column) + source.unit.offset),
+              role == ColumnRole::kTime ? kLatestTime : kLargestValue);
   if (role == ColumnRole::kTime) row.time = value;
   if (role == ColumnRole::kTemperature) row.temperature = value;
   if (role == ColumnRole::kCurvature) row.surface.curvature = {Curvature{value, 0, 0}};
@@ -100,8 +114,8 @@ void Reader::readOther(ColumnRole role, const Source& source, Row& row) const {
     row.pressure = pressure - plan_.ambient_pressure.value_or(0);
   }
   if (role == ColumnRole::kMount) {
-    if (value < 0 || value != std::floor(value))
-      throw table_.error(source.column, "must be a whole number, 0 or more");
+    if (value < 0 || value > std::numeric_limits<std::uint32_t>::max() || value != std::floor(value))
+      throw table_.error(source.column, "must be a whole number, 0 to 4294967295");
     row.surface.mount = static_cast<std::uint32_t>(value);
   }
 }

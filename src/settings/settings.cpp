@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <sstream>
@@ -22,6 +23,9 @@ struct Settings::Node {
 
 namespace {
 
+// A surface of 255 x 255 taxels takes 4 MiB [bytes].
+constexpr std::uintmax_t kLargestFile = 16 << 20;
+
 std::string oneLine(const YAML::Node& node) {
   if (node.IsScalar()) return node.Scalar();
   if (node.IsSequence()) return "a list of " + std::to_string(node.size());
@@ -35,11 +39,16 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-// yaml-cpp keeps the last of two equal keys in silence; a setting given twice is a mistake to name.
-void refuseDoubleKeys(const YAML::Node& mapping, const std::string& origin, const std::string& path) {
+// yaml-cpp keeps the last of two equal keys in silence; a setting given twice is a mistake to name. And YAML
+// lets lists and mappings be keys.
+void refuseBadKeys(const YAML::Node& mapping, const std::string& origin, const std::string& path) {
   std::set<std::string> seen;
   for (const auto& entry : mapping) {
-    const std::string key = entry.first.as<std::string>();
+    if (!entry.first.IsScalar()) {
+      throw InputError(origin + ": a key" + (path.empty() ? "" : " of " + path) + " is " +
+                       oneLine(entry.first) + ", but must be a name");
+    }
+    const std::string& key = entry.first.Scalar();
     if (!seen.insert(key).second) {
       throw InputError(origin + ": " + (path.empty() ? key : path + "." + key) + " is given twice; keep one");
     }
@@ -49,7 +58,7 @@ void refuseDoubleKeys(const YAML::Node& mapping, const std::string& origin, cons
 }  // namespace
 
 Settings::Settings(std::shared_ptr<Node> node) : node_(std::move(node)) {
-  refuseDoubleKeys(node_->yaml, node_->origin, node_->path);
+  refuseBadKeys(node_->yaml, node_->origin, node_->path);
 }
 
 static YAML::Node topMapping(const std::string& origin, const YAML::Node& yaml) {
@@ -61,6 +70,11 @@ static YAML::Node topMapping(const std::string& origin, const YAML::Node& yaml) 
 }
 
 Settings Settings::fromFile(const std::string& path) {
+  std::error_code unknown;
+  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+  if (!unknown && size > kLargestFile) {
+    throw InputError(path + ": is larger than 16 MiB; is it a settings file?");
+  }
   YAML::Node yaml;
   try {
     yaml = YAML::LoadFile(path);
@@ -199,7 +213,7 @@ std::vector<Settings> Settings::sections(const std::string& key) const {
 
 std::vector<std::string> Settings::keys() const {
   std::vector<std::string> result;
-  for (const auto& entry : node_->yaml) result.push_back(entry.first.as<std::string>());
+  for (const auto& entry : node_->yaml) result.push_back(entry.first.Scalar());
   return result;
 }
 

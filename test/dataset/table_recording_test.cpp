@@ -220,5 +220,14 @@ TEST(TableColumns, AreRefusedWithWhatWouldBeRight) {
   EXPECT_EQ(parseColumns("time=1:ms,reading=a:b:V")[1].column, "a:b");  // a name with a colon, unit given
 }
 
+TEST_F(Table, RefusesWhatLeavesTheRangeOfItsUnit) {
+  expectComplaint("0,1,1e-320\n1,2,5\n", "time=1,reference=2,reading=3:ohm",
+                  {"line 1, column 3: is 1e-320, but in SI units must be 1e+15 at most"});
+  expectComplaint("0,1e308,1\n1,2,5\n", "time=1,reference=2:psi,reading=3:V", {"column 2: is 1e308, but"});
+  expectComplaint("1e300,1,1\n2e300,2,5\n", "time=1,reference=2,reading=3:V", {"must be 4e+09 at most"});
+  expectComplaint("0,1,1,5e9\n1,2,5,5e9\n", "time=1,reference=2,reading=3:V,mount=4",
+                  {"column 4: must be a whole number, 0 to 4294967295"});
+}
+
 }  // namespace
 }  // namespace fsr

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 
 namespace fsr {
@@ -67,11 +69,25 @@ TEST(Settings, RefusesAKeyGivenTwice) {
             "rig.yaml: rate is given twice; keep one");
 }
 
+TEST(Settings, RefusesAKeyThatIsNoName) {
+  EXPECT_EQ(messageOf([] { Settings::fromText("rate: 1\n? [a, b]\n: 2", "rig.yaml"); }),
+            "rig.yaml: a key is a list of 2, but must be a name");
+  const auto settings = Settings::fromText("chamber: {~: 1}", "rig.yaml");
+  EXPECT_EQ(messageOf([&] { settings.section("chamber"); }),
+            "rig.yaml: a key of chamber is empty, but must be a name");
+}
+
 TEST(Settings, RefusesAFileThatIsNoMappingOrNoYaml) {
   EXPECT_THROW(Settings::fromText("- 1\n- 2", "rig.yaml"), InputError);
   EXPECT_THROW(Settings::fromText("", "rig.yaml"), InputError);
   EXPECT_THROW(Settings::fromText("a: [1, 2", "rig.yaml"), InputError);
   EXPECT_THROW(Settings::fromFile("/nowhere/rig.yaml"), InputError);
+  const std::string large = testing::TempDir() + "settings_large.yaml";
+  std::ofstream(large) << "a: 1\n";
+  std::filesystem::resize_file(large, 20 << 20);
+  EXPECT_EQ(messageOf([&] { Settings::fromFile(large); }),
+            large + ": is larger than 16 MiB; is it a settings file?");
+  std::filesystem::remove(large);
 }
 
 TEST(Settings, NamesTheBadEntryOfAList) {

@@ -30,6 +30,9 @@ namespace fsr {
 // Taxels are row-major. Numbers carry `unit`, everything says its `meaning`.
 constexpr std::uint64_t kCalibrationSchema = 2;
 
+// Stands in every file from schema 2 on, and in none before.
+constexpr char kRuleMeaning[] = "how the tables of the classes become the table of any curvature";
+
 void writeCalibration(const Calibration& calibration, Hdf5Writer& writer);
 
 /// Throws InputError that names what is missing or does not fit.
@@ -46,8 +49,8 @@ void writeScores(const CalibrationScores& scores, Hdf5Writer& writer);
 CalibrationScores readScores(const Hdf5Reader& reader, const std::vector<CurvatureClass>& classes);
 void writeStatistics(const TrainingStatistics& statistics, Hdf5Writer& writer);
 /// `cells` = whether to read the sums too, not the classes alone.
-TrainingStatistics readStatistics(const Hdf5Reader& reader, bool cells);
+TrainingStatistics readStatistics(const Hdf5Reader& reader, MatrixSize size, bool cells);
 void writeClasses(const std::string& group, const std::vector<CurvatureClass>& classes, Hdf5Writer& writer);
-std::vector<CurvatureClass> readClasses(const std::string& group, const Hdf5Reader& reader);
+std::vector<CurvatureClass> readClasses(const std::string& group, MatrixSize size, const Hdf5Reader& reader);
 
 }  // namespace fsr

@@ -34,7 +34,7 @@ struct CalibratorOptions {
 ///   kCurvatureExtrapolated  curvature of a sign or size that training never saw
 ///   kBetweenClasses         curvature farther than the class tolerance from the class in use
 ///   kDead, kStuck           see TaxelWatch; no reading (NaN) unless filled (kFilled)
-///   kMasked                 masked, or training gave it no model: no reading, and never filled, for
+///   kMasked                 masked, or there is no model for it here: no reading, and never filled, for
 ///                           there may be no sheet at all
 ///   kTared                  an offset was taken off
 ///
@@ -102,6 +102,7 @@ class Calibrator {
   struct Blended {
     double curvature;
     std::size_t chosen;
+    bool finite;
   };
   std::vector<TableEntry> blended_;   // [taxels x stride]
   std::vector<Blended> blended_for_;  // [taxels]

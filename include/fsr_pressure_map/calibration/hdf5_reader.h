@@ -9,7 +9,8 @@
 namespace fsr {
 
 /// Reads what Hdf5Writer writes, from the bytes of a whole file. Every function throws InputError that
-/// names the object where it is missing or of another shape.
+/// names the object where it is missing or of another shape, or claims more values than the file has bytes:
+/// what is read takes at most eight times the file's size.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::string& bytes);
@@ -29,8 +30,11 @@ class Hdf5Reader {
   std::vector<std::string> texts(const std::string& path) const;
 
  private:
+  void requireRoom(const std::string& path, const std::vector<std::size_t>& shape, std::size_t bytes) const;
+
   std::lock_guard<std::mutex> lock_;
   std::int64_t file_;
+  std::size_t size_;  // [bytes]
 };
 
 }  // namespace fsr

@@ -1,0 +1,137 @@
+// A hash is no signature: a file with a right one may still hold anything. What does not fit is refused in a
+// sentence; what fits gives no pressure without meaning.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/calibration/calibrator.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "support/small_calibration.h"
+
+namespace fsr {
+namespace {
+
+constexpr MatrixSize kSize{2, 2};
+constexpr std::uint16_t kFullScale = 1023;
+
+class HostileFile : public testing::Test {
+ protected:
+  ~HostileFile() override { std::remove(path_.c_str()); }
+
+  // The sentence after the path, or "accepted".
+  std::string complaint() const {
+    try {
+      loadCalibration(path_, CalibrationParts::kAll);
+    } catch (const InputError& error) {
+      return std::string(error.what()).substr(path_.size() + 2);
+    }
+    return "accepted";
+  }
+  std::string complaintAbout(const std::function<void(Calibration&)>& spoil) const {
+    Calibration calibration = sound();
+    spoil(calibration);
+    saveCalibration(calibration, path_);
+    return complaint();
+  }
+  static Calibration sound() {
+    Calibration calibration = test_support::smallCalibration(kSize, {0.0, 10.0}, "A", kFullScale);
+    calibration.tables.scheme = Scheme::kCurvatureMap;
+    calibration.tables.rule.blend = BlendRule::kInterpolate;
+    return calibration;
+  }
+
+  // Python changes `f`, the file, and seals it anew; false where there is no h5py.
+  bool change(const std::string& statements) const {
+    saveCalibration(sound(), path_);
+    std::ofstream(path_ + ".py") << "import h5py, hashlib, numpy, sys\n"
+                                 << "with h5py.File(sys.argv[1], 'r+') as f:\n    " << statements
+                                 << "\ncontent = open(sys.argv[1], 'rb').read()\n"
+                                 << "digest = hashlib.sha256(content[512:]).hexdigest().encode()\n"
+                                 << "open(sys.argv[1], 'wb').write(content[:45] + digest + content[109:])\n";
+    const int status = std::system(("/usr/bin/python3 " + path_ + ".py " + path_).c_str());
+    std::remove((path_ + ".py").c_str());
+    return status == 0;
+  }
+
+  const std::string path_ = testing::TempDir() + "hostile_" + std::to_string(::getpid()) + ".h5";
+};
+
+TEST_F(HostileFile, WhatDoesNotFitIsRefused) {
+  EXPECT_EQ(complaintAbout([](Calibration&) {}), "accepted");
+  EXPECT_EQ(complaintAbout([](Calibration& c) {
+              c.tables.classes[1].curvature = {1, 2, 3};
+            }),
+            "its /tables/curvature does not fit /tables/surfaces and the matrix");
+  EXPECT_EQ(complaintAbout([](Calibration& c) { c.tables.classes[1].curvature = {NAN}; }),
+            "its /tables/curvature is not finite");
+  EXPECT_EQ(complaintAbout([](Calibration& c) {
+              c.masked = {1, 0, 0};
+            }),
+            "its /layout/masked has 3 values, but must have one for each of 4 taxels");
+  EXPECT_EQ(complaintAbout([](Calibration& c) {
+              c.tables.rule.law = {{0, 9, 5}, {1, 1, 1}, {0, 0, 0}};
+            }),
+            "its knots of /rule/law do not ascend");
+  EXPECT_EQ(complaintAbout([](Calibration& c) {
+              c.tables.rule.unseen = {{0, NAN}, {1, 1}};
+            }),
+            "its knots of /rule/unseen do not ascend");
+  EXPECT_EQ(complaintAbout([](Calibration& c) {
+              c.statistics.classes = c.tables.classes;
+              c.statistics.taxels = ~std::size_t{0};
+              c.statistics.sections = 1;
+            }),
+            "its /statistics taxels or sections do not fit the matrix");
+}
+
+TEST_F(HostileFile, AClaimOfMoreThanTheFileHoldsTakesNoMemory) {
+  if (!change(
+          "del f['layout/masked']; f.create_dataset('layout/masked', (2**40, 2**20), 'u1', chunks=(1, 1))"))
+    GTEST_SKIP() << "python3-h5py is not installed";
+  EXPECT_EQ(complaint(), "its /layout/masked claims more values than the file has bytes");
+}
+
+TEST_F(HostileFile, AListWhereATextBelongsIsRefused) {
+  if (!change("f.attrs['model'] = numpy.array([b'grnn'] * 1000)"))
+    GTEST_SKIP() << "python3-h5py is not installed";
+  EXPECT_EQ(complaint(), "its HDF5 part holds / model, but not as one text");
+}
+
+// Flags of taxel 0 between the classes, where its pressure is no number; 0 where it is one.
+std::uint16_t flagsOf(const Calibration& calibration) {
+  Calibrator calibrator(calibration.tables, calibration.layout);
+  calibrator.setSurface({"between", 1, {{5, 0, 0}}, {}}, 0);
+  const std::vector<std::uint16_t> counts(kSize.taxels(), 500);
+  PressureMap map;
+  calibrator.calibrate({kSize, kFullScale, counts.data(), counts.size()}, 0, map);
+  EXPECT_FALSE(std::isinf(map.pressure[0]));
+  return std::isnan(map.pressure[0]) ? map.flags[0] : std::uint16_t{0};
+}
+
+TEST_F(HostileFile, WhatBlendsToNoPressureIsMasked) {
+  EXPECT_EQ(flagsOf(sound()), 0);
+  Calibration steep = sound();
+  steep.tables.rule.law = {{0, 5, 10}, {1, 1e300, 1}, {0, 0, 0}};
+  EXPECT_TRUE(flagsOf(steep) & taxel_flag::kMasked);
+  Calibration halved = sound();
+  for (std::vector<float>* column : {&halved.tables.tables[1].pressure, &halved.tables.tables[1].deviation}) {
+    column->assign(column->size(), NAN);  // of taxel 0, bent
+  }
+  EXPECT_TRUE(flagsOf(halved) & taxel_flag::kMasked);
+}
+
+TEST_F(HostileFile, PressuresOfNoSensorAreRefused) {
+  Calibration huge = sound();
+  huge.tables.tables[2].pressure[7] = 3e38F;
+  EXPECT_THROW(Calibrator(huge.tables, huge.layout), InputError);
+}
+
+}  // namespace
+}  // namespace fsr
