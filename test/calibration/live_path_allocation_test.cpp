@@ -1,0 +1,125 @@
+// From the bytes of the line to the calibrated map nothing is allocated once it runs: the way of every scan
+// through driver and calibration node, their ROS messages apart.
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "fsr_pressure_map/calibration/calibrator.h"
+#include "fsr_pressure_map/protocol/board_gate.h"
+#include "fsr_pressure_map/protocol/decoder.h"
+#include "fsr_pressure_map/protocol/packet_stamper.h"
+#include "support/allocation_guard.h"
+#include "support/small_tables.h"
+
+namespace fsr {
+namespace {
+
+constexpr MatrixSize kSize{16, 10};
+
+class LivePath : public PacketHandler {
+ public:
+  explicit LivePath(BlendRule blend) : calibrator_(tables(blend), Layout{kSize}, options()) {
+    stamper_.startLine(921600);
+  }
+
+  std::uint64_t maps = 0, others = 0, identities = 0;
+  double sum = 0;  // of the pressures [Pa]
+
+  void arrive(std::int64_t time) { stamper_.setArrival(arrival_ = time); }
+  void bend(double curvature) {
+    surface_.curvature[0].x = curvature;
+    calibrator_.setSurface(surface_, 0);
+  }
+
+  void onScan(const PacketHeader& header, const ScanPacket& scan) override {
+    const PacketTime time = stamper_.scan(header, scan.duration);
+    if (gate_.scan(arrival_) == BoardGate::Verdict::kHold) return;
+    calibrator_.calibrate({scan.size, scan.full_scale, scan.counts, scan.size.taxels()},
+                          1e-9 * double(time.stamp), map_);
+    const bool of_this_size = map_.state == MapState::kOk;
+    ++(of_this_size ? maps : others);
+    if (of_this_size) sum += map_.pressure.back();
+  }
+  void onTransducer(const PacketHeader& header, std::int32_t) override { stamper_.transducer(header); }
+  void onTemperature(const PacketHeader& header, std::int32_t) override { stamper_.temperature(header); }
+  void onIdentity(const PacketHeader&, const IdentityPacket& identity) override {
+    identities += gate_.identity(identity.serial, arrival_) == BoardGate::Board::kSame;
+  }
+
+ private:
+  static CurvatureTables tables(BlendRule blend) {
+    CurvatureTables tables = test_support::smallTables(kSize, {0.0, 10.0, 20.0}, 1023);
+    tables.rule.blend = blend;
+    tables.rule.length_scale = {5.0};
+    for (CodeTable& table : tables.tables) table.log_weight.assign(table.pressure.size(), 0.0F);
+    return tables;
+  }
+  static CalibratorOptions options() {
+    CalibratorOptions options;
+    options.fill_bad_taxels = true;
+    return options;
+  }
+
+  PacketStamper stamper_;
+  BoardGate gate_;
+  Calibrator calibrator_;
+  PressureMap map_;
+  Surface surface_{"limb", 1, {Curvature{}}, {}};
+  std::int64_t arrival_ = 0;  // [ns]
+};
+
+// What a board sends in the millisecond `i`; now and then damaged, or of a smaller matrix, or after a jump of
+// its clock.
+class Line {
+ public:
+  void send(std::uint32_t i, Decoder& decoder) {
+    const std::uint32_t time = i * 1000 + (i > 30'000 ? 30'000'000 : 0);  // [us]
+    for (std::size_t taxel = 1; taxel < counts_.size(); ++taxel)
+      counts_[taxel] = (i * 7 + taxel) % 1024;  // 0 is stuck
+    const fsr_wire_scan scan = {std::uint8_t(i % 1000 == 999 ? 3 : 16), 10, 1023, 900, counts_.data()};
+    std::size_t size = fsr_wire_encode_scan(bytes_.data(), bytes_.size(), i, time, &scan);
+    if (i % 10 == 0)
+      size += fsr_wire_encode_transducer(&bytes_[size], bytes_.size() - size, i / 10, time, 4000);
+    if (i % 100 == 0)
+      size += fsr_wire_encode_temperature(&bytes_[size], bytes_.size() - size, i / 100, time, 23000);
+    if (i % 1000 == 0)
+      size += fsr_wire_encode_identity(&bytes_[size], bytes_.size() - size, i / 1000, time, &kBoard);
+    if (i % 7 == 0) bytes_[i % size] ^= 0x20U;
+    decoder.feed(bytes_.data(), size);
+  }
+
+ private:
+  static constexpr fsr_wire_identity kBoard = {"0123456789abcdef", "1.2.0", "", 16, 10, 1023, 1000};
+  std::vector<std::uint16_t> counts_ = std::vector<std::uint16_t>(kSize.taxels());
+  std::vector<std::uint8_t> bytes_ = std::vector<std::uint8_t>(1024);
+};
+
+class AllocatesNothing : public testing::TestWithParam<BlendRule> {};
+
+TEST_P(AllocatesNothing, FromBytesToMaps) {
+  constexpr std::uint32_t kStart = 2000, kScans = 60'000;  // a minute at 1 kHz
+  LivePath path(GetParam());
+  Decoder decoder(path);
+  Line line;
+  path.bend(5.0);
+  std::size_t allocated = 0;
+  for (std::uint32_t i = 1; i < kScans; ++i) {
+    path.arrive(1'000'000'000 + 1'000'000LL * i);
+    if (i % 5000 == 0) path.bend(i % 10'000 == 0 ? 5.0 : 12.0);
+    const test_support::AllocationGuard guard;
+    line.send(i, decoder);
+    if (i >= kStart) allocated += guard.allocations();
+  }
+  EXPECT_EQ(allocated, 0U) << "after the first two seconds";
+  EXPECT_GT(path.maps, kScans / 2);
+  EXPECT_GT(path.others, 30U) << "of another size";
+  EXPECT_GT(path.identities, 30U);
+  EXPECT_GT(path.sum, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(LivePath, AllocatesNothing,
+                         testing::Values(BlendRule::kNearest, BlendRule::kKernel, BlendRule::kInterpolate));
+
+}  // namespace
+}  // namespace fsr
