@@ -18,9 +18,9 @@ struct HeatMapStyle {
   int longer_side = 400;  ///< of the matrix in the picture, about [pixels], 64 to 4096
 };
 
-/// Draws heat maps: the matrix seen from its loaded face with row 0 on top, marks on taxels that are not to
-/// be believed as they stand (taxel_look.h), colour bar with unit and range, the key of the marks, and lines
-/// of text above.
+/// Draws heat maps: the matrix as its arrays are printed, row 0 on top (the sheet seen from its back), marks
+/// on taxels that are not to be believed as they stand (taxel_look.h), colour bar with unit and range, the
+/// key of the marks, and lines of text above.
 class HeatMap {
  public:
   explicit HeatMap(const HeatMapStyle& style) : style_(style) {}
