@@ -67,16 +67,28 @@ class OneCase(unittest.TestCase):
         self.assertFalse(scored(pair, verdict("named", ["creep"]))["right_first"])
         self.assertEqual(scored(pair, verdict("named", ["creep", "wear"]))["extra"], 1)
 
-    def test_a_left_out_effect_wants_unknown_or_a_good_substitute_with_a_next_step(self):
-        substitute = [{"id": "drift", "evidence": {"share_of_ceiling": 0.8}}]
-        step = {"protocol": "step_hold"}
-        right = lambda v: scored(key("creep"), v, left_out="creep", share_with_it=0.85)["right_first"]
-        self.assertTrue(right(verdict("unknown")))
+    def test_a_left_out_effect_wants_unknown_where_no_other_closes_as_much(self):
+        right = lambda v, shares: scored(key("creep"), v, left_out="creep", shares_with_it=shares)["right_first"]
+        ambiguous, step = verdict("ambiguous", ["drift"], ["wear"]), {"protocol": "step_hold"}
+        far = {"creep": 0.9, "drift": 0.7}
+        self.assertTrue(right(verdict("unknown"), far))
+        self.assertFalse(right(verdict("named", ["drift"]), far))
+        self.assertFalse(right(ambiguous | {"next_experiment": step}, far))
+        self.assertTrue(right(verdict("unknown"), {"drift": 0.7}))  # found by a detector: no other closes anything
+
+    def test_a_left_out_effect_with_a_good_substitute_wants_an_ambiguous_one_and_a_next_step(self):
+        right = lambda v: scored(key("creep"), v, left_out="creep", shares_with_it={"creep": 0.9, "drift": 0.85})["right_first"]
+        ambiguous, step = verdict("ambiguous", ["drift"], ["wear"]), {"protocol": "step_hold"}
+        self.assertTrue(right(ambiguous | {"next_experiment": step}))
+        self.assertFalse(right(ambiguous))
+        self.assertFalse(right(verdict("unknown")))
         self.assertFalse(right(verdict("named", ["drift"])))
-        self.assertTrue(right(verdict("ambiguous", ["drift"]) | {"effects": substitute, "next_experiment": step}))
-        self.assertFalse(right(verdict("ambiguous", ["drift"]) | {"effects": substitute}))
-        poor = [{"id": "drift", "evidence": {"share_of_ceiling": 0.5}}]
-        self.assertFalse(right(verdict("ambiguous", ["drift"]) | {"effects": poor, "next_experiment": step}))
+
+    def test_a_frozen_prediction_counts_by_whether_it_was_right(self):
+        told = lambda name, passed: scored(key("creep"), verdict("named", [name]), confirmed=passed)
+        self.assertEqual((told("drift", False)["wrong_fails"], told("drift", False)["right_passes"]), (True, None))
+        self.assertEqual((told("creep", True)["wrong_fails"], told("creep", True)["right_passes"]), (None, True))
+        self.assertIs(told("drift", True)["wrong_fails"], False)
 
     def test_a_verdict_that_does_not_exist_is_refused(self):
         with self.assertRaisesRegex(ValueError, "maybe"):

@@ -81,7 +81,9 @@ class Trials(unittest.TestCase):
         done = self.run_trials("ambiguous", grid=grid)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.figure("ambiguous, then the recommended experiment: one right name")[:2], [1, 1])
-        self.assertGreater(self.calls()[1].count(".bag"), self.calls()[0].count(".bag"))
+        self.assertEqual(self.figure("a frozen right prediction is confirmed")[:2], [1, 1])
+        self.assertIn("--confirm", self.calls()[1])
+        self.assertGreater(self.calls()[2].count(".bag"), self.calls()[0].count(".bag"))
 
     def test_leaves_the_true_effect_out_of_the_library(self):
         grid = ["--size", "small", "--effects", "creep:log_time", "--protocols", "paper", "--snr", "1",
