@@ -25,6 +25,8 @@ constexpr std::size_t kPairsRefined = 4;
 constexpr double kMuchOpen = 0.75;       // of the common trace's error: less explained leaves room for two
 constexpr double kGoodForm = 0.7;        // of the ceiling
 constexpr double kTemperatureMoved = 5;  // [K]
+constexpr double kUnevenPace = 0.2;      // of the way's deviation, that a straight line of the clock leaves
+constexpr double kLongPause = 3600;      // [s]
 constexpr double kDriftHides = 0.5;      // of what drift explains: it may be any slow effect that near
 constexpr double kNearBadForm = 0.6;     // of the best one's share, where its form is wrong
 constexpr double kWorthRefining = 0.35;  // of what the best one explains
@@ -115,6 +117,7 @@ class Contest {
         taxels_(taxels),
         competition_(competition),
         base_(base),
+        evidence_(evidenceIn(measured)),
         nothing_(selection().nothing()) {
     for (const Family& family : competition.effects()) {
       Explanation single;
@@ -152,7 +155,7 @@ class Contest {
   bool temperatureMoved() const;
   bool isRival(const Explanation& other, const Explanation& best) const;
   void gatherRivals(const Explanation& best);
-  void weigh(const EvidenceAtHand& evidence);
+  void weigh();
   Explanation* find(const std::vector<std::string>& ids);
   bool fitsWell(const Explanation& explanation) const;
   void keepNearest(const Explanation& best);
@@ -165,6 +168,7 @@ class Contest {
   const TaxelFit& taxels_;
   const Competition& competition_;
   const SimulationSettings& base_;
+  const EvidenceAtHand evidence_;
   const Score& nothing_;
   std::vector<Explanation> singles_;
   std::vector<Score> generics_;
@@ -358,9 +362,11 @@ bool Contest::isRival(const Explanation& other, const Explanation& best) const {
   // One effect against two was weighed by what the second adds; two against two by the same.
   if (best.score.ids.size() > 1 && other.score.ids.size() == 1) return false;
   if (best.score.ids.size() > 1) return behind <= (1 - kSecondRival) * (best.share - this->best()->share);
-  // What everything slow looks like excludes nothing slow.
-  const bool near_drift = best.score.ids == std::vector<std::string>{"drift"} &&
-                          isSlow(other.score.ids.front()) && behind <= kDriftHides * best.share;
+  // What everything slow looks like excludes nothing slow, unless it goes by cycles and the clock did not.
+  const std::string& id = other.score.ids.front();
+  const bool apart = evidence_.uneven_pace && (id == "wear" || id == "break_in");
+  const bool near_drift = best.score.ids == std::vector<std::string>{"drift"} && isSlow(id) && !apart &&
+                          behind <= kDriftHides * best.share;
   return near_drift || behind <= kRivalWithin * best.share;
 }
 
@@ -391,11 +397,11 @@ void Contest::gatherRivals(const Explanation& best) {
 }
 
 // An effect that needs what was not recorded is not named alone: the best of its partners stays beside it.
-void Contest::weigh(const EvidenceAtHand& evidence) {
+void Contest::weigh() {
   if (decision_.credible.size() > 1 || decision_.explanation.ids.size() > 1) return;
   const EffectInfo& info = findEffect(decision_.explanation.ids.front())->info;
   const bool all =
-      std::all_of(info.needs.begin(), info.needs.end(), [&](Evidence e) { return evidence.has(e); });
+      std::all_of(info.needs.begin(), info.needs.end(), [&](Evidence e) { return evidence_.has(e); });
   if (all) return;
   const Explanation* partner = nullptr;
   for (const Explanation& single : singles_) {
@@ -468,7 +474,7 @@ void Contest::nameIt(Explanation& best) {
   decision_.refined = first.refined;
   decision_.explanation = first.score;
   decision_.share = first.share;
-  weigh(evidenceIn(measured_));
+  weigh();
   if (first.share < kGoodForm * decision_.ceiling) keepNearest(first);
   for (std::size_t r = 1; r < decision_.credible.size(); ++r) {
     Explanation& rival = *find(decision_.credible[r]);
@@ -516,14 +522,32 @@ bool EvidenceAtHand::has(Evidence evidence) const {
       return two_rates;
     case Evidence::kMountLabels:
       return mount_labels;
+    case Evidence::kManyCycles:
+      return uneven_pace;
     default:
       return false;
   }
 }
 
+// What has worn the sheet and what the clock has done are two things only where the pace was uneven.
+bool isPaceUneven(const Measured& measured) {
+  double sum_t = 0, sum_w = 0, tt = 0, ww = 0, tw = 0, longest = 0;
+  for (std::size_t c = 0; c < measured.cycles.size(); ++c) {
+    const std::size_t first = measured.cycles[c].first;
+    const double t = measured.time[first], w = measured.way[first];
+    sum_t += t, sum_w += w, tt += t * t, ww += w * w, tw += t * w;
+    if (c > 0) longest = std::max(longest, t - measured.time[measured.cycles[c - 1].last - 1]);
+  }
+  const auto n = static_cast<double>(measured.cycles.size());
+  const double var_t = tt - sum_t * sum_t / n, var_w = ww - sum_w * sum_w / n, both = tw - sum_t * sum_w / n;
+  if (longest < kLongPause || var_t <= 0 || var_w <= 0) return false;
+  return 1 - both * both / (var_t * var_w) > kUnevenPace * kUnevenPace;
+}
+
 EvidenceAtHand evidenceIn(const Measured& measured) {
   EvidenceAtHand evidence;
   evidence.thermometer = !measured.temperature.empty();
+  evidence.uneven_pace = isPaceUneven(measured);
   evidence.mount_labels = std::all_of(measured.visits.begin(), measured.visits.end(),
                                       [](const Visit& v) { return v.surface.mount > 0; });
   // Ramps of one speed show one peak of the rates; dwells at load are moments that stand still.

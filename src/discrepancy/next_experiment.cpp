@@ -29,7 +29,17 @@ struct Protocol {
   bool two_rates;       // or dwells
   bool twice;           // all surfaces once more
   bool warmer;          // the second time in a warmer room
+  bool hours = false;   // flat alone, as in kHoursApart
 };
+
+// Cycles on the flat surface that clock, way, mount and warmth count differently.
+struct Block {
+  double pause;  // before it [s]
+  int cycles;
+  bool warmer;
+};
+const Block kHoursApart[] = {
+    {600, 6, false}, {7200, 6, true}, {7200, 6, false}, {300, 18, false}, {10800, 6, false}};
 
 // What a chamber with a regulator can do; the names are those that a user finds in the README.
 const Protocol kProtocols[] = {
@@ -60,6 +70,13 @@ const Protocol kProtocols[] = {
      "[{cycles: {peak: 620000, rate: 40000, dwell_peak: 10, cycles: 2}},"
      " {cycles: {peak: 620000, rate: 8000, dwell_peak: 10, cycles: 1}}]",
      true, true, false},
+    {"hours_apart",
+     "the flat surface, mounted anew each time, under cycles at 40 kPa/s and beside a thermometer: 6 cycles, "
+     "after two "
+     "hours 6 in a room some 10 K warmer, after two more 6 as at first, at once 18 more, after three hours 6 "
+     "(8 hours "
+     "in all)",
+     "[{cycles: {peak: 620000, rate: 40000, cycles: 6}}]", false, false, true, true},
 };
 
 ChamberProgram programOf(const Protocol& protocol) {
@@ -67,10 +84,32 @@ ChamberProgram programOf(const Protocol& protocol) {
   return readChamberProgram(settings.sections("program"));
 }
 
+SimulationSettings hoursApart(SimulationSettings plan, const Station& flat) {
+  double now = 0;
+  plan.session.clear();
+  plan.climate = ChamberClimate();
+  plan.climate.room = {{0, kRoomTemperature}};
+  for (const Block& block : kHoursApart) {
+    Station station = flat;
+    const std::string program =
+        "program: [{cycles: {peak: 620000, rate: 40000, cycles: " + std::to_string(block.cycles) + "}}]";
+    station.program = readChamberProgram(Settings::fromText(program, "hours_apart").sections("program"));
+    station.pause = block.pause;
+    station.surface.mount = static_cast<std::uint32_t>(plan.session.size() + 1);
+    plan.session.push_back(station);
+    const double starts = now + block.pause, room = kRoomTemperature + (block.warmer ? kWarmer : 0);
+    if (block.pause > kBetween) plan.climate.room.push_back({starts - kBetween, room});
+    now = starts + pressureProfile(station.program).duration();
+    plan.climate.room.push_back({now, room});
+  }
+  return plan;
+}
+
 // The first and the last surface of the simulation, under the protocol.
 SimulationSettings planOf(const Protocol& protocol, const SimulationSettings& base) {
   SimulationSettings plan = representative(base);
   plan.board.scan_rate = plan.board.transducer_rate = kScanRate;
+  if (protocol.hours) return hoursApart(plan, base.session.front());
   std::vector<Station> surfaces = {base.session.front()};
   if (base.session.size() > 1) surfaces.push_back(base.session.back());
   plan.session.clear();
@@ -134,10 +173,12 @@ bool bringsEvidence(const Protocol& protocol, const EvidenceAtHand& at_hand,
   EvidenceAtHand then = at_hand;
   then.two_rates = then.two_rates || protocol.two_rates;
   then.thermometer = then.thermometer || protocol.warmer;
+  then.uneven_pace = then.uneven_pace || protocol.hours;
   for (const auto& effects : explanations) {
     for (const EnabledEffect& effect : effects) {
       for (const Evidence need : findEffect(effect.id)->info.needs) {
-        const bool can = need == Evidence::kTwoRampRates || need == Evidence::kThermometer;
+        const bool can = need == Evidence::kTwoRampRates || need == Evidence::kThermometer ||
+                         need == Evidence::kManyCycles;
         if (can && !then.has(need)) return false;
       }
     }

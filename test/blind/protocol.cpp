@@ -99,6 +99,12 @@ ChamberPath restPath(double share) {
   return path.hold(200).take();
 }
 
+ChamberPath fastPath(double share) {
+  PathBuilder path;
+  for (int i = 0; i < scaled(6, share); ++i) path.cycle().hold(1).ramp(kPeak, kFast).hold(1).ramp(0, kFast);
+  return path.take();
+}
+
 using MakePath = ChamberPath (*)(double share);
 
 struct Protocol {
@@ -132,6 +138,11 @@ const std::map<std::string, Protocol>& protocols() {
       {"two_ambients",
        {"cycles from 0 to 620 kPa at 17 kPa/s on every surface, then again in a warmer room", paperPath, true,
         false, true}},
+      {"hours_apart",
+       {"cycles from 0 to 620 kPa at 40 kPa/s on the flat surface, five times with pauses of up to three "
+        "hours, the "
+        "second time in a warmer room",
+        fastPath, false, false, false}},
       {"random_order",
        {"cycles at 8 and at 40 kPa/s with dwells, surfaces in random order, each remounted once, the flat "
         "one "
@@ -162,12 +173,24 @@ std::vector<std::size_t> surfaceOrder(const Protocol& protocol, const std::strin
   return order;
 }
 
+// Clock, cycles, mounts and warmth go their own ways.
+std::vector<PlannedVisit> hoursApart(const ProtocolSize& size, Random& random) {
+  const double warmer = random.uniform(8, 12);
+  std::vector<PlannedVisit> visits;
+  for (const double hours : {0.2, 2.0, 2.0, 0.1, 3.0}) {
+    PlannedVisit visit{0, fastPath(hours < 0.15 ? 3 * size.cycles : size.cycles), 0, 3600 * hours};
+    if (visits.size() == 1) visit.ambient_step = warmer;
+    visits.push_back(visit);
+  }
+  return visits;
+}
+
 }  // namespace
 
 const std::vector<std::string>& protocolNames() {
   static const std::vector<std::string> names = {"paper",        "paper_remounted", "two_speeds",
                                                  "minor_loops",  "step_hold",       "rest",
-                                                 "two_ambients", "random_order"};
+                                                 "two_ambients", "random_order",    "hours_apart"};
   return names;
 }
 
@@ -176,11 +199,12 @@ std::string protocolDescription(const std::string& protocol) {
 }
 
 bool remounts(const std::string& protocol) {
-  return find(protocol).twice;
+  return find(protocol).twice || protocol == "hours_apart";
 }
 
 std::vector<PlannedVisit> planVisits(const std::string& name, const ProtocolSize& size, Random random) {
   const Protocol& protocol = find(name);
+  if (name == "hours_apart") return hoursApart(size, random);
   const std::vector<std::size_t> order = surfaceOrder(protocol, name, size.surfaces, random);
   const ChamberPath path = protocol.path(protocol.twice ? size.cycles / 2 : size.cycles);
   const double warmer = random.uniform(8, 12);

@@ -31,6 +31,7 @@ struct EvidenceAtHand {
   bool thermometer = false;
   bool two_rates = false;  ///< or dwells
   bool mount_labels = false;
+  bool uneven_pace = false;  ///< cycles in plenty at some time and none for hours at another
   bool has(Evidence evidence) const;
 };
 EvidenceAtHand evidenceIn(const Measured& measured);

@@ -70,7 +70,7 @@ enum class Evidence {
   kUnevenLoad,       ///< under uniform pressure the static curve takes it all
   kSecondReference,  ///< another pressure gauge
   kVentedSheet,      ///< the same sheet without its seal
-  kManyCycles,       ///< 10,000 and more
+  kManyCycles,       ///< 10,000 and more, or so unevenly spread that the clock tells nothing of them
 };
 
 /// What to do at the rig to see an effect.
