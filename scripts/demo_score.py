@@ -93,9 +93,10 @@ def screenshot(rig, picture, environment, pressure, limit):
     while not taken and time.monotonic() < give_up:
         if latest["pressure"] > pressure:
             subprocess.run(["import", "-window", "root", str(picture)], env=environment, check=True)
-            colours = subprocess.check_output(["convert", str(picture), "-crop", "700x600+450+60", "-format", "%k", "info:"],
-                                              text=True)
-            taken = int(colours) > 300  # an empty scene stays under 20 colours
+            coloured = subprocess.check_output(  # share of the scene under the legend that is no grey
+                ["convert", str(picture), "-crop", "600x400+380+340", "-colorspace", "HSL", "-channel", "G", "-separate",
+                 "+channel", "-threshold", "25%", "-format", "%[fx:mean]", "info:"], text=True)
+            taken = float(coloured) > 0.1  # 0.27 with the sheet, 0.002 with the axes alone
         else:
             time.sleep(0.01)
     subscriber.unregister()

@@ -217,7 +217,7 @@ void PressurePanel::refresh() {
 void PressurePanel::showWaiting() {
   QStringList lines;
   const auto want = [&](bool there, const char* topic, const char* what) {
-    if (!there) lines << QString("Nothing on %1: %2").arg(text(name(topic)), what);
+    if (!there) lines << QString("Nothing on %1: %2").arg(text(handle_.resolveName(name(topic))), what);
   };
   want(last_calibration_.fresh(), "calibration_info", "tare and reload wait for the calibration node.");
   want(last_statistics_.fresh(), "statistics", "the numbers wait for the view node.");

@@ -273,11 +273,12 @@ void SheetDisplay::openStatus() {
 }
 
 void SheetDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
-  say("Messages", messageStatus(age(), noun_, topic_->getTopicStd()));
+  const std::string topic = topic_->getTopicStd();  // shown as the launch file remapped it
+  say("Messages", messageStatus(age(), noun_, topic.empty() ? topic : update_nh_.resolveName(topic)));
   openStatus();
   if (fresh_) redraw();
   updateLegend();
-  say("Curvature", curvatureStatus(surface_, surface_error_, curvatureTopic()));
+  say("Curvature", curvatureStatus(surface_, surface_error_, update_nh_.resolveName(curvatureTopic())));
   if (last_) placeSheet();
 }
 
