@@ -15,11 +15,8 @@
 #include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "display_status.h"
-#include "fsr_pressure_map/ros/pressure_map_message.h"
-#include "fsr_pressure_map/ros/surface_markers.h"
-#include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/view/pressure_scale.h"
+#include "panel_text.h"
 
 namespace fsr_rviz {
 
@@ -31,15 +28,6 @@ constexpr double kSilence = 3.0;         // [s] after which a number is no longe
 constexpr int kRefresh = 200;            // [ms]
 constexpr double kStandardAir = 101325;  // [Pa], where matrix_info says nothing
 constexpr std::uint32_t kQueueSize = 10;
-
-QString text(const std::string& words) {
-  return words.empty() ? QString("-") : QString::fromStdString(words);
-}
-
-QString number(double value, double unit, const char* name, int decimals) {
-  if (!std::isfinite(value)) return "-";
-  return QString::number(value / unit, 'f', decimals) + " " + name;
-}
 
 // The answer of a service, or why there is none.
 template <typename Service>
@@ -243,44 +231,11 @@ void PressurePanel::showStatistics() {
                      (fresh ? QString(" in %1 s").arg(whole.duration, 0, 'f', 0) : QString()));
 }
 
-// Why the map cannot answer for the whole matrix; empty where that is not known.
-QString PressurePanel::doubt() const {
-  if (!last_map_.fresh()) return " (no maps)";
-  try {
-    const fsr::PressureMap map = fsr_ros::toPressureMap(*last_map_.message);
-    const std::string state = fsr_ros::stateText(map.state);
-    if (!state.empty()) return " (" + QString::fromStdString(state) + ")";
-    std::vector<fsr::TaxelLook> looks;
-    for (std::size_t i = 0; i < map.flags.size(); ++i) {
-      looks.push_back(fsr::lookOf(map.pressure[i], map.flags[i]));
-    }
-    const StatusLine taxels = taxelStatus(looks);
-    return taxels.level == rviz::StatusProperty::Ok ? "" : " (" + text(taxels.text) + ")";
-  } catch (const fsr::InputError&) {
-    return "";  // the display says what is wrong with it
-  }
-}
-
-// In words first, in colour second.
 void PressurePanel::showAlarms() {
-  QStringList alarm, unknown;
-  if (last_statistics_.fresh()) {
-    for (const PressureStatistics& region : last_statistics_.message->regions) {
-      const bool whole = region.region.empty();
-      const QString name = whole ? QString("whole matrix") : text(region.region);
-      if (region.alarm == PressureStatistics::ALARM) alarm << name;
-      if (region.alarm == PressureStatistics::UNKNOWN) unknown << (whole ? name + doubt() : name);
-    }
-  } else {
-    unknown << "no statistics";
-  }
-  QStringList lines;
-  if (!alarm.empty()) lines << "ALARM: " + alarm.join(", ");
-  if (!unknown.empty()) lines << "UNKNOWN: " + unknown.join(", ");
-  alarms_->setText(lines.empty() ? QString("OK") : lines.join("\n"));
-  alarms_->setStyleSheet(!alarm.empty()     ? "background: #b00020; color: white; font-weight: bold"
-                         : !unknown.empty() ? "background: #606060; color: white"
-                                            : "");
+  const AlarmLine line = alarmLine(last_statistics_.fresh() ? last_statistics_.message : nullptr,
+                                   last_map_.fresh() ? last_map_.message : nullptr);
+  alarms_->setText(line.text);
+  alarms_->setStyleSheet(line.style);
 }
 
 void PressurePanel::tare() {

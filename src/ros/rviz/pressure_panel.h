@@ -63,7 +63,6 @@ class PressurePanel : public rviz::Panel {
   void showStatistics();
   void showAlarms();
   void showWaiting();
-  QString doubt() const;
   void call(const std::string& what, const std::function<std::string()>& service);
   std::string name(const std::string& relative) const;
 

@@ -1,0 +1,68 @@
+#include "panel_text.h"
+
+#include <QStringList>
+#include <cmath>
+#include <vector>
+
+#include "display_status.h"
+#include "fsr_pressure_map/ros/pressure_map_message.h"
+#include "fsr_pressure_map/ros/surface_markers.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr_rviz {
+
+namespace {
+
+using fsr_pressure_map::PressureStatistics;
+
+// Why the map cannot answer for the whole matrix; empty where that is not known.
+QString doubt(const fsr_pressure_map::PressureMapConstPtr& message) {
+  if (!message) return " (no maps)";
+  try {
+    const fsr::PressureMap map = fsr_ros::toPressureMap(*message);
+    const std::string state = fsr_ros::stateText(map.state);
+    if (!state.empty()) return " (" + text(state) + ")";
+    std::vector<fsr::TaxelLook> looks;
+    for (std::size_t i = 0; i < map.flags.size(); ++i) {
+      looks.push_back(fsr::lookOf(map.pressure[i], map.flags[i]));
+    }
+    const StatusLine taxels = taxelStatus(looks);
+    return taxels.level == rviz::StatusProperty::Ok ? "" : " (" + text(taxels.text) + ")";
+  } catch (const fsr::InputError&) {
+    return "";  // the display says what is wrong with it
+  }
+}
+
+}  // namespace
+
+QString text(const std::string& words) {
+  return words.empty() ? QString("-") : QString::fromStdString(words);
+}
+
+QString number(double value, double unit, const char* name, int decimals) {
+  if (!std::isfinite(value)) return "-";
+  return QString::number(value / unit, 'f', decimals) + " " + name;
+}
+
+AlarmLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& statistics,
+                    const fsr_pressure_map::PressureMapConstPtr& map) {
+  QStringList alarm, unknown;
+  if (!statistics) {
+    unknown << "no statistics";
+  } else {
+    for (const PressureStatistics& region : statistics->regions) {
+      const bool whole = region.region.empty();
+      const QString name = whole ? QString("whole matrix") : text(region.region);
+      if (region.alarm == PressureStatistics::ALARM) alarm << name;
+      if (region.alarm == PressureStatistics::UNKNOWN) unknown << (whole ? name + doubt(map) : name);
+    }
+  }
+  QStringList lines;
+  if (!alarm.empty()) lines << "ALARM: " + alarm.join(", ");
+  if (!unknown.empty()) lines << "UNKNOWN: " + unknown.join(", ");
+  if (!alarm.empty()) return {lines.join("\n"), "background: #b00020; color: white; font-weight: bold"};
+  if (!unknown.empty()) return {lines.join("\n"), "background: #606060; color: white"};
+  return {"OK", ""};
+}
+
+}  // namespace fsr_rviz
