@@ -61,7 +61,10 @@ std::vector<StudyDecision> studyDecisions(const StudyPlan& plan, const StudyData
            rangeText(plan) + "; +- is the deviation over taxels."},
       {"Forest", "150 trees, MATLAB, \"one third of the variables\".",
        "One input makes it bagging: " + std::to_string(plan.forest.trees) + " trees, minimum leaf " +
-           std::to_string(plan.forest.minimum_leaf) + ", exact splits."},
+           std::to_string(plan.forest.minimum_leaf) +
+           ", exact splits. What a drawn input that cannot split does to its node, which moves the error of "
+           "a "
+           "forest on two inputs, plays no part here."},
       {"Tests", "Shapiro-Wilk decides; symmetry decides between signed rank and sign test; SPSS.",
        "The same rule; symmetry by the triples test; Bonferroni over all pairs; level " +
            number(plan.tests.level) + ". " + std::to_string(data.taxels.size()) +
@@ -72,6 +75,12 @@ std::vector<StudyDecision> studyDecisions(const StudyPlan& plan, const StudyData
        "Mount and curvature are taken as one condition effect where the recordings cannot tell them apart."},
       {"Bent axis", "Not said which side of the matrix goes round the cylinder.",
        "Taken from the surfaces of the recordings."},
+      {"What is not reported", "Temperature, ramp rate, the order of the conditions, how well both records were synchronised.",
+       "Nothing is corrected for them; bags carry them where a rig records them."},
+      {"Transducer", "A digital one, read by an analogue input.",
+       "Taken as analogue: the chamber's readings are used as they were recorded."},
+      {"Seal", "Whether the PDMS seal let air in was not checked.",
+       "A leak is a candidate that discrepancy tries, not one that this study could tell."},
       {"Conditioning cycles", "Kept, as it seems.", "Kept; first and later cycles are reported apart."},
   };
 }
