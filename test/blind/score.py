@@ -108,7 +108,8 @@ def score_case(key, verdict, run):
     confirmed = run.get("confirmed")
     case["wrong_fails"] = None if confirmed is None or first == truth else not confirmed
     case["right_passes"] = None if confirmed is None or first != truth else confirmed
-    case["resolved"] = None if not follow or run.get("left_out") else follow == {"verdict": "named", "effects": sorted(truth)}
+    one_right = lambda: follow["verdict"] in NAMING and follow["effects"] == sorted(truth)
+    case["resolved"] = None if not follow or run.get("left_out") else one_right()
     return case
 
 

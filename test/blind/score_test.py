@@ -90,6 +90,13 @@ class OneCase(unittest.TestCase):
         self.assertEqual((told("creep", True)["wrong_fails"], told("creep", True)["right_passes"]), (None, True))
         self.assertIs(told("drift", True)["wrong_fails"], False)
 
+    def test_an_experiment_resolves_what_is_one_right_name_after_it(self):
+        after = lambda kind, *ids: scored(key("creep"), verdict("ambiguous", ["wear"], ["creep"]),
+                                          follow_up={"verdict": kind, "effects": list(ids)})["resolved"]
+        self.assertTrue(after("named", "creep") and after("wrong_form", "creep"))
+        self.assertFalse(after("ambiguous", "creep") or after("named", "wear") or after("named", "creep", "wear"))
+        self.assertIsNone(scored(key("creep"), verdict("named", ["creep"]))["resolved"])
+
     def test_a_verdict_that_does_not_exist_is_refused(self):
         with self.assertRaisesRegex(ValueError, "maybe"):
             scored(key("creep"), verdict("maybe"))
