@@ -12,6 +12,7 @@
 #include <string_view>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "fsr_pressure_map/settings/sha256.h"
@@ -22,7 +23,7 @@ namespace {
 
 constexpr char kMagic[] = "#ROSBAG V2.0\n";
 constexpr std::size_t kIndexEntry = 12;            // time, offset into the chunk [bytes]
-constexpr std::uint32_t kLargestChunk = 1u << 30;  // unpacked [bytes]; rosbag record makes them of 768 KB
+constexpr std::uint32_t kLargestChunk = 1u << 27;  // unpacked [bytes]; rosbag record makes them of 768 KB
 
 [[noreturn]] void damaged(const std::string& what) {
   throw rosbag::BagFormatException(what);
@@ -137,6 +138,7 @@ struct Message {
   std::uint32_t offset;  // of its record in the chunk [bytes]
   std::uint32_t connection;
   MessageBytes bytes;
+  bool indexed = false;
 };
 
 bool operator<(const Message& a, const Message& b) {
@@ -206,7 +208,8 @@ class Walk {
       auto* const data = reinterpret_cast<std::uint8_t*>(chunk_.data() + (content.data() - chunk_.data()));
       messages_.push_back({offset,
                            field<std::uint32_t>(inner, rosbag::CONNECTION_FIELD_NAME),
-                           {data, static_cast<std::uint32_t>(content.size())}});
+                           {data, static_cast<std::uint32_t>(content.size())},
+                           false});
     }
   }
 
@@ -220,7 +223,7 @@ class Walk {
     }
     const bool lz4 = compression == rosbag::COMPRESSION_LZ4;
     if (!lz4 && compression != rosbag::COMPRESSION_BZ2) damaged("a chunk is packed in an unknown way");
-    if (size > kLargestChunk) damaged("a chunk says that it is larger than 1 GiB");
+    if (size > kLargestChunk) damaged("a chunk says that it is larger than 128 MiB");
     chunk_.resize(size);
     rosbag::ChunkedFile().decompress(lz4 ? rosbag::compression::LZ4 : rosbag::compression::BZ2,
                                      reinterpret_cast<std::uint8_t*>(chunk_.data()), size,
@@ -235,9 +238,11 @@ class Walk {
     if (data.size() != std::uint64_t{count} * kIndexEntry)
       damaged("an index has another length than it says");
     for (; !data.empty(); data.remove_prefix(kIndexEntry)) {
-      const Message wanted{number<std::uint32_t>(data.substr(8)), id, {}};
+      const Message wanted{number<std::uint32_t>(data.substr(8)), id, {}, false};
       const auto found = std::lower_bound(messages_.begin(), messages_.end(), wanted);
       if (found == messages_.end() || wanted < *found) damaged("an index points to no message");
+      // Else a small file could hold a large message any number of times.
+      if (std::exchange(found->indexed, true)) damaged("an index points to a message twice");
       visit_(id, found->bytes);
     }
   }

@@ -205,6 +205,23 @@ TEST_F(BagReader, ABagWithAnyByteChangedIsReadOrRefused) {
   EXPECT_GT(refused, 10);
 }
 
+// Else a small bag could hold a large message any number of times.
+TEST_F(BagReader, AnIndexThatPointsToAMessageTwiceIsRefused) {
+  writeBag(path_, twoSurfaces(), inNamespace("fsr"));
+  std::string bytes(fs::file_size(path_), ' ');
+  std::ifstream(path_, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  // The first index of many messages: its header ends with "ver=...", then come length and entries of 12
+  // bytes.
+  const std::string end_of_header = std::string("ver=\1\0\0\0", 8);
+  std::size_t entries = bytes.find(end_of_header);
+  while (bytes[entries + 8] == 12 && bytes[entries + 9] == 0)
+    entries = bytes.find(end_of_header, entries + 1);
+  entries += end_of_header.size() + sizeof(std::uint32_t);
+  bytes.replace(entries + 12, 12, bytes, entries, 12);
+  std::ofstream(path_, std::ios::binary | std::ios::trunc) << bytes;
+  EXPECT_NE(complaint().find("an index points to a message twice"), std::string::npos) << complaint();
+}
+
 TEST_F(BagReader, ABagThatWasNotClosedAsksForReindexing) {
   {
     rosbag::Bag whole(path_, rosbag::bagmode::Write);
