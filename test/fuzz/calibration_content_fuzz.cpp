@@ -1,99 +1,87 @@
-// A calibration file with a right hash may still hold anything: what loads gives maps without Inf, and
-// without NaN that no flag explains.
-#include <algorithm>
+// A calibration file with a right hash may still hold anything: objects that are gone, or of another type or
+// shape, and any number anywhere. What loads gives maps without Inf, and without NaN that no flag explains.
 #include <cmath>
-#include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <vector>
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/calibration/calibration_hdf5.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/settings/sha256.h"
 #include "fuzz/fuzz_file.h"
-#include "support/small_calibration.h"
+#include "fuzz/hdf5_damage.h"
+#include "support/synthetic_recording.h"
 
 namespace {
 
-// Numbers off the input, zeros behind its end.
-class Numbers {
- public:
-  Numbers(const std::uint8_t* bytes, std::size_t size) : bytes_(bytes), size_(size) {}
-  bool any() const { return size_ > 0; }
-  template <typename T>
-  T next() {
-    T value{};
-    const std::size_t taken = std::min(sizeof(T), size_);
-    std::memcpy(&value, bytes_, taken);
-    bytes_ += taken;
-    size_ -= taken;
-    return value;
-  }
+constexpr std::uint16_t kFullScale = 31;
 
- private:
-  const std::uint8_t* bytes_;
-  std::size_t size_;
-};
-
-// Overwrites numbers of a sound calibration with whatever the input says.
-void disturb(fsr::Calibration& calibration, Numbers& numbers) {
-  while (numbers.any()) {
-    auto& tables = calibration.tables.tables;
-    fsr::CodeTable& table = tables[numbers.next<std::uint8_t>() % tables.size()];
-    const auto place = numbers.next<std::uint8_t>();
-    const auto value = numbers.next<float>();
-    switch (place % 8) {
-      case 0:
-        table.pressure[place / 8 % table.pressure.size()] = value;
-        break;
-      case 1:
-        table.deviation[place / 8 % table.deviation.size()] = value;
-        break;
-      case 2:
-        table.lowest = static_cast<std::uint16_t>(place * 257);
-        break;
-      case 3:
-        table.highest = static_cast<std::uint16_t>(place * 257);
-        break;
-      case 4:
-        calibration.tables.classes.back().curvature.front() = value;
-        break;
-      case 5:
-        calibration.layout.pitch_x = value;
-        break;
-      case 6:
-        calibration.trained.curvature = {value, -value};
-        break;
-      default:
-        std::fill(table.pressure.begin(), table.pressure.end(), value);
-    }
-  }
+// The bytes of a sound file, with all that training writes; each way of answering to curvature has one.
+std::string soundFile(fsr::Scheme scheme) {
+  test_support::SyntheticRig rig;
+  rig.size = {1, 2};
+  rig.full_scale = kFullScale;
+  rig.surfaces = {{"flat", 0.0}, {"cylinder_10cm", 10.0}, {"cylinder_5cm", 20.0}, {"cylinder_4cm", 25.0}};
+  rig.scans_per_cycle = 40;
+  fsr::CalibrationProblem problem{{test_support::syntheticRecording(rig)}, {}};
+  problem.options.scheme = scheme;
+  const std::string path = "/dev/shm/fsr_fuzz_" + std::to_string(getpid()) + ".h5";
+  fsr::saveCalibration(fsr::calibrate(problem), path);
+  std::ifstream file(path, std::ios::binary);
+  std::filesystem::remove(path);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void tryMaps(const fsr::Calibration& calibration) {
-  fsr::Calibrator calibrator(calibration.tables, calibration.layout);
+const std::vector<std::string>& soundFiles() {
+  static const std::vector<std::string> files = {
+      soundFile(fsr::Scheme::kPerCurvature), soundFile(fsr::Scheme::kScaledCurvature),
+      soundFile(fsr::Scheme::kCurvatureMap), soundFile(fsr::Scheme::kPerSurface)};
+  return files;
+}
+
+void seal(std::string& file) {
+  const std::string hash = fsr::sha256(file.data() + fsr::kUserBlock, file.size() - fsr::kUserBlock);
+  const std::string line = "fsr_pressure_map calibration schema=" + std::to_string(fsr::kCalibrationSchema) +
+                           " sha256=" + hash + "\n";
+  file.replace(0, line.size(), line);
+}
+
+void tryMaps(fsr::Calibrator& calibrator) {
   fsr::PressureMap map;
-  const std::size_t taxels = calibration.layout.size.taxels();
-  for (unsigned code = 0; code <= calibration.tables.full_scale; ++code) {
-    const std::vector<std::uint16_t> counts(taxels, static_cast<std::uint16_t>(code));
-    calibrator.calibrate({calibration.layout.size, calibration.tables.full_scale, counts.data(), taxels},
-                         0.1 * code, map);
+  const fsr::MatrixSize size = calibrator.layout().size;
+  for (unsigned code = 0; code <= kFullScale; ++code) {
+    const std::vector<std::uint16_t> counts(size.taxels(), static_cast<std::uint16_t>(code));
+    calibrator.calibrate({size, kFullScale, counts.data(), counts.size()}, 0.1 * code, map);
+    if (map.state == fsr::MapState::kSizeMismatch) return;
     for (std::size_t i = 0; i < map.pressure.size(); ++i) {
       fuzz::require(!std::isinf(map.pressure[i]) && (map.flags[i] != 0 || !std::isnan(map.pressure[i])));
     }
   }
 }
 
+void use(const fsr::Calibration& calibration) {
+  fsr::Calibrator calibrator(calibration.tables, calibration.layout);
+  tryMaps(calibrator);
+  for (const double curvature : {0.0, 9.9, 17.0, -40.0, 90.0}) {
+    calibrator.setSurface({"cylinder_10cm", 1, {{curvature, 0, 0}}, {}}, 0);
+    tryMaps(calibrator);
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
-  static const std::string path = "/dev/shm/fsr_fuzz_" + std::to_string(getpid()) + ".h5";
-  fsr::Calibration calibration = test_support::smallCalibration({1, 2}, {0.0, 10.0}, "fuzz", 31);
-  Numbers numbers(bytes, size);
-  disturb(calibration, numbers);
+  fuzz::Numbers numbers(bytes, size);
+  std::string file = soundFiles()[numbers.next<std::uint8_t>() % soundFiles().size()];
+  file = std::string(fsr::kUserBlock, '\0') + fuzz::damaged(file, numbers);
+  seal(file);
+  const fuzz::MemoryFile written(reinterpret_cast<const std::uint8_t*>(file.data()), file.size());
   try {
-    fsr::saveCalibration(calibration, path);
-    tryMaps(fsr::loadCalibration(path));
+    use(fsr::loadCalibration(written.path(), fsr::CalibrationParts::kAll));
   } catch (const fsr::InputError&) {
   }
-  std::filesystem::remove(path);
   return 0;
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""make_seeds.py: writes the binary seeds of the fuzzers into test/fuzz/seeds (needs the package's messages)."""
+"""make_seeds.py: writes the seeds of the fuzzers into test/fuzz/seeds (needs the package's messages)."""
 import binascii
 import pathlib
 import struct
@@ -50,6 +50,22 @@ def capture(data):
     return b"FSRCAP01" + struct.pack("<II", 115200, 0) + struct.pack("<qI", 10**18, len(data)) + data
 
 
+def calibration_content():
+    """What calibration_content_fuzz.cpp and hdf5_damage.cpp make of the bytes: a sound file, then changes."""
+    def change(how, thing, *fields):
+        return struct.pack("<BB", how, thing) + b"".join(fields)
+
+    attribute, value, dataset, gone = 0, 3, 6, 7
+    text, number = 5 + 9 * 3, 4
+    for scheme in range(4):
+        write("calibration_content", f"sound_{scheme}", bytes([scheme]))
+    write("calibration_content", "list_of_texts", b"\0" + change(attribute, 0, struct.pack("<BBBB", 4, text, 1, 100)))
+    write("calibration_content", "text_for_a_number", b"\0" + change(attribute, 0, struct.pack("<BBBB", 2, text, 0, 0)))
+    write("calibration_content", "nan", b"\3" + change(value, 30, struct.pack("<Hd", 1, float("nan"))))
+    write("calibration_content", "huge", b"\1" + change(dataset, 30, struct.pack("<BBBB", number, 2, 230, 2)))
+    write("calibration_content", "gone", b"\0" + change(gone, 9))
+
+
 def bag(path):
     with rosbag.Bag(str(path), "w", chunk_threshold=600) as out:
         for i in range(3):
@@ -73,4 +89,10 @@ write("capture", "every_type", capture(wire()))
 bag(SEEDS / "bag" / "every_topic.bag")
 write("table", "comma", b"\x01time,a,b\n0.1,2,3\n0.2,4,5\n")
 write("table", "semicolon_and_decimal_comma", b"\x84t;p\r\n0,1;\"2,5\"\r\n# note\n0,2;3\r\n")
-write("calibration_content", "numbers", struct.pack("<BBf", 0, 8, 1.5) + struct.pack("<BBf", 1, 9, float("nan")))
+calibration_content()
+write("tare", "two_taxels", b"format: fsr_pressure_map tare 1\ncalibration: 3f2a\nsurface: flat\nmount: 2\ncurvature: 0\n"
+      b"date: 2024-05-17T09:30:00Z\nrows: 1\ncolumns: 2\noffset: [1.5, -20]\n")
+write("recording", "three_columns", b"\x00t,a,p\n0,100,1\n0.1,200,2\n0.2,4095,3\n")
+write("recording", "units", b"\x02t,a,b,p,k\n0,0.5,1,20,293\n100,1,2,40,294\n")
+write("recording", "surfaces", b"\x05t;r;p;s;c;m\n0;10;1;flat;0;1\n1000;inf;2;bent;0.2;1\n2000;7;3;bent;0.2;2\n")
+write("surface", "list_as_a_key", b"surface: flat\nflat: true\n? [a, b]\n: 1\n")

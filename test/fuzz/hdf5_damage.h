@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+namespace fuzz {
+
+/// Numbers off the input, zeros behind its end.
+class Numbers {
+ public:
+  Numbers(const std::uint8_t* bytes, std::size_t size) : bytes_(bytes), size_(size) {}
+  bool any() const { return size_ > 0; }
+  template <typename T>
+  T next() {
+    T value{};
+    const std::size_t taken = size_ < sizeof(T) ? size_ : sizeof(T);
+    if (taken > 0) std::memcpy(&value, bytes_, taken);
+    bytes_ += taken;
+    size_ -= taken;
+    return value;
+  }
+
+ private:
+  const std::uint8_t* bytes_;
+  std::size_t size_;
+};
+
+/// The HDF5 file `image` (bytes, user block and all) with changes that the numbers choose, by HDF5's own
+/// functions, so that it is still sound HDF5: objects and attributes are deleted, replaced by others of any
+/// type and shape, or get another value. Without the user block.
+std::string damaged(const std::string& image, Numbers& numbers);
+
+}  // namespace fuzz
