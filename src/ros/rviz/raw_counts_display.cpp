@@ -3,6 +3,8 @@
 #include <rviz/properties/float_property.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include <cmath>
+
 #include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr_rviz {
@@ -60,6 +62,7 @@ void RawCountsDisplay::paint(SheetPicture& picture) {
     throw fsr::InputError("a scan of " + fsr::sizeText(layout.size) + " taxels has " +
                           std::to_string(last_->counts.size()) + " counts, but must have one for each taxel");
   }
+  full_scale_ = last_->full_scale;
   picture.layout = layout;
   picture.values.assign(last_->counts.begin(), last_->counts.end());
   picture.looks.clear();
@@ -78,8 +81,9 @@ fsr::Legend RawCountsDisplay::legend() const {
 }
 
 ReadOut RawCountsDisplay::readOut(std::size_t taxel) const {
-  return {{"Raw reading",
-           std::to_string(last_->counts[taxel]) + " of " + std::to_string(last_->full_scale) + " counts"}};
+  // Of what is drawn: the last scan may be another, or broken.
+  return {{"Raw reading", std::to_string(std::lround(picture().values[taxel])) + " of " +
+                              std::to_string(full_scale_) + " counts"}};
 }
 
 void RawCountsDisplay::sayState() {

@@ -34,6 +34,7 @@ class RawCountsDisplay : public SheetDisplay {
   ros::Subscriber infos_;
   fsr_pressure_map::MatrixInfoConstPtr info_;
   fsr_pressure_map::MatrixFrameConstPtr last_;
+  int full_scale_ = 0;  // of the scan that is drawn [counts]
 };
 
 }  // namespace fsr_rviz

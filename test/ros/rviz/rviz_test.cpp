@@ -100,9 +100,9 @@ class Rviz : public testing::Test {
   }
 
   /// A line of the display's status as "Level text", e.g. "Warn no map has come on ...".
-  static std::string status(const QString& name) {
-    for (int i = 0; i < display->numChildren(); ++i) {
-      rviz::Property* list = display->childAt(i);
+  static std::string status(const QString& name, rviz::Display* of = display) {
+    for (int i = 0; i < of->numChildren(); ++i) {
+      rviz::Property* list = of->childAt(i);
       if (!list->getName().startsWith("Status")) continue;
       for (int j = 0; j < list->numChildren(); ++j) {
         if (list->childAt(j)->getName() == name) return list->childAt(j)->getValue().toString().toStdString();
@@ -340,6 +340,13 @@ TEST_F(Rviz, GShowsRawCountsOnTheirOwnScale) {
   const std::vector<float> values(scan->counts.begin(), scan->counts.end());
   const auto shown = [&] { return raw.publish(scan), rightTaxels(values, scale, 2) == values.size(); };
   EXPECT_TRUE(runUntil(shown, false)) << rightTaxels(values, scale, 2) << " taxels have their colour";
+  MatrixFrame broken = *scan;
+  broken.counts.pop_back();
+  const auto refused = [&] {
+    raw.publish(broken);
+    return status("State", counts).find("69 counts, but must have one for each taxel") != std::string::npos;
+  };
+  EXPECT_TRUE(runUntil(refused, false)) << status("State", counts);
   delete counts;
   display->setEnabled(true);
 }
