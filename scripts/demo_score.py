@@ -96,7 +96,7 @@ def screenshot(rig, picture, environment, pressure, limit):
             coloured = subprocess.check_output(  # share of the scene under the legend that is no grey
                 ["convert", str(picture), "-crop", "600x400+380+340", "-colorspace", "HSL", "-channel", "G", "-separate",
                  "+channel", "-threshold", "25%", "-format", "%[fx:mean]", "info:"], text=True)
-            taken = float(coloured) > 0.1  # 0.27 with the sheet, 0.002 with the axes alone
+            taken = float(coloured) > 0.1  # 0.2 to 0.3 with the sheet, 0.002 with the axes alone
         else:
             time.sleep(0.01)
     subscriber.unregister()
