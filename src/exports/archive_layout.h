@@ -2,8 +2,11 @@
 
 // What writer and reader of an archive share.
 
+#include <cerrno>
 #include <cstdint>
 #include <string>
+
+#include "fsr_pressure_map/settings/replace_file.h"
 
 namespace fsr::archive {
 
@@ -15,6 +18,17 @@ constexpr char kBytes[] = "bytes";
 /// The line that the user block begins with.
 inline std::string firstLine(const std::string& sha256) {
   return std::string(kFormat) + " schema=" + std::to_string(kSchema) + " sha256=" + sha256 + "\n";
+}
+
+// HDF5 does not say why it could not write; errno does.
+template <typename Act>
+void attempt(const std::string& path, Act act) {
+  errno = 0;
+  try {
+    act();
+  } catch (const InputError&) {
+    throw cannotWrite(path, errno != 0 ? errno : EIO);
+  }
 }
 
 }  // namespace fsr::archive

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -10,8 +9,8 @@
 #include "fsr_pressure_map/calibration/hdf5_writer.h"  // kUserBlock
 #include "fsr_pressure_map/exports/archive.h"
 #include "fsr_pressure_map/exports/message_table.h"
+#include "fsr_pressure_map/exports/scan_table.h"
 #include "fsr_pressure_map/settings/fresh_file.h"
-#include "fsr_pressure_map/settings/replace_file.h"
 #include "fsr_pressure_map/settings/sha256.h"
 
 namespace fsr {
@@ -43,7 +42,7 @@ bool isGroupName(const std::string& topic) {
   };
   return topic.size() > 1 && topic.front() == '/' && topic.back() != '/' &&
          topic.find("//") == std::string::npos && topic.rfind("/archive", 0) != 0 &&
-         std::all_of(topic.begin(), topic.end(), fits);
+         topic.rfind("/scans", 0) != 0 && std::all_of(topic.begin(), topic.end(), fits);
 }
 
 // "length name=value" one after the other, as bags store it.
@@ -237,6 +236,8 @@ struct ArchiveWriter::Content {
       topic->columns.reset();
       topic->bytes.reset();
     }
+    if (scans) scans->finish();
+    scans.reset();
     time->finish();
     sender->finish();
     describe();
@@ -264,24 +265,10 @@ struct ArchiveWriter::Content {
   std::set<std::string> groups;
   std::optional<Handle> file;
   std::optional<ColumnWriter> time, sender;
+  std::unique_ptr<ScanTable> scans;
   std::vector<std::uint64_t> messages;  // of each connection
   std::vector<Sha256> digests;          // likewise
 };
-
-namespace {
-
-// HDF5 does not say why it could not write; errno does.
-template <typename Act>
-void attempt(const std::string& path, Act act) {
-  errno = 0;
-  try {
-    act();
-  } catch (const InputError&) {
-    throw cannotWrite(path, errno != 0 ? errno : EIO);
-  }
-}
-
-}  // namespace
 
 ArchiveWriter::ArchiveWriter(const std::string& path, const ArchiveSource& source,
                              std::vector<ArchivedConnection> connections)
@@ -295,11 +282,22 @@ void ArchiveWriter::look(std::size_t connection, std::string_view message) {
 }
 
 void ArchiveWriter::add(std::size_t connection, std::int64_t received_ns, std::string_view message) {
-  attempt(content_->path, [&] { content_->add(connection, received_ns, message); });
+  archive::attempt(content_->path, [&] { content_->add(connection, received_ns, message); });
+}
+
+ScanSink& ArchiveWriter::scans() {
+  if (!content_->scans) {
+    archive::attempt(content_->path, [&] {
+      content_->begin();
+      makeGroup(*content_->file, "/scans");
+    });
+    content_->scans = std::make_unique<ScanTable>(*content_->file, content_->path);
+  }
+  return *content_->scans;
 }
 
 void ArchiveWriter::finish() {
-  attempt(content_->path, [&] {
+  archive::attempt(content_->path, [&] {
     content_->begin();
     content_->close();
   });

@@ -13,6 +13,7 @@
 #include "fsr_pressure_map/ros/abandon_bag.h"
 #include "fsr_pressure_map/ros/message_reader.h"
 #include "fsr_pressure_map/ros/scan_context.h"
+#include "fsr_pressure_map/ros/scan_source.h"
 #include "fsr_pressure_map/ros/sensor_topics.h"
 #include "fsr_pressure_map/settings/fresh_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -121,11 +122,24 @@ class Selected {
   std::vector<fsr::ArchivedConnection> connections_;
 };
 
+// A full disk is told by the archive's own end.
+std::string joinScans(const std::string& path, const std::string& topics, fsr::ArchiveWriter& archive) {
+  ScanSelection selection;
+  selection.topics = topics;
+  fsr::ScanSink& scans = archive.scans();
+  try {
+    sendScans(path, selection, scans);
+    return "";
+  } catch (const fsr::InputError& error) {
+    return error.what();
+  }
+}
+
 }  // namespace
 
-std::uint64_t archiveBag(const std::string& path, const ArchiveSelection& selection,
+ArchiveResult archiveBag(const std::string& path, const ArchiveSelection& selection,
                          const std::string& output) {
-  std::uint64_t messages = 0;
+  ArchiveResult result;
   withSoundBag(path, [&](const rosbag::Bag& bag) {
     Selected selected(bag, selection);
     const fsr::ArchiveSource source{std::filesystem::path(path).filename().string(), fsr::sha256OfFile(path)};
@@ -133,11 +147,14 @@ std::uint64_t archiveBag(const std::string& path, const ArchiveSelection& select
     selected.forEach([&](std::size_t connection, std::int64_t, std::string_view bytes) {
       archive.look(connection, bytes);
     });
-    messages = selected.forEach([&](std::size_t connection, std::int64_t received_ns,
-                                    std::string_view bytes) { archive.add(connection, received_ns, bytes); });
+    result.messages =
+        selected.forEach([&](std::size_t connection, std::int64_t received_ns, std::string_view bytes) {
+          archive.add(connection, received_ns, bytes);
+        });
+    if (selection.whole()) result.complaint = joinScans(path, selection.topics, archive);
     archive.finish();
   });
-  return messages;
+  return result;
 }
 
 namespace {

@@ -170,8 +170,10 @@ void writeArchive(const fsr::CommandLine& line, std::ostream& out) {
   refuseOthers(line, pictureOptionNames());
   const ScanSelection range = selectionOf(line);
   const ArchiveSelection selection{range.topics, split(line.text("topics", "")), range.from, range.until};
-  const std::uint64_t messages = archiveBag(line.files().front(), selection, outputOf(line));
-  out << messages << " messages are in " << fullPath(line.text("output", "")) << std::endl;
+  const ArchiveResult result = archiveBag(line.files().front(), selection, outputOf(line));
+  if (!result.complaint.empty())
+    out << "Warning: the group /scans is not whole: " << result.complaint << "\n";
+  out << result.messages << " messages are in " << fullPath(line.text("output", "")) << std::endl;
 }
 
 void writeBag(const fsr::CommandLine& line, std::ostream& out) {

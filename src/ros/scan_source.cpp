@@ -94,6 +94,7 @@ class Joiner {
     fsr::ScanRecord& scan = at(stampOf(message.header));
     requireOneSize(scan, {message.rows, message.columns});
     scan.sequence = message.sequence;
+    scan.raw_row = raw_rows_++;
     scan.full_scale = message.full_scale;
     scan.counts = message.counts;
   }
@@ -104,6 +105,7 @@ class Joiner {
     requireOneSize(scan, map.layout.size);
     scan.layout = map.layout;
     scan.map = std::move(map);
+    scan.map_row = map_rows_++;
   }
 
   void add(const fsr_pressure_map::SurfaceCurvature& message) {
@@ -176,6 +178,7 @@ class Joiner {
   std::shared_ptr<const fsr::Surface> surface_;
   std::optional<std::int64_t> first_ns_;
   double last_due_ = -1;
+  std::uint64_t raw_rows_ = 0, map_rows_ = 0;
   std::size_t sent_ = 0;
 };
 

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "fsr_pressure_map/exports/scan_record.h"
+
 namespace fsr {
 
 // A bag as one HDF5 file that every program reads and that turns back into the bag, behind a user block of
@@ -15,7 +17,8 @@ namespace fsr {
 //     fsr_pressure_map archive schema=1 sha256=<64 hex digits of all that follows byte 512>
 //
 //     /fsr/raw, /fsr/pressure_map ...  a group for each topic: a dataset for each field (message_table.h)
-//     /archive/message                 time [messages] received [ns], connection [messages]
+//     /scans                           the sensor's scans joined with what else is known of them
+//     (scan_table.h) /archive/message                 time [messages] received [ns], connection [messages]
 //     /archive/connection              topic, type, md5sum, definition, header, group, form, messages, sha256
 //                                      (of the topic's messages, one after the other)
 //     /archive                         attributes bag, sha256 (of the bag's bytes), tool_version, schema, use
@@ -44,6 +47,8 @@ class ArchiveWriter {
 
   void look(std::size_t connection, std::string_view message);
   void add(std::size_t connection, std::int64_t received_ns, std::string_view message);
+  /// Takes the scans of the group /scans, after the last add(); not needed for the way back.
+  ScanSink& scans();
   void finish();
 
  private:

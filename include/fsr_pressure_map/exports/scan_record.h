@@ -29,7 +29,9 @@ struct ScanRecord {
   std::shared_ptr<const Surface> surface;  ///< that held then; none = never told
   std::string session;                     ///< empty = never told
   std::optional<std::size_t> cycle;        ///< of the chamber's pressure, from 1
-  std::string event;                       ///< the last one so far, "kind" or "kind:label"; empty = none
+  std::optional<std::uint64_t> raw_row;  ///< number of the scan's message among those of its topic in the bag
+  std::optional<std::uint64_t> map_row;  ///< likewise of the map's; none = computed, or there is none
+  std::string event;                     ///< the last one so far, "kind" or "kind:label"; empty = none
 };
 
 /// What stands still while a recording is exported.
