@@ -25,7 +25,8 @@ TaxelWatch::TaxelWatch(MatrixSize size, std::uint16_t full_scale, const TaxelWat
       loaded_(codes(options.loaded_share, full_scale)),
       travel_(codes(options.travel_share, full_scale)),
       next_row_(size.rows),
-      flags_(size.taxels(), 0) {
+      flags_(size.taxels(), 0),
+      evidence_(size.taxels(), 0) {
   for (Window* window : {&current_, &closed_}) {
     window->low.resize(size.taxels());
     window->high.resize(size.taxels());
@@ -77,19 +78,30 @@ bool TaxelWatch::judge(std::uint16_t row, std::uint16_t column) noexcept {
   const std::uint16_t low = closed_.low[taxel];
   const std::uint16_t high = closed_.high[taxel];
   const Neighbours around = neighbours(row, column);
+  noteFullScale(taxel, around);
   const std::uint16_t before = flags_[taxel] & kVerdict;
   std::uint16_t verdict = before;
   if (high <= floor_) {
     if (2 * around.loaded > around.count) verdict = taxel_flag::kDead;
   } else if (low != high) {
     verdict = 0;
-  } else if (high < full_scale_ ? 2 * around.moved > around.count : around.count > 0 && around.risen == 0) {
+  } else if (high < full_scale_ ? 2 * around.moved > around.count : isShort(taxel)) {
     verdict = taxel_flag::kStuck;
   }
   if (verdict == before) return false;
   if (verdict == 0) ++revivals_;
   flags_[taxel] = verdict;
   return true;
+}
+
+void TaxelWatch::noteFullScale(std::size_t taxel, const Neighbours& around) noexcept {
+  std::uint8_t& evidence = evidence_[taxel];
+  if (closed_.low[taxel] != full_scale_ || around.count == 0) {
+    evidence = 0;
+  } else {
+    if (2 * around.loaded > around.count) evidence |= kLoadSeen;
+    if (around.rested == around.count) evidence |= kRestSeen;
+  }
 }
 
 bool TaxelWatch::judgeLines() noexcept {
@@ -143,7 +155,7 @@ TaxelWatch::Neighbours TaxelWatch::neighbours(std::uint16_t row, std::uint16_t c
       const std::size_t taxel = std::size_t(r) * size_.columns + std::size_t(c);
       ++result.count;
       result.loaded += closed_.high[taxel] >= loaded_;
-      result.risen += closed_.high[taxel] >= travel_;
+      result.rested += closed_.low[taxel] < travel_;
       result.moved += closed_.high[taxel] - closed_.low[taxel] >= travel_;
     }
   }

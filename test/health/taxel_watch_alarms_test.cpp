@@ -44,4 +44,50 @@ TEST(TaxelWatchAlarms, NoHealthyTaxelIsFlaggedInAHundredThousandWindows) {
   }
 }
 
+// Point loads that saturate one taxel of a sheet at rest: 40 places x 250 windows, presses from 2 s to an
+// hour. None flagged: below 3 / 10,000 windows = 3.0e-4 with 95 % confidence.
+TEST(TaxelWatchAlarms, NoPointLoadIsTakenForAShort) {
+  constexpr fsr::MatrixSize kSize{7, 10};
+  std::size_t found = 0;
+  for (std::size_t place = 0; place < 40; ++place) {
+    fsr::TaxelWatch watch(kSize, 4095);
+    const std::size_t taxel = (place * 29) % kSize.taxels();
+    const double press = std::min(3600.0, 2.0 * std::pow(1.22, double(place)));  // and as long a pause [s]
+    for (double time = 0; time < 2500; time += 0.2) {
+      std::vector<std::uint16_t> counts(kSize.taxels(), static_cast<std::uint16_t>(3 + int(5 * time) % 3));
+      if (std::fmod(time, 2 * press) < press) counts[taxel] = 4095;
+      watch.observe(counts.data(), time);
+      for (const std::uint16_t flags : watch.flags()) found += flags != 0;
+    }
+  }
+  EXPECT_EQ(found, 0u);
+}
+
+// The other side of the rates: what is broken, one fault a sheet, is found within a cycle and a half of load.
+TEST(TaxelWatchAlarms, EachOfAHundredFaultsIsFoundWithinSeventySeconds) {
+  for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+    for (const int fault : {0, 1, 2, 3}) {  // dead taxel, stuck taxel, short, broken row
+      fsr::SimulationSettings settings =
+          fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/demo.yaml");
+      settings.seed = seed;
+      fsr::SensorChain chain(settings);
+      chain.mount({"flat", 1, {fsr::Curvature{}}, {}});
+      fsr::TaxelWatch watch(settings.layout.size, chain.fullScale());
+      const std::size_t taxel = (seed * 31 + 7) % 70;
+      std::uint64_t number = 0;
+      for (double time = 0; time < 1.5 * kCycle; time += 1 / kRate) {
+        const double pressure = kPeak * 0.5 * (1 - std::cos(2 * M_PI * time / kCycle));
+        std::vector<std::uint16_t> counts = chain.read({time, pressure, number++});
+        for (std::size_t t = 0; t < 70; ++t) {
+          if (fault == 3 ? t / 10 == taxel / 10 : t == taxel) {
+            counts[t] = fault == 1 ? 812 : fault == 2 ? chain.fullScale() : 0;
+          }
+        }
+        watch.observe(counts.data(), time);
+      }
+      EXPECT_NE(watch.flags()[taxel], 0) << "fault " << fault << ", seed " << seed;
+    }
+  }
+}
+
 }  // namespace

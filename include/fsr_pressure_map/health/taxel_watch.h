@@ -25,7 +25,8 @@ struct TaxelWatchOptions {
 ///            loaded_share and beyond
 ///     stuck  it kept one code, neither floor nor full scale, while more than half of its neighbours
 ///            ranged over travel_share and more
-///            or kept full scale, a short, while none of its neighbours rose to travel_share
+///            or kept full scale without a break, a short, while more than half of its neighbours rose to
+///            loaded_share and all of them fell below travel_share, in whatever order
 ///     alive  it rose above the floor and changed
 ///     else   the window says nothing, and the taxel keeps the verdict it had
 ///
@@ -40,7 +41,14 @@ struct TaxelWatchOptions {
 /// found: its taxels have more neighbours outside than inside of it. Simulated sheets (scatter, hysteresis,
 /// creep, crosstalk, noise, uneven loads) raised none in 100,000 windows of a taxel: fewer than 3 in 100,000,
 /// 95 % sure (TaxelWatchAlarms). What it cannot judge: a taxel without a neighbour, two dead rows side by
-/// side, a short under load (flagged saturated anyway).
+/// side, a short as long as no load came and went.
+///
+/// A taxel at full scale whose neighbours rest is no short yet: a point load on one taxel reads the same, and
+/// what hides the highest pressure of a sheet had better be sure. It is flagged saturated, "at least", until
+/// load came to its neighbours, or went, while it never left full scale. Point loads on a sheet at rest, be
+/// it for hours, and prominences among neighbours that stay loaded raise nothing (TaxelWatchAlarms); a point
+/// load that outlasts the load on all of its neighbours does. A whole line at full scale beside lines at rest
+/// needs no such proof: no load is one taxel wide and a sheet long.
 ///
 /// The cost of a scan is one pass over the taxels and the verdict on one row of the window before;
 /// nothing is allocated after construction.
@@ -64,17 +72,21 @@ class TaxelWatch {
     std::vector<std::uint16_t> low;
     std::vector<std::uint16_t> high;
   };
+  // What a taxel's neighbours did while it kept full scale without a break.
+  enum Evidence : std::uint8_t { kLoadSeen = 1, kRestSeen = 2 };
   struct Neighbours {
     int count = 0;
     int loaded = 0;
-    int risen = 0;  // to travel_share and beyond
-    int moved = 0;  // over travel_share
+    int moved = 0;   // over travel_share
+    int rested = 0;  // fell below travel_share
   };
 
   void open(double time) noexcept;
+  void noteFullScale(std::size_t taxel, const Neighbours& around) noexcept;
   void widen(const std::uint16_t* counts) noexcept;
   bool judgeRow(std::uint16_t row) noexcept;
   bool judge(std::uint16_t row, std::uint16_t column) noexcept;
+  bool isShort(std::size_t taxel) const noexcept { return evidence_[taxel] == (kLoadSeen | kRestSeen); }
   /// A row or a column: `count` taxels from `first` on, `step` apart; the lines beside it are `beside` apart.
   struct Line {
     std::size_t first, count, step, beside;
@@ -98,7 +110,8 @@ class TaxelWatch {
   double start_ = 0;        // of current_ [s]
   std::size_t scans_ = 0;   // in current_
   std::vector<std::uint16_t> flags_;
-  bool line_fault_ = false;  // flags_ has kLineFault somewhere
+  std::vector<std::uint8_t> evidence_;  // of each taxel
+  bool line_fault_ = false;             // flags_ has kLineFault somewhere
   std::uint64_t revivals_ = 0;
 };
 
