@@ -53,8 +53,9 @@ BagSink::BagSink(const BagSinkOptions& options, std::function<void(const std::st
     bag_->open(report_.file, rosbag::bagmode::Write);
     bag_->setChunkThreshold(options.chunk_size);
   } catch (const rosbag::BagException& error) {
-    throw fsr::InputError(report_.file + ": cannot be written (" + error.what() +
-                          "); give a path in a directory that exists and may be written to");
+    throw fsr::InputError(
+        report_.file + ": cannot be written (" + error.what() +
+        "); give a path in a directory that exists and may be written to, on a disk with room");
   }
   thread_ = std::thread([this] { run(); });
 }

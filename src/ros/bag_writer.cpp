@@ -23,8 +23,9 @@ namespace {
 constexpr std::int64_t kSecond = 1000000000;  // [ns]
 
 fsr::InputError cannotWrite(const std::string& path, const std::string& why) {
-  return fsr::InputError(path + ": the bag cannot be written (" + why +
-                         "); give a path in a directory that exists and may be written to");
+  return fsr::InputError(
+      path + ": the bag cannot be written (" + why +
+      "); give a path in a directory that exists and may be written to, on a disk with room");
 }
 
 ros::Time rosTime(std::int64_t stamp_ns, const std::string& path) {

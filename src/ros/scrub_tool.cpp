@@ -104,7 +104,8 @@ Ledger scrub(const std::string& path, const std::string& fresh) {
     throw fsr::InputError(path + ": is no whole bag (" + error.what() + ")");
   } catch (const rosbag::BagException& error) {
     abandonBag(std::move(to));
-    throw fsr::InputError(path + ": cannot be copied (" + error.what() + ")");
+    throw fsr::InputError(path + ": cannot be copied (" + error.what() +
+                          "); is it a whole bag, and has the disk of --output room for it?");
   } catch (const fsr::InputError& error) {
     throw fsr::InputError(path + ": " + error.what());
   }

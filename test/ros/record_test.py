@@ -105,7 +105,7 @@ class RecordTest(unittest.TestCase):
         folder = pathlib.Path(self.folder.name) / "small"
         folder.mkdir()
         if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", str(folder)], stderr=subprocess.DEVNULL).returncode:
-            print("SKIPPED: a small file system can be mounted by root alone", file=sys.stderr, flush=True)
+            print("SKIPPED: a small file system can be mounted by root alone", flush=True)
             self.skipTest("a small file system can be mounted by root alone")
         self.mounted = folder
         return folder

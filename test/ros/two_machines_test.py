@@ -46,7 +46,9 @@ class TwoMachinesTest(unittest.TestCase):
                     run("ip", "-n", space, "link", "set", device, "up")
         except (subprocess.CalledProcessError, FileNotFoundError):
             self.tearDown()
-            self.skipTest("network namespaces can be made by root alone")
+            why = "network namespaces need root, ip (iproute2) and a kernel that permits them"
+            print(f"SKIPPED: {why}", flush=True)
+            self.skipTest(why)
 
     def tearDown(self):
         for child in self.children:

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <sys/mount.h>
+
+#include <string>
+
+#include "support/pty.h"
+
+namespace test_support {
+
+/// A file system of its own, `size` as mount takes it ("64k"), for as long as it lives. Only root may mount
+/// one: ready() is false where the system forbids it, and a test had better skip than pass.
+class SmallDisk {
+ public:
+  explicit SmallDisk(const std::string& size)
+      : ready_(mount("none", folder_.path("").c_str(), "tmpfs", 0, ("size=" + size).c_str()) == 0) {}
+  ~SmallDisk() {
+    if (ready_) umount2(folder_.path("").c_str(), MNT_DETACH);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+  bool ready() const { return ready_; }
+  std::string path(const std::string& name) const { return folder_.path(name); }
+
+ private:
+  TemporaryFolder folder_;
+  bool ready_;
+};
+
+}  // namespace test_support
