@@ -19,7 +19,7 @@ constexpr double kSignificant = 2;            // standard errors
 constexpr double kRivalFar = 0.15;            // likewise: behind it by more it is none, whatever the errors
 constexpr double kSecondOfRest = 0.45;   // of what remains explainable: a wrong form alone leaves that much
 constexpr double kSecondOfFirst = 0.03;  // of what the first effect explains
-constexpr double kSecondLookalike = 5;   // standard errors, where a wrong form of one looks like the other
+constexpr double kSecondLookalike = 8;   // standard errors, where a wrong form of one looks like the other
 constexpr double kSecondRival = 0.7;     // of what the second adds: another that adds as much is as good
 constexpr std::size_t kPairsRefined = 4;
 constexpr double kMuchOpen = 0.75;       // of the common trace's error: less explained leaves room for two
@@ -402,7 +402,8 @@ void Contest::weigh() {
   const EffectInfo& info = findEffect(decision_.explanation.ids.front())->info;
   const bool all =
       std::all_of(info.needs.begin(), info.needs.end(), [&](Evidence e) { return evidence_.has(e); });
-  if (all) return;
+  // Whatever goes on slowly looks like a drift while the clock and the cycles go on together.
+  if (all && (info.id != "drift" || evidence_.uneven_pace)) return;
   const Explanation* partner = nullptr;
   for (const Explanation& single : singles_) {
     const bool listed =
