@@ -119,6 +119,14 @@ void warn(const fsr::Recording& recording, std::vector<std::string>& warnings) {
   }
 }
 
+void warnOfSize(const fsr::Recording& recording, const fsr::SimulationSettings& settings,
+                std::vector<std::string>& warnings) {
+  const fsr::MatrixSize simulated = settings.layout.size;
+  if (recording.layout.size == simulated) return;
+  warnings.push_back(recording.name + ": is of a matrix of " + sizeText(recording.layout.size) + ", " +
+                     settings.origin + " of " + sizeText(simulated) + "; the model takes the bag's");
+}
+
 std::string outputPath(const std::string& bag, const std::string& output) {
   const auto path = std::filesystem::path(output) / std::filesystem::path(bag).filename();
   std::error_code error;
@@ -136,10 +144,11 @@ SimulatedRun writeDrivenBags(const fsr::SimulationSettings& settings, const Driv
   std::optional<fsr::DrivenRig> rig;
   for (const std::string& bag : driving.paths) {
     const std::string path = outputPath(bag, bags.output);
-    if (bags.progress) bags.progress(path);
     const fsr::Recording recording = readWhole(bag, driving.topics);
+    if (bags.progress) bags.progress(path);
     warn(recording, run.warnings);
     if (!rig) {
+      warnOfSize(recording, settings, run.warnings);
       run.rig = fitted(settings, recording);
       rig.emplace(run.rig);
       if (bags.state) rig->resume(*bags.state);

@@ -60,6 +60,25 @@ std::string folderOf(const fsr::CommandLine& line) {
   return folder;
 }
 
+/// A folder that was made and then stayed empty, because nothing came of it, goes again.
+class TidyFolder {
+ public:
+  explicit TidyFolder(const fsr::CommandLine& line)
+      : is_new_(!fs::exists(line.requiredText("output"))), path_(folderOf(line)) {}
+  ~TidyFolder() {
+    std::error_code ignored;
+    if (is_new_ && fs::is_empty(path_, ignored)) fs::remove(path_, ignored);
+  }
+  TidyFolder(const TidyFolder&) = delete;
+  TidyFolder& operator=(const TidyFolder&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  bool is_new_;
+  std::string path_;
+};
+
 /// Recorded bags must not be lost under the name of simulated ones.
 void refuseBagsOfOthers(const fs::path& folder) {
   if (fs::exists(folder / kTruth)) return;
@@ -93,7 +112,8 @@ void writeBags(const fsr::CommandLine& line, const fsr::SimulationSettings& sett
   const std::string saved = line.text("save-state", "");
   if (!saved.empty()) fsr::requireReplaceable(saved);
   SimulatedBags bags;
-  bags.output = folderOf(line);
+  const TidyFolder folder(line);
+  bags.output = folder.path();
   refuseBagsOfOthers(bags.output);
   bags.progress = [&](const std::string& path) { out << path << std::endl; };
   if (line.has("state")) {

@@ -44,6 +44,7 @@ class SimulateTool : public testing::Test {
       status_ = simulateTool(static_cast<int>(arguments.size()), arguments.data(), out);
       return out.str();
     } catch (const fsr::InputError& error) {
+      printed_ = out.str();
       return error.what();
     }
   }
@@ -51,6 +52,7 @@ class SimulateTool : public testing::Test {
 
   fs::path folder_;
   int status_ = -1;
+  std::string printed_;  // before it failed
 };
 
 std::set<std::string> topicsOf(const std::string& bag_path) {
@@ -190,6 +192,18 @@ TEST_F(SimulateTool, TakesTheOneSensorThatItIsTold) {
   EXPECT_EQ(topicsOf(path("model/two.bag")).size(), 6u);
 }
 
+TEST_F(SimulateTool, LeavesNothingBehindWhereABagCannotDriveIt) {
+  std::ofstream(path("text.bag")) << "no bag";
+  const std::string said =
+      run({"--simulation", kBench, "--output", path("new"), "--drive", path("text.bag")});
+  EXPECT_NE(said.find("text.bag"), std::string::npos) << said;
+  EXPECT_EQ(printed_, "");
+  EXPECT_FALSE(fs::exists(folder_ / "new"));
+  fs::create_directories(folder_ / "old");
+  run({"--simulation", kBench, "--output", path("old"), "--drive", path("text.bag")});
+  EXPECT_TRUE(fs::exists(folder_ / "old")) << "somebody else's folder";
+}
+
 TEST_F(SimulateTool, SaysWhatADrivenModelIsLikeAndWhatItMissed) {
   fsr::Recording recording;
   recording.name = "bare";
@@ -207,6 +221,7 @@ TEST_F(SimulateTool, SaysWhatADrivenModelIsLikeAndWhatItMissed) {
   const std::string printed =
       run({"--simulation", kBench, "--output", path("model"), "--drive", path("bare.bag")});
   EXPECT_EQ(status_, 0) << printed;
+  EXPECT_NE(printed.find("is of a matrix of 2 x 5"), std::string::npos) << printed;
   EXPECT_NE(printed.find("holds no temperature"), std::string::npos) << printed;
   EXPECT_NE(printed.find("the model lies flat there"), std::string::npos) << printed;
   const auto truth = fsr::readSimulationFile(path("model/truth.yaml"));
