@@ -27,7 +27,7 @@ SITUATIONS = {"ramp": "in a ramp", "stance": "in a stance of 0.6 s", "standing":
 
 LAYOUT = """<style>
 .first { display: grid; grid-template-columns: minmax(20em, 2fr) 3fr; gap: 0 1.6em; }
-.first figure { margin: 0; } .first p, .first ul { margin: 0.4em 0; } .first .verdict { grid-column: 1 / 3; margin: 0; }
+.first figure { margin: 0.8em 0 0; } .first p, .first ul { margin: 0.4em 0; } .first .verdict { grid-column: 1 / 3; margin: 0; }
 body { max-width: 76em; margin: 1em auto; } h1 { margin: 0.3em 0; }
 .gap td { padding: 0.15em 0.7em; } dt { font-weight: bold; margin-top: 0.5em; } dd { margin: 0; }
 @media (max-width: 50em) { .first { display: block; } }
@@ -117,6 +117,8 @@ def draw_first(folder, results):
     drawing, axes = plt.subplots(1, len(tables) + 1, figsize=(style.PAGE, 2.9),
                                  width_ratios=[3] * len(tables) + [2])
     axes = list(axes) if tables else [axes]
+    for other in axes[1:len(tables)]:
+        other.sharey(axes[0])  # what is small is to look small
     for i, (name, table) in enumerate(tables):
         draw_curve(axes[i], name, table)
     if tables:
@@ -167,7 +169,7 @@ def draw_candidates(folder):
 
 
 def percent(value):
-    return "-" if value is None else "%.3g %%" % (100 * value)
+    return "-" if value is None else ("%#.3g" % (100 * value)).rstrip(".") + " %"
 
 
 def kilopascal(value):
@@ -223,6 +225,11 @@ def opened(results):
     return "once" if most <= 1 else "%d times by now" % most
 
 
+def costs(results):
+    return ", ".join("%s %s" % (kilopascal(u["before_pa"]), SITUATIONS.get(u["situation"], u["situation"]))
+                     for u in results["in_use"])
+
+
 def first_screen(results, figure):
     following = results["next_experiment"]
     facts = "".join([
@@ -230,6 +237,7 @@ def first_screen(results, figure):
         item("Not testable here (what would show it)", not_testable(results)),
         item("Next experiment", following["sentence"] if following else "none is needed to tell explanations apart"),
         item("Held out by", held_out(results["gap"]) + "; looked at " + opened(results)),
+        item("Largest error of who leaves it out", costs(results)) if results["in_use"] else "",
     ])
     caption = ("Measured minus simulated, mean with its 95 % interval, before and after what was found was added, "
                "and its rms on data that took no part; floor = what no explanation could undercut")

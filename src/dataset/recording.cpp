@@ -15,6 +15,11 @@ std::string scans(std::uint64_t number) {
 
 std::vector<std::string> describeLosses(const RecordingLosses& losses) {
   std::vector<std::string> sentences;
+  if (losses.counter_back > 0) {
+    sentences.push_back("the board's counter ran backwards " + std::to_string(losses.counter_back) +
+                        (losses.counter_back == 1 ? " time" : " times") +
+                        ": it started afresh, or stamps ran backwards and were sorted");
+  }
   if (losses.sequence_gaps > 0) {
     sentences.push_back("the board's counter has " + std::to_string(losses.sequence_gaps) +
                         (losses.sequence_gaps == 1 ? " gap, " : " gaps, ") + scans(losses.lost_scans) +

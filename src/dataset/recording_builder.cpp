@@ -22,7 +22,11 @@ void countGap(std::uint32_t before, std::uint32_t now, RecordingLosses& losses) 
   const std::uint32_t step = now - before;
   if (step <= 1) return;  // 0: the board does not count
   ++losses.sequence_gaps;
-  if (step < 0x80000000u) losses.lost_scans += step - 1;  // else the board started afresh
+  if (step < 0x80000000u) {
+    losses.lost_scans += step - 1;
+  } else {
+    ++losses.counter_back;
+  }
 }
 
 // Whether the scan lies on one known surface; counts what does not.

@@ -15,10 +15,13 @@ namespace {
 
 constexpr std::size_t kFewestCycles = 3;
 constexpr std::size_t kFewestScans = 200;
-constexpr double kLeastRange = 50e3;   // of the pressure [Pa]
-constexpr double kMostUnusable = 0.5;  // share of the taxels
-constexpr double kBetween = 60;        // bags whose stamps overlap, one after the other [s]
-constexpr double kShowShare = 0.2;     // of the cycles
+constexpr std::uint64_t kFewRestarts = 2;  // of the board in one bag
+constexpr double kAnswers = 0.05;          // of what most taxels move, between low and high pressure
+constexpr double kLeastAnswer = 0.0005;    // likewise, at least [share of full scale]
+constexpr double kLeastRange = 50e3;       // of the pressure [Pa]
+constexpr double kMostUnusable = 0.5;      // share of the taxels
+constexpr double kBetween = 60;            // bags whose stamps overlap, one after the other [s]
+constexpr double kShowShare = 0.2;         // of the cycles
 
 std::string number(double value) {
   std::ostringstream text;
@@ -42,6 +45,11 @@ void requireWhole(const Recording& recording) {
     if (recording.time[i] > recording.time[i - 1]) continue;
     refuse("its stamps run backwards at " + number(recording.time[i]) + " s, but must ascend");
   }
+  if (recording.losses.counter_back > kFewRestarts) {
+    refuse("its stamps run backwards, or the board started afresh, " +
+           std::to_string(recording.losses.counter_back) +
+           " times; was a clock set while it was recorded? Record it again");
+  }
 }
 
 void requireFinite(const Recording& recording) {
@@ -56,6 +64,24 @@ void requireFit(const Recording& recording, const SimulationSettings& simulation
   if (recording.layout.size != simulation.layout.size) {
     throw InputError(simulation.origin + ": matrix is " + sizeText(simulation.layout.size) + ", but " +
                      recording.name + " has " + sizeText(recording.layout.size));
+  }
+}
+
+// One sheet throughout, and nothing twice: what is shown would have been fitted to.
+void requireTogether(const std::vector<Recording>& recordings) {
+  const Recording& first = recordings.front();
+  for (auto r = recordings.begin(); r != recordings.end(); ++r) {
+    if (r->layout.size != first.layout.size || r->full_scale != first.full_scale) {
+      throw InputError(r->name + ": is of a matrix of " + sizeText(r->layout.size) + " up to " +
+                       std::to_string(r->full_scale) + " counts, but " + first.name + " of " +
+                       sizeText(first.layout.size) + " up to " + std::to_string(first.full_scale) +
+                       "; give bags of one sheet");
+    }
+    const auto same = std::find_if(recordings.begin(), r, [&](const Recording& other) {
+      return other.start_ns == r->start_ns && other.time == r->time && other.counts == r->counts;
+    });
+    if (same != r)
+      throw InputError(r->name + ": holds the same scans as " + same->name + "; give every bag once");
   }
 }
 
@@ -205,6 +231,38 @@ void maskTaxels(Measured& measured) {
   }
 }
 
+// Deviation of what each taxel reads [share of full scale].
+std::vector<double> movements(const Measured& measured) {
+  std::vector<double> sum(measured.taxels()), squares(measured.taxels()), readings;
+  for (std::size_t i = 0; i < measured.moments(); ++i) {
+    measured.recorded(i, readings);
+    for (std::size_t t = 0; t < readings.size(); ++t) {
+      sum[t] += readings[t];
+      squares[t] += readings[t] * readings[t];
+    }
+  }
+  const auto moments = static_cast<double>(measured.moments());
+  for (std::size_t t = 0; t < sum.size(); ++t) {
+    squares[t] = std::sqrt(std::max(0.0, squares[t] / moments - std::pow(sum[t] / moments, 2)));
+  }
+  return squares;
+}
+
+// Detectors hold a taxel against the others: where most of them are dead, a dead one looks like all.
+void requireAnswers(const Measured& measured) {
+  const std::vector<double> answer = movements(measured);
+  std::vector<double> sorted = answer;
+  std::sort(sorted.begin(), sorted.end());
+  const double usual = sorted[sorted.size() * 9 / 10];
+  const double least = std::max(kLeastAnswer, kAnswers * usual);
+  std::size_t usable = 0;
+  for (std::size_t t = 0; t < answer.size(); ++t) usable += measured.used[t] && answer[t] >= least;
+  if (2 * usable >= answer.size()) return;
+  throw InputError((*measured.recordings)[0].name + ": " + std::to_string(answer.size() - usable) + " of " +
+                   std::to_string(answer.size()) +
+                   " taxels are masked or do not answer to the pressure, but at least half must be usable");
+}
+
 void requireJudgeable(const Measured& measured) {
   const std::string name = (*measured.recordings)[0].name;
   const auto [low, high] = std::minmax_element(measured.pressure.begin(), measured.pressure.end());
@@ -214,7 +272,8 @@ void requireJudgeable(const Measured& measured) {
   }
   if (measured.cycles.size() < kFewestCycles) {
     throw InputError(name + ": " + std::to_string(measured.cycles.size()) +
-                     " cycle of filling and venting, but at least 3 are needed: what was found must be held "
+                     (measured.cycles.size() == 1 ? " cycle" : " cycles") +
+                     " of filling and venting, but at least 3 are needed: what was found must be held "
                      "against others");
   }
   if (measured.moments() < kFewestScans) {
@@ -250,8 +309,9 @@ void validate(const DiscrepancyProblem& problem) {
   for (const Recording& recording : problem.recordings) {
     requireWhole(recording);
     requireFinite(recording);
-    requireFit(recording, problem.simulation);
   }
+  requireTogether(problem.recordings);
+  requireFit(problem.recordings.front(), problem.simulation);
   requireKnown(problem.options.ask, "--ask");
   requireKnown(problem.options.leave_out, "--without");
 }
@@ -268,6 +328,8 @@ Measured admit(const DiscrepancyProblem& problem) {
   const std::size_t pooled = scansPooled(problem.recordings);
   for (const std::size_t r : inOrderOfTime(problem.recordings)) {
     appendRecording(measured, classes, r, pooled);
+    for (const std::string& warning : problem.recordings[r].warnings)
+      measured.limitations.push_back(problem.recordings[r].name + ": " + warning + ".");
     thermometer = thermometer && !problem.recordings[r].temperature.empty();
   }
   if (!thermometer) {
@@ -283,6 +345,7 @@ Measured admit(const DiscrepancyProblem& problem) {
   partCycles(measured, problem.options.seed);
   maskTaxels(measured);
   requireJudgeable(measured);
+  requireAnswers(measured);
   return measured;
 }
 

@@ -29,6 +29,9 @@ struct RecordingLosses {
   std::uint64_t no_reference = 0;     ///< scans that no chamber pressure brackets, dropped
   std::uint64_t bad_reference = 0;    ///< chamber pressures that were no number, left out
   std::uint64_t unknown_surface = 0;  ///< scans under no known curvature, dropped
+  /// Places where the board's counter runs backwards along the stamps: it started afresh, or stamps ran
+  /// backwards.
+  std::uint64_t counter_back = 0;
 };
 
 /// Scans with their reference, in time order, as every offline part of the package uses them.

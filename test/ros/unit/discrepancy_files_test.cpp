@@ -75,7 +75,7 @@ TEST_F(DiscrepancyFiles, BecomeAReportThatNeedsNoNetwork) {
   ASSERT_EQ(draw(), "");
   const std::string html = text("report.html");
   for (const char* part : {"Best explanation among 23 effects tested", "Not excluded", "hysteresis + creep",
-                           "crosstalk (uneven load)", "Run five cycles", "3.1 %", "19.2 kPa", "floor",
+                           "crosstalk (uneven load)", "Run five cycles", "3.10 %", "19.2 kPa", "floor",
                            "data:image/png;base64", "3 times by now"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   for (const char* part : {"http://", "https://", "<script", "src=\"/", "file://"})

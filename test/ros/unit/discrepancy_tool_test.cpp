@@ -119,6 +119,68 @@ TEST_F(DiscrepancyTool, RefusesWithOneSentenceAndLeavesNoVerdict) {
   EXPECT_FALSE(fs::exists(folder_ / "out" / "verdict.yaml"));
 }
 
+// Every one is refused in a sentence; none leaves a verdict.
+TEST_F(DiscrepancyTool, RefusesRecordingsThatBearNoVerdict) {
+  const auto tried = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"--output", path("out"), "--no-report"};
+    words.insert(words.end(), more.begin(), more.end());
+    const std::string said = run(words);
+    EXPECT_FALSE(fs::exists(folder_ / "out" / "verdict.yaml")) << said;
+    fs::remove_all(folder_ / "out");
+    EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+    return said;
+  };
+  const fsr::Recording good = recording("flat", 0);
+  const std::string flat = bag("flat.bag", good);
+  expectSaid(tried({flat, flat}), {"flat.bag: holds the same scans as flat.bag; give every bag once"});
+  fs::copy_file(flat, path("copy.bag"));
+  expectSaid(tried({flat, path("copy.bag")}), {"copy.bag: holds the same scans as flat.bag"});
+
+  test_support::SyntheticRig other_rig;
+  other_rig.size = {3, 4};
+  expectSaid(tried({flat, bag("other.bag", recorded(other_rig))}),
+             {"other.bag: is of a matrix of 3 x 4", "flat.bag of 2 x 3", "bags of one sheet"});
+
+  test_support::SyntheticRig once;
+  once.cycles = 1;
+  expectSaid(tried({bag("once.bag", recorded(once))}), {"once.bag: 1 cycle of", "at least 3 are needed"});
+
+  fsr::Recording low = good;
+  for (double& pressure : low.pressure) pressure *= 0.05;
+  expectSaid(tried({bag("low.bag", low)}), {"low.bag: chamber pressure covers", "at least 50 kPa"});
+
+  fsr::Recording dead = good;
+  for (std::size_t k = 0; k < dead.counts.size(); ++k) {
+    if (k % 6 < 4) dead.counts[k] = 0;
+  }
+  expectSaid(tried({bag("dead.bag", dead)}), {"dead.bag: 4 of 6 taxels", "at least half must be usable"});
+
+  fs::resize_file(path("copy.bag"), fs::file_size(flat) / 2);
+  expectSaid(tried({path("copy.bag")}), {"copy.bag: is no whole bag", "rosbag reindex"});
+  std::ofstream(path("empty.bag"));
+  expectSaid(tried({path("empty.bag")}), {"empty.bag: is empty"});
+  std::ofstream(path("file")) << "x";
+  expectSaid(run({flat, "--output", path("file")}), {"file: the folder cannot be made"});
+  expectSaid(run({flat, "--output", path("file/under")}), {"the folder cannot be made"});
+}
+
+// A clock that is set back while the bag is recorded puts later scans among earlier ones.
+TEST_F(DiscrepancyTool, RefusesStampsThatRunBackwards) {
+  fsr::Recording set_back = recording("flat", 0);
+  for (std::size_t i = 250; i < set_back.scans(); ++i) set_back.time[i] -= 10.05;
+  expectSaid(run({bag("back.bag", set_back), "--output", path("out"), "--no-report"}),
+             {"back.bag: its stamps run backwards", "was a clock set"});
+  EXPECT_FALSE(fs::exists(folder_ / "out" / "verdict.yaml"));
+}
+
+TEST_F(DiscrepancyTool, StatesWhatARecordingLacks) {
+  fsr::Recording swapped = recording("flat", 0);
+  std::swap(swapped.time[100], swapped.time[110]);
+  const std::string said = run({bag("swapped.bag", swapped), "--output", path("out"), "--no-report"});
+  expectSaid(said, {"Limitation: swapped.bag: the board's counter ran backwards 2 times",
+                    "No temperature was recorded"});
+}
+
 TEST_F(DiscrepancyTool, ConfirmsByBagsThatAreNewWhatItPredicted) {
   test_support::SyntheticRig rig;
   rig.cycles = 12;
