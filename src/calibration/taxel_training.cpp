@@ -31,6 +31,35 @@ bool varies(const TrainingStatistics& statistics, const SchemePlan::Model& model
   return codes.low < codes.high;
 }
 
+std::uint64_t scansOf(const TrainingStatistics& statistics, const SchemePlan::Model& model) {
+  std::uint64_t scans = 0;
+  for (const std::size_t k : model.trained_on) {
+    for (std::size_t section = 0; section < statistics.sections; ++section) {
+      scans += statistics.cell(0, k, section).samples();
+    }
+  }
+  return scans;
+}
+
+// Where no taxel has a model: is it one of several surfaces that gives none?
+void refuseStillSurface(const SchemePlan& plan, const Calibration& calibration) {
+  const std::size_t taxels = calibration.masked.size();
+  std::vector<const SchemePlan::Model*> still;
+  for (const SchemePlan::Model& model : plan.models) {
+    bool any = false;
+    for (std::size_t taxel = 0; taxel < taxels && !any; ++taxel) {
+      any = calibration.masked[taxel] == 0 && varies(calibration.statistics, model, taxel);
+    }
+    if (!any) still.push_back(&model);
+  }
+  if (still.empty() || still.size() == plan.models.size()) return;
+  const std::uint64_t scans = scansOf(calibration.statistics, *still.front());
+  throw InputError("\"" + still.front()->answers_for.surface +
+                   "\": every taxel reads the same count throughout (" + std::to_string(scans) +
+                   (scans == 1 ? " scan" : " scans") +
+                   "), so that there is nothing to train on; record it again, or leave it out");
+}
+
 CodeTable noModel(std::uint16_t full_scale, bool kernels) {
   CodeTable table;
   table.pressure.assign(full_scale + 1u, std::numeric_limits<float>::quiet_NaN());
@@ -82,6 +111,7 @@ void findTaxelsWithoutModel(const SchemePlan& plan, const std::string& origin, C
   }
   const auto& none = calibration.no_model;
   if (std::find(none.begin(), none.end(), 0) == none.end()) {
+    refuseStillSurface(plan, calibration);
     throw InputError(origin +
                      ": every taxel is masked or reads the same count throughout; is the matrix connected?");
   }

@@ -58,13 +58,20 @@ void chooseTaxels(const std::vector<Recording>& recordings, StudyData& data) {
     }
   }
   if (data.taxels.empty()) {
+    for (std::size_t c = 0; data.scans.size() > 1 && c < data.scans.size(); ++c) {
+      if (data.scans[c].size() > 1) continue;
+      throw InputError(
+          "\"" + data.classes[c].surface + "\" has " + std::to_string(data.scans[c].size()) +
+          " scan to study, but must have several in each section; record it again, or leave it out");
+    }
     throw InputError(recordings.front().name +
                      ": every taxel is masked or reads the same count throughout a condition; is the matrix "
                      "connected?");
   }
   if (data.taxels.size() < kFewestTaxels) {
     throw InputError(recordings.front().name + ": the matrix has " + std::to_string(data.taxels.size()) +
-                     " living taxels, but the study's tests need at least 3 taxels");
+                     (data.taxels.size() == 1 ? " living taxel" : " living taxels") +
+                     ", but the study's tests need at least 3 taxels");
   }
   if (!constant.empty()) {
     data.warnings.push_back("taxels that read the same count throughout a condition are left out: " +
