@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "fsr_pressure_map/calibration/calibration_hdf5.h"
 #include "fsr_pressure_map/settings/fresh_file.h"
@@ -100,14 +101,14 @@ std::string saveCalibration(const Calibration& calibration, const std::string& p
 
 Calibration loadCalibration(const std::string& path, CalibrationParts parts) {
   try {
-    const std::string bytes = readWhole(path);
+    std::string bytes = readWhole(path);
     const std::uint64_t schema = schemaOf(bytes);
     if (schema > kCalibrationSchema) {
       throw InputError("has schema " + std::to_string(schema) + ", but this version reads up to " +
                        std::to_string(kCalibrationSchema) + "; update the package");
     }
     const std::string id = verified(bytes);
-    Calibration calibration = readCalibration(Hdf5Reader(bytes), parts);
+    Calibration calibration = readCalibration(Hdf5Reader(std::move(bytes)), parts);
     calibration.id = id;
     return calibration;
   } catch (const InputError& error) {

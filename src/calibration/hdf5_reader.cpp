@@ -25,8 +25,9 @@ hid_t openImage(const std::string& bytes) {
 
 }  // namespace
 
-Hdf5Reader::Hdf5Reader(const std::string& bytes)
+Hdf5Reader::Hdf5Reader(std::string bytes)
     : lock_(hdf5Mutex()), file_(openImage(bytes)), size_(bytes.size()) {
+  std::string().swap(bytes);
   if (file_ < 0) throw InputError("what follows its first 512 bytes is no HDF5 file");
 }
 

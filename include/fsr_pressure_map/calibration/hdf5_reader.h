@@ -13,7 +13,8 @@ namespace fsr {
 /// what is read takes at most eight times the file's size.
 class Hdf5Reader {
  public:
-  explicit Hdf5Reader(const std::string& bytes);
+  /// Lets go of `bytes` once HDF5 has its own.
+  explicit Hdf5Reader(std::string bytes);
   ~Hdf5Reader();
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
