@@ -16,6 +16,7 @@ constexpr int kPacketsATurn = 64;            // then others may have the mutex
 constexpr milliseconds kTick{4};             // between two looks at the clock
 constexpr milliseconds kLag{50};             // that scaled rig time may have before it waits
 constexpr milliseconds kHiccup{5};           // of the scheduler; a thread that comes later is behind
+constexpr milliseconds kDraining{500};       // that a port full of what was overdue may take
 constexpr milliseconds kMostPatience{2000};  // with the reader, until the emulator has caught up
 
 const EmulatorOptions& checked(const EmulatorOptions& options) {
@@ -118,7 +119,7 @@ void Emulator::catchUp() {
   const double now = schedule_.now();
   for (int i = 0; i < kPacketsATurn && board_.nextDue() <= now; ++i) sendNext();
   noteLateness();
-  behind_ = behind_ && board_.nextDue() <= schedule_.now();
+  forgiveLateness();
   advance(std::min(now, board_.nextDue()));
   if (schedule_.realTime()) return;
   const auto lag = RigSchedule::WallClock::now() - schedule_.wallTime(board_.nextDue());
@@ -130,9 +131,20 @@ void Emulator::noteLateness() {
   const auto now = RigSchedule::WallClock::now();
   if (now - expected_ > kHiccup) {
     behind_ = true;
+    late_ = now;
     waited_ = {};
   }
   expected_ = now;
+}
+
+// When it has caught up, the port is still full of what came at once: that is its fault too.
+void Emulator::forgiveLateness() {
+  const auto now = RigSchedule::WallClock::now();
+  if (board_.nextDue() <= schedule_.now()) {
+    late_ = now;
+  } else if (now - late_ > kDraining) {
+    behind_ = false;
+  }
 }
 
 bool Emulator::patient() const {

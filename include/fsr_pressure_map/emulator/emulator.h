@@ -117,6 +117,7 @@ class Emulator {
   void catchUp();
   void sendNext();
   void noteLateness();
+  void forgiveLateness();
   bool patient() const;
   void advance(double time);
   void setState(RigStatus::State state);
@@ -136,6 +137,7 @@ class Emulator {
   bool heard_ = false;                                                          // a reader is there
   RigSchedule::WallClock::time_point expected_{RigSchedule::WallClock::now()};  // the thread meant to run
   bool behind_ = false;                        // it came late, and is catching up
+  RigSchedule::WallClock::time_point late_;    // when it last was
   RigSchedule::WallClock::duration waited_{};  // for the reader since then
   double time_ = -1;                           // rig time up to which all was sent [s]; nothing yet
   bool stopping_ = false;
