@@ -7,8 +7,9 @@ namespace fsr::hdf5 {
 
 namespace {
 
-constexpr std::size_t kChunk = 1 << 16;  // [bytes]; a column holds back as much
-constexpr unsigned kDeflate = 4;         // level
+constexpr std::size_t kChunk = 1 << 16;         // [bytes]; a column holds back as much
+constexpr std::size_t kLargestEntry = 1 << 28;  // that is read [bytes]; a claim alone must make no room
+constexpr unsigned kDeflate = 4;                // level
 
 std::vector<hsize_t> dimensions(std::size_t entries, const std::vector<std::size_t>& shape) {
   std::vector<hsize_t> all = {entries};
@@ -154,12 +155,19 @@ ColumnReader::ColumnReader(hid_t file, const std::string& path, hid_t type)
   shape_.resize(static_cast<std::size_t>(std::max(1, H5Sget_simple_extent_ndims(space))));
   require(H5Sget_simple_extent_dims(space, shape_.data(), nullptr), path);
   entries_ = shape_[0];
-  for (std::size_t i = 1; i < shape_.size(); ++i) width_ *= shape_[i];
-  entry_size_ = H5Tget_size(type_) * width_;
+  for (std::size_t i = 1; i < shape_.size(); ++i) {
+    width_ = shape_[i] > kLargestEntry ? 0 : std::min<std::size_t>(width_ * shape_[i], kLargestEntry + 1);
+  }
+  const std::size_t value = H5Tget_size(type_);
+  if (value == 0 || width_ == 0 || width_ > kLargestEntry / value) {
+    throw InputError("its " + path + " has entries of no usable size");
+  }
+  entry_size_ = value * width_;
 }
 
 void ColumnReader::load(std::size_t entries) {
-  if (entries > entries_ - loaded_) throw InputError("its " + path_ + " has too few entries");
+  if (entries > entries_ - loaded_ || entries > kLargestEntry / entry_size_)
+    throw InputError("its " + path_ + " has too few entries");
   const std::size_t now = std::min(std::max(entries, chunkEntries(entry_size_)), entries_ - loaded_);
   buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(at_));
   at_ = 0;

@@ -186,12 +186,20 @@ class Restorer {
                      [](const auto& a, const auto& b) { return a.connection < b.connection; });
     for (const fsr::ArchivedMessage& message : together_) {
       const fsr::ArchivedConnection& connection = archive_.connections()[message.connection];
-      ros::Time received;
-      received.fromNSec(static_cast<std::uint64_t>(message.received_ns));
-      bag_.write(connection.topic, received, SerialisedMessage{connection, message.bytes},
+      bag_.write(connection.topic, receivedAt(message), SerialisedMessage{connection, message.bytes},
                  headers_[message.connection]);
     }
     together_.clear();
+  }
+
+  static ros::Time receivedAt(const fsr::ArchivedMessage& message) {
+    constexpr std::int64_t kEnd = std::int64_t{1} << 32;  // of what a bag can tell [s]
+    if (message.received_ns < 0 || message.received_ns / 1000000000 >= kEnd) {
+      throw fsr::InputError("a message was received at " + std::to_string(message.received_ns) +
+                            " ns, but a bag holds the years 1970 to 2106");
+    }
+    ros::Time time;
+    return time.fromNSec(static_cast<std::uint64_t>(message.received_ns));
   }
 
   fsr::ArchiveReader& archive_;

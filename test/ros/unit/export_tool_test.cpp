@@ -383,6 +383,48 @@ TEST_F(ExportTool, RefusesADamagedArchive) {
   EXPECT_FALSE(fs::exists(back));
 }
 
+// Changes a dataset of an archive, and signs the file anew: a hash is no signature.
+constexpr char kForge[] = R"(
+import hashlib, sys, h5py
+path, name, what = sys.argv[1:]
+with h5py.File(path, 'r+') as f:
+    if what == 'delete': del f[name]
+    elif what == 'long': f[name].resize(2**40, axis=0)
+    elif what == 'flat': del f[name]; f.create_dataset(name, shape=(5, 0), dtype='u2')
+    elif what == 'wide': del f[name]; f.create_dataset(name, shape=(5, 2**40), dtype='u2', chunks=(1, 1024))
+    else: f[name][1] = int(what)
+data = bytearray(open(path, 'rb').read())
+line = f'fsr_pressure_map archive schema=1 sha256={hashlib.sha256(data[512:]).hexdigest()}\n'.encode()
+data[:512] = line.ljust(512, b'\0')
+open(path, 'wb').write(data)
+)";
+
+TEST_F(ExportTool, RefusesAnArchiveThatWasChangedAndSignedAnew) {
+  if (test_support::outputOf("/usr/bin/python3 -c 'import h5py' 2>&1").status != 0) {
+    GTEST_SKIP() << "h5py is not installed (Debian package python3-h5py): it was NOT tried";
+  }
+  const std::string good = folder_.path("good.h5"), archive = folder_.path("a.h5"),
+                    back = folder_.path("b.bag");
+  run({bag_, "--to", "hdf5", "--output", good});
+  std::ofstream(folder_.path("forge.py")) << kForge;
+  const auto refusal = [&](const std::string& dataset, const std::string& change) {
+    fs::copy_file(good, archive, fs::copy_options::overwrite_existing);
+    const auto python = test_support::outputOf("/usr/bin/python3 " + folder_.path("forge.py") + " " +
+                                               archive + " " + dataset + " " + change + " 2>&1");
+    EXPECT_EQ(python.text, "");
+    return run({archive, "--to", "bag", "--output", back});
+  };
+  EXPECT_NE(refusal("fsr/raw/sequence", "77").find("the messages of /fsr/raw are not those of the bag"),
+            std::string::npos);
+  EXPECT_NE(refusal("archive/message/time", "-5").find("received at -5 ns"), std::string::npos);
+  EXPECT_NE(refusal("archive/message/connection", "99").find("leads nowhere"), std::string::npos);
+  EXPECT_NE(refusal("fsr/raw/counts", "delete").find("are not those of the bag"), std::string::npos);
+  EXPECT_NE(refusal("fsr/raw/counts", "flat").find("no usable size"), std::string::npos);
+  EXPECT_NE(refusal("fsr/raw/counts", "wide").find("no usable size"), std::string::npos);
+  EXPECT_NE(refusal("archive/message/time", "long").find("has too few entries"), std::string::npos);
+  EXPECT_FALSE(fs::exists(back));
+}
+
 TEST_F(ExportTool, LeavesNothingBehindWhereTheDiskIsFull) {
   const std::string maps = withMaps(), archive = folder_.path("all.h5");
   run({maps, "--to", "hdf5", "--output", archive});
