@@ -1,12 +1,14 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <utility>
+#include <tuple>
 
 #include "fsr_pressure_map/calibration/calibration_hdf5.h"
 #include "fsr_pressure_map/settings/fresh_file.h"
@@ -77,6 +79,27 @@ std::string verified(const std::string& bytes) {
   return hash.substr(0, kIdDigits);
 }
 
+// The id of a whole file of a schema that is known; refuses any other.
+std::string verifiedId(const std::string& path) {
+  const std::string bytes = readWhole(path);
+  const std::uint64_t schema = schemaOf(bytes);
+  if (schema > kCalibrationSchema) {
+    throw InputError("has schema " + std::to_string(schema) + ", but this version reads up to " +
+                     std::to_string(kCalibrationSchema) + "; update the package");
+  }
+  return verified(bytes);
+}
+
+// What changes when a file is replaced or written to: which it is, when and how long it is. Zeros where it
+// is not there.
+using FileState = std::tuple<ino_t, time_t, long, off_t>;
+
+FileState stateOf(const std::string& path) {
+  struct stat state {};
+  ::stat(path.c_str(), &state);
+  return {state.st_ino, state.st_mtim.tv_sec, state.st_mtim.tv_nsec, state.st_size};
+}
+
 }  // namespace
 
 std::string saveCalibration(const Calibration& calibration, const std::string& path) {
@@ -101,14 +124,10 @@ std::string saveCalibration(const Calibration& calibration, const std::string& p
 
 Calibration loadCalibration(const std::string& path, CalibrationParts parts) {
   try {
-    std::string bytes = readWhole(path);
-    const std::uint64_t schema = schemaOf(bytes);
-    if (schema > kCalibrationSchema) {
-      throw InputError("has schema " + std::to_string(schema) + ", but this version reads up to " +
-                       std::to_string(kCalibrationSchema) + "; update the package");
-    }
-    const std::string id = verified(bytes);
-    Calibration calibration = readCalibration(Hdf5Reader(std::move(bytes)), parts);
+    const FileState before = stateOf(path);
+    const std::string id = verifiedId(path);
+    Calibration calibration = readCalibration(Hdf5Reader(path), parts);
+    if (stateOf(path) != before) throw InputError("was replaced while it was read; read it again");
     calibration.id = id;
     return calibration;
   } catch (const InputError& error) {

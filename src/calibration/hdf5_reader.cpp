@@ -1,6 +1,7 @@
 #include "fsr_pressure_map/calibration/hdf5_reader.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "fsr_pressure_map/calibration/hdf5_handle.h"
 
@@ -14,20 +15,17 @@ std::string trimmed(const char* text, std::size_t size) {
   return std::string(text, std::find(text, text + size, '\0'));
 }
 
-hid_t openImage(const std::string& bytes) {
+hid_t openFile(const std::string& path) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file");
-  require(H5Pset_fapl_core(access, 0, false), "file");
-  // HDF5 copies the bytes and writes to none of them
-  require(H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size()), "file");
-  return H5Fopen("image", H5F_ACC_RDONLY, access);
+  require(H5Pset_file_locking(access, false, true), "file");  // not every file system has locks
+  return H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
 }
 
 }  // namespace
 
-Hdf5Reader::Hdf5Reader(std::string bytes)
-    : lock_(hdf5Mutex()), file_(openImage(bytes)), size_(bytes.size()) {
-  std::string().swap(bytes);
+Hdf5Reader::Hdf5Reader(const std::string& path)
+    : lock_(hdf5Mutex()), file_(openFile(path)), size_(std::filesystem::file_size(path)) {
   if (file_ < 0) throw InputError("what follows its first 512 bytes is no HDF5 file");
 }
 

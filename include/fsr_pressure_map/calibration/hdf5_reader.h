@@ -8,13 +8,12 @@
 
 namespace fsr {
 
-/// Reads what Hdf5Writer writes, from the bytes of a whole file. Every function throws InputError that
+/// Reads what Hdf5Writer writes, piece by piece from the file. Every function throws InputError that
 /// names the object where it is missing or of another shape, or claims more values than the file has bytes:
 /// what is read takes at most eight times the file's size.
 class Hdf5Reader {
  public:
-  /// Lets go of `bytes` once HDF5 has its own.
-  explicit Hdf5Reader(std::string bytes);
+  explicit Hdf5Reader(const std::string& path);
   ~Hdf5Reader();
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
