@@ -24,6 +24,8 @@ void write(std::ostream& out, const std::vector<EnabledEffect>& effects) {
   for (const EnabledEffect& effect : effects) {
     out << effect.id << "{";
     for (const auto& [name, value] : effect.values) out << name << "=" << value << ";";
+    for (const std::size_t taxel : effect.only_taxels) out << taxel << ",";
+    for (const std::string& surface : effect.only_surfaces) out << surface << ",";
     out << "}";
   }
   out << "\n";

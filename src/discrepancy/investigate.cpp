@@ -64,6 +64,7 @@ class Investigation {
   void putFindings();
   void show();
   Trace leftWithout(const Part& part) const;
+  void confine(double amplitude);
   std::vector<Part> surfacesWhereItShows() const;
   void holdOut(const std::string& by, const std::vector<Part>& parts, const GapGround& ground,
                const std::string& missing);
@@ -249,6 +250,10 @@ void Investigation::put() {
   report_.credible_set = decision_.credible;
   report_.depends_on = decision_.depends_on;
   report_.candidates = decision_.candidates;
+  for (CandidateScore& candidate : report_.candidates) {
+    const bool named = decision_.verdict == Verdict::kNamed && candidate.outcome == "credible";
+    if (named) candidate.outcome = "named";
+  }
   report_.added = report_.base;
   left_ = Trace::Zero(common_.all.size());
   by_terms_ = decision_.verdict == Verdict::kUnknown;
@@ -329,6 +334,22 @@ Trace Investigation::leftWithout(const Part& part) const {
       .trace;
 }
 
+// The simulation's effects act where they were found to, and there as strongly: the common trace is a mean
+// over all taxels.
+void Investigation::confine(double amplitude) {
+  for (const EnabledEffect& found : decision_.refined.effects) {
+    EnabledEffect effect = *report_.added.effect(found.id);
+    effect.only_taxels = report_.where.taxels;
+    effect.only_surfaces = report_.where.conditions;
+    for (const EffectParameter& strength : strengths(findEffect(found.id)->info)) {
+      double& value = effect.values.at(strength.name);
+      if (!effect.only_taxels.empty() && amplitude > 1)
+        value = std::clamp(amplitude * value, strength.permitted.low, strength.permitted.high);
+    }
+    report_.added = withEffect(report_.added, effect);
+  }
+}
+
 std::vector<Part> Investigation::surfacesWhereItShows() const {
   std::vector<Part> surfaces = partsByCondition(measured_);
   const Ids& where = report_.where.conditions;
@@ -381,6 +402,7 @@ void Investigation::show() {
   }
   if (unknown_statics_) extras.before_more += misfit_.rms * misfit_.rms;
   const double ceiling = in_common ? std::min(1.0, decision_.ceiling * to_error) : 0;
+  if (!by_terms_ && in_common) confine(mask.maxCoeff());
   const GapGround ground{measured_, *fit_, *taxels_, mask, ceiling, extras, problem_.options.seed};
   report_.gap = measureGap(ground, left_, allCycles(measured_));
   holdOut("condition", surfacesWhereItShows(), ground,

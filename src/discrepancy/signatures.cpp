@@ -186,6 +186,7 @@ SimulationSettings representative(const SimulationSettings& settings) {
   };
   effects.erase(std::remove_if(effects.begin(), effects.end(), unwanted), effects.end());
   for (EnabledEffect& effect : effects) {
+    effect.only_taxels.clear();  // the one taxel is one on which it acts
     for (const EffectParameter& parameter : findEffect(effect.id)->info.parameters) {
       if (parameter.role == ParameterRole::kScatter) effect.values[parameter.name] = parameter.neutral;
     }

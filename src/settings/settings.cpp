@@ -151,6 +151,16 @@ std::string Settings::text(const std::string& key) const {
   return node_->yaml[key].Scalar();
 }
 
+std::vector<std::string> Settings::texts(const std::string& key) const {
+  if (!has(key) || !node_->yaml[key].IsSequence()) throw error(key, "must be a list of texts");
+  std::vector<std::string> texts;
+  for (const YAML::Node& entry : node_->yaml[key]) {
+    if (!entry.IsScalar()) throw error(key, "must be a list of texts");
+    texts.push_back(entry.Scalar());
+  }
+  return texts;
+}
+
 std::string Settings::text(const std::string& key, const std::string& fallback) const {
   return has(key) ? text(key) : fallback;
 }

@@ -28,6 +28,27 @@ bool earlier(const EffectEntry& a, const EffectEntry& b) {
   return a.info.stage < b.info.stage;
 }
 
+std::vector<std::uint8_t> actingOn(const EnabledEffect& effect, std::size_t taxels) {
+  if (effect.only_taxels.empty()) return {};
+  std::vector<std::uint8_t> acts(taxels, 0);
+  for (const std::size_t taxel : effect.only_taxels) {
+    if (taxel >= taxels) {
+      throw InputError("effects." + effect.id + ": only_taxels names " + std::to_string(taxel) +
+                       ", but the matrix has " + std::to_string(taxels) + " taxels");
+    }
+    acts[taxel] = 1;
+  }
+  return acts;
+}
+
+// Back to what it was, for taxels on which an effect does not act.
+void keepOthers(const std::vector<std::uint8_t>& acts, const std::vector<double>& before,
+                std::vector<double>& now) {
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (acts[i] == 0) now[i] = before[i];
+  }
+}
+
 double pressureAt(const RigMoment& moment, double time) {
   if (moment.course == nullptr) {
     throw std::invalid_argument("time_skew and scan_skew need the course of the pressure");
@@ -51,11 +72,12 @@ SensorChain::SensorChain(const SimulationSettings& settings)
   for (const EffectEntry& entry : order) {
     const EnabledEffect* enabled = settings.effect(entry.info.id);
     if (!enabled || entry.info.stage == ChainStage::kReference) continue;
-    links_.push_back(
-        {enabled->id, entry.info.stage, entry.make(enabled->values, {settings.layout, settings.seed})});
+    links_.push_back({enabled->id, entry.info.stage,
+                      entry.make(enabled->values, {settings.layout, settings.seed}),
+                      actingOn(*enabled, layout_.size.taxels()), enabled->only_surfaces});
   }
   const std::vector<double> zeros(layout_.size.taxels());
-  signals_ = {0, zeros, zeros, zeros, zeros, zeros};
+  before_ = signals_ = {0, zeros, zeros, zeros, zeros, zeros};
   counts_.resize(zeros.size());
   mount(Surface{"flat", 0, {Curvature{}}, {}});
 }
@@ -65,6 +87,9 @@ void SensorChain::mount(const Surface& surface, const LoadPattern& pattern) {
                     loadShares(pattern, layout_)};
   for (Link& link : links_) link.effect->place(mounting);
   for (Link& link : links_) link.effect->mount(mounting);
+  for (Link& link : links_) {
+    link.here = link.surfaces.empty() || std::count(link.surfaces.begin(), link.surfaces.end(), surface.name);
+  }
   share_ = mounting.share;
   if (curves_) on_surface_ = &curves_->nearest(mounting.curvature.front());
 }
@@ -91,19 +116,35 @@ void SensorChain::addCurves(double pressure) {
   }
 }
 
+// Where an effect does not act it goes on remembering what the sheet went through.
+void SensorChain::apply(Link& link, const RigMoment& moment) {
+  if (!link.confined()) return link.effect->apply(moment, signals_);
+  before_ = signals_;
+  link.effect->apply(moment, signals_);
+  if (!link.here) {
+    signals_ = before_;
+    return;
+  }
+  keepOthers(link.acts, before_.offset, signals_.offset);
+  keepOthers(link.acts, before_.load, signals_.load);
+  keepOthers(link.acts, before_.gain, signals_.gain);
+  keepOthers(link.acts, before_.conductance, signals_.conductance);
+  keepOthers(link.acts, before_.reading, signals_.reading);
+}
+
 const std::vector<std::uint16_t>& SensorChain::read(const RigMoment& stamped) {
   RigMoment moment = clocked(stamped);
   signals_.skew = 0;
   std::fill(signals_.offset.begin(), signals_.offset.end(), 0.0);
   std::fill(signals_.gain.begin(), signals_.gain.end(), 1.0);
   auto link = links_.begin();
-  for (; link->stage == ChainStage::kTiming; ++link) link->effect->apply(moment, signals_);
+  for (; link->stage == ChainStage::kTiming; ++link) apply(*link, moment);
   if (signals_.skew != 0) {
     moment.time -= signals_.skew;
     moment.pressure = pressureAt(moment, moment.time);
   }
   load(moment);
-  for (; link != links_.end(); ++link) link->effect->apply(moment, signals_);
+  for (; link != links_.end(); ++link) apply(*link, moment);
   if (on_surface_ != nullptr) addCurves(moment.pressure);
   const double full_scale = full_scale_;
   for (std::size_t i = 0; i < counts_.size(); ++i) {

@@ -82,6 +82,17 @@ EffectValues readValues(const Settings& settings, const EffectInfo& info) {
   return values;
 }
 
+EnabledEffect readEffect(const Settings& settings, const EffectInfo& info, MatrixSize size) {
+  EnabledEffect effect{info.id, readValues(settings, info)};
+  if (settings.has("only_taxels")) {
+    const double last = static_cast<double>(size.taxels()) - 1;
+    for (const double taxel : settings.numbers("only_taxels", {0, last, ""}))
+      effect.only_taxels.push_back(static_cast<std::size_t>(taxel));
+  }
+  if (settings.has("only_surfaces")) effect.only_surfaces = settings.texts("only_surfaces");
+  return effect;
+}
+
 void refuseOtherEffects(const Settings& effects) {
   for (const std::string& id : effects.keys()) {
     const EffectEntry* entry = findEffect(id);
@@ -93,12 +104,12 @@ void refuseOtherEffects(const Settings& effects) {
   }
 }
 
-std::vector<EnabledEffect> readEffects(const Settings& effects) {
+std::vector<EnabledEffect> readEffects(const Settings& effects, MatrixSize size) {
   refuseOtherEffects(effects);
   std::vector<EnabledEffect> enabled;
   for (const EffectEntry& entry : effectLibrary()) {
     if (effects.has(entry.info.id)) {
-      enabled.push_back({entry.info.id, readValues(effects.section(entry.info.id), entry.info)});
+      enabled.push_back(readEffect(effects.section(entry.info.id), entry.info, size));
     } else if (entry.info.required) {
       throw effects.error(entry.info.id, "no sensor is without it; write `" + entry.info.id + ": {}`");
     }
@@ -144,7 +155,7 @@ SimulationSettings readSimulation(const Settings& settings) {
   simulation.start = settings.number("start", {1, 4e9, "s since 1970"}, simulation.start);
   if (settings.has("climate")) simulation.climate = readChamberClimate(settings.section("climate"));
   if (settings.has("transducer")) simulation.transducer = readTransducer(settings.section("transducer"));
-  simulation.effects = readEffects(settings.section("effects"));
+  simulation.effects = readEffects(settings.section("effects"), simulation.layout.size);
   if (settings.has("taxel_curves")) readCurves(settings, simulation);
   settings.refuseUnknown();
   return simulation;

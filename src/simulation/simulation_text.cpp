@@ -83,6 +83,13 @@ std::string text(const EnabledEffect& effect, const ValueRemarks& remarks) {
     const auto remark = remarks.find(effect.id + "." + parameter.name);
     result += (remark == remarks.end() ? "" : "; " + onOneLine(remark->second)) + "\n";
   }
+  std::string taxels, surfaces;
+  for (const std::size_t taxel : effect.only_taxels)
+    taxels += (taxels.empty() ? "" : ", ") + std::to_string(taxel);
+  for (const std::string& surface : effect.only_surfaces)
+    surfaces += (surfaces.empty() ? "" : ", ") + quotedText(surface);
+  if (!taxels.empty()) result += "    only_taxels: [" + taxels + "]\n";
+  if (!surfaces.empty()) result += "    only_surfaces: [" + surfaces + "]\n";
   return result;
 }
 

@@ -47,5 +47,22 @@ TEST(ReproducedGap, IsTheStatedOneBeforeAndAfter) {
   EXPECT_NEAR(after, report.gap.after, kAlike * report.gap.after);
 }
 
+// A loop on one row of taxels, or on bent surfaces alone: so it is in the simulation.
+TEST(ReproducedGap, OfAnEffectThatActsInSomePlacesOnly) {
+  for (const char* where : {"only_surfaces: [cylinder_5cm]", "only_taxels: [3, 4, 5]"}) {
+    DiscrepancyProblem problem;
+    problem.simulation = simulation("");
+    problem.recordings =
+        simulateSession(simulation(std::string("  hysteresis: {loop_width: 0.08, ") + where + "}\n"));
+    const DiscrepancyReport report = investigate(problem);
+    ASSERT_FALSE(report.effects.empty()) << report.sentence;
+    const Measured measured = admit(problem);
+    EXPECT_NEAR(simulatedGap(measured, report.base), report.gap.before, kAlike * report.gap.before) << where;
+    EXPECT_NEAR(simulatedGap(measured, report.added), report.gap.after, 1.5 * kAlike * report.gap.after)
+        << where;
+    EXPECT_LT(report.gap.after, 0.7 * report.gap.before) << where;
+  }
+}
+
 }  // namespace
 }  // namespace fsr

@@ -37,6 +37,8 @@ class Settings {
                      const std::string& fallback) const;
   /// A list of numbers, each within `range`.
   std::vector<double> numbers(const std::string& key, const Range& range) const;
+  /// A list of texts.
+  std::vector<std::string> texts(const std::string& key) const;
   /// A nested mapping.
   Settings section(const std::string& key) const;
   /// A list of mappings.

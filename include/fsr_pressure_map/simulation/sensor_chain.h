@@ -53,7 +53,12 @@ class SensorChain {
     std::string id;
     ChainStage stage;
     std::unique_ptr<Effect> effect;
+    std::vector<std::uint8_t> acts;     // [taxels]; empty = everywhere
+    std::vector<std::string> surfaces;  // empty = all
+    bool here = true;                   // on the surface where the matrix lies
+    bool confined() const { return !here || !acts.empty(); }
   };
+  void apply(Link& link, const RigMoment& moment);
   RigMoment clocked(const RigMoment& moment);
   void load(const RigMoment& moment);
   void addCurves(double pressure);
@@ -66,6 +71,7 @@ class SensorChain {
   std::vector<double> share_;                           // [taxels], of the chamber's pressure
   std::vector<double> clock_;                           // whether a scan was read, and when the last one [s]
   TaxelSignals signals_;
+  TaxelSignals before_;  // an effect that acts on some taxels only
   std::vector<std::uint16_t> counts_;
 };
 

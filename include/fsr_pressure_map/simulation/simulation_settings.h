@@ -35,6 +35,8 @@ void validate(const SimulatedBoard& board, const std::string& origin);
 struct EnabledEffect {
   std::string id;
   EffectValues values;
+  std::vector<std::size_t> only_taxels{};    ///< on which it acts, row-major; empty = all
+  std::vector<std::string> only_surfaces{};  ///< by name; empty = all
 };
 
 /// One mount of the matrix and what the chamber then does: one bag.
@@ -83,6 +85,7 @@ struct SimulationSettings {
 ///     transducer: {low: -103000, high: 1034000, full_counts: 4096}
 ///     effects:
 ///       static_curve: {exponent: 0.9}   # effects that are named are enabled; {} = usual values
+///       creep: {only_taxels: [0, 12], only_surfaces: [flat]}   # row-major; acts nowhere else
 ///     taxel_curves: taxel_curves.csv    # beside this file; see TaxelCurves
 ///
 /// Throws InputError that names unknown effects and keys, and values out of range.

@@ -1,0 +1,67 @@
+// Effects that act on some taxels or surfaces only.
+#include <gtest/gtest.h>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/simulation/session.h"
+#include "fsr_pressure_map/simulation/simulation_text.h"
+
+namespace fsr {
+namespace {
+
+const char* const kRig = R"(
+simulation: confined
+matrix: {rows: 2, columns: 3}
+board: {scan_rate: 2, transducer_rate: 2}
+chamber: {cycles: 1}
+session:
+  - {surface: flat, flat: true}
+  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}}
+effects:
+  static_curve: {}
+  converter: {}
+)";
+
+SimulationSettings settings(const std::string& more) {
+  return readSimulation(Settings::fromText(kRig + more, "confined.yaml"));
+}
+
+// Whether a taxel reads otherwise anywhere in a recording.
+bool differs(const Recording& a, const Recording& b, std::size_t taxel) {
+  for (std::size_t i = 0; i < a.scans(); ++i) {
+    if (a.scan(i)[taxel] != b.scan(i)[taxel]) return true;
+  }
+  return false;
+}
+
+TEST(ConfinedEffect, ActsOnItsTaxelsAndItsSurfacesAlone) {
+  const auto plain = simulateSession(settings(""));
+  const auto loop = simulateSession(
+      settings("  hysteresis: {loop_width: 0.1, only_taxels: [1, 5], only_surfaces: [cylinder_5cm]}\n"));
+  for (std::size_t taxel = 0; taxel < 6; ++taxel) {
+    EXPECT_FALSE(differs(plain[0], loop[0], taxel)) << taxel;
+    EXPECT_EQ(differs(plain[1], loop[1], taxel), taxel == 1 || taxel == 5) << taxel;
+  }
+}
+
+TEST(ConfinedEffect, EverywhereIsAsIfNothingWereSaid) {
+  const auto all = simulateSession(settings("  creep: {}\n"));
+  const auto listed = simulateSession(
+      settings("  creep: {only_taxels: [0, 1, 2, 3, 4, 5], only_surfaces: [flat, cylinder_5cm]}\n"));
+  for (std::size_t r = 0; r < all.size(); ++r) EXPECT_EQ(all[r].counts, listed[r].counts);
+}
+
+TEST(ConfinedEffect, SurvivesSavingAndLoading) {
+  const SimulationSettings written =
+      settings("  hysteresis: {only_taxels: [1, 5], only_surfaces: [cylinder_5cm, \"a, b\"]}\n");
+  const SimulationSettings read = readSimulation(Settings::fromText(simulationText(written), "written.yaml"));
+  EXPECT_EQ(read.effect("hysteresis")->only_taxels, (std::vector<std::size_t>{1, 5}));
+  EXPECT_EQ(read.effect("hysteresis")->only_surfaces, (std::vector<std::string>{"cylinder_5cm", "a, b"}));
+}
+
+TEST(ConfinedEffect, RefusesTaxelsThatAreNotThere) {
+  EXPECT_THROW(settings("  creep: {only_taxels: [6]}\n"), InputError);
+  EXPECT_THROW(settings("  creep: {only_surfaces: flat}\n"), InputError);
+}
+
+}  // namespace
+}  // namespace fsr
