@@ -16,7 +16,7 @@ std::string trimmed(const char* text, std::size_t size) {
 }
 
 hid_t openFile(const std::string& path) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  hdf5::openLibrary();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file");
   require(H5Pset_file_locking(access, false, true), "file");  // not every file system has locks
   return H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);

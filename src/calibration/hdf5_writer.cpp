@@ -46,7 +46,7 @@ void writeDataset(hid_t file, const std::string& path, hid_t type, const std::ve
 }
 
 hid_t createFile(const std::string& name) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors become exceptions, not text on stderr
+  hdf5::openLibrary();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file");
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file");
   require(H5Pset_file_locking(access, false, true), "file");  // not every file system has locks

@@ -39,7 +39,7 @@ void verify(const std::string& path) {
 }
 
 hid_t openFile(const std::string& path) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  hdf5::openLibrary();
   return H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
 }
 

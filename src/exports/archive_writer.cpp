@@ -23,7 +23,7 @@ using hdf5::require;
 namespace {
 
 hid_t createFile(const std::string& path) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors become exceptions, not text on stderr
+  hdf5::openLibrary();
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file");
   require(H5Pset_userblock(creation, kUserBlock), "file");
   return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);

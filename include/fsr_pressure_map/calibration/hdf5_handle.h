@@ -22,6 +22,15 @@ inline std::mutex& hdf5Mutex() {
   return mutex;
 }
 
+// To be called before anything else of HDF5. Errors become exceptions, not text on stderr. And nothing is
+// left to HDF5 at exit: it would flush once more a file that a full disk left half-written, and crash
+// (HDF5 1.10).
+inline void openLibrary() {
+  static const herr_t nothing_at_exit = H5dont_atexit();
+  static_cast<void>(nothing_at_exit);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
 // An HDF5 identifier with the function that closes it.
 class Handle {
  public:
