@@ -110,7 +110,7 @@ bool TableReader::readCells() {
     if (source_->line <= format_.skip_lines || content.empty() || content[0] == '#') continue;
     if (format_.separator == 0) format_.separator = separatorOf(line, format_.decimal_comma);
     cells_ = split(line, format_.separator);
-    return true;
+    if (!cells_.empty()) return true;  // else a line of white space of other kinds
   }
   return false;
 }

@@ -229,5 +229,9 @@ TEST_F(Table, RefusesWhatLeavesTheRangeOfItsUnit) {
                   {"column 4: must be a whole number, 0 to 4294967295"});
 }
 
+TEST_F(Table, ALineOfOtherWhiteSpaceIsNoRow) {
+  expectComplaint("\v\n", "time=1,reading=2:V", {"holds no row"});
+}
+
 }  // namespace
 }  // namespace fsr
