@@ -82,6 +82,7 @@ struct TableReader::Source {
       text += part.data();
       if (text.size() > kLongestLine)
         throw InputError(path + ": a line has no end; this is no table of text");
+      if (text.empty()) throw InputError(path + ": holds a byte of 0; this is no table of text");
       if (text.back() == '\n') break;
     }
     int error = Z_OK;

@@ -233,5 +233,9 @@ TEST_F(Table, ALineOfOtherWhiteSpaceIsNoRow) {
   expectComplaint("\v\n", "time=1,reading=2:V", {"holds no row"});
 }
 
+TEST_F(Table, ALineThatBeginsWithAByteOfZeroIsRefused) {
+  expectComplaint(std::string("\0,1\n", 4), "time=1,reading=2:V", {"holds a byte of 0"});
+}
+
 }  // namespace
 }  // namespace fsr
