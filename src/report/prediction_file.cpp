@@ -1,7 +1,5 @@
 #include "fsr_pressure_map/report/prediction_file.h"
 
-#include <limits>
-
 #include "fsr_pressure_map/settings/settings.h"
 #include "fsr_pressure_map/settings/yaml_text.h"
 #include "fsr_pressure_map/simulation/effects/effect_library.h"
@@ -10,7 +8,7 @@ namespace fsr {
 
 namespace {
 
-const Range kAnyNumber{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max(), ""};
+const Range kAnyNumber;  // .inf among them: a drift that never ends
 
 std::string effectsText(const std::vector<EnabledEffect>& effects) {
   std::string text;

@@ -142,6 +142,13 @@ TEST_F(VerdictOnDisk, PredictionKeepsEveryBit) {
   EXPECT_EQ(read.prediction.rivals[1][0].id, "time_skew");
 }
 
+TEST_F(VerdictOnDisk, PredictionKeepsADriftThatNeverEnds) {
+  Prediction prediction;
+  prediction.rivals = {{{"drift", {{"rate", -0.002}, {"time_constant", INFINITY}}}}};
+  write(predictionText({prediction, std::string(64, 'd')}));
+  EXPECT_EQ(readPrediction(path_).prediction.rivals[0][0].values, prediction.rivals[0][0].values);
+}
+
 TEST_F(VerdictOnDisk, EmptyPredictionIsOneToo) {
   write(predictionText({{}, "x"}));
   EXPECT_TRUE(readPrediction(path_).prediction.effects.empty());
