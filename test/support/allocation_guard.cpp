@@ -3,9 +3,36 @@
 #include <cstdlib>
 #include <new>
 
+#if defined(__has_feature)
+#define BUILT_WITH(sanitizer) __has_feature(sanitizer)
+#else
+#define BUILT_WITH(sanitizer) 0
+#endif
+
 namespace {
 
 thread_local std::size_t allocations_on_this_thread = 0;
+
+}  // namespace
+
+#if BUILT_WITH(address_sanitizer) || BUILT_WITH(thread_sanitizer)
+
+// A sanitizer has an operator new of its own, which tells whoever asks.
+#include <sanitizer/allocator_interface.h>
+
+namespace {
+
+void count(const volatile void*, std::size_t) {
+  ++allocations_on_this_thread;
+}
+void passOver(const volatile void*) {}
+const int installed = __sanitizer_install_malloc_and_free_hooks(count, passOver);
+
+}  // namespace
+
+#else
+
+namespace {
 
 void* counted(std::size_t size) {
   ++allocations_on_this_thread;
@@ -41,6 +68,8 @@ void operator delete(void* memory, std::align_val_t) noexcept {
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
   std::free(memory);
 }
+
+#endif
 
 namespace test_support {
 

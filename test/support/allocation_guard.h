@@ -5,7 +5,7 @@
 namespace test_support {
 
 /// Counts what operator new was asked for on this thread since the guard was made. Linking
-/// allocation_guard.cpp replaces operator new of the whole test executable.
+/// allocation_guard.cpp replaces operator new of the whole test executable; under a sanitizer malloc counts too.
 class AllocationGuard {
  public:
   AllocationGuard();
