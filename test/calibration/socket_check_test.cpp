@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "fsr_pressure_map/report/admission_report.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/small_tables.h"
 
@@ -53,8 +52,6 @@ TEST(SocketCheck, FindsNothingWrongAndClaimsNoAccuracy) {
   EXPECT_LE(result.before->to, 10.0);
   EXPECT_GE(result.after->from, 70.0);
   EXPECT_NEAR(result.median_change, 0, 1e-3);
-  EXPECT_NE(socketText(result).find("Readings are usable; no reference: accuracy not assessed.\n"),
-            std::string::npos);
 }
 
 TEST(SocketCheck, ComparesRestAfterWithRestBefore) {

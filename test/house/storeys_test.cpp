@@ -101,6 +101,22 @@ TEST(House, NoArrowRunsUpOrAcrossAStorey) {
   EXPECT_GT(arrows, 5);  // the walk really found the house
 }
 
+// A room is tested with what it is built on: its tests build and run where the storeys above are left out.
+TEST(House, TestsOfARoomSeeNoHigherRoom) {
+  int arrows = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(kSource / "test")) {
+    const std::string room = *std::next(fs::relative(entry.path(), kSource).begin());
+    if (!entry.is_regular_file() || kStorey.count(room) == 0) continue;
+    for (const std::string& include : includesOf(entry.path())) {
+      const std::string target = targetRoom(include);
+      if (target.empty()) continue;
+      EXPECT_LE(kStorey.at(target), kStorey.at(room)) << entry.path() << " includes " << include;
+      ++arrows;
+    }
+  }
+  EXPECT_GT(arrows, 100);
+}
+
 TEST(House, OnlyTheShellSeesRos) {
   for (const Include& include : allIncludes()) {
     if (kStorey.at(include.room) >= kStorey.at("ros")) continue;

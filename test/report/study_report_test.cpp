@@ -10,18 +10,20 @@
 
 namespace {
 
+fsr::StudyProblem smallProblem() {
+  test_support::SyntheticRig rig;
+  rig.size = {1, 3};
+  rig.surfaces = {{"flat", 0.0}, {"a \"bent\", sheet", 7.7}, {"cylinder_5cm", 20.0}};
+  rig.scans_per_cycle = 40;
+  fsr::StudyProblem problem{{test_support::syntheticRecording(rig)}, {}, "paper"};
+  problem.plan.forest.trees = 2;
+  problem.plan.resamples = 99;
+  problem.plan.bandwidths = {1.0 / 128, 1.0 / 16};
+  return problem;
+}
+
 const fsr::StudyResult& smallStudy() {
-  static const fsr::StudyResult result = [] {
-    test_support::SyntheticRig rig;
-    rig.size = {1, 3};
-    rig.surfaces = {{"flat", 0.0}, {"a \"bent\", sheet", 7.7}, {"cylinder_5cm", 20.0}};
-    rig.scans_per_cycle = 40;
-    fsr::StudyProblem problem{{test_support::syntheticRecording(rig)}, {}, "paper"};
-    problem.plan.forest.trees = 2;
-    problem.plan.resamples = 99;
-    problem.plan.bandwidths = {1.0 / 128, 1.0 / 16};
-    return fsr::study(problem);
-  }();
+  static const fsr::StudyResult result = fsr::study(smallProblem());
   return result;
 }
 
@@ -53,6 +55,17 @@ TEST(StudyTables, HaveAsManyCellsInEachRowAsHeadings) {
     for (; std::getline(lines, line); ++rows) EXPECT_EQ(cells(line), cells(headings)) << name << ": " << line;
     EXPECT_GT(rows, 0u) << name;
   }
+}
+
+TEST(StudyTables, HaveTheSameDigitsFromOneThreadAndMany) {
+  fsr::StudyProblem one = smallProblem(), three = smallProblem();
+  one.plan.threads = 1;
+  three.plan.threads = 3;
+  const fsr::StudyResult first = fsr::study(one);
+  fsr::StudyResult second = fsr::study(three);
+  second.provenance.date = first.provenance.date;  // a second may have passed
+  EXPECT_TRUE(fsr::studyTables(first) == fsr::studyTables(second));
+  EXPECT_TRUE(fsr::studyJson(first) == fsr::studyJson(second));
 }
 
 TEST(StudyTables, QuoteNamesAndLeaveUnknownNumbersEmpty) {

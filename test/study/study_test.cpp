@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 
-#include "fsr_pressure_map/report/study_report.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/session.h"
 #include "fsr_pressure_map/study/evaluation.h"
@@ -77,15 +76,6 @@ double plainRmsePercent(const StudyData& data, const Grouping& kept, std::size_t
 }
 
 }  // namespace
-
-TEST(Study, GivesTheSameDigitsOnOneThreadAndMany) {
-  StudyProblem problem = smallProblem();
-  const StudyResult one = study(problem);
-  problem.plan.threads = 3;
-  const StudyResult three = study(problem);
-  EXPECT_EQ(studyJson(one), studyJson(three));
-  EXPECT_EQ(studyTables(one), studyTables(three));
-}
 
 TEST(Study, AnotherSeedDrawsOtherScans) {
   StudyProblem problem = smallProblem();
