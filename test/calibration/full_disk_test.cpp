@@ -37,10 +37,12 @@ TEST(FullDisk, LeavesTheOldCalibrationWhole) {
   if (!disk.ready()) GTEST_SKIP() << "a small file system can be mounted by root alone";
   const std::string path = disk.path("calibration.h5");
   const std::string id = saveCalibration(smallCalibration({3, 4}, {0.0}), path);
+  const std::size_t open_files = filesIn("/proc/self/fd");
   fill(disk.path("filler"));
   EXPECT_THROW(saveCalibration(smallCalibration({3, 4}, {0.0, 10.0, 20.0}), path), InputError);
   EXPECT_EQ(loadCalibration(path).id, id);
   EXPECT_EQ(filesIn(disk.path("")), 2u) << "nothing half-written is left";
+  EXPECT_EQ(filesIn("/proc/self/fd"), open_files) << "a file that is open takes up the disk, name or not";
 }
 
 TEST(FullDisk, LeavesTheOldTareWhole) {
