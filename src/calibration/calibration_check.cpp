@@ -106,7 +106,7 @@ class Checker {
       }
       calibrator.calibrate({recording.layout.size, recording.full_scale, recording.scan(i), taxels_.size()},
                            recording.time[i], map_);
-      add(recording.pressure[i], sumsOf(recording.conditions[surface]));
+      add(recording.scan(i), recording.pressure[i], sumsOf(recording.conditions[surface]));
     }
     noteFaults(calibrator.watch().flags());
   }
@@ -133,12 +133,13 @@ class Checker {
     return place->second;
   }
 
-  // Readings below a taxel's turn-on pressure say "less than", and saturated ones "more than": no errors.
-  void add(double pressure, Sums& surface) {
-    constexpr std::uint16_t kNoValue = taxel_flag::kBelowRange | taxel_flag::kSaturated;
+  // Without conductance a reading says "less than", saturated "more than": no errors. One below training
+  // is one: under a known pressure it tells of a sheet that reads less than it did.
+  void add(const std::uint16_t* counts, double pressure, Sums& surface) {
     constexpr std::uint16_t kBeyond = taxel_flag::kReadingExtrapolated | taxel_flag::kCurvatureExtrapolated;
     for (std::size_t i = 0; i < taxels_.size(); ++i) {
-      if (std::isnan(map_.pressure[i]) || (map_.flags[i] & kNoValue) != 0) continue;
+      const bool no_value = counts[i] == 0 || (map_.flags[i] & taxel_flag::kSaturated) != 0;
+      if (std::isnan(map_.pressure[i]) || no_value) continue;
       const double error = map_.pressure[i] - pressure;
       for (Sums* sums : {&whole_, &surface, &taxels_[i]}) {
         sums->add(error, map_.deviation[i], (map_.flags[i] & kBeyond) != 0);

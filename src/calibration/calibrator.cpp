@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kOnClass = 1e-6;  // [1/m]
 constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
+constexpr std::uint16_t kBelowTraining = taxel_flag::kReadingExtrapolated | taxel_flag::kBelowRange;
 
 // The flag, or 0.
 inline std::uint16_t flagWhere(bool condition, std::uint16_t flag) {
@@ -241,7 +242,7 @@ void Calibrator::flagCodes(PressureMap& out) const noexcept {
     const std::uint16_t code = codes[i];
     flags[i] =
         static_cast<std::uint16_t>(standing[i] | flagWhere(code == full_scale, taxel_flag::kSaturated) |
-                                   flagWhere(code < lowest[i], taxel_flag::kReadingExtrapolated) |
+                                   flagWhere(code < lowest[i], kBelowTraining) |
                                    flagWhere(code > highest[i], taxel_flag::kReadingExtrapolated) |
                                    flagWhere(code == 0, taxel_flag::kBelowRange));
   }

@@ -163,7 +163,8 @@ class SocketChecker {
       for (const std::size_t t : used_) {
         if (std::isnan(map.pressure[t])) continue;
         ++readings;
-        beyond += (map.flags[t] & taxel_flag::kReadingExtrapolated) != 0;
+        constexpr std::uint16_t kAboveOrBelow = taxel_flag::kReadingExtrapolated | taxel_flag::kBelowRange;
+        beyond += (map.flags[t] & kAboveOrBelow) == taxel_flag::kReadingExtrapolated;  // below is at rest
         bent += (map.flags[t] & taxel_flag::kCurvatureExtrapolated) != 0;
       }
       before.add(map, time);

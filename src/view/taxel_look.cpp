@@ -17,7 +17,7 @@ constexpr std::uint16_t kBeyondTraining = taxel_flag::kReadingExtrapolated |
 TaxelLook lookOf(float pressure, std::uint16_t flags) {
   if (std::isnan(pressure) || (flags & kBad) != 0) return TaxelLook::kNoReading;
   if ((flags & taxel_flag::kSaturated) != 0) return TaxelLook::kSaturated;
-  // No conductance is also beyond training's lowest code, but says more: the pressure is small.
+  // Below training's lowest code is beyond training too, but says more: the pressure is small.
   if ((flags & taxel_flag::kBelowRange) != 0 && (flags & taxel_flag::kCurvatureExtrapolated) == 0) {
     return TaxelLook::kBelowRange;
   }

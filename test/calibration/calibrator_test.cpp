@@ -82,7 +82,7 @@ TEST_F(CalibratorTest, FlagsWhatTheCodeSays) {
   counts = {0, 19, 20, 500, 928, 929, 1022, 1023, 2000, 500, 500, 500};
   run();
   EXPECT_EQ(flagsOf(0), flag::kBelowRange | flag::kReadingExtrapolated);
-  EXPECT_EQ(flagsOf(1), flag::kReadingExtrapolated);
+  EXPECT_EQ(flagsOf(1), flag::kBelowRange | flag::kReadingExtrapolated);
   EXPECT_EQ(flagsOf(2), 0);  // the lowest code of training
   EXPECT_EQ(flagsOf(4), 0);  // and the highest
   EXPECT_EQ(flagsOf(5), flag::kReadingExtrapolated);

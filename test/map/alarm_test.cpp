@@ -13,7 +13,7 @@ namespace {
 const AlarmOptions kOptions{100e3, 2.0, 10e3};  // [Pa, s, Pa]
 
 AlarmEvidence sure(double pressure) {
-  return {pressure, true};
+  return {pressure, true, NAN};
 }
 
 TEST(Alarm, RisesOnlyAfterTheDwellTime) {
@@ -43,16 +43,16 @@ TEST(Alarm, FallsOnlyBelowTheHysteresis) {
 
 TEST(Alarm, IsUnknownAndNeverOkWhereTheMapCannotAnswer) {
   Alarm alarm(kOptions);
-  EXPECT_EQ(alarm.update(0, {20e3, false}), AlarmState::kUnknown);
-  EXPECT_EQ(alarm.update(1, {NAN, false}), AlarmState::kUnknown);
+  EXPECT_EQ(alarm.update(0, {20e3, false, NAN}), AlarmState::kUnknown);
+  EXPECT_EQ(alarm.update(1, {NAN, false, NAN}), AlarmState::kUnknown);
   EXPECT_EQ(alarm.stale(), AlarmState::kUnknown);
 }
 
 TEST(Alarm, WhatIsSurelyAboveAlarmsWhateverTheRestSays) {
   Alarm alarm(kOptions);
-  alarm.update(0, {120e3, false});
-  EXPECT_EQ(alarm.update(2, {120e3, false}), AlarmState::kAlarm);
-  EXPECT_EQ(alarm.update(3, {20e3, false}), AlarmState::kUnknown);  // it may be above elsewhere
+  alarm.update(0, {120e3, false, NAN});
+  EXPECT_EQ(alarm.update(2, {120e3, false, NAN}), AlarmState::kAlarm);
+  EXPECT_EQ(alarm.update(3, {20e3, false, NAN}), AlarmState::kUnknown);  // it may be above elsewhere
 }
 
 TEST(Alarm, StartsTheDwellAnewWhenTimeRunsBack) {
@@ -65,7 +65,7 @@ TEST(Alarm, StartsTheDwellAnewWhenTimeRunsBack) {
 TEST(Alarm, WithoutAThresholdStillSaysWhetherTheMapCanAnswer) {
   Alarm alarm;
   EXPECT_EQ(alarm.update(0, sure(500e3)), AlarmState::kOk);
-  EXPECT_EQ(alarm.update(1, {500e3, false}), AlarmState::kUnknown);
+  EXPECT_EQ(alarm.update(1, {500e3, false, NAN}), AlarmState::kUnknown);
 }
 
 PressureMap soundMap() {
@@ -106,10 +106,27 @@ TEST(AlarmEvidence, IsNotWholeWithAFlagThatHidesPressure) {
   }
 }
 
-TEST(AlarmEvidence, AZeroCodeBelowTrainingIsStillLittlePressure) {
+TEST(AlarmEvidence, AReadingBelowTrainingIsLessThanWhatItReads) {
   PressureMap map = soundMap();
-  map.flags[0] = taxel_flag::kBelowRange | taxel_flag::kReadingExtrapolated;
-  EXPECT_TRUE(evidence(map, {}).whole);
+  map.flags[2] = taxel_flag::kBelowRange | taxel_flag::kReadingExtrapolated;
+  const AlarmEvidence e = evidence(map, {});
+  EXPECT_TRUE(e.whole);
+  EXPECT_DOUBLE_EQ(e.sure, 20e3);
+  EXPECT_DOUBLE_EQ(e.less_than, 30e3);
+}
+
+TEST(Alarm, IsUnknownWhereLessThanMayStillBeAboveTheThreshold) {
+  Alarm alarm(kOptions);
+  EXPECT_EQ(alarm.update(0, {20e3, true, 99e3}), AlarmState::kOk);
+  EXPECT_EQ(alarm.update(1, {20e3, true, 100e3}), AlarmState::kUnknown);
+  EXPECT_EQ(alarm.update(9, {20e3, true, 100e3}), AlarmState::kUnknown);  // and never an alarm
+}
+
+TEST(Alarm, FallsWhereEveryTaxelIsBelowItsRange) {
+  Alarm alarm({100e3, 0, 10e3});
+  EXPECT_EQ(alarm.update(0, sure(120e3)), AlarmState::kAlarm);
+  EXPECT_EQ(alarm.update(1, {NAN, true, 95e3}), AlarmState::kAlarm);
+  EXPECT_EQ(alarm.update(2, {NAN, true, 1e3}), AlarmState::kOk);
 }
 
 TEST(AlarmEvidence, AMaskedTaxelAndOneOutsideTheRegionAreNobodysQuestion) {

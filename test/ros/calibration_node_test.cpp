@@ -152,7 +152,7 @@ TEST_F(CalibrationNode, FlagsEachTaxelByItsCodeAndCurvature) {
   EXPECT_EQ(map.flags[4], PressureMap::FLAG_BETWEEN_CLASSES);
   EXPECT_EQ(map.flags[6], PressureMap::FLAG_CURVATURE_EXTRAPOLATED);
   EXPECT_EQ(map.flags[7], PressureMap::FLAG_BELOW_RANGE | PressureMap::FLAG_READING_EXTRAPOLATED);
-  EXPECT_EQ(map.flags[8], PressureMap::FLAG_READING_EXTRAPOLATED);
+  EXPECT_EQ(map.flags[8], PressureMap::FLAG_BELOW_RANGE | PressureMap::FLAG_READING_EXTRAPOLATED);
   EXPECT_EQ(map.flags[9], PressureMap::FLAG_READING_EXTRAPOLATED);
   EXPECT_EQ(map.flags[10], PressureMap::FLAG_SATURATED | PressureMap::FLAG_READING_EXTRAPOLATED);
 }

@@ -30,7 +30,8 @@ struct CalibratorOptions {
 /// Flags of a taxel:
 ///   kSaturated              code at full scale: "at least"
 ///   kReadingExtrapolated    code beyond those of training, low or high
-///   kBelowRange             code 0, no conductance: any pressure under the turn-on reads so, "less than"
+///   kBelowRange             code 0, no conductance: any pressure under the turn-on reads so, "less than";
+///                           likewise a code below those of training, as of a taxel at rest beside a load
 ///   kCurvatureExtrapolated  curvature of a sign or size that training never saw
 ///   kBetweenClasses         curvature farther than the class tolerance from the class in use
 ///   kDead, kStuck           see TaxelWatch; no reading (NaN) unless filled (kFilled)

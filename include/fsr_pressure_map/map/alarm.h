@@ -28,6 +28,8 @@ struct AlarmEvidence {
   /// Every taxel of the region was read, within what training saw. A taxel under its turn-on pressure counts
   /// as read; a masked one is nobody's question; a filled one is a guess.
   bool whole = false;
+  /// Highest pressure of taxels below their range, which bear less than what they read [Pa]; NaN = none.
+  double less_than = std::numeric_limits<double>::quiet_NaN();
 };
 
 AlarmEvidence evidence(const PressureMap& map, const Region& region);
@@ -36,8 +38,8 @@ AlarmEvidence evidence(const PressureMap& map, const Region& region);
 ///
 /// It rises where a pressure that is surely there stays at or above the threshold for the dwell time, and
 /// falls only below threshold - hysteresis. Where the map cannot answer (stale, uncalibrated, curvature
-/// unknown, extrapolated, saturated or failed taxels) the answer is unknown, never OK; an alarm that is sure
-/// stays an alarm.
+/// unknown, extrapolated, saturated or failed taxels, "less than" a pressure above the threshold) the answer is
+/// unknown, never OK; an alarm that is sure stays an alarm.
 class Alarm {
  public:
   explicit Alarm(const AlarmOptions& options = {}) : options_(options) {}
@@ -49,6 +51,8 @@ class Alarm {
 
  private:
   AlarmOptions options_;
+  AlarmState withoutAlarm(const AlarmEvidence& evidence) const;
+
   bool above_ = false;      // the threshold was passed, and nothing sure fell below it since
   double above_since_ = 0;  // [s]
   bool raised_ = false;
