@@ -14,7 +14,8 @@ double syntheticReading(const SyntheticRig& rig, std::size_t taxel, double curva
   if (rig.felt_curvature != nullptr) curvature = rig.felt_curvature(curvature);
   const double gain = (0.75 + 0.01 * static_cast<double>(taxel)) * (1.0 - 0.008 * curvature);
   const double preload = 2e3 * curvature;  // [Pa]
-  return rig.full_scale * gain * std::sqrt((std::max(pressure, 0.0) + preload) / (rig.peak + 60e3));
+  return rig.full_scale * gain *
+         std::sqrt(std::max(std::max(pressure, 0.0) + preload, 0.0) / (rig.peak + 60e3));
 }
 
 fsr::Recording syntheticRecording(const SyntheticRig& rig) {
