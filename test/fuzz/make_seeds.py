@@ -66,8 +66,10 @@ def calibration_content():
     write("calibration_content", "gone", b"\0" + change(gone, 9))
 
 
-def bag(path):
-    with rosbag.Bag(str(path), "w", chunk_threshold=600) as out:
+def bag(name, packing="none"):
+    folder = SEEDS / "bag"
+    folder.mkdir(parents=True, exist_ok=True)
+    with rosbag.Bag(str(folder / name), "w", compression=packing, chunk_threshold=600) as out:
         for i in range(3):
             now = rospy.Time(1500000000 + i)
             messages = {
@@ -85,8 +87,9 @@ def bag(path):
 write("decoder", "every_type", wire())
 write("decoder", "cut_and_again", wire()[:40] + wire())
 write("capture", "every_type", capture(wire()))
-(SEEDS / "bag").mkdir(parents=True, exist_ok=True)
-bag(SEEDS / "bag" / "every_topic.bag")
+bag("every_topic.bag")
+bag("packed_by_bz2.bag", "bz2")
+bag("packed_by_lz4.bag", "lz4")
 write("table", "comma", b"\x01time,a,b\n0.1,2,3\n0.2,4,5\n")
 write("table", "semicolon_and_decimal_comma", b"\x84t;p\r\n0,1;\"2,5\"\r\n# note\n0,2;3\r\n")
 calibration_content()
