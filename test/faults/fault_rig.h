@@ -89,7 +89,7 @@ class FaultListener : public fsr::LinkHandler {
     const bool sent = sent_.has(asSent(header, scan));
     const std::lock_guard<std::mutex> lock(mutex_);
     ++scans_;
-    held_ += held;
+    clock_jumps_ = jumps;
     if (!held) passed_ = scans_;
     if (!held && !expected_serial_.empty() && serial_ != expected_serial_) ++wrong_.boards;
     if (!sent) ++wrong_.scans;
@@ -146,7 +146,7 @@ class FaultListener : public fsr::LinkHandler {
   /// Scans that a driver has published by now, or held and then published.
   std::uint64_t passed() const { return locked(passed_); }
   std::uint64_t passedLocked() const { return passed_; }  ///< inside await() only
-  std::uint64_t held() const { return locked(held_); }
+  std::uint64_t clockJumps() const { return locked(clock_jumps_); }
   Wrong wrong() const { return locked(wrong_); }
 
  private:
@@ -187,7 +187,7 @@ class FaultListener : public fsr::LinkHandler {
 
   mutable std::mutex mutex_;  // over all that follows
   std::condition_variable changed_;
-  std::uint64_t scans_ = 0, held_ = 0, passed_ = 0;
+  std::uint64_t scans_ = 0, passed_ = 0, clock_jumps_ = 0;
   Wrong wrong_;
   std::string serial_, expected_serial_;
   fsr::LinkPhase phase_ = fsr::LinkPhase::kWaiting;
