@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "fsr_pressure_map/calibration/calibration_hdf5.h"
+#include "fsr_pressure_map/settings/fresh_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/settings/replace_file.h"
 #include "fsr_pressure_map/settings/sha256.h"
@@ -102,15 +103,22 @@ FileState stateOf(const std::string& path) {
 }  // namespace
 
 std::string saveCalibration(const Calibration& calibration, const std::string& path) {
-  requireReplaceable(path);
-  std::string content;
-  {
-    Hdf5Writer writer;
+  FreshPath fresh(path);
+  errno = 0;
+  try {
+    Hdf5Writer writer(fresh.name());
     writeCalibration(calibration, writer);
-    content = writer.finish();
+    writer.finish();
+  } catch (const InputError&) {
+    throw cannotWrite(path, errno == 0 ? EIO : errno);
   }
-  const std::string hash = sha256(content.data(), content.size());
-  replaceFile(path, content.insert(0, userBlock(kCalibrationSchema, hash)));
+  const std::string hash = sha256OfFile(fresh.name(), kUserBlock);
+  const std::string first_line = userBlock(kCalibrationSchema, hash);
+  std::fstream file(fresh.name(), std::ios::in | std::ios::out | std::ios::binary);
+  if (!file.write(first_line.data(), static_cast<std::streamsize>(first_line.size())).flush()) {
+    throw cannotWrite(path, errno);
+  }
+  fresh.finish();
   return hash.substr(0, kIdDigits);
 }
 

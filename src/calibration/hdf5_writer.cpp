@@ -45,20 +45,18 @@ void writeDataset(hid_t file, const std::string& path, hid_t type, const std::ve
   if (elements(shape) > 0) require(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);
 }
 
-// The name is HDF5's own business: nothing of it reaches a disk.
-hid_t createFile() {
+hid_t createFile(const std::string& name) {
   hdf5::openLibrary();
-  constexpr std::size_t kGrowth = 1 << 20;  // [bytes]
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file");
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file");
-  require(H5Pset_fapl_core(access, kGrowth, false), "file");
+  require(H5Pset_file_locking(access, false, true), "file");  // not every file system has locks
   require(H5Pset_userblock(creation, kUserBlock), "file");
-  return H5Fcreate("calibration", H5F_ACC_TRUNC, creation, access);
+  return H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation, access);
 }
 
 }  // namespace
 
-Hdf5Writer::Hdf5Writer() : lock_(hdf5Mutex()), file_(createFile()) {
+Hdf5Writer::Hdf5Writer(const std::string& name) : lock_(hdf5Mutex()), file_(createFile(name)) {
   require(file_ < 0 ? -1 : 0, "file");
 }
 
@@ -129,13 +127,10 @@ void Hdf5Writer::texts(const std::string& path, const std::vector<std::string>& 
   if (!meaning.empty()) attribute(path, "meaning", meaning);
 }
 
-std::string Hdf5Writer::finish() {
-  require(H5Fflush(file_, H5F_SCOPE_GLOBAL), "file");
-  const ssize_t size = H5Fget_file_image(file_, nullptr, 0);
-  require(size > 0 ? 0 : -1, "file");
-  std::string bytes(static_cast<std::size_t>(size), '\0');
-  require(H5Fget_file_image(file_, bytes.data(), bytes.size()) == size ? 0 : -1, "file");
-  return bytes;
+void Hdf5Writer::finish() {
+  const herr_t closed = H5Fclose(file_);
+  file_ = -1;
+  require(closed, "file");
 }
 
 template void Hdf5Writer::dataset(const std::string&, const std::vector<std::uint8_t>&,

@@ -12,6 +12,7 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/tare.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/leaks_of_others.h"
 #include "support/small_calibration.h"
 #include "support/small_disk.h"
 
@@ -35,11 +36,17 @@ void fill(const std::string& path) {
 TEST(FullDisk, LeavesTheOldCalibrationWhole) {
   const test_support::SmallDisk disk("1m");
   if (!disk.ready()) GTEST_SKIP() << "a small file system can be mounted by root alone";
+  const test_support::LeaksOfOthers of_hdf5;  // a buffer of 1 KB is lost where it cannot close a dataset
   const std::string path = disk.path("calibration.h5");
   const std::string id = saveCalibration(smallCalibration({3, 4}, {0.0}), path);
   const std::size_t open_files = filesIn("/proc/self/fd");
   fill(disk.path("filler"));
-  EXPECT_THROW(saveCalibration(smallCalibration({3, 4}, {0.0, 10.0, 20.0}), path), InputError);
+  try {
+    saveCalibration(smallCalibration({3, 4}, {0.0, 10.0, 20.0}), path);
+    ADD_FAILURE() << "there is no room for it";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("No space left on device"), std::string::npos) << error.what();
+  }
   EXPECT_EQ(loadCalibration(path).id, id);
   EXPECT_EQ(filesIn(disk.path("")), 2u) << "nothing half-written is left";
   EXPECT_EQ(filesIn("/proc/self/fd"), open_files) << "a file that is open takes up the disk, name or not";

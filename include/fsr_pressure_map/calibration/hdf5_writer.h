@@ -11,17 +11,14 @@ namespace fsr {
 /// Bytes in front of HDF5's own.
 constexpr std::size_t kUserBlock = 512;
 
-/// Just as much of HDF5 as a calibration needs: groups, attributes, datasets of numbers and of texts, for a file
-/// that begins with kUserBlock bytes of the caller's. T is one of uint8_t, uint16_t, uint32_t, uint64_t, int64_t,
-/// float, double. HDF5 is not thread-safe: there is one writer or reader at a time in the process, others wait
-/// in their constructors.
-///
-/// It writes into memory: HDF5 cannot let go of a file that a full disk cut short (1.10), so that a node which
-/// lives on would keep it open, and the disk full.
+/// Just as much of HDF5 as a calibration needs: groups, attributes, datasets of numbers and of texts,
+/// written to a file behind kUserBlock bytes of zeros that the caller may fill. T is one of uint8_t, uint16_t, uint32_t, uint64_t,
+/// int64_t, float, double. HDF5 is not thread-safe: there is one writer or reader at a time in the
+/// process, others wait in their constructors.
 class Hdf5Writer {
  public:
-  /// All members throw InputError where HDF5 cannot do it.
-  Hdf5Writer();
+  /// Overwrites the file of this name. All members throw InputError where it cannot be written.
+  explicit Hdf5Writer(const std::string& name);
   ~Hdf5Writer();
   Hdf5Writer(const Hdf5Writer&) = delete;
   Hdf5Writer& operator=(const Hdf5Writer&) = delete;
@@ -37,8 +34,8 @@ class Hdf5Writer {
                const std::string& unit, const std::string& meaning);
   void texts(const std::string& path, const std::vector<std::string>& texts, const std::string& meaning);
 
-  /// The bytes behind the user block. The writer is done then.
-  std::string finish();
+  /// Closes the file. The writer is done then.
+  void finish();
 
  private:
   std::lock_guard<std::mutex> lock_;
