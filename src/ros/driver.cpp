@@ -211,12 +211,10 @@ Board Driver::board() const {
 }
 
 DriverHealth Driver::health() const {
-  DriverHealth health;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    health = health_;
-  }
-  health.link = reader_->report();
+  const fsr::LinkReport link = reader_->report();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  DriverHealth health = health_;
+  health.link = link;
   return health;
 }
 
