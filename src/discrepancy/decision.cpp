@@ -20,6 +20,7 @@ constexpr double kRivalFar = 0.15;            // likewise: behind it by more it 
 constexpr double kSecondOfRest = 0.45;   // of what remains explainable: a wrong form alone leaves that much
 constexpr double kSecondOfFirst = 0.03;  // of what the first effect explains
 constexpr double kSecondLookalike = 8;   // standard errors, where a wrong form of one looks like the other
+constexpr double kCreepNear = 0.8;       // of a loop with a break-in
 constexpr double kSecondRival = 0.7;     // of what the second adds: another that adds as much is as good
 constexpr std::size_t kPairsRefined = 4;
 constexpr double kMuchOpen = 0.75;       // of the common trace's error: less explained leaves room for two
@@ -143,18 +144,22 @@ class Contest {
   Explanation* best() { return const_cast<Explanation*>(std::as_const(*this).best()); }
   const Score* bestGeneric() const;
   const Score* simplestGeneric() const;
+  Score inAnyForm(const Explanation& explanation) const;
   bool leavesOfItsForm(const Explanation& explanation) const;
   void refineOne(Explanation& explanation) const;
   void refineNear();
   std::vector<Explanation> bestPairs(const Explanation& one) const;
   bool isWorthIt(const Explanation& one, const Explanation& two) const;
+  static bool mayBeCreep(const Explanation& creep, const Explanation& pair);
   void tryPairs(const Explanation& one);
   bool unknown(const Explanation& best);
   Trace leftBy(const Explanation& explanation) const;
   double behindInErrors(const Explanation& worse, const Explanation& better) const;
   bool temperatureMoved() const;
+  bool apartFromClock(const std::string& slow) const;
   bool isRival(const Explanation& other, const Explanation& best) const;
   void gatherRivals(const Explanation& best);
+  bool standsAlone(const EffectInfo& info) const;
   void weigh();
   Explanation* find(const std::vector<std::string>& ids);
   bool fitsWell(const Explanation& explanation) const;
@@ -263,9 +268,20 @@ std::vector<Explanation> Contest::bestPairs(const Explanation& one) const {
 bool Contest::isWorthIt(const Explanation& one, const Explanation& two) const {
   const double gain = two.share - one.share, rest = std::max(decision_.ceiling, two.share) - one.share;
   if (lookAlike(two.score.ids) && selection().z(one.score, two.score) < kSecondLookalike) return false;
+  if (shareOf(inAnyForm(one)) >= one.share + kSecondRival * gain) return false;
   return gain >= kSecondOfRest * rest && gain >= kSecondOfFirst * one.share &&
          behindInErrors(one, two) > kSignificant &&
          gain / two.share * shareOfError(two.score) >= kLeastShareOfError;
+}
+
+// A loop with a break-in does what a creep in a form that the library lacks does: while the library's comes
+// near, it stays beside them.
+bool Contest::mayBeCreep(const Explanation& creep, const Explanation& pair) {
+  const auto has = [&](const char* id) {
+    return std::count(pair.score.ids.begin(), pair.score.ids.end(), id) > 0;
+  };
+  return creep.score.ids.front() == "creep" && has("hysteresis") && has("break_in") &&
+         creep.share >= kCreepNear * pair.share;
 }
 
 // Two effects, where the second closes enough of what remains and no other pair does as well; with drift,
@@ -355,19 +371,26 @@ bool Contest::temperatureMoved() const {
   return *high - *low > kTemperatureMoved;
 }
 
+// Whether what a slow effect follows went another way than the clock, so that a drift is told from it.
+bool Contest::apartFromClock(const std::string& slow) const {
+  return slow == "temperature" ? temperatureMoved() && evidence_.uneven_warmth : evidence_.uneven_pace;
+}
+
 // Whether the recordings do not tell them apart.
 bool Contest::isRival(const Explanation& other, const Explanation& best) const {
   const double behind = best.share - other.share;
   if (behindInErrors(other, best) < kSignificant && behind < kRivalFar * best.share) return true;
+  if (mayBeCreep(other, best)) return true;
   // One effect against two was weighed by what the second adds; two against two by the same.
   if (best.score.ids.size() > 1 && other.score.ids.size() == 1) return false;
   if (best.score.ids.size() > 1) return behind <= (1 - kSecondRival) * (best.share - this->best()->share);
-  // What everything slow looks like excludes nothing slow, unless it goes by cycles and the clock did not.
-  const std::string& id = other.score.ids.front();
-  const bool apart = evidence_.uneven_pace && (id == "wear" || id == "break_in");
-  const bool near_drift = best.score.ids == std::vector<std::string>{"drift"} && isSlow(id) && !apart &&
-                          behind <= kDriftHides * best.share;
-  return near_drift || behind <= kRivalWithin * best.share;
+  const std::string &first = best.score.ids.front(), &second = other.score.ids.front();
+  // What everything slow looks like excludes nothing slow, unless that went another way than the clock.
+  if (first == "drift" && isSlow(second))
+    return behind <= (apartFromClock(second) ? kRivalFar : kDriftHides) * best.share;
+  // And where that did, a drift with its three parameters is no simpler explanation that comes near.
+  if (second == "drift" && isSlow(first) && apartFromClock(first)) return false;
+  return behind <= kRivalWithin * best.share;
 }
 
 void Contest::gatherRivals(const Explanation& best) {
@@ -396,21 +419,34 @@ void Contest::gatherRivals(const Explanation& best) {
                         [&](const auto& ids) { return !is_drift(ids); });
 }
 
-// An effect that needs what was not recorded is not named alone: the best of its partners stays beside it.
-void Contest::weigh() {
-  if (decision_.credible.size() > 1 || decision_.explanation.ids.size() > 1) return;
-  const EffectInfo& info = findEffect(decision_.explanation.ids.front())->info;
+// Whether the recordings hold what an effect needs, to be named without a partner.
+bool Contest::standsAlone(const EffectInfo& info) const {
   const bool all =
       std::all_of(info.needs.begin(), info.needs.end(), [&](Evidence e) { return evidence_.has(e); });
-  // Whatever goes on slowly looks like a drift while the clock and the cycles go on together.
-  if (all && (info.id != "drift" || evidence_.uneven_pace)) return;
-  const Explanation* partner = nullptr;
-  for (const Explanation& single : singles_) {
-    const bool listed =
-        std::count(info.collinear.begin(), info.collinear.end(), single.score.ids.front()) > 0;
-    if (listed && shows(single) && (!partner || single.share > partner->share)) partner = &single;
+  // Whatever goes on slowly looks like a drift while the clock and the cycles go on together, and a wear that
+  // fades like a break-in until a surface is mounted again.
+  if (info.id == "drift") return all && evidence_.uneven_pace;
+  if (info.id == "break_in") return all && evidence_.remounted;
+  return all;
+}
+
+// An effect that needs what was not recorded is not named alone: the best of its partners stays beside it.
+void Contest::weigh() {
+  if (decision_.credible.size() > 1) return;
+  const std::vector<std::string> ids = decision_.explanation.ids;
+  for (const std::string& id : ids) {
+    const EffectInfo& info = findEffect(id)->info;
+    if (standsAlone(info)) continue;
+    const Explanation* partner = nullptr;
+    for (const Explanation& single : singles_) {
+      const std::string& other = single.score.ids.front();
+      const bool listed = std::count(info.collinear.begin(), info.collinear.end(), other) > 0;
+      const bool near = shows(single) || single.share >= kNearBadForm * decision_.share;
+      if (!listed || std::count(ids.begin(), ids.end(), other) > 0 || !near) continue;
+      if (!partner || single.share > partner->share) partner = &single;
+    }
+    if (partner) decision_.credible.push_back(partner->score.ids);
   }
-  if (partner) decision_.credible.push_back(partner->score.ids);
 }
 
 void Contest::listCandidates() {
@@ -433,16 +469,23 @@ void Contest::listCandidates() {
                    });
 }
 
-// Whether generic terms of the effects' own covariates still add to them: then their form is not quite it.
-bool Contest::leavesOfItsForm(const Explanation& explanation) const {
+// What the effects explain together with the generic terms of their own covariates that add most to them:
+// what some form of them may explain.
+Score Contest::inAnyForm(const Explanation& explanation) const {
+  Score best = explanation.score;
   for (std::size_t g = 0; g < generics_.size(); ++g) {
     if (!within(competition_.covariates(g), explanation.score)) continue;
     const Score both = selection().score(explanation.score, competition_.generics()[g]);
-    const double more = shareOf(both) - explanation.share;
-    if (more > kGenericBetter * decision_.ceiling && selection().z(explanation.score, both) > kSignificant)
-      return true;
+    if (both.total < best.total) best = both;
   }
-  return false;
+  return best;
+}
+
+// Whether another form would add to the effects: then theirs is not quite it.
+bool Contest::leavesOfItsForm(const Explanation& explanation) const {
+  const Score any = inAnyForm(explanation);
+  return shareOf(any) - explanation.share > kGenericBetter * decision_.ceiling &&
+         selection().z(explanation.score, any) > kSignificant;
 }
 
 bool Contest::fitsWell(const Explanation& explanation) const {
@@ -450,11 +493,12 @@ bool Contest::fitsWell(const Explanation& explanation) const {
          !leavesOfItsForm(explanation);
 }
 
-// Where the best one does not fit well, others that do not either stay credible.
+// Where the best one does not fit well, others that do not either stay credible, even if noise might be all
+// that they explain: a wrong form hides the right effect as well.
 void Contest::keepNearest(const Explanation& best) {
   if (decision_.credible.size() > 1) return;
   for (const Explanation& single : singles_) {
-    if (single.score.ids == best.score.ids || !shows(single)) continue;
+    if (single.score.ids == best.score.ids) continue;
     if (single.share >= kNearBadForm * best.share) decision_.credible.push_back(single.score.ids);
   }
 }
@@ -530,12 +574,14 @@ bool EvidenceAtHand::has(Evidence evidence) const {
   }
 }
 
-// What has worn the sheet and what the clock has done are two things only where the pace was uneven.
-bool isPaceUneven(const Measured& measured) {
+// What a covariate and what the clock has done are two things only where a pause was long and the one is no
+// straight line of the other, from cycle to cycle.
+bool wentApart(const Measured& measured, const std::vector<double>& covariate) {
+  if (covariate.empty()) return false;
   double sum_t = 0, sum_w = 0, tt = 0, ww = 0, tw = 0, longest = 0;
   for (std::size_t c = 0; c < measured.cycles.size(); ++c) {
     const std::size_t first = measured.cycles[c].first;
-    const double t = measured.time[first], w = measured.way[first];
+    const double t = measured.time[first], w = covariate[first];
     sum_t += t, sum_w += w, tt += t * t, ww += w * w, tw += t * w;
     if (c > 0) longest = std::max(longest, t - measured.time[measured.cycles[c - 1].last - 1]);
   }
@@ -548,7 +594,9 @@ bool isPaceUneven(const Measured& measured) {
 EvidenceAtHand evidenceIn(const Measured& measured) {
   EvidenceAtHand evidence;
   evidence.thermometer = !measured.temperature.empty();
-  evidence.uneven_pace = isPaceUneven(measured);
+  evidence.uneven_pace = wentApart(measured, measured.way);
+  evidence.uneven_warmth = wentApart(measured, measured.temperature);
+  evidence.remounted = measured.classes.size() < measured.visits.size();
   evidence.mount_labels = std::all_of(measured.visits.begin(), measured.visits.end(),
                                       [](const Visit& v) { return v.surface.mount > 0; });
   // Ramps of one speed show one peak of the rates; dwells at load are moments that stand still.

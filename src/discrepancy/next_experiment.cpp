@@ -39,7 +39,7 @@ struct Block {
   bool warmer;
 };
 const Block kHoursApart[] = {
-    {600, 6, false}, {7200, 6, true}, {7200, 6, false}, {300, 18, false}, {10800, 6, false}};
+    {600, 6, false}, {7200, 6, true}, {7200, 6, false}, {300, 60, false}, {10800, 6, false}};
 
 // What a chamber with a regulator can do; the names are those that a user finds in the README.
 const Protocol kProtocols[] = {
@@ -72,10 +72,9 @@ const Protocol kProtocols[] = {
      true, true, false},
     {"hours_apart",
      "the flat surface, mounted anew each time, under cycles at 40 kPa/s and beside a thermometer: 6 cycles, "
-     "after two "
-     "hours 6 in a room some 10 K warmer, after two more 6 as at first, at once 18 more, after three hours 6 "
-     "(8 hours "
-     "in all)",
+     "after two hours 6 in a room some 10 K warmer, after two more 6 as at first, at once 60 more, after "
+     "three "
+     "hours 6 (8 hours in all)",
      "[{cycles: {peak: 620000, rate: 40000, cycles: 6}}]", false, false, true, true},
 };
 

@@ -206,7 +206,7 @@ WhereItShows placeOf(const Measured& measured, const Trace& left, const Spread& 
 
 Eigen::MatrixXd maskOf(const Measured& measured, const WhereItShows& where, const Spread& spread) {
   Eigen::MatrixXd mask = Eigen::MatrixXd::Zero(spread.amplitude.rows(), spread.amplitude.cols());
-  double sum = 0, number = 0;
+  double sum = 0, weights = 0;
   const auto in = [](const auto& list, const auto& member) {
     return list.empty() || std::count(list.begin(), list.end(), member) > 0;
   };
@@ -219,11 +219,13 @@ Eigen::MatrixXd maskOf(const Measured& measured, const WhereItShows& where, cons
       }
       if (std::isnan(spread.amplitude(t, c))) continue;
       mask(t, c) = 1;
-      sum += spread.amplitude(t, c);
-      ++number;
+      // By least squares: where the trace hardly moves, an amplitude says nothing.
+      const double weight = 1 / (std::pow(spread.error(t, c), 2) + 1e-12);
+      sum += weight * spread.amplitude(t, c);
+      weights += weight;
     }
   }
-  return number > 0 ? Eigen::MatrixXd(mask * (sum / number)) : mask;
+  return weights > 0 ? Eigen::MatrixXd(mask * (sum / weights)) : mask;
 }
 
 std::vector<std::size_t> allCycles(const Measured& measured) {

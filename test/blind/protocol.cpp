@@ -178,7 +178,7 @@ std::vector<PlannedVisit> hoursApart(const ProtocolSize& size, Random& random) {
   const double warmer = random.uniform(8, 12);
   std::vector<PlannedVisit> visits;
   for (const double hours : {0.2, 2.0, 2.0, 0.1, 3.0}) {
-    PlannedVisit visit{0, fastPath(hours < 0.15 ? 3 * size.cycles : size.cycles), 0, 3600 * hours};
+    PlannedVisit visit{0, fastPath(hours < 0.15 ? 10 * size.cycles : size.cycles), 0, 3600 * hours};
     if (visits.size() == 1) visit.ambient_step = warmer;
     visits.push_back(visit);
   }

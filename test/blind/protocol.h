@@ -44,7 +44,7 @@ struct ProtocolSize {
 ///     rest             200 s without load before and after the cycles
 ///     two_ambients     5 cycles on each surface, all again in a room 8 to 12 K warmer
 ///     random_order     two speeds, surfaces in random order, remounted, the flat one again at the end
-///     hours_apart      6 to 18 quick cycles on the flat surface, five times within eight hours, once in a
+///     hours_apart      6 to 60 quick cycles on the flat surface, five times within eight hours, once in a
 ///     warmer room
 const std::vector<std::string>& protocolNames();
 /// One sentence for the public description.

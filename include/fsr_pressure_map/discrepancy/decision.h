@@ -31,7 +31,9 @@ struct EvidenceAtHand {
   bool thermometer = false;
   bool two_rates = false;  ///< or dwells
   bool mount_labels = false;
-  bool uneven_pace = false;  ///< cycles in plenty at some time and none for hours at another
+  bool remounted = false;      ///< some surface was mounted twice
+  bool uneven_pace = false;    ///< cycles in plenty at some time and none for hours at another
+  bool uneven_warmth = false;  ///< the temperature went another way than the clock, over hours
   bool has(Evidence evidence) const;
 };
 EvidenceAtHand evidenceIn(const Measured& measured);
