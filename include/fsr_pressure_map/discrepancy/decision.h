@@ -26,18 +26,6 @@ struct Decision {
   std::vector<CandidateScore> candidates;
 };
 
-/// What the recordings hold, for effects that must not be named without it.
-struct EvidenceAtHand {
-  bool thermometer = false;
-  bool two_rates = false;  ///< or dwells
-  bool mount_labels = false;
-  bool remounted = false;      ///< some surface was mounted twice
-  bool uneven_pace = false;    ///< cycles in plenty at some time and none for hours at another
-  bool uneven_warmth = false;  ///< the temperature went another way than the clock, over hours
-  bool has(Evidence evidence) const;
-};
-EvidenceAtHand evidenceIn(const Measured& measured);
-
 /// The first verdict that holds, of: none, unknown, ambiguous, wrong_form, named.
 ///
 /// Effects are compared by what their signatures explain of cycles that took no part; those that come

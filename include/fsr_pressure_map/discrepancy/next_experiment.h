@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "fsr_pressure_map/discrepancy/decision.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
+#include "fsr_pressure_map/discrepancy/evidence.h"
 
 namespace fsr {
 
