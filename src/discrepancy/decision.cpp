@@ -37,13 +37,29 @@ class Verdicts {
   Decision decision_;
 };
 
+// Whether the forward model leaves open that there is none of it at all.
+bool mayBeNone(const Explanation& explanation) {
+  bool any = false;
+  for (std::size_t e = 0; e < explanation.refined.parameters.size(); ++e) {
+    const EffectInfo& info = findEffect(explanation.refined.effects[e].id)->info;
+    for (const FittedParameter& fitted : explanation.refined.parameters[e]) {
+      const EffectParameter& known = parameter(info, fitted.name);
+      if (known.role != ParameterRole::kStrength) continue;
+      if (fitted.interval.low > known.neutral || fitted.interval.high < known.neutral) return false;
+      any = true;
+    }
+  }
+  return any;
+}
+
 bool Verdicts::unknown(const Explanation& best) {
   const Score* generic = contest_.simplestGeneric();
-  if (!generic || !contest_.shows(*generic)) return false;
+  const bool none = mayBeNone(best);
+  if (!generic || !(none || contest_.shows(*generic))) return false;
   const double more = contest_.shareOf(*generic) - best.share;
   const bool beaten = more > kGenericBetter * contest_.ceiling() &&
                       contest_.selection().z(best.score, *generic) > kSignificant;
-  const bool weak = !contest_.shows(best) || best.share < kLeastShareOfCeiling * contest_.ceiling();
+  const bool weak = none || !contest_.shows(best) || best.share < kLeastShareOfCeiling * contest_.ceiling();
   if (!weak && !(beaten && !Contest::within(contest_.covariates(*generic), best.score))) return false;
   decision_.verdict = Verdict::kUnknown;
   decision_.explanation = *generic;
@@ -125,7 +141,8 @@ Decision Verdicts::decide() {
     const Explanation& one = *contest_.best();
     contest_.raiseCeiling(one.share);
     pairs_ = pairsWorthIt(contest_, one);
-    const Explanation& put = pairs_.empty() ? one : pairs_.front();
+    Explanation& put = pairs_.empty() ? find(one.score.ids) : pairs_.front();
+    contest_.refineOne(put);
     if (!unknown(put)) nameIt(put);
     decision_.z = contest_.z(decision_.explanation);
     decision_.share_of_error = contest_.shareOfError(decision_.explanation);

@@ -107,6 +107,23 @@ void onFlat(const Measured& measured, const Changes& flat, Changes& changes) {
   }
 }
 
+// A gain that a whole class of curvature shares is part of its static curve. Left in, it would divide what is
+// left, noise and all, and a large one would seem to explain it: the mean of 1 / g^2 is no less than 1 where
+// that of g is 1.
+void levelGain(const Measured& measured, Changes& changes) {
+  const auto classes = static_cast<Eigen::Index>(measured.classes.size());
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(classes), number = sum;
+  for (std::size_t i = 0; i < measured.moments(); ++i) {
+    const auto c = static_cast<Eigen::Index>(measured.classOf(i));
+    sum[c] += changes.gain[static_cast<Eigen::Index>(i)];
+    number[c] += 1;
+  }
+  for (std::size_t i = 0; i < measured.moments(); ++i) {
+    const auto c = static_cast<Eigen::Index>(measured.classOf(i));
+    changes.gain[static_cast<Eigen::Index>(i)] *= number[c] / std::max(1e-9, sum[c]);
+  }
+}
+
 Trace freedOf(const Trace& common, double unloaded, const Changes& changes) {
   return ((common - changes.reading).array() - unloaded) / changes.gain.array().max(0.05) + unloaded;
 }
@@ -154,6 +171,7 @@ class Refiner {
     Changes changes = changesBy(measured_, base_, bent, plain_, carried_);
     if (flat.effects.size() < bent.effects.size())
       onFlat(measured_, changesBy(measured_, base_, flat, plain_, carried_), changes);
+    levelGain(measured_, changes);
     return changes;
   }
   Trace withoutShown(Trace trace) const {
@@ -322,7 +340,8 @@ Foretold foretell(const Measured& measured, const CommonTraces& common, const St
       with = withEffect(with, effect);
     }
     try {
-      const Changes changes = changesBy(measured, base, with, plain, true);
+      Changes changes = changesBy(measured, base, with, plain, true);
+      levelGain(measured, changes);
       const Trace freed = freedOf(common.all, fit.unloaded(), changes);
       return StaticFit(fit, freed, loadOf(measured, changes)).project(freed);
     } catch (const InputError&) {

@@ -93,9 +93,14 @@ std::vector<Ids> partnersOf(const Contest& contest, const Explanation& first) {
     if (const Explanation* partner = partnerOf(contest, info, first)) partners.push_back(partner->score.ids);
   }
   if (!partners.empty() || first.share >= kGoodForm * contest.ceiling()) return partners;
+  const std::string& id = first.score.ids.front();
+  const bool slow_apart = isSlow(id) && contest.evidence().apartFromClock(id);
   for (const Explanation& single : contest.singles()) {
-    const bool near = single.share >= kNearBadForm * first.share;
-    if (near && single.score.ids != first.score.ids) partners.push_back(single.score.ids);
+    if (single.score.ids == first.score.ids || single.share < kNearBadForm * first.share) continue;
+    // Hours of cycles and pauses have told it from what else is slow, in whatever form.
+    const bool told = slow_apart && isSlow(single.score.ids.front()) &&
+                      contest.behindInErrors(single, first) > kSignificant;
+    if (!told) partners.push_back(single.score.ids);
   }
   return partners;
 }

@@ -32,7 +32,7 @@ EffectInfo info() {
       strength("coefficient", "a, relative change", {-0.05, 0.05, "1/K"}, 0.003).within(-0.01, 0.01),
       strength("quadratic", "b, relative change", {-0.001, 0.001, "1/K^2"}, 0).within(-1e-4, 1e-4),
       shape("lag", "tau, time constant of the sheet behind the gas", {0.01, 1e5, "s"}, 60)
-          .trying({10, 60, 300, 1000}),
+          .trying({1, 10, 60, 300, 1000}),
   };
   info.sign = SignRule::kEither;
   info.depends_on = {Covariate::kTemperature, Covariate::kClockTime};
