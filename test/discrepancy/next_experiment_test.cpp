@@ -1,4 +1,4 @@
-// Which experiment is recommended, and when recordings are such that wear may be told from the clock.
+// Which experiment is recommended.
 
 #include "fsr_pressure_map/discrepancy/next_experiment.h"
 
@@ -51,18 +51,6 @@ TEST(NextExperiment, TakesHoursWhereWearIsAmongTheExplanations) {
 
 TEST(NextExperiment, IsNoneForOneExplanation) {
   EXPECT_TRUE(nextExperiment(rig(kEvenly), {{usual("wear")}}, {}, 1e-3).empty());
-}
-
-bool isUneven(const std::string& session) {
-  DiscrepancyProblem problem;
-  problem.simulation = rig(session);
-  problem.recordings = simulateSession(problem.simulation);
-  return evidenceIn(admit(problem)).uneven_pace;
-}
-
-TEST(EvidenceAtHand, HoursWithoutACycleSetTheClockApartFromTheWay) {
-  EXPECT_FALSE(isUneven(kEvenly));
-  EXPECT_TRUE(isUneven(std::string(kEvenly) + "  - {surface: flat, flat: true, pause: 10000}\n"));
 }
 
 }  // namespace

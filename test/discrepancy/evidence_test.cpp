@@ -1,0 +1,53 @@
+// What recordings hold, so that slow effects may be told apart.
+
+#include "fsr_pressure_map/discrepancy/evidence.h"
+
+#include <gtest/gtest.h>
+
+#include "discrepancy/planted.h"
+
+namespace fsr {
+namespace {
+
+const char* const kRig = R"(
+simulation: rig
+seed: 7
+matrix: {rows: 2, columns: 2}
+board: {scan_rate: 2, transducer_rate: 2}
+chamber: {cycles: 4}
+effects:
+  static_curve: {conductance: 3.2e-4, exponent: 0.85}
+  converter: {}
+)";
+const std::string kTwoSurfaces =
+    "session:\n  - {surface: flat, flat: true}\n"
+    "  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}\n";
+const std::string kFlatAgainHoursLater = "  - {surface: flat, flat: true, pause: 10000}\n";
+
+EvidenceAtHand evidenceOf(const std::string& more) {
+  return evidenceIn(admit(planted::problem(kRig + more, "")));
+}
+
+TEST(Evidence, HoursWithoutACycleSetTheClockApartFromTheWay) {
+  EXPECT_FALSE(evidenceOf(kTwoSurfaces).apartFromClock("wear"));
+  EXPECT_TRUE(evidenceOf(kTwoSurfaces + kFlatAgainHoursLater).apartFromClock("wear"));
+}
+
+TEST(Evidence, ARoomThatWarmsAndCoolsGoesAnotherWayThanTheClock) {
+  const std::string thrice = kTwoSurfaces + kFlatAgainHoursLater +
+                             "  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 10000}\n";
+  EXPECT_FALSE(
+      evidenceOf(thrice + "climate: {room: [{time: 0, temperature: 23}, {time: 25000, temperature: 23}]}\n").apartFromClock("temperature"));
+  const EvidenceAtHand warmed =
+      evidenceOf(thrice + "climate: {room: [{time: 0, temperature: 23}, {time: 5000, temperature: 23}, {time: 10500, temperature: 35}, {time: 11500, temperature: 35}, {time: 20000, temperature: 23}]}\n");
+  EXPECT_TRUE(warmed.temperature_moved);
+  EXPECT_TRUE(warmed.apartFromClock("temperature"));
+}
+
+TEST(Evidence, ASurfaceThatIsMountedTwiceIsNoticed) {
+  EXPECT_FALSE(evidenceOf(kTwoSurfaces).remounted);
+  EXPECT_TRUE(evidenceOf(kTwoSurfaces + kFlatAgainHoursLater).remounted);
+}
+
+}  // namespace
+}  // namespace fsr

@@ -1,0 +1,39 @@
+// Effects fitted through the forward model, and where they act.
+
+#include "fsr_pressure_map/discrepancy/refine.h"
+
+#include <gtest/gtest.h>
+
+#include "discrepancy/planted.h"
+#include "fsr_pressure_map/discrepancy/show.h"
+
+namespace fsr {
+namespace {
+
+// Divided by a gain, what is left gets smaller, whatever it is: that of an old sheet hardly changes any more.
+TEST(Refine, AGainDoesNotExplainNoiseByDividingIt) {
+  const DiscrepancyProblem problem = planted::problem(planted::kTwoSpeeds, "");
+  const Measured measured = admit(problem);
+  const CommonTraces common = commonTraces(measured);
+  const StaticFit fit(measured, CurvePer::kClass, common.all);
+  const EnabledEffect grown{"wear", {{"loss", -0.3}, {"exponent", 0.26}, {"age", 1e6}, {"span", 620e3}}};
+  EXPECT_LT(refine(measured, common, fit, problem.simulation, {grown}, true, {}).share, 0.05);
+}
+
+// Where the trace does not move, its amplitude is anything.
+TEST(Mask, HeedsAmplitudesAsFarAsTheyAreKnown) {
+  const DiscrepancyProblem problem = planted::problem(planted::kTwoSpeeds, "");
+  const Measured measured = admit(problem);
+  const auto taxels = static_cast<Eigen::Index>(measured.taxels());
+  Spread spread;
+  spread.amplitude = Eigen::MatrixXd::Constant(taxels, 3, 1.0);
+  spread.error = Eigen::MatrixXd::Constant(taxels, 3, 0.01);
+  spread.amplitude.col(1).setConstant(5000);
+  spread.error.col(1).setConstant(4000);
+  const Eigen::MatrixXd mask = maskOf(measured, WhereItShows(), spread);
+  EXPECT_NEAR(mask.maxCoeff(), 1, 1e-3);
+  EXPECT_NEAR(mask.minCoeff(), 1, 1e-3);
+}
+
+}  // namespace
+}  // namespace fsr
