@@ -7,11 +7,10 @@
 #include "fsr_pressure_map/discrepancy/covariate_tests.h"
 #include "fsr_pressure_map/discrepancy/decision.h"
 #include "fsr_pressure_map/discrepancy/findings.h"
-#include "fsr_pressure_map/discrepancy/held_out.h"
 #include "fsr_pressure_map/discrepancy/next_experiment.h"
 #include "fsr_pressure_map/discrepancy/odd_taxels.h"
+#include "fsr_pressure_map/discrepancy/proof.h"
 #include "fsr_pressure_map/discrepancy/refine.h"
-#include "fsr_pressure_map/discrepancy/show.h"
 #include "fsr_pressure_map/discrepancy/taxel_curves_fit.h"
 #include "fsr_pressure_map/discrepancy/wording.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -26,7 +25,6 @@ constexpr double kPredictedLow = 0.6, kPredictedHigh = 1.6;
 constexpr double kFarLevel = 1.8;          // of the highest reading: a limit that far off limits nothing
 constexpr int kMostRounds = 4;             // of repeat()
 constexpr double kFormHolds = 0.7;         // of what a mixture of forms explains
-constexpr double kHoldsElsewhere = 0.5;    // of the gap closed on cycles: less on a part is worth a word
 constexpr double kNotIdentifiable = 0.05;  // of a signature, that the static curves leave
 
 using Ids = std::vector<std::string>;
@@ -63,11 +61,6 @@ class Investigation {
   void startAgain();
   void putFindings();
   void show();
-  Trace leftWithout(const Part& part) const;
-  void confine(double amplitude);
-  std::vector<Part> surfacesWhereItShows() const;
-  void holdOut(const std::string& by, const std::vector<Part>& parts, const GapGround& ground,
-               const std::string& missing);
   void listNotIdentifiable();
   void answerQuestions();
   void foresee();
@@ -319,100 +312,15 @@ void Investigation::putFindings() {
   }
 }
 
-// What the explanation takes from the common trace where it was sized without one part.
-Trace Investigation::leftWithout(const Part& part) const {
-  if (by_terms_) {
-    std::vector<bool> unseen(measured_.cycles.size());
-    for (const std::size_t c : part.cycles) unseen[c] = true;
-    const Trace trace = competition_->explainedWithout(decision_.explanation, unseen);
-    return decision_.verdict == Verdict::kUnknown ? fit_->residual(trace) : fit_->grown(trace);
-  }
-  std::vector<EnabledEffect> effects = decision_.refined.effects;
-  for (const Finding& more : later_) effects.insert(effects.end(), more.enable.begin(), more.enable.end());
-  return refine(withoutPart(measured_, part), common_, *fit_, report_.base, effects,
-                decision_.refined.carried, decision_.explanation.set.bent_only)
-      .trace;
-}
-
-// The simulation's effects act where they were found to, and there as strongly: the common trace is a mean
-// over all taxels.
-void Investigation::confine(double amplitude) {
-  for (const EnabledEffect& found : decision_.refined.effects) {
-    EnabledEffect effect = *report_.added.effect(found.id);
-    effect.only_taxels = report_.where.taxels;
-    effect.only_surfaces = report_.where.conditions;
-    for (const EffectParameter& strength : strengths(findEffect(found.id)->info)) {
-      double& value = effect.values.at(strength.name);
-      if (!effect.only_taxels.empty() && amplitude > 1)
-        value = std::clamp(amplitude * value, strength.permitted.low, strength.permitted.high);
-    }
-    report_.added = withEffect(report_.added, effect);
-  }
-}
-
-std::vector<Part> Investigation::surfacesWhereItShows() const {
-  std::vector<Part> surfaces = partsByCondition(measured_);
-  const Ids& where = report_.where.conditions;
-  const auto elsewhere = [&](const Part& part) {
-    return !where.empty() && !std::count(where.begin(), where.end(), part.name);
-  };
-  surfaces.erase(std::remove_if(surfaces.begin(), surfaces.end(), elsewhere), surfaces.end());
-  return surfaces.size() < 2 ? std::vector<Part>() : surfaces;
-}
-
-// The gap once more, each part foretold by what was fitted to the others.
-void Investigation::holdOut(const std::string& by, const std::vector<Part>& parts, const GapGround& ground,
-                            const std::string& missing) {
-  if (decision_.verdict == Verdict::kNone) return;
-  if (parts.empty()) {
-    report_.gap.missing.push_back(missing);
-    return;
-  }
-  const Trace foretold = foretoldByTheRest(measured_, parts, problem_.options.threads,
-                                           [this](const Part& part) { return leftWithout(part); });
-  HeldOutGap held{by, 0, {}, {}};
-  std::vector<std::size_t> cycles;
-  for (const Part& part : parts) {
-    cycles.insert(cycles.end(), part.cycles.begin(), part.cycles.end());
-    held.parts.emplace_back(part.name, measureGap(ground, foretold, part.cycles).closed);
-  }
-  const Gap all = measureGap(ground, foretold, cycles);
-  held.closed = all.closed;
-  held.closed_interval = all.closed_interval;
-  for (const auto& [part, closed] : held.parts) {
-    if (closed >= kHoldsElsewhere * report_.gap.closed) continue;
-    report_.limitations.push_back("On " + part + " it holds badly: sized on all the others it closes " +
-                                  std::to_string(std::lround(100 * closed)) + " % of the gap there.");
-  }
-  report_.gap.held_out_by.push_back(by);
-  report_.gap.foretold.push_back(held);
-}
-
 void Investigation::show() {
   tell("showing", 0.9);
-  const Spread spread = spreadOf(measured_, *taxels_, left_);
-  const double to_error = spread.square > 0 ? competition_->meanSquare() * spread.local / spread.square : 0;
-  const bool in_common = decision_.verdict != Verdict::kNone;
-  if (in_common) report_.where = placeOf(measured_, left_, spread);
-  const Eigen::MatrixXd mask = maskOf(measured_, report_.where, spread);
-  GapExtras extras;
-  for (const Finding& finding : findings_) {
-    extras.before_more += finding.before_more;
-    extras.after_less += finding.after_less;
-  }
-  if (unknown_statics_) extras.before_more += misfit_.rms * misfit_.rms;
-  const double ceiling = in_common ? std::min(1.0, decision_.ceiling * to_error) : 0;
-  if (!by_terms_ && in_common) confine(mask.maxCoeff());
-  const GapGround ground{measured_, *fit_, *taxels_, mask, ceiling, extras, problem_.options.seed};
-  report_.gap = measureGap(ground, left_, allCycles(measured_));
-  holdOut("condition", surfacesWhereItShows(), ground,
-          "It shows on one surface alone, so none was held out.");
-  holdOut("protocol", partsByProtocol(measured_), ground,
-          "All cycles are run alike, so no protocol was held out.");
-  if (report_.gap.held_out_by.size() < 2)
-    report_.gap.missing.push_back("Cycles alone are weak evidence that it holds elsewhere.");
-  const Trace before = fit_->residual(common_.all);
-  report_.curves = residualCurves(measured_, before, before - left_);
+  std::vector<EnabledEffect> beside;
+  for (const Finding& more : later_) beside.insert(beside.end(), more.enable.begin(), more.enable.end());
+  const double static_square = unknown_statics_ ? misfit_.rms * misfit_.rms : 0;
+  const auto& options = problem_.options;
+  prove({measured_, common_, *fit_, *taxels_, *competition_, decision_, findings_, beside, left_, by_terms_,
+         static_square, options.threads, options.seed},
+        report_);
 }
 
 void Investigation::listNotIdentifiable() {
