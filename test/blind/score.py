@@ -242,8 +242,9 @@ def summarise(cases):
         ("a frozen right prediction is confirmed", rate(cases, field("right_passes")), ">=", 0.9),
         ("time, longest [s]", max((c["seconds"] for c in cases if c["seconds"]), default=None), "<=", 60),
     ]
-    return {"cases": len(cases), "confusion": confusion(cases), "by_snr": by_snr(cases),
-            "figures": [figure(*f) for f in figures]}
+    single = [c for c in cases if c["kind"] != "pair"]
+    return {"cases": len(cases), "confusion": confusion(single), "by_snr": by_snr(cases),
+            "pairs": confusion([c for c in cases if c["kind"] == "pair"]), "figures": [figure(*f) for f in figures]}
 
 
 def figure(name, value, sense, target):
@@ -289,6 +290,9 @@ def markdown(summary):
             snr, levels, lambda t, s: value_text(snr[t][s]) if s in snr[t] else "", "hidden"),
         "## Confusion: hidden (row), first answer (column)\n\n" + grid_text(
             sorted(table), answers, lambda t, a: str(table[t].get(a, "")), "hidden"),
+        "## Pairs\n\n| hidden | first answer |\n|---|---|\n" + "\n".join(
+            "| %s | %s |" % (truth, ", ".join(a + (" (%d times)" % k if k > 1 else "") for a, k in sorted(row.items())))
+            for truth, row in sorted(summary["pairs"].items())),
     ]
     return "\n\n".join(parts) + "\n"
 
