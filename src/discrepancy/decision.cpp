@@ -37,24 +37,9 @@ class Verdicts {
   Decision decision_;
 };
 
-// Whether the forward model leaves open that there is none of it at all.
-bool mayBeNone(const Explanation& explanation) {
-  bool any = false;
-  for (std::size_t e = 0; e < explanation.refined.parameters.size(); ++e) {
-    const EffectInfo& info = findEffect(explanation.refined.effects[e].id)->info;
-    for (const FittedParameter& fitted : explanation.refined.parameters[e]) {
-      const EffectParameter& known = parameter(info, fitted.name);
-      if (known.role != ParameterRole::kStrength) continue;
-      if (fitted.interval.low > known.neutral || fitted.interval.high < known.neutral) return false;
-      any = true;
-    }
-  }
-  return any;
-}
-
 bool Verdicts::unknown(const Explanation& best) {
   const Score* generic = contest_.simplestGeneric();
-  const bool none = mayBeNone(best);
+  const bool none = mayBeNone(best.refined);
   if (!generic || !(none || contest_.shows(*generic))) return false;
   const double more = contest_.shareOf(*generic) - best.share;
   const bool beaten = more > kGenericBetter * contest_.ceiling() &&

@@ -272,6 +272,20 @@ Refined Refiner::run() {
 
 }  // namespace
 
+bool mayBeNone(const Refined& refined) {
+  bool any = false;
+  for (std::size_t e = 0; e < refined.parameters.size(); ++e) {
+    const EffectInfo& info = findEffect(refined.effects[e].id)->info;
+    for (const FittedParameter& fitted : refined.parameters[e]) {
+      const EffectParameter& known = parameter(info, fitted.name);
+      if (known.role != ParameterRole::kStrength) continue;
+      if (fitted.interval.low > known.neutral || fitted.interval.high < known.neutral) return false;
+      any = true;
+    }
+  }
+  return any;
+}
+
 SimulationSettings withEffect(SimulationSettings settings, const EnabledEffect& effect) {
   const std::vector<std::string> order = effectIds();
   const auto place = [&](const std::string& id) { return std::find(order.begin(), order.end(), id); };

@@ -20,6 +20,17 @@ TEST(Refine, AGainDoesNotExplainNoiseByDividingIt) {
   EXPECT_LT(refine(measured, common, fit, problem.simulation, {grown}, true, {}).share, 0.05);
 }
 
+TEST(Refine, KnowsWhereTheSizeOfAnEffectMayBeNone) {
+  Refined refined;
+  EXPECT_FALSE(mayBeNone(refined)) << "nothing was fitted";
+  refined.effects = {{"drift", {}}};
+  refined.parameters = {
+      {{"zero_per_hour", 40, "counts/h", {-5, 85}}, {"time_constant", 600, "s", {300, 900}}}};
+  EXPECT_TRUE(mayBeNone(refined));
+  refined.parameters[0].push_back({"rate_per_hour", 0.04, "1/h", {0.01, 0.07}});
+  EXPECT_FALSE(mayBeNone(refined));
+}
+
 // Where the trace does not move, its amplitude is anything.
 TEST(Mask, HeedsAmplitudesAsFarAsTheyAreKnown) {
   const DiscrepancyProblem problem = planted::problem(planted::kTwoSpeeds, "");

@@ -25,6 +25,10 @@ struct Refined {
   bool carried = true;    ///< as it was asked for
 };
 
+/// Whether the intervals of all strengths hold the value at which the effects do nothing; false where no
+/// strength was fitted.
+bool mayBeNone(const Refined& refined);
+
 /// `bent_only`, of each effect: it acts where the surface is bent, and nowhere else; empty = none does.
 Refined refine(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                const SimulationSettings& base, const std::vector<EnabledEffect>& start, bool carried,
