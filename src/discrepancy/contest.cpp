@@ -9,12 +9,11 @@ namespace fsr {
 
 namespace {
 
-constexpr double kLeastZ = 3;                // of an explanation over nothing
-constexpr double kLeastShareOfError = 0.02;  // of the readings' squared error
-constexpr double kNearlyAsWell = 0.05;       // of what the best generic term explains
-constexpr double kWorthRefining = 0.35;      // of what the best one explains
-constexpr double kClear = 0.9;               // of the ceiling: an explanation that leaves nothing open
-constexpr double kFarBehind = 0.35;          // of the best: no rival of a clear one
+constexpr double kLeastZ = 3;            // of an explanation over nothing
+constexpr double kNearlyAsWell = 0.05;   // of what the best generic term explains
+constexpr double kWorthRefining = 0.35;  // of what the best one explains
+constexpr double kClear = 0.9;           // of the ceiling: an explanation that leaves nothing open
+constexpr double kFarBehind = 0.35;      // of the best: no rival of a clear one
 
 // The single signatures that do most of what a mixture did, one for each effect, as settings.
 struct Start {
@@ -126,7 +125,7 @@ double Contest::shareOfReadings(double share) const {
 }
 
 bool Contest::shows(const Score& score) const {
-  return z(score) > kLeastZ && shareOfError(score) >= kLeastShareOfError;
+  return z(score) > kLeastZ && shareOfError(score) >= weigh::kLeastShareOfError;
 }
 
 bool Contest::shows(const Explanation& explanation) const {
@@ -135,7 +134,7 @@ bool Contest::shows(const Explanation& explanation) const {
   const double by_signatures = shareOf(explanation.score);
   const double more = by_signatures > 0 ? explanation.share / by_signatures : 1;
   return behindInErrors(nothing, explanation) > kLeastZ &&
-         more * shareOfError(explanation.score) >= kLeastShareOfError;
+         more * shareOfError(explanation.score) >= weigh::kLeastShareOfError;
 }
 
 const Explanation* Contest::best() const {

@@ -14,8 +14,6 @@ namespace {
 
 constexpr double kLeastShareOfCeiling = 0.5;  // of an effect, else it is unknown
 constexpr double kGenericBetter = 0.1;        // of the ceiling
-constexpr double kSignificant = 2;            // standard errors
-constexpr double kGoodForm = 0.7;             // of the ceiling
 
 // Puts one explanation forward and says how sure it is.
 class Verdicts {
@@ -43,7 +41,7 @@ bool Verdicts::unknown(const Explanation& best) {
   if (!generic || !(none || contest_.shows(*generic))) return false;
   const double more = contest_.shareOf(*generic) - best.share;
   const bool beaten = more > kGenericBetter * contest_.ceiling() &&
-                      contest_.selection().z(best.score, *generic) > kSignificant;
+                      contest_.selection().z(best.score, *generic) > weigh::kSignificant;
   const bool weak = none || !contest_.shows(best) || best.share < kLeastShareOfCeiling * contest_.ceiling();
   if (!weak && !(beaten && !Contest::within(contest_.covariates(*generic), best.score))) return false;
   decision_.verdict = Verdict::kUnknown;
@@ -57,11 +55,11 @@ bool Verdicts::unknown(const Explanation& best) {
 bool Verdicts::leavesOfItsForm(const Explanation& explanation) const {
   const Score any = contest_.inAnyForm(explanation);
   return contest_.shareOf(any) - explanation.share > kGenericBetter * contest_.ceiling() &&
-         contest_.selection().z(explanation.score, any) > kSignificant;
+         contest_.selection().z(explanation.score, any) > weigh::kSignificant;
 }
 
 bool Verdicts::fitsWell(const Explanation& explanation) const {
-  return explanation.share >= kGoodForm * contest_.ceiling() && !explanation.refined.at_bound &&
+  return explanation.share >= weigh::kGoodForm * contest_.ceiling() && !explanation.refined.at_bound &&
          !leavesOfItsForm(explanation);
 }
 

@@ -73,8 +73,7 @@ const Protocol kProtocols[] = {
     {"hours_apart",
      "the flat surface, mounted anew each time, under cycles at 40 kPa/s and beside a thermometer: 6 cycles, "
      "after two hours 6 in a room some 10 K warmer, after two more 6 as at first, at once 60 more, after "
-     "three "
-     "hours 6 (8 hours in all)",
+     "three hours 6 (8 hours in all)",
      "[{cycles: {peak: 620000, rate: 40000, cycles: 6}}]", false, false, true, true},
 };
 

@@ -9,12 +9,9 @@ namespace fsr {
 
 namespace {
 
-constexpr double kSignificant = 2;     // standard errors
 constexpr double kRivalWithin = 0.05;  // of what the best explains
 constexpr double kRivalFar = 0.15;     // likewise: behind it by more it is none, whatever the errors
 constexpr double kSecondRival = 0.7;   // of what the second adds: another that adds as much is as good
-constexpr double kDriftHides = 0.5;    // of what drift explains: it may be any slow effect that near
-constexpr double kGoodForm = 0.7;      // of the ceiling
 constexpr double kNearBadForm = 0.6;   // of the best one's share, where its form is wrong
 
 using Ids = std::vector<std::string>;
@@ -23,7 +20,8 @@ using Ids = std::vector<std::string>;
 bool isRival(const Contest& contest, const Explanation& other, const Explanation& best) {
   const EvidenceAtHand& evidence = contest.evidence();
   const double behind = best.share - other.share;
-  if (contest.behindInErrors(other, best) < kSignificant && behind < kRivalFar * best.share) return true;
+  if (contest.behindInErrors(other, best) < weigh::kSignificant && behind < kRivalFar * best.share)
+    return true;
   if (mayBeOne(other, best)) return true;
   // One effect against two was weighed by what the second adds; two against two by the same.
   if (best.score.ids.size() > 1 && other.score.ids.size() == 1) return false;
@@ -31,7 +29,7 @@ bool isRival(const Contest& contest, const Explanation& other, const Explanation
   const std::string &first = best.score.ids.front(), &second = other.score.ids.front();
   // What everything slow looks like excludes nothing slow, unless that went another way than the clock.
   if (first == "drift" && isSlow(second))
-    return behind <= (evidence.apartFromClock(second) ? kRivalFar : kDriftHides) * best.share;
+    return behind <= (evidence.apartFromClock(second) ? kRivalFar : weigh::kDriftHides) * best.share;
   // And where that did, a drift with its three parameters is no simpler explanation that comes near.
   if (second == "drift" && isSlow(first) && evidence.apartFromClock(first)) return false;
   return behind <= kRivalWithin * best.share;
@@ -92,14 +90,14 @@ std::vector<Ids> partnersOf(const Contest& contest, const Explanation& first) {
     if (standsAlone(contest.evidence(), info)) continue;
     if (const Explanation* partner = partnerOf(contest, info, first)) partners.push_back(partner->score.ids);
   }
-  if (!partners.empty() || first.share >= kGoodForm * contest.ceiling()) return partners;
+  if (!partners.empty() || first.share >= weigh::kGoodForm * contest.ceiling()) return partners;
   const std::string& id = first.score.ids.front();
   const bool slow_apart = isSlow(id) && contest.evidence().apartFromClock(id);
   for (const Explanation& single : contest.singles()) {
     if (single.score.ids == first.score.ids || single.share < kNearBadForm * first.share) continue;
     // Hours of cycles and pauses have told it from what else is slow, in whatever form.
     const bool told = slow_apart && isSlow(single.score.ids.front()) &&
-                      contest.behindInErrors(single, first) > kSignificant;
+                      contest.behindInErrors(single, first) > weigh::kSignificant;
     if (!told) partners.push_back(single.score.ids);
   }
   return partners;

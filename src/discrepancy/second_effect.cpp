@@ -8,16 +8,13 @@ namespace fsr {
 
 namespace {
 
-constexpr double kLeastShareOfError = 0.02;  // of the readings' squared error
-constexpr double kSignificant = 2;           // standard errors
 constexpr double kSecondOfRest = 0.45;   // of what remains explainable: a wrong form alone leaves that much
 constexpr double kSecondOfFirst = 0.03;  // of what the first effect explains
 constexpr double kSecondLookalike = 8;   // standard errors, where a wrong form of one looks like the other
 constexpr double kAnyForm = 0.7;    // of what the second adds: if a form of the first does, there is none
 constexpr double kCreepNear = 0.8;  // of a loop with a break-in
 constexpr std::size_t kPairsRefined = 4;
-constexpr double kMuchOpen = 0.75;   // of the common trace's error: less explained leaves room for two
-constexpr double kDriftHides = 0.5;  // of what drift adds: it may be any slow effect that adds so much
+constexpr double kMuchOpen = 0.75;  // of the common trace's error: less explained leaves room for two
 
 // A creep whose form is not quite the library's leaves something of a loop, and goes on otherwise in the
 // first cycles of every mount, as a break-in does.
@@ -53,13 +50,13 @@ std::vector<Explanation> bestPairs(const Contest& contest, const Explanation& on
   return pairs;
 }
 
-bool isWorthIt(const Contest& contest, const Explanation& one, const Explanation& two) {
+bool isWorthIt(const Contest& contest, const Explanation& one, double in_any_form, const Explanation& two) {
   const double gain = two.share - one.share, rest = std::max(contest.ceiling(), two.share) - one.share;
   if (lookAlike(two) && contest.selection().z(one.score, two.score) < kSecondLookalike) return false;
-  if (contest.shareOf(contest.inAnyForm(one)) >= one.share + kAnyForm * gain) return false;
+  if (in_any_form >= one.share + kAnyForm * gain) return false;
   return gain >= kSecondOfRest * rest && gain >= kSecondOfFirst * one.share &&
-         contest.behindInErrors(one, two) > kSignificant &&
-         gain / two.share * contest.shareOfError(two.score) >= kLeastShareOfError;
+         contest.behindInErrors(one, two) > weigh::kSignificant &&
+         gain / two.share * contest.shareOfError(two.score) >= weigh::kLeastShareOfError;
 }
 
 }  // namespace
@@ -75,11 +72,12 @@ std::vector<Explanation> pairsWorthIt(Contest& contest, const Explanation& one) 
   const double open = std::max(contest.ceiling(), pairs.front().share) - one.share;
   if (open < kSecondOfFirst * one.share && one.share > kMuchOpen) pairs.clear();
   for (Explanation& pair : pairs) contest.refineOne(pair);
-  const auto hopeless = [&](const Explanation& pair) { return !isWorthIt(contest, one, pair); };
+  const double in_any_form = contest.shareOf(contest.inAnyForm(one));
+  const auto hopeless = [&](const Explanation& pair) { return !isWorthIt(contest, one, in_any_form, pair); };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), hopeless), pairs.end());
   const auto merit = [&](const Explanation& pair) {
     return one.share +
-           (pair.share - one.share) * (pair.has("drift") || pair.refined.at_bound ? kDriftHides : 1);
+           (pair.share - one.share) * (pair.has("drift") || pair.refined.at_bound ? weigh::kDriftHides : 1);
   };
   std::stable_sort(pairs.begin(), pairs.end(),
                    [&](const auto& a, const auto& b) { return merit(a) > merit(b); });

@@ -9,23 +9,11 @@
 namespace fsr {
 namespace {
 
-const char* const kRig = R"(
-simulation: rig
-seed: 7
-matrix: {rows: 2, columns: 2}
-board: {scan_rate: 2, transducer_rate: 2}
-chamber: {cycles: 4}
-effects:
-  static_curve: {conductance: 3.2e-4, exponent: 0.85}
-  converter: {}
-)";
-const std::string kTwoSurfaces =
-    "session:\n  - {surface: flat, flat: true}\n"
-    "  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}\n";
+using planted::kTwoSurfaces;
 const std::string kFlatAgainHoursLater = "  - {surface: flat, flat: true, pause: 10000}\n";
 
 EvidenceAtHand evidenceOf(const std::string& more) {
-  return evidenceIn(admit(planted::problem(kRig + more, "")));
+  return evidenceIn(admit(planted::problem(planted::kFourTaxels + more, "")));
 }
 
 TEST(Evidence, HoursWithoutACycleSetTheClockApartFromTheWay) {
@@ -37,9 +25,12 @@ TEST(Evidence, ARoomThatWarmsAndCoolsGoesAnotherWayThanTheClock) {
   const std::string thrice = kTwoSurfaces + kFlatAgainHoursLater +
                              "  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 10000}\n";
   EXPECT_FALSE(
-      evidenceOf(thrice + "climate: {room: [{time: 0, temperature: 23}, {time: 25000, temperature: 23}]}\n").apartFromClock("temperature"));
+      evidenceOf(thrice + "climate: {room: [{time: 0, temperature: 23}, {time: 25000, temperature: 23}]}\n")
+          .apartFromClock("temperature"));
   const EvidenceAtHand warmed =
-      evidenceOf(thrice + "climate: {room: [{time: 0, temperature: 23}, {time: 5000, temperature: 23}, {time: 10500, temperature: 35}, {time: 11500, temperature: 35}, {time: 20000, temperature: 23}]}\n");
+      evidenceOf(thrice +
+                 "climate: {room: [{time: 0, temperature: 23}, {time: 5000, temperature: 23}, {time: 10500, "
+                 "temperature: 35}, {time: 11500, temperature: 35}, {time: 20000, temperature: 23}]}\n");
   EXPECT_TRUE(warmed.temperature_moved);
   EXPECT_TRUE(warmed.apartFromClock("temperature"));
 }

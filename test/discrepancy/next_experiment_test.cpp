@@ -4,33 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include "discrepancy/planted.h"
 #include "fsr_pressure_map/simulation/effects/effect_library.h"
-#include "fsr_pressure_map/simulation/session.h"
 
 namespace fsr {
 namespace {
 
-const char* const kRig = R"(
-simulation: rig
-seed: 7
-matrix: {rows: 2, columns: 2}
-board: {scan_rate: 2, transducer_rate: 2}
-chamber: {cycles: 4}
-effects:
-  static_curve: {conductance: 3.2e-4, exponent: 0.85}
-  bending_preload: {amplitude: 30000}
-  bending_gain: {change: -0.15}
-  converter: {}
-session:
-)";
-
-SimulationSettings rig(const std::string& session) {
-  return readSimulation(Settings::fromText(kRig + session, "rig.yaml"));
+SimulationSettings rig() {
+  return planted::simulation(planted::kFourTaxels + planted::kTwoSurfaces);
 }
-
-const char* const kEvenly =
-    "  - {surface: flat, flat: true}\n  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: "
-    "300}\n";
 
 EnabledEffect usual(const std::string& id) {
   EnabledEffect enabled{id, {}};
@@ -42,7 +24,7 @@ EnabledEffect usual(const std::string& id) {
 TEST(NextExperiment, TakesHoursWhereWearIsAmongTheExplanations) {
   EnabledEffect wear = usual("wear");
   wear.values["loss"] = 0.3;
-  const auto next = nextExperiment(rig(kEvenly), {{wear}, {usual("drift")}, {usual("break_in")}}, {}, 1e-3);
+  const auto next = nextExperiment(rig(), {{wear}, {usual("drift")}, {usual("break_in")}}, {}, 1e-3);
   ASSERT_EQ(next.size(), 1u);
   EXPECT_EQ(next[0].protocol, "hours_apart");
   EXPECT_NE(next[0].sentence.find("8 hours"), std::string::npos) << next[0].sentence;
@@ -50,7 +32,7 @@ TEST(NextExperiment, TakesHoursWhereWearIsAmongTheExplanations) {
 }
 
 TEST(NextExperiment, IsNoneForOneExplanation) {
-  EXPECT_TRUE(nextExperiment(rig(kEvenly), {{usual("wear")}}, {}, 1e-3).empty());
+  EXPECT_TRUE(nextExperiment(rig(), {{usual("wear")}}, {}, 1e-3).empty());
 }
 
 }  // namespace

@@ -68,6 +68,24 @@ effects:
   converter: {}
 )";
 
+/// Four taxels that are quickly simulated; the session is still to come.
+inline const char* const kFourTaxels = R"(
+simulation: rig
+seed: 7
+matrix: {rows: 2, columns: 2}
+board: {scan_rate: 2, transducer_rate: 2}
+chamber: {cycles: 4}
+effects:
+  static_curve: {conductance: 3.2e-4, exponent: 0.85}
+  bending_preload: {amplitude: 30000}
+  bending_gain: {change: -0.15}
+  converter: {}
+session:
+)";
+inline const std::string kTwoSurfaces =
+    "  - {surface: flat, flat: true}\n"
+    "  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}\n";
+
 inline SimulationSettings simulation(const std::string& text, const std::string& more = "") {
   return readSimulation(Settings::fromText(text + more, "planted.yaml"));
 }

@@ -10,6 +10,14 @@
 
 namespace fsr {
 
+/// Thresholds of every decision; each file has those of its own besides.
+namespace weigh {
+constexpr double kLeastShareOfError = 0.02;  // of the readings' squared error: less does not matter
+constexpr double kSignificant = 2;           // standard errors
+constexpr double kGoodForm = 0.7;            // of the ceiling: who explains less has not the right form
+constexpr double kDriftHides = 0.5;          // of what drift explains: it may be any slow effect that near
+}  // namespace weigh
+
 /// An explanation by one effect or two, as signatures and, where it came near, through the forward model.
 struct Explanation {
   Score score;
@@ -48,13 +56,13 @@ class Contest {
   /// said to matter unless they do.
   const Score* simplestGeneric() const;
 
-  /// Share of the error without any explanation.
+  /// What it explains of the common trace's error.
   double shareOf(const Score& score) const { return Selection::share(selection().nothing(), score); }
   /// Of the readings' squared error, where the cycles' gains count in full, as far as it holds on cycles that
   /// took no part.
   double shareOfError(const Score& score) const;
-  double shareOfReadings(
-      double share) const;  ///< a share of the common trace's error as one of the readings'
+  /// A share of the common trace's error as one of the readings'.
+  double shareOfReadings(double share) const;
   /// Whether it stands out from noise and from what is too small to matter.
   bool shows(const Score& score) const;
   bool shows(const Explanation& explanation) const;

@@ -20,8 +20,8 @@ struct Found {
   const std::vector<EnabledEffect>& beside;  ///< effects of later rounds
   const Trace& left;                         ///< what all this takes from the common trace's residual
   bool by_terms = false;  ///< `left` is that of fitted terms, not of effects in a simulation
-  double static_square =
-      0;  ///< error that static curves of another kind would take away [share of full scale, squared]
+  /// Error that static curves of another kind would take away [share of full scale, squared].
+  double static_square = 0;
   unsigned threads = 1;
   std::uint64_t seed = 0;
 };
