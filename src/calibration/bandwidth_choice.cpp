@@ -1,18 +1,19 @@
-#include "fsr_pressure_map/calibration/bandwidth_choice.h"
+#include "calibration/bandwidth_choice.h"
 
 #include <algorithm>
 #include <memory>
 
-#include "fsr_pressure_map/matrix/for_each_taxel.h"
-#include "fsr_pressure_map/regression/bandwidth_search.h"
+#include "matrix/for_each_taxel.h"
+#include "regression/bandwidth_search.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 namespace {
 
-std::vector<CodeStatistics> sectionsOf(const std::vector<std::size_t>& classes,
-                                       const TrainingStatistics& statistics, std::size_t taxel) {
-  std::vector<CodeStatistics> sections(statistics.sections);
+std::vector<regression::CodeStatistics> sectionsOf(const std::vector<std::size_t>& classes,
+                                                   const compensation::TrainingStatistics& statistics,
+                                                   std::size_t taxel) {
+  std::vector<regression::CodeStatistics> sections(statistics.sections);
   for (std::size_t section = 0; section < sections.size(); ++section) {
     for (const std::size_t k : classes) sections[section].merge(statistics.cell(taxel, k, section));
   }
@@ -20,15 +21,16 @@ std::vector<CodeStatistics> sectionsOf(const std::vector<std::size_t>& classes,
 }
 
 // Errors of all models of one taxel together.
-BandwidthErrors errorsOf(const GrnnOptions& options, const SchemePlan& plan,
-                         const TrainingStatistics& statistics, std::size_t taxel) {
-  GrnnOptions alike = options;
-  alike.weighting = SampleWeighting::kEachSample;
+regression::BandwidthErrors errorsOf(const regression::GrnnOptions& options,
+                                     const compensation::SchemePlan& plan,
+                                     const compensation::TrainingStatistics& statistics, std::size_t taxel) {
+  regression::GrnnOptions alike = options;
+  alike.weighting = regression::SampleWeighting::kEachSample;
   const auto errors = [&](std::size_t model) {
-    return BandwidthErrors(sectionsOf(plan.testedOn(model), statistics, taxel), statistics.full_scale, alike,
-                           bandwidthGrid());
+    return regression::BandwidthErrors(sectionsOf(plan.testedOn(model), statistics, taxel),
+                                       statistics.full_scale, alike, regression::bandwidthGrid());
   };
-  BandwidthErrors all = errors(0);
+  regression::BandwidthErrors all = errors(0);
   for (std::size_t model = 1; model < plan.models.size(); ++model) all.add(errors(model));
   return all;
 }
@@ -50,17 +52,18 @@ bool choosesBandwidth(const CalibrationOptions& options) {
   return options.choose_bandwidth && options.regressor.name == "grnn";
 }
 
-FoldRegressors chooseRegressor(const CalibrationOptions& options, const SchemePlan& plan,
-                               const TrainingStatistics& statistics,
-                               const std::vector<std::uint8_t>& no_model) {
-  FoldRegressors regressors{options.regressor, {}};
+compensation::FoldRegressors chooseRegressor(const CalibrationOptions& options,
+                                             const compensation::SchemePlan& plan,
+                                             const compensation::TrainingStatistics& statistics,
+                                             const std::vector<std::uint8_t>& no_model) {
+  compensation::FoldRegressors regressors{options.regressor, {}};
   regressors.whole.forest.seed = options.seed;
   if (!choosesBandwidth(options)) return regressors;
   const std::vector<std::size_t> taxels = taxelsOfSearch(no_model);
-  std::vector<std::unique_ptr<BandwidthErrors>> errors(taxels.size());
-  forEachTaxel(taxels.size(), options.threads, [&](std::size_t i) {
-    errors[i] =
-        std::make_unique<BandwidthErrors>(errorsOf(options.regressor.grnn, plan, statistics, taxels[i]));
+  std::vector<std::unique_ptr<regression::BandwidthErrors>> errors(taxels.size());
+  matrix::forEachTaxel(taxels.size(), options.threads, [&](std::size_t i) {
+    errors[i] = std::make_unique<regression::BandwidthErrors>(
+        errorsOf(options.regressor.grnn, plan, statistics, taxels[i]));
   });
   for (std::size_t i = 1; i < errors.size(); ++i) errors.front()->add(*errors[i]);  // in this order always
   regressors.whole.grnn.bandwidth = errors.front()->best();
@@ -71,4 +74,4 @@ FoldRegressors chooseRegressor(const CalibrationOptions& options, const SchemePl
   return regressors;
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

@@ -1,18 +1,18 @@
 #include <algorithm>
 #include <mutex>
 
-#include "fsr_pressure_map/calibration/bandwidth_choice.h"
+#include "calibration/bandwidth_choice.h"
+#include "calibration/curvature_rule_learning.h"
+#include "calibration/held_out_scoring.h"
+#include "calibration/sources.h"
+#include "calibration/taxel_training.h"
+#include "calibration/training_scans.h"
+#include "compensation/fit_scheme.h"
 #include "fsr_pressure_map/calibration/calibration.h"
-#include "fsr_pressure_map/calibration/curvature_rule_learning.h"
-#include "fsr_pressure_map/calibration/held_out_scoring.h"
-#include "fsr_pressure_map/calibration/sources.h"
-#include "fsr_pressure_map/calibration/taxel_training.h"
-#include "fsr_pressure_map/calibration/training_scans.h"
-#include "fsr_pressure_map/compensation/fit_scheme.h"
-#include "fsr_pressure_map/matrix/for_each_taxel.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "matrix/for_each_taxel.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 namespace {
 
@@ -20,25 +20,28 @@ namespace {
 class Training {
  public:
   explicit Training(const CalibrationProblem& problem)
-      : problem_(problem), classes_(poolConditions(problem.recordings, poolingOf(problem.options.scheme))) {
-    for (const Recording& recording : problem.recordings) {
-      sections_.push_back(divideIntoSections(recording, problem.options.folds));
+      : problem_(problem),
+        classes_(
+            dataset::poolConditions(problem.recordings, compensation::poolingOf(problem.options.scheme))) {
+    for (const dataset::Recording& recording : problem.recordings) {
+      sections_.push_back(dataset::divideIntoSections(recording, problem.options.folds));
     }
-    plan_ = planScheme(problem.options.scheme, classes_.classes);
+    plan_ = compensation::planScheme(problem.options.scheme, classes_.classes);
     scans_ = gatherScans(problem.recordings, classes_, sections_);
   }
 
   Calibration run(const CalibrationProgress& progress) {
     Calibration calibration = describe();
     const std::size_t taxels = calibration.statistics.taxels;
-    forEachTaxel(taxels, problem_.options.threads, [&](std::size_t taxel) { sum(taxel, calibration); });
+    matrix::forEachTaxel(taxels, problem_.options.threads,
+                         [&](std::size_t taxel) { sum(taxel, calibration); });
     findTaxelsWithoutModel(plan_, problem_.recordings.front().name, calibration);
 
-    const FoldRegressors regressors = choose(problem_.options, calibration, plan_);
+    const compensation::FoldRegressors regressors = choose(problem_.options, calibration, plan_);
     HeldOutScoring scoring(scans_, plan_, problem_.options.folds, taxels);
     std::mutex reporting;
     std::size_t done = 0;
-    forEachTaxel(taxels, problem_.options.threads, [&](std::size_t taxel) {
+    matrix::forEachTaxel(taxels, problem_.options.threads, [&](std::size_t taxel) {
       train(taxel, regressors, calibration, scoring);
       const std::lock_guard<std::mutex> lock(reporting);
       if (progress) progress(++done, taxels);
@@ -55,19 +58,19 @@ class Training {
   // Everything but what is found taxel by taxel.
   Calibration describe() const;
   void sum(std::size_t taxel, Calibration& calibration) const;
-  void train(std::size_t taxel, const FoldRegressors& regressors, Calibration& calibration,
+  void train(std::size_t taxel, const compensation::FoldRegressors& regressors, Calibration& calibration,
              HeldOutScoring& scoring) const;
 
   const CalibrationProblem& problem_;
-  ConditionClasses classes_;
-  std::vector<Sections> sections_;
-  SchemePlan plan_;
+  dataset::ConditionClasses classes_;
+  std::vector<dataset::Sections> sections_;
+  compensation::SchemePlan plan_;
   TrainingScans scans_;
 };
 
 Calibration Training::describe() const {
-  const std::vector<Recording>& recordings = problem_.recordings;
-  const Recording& first = recordings.front();
+  const std::vector<dataset::Recording>& recordings = problem_.recordings;
+  const dataset::Recording& first = recordings.front();
   const std::size_t taxels = first.layout.size.taxels();
   std::vector<bool> trained(classes_.classes.size(), false);
   Calibration calibration;
@@ -76,21 +79,21 @@ Calibration Training::describe() const {
   calibration.sensor = identityOf(recordings);
   calibration.layout = first.layout;
   calibration.masked = unionOfMasks(recordings, taxels);
-  for (const SchemePlan::Model& model : plan_.models) {
+  for (const compensation::SchemePlan::Model& model : plan_.models) {
     for (const std::size_t curvature_class : model.trained_on) trained[curvature_class] = true;
   }
   calibration.trained = findTrainedRanges(recordings, classes_, trained);
-  calibration.coverage = measureCoverage(recordings, classes_, sections_);
+  calibration.coverage = dataset::measureCoverage(recordings, classes_, sections_);
   calibration.provenance = provenanceOf(problem_.recordings, problem_.options);
   const std::size_t cells = taxels * classes_.classes.size() * problem_.options.folds;
   calibration.statistics = {first.full_scale,
                             taxels,
                             problem_.options.folds,
                             classes_.classes,
-                            std::vector<CodeStatistics>(cells),
+                            std::vector<regression::CodeStatistics>(cells),
                             {}};
-  for (const Recording& recording : recordings) {
-    const std::vector<RecordedCondition> own = conditionsOf(recording);
+  for (const dataset::Recording& recording : recordings) {
+    const std::vector<dataset::RecordedCondition> own = dataset::conditionsOf(recording);
     calibration.statistics.conditions.insert(calibration.statistics.conditions.end(), own.begin(), own.end());
   }
   prepareTables(plan_, calibration);
@@ -99,26 +102,27 @@ Calibration Training::describe() const {
 }
 
 void Training::sum(std::size_t taxel, Calibration& calibration) const {
-  const TrainingStatistics& statistics = calibration.statistics;
-  std::vector<CodeStatistics> cells =
+  const compensation::TrainingStatistics& statistics = calibration.statistics;
+  std::vector<regression::CodeStatistics> cells =
       statisticsOfTaxel(scans_, statistics.sections, statistics.full_scale, taxel);
   std::move(cells.begin(), cells.end(),
             calibration.statistics.cells.begin() + static_cast<std::ptrdiff_t>(taxel * cells.size()));
 }
 
-void Training::train(std::size_t taxel, const FoldRegressors& regressors, Calibration& calibration,
-                     HeldOutScoring& scoring) const {
+void Training::train(std::size_t taxel, const compensation::FoldRegressors& regressors,
+                     Calibration& calibration, HeldOutScoring& scoring) const {
   if (calibration.no_model[taxel] != 0) {
     fillTables(plan_, taxel, {}, calibration);
     return;
   }
-  SectionedReadings readings = readingsOf(calibration.statistics, taxel);
-  if (!makeRegressor(regressors.whole)->mergeable()) {
+  compensation::SectionedReadings readings = readingsOf(calibration.statistics, taxel);
+  if (!regression::makeRegressor(regressors.whole)->mergeable()) {
     readings.samples = samplesOfTaxel(scans_, readings.sums.front().size(), readings.full_scale, taxel);
   }
   const bool scores = problem_.options.scores;
-  const auto models = crossValidateScheme(plan_, taxel, readings, regressors,
-                                          scores ? HeldOutDeviation::kYes : HeldOutDeviation::kNo);
+  const auto models = compensation::crossValidateScheme(
+      plan_, taxel, readings, regressors,
+      scores ? regression::HeldOutDeviation::kYes : regression::HeldOutDeviation::kNo);
   if (scores) scoring.scoreTaxel(taxel, models);
   fillTables(plan_, taxel, models, calibration);
 }
@@ -130,4 +134,4 @@ Calibration calibrate(const CalibrationProblem& problem, const CalibrationProgre
   return Training(problem).run(progress);
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/calibration/calibration_check.h"
+#include "calibration/calibration_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 namespace {
 
@@ -64,7 +64,7 @@ std::string percent(double share) {
   return text(100 * share) + " %";
 }
 
-std::string places(const std::vector<std::size_t>& taxels, const Layout& layout) {
+std::string places(const std::vector<std::size_t>& taxels, const matrix::Layout& layout) {
   constexpr std::size_t kListed = 8;
   std::string list;
   for (std::size_t i = 0; i < std::min(taxels.size(), kListed); ++i) {
@@ -74,19 +74,19 @@ std::string places(const std::vector<std::size_t>& taxels, const Layout& layout)
   return taxels.size() > kListed ? list + ", ..." : list;
 }
 
-void requireFitting(const Calibration& calibration, const Recording& recording) {
+void requireFitting(const Calibration& calibration, const dataset::Recording& recording) {
   if (recording.pressure.empty()) {
-    throw InputError(recording.name +
-                     ": has no chamber_pressure, so that there is nothing to hold maps against; "
-                     "without a chamber use check_bag --use socket");
+    throw settings::InputError(recording.name +
+                               ": has no chamber_pressure, so that there is nothing to hold maps against; "
+                               "without a chamber use check_bag --use socket");
   }
-  const MatrixSize size = recording.layout.size;
+  const matrix::MatrixSize size = recording.layout.size;
   if (size.rows != calibration.layout.size.rows || size.columns != calibration.layout.size.columns ||
       recording.full_scale != calibration.tables.full_scale) {
-    throw InputError(recording.name + ": has " + sizeText(size) + " taxels up to " +
-                     std::to_string(recording.full_scale) + " counts, but the calibration is for " +
-                     sizeText(calibration.layout.size) + " up to " +
-                     std::to_string(calibration.tables.full_scale));
+    throw settings::InputError(recording.name + ": has " + matrix::sizeText(size) + " taxels up to " +
+                               std::to_string(recording.full_scale) + " counts, but the calibration is for " +
+                               matrix::sizeText(calibration.layout.size) + " up to " +
+                               std::to_string(calibration.tables.full_scale));
   }
 }
 
@@ -95,7 +95,7 @@ class Checker {
   explicit Checker(const Calibration& calibration)
       : calibration_(calibration), taxels_(calibration.layout.size.taxels()) {}
 
-  void take(const Recording& recording) {
+  void take(const dataset::Recording& recording) {
     Calibrator calibrator(calibration_.tables, calibration_.layout);
     calibrator.setMask(recording.mask);
     std::size_t surface = recording.conditions.size();
@@ -127,7 +127,7 @@ class Checker {
   }
 
  private:
-  Sums& sumsOf(const Surface& surface) {
+  Sums& sumsOf(const matrix::Surface& surface) {
     const auto [place, fresh] = surfaces_.try_emplace(surface.name);
     if (fresh) order_.push_back(surface.name);
     return place->second;
@@ -136,9 +136,10 @@ class Checker {
   // Without conductance a reading says "less than", saturated "more than": no errors. One below training
   // is one: under a known pressure it tells of a sheet that reads less than it did.
   void add(const std::uint16_t* counts, double pressure, Sums& surface) {
-    constexpr std::uint16_t kBeyond = taxel_flag::kReadingExtrapolated | taxel_flag::kCurvatureExtrapolated;
+    constexpr std::uint16_t kBeyond =
+        map::taxel_flag::kReadingExtrapolated | map::taxel_flag::kCurvatureExtrapolated;
     for (std::size_t i = 0; i < taxels_.size(); ++i) {
-      const bool no_value = counts[i] == 0 || (map_.flags[i] & taxel_flag::kSaturated) != 0;
+      const bool no_value = counts[i] == 0 || (map_.flags[i] & map::taxel_flag::kSaturated) != 0;
       if (std::isnan(map_.pressure[i]) || no_value) continue;
       const double error = map_.pressure[i] - pressure;
       for (Sums* sums : {&whole_, &surface, &taxels_[i]}) {
@@ -149,13 +150,13 @@ class Checker {
 
   void noteFaults(const std::vector<std::uint16_t>& flags) {
     for (std::size_t i = 0; i < flags.size(); ++i) {
-      if ((flags[i] & taxel_flag::kDead) != 0) dead_.push_back(i);
-      if ((flags[i] & taxel_flag::kStuck) != 0) stuck_.push_back(i);
+      if ((flags[i] & map::taxel_flag::kDead) != 0) dead_.push_back(i);
+      if ((flags[i] & map::taxel_flag::kStuck) != 0) stuck_.push_back(i);
     }
   }
 
   const Calibration& calibration_;
-  PressureMap map_;
+  map::PressureMap map_;
   Sums whole_;
   std::map<std::string, Sums> surfaces_;
   std::vector<std::string> order_;
@@ -188,19 +189,21 @@ void judgeClass(const CheckedClass& checked, double range, const CalibrationChec
 
 }  // namespace
 
-CalibrationCheck checkCalibration(const Calibration& calibration, const std::vector<Recording>& recordings,
+CalibrationCheck checkCalibration(const Calibration& calibration,
+                                  const std::vector<dataset::Recording>& recordings,
                                   const CalibrationCheckOptions& options) {
-  if (recordings.empty()) throw InputError("there is no bag to check the calibration on; give one at least");
+  if (recordings.empty())
+    throw settings::InputError("there is no bag to check the calibration on; give one at least");
   Checker checker(calibration);
-  for (const Recording& recording : recordings) {
+  for (const dataset::Recording& recording : recordings) {
     requireFitting(calibration, recording);
     checker.take(recording);
   }
   CalibrationCheck check = checker.result(options);
   if (check.whole.readings == 0)
-    throw InputError("no reading of the bags gives a pressure; is every taxel masked?");
+    throw settings::InputError("no reading of the bags gives a pressure; is every taxel masked?");
   const double range = calibration.trained.pressure.high - calibration.trained.pressure.low;
-  const Layout& layout = calibration.layout;
+  const matrix::Layout& layout = calibration.layout;
   judgeClass(check.whole, range, options, check.reasons);
   for (const CheckedClass& checked : check.classes) judgeClass(checked, range, options, check.reasons);
   if (double(check.suspicious.size()) > options.taxel_share * double(layout.size.taxels())) {
@@ -213,7 +216,7 @@ CalibrationCheck checkCalibration(const Calibration& calibration, const std::vec
   }
   if (!check.dead.empty()) check.reasons.push_back("taxels are dead: " + places(check.dead, layout));
   if (!check.stuck.empty()) check.reasons.push_back("taxels are stuck: " + places(check.stuck, layout));
-  for (const Recording& recording : recordings) {
+  for (const dataset::Recording& recording : recordings) {
     const std::string& serial = recording.sensor.serial;
     if (!serial.empty() && !calibration.sensor.serial.empty() && serial != calibration.sensor.serial) {
       check.reasons.push_back(recording.name + " is of sensor " + serial +
@@ -224,4 +227,4 @@ CalibrationCheck checkCalibration(const Calibration& calibration, const std::vec
   return check;
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

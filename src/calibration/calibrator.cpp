@@ -9,31 +9,31 @@
 #include <emmintrin.h>
 #endif
 
-#include "fsr_pressure_map/map/fill.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "map/fill.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 namespace {
 
 constexpr double kOnClass = 1e-6;  // [1/m]
 constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
-constexpr std::uint16_t kBelowTraining = taxel_flag::kReadingExtrapolated | taxel_flag::kBelowRange;
+constexpr std::uint16_t kBelowTraining = map::taxel_flag::kReadingExtrapolated | map::taxel_flag::kBelowRange;
 
 // The flag, or 0.
 inline std::uint16_t flagWhere(bool condition, std::uint16_t flag) {
   return static_cast<std::uint16_t>(-static_cast<int>(condition) & flag);
 }
 
-inline void copyOne(const TableEntry& entry, float& pressure, float& deviation) {
+inline void copyOne(const compensation::TableEntry& entry, float& pressure, float& deviation) {
   pressure = entry.pressure;
   deviation = entry.deviation;
 }
 
 // The entries of four taxels, pressures and deviations sorted apart: the loads go on side by side, which no
 // compiler finds.
-inline void copyFour(const TableEntry* const* table, const std::uint16_t* codes, float* pressure,
-                     float* deviation) {
+inline void copyFour(const compensation::TableEntry* const* table, const std::uint16_t* codes,
+                     float* pressure, float* deviation) {
 #ifdef __SSE2__
   const auto pair = [&](int first) {
     const auto* low = reinterpret_cast<const __m64*>(table[first] + codes[first]);
@@ -50,35 +50,37 @@ inline void copyFour(const TableEntry* const* table, const std::uint16_t* codes,
 }
 
 // Of a code between two entries, on the line that joins them.
-inline TableEntry between(const TableEntry* table, std::uint16_t code, unsigned shift) {
-  const TableEntry* const entry = table + (code >> shift);
+inline compensation::TableEntry between(const compensation::TableEntry* table, std::uint16_t code,
+                                        unsigned shift) {
+  const compensation::TableEntry* const entry = table + (code >> shift);
   const unsigned step = 1u << shift;
   const float share = static_cast<float>(code & (step - 1)) / static_cast<float>(step);
   return {entry[0].pressure + share * (entry[1].pressure - entry[0].pressure),
           entry[0].deviation + share * (entry[1].deviation - entry[0].deviation)};
 }
 
-bool allFinite(const TableEntry* table, std::size_t entries) {
+bool allFinite(const compensation::TableEntry* table, std::size_t entries) {
   return std::all_of(table, table + entries,
-                     [](const TableEntry& entry) { return std::isfinite(entry.pressure); });
+                     [](const compensation::TableEntry& entry) { return std::isfinite(entry.pressure); });
 }
 
-void requireEach(const char* what, std::size_t values, MatrixSize size) {
+void requireEach(const char* what, std::size_t values, matrix::MatrixSize size) {
   if (values != 0 && values != size.taxels()) {
-    throw InputError(std::string(what) + " has " + std::to_string(values) +
-                     " values, but must have none, or one for each of the " + std::to_string(size.taxels()) +
-                     " taxels of the " + std::to_string(size.rows) + " x " + std::to_string(size.columns) +
-                     " matrix");
+    throw settings::InputError(std::string(what) + " has " + std::to_string(values) +
+                               " values, but must have none, or one for each of the " +
+                               std::to_string(size.taxels()) + " taxels of the " + std::to_string(size.rows) +
+                               " x " + std::to_string(size.columns) + " matrix");
   }
 }
 
 }  // namespace
 
-Calibrator::Calibrator(const CurvatureTables& tables, const Layout& layout, const CalibratorOptions& options)
+Calibrator::Calibrator(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
+                       const CalibratorOptions& options)
     : tables_(tables),
       layout_(layout),
       options_(options),
-      needs_curvature_(tables.scheme != Scheme::kBaseline),
+      needs_curvature_(tables.scheme != compensation::Scheme::kBaseline),
       rule_(tables.rule),
       switch_(tables, options.class_hysteresis),
       watch_(tables.size, tables.full_scale, options.watch),
@@ -90,14 +92,15 @@ Calibrator::Calibrator(const CurvatureTables& tables, const Layout& layout, cons
       lowest_(tables.size.taxels()),
       highest_(tables.size.taxels()),
       standing_(tables.size.taxels()) {
-  if (layout.size != tables.size) throw InputError("calibration: its layout is not the size of its tables");
+  if (layout.size != tables.size)
+    throw settings::InputError("calibration: its layout is not the size of its tables");
   masked_.reserve(tables.size.taxels());
   failed_.reserve(tables.size.taxels());
   selectTables({});
 }
 
-void Calibrator::setSurface(const Surface& surface, double time) {
-  requireFit(surface, layout_.size);
+void Calibrator::setSurface(const matrix::Surface& surface, double time) {
+  matrix::requireFit(surface, layout_.size);
   surface_known_ = surface.known();
   surface_time_ = time;
   if (surface_known_) {
@@ -124,10 +127,10 @@ void Calibrator::setTare(const std::vector<float>& offset) {
 }
 
 // An unknown surface is taken for the class that the switch has fallen back to.
-void Calibrator::selectTables(const Surface& surface) {
+void Calibrator::selectTables(const matrix::Surface& surface) {
   for (std::size_t taxel = 0; taxel < table_.size(); ++taxel) {
     const std::size_t chosen = switch_.choices()[taxel].curvature_class;
-    selectTable(taxel, surface.known() ? principalCurvature(surface.at({taxel}))
+    selectTable(taxel, surface.known() ? matrix::principalCurvature(surface.at({taxel}))
                                        : tables_.tables(taxel).curvature[chosen]);
   }
   refreshStanding();
@@ -139,26 +142,27 @@ void Calibrator::selectTable(std::size_t taxel, double curvature) {
   const PackedTables::TrainedCodes trained = tables_.trained(taxel, chosen);
   const bool on_class = std::abs(curvature - tables_.tables(taxel).curvature[chosen]) <= kOnClass;
   const bool blend = trained.model && tables_.classes() > 1 &&
-                     (rule_.blend == BlendRule::kKernel || choice.flags != 0 ||
-                      (rule_.blend == BlendRule::kInterpolate && !on_class));
+                     (rule_.blend == compensation::BlendRule::kKernel || choice.flags != 0 ||
+                      (rule_.blend == compensation::BlendRule::kInterpolate && !on_class));
   table_[taxel] = blend ? blended(taxel, curvature) : tables_.table(taxel, chosen);
   lowest_[taxel] = trained.lowest;
   highest_[taxel] = trained.highest;
   model_[taxel] = trained.model && (!blend || blended_for_[taxel].finite);
 }
 
-const TableEntry* Calibrator::blended(std::size_t taxel, double curvature) {
+const compensation::TableEntry* Calibrator::blended(std::size_t taxel, double curvature) {
   const std::size_t stride = tables_.entries() + PackedTables::kPadding;
   if (blended_.empty()) {
     blended_.resize(table_.size() * stride);
     blended_for_.assign(table_.size(), {std::numeric_limits<double>::quiet_NaN(), 0, false});
   }
   const std::size_t chosen = switch_.choices()[taxel].curvature_class;
-  TableEntry* const table = blended_.data() + taxel * stride;
+  compensation::TableEntry* const table = blended_.data() + taxel * stride;
   Blended& now = blended_for_[taxel];
   if (now.chosen == chosen && std::abs(now.curvature - curvature) <= options_.curvature_step) return table;
-  blendTable(rule_, rule_.blend == BlendRule::kKernel ? rule_.lengthScale(taxel) : 0, tables_.tables(taxel),
-             curvature, chosen, table);
+  compensation::blendTable(rule_,
+                           rule_.blend == compensation::BlendRule::kKernel ? rule_.lengthScale(taxel) : 0,
+                           tables_.tables(taxel), curvature, chosen, table);
   // A rule that is off, or a class without a model, may blend to what is no pressure: then there is none.
   now = {curvature, chosen, allFinite(table, tables_.entries())};
   return table;
@@ -172,17 +176,17 @@ void Calibrator::refreshStanding() noexcept {
     const std::uint16_t health = watch_.flags()[taxel];
     if (masked) masked_.push_back(taxel);
     if (!masked && health != 0) failed_.push_back(taxel);
-    standing_[taxel] =
-        static_cast<std::uint16_t>(switch_.choices()[taxel].flags | health |
-                                   (masked ? taxel_flag::kMasked : 0) | (tared_ ? taxel_flag::kTared : 0));
+    standing_[taxel] = static_cast<std::uint16_t>(switch_.choices()[taxel].flags | health |
+                                                  (masked ? map::taxel_flag::kMasked : 0) |
+                                                  (tared_ ? map::taxel_flag::kTared : 0));
   }
 }
 
-void Calibrator::calibrate(const ScanView& scan, double time, PressureMap& out) noexcept {
+void Calibrator::calibrate(const matrix::ScanView& scan, double time, map::PressureMap& out) noexcept {
   const std::size_t taxels = layout_.size.taxels();
   if (scan.size != layout_.size || scan.full_scale != tables_.fullScale() || scan.count != taxels) {
-    out.reset({honestSize(scan), layout_.pitch_x, layout_.pitch_y});
-    out.state = MapState::kSizeMismatch;
+    out.reset({matrix::honestSize(scan), layout_.pitch_x, layout_.pitch_y});
+    out.state = map::MapState::kSizeMismatch;
     return;
   }
   if (out.pressure.size() != taxels || out.deviation.size() != taxels || out.flags.size() != taxels) {
@@ -210,9 +214,9 @@ void Calibrator::clip(const std::uint16_t* counts) noexcept {
   for (std::size_t i = 0; i < n; ++i) codes_[i] = std::min(counts[i], full_scale);
 }
 
-void Calibrator::lookUp(PressureMap& out) const noexcept {
+void Calibrator::lookUp(map::PressureMap& out) const noexcept {
   const std::uint16_t* codes = codes_.data();
-  const TableEntry* const* table = table_.data();
+  const compensation::TableEntry* const* table = table_.data();
   float* pressure = out.pressure.data();
   float* deviation = out.deviation.data();
   const std::size_t n = codes_.size();
@@ -230,7 +234,7 @@ void Calibrator::lookUp(PressureMap& out) const noexcept {
 }
 
 // Without branches and in 16 bits, so that the compiler takes eight taxels at a time.
-void Calibrator::flagCodes(PressureMap& out) const noexcept {
+void Calibrator::flagCodes(map::PressureMap& out) const noexcept {
   const std::uint16_t full_scale = tables_.fullScale();
   const std::uint16_t* codes = codes_.data();
   const std::uint16_t* lowest = lowest_.data();
@@ -241,14 +245,14 @@ void Calibrator::flagCodes(PressureMap& out) const noexcept {
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint16_t code = codes[i];
     flags[i] =
-        static_cast<std::uint16_t>(standing[i] | flagWhere(code == full_scale, taxel_flag::kSaturated) |
+        static_cast<std::uint16_t>(standing[i] | flagWhere(code == full_scale, map::taxel_flag::kSaturated) |
                                    flagWhere(code < lowest[i], kBelowTraining) |
-                                   flagWhere(code > highest[i], taxel_flag::kReadingExtrapolated) |
-                                   flagWhere(code == 0, taxel_flag::kBelowRange));
+                                   flagWhere(code > highest[i], map::taxel_flag::kReadingExtrapolated) |
+                                   flagWhere(code == 0, map::taxel_flag::kBelowRange));
   }
 }
 
-void Calibrator::strikeBad(PressureMap& out) const noexcept {
+void Calibrator::strikeBad(map::PressureMap& out) const noexcept {
   if (masked_.empty() && failed_.empty()) return;
   for (const auto* taxels : {&masked_, &failed_}) {
     for (const std::size_t taxel : *taxels) {
@@ -256,15 +260,15 @@ void Calibrator::strikeBad(PressureMap& out) const noexcept {
       out.deviation[taxel] = kNoReading;
     }
   }
-  if (options_.fill_bad_taxels) fillFromNeighbours(out, failed_);
+  if (options_.fill_bad_taxels) map::fillFromNeighbours(out, failed_);
 }
 
-MapState Calibrator::state(double time) const noexcept {
-  if (wrong_sensor_) return MapState::kWrongSensor;
-  if (!needs_curvature_) return MapState::kOk;
-  if (!surface_known_) return MapState::kCurvatureUnknown;
+map::MapState Calibrator::state(double time) const noexcept {
+  if (wrong_sensor_) return map::MapState::kWrongSensor;
+  if (!needs_curvature_) return map::MapState::kOk;
+  if (!surface_known_) return map::MapState::kCurvatureUnknown;
   const double timeout = options_.curvature_timeout;
-  return timeout > 0 && time - surface_time_ > timeout ? MapState::kCurvatureStale : MapState::kOk;
+  return timeout > 0 && time - surface_time_ > timeout ? map::MapState::kCurvatureStale : map::MapState::kOk;
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

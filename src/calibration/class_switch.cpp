@@ -5,34 +5,34 @@
 
 #include "fsr_pressure_map/map/pressure_map.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
-ClassSwitch::ClassSwitch(const CurvatureTables& tables, double hysteresis)
+ClassSwitch::ClassSwitch(const compensation::CurvatureTables& tables, double hysteresis)
     : classes_(tables.classes),
       low_(tables.curvature_low),
       high_(tables.curvature_high),
       tolerance_(tables.class_tolerance),
       hysteresis_(hysteresis),
-      by_name_(tables.rule.blend == BlendRule::kByName),
+      by_name_(tables.rule.blend == compensation::BlendRule::kByName),
       choices_(tables.size.taxels()) {
   fallBack();
 }
 
-void ClassSwitch::choose(const Surface& surface) {
+void ClassSwitch::choose(const matrix::Surface& surface) {
   if (by_name_ && chooseByName(surface.name)) return;
   const bool same = last_.known() && last_.name == surface.name && last_.mount == surface.mount;
   for (std::size_t taxel = 0; taxel < choices_.size(); ++taxel) {
-    const double curvature = principalCurvature(surface.at({taxel}));
+    const double curvature = matrix::principalCurvature(surface.at({taxel}));
     const std::size_t chosen = same ? keepOrLeave(taxel, curvature) : nearest(taxel, curvature);
     choices_[taxel] = {chosen, flags(taxel, chosen, curvature)};
-    if (by_name_ && choices_[taxel].flags == 0) choices_[taxel].flags = taxel_flag::kBetweenClasses;
+    if (by_name_ && choices_[taxel].flags == 0) choices_[taxel].flags = map::taxel_flag::kBetweenClasses;
   }
-  last_ = {surface.name, surface.mount, {Curvature{}}, {}};
+  last_ = {surface.name, surface.mount, {matrix::Curvature{}}, {}};
 }
 
 bool ClassSwitch::chooseByName(const std::string& name) {
   const auto found = std::find_if(classes_.begin(), classes_.end(),
-                                  [&](const CurvatureClass& one) { return one.surface == name; });
+                                  [&](const dataset::CurvatureClass& one) { return one.surface == name; });
   if (found == classes_.end()) return false;
   choices_.assign(choices_.size(), {static_cast<std::size_t>(found - classes_.begin()), 0});
   last_ = {};
@@ -66,10 +66,10 @@ double ClassSwitch::distance(std::size_t taxel, std::size_t curvature_class, dou
 // A curvature within the tolerance of the range's end is the end's: it was seen.
 std::uint16_t ClassSwitch::flags(std::size_t taxel, std::size_t curvature_class, double curvature) const {
   if (curvature < low_ - tolerance_ || curvature > high_ + tolerance_) {
-    return taxel_flag::kCurvatureExtrapolated;
+    return map::taxel_flag::kCurvatureExtrapolated;
   }
   const bool between = classes_.size() > 1 && distance(taxel, curvature_class, curvature) > tolerance_;
-  return between ? taxel_flag::kBetweenClasses : std::uint16_t{0};
+  return between ? map::taxel_flag::kBetweenClasses : std::uint16_t{0};
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

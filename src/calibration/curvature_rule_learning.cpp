@@ -1,21 +1,21 @@
-#include "fsr_pressure_map/calibration/curvature_rule_learning.h"
+#include "calibration/curvature_rule_learning.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/compensation/effect_law.h"
-#include "fsr_pressure_map/compensation/fit_scheme.h"
-#include "fsr_pressure_map/compensation/unseen_curvature.h"
-#include "fsr_pressure_map/matrix/for_each_taxel.h"
+#include "compensation/effect_law.h"
+#include "compensation/fit_scheme.h"
+#include "compensation/unseen_curvature.h"
+#include "matrix/for_each_taxel.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 namespace {
 
 // Of a GRNN on curvature: its bandwidth in units of the training curvatures' deviation, unless it has a
 // scale of its own.
-double lengthScale(const SchemePlan& plan, const RegressorOptions& regressor,
-                   const TrainingStatistics& statistics, std::size_t taxel) {
+double lengthScale(const compensation::SchemePlan& plan, const regression::RegressorOptions& regressor,
+                   const compensation::TrainingStatistics& statistics, std::size_t taxel) {
   if (plan.curvature_scale > 0) return plan.curvature_scale;
   std::vector<double> curvature;
   std::vector<std::uint64_t> readings;
@@ -25,12 +25,13 @@ double lengthScale(const SchemePlan& plan, const RegressorOptions& regressor,
     for (std::size_t s = 0; s < statistics.sections; ++s)
       readings[k] += statistics.cell(taxel, k, s).samples();
   }
-  const ClassInputs inputs = classInputs(plan.scheme, curvature, {}, readings);
-  return inputs.scale.front() > 0 ? sigmaOf(regressor.grnn) / inputs.scale.front() : INFINITY;
+  const compensation::ClassInputs inputs = compensation::classInputs(plan.scheme, curvature, {}, readings);
+  return inputs.scale.front() > 0 ? regression::sigmaOf(regressor.grnn) / inputs.scale.front() : INFINITY;
 }
 
-std::vector<double> lengthScales(const SchemePlan& plan, const RegressorOptions& regressor,
-                                 const TrainingStatistics& statistics) {
+std::vector<double> lengthScales(const compensation::SchemePlan& plan,
+                                 const regression::RegressorOptions& regressor,
+                                 const compensation::TrainingStatistics& statistics) {
   std::vector<double> scales;
   for (std::size_t taxel = 0; taxel < statistics.taxels; ++taxel) {
     scales.push_back(lengthScale(plan, regressor, statistics, taxel));
@@ -41,11 +42,11 @@ std::vector<double> lengthScales(const SchemePlan& plan, const RegressorOptions&
   return scales;
 }
 
-UnseenScore scoreOf(const std::vector<UnseenErrors>& taxels) {
+UnseenScore scoreOf(const std::vector<compensation::UnseenErrors>& taxels) {
   UnseenScore score;
   std::vector<double> percent;
   double squares = 0, readings = 0;
-  for (const UnseenErrors& taxel : taxels) {
+  for (const compensation::UnseenErrors& taxel : taxels) {
     if (taxel.readings() == 0) continue;
     readings += taxel.readings();
     squares += taxel.rmse() * taxel.rmse() * taxel.readings();
@@ -54,37 +55,38 @@ UnseenScore scoreOf(const std::vector<UnseenErrors>& taxels) {
   if (readings == 0) return score;
   score.readings = static_cast<std::uint64_t>(readings);
   score.rmse = std::sqrt(squares / readings);
-  score.rmse_percent = spreadOf(percent);
+  score.rmse_percent = statistics::spreadOf(percent);
   return score;
 }
 
 }  // namespace
 
-UnseenScore learnRule(const SchemePlan& plan, unsigned threads, Calibration& calibration) {
-  const TrainingStatistics& statistics = calibration.statistics;
-  CurvatureTables& tables = calibration.tables;
-  if (!usesCurvature(plan.scheme)) return {};
-  tables.rule.blend = blendOf(plan.scheme, calibration.regressor);
+UnseenScore learnRule(const compensation::SchemePlan& plan, unsigned threads, Calibration& calibration) {
+  const compensation::TrainingStatistics& statistics = calibration.statistics;
+  compensation::CurvatureTables& tables = calibration.tables;
+  if (!compensation::usesCurvature(plan.scheme)) return {};
+  tables.rule.blend = compensation::blendOf(plan.scheme, calibration.regressor);
   const std::size_t classes = tables.classes.size();
   if (plan.models.size() < classes) tables.rule.model_of_class = plan.model_of_class;
-  if (tables.rule.blend == BlendRule::kKernel) {
+  if (tables.rule.blend == compensation::BlendRule::kKernel) {
     tables.rule.length_scale = lengthScales(plan, calibration.regressor, statistics);
   }
-  std::vector<EffectLaw> law_without;
-  if (plan.scheme == Scheme::kCurvatureMap) {
-    std::vector<TaxelEffect> effects;
+  std::vector<compensation::EffectLaw> law_without;
+  if (plan.scheme == compensation::Scheme::kCurvatureMap) {
+    std::vector<compensation::TaxelEffect> effects;
     for (std::size_t t = 0; t < statistics.taxels; ++t)
-      effects.push_back(effectOf(&tables.table(t, 0), classes));
-    tables.rule.law = learnLaw(tables.classes, effects);
-    for (std::size_t k = 0; k < classes; ++k) law_without.push_back(learnLaw(tables.classes, effects, k));
+      effects.push_back(compensation::effectOf(&tables.table(t, 0), classes));
+    tables.rule.law = compensation::learnLaw(tables.classes, effects);
+    for (std::size_t k = 0; k < classes; ++k)
+      law_without.push_back(compensation::learnLaw(tables.classes, effects, k));
   }
-  std::vector<UnseenErrors> errors(statistics.taxels);
-  forEachTaxel(statistics.taxels, threads, [&](std::size_t taxel) {
+  std::vector<compensation::UnseenErrors> errors(statistics.taxels);
+  matrix::forEachTaxel(statistics.taxels, threads, [&](std::size_t taxel) {
     if (std::isnan(tables.table(taxel, 0).pressure.front())) return;
-    errors[taxel] = leaveClassesOut(tables, taxel, statistics, law_without);
+    errors[taxel] = compensation::leaveClassesOut(tables, taxel, statistics, law_without);
   });
-  tables.rule.unseen = unseenDeviation(errors);
+  tables.rule.unseen = compensation::unseenDeviation(errors);
   return scoreOf(errors);
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/calibration/held_out_scoring.h"
+#include "calibration/held_out_scoring.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-namespace fsr {
+namespace fsr::calibration {
 
 namespace {
 
@@ -23,30 +23,31 @@ double meanOverSections(const std::vector<Predictions>& sections,
                         double (*score)(const std::vector<double>&, const std::vector<double>&)) {
   std::vector<double> scores;
   for (const Predictions& section : sections) scores.push_back(score(section.predicted, section.reference));
-  return spreadOf(scores).mean;
+  return statistics::spreadOf(scores).mean;
 }
 
 }  // namespace
 
-HeldOutScoring::HeldOutScoring(const TrainingScans& scans, const SchemePlan& plan, std::size_t sections,
-                               std::size_t taxels)
+HeldOutScoring::HeldOutScoring(const TrainingScans& scans, const compensation::SchemePlan& plan,
+                               std::size_t sections, std::size_t taxels)
     : scans_(scans), plan_(plan), sections_(sections), taxels_(taxels) {}
 
-void HeldOutScoring::scoreTaxel(std::size_t taxel, const std::vector<CrossValidatedModel>& models) {
+void HeldOutScoring::scoreTaxel(std::size_t taxel,
+                                const std::vector<regression::CrossValidatedModel>& models) {
   TaxelScores scored;
   std::vector<Predictions> all(sections_);
   std::size_t all_within = 0;
   for (std::size_t c = 0; c < scans_.size(); ++c) {
-    const CrossValidatedModel& model = models[plan_.model_of_class[c]];
+    const regression::CrossValidatedModel& model = models[plan_.model_of_class[c]];
     std::vector<Predictions> of_class(sections_);
     std::vector<float> errors(scans_[c].size(), std::numeric_limits<float>::quiet_NaN());
     std::size_t within = 0;
     for (std::size_t i = 0; i < scans_[c].size(); ++i) {
       const TrainingScan& scan = scans_[c][i];
-      const HeldOutModel& held_out = model.held_out[scan.section];
+      const regression::HeldOutModel& held_out = model.held_out[scan.section];
       if (held_out.pressure.empty()) continue;
       const std::uint16_t code = scan.counts[taxel];
-      const double truth = fromFixed(scan.pressure);
+      const double truth = regression::fromFixed(scan.pressure);
       const double error = held_out.pressure[code] - truth;
       of_class[scan.section].add(held_out.pressure[code], truth);
       all[scan.section].add(held_out.pressure[code], truth);
@@ -54,11 +55,12 @@ void HeldOutScoring::scoreTaxel(std::size_t taxel, const std::vector<CrossValida
       errors[i] = static_cast<float>(error);
     }
     all_within += within;
-    scored.scores.push_back(
-        {meanOverSections(of_class, rSquared), meanOverSections(of_class, rmsePercent), within});
+    scored.scores.push_back({meanOverSections(of_class, statistics::rSquared),
+                             meanOverSections(of_class, statistics::rmsePercent), within});
     scored.errors.push_back(std::move(errors));
   }
-  scored.scores.push_back({meanOverSections(all, rSquared), meanOverSections(all, rmsePercent), all_within});
+  scored.scores.push_back({meanOverSections(all, statistics::rSquared),
+                           meanOverSections(all, statistics::rmsePercent), all_within});
   taxels_[taxel] = std::move(scored);
 }
 
@@ -67,7 +69,7 @@ Score HeldOutScoring::pool(const std::vector<std::size_t>& classes, std::size_t 
   Score score;
   std::vector<double> r2, rmse_percent;
   std::size_t within = 0;
-  ErrorBins bins;
+  statistics::ErrorBins bins;
   for (std::size_t taxel = 0; taxel < taxels_.size(); ++taxel) {
     if (taxels_[taxel].scores.empty()) continue;
     const TaxelScore& own = taxels_[taxel].scores[entry];
@@ -81,19 +83,20 @@ Score HeldOutScoring::pool(const std::vector<std::size_t>& classes, std::size_t 
     for (const std::size_t c : classes) {
       for (std::size_t i = 0; i < scans_[c].size(); ++i) {
         const float error = taxels_[taxel].errors[c][i];
-        if (!std::isnan(error)) bins.add(error, fromFixed(scans_[c][i].pressure), scans_[c][i].direction);
+        if (!std::isnan(error))
+          bins.add(error, regression::fromFixed(scans_[c][i].pressure), scans_[c][i].direction);
       }
     }
   }
   score.readings = bins.count();
-  score.r2 = spreadOf(r2);
-  score.rmse_percent = spreadOf(rmse_percent);
+  score.r2 = statistics::spreadOf(r2);
+  score.rmse_percent = statistics::spreadOf(rmse_percent);
   score.errors = bins.summarise();
   score.within_one_deviation = static_cast<double>(within) / static_cast<double>(score.readings);
   return score;
 }
 
-CalibrationScores HeldOutScoring::summarise(const std::vector<CurvatureClass>& classes) const {
+CalibrationScores HeldOutScoring::summarise(const std::vector<dataset::CurvatureClass>& classes) const {
   CalibrationScores scores;
   for (std::size_t c = 0; c < classes.size(); ++c) {
     const auto& trained_on = plan_.models[plan_.model_of_class[c]].trained_on;
@@ -106,4 +109,4 @@ CalibrationScores HeldOutScoring::summarise(const std::vector<CurvatureClass>& c
   return scores;
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

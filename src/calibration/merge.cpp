@@ -1,16 +1,16 @@
-#include "fsr_pressure_map/calibration/merge.h"
+#include "calibration/merge.h"
 
 #include <algorithm>
 #include <sstream>
 
-#include "fsr_pressure_map/calibration/bandwidth_choice.h"
-#include "fsr_pressure_map/calibration/sources.h"
-#include "fsr_pressure_map/calibration/taxel_training.h"
-#include "fsr_pressure_map/matrix/for_each_taxel.h"
-#include "fsr_pressure_map/regression/option_names.h"
+#include "calibration/bandwidth_choice.h"
+#include "calibration/sources.h"
+#include "calibration/taxel_training.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "matrix/for_each_taxel.h"
+#include "regression/option_names.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 namespace {
 
@@ -24,22 +24,22 @@ std::string bandwidthText(const Calibration& calibration) {
 
 // What two parts must share, in words, with what each has.
 std::vector<std::pair<std::string, std::string>> traitsOf(const Calibration& calibration) {
-  const RegressorOptions& model = calibration.regressor;
+  const regression::RegressorOptions& model = calibration.regressor;
   const bool grnn = model.name == "grnn";
-  return {{"the matrix", sizeText(calibration.layout.size)},
+  return {{"the matrix", matrix::sizeText(calibration.layout.size)},
           {"full_scale", std::to_string(calibration.tables.full_scale)},
-          {"the scheme", schemeName(calibration.tables.scheme)},
+          {"the scheme", compensation::schemeName(calibration.tables.scheme)},
           {"the model", model.name},
           {"the bandwidth", grnn ? bandwidthText(calibration) : ""},
-          {"the spread's meaning", grnn ? spreadName(model.grnn.spread) : ""},
-          {"the distance", grnn ? distanceName(model.grnn.distance) : ""},
+          {"the spread's meaning", grnn ? regression::spreadName(model.grnn.spread) : ""},
+          {"the distance", grnn ? regression::distanceName(model.grnn.distance) : ""},
           {"the number of sections", std::to_string(calibration.folds)}};
 }
 
 void requireAlike(const MergePart& first, const MergePart& other) {
   const auto refuse = [&](const std::string& what, const std::string& own, const std::string& that) {
-    throw InputError(other.name + ": " + what + " is " + own + ", but that of " + first.name + " is " + that +
-                     "; only calibrations that were trained alike can be merged");
+    throw settings::InputError(other.name + ": " + what + " is " + own + ", but that of " + first.name +
+                               " is " + that + "; only calibrations that were trained alike can be merged");
   };
   const auto wanted = traitsOf(first.calibration), found = traitsOf(other.calibration);
   for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -55,8 +55,8 @@ void requireOtherBags(const MergePart& earlier, const MergePart& later) {
   for (const SourceBag& bag : later.calibration.provenance.bags) {
     for (const SourceBag& twin : earlier.calibration.provenance.bags) {
       if (bag.sha256.empty() || bag.sha256 != twin.sha256) continue;
-      throw InputError(later.name + ": was trained on " + bag.name + ", as was " + earlier.name +
-                       "; each bag may count once");
+      throw settings::InputError(later.name + ": was trained on " + bag.name + ", as was " + earlier.name +
+                                 "; each bag may count once");
     }
   }
 }
@@ -64,20 +64,20 @@ void requireOtherBags(const MergePart& earlier, const MergePart& later) {
 void requireMergeable(const MergePart& part) {
   const Calibration& calibration = part.calibration;
   if (calibration.statistics.cells.empty()) {
-    throw InputError(part.name + ": holds no statistics to merge" + kInstead);
+    throw settings::InputError(part.name + ": holds no statistics to merge" + kInstead);
   }
-  if (makeRegressor(calibration.regressor)->mergeable()) return;
+  if (regression::makeRegressor(calibration.regressor)->mergeable()) return;
   const bool grnn = calibration.regressor.name == "grnn";
-  throw InputError(part.name + ": the model " + calibration.regressor.name +
-                   (grnn ? " with equal pressure bins" : "") +
-                   " needs the bags, the sums of a calibration file do not serve it" + kInstead);
+  throw settings::InputError(part.name + ": the model " + calibration.regressor.name +
+                             (grnn ? " with equal pressure bins" : "") +
+                             " needs the bags, the sums of a calibration file do not serve it" + kInstead);
 }
 
 // The first files do not keep the conditions: their classes stand for them.
-std::vector<RecordedCondition> conditionsOf(const Calibration& calibration) {
+std::vector<dataset::RecordedCondition> conditionsOf(const Calibration& calibration) {
   if (!calibration.statistics.conditions.empty()) return calibration.statistics.conditions;
-  std::vector<RecordedCondition> conditions;
-  for (const ConditionCoverage& coverage : calibration.coverage.conditions) {
+  std::vector<dataset::RecordedCondition> conditions;
+  for (const dataset::ConditionCoverage& coverage : calibration.coverage.conditions) {
     conditions.push_back({coverage.condition, coverage.scans});
   }
   return conditions;
@@ -90,12 +90,12 @@ std::vector<std::uint8_t> masked(const Calibration& calibration) {
 class Merging {
  public:
   explicit Merging(const std::vector<MergePart>& parts)
-      : parts_(parts), pooling_(poolingOf(parts.front().calibration.tables.scheme)) {
+      : parts_(parts), pooling_(compensation::poolingOf(parts.front().calibration.tables.scheme)) {
     for (const MergePart& part : parts) {
       const auto own = conditionsOf(part.calibration);
       conditions_.insert(conditions_.end(), own.begin(), own.end());
     }
-    pooled_ = poolConditions(conditions_, pooling_);
+    pooled_ = dataset::poolConditions(conditions_, pooling_);
     std::size_t first = 0;
     for (const MergePart& part : parts) {
       classes_.push_back(classesOf(part, first));
@@ -109,18 +109,18 @@ class Merging {
   // Which class of the whole each class of a part becomes; `first` = number of its first condition.
   std::vector<std::size_t> classesOf(const MergePart& part, std::size_t first) const;
   void mergeFacts(const Calibration& part, Calibration& whole) const;
-  TrainingStatistics mergeStatistics() const;
+  compensation::TrainingStatistics mergeStatistics() const;
 
   const std::vector<MergePart>& parts_;
-  PooledBy pooling_;
-  std::vector<RecordedCondition> conditions_;
-  PooledConditions pooled_;
+  dataset::PooledBy pooling_;
+  std::vector<dataset::RecordedCondition> conditions_;
+  dataset::PooledConditions pooled_;
   std::vector<std::vector<std::size_t>> classes_;  // [parts][classes of the part]
 };
 
 std::vector<std::size_t> Merging::classesOf(const MergePart& part, std::size_t first) const {
   const auto own = conditionsOf(part.calibration);
-  const PooledConditions alone = poolConditions(own, pooling_);
+  const dataset::PooledConditions alone = dataset::poolConditions(own, pooling_);
   const auto& classes = part.calibration.statistics.classes;
   constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   std::vector<std::size_t> becomes(classes.size(), kNone);
@@ -132,11 +132,11 @@ std::vector<std::size_t> Merging::classesOf(const MergePart& part, std::size_t f
     whole = now;
   }
   for (std::size_t k = 0; same && k < classes.size(); ++k) {
-    same = isFlat(classes[k]) == isFlat(pooled_.classes[becomes[k]]);
+    same = dataset::isFlat(classes[k]) == dataset::isFlat(pooled_.classes[becomes[k]]);
   }
   if (same) return becomes;
-  throw InputError(part.name + ": its curvatures would form other classes together with those of the others" +
-                   kInstead);
+  throw settings::InputError(
+      part.name + ": its curvatures would form other classes together with those of the others" + kInstead);
 }
 
 void Merging::mergeFacts(const Calibration& part, Calibration& whole) const {
@@ -164,17 +164,17 @@ void Merging::mergeFacts(const Calibration& part, Calibration& whole) const {
                       isConstantTaxelWarning);
 }
 
-TrainingStatistics Merging::mergeStatistics() const {
-  const TrainingStatistics& first = parts_.front().calibration.statistics;
+compensation::TrainingStatistics Merging::mergeStatistics() const {
+  const compensation::TrainingStatistics& first = parts_.front().calibration.statistics;
   const std::size_t taxels = first.taxels, sections = first.sections, classes = pooled_.classes.size();
-  TrainingStatistics whole{first.full_scale,
-                           taxels,
-                           sections,
-                           pooled_.classes,
-                           std::vector<CodeStatistics>(taxels * classes * sections),
-                           conditions_};
+  compensation::TrainingStatistics whole{first.full_scale,
+                                         taxels,
+                                         sections,
+                                         pooled_.classes,
+                                         std::vector<regression::CodeStatistics>(taxels * classes * sections),
+                                         conditions_};
   for (std::size_t p = 0; p < parts_.size(); ++p) {
-    const TrainingStatistics& part = parts_[p].calibration.statistics;
+    const compensation::TrainingStatistics& part = parts_[p].calibration.statistics;
     for (std::size_t taxel = 0; taxel < taxels; ++taxel) {
       for (std::size_t k = 0; k < part.classes.size(); ++k) {
         for (std::size_t s = 0; s < sections; ++s) {
@@ -197,7 +197,7 @@ Calibration Merging::run(const MergeOptions& options) {
   whole.layout = first.layout;
   whole.masked.assign(first.layout.size.taxels(), 0);
   whole.provenance = provenanceOf({}, training);
-  for (const CurvatureClass& curvature_class : pooled_.classes) {
+  for (const dataset::CurvatureClass& curvature_class : pooled_.classes) {
     whole.coverage.conditions.emplace_back();
     whole.coverage.conditions.back().condition = curvature_class;
   }
@@ -205,10 +205,10 @@ Calibration Merging::run(const MergeOptions& options) {
     const Calibration& part = parts_[p].calibration;
     mergeFacts(part, whole);
     for (std::size_t k = 0; k < classes_[p].size(); ++k) {
-      addCoverage(part.coverage.conditions[k], whole.coverage.conditions[classes_[p][k]]);
+      dataset::addCoverage(part.coverage.conditions[k], whole.coverage.conditions[classes_[p][k]]);
     }
   }
-  whole.coverage.thin = thinPlaces(whole.coverage.conditions, whole.folds);
+  whole.coverage.thin = dataset::thinPlaces(whole.coverage.conditions, whole.folds);
   whole.statistics = mergeStatistics();
   trainOnStatistics(training, parts_.front().name, whole);
   return whole;
@@ -217,7 +217,7 @@ Calibration Merging::run(const MergeOptions& options) {
 }  // namespace
 
 Calibration mergeCalibrations(const std::vector<MergePart>& parts, const MergeOptions& options) {
-  if (parts.size() < 2) throw InputError("merging needs two calibration files or more");
+  if (parts.size() < 2) throw settings::InputError("merging needs two calibration files or more");
   for (const MergePart& part : parts) requireMergeable(part);
   for (auto later = parts.begin() + 1; later != parts.end(); ++later) {
     requireAlike(parts.front(), *later);
@@ -226,4 +226,4 @@ Calibration mergeCalibrations(const std::vector<MergePart>& parts, const MergeOp
   return Merging(parts).run(options);
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

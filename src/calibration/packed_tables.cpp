@@ -6,16 +6,16 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 namespace {
 
-void requireWhole(const CurvatureTables& tables) {
+void requireWhole(const compensation::CurvatureTables& tables) {
   const std::size_t expected = tables.size.taxels() * tables.classes.size();
   if (expected == 0 || tables.tables.size() != expected) {
-    throw InputError("calibration has " + std::to_string(tables.tables.size()) +
-                     " tables, but must have one for each taxel and curvature class, " +
-                     std::to_string(expected));
+    throw settings::InputError("calibration has " + std::to_string(tables.tables.size()) +
+                               " tables, but must have one for each taxel and curvature class, " +
+                               std::to_string(expected));
   }
 }
 
@@ -27,29 +27,30 @@ bool usable(float value) {
 }
 
 // One usable value for each code or, for want of a model, NaN throughout.
-void requireSound(const CodeTable& table, std::size_t codes, std::size_t number) {
+void requireSound(const regression::CodeTable& table, std::size_t codes, std::size_t number) {
   const std::string which = "calibration: table " + std::to_string(number);
   if (table.pressure.size() != codes || table.deviation.size() != codes ||
       (!table.log_weight.empty() && table.log_weight.size() != codes)) {
-    throw InputError(which + " has " + std::to_string(table.pressure.size()) +
-                     " codes, but must have full scale + 1, " + std::to_string(codes));
+    throw settings::InputError(which + " has " + std::to_string(table.pressure.size()) +
+                               " codes, but must have full scale + 1, " + std::to_string(codes));
   }
   const bool model = !std::isnan(table.pressure.front());
   for (std::size_t code = 0; code < codes; ++code) {
     const bool finite = usable(table.pressure[code]) && usable(table.deviation[code]);
     const bool absent = std::isnan(table.pressure[code]) && std::isnan(table.deviation[code]);
     if (model ? !finite : !absent) {
-      throw InputError(which + " is not finite at code " + std::to_string(code) + ", but must be in Pa");
+      throw settings::InputError(which + " is not finite at code " + std::to_string(code) +
+                                 ", but must be in Pa");
     }
   }
 }
 
 // Models numbered in the order of the classes.
-std::vector<std::size_t> slotsOf(const CurvatureTables& tables) {
+std::vector<std::size_t> slotsOf(const compensation::CurvatureTables& tables) {
   const std::vector<std::size_t>& model = tables.rule.model_of_class;
   if (!model.empty() && model.size() != tables.classes.size()) {
-    throw InputError("calibration has " + std::to_string(model.size()) +
-                     " model numbers, but must have none, or one for each curvature class");
+    throw settings::InputError("calibration has " + std::to_string(model.size()) +
+                               " model numbers, but must have none, or one for each curvature class");
   }
   std::vector<std::size_t> slots;
   std::size_t used = 0;
@@ -65,22 +66,22 @@ std::vector<std::size_t> slotsOf(const CurvatureTables& tables) {
 
 }  // namespace
 
-PackedTables::PackedTables(const CurvatureTables& tables)
+PackedTables::PackedTables(const compensation::CurvatureTables& tables)
     : size_(tables.size), full_scale_(tables.full_scale), classes_(tables.classes.size()) {
   requireWhole(tables);
   slot_of_class_ = slotsOf(tables);
   slots_ = 1 + *std::max_element(slot_of_class_.begin(), slot_of_class_.end());
-  const bool kernels = tables.rule.blend == BlendRule::kKernel;
+  const bool kernels = tables.rule.blend == compensation::BlendRule::kKernel;
   while ((std::size_t{full_scale_} >> shift_) >= kMostCodes) ++shift_;
   entries_.resize(size_.taxels() * stride());
   if (kernels) log_weight_.resize(size_.taxels() * classes_ * entries());
   for (std::size_t taxel = 0; taxel < size_.taxels(); ++taxel) {
-    TaxelTables& own = of_taxel_.emplace_back();
+    compensation::TaxelTables& own = of_taxel_.emplace_back();
     own.codes = entries();
     for (std::size_t k = 0; k < classes_; ++k) {
-      const CodeTable& packed = tables.table(taxel, k);
+      const regression::CodeTable& packed = tables.table(taxel, k);
       requireSound(packed, full_scale_ + 1u, number(taxel, k));
-      TableEntry* entry = entries_.data() + taxel * stride() + slot_of_class_[k] * entries();
+      compensation::TableEntry* entry = entries_.data() + taxel * stride() + slot_of_class_[k] * entries();
       own.curvature.push_back(tables.classes[k].at(taxel));
       own.table.push_back(entry);
       for (std::size_t i = 0; i < entries(); ++i) {
@@ -93,23 +94,23 @@ PackedTables::PackedTables(const CurvatureTables& tables)
   }
 }
 
-void PackedTables::endAtFullScale(TableEntry* table) const {
-  const TableEntry& before = table[entries() - 2];
-  TableEntry& last = table[entries() - 1];
+void PackedTables::endAtFullScale(compensation::TableEntry* table) const {
+  const compensation::TableEntry& before = table[entries() - 2];
+  compensation::TableEntry& last = table[entries() - 1];
   const std::size_t step = std::size_t{1} << shift_, left = full_scale_ & (step - 1);
   if (left == 0) return;  // nobody reads it
   last.pressure = before.pressure +
                   (last.pressure - before.pressure) * static_cast<float>(step) / static_cast<float>(left);
 }
 
-const float* PackedTables::packLogWeight(const CodeTable& table, std::size_t number) {
+const float* PackedTables::packLogWeight(const regression::CodeTable& table, std::size_t number) {
   if (table.log_weight.empty()) {
-    throw InputError("calibration: table " + std::to_string(number) +
-                     " has no weights, but its scheme blends tables by weight");
+    throw settings::InputError("calibration: table " + std::to_string(number) +
+                               " has no weights, but its scheme blends tables by weight");
   }
   float* const begin = log_weight_.data() + number * entries();
   for (std::size_t i = 0; i < entries(); ++i) begin[i] = table.log_weight[codeOf(i)];
   return begin;
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/calibration/socket_check.h"
+#include "calibration/socket_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <sstream>
 
 #include "fsr_pressure_map/calibration/calibrator.h"
-#include "fsr_pressure_map/health/recording_health.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "health/recording_health.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 namespace {
 
@@ -28,7 +28,7 @@ std::string percent(double share) {
   return text(100 * share) + " %";
 }
 
-std::string place(const Layout& layout, std::size_t taxel) {
+std::string place(const matrix::Layout& layout, std::size_t taxel) {
   return "(" + std::to_string(layout.row({taxel})) + ", " + std::to_string(layout.column({taxel})) + ")";
 }
 
@@ -41,7 +41,8 @@ double median(std::vector<double> values) {
 
 class SocketChecker {
  public:
-  SocketChecker(const Recording& recording, const Calibration* calibration, const SocketCheckOptions& options)
+  SocketChecker(const dataset::Recording& recording, const Calibration* calibration,
+                const SocketCheckOptions& options)
       : recording_(recording), calibration_(calibration), options_(options) {
     for (std::size_t t = 0; t < taxels(); ++t) {
       if (recording.mask.empty() || recording.mask[t] == 0) used_.push_back(t);
@@ -54,7 +55,7 @@ class SocketChecker {
     check_.layout = recording_.layout;
     findRests(events);
     compareRests();
-    const RecordingHealth health = recordingHealth(recording_);
+    const health::RecordingHealth health = health::recordingHealth(recording_);
     check_.saturated = health.saturated;
     check_.dead = health.dead;
     check_.stuck = health.stuck;
@@ -139,10 +140,11 @@ class SocketChecker {
         calibration.tables.full_scale == recording_.full_scale) {
       return;
     }
-    throw InputError(recording_.name + ": has " + sizeText(recording_.layout.size) + " taxels up to " +
-                     std::to_string(recording_.full_scale) + " counts, but the calibration is for " +
-                     sizeText(calibration.layout.size) + " up to " +
-                     std::to_string(calibration.tables.full_scale));
+    throw settings::InputError(recording_.name + ": has " + matrix::sizeText(recording_.layout.size) +
+                               " taxels up to " + std::to_string(recording_.full_scale) +
+                               " counts, but the calibration is for " +
+                               matrix::sizeText(calibration.layout.size) + " up to " +
+                               std::to_string(calibration.tables.full_scale));
   }
 
   void calibrate() {
@@ -150,7 +152,7 @@ class SocketChecker {
     Calibrator calibrator(calibration_->tables, calibration_->layout);
     calibrator.setMask(recording_.mask);
     std::size_t surface = recording_.conditions.size(), readings = 0, beyond = 0, bent = 0;
-    PressureMap map;
+    map::PressureMap map;
     RestMeans before(check_.before, taxels()), after(check_.after, taxels());
     for (std::size_t i = 0; i < recording_.scans(); ++i) {
       const double time = recording_.time[i];
@@ -163,9 +165,11 @@ class SocketChecker {
       for (const std::size_t t : used_) {
         if (std::isnan(map.pressure[t])) continue;
         ++readings;
-        constexpr std::uint16_t kAboveOrBelow = taxel_flag::kReadingExtrapolated | taxel_flag::kBelowRange;
-        beyond += (map.flags[t] & kAboveOrBelow) == taxel_flag::kReadingExtrapolated;  // below is at rest
-        bent += (map.flags[t] & taxel_flag::kCurvatureExtrapolated) != 0;
+        constexpr std::uint16_t kAboveOrBelow =
+            map::taxel_flag::kReadingExtrapolated | map::taxel_flag::kBelowRange;
+        beyond +=
+            (map.flags[t] & kAboveOrBelow) == map::taxel_flag::kReadingExtrapolated;  // below is at rest
+        bent += (map.flags[t] & map::taxel_flag::kCurvatureExtrapolated) != 0;
       }
       before.add(map, time);
       after.add(map, time);
@@ -193,7 +197,7 @@ class SocketChecker {
    public:
     RestMeans(std::optional<SocketRest>& rest, std::size_t taxels)
         : rest_(rest), sums_(taxels, 0.0), counts_(taxels, 0.0) {}
-    void add(const PressureMap& map, double time) {
+    void add(const map::PressureMap& map, double time) {
       if (!rest_ || time < rest_->from || time > rest_->to) return;
       for (std::size_t t = 0; t < sums_.size(); ++t) {
         if (std::isnan(map.pressure[t])) continue;
@@ -293,7 +297,7 @@ class SocketChecker {
     if (!check_.stuck.empty()) reasons.push_back(std::to_string(check_.stuck.size()) + " taxels are stuck");
   }
 
-  const Recording& recording_;
+  const dataset::Recording& recording_;
   const Calibration* calibration_;
   const SocketCheckOptions& options_;
   std::vector<std::size_t> used_;  // taxels that are not masked
@@ -303,10 +307,11 @@ class SocketChecker {
 
 }  // namespace
 
-SocketCheck checkSocket(const Recording& recording, const DonDoff& events, const Calibration* calibration,
-                        const SocketCheckOptions& options) {
-  if (recording.scans() == 0) throw InputError(recording.name + ": holds no scan that could be judged");
+SocketCheck checkSocket(const dataset::Recording& recording, const DonDoff& events,
+                        const Calibration* calibration, const SocketCheckOptions& options) {
+  if (recording.scans() == 0)
+    throw settings::InputError(recording.name + ": holds no scan that could be judged");
   return SocketChecker(recording, calibration, options).run(events);
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

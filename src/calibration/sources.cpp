@@ -1,8 +1,8 @@
-#include "fsr_pressure_map/calibration/sources.h"
+#include "calibration/sources.h"
 
 #include <ctime>
 
-namespace fsr {
+namespace fsr::calibration {
 
 namespace {
 
@@ -17,23 +17,24 @@ std::string now() {
 
 }  // namespace
 
-Provenance provenanceOf(const std::vector<Recording>& recordings, const CalibrationOptions& options) {
+Provenance provenanceOf(const std::vector<dataset::Recording>& recordings,
+                        const CalibrationOptions& options) {
   Provenance provenance;
   provenance.tool_version = FSR_VERSION;
   provenance.date = options.date.empty() ? now() : options.date;
   provenance.seed = options.seed;
-  for (const Recording& recording : recordings) {
+  for (const dataset::Recording& recording : recordings) {
     provenance.bags.push_back({recording.name, recording.sha256, recording.scans()});
   }
   return provenance;
 }
 
-SensorIdentity identityOf(const std::vector<Recording>& recordings) {
-  SensorIdentity identity;
+dataset::SensorIdentity identityOf(const std::vector<dataset::Recording>& recordings) {
+  dataset::SensorIdentity identity;
   const auto fill = [](std::string& field, const std::string& value) {
     if (field.empty()) field = value;
   };
-  for (const Recording& recording : recordings) {
+  for (const dataset::Recording& recording : recordings) {
     fill(identity.sensor_id, recording.sensor.sensor_id);
     fill(identity.serial, recording.sensor.serial);
     fill(identity.firmware, recording.sensor.firmware);
@@ -44,16 +45,17 @@ SensorIdentity identityOf(const std::vector<Recording>& recordings) {
   return identity;
 }
 
-std::vector<std::uint8_t> unionOfMasks(const std::vector<Recording>& recordings, std::size_t taxels) {
+std::vector<std::uint8_t> unionOfMasks(const std::vector<dataset::Recording>& recordings,
+                                       std::size_t taxels) {
   std::vector<std::uint8_t> mask(taxels, 0);
-  for (const Recording& recording : recordings) {
+  for (const dataset::Recording& recording : recordings) {
     for (std::size_t taxel = 0; taxel < recording.mask.size(); ++taxel) mask[taxel] |= recording.mask[taxel];
   }
   return mask;
 }
 
-std::vector<std::string> warningsOf(const std::vector<Recording>& recordings,
-                                    const std::vector<Sections>& sections) {
+std::vector<std::string> warningsOf(const std::vector<dataset::Recording>& recordings,
+                                    const std::vector<dataset::Sections>& sections) {
   std::vector<std::string> warnings;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     for (const std::string& warning : recordings[r].warnings) {
@@ -64,4 +66,4 @@ std::vector<std::string> warningsOf(const std::vector<Recording>& recordings,
   return warnings;
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

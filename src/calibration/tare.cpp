@@ -1,11 +1,11 @@
-#include "fsr_pressure_map/calibration/tare.h"
+#include "calibration/tare.h"
 
 #include <cmath>
 #include <sstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 namespace {
 
@@ -16,28 +16,28 @@ std::string kilopascal(double pressure) {
   return out.str();
 }
 
-bool hasReading(const PressureMap& map, std::size_t taxel) {
-  constexpr std::uint16_t kFailed = taxel_flag::kDead | taxel_flag::kStuck;
+bool hasReading(const map::PressureMap& map, std::size_t taxel) {
+  constexpr std::uint16_t kFailed = map::taxel_flag::kDead | map::taxel_flag::kStuck;
   return std::isfinite(map.pressure[taxel]) && (map.flags[taxel] & kFailed) == 0;
 }
 
 }  // namespace
 
-double meanCurvature(const Surface& surface) {
+double meanCurvature(const matrix::Surface& surface) {
   double sum = 0;
-  for (const Curvature& curvature : surface.curvature) sum += principalCurvature(curvature);
+  for (const matrix::Curvature& curvature : surface.curvature) sum += matrix::principalCurvature(curvature);
   return surface.known() ? sum / static_cast<double>(surface.curvature.size()) : 0.0;
 }
 
-bool holds(const Tare& tare, const std::string& calibration, const Surface& surface) {
+bool holds(const Tare& tare, const std::string& calibration, const matrix::Surface& surface) {
   return tare.calibration == calibration && tare.surface == surface.name && tare.mount == surface.mount &&
          std::abs(tare.curvature - meanCurvature(surface)) <= kTareCurvatureTolerance;
 }
 
-TareMeasurement::TareMeasurement(const Layout& layout, const TareOptions& options)
+TareMeasurement::TareMeasurement(const matrix::Layout& layout, const TareOptions& options)
     : layout_(layout), options_(options), moments_(layout.size.taxels()) {}
 
-bool TareMeasurement::add(const PressureMap& map, double time) noexcept {
+bool TareMeasurement::add(const map::PressureMap& map, double time) noexcept {
   if (map.layout.size != layout_.size) return false;
   if (scans_ == 0 || time < start_) {
     moments_.assign(moments_.size(), {});
@@ -65,18 +65,20 @@ std::vector<float> TareMeasurement::offset(const std::vector<float>& standing) c
     ++read;
     const double offset = result[taxel] + m.mean;
     if (std::abs(offset) > options_.limit) {
-      throw InputError("the tare is refused: " + place(taxel) + " reads " + kilopascal(offset) +
-                       " at rest, but must be within " + kilopascal(options_.limit) + " (~tare_limit)");
+      throw settings::InputError("the tare is refused: " + place(taxel) + " reads " + kilopascal(offset) +
+                                 " at rest, but must be within " + kilopascal(options_.limit) +
+                                 " (~tare_limit)");
     }
     const double scatter = m.count > 1 ? std::sqrt(m.squares / (m.count - 1)) : 0.0;
     if (scatter > options_.scatter) {
-      throw InputError("the tare is refused: " + place(taxel) + " scatters by " + kilopascal(scatter) +
-                       " as under a limb, but must keep still within " + kilopascal(options_.scatter) +
-                       " (~tare_scatter)");
+      throw settings::InputError("the tare is refused: " + place(taxel) + " scatters by " +
+                                 kilopascal(scatter) + " as under a limb, but must keep still within " +
+                                 kilopascal(options_.scatter) + " (~tare_scatter)");
     }
     result[taxel] = static_cast<float>(offset);
   }
-  if (read == 0) throw InputError("the tare is refused: no taxel has a reading, but at least one must");
+  if (read == 0)
+    throw settings::InputError("the tare is refused: no taxel has a reading, but at least one must");
   return result;
 }
 
@@ -85,4 +87,4 @@ std::string TareMeasurement::place(std::size_t taxel) const {
          std::to_string(layout_.column({taxel}));
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

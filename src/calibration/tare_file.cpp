@@ -14,19 +14,19 @@
 
 #include <limits>
 
-#include "fsr_pressure_map/calibration/tare.h"
-#include "fsr_pressure_map/settings/replace_file.h"
+#include "calibration/tare.h"
 #include "fsr_pressure_map/settings/settings.h"
+#include "settings/replace_file.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 namespace {
 
 constexpr char kFormat[] = "fsr_pressure_map tare 1";
-const Range kSide{1, kMaxMatrixSide, ""};
-const Range kMount{0, std::numeric_limits<std::uint32_t>::max(), ""};
-const Range kOffset{-1e6, 1e6, "Pa"};
-const Range kBend{-1e3, 1e3, "1/m"};
+const settings::Range kSide{1, matrix::kMaxMatrixSide, ""};
+const settings::Range kMount{0, std::numeric_limits<std::uint32_t>::max(), ""};
+const settings::Range kOffset{-1e6, 1e6, "Pa"};
+const settings::Range kBend{-1e3, 1e3, "1/m"};
 
 }  // namespace
 
@@ -43,11 +43,11 @@ void saveTare(const Tare& tare, const std::string& path) {
   out << YAML::Key << "columns" << YAML::Value << tare.size.columns;
   out << YAML::Key << "offset" << YAML::Value << YAML::Flow << tare.offset;
   out << YAML::EndMap << YAML::Newline;
-  replaceFile(path, out.c_str());
+  settings::replaceFile(path, out.c_str());
 }
 
 Tare loadTare(const std::string& path) {
-  const Settings settings = Settings::fromFile(path);
+  const settings::Settings settings = settings::Settings::fromFile(path);
   settings.choice("format", {kFormat});
   Tare tare;
   tare.calibration = settings.text("calibration");
@@ -67,4 +67,4 @@ Tare loadTare(const std::string& path) {
   return tare;
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

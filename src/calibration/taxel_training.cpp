@@ -1,16 +1,16 @@
-#include "fsr_pressure_map/calibration/taxel_training.h"
+#include "calibration/taxel_training.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "fsr_pressure_map/calibration/bandwidth_choice.h"
-#include "fsr_pressure_map/calibration/curvature_rule_learning.h"
-#include "fsr_pressure_map/compensation/learn_scheme.h"
-#include "fsr_pressure_map/compensation/second_input.h"
-#include "fsr_pressure_map/matrix/for_each_taxel.h"
+#include "calibration/bandwidth_choice.h"
+#include "calibration/curvature_rule_learning.h"
+#include "compensation/learn_scheme.h"
+#include "compensation/second_input.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "matrix/for_each_taxel.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 namespace {
 
@@ -18,11 +18,12 @@ constexpr char kConstantTaxels[] =
     "these taxels (row * columns + column) read the same count throughout a condition and get no model: ";
 
 // A reading that never changes tells nothing.
-bool varies(const TrainingStatistics& statistics, const SchemePlan::Model& model, std::size_t taxel) {
+bool varies(const compensation::TrainingStatistics& statistics, const compensation::SchemePlan::Model& model,
+            std::size_t taxel) {
   TrainedInterval codes;
   for (const std::size_t curvature_class : model.trained_on) {
     for (std::size_t section = 0; section < statistics.sections; ++section) {
-      const CodeStatistics& cell = statistics.cell(taxel, curvature_class, section);
+      const regression::CodeStatistics& cell = statistics.cell(taxel, curvature_class, section);
       if (cell.empty()) continue;
       codes.include(cell.code().front());
       codes.include(cell.code().back());
@@ -31,7 +32,8 @@ bool varies(const TrainingStatistics& statistics, const SchemePlan::Model& model
   return codes.low < codes.high;
 }
 
-std::uint64_t scansOf(const TrainingStatistics& statistics, const SchemePlan::Model& model) {
+std::uint64_t scansOf(const compensation::TrainingStatistics& statistics,
+                      const compensation::SchemePlan::Model& model) {
   std::uint64_t scans = 0;
   for (const std::size_t k : model.trained_on) {
     for (std::size_t section = 0; section < statistics.sections; ++section) {
@@ -42,10 +44,10 @@ std::uint64_t scansOf(const TrainingStatistics& statistics, const SchemePlan::Mo
 }
 
 // Where no taxel has a model: is it one of several surfaces that gives none?
-void refuseStillSurface(const SchemePlan& plan, const Calibration& calibration) {
+void refuseStillSurface(const compensation::SchemePlan& plan, const Calibration& calibration) {
   const std::size_t taxels = calibration.masked.size();
-  std::vector<const SchemePlan::Model*> still;
-  for (const SchemePlan::Model& model : plan.models) {
+  std::vector<const compensation::SchemePlan::Model*> still;
+  for (const compensation::SchemePlan::Model& model : plan.models) {
     bool any = false;
     for (std::size_t taxel = 0; taxel < taxels && !any; ++taxel) {
       any = calibration.masked[taxel] == 0 && varies(calibration.statistics, model, taxel);
@@ -54,14 +56,14 @@ void refuseStillSurface(const SchemePlan& plan, const Calibration& calibration) 
   }
   if (still.empty() || still.size() == plan.models.size()) return;
   const std::uint64_t scans = scansOf(calibration.statistics, *still.front());
-  throw InputError("\"" + still.front()->answers_for.surface +
-                   "\": every taxel reads the same count throughout (" + std::to_string(scans) +
-                   (scans == 1 ? " scan" : " scans") +
-                   "), so that there is nothing to train on; record it again, or leave it out");
+  throw settings::InputError("\"" + still.front()->answers_for.surface +
+                             "\": every taxel reads the same count throughout (" + std::to_string(scans) +
+                             (scans == 1 ? " scan" : " scans") +
+                             "), so that there is nothing to train on; record it again, or leave it out");
 }
 
-CodeTable noModel(std::uint16_t full_scale, bool kernels) {
-  CodeTable table;
+regression::CodeTable noModel(std::uint16_t full_scale, bool kernels) {
+  regression::CodeTable table;
   table.pressure.assign(full_scale + 1u, std::numeric_limits<float>::quiet_NaN());
   table.deviation = table.support = table.pressure;
   if (kernels) table.log_weight = table.pressure;
@@ -69,8 +71,9 @@ CodeTable noModel(std::uint16_t full_scale, bool kernels) {
 }
 
 // Where kernels are blended, the tables are those of the classes alone.
-void useKernels(const ClassReadings& readings, const GrnnOptions& grnn, CodeTable* tables) {
-  const std::vector<KernelMean> means = classKernels(readings, grnn);
+void useKernels(const compensation::ClassReadings& readings, const regression::GrnnOptions& grnn,
+                regression::CodeTable* tables) {
+  const std::vector<regression::KernelMean> means = compensation::classKernels(readings, grnn);
   for (std::size_t k = 0; k < means.size(); ++k) {
     tables[k].pressure.assign(means[k].pressure.begin(), means[k].pressure.end());
     tables[k].log_weight.assign(means[k].log_weight.begin(), means[k].log_weight.end());
@@ -78,8 +81,8 @@ void useKernels(const ClassReadings& readings, const GrnnOptions& grnn, CodeTabl
 }
 
 // The model that schemes are learned with.
-GrnnOptions plainKernel(const GrnnOptions& options) {
-  GrnnOptions plain;
+regression::GrnnOptions plainKernel(const regression::GrnnOptions& options) {
+  regression::GrnnOptions plain;
   plain.bandwidth = options.bandwidth;
   plain.spread = options.spread;
   return plain;
@@ -87,19 +90,20 @@ GrnnOptions plainKernel(const GrnnOptions& options) {
 
 }  // namespace
 
-void prepareTables(const SchemePlan& plan, Calibration& calibration) {
-  CurvatureTables& tables = calibration.tables;
+void prepareTables(const compensation::SchemePlan& plan, Calibration& calibration) {
+  compensation::CurvatureTables& tables = calibration.tables;
   tables.scheme = plan.scheme;
   tables.size = calibration.layout.size;
   tables.full_scale = calibration.statistics.full_scale;
   tables.classes = plan.classes;
-  if (!usesCurvature(plan.scheme)) tables.classes = {plan.models.front().answers_for};
+  if (!compensation::usesCurvature(plan.scheme)) tables.classes = {plan.models.front().answers_for};
   tables.tables.resize(tables.size.taxels() * tables.classes.size());
   tables.curvature_low = calibration.trained.curvature.low;
   tables.curvature_high = calibration.trained.curvature.high;
 }
 
-void findTaxelsWithoutModel(const SchemePlan& plan, const std::string& origin, Calibration& calibration) {
+void findTaxelsWithoutModel(const compensation::SchemePlan& plan, const std::string& origin,
+                            Calibration& calibration) {
   calibration.no_model = calibration.masked;
   std::string constant;
   for (std::size_t taxel = 0; taxel < calibration.no_model.size(); ++taxel) {
@@ -112,8 +116,8 @@ void findTaxelsWithoutModel(const SchemePlan& plan, const std::string& origin, C
   const auto& none = calibration.no_model;
   if (std::find(none.begin(), none.end(), 0) == none.end()) {
     refuseStillSurface(plan, calibration);
-    throw InputError(origin +
-                     ": every taxel is masked or reads the same count throughout; is the matrix connected?");
+    throw settings::InputError(
+        origin + ": every taxel is masked or reads the same count throughout; is the matrix connected?");
   }
   if (!constant.empty()) calibration.warnings.push_back(kConstantTaxels + constant);
 }
@@ -122,44 +126,48 @@ bool isConstantTaxelWarning(const std::string& warning) {
   return warning.rfind(kConstantTaxels, 0) == 0;
 }
 
-SectionedReadings readingsOf(const TrainingStatistics& statistics, std::size_t taxel) {
-  SectionedReadings readings;
+compensation::SectionedReadings readingsOf(const compensation::TrainingStatistics& statistics,
+                                           std::size_t taxel) {
+  compensation::SectionedReadings readings;
   readings.full_scale = statistics.full_scale;
   for (std::size_t k = 0; k < statistics.classes.size(); ++k) {
-    const CodeStatistics* const first = &statistics.cell(taxel, k, 0);
+    const regression::CodeStatistics* const first = &statistics.cell(taxel, k, 0);
     readings.sums.emplace_back(first, first + statistics.sections);
   }
   return readings;
 }
 
-FoldRegressors choose(const CalibrationOptions& options, Calibration& calibration, SchemePlan& plan) {
-  const FoldRegressors regressors =
+compensation::FoldRegressors choose(const CalibrationOptions& options, Calibration& calibration,
+                                    compensation::SchemePlan& plan) {
+  const compensation::FoldRegressors regressors =
       chooseRegressor(options, plan, calibration.statistics, calibration.no_model);
   calibration.regressor = regressors.whole;
-  learnScheme(calibration.statistics, plainKernel(regressors.whole.grnn),
-              taxelsOfSearch(calibration.no_model), options.threads, plan);
+  compensation::learnScheme(calibration.statistics, plainKernel(regressors.whole.grnn),
+                            taxelsOfSearch(calibration.no_model), options.threads, plan);
   return regressors;
 }
 
-void fillTables(const SchemePlan& plan, std::size_t taxel, const std::vector<CrossValidatedModel>& models,
-                Calibration& calibration) {
+void fillTables(const compensation::SchemePlan& plan, std::size_t taxel,
+                const std::vector<regression::CrossValidatedModel>& models, Calibration& calibration) {
   const std::size_t classes = calibration.tables.classes.size();
-  CodeTable* const tables = &calibration.tables.tables[taxel * classes];
-  const bool kernels = blendOf(plan.scheme, calibration.regressor) == BlendRule::kKernel;
+  regression::CodeTable* const tables = &calibration.tables.tables[taxel * classes];
+  const bool kernels =
+      compensation::blendOf(plan.scheme, calibration.regressor) == compensation::BlendRule::kKernel;
   for (std::size_t k = 0; k < classes; ++k) {
     tables[k] = models.empty() ? noModel(calibration.tables.full_scale, kernels)
                                : models[plan.model_of_class[k]].table;
   }
   if (kernels && !models.empty()) {
-    useKernels(allSections(readingsOf(calibration.statistics, taxel)), calibration.regressor.grnn, tables);
+    useKernels(compensation::allSections(readingsOf(calibration.statistics, taxel)),
+               calibration.regressor.grnn, tables);
   }
 }
 
 void trainOnStatistics(const CalibrationOptions& options, const std::string& origin,
                        Calibration& calibration) {
-  const TrainingStatistics& statistics = calibration.statistics;
-  SchemePlan plan = planScheme(options.scheme, statistics.classes);
-  for (const SchemePlan::Model& model : plan.models) {
+  const compensation::TrainingStatistics& statistics = calibration.statistics;
+  compensation::SchemePlan plan = compensation::planScheme(options.scheme, statistics.classes);
+  for (const compensation::SchemePlan::Model& model : plan.models) {
     for (const std::size_t k : model.trained_on) {
       for (const double curvature : plan.classes[k].curvature)
         calibration.trained.curvature.include(curvature);
@@ -167,16 +175,16 @@ void trainOnStatistics(const CalibrationOptions& options, const std::string& ori
   }
   prepareTables(plan, calibration);
   findTaxelsWithoutModel(plan, origin, calibration);
-  const FoldRegressors regressors = choose(options, calibration, plan);
-  forEachTaxel(statistics.taxels, options.threads, [&](std::size_t taxel) {
-    std::vector<CrossValidatedModel> models;
+  const compensation::FoldRegressors regressors = choose(options, calibration, plan);
+  matrix::forEachTaxel(statistics.taxels, options.threads, [&](std::size_t taxel) {
+    std::vector<regression::CrossValidatedModel> models;
     if (calibration.no_model[taxel] == 0) {
-      models =
-          crossValidateScheme(plan, taxel, readingsOf(statistics, taxel), regressors, HeldOutDeviation::kNo);
+      models = compensation::crossValidateScheme(plan, taxel, readingsOf(statistics, taxel), regressors,
+                                                 regression::HeldOutDeviation::kNo);
     }
     fillTables(plan, taxel, models, calibration);
   });
   learnRule(plan, options.threads, calibration);
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

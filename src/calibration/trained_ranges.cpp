@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace fsr {
+namespace fsr::calibration {
 
 namespace {
 
@@ -12,7 +12,7 @@ constexpr double kLongestRateSpan = 2.0;
 
 // The rate of the pressure from scan `i` over kRateSpan; `later` walks along. NaN where the condition
 // changes or the scans pause meanwhile.
-double rateFrom(const Recording& recording, std::size_t i, std::size_t& later) {
+double rateFrom(const dataset::Recording& recording, std::size_t i, std::size_t& later) {
   while (later < recording.scans() && recording.time[later] - recording.time[i] < kRateSpan) ++later;
   if (later == recording.scans() || recording.condition[later] != recording.condition[i]) return NAN;
   const double span = recording.time[later] - recording.time[i];
@@ -28,11 +28,11 @@ void TrainedInterval::include(double value) {
   if (!(high >= value)) high = value;
 }
 
-TrainedRanges findTrainedRanges(const std::vector<Recording>& recordings, const ConditionClasses& classes,
-                                const std::vector<bool>& trained) {
+TrainedRanges findTrainedRanges(const std::vector<dataset::Recording>& recordings,
+                                const dataset::ConditionClasses& classes, const std::vector<bool>& trained) {
   TrainedRanges ranges;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
-    const Recording& recording = recordings[r];
+    const dataset::Recording& recording = recordings[r];
     std::size_t later = 0;
     for (std::size_t i = 0; i < recording.scans(); ++i) {
       if (!trained[classes.class_of[r][recording.condition[i]]]) continue;
@@ -48,4 +48,4 @@ TrainedRanges findTrainedRanges(const std::vector<Recording>& recordings, const 
   return ranges;
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

@@ -1,18 +1,19 @@
-#include "fsr_pressure_map/calibration/training_scans.h"
+#include "calibration/training_scans.h"
 
 #include <algorithm>
 
-namespace fsr {
+namespace fsr::calibration {
 
-TrainingScans gatherScans(const std::vector<Recording>& recordings, const ConditionClasses& classes,
-                          const std::vector<Sections>& sections) {
+TrainingScans gatherScans(const std::vector<dataset::Recording>& recordings,
+                          const dataset::ConditionClasses& classes,
+                          const std::vector<dataset::Sections>& sections) {
   TrainingScans scans(classes.classes.size());
   for (std::size_t r = 0; r < recordings.size(); ++r) {
-    const Recording& recording = recordings[r];
+    const dataset::Recording& recording = recordings[r];
     for (std::size_t i = 0; i < recording.scans(); ++i) {
-      if (sections[r].section[i] == kNoSection) continue;
+      if (sections[r].section[i] == dataset::kNoSection) continue;
       scans[classes.class_of[r][recording.condition[i]]].push_back(
-          {recording.scan(i), toFixed(recording.pressure[i]), sections[r].section[i],
+          {recording.scan(i), regression::toFixed(recording.pressure[i]), sections[r].section[i],
            sections[r].direction[i]});
     }
   }
@@ -21,10 +22,10 @@ TrainingScans gatherScans(const std::vector<Recording>& recordings, const Condit
   return scans;
 }
 
-std::vector<CodeStatistics> statisticsOfTaxel(const TrainingScans& scans, std::size_t sections,
-                                              std::uint16_t full_scale, std::size_t taxel) {
-  std::vector<CodeStatistics> cells;
-  CodeAccumulator accumulator(full_scale);
+std::vector<regression::CodeStatistics> statisticsOfTaxel(const TrainingScans& scans, std::size_t sections,
+                                                          std::uint16_t full_scale, std::size_t taxel) {
+  std::vector<regression::CodeStatistics> cells;
+  regression::CodeAccumulator accumulator(full_scale);
   for (const std::vector<TrainingScan>& of_class : scans) {
     auto scan = of_class.begin();
     for (std::size_t section = 0; section < sections; ++section) {
@@ -37,11 +38,13 @@ std::vector<CodeStatistics> statisticsOfTaxel(const TrainingScans& scans, std::s
   return cells;
 }
 
-std::vector<std::vector<CodeSamples>> samplesOfTaxel(const TrainingScans& scans, std::size_t sections,
-                                                     std::uint16_t full_scale, std::size_t taxel) {
-  CodeSamples none;
+std::vector<std::vector<regression::CodeSamples>> samplesOfTaxel(const TrainingScans& scans,
+                                                                 std::size_t sections,
+                                                                 std::uint16_t full_scale,
+                                                                 std::size_t taxel) {
+  regression::CodeSamples none;
   none.full_scale = full_scale;
-  std::vector<std::vector<CodeSamples>> readings;
+  std::vector<std::vector<regression::CodeSamples>> readings;
   for (const std::vector<TrainingScan>& of_class : scans) {
     readings.emplace_back(sections, none);
     for (const TrainingScan& scan : of_class) {
@@ -51,4 +54,4 @@ std::vector<std::vector<CodeSamples>> samplesOfTaxel(const TrainingScans& scans,
   return readings;
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <sstream>
 
+#include "compensation/fit_scheme.h"
 #include "fsr_pressure_map/calibration/calibration.h"
-#include "fsr_pressure_map/compensation/fit_scheme.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 namespace {
 
@@ -19,15 +19,17 @@ std::string scansOf(std::uint64_t number, const std::string& what) {
   return number == 0 ? "" : ", " + std::to_string(number) + " " + what;
 }
 
-std::string whyNoScan(const RecordingLosses& losses) {
+std::string whyNoScan(const dataset::RecordingLosses& losses) {
   const std::string why = scansOf(losses.near_change, "were made within 1 s of a change of surface") +
                           scansOf(losses.no_reference, "lie in a gap of chamber_pressure") +
                           scansOf(losses.unknown_surface, "on a surface of unknown curvature");
   return why.empty() ? "" : ":" + why.substr(1);
 }
 
-void requireWhole(const Recording& recording) {
-  const auto refuse = [&](const std::string& what) { throw InputError(recording.name + ": " + what); };
+void requireWhole(const dataset::Recording& recording) {
+  const auto refuse = [&](const std::string& what) {
+    throw settings::InputError(recording.name + ": " + what);
+  };
   if (recording.scans() == 0) refuse("no scan is left to train on" + whyNoScan(recording.losses));
   if (recording.pressure.empty()) {
     refuse("no chamber pressure is recorded, but training needs the topic chamber_pressure");
@@ -40,31 +42,32 @@ void requireWhole(const Recording& recording) {
   if (!whole) refuse("counts, pressure, temperature, condition and mask do not fit each other");
 }
 
-void requirePressures(const Recording& recording) {
+void requirePressures(const dataset::Recording& recording) {
   std::vector<std::size_t> usable(recording.conditions.size());
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     if (!std::isfinite(recording.pressure[i])) continue;
-    if (std::abs(recording.pressure[i]) > kLargestPressure) {
-      throw InputError(recording.name + ": chamber pressure is " + std::to_string(recording.pressure[i]) +
-                       " Pa, but must lie within +-8000000 Pa gauge");
+    if (std::abs(recording.pressure[i]) > regression::kLargestPressure) {
+      throw settings::InputError(recording.name + ": chamber pressure is " +
+                                 std::to_string(recording.pressure[i]) +
+                                 " Pa, but must lie within +-8000000 Pa gauge");
     }
     ++usable.at(recording.condition[i]);
   }
   for (std::size_t c = 0; c < usable.size(); ++c) {
     if (usable[c] == 0) {
-      throw InputError(recording.name + ": no scan on \"" + recording.conditions[c].name +
-                       "\" has a chamber pressure");
+      throw settings::InputError(recording.name + ": no scan on \"" + recording.conditions[c].name +
+                                 "\" has a chamber pressure");
     }
   }
 }
 
-void requireSameMatrix(const Recording& first, const Recording& other) {
+void requireSameMatrix(const dataset::Recording& first, const dataset::Recording& other) {
   const auto refuse = [&](const std::string& what, const std::string& own, const std::string& that) {
-    throw InputError(other.name + ": " + what + " is " + own + ", but that of " + first.name + " is " + that +
-                     "; a calibration is of one matrix");
+    throw settings::InputError(other.name + ": " + what + " is " + own + ", but that of " + first.name +
+                               " is " + that + "; a calibration is of one matrix");
   };
   if (other.layout.size != first.layout.size) {
-    refuse("the matrix", sizeText(other.layout.size), sizeText(first.layout.size));
+    refuse("the matrix", matrix::sizeText(other.layout.size), matrix::sizeText(first.layout.size));
   }
   if (other.full_scale != first.full_scale) {
     refuse("full_scale", std::to_string(other.full_scale), std::to_string(first.full_scale));
@@ -76,18 +79,19 @@ void requireSameMatrix(const Recording& first, const Recording& other) {
 }
 
 // The same readings twice would count as two proofs of the same thing.
-void requireDifferentBags(const std::vector<Recording>& recordings) {
+void requireDifferentBags(const std::vector<dataset::Recording>& recordings) {
   for (auto later = recordings.begin(); later != recordings.end(); ++later) {
-    const auto same = [&](const Recording& earlier) { return earlier.sha256 == later->sha256; };
+    const auto same = [&](const dataset::Recording& earlier) { return earlier.sha256 == later->sha256; };
     const auto twin = std::find_if(recordings.begin(), later, same);
     if (twin == later || later->sha256.empty()) continue;
-    throw InputError(later->name + ": has the same bytes as " + twin->name + "; give each bag once");
+    throw settings::InputError(later->name + ": has the same bytes as " + twin->name +
+                               "; give each bag once");
   }
 }
 
-void requireChange(const std::vector<Recording>& recordings) {
+void requireChange(const std::vector<dataset::Recording>& recordings) {
   TrainedInterval pressure;
-  for (const Recording& recording : recordings) {
+  for (const dataset::Recording& recording : recordings) {
     for (const double value : recording.pressure) {
       if (std::isfinite(value)) pressure.include(value);
     }
@@ -96,25 +100,27 @@ void requireChange(const std::vector<Recording>& recordings) {
   std::ostringstream text;
   text << recordings.front().name << ": the chamber pressure never changes (" << pressure.low << " to "
        << pressure.high << " Pa gauge), but training needs cycles";
-  throw InputError(text.str());
+  throw settings::InputError(text.str());
 }
 
 }  // namespace
 
 void validate(const CalibrationProblem& problem) {
   const CalibrationOptions& options = problem.options;
-  const std::vector<Recording>& recordings = problem.recordings;
-  requireSchemeFor(options.scheme, options.regressor);
+  const std::vector<dataset::Recording>& recordings = problem.recordings;
+  compensation::requireSchemeFor(options.scheme, options.regressor);
   if (options.folds < kFewestFolds || options.folds > kMostFolds) {
-    throw InputError("folds is " + std::to_string(options.folds) + ", but must be 2 to 20");
+    throw settings::InputError("folds is " + std::to_string(options.folds) + ", but must be 2 to 20");
   }
-  if (recordings.empty()) throw InputError("there is no recording to train on; give one bag or more");
-  for (const Recording& recording : recordings) requireWhole(recording);
-  for (const Recording& recording : recordings) requireSameMatrix(recordings.front(), recording);
-  for (const Recording& recording : recordings) requirePressures(recording);
+  if (recordings.empty())
+    throw settings::InputError("there is no recording to train on; give one bag or more");
+  for (const dataset::Recording& recording : recordings) requireWhole(recording);
+  for (const dataset::Recording& recording : recordings) requireSameMatrix(recordings.front(), recording);
+  for (const dataset::Recording& recording : recordings) requirePressures(recording);
   requireChange(recordings);
-  planScheme(options.scheme, poolConditions(recordings, poolingOf(options.scheme)).classes);
+  compensation::planScheme(
+      options.scheme, dataset::poolConditions(recordings, compensation::poolingOf(options.scheme)).classes);
   requireDifferentBags(recordings);
 }
 
-}  // namespace fsr
+}  // namespace fsr::calibration

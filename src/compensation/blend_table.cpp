@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace fsr {
+namespace fsr::compensation {
 
 namespace {
 
@@ -156,4 +156,4 @@ void blendTable(const CurvatureRule& rule, double length_scale, const TaxelTable
   spreadDeviation(rule.unseen, tables, place, out);
 }
 
-}  // namespace fsr
+}  // namespace fsr::compensation

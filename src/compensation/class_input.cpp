@@ -1,9 +1,9 @@
-#include "fsr_pressure_map/compensation/class_input.h"
+#include "compensation/class_input.h"
 
 #include <cmath>
 #include <numeric>
 
-namespace fsr {
+namespace fsr::compensation {
 
 namespace {
 
@@ -59,4 +59,4 @@ ClassInputs classInputs(Scheme scheme, const std::vector<double>& curvature, con
   return inputs;
 }
 
-}  // namespace fsr
+}  // namespace fsr::compensation

@@ -1,39 +1,41 @@
-#include "fsr_pressure_map/compensation/curvature_ranges.h"
+#include "compensation/curvature_ranges.h"
 
-#include "fsr_pressure_map/compensation/held_out_squares.h"
-#include "fsr_pressure_map/matrix/for_each_taxel.h"
+#include "compensation/held_out_squares.h"
+#include "matrix/for_each_taxel.h"
 
-namespace fsr {
+namespace fsr::compensation {
 
 namespace {
 
 // Squared errors of one model of the classes of `range` on the sections that it was trained without.
-double rangeSquares(const TrainingStatistics& statistics, std::size_t taxel, const Grnn& grnn,
+double rangeSquares(const TrainingStatistics& statistics, std::size_t taxel, const regression::Grnn& grnn,
                     const CurvatureRange& range) {
-  CodeHistogram training(statistics.full_scale);
+  regression::CodeHistogram training(statistics.full_scale);
   const auto forEachCell = [&](std::size_t section, const auto& use) {
     for (const std::size_t k : range) use(statistics.cell(taxel, k, section));
   };
   for (std::size_t s = 0; s < statistics.sections; ++s) {
-    forEachCell(s, [&](const CodeStatistics& cell) { training.add(cell); });
+    forEachCell(s, [&](const regression::CodeStatistics& cell) { training.add(cell); });
   }
   double squares = 0;
   for (std::size_t s = 0; s < statistics.sections; ++s) {
-    forEachCell(s, [&](const CodeStatistics& cell) { training.subtract(cell); });
+    forEachCell(s, [&](const regression::CodeStatistics& cell) { training.subtract(cell); });
     if (training.samples() > 0) {
       const std::vector<double> pressure = grnn.fit(training).pressure;
-      forEachCell(s, [&](const CodeStatistics& cell) { squares += squaredErrors(cell, pressure); });
+      forEachCell(s,
+                  [&](const regression::CodeStatistics& cell) { squares += squaredErrors(cell, pressure); });
     }
-    forEachCell(s, [&](const CodeStatistics& cell) { training.add(cell); });
+    forEachCell(s, [&](const regression::CodeStatistics& cell) { training.add(cell); });
   }
   return squares;
 }
 
 // Summed over taxels, of several ranges at once.
 std::vector<double> squaresOf(const std::vector<CurvatureRange>& ranges, const TrainingStatistics& statistics,
-                              const Grnn& grnn, const std::vector<std::size_t>& taxels, unsigned threads) {
+                              const regression::Grnn& grnn, const std::vector<std::size_t>& taxels,
+                              unsigned threads) {
   std::vector<std::vector<double>> of_taxel(taxels.size());
-  forEachTaxel(taxels.size(), threads, [&](std::size_t i) {
+  matrix::forEachTaxel(taxels.size(), threads, [&](std::size_t i) {
     for (const CurvatureRange& range : ranges)
       of_taxel[i].push_back(rangeSquares(statistics, taxels[i], grnn, range));
   });
@@ -48,7 +50,7 @@ CurvatureRange joined(const CurvatureRange& a, const CurvatureRange& b) {
 
 }  // namespace
 
-std::vector<CurvatureRange> learnRanges(const TrainingStatistics& statistics, const Grnn& grnn,
+std::vector<CurvatureRange> learnRanges(const TrainingStatistics& statistics, const regression::Grnn& grnn,
                                         const std::vector<std::size_t>& taxels, unsigned threads) {
   std::vector<CurvatureRange> ranges;
   for (std::size_t k = 0; k < statistics.classes.size(); ++k) ranges.push_back({k});
@@ -72,4 +74,4 @@ std::vector<CurvatureRange> learnRanges(const TrainingStatistics& statistics, co
   return ranges;
 }
 
-}  // namespace fsr
+}  // namespace fsr::compensation

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fsr {
+namespace fsr::compensation {
 
 namespace {
 
@@ -61,4 +61,4 @@ double UnseenDeviation::at(double asked) const {
   return deviation[i] + share * (deviation[i + 1] - deviation[i]);
 }
 
-}  // namespace fsr
+}  // namespace fsr::compensation

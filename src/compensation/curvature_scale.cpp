@@ -1,22 +1,22 @@
-#include "fsr_pressure_map/compensation/curvature_scale.h"
+#include "compensation/curvature_scale.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/compensation/held_out_squares.h"
-#include "fsr_pressure_map/compensation/kernel_blend.h"
-#include "fsr_pressure_map/matrix/for_each_taxel.h"
-#include "fsr_pressure_map/regression/weighted_codes.h"
+#include "compensation/held_out_squares.h"
+#include "compensation/kernel_blend.h"
+#include "matrix/for_each_taxel.h"
+#include "regression/grnn/weighted_codes.h"
 
-namespace fsr {
+namespace fsr::compensation {
 
 namespace {
 
 constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-std::vector<double> scaleGrid(const std::vector<CurvatureClass>& classes) {
+std::vector<double> scaleGrid(const std::vector<dataset::CurvatureClass>& classes) {
   double low = INFINITY, high = -INFINITY;
-  for (const CurvatureClass& one : classes) {
+  for (const dataset::CurvatureClass& one : classes) {
     for (const double curvature : one.curvature) {
       low = std::min(low, curvature);
       high = std::max(high, curvature);
@@ -32,10 +32,10 @@ std::vector<double> scaleGrid(const std::vector<CurvatureClass>& classes) {
 // Errors of every scale on one taxel.
 class ScaleErrors {
  public:
-  ScaleErrors(const TrainingStatistics& statistics, std::size_t taxel, const GrnnOptions& grnn,
+  ScaleErrors(const TrainingStatistics& statistics, std::size_t taxel, const regression::GrnnOptions& grnn,
               const std::vector<double>& grid)
       : statistics_(statistics), taxel_(taxel), grnn_(grnn), grid_(grid) {
-    for (const CurvatureClass& one : statistics.classes) curvature_.push_back(one.at(taxel));
+    for (const dataset::CurvatureClass& one : statistics.classes) curvature_.push_back(one.at(taxel));
   }
 
   /// Mean squared errors on held-out sections [scales], then those on left-out inner classes [scales].
@@ -43,13 +43,13 @@ class ScaleErrors {
     std::vector<double> seen(grid_.size(), 0.0), unseen(grid_.size(), 0.0);
     double seen_readings = 0, unseen_readings = 0;
     for (std::size_t section = 0; section < statistics_.sections; ++section) {
-      const std::vector<KernelMean> means = kernels(section);
+      const std::vector<regression::KernelMean> means = kernels(section);
       if (means.empty()) continue;
       for (std::size_t k = 0; k < curvature_.size(); ++k) {
         seen_readings += add(means, k, kNone, statistics_.cell(taxel_, k, section), seen);
       }
     }
-    const std::vector<KernelMean> means = kernels(kNone);
+    const std::vector<regression::KernelMean> means = kernels(kNone);
     for (std::size_t k = 0; k < curvature_.size(); ++k) {
       if (!isInner(k)) continue;
       for (std::size_t section = 0; section < statistics_.sections; ++section) {
@@ -69,9 +69,9 @@ class ScaleErrors {
   }
 
   // Of each class, without a section; empty where a class would have no reading.
-  std::vector<KernelMean> kernels(std::size_t left_out) const {
-    std::vector<CodeHistogram> sums;
-    CodeHistogram all(statistics_.full_scale);
+  std::vector<regression::KernelMean> kernels(std::size_t left_out) const {
+    std::vector<regression::CodeHistogram> sums;
+    regression::CodeHistogram all(statistics_.full_scale);
     for (std::size_t k = 0; k < curvature_.size(); ++k) {
       sums.emplace_back(statistics_.full_scale);
       for (std::size_t section = 0; section < statistics_.sections; ++section) {
@@ -80,17 +80,18 @@ class ScaleErrors {
       if (sums.back().samples() == 0) return {};
       all.add(sums.back());
     }
-    std::vector<KernelMean> means;
-    const double sigma = sigmaOf(grnn_) * readingDeviation(all);
-    for (const CodeHistogram& of_class : sums) {
-      means.push_back(gaussianMean(weightedCodes(of_class), sigma, LogWeight::kWhereZero));
+    std::vector<regression::KernelMean> means;
+    const double sigma = regression::sigmaOf(grnn_) * regression::readingDeviation(all);
+    for (const regression::CodeHistogram& of_class : sums) {
+      means.push_back(regression::gaussianMean(regression::weightedCodes(of_class), sigma,
+                                               regression::LogWeight::kWhereZero));
     }
     return means;
   }
 
   // Adds the squares of every scale on readings of class k; returns their number.
-  double add(const std::vector<KernelMean>& means, std::size_t k, std::size_t left_out,
-             const CodeStatistics& readings, std::vector<double>& squares) const {
+  double add(const std::vector<regression::KernelMean>& means, std::size_t k, std::size_t left_out,
+             const regression::CodeStatistics& readings, std::vector<double>& squares) const {
     for (std::size_t i = 0; i < grid_.size(); ++i) {
       std::vector<double> exponent;
       for (std::size_t c = 0; c < means.size(); ++c) {
@@ -104,19 +105,19 @@ class ScaleErrors {
 
   const TrainingStatistics& statistics_;
   std::size_t taxel_;
-  const GrnnOptions& grnn_;
+  const regression::GrnnOptions& grnn_;
   const std::vector<double>& grid_;
   std::vector<double> curvature_;
 };
 
 }  // namespace
 
-double learnScale(const TrainingStatistics& statistics, const GrnnOptions& grnn,
+double learnScale(const TrainingStatistics& statistics, const regression::GrnnOptions& grnn,
                   const std::vector<std::size_t>& taxels, unsigned threads) {
   const std::vector<double> grid = scaleGrid(statistics.classes);
   if (!(grid.back() > 0)) return 0.0;  // one curvature: nothing to scale
   std::vector<std::vector<double>> of_taxel(taxels.size());
-  forEachTaxel(taxels.size(), threads, [&](std::size_t i) {
+  matrix::forEachTaxel(taxels.size(), threads, [&](std::size_t i) {
     of_taxel[i] = ScaleErrors(statistics, taxels[i], grnn, grid).measure();
   });
   const std::vector<double> errors = sumOverTaxels(of_taxel);
@@ -129,4 +130,4 @@ double learnScale(const TrainingStatistics& statistics, const GrnnOptions& grnn,
   return grid[best];
 }
 
-}  // namespace fsr
+}  // namespace fsr::compensation

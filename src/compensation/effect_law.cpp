@@ -1,11 +1,11 @@
-#include "fsr_pressure_map/compensation/effect_law.h"
+#include "compensation/effect_law.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/regression/isotonic.h"
+#include "regression/isotonic.h"
 
-namespace fsr {
+namespace fsr::compensation {
 
 namespace {
 
@@ -23,7 +23,8 @@ void makeMonotone(std::vector<double>& values, std::size_t first, std::size_t la
   }
   const double sign = trend < 0 ? -1.0 : 1.0;
   for (double& value : run) value *= sign;
-  for (const IsotonicBlock& block : isotonicRegression(run, std::vector<double>(run.size(), 1.0))) {
+  for (const regression::IsotonicBlock& block :
+       regression::isotonicRegression(run, std::vector<double>(run.size(), 1.0))) {
     std::fill(begin + static_cast<std::ptrdiff_t>(block.begin),
               begin + static_cast<std::ptrdiff_t>(block.end), sign * block.level);
   }
@@ -52,7 +53,7 @@ double meanOf(const std::vector<TaxelEffect>& taxels, std::vector<double> TaxelE
 
 }  // namespace
 
-TaxelEffect effectOf(const CodeTable* tables, std::size_t classes) {
+TaxelEffect effectOf(const regression::CodeTable* tables, std::size_t classes) {
   std::size_t first = 0, last = tables[0].pressure.size() - 1;
   for (std::size_t k = 0; k < classes; ++k) {
     if (std::isnan(tables[k].pressure.front())) return {};
@@ -83,8 +84,8 @@ TaxelEffect effectOf(const CodeTable* tables, std::size_t classes) {
   return effect;
 }
 
-EffectLaw learnLaw(const std::vector<CurvatureClass>& classes, const std::vector<TaxelEffect>& taxels,
-                   std::size_t left_out) {
+EffectLaw learnLaw(const std::vector<dataset::CurvatureClass>& classes,
+                   const std::vector<TaxelEffect>& taxels, std::size_t left_out) {
   EffectLaw law;
   const auto known = [](const TaxelEffect& taxel) { return !taxel.gain.empty(); };
   if (std::none_of(taxels.begin(), taxels.end(), known)) return law;
@@ -102,4 +103,4 @@ EffectLaw learnLaw(const std::vector<CurvatureClass>& classes, const std::vector
   return law;
 }
 
-}  // namespace fsr
+}  // namespace fsr::compensation

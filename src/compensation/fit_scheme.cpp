@@ -1,39 +1,40 @@
-#include "fsr_pressure_map/compensation/fit_scheme.h"
+#include "compensation/fit_scheme.h"
 
 #include <cmath>
 
+#include "compensation/second_input.h"
 #include "fsr_pressure_map/compensation/blend_table.h"
-#include "fsr_pressure_map/compensation/second_input.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::compensation {
 
 namespace {
 
-bool isPlainKernel(const GrnnOptions& options) {
-  return options.distance == KernelDistance::kSquared && options.weighting == SampleWeighting::kEachSample;
+bool isPlainKernel(const regression::GrnnOptions& options) {
+  return options.distance == regression::KernelDistance::kSquared &&
+         options.weighting == regression::SampleWeighting::kEachSample;
 }
 
-Fit fitClasses(const std::vector<std::size_t>& trained_on, const ClassReadings& readings,
-               const Regressor& regressor) {
+regression::Fit fitClasses(const std::vector<std::size_t>& trained_on, const ClassReadings& readings,
+                           const regression::Regressor& regressor) {
   if (regressor.mergeable()) {
     if (trained_on.size() == 1) {
-      const CodeHistogram& only = readings.sums[trained_on.front()];
-      return only.samples() > 0 ? regressor.fit(only) : Fit{};
+      const regression::CodeHistogram& only = readings.sums[trained_on.front()];
+      return only.samples() > 0 ? regressor.fit(only) : regression::Fit{};
     }
-    CodeHistogram pooled(readings.full_scale);
+    regression::CodeHistogram pooled(readings.full_scale);
     for (const std::size_t k : trained_on) pooled.add(readings.sums[k]);
-    return pooled.samples() > 0 ? regressor.fit(pooled) : Fit{};
+    return pooled.samples() > 0 ? regressor.fit(pooled) : regression::Fit{};
   }
-  CodeSamples pooled;
+  regression::CodeSamples pooled;
   pooled.full_scale = readings.full_scale;
   for (const std::size_t k : trained_on) pooled.append(readings.samples[k]);
-  return pooled.size() > 0 ? regressor.fitSamples(pooled) : Fit{};
+  return pooled.size() > 0 ? regressor.fitSamples(pooled) : regression::Fit{};
 }
 
 // Answers on each class.
-std::vector<Fit> fitOnInput(const ClassInputs& inputs, const ClassReadings& readings,
-                            const RegressorOptions& regressor) {
+std::vector<regression::Fit> fitOnInput(const ClassInputs& inputs, const ClassReadings& readings,
+                                        const regression::RegressorOptions& regressor) {
   if (regressor.name == "grnn") return fitGrnnOnInput(readings, inputs, regressor.grnn);
   if (regressor.name == "forest") return fitForestOnInput(readings, inputs, regressor.forest);
   return fitLinearOnInput(readings, inputs);
@@ -64,7 +65,7 @@ class Without {
   ClassReadings samplesWithout(std::size_t left_out) const {
     ClassReadings rest;
     rest.full_scale = readings_.full_scale;
-    for (const std::vector<CodeSamples>& sections : readings_.samples) {
+    for (const std::vector<regression::CodeSamples>& sections : readings_.samples) {
       rest.samples.emplace_back();
       rest.samples.back().full_scale = readings_.full_scale;
       for (std::size_t s = 0; s < sections.size(); ++s) {
@@ -80,9 +81,9 @@ class Without {
 };
 
 // What a model is tested on, section by section.
-std::vector<CodeStatistics> testedSections(const std::vector<std::size_t>& classes,
-                                           const SectionedReadings& readings) {
-  std::vector<CodeStatistics> sections(readings.sums.front().size());
+std::vector<regression::CodeStatistics> testedSections(const std::vector<std::size_t>& classes,
+                                                       const SectionedReadings& readings) {
+  std::vector<regression::CodeStatistics> sections(readings.sums.front().size());
   for (const std::size_t k : classes) {
     for (std::size_t s = 0; s < sections.size(); ++s) sections[s].merge(readings.sums[k][s]);
   }
@@ -94,30 +95,31 @@ std::vector<CodeStatistics> testedSections(const std::vector<std::size_t>& class
 ClassReadings allSections(const SectionedReadings& readings) {
   ClassReadings all;
   all.full_scale = readings.full_scale;
-  for (const std::vector<CodeStatistics>& sections : readings.sums) {
+  for (const std::vector<regression::CodeStatistics>& sections : readings.sums) {
     all.sums.emplace_back(readings.full_scale);
-    for (const CodeStatistics& section : sections) all.sums.back().add(section);
+    for (const regression::CodeStatistics& section : sections) all.sums.back().add(section);
   }
   return all;
 }
 
 ClassInputs inputsOf(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings,
-                     const RegressorOptions& regressor) {
+                     const regression::RegressorOptions& regressor) {
   std::vector<double> curvature;
   std::vector<bool> bent;
   std::vector<std::uint64_t> number;
   for (std::size_t k = 0; k < plan.classes.size(); ++k) {
     curvature.push_back(plan.classes[k].at(taxel));
-    bent.push_back(!isFlat(plan.classes[k]));
+    bent.push_back(!dataset::isFlat(plan.classes[k]));
     number.push_back(readings.readings(k));
   }
   ClassInputs inputs = classInputs(plan.scheme, curvature, bent, number);
   // so that squared distances over 2 sigma^2 are those over 2 scale^2
-  if (plan.curvature_scale > 0) inputs.scale.front() = sigmaOf(regressor.grnn) / plan.curvature_scale;
+  if (plan.curvature_scale > 0)
+    inputs.scale.front() = regression::sigmaOf(regressor.grnn) / plan.curvature_scale;
   return inputs;
 }
 
-BlendRule blendOf(Scheme scheme, const RegressorOptions& regressor) {
+BlendRule blendOf(Scheme scheme, const regression::RegressorOptions& regressor) {
   switch (scheme) {
     case Scheme::kInterpolated:
     case Scheme::kCurvatureMap:
@@ -135,7 +137,7 @@ BlendRule blendOf(Scheme scheme, const RegressorOptions& regressor) {
 }
 
 std::vector<double> answerOn(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings,
-                             const std::vector<Fit>& fits, std::size_t k, const EffectLaw& law) {
+                             const std::vector<regression::Fit>& fits, std::size_t k, const EffectLaw& law) {
   const std::vector<double>& own = fits[plan.model_of_class[k]].pressure;
   if (!usesCurvature(plan.scheme) || hasSecondInput(plan.scheme) || readings.readings(k) > 0) return own;
   std::vector<double> curvature;
@@ -160,11 +162,12 @@ std::vector<double> answerOn(const SchemePlan& plan, std::size_t taxel, const Cl
   return answer;
 }
 
-void requireSchemeFor(Scheme scheme, const RegressorOptions& regressor) {
-  makeRegressor(regressor);
+void requireSchemeFor(Scheme scheme, const regression::RegressorOptions& regressor) {
+  regression::makeRegressor(regressor);
   if (!hasSecondInput(scheme)) return;
   const auto refuse = [&](const std::string& right) {
-    throw InputError("scheme " + schemeName(scheme) + " gives the model a second input, which " + right);
+    throw settings::InputError("scheme " + schemeName(scheme) + " gives the model a second input, which " +
+                               right);
   };
   if (regressor.name == "monotone") refuse("monotone cannot take; choose linear, grnn or forest");
   if (scheme == Scheme::kOneHot && regressor.name == "forest") {
@@ -178,11 +181,12 @@ void requireSchemeFor(Scheme scheme, const RegressorOptions& regressor) {
   }
 }
 
-std::vector<Fit> fitScheme(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings,
-                           const RegressorOptions& regressor) {
-  std::vector<Fit> fits;
+std::vector<regression::Fit> fitScheme(const SchemePlan& plan, std::size_t taxel,
+                                       const ClassReadings& readings,
+                                       const regression::RegressorOptions& regressor) {
+  std::vector<regression::Fit> fits;
   if (!hasSecondInput(plan.scheme)) {
-    const std::unique_ptr<Regressor> model = makeRegressor(regressor);
+    const std::unique_ptr<regression::Regressor> model = regression::makeRegressor(regressor);
     for (const SchemePlan::Model& planned : plan.models) {
       fits.push_back(fitClasses(planned.trained_on, readings, *model));
     }
@@ -191,41 +195,40 @@ std::vector<Fit> fitScheme(const SchemePlan& plan, std::size_t taxel, const Clas
   requireSchemeFor(plan.scheme, regressor);
   std::uint64_t number = 0;
   for (std::size_t k = 0; k < readings.classes(); ++k) number += readings.readings(k);
-  if (number == 0) return std::vector<Fit>(plan.models.size());
-  const std::vector<Fit> on_class =
+  if (number == 0) return std::vector<regression::Fit>(plan.models.size());
+  const std::vector<regression::Fit> on_class =
       fitOnInput(inputsOf(plan, taxel, readings, regressor), readings, regressor);
   for (std::size_t m = 0; m < plan.models.size(); ++m) fits.push_back(on_class[plan.testedOn(m).front()]);
   return fits;
 }
 
-std::vector<CrossValidatedModel> crossValidateScheme(const SchemePlan& plan, std::size_t taxel,
-                                                     const SectionedReadings& readings,
-                                                     const FoldRegressors& regressors,
-                                                     HeldOutDeviation held_out_deviation) {
+std::vector<regression::CrossValidatedModel> crossValidateScheme(
+    const SchemePlan& plan, std::size_t taxel, const SectionedReadings& readings,
+    const FoldRegressors& regressors, regression::HeldOutDeviation held_out_deviation) {
   const std::size_t sections = readings.sums.front().size();
-  Without without(readings, !makeRegressor(regressors.whole)->mergeable());
-  std::vector<Fit> whole;
+  Without without(readings, !regression::makeRegressor(regressors.whole)->mergeable());
+  std::vector<regression::Fit> whole;
   without(sections, [&](const ClassReadings& all) { whole = fitScheme(plan, taxel, all, regressors.whole); });
   std::vector<std::vector<std::vector<double>>> held_out(plan.models.size());  // [models][sections]
   for (std::size_t s = 0; s < sections; ++s) {
     without(s, [&](const ClassReadings& rest) {
-      std::vector<Fit> fits = fitScheme(plan, taxel, rest, regressors.at(s));
+      std::vector<regression::Fit> fits = fitScheme(plan, taxel, rest, regressors.at(s));
       for (std::size_t m = 0; m < fits.size(); ++m) held_out[m].push_back(std::move(fits[m].pressure));
     });
   }
-  std::vector<CrossValidatedModel> models;
+  std::vector<regression::CrossValidatedModel> models;
   for (std::size_t m = 0; m < plan.models.size(); ++m) {
-    models.push_back(assembleModel(testedSections(plan.testedOn(m), readings), readings.full_scale, whole[m],
-                                   std::move(held_out[m]), held_out_deviation));
+    models.push_back(regression::assembleModel(testedSections(plan.testedOn(m), readings),
+                                               readings.full_scale, whole[m], std::move(held_out[m]),
+                                               held_out_deviation));
   }
   return models;
 }
 
-std::vector<CrossValidatedModel> crossValidateScheme(const SchemePlan& plan, std::size_t taxel,
-                                                     const SectionedReadings& readings,
-                                                     const RegressorOptions& regressor,
-                                                     HeldOutDeviation held_out_deviation) {
+std::vector<regression::CrossValidatedModel> crossValidateScheme(
+    const SchemePlan& plan, std::size_t taxel, const SectionedReadings& readings,
+    const regression::RegressorOptions& regressor, regression::HeldOutDeviation held_out_deviation) {
   return crossValidateScheme(plan, taxel, readings, FoldRegressors{regressor, {}}, held_out_deviation);
 }
 
-}  // namespace fsr
+}  // namespace fsr::compensation

@@ -1,15 +1,17 @@
-#include "fsr_pressure_map/compensation/held_out_squares.h"
+#include "compensation/held_out_squares.h"
 
-namespace fsr {
+namespace fsr::compensation {
 
-double squaredErrors(const CodeStatistics& readings, const std::vector<double>& pressure) {
+double squaredErrors(const regression::CodeStatistics& readings, const std::vector<double>& pressure) {
   double squares = 0;
-  readings.forEach([&](const CodeSums& sums) {
+  readings.forEach([&](const regression::CodeSums& sums) {
     const double count = sums.count;
-    const double mean = fromFixed(sums.sum) / count;
-    const Int128 spread = sums.sum_of_squares * sums.count - Int128{sums.sum} * sums.sum;
+    const double mean = regression::fromFixed(sums.sum) / count;
+    const regression::Int128 spread =
+        sums.sum_of_squares * sums.count - regression::Int128{sums.sum} * sums.sum;
     const double error = pressure[sums.code] - mean;
-    squares += static_cast<double>(spread) / count * kFixedPressureUnit * kFixedPressureUnit;
+    squares +=
+        static_cast<double>(spread) / count * regression::kFixedPressureUnit * regression::kFixedPressureUnit;
     squares += count * error * error;
   });
   return squares;
@@ -23,4 +25,4 @@ std::vector<double> sumOverTaxels(const std::vector<std::vector<double>>& of_tax
   return sums;
 }
 
-}  // namespace fsr
+}  // namespace fsr::compensation

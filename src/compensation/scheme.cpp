@@ -4,7 +4,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::compensation {
 
 namespace {
 
@@ -35,7 +35,7 @@ const Entry& entryOf(Scheme scheme) {
   for (const Entry& entry : kEntries) {
     if (entry.scheme == scheme) return entry;
   }
-  throw InputError("scheme number " + std::to_string(static_cast<int>(scheme)) + " has no name");
+  throw settings::InputError("scheme number " + std::to_string(static_cast<int>(scheme)) + " has no name");
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ Scheme schemeFromName(const std::string& name) {
     if (name == entry.name) return entry.scheme;
     known += (known.empty() ? "" : ", ") + std::string(entry.name);
   }
-  throw InputError("scheme is \"" + name + "\", but must be one of " + known);
+  throw settings::InputError("scheme is \"" + name + "\", but must be one of " + known);
 }
 
 bool usesCurvature(Scheme scheme) {
@@ -80,4 +80,4 @@ bool hasSecondInput(Scheme scheme) {
          scheme == Scheme::kScaledCurvature;
 }
 
-}  // namespace fsr
+}  // namespace fsr::compensation

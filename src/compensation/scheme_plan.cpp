@@ -1,50 +1,50 @@
-#include "fsr_pressure_map/compensation/scheme_plan.h"
+#include "compensation/scheme_plan.h"
 
 #include <algorithm>
 #include <numeric>
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::compensation {
 
 namespace {
 
 using Indices = std::vector<std::size_t>;
 
-std::string listOf(const std::vector<CurvatureClass>& classes) {
+std::string listOf(const std::vector<dataset::CurvatureClass>& classes) {
   std::string list;
-  for (const CurvatureClass& curvature_class : classes) {
+  for (const dataset::CurvatureClass& curvature_class : classes) {
     list += (list.empty() ? "" : ", ") + curvature_class.surface;
   }
   return list;
 }
 
-Indices allOf(const std::vector<CurvatureClass>& classes) {
+Indices allOf(const std::vector<dataset::CurvatureClass>& classes) {
   Indices all(classes.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   return all;
 }
 
-Indices classesThatAre(bool flat, const std::vector<CurvatureClass>& classes) {
+Indices classesThatAre(bool flat, const std::vector<dataset::CurvatureClass>& classes) {
   Indices found;
   for (std::size_t k = 0; k < classes.size(); ++k) {
-    if (isFlat(classes[k]) == flat) found.push_back(k);
+    if (dataset::isFlat(classes[k]) == flat) found.push_back(k);
   }
   return found;
 }
 
-Indices flatClasses(Scheme scheme, const std::vector<CurvatureClass>& classes) {
+Indices flatClasses(Scheme scheme, const std::vector<dataset::CurvatureClass>& classes) {
   Indices flat = classesThatAre(true, classes);
   if (flat.empty()) {
-    throw InputError("scheme is " + schemeName(scheme) +
-                     ", but no recording is of a flat surface (there is " + listOf(classes) +
-                     "); add one, or choose baseline or per_curvature");
+    throw settings::InputError("scheme is " + schemeName(scheme) +
+                               ", but no recording is of a flat surface (there is " + listOf(classes) +
+                               "); add one, or choose baseline or per_curvature");
   }
   return flat;
 }
 
 // One model answers everywhere.
-void planOneModel(const CurvatureClass& answers_for, Indices trained_on, SchemePlan& plan) {
+void planOneModel(const dataset::CurvatureClass& answers_for, Indices trained_on, SchemePlan& plan) {
   plan.models = {{answers_for, std::move(trained_on)}};
   plan.model_of_class.assign(plan.classes.size(), 0);
 }
@@ -59,8 +59,8 @@ void planEachClass(bool trained_on_all, SchemePlan& plan) {
 void planFlatAndBent(bool trained_on_all, SchemePlan& plan) {
   const Indices flat = flatClasses(plan.scheme, plan.classes), bent = classesThatAre(false, plan.classes);
   if (bent.empty()) {
-    throw InputError("scheme is " + schemeName(plan.scheme) +
-                     ", but no recording is of a bent surface; add one, or choose flat_only");
+    throw settings::InputError("scheme is " + schemeName(plan.scheme) +
+                               ", but no recording is of a bent surface; add one, or choose flat_only");
   }
   const Indices all = allOf(plan.classes);
   plan.models.push_back({plan.classes[flat.front()], trained_on_all ? all : flat});
@@ -80,7 +80,7 @@ std::vector<std::size_t> SchemePlan::testedOn(std::size_t model) const {
   return tested;
 }
 
-SchemePlan planScheme(Scheme scheme, const std::vector<CurvatureClass>& classes) {
+SchemePlan planScheme(Scheme scheme, const std::vector<dataset::CurvatureClass>& classes) {
   SchemePlan plan{scheme, classes, {}, {}};
   switch (scheme) {
     case Scheme::kFlatOnly: {
@@ -113,18 +113,18 @@ SchemePlan planScheme(Scheme scheme, const std::vector<CurvatureClass>& classes)
   return plan;
 }
 
-PooledBy poolingOf(Scheme scheme) {
-  return scheme == Scheme::kPerSurface ? PooledBy::kName : PooledBy::kCurvature;
+dataset::PooledBy poolingOf(Scheme scheme) {
+  return scheme == Scheme::kPerSurface ? dataset::PooledBy::kName : dataset::PooledBy::kCurvature;
 }
 
 void planRanges(const std::vector<std::vector<std::size_t>>& ranges, SchemePlan& plan) {
   plan.models.clear();
   for (const Indices& range : ranges) {
-    CurvatureClass answers_for = plan.classes[range.front()];
+    dataset::CurvatureClass answers_for = plan.classes[range.front()];
     if (range.size() > 1) answers_for.surface += " to " + plan.classes[range.back()].surface;
     for (const std::size_t k : range) plan.model_of_class[k] = plan.models.size();
     plan.models.push_back({answers_for, range});
   }
 }
 
-}  // namespace fsr
+}  // namespace fsr::compensation

@@ -1,9 +1,9 @@
-#include "fsr_pressure_map/compensation/unseen_curvature.h"
+#include "compensation/unseen_curvature.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace fsr {
+namespace fsr::compensation {
 
 namespace {
 
@@ -15,7 +15,7 @@ struct Entries {
   Entries(const CurvatureTables& source, std::size_t taxel) {
     tables.codes = source.full_scale + 1u;
     for (std::size_t k = 0; k < source.classes.size(); ++k) {
-      const CodeTable& table = source.table(taxel, k);
+      const regression::CodeTable& table = source.table(taxel, k);
       std::vector<TableEntry>& entries = of_class.emplace_back(tables.codes);
       for (std::size_t code = 0; code < tables.codes; ++code) {
         entries[code] = {table.pressure[code], table.deviation[code]};
@@ -33,19 +33,21 @@ bool isInner(const std::vector<double>& curvature, std::size_t k) {
 }
 
 // Sum of the squared distances of a code's readings from their mean [Pa^2].
-double spreadOf(const CodeSums& sums) {
+double spreadOf(const regression::CodeSums& sums) {
   if (sums.count == 1) return 0.0;
-  const Int128 spread = sums.sum_of_squares * sums.count - Int128{sums.sum} * sums.sum;
-  return static_cast<double>(spread) / sums.count * kFixedPressureUnit * kFixedPressureUnit;
+  const regression::Int128 spread =
+      sums.sum_of_squares * sums.count - regression::Int128{sums.sum} * sums.sum;
+  return static_cast<double>(spread) / sums.count * regression::kFixedPressureUnit *
+         regression::kFixedPressureUnit;
 }
 
-void addReadings(const CodeStatistics& readings, const std::vector<TableEntry>& answer,
+void addReadings(const regression::CodeStatistics& readings, const std::vector<TableEntry>& answer,
                  const std::vector<TableEntry>& own, UnseenErrors& errors) {
-  readings.forEach([&](const CodeSums& sums) {
-    const double count = sums.count,
-                 mean = sums.count == 1 ? fromFixed(sums.sum) : fromFixed(sums.sum) / count;
+  readings.forEach([&](const regression::CodeSums& sums) {
+    const double count = sums.count, mean = sums.count == 1 ? regression::fromFixed(sums.sum)
+                                                            : regression::fromFixed(sums.sum) / count;
     const double error = answer[sums.code].pressure - mean, deviation = own[sums.code].deviation;
-    UnseenErrors::Bin& bin = errors.bins[pressureBin(answer[sums.code].pressure)];
+    UnseenErrors::Bin& bin = errors.bins[statistics::pressureBin(answer[sums.code].pressure)];
     bin.readings += count;
     bin.squares += count * error * error + spreadOf(sums);
     bin.stated += count * deviation * deviation;
@@ -98,7 +100,7 @@ UnseenErrors leaveClassesOut(const CurvatureTables& tables, std::size_t taxel,
 
 UnseenDeviation unseenDeviation(const std::vector<UnseenErrors>& taxels) {
   UnseenDeviation unseen;
-  for (std::size_t b = 0; b < kPressureBins; ++b) {
+  for (std::size_t b = 0; b < statistics::kPressureBins; ++b) {
     UnseenErrors::Bin sum;
     for (const UnseenErrors& taxel : taxels) {
       sum.readings += taxel.bins[b].readings;
@@ -113,4 +115,4 @@ UnseenDeviation unseenDeviation(const std::vector<UnseenErrors>& taxels) {
   return unseen;
 }
 
-}  // namespace fsr
+}  // namespace fsr::compensation

@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::dataset {
 
 namespace {
 
@@ -18,9 +18,10 @@ struct Member {
 };
 
 // One value where all taxels agree.
-std::vector<double> principalCurvatures(const Surface& surface) {
+std::vector<double> principalCurvatures(const matrix::Surface& surface) {
   std::vector<double> curvature;
-  for (const Curvature& tensor : surface.curvature) curvature.push_back(principalCurvature(tensor));
+  for (const matrix::Curvature& tensor : surface.curvature)
+    curvature.push_back(matrix::principalCurvature(tensor));
   const auto differs = [&](double value) { return value != curvature.front(); };
   if (std::none_of(curvature.begin(), curvature.end(), differs)) curvature.resize(1);
   return curvature;
@@ -89,9 +90,10 @@ PooledConditions poolConditions(const std::vector<RecordedCondition>& conditions
 
 std::vector<RecordedCondition> conditionsOf(const Recording& recording) {
   std::vector<RecordedCondition> conditions;
-  for (const Surface& surface : recording.conditions) {
+  for (const matrix::Surface& surface : recording.conditions) {
     if (!surface.known()) {
-      throw InputError(recording.name + ": no curvature is recorded, but training needs the topic curvature");
+      throw settings::InputError(recording.name +
+                                 ": no curvature is recorded, but training needs the topic curvature");
     }
     conditions.push_back({{surface.name, principalCurvatures(surface)}, 0});
   }
@@ -107,7 +109,8 @@ ConditionClasses poolConditions(const std::vector<Recording>& recordings, Pooled
       return recorded.condition.surface.empty();
     };
     if (by == PooledBy::kName && std::any_of(own.begin(), own.end(), nameless)) {
-      throw InputError(recording.name + ": a surface has no name, but to be pooled by name each needs one");
+      throw settings::InputError(recording.name +
+                                 ": a surface has no name, but to be pooled by name each needs one");
     }
     conditions.insert(conditions.end(), own.begin(), own.end());
   }
@@ -122,4 +125,4 @@ ConditionClasses poolConditions(const std::vector<Recording>& recordings, Pooled
   return classes;
 }
 
-}  // namespace fsr
+}  // namespace fsr::dataset

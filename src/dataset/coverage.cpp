@@ -4,13 +4,13 @@
 #include <limits>
 #include <sstream>
 
-namespace fsr {
+namespace fsr::dataset {
 
 namespace {
 
-CoverageCell& cellOf(ConditionCoverage& coverage, double pressure, LoadDirection direction) {
-  auto& cells = direction == LoadDirection::kUnloading ? coverage.unloading : coverage.loading;
-  return cells[pressureBin(pressure)];
+CoverageCell& cellOf(ConditionCoverage& coverage, double pressure, statistics::LoadDirection direction) {
+  auto& cells = direction == statistics::LoadDirection::kUnloading ? coverage.unloading : coverage.loading;
+  return cells[statistics::pressureBin(pressure)];
 }
 
 // Adds one condition of one recording. Its cycles come in order, so that a cell has met a new one
@@ -18,14 +18,15 @@ CoverageCell& cellOf(ConditionCoverage& coverage, double pressure, LoadDirection
 void addCondition(const Recording& recording, const Sections& sections, std::size_t condition,
                   ConditionCoverage& coverage) {
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  std::array<std::array<std::uint32_t, kPressureBins>, 2> met;
+  std::array<std::array<std::uint32_t, statistics::kPressureBins>, 2> met;
   for (auto& bins : met) bins.fill(kNone);
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     if (recording.condition[i] != condition || sections.section[i] == kNoSection) continue;
     const double pressure = recording.pressure[i];
     CoverageCell& cell = cellOf(coverage, pressure, sections.direction[i]);
     ++cell.scans;
-    auto& last = met[sections.direction[i] == LoadDirection::kUnloading][pressureBin(pressure)];
+    auto& last = met[sections.direction[i] == statistics::LoadDirection::kUnloading]
+                    [statistics::pressureBin(pressure)];
     if (last != sections.cycle[i]) ++cell.cycles;
     last = sections.cycle[i];
     coverage.pressure_low = coverage.scans == 0 ? pressure : std::min(coverage.pressure_low, pressure);
@@ -44,13 +45,14 @@ void judgeCells(const ConditionCoverage& coverage, double highest, std::uint64_t
                 std::vector<Thin>& thin) {
   for (const bool unloading : {false, true}) {
     const auto& cells = unloading ? coverage.unloading : coverage.loading;
-    for (std::size_t bin = 0; bin < kPressureBins && kPressureBinEdges[bin] < highest; ++bin) {
+    for (std::size_t bin = 0; bin < statistics::kPressureBins && statistics::kPressureBinEdges[bin] < highest;
+         ++bin) {
       const CoverageCell& cell = cells[bin];
       // of a condition with few cycles another sentence speaks
       const bool few_cycles = cell.cycles < sections && coverage.cycles >= sections;
       if (cell.scans >= kThinScans && !few_cycles) continue;
       std::ostringstream sentence;
-      sentence << coverage.condition.surface << ", " << pressureBinName(bin) << " kPa "
+      sentence << coverage.condition.surface << ", " << statistics::pressureBinName(bin) << " kPa "
                << (unloading ? "unloading" : "loading") << ": ";
       if (cell.scans == 0) {
         sentence << "no scan";
@@ -78,7 +80,7 @@ std::vector<std::string> thinPlaces(const std::vector<ConditionCoverage>& condit
   }
   std::stable_sort(thin.begin(), thin.end(), [](const Thin& a, const Thin& b) { return a.scans < b.scans; });
   std::vector<std::string> sentences;
-  if (highest < kPressureBinEdges.back()) {
+  if (highest < statistics::kPressureBinEdges.back()) {
     std::ostringstream sentence;
     sentence << "no surface was loaded above " << highest * 1e-3 << " kPa";
     sentences.push_back(sentence.str());
@@ -97,7 +99,7 @@ void addCoverage(const ConditionCoverage& more, ConditionCoverage& coverage) {
   coverage.scans += more.scans;
   coverage.cycles += more.cycles;
   const auto add = [](const auto& from, auto& to) {
-    for (std::size_t bin = 0; bin < kPressureBins; ++bin) {
+    for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin) {
       to[bin].scans += from[bin].scans;
       to[bin].cycles += from[bin].cycles;
     }
@@ -128,4 +130,4 @@ Coverage coverageOf(const std::vector<Recording>& recordings, std::size_t sectio
   return measureCoverage(recordings, poolConditions(recordings), divided);
 }
 
-}  // namespace fsr
+}  // namespace fsr::dataset

@@ -1,8 +1,8 @@
-#include "fsr_pressure_map/dataset/cycles.h"
+#include "dataset/cycles.h"
 
 #include <algorithm>
 
-namespace fsr {
+namespace fsr::dataset {
 
 namespace {
 
@@ -31,14 +31,14 @@ std::vector<Turn> turningPoints(const std::vector<double>& pressure, double leas
   return turns;
 }
 
-std::vector<LoadDirection> directions(const std::vector<Turn>& turns, std::size_t readings) {
-  std::vector<LoadDirection> direction(readings, LoadDirection::kNone);
+std::vector<statistics::LoadDirection> directions(const std::vector<Turn>& turns, std::size_t readings) {
+  std::vector<statistics::LoadDirection> direction(readings, statistics::LoadDirection::kNone);
   if (turns.empty()) return direction;
   std::fill(direction.begin(), direction.end(),
-            turns.front().peak ? LoadDirection::kLoading : LoadDirection::kUnloading);
+            turns.front().peak ? statistics::LoadDirection::kLoading : statistics::LoadDirection::kUnloading);
   for (const Turn& turn : turns) {
     std::fill(direction.begin() + static_cast<std::ptrdiff_t>(turn.index) + 1, direction.end(),
-              turn.peak ? LoadDirection::kUnloading : LoadDirection::kLoading);
+              turn.peak ? statistics::LoadDirection::kUnloading : statistics::LoadDirection::kLoading);
   }
   return direction;
 }
@@ -60,4 +60,4 @@ Cycles findCycles(const std::vector<double>& pressure, const CycleOptions& optio
   return cycles;
 }
 
-}  // namespace fsr
+}  // namespace fsr::dataset

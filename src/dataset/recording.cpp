@@ -1,6 +1,6 @@
 #include "fsr_pressure_map/dataset/recording.h"
 
-namespace fsr {
+namespace fsr::dataset {
 
 namespace {
 
@@ -41,4 +41,4 @@ std::vector<std::string> describeLosses(const RecordingLosses& losses) {
   return sentences;
 }
 
-}  // namespace fsr
+}  // namespace fsr::dataset

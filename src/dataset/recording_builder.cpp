@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/dataset/recording_builder.h"
+#include "dataset/recording_builder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::dataset {
 
 namespace {
 
@@ -52,7 +52,7 @@ void warnOfOffset(Recording& recording) {
 }
 
 // Conditions that kept no scan disappear.
-void dropUnusedConditions(const std::vector<Surface>& conditions, Recording& recording) {
+void dropUnusedConditions(const std::vector<matrix::Surface>& conditions, Recording& recording) {
   std::vector<std::size_t> place(conditions.size(), conditions.size());
   for (std::uint32_t& condition : recording.condition) {
     if (place[condition] == conditions.size()) {
@@ -65,16 +65,16 @@ void dropUnusedConditions(const std::vector<Surface>& conditions, Recording& rec
 
 }  // namespace
 
-void RecordingBuilder::addScan(std::int64_t stamp_ns, std::uint32_t sequence, const ScanView& scan) {
-  requireSound(scan);
+void RecordingBuilder::addScan(std::int64_t stamp_ns, std::uint32_t sequence, const matrix::ScanView& scan) {
+  matrix::requireSound(scan);
   if (scans_.empty()) {
     size_ = scan.size;
     full_scale_ = scan.full_scale;
   } else if (scan.size != size_ || scan.full_scale != full_scale_) {
-    throw InputError("raw holds scans of " + sizeText(size_) + " taxels with full_scale " +
-                     std::to_string(full_scale_) + " and of " + sizeText(scan.size) + " with " +
-                     std::to_string(scan.full_scale) +
-                     ", but a recording is of one matrix; choose it by its namespace");
+    throw settings::InputError("raw holds scans of " + matrix::sizeText(size_) + " taxels with full_scale " +
+                               std::to_string(full_scale_) + " and of " + matrix::sizeText(scan.size) +
+                               " with " + std::to_string(scan.full_scale) +
+                               ", but a recording is of one matrix; choose it by its namespace");
   }
   scans_.push_back({stamp_ns, sequence, counts_.size()});
   counts_.insert(counts_.end(), scan.counts, scan.counts + scan.count);
@@ -86,7 +86,7 @@ void RecordingBuilder::addChamberPressure(std::int64_t stamp_ns, double absolute
   ++events_.chamber_pressures;
 }
 
-void RecordingBuilder::addSurface(std::int64_t stamp_ns, const Surface& surface) {
+void RecordingBuilder::addSurface(std::int64_t stamp_ns, const matrix::Surface& surface) {
   surfaces_.emplace_back(stamp_ns, surface);
   ++events_.surfaces;
 }
@@ -127,14 +127,15 @@ const MatrixDescription* RecordingBuilder::description() const {
   if (first == descriptions_.end()) return nullptr;
   for (const auto& [stamp, described] : descriptions_) {
     if (described.layout.size != size_ || described.full_scale != full_scale_) {
-      throw InputError("matrix_info describes " + sizeText(described.layout.size) +
-                       " taxels with full_scale " + std::to_string(described.full_scale) +
-                       ", but the scans in raw have " + sizeText(size_) + " with " +
-                       std::to_string(full_scale_));
+      throw settings::InputError("matrix_info describes " + matrix::sizeText(described.layout.size) +
+                                 " taxels with full_scale " + std::to_string(described.full_scale) +
+                                 ", but the scans in raw have " + matrix::sizeText(size_) + " with " +
+                                 std::to_string(full_scale_));
     }
     if (described.sensor.serial != first->second.sensor.serial) {
-      throw InputError("matrix_info tells of the serial numbers \"" + first->second.sensor.serial +
-                       "\" and \"" + described.sensor.serial + "\", but a recording is of one matrix");
+      throw settings::InputError("matrix_info tells of the serial numbers \"" + first->second.sensor.serial +
+                                 "\" and \"" + described.sensor.serial +
+                                 "\", but a recording is of one matrix");
     }
   }
   return &first->second;
@@ -165,8 +166,8 @@ Recording RecordingBuilder::emptyRecording(const RecordingOptions& options) cons
 }
 
 Recording RecordingBuilder::build(const RecordingOptions& options) const {
-  if (scans_.empty()) throw InputError("raw holds no scan");
-  for (const SurfaceTimeline::Event& event : surfaces_) requireFit(event.second, size_);
+  if (scans_.empty()) throw settings::InputError("raw holds no scan");
+  for (const SurfaceTimeline::Event& event : surfaces_) matrix::requireFit(event.second, size_);
   Recording recording = emptyRecording(options);
   const SurfaceTimeline timeline(surfaces_, options.same_curvature);
   const double ambient_pressure = ambient(options, recording.warnings);
@@ -199,4 +200,4 @@ Recording RecordingBuilder::build(const RecordingOptions& options) const {
   return recording;
 }
 
-}  // namespace fsr
+}  // namespace fsr::dataset

@@ -1,12 +1,12 @@
-#include "fsr_pressure_map/dataset/reference_lag.h"
+#include "dataset/reference_lag.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "fsr_pressure_map/dataset/cycles.h"
+#include "dataset/cycles.h"
 
-namespace fsr {
+namespace fsr::dataset {
 
 namespace {
 
@@ -113,4 +113,4 @@ std::optional<ReferenceLag> referenceLag(const Recording& recording, const Refer
   return ReferenceLag{(place - double(most)) * step, *best};
 }
 
-}  // namespace fsr
+}  // namespace fsr::dataset

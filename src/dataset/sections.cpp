@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/dataset/cycles.h"
+#include "dataset/cycles.h"
 
-namespace fsr {
+namespace fsr::dataset {
 
 namespace {
 
@@ -61,11 +61,11 @@ Sections divideIntoSections(const Recording& recording, std::size_t number) {
   sections.number = number;
   sections.section.assign(recording.scans(), kNoSection);
   sections.cycle.assign(recording.scans(), 0);
-  sections.direction.assign(recording.scans(), LoadDirection::kNone);
+  sections.direction.assign(recording.scans(), statistics::LoadDirection::kNone);
   for (std::size_t condition = 0; condition < recording.conditions.size(); ++condition) {
     divideCondition(recording, condition, sections);
   }
   return sections;
 }
 
-}  // namespace fsr
+}  // namespace fsr::dataset

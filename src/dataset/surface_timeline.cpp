@@ -1,20 +1,20 @@
-#include "fsr_pressure_map/dataset/surface_timeline.h"
+#include "dataset/surface_timeline.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
 
-namespace fsr {
+namespace fsr::dataset {
 
 namespace {
 
-bool sameSurface(const Surface& a, const Surface& b, double tolerance) {
+bool sameSurface(const matrix::Surface& a, const matrix::Surface& b, double tolerance) {
   if (a.name != b.name || a.mount != b.mount || a.known() != b.known()) return false;
   const std::size_t values = std::max(a.curvature.size(), b.curvature.size());
   for (std::size_t i = 0; i < values; ++i) {
-    const Curvature& left = a.at(TaxelIndex{i});
-    const Curvature& right = b.at(TaxelIndex{i});
+    const matrix::Curvature& left = a.at(matrix::TaxelIndex{i});
+    const matrix::Curvature& right = b.at(matrix::TaxelIndex{i});
     const double difference =
         std::max({std::abs(left.x - right.x), std::abs(left.y - right.y), std::abs(left.xy - right.xy)});
     if (!(difference < tolerance)) return false;
@@ -30,7 +30,7 @@ bool precedes(const SurfaceTimeline::Event& a, const SurfaceTimeline::Event& b) 
   if (key(a) != key(b)) return key(a) < key(b);
   return std::lexicographical_compare(
       a.second.curvature.begin(), a.second.curvature.end(), b.second.curvature.begin(),
-      b.second.curvature.end(), [](const Curvature& left, const Curvature& right) {
+      b.second.curvature.end(), [](const matrix::Curvature& left, const matrix::Curvature& right) {
         return std::tie(left.x, left.y, left.xy) < std::tie(right.x, right.y, right.xy);
       });
 }
@@ -40,7 +40,7 @@ bool precedes(const SurfaceTimeline::Event& a, const SurfaceTimeline::Event& b) 
 SurfaceTimeline::SurfaceTimeline(std::vector<Event> events, double tolerance) {
   const auto known = [](const Event& event) { return event.second.known(); };
   if (std::none_of(events.begin(), events.end(), known)) {
-    events.assign(1, Event{std::numeric_limits<std::int64_t>::min(), Surface{}});
+    events.assign(1, Event{std::numeric_limits<std::int64_t>::min(), matrix::Surface{}});
   }
   std::sort(events.begin(), events.end(), precedes);
   for (const auto& [stamp, surface] : events) {
@@ -49,8 +49,8 @@ SurfaceTimeline::SurfaceTimeline(std::vector<Event> events, double tolerance) {
   }
 }
 
-std::size_t SurfaceTimeline::conditionOf(const Surface& surface, double tolerance) {
-  const auto same = [&](const Surface& other) { return sameSurface(other, surface, tolerance); };
+std::size_t SurfaceTimeline::conditionOf(const matrix::Surface& surface, double tolerance) {
+  const auto same = [&](const matrix::Surface& other) { return sameSurface(other, surface, tolerance); };
   const auto found = std::find_if(conditions_.begin(), conditions_.end(), same);
   if (found != conditions_.end()) return static_cast<std::size_t>(found - conditions_.begin());
   conditions_.push_back(surface);
@@ -75,4 +75,4 @@ bool SurfaceTimeline::nearChange(std::int64_t stamp_ns, std::int64_t margin_ns) 
   return soon || just;
 }
 
-}  // namespace fsr
+}  // namespace fsr::dataset

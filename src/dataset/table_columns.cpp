@@ -1,11 +1,11 @@
-#include "fsr_pressure_map/dataset/table_units.h"
+#include "dataset/table_units.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <sstream>
 
-namespace fsr {
+namespace fsr::dataset {
 
 namespace {
 
@@ -70,14 +70,15 @@ TableColumn parseOne(const std::string& item) {
   const std::size_t equals = item.find('=');
   const auto role = kRoles.find(item.substr(0, equals));
   if (equals == std::string::npos || role == kRoles.end()) {
-    throw InputError("--columns holds \"" + item + "\", but must be ROLE=COLUMN[:UNIT] with a role of " +
-                     listed(kRoles));
+    throw settings::InputError("--columns holds \"" + item +
+                               "\", but must be ROLE=COLUMN[:UNIT] with a role of " + listed(kRoles));
   }
   const std::string rest = item.substr(equals + 1);
   const std::size_t colon = rest.rfind(':');
   TableColumn column{role->second, rest.substr(0, colon), ""};
   if (colon != std::string::npos) column.unit = rest.substr(colon + 1);
-  if (column.column.empty()) throw InputError("--columns holds \"" + item + "\", which names no column");
+  if (column.column.empty())
+    throw settings::InputError("--columns holds \"" + item + "\", which names no column");
   unitOf(column);
   return column;
 }
@@ -92,9 +93,9 @@ TableUnit unitOf(const TableColumn& column) {
   }
   const double factor = column.role == ColumnRole::kReference ? ownFactor(column.unit) : 0;
   if (factor > 0) return {factor};
-  throw InputError("--columns gives " + nameOf(column.role) + " the unit \"" + column.unit +
-                   "\", but must be one of " + listed(units) +
-                   (column.role == ColumnRole::kReference ? ", or e.g. 2500Pa for each unit" : ""));
+  throw settings::InputError("--columns gives " + nameOf(column.role) + " the unit \"" + column.unit +
+                             "\", but must be one of " + listed(units) +
+                             (column.role == ColumnRole::kReference ? ", or e.g. 2500Pa for each unit" : ""));
 }
 
 std::vector<TableColumn> parseColumns(const std::string& text) {
@@ -105,12 +106,13 @@ std::vector<TableColumn> parseColumns(const std::string& text) {
     const auto is = [role = role](const TableColumn& column) { return column.role == role; };
     const auto number = std::count_if(columns.begin(), columns.end(), is);
     if (number > 1 && role != ColumnRole::kReading)
-      throw InputError("--columns names " + name + " twice; keep one");
+      throw settings::InputError("--columns names " + name + " twice; keep one");
     if (number == 0 && (role == ColumnRole::kReading || role == ColumnRole::kTime)) {
-      throw InputError("--columns names no " + name + ", but must hold time and at least one reading");
+      throw settings::InputError("--columns names no " + name +
+                                 ", but must hold time and at least one reading");
     }
   }
   return columns;
 }
 
-}  // namespace fsr
+}  // namespace fsr::dataset

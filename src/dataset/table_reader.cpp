@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/dataset/table_reader.h"
+#include "dataset/table_reader.h"
 
 #include <zlib.h>
 
@@ -11,7 +11,7 @@
 #include <locale>
 #include <sstream>
 
-namespace fsr {
+namespace fsr::dataset {
 
 namespace {
 
@@ -69,7 +69,8 @@ struct TableReader::Source {
   std::size_t line = 0;
 
   explicit Source(const std::string& name) : file(gzopen(name.c_str(), "rb")), path(name) {
-    if (file == nullptr) throw InputError(path + ": cannot be opened (" + std::strerror(errno) + ")");
+    if (file == nullptr)
+      throw settings::InputError(path + ": cannot be opened (" + std::strerror(errno) + ")");
   }
   ~Source() { gzclose(file); }
   Source(const Source&) = delete;
@@ -81,14 +82,15 @@ struct TableReader::Source {
     while (gzgets(file, part.data(), static_cast<int>(part.size())) != nullptr) {
       text += part.data();
       if (text.size() > kLongestLine)
-        throw InputError(path + ": a line has no end; this is no table of text");
-      if (text.empty()) throw InputError(path + ": holds a byte of 0; this is no table of text");
+        throw settings::InputError(path + ": a line has no end; this is no table of text");
+      if (text.empty()) throw settings::InputError(path + ": holds a byte of 0; this is no table of text");
       if (text.back() == '\n') break;
     }
     int error = Z_OK;
     const char* const why = gzerror(file, &error);
     if (error != Z_OK && error != Z_STREAM_END) {
-      throw InputError(path + ", after line " + std::to_string(line) + ": cannot be read on (" + why + ")");
+      throw settings::InputError(path + ", after line " + std::to_string(line) + ": cannot be read on (" +
+                                 why + ")");
     }
     if (text.empty()) return false;
     ++line;
@@ -118,7 +120,7 @@ bool TableReader::readCells() {
 
 void TableReader::begin() {
   if (!readCells())
-    throw InputError(path_ + ": holds no row; a table of text with one row a reading is needed");
+    throw settings::InputError(path_ + ": holds no row; a table of text with one row a reading is needed");
   columns_ = cells_.size();
   bool is_number = false;
   parsed(cells_[0], format_.decimal_comma, is_number);
@@ -137,8 +139,9 @@ bool TableReader::next() {
   }
   if (!readCells()) return false;
   if (cells_.size() != columns_) {
-    throw InputError(path_ + ", line " + std::to_string(line()) + ": has " + std::to_string(cells_.size()) +
-                     " columns, but the first row has " + std::to_string(columns_));
+    throw settings::InputError(path_ + ", line " + std::to_string(line()) + ": has " +
+                               std::to_string(cells_.size()) + " columns, but the first row has " +
+                               std::to_string(columns_));
   }
   return true;
 }
@@ -153,8 +156,9 @@ std::size_t TableReader::find(const std::string& column) const {
   }
   std::string known;
   for (const std::string& name : names_) known += ", " + name;
-  throw InputError(path_ + ": has no column \"" + column + "\"; give 1 to " + std::to_string(columns_) +
-                   (names_.empty() ? " (it has no header)" : " or a name: " + known.substr(2)));
+  throw settings::InputError(path_ + ": has no column \"" + column + "\"; give 1 to " +
+                             std::to_string(columns_) +
+                             (names_.empty() ? " (it has no header)" : " or a name: " + known.substr(2)));
 }
 
 double TableReader::number(std::size_t column) const {
@@ -180,9 +184,9 @@ std::string TableReader::nameOf(std::size_t column) const {
   return column < names_.size() && !names_[column].empty() ? names_[column] : std::to_string(column + 1);
 }
 
-InputError TableReader::error(std::size_t column, const std::string& complaint) const {
-  return InputError(path_ + ", line " + std::to_string(line()) + ", column " + nameOf(column) + ": " +
-                    complaint);
+settings::InputError TableReader::error(std::size_t column, const std::string& complaint) const {
+  return settings::InputError(path_ + ", line " + std::to_string(line()) + ", column " + nameOf(column) +
+                              ": " + complaint);
 }
 
-}  // namespace fsr
+}  // namespace fsr::dataset

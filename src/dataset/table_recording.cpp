@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/dataset/table_recording.h"
+#include "dataset/table_recording.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <sstream>
 #include <tuple>
 
-#include "fsr_pressure_map/dataset/table_units.h"
+#include "dataset/table_units.h"
 
-namespace fsr {
+namespace fsr::dataset {
 
 namespace {
 
@@ -27,7 +27,7 @@ struct Row {
   std::vector<double> readings;       // counts, [V] or [S]
   std::optional<double> pressure;     // gauge [Pa]
   std::optional<double> temperature;  // [degree Celsius]
-  Surface surface;
+  matrix::Surface surface;
 };
 
 double roundNumberAbove(double value) {
@@ -48,14 +48,14 @@ class Reader {
     }
     for (const auto& [role, source] : readings_) {
       if (source.unit.quantity == quantity()) continue;
-      throw InputError(path + ": readings are in " + quantity() + " and in " + source.unit.quantity +
-                       ", but must be of one kind");
+      throw settings::InputError(path + ": readings are in " + quantity() + " and in " +
+                                 source.unit.quantity + ", but must be of one kind");
     }
-    size_ =
-        plan.matrix.taxels() > 0 ? plan.matrix : MatrixSize{1, static_cast<std::uint16_t>(readings_.size())};
+    size_ = plan.matrix.taxels() > 0 ? plan.matrix
+                                     : matrix::MatrixSize{1, static_cast<std::uint16_t>(readings_.size())};
     if (size_.taxels() != readings_.size()) {
-      throw InputError(path + ": --columns names " + std::to_string(readings_.size()) +
-                       " readings, but --matrix is " + sizeText(size_));
+      throw settings::InputError(path + ": --columns names " + std::to_string(readings_.size()) +
+                                 " readings, but --matrix is " + matrix::sizeText(size_));
     }
   }
 
@@ -76,7 +76,7 @@ class Reader {
   std::string path_;
   const TablePlan& plan_;
   std::vector<std::pair<ColumnRole, Source>> readings_, others_;
-  MatrixSize size_;
+  matrix::MatrixSize size_;
   std::vector<double> values_;      // [scans x taxels], counts, V or S
   std::vector<std::size_t> lines_;  // of each scan
 };
@@ -108,7 +108,7 @@ void Reader::readOther(ColumnRole role, const Source& source, Row& row) const {
               role == ColumnRole::kTime ? kLatestTime : kLargestValue);
   if (role == ColumnRole::kTime) row.time = value;
   if (role == ColumnRole::kTemperature) row.temperature = value;
-  if (role == ColumnRole::kCurvature) row.surface.curvature = {Curvature{value, 0, 0}};
+  if (role == ColumnRole::kCurvature) row.surface.curvature = {matrix::Curvature{value, 0, 0}};
   if (role == ColumnRole::kReference) {
     const double pressure = source.unit.quantity == "N" ? value / plan_.area : value;
     row.pressure = pressure - plan_.ambient_pressure.value_or(0);
@@ -123,7 +123,7 @@ void Reader::readOther(ColumnRole role, const Source& source, Row& row) const {
 Row Reader::readRow() const {
   Row row;
   row.surface.name = plan_.surface;
-  if (plan_.curvature) row.surface.curvature = {Curvature{*plan_.curvature, 0, 0}};
+  if (plan_.curvature) row.surface.curvature = {matrix::Curvature{*plan_.curvature, 0, 0}};
   for (const auto& [role, source] : others_) readOther(role, source, row);
   for (const auto& [role, source] : readings_) row.readings.push_back(reading(source));
   return row;
@@ -135,7 +135,9 @@ void Reader::append(const Row& row, Recording& recording) {
     const std::size_t column = std::find_if(others_.begin(), others_.end(), is_time)->second.column;
     throw table_.error(column, "is " + table_.text(column) + ", but the time must move on from row to row");
   }
-  const auto same = [&](const Surface& surface) { return sameCondition(surface, row.surface); };
+  const auto same = [&](const matrix::Surface& surface) {
+    return matrix::sameCondition(surface, row.surface);
+  };
   auto found = std::find_if(recording.conditions.begin(), recording.conditions.end(), same);
   if (found == recording.conditions.end()) found = recording.conditions.insert(found, row.surface);
   recording.condition.push_back(static_cast<std::uint32_t>(found - recording.conditions.begin()));
@@ -168,7 +170,7 @@ void Reader::convert(const ReadingScale& scale, Recording& recording) const {
       complaint << path_ << ", line " << lines_[i / size_.taxels()] << ": a reading of " << values_[i] << " "
                 << scale.unit << " is outside " << scale.low << " to " << scale.high << " " << scale.unit
                 << "; widen " << (scale.unit == "counts" ? "--full-scale" : "--range");
-      throw InputError(complaint.str());
+      throw settings::InputError(complaint.str());
     }
     recording.counts.push_back(static_cast<std::uint16_t>(std::lround(share * scale.full_scale)));
   }
@@ -180,7 +182,7 @@ bool Reader::nextRow(TableRecording& result) {
   try {
     if (!table_.next()) return false;
     append(readRow(), result.recording);
-  } catch (const InputError&) {
+  } catch (const settings::InputError&) {
     const bool moved_on = table_.line() > before;  // else the file itself cannot be read
     if (!plan_.skip_bad_rows || !moved_on) throw;
     ++result.skipped;
@@ -195,7 +197,7 @@ TableRecording Reader::read() {
   recording.layout = {size_, plan_.pitch, plan_.pitch};
   while (nextRow(result)) {
   }
-  if (recording.scans() < 2) throw InputError(path_ + ": holds fewer than two usable rows");
+  if (recording.scans() < 2) throw settings::InputError(path_ + ": holds fewer than two usable rows");
   result.scale = scale();
   convert(result.scale, recording);
   recording.full_scale = result.scale.full_scale;
@@ -224,4 +226,4 @@ TableRecording readTable(const std::string& path, const TablePlan& plan) {
   return Reader(path, plan).read();
 }
 
-}  // namespace fsr
+}  // namespace fsr::dataset

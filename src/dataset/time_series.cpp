@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/dataset/time_series.h"
+#include "dataset/time_series.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace fsr {
+namespace fsr::dataset {
 
 void TimeSeries::add(std::int64_t stamp_ns, double value) {
   if (std::isfinite(value)) {
@@ -43,4 +43,4 @@ double TimeSeries::nearby(std::int64_t stamp_ns) const {
   return *between(stamp_ns, std::numeric_limits<std::int64_t>::max());
 }
 
-}  // namespace fsr
+}  // namespace fsr::dataset

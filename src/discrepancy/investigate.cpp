@@ -2,21 +2,21 @@
 #include <cmath>
 #include <memory>
 
-#include "fsr_pressure_map/discrepancy/base_fit.h"
-#include "fsr_pressure_map/discrepancy/costs_in_use.h"
-#include "fsr_pressure_map/discrepancy/covariate_tests.h"
-#include "fsr_pressure_map/discrepancy/decision.h"
-#include "fsr_pressure_map/discrepancy/findings.h"
-#include "fsr_pressure_map/discrepancy/next_experiment.h"
-#include "fsr_pressure_map/discrepancy/odd_taxels.h"
-#include "fsr_pressure_map/discrepancy/proof.h"
-#include "fsr_pressure_map/discrepancy/refine.h"
-#include "fsr_pressure_map/discrepancy/taxel_curves_fit.h"
-#include "fsr_pressure_map/discrepancy/wording.h"
+#include "discrepancy/decide/covariate_tests.h"
+#include "discrepancy/decide/decision.h"
+#include "discrepancy/decide/findings.h"
+#include "discrepancy/decide/refine.h"
+#include "discrepancy/fit/base_fit.h"
+#include "discrepancy/fit/odd_taxels.h"
+#include "discrepancy/fit/taxel_curves_fit.h"
+#include "discrepancy/prove/costs_in_use.h"
+#include "discrepancy/prove/next_experiment.h"
+#include "discrepancy/prove/proof.h"
+#include "discrepancy/prove/wording.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::discrepancy {
 
 namespace {
 
@@ -82,7 +82,7 @@ class Investigation {
   bool unknown_statics_ = false;
   OddTaxels odd_;
   std::vector<Finding> findings_, later_;
-  SimulationSettings current_;  // with all that was taken out
+  simulation::SimulationSettings current_;  // with all that was taken out
   bool quiet_ = false;
   bool by_terms_ = false;  // what is shown are fitted terms, not the effects in the simulation
   Trace left_;             // what the effects take from the common trace's residual
@@ -100,9 +100,9 @@ void Investigation::detectFaults() {
   for (std::size_t f = 1; f < findings_.size(); ++f) findings_[f].before_more = 0;
   const std::size_t usable = measured_.usedTaxels(), all = measured_.taxels();
   if (2 * usable >= all && usable > 0) return;
-  throw InputError(problem_.recordings[0].name + ": " + std::to_string(all - usable) + " of " +
-                   std::to_string(all) +
-                   " taxels are masked, dead, stuck or on a failing line, but at least half must be usable");
+  throw settings::InputError(
+      problem_.recordings[0].name + ": " + std::to_string(all - usable) + " of " + std::to_string(all) +
+      " taxels are masked, dead, stuck or on a failing line, but at least half must be usable");
 }
 
 void Investigation::takeOutStatics() {
@@ -127,7 +127,7 @@ void Investigation::refitStatics() {
 // sized together, and the search is made once more.
 void Investigation::sizeTogether() {
   if (measured_.gain.empty() || decision_.credible.empty()) return;
-  const std::vector<EnabledEffect> found = {decision_.refined.effects.front()};
+  const std::vector<simulation::EnabledEffect> found = {decision_.refined.effects.front()};
   measured_.load.clear();
   measured_.gain.clear();
   measured_.added.clear();
@@ -142,7 +142,7 @@ void Investigation::sizeTogether() {
 void Investigation::repeat() {
   const Trace before = fit_->residual(common_.all);
   const Decision first = decision_;
-  std::vector<EnabledEffect> found;
+  std::vector<simulation::EnabledEffect> found;
   for (int round = 0; round < kMostRounds; ++round) {
     const bool named = decision_.verdict == Verdict::kNamed;
     report_.steps.push_back({});
@@ -150,8 +150,8 @@ void Investigation::repeat() {
     if (!named) break;
     report_.steps.back().added = listText(decision_.credible.front(), " with ");
     report_.steps.back().sentence = "Added " + report_.steps.back().added + ".";
-    SimulationSettings with = current_;
-    for (const EnabledEffect& effect : decision_.refined.effects) with = withEffect(with, effect);
+    simulation::SimulationSettings with = current_;
+    for (const simulation::EnabledEffect& effect : decision_.refined.effects) with = withEffect(with, effect);
     if (round > 0) moreEffects();
     takeOut(measured_, *fit_, current_, with);
     current_ = with;
@@ -174,7 +174,7 @@ void Investigation::repeat() {
 // Effects of a later round stand beside those of the first.
 void Investigation::moreEffects() {
   for (std::size_t e = 0; e < decision_.refined.effects.size(); ++e) {
-    const EffectInfo& info = findEffect(decision_.refined.effects[e].id)->info;
+    const simulation::EffectInfo& info = simulation::findEffect(decision_.refined.effects[e].id)->info;
     later_.push_back({{info.id, info.summary, decision_.refined.parameters[e], decision_.z,
                        std::min(1.0, decision_.share / decision_.ceiling)},
                       {decision_.refined.effects[e]},
@@ -183,7 +183,8 @@ void Investigation::moreEffects() {
                       0,
                       0,
                       false});
-    for (const Covariate c : info.depends_on) later_.back().depends_on.push_back(name(c));
+    for (const simulation::Covariate c : info.depends_on)
+      later_.back().depends_on.push_back(simulation::name(c));
   }
 }
 
@@ -255,7 +256,7 @@ void Investigation::put() {
   const Refined& refined = decision_.refined;
   for (std::size_t e = 0; e < refined.effects.size(); ++e) {
     report_.added = withEffect(report_.added, refined.effects[e]);
-    const EffectInfo& info = findEffect(refined.effects[e].id)->info;
+    const simulation::EffectInfo& info = simulation::findEffect(refined.effects[e].id)->info;
     report_.effects.push_back({info.id, info.summary, refined.parameters[e], decision_.z,
                                std::min(1.0, decision_.share / decision_.ceiling)});
   }
@@ -282,13 +283,14 @@ void Investigation::startAgain() {
 void Investigation::putFindings() {
   if (unknown_statics_) {
     report_.verdict = Verdict::kUnknown;
-    report_.depends_on = {name(Covariate::kPressure), name(Covariate::kCurvature)};
+    report_.depends_on = {simulation::name(simulation::Covariate::kPressure),
+                          simulation::name(simulation::Covariate::kCurvature)};
     report_.where.pressure = misfit_.pressure;
     report_.where.conditions = misfit_.conditions;
   }
   if (!odd_.taxels.empty() && report_.verdict == Verdict::kNone) {
     report_.verdict = Verdict::kUnknown;
-    report_.depends_on = {name(odd_.by)};
+    report_.depends_on = {simulation::name(odd_.by)};
     report_.where.taxels = odd_.taxels;
   }
   if (findings_.empty()) return;
@@ -304,7 +306,8 @@ void Investigation::putFindings() {
   for (const Finding& finding : findings_) {
     for (Ids& ids : report_.credible_set) ids.push_back(finding.effect.id);
     report_.effects.push_back(finding.effect);
-    for (const EnabledEffect& effect : finding.enable) report_.added = withEffect(report_.added, effect);
+    for (const simulation::EnabledEffect& effect : finding.enable)
+      report_.added = withEffect(report_.added, effect);
     for (const std::string& covariate : finding.depends_on) {
       auto& told = report_.depends_on;
       if (!std::count(told.begin(), told.end(), covariate)) told.push_back(covariate);
@@ -314,7 +317,7 @@ void Investigation::putFindings() {
 
 void Investigation::show() {
   tell("showing", 0.9);
-  std::vector<EnabledEffect> beside;
+  std::vector<simulation::EnabledEffect> beside;
   for (const Finding& more : later_) beside.insert(beside.end(), more.enable.begin(), more.enable.end());
   const double static_square = unknown_statics_ ? misfit_.rms * misfit_.rms : 0;
   const auto& options = problem_.options;
@@ -324,9 +327,9 @@ void Investigation::show() {
 }
 
 void Investigation::listNotIdentifiable() {
-  for (const EffectEntry& entry : effectLibrary()) {
-    const EffectInfo& info = entry.info;
-    if (!inLibrary(info.id) || info.kind == EffectKind::kBase) continue;
+  for (const simulation::EffectEntry& entry : simulation::effectLibrary()) {
+    const simulation::EffectInfo& info = entry.info;
+    if (!inLibrary(info.id) || info.kind == simulation::EffectKind::kBase) continue;
     double left = 0;
     bool tried = false;
     for (const Signature& s : competition_->signatures()) {
@@ -336,7 +339,7 @@ void Investigation::listNotIdentifiable() {
     }
     const bool remounted = measured_.classes.size() < measured_.visits.size();
     std::string reason;
-    if (info.kind == EffectKind::kListed) reason = "A gas chamber cannot show it.";
+    if (info.kind == simulation::EffectKind::kListed) reason = "A gas chamber cannot show it.";
     if (tried && isStatic(info)) reason = "Under a uniform pressure the static curves take all of it.";
     if (tried && !isStatic(info) && left < kNotIdentifiable)
       reason = "The static curves leave hardly anything of it under this protocol.";
@@ -345,7 +348,7 @@ void Investigation::listNotIdentifiable() {
     if (reason.empty()) {
       report_.tested.push_back(info.id);
     } else {
-      report_.not_identifiable.push_back({info.id, name(info.experiment), reason});
+      report_.not_identifiable.push_back({info.id, simulation::name(info.experiment), reason});
     }
   }
 }
@@ -369,7 +372,7 @@ void Investigation::answerQuestions() {
 // The next experiment, and what it will show.
 void Investigation::foresee() {
   if (decision_.credible.empty()) return;
-  std::vector<std::vector<EnabledEffect>> explanations = {decision_.refined.effects};
+  std::vector<std::vector<simulation::EnabledEffect>> explanations = {decision_.refined.effects};
   for (const Refined& rival : decision_.rivals) explanations.push_back(rival.effects);
   report_.next_experiment =
       nextExperiment(report_.base, explanations, evidenceIn(measured_), report_.gap.floor);
@@ -394,7 +397,7 @@ void Investigation::doubtSilence() {
 DiscrepancyReport Investigation::run() {
   report_.seed = problem_.options.seed;
   report_.version = FSR_VERSION;
-  for (const Recording& recording : problem_.recordings) {
+  for (const dataset::Recording& recording : problem_.recordings) {
     report_.inputs.push_back({recording.name, recording.sha256, recording.scans(), 1});
   }
   tell("faults", 0.05);
@@ -446,4 +449,4 @@ DiscrepancyReport investigate(const DiscrepancyProblem& problem, const Discrepan
   return Investigation(problem, progress).run();
 }
 
-}  // namespace fsr
+}  // namespace fsr::discrepancy

@@ -1,6 +1,6 @@
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 
-namespace fsr {
+namespace fsr::discrepancy {
 
 std::string name(Verdict verdict) {
   switch (verdict) {
@@ -20,4 +20,4 @@ std::string name(Verdict verdict) {
   return "";
 }
 
-}  // namespace fsr
+}  // namespace fsr::discrepancy

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/emulator/board.h"
+#include "emulator/board.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/protocol/wire.h"
 
-namespace fsr {
+namespace fsr::emulator {
 
 namespace {
 
@@ -26,7 +26,7 @@ double Board::Source::due() const {
   return period > 0 ? time() + delay : std::numeric_limits<double>::infinity();
 }
 
-Board::Board(const SimulationSettings& simulation, const BoardClock& clock)
+Board::Board(const simulation::SimulationSettings& simulation, const BoardClock& clock)
     : settings_(simulation), clock_(clock), rig_(simulation), packet_(FSR_WIRE_MAX_PACKET) {
   sources_[kIdentity].period = 1;
   sources_[kTemperature].period = 1;
@@ -127,4 +127,4 @@ double Board::bitsPerSecond() const {
                          rate(kIdentity) * packet(FSR_WIRE_IDENTITY_PAYLOAD));
 }
 
-}  // namespace fsr
+}  // namespace fsr::emulator

@@ -1,6 +1,6 @@
-#include "fsr_pressure_map/emulator/board_link.h"
+#include "emulator/board_link.h"
 
-namespace fsr {
+namespace fsr::emulator {
 
 namespace {
 
@@ -73,4 +73,4 @@ LinkCounts BoardLink::counts() const {
   return counts;
 }
 
-}  // namespace fsr
+}  // namespace fsr::emulator

@@ -1,23 +1,23 @@
-#include "fsr_pressure_map/emulator/chamber.h"
+#include "emulator/chamber.h"
 
 #include <algorithm>
 #include <limits>
 
-namespace fsr {
+namespace fsr::emulator {
 
 // Returns when the chamber is at rest. A run that was asked for but has not begun, because the chamber
 // is still venting, never begins.
 double Chamber::vent(double time) {
   while (!sections_.empty() && sections_.back().start > time) sections_.pop_back();
-  const PressureProfile venting = ventingProfile(protocol_, gaugePressure(time));
+  const simulation::PressureProfile venting = simulation::ventingProfile(protocol_, gaugePressure(time));
   sections_.push_back({time, venting});
   return time + venting.duration();
 }
 
-void Chamber::startCycles(double time, const ChamberProtocol& protocol) {
+void Chamber::startCycles(double time, const simulation::ChamberProtocol& protocol) {
   const double at_rest = vent(time);
   protocol_ = protocol;
-  sections_.push_back({at_rest, pressureProfile(protocol)});
+  sections_.push_back({at_rest, simulation::pressureProfile(protocol)});
   cycles_end_ = at_rest + sections_.back().profile.duration();
 }
 
@@ -32,4 +32,4 @@ double Chamber::gaugePressure(double time) const {
   return next == sections_.begin() ? 0.0 : (next - 1)->profile.at(time - (next - 1)->start);
 }
 
-}  // namespace fsr
+}  // namespace fsr::emulator

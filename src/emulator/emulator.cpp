@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/emulator/emulator.h"
+#include "emulator/emulator.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/settings/range.h"
 
-namespace fsr {
+namespace fsr::emulator {
 
 namespace {
 
@@ -20,14 +20,14 @@ constexpr milliseconds kDraining{500};       // that a port full of what was ove
 constexpr milliseconds kMostPatience{2000};  // with the reader, until the emulator has caught up
 
 const EmulatorOptions& checked(const EmulatorOptions& options) {
-  const Range scale{0.01, 1000, ""};
+  const settings::Range scale{0.01, 1000, ""};
   if (!scale.contains(options.time_scale)) {
     std::ostringstream sentence;
     sentence << "time_scale is " << options.time_scale << ", but must be " << scale.text();
-    throw InputError(sentence.str());
+    throw settings::InputError(sentence.str());
   }
-  validate(options.simulation.chamber, options.simulation.origin + ": chamber");
-  validate(options.simulation.board, options.simulation.origin + ": board");
+  simulation::validate(options.simulation.chamber, options.simulation.origin + ": chamber");
+  simulation::validate(options.simulation.board, options.simulation.origin + ": board");
   return options;
 }
 
@@ -37,7 +37,7 @@ void refuseOverload(const Board& board, const EmulatorOptions& options) {
   sentence << options.simulation.origin << ": board.scan_rate is " << options.simulation.board.scan_rate
            << " Hz, but a link of " << options.baud << " baud does not carry it: it needs "
            << std::ceil(board.bitsPerSecond()) << " baud";
-  throw InputError(sentence.str());
+  throw settings::InputError(sentence.str());
 }
 
 }  // namespace
@@ -183,8 +183,8 @@ unsigned Emulator::startCycles() {
   return startCycles(options_.simulation.chamber);
 }
 
-unsigned Emulator::startCycles(const ChamberProtocol& protocol) {
-  validate(protocol, "chamber");
+unsigned Emulator::startCycles(const simulation::ChamberProtocol& protocol) {
+  simulation::validate(protocol, "chamber");
   const Turn turn(*this);
   catchUp();
   chamber_.startCycles(time_, protocol);
@@ -200,7 +200,7 @@ void Emulator::stopCycles() {
   if (status_.state == RigStatus::State::kRunning) setState(RigStatus::State::kStopped);
 }
 
-void Emulator::setSurface(const Surface& surface) {
+void Emulator::setSurface(const matrix::Surface& surface) {
   const Turn turn(*this);
   catchUp();
   board_.mount(surface);
@@ -262,7 +262,7 @@ double Emulator::gaugePressure(double rig_time) const {
   return chamber_.gaugePressure(rig_time);
 }
 
-Surface Emulator::surface(double rig_time) const {
+matrix::Surface Emulator::surface(double rig_time) const {
   const Turn turn(*this);
   auto mounting = mountings_.rbegin();
   while (mounting->since > rig_time && std::next(mounting) != mountings_.rend()) ++mounting;
@@ -287,4 +287,4 @@ bool Emulator::waitForRigTime(double time, milliseconds timeout) const {
   return waitFor([this, time] { return time_ >= time; }, timeout);
 }
 
-}  // namespace fsr
+}  // namespace fsr::emulator

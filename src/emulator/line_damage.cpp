@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/emulator/line_damage.h"
+#include "emulator/line_damage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,17 +7,17 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/settings/range.h"
 
-namespace fsr {
+namespace fsr::emulator {
 
 namespace {
 
 constexpr std::size_t kFrame = 10;  // bits: start, eight of data from the lowest on, stop
 
-void require(const char* field, double value, const Range& range) {
+void require(const char* field, double value, const settings::Range& range) {
   if (range.contains(value)) return;
   std::ostringstream sentence;
   sentence << "damage: " << field << " is " << value << ", but must be " << range.text();
-  throw InputError(sentence.str());
+  throw settings::InputError(sentence.str());
 }
 
 /// Levels of the line, one a sender's bit; high when idle.
@@ -120,4 +120,4 @@ std::vector<std::uint8_t> heardByUart(const std::vector<std::uint8_t>& bytes, st
   return heard;
 }
 
-}  // namespace fsr
+}  // namespace fsr::emulator

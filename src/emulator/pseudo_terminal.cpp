@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/emulator/pseudo_terminal.h"
+#include "emulator/pseudo_terminal.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -12,7 +12,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::emulator {
 
 // In terminal_speed.cpp.
 void setTerminalSpeed(int descriptor, std::uint32_t baud);
@@ -23,7 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const std::string& what) {
-  throw InputError("no pseudo-terminal: " + what + ": " + std::strerror(errno) + "; is /dev/pts mounted?");
+  throw settings::InputError("no pseudo-terminal: " + what + ": " + std::strerror(errno) +
+                             "; is /dev/pts mounted?");
 }
 
 int openMaster() {
@@ -59,13 +60,14 @@ void makeLink(const std::string& link, const std::string& target) {
   std::error_code error;
   const fs::file_status there = fs::symlink_status(link, error);
   if (fs::exists(there) && !fs::is_symlink(there)) {
-    throw InputError(link + ": something other than a link is there already; name a free path for the port");
+    throw settings::InputError(
+        link + ": something other than a link is there already; name a free path for the port");
   }
   const std::string fresh = link + ".new";
   fs::remove(fresh, error);
   fs::create_symlink(target, fresh, error);
   if (!error) fs::rename(fresh, link, error);
-  if (error) throw InputError(link + ": the link to the port cannot be made: " + error.message());
+  if (error) throw settings::InputError(link + ": the link to the port cannot be made: " + error.message());
 }
 
 }  // namespace
@@ -139,4 +141,4 @@ std::uint32_t PseudoTerminal::readerBaud() const {
   return terminalSpeed(master_);
 }
 
-}  // namespace fsr
+}  // namespace fsr::emulator

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace fsr {
+namespace fsr::emulator {
 
 void setTerminalSpeed(int descriptor, std::uint32_t baud) {
   termios2 settings{};
@@ -22,4 +22,4 @@ std::uint32_t terminalSpeed(int descriptor) {
   return ioctl(descriptor, TCGETS2, &settings) == 0 ? settings.c_ospeed : 0;
 }
 
-}  // namespace fsr
+}  // namespace fsr::emulator

@@ -1,11 +1,11 @@
-#include "fsr_pressure_map/exports/animated_png.h"
+#include "exports/animated_png.h"
 
 #include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace fsr {
+namespace fsr::exports {
 
 namespace {
 
@@ -53,8 +53,8 @@ std::string control(std::uint32_t pictures) {
 
 }  // namespace
 
-void AnimatedPng::picture(std::int64_t since_ns, const Image& image) {
-  std::string png = pngOf(image);
+void AnimatedPng::picture(std::int64_t since_ns, const view::Image& image) {
+  std::string png = view::pngOf(image);
   if (!held_) {
     width_ = static_cast<std::uint32_t>(image.width());
     height_ = static_cast<std::uint32_t>(image.height());
@@ -98,4 +98,4 @@ void AnimatedPng::finish() {
   file_.finish();
 }
 
-}  // namespace fsr
+}  // namespace fsr::exports

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <string>
 
-#include "fsr_pressure_map/settings/replace_file.h"
+#include "settings/replace_file.h"
 
-namespace fsr::archive {
+namespace fsr::exports::archive {
 
 constexpr char kFormat[] = "fsr_pressure_map archive";
 constexpr std::uint64_t kSchema = 1;
@@ -26,9 +26,9 @@ void attempt(const std::string& path, Act act) {
   errno = 0;
   try {
     act();
-  } catch (const InputError&) {
-    throw cannotWrite(path, errno != 0 ? errno : EIO);
+  } catch (const settings::InputError&) {
+    throw settings::cannotWrite(path, errno != 0 ? errno : EIO);
   }
 }
 
-}  // namespace fsr::archive
+}  // namespace fsr::exports::archive

@@ -3,15 +3,16 @@
 #include <fstream>
 #include <optional>
 
-#include "archive_layout.h"
-#include "fsr_pressure_map/calibration/hdf5_writer.h"  // kUserBlock
-#include "fsr_pressure_map/exports/archive.h"
-#include "fsr_pressure_map/exports/message_table.h"
-#include "fsr_pressure_map/settings/sha256.h"
+#include "exports/archive.h"
+#include "exports/archive_layout.h"
+#include "exports/message_table.h"
+#include "hdf5/writer.h"  // kUserBlock
+#include "settings/sha256.h"
 
-namespace fsr {
+namespace fsr::exports {
 
 using hdf5::ColumnReader;
+
 using hdf5::Handle;
 
 namespace {
@@ -19,20 +20,20 @@ namespace {
 // Refuses what is no archive, before HDF5 looks at it.
 void verify(const std::string& path) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) throw InputError("there is no such file");
+  if (!std::filesystem::is_regular_file(path, error)) throw settings::InputError("there is no such file");
   std::ifstream file(path, std::ios::binary);
-  std::string block(kUserBlock, '\0');
+  std::string block(hdf5::kUserBlock, '\0');
   file.read(block.data(), static_cast<std::streamsize>(block.size()));
   const std::string start = std::string(archive::kFormat) + " schema=";
   if (block.compare(0, start.size(), start) != 0) {
-    throw InputError("is no archive; give one that export --to hdf5 has written");
+    throw settings::InputError("is no archive; give one that export --to hdf5 has written");
   }
   if (std::strtoull(block.c_str() + start.size(), nullptr, 10) > archive::kSchema) {
-    throw InputError("was written by a later version; update the package");
+    throw settings::InputError("was written by a later version; update the package");
   }
-  const std::string line = archive::firstLine(sha256OfFile(path, kUserBlock));
+  const std::string line = archive::firstLine(settings::sha256OfFile(path, hdf5::kUserBlock));
   if (block.compare(0, line.size(), line) != 0) {
-    throw InputError(
+    throw settings::InputError(
         "is damaged or cut short: its bytes do not have the SHA-256 that its first line names; copy the file "
         "again");
   }
@@ -136,7 +137,8 @@ struct ArchiveReader::Content {
     std::uint32_t row = 0;
     std::memcpy(&message.received_ns, time->next(), sizeof(message.received_ns));
     std::memcpy(&row, sender->next(), sizeof(row));
-    if (row >= connections.size()) throw InputError("its /archive/message/connection leads nowhere");
+    if (row >= connections.size())
+      throw settings::InputError("its /archive/message/connection leads nowhere");
     message.connection = row;
     message.bytes.clear();
     Topic& topic = *topic_of[row];
@@ -154,7 +156,7 @@ struct ArchiveReader::Content {
   void verifyMessages() {
     for (std::size_t i = 0; i < expected.size(); ++i) {
       if (digests[i].hexadecimal() == expected[i]) continue;
-      throw InputError("the messages of " + connections[i].topic + " are not those of the bag");
+      throw settings::InputError("the messages of " + connections[i].topic + " are not those of the bag");
     }
   }
 
@@ -166,7 +168,7 @@ struct ArchiveReader::Content {
   std::vector<ArchivedConnection> connections;
   std::map<std::string, std::unique_ptr<Topic>> topics;  // by group
   std::vector<Topic*> topic_of;                          // each connection's
-  std::vector<Sha256> digests;
+  std::vector<settings::Sha256> digests;
   std::vector<std::string> expected;
   std::size_t left = 0;
 };
@@ -177,8 +179,8 @@ template <typename Act>
 auto naming(const std::string& path, Act act) {
   try {
     return act();
-  } catch (const InputError& error) {
-    throw InputError(path + ": " + error.what());
+  } catch (const settings::InputError& error) {
+    throw settings::InputError(path + ": " + error.what());
   }
 }
 
@@ -201,4 +203,4 @@ bool ArchiveReader::next(ArchivedMessage& message) {
   return naming(content_->path, [&] { return content_->next(message); });
 }
 
-}  // namespace fsr
+}  // namespace fsr::exports

@@ -5,18 +5,20 @@
 #include <optional>
 #include <set>
 
-#include "archive_layout.h"
-#include "fsr_pressure_map/calibration/hdf5_writer.h"  // kUserBlock
-#include "fsr_pressure_map/exports/archive.h"
-#include "fsr_pressure_map/exports/message_table.h"
-#include "fsr_pressure_map/exports/scan_table.h"
-#include "fsr_pressure_map/settings/fresh_file.h"
-#include "fsr_pressure_map/settings/sha256.h"
+#include "exports/archive.h"
+#include "exports/archive_layout.h"
+#include "exports/message_table.h"
+#include "exports/scan_table.h"
+#include "hdf5/writer.h"  // kUserBlock
+#include "settings/fresh_file.h"
+#include "settings/sha256.h"
 
-namespace fsr {
+namespace fsr::exports {
+
+using hdf5::ColumnWriter;
 
 using hdf5::ColumnPlan;
-using hdf5::ColumnWriter;
+
 using hdf5::Handle;
 using hdf5::require;
 
@@ -25,7 +27,7 @@ namespace {
 hid_t createFile(const std::string& path) {
   hdf5::openLibrary();
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file");
-  require(H5Pset_userblock(creation, kUserBlock), "file");
+  require(H5Pset_userblock(creation, hdf5::kUserBlock), "file");
   return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
 }
 
@@ -59,7 +61,7 @@ std::string headerBytes(const std::map<std::string, std::string>& header) {
 std::optional<MessageType> typeOf(const ArchivedConnection& connection) {
   try {
     return parseMessageType(connection.type, connection.definition);
-  } catch (const InputError&) {
+  } catch (const settings::InputError&) {
     return {};  // its messages are kept as bytes
   }
 }
@@ -248,10 +250,11 @@ struct ArchiveWriter::Content {
   }
 
   void sign() {
-    const std::string line = archive::firstLine(sha256OfFile(fresh.name(), kUserBlock));
+    const std::string line =
+        archive::firstLine(settings::sha256OfFile(fresh.name(), hdf5::kUserBlock));
     std::fstream block(fresh.name(), std::ios::in | std::ios::out | std::ios::binary);
     if (!block.write(line.data(), static_cast<std::streamsize>(line.size())).flush()) {
-      throw cannotWrite(path, errno != 0 ? errno : EIO);
+      throw settings::cannotWrite(path, errno != 0 ? errno : EIO);
     }
   }
 
@@ -259,15 +262,15 @@ struct ArchiveWriter::Content {
   ArchiveSource source;
   std::vector<ArchivedConnection> connections;
   std::lock_guard<std::mutex> lock;
-  FreshPath fresh;
+  settings::FreshPath fresh;
   std::vector<std::size_t> topic_of;  // each connection's
   std::vector<std::unique_ptr<Topic>> topics;
   std::set<std::string> groups;
   std::optional<Handle> file;
   std::optional<ColumnWriter> time, sender;
   std::unique_ptr<ScanTable> scans;
-  std::vector<std::uint64_t> messages;  // of each connection
-  std::vector<Sha256> digests;          // likewise
+  std::vector<std::uint64_t> messages;    // of each connection
+  std::vector<settings::Sha256> digests;  // likewise
 };
 
 ArchiveWriter::ArchiveWriter(const std::string& path, const ArchiveSource& source,
@@ -305,4 +308,4 @@ void ArchiveWriter::finish() {
   content_->fresh.finish();
 }
 
-}  // namespace fsr
+}  // namespace fsr::exports

@@ -1,8 +1,8 @@
-#include "fsr_pressure_map/exports/csv_table.h"
+#include "exports/csv_table.h"
 
-#include "fsr_pressure_map/exports/exact_text.h"
+#include "exports/exact_text.h"
 
-namespace fsr {
+namespace fsr::exports {
 
 namespace {
 
@@ -46,7 +46,7 @@ std::string reading(const ScanRecord& scan, std::size_t taxel) {
 
 std::string curvature(const ScanRecord& scan, std::size_t taxel) {
   if (scan.surface == nullptr || !scan.surface->known()) return kAbsent;
-  return exactText(principalCurvature(scan.surface->at({taxel})));
+  return exactText(matrix::principalCurvature(scan.surface->at({taxel})));
 }
 
 }  // namespace
@@ -79,4 +79,4 @@ void CsvTable::finish() {
   file_.finish();
 }
 
-}  // namespace fsr
+}  // namespace fsr::exports

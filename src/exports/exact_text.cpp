@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/exports/exact_text.h"
+#include "exports/exact_text.h"
 
 #include <array>
 #include <charconv>
@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace fsr {
+namespace fsr::exports {
 
 namespace {
 
@@ -35,4 +35,4 @@ std::string secondsText(std::int64_t nanoseconds) {
   return text.data();
 }
 
-}  // namespace fsr
+}  // namespace fsr::exports

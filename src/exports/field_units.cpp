@@ -1,8 +1,8 @@
 #include <map>
 
-#include "fsr_pressure_map/exports/message_table.h"
+#include "exports/message_table.h"
 
-namespace fsr {
+namespace fsr::exports {
 
 namespace {
 
@@ -50,4 +50,4 @@ std::pair<std::string, std::string> unitAndMeaning(const std::string& type, cons
   return {text ? "" : bracketed(field.comment), field.comment};
 }
 
-}  // namespace fsr
+}  // namespace fsr::exports

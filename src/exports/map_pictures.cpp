@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/exports/map_pictures.h"
+#include "exports/map_pictures.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::exports {
 
 namespace {
 
@@ -25,13 +25,13 @@ std::string timeText(std::int64_t since_ns) {
   return text.data();
 }
 
-double peakOf(const PressureMap& map) {
+double peakOf(const map::PressureMap& map) {
   double peak = ScanRecord::kUnknown;
   for (const float pressure : map.pressure) peak = std::fmax(peak, double(pressure));
   return peak;
 }
 
-std::string surfaceText(const Surface* surface) {
+std::string surfaceText(const matrix::Surface* surface) {
   if (surface == nullptr) return "surface unknown";
   std::string text = surface->name.empty() ? "surface without a name" : surface->name;
   if (surface->mount != 0) text += ", mount " + std::to_string(surface->mount);
@@ -42,23 +42,24 @@ std::string surfaceText(const Surface* surface) {
 
 void PictureSink::begin(const ExportSubject& subject) {
   if (!subject.maps) {
-    throw InputError("holds no topic pressure_map to draw; compute the maps with --calibration FILE");
+    throw settings::InputError(
+        "holds no topic pressure_map to draw; compute the maps with --calibration FILE");
   }
-  PressureScale scale = options_.style.scale;
+  view::PressureScale scale = options_.style.scale;
   if (options_.range) {
     std::tie(scale.low, scale.high) = *options_.range;
   } else if (subject.trained_high > 0) {
     scale.high = roundedUp(subject.trained_high);
   }
   // A deviation of more than a tenth of the range is none to measure with.
-  if (!options_.range && options_.style.layer == MapLayer::kDeviation) scale.high *= 0.1;
+  if (!options_.range && options_.style.layer == view::MapLayer::kDeviation) scale.high *= 0.1;
   painter_.setScale(scale);
   name_ = subject.name;
 }
 
 // A line that is too long for the picture ends with "...".
 std::string PictureSink::fitted(const std::string& line) const {
-  const int letters = (width_ - kMargins) / Image::textWidth("x");
+  const int letters = (width_ - kMargins) / view::Image::textWidth("x");
   const auto most = static_cast<std::size_t>(std::max(letters, 8));
   return line.size() <= most ? line : line.substr(0, most - 3) + "...";
 }
@@ -70,19 +71,20 @@ void PictureSink::add(const ScanRecord& scan) {
     width_ = painter_.draw(*scan.map).width();
   }
   if (scan.layout.size != size_) {
-    throw InputError(name_ + ": the matrix changes from " + sizeText(size_) + " to " +
-                     sizeText(scan.layout.size) + " taxels, but pictures are of one size; cut with --until");
+    throw settings::InputError(name_ + ": the matrix changes from " + matrix::sizeText(size_) + " to " +
+                               matrix::sizeText(scan.layout.size) +
+                               " taxels, but pictures are of one size; cut with --until");
   }
-  const PressureUnit unit = painter_.style().scale.unit;
+  const view::PressureUnit unit = painter_.style().scale.unit;
   const std::vector<std::string> lines = {
       name_,
       surfaceText(scan.surface.get()),
-      timeText(scan.since_ns) + "   chamber " + pressureText(scan.chamber_pressure, unit),
-      "peak " + pressureText(peakOf(*scan.map), unit) + "   state " + stateWord(scan.map->state),
+      timeText(scan.since_ns) + "   chamber " + view::pressureText(scan.chamber_pressure, unit),
+      "peak " + view::pressureText(peakOf(*scan.map), unit) + "   state " + stateWord(scan.map->state),
   };
   std::vector<std::string> shown;
   for (const std::string& line : lines) shown.push_back(fitted(line));
   picture(scan.since_ns, painter_.draw(*scan.map, shown));
 }
 
-}  // namespace fsr
+}  // namespace fsr::exports

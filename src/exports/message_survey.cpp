@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/exports/message_survey.h"
+#include "exports/message_survey.h"
 
 #include <algorithm>
 #include <cstring>
 #include <string>
 
-namespace fsr {
+namespace fsr::exports {
 
 namespace {
 
@@ -92,4 +92,4 @@ std::optional<std::size_t> MessageSurvey::constant(const std::string& name) cons
   return {};
 }
 
-}  // namespace fsr
+}  // namespace fsr::exports

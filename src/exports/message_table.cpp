@@ -1,13 +1,16 @@
-#include "fsr_pressure_map/exports/message_table.h"
+#include "exports/message_table.h"
 
 #include <array>
 #include <cstring>
 
-namespace fsr {
+namespace fsr::exports {
+
+using hdf5::ColumnWriter;
 
 using hdf5::ColumnPlan;
+
 using hdf5::ColumnReader;
-using hdf5::ColumnWriter;
+
 using Count = MessageField::Count;
 
 namespace {
@@ -190,7 +193,8 @@ void MessageTableReader::put(const std::vector<MessageField>& fields, std::strin
 void MessageTableReader::putValues(const MessageField& field, std::size_t count, std::string& bytes) {
   if (count == 0) return;
   const auto found = values_.find(field.id);
-  if (found == values_.end()) throw InputError("its table of " + type_.name + " lacks " + field.name);
+  if (found == values_.end())
+    throw settings::InputError("its table of " + type_.name + " lacks " + field.name);
   ColumnReader& column = *found->second;
   if (field.scalar == Scalar::kString) {
     for (; count > 0; --count) {
@@ -200,7 +204,8 @@ void MessageTableReader::putValues(const MessageField& field, std::size_t count,
     }
     return;
   }
-  if (count % column.width() != 0) throw InputError("its " + field.name + " is not as wide as it says");
+  if (count % column.width() != 0)
+    throw settings::InputError("its " + field.name + " is not as wide as it says");
   const char* values = column.next(count / column.width());
   if (!isTime(field.scalar)) {
     bytes.append(values, count * sizeOf(field.scalar));
@@ -215,4 +220,4 @@ void MessageTableReader::putValues(const MessageField& field, std::size_t count,
   }
 }
 
-}  // namespace fsr
+}  // namespace fsr::exports

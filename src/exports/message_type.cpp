@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/exports/message_type.h"
+#include "exports/message_type.h"
 
 #include <cstdlib>
 #include <map>
@@ -7,7 +7,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::exports {
 
 namespace {
 
@@ -60,7 +60,7 @@ class Parser {
  private:
   std::vector<MessageField> fieldsOf(const std::string& name, const std::string& prefix, bool repeated,
                                      int depth) {
-    if (depth > kDeepest) throw InputError("the message type " + name + " contains itself");
+    if (depth > kDeepest) throw settings::InputError("the message type " + name + " contains itself");
     std::vector<MessageField> fields;
     std::istringstream lines(texts_.at(name));
     for (std::string line; std::getline(lines, line);) {
@@ -76,7 +76,8 @@ class Parser {
     std::istringstream words(line.substr(0, hash));
     std::string type, name;
     if (line.substr(0, hash).find('=') != std::string::npos || !(words >> type)) return {};
-    if (!(words >> name)) throw InputError("the definition of " + owner + " has a line \"" + line + "\"");
+    if (!(words >> name))
+      throw settings::InputError("the definition of " + owner + " has a line \"" + line + "\"");
     MessageField field;
     field.name = prefix + name;
     if (hash != std::string::npos) field.comment = trimmed(line.substr(hash + 1));
@@ -108,7 +109,7 @@ class Parser {
     for (const std::string& name : {type, package + '/' + type, "std_msgs/" + type}) {
       if (texts_.count(name) > 0) return name;
     }
-    throw InputError("the definition of " + owner + " lacks the type " + type);
+    throw settings::InputError("the definition of " + owner + " lacks the type " + type);
   }
 
   std::map<std::string, std::string> texts_;
@@ -152,4 +153,4 @@ bool isMessageOf(const MessageType& type, std::string_view bytes) {
   return visitMessage(type, bytes, visitor);
 }
 
-}  // namespace fsr
+}  // namespace fsr::exports

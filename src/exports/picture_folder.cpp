@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/exports/picture_folder.h"
+#include "exports/picture_folder.h"
 
 #include <array>
 #include <cerrno>
@@ -7,16 +7,16 @@
 #include <fstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/settings/replace_file.h"
+#include "settings/replace_file.h"
 
-namespace fsr {
+namespace fsr::exports {
 
 namespace {
 
 // Checked before FreshPath, which would only say that it is a directory.
 std::string newFolder(const std::string& path) {
   if (std::filesystem::exists(path)) {
-    throw InputError(path + ": is there already; give the name of a new folder with --output");
+    throw settings::InputError(path + ": is there already; give the name of a new folder with --output");
   }
   return path;
 }
@@ -26,17 +26,18 @@ std::string newFolder(const std::string& path) {
 PictureFolder::PictureFolder(const std::string& path, const PictureOptions& options)
     : PictureSink(options), path_(newFolder(path)), fresh_(path) {
   std::error_code error;
-  if (!std::filesystem::create_directory(fresh_.name(), error)) throw cannotWrite(path, error.value());
+  if (!std::filesystem::create_directory(fresh_.name(), error))
+    throw settings::cannotWrite(path, error.value());
 }
 
-void PictureFolder::picture(std::int64_t /*since_ns*/, const Image& image) {
+void PictureFolder::picture(std::int64_t /*since_ns*/, const view::Image& image) {
   std::array<char, 32> name{};
   std::snprintf(name.data(), name.size(), "/map_%06zu.png", ++pictures_);
-  const std::string bytes = pngOf(image);
+  const std::string bytes = view::pngOf(image);
   std::ofstream file(fresh_.name() + name.data(), std::ios::binary);
   errno = 0;
   if (!file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush()) {
-    throw cannotWrite(path_, errno != 0 ? errno : EIO);
+    throw settings::cannotWrite(path_, errno != 0 ? errno : EIO);
   }
 }
 
@@ -44,4 +45,4 @@ void PictureFolder::finish() {
   fresh_.finish();
 }
 
-}  // namespace fsr
+}  // namespace fsr::exports

@@ -1,24 +1,24 @@
-#include "fsr_pressure_map/exports/scan_record.h"
+#include "exports/scan_record.h"
 
 #include <array>
 #include <utility>
 
-namespace fsr {
+namespace fsr::exports {
 
 std::string flagWords(std::uint16_t flags) {
   static const std::array<std::pair<std::uint16_t, const char*>, 12> kWords = {{
-      {taxel_flag::kSaturated, "SATURATED"},
-      {taxel_flag::kDead, "DEAD"},
-      {taxel_flag::kStuck, "STUCK"},
-      {taxel_flag::kReadingExtrapolated, "READING_EXTRAPOLATED"},
-      {taxel_flag::kCurvatureExtrapolated, "CURVATURE_EXTRAPOLATED"},
-      {taxel_flag::kBetweenClasses, "BETWEEN_CLASSES"},
-      {taxel_flag::kFilled, "FILLED"},
-      {taxel_flag::kMasked, "MASKED"},
-      {taxel_flag::kLineFault, "LINE_FAULT"},
-      {taxel_flag::kTared, "TARED"},
-      {taxel_flag::kBelowRange, "BELOW_RANGE"},
-      {taxel_flag::kTemperatureExtrapolated, "TEMPERATURE_EXTRAPOLATED"},
+      {map::taxel_flag::kSaturated, "SATURATED"},
+      {map::taxel_flag::kDead, "DEAD"},
+      {map::taxel_flag::kStuck, "STUCK"},
+      {map::taxel_flag::kReadingExtrapolated, "READING_EXTRAPOLATED"},
+      {map::taxel_flag::kCurvatureExtrapolated, "CURVATURE_EXTRAPOLATED"},
+      {map::taxel_flag::kBetweenClasses, "BETWEEN_CLASSES"},
+      {map::taxel_flag::kFilled, "FILLED"},
+      {map::taxel_flag::kMasked, "MASKED"},
+      {map::taxel_flag::kLineFault, "LINE_FAULT"},
+      {map::taxel_flag::kTared, "TARED"},
+      {map::taxel_flag::kBelowRange, "BELOW_RANGE"},
+      {map::taxel_flag::kTemperatureExtrapolated, "TEMPERATURE_EXTRAPOLATED"},
   }};
   std::string words;
   for (const auto& [bit, word] : kWords) {
@@ -27,22 +27,22 @@ std::string flagWords(std::uint16_t flags) {
   return words.empty() ? "none" : words;
 }
 
-std::string stateWord(MapState state) {
+std::string stateWord(map::MapState state) {
   switch (state) {
-    case MapState::kOk:
+    case map::MapState::kOk:
       return "OK";
-    case MapState::kUncalibrated:
+    case map::MapState::kUncalibrated:
       return "UNCALIBRATED";
-    case MapState::kCurvatureUnknown:
+    case map::MapState::kCurvatureUnknown:
       return "CURVATURE_UNKNOWN";
-    case MapState::kCurvatureStale:
+    case map::MapState::kCurvatureStale:
       return "CURVATURE_STALE";
-    case MapState::kSizeMismatch:
+    case map::MapState::kSizeMismatch:
       return "SIZE_MISMATCH";
-    case MapState::kWrongSensor:
+    case map::MapState::kWrongSensor:
       return "WRONG_SENSOR";
   }
   return "UNKNOWN";
 }
 
-}  // namespace fsr
+}  // namespace fsr::exports

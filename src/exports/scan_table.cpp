@@ -1,13 +1,14 @@
-#include "fsr_pressure_map/exports/scan_table.h"
+#include "exports/scan_table.h"
 
 #include <algorithm>
 
-#include "archive_layout.h"
+#include "exports/archive_layout.h"
 
-namespace fsr {
+namespace fsr::exports {
+
+using hdf5::ColumnWriter;
 
 using hdf5::ColumnPlan;
-using hdf5::ColumnWriter;
 
 namespace {
 
@@ -90,4 +91,4 @@ void ScanTable::finish() {
   });
 }
 
-}  // namespace fsr
+}  // namespace fsr::exports

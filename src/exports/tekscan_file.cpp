@@ -1,14 +1,14 @@
-#include "fsr_pressure_map/exports/tekscan_file.h"
+#include "exports/tekscan_file.h"
 
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
 
-#include "fsr_pressure_map/exports/exact_text.h"
+#include "exports/exact_text.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::exports {
 
 namespace {
 
@@ -100,9 +100,9 @@ void TekscanFile::add(const ScanRecord& scan) {
     file_.write(header(scan));
   }
   if (scan.layout.size != layout_.size) {
-    throw InputError(subject_.name + ": the matrix changes from " + sizeText(layout_.size) + " to " +
-                     sizeText(scan.layout.size) +
-                     " taxels, but a Tekscan file has one size; cut with --until");
+    throw settings::InputError(subject_.name + ": the matrix changes from " + matrix::sizeText(layout_.size) +
+                               " to " + matrix::sizeText(scan.layout.size) +
+                               " taxels, but a Tekscan file has one size; cut with --until");
   }
   times_.push_back(scan.since_ns);
   std::string text = "Frame " + std::to_string(times_.size()) + kEnd;
@@ -115,7 +115,8 @@ void TekscanFile::add(const ScanRecord& scan) {
 
 void TekscanFile::finish() {
   const std::size_t frames = times_.size();
-  if (frames == 0) throw InputError(path_ + ": there is no scan to write; widen --from and --until");
+  if (frames == 0)
+    throw settings::InputError(path_ + ": there is no scan to write; widen --from and --until");
   const double span = 1e-9 * static_cast<double>(times_.back() - times_.front());
   std::string text = std::string("@@") + kEnd;
   for (std::size_t i = 0; i < frames; ++i) {
@@ -128,4 +129,4 @@ void TekscanFile::finish() {
   file_.finish();
 }
 
-}  // namespace fsr
+}  // namespace fsr::exports

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/exports/video_file.h"
+#include "exports/video_file.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -14,12 +14,12 @@
 #include <sstream>
 #include <vector>
 
-#include "fsr_pressure_map/exports/exact_text.h"
+#include "exports/exact_text.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
 extern char** environ;
 
-namespace fsr {
+namespace fsr::exports {
 
 namespace {
 
@@ -35,11 +35,12 @@ std::string formatOf(const std::string& path) {
   if (found != formats().end()) return found->second;
   std::string endings;
   for (const auto& format : formats()) endings += ", " + format.first;
-  throw InputError(path + ": a movie's name must end with .png (animated, needs no other program)" + endings);
+  throw settings::InputError(path + ": a movie's name must end with .png (animated, needs no other program)" +
+                             endings);
 }
 
-std::vector<std::string> arguments(const std::string& format, const std::string& output, const Image& image,
-                                   double rate) {
+std::vector<std::string> arguments(const std::string& format, const std::string& output,
+                                   const view::Image& image, double rate) {
   const std::string size = std::to_string(image.width()) + "x" + std::to_string(image.height());
   std::vector<std::string> words = {"ffmpeg", "-nostdin",   "-loglevel",     "error", "-y",
                                     "-f",     "rawvideo",   "-pixel_format", "rgb24", "-video_size",
@@ -123,10 +124,10 @@ class VideoFile::Encoder {
  private:
   [[noreturn]] void fail(int error) {
     std::signal(SIGPIPE, old_handler_);
-    throw InputError(error == ENOENT
-                         ? "ffmpeg is not installed (Debian package ffmpeg); give --output NAME.png for an "
-                           "animated PNG, which needs no other program"
-                         : std::string("ffmpeg does not start: ") + std::strerror(error));
+    throw settings::InputError(
+        error == ENOENT ? "ffmpeg is not installed (Debian package ffmpeg); give --output NAME.png for an "
+                          "animated PNG, which needs no other program"
+                        : std::string("ffmpeg does not start: ") + std::strerror(error));
   }
 
   void (*old_handler_)(int);  // of writing to a program that has ended
@@ -144,14 +145,14 @@ VideoFile::VideoFile(const std::string& path, const PictureOptions& options)
 VideoFile::~VideoFile() = default;
 
 // Frames come evenly: a picture is shown until the next one's time.
-void VideoFile::picture(std::int64_t since_ns, const Image& image) {
+void VideoFile::picture(std::int64_t since_ns, const view::Image& image) {
   if (!encoder_) {
     encoder_ = std::make_unique<Encoder>(arguments(formatOf(path_), fresh_.name(), image, options().rate));
     first_ns_ = since_ns;
   }
   const std::int64_t due = std::llround(1e-9 * static_cast<double>(since_ns - first_ns_) * options().rate);
   for (; shown_ && frames_ < due; ++frames_) {
-    if (!encoder_->write(shown_->bytes())) throw InputError(path_ + ": " + encoder_->wait());
+    if (!encoder_->write(shown_->bytes())) throw settings::InputError(path_ + ": " + encoder_->wait());
   }
   shown_ = image;
 }
@@ -159,8 +160,8 @@ void VideoFile::picture(std::int64_t since_ns, const Image& image) {
 void VideoFile::finish() {
   const bool written = shown_ && encoder_->write(shown_->bytes());
   const std::string complaint = encoder_ ? encoder_->wait() : "holds no picture";
-  if (!written || !complaint.empty()) throw InputError(path_ + ": " + complaint);
+  if (!written || !complaint.empty()) throw settings::InputError(path_ + ": " + complaint);
   fresh_.finish();
 }
 
-}  // namespace fsr
+}  // namespace fsr::exports

@@ -1,15 +1,15 @@
-#include "fsr_pressure_map/health/recording_health.h"
+#include "health/recording_health.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace fsr {
+namespace fsr::health {
 
 namespace {
 
 constexpr double kOften = 0.01;  // of the scans
 
-bool masked(const Recording& recording, std::size_t taxel) {
+bool masked(const dataset::Recording& recording, std::size_t taxel) {
   return !recording.mask.empty() && recording.mask[taxel] != 0;
 }
 
@@ -18,10 +18,11 @@ void addOnce(std::vector<std::size_t>& list, std::size_t value) {
 }
 
 // Lines are told by their taxels: one that is flagged from end to end.
-void noteLines(const Recording& recording, const std::vector<std::uint16_t>& flags, RecordingHealth& health) {
-  const MatrixSize size = recording.layout.size;
+void noteLines(const dataset::Recording& recording, const std::vector<std::uint16_t>& flags,
+               RecordingHealth& health) {
+  const matrix::MatrixSize size = recording.layout.size;
   const auto fails = [&](std::size_t row, std::size_t column) {
-    return (flags[row * size.columns + column] & taxel_flag::kLineFault) != 0;
+    return (flags[row * size.columns + column] & map::taxel_flag::kLineFault) != 0;
   };
   for (std::size_t row = 0; row < size.rows; ++row) {
     bool whole = true;
@@ -35,17 +36,17 @@ void noteLines(const Recording& recording, const std::vector<std::uint16_t>& fla
   }
 }
 
-void noteFaults(const Recording& recording, const std::vector<std::uint16_t>& flags,
+void noteFaults(const dataset::Recording& recording, const std::vector<std::uint16_t>& flags,
                 RecordingHealth& health) {
   for (std::size_t t = 0; t < flags.size(); ++t) {
     if (masked(recording, t)) continue;
-    if ((flags[t] & taxel_flag::kDead) != 0) addOnce(health.dead, t);
-    if ((flags[t] & taxel_flag::kStuck) != 0) addOnce(health.stuck, t);
+    if ((flags[t] & map::taxel_flag::kDead) != 0) addOnce(health.dead, t);
+    if ((flags[t] & map::taxel_flag::kStuck) != 0) addOnce(health.stuck, t);
   }
   noteLines(recording, flags, health);
 }
 
-void countClipping(const Recording& recording, RecordingHealth& health) {
+void countClipping(const dataset::Recording& recording, RecordingHealth& health) {
   const std::size_t taxels = recording.layout.size.taxels();
   std::size_t readings = 0, clipped = 0;
   for (std::size_t t = 0; t < taxels; ++t) {
@@ -67,7 +68,7 @@ void countClipping(const Recording& recording, RecordingHealth& health) {
 
 }  // namespace
 
-RecordingHealth recordingHealth(const Recording& recording, const TaxelWatchOptions& options) {
+RecordingHealth recordingHealth(const dataset::Recording& recording, const TaxelWatchOptions& options) {
   RecordingHealth health;
   countClipping(recording, health);
   TaxelWatch watch(recording.layout.size, recording.full_scale, options);
@@ -80,4 +81,4 @@ RecordingHealth recordingHealth(const Recording& recording, const TaxelWatchOpti
   return health;
 }
 
-}  // namespace fsr
+}  // namespace fsr::health

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
-namespace fsr {
+namespace fsr::health {
 
 namespace {
 
-constexpr std::uint16_t kVerdict = taxel_flag::kDead | taxel_flag::kStuck;
+constexpr std::uint16_t kVerdict = map::taxel_flag::kDead | map::taxel_flag::kStuck;
 constexpr std::uint16_t kHighestCode = 65535;
 
 std::uint16_t codes(double share, std::uint16_t full_scale) {
@@ -17,7 +17,7 @@ std::uint16_t codes(double share, std::uint16_t full_scale) {
 
 }  // namespace
 
-TaxelWatch::TaxelWatch(MatrixSize size, std::uint16_t full_scale, const TaxelWatchOptions& options)
+TaxelWatch::TaxelWatch(matrix::MatrixSize size, std::uint16_t full_scale, const TaxelWatchOptions& options)
     : size_(size),
       full_scale_(full_scale),
       options_(options),
@@ -82,11 +82,11 @@ bool TaxelWatch::judge(std::uint16_t row, std::uint16_t column) noexcept {
   const std::uint16_t before = flags_[taxel] & kVerdict;
   std::uint16_t verdict = before;
   if (high <= floor_) {
-    if (2 * around.loaded > around.count) verdict = taxel_flag::kDead;
+    if (2 * around.loaded > around.count) verdict = map::taxel_flag::kDead;
   } else if (low != high) {
     verdict = 0;
   } else if (high < full_scale_ ? 2 * around.moved > around.count : isShort(taxel)) {
-    verdict = taxel_flag::kStuck;
+    verdict = map::taxel_flag::kStuck;
   }
   if (verdict == before) return false;
   if (verdict == 0) ++revivals_;
@@ -105,7 +105,7 @@ void TaxelWatch::noteFullScale(std::size_t taxel, const Neighbours& around) noex
 }
 
 bool TaxelWatch::judgeLines() noexcept {
-  for (std::uint16_t& flags : flags_) flags &= static_cast<std::uint16_t>(~taxel_flag::kLineFault);
+  for (std::uint16_t& flags : flags_) flags &= static_cast<std::uint16_t>(~map::taxel_flag::kLineFault);
   bool found = false;
   const std::size_t rows = size_.rows, columns = size_.columns;
   for (std::size_t row = 0; row < rows; ++row) {
@@ -121,7 +121,7 @@ bool TaxelWatch::flagLine(const Line& line) noexcept {
   const std::uint16_t verdict = line.count > 1 ? lineVerdict(line) : std::uint16_t{0};
   if (verdict == 0) return false;
   for (std::size_t i = 0; i < line.count; ++i) {
-    flags_[line.first + i * line.step] |= static_cast<std::uint16_t>(verdict | taxel_flag::kLineFault);
+    flags_[line.first + i * line.step] |= static_cast<std::uint16_t>(verdict | map::taxel_flag::kLineFault);
   }
   return true;
 }
@@ -130,7 +130,7 @@ bool TaxelWatch::flagLine(const Line& line) noexcept {
 std::uint16_t TaxelWatch::lineVerdict(const Line& line) const noexcept {
   std::uint16_t common = kVerdict;
   for (std::size_t i = 0; i < line.count; ++i) common &= flags_[line.first + i * line.step];
-  if (common == 0 && isShorted(line)) return taxel_flag::kStuck;
+  if (common == 0 && isShorted(line)) return map::taxel_flag::kStuck;
   return common;
 }
 
@@ -162,4 +162,4 @@ TaxelWatch::Neighbours TaxelWatch::neighbours(std::uint16_t row, std::uint16_t c
   return result;
 }
 
-}  // namespace fsr
+}  // namespace fsr::health

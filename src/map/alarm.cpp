@@ -5,7 +5,7 @@
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/map/region.h"
 
-namespace fsr {
+namespace fsr::map {
 
 namespace {
 
@@ -71,4 +71,4 @@ AlarmState Alarm::stale() {
   return AlarmState::kUnknown;
 }
 
-}  // namespace fsr
+}  // namespace fsr::map

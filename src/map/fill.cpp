@@ -1,9 +1,9 @@
-#include "fsr_pressure_map/map/fill.h"
+#include "map/fill.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace fsr {
+namespace fsr::map {
 
 namespace {
 
@@ -26,7 +26,7 @@ struct Sums {
 };
 
 Sums goodNeighbours(const PressureMap& map, std::size_t taxel) {
-  const Layout& layout = map.layout;
+  const matrix::Layout& layout = map.layout;
   const int row = layout.row({taxel});
   const int column = layout.column({taxel});
   Sums sums;
@@ -55,4 +55,4 @@ void fillFromNeighbours(PressureMap& map, const std::vector<std::size_t>& taxels
   }
 }
 
-}  // namespace fsr
+}  // namespace fsr::map

@@ -5,7 +5,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::map {
 
 namespace {
 
@@ -14,9 +14,10 @@ void requireOneSize(const PressureMap& map, const Region& region, const std::vec
   const bool fits = map.pressure.size() == n && map.flags.size() == n && areas.size() == n &&
                     (region.mask.empty() || region.mask.size() == n);
   if (fits) return;
-  throw InputError("statistics of region \"" + region.name + "\": its mask has " +
-                   std::to_string(region.mask.size()) + " values and there are " +
-                   std::to_string(areas.size()) + " areas, but the map is " + sizeText(map.layout.size));
+  throw settings::InputError("statistics of region \"" + region.name + "\": its mask has " +
+                             std::to_string(region.mask.size()) + " values and there are " +
+                             std::to_string(areas.size()) + " areas, but the map is " +
+                             matrix::sizeText(map.layout.size));
 }
 
 /// Area-weighted sums over the contact.
@@ -26,7 +27,7 @@ struct ContactSums {
   double squared = 0;   // [Pa^2 m^2]
   double x = 0, y = 0;  // [N m]
 
-  void add(double pressure, double taxel_area, const Position& position) {
+  void add(double pressure, double taxel_area, const matrix::Position& position) {
     area += taxel_area;
     force += pressure * taxel_area;
     squared += pressure * pressure * taxel_area;
@@ -41,7 +42,7 @@ void finish(const ContactSums& sums, bool any_reading, RegionStatistics& result)
   if (!(sums.area > 0)) return;
   result.mean = sums.force / sums.area;
   result.standard_deviation = std::sqrt(std::max(0.0, sums.squared / sums.area - result.mean * result.mean));
-  if (sums.force > 0) result.centre = Position{sums.x / sums.force, sums.y / sums.force};
+  if (sums.force > 0) result.centre = matrix::Position{sums.x / sums.force, sums.y / sums.force};
 }
 
 AlarmState worse(AlarmState a, AlarmState b) {
@@ -169,4 +170,4 @@ std::vector<RegionStatistics> MapStatistics::stale() {
   return result;
 }
 
-}  // namespace fsr
+}  // namespace fsr::map

@@ -2,9 +2,9 @@
 
 #include <limits>
 
-namespace fsr {
+namespace fsr::map {
 
-void PressureMap::reset(const Layout& new_layout) {
+void PressureMap::reset(const matrix::Layout& new_layout) {
   layout = new_layout;
   const std::size_t n = layout.size.taxels();
   pressure.assign(n, std::numeric_limits<float>::quiet_NaN());
@@ -12,4 +12,4 @@ void PressureMap::reset(const Layout& new_layout) {
   flags.assign(n, 0);
 }
 
-}  // namespace fsr
+}  // namespace fsr::map

@@ -6,17 +6,17 @@
 
 #include "fsr_pressure_map/settings/settings.h"
 
-namespace fsr {
+namespace fsr::map {
 
 namespace {
 
 constexpr double kMaxPressure = 10e6;  // [Pa]
 constexpr double kMaxDwell = 3600;     // [s]
 
-AlarmOptions readAlarm(const Settings& owner) {
+AlarmOptions readAlarm(const settings::Settings& owner) {
   AlarmOptions alarm;
   if (!owner.has("alarm")) return alarm;
-  const Settings settings = owner.section("alarm");
+  const settings::Settings settings = owner.section("alarm");
   alarm.threshold = settings.number("threshold", {1, kMaxPressure, "Pa"});
   alarm.dwell = settings.number("dwell", {0, kMaxDwell, "s"}, alarm.dwell);
   alarm.hysteresis = settings.number("hysteresis", {0, alarm.threshold, "Pa"}, alarm.hysteresis);
@@ -24,7 +24,7 @@ AlarmOptions readAlarm(const Settings& owner) {
 }
 
 // First and last index of `key`, or all of them where it is left out.
-std::pair<int, int> readSpan(const Settings& settings, const std::string& key, int count) {
+std::pair<int, int> readSpan(const settings::Settings& settings, const std::string& key, int count) {
   if (!settings.has(key)) return {0, count - 1};
   const std::vector<double> span = settings.numbers(key, {0, double(count - 1)});
   const bool whole = span.size() == 2 && std::floor(span[0]) == span[0] && std::floor(span[1]) == span[1];
@@ -34,7 +34,7 @@ std::pair<int, int> readSpan(const Settings& settings, const std::string& key, i
   return {static_cast<int>(span[0]), static_cast<int>(span[1])};
 }
 
-std::vector<std::uint8_t> rectangle(const Settings& settings, MatrixSize size) {
+std::vector<std::uint8_t> rectangle(const settings::Settings& settings, matrix::MatrixSize size) {
   if (!settings.has("rows") && !settings.has("columns")) {
     throw settings.error("name", "has neither rows and columns nor a mask");
   }
@@ -47,7 +47,7 @@ std::vector<std::uint8_t> rectangle(const Settings& settings, MatrixSize size) {
   return mask;
 }
 
-std::vector<std::uint8_t> picture(const Settings& settings, MatrixSize size) {
+std::vector<std::uint8_t> picture(const settings::Settings& settings, matrix::MatrixSize size) {
   std::istringstream lines(settings.text("mask"));
   std::vector<std::uint8_t> mask;
   bool fits = true;
@@ -60,10 +60,10 @@ std::vector<std::uint8_t> picture(const Settings& settings, MatrixSize size) {
   }
   if (fits && mask.size() == size.taxels()) return mask;
   throw settings.error("mask", "must have one line for each row and one character for each column of the " +
-                                   sizeText(size) + " matrix");
+                                   matrix::sizeText(size) + " matrix");
 }
 
-Region readRegion(const Settings& settings, MatrixSize size) {
+Region readRegion(const settings::Settings& settings, matrix::MatrixSize size) {
   Region region;
   region.name = settings.text("name");
   if (region.name.empty()) throw settings.error("name", "must not be empty: that is the whole matrix");
@@ -72,12 +72,12 @@ Region readRegion(const Settings& settings, MatrixSize size) {
   return region;
 }
 
-std::vector<Region> readAll(const Settings& settings, MatrixSize size) {
+std::vector<Region> readAll(const settings::Settings& settings, matrix::MatrixSize size) {
   std::vector<Region> regions(1);
   regions.front().alarm = readAlarm(settings);
   std::set<std::string> names;
   if (settings.has("regions")) {
-    for (const Settings& entry : settings.sections("regions")) {
+    for (const settings::Settings& entry : settings.sections("regions")) {
       regions.push_back(readRegion(entry, size));
       if (!names.insert(regions.back().name).second) throw entry.error("name", "is used twice");
     }
@@ -88,12 +88,12 @@ std::vector<Region> readAll(const Settings& settings, MatrixSize size) {
 
 }  // namespace
 
-std::vector<Region> readRegionFile(const std::string& path, MatrixSize size) {
-  return readAll(Settings::fromFile(path), size);
+std::vector<Region> readRegionFile(const std::string& path, matrix::MatrixSize size) {
+  return readAll(settings::Settings::fromFile(path), size);
 }
 
-std::vector<Region> readRegions(const std::string& yaml, const std::string& origin, MatrixSize size) {
-  return readAll(Settings::fromText(yaml, origin), size);
+std::vector<Region> readRegions(const std::string& yaml, const std::string& origin, matrix::MatrixSize size) {
+  return readAll(settings::Settings::fromText(yaml, origin), size);
 }
 
-}  // namespace fsr
+}  // namespace fsr::map

@@ -5,7 +5,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::matrix {
 
 bool operator==(const Curvature& a, const Curvature& b) {
   return a.x == b.x && a.y == b.y && a.xy == b.xy;
@@ -20,9 +20,10 @@ double principalCurvature(const Curvature& curvature) {
 void requireFit(const Surface& surface, MatrixSize size) {
   for (const std::size_t values : {surface.curvature.size(), surface.deviation.size()}) {
     if (values > 1 && values != size.taxels()) {
-      throw InputError("surface \"" + surface.name + "\" has " + std::to_string(values) +
-                       " values, but must have one, or one for each of the " + std::to_string(size.taxels()) +
-                       " taxels of a " + sizeText(size) + " matrix");
+      throw settings::InputError("surface \"" + surface.name + "\" has " + std::to_string(values) +
+                                 " values, but must have one, or one for each of the " +
+                                 std::to_string(size.taxels()) + " taxels of a " + sizeText(size) +
+                                 " matrix");
     }
   }
 }
@@ -31,4 +32,4 @@ bool sameCondition(const Surface& a, const Surface& b) {
   return a.name == b.name && a.mount == b.mount && a.curvature == b.curvature;
 }
 
-}  // namespace fsr
+}  // namespace fsr::matrix

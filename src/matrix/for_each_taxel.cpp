@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/matrix/for_each_taxel.h"
+#include "matrix/for_each_taxel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace fsr {
+namespace fsr::matrix {
 
 void forEachTaxel(std::size_t taxels, unsigned threads, const std::function<void(std::size_t)>& work) {
   std::vector<std::exception_ptr> failure(taxels);
@@ -30,4 +30,4 @@ void forEachTaxel(std::size_t taxels, unsigned threads, const std::function<void
   }
 }
 
-}  // namespace fsr
+}  // namespace fsr::matrix

@@ -1,6 +1,6 @@
 #include "fsr_pressure_map/matrix/layout.h"
 
-namespace fsr {
+namespace fsr::matrix {
 
 std::string sizeText(MatrixSize size) {
   return std::to_string(size.rows) + " x " + std::to_string(size.columns);
@@ -23,4 +23,4 @@ Position Layout::position(TaxelIndex taxel) const {
           pitch_y * (row(taxel) - 0.5 * (size.rows - 1))};
 }
 
-}  // namespace fsr
+}  // namespace fsr::matrix

@@ -1,12 +1,12 @@
-#include "fsr_pressure_map/matrix/surface_file.h"
+#include "matrix/surface_file.h"
 
-namespace fsr {
+namespace fsr::matrix {
 
 namespace {
 
-const Range kCurvatureRange{-kMaxCurvature, kMaxCurvature, "1/m (a bend radius of 10 mm or more)"};
+const settings::Range kCurvatureRange{-kMaxCurvature, kMaxCurvature, "1/m (a bend radius of 10 mm or more)"};
 
-Curvature cylinder(const Settings& settings) {
+Curvature cylinder(const settings::Settings& settings) {
   const double radius = settings.number("radius", {1.0 / kMaxCurvature, 1000.0, "m"});
   const bool along_y = settings.choice("axis", {"x", "y"}) == "y";
   const bool outside = settings.choice("side", {"outside", "inside"}, "outside") == "outside";
@@ -14,12 +14,13 @@ Curvature cylinder(const Settings& settings) {
   return along_y ? Curvature{bend, 0, 0} : Curvature{0, bend, 0};
 }
 
-Curvature twoPlanes(const Settings& settings) {
+Curvature twoPlanes(const settings::Settings& settings) {
   return {settings.number("x", kCurvatureRange), settings.number("y", kCurvatureRange),
           settings.number("xy", kCurvatureRange, 0.0)};
 }
 
-std::vector<double> oneForEachTaxel(const Settings& settings, const std::string& key, MatrixSize size) {
+std::vector<double> oneForEachTaxel(const settings::Settings& settings, const std::string& key,
+                                    MatrixSize size) {
   const std::vector<double> values = settings.numbers(key, kCurvatureRange);
   if (values.size() != size.taxels()) {
     throw settings.error(key, "must have one value for each of the " + std::to_string(size.taxels()) +
@@ -28,7 +29,7 @@ std::vector<double> oneForEachTaxel(const Settings& settings, const std::string&
   return values;
 }
 
-std::vector<Curvature> taxelByTaxel(const Settings& settings, MatrixSize size) {
+std::vector<Curvature> taxelByTaxel(const settings::Settings& settings, MatrixSize size) {
   std::vector<Curvature> result(size.taxels());
   const auto x = oneForEachTaxel(settings, "x", size);
   const auto y =
@@ -39,15 +40,16 @@ std::vector<Curvature> taxelByTaxel(const Settings& settings, MatrixSize size) {
   return result;
 }
 
-int countForms(const Settings& settings) {
+int countForms(const settings::Settings& settings) {
   return int{settings.has("flat")} + int{settings.has("cylinder")} + int{settings.has("two_planes")} +
          int{settings.has("taxels")};
 }
 
-std::vector<Curvature> readForm(const Settings& settings, MatrixSize size) {
+std::vector<Curvature> readForm(const settings::Settings& settings, MatrixSize size) {
   if (countForms(settings) != 1) {
-    throw InputError(settings.origin() + ": the surface has " + std::to_string(countForms(settings)) +
-                     " forms, but exactly one of flat, cylinder, two_planes, taxels must be given");
+    throw settings::InputError(settings.origin() + ": the surface has " +
+                               std::to_string(countForms(settings)) +
+                               " forms, but exactly one of flat, cylinder, two_planes, taxels must be given");
   }
   if (settings.has("cylinder")) return {cylinder(settings.section("cylinder"))};
   if (settings.has("two_planes")) return {twoPlanes(settings.section("two_planes"))};
@@ -58,7 +60,7 @@ std::vector<Curvature> readForm(const Settings& settings, MatrixSize size) {
 
 }  // namespace
 
-Surface readSurface(const Settings& settings, MatrixSize size) {
+Surface readSurface(const settings::Settings& settings, MatrixSize size) {
   Surface surface;
   surface.name = settings.text("surface");
   surface.curvature = readForm(settings, size);
@@ -68,15 +70,15 @@ Surface readSurface(const Settings& settings, MatrixSize size) {
   return surface;
 }
 
-bool hasSurfaceForm(const Settings& settings) {
+bool hasSurfaceForm(const settings::Settings& settings) {
   return countForms(settings) > 0;
 }
 
 Surface readSurfaceFile(const std::string& path, MatrixSize size) {
-  const Settings settings = Settings::fromFile(path);
+  const settings::Settings settings = settings::Settings::fromFile(path);
   const Surface surface = readSurface(settings, size);
   settings.refuseUnknown();
   return surface;
 }
 
-}  // namespace fsr
+}  // namespace fsr::matrix

@@ -1,7 +1,7 @@
 #include <ros/ros.h>
 
-#include "fsr_pressure_map/ros/driver.h"
-#include "fsr_pressure_map/ros/parameters.h"
+#include "ros/live/driver.h"
+#include "ros/live/parameters.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "driver");

@@ -1,7 +1,7 @@
 #include <ros/ros.h>
 
-#include "fsr_pressure_map/ros/limb_server.h"
-#include "fsr_pressure_map/ros/parameters.h"
+#include "ros/live/limb_server.h"
+#include "ros/live/parameters.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "limb");

@@ -1,7 +1,7 @@
 #include <ros/ros.h>
 
-#include "fsr_pressure_map/ros/parameters.h"
-#include "fsr_pressure_map/ros/recorder.h"
+#include "ros/live/parameters.h"
+#include "ros/live/recorder.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "record");

@@ -1,7 +1,7 @@
 #include <ros/ros.h>
 
-#include "fsr_pressure_map/ros/parameters.h"
-#include "fsr_pressure_map/ros/rig_emulator.h"
+#include "ros/live/parameters.h"
+#include "ros/live/rig_emulator.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "rig_emulator");

@@ -1,8 +1,8 @@
-#include "fsr_pressure_map/protocol/board_gate.h"
+#include "protocol/board_gate.h"
 
 #include <utility>
 
-namespace fsr {
+namespace fsr::protocol {
 
 void BoardGate::doubt() {
   doubted_ = known_;
@@ -37,4 +37,4 @@ bool BoardGate::gaveUp() {
   return std::exchange(gave_up_, false);
 }
 
-}  // namespace fsr
+}  // namespace fsr::protocol

@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/protocol/board_reader.h"
+#include "protocol/board_reader.h"
 
 #include <sys/resource.h>
 
 #include <utility>
 
-namespace fsr {
+namespace fsr::protocol {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
@@ -163,4 +163,4 @@ void BoardReader::pause(std::optional<std::chrono::milliseconds> longest) {
   }
 }
 
-}  // namespace fsr
+}  // namespace fsr::protocol

@@ -5,10 +5,10 @@
 #include <thread>
 #include <utility>
 
-#include "fsr_pressure_map/protocol/capture.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "protocol/capture.h"
 
-namespace fsr {
+namespace fsr::protocol {
 namespace {
 
 std::uint64_t get(const std::uint8_t* at, int bytes) {
@@ -26,12 +26,13 @@ std::size_t readUpTo(std::ifstream& file, std::uint8_t* bytes, std::size_t size)
 }  // namespace
 
 CaptureReader::CaptureReader(const std::string& path) : path_(path), file_(path, std::ios::binary) {
-  if (!file_) throw InputError("capture " + path + " cannot be read (" + std::strerror(errno) + ")");
+  if (!file_)
+    throw settings::InputError("capture " + path + " cannot be read (" + std::strerror(errno) + ")");
   std::array<std::uint8_t, capture::kFileHeader> header{};
   const std::size_t size = readUpTo(file_, header.data(), header.size());
   if (size < header.size() || std::memcmp(header.data(), capture::kMagic, 8) != 0) {
-    throw InputError("capture " + path + " does not start with " + capture::kMagic +
-                     ": name a file that the driver's capture_file wrote");
+    throw settings::InputError("capture " + path + " does not start with " + capture::kMagic +
+                               ": name a file that the driver's capture_file wrote");
   }
   baud_ = static_cast<std::uint32_t>(get(header.data() + 8, 4));
   offset_ = header.size();
@@ -97,4 +98,4 @@ bool PacedSource::due(std::chrono::milliseconds timeout) const {
   return true;
 }
 
-}  // namespace fsr
+}  // namespace fsr::protocol

@@ -6,10 +6,10 @@
 #include <cerrno>
 #include <cstring>
 
-#include "fsr_pressure_map/protocol/capture.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "protocol/capture.h"
 
-namespace fsr {
+namespace fsr::protocol {
 namespace {
 
 void put(std::uint8_t* at, std::uint64_t value, int bytes) {
@@ -26,12 +26,12 @@ std::string openComplaint(const std::string& path) {
 
 CaptureWriter::CaptureWriter(const std::string& path) : path_(path) {
   descriptor_ = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (descriptor_ < 0) throw InputError(openComplaint(path));
+  if (descriptor_ < 0) throw settings::InputError(openComplaint(path));
   std::array<std::uint8_t, capture::kFileHeader> header{};
   std::memcpy(header.data(), capture::kMagic, 8);
   if (::write(descriptor_, header.data(), header.size()) == static_cast<ssize_t>(header.size())) return;
   close(descriptor_);
-  throw InputError(openComplaint(path));
+  throw settings::InputError(openComplaint(path));
 }
 
 CaptureWriter::~CaptureWriter() {
@@ -60,4 +60,4 @@ void CaptureWriter::check(std::int64_t written, std::size_t size) const {
                   "): what it holds so far is good");
 }
 
-}  // namespace fsr
+}  // namespace fsr::protocol

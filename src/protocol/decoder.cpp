@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cstring>
 
-namespace fsr {
+namespace fsr::protocol {
 namespace {
 
-static_assert(kMaxMatrixSide == FSR_WIRE_MAX_SIDE, "the wire format carries every matrix of the package");
+static_assert(matrix::kMaxMatrixSide == FSR_WIRE_MAX_SIDE,
+              "the wire format carries every matrix of the package");
 
 std::uint16_t get16(const std::uint8_t* at) {
   return static_cast<std::uint16_t>(at[0] | (at[1] << 8));
@@ -37,9 +38,9 @@ bool lengthFits(unsigned type, std::size_t length) {
   }
 }
 
-bool sizeIsPossible(MatrixSize size, std::uint16_t full_scale) {
-  return size.rows >= 1 && size.rows <= kMaxMatrixSide && size.columns >= 1 &&
-         size.columns <= kMaxMatrixSide && full_scale >= 1;
+bool sizeIsPossible(matrix::MatrixSize size, std::uint16_t full_scale) {
+  return size.rows >= 1 && size.rows <= matrix::kMaxMatrixSide && size.columns >= 1 &&
+         size.columns <= matrix::kMaxMatrixSide && full_scale >= 1;
 }
 
 }  // namespace
@@ -197,4 +198,4 @@ bool Decoder::deliverIdentity(const PacketHeader& header, const std::uint8_t* pa
   return true;
 }
 
-}  // namespace fsr
+}  // namespace fsr::protocol

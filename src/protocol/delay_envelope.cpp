@@ -1,8 +1,8 @@
-#include "fsr_pressure_map/protocol/delay_envelope.h"
+#include "protocol/delay_envelope.h"
 
 #include <algorithm>
 
-namespace fsr {
+namespace fsr::protocol {
 
 void DelayEnvelope::clear() {
   used_ = 0;
@@ -76,4 +76,4 @@ void DelayEnvelope::fit() {
   for (std::size_t i = 1; i < used_; ++i) offset_ = std::min(offset_, height(lowest_[i]));
 }
 
-}  // namespace fsr
+}  // namespace fsr::protocol

@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/protocol/device_clock.h"
+#include "protocol/device_clock.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace fsr {
+namespace fsr::protocol {
 namespace {
 
 constexpr double kSecond = 1e9;  // [ns]
@@ -106,4 +106,4 @@ std::int64_t StampSequence::next(std::int64_t host_time, std::uint64_t device_ti
   return host_time;
 }
 
-}  // namespace fsr
+}  // namespace fsr::protocol

@@ -1,6 +1,6 @@
-#include "fsr_pressure_map/protocol/packet_stamper.h"
+#include "protocol/packet_stamper.h"
 
-namespace fsr {
+namespace fsr::protocol {
 
 void PacketStamper::startLine(std::uint32_t baud) {
   baud_ = baud;
@@ -32,4 +32,4 @@ PacketTime PacketStamper::finish(unsigned type, std::uint64_t device_time) {
   return {sequences_.at(type - FSR_WIRE_SCAN).next(host_time, device_time), device_time};
 }
 
-}  // namespace fsr
+}  // namespace fsr::protocol

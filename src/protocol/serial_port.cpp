@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/protocol/serial_port.h"
+#include "protocol/serial_port.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -12,7 +12,7 @@
 #include <cstring>
 #include <utility>
 
-namespace fsr {
+namespace fsr::protocol {
 
 // Any rate, in serial_speed.cpp. False with errno set on failure.
 bool setUnnamedSpeed(int descriptor, std::uint32_t baud);
@@ -101,4 +101,4 @@ Chunk SerialPort::read(std::uint8_t* buffer, std::size_t capacity, std::chrono::
   fail("was unplugged or switched off");
 }
 
-}  // namespace fsr
+}  // namespace fsr::protocol

@@ -6,9 +6,9 @@
 #include <cstring>
 #include <filesystem>
 
-#include "fsr_pressure_map/protocol/serial_port.h"
+#include "protocol/serial_port.h"
 
-namespace fsr {
+namespace fsr::protocol {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,4 +86,4 @@ std::string explainOpenError(const std::string& path, int error) {
   }
 }
 
-}  // namespace fsr
+}  // namespace fsr::protocol

@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <cstdint>
 
-namespace fsr {
+namespace fsr::protocol {
 
 // BOTHER takes any rate; the kernel writes back the one that the hardware really made.
 bool setUnnamedSpeed(int descriptor, std::uint32_t baud) {
@@ -23,4 +23,4 @@ bool setUnnamedSpeed(int descriptor, std::uint32_t baud) {
   return close_enough;
 }
 
-}  // namespace fsr
+}  // namespace fsr::protocol

@@ -1,9 +1,9 @@
-#include "fsr_pressure_map/protocol/trimmed_delay.h"
+#include "protocol/trimmed_delay.h"
 
 #include <algorithm>
 #include <numeric>
 
-namespace fsr {
+namespace fsr::protocol {
 
 void TrimmedDelay::clear() {
   used_ = next_ = fresh_ = 0;
@@ -32,4 +32,4 @@ void TrimmedDelay::average() {
   value_ = std::accumulate(low, high, 0.0) / static_cast<double>(high - low);
 }
 
-}  // namespace fsr
+}  // namespace fsr::protocol

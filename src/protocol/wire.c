@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/protocol/wire.h"
+#include "wire.h"
 
 static uint8_t* put8(uint8_t* at, uint8_t value) {
   *at = value;

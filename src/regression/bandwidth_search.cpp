@@ -1,9 +1,9 @@
-#include "fsr_pressure_map/regression/bandwidth_search.h"
+#include "regression/bandwidth_search.h"
 
 #include <cmath>
 #include <utility>
 
-namespace fsr {
+namespace fsr::regression {
 
 namespace {
 
@@ -123,4 +123,4 @@ TunedModel crossValidateTuned(const std::vector<CodeStatistics>& sections, std::
   return tuned;
 }
 
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -5,7 +5,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::regression {
 
 void CodeSamples::append(const CodeSamples& other) {
   code.insert(code.end(), other.code.begin(), other.code.end());
@@ -16,15 +16,16 @@ void CodeSamples::append(const CodeSamples& other) {
 void validate(const CodeSamples& samples) {
   const bool curvature_fits = samples.curvature.empty() || samples.curvature.size() == samples.size();
   if (samples.pressure.size() != samples.size() || !curvature_fits) {
-    throw InputError("training readings are " + std::to_string(samples.size()) + " codes with " +
-                     std::to_string(samples.pressure.size()) + " pressures and " +
-                     std::to_string(samples.curvature.size()) +
-                     " curvatures, but each code must have a pressure, and a curvature each or none");
+    throw settings::InputError(
+        "training readings are " + std::to_string(samples.size()) + " codes with " +
+        std::to_string(samples.pressure.size()) + " pressures and " +
+        std::to_string(samples.curvature.size()) +
+        " curvatures, but each code must have a pressure, and a curvature each or none");
   }
   const auto highest = std::max_element(samples.code.begin(), samples.code.end());
   if (highest != samples.code.end() && *highest > samples.full_scale) {
-    throw InputError("a count is " + std::to_string(*highest) + ", but the converter's full scale is " +
-                     std::to_string(samples.full_scale));
+    throw settings::InputError("a count is " + std::to_string(*highest) +
+                               ", but the converter's full scale is " + std::to_string(samples.full_scale));
   }
 }
 
@@ -42,4 +43,4 @@ CodeHistogram histogramOf(const CodeSamples& samples) {
   return histogram;
 }
 
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -7,18 +7,18 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::regression {
 
 namespace {
 
 [[noreturn]] void refuseOverflow(std::uint16_t code) {
-  throw InputError("code " + std::to_string(code) +
-                   " occurs more often than its sums can hold; train on fewer scans");
+  throw settings::InputError("code " + std::to_string(code) +
+                             " occurs more often than its sums can hold; train on fewer scans");
 }
 
 [[noreturn]] void refuseCode(std::uint16_t code, std::size_t full_scale) {
-  throw InputError("a count is " + std::to_string(code) + ", but the converter's full scale is " +
-                   std::to_string(full_scale));
+  throw settings::InputError("a count is " + std::to_string(code) + ", but the converter's full scale is " +
+                             std::to_string(full_scale));
 }
 
 // Adds b's sums to a's; exact, or refused.
@@ -33,8 +33,8 @@ void addSums(CodeSums& a, const CodeSums& b) {
 
 FixedPressure toFixed(double pressure) {
   if (!(std::abs(pressure) <= kLargestPressure)) {
-    throw InputError("a pressure is " + std::to_string(pressure) + " Pa, but must lie within +-" +
-                     std::to_string(static_cast<std::int64_t>(kLargestPressure)) + " Pa gauge");
+    throw settings::InputError("a pressure is " + std::to_string(pressure) + " Pa, but must lie within +-" +
+                               std::to_string(static_cast<std::int64_t>(kLargestPressure)) + " Pa gauge");
   }
   return std::llround(pressure / kFixedPressureUnit);
 }
@@ -146,4 +146,4 @@ void CodeHistogram::add(const CodeHistogram& other) {
   samples_ += other.samples_;
 }
 
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/regression/cross_validation.h"
+#include "regression/cross_validation.h"
 
 #include <algorithm>
 
-#include "fsr_pressure_map/regression/held_out_deviation.h"
+#include "regression/held_out_deviation.h"
 
-namespace fsr {
+namespace fsr::regression {
 
 namespace {
 
@@ -89,4 +89,4 @@ CrossValidatedModel crossValidateSamples(const std::vector<CodeSamples>& section
   return assembleModel(statistics, full_scale, whole, std::move(held_out), held_out_deviation);
 }
 
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/regression/deviation_scale.h"
+#include "regression/deviation_scale.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-namespace fsr {
+namespace fsr::regression {
 
 namespace {
 
@@ -75,4 +75,4 @@ std::vector<double> DeviationScale::factors() const {
   return factors;
 }
 
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -1,12 +1,12 @@
-#include "fsr_pressure_map/regression/held_out_deviation.h"
+#include "regression/held_out_deviation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "fsr_pressure_map/regression/deviation_scale.h"
+#include "regression/deviation_scale.h"
 
-namespace fsr {
+namespace fsr::regression {
 
 namespace {
 
@@ -146,4 +146,4 @@ std::vector<float> HeldOutErrors::deviation(const std::vector<double>& pressure,
   return deviation;
 }
 
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -1,6 +1,6 @@
-#include "fsr_pressure_map/regression/isotonic.h"
+#include "regression/isotonic.h"
 
-namespace fsr {
+namespace fsr::regression {
 
 std::vector<IsotonicBlock> isotonicRegression(const std::vector<double>& values,
                                               const std::vector<double>& weights) {
@@ -19,4 +19,4 @@ std::vector<IsotonicBlock> isotonicRegression(const std::vector<double>& values,
   return blocks;
 }
 
-}  // namespace fsr
+}  // namespace fsr::regression

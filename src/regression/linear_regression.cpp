@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/regression/linear_regression.h"
+#include "regression/linear_regression.h"
 
 #include <numeric>
 
-#include "fsr_pressure_map/regression/weighted_codes.h"
+#include "regression/grnn/weighted_codes.h"
 
-namespace fsr {
+namespace fsr::regression {
 
 namespace {
 
@@ -47,4 +47,4 @@ Fit LinearRegression::fit(const CodeHistogram& training) const {
   return fit;
 }
 
-}  // namespace fsr
+}  // namespace fsr::regression

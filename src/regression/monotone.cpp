@@ -1,12 +1,12 @@
-#include "fsr_pressure_map/regression/monotone.h"
+#include "regression/monotone.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/regression/isotonic.h"
-#include "fsr_pressure_map/regression/pressure_grid.h"
+#include "regression/isotonic.h"
+#include "regression/pressure_grid.h"
 
-namespace fsr {
+namespace fsr::regression {
 
 namespace {
 
@@ -183,4 +183,4 @@ Fit Monotone::fitSamples(const CodeSamples& training) const {
   return fit;
 }
 
-}  // namespace fsr
+}  // namespace fsr::regression

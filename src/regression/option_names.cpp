@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/option_names.h"
+#include "regression/option_names.h"
 
 #include <array>
 #include <locale>
@@ -7,7 +7,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::regression {
 
 namespace {
 
@@ -37,7 +37,8 @@ T fromName(const std::string& what, const std::string& name, const Words<T>& wor
   for (const auto& word : words) {
     if (name == word.second) return word.first;
   }
-  throw InputError(what + " is \"" + name + "\", but must be " + words[0].second + " or " + words[1].second);
+  throw settings::InputError(what + " is \"" + name + "\", but must be " + words[0].second + " or " +
+                             words[1].second);
 }
 
 }  // namespace
@@ -88,10 +89,10 @@ std::optional<double> bandwidthFromText(const std::string& text) {
   stream.imbue(std::locale::classic());
   GrnnOptions options;
   if (!(stream >> options.bandwidth) || stream.peek() != std::istringstream::traits_type::eof()) {
-    throw InputError("bandwidth is \"" + text + "\", but must be auto, or a number of deviations");
+    throw settings::InputError("bandwidth is \"" + text + "\", but must be auto, or a number of deviations");
   }
   validate(options);
   return options.bandwidth;
 }
 
-}  // namespace fsr
+}  // namespace fsr::regression

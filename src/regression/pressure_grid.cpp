@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/regression/pressure_grid.h"
+#include "regression/pressure_grid.h"
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
-namespace fsr {
+namespace fsr::regression {
 
 namespace {
 
@@ -71,4 +71,4 @@ WeightedCodes weightedByPressure(const CodeSamples& training) {
   return codes;
 }
 
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -2,7 +2,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::regression {
 
 Fit Regressor::fitSamples(const CodeSamples& training) const {
   const CodeHistogram histogram = histogramOf(training);
@@ -10,8 +10,9 @@ Fit Regressor::fitSamples(const CodeSamples& training) const {
 }
 
 void Regressor::refuseSums() const {
-  throw InputError("model " + name() +
-                   " needs the bags themselves: the sums that a calibration file keeps do not suffice");
+  throw settings::InputError(
+      "model " + name() +
+      " needs the bags themselves: the sums that a calibration file keeps do not suffice");
 }
 
-}  // namespace fsr
+}  // namespace fsr::regression

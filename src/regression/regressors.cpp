@@ -1,10 +1,10 @@
 #include "fsr_pressure_map/regression/regressors.h"
 
-#include "fsr_pressure_map/regression/linear_regression.h"
-#include "fsr_pressure_map/regression/monotone.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "regression/linear_regression.h"
+#include "regression/monotone.h"
 
-namespace fsr {
+namespace fsr::regression {
 
 std::vector<std::string> regressorNames() {
   return {"linear", "grnn", "forest", "monotone"};
@@ -17,7 +17,7 @@ std::unique_ptr<Regressor> makeRegressor(const RegressorOptions& options) {
   if (options.name == "monotone") return std::make_unique<Monotone>();
   std::string known;
   for (const std::string& name : regressorNames()) known += (known.empty() ? "" : ", ") + name;
-  throw InputError("model is \"" + options.name + "\", but must be one of " + known);
+  throw settings::InputError("model is \"" + options.name + "\", but must be one of " + known);
 }
 
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -1,13 +1,13 @@
-#include "fsr_pressure_map/report/admission_report.h"
+#include "report/admission_report.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
 
-#include "fsr_pressure_map/report/calibration_report.h"
+#include "report/calibration_report.h"
 
-namespace fsr {
+namespace fsr::report {
 
 namespace {
 
@@ -23,7 +23,7 @@ std::string percent(double share, int digits = 1) {
 }
 
 // "(row, column)" of at most eight of them.
-std::string places(const std::vector<std::size_t>& taxels, const Layout& layout) {
+std::string places(const std::vector<std::size_t>& taxels, const matrix::Layout& layout) {
   constexpr std::size_t kListed = 8;
   std::string list;
   for (std::size_t i = 0; i < std::min(taxels.size(), kListed); ++i) {
@@ -39,11 +39,11 @@ std::string numbers(const std::vector<std::size_t>& values) {
   return list;
 }
 
-std::string lagText(const AdmittedRecording& recording) {
+std::string lagText(const discrepancy::AdmittedRecording& recording) {
   return recording.lag ? number(recording.lag->seconds, 2) : "-";
 }
 
-void addRow(const AdmittedRecording& row, int width, std::ostringstream& out) {
+void addRow(const discrepancy::AdmittedRecording& row, int width, std::ostringstream& out) {
   out << std::left << std::setw(width) << row.name << std::right << std::setw(8) << row.scans << std::setw(10)
       << number(row.seconds, 1) << std::setw(10) << row.surfaces << std::setw(7) << row.losses.lost_scans
       << std::setw(7) << row.losses.sequence_gaps << std::setw(9) << lagText(row) << std::setw(13)
@@ -51,18 +51,21 @@ void addRow(const AdmittedRecording& row, int width, std::ostringstream& out) {
       << row.health.stuck.size() << '\n';
 }
 
-void addTable(const Admission& admission, std::ostringstream& out) {
+void addTable(const discrepancy::Admission& admission, std::ostringstream& out) {
   std::size_t width = 6;
-  for (const AdmittedRecording& row : admission.recordings) width = std::max(width, row.name.size() + 2);
+  for (const discrepancy::AdmittedRecording& row : admission.recordings)
+    width = std::max(width, row.name.size() + 2);
   out << std::left << std::setw(static_cast<int>(width)) << "bag" << std::right << std::setw(8) << "scans"
       << std::setw(10) << "time [s]" << std::setw(10) << "surfaces" << std::setw(7) << "lost" << std::setw(7)
       << "gaps" << std::setw(9) << "lag [s]" << std::setw(13) << "saturated %" << std::setw(6) << "dead"
       << std::setw(7) << "stuck" << '\n';
-  for (const AdmittedRecording& row : admission.recordings) addRow(row, static_cast<int>(width), out);
+  for (const discrepancy::AdmittedRecording& row : admission.recordings)
+    addRow(row, static_cast<int>(width), out);
 }
 
-void addHealth(const AdmittedRecording& row, const Layout& layout, std::ostringstream& out) {
-  const RecordingHealth& health = row.health;
+void addHealth(const discrepancy::AdmittedRecording& row, const matrix::Layout& layout,
+               std::ostringstream& out) {
+  const health::RecordingHealth& health = row.health;
   if (!health.dead.empty())
     out << row.name << ": dead (row, column): " << places(health.dead, layout) << '\n';
   if (!health.stuck.empty())
@@ -77,7 +80,7 @@ void addHealth(const AdmittedRecording& row, const Layout& layout, std::ostrings
   out << '\n';
 }
 
-std::string faultText(const Fault& fault, const Layout& layout) {
+std::string faultText(const discrepancy::Fault& fault, const matrix::Layout& layout) {
   const bool line = fault.id == "row_fault" || fault.id == "column_fault";
   const std::string where =
       line ? " " + std::to_string(fault.line) : " (row, column): " + places(fault.taxels, layout);
@@ -92,13 +95,13 @@ std::string because(const std::vector<std::string>& reasons) {
   return ", because " + reasons.front() + more;
 }
 
-std::string verdict(const Admission& admission, const std::vector<std::string>& problems) {
+std::string verdict(const discrepancy::Admission& admission, const std::vector<std::string>& problems) {
   if (!problems.empty()) return "Not fit" + because(problems) + ".";
   if (admission.discrepancy.empty()) return "Fit for training and for discrepancy.";
   return "Fit for training; not for discrepancy, because " + admission.discrepancy + ".";
 }
 
-void addRests(const SocketCheck& check, std::ostringstream& out) {
+void addRests(const calibration::SocketCheck& check, std::ostringstream& out) {
   for (const auto& [name, rest] : {std::pair{"before", &check.before}, std::pair{"after", &check.after}}) {
     out << "Rest " << name << ": ";
     if (*rest) {
@@ -119,11 +122,12 @@ void addRests(const SocketCheck& check, std::ostringstream& out) {
 
 }  // namespace
 
-std::string admissionText(const Admission& admission) {
+std::string admissionText(const discrepancy::Admission& admission) {
   std::ostringstream out;
   addTable(admission, out);
-  for (const AdmittedRecording& row : admission.recordings) addHealth(row, admission.layout, out);
-  for (const Fault& fault : admission.faults) {
+  for (const discrepancy::AdmittedRecording& row : admission.recordings)
+    addHealth(row, admission.layout, out);
+  for (const discrepancy::Fault& fault : admission.faults) {
     out << "Spells of failure: " << faultText(fault, admission.layout) << '\n';
   }
   if (!admission.coverage.conditions.empty()) out << '\n' << coverageText(admission.coverage);
@@ -136,7 +140,7 @@ std::string admissionText(const Admission& admission) {
   return out.str();
 }
 
-std::string socketText(const SocketCheck& check) {
+std::string socketText(const calibration::SocketCheck& check) {
   std::ostringstream out;
   out << check.name << '\n';
   addRests(check, out);
@@ -157,4 +161,4 @@ std::string socketText(const SocketCheck& check) {
   return out.str();
 }
 
-}  // namespace fsr
+}  // namespace fsr::report

@@ -1,14 +1,14 @@
-#include "fsr_pressure_map/report/calibration_check_report.h"
+#include "report/calibration_check_report.h"
 
 #include <algorithm>
 #include <iomanip>
 #include <sstream>
 
-namespace fsr {
+namespace fsr::report {
 
 namespace {
 
-void addRow(const CheckedClass& row, std::size_t width, std::ostringstream& out) {
+void addRow(const calibration::CheckedClass& row, std::size_t width, std::ostringstream& out) {
   out << std::left << std::setw(static_cast<int>(width)) << (row.name.empty() ? "all" : row.name)
       << std::right << std::fixed << std::setprecision(1) << std::setw(12) << row.readings << std::setw(14)
       << row.expected_rmse / 1000 << std::setw(11) << row.rmse / 1000 << std::setw(11) << row.bias / 1000
@@ -18,16 +18,16 @@ void addRow(const CheckedClass& row, std::size_t width, std::ostringstream& out)
 
 }  // namespace
 
-std::string checkText(const CalibrationCheck& check) {
+std::string checkText(const calibration::CalibrationCheck& check) {
   std::size_t width = 8;
-  for (const CheckedClass& row : check.classes) width = std::max(width, row.name.size() + 2);
+  for (const calibration::CheckedClass& row : check.classes) width = std::max(width, row.name.size() + 2);
   std::ostringstream out;
   out << std::left << std::setw(static_cast<int>(width)) << "surface" << std::right << std::setw(12)
       << "readings" << std::setw(14) << "expected" << std::setw(11) << "RMSE" << std::setw(11) << "bias"
       << std::setw(14) << "within" << std::setw(12) << "beyond" << '\n'
       << std::setw(static_cast<int>(width) + 26) << "RMSE [kPa]" << std::setw(11) << "[kPa]" << std::setw(11)
       << "[kPa]" << std::setw(14) << "1 deviation %" << std::setw(12) << "training %" << '\n';
-  for (const CheckedClass& row : check.classes) addRow(row, width, out);
+  for (const calibration::CheckedClass& row : check.classes) addRow(row, width, out);
   addRow(check.whole, width, out);
   for (const std::string& remark : check.remarks) out << "Note: " << remark << '\n';
   if (check.still_good) {
@@ -42,4 +42,4 @@ std::string checkText(const CalibrationCheck& check) {
   return out.str();
 }
 
-}  // namespace fsr
+}  // namespace fsr::report

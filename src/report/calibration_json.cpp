@@ -1,16 +1,20 @@
-#include "fsr_pressure_map/regression/option_names.h"
-#include "fsr_pressure_map/report/calibration_report.h"
-#include "result_json.h"
+#include "regression/option_names.h"
+#include "report/calibration_report.h"
+#include "report/result_json.h"
 
-namespace fsr {
+namespace fsr::report {
 
 namespace {
 
-Json json(const TrainedInterval& interval) {
+using report::json;  // the overloads for what several results have in common
+
+using report::json;  // the overloads for what several results have in common
+
+Json json(const calibration::TrainedInterval& interval) {
   return Json::array({interval.low, interval.high});
 }
 
-Json json(const Score& score) {
+Json json(const calibration::Score& score) {
   return {{"readings", score.readings},
           {"r2", json(score.r2)},
           {"rmse_percent", json(score.rmse_percent)},
@@ -20,10 +24,10 @@ Json json(const Score& score) {
           {"errors_pa", json(score.errors)}};
 }
 
-Json json(const CalibrationScores& scores) {
+Json json(const calibration::CalibrationScores& scores) {
   if (scores.conditions.empty()) return nullptr;
   Json conditions = Json::array();
-  for (const ConditionScore& condition : scores.conditions) {
+  for (const calibration::ConditionScore& condition : scores.conditions) {
     Json row = {{"surface", condition.condition.surface},
                 {"curvature", condition.condition.curvature},
                 {"trained", condition.trained}};
@@ -39,17 +43,18 @@ Json json(const CalibrationScores& scores) {
             {"rmse_percent_deviation", scores.unseen.rmse_percent.deviation}}}};
 }
 
-Json json(const std::array<CoverageCell, kPressureBins>& cells) {
+Json json(const std::array<dataset::CoverageCell, statistics::kPressureBins>& cells) {
   Json bins = Json::object();
-  for (std::size_t bin = 0; bin < kPressureBins; ++bin) {
-    bins[pressureBinName(bin) + " kPa"] = {{"scans", cells[bin].scans}, {"cycles", cells[bin].cycles}};
+  for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin) {
+    bins[statistics::pressureBinName(bin) + " kPa"] = {{"scans", cells[bin].scans},
+                                                       {"cycles", cells[bin].cycles}};
   }
   return bins;
 }
 
-Json json(const Coverage& coverage) {
+Json json(const dataset::Coverage& coverage) {
   Json conditions = Json::array();
-  for (const ConditionCoverage& row : coverage.conditions) {
+  for (const dataset::ConditionCoverage& row : coverage.conditions) {
     conditions.push_back({{"surface", row.condition.surface},
                           {"curvature", row.condition.curvature},
                           {"scans", row.scans},
@@ -62,32 +67,32 @@ Json json(const Coverage& coverage) {
 }
 
 // Only what the model looks at.
-Json model(const Calibration& calibration) {
-  const RegressorOptions& options = calibration.regressor;
+Json model(const calibration::Calibration& calibration) {
+  const regression::RegressorOptions& options = calibration.regressor;
   Json model = {{"name", options.name}};
   if (options.name == "grnn") {
     model["bandwidth"] = options.grnn.bandwidth;
     model["bandwidth_chosen"] = calibration.bandwidth_chosen;
-    model["spread"] = spreadName(options.grnn.spread);
-    model["distance"] = distanceName(options.grnn.distance);
-    model["weighting"] = weightingName(options.grnn.weighting);
+    model["spread"] = regression::spreadName(options.grnn.spread);
+    model["distance"] = regression::distanceName(options.grnn.distance);
+    model["weighting"] = regression::weightingName(options.grnn.weighting);
   } else if (options.name == "forest") {
     model["trees"] = options.forest.trees;
     model["minimum_leaf"] = options.forest.minimum_leaf;
-    model["leaf_rule"] = leafRuleName(options.forest.leaf_count);
+    model["leaf_rule"] = regression::leafRuleName(options.forest.leaf_count);
   }
   return model;
 }
 
 }  // namespace
 
-std::string calibrationJson(const Calibration& calibration) {
-  const Layout& layout = calibration.layout;
-  const TrainedRanges& trained = calibration.trained;
+std::string calibrationJson(const calibration::Calibration& calibration) {
+  const matrix::Layout& layout = calibration.layout;
+  const calibration::TrainedRanges& trained = calibration.trained;
   const Json document = {{"id", calibration.id},
-                         {"scheme", schemeName(calibration.tables.scheme)},
+                         {"scheme", compensation::schemeName(calibration.tables.scheme)},
                          {"model", model(calibration)},
-                         {"scheme_in_paper", schemeInPaper(calibration.tables.scheme)},
+                         {"scheme_in_paper", compensation::schemeInPaper(calibration.tables.scheme)},
                          {"length_scale", calibration.tables.rule.length_scale},
                          {"model_of_class", calibration.tables.rule.model_of_class},
                          {"folds", calibration.folds},
@@ -110,4 +115,4 @@ std::string calibrationJson(const Calibration& calibration) {
   return dump(document);
 }
 
-}  // namespace fsr
+}  // namespace fsr::report

@@ -1,11 +1,11 @@
-#include "fsr_pressure_map/report/calibration_report.h"
+#include "report/calibration_report.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
 
-namespace fsr {
+namespace fsr::report {
 
 namespace {
 
@@ -24,13 +24,13 @@ std::string kilopascal(double pressure) {
   return number(pressure / kKilopascal, 1);
 }
 
-std::string spread(const Spread& value, int digits) {
+std::string spread(const statistics::Spread& value, int digits) {
   return std::isnan(value.deviation) ? number(value.mean, digits)
                                      : number(value.mean, digits) + " +- " + number(value.deviation, digits);
 }
 
 // "14.3" for all taxels, "9.0..14.3" where they differ.
-std::string curvature(const CurvatureClass& condition, double unit, int digits) {
+std::string curvature(const dataset::CurvatureClass& condition, double unit, int digits) {
   const auto [low, high] = std::minmax_element(condition.curvature.begin(), condition.curvature.end());
   const std::string first = number(*low / unit, digits);
   return *low == *high ? first : first + ".." + number(*high / unit, digits);
@@ -45,24 +45,25 @@ void cell(std::ostream& out, const std::string& text, int width = kCellWidth) {
 }
 
 void binHeads(std::ostream& out) {
-  for (std::size_t bin = 0; bin < kPressureBins; ++bin) cell(out, pressureBinName(bin) + " kPa");
+  for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin)
+    cell(out, statistics::pressureBinName(bin) + " kPa");
   out << '\n';
 }
 
-void coverageRow(std::ostream& out, const ConditionCoverage& row) {
+void coverageRow(std::ostream& out, const dataset::ConditionCoverage& row) {
   nameCell(out, row.condition.surface);
   cell(out, curvature(row.condition, 1.0, 2), 12);
   cell(out, curvature(row.condition, 100.0, 3), 12);
   cell(out, std::to_string(row.scans), 8);
   cell(out, std::to_string(row.cycles), 7);
-  for (std::size_t bin = 0; bin < kPressureBins; ++bin) {
+  for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin) {
     cell(out, std::to_string(row.loading[bin].scans) + "/" + std::to_string(row.unloading[bin].scans));
   }
   out << '\n';
 }
 
-void scoreRow(std::ostream& out, const std::string& name, const Score& score) {
-  const ErrorSummary& errors = score.errors.whole.all;
+void scoreRow(std::ostream& out, const std::string& name, const calibration::Score& score) {
+  const statistics::ErrorSummary& errors = score.errors.whole.all;
   nameCell(out, name);
   cell(out, spread(score.r2, 4), 20);
   cell(out, spread(score.rmse_percent, 2), 16);
@@ -75,17 +76,17 @@ void scoreRow(std::ostream& out, const std::string& name, const Score& score) {
   out << '\n';
 }
 
-void binRow(std::ostream& out, const std::string& name, const Score& score) {
+void binRow(std::ostream& out, const std::string& name, const calibration::Score& score) {
   nameCell(out, name);
-  for (const BinnedErrors::Directions& bin : score.errors.bins) {
+  for (const statistics::BinnedErrors::Directions& bin : score.errors.bins) {
     cell(out, kilopascal(bin.loading.rmse) + "/" + kilopascal(bin.unloading.rmse));
   }
   out << '\n';
 }
 
 template <typename Row>
-void forEachRow(const CalibrationScores& scores, Row row) {
-  for (const ConditionScore& condition : scores.conditions) {
+void forEachRow(const calibration::CalibrationScores& scores, Row row) {
+  for (const calibration::ConditionScore& condition : scores.conditions) {
     row(condition.condition.surface + (condition.trained ? "" : " *"), condition.score);
   }
   row("all together", scores.whole);
@@ -93,7 +94,7 @@ void forEachRow(const CalibrationScores& scores, Row row) {
 
 }  // namespace
 
-std::string coverageText(const Coverage& coverage) {
+std::string coverageText(const dataset::Coverage& coverage) {
   std::ostringstream out;
   out << "Coverage: scans while loading/unloading, by gauge pressure\n";
   nameCell(out, "surface");
@@ -102,13 +103,13 @@ std::string coverageText(const Coverage& coverage) {
   cell(out, "scans", 8);
   cell(out, "cycles", 7);
   binHeads(out);
-  for (const ConditionCoverage& row : coverage.conditions) coverageRow(out, row);
+  for (const dataset::ConditionCoverage& row : coverage.conditions) coverageRow(out, row);
   out << (coverage.thin.empty() ? "Nothing is thin.\n" : "Thin:\n");
   for (const std::string& sentence : coverage.thin) out << "  " << sentence << '\n';
   return out.str();
 }
 
-std::string scoresText(const CalibrationScores& scores) {
+std::string scoresText(const calibration::CalibrationScores& scores) {
   if (scores.conditions.empty()) return "Scores were not asked for.\n";
   std::ostringstream out;
   out << "Held-out readings, each predicted without its section; R2 and RMSE%: mean +- deviation over "
@@ -131,12 +132,14 @@ std::string scoresText(const CalibrationScores& scores) {
   cell(out, "kPa", 8);
   cell(out, "RMSE% (no.)", 14);
   out << '\n';
-  forEachRow(scores, [&](const std::string& name, const Score& score) { scoreRow(out, name, score); });
+  forEachRow(scores,
+             [&](const std::string& name, const calibration::Score& score) { scoreRow(out, name, score); });
   out << "RMSE [kPa] while loading/unloading\n";
   nameCell(out, "surface");
   binHeads(out);
-  forEachRow(scores, [&](const std::string& name, const Score& score) { binRow(out, name, score); });
-  const auto untrained = [](const ConditionScore& condition) { return !condition.trained; };
+  forEachRow(scores,
+             [&](const std::string& name, const calibration::Score& score) { binRow(out, name, score); });
+  const auto untrained = [](const calibration::ConditionScore& condition) { return !condition.trained; };
   if (scores.unseen.readings > 0) {
     out << "A curvature that training had not seen (inner surfaces, each in turn): RMSE "
         << kilopascal(scores.unseen.rmse) << " kPa, " << spread(scores.unseen.rmse_percent, 2) << " %\n";
@@ -147,20 +150,20 @@ std::string scoresText(const CalibrationScores& scores) {
   return out.str();
 }
 
-std::string warningsText(const Calibration& calibration) {
+std::string warningsText(const calibration::Calibration& calibration) {
   std::string text;
   for (const std::string& warning : calibration.warnings) text += "Warning: " + warning + '\n';
   return text;
 }
 
-std::string learnedText(const Calibration& calibration) {
-  const CurvatureTables& tables = calibration.tables;
+std::string learnedText(const calibration::Calibration& calibration) {
+  const compensation::CurvatureTables& tables = calibration.tables;
   std::ostringstream text;
-  if (tables.scheme == Scheme::kScaledCurvature && !tables.rule.length_scale.empty()) {
+  if (tables.scheme == compensation::Scheme::kScaledCurvature && !tables.rule.length_scale.empty()) {
     text << "Length scale of curvature: " << std::setprecision(3) << tables.rule.length_scale.front()
          << " 1/m\n";
   }
-  if (tables.scheme == Scheme::kCurvatureRanges) {
+  if (tables.scheme == compensation::Scheme::kCurvatureRanges) {
     text << "Curvature ranges: ";
     const std::vector<std::size_t>& model = tables.rule.model_of_class;
     for (std::size_t k = 0; k < tables.classes.size(); ++k) {
@@ -172,8 +175,8 @@ std::string learnedText(const Calibration& calibration) {
   return text.str();
 }
 
-std::string modelText(const Calibration& calibration) {
-  const RegressorOptions& model = calibration.regressor;
+std::string modelText(const calibration::Calibration& calibration) {
+  const regression::RegressorOptions& model = calibration.regressor;
   if (model.name != "grnn") return model.name;
   std::ostringstream text;
   text << model.name << ", bandwidth " << std::setprecision(3) << model.grnn.bandwidth
@@ -181,4 +184,4 @@ std::string modelText(const Calibration& calibration) {
   return text.str();
 }
 
-}  // namespace fsr
+}  // namespace fsr::report

@@ -1,20 +1,20 @@
 #include <nlohmann/json.hpp>
 
-#include "fsr_pressure_map/report/discrepancy_report.h"
+#include "report/discrepancy_report.h"
 
-namespace fsr {
+namespace fsr::report {
 
 namespace {
 
 using Json = nlohmann::ordered_json;  // NaN is written as null
 
-Json json(const Interval& interval) {
+Json json(const discrepancy::Interval& interval) {
   return Json::array({interval.low, interval.high});
 }
 
-Json json(const FoundEffect& effect) {
+Json json(const discrepancy::FoundEffect& effect) {
   Json parameters = Json::array();
-  for (const FittedParameter& p : effect.parameters) {
+  for (const discrepancy::FittedParameter& p : effect.parameters) {
     parameters.push_back(
         {{"name", p.name}, {"value", p.value}, {"unit", p.unit}, {"interval", json(p.interval)}});
   }
@@ -25,11 +25,11 @@ Json json(const FoundEffect& effect) {
           {"share_of_ceiling", effect.share_of_ceiling}};
 }
 
-Json json(const NotIdentifiable& effect) {
+Json json(const discrepancy::NotIdentifiable& effect) {
   return {{"id", effect.id}, {"experiment", effect.experiment}, {"reason", effect.reason}};
 }
 
-Json json(const CovariateTest& test) {
+Json json(const discrepancy::CovariateTest& test) {
   return {{"covariate", test.covariate},
           {"method", test.method},
           {"p", test.p},
@@ -38,7 +38,7 @@ Json json(const CovariateTest& test) {
           {"depends", test.depends}};
 }
 
-Json json(const WhereItShows& where) {
+Json json(const discrepancy::WhereItShows& where) {
   return {{"taxels", where.taxels},
           {"conditions", where.conditions},
           {"pressure_pa", json(where.pressure)},
@@ -46,7 +46,7 @@ Json json(const WhereItShows& where) {
           {"times_s", where.times}};
 }
 
-Json json(const HeldOutGap& held) {
+Json json(const discrepancy::HeldOutGap& held) {
   Json parts = Json::array();
   for (const auto& [part, closed] : held.parts) parts.push_back({{"part", part}, {"closed", closed}});
   return {{"by", held.by},
@@ -55,9 +55,9 @@ Json json(const HeldOutGap& held) {
           {"parts", parts}};
 }
 
-Json json(const Gap& gap) {
+Json json(const discrepancy::Gap& gap) {
   Json foretold = Json::array();
-  for (const HeldOutGap& held : gap.foretold) foretold.push_back(json(held));
+  for (const discrepancy::HeldOutGap& held : gap.foretold) foretold.push_back(json(held));
   return {{"unit", "fraction of full scale"},
           {"before", gap.before},
           {"before_interval", json(gap.before_interval)},
@@ -75,11 +75,11 @@ Json json(const Gap& gap) {
           {"missing", gap.missing}};
 }
 
-Json json(const GapInUse& use) {
+Json json(const discrepancy::GapInUse& use) {
   return {{"situation", use.situation}, {"before_pa", use.before}, {"after_pa", use.after}};
 }
 
-Json json(const CandidateScore& candidate) {
+Json json(const discrepancy::CandidateScore& candidate) {
   return {{"ids", candidate.ids},
           {"outcome", candidate.outcome},
           {"share_of_error", candidate.share_of_error},
@@ -87,26 +87,26 @@ Json json(const CandidateScore& candidate) {
           {"z", candidate.z}};
 }
 
-Json json(const NextExperiment& next) {
+Json json(const discrepancy::NextExperiment& next) {
   return {{"protocol", next.protocol},
           {"sentence", next.sentence},
           {"separation", next.separation},
           {"separates", next.separates}};
 }
 
-Json json(const ResidualCurve& curve) {
+Json json(const discrepancy::ResidualCurve& curve) {
   return {{"covariate", curve.covariate}, {"unit", curve.unit},   {"at", curve.at},
           {"before", curve.before},       {"after", curve.after}, {"error", curve.error}};
 }
 
-Json json(const InputUse& input) {
+Json json(const discrepancy::InputUse& input) {
   return {{"file", input.file},
           {"sha256", input.sha256},
           {"scans", input.scans},
           {"show_opened", input.show_opened}};
 }
 
-Json json(const RepeatStep& step) {
+Json json(const discrepancy::RepeatStep& step) {
   return {{"added", step.added}, {"sentence", step.sentence}, {"share_of_error", step.share_of_error}};
 }
 
@@ -119,8 +119,8 @@ Json list(const Items& items) {
 
 }  // namespace
 
-std::string discrepancyJson(const DiscrepancyReport& report) {
-  const Json all = {{"verdict", name(report.verdict)},
+std::string discrepancyJson(const discrepancy::DiscrepancyReport& report) {
+  const Json all = {{"verdict", discrepancy::name(report.verdict)},
                     {"sentence", report.sentence},
                     {"effects", list(report.effects)},
                     {"credible_set", report.credible_set},
@@ -145,4 +145,4 @@ std::string discrepancyJson(const DiscrepancyReport& report) {
   return all.dump(2) + "\n";
 }
 
-}  // namespace fsr
+}  // namespace fsr::report

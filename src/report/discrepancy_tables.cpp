@@ -1,9 +1,9 @@
 #include <cmath>
 
-#include "fsr_pressure_map/report/discrepancy_report.h"
-#include "fsr_pressure_map/settings/yaml_text.h"
+#include "report/discrepancy_report.h"
+#include "settings/yaml_text.h"
 
-namespace fsr {
+namespace fsr::report {
 
 namespace {
 
@@ -11,14 +11,14 @@ constexpr double kPercent = 100;
 
 // Empty where there is no value, as spreadsheets read it.
 std::string cell(double value) {
-  return std::isfinite(value) ? numberText(value) : "";
+  return std::isfinite(value) ? settings::numberText(value) : "";
 }
 
 double at(const std::vector<double>& values, std::size_t i) {
   return i < values.size() ? values[i] : NAN;
 }
 
-std::string curveTable(const ResidualCurve& curve) {
+std::string curveTable(const discrepancy::ResidualCurve& curve) {
   std::string text = "\"" + curve.covariate + (curve.unit.empty() ? "" : " [" + curve.unit + "]") +
                      "\",before [% FS],after [% FS],standard error [% FS]\n";
   for (std::size_t i = 0; i < curve.at.size(); ++i) {
@@ -31,21 +31,22 @@ std::string curveTable(const ResidualCurve& curve) {
   return text;
 }
 
-std::string gapRow(const std::string& name, double value, const Interval& interval, double pressure) {
+std::string gapRow(const std::string& name, double value, const discrepancy::Interval& interval,
+                   double pressure) {
   return name + "," + cell(kPercent * value) + "," + cell(kPercent * interval.low) + "," +
          cell(kPercent * interval.high) + "," + cell(pressure) + "\n";
 }
 
-std::string gapTable(const Gap& gap) {
+std::string gapTable(const discrepancy::Gap& gap) {
   return "gap,rms [% FS],low [% FS],high [% FS],rms [Pa]\n" +
          gapRow("before", gap.before, gap.before_interval, gap.before_pressure) +
          gapRow("after", gap.after, gap.after_interval, gap.after_pressure) +
          gapRow("floor", gap.floor, gap.floor_interval, gap.floor_pressure);
 }
 
-std::string candidatesTable(const std::vector<CandidateScore>& candidates) {
+std::string candidatesTable(const std::vector<discrepancy::CandidateScore>& candidates) {
   std::string text = "effects,outcome,share of error [%],share of ceiling [%],z\n";
-  for (const CandidateScore& candidate : candidates) {
+  for (const discrepancy::CandidateScore& candidate : candidates) {
     std::string ids;
     for (const std::string& id : candidate.ids) ids += (ids.empty() ? "" : " + ") + id;
     text += ids + "," + candidate.outcome + "," + cell(kPercent * candidate.share_of_error) + "," +
@@ -56,12 +57,12 @@ std::string candidatesTable(const std::vector<CandidateScore>& candidates) {
 
 }  // namespace
 
-std::map<std::string, std::string> discrepancyTables(const DiscrepancyReport& report) {
+std::map<std::string, std::string> discrepancyTables(const discrepancy::DiscrepancyReport& report) {
   std::map<std::string, std::string> tables = {{"gap.csv", gapTable(report.gap)},
                                                {"candidates.csv", candidatesTable(report.candidates)}};
-  for (const ResidualCurve& curve : report.curves)
+  for (const discrepancy::ResidualCurve& curve : report.curves)
     tables["residual_" + curve.covariate + ".csv"] = curveTable(curve);
   return tables;
 }
 
-}  // namespace fsr
+}  // namespace fsr::report

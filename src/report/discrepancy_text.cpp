@@ -3,10 +3,10 @@
 #include <map>
 #include <sstream>
 
-#include "flow_yaml.h"
-#include "fsr_pressure_map/report/discrepancy_report.h"
+#include "report/discrepancy_report.h"
+#include "report/flow_yaml.h"
 
-namespace fsr {
+namespace fsr::report {
 
 namespace {
 
@@ -32,7 +32,7 @@ std::string gapPart(double value, double pressure) {
          (std::isfinite(pressure) ? " (" + number(pressure / kKilopascal, 1) + " kPa)" : "");
 }
 
-std::string gapLine(const Gap& gap) {
+std::string gapLine(const discrepancy::Gap& gap) {
   std::string text = "Gap, rms on data that took no part: " + gapPart(gap.before, gap.before_pressure) +
                      " before, " + gapPart(gap.after, gap.after_pressure) + " after, floor " +
                      gapPart(gap.floor, gap.floor_pressure);
@@ -47,7 +47,7 @@ std::string gapLine(const Gap& gap) {
 }
 
 // "Sized without it, closed on each condition: 93 % (flat 95 %, cylinder_5cm 90 %)."
-std::string foretoldLine(const HeldOutGap& held) {
+std::string foretoldLine(const discrepancy::HeldOutGap& held) {
   std::vector<std::string> parts;
   for (const auto& [part, closed] : held.parts)
     parts.push_back(part + " " + number(kPercent * closed, 0) + " %");
@@ -55,11 +55,11 @@ std::string foretoldLine(const HeldOutGap& held) {
          " % (" + joined(parts) + ").\n";
 }
 
-std::string useLine(const std::vector<GapInUse>& costs) {
+std::string useLine(const std::vector<discrepancy::GapInUse>& costs) {
   static const std::map<std::string, std::string> kSituations = {
       {"ramp", "a ramp"}, {"stance", "a stance of 0.6 s"}, {"standing", "ten minutes of standing"}};
   std::vector<std::string> parts;
-  for (const GapInUse& cost : costs) {
+  for (const discrepancy::GapInUse& cost : costs) {
     const auto found = kSituations.find(cost.situation);
     parts.push_back(
         number(cost.before / kKilopascal, 1) + " kPa in " +
@@ -69,30 +69,30 @@ std::string useLine(const std::vector<GapInUse>& costs) {
   return parts.empty() ? "" : "Largest error of who leaves it out: " + joined(parts) + ".\n";
 }
 
-std::string notExcluded(const DiscrepancyReport& report) {
+std::string notExcluded(const discrepancy::DiscrepancyReport& report) {
   std::vector<std::string> sets;
   for (const auto& ids : report.credible_set) sets.push_back(joined(ids, " + "));
   return sets.empty() ? "" : "Not excluded: " + joined(sets, " | ") + ".\n";
 }
 
-std::string notTestable(const DiscrepancyReport& report) {
+std::string notTestable(const discrepancy::DiscrepancyReport& report) {
   std::vector<std::string> effects;
-  for (const NotIdentifiable& effect : report.not_identifiable) {
+  for (const discrepancy::NotIdentifiable& effect : report.not_identifiable) {
     const bool has_one = !effect.experiment.empty() && effect.experiment != "none";
     effects.push_back(effect.id + (has_one ? " (" + effect.experiment + ")" : ""));
   }
   return effects.empty() ? "" : "Not testable here (what would show it): " + joined(effects) + ".\n";
 }
 
-std::string opened(const std::vector<InputUse>& inputs) {
+std::string opened(const std::vector<discrepancy::InputUse>& inputs) {
   int most = 0;
-  for (const InputUse& input : inputs) most = std::max(most, input.show_opened);
+  for (const discrepancy::InputUse& input : inputs) most = std::max(most, input.show_opened);
   return most > 1 ? "The held-out part of a bag was looked at " + std::to_string(most) +
                         " times by now: the gap is the less a proof.\n"
                   : "";
 }
 
-std::string interval(const FittedParameter& parameter) {
+std::string interval(const discrepancy::FittedParameter& parameter) {
   const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
   return flow_yaml::number(parameter.interval.low) + " to " + flow_yaml::number(parameter.interval.high) +
          unit;
@@ -100,22 +100,22 @@ std::string interval(const FittedParameter& parameter) {
 
 }  // namespace
 
-std::string discrepancyText(const DiscrepancyReport& report) {
+std::string discrepancyText(const discrepancy::DiscrepancyReport& report) {
   std::string text = report.sentence + "\n" + notExcluded(report) + notTestable(report) + gapLine(report.gap);
-  for (const HeldOutGap& held : report.gap.foretold) text += foretoldLine(held);
+  for (const discrepancy::HeldOutGap& held : report.gap.foretold) text += foretoldLine(held);
   text += useLine(report.in_use);
   for (const std::string& missing : report.gap.missing) text += missing + "\n";
-  for (const RepeatStep& step : report.steps) text += "Step: " + step.sentence + "\n";
+  for (const discrepancy::RepeatStep& step : report.steps) text += "Step: " + step.sentence + "\n";
   if (!report.next_experiment.empty())
     text += "Next experiment: " + report.next_experiment.front().sentence + "\n";
   for (const std::string& limitation : report.limitations) text += "Limitation: " + limitation + "\n";
   return text + opened(report.inputs);
 }
 
-ValueRemarks fitRemarks(const DiscrepancyReport& report) {
-  ValueRemarks remarks;
-  for (const FoundEffect& effect : report.effects) {
-    for (const FittedParameter& parameter : effect.parameters) {
+simulation::ValueRemarks fitRemarks(const discrepancy::DiscrepancyReport& report) {
+  simulation::ValueRemarks remarks;
+  for (const discrepancy::FoundEffect& effect : report.effects) {
+    for (const discrepancy::FittedParameter& parameter : effect.parameters) {
       const bool known = std::isfinite(parameter.interval.low);
       remarks[effect.id + "." + parameter.name] =
           known ? "fitted, 95 % interval " + interval(parameter) : "fitted";
@@ -124,7 +124,7 @@ ValueRemarks fitRemarks(const DiscrepancyReport& report) {
   return remarks;
 }
 
-std::string confirmationText(const Confirmation& confirmation) {
+std::string confirmationText(const discrepancy::Confirmation& confirmation) {
   std::string text =
       std::string(confirmation.passed ? "Confirmed" : "Not confirmed") + ": " + confirmation.sentence;
   text += "\nSize " + number(confirmation.size, 2) + " of what was predicted (" +
@@ -135,8 +135,9 @@ std::string confirmationText(const Confirmation& confirmation) {
   return text;
 }
 
-std::string confirmationYaml(const Confirmation& confirmation, const std::string& prediction_hash,
-                             const std::vector<InputUse>& inputs) {
+std::string confirmationYaml(const discrepancy::Confirmation& confirmation,
+                             const std::string& prediction_hash,
+                             const std::vector<discrepancy::InputUse>& inputs) {
   namespace yaml = flow_yaml;
   std::string text = "# " + confirmation.sentence + "\npassed: " + (confirmation.passed ? "true" : "false") +
                      "\nsize: " + yaml::number(confirmation.size) +
@@ -144,11 +145,11 @@ std::string confirmationYaml(const Confirmation& confirmation, const std::string
                      "\nshare_of_error: " + yaml::number(confirmation.share_of_error) + "\nbest_rival: " +
                      (confirmation.best_rival.empty() ? "null" : yaml::text(confirmation.best_rival)) +
                      "\nprediction_hash: \"" + prediction_hash + "\"\ninputs:\n";
-  for (const InputUse& input : inputs) {
+  for (const discrepancy::InputUse& input : inputs) {
     text +=
         "  - " + yaml::map({{"file", yaml::text(input.file)}, {"sha256", "\"" + input.sha256 + "\""}}) + "\n";
   }
   return text;
 }
 
-}  // namespace fsr
+}  // namespace fsr::report

@@ -1,4 +1,4 @@
-#include "flow_yaml.h"
+#include "report/flow_yaml.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,9 +6,9 @@
 #include <iomanip>
 #include <sstream>
 
-#include "fsr_pressure_map/settings/yaml_text.h"
+#include "settings/yaml_text.h"
 
-namespace fsr::flow_yaml {
+namespace fsr::report::flow_yaml {
 
 namespace {
 
@@ -48,7 +48,7 @@ std::string number(double value) {
 }
 
 std::string text(const std::string& value) {
-  return isPlain(value) ? value : quotedText(value);
+  return isPlain(value) ? value : settings::quotedText(value);
 }
 
 std::string list(const std::vector<std::string>& items) {
@@ -73,4 +73,4 @@ std::string map(const std::vector<std::pair<std::string, std::string>>& entries)
   return "{" + all + "}";
 }
 
-}  // namespace fsr::flow_yaml
+}  // namespace fsr::report::flow_yaml

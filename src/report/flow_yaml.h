@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace fsr::flow_yaml {
+namespace fsr::report::flow_yaml {
 
 // YAML in flow style, as text: {a: 1, b: [2, 3]}.
 
@@ -18,4 +18,4 @@ std::string pair(double low, double high);
 std::string texts(const std::vector<std::string>& values);
 std::string map(const std::vector<std::pair<std::string, std::string>>& entries);
 
-}  // namespace fsr::flow_yaml
+}  // namespace fsr::report::flow_yaml

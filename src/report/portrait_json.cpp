@@ -1,8 +1,8 @@
-#include "fsr_pressure_map/report/portrait_json.h"
+#include "report/portrait_json.h"
 
 #include <nlohmann/json.hpp>
 
-namespace fsr {
+namespace fsr::report {
 
 namespace {
 
@@ -17,15 +17,15 @@ json scaled(const std::vector<double>& values, double factor) {
   return list;
 }
 
-json lines(const std::vector<PortraitLine>& all, double x_factor, double y_factor) {
+json lines(const std::vector<simulation::PortraitLine>& all, double x_factor, double y_factor) {
   json list = json::array();
-  for (const PortraitLine& line : all) {
+  for (const simulation::PortraitLine& line : all) {
     list.push_back({{"label", line.label}, {"x", scaled(line.x, x_factor)}, {"y", scaled(line.y, y_factor)}});
   }
   return list;
 }
 
-json map(const std::vector<double>& values, MatrixSize size) {
+json map(const std::vector<double>& values, matrix::MatrixSize size) {
   json rows = json::array();
   for (std::size_t row = 0; row < size.rows; ++row) {
     const auto first = values.begin() + static_cast<std::ptrdiff_t>(row * size.columns);
@@ -36,7 +36,7 @@ json map(const std::vector<double>& values, MatrixSize size) {
 
 }  // namespace
 
-std::string portraitJson(const Portrait& portrait) {
+std::string portraitJson(const simulation::Portrait& portrait) {
   const json result = {{"title", portrait.title},
                        {"response", lines(portrait.response, kPerKilopascal, kPerCent)},
                        {"loop", lines(portrait.loop, kPerKilopascal, kPerCent)},
@@ -48,4 +48,4 @@ std::string portraitJson(const Portrait& portrait) {
   return result.dump() + "\n";
 }
 
-}  // namespace fsr
+}  // namespace fsr::report

@@ -1,33 +1,34 @@
-#include "fsr_pressure_map/report/prediction_file.h"
+#include "report/prediction_file.h"
 
 #include "fsr_pressure_map/settings/settings.h"
-#include "fsr_pressure_map/settings/yaml_text.h"
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "settings/yaml_text.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::report {
 
 namespace {
 
-const Range kAnyNumber;  // .inf among them: a drift that never ends
+const settings::Range kAnyNumber;  // .inf among them: a drift that never ends
 
-std::string effectsText(const std::vector<EnabledEffect>& effects) {
+std::string effectsText(const std::vector<simulation::EnabledEffect>& effects) {
   std::string text;
-  for (const EnabledEffect& effect : effects) {
+  for (const simulation::EnabledEffect& effect : effects) {
     std::string values;
     for (const auto& [name, value] : effect.values) {
-      values += (values.empty() ? "" : ", ") + name + ": " + numberText(value);
+      values += (values.empty() ? "" : ", ") + name + ": " + settings::numberText(value);
     }
     text += (text.empty() ? "" : ", ") + effect.id + ": {" + values + "}";
   }
   return "{" + text + "}";
 }
 
-std::vector<EnabledEffect> readEffects(const Settings& section) {
-  std::vector<EnabledEffect> effects;
+std::vector<simulation::EnabledEffect> readEffects(const settings::Settings& section) {
+  std::vector<simulation::EnabledEffect> effects;
   for (const std::string& id : section.keys()) {
-    if (findEffect(id) == nullptr) throw section.error(id, "no effect of the library is called so");
-    const Settings values = section.section(id);
-    EnabledEffect effect{id, {}};
+    if (simulation::findEffect(id) == nullptr)
+      throw section.error(id, "no effect of the library is called so");
+    const settings::Settings values = section.section(id);
+    simulation::EnabledEffect effect{id, {}};
     for (const std::string& name : values.keys()) effect.values[name] = values.number(name, kAnyNumber);
     effects.push_back(effect);
   }
@@ -37,22 +38,23 @@ std::vector<EnabledEffect> readEffects(const Settings& section) {
 }  // namespace
 
 std::string predictionText(const FrozenPrediction& frozen) {
-  const Prediction& prediction = frozen.prediction;
+  const discrepancy::Prediction& prediction = frozen.prediction;
   std::string rivals;
   for (const auto& rival : prediction.rivals) rivals += "\n  - " + effectsText(rival);
   return "# Frozen with the verdict beside it. An edited file no longer has the hash below.\n"
          "verdict_sha256: \"" +
          frozen.verdict_sha256 + "\"\neffects: " + effectsText(prediction.effects) +
-         "\nrivals:" + (rivals.empty() ? " []" : rivals) + "\nsize: [" + numberText(prediction.size.low) +
-         ", " + numberText(prediction.size.high) + "]\nhash: \"" + prediction.hash + "\"\n";
+         "\nrivals:" + (rivals.empty() ? " []" : rivals) + "\nsize: [" +
+         settings::numberText(prediction.size.low) + ", " + settings::numberText(prediction.size.high) +
+         "]\nhash: \"" + prediction.hash + "\"\n";
 }
 
 FrozenPrediction readPrediction(const std::string& path) {
-  const Settings file = Settings::fromFile(path);
+  const settings::Settings file = settings::Settings::fromFile(path);
   FrozenPrediction frozen;
   frozen.verdict_sha256 = file.text("verdict_sha256");
   frozen.prediction.effects = readEffects(file.section("effects"));
-  for (const Settings& rival : file.sections("rivals"))
+  for (const settings::Settings& rival : file.sections("rivals"))
     frozen.prediction.rivals.push_back(readEffects(rival));
   const std::vector<double> size = file.numbers("size", kAnyNumber);
   if (size.size() != 2) throw file.error("size", "must be two numbers, [low, high]");
@@ -62,4 +64,4 @@ FrozenPrediction readPrediction(const std::string& path) {
   return frozen;
 }
 
-}  // namespace fsr
+}  // namespace fsr::report

@@ -1,12 +1,12 @@
-#include "result_json.h"
+#include "report/result_json.h"
 
-namespace fsr {
+namespace fsr::report {
 
-Json json(const Spread& spread) {
+Json json(const statistics::Spread& spread) {
   return {{"mean", spread.mean}, {"deviation", spread.deviation}};
 }
 
-Json json(const ErrorSummary& errors) {
+Json json(const statistics::ErrorSummary& errors) {
   return {{"count", errors.count},
           {"bias", errors.bias},
           {"rmse", errors.rmse},
@@ -16,29 +16,33 @@ Json json(const ErrorSummary& errors) {
 
 namespace {
 
-Json json(const BinnedErrors::Directions& errors) {
+using report::json;  // the overloads for what several results have in common
+
+using report::json;  // the overloads for what several results have in common
+
+Json json(const statistics::BinnedErrors::Directions& errors) {
   return {
       {"all", json(errors.all)}, {"loading", json(errors.loading)}, {"unloading", json(errors.unloading)}};
 }
 
 }  // namespace
 
-Json json(const BinnedErrors& errors) {
+Json json(const statistics::BinnedErrors& errors) {
   Json bins = Json::object();
-  for (std::size_t bin = 0; bin < kPressureBins; ++bin) {
-    bins[pressureBinName(bin) + " kPa"] = json(errors.bins[bin]);
+  for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin) {
+    bins[statistics::pressureBinName(bin) + " kPa"] = json(errors.bins[bin]);
   }
   return {{"whole", json(errors.whole)}, {"bins", bins}};
 }
 
-Json json(const SensorIdentity& sensor) {
+Json json(const dataset::SensorIdentity& sensor) {
   return {{"sensor_id", sensor.sensor_id}, {"serial", sensor.serial},   {"firmware", sensor.firmware},
           {"model", sensor.model},         {"sealing", sensor.sealing}, {"transducer", sensor.transducer}};
 }
 
-Json json(const Provenance& provenance) {
+Json json(const calibration::Provenance& provenance) {
   Json bags = Json::array();
-  for (const SourceBag& bag : provenance.bags) {
+  for (const calibration::SourceBag& bag : provenance.bags) {
     bags.push_back({{"name", bag.name}, {"sha256", bag.sha256}, {"scans", bag.scans}});
   }
   return {{"tool_version", provenance.tool_version},
@@ -51,4 +55,4 @@ std::string dump(const Json& document) {
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace fsr
+}  // namespace fsr::report

@@ -1,30 +1,34 @@
 #include <cmath>
 
-#include "fsr_pressure_map/report/study_report.h"
-#include "fsr_pressure_map/study/paper_numbers.h"
-#include "result_json.h"
+#include "report/result_json.h"
+#include "report/study_report.h"
+#include "study/paper_numbers.h"
 
-namespace fsr {
+namespace fsr::report {
 
 namespace {
 
-Json json(const TestResult& test) {
+using report::json;  // the overloads for what several results have in common
+
+using report::json;  // the overloads for what several results have in common
+
+Json json(const statistics::TestResult& test) {
   return {{"test", test.test},
           {"symbol", test.symbol},
           {"statistic", test.statistic},
           {"degrees_of_freedom", test.degrees_of_freedom},
           {"p", test.p},
           {"n", test.n},
-          {"method", pMethodName(test.method)}};
+          {"method", statistics::pMethodName(test.method)}};
 }
 
-Json json(const PaperRuleResult& rule, const std::vector<StudyScore>& scores) {
+Json json(const statistics::PaperRuleResult& rule, const std::vector<study::StudyScore>& scores) {
   Json decisions = Json::array(), pairs = Json::array();
-  for (const Decision& decision : rule.decisions) {
+  for (const statistics::Decision& decision : rule.decisions) {
     decisions.push_back(
         {{"subject", decision.subject}, {"test", json(decision.test)}, {"conclusion", decision.conclusion}});
   }
-  for (const PairComparison& pair : rule.pairs) {
+  for (const statistics::PairComparison& pair : rule.pairs) {
     pairs.push_back({{"first", scores[pair.first].label},
                      {"second", scores[pair.second].label},
                      {"test", json(pair.test)},
@@ -38,22 +42,22 @@ Json json(const PaperRuleResult& rule, const std::vector<StudyScore>& scores) {
           {"pairs", pairs}};
 }
 
-Json json(const BootstrapResult& interval) {
-  if (interval.method == IntervalMethod::kNone) return nullptr;
+Json json(const statistics::BootstrapResult& interval) {
+  if (interval.method == statistics::IntervalMethod::kNone) return nullptr;
   return {{"estimate", interval.estimate},
           {"interval_95", Json::array({interval.low, interval.high})},
-          {"method", interval.method == IntervalMethod::kBca ? "BCa" : "t"},
+          {"method", interval.method == statistics::IntervalMethod::kBca ? "BCa" : "t"},
           {"unit", interval.level},
           {"n", interval.units}};
 }
 
 Json paper(const std::string& method) {
-  const auto score = paperScore(method);
+  const auto score = study::paperScore(method);
   if (!score) return nullptr;
   return {{"r2", json(score->r2)}, {"rmse_percent", json(score->rmse_percent)}};
 }
 
-Json json(const StudyScore& score) {
+Json json(const study::StudyScore& score) {
   return {{"id", score.id},
           {"label", score.label},
           {"model", score.model},
@@ -73,20 +77,20 @@ Json json(const StudyScore& score) {
           {"taxels", {{"r2", score.r2}, {"rmse_percent", score.rmse_percent}}}};
 }
 
-Json json(const std::vector<StudyScore>& scores) {
+Json json(const std::vector<study::StudyScore>& scores) {
   Json list = Json::array();
-  for (const StudyScore& score : scores) list.push_back(json(score));
+  for (const study::StudyScore& score : scores) list.push_back(json(score));
   return list;
 }
 
-Json json(const StudyComparison& comparison) {
+Json json(const study::StudyComparison& comparison) {
   Json differences = Json::array();
-  for (const StudyDifference& difference : comparison.differences) {
+  for (const study::StudyDifference& difference : comparison.differences) {
     differences.push_back({{"first", difference.first},
                            {"second", difference.second},
                            {"rmse_percent", json(difference.rmse_percent)}});
   }
-  const PaperFriedman friedman = paperFriedman(comparison.id);
+  const study::PaperFriedman friedman = study::paperFriedman(comparison.id);
   return {{"id", comparison.id},
           {"title", comparison.title},
           {"scores", json(comparison.scores)},
@@ -97,18 +101,18 @@ Json json(const StudyComparison& comparison) {
           {"paper",
            {{"friedman_r2", friedman.r2},
             {"friedman_rmse_percent", friedman.rmse_percent},
-            {"statements", paperStatements(comparison.id)}}}};
+            {"statements", study::paperStatements(comparison.id)}}}};
 }
 
-Json planJson(const StudyPlan& plan) {
+Json planJson(const study::StudyPlan& plan) {
   return {{"name", plan.name},
           {"sections", plan.sections},
-          {"down_sampling", downSamplingName(plan.down_sampling)},
-          {"method_4", plan.binary_share == BinaryShare::kFullFlat ? "full_flat" : "half_and_half"},
-          {"range", plan.range == ScoreRange::kHeldOut ? "held_out" : "all"},
+          {"down_sampling", study::downSamplingName(plan.down_sampling)},
+          {"method_4", plan.binary_share == study::BinaryShare::kFullFlat ? "full_flat" : "half_and_half"},
+          {"range", plan.range == study::ScoreRange::kHeldOut ? "held_out" : "all"},
           {"bandwidth", plan.grnn.bandwidth},
-          {"spread", plan.grnn.spread == SpreadMeaning::kSigma ? "sigma" : "half"},
-          {"distance", plan.grnn.distance == KernelDistance::kSquared ? "squared" : "literal"},
+          {"spread", plan.grnn.spread == regression::SpreadMeaning::kSigma ? "sigma" : "half"},
+          {"distance", plan.grnn.distance == regression::KernelDistance::kSquared ? "squared" : "literal"},
           {"trees", plan.forest.trees},
           {"minimum_leaf", plan.forest.minimum_leaf},
           {"level", plan.tests.level},
@@ -118,9 +122,9 @@ Json planJson(const StudyPlan& plan) {
           {"seed", plan.seed}};
 }
 
-Json conditionsJson(const StudyResult& result) {
+Json conditionsJson(const study::StudyResult& result) {
   Json list = Json::array();
-  for (const StudyClass& row : result.classes) {
+  for (const study::StudyClass& row : result.classes) {
     list.push_back({{"surface", row.condition.surface},
                     {"curvature", row.condition.curvature},
                     {"scans", row.scans},
@@ -130,17 +134,17 @@ Json conditionsJson(const StudyResult& result) {
   return list;
 }
 
-Json bandwidthsJson(const StudyResult& result) {
+Json bandwidthsJson(const study::StudyResult& result) {
   Json curves = Json::array();
-  for (const BandwidthCurve& curve : result.bandwidths) {
+  for (const study::BandwidthCurve& curve : result.bandwidths) {
     curves.push_back({{"id", curve.id}, {"label", curve.label}, {"rmse_percent", curve.rmse_percent}});
   }
   return {{"bandwidths", result.plan.bandwidths}, {"curves", curves}};
 }
 
-Json splitsJson(const StudyResult& result) {
+Json splitsJson(const study::StudyResult& result) {
   Json list = Json::array();
-  for (const SplitResult& split : result.splits) {
+  for (const study::SplitResult& split : result.splits) {
     list.push_back({{"id", split.id},
                     {"description", split.description},
                     {"folds", split.folds},
@@ -149,9 +153,9 @@ Json splitsJson(const StudyResult& result) {
   return list;
 }
 
-Json decisionsJson(const StudyResult& result) {
+Json decisionsJson(const study::StudyResult& result) {
   Json list = Json::array();
-  for (const StudyDecision& decision : result.decisions) {
+  for (const study::StudyDecision& decision : result.decisions) {
     list.push_back({{"subject", decision.subject}, {"paper", decision.paper}, {"study", decision.study}});
   }
   return list;
@@ -159,7 +163,7 @@ Json decisionsJson(const StudyResult& result) {
 
 }  // namespace
 
-std::string studyJson(const StudyResult& result) {
+std::string studyJson(const study::StudyResult& result) {
   return dump({{"study", result.plan.name},
                {"headline",
                 {{"text", result.headline.text},
@@ -182,7 +186,7 @@ std::string studyJson(const StudyResult& result) {
                {"comparisons",
                 [&] {
                   Json list = Json::array();
-                  for (const StudyComparison& comparison : result.comparisons)
+                  for (const study::StudyComparison& comparison : result.comparisons)
                     list.push_back(json(comparison));
                   return list;
                 }()},
@@ -193,4 +197,4 @@ std::string studyJson(const StudyResult& result) {
                {"unmatchable", result.unmatchable}});
 }
 
-}  // namespace fsr
+}  // namespace fsr::report

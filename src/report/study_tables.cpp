@@ -1,10 +1,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "fsr_pressure_map/report/study_report.h"
-#include "fsr_pressure_map/study/paper_numbers.h"
+#include "report/study_report.h"
+#include "study/paper_numbers.h"
 
-namespace fsr {
+namespace fsr::report {
 
 namespace {
 
@@ -48,27 +48,27 @@ class Table {
 
 // Visits (comparison or split, score) of all.
 template <typename Visit>
-void forEachScore(const StudyResult& result, Visit visit) {
-  for (const StudyComparison& comparison : result.comparisons) {
-    for (const StudyScore& score : comparison.scores) visit(comparison.id, score);
+void forEachScore(const study::StudyResult& result, Visit visit) {
+  for (const study::StudyComparison& comparison : result.comparisons) {
+    for (const study::StudyScore& score : comparison.scores) visit(comparison.id, score);
   }
-  for (const SplitResult& split : result.splits) {
-    for (const StudyScore& score : split.scores) visit(split.id, score);
+  for (const study::SplitResult& split : result.splits) {
+    for (const study::StudyScore& score : split.scores) visit(split.id, score);
   }
 }
 
-void addInterval(Table& table, const BootstrapResult& interval, double unit) {
+void addInterval(Table& table, const statistics::BootstrapResult& interval, double unit) {
   table << interval.low / unit << interval.high / unit << interval.level
         << static_cast<double>(interval.units);
 }
 
-void addErrors(Table& table, const ErrorSummary& errors) {
+void addErrors(Table& table, const statistics::ErrorSummary& errors) {
   table << static_cast<double>(errors.count) << errors.bias / kKilopascal << errors.rmse / kKilopascal
         << errors.limit_low / kKilopascal << errors.limit_high / kKilopascal
         << errors.p95_absolute / kKilopascal;
 }
 
-std::string scoresTable(const StudyResult& result) {
+std::string scoresTable(const study::StudyResult& result) {
   Table table(
       "part,method,label,model,scored,R2,R2 deviation,RMSE [%],RMSE deviation [%],paper R2,paper R2 "
       "deviation,"
@@ -76,8 +76,8 @@ std::string scoresTable(const StudyResult& result) {
       "[kPa],"
       "p95 [kPa],first cycle RMSE [kPa],later cycles RMSE [kPa],worst taxel,worst taxel RMSE [%],"
       "RMSE low [kPa],RMSE high [kPa],unit,units");
-  forEachScore(result, [&](const std::string& part, const StudyScore& score) {
-    const PaperScore paper = paperScore(score.id).value_or(PaperScore{});
+  forEachScore(result, [&](const std::string& part, const study::StudyScore& score) {
+    const study::PaperScore paper = study::paperScore(score.id).value_or(study::PaperScore{});
     table.row() << part << score.id << score.label << score.model << score.scored << score.r2_spread.mean
                 << score.r2_spread.deviation << score.rmse_percent_spread.mean
                 << score.rmse_percent_spread.deviation << paper.r2.mean << paper.r2.deviation
@@ -90,9 +90,9 @@ std::string scoresTable(const StudyResult& result) {
   return table.text();
 }
 
-std::string taxelTable(const StudyResult& result) {
+std::string taxelTable(const study::StudyResult& result) {
   Table table("part,method,taxel,R2,RMSE [%]");
-  forEachScore(result, [&](const std::string& part, const StudyScore& score) {
+  forEachScore(result, [&](const std::string& part, const study::StudyScore& score) {
     for (std::size_t t = 0; t < result.taxels.size(); ++t) {
       table.row() << part << score.id << static_cast<double>(result.taxels[t]) << score.r2[t]
                   << score.rmse_percent[t];
@@ -101,16 +101,16 @@ std::string taxelTable(const StudyResult& result) {
   return table.text();
 }
 
-std::string binTable(const StudyResult& result) {
+std::string binTable(const study::StudyResult& result) {
   Table table(
       "part,method,pressure [kPa],direction,readings,bias [kPa],RMSE [kPa],limit low [kPa],limit high "
       "[kPa],p95 "
       "[kPa]");
-  forEachScore(result, [&](const std::string& part, const StudyScore& score) {
-    for (std::size_t bin = 0; bin < kPressureBins; ++bin) {
-      const BinnedErrors::Directions& errors = score.errors.bins[bin];
-      const auto add = [&](const std::string& direction, const ErrorSummary& summary) {
-        addErrors(table.row() << part << score.id << pressureBinName(bin) << direction, summary);
+  forEachScore(result, [&](const std::string& part, const study::StudyScore& score) {
+    for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin) {
+      const statistics::BinnedErrors::Directions& errors = score.errors.bins[bin];
+      const auto add = [&](const std::string& direction, const statistics::ErrorSummary& summary) {
+        addErrors(table.row() << part << score.id << statistics::pressureBinName(bin) << direction, summary);
       };
       add("all", errors.all);
       add("loading", errors.loading);
@@ -120,7 +120,7 @@ std::string binTable(const StudyResult& result) {
   return table.text();
 }
 
-void addTest(Table& table, const TestResult& test) {
+void addTest(Table& table, const statistics::TestResult& test) {
   std::string freedom;
   for (const double degrees : test.degrees_of_freedom) {
     std::ostringstream text;
@@ -130,14 +130,14 @@ void addTest(Table& table, const TestResult& test) {
   table << test.test << test.symbol << test.statistic << freedom << test.p << static_cast<double>(test.n);
 }
 
-void addRule(Table& table, const StudyComparison& comparison, const std::string& measure,
-             const PaperRuleResult& rule) {
-  for (const Decision& decision : rule.decisions) {
+void addRule(Table& table, const study::StudyComparison& comparison, const std::string& measure,
+             const statistics::PaperRuleResult& rule) {
+  for (const statistics::Decision& decision : rule.decisions) {
     table.row() << comparison.id << measure << decision.subject;
     addTest(table, decision.test);
     table << NAN << decision.conclusion;
   }
-  for (const PairComparison& pair : rule.pairs) {
+  for (const statistics::PairComparison& pair : rule.pairs) {
     table.row() << comparison.id << measure
                 << comparison.scores[pair.first].label + " - " + comparison.scores[pair.second].label;
     addTest(table, pair.test);
@@ -145,20 +145,20 @@ void addRule(Table& table, const StudyComparison& comparison, const std::string&
   }
 }
 
-std::string testTable(const StudyResult& result) {
+std::string testTable(const study::StudyResult& result) {
   Table table(
       "comparison,measure,subject,test,symbol,statistic,degrees of freedom,p,taxels,adjusted p,conclusion");
-  for (const StudyComparison& comparison : result.comparisons) {
+  for (const study::StudyComparison& comparison : result.comparisons) {
     addRule(table, comparison, "R2", comparison.r2);
     addRule(table, comparison, "RMSE%", comparison.rmse_percent);
   }
   return table.text();
 }
 
-std::string differenceTable(const StudyResult& result) {
+std::string differenceTable(const study::StudyResult& result) {
   Table table("comparison,first,second,difference of RMSE [%],low [%],high [%],unit,units");
-  for (const StudyComparison& comparison : result.comparisons) {
-    for (const StudyDifference& difference : comparison.differences) {
+  for (const study::StudyComparison& comparison : result.comparisons) {
+    for (const study::StudyDifference& difference : comparison.differences) {
       table.row() << comparison.id << difference.first << difference.second
                   << difference.rmse_percent.estimate;
       addInterval(table, difference.rmse_percent, 1.0);
@@ -167,20 +167,20 @@ std::string differenceTable(const StudyResult& result) {
   return table.text();
 }
 
-std::string bandwidthTable(const StudyResult& result) {
+std::string bandwidthTable(const study::StudyResult& result) {
   std::string headings = "bandwidth [deviations]";
-  for (const BandwidthCurve& curve : result.bandwidths) headings += "," + curve.id + " RMSE [%]";
+  for (const study::BandwidthCurve& curve : result.bandwidths) headings += "," + curve.id + " RMSE [%]";
   Table table(headings);
   for (std::size_t b = 0; b < result.plan.bandwidths.size(); ++b) {
     table.row() << result.plan.bandwidths[b];
-    for (const BandwidthCurve& curve : result.bandwidths) table << curve.rmse_percent[b];
+    for (const study::BandwidthCurve& curve : result.bandwidths) table << curve.rmse_percent[b];
   }
   return table.text();
 }
 
-std::string responseTable(const StudyResult& result) {
+std::string responseTable(const study::StudyResult& result) {
   Table table("surface,curvature [1/m],time [s],pressure [kPa],reading [counts]");
-  for (const TaxelResponse::Curve& curve : result.response.curves) {
+  for (const study::TaxelResponse::Curve& curve : result.response.curves) {
     for (std::size_t i = 0; i < curve.time.size(); ++i) {
       table.row() << curve.surface << curve.curvature << curve.time[i] << curve.pressure[i] / kKilopascal
                   << curve.counts[i];
@@ -189,9 +189,9 @@ std::string responseTable(const StudyResult& result) {
   return table.text();
 }
 
-std::string predictionTable(const StudyResult& result) {
+std::string predictionTable(const study::StudyResult& result) {
   Table table("time [s],reference [kPa],without curvature [kPa],with curvature [kPa]");
-  const TaxelResponse::Prediction& prediction = result.response.prediction;
+  const study::TaxelResponse::Prediction& prediction = result.response.prediction;
   for (std::size_t i = 0; i < prediction.with_curvature.size(); ++i) {
     table.row() << prediction.time[i] << prediction.reference[i] / kKilopascal
                 << prediction.without_curvature[i] / kKilopascal
@@ -202,11 +202,11 @@ std::string predictionTable(const StudyResult& result) {
 
 }  // namespace
 
-std::map<std::string, std::string> studyTables(const StudyResult& result) {
+std::map<std::string, std::string> studyTables(const study::StudyResult& result) {
   return {{"scores.csv", scoresTable(result)},          {"taxel_scores.csv", taxelTable(result)},
           {"errors_by_bin.csv", binTable(result)},      {"tests.csv", testTable(result)},
           {"differences.csv", differenceTable(result)}, {"bandwidths.csv", bandwidthTable(result)},
           {"response.csv", responseTable(result)},      {"prediction.csv", predictionTable(result)}};
 }
 
-}  // namespace fsr
+}  // namespace fsr::report

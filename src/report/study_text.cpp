@@ -2,10 +2,10 @@
 #include <iomanip>
 #include <sstream>
 
-#include "fsr_pressure_map/report/study_report.h"
-#include "fsr_pressure_map/study/paper_numbers.h"
+#include "report/study_report.h"
+#include "study/paper_numbers.h"
 
-namespace fsr {
+namespace fsr::report {
 
 namespace {
 
@@ -20,7 +20,7 @@ std::string number(double value, int digits) {
   return nothing && text.str().front() == '-' ? text.str().substr(1) : text.str();
 }
 
-std::string spread(const Spread& value, int digits, int deviation_digits) {
+std::string spread(const statistics::Spread& value, int digits, int deviation_digits) {
   if (std::isnan(value.mean)) return "-";
   return number(value.mean, digits) + " +- " + number(value.deviation, deviation_digits);
 }
@@ -34,7 +34,7 @@ std::string probability(double p) {
   return p < 0.001 ? "p < 0.001" : "p = " + number(p, 3);
 }
 
-std::string testText(const TestResult& test, double p) {
+std::string testText(const statistics::TestResult& test, double p) {
   std::string freedom;
   for (const double degrees : test.degrees_of_freedom) {
     freedom += (freedom.empty() ? "(" : ", ") + number(degrees, std::floor(degrees) == degrees ? 0 : 2);
@@ -52,9 +52,10 @@ void scoreHeads(std::ostream& out) {
   out << '\n';
 }
 
-void scoreRow(std::ostream& out, const StudyScore& score) {
-  const PaperScore paper = paperScore(score.id == "grnn" ? "baseline" : score.id).value_or(PaperScore{});
-  const ErrorSummary& errors = score.errors.whole.all;
+void scoreRow(std::ostream& out, const study::StudyScore& score) {
+  const study::PaperScore paper =
+      study::paperScore(score.id == "grnn" ? "baseline" : score.id).value_or(study::PaperScore{});
+  const statistics::ErrorSummary& errors = score.errors.whole.all;
   out << std::left << std::setw(kNameWidth) << score.label << std::right;
   cell(out, spread(score.r2_spread, 3, 4), 18);
   cell(out, spread(paper.r2, 2, 4), 18);
@@ -67,21 +68,21 @@ void scoreRow(std::ostream& out, const StudyScore& score) {
   out << '\n';
 }
 
-void comparisonText(std::ostream& out, const StudyComparison& comparison) {
+void comparisonText(std::ostream& out, const study::StudyComparison& comparison) {
   out << '\n' << comparison.title << '\n';
   scoreHeads(out);
-  for (const StudyScore& score : comparison.scores) scoreRow(out, score);
+  for (const study::StudyScore& score : comparison.scores) scoreRow(out, score);
   out << "As published, taxels treated as independent:\n";
   out << "  R2:    " << testText(comparison.r2.test, comparison.r2.p) << '\n';
   out << "  RMSE%: " << testText(comparison.rmse_percent.test, comparison.rmse_percent.p) << '\n';
-  for (const std::string& sentence : paperStatements(comparison.id))
+  for (const std::string& sentence : study::paperStatements(comparison.id))
     out << "  The paper: " << sentence << '\n';
   out << "Difference of RMSE%, whole units resampled:\n";
-  for (const StudyDifference& difference : comparison.differences) {
-    const BootstrapResult& interval = difference.rmse_percent;
+  for (const study::StudyDifference& difference : comparison.differences) {
+    const statistics::BootstrapResult& interval = difference.rmse_percent;
     out << "  " << std::left << std::setw(2 * kNameWidth) << difference.first + " - " + difference.second
         << std::right;
-    if (interval.method == IntervalMethod::kNone) {
+    if (interval.method == statistics::IntervalMethod::kNone) {
       out << number(interval.estimate, 2) << ", holds for these recordings only\n";
       continue;
     }
@@ -90,9 +91,9 @@ void comparisonText(std::ostream& out, const StudyComparison& comparison) {
   }
 }
 
-void splitText(std::ostream& out, const SplitResult& split) {
+void splitText(std::ostream& out, const study::SplitResult& split) {
   out << '\n' << split.id << ": " << split.description << '\n';
-  for (const StudyScore& score : split.scores) {
+  for (const study::StudyScore& score : split.scores) {
     out << "  " << std::left << std::setw(kNameWidth) << score.id << std::right
         << number(score.errors.whole.all.rmse / kKilopascal, 1) << " kPa  ("
         << number(score.rmse_interval.low / kKilopascal, 1) << " to "
@@ -109,17 +110,17 @@ std::string sentences(const std::vector<std::string>& list) {
 
 }  // namespace
 
-std::string studyText(const StudyResult& result) {
+std::string studyText(const study::StudyResult& result) {
   std::ostringstream out;
   out << result.scans << " scans of " << result.taxels.size() << " taxels on " << result.classes.size()
       << " conditions, " << result.cycles << " cycles, " << result.mounts << " mounts\n";
   for (const std::string& warning : result.warnings) out << "Warning: " << warning << '\n';
-  for (const StudyComparison& comparison : result.comparisons) comparisonText(out, comparison);
+  for (const study::StudyComparison& comparison : result.comparisons) comparisonText(out, comparison);
   if (!result.plan.beyond_the_paper) return out.str() + '\n' + sentences(result.holds_for);
   out << "\nOn all scans, bandwidth chosen by nested cross-validation: RMSE with 95 % interval\n";
-  for (const SplitResult& split : result.splits) splitText(out, split);
+  for (const study::SplitResult& split : result.splits) splitText(out, split);
   out << '\n' << result.headline.text << '\n';
   return out.str() + sentences(result.holds_for);
 }
 
-}  // namespace fsr
+}  // namespace fsr::report

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "fsr_pressure_map/report/verdict_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "report/verdict_file.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::report {
 
 namespace {
 
@@ -51,7 +51,7 @@ class Mapping {
 
   [[noreturn]] void fail(const std::string& key, const std::string& complaint) const {
     const std::string where = path(key);
-    throw InputError(file_ + ": " + (where.empty() ? "" : where + " ") + complaint);
+    throw settings::InputError(file_ + ": " + (where.empty() ? "" : where + " ") + complaint);
   }
 
  private:
@@ -72,24 +72,27 @@ YAML::Node load(const std::string& path) {
   try {
     return YAML::LoadFile(path);
   } catch (const YAML::BadFile&) {
-    throw InputError(path + ": cannot be opened; give the verdict.yaml of an earlier discrepancy run");
+    throw settings::InputError(path +
+                               ": cannot be opened; give the verdict.yaml of an earlier discrepancy run");
   } catch (const YAML::Exception& error) {
-    throw InputError(path + ": is no YAML (" + error.what() + ")");
+    throw settings::InputError(path + ": is no YAML (" + error.what() + ")");
   }
 }
 
 void requireVerdict(const Mapping& file, const std::string& verdict) {
   std::string known;
-  for (const Verdict one : {Verdict::kNone, Verdict::kUnknown, Verdict::kAmbiguous, Verdict::kWrongForm,
-                            Verdict::kNamed, Verdict::kNotIdentifiable}) {
-    if (verdict == name(one)) return;
-    known += (known.empty() ? "" : ", ") + name(one);
+  for (const discrepancy::Verdict one :
+       {discrepancy::Verdict::kNone, discrepancy::Verdict::kUnknown, discrepancy::Verdict::kAmbiguous,
+        discrepancy::Verdict::kWrongForm, discrepancy::Verdict::kNamed,
+        discrepancy::Verdict::kNotIdentifiable}) {
+    if (verdict == discrepancy::name(one)) return;
+    known += (known.empty() ? "" : ", ") + discrepancy::name(one);
   }
   file.fail("verdict", "is \"" + verdict + "\", but must be one of " + known);
 }
 
 void requireEffect(const Mapping& file, const std::string& key, const std::string& id) {
-  if (findEffect(id) == nullptr)
+  if (simulation::findEffect(id) == nullptr)
     file.fail(key, "is \"" + id + "\", but no effect of the library is called so");
 }
 
@@ -103,10 +106,10 @@ std::vector<std::string> readEffects(const Mapping& file) {
   return ids;
 }
 
-std::vector<InputUse> readInputs(const Mapping& file) {
-  std::vector<InputUse> inputs;
+std::vector<discrepancy::InputUse> readInputs(const Mapping& file) {
+  std::vector<discrepancy::InputUse> inputs;
   for (const Mapping& input : file.list("inputs", {"file", "sha256", "show_opened"})) {
-    InputUse use;
+    discrepancy::InputUse use;
     use.file = input.as<std::string>("file", "text");
     use.sha256 = input.as<std::string>("sha256", "text");
     if (use.sha256.size() != kSha256Digits) input.fail("sha256", "must have 64 hexadecimal digits");
@@ -140,4 +143,4 @@ VerdictFile readVerdict(const std::string& path) {
   return verdict;
 }
 
-}  // namespace fsr
+}  // namespace fsr::report

@@ -1,22 +1,23 @@
-#include "flow_yaml.h"
-#include "fsr_pressure_map/report/verdict_file.h"
+#include "report/flow_yaml.h"
+#include "report/verdict_file.h"
 
-namespace fsr {
+namespace fsr::report {
 
 namespace {
 
 namespace yaml = flow_yaml;
 
-std::string parameterText(const FittedParameter& parameter) {
+std::string parameterText(const discrepancy::FittedParameter& parameter) {
   return yaml::map({{"name", yaml::text(parameter.name)},
                     {"value", yaml::number(parameter.value)},
                     {"unit", parameter.unit.empty() ? "null" : yaml::text(parameter.unit)},
                     {"interval", yaml::pair(parameter.interval.low, parameter.interval.high)}});
 }
 
-std::string effectText(const FoundEffect& effect) {
+std::string effectText(const discrepancy::FoundEffect& effect) {
   std::vector<std::string> parameters;
-  for (const FittedParameter& parameter : effect.parameters) parameters.push_back(parameterText(parameter));
+  for (const discrepancy::FittedParameter& parameter : effect.parameters)
+    parameters.push_back(parameterText(parameter));
   return "  - id: " + yaml::text(effect.id) + "\n    parameters: " + yaml::list(parameters) +
          "\n    evidence: " +
          yaml::map(
@@ -24,10 +25,10 @@ std::string effectText(const FoundEffect& effect) {
          "\n";
 }
 
-std::string effectsText(const std::vector<FoundEffect>& effects) {
+std::string effectsText(const std::vector<discrepancy::FoundEffect>& effects) {
   if (effects.empty()) return "effects: []\n";
   std::string text = "effects:\n";
-  for (const FoundEffect& effect : effects) text += effectText(effect);
+  for (const discrepancy::FoundEffect& effect : effects) text += effectText(effect);
   return text;
 }
 
@@ -37,16 +38,16 @@ std::string credibleText(const std::vector<std::vector<std::string>>& sets) {
   return "credible_set: " + yaml::list(items) + "\n";
 }
 
-std::string notIdentifiableText(const std::vector<NotIdentifiable>& effects) {
+std::string notIdentifiableText(const std::vector<discrepancy::NotIdentifiable>& effects) {
   std::vector<std::string> items;
-  for (const NotIdentifiable& effect : effects) {
+  for (const discrepancy::NotIdentifiable& effect : effects) {
     const std::string experiment = effect.experiment.empty() ? "null" : yaml::text(effect.experiment);
     items.push_back(yaml::map({{"id", yaml::text(effect.id)}, {"experiment", experiment}}));
   }
   return "not_identifiable: " + yaml::list(items) + "\n";
 }
 
-std::string whereText(const WhereItShows& where) {
+std::string whereText(const discrepancy::WhereItShows& where) {
   std::vector<std::string> taxels, times;
   for (const std::size_t taxel : where.taxels) taxels.push_back(std::to_string(taxel));
   for (const auto& [from, to] : where.times) times.push_back(yaml::pair(from, to));
@@ -62,7 +63,7 @@ std::string whereText(const WhereItShows& where) {
          "\n";
 }
 
-std::string gapText(const Gap& gap) {
+std::string gapText(const discrepancy::Gap& gap) {
   return "gap: " +
          yaml::map({{"before", yaml::number(gap.before)},
                     {"after", yaml::number(gap.after)},
@@ -74,7 +75,7 @@ std::string gapText(const Gap& gap) {
          "\n";
 }
 
-std::string nextText(const std::vector<NextExperiment>& next) {
+std::string nextText(const std::vector<discrepancy::NextExperiment>& next) {
   if (next.empty()) return "next_experiment: null\n";
   return "next_experiment: " +
          yaml::map({{"protocol", yaml::text(next.front().protocol)},
@@ -83,9 +84,9 @@ std::string nextText(const std::vector<NextExperiment>& next) {
          "\n";
 }
 
-std::string inputsText(const std::vector<InputUse>& inputs) {
+std::string inputsText(const std::vector<discrepancy::InputUse>& inputs) {
   std::string text = "inputs:\n";
-  for (const InputUse& input : inputs) {
+  for (const discrepancy::InputUse& input : inputs) {
     text += "  - " +
             yaml::map({{"file", yaml::text(input.file)},
                        {"sha256", "\"" + input.sha256 + "\""},
@@ -97,13 +98,15 @@ std::string inputsText(const std::vector<InputUse>& inputs) {
 
 }  // namespace
 
-std::string verdictText(const DiscrepancyReport& report) {
-  const bool shows = report.verdict != Verdict::kNone && report.verdict != Verdict::kNotIdentifiable;
-  return "# " + report.sentence + "\nverdict: " + name(report.verdict) + "\n" + effectsText(report.effects) +
-         credibleText(report.credible_set) + "depends_on: " + yaml::texts(report.depends_on) + "\n" +
+std::string verdictText(const discrepancy::DiscrepancyReport& report) {
+  const bool shows = report.verdict != discrepancy::Verdict::kNone &&
+                     report.verdict != discrepancy::Verdict::kNotIdentifiable;
+  return "# " + report.sentence + "\nverdict: " + discrepancy::name(report.verdict) + "\n" +
+         effectsText(report.effects) + credibleText(report.credible_set) +
+         "depends_on: " + yaml::texts(report.depends_on) + "\n" +
          notIdentifiableText(report.not_identifiable) + (shows ? whereText(report.where) : "where: null\n") +
          gapText(report.gap) + nextText(report.next_experiment) + "seed: " + std::to_string(report.seed) +
          "\nversion: " + yaml::text(report.version) + "\n" + inputsText(report.inputs);
 }
 
-}  // namespace fsr
+}  // namespace fsr::report

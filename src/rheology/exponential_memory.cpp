@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace fsr {
+namespace fsr::rheology {
 
 ExponentialMemory::ExponentialMemory(double time_constant) : time_constant_(time_constant) {
   if (!(time_constant > 0) || !std::isfinite(time_constant)) {
@@ -20,4 +20,4 @@ ExponentialMemory::Step ExponentialMemory::over(double duration) const {
   return {gone, 1 - gone / ratio};
 }
 
-}  // namespace fsr
+}  // namespace fsr::rheology

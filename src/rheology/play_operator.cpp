@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/rheology/play_operator.h"
+#include "rheology/play_operator.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-namespace fsr {
+namespace fsr::rheology {
 
 PrandtlIshlinskii::PrandtlIshlinskii(std::vector<double> radii, std::vector<double> weights)
     : radii_(std::move(radii)), weights_(std::move(weights)) {
@@ -47,4 +47,4 @@ double PrandtlIshlinskii::loopArea(double low, double high) const {
   return area;
 }
 
-}  // namespace fsr
+}  // namespace fsr::rheology

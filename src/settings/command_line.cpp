@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/settings/command_line.h"
+#include "settings/command_line.h"
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -12,7 +12,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::settings {
 
 namespace {
 
@@ -155,4 +155,4 @@ int runTool(const std::string& tool, const std::function<int()>& run) {
   }
 }
 
-}  // namespace fsr
+}  // namespace fsr::settings

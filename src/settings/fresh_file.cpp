@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/settings/fresh_file.h"
+#include "settings/fresh_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "fsr_pressure_map/settings/replace_file.h"
+#include "settings/replace_file.h"
 
-namespace fsr {
+namespace fsr::settings {
 
 namespace {
 
@@ -87,4 +87,4 @@ void FreshFile::finish() {
   fresh_.finish();
 }
 
-}  // namespace fsr
+}  // namespace fsr::settings

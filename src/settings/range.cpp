@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace fsr {
+namespace fsr::settings {
 
 std::string Range::text() const {
   std::ostringstream out;
@@ -25,4 +25,4 @@ std::string Range::text() const {
   return out.str();
 }
 
-}  // namespace fsr
+}  // namespace fsr::settings

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/settings/replace_file.h"
+#include "settings/replace_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <filesystem>
 
-namespace fsr {
+namespace fsr::settings {
 
 namespace {
 
@@ -54,4 +54,4 @@ void requireReplaceable(const std::string& path) {
   if (::access(parent.c_str(), W_OK | X_OK) != 0) throw cannotWrite(path, errno);
 }
 
-}  // namespace fsr
+}  // namespace fsr::settings

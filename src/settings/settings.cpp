@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-namespace fsr {
+namespace fsr::settings {
 
 struct Settings::Node {
   YAML::Node yaml;
@@ -242,4 +242,4 @@ const std::string& Settings::origin() const {
   return node_->origin;
 }
 
-}  // namespace fsr
+}  // namespace fsr::settings

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/settings/sha256.h"
+#include "settings/sha256.h"
 
 #include <openssl/evp.h>
 
@@ -12,7 +12,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::settings {
 
 namespace {
 
@@ -70,4 +70,4 @@ std::string sha256OfFile(const std::string& path, std::size_t skip) {
   return digest.hexadecimal();
 }
 
-}  // namespace fsr
+}  // namespace fsr::settings

@@ -1,9 +1,9 @@
-#include "fsr_pressure_map/settings/yaml_text.h"
+#include "settings/yaml_text.h"
 
 #include <charconv>
 #include <cmath>
 
-namespace fsr {
+namespace fsr::settings {
 
 std::string numberText(double value) {
   if (std::isnan(value)) return ".nan";
@@ -29,4 +29,4 @@ std::string quotedText(const std::string& text) {
   return '"' + result + '"';
 }
 
-}  // namespace fsr
+}  // namespace fsr::settings

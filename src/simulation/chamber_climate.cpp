@@ -4,16 +4,16 @@
 
 #include "fsr_pressure_map/simulation/effect.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
-const Range kCelsius{-40, 125, "degree Celsius"};
+const settings::Range kCelsius{-40, 125, "degree Celsius"};
 
-std::vector<TemperaturePoint> readRoom(const Settings& settings) {
+std::vector<TemperaturePoint> readRoom(const settings::Settings& settings) {
   if (!settings.isList("room")) return {{0, settings.number("room", kCelsius)}};
   std::vector<TemperaturePoint> room;
-  for (const Settings& point : settings.sections("room")) {
+  for (const settings::Settings& point : settings.sections("room")) {
     room.push_back({point.number("time", {0, 1e9, "s"}), point.number("temperature", kCelsius)});
     if (room.size() > 1 && room.back().time <= room[room.size() - 2].time) {
       throw point.error("time", "must be later than the time before it");
@@ -28,7 +28,7 @@ enum { kStarted, kTime, kPressure, kSlow, kGasState };
 
 }  // namespace
 
-ChamberClimate readChamberClimate(const Settings& settings) {
+ChamberClimate readChamberClimate(const settings::Settings& settings) {
   ChamberClimate climate;
   if (settings.has("room")) climate.room = readRoom(settings);
   climate.heating = settings.number("heating", {0, 1e-3, "K/Pa"}, climate.heating);
@@ -60,4 +60,4 @@ double ChamberGas::temperature(double time, double pressure) {
   return room(time) + climate_.heating * (pressure - slow);
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -2,18 +2,18 @@
 
 #include <cmath>
 
-#include "fsr_pressure_map/settings/yaml_text.h"
+#include "settings/yaml_text.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
-const Range kPressure{0, kChamberRating, "Pa gauge (the chamber is rated at 793 kPa)"};
-const Range kRate{1, 1e7, "Pa/s"};
-const Range kDuration{0, 1e7, "s"};
-const Range kLoops{1, 1e6, "loops"};
+const settings::Range kPressure{0, kChamberRating, "Pa gauge (the chamber is rated at 793 kPa)"};
+const settings::Range kRate{1, 1e7, "Pa/s"};
+const settings::Range kDuration{0, 1e7, "s"};
+const settings::Range kLoops{1, 1e6, "loops"};
 
-HoldPart readHold(const Settings& settings) {
+HoldPart readHold(const settings::Settings& settings) {
   HoldPart hold;
   hold.pressure = settings.number("pressure", kPressure);
   hold.rate = settings.number("rate", kRate, hold.rate);
@@ -21,7 +21,7 @@ HoldPart readHold(const Settings& settings) {
   return hold;
 }
 
-LoopsPart readLoops(const Settings& settings) {
+LoopsPart readLoops(const settings::Settings& settings) {
   LoopsPart loops;
   loops.low = settings.number("low", kPressure);
   loops.high = settings.number("high", kPressure);
@@ -31,14 +31,14 @@ LoopsPart readLoops(const Settings& settings) {
   return loops;
 }
 
-RestPart readRest(const Settings& settings) {
+RestPart readRest(const settings::Settings& settings) {
   RestPart rest;
   rest.rate = settings.number("rate", kRate, rest.rate);
   rest.duration = settings.number("duration", kDuration);
   return rest;
 }
 
-ProgramPart readPart(const Settings& part) {
+ProgramPart readPart(const settings::Settings& part) {
   const char* const one_key = "give exactly one of cycles, hold, loops, rest";
   const std::vector<std::string> keys = part.keys();
   if (keys.size() != 1) throw part.error(keys.empty() ? "cycles" : keys[1], one_key);
@@ -96,7 +96,7 @@ using Fields = std::vector<std::pair<const char*, double>>;
 std::string text(const char* key, const Fields& fields) {
   std::string result;
   for (const auto& [name, value] : fields) {
-    result += std::string(result.empty() ? "" : ", ") + name + ": " + numberText(value);
+    result += std::string(result.empty() ? "" : ", ") + name + ": " + settings::numberText(value);
   }
   return std::string(key) + ": {" + result + "}";
 }
@@ -117,9 +117,9 @@ struct Writer {
 
 }  // namespace
 
-ChamberProgram readChamberProgram(const std::vector<Settings>& parts) {
+ChamberProgram readChamberProgram(const std::vector<settings::Settings>& parts) {
   ChamberProgram program;
-  for (const Settings& part : parts) {
+  for (const settings::Settings& part : parts) {
     if (!program.empty() && endless(program.back())) {
       throw part.error(part.keys().empty() ? "cycles" : part.keys()[0], "the part before it never ends");
     }
@@ -138,4 +138,4 @@ std::string programText(const ProgramPart& part) {
   return std::visit(Writer{}, part);
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -2,22 +2,22 @@
 
 #include <sstream>
 
-#include "fsr_pressure_map/settings/yaml_text.h"
+#include "settings/yaml_text.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
-const Range kPeak{1e3, kChamberRating, "Pa gauge (the chamber is rated at 793 kPa)"};
-const Range kRate{1, 1e7, "Pa/s"};
-const Range kDwell{0, 86400, "s"};
-const Range kCycles{0, 1e6, "cycles (0 = for ever)"};
+const settings::Range kPeak{1e3, kChamberRating, "Pa gauge (the chamber is rated at 793 kPa)"};
+const settings::Range kRate{1, 1e7, "Pa/s"};
+const settings::Range kDwell{0, 86400, "s"};
+const settings::Range kCycles{0, 1e6, "cycles (0 = for ever)"};
 
-void require(const std::string& origin, const char* field, double value, const Range& range) {
+void require(const std::string& origin, const char* field, double value, const settings::Range& range) {
   if (range.contains(value)) return;
   std::ostringstream sentence;
   sentence << origin << ": " << field << " is " << value << ", but must be " << range.text();
-  throw InputError(sentence.str());
+  throw settings::InputError(sentence.str());
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ void validate(const ChamberProtocol& protocol, const std::string& origin) {
   require(origin, "cycles", protocol.cycles, kCycles);
 }
 
-ChamberProtocol readChamberProtocol(const Settings& settings, const ChamberProtocol& defaults) {
+ChamberProtocol readChamberProtocol(const settings::Settings& settings, const ChamberProtocol& defaults) {
   ChamberProtocol protocol = defaults;
   protocol.peak = settings.number("peak", kPeak, defaults.peak);
   if (settings.has("rate")) {
@@ -47,9 +47,11 @@ ChamberProtocol readChamberProtocol(const Settings& settings, const ChamberProto
 }
 
 std::string protocolText(const ChamberProtocol& p) {
-  return "{peak: " + numberText(p.peak) + ", fill_rate: " + numberText(p.fill_rate) +
-         ", vent_rate: " + numberText(p.vent_rate) + ", dwell_peak: " + numberText(p.dwell_peak) +
-         ", dwell_rest: " + numberText(p.dwell_rest) + ", cycles: " + std::to_string(p.cycles) + "}";
+  return "{peak: " + settings::numberText(p.peak) + ", fill_rate: " + settings::numberText(p.fill_rate) +
+         ", vent_rate: " + settings::numberText(p.vent_rate) +
+         ", dwell_peak: " + settings::numberText(p.dwell_peak) +
+         ", dwell_rest: " + settings::numberText(p.dwell_rest) + ", cycles: " + std::to_string(p.cycles) +
+         "}";
 }
 
 double cycleDuration(const ChamberProtocol& p) {
@@ -77,4 +79,4 @@ PressureProfile ventingProfile(const ChamberProtocol& protocol, double pressure)
   return profile;
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

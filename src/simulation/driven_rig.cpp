@@ -1,8 +1,8 @@
-#include "fsr_pressure_map/simulation/driven_rig.h"
+#include "simulation/driven_rig.h"
 
 #include <algorithm>
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -10,7 +10,7 @@ namespace {
 /// finds them near the last one.
 class RecordedCourse {
  public:
-  RecordedCourse(const Recording& recording, double start) : recording_(recording), start_(start) {}
+  RecordedCourse(const dataset::Recording& recording, double start) : recording_(recording), start_(start) {}
 
   double operator()(double rig_time) {
     const auto& time = recording_.time;
@@ -25,14 +25,14 @@ class RecordedCourse {
   }
 
  private:
-  const Recording& recording_;
+  const dataset::Recording& recording_;
   double start_;          // rig time of the recording's time 0 [s]
   std::size_t next_ = 0;  // first scan after the time asked about
 };
 
 }  // namespace
 
-SimulationSettings fitted(const SimulationSettings& settings, const Recording& recording) {
+SimulationSettings fitted(const SimulationSettings& settings, const dataset::Recording& recording) {
   SimulationSettings result = settings;
   result.layout = recording.layout;
   for (EnabledEffect& effect : result.effects) {
@@ -44,27 +44,29 @@ SimulationSettings fitted(const SimulationSettings& settings, const Recording& r
 DrivenRig::DrivenRig(const SimulationSettings& settings)
     : settings_(settings), chain_(settings), reference_(settings) {}
 
-void DrivenRig::require(const Recording& recording) const {
+void DrivenRig::require(const dataset::Recording& recording) const {
   if (recording.pressure.empty() || recording.scans() == 0) {
-    throw InputError(recording.name + ": holds no chamber pressure to drive a simulation with");
+    throw settings::InputError(recording.name + ": holds no chamber pressure to drive a simulation with");
   }
   if (recording.layout.size != settings_.layout.size) {
-    throw InputError(recording.name + ": is of a matrix of " + sizeText(recording.layout.size) +
-                     ", but the simulated one has " + sizeText(settings_.layout.size));
+    throw settings::InputError(recording.name + ": is of a matrix of " +
+                               matrix::sizeText(recording.layout.size) + ", but the simulated one has " +
+                               matrix::sizeText(settings_.layout.size));
   }
   const bool early =
       origin_ns_ &&
       1e-9 * static_cast<double>(recording.start_ns - *origin_ns_) + recording.time.front() < end_;
   if (early) {
-    throw InputError(
+    throw settings::InputError(
         recording.name +
         ": begins before what the rig went through last had ended; give recordings in time order");
   }
 }
 
-void DrivenRig::lie(const Surface& surface) {
-  if (surface_ && sameCondition(*surface_, surface)) return;
-  chain_.mount(surface.known() ? surface : Surface{surface.name, surface.mount, {Curvature{}}, {}});
+void DrivenRig::lie(const matrix::Surface& surface) {
+  if (surface_ && matrix::sameCondition(*surface_, surface)) return;
+  chain_.mount(surface.known() ? surface
+                               : matrix::Surface{surface.name, surface.mount, {matrix::Curvature{}}, {}});
   surface_ = surface;
   // Where it lay there already, it was not mounted anew.
   if (resumed_ && surface.mount == resumed_->mount && surface.name == resumed_->surface) {
@@ -95,7 +97,7 @@ RigState DrivenRig::state() const {
   return state;
 }
 
-void DrivenRig::run(const Recording& recording,
+void DrivenRig::run(const dataset::Recording& recording,
                     const std::function<void(std::size_t, const SensorChain&)>& listener) {
   require(recording);
   if (!origin_ns_) origin_ns_ = recording.start_ns;
@@ -103,7 +105,7 @@ void DrivenRig::run(const Recording& recording,
   RecordedCourse recorded(recording, start);
   const PressureCourse course = [&](double time) { return reference_.truePressure(recorded(time)); };
   for (std::size_t i = 0; i < recording.scans(); ++i) {
-    const Surface& surface = recording.conditions.at(recording.condition[i]);
+    const matrix::Surface& surface = recording.conditions.at(recording.condition[i]);
     lie(surface);
     RigMoment moment;
     moment.time = start + recording.time[i];
@@ -117,4 +119,4 @@ void DrivenRig::run(const Recording& recording,
   end_ = start + recording.time.back();
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
-EffectParameter make(std::string name, std::string meaning, ParameterRole role, const Range& permitted,
-                     double usual) {
+EffectParameter make(std::string name, std::string meaning, ParameterRole role,
+                     const settings::Range& permitted, double usual) {
   EffectParameter parameter{std::move(name), std::move(meaning), role, permitted, usual};
   parameter.plausible = permitted;
   if (role != ParameterRole::kShape) parameter.neutral = 0;
@@ -41,15 +41,17 @@ EffectParameter EffectParameter::trying(std::vector<double> values) const {
   return changed;
 }
 
-EffectParameter strength(std::string name, std::string meaning, const Range& permitted, double usual) {
+EffectParameter strength(std::string name, std::string meaning, const settings::Range& permitted,
+                         double usual) {
   return make(std::move(name), std::move(meaning), ParameterRole::kStrength, permitted, usual);
 }
 
-EffectParameter scatter(std::string name, std::string meaning, const Range& permitted, double usual) {
+EffectParameter scatter(std::string name, std::string meaning, const settings::Range& permitted,
+                        double usual) {
   return make(std::move(name), std::move(meaning), ParameterRole::kScatter, permitted, usual);
 }
 
-EffectParameter shape(std::string name, std::string meaning, const Range& permitted, double usual) {
+EffectParameter shape(std::string name, std::string meaning, const settings::Range& permitted, double usual) {
   return make(std::move(name), std::move(meaning), ParameterRole::kShape, permitted, usual);
 }
 
@@ -107,4 +109,4 @@ std::string name(Experiment experiment) {
                  "vented_sheet", "second_reference", "indenter_and_liner", "two_humidities"});
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -14,7 +14,7 @@ bool loaded(const LoadPattern& pattern, double x, double y) {
   return right * std::cos(pattern.angle) + up * std::sin(pattern.angle) >= 0;
 }
 
-double share(const LoadPattern& pattern, const Layout& layout, Position cell) {
+double share(const LoadPattern& pattern, const matrix::Layout& layout, matrix::Position cell) {
   int inside = 0;
   for (int i = 0; i < kPointsASide; ++i) {
     for (int k = 0; k < kPointsASide; ++k) {
@@ -28,15 +28,15 @@ double share(const LoadPattern& pattern, const Layout& layout, Position cell) {
 
 }  // namespace
 
-LoadPattern readLoadPattern(const Settings& settings) {
-  const Range place{-10, 10, "m"};
+LoadPattern readLoadPattern(const settings::Settings& settings) {
+  const settings::Range place{-10, 10, "m"};
   LoadPattern pattern;
   const bool disc = settings.has("disc");
   if (disc == settings.has("edge")) {
     throw settings.error(disc ? "edge" : "disc", "give exactly one of disc and edge");
   }
   pattern.kind = disc ? LoadPattern::Kind::kDisc : LoadPattern::Kind::kEdge;
-  const Settings form = settings.section(disc ? "disc" : "edge");
+  const settings::Settings form = settings.section(disc ? "disc" : "edge");
   pattern.centre = {form.number("x", place, 0), form.number("y", place, 0)};
   if (disc) {
     pattern.radius = form.number("radius", {1e-4, 10, "m"});
@@ -46,11 +46,11 @@ LoadPattern readLoadPattern(const Settings& settings) {
   return pattern;
 }
 
-std::vector<double> loadShares(const LoadPattern& pattern, const Layout& layout) {
+std::vector<double> loadShares(const LoadPattern& pattern, const matrix::Layout& layout) {
   std::vector<double> shares(layout.size.taxels(), 1.0);
   if (pattern.kind == LoadPattern::Kind::kUniform) return shares;
   for (std::size_t i = 0; i < shares.size(); ++i) shares[i] = share(pattern, layout, layout.position({i}));
   return shares;
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

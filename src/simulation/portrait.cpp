@@ -1,19 +1,19 @@
-#include "fsr_pressure_map/simulation/portrait.h"
+#include "simulation/portrait.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "fsr_pressure_map/simulation/chamber_climate.h"
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
-#include "fsr_pressure_map/simulation/reference_channel.h"
-#include "fsr_pressure_map/simulation/sensor_chain.h"
+#include "simulation/effects/effect_library.h"
+#include "simulation/reference_channel.h"
+#include "simulation/sensor_chain.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
-const Surface kFlat{"flat", 1, {Curvature{}}, {}};
-const Surface kBent{"cylinder of 5 cm", 2, {Curvature{20, 0, 0}}, {}};
+const matrix::Surface kFlat{"flat", 1, {matrix::Curvature{}}, {}};
+const matrix::Surface kBent{"cylinder of 5 cm", 2, {matrix::Curvature{20, 0, 0}}, {}};
 constexpr double kSlow = 17e3, kFast = 60e3;        // [Pa/s]
 constexpr double kPeak = 620e3, kLevel = 300e3;     // [Pa]
 constexpr double kHold = 900;                       // [s]
@@ -24,7 +24,7 @@ constexpr double kPeriod = 0.2, kLongPeriod = 0.5;  // from scan to scan [s]
 struct Trial {
   PressureProfile profile;  // what the transducer shows
   double period = kPeriod;  // from scan to scan [s]
-  Surface surface = kBent;
+  matrix::Surface surface = kBent;
   LoadPattern load;
   double warming = 0;  // of the room from begin to end [K]
 };
@@ -86,7 +86,7 @@ std::vector<PortraitLine> changes(const SimulationSettings& with, const Simulati
 std::vector<PortraitLine> responses(const SimulationSettings& with, const SimulationSettings& without) {
   const std::size_t taxels = with.layout.size.taxels();
   std::vector<PortraitLine> lines;
-  for (const Surface& surface : {kFlat, kBent}) {
+  for (const matrix::Surface& surface : {kFlat, kBent}) {
     Trial trial{pressureProfile(ChamberProgram{HoldPart{kPeak, kSlow, 0}}), kPeriod, surface, {}, 0};
     lines.push_back(
         line(surface.name + ", without", trial, run(without, trial), taxels, taxels / 2, Axis::kPressure));
@@ -110,7 +110,7 @@ Trial pressed(const LoadPattern& pattern) {
   return {pressureProfile(ChamberProgram{HoldPart{kLevel, kSlow, 2}}), kPeriod, kBent, pattern, 0};
 }
 
-LoadPattern discOn(const Layout& layout) {
+LoadPattern discOn(const matrix::Layout& layout) {
   const double side = std::min(layout.size.columns * layout.pitch_x, layout.size.rows * layout.pitch_y);
   return {LoadPattern::Kind::kDisc, {0, 0}, 0.35 * side, 0};
 }
@@ -149,7 +149,8 @@ SimulationSettings withoutThose(SimulationSettings settings, Unwanted unwanted) 
 
 SimulationSettings withEffect(const SimulationSettings& settings, const std::string& id) {
   const EffectEntry* entry = findEffect(id);
-  if (!entry || !entry->make) throw InputError(id + ": no effect that can be simulated has that name");
+  if (!entry || !entry->make)
+    throw settings::InputError(id + ": no effect that can be simulated has that name");
   SimulationSettings result = settings;
   if (result.effect(id)) return result;
   EnabledEffect effect{id, {}};
@@ -187,4 +188,4 @@ Portrait portray(const SimulationSettings& with, const SimulationSettings& witho
   return portrait;
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -50,4 +50,4 @@ double PressureProfile::at(double time) const {
   return interpolate(part->points, inside - std::floor(inside / part->period) * part->period);
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -1,8 +1,8 @@
-#include "fsr_pressure_map/simulation/reference_channel.h"
+#include "simulation/reference_channel.h"
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 ReferenceChannel::ReferenceChannel(const SimulationSettings& settings) : transducer_(settings.transducer) {
   for (const EnabledEffect& enabled : settings.effects) {
@@ -29,4 +29,4 @@ double ReferenceChannel::truePressure(double indicated) const {
   return pressure;
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -1,6 +1,6 @@
-#include "fsr_pressure_map/simulation/rig.h"
+#include "simulation/rig.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 Rig::Rig(const SimulationSettings& settings)
     : chain_(settings), reference_(settings), gas_(settings.climate) {}
@@ -35,4 +35,4 @@ void Rig::restore(const RigState& state) {
   scans_ = state.scans;
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -1,11 +1,11 @@
-#include "fsr_pressure_map/simulation/sensitivity.h"
+#include "simulation/sensitivity.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -16,11 +16,11 @@ constexpr double kCentralStep = 1e-4;
 
 const EffectInfo& knownEffect(const std::string& id, const std::string& strength) {
   const EffectEntry* entry = findEffect(id);
-  if (!entry || !entry->make) throw InputError("no effect that can be simulated is called " + id);
+  if (!entry || !entry->make) throw settings::InputError("no effect that can be simulated is called " + id);
   for (const EffectParameter& parameter : strengths(entry->info)) {
     if (parameter.name == strength) return entry->info;
   }
-  throw InputError("the effect " + id + " has no strength " + strength);
+  throw settings::InputError("the effect " + id + " has no strength " + strength);
 }
 
 EffectValues valuesAt(const SimulationSettings& settings, const EffectInfo& info,
@@ -85,7 +85,7 @@ Sensitivity::Sensitivity(const SimulationSettings& settings, const std::string& 
   derivative_ = lower_->chain.signals();
 }
 
-void Sensitivity::mount(const Surface& surface, const LoadPattern& pattern) {
+void Sensitivity::mount(const matrix::Surface& surface, const LoadPattern& pattern) {
   lower_->chain.mount(surface, pattern);
   upper_->chain.mount(surface, pattern);
 }
@@ -102,4 +102,4 @@ const TaxelSignals& Sensitivity::read(const RigMoment& moment) {
   return derivative_;
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

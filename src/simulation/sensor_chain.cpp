@@ -1,26 +1,26 @@
-#include "fsr_pressure_map/simulation/sensor_chain.h"
+#include "simulation/sensor_chain.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
 const char* const kClock = "clock";  // of the chain itself, in its state
 enum { kStarted, kLastTime, kClockState };
 
-std::vector<double> principalCurvatures(const Surface& surface, std::size_t taxels) {
+std::vector<double> principalCurvatures(const matrix::Surface& surface, std::size_t taxels) {
   if (surface.curvature.size() != 1 && surface.curvature.size() != taxels) {
-    throw InputError("surface " + surface.name + " has " + std::to_string(surface.curvature.size()) +
-                     " curvatures, but one, or one for each of the " + std::to_string(taxels) +
-                     " taxels, is needed");
+    throw settings::InputError(
+        "surface " + surface.name + " has " + std::to_string(surface.curvature.size()) +
+        " curvatures, but one, or one for each of the " + std::to_string(taxels) + " taxels, is needed");
   }
   std::vector<double> curvatures(taxels);
-  for (std::size_t i = 0; i < taxels; ++i) curvatures[i] = principalCurvature(surface.at({i}));
+  for (std::size_t i = 0; i < taxels; ++i) curvatures[i] = matrix::principalCurvature(surface.at({i}));
   return curvatures;
 }
 
@@ -33,8 +33,8 @@ std::vector<std::uint8_t> actingOn(const EnabledEffect& effect, std::size_t taxe
   std::vector<std::uint8_t> acts(taxels, 0);
   for (const std::size_t taxel : effect.only_taxels) {
     if (taxel >= taxels) {
-      throw InputError("effects." + effect.id + ": only_taxels names " + std::to_string(taxel) +
-                       ", but the matrix has " + std::to_string(taxels) + " taxels");
+      throw settings::InputError("effects." + effect.id + ": only_taxels names " + std::to_string(taxel) +
+                                 ", but the matrix has " + std::to_string(taxels) + " taxels");
     }
     acts[taxel] = 1;
   }
@@ -64,8 +64,8 @@ SensorChain::SensorChain(const SimulationSettings& settings)
       curves_(settings.taxel_curves),
       clock_(kClockState, 0.0) {
   if (curves_ && curves_->taxels != layout_.size.taxels()) {
-    throw InputError(settings.taxel_curves_file + ": is of " + std::to_string(curves_->taxels) +
-                     " taxels, but the matrix has " + std::to_string(layout_.size.taxels()));
+    throw settings::InputError(settings.taxel_curves_file + ": is of " + std::to_string(curves_->taxels) +
+                               " taxels, but the matrix has " + std::to_string(layout_.size.taxels()));
   }
   std::vector<EffectEntry> order = effectLibrary();
   std::stable_sort(order.begin(), order.end(), earlier);
@@ -79,10 +79,10 @@ SensorChain::SensorChain(const SimulationSettings& settings)
   const std::vector<double> zeros(layout_.size.taxels());
   before_ = signals_ = {0, zeros, zeros, zeros, zeros, zeros};
   counts_.resize(zeros.size());
-  mount(Surface{"flat", 0, {Curvature{}}, {}});
+  mount(matrix::Surface{"flat", 0, {matrix::Curvature{}}, {}});
 }
 
-void SensorChain::mount(const Surface& surface, const LoadPattern& pattern) {
+void SensorChain::mount(const matrix::Surface& surface, const LoadPattern& pattern) {
   Mounting mounting{surface.mount, principalCurvatures(surface, layout_.size.taxels()),
                     loadShares(pattern, layout_)};
   for (Link& link : links_) link.effect->place(mounting);
@@ -167,7 +167,8 @@ void SensorChain::restore(const ChainState& state) {
     return a.first == b.first && a.second.size() == b.second.size();
   };
   if (mine.size() != state.size() || !std::equal(mine.begin(), mine.end(), state.begin(), fits)) {
-    throw InputError("the state of a simulated matrix does not fit: it has other effects or another size");
+    throw settings::InputError(
+        "the state of a simulated matrix does not fit: it has other effects or another size");
   }
   clock_ = state.at(kClock);
   for (Link& link : links_) {
@@ -181,4 +182,4 @@ void SensorChain::reset() {
   for (Link& link : links_) std::fill(link.effect->state().begin(), link.effect->state().end(), 0.0);
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/simulation/session.h"
+#include "simulation/session.h"
 
 #include <cmath>
 
-#include "fsr_pressure_map/dataset/recording_builder.h"
+#include "dataset/recording_builder.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -28,8 +28,8 @@ Session::Session(const SimulationSettings& settings)
     : settings_(settings), rig_(settings), origin_ns_(nanoseconds(settings.start)) {
   for (const Station& station : settings_.session) {
     if (std::isfinite(pressureProfile(station.program).duration())) continue;
-    throw InputError(settings_.origin + ": the cycles on " + station.surface.name +
-                     " never end; give `cycles` of 1 or more");
+    throw settings::InputError(settings_.origin + ": the cycles on " + station.surface.name +
+                               " never end; give `cycles` of 1 or more");
   }
 }
 
@@ -86,8 +86,8 @@ void Session::runNext(const RigListener& listener) {
   ++next_;
 }
 
-SensorIdentity identity(const SimulationSettings& settings) {
-  SensorIdentity sensor;
+dataset::SensorIdentity identity(const SimulationSettings& settings) {
+  dataset::SensorIdentity sensor;
   sensor.sensor_id = settings.board.serial;
   sensor.serial = settings.board.serial;
   sensor.firmware = settings.board.firmware;
@@ -99,15 +99,16 @@ std::string stationName(const Station& station) {
   return std::to_string(station.surface.mount) + "_" + station.surface.name;
 }
 
-std::vector<Recording> simulateSession(const SimulationSettings& settings) {
+std::vector<dataset::Recording> simulateSession(const SimulationSettings& settings) {
   Session session(settings);
-  std::vector<Recording> recordings;
+  std::vector<dataset::Recording> recordings;
   for (std::size_t i = 0; i < session.stations(); ++i) {
-    RecordingBuilder builder;
+    dataset::RecordingBuilder builder;
     std::uint32_t sequence = 0;
     const auto stamp = [&](double time) { return session.origin() + nanoseconds(time); };
-    builder.addDescription(stamp(session.begin()),
-                           {identity(settings), settings.layout, settings.fullScale(), kStandardAmbient, {}});
+    builder.addDescription(
+        stamp(session.begin()),
+        {identity(settings), settings.layout, settings.fullScale(), dataset::kStandardAmbient, {}});
     builder.addSurface(stamp(session.begin()), session.station(i).surface);
     session.runNext({[&](double time, const std::vector<std::uint16_t>& counts) {
                        builder.addScan(
@@ -116,14 +117,14 @@ std::vector<Recording> simulateSession(const SimulationSettings& settings) {
                      },
                      [&](double time, std::int32_t counts) {
                        const double gauge = settings.transducer.gaugePressure(counts);
-                       builder.addChamberPressure(stamp(time), gauge + kStandardAmbient);
+                       builder.addChamberPressure(stamp(time), gauge + dataset::kStandardAmbient);
                      },
                      [&](double time, double celsius) { builder.addTemperature(stamp(time), celsius); }});
-    RecordingOptions options;
+    dataset::RecordingOptions options;
     options.name = stationName(session.station(i)) + ".bag";
     recordings.push_back(builder.build(options));
   }
   return recordings;
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

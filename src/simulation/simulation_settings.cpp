@@ -4,17 +4,17 @@
 #include <filesystem>
 #include <sstream>
 
-#include "fsr_pressure_map/matrix/surface_file.h"
 #include "fsr_pressure_map/simulation/chamber_program.h"
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "matrix/surface_file.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
-Layout readLayout(const Settings& settings, Layout layout) {
-  const Range side{1, kMaxMatrixSide, ""};
-  const Range pitch{1e-4, 1, "m"};
+matrix::Layout readLayout(const settings::Settings& settings, matrix::Layout layout) {
+  const settings::Range side{1, matrix::kMaxMatrixSide, ""};
+  const settings::Range pitch{1e-4, 1, "m"};
   layout.size.rows = static_cast<std::uint16_t>(settings.integer("rows", side, layout.size.rows));
   layout.size.columns = static_cast<std::uint16_t>(settings.integer("columns", side, layout.size.columns));
   layout.pitch_x = settings.number("pitch_x", pitch, layout.pitch_x);
@@ -22,7 +22,7 @@ Layout readLayout(const Settings& settings, Layout layout) {
   return layout;
 }
 
-SimulatedBoard readBoard(const Settings& settings) {
+SimulatedBoard readBoard(const settings::Settings& settings) {
   SimulatedBoard board;
   board.serial = settings.text("serial", board.serial);
   board.firmware = settings.text("firmware", board.firmware);
@@ -34,8 +34,8 @@ SimulatedBoard readBoard(const Settings& settings) {
   return board;
 }
 
-Transducer readTransducer(const Settings& settings) {
-  const Range pressure{-110e3, 100e6, "Pa gauge"};
+Transducer readTransducer(const settings::Settings& settings) {
+  const settings::Range pressure{-110e3, 100e6, "Pa gauge"};
   Transducer transducer;
   transducer.low = settings.number("low", pressure, transducer.low);
   transducer.high = settings.number("high", pressure, transducer.high);
@@ -45,13 +45,13 @@ Transducer readTransducer(const Settings& settings) {
   return transducer;
 }
 
-Surface surfaceOf(const Settings& settings, MatrixSize size) {
-  if (hasSurfaceForm(settings)) return readSurface(settings, size);
+matrix::Surface surfaceOf(const settings::Settings& settings, matrix::MatrixSize size) {
+  if (matrix::hasSurfaceForm(settings)) return matrix::readSurface(settings, size);
   const auto beside = std::filesystem::path(settings.origin()).parent_path() / "../surfaces";
-  return readSurfaceFile((beside / (settings.text("surface") + ".yaml")).lexically_normal(), size);
+  return matrix::readSurfaceFile((beside / (settings.text("surface") + ".yaml")).lexically_normal(), size);
 }
 
-Station readStation(const Settings& settings, const Station& usual, MatrixSize size) {
+Station readStation(const settings::Settings& settings, const Station& usual, matrix::MatrixSize size) {
   Station station = usual;
   station.surface = surfaceOf(settings, size);
   station.surface.mount = usual.surface.mount;
@@ -61,12 +61,12 @@ Station readStation(const Settings& settings, const Station& usual, MatrixSize s
   return station;
 }
 
-std::vector<Station> readSession(const Settings& settings, const SimulationSettings& simulation) {
-  Station usual{{"flat", 1, {Curvature{}}, {}}, {}, Station{}.pause, {simulation.chamber}};
+std::vector<Station> readSession(const settings::Settings& settings, const SimulationSettings& simulation) {
+  Station usual{{"flat", 1, {matrix::Curvature{}}, {}}, {}, Station{}.pause, {simulation.chamber}};
   if (settings.has("program")) usual.program = readChamberProgram(settings.sections("program"));
   if (!settings.has("session")) return {usual};
   std::vector<Station> session;
-  for (const Settings& station : settings.sections("session")) {
+  for (const settings::Settings& station : settings.sections("session")) {
     session.push_back(readStation(station, usual, simulation.layout.size));
     ++usual.surface.mount;
   }
@@ -74,7 +74,7 @@ std::vector<Station> readSession(const Settings& settings, const SimulationSetti
   return session;
 }
 
-EffectValues readValues(const Settings& settings, const EffectInfo& info) {
+EffectValues readValues(const settings::Settings& settings, const EffectInfo& info) {
   EffectValues values;
   for (const EffectParameter& parameter : info.parameters) {
     values[parameter.name] = settings.number(parameter.name, parameter.permitted, parameter.usual);
@@ -82,7 +82,8 @@ EffectValues readValues(const Settings& settings, const EffectInfo& info) {
   return values;
 }
 
-EnabledEffect readEffect(const Settings& settings, const EffectInfo& info, MatrixSize size) {
+EnabledEffect readEffect(const settings::Settings& settings, const EffectInfo& info,
+                         matrix::MatrixSize size) {
   EnabledEffect effect{info.id, readValues(settings, info)};
   if (settings.has("only_taxels")) {
     const double last = static_cast<double>(size.taxels()) - 1;
@@ -93,7 +94,7 @@ EnabledEffect readEffect(const Settings& settings, const EffectInfo& info, Matri
   return effect;
 }
 
-void refuseOtherEffects(const Settings& effects) {
+void refuseOtherEffects(const settings::Settings& effects) {
   for (const std::string& id : effects.keys()) {
     const EffectEntry* entry = findEffect(id);
     if (entry && entry->make) continue;
@@ -104,7 +105,7 @@ void refuseOtherEffects(const Settings& effects) {
   }
 }
 
-std::vector<EnabledEffect> readEffects(const Settings& effects, MatrixSize size) {
+std::vector<EnabledEffect> readEffects(const settings::Settings& effects, matrix::MatrixSize size) {
   refuseOtherEffects(effects);
   std::vector<EnabledEffect> enabled;
   for (const EffectEntry& entry : effectLibrary()) {
@@ -117,7 +118,7 @@ std::vector<EnabledEffect> readEffects(const Settings& effects, MatrixSize size)
   return enabled;
 }
 
-void readCurves(const Settings& settings, SimulationSettings& simulation) {
+void readCurves(const settings::Settings& settings, SimulationSettings& simulation) {
   simulation.taxel_curves_file = settings.text("taxel_curves");
   const auto path = std::filesystem::path(settings.origin()).parent_path() / simulation.taxel_curves_file;
   simulation.taxel_curves = std::make_shared<const TaxelCurves>(readTaxelCurves(path));
@@ -130,7 +131,7 @@ void validate(const SimulatedBoard& board, const std::string& origin) {
   std::ostringstream sentence;
   sentence << origin << ".scan_duration is " << board.scan_duration << " s, but at a scan_rate of "
            << board.scan_rate << " Hz must be at most " << 1 / board.scan_rate << " s";
-  throw InputError(sentence.str());
+  throw settings::InputError(sentence.str());
 }
 
 const EnabledEffect* SimulationSettings::effect(const std::string& id) const {
@@ -143,7 +144,7 @@ std::uint16_t SimulationSettings::fullScale() const {
   return static_cast<std::uint16_t>(effect("converter")->values.at("full_scale"));
 }
 
-SimulationSettings readSimulation(const Settings& settings) {
+SimulationSettings readSimulation(const settings::Settings& settings) {
   SimulationSettings simulation;
   simulation.origin = settings.origin();
   simulation.name = settings.text("simulation");
@@ -162,7 +163,7 @@ SimulationSettings readSimulation(const Settings& settings) {
 }
 
 SimulationSettings readSimulationFile(const std::string& path) {
-  return readSimulation(Settings::fromFile(path));
+  return readSimulation(settings::Settings::fromFile(path));
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

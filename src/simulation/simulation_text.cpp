@@ -1,12 +1,12 @@
-#include "fsr_pressure_map/simulation/simulation_text.h"
+#include "simulation/simulation_text.h"
 
 #include <algorithm>
 #include <sstream>
 
-#include "fsr_pressure_map/settings/yaml_text.h"
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "settings/yaml_text.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -22,35 +22,36 @@ std::string commented(const std::string& head) {
   return result;
 }
 
-std::string list(const Surface& surface, double Curvature::*component) {
+std::string list(const matrix::Surface& surface, double matrix::Curvature::*component) {
   std::string result;
-  for (const Curvature& curvature : surface.curvature) {
-    result += (result.empty() ? "" : ", ") + numberText(curvature.*component);
+  for (const matrix::Curvature& curvature : surface.curvature) {
+    result += (result.empty() ? "" : ", ") + settings::numberText(curvature.*component);
   }
   return surface.curvature.size() == 1 ? result : "[" + result + "]";
 }
 
-std::string text(const Surface& surface) {
-  std::string result = "surface: " + quotedText(surface.name);
+std::string text(const matrix::Surface& surface) {
+  std::string result = "surface: " + settings::quotedText(surface.name);
   const char* form = surface.curvature.size() == 1 ? "two_planes" : "taxels";
-  result += std::string(", ") + form + ": {x: " + list(surface, &Curvature::x) +
-            ", y: " + list(surface, &Curvature::y) + ", xy: " + list(surface, &Curvature::xy) + "}";
-  if (!surface.deviation.empty()) result += ", deviation: " + numberText(surface.deviation.front());
+  result += std::string(", ") + form + ": {x: " + list(surface, &matrix::Curvature::x) +
+            ", y: " + list(surface, &matrix::Curvature::y) +
+            ", xy: " + list(surface, &matrix::Curvature::xy) + "}";
+  if (!surface.deviation.empty()) result += ", deviation: " + settings::numberText(surface.deviation.front());
   return result;
 }
 
 std::string text(const LoadPattern& pattern) {
-  const std::string place =
-      "x: " + numberText(pattern.centre.x) + ", y: " + numberText(pattern.centre.y) + ", ";
+  const std::string place = "x: " + settings::numberText(pattern.centre.x) +
+                            ", y: " + settings::numberText(pattern.centre.y) + ", ";
   if (pattern.kind == LoadPattern::Kind::kUniform) return "";
   return pattern.kind == LoadPattern::Kind::kDisc
-             ? ", load: {disc: {" + place + "radius: " + numberText(pattern.radius) + "}}"
-             : ", load: {edge: {" + place + "angle: " + numberText(pattern.angle) + "}}";
+             ? ", load: {disc: {" + place + "radius: " + settings::numberText(pattern.radius) + "}}"
+             : ", load: {edge: {" + place + "angle: " + settings::numberText(pattern.angle) + "}}";
 }
 
 std::string text(const Station& station) {
   std::string result = "  - {" + text(station.surface) + text(station.load) +
-                       ", pause: " + numberText(station.pause) + ",\n     program: [";
+                       ", pause: " + settings::numberText(station.pause) + ",\n     program: [";
   for (std::size_t i = 0; i < station.program.size(); ++i) {
     result += (i == 0 ? "{" : ",\n               {") + programText(station.program[i]) + "}";
   }
@@ -58,28 +59,31 @@ std::string text(const Station& station) {
 }
 
 std::string text(const SimulatedBoard& board) {
-  return "board: {serial: " + quotedText(board.serial) + ", firmware: " + quotedText(board.firmware) +
-         ", model: " + quotedText(board.model) + ",\n        scan_rate: " + numberText(board.scan_rate) +
-         ", scan_duration: " + numberText(board.scan_duration) +
-         ", transducer_rate: " + numberText(board.transducer_rate) + "}\n";
+  return "board: {serial: " + settings::quotedText(board.serial) +
+         ", firmware: " + settings::quotedText(board.firmware) +
+         ", model: " + settings::quotedText(board.model) +
+         ",\n        scan_rate: " + settings::numberText(board.scan_rate) +
+         ", scan_duration: " + settings::numberText(board.scan_duration) +
+         ", transducer_rate: " + settings::numberText(board.transducer_rate) + "}\n";
 }
 
 std::string text(const ChamberClimate& climate) {
   std::string room;
   for (const TemperaturePoint& point : climate.room) {
-    room += (room.empty() ? "" : ", ") + ("{time: " + numberText(point.time)) +
-            ", temperature: " + numberText(point.temperature) + "}";
+    room += (room.empty() ? "" : ", ") + ("{time: " + settings::numberText(point.time)) +
+            ", temperature: " + settings::numberText(point.temperature) + "}";
   }
   return "climate:\n" + (room.empty() ? "" : "  room: [" + room + "]\n") +
-         "  heating: " + numberText(climate.heating) + "\n  cooling: " + numberText(climate.cooling) + "\n";
+         "  heating: " + settings::numberText(climate.heating) +
+         "\n  cooling: " + settings::numberText(climate.cooling) + "\n";
 }
 
 std::string text(const EnabledEffect& effect, const ValueRemarks& remarks) {
   std::string result = "  " + effect.id + ":\n";
   for (const EffectParameter& parameter : findEffect(effect.id)->info.parameters) {
     const std::string& unit = parameter.permitted.unit;
-    result += "    " + parameter.name + ": " + numberText(effect.values.at(parameter.name)) + "  # " +
-              (unit.empty() ? "" : "[" + unit + "] ") + parameter.meaning;
+    result += "    " + parameter.name + ": " + settings::numberText(effect.values.at(parameter.name)) +
+              "  # " + (unit.empty() ? "" : "[" + unit + "] ") + parameter.meaning;
     const auto remark = remarks.find(effect.id + "." + parameter.name);
     result += (remark == remarks.end() ? "" : "; " + onOneLine(remark->second)) + "\n";
   }
@@ -87,7 +91,7 @@ std::string text(const EnabledEffect& effect, const ValueRemarks& remarks) {
   for (const std::size_t taxel : effect.only_taxels)
     taxels += (taxels.empty() ? "" : ", ") + std::to_string(taxel);
   for (const std::string& surface : effect.only_surfaces)
-    surfaces += (surfaces.empty() ? "" : ", ") + quotedText(surface);
+    surfaces += (surfaces.empty() ? "" : ", ") + settings::quotedText(surface);
   if (!taxels.empty()) result += "    only_taxels: [" + taxels + "]\n";
   if (!surfaces.empty()) result += "    only_surfaces: [" + surfaces + "]\n";
   return result;
@@ -97,24 +101,25 @@ std::string text(const EnabledEffect& effect, const ValueRemarks& remarks) {
 
 std::string simulationText(const SimulationSettings& settings, const std::string& head,
                            const ValueRemarks& remarks) {
-  const Layout& layout = settings.layout;
+  const matrix::Layout& layout = settings.layout;
   const Transducer& transducer = settings.transducer;
-  std::string result = commented(head) + "simulation: " + quotedText(settings.name) +
-                       "\nseed: " + std::to_string(settings.seed) + "\nstart: " + numberText(settings.start) +
+  std::string result = commented(head) + "simulation: " + settings::quotedText(settings.name) +
+                       "\nseed: " + std::to_string(settings.seed) +
+                       "\nstart: " + settings::numberText(settings.start) +
                        "\nmatrix: {rows: " + std::to_string(layout.size.rows) +
                        ", columns: " + std::to_string(layout.size.columns) +
-                       ", pitch_x: " + numberText(layout.pitch_x) +
-                       ", pitch_y: " + numberText(layout.pitch_y) + "}\n" + text(settings.board) +
+                       ", pitch_x: " + settings::numberText(layout.pitch_x) +
+                       ", pitch_y: " + settings::numberText(layout.pitch_y) + "}\n" + text(settings.board) +
                        "chamber: " + protocolText(settings.chamber) + "\nsession:\n";
   for (const Station& station : settings.session) result += text(station);
-  result += text(settings.climate) + "transducer: {low: " + numberText(transducer.low) +
-            ", high: " + numberText(transducer.high) +
+  result += text(settings.climate) + "transducer: {low: " + settings::numberText(transducer.low) +
+            ", high: " + settings::numberText(transducer.high) +
             ", full_counts: " + std::to_string(transducer.full_counts) + "}\neffects:\n";
   for (const EnabledEffect& effect : settings.effects) result += text(effect, remarks);
   if (!settings.taxel_curves_file.empty()) {
-    result += "taxel_curves: " + quotedText(settings.taxel_curves_file) + "\n";
+    result += "taxel_curves: " + settings::quotedText(settings.taxel_curves_file) + "\n";
   }
   return result;
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/dataset/table_reader.h"
-#include "fsr_pressure_map/settings/yaml_text.h"
+#include "dataset/table_reader.h"
+#include "settings/yaml_text.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -40,9 +40,10 @@ std::string taxelCurvesText(const TaxelCurves& curves) {
   for (std::size_t t = 0; t < curves.taxels; ++t) text += ",taxel_" + std::to_string(t);
   for (const TaxelCurves::OnSurface& surface : curves.surfaces) {
     for (std::size_t k = 0; k < surface.pressure.size(); ++k) {
-      text += "\n" + numberText(surface.curvature) + "," + numberText(surface.pressure[k]);
+      text +=
+          "\n" + settings::numberText(surface.curvature) + "," + settings::numberText(surface.pressure[k]);
       for (std::size_t t = 0; t < curves.taxels; ++t) {
-        text += "," + numberText(surface.added[k * curves.taxels + t]);
+        text += "," + settings::numberText(surface.added[k * curves.taxels + t]);
       }
     }
   }
@@ -50,10 +51,10 @@ std::string taxelCurvesText(const TaxelCurves& curves) {
 }
 
 TaxelCurves readTaxelCurves(const std::string& path) {
-  TableReader table(path);
+  dataset::TableReader table(path);
   TaxelCurves curves;
   if (table.columns() <= kLabels)
-    throw InputError(path + ": has no column for a taxel after curvature and pressure");
+    throw settings::InputError(path + ": has no column for a taxel after curvature and pressure");
   curves.taxels = table.columns() - kLabels;
   while (table.next()) {
     const double curvature = table.number(0), pressure = table.number(1);
@@ -67,8 +68,8 @@ TaxelCurves readTaxelCurves(const std::string& path) {
     surface.pressure.push_back(pressure);
     for (std::size_t t = 0; t < curves.taxels; ++t) surface.added.push_back(table.number(kLabels + t));
   }
-  if (curves.surfaces.empty()) throw InputError(path + ": holds no row");
+  if (curves.surfaces.empty()) throw settings::InputError(path + ": holds no row");
   return curves;
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -2,10 +2,10 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
-#include "fsr_pressure_map/statistics/bootstrap.h"
-#include "fsr_pressure_map/statistics/samples.h"
+#include "statistics/bootstrap.h"
+#include "statistics/samples.h"
 
-namespace fsr {
+namespace fsr::statistics {
 
 namespace {
 
@@ -63,4 +63,4 @@ Interval bcaInterval(double estimate, std::vector<double> replicates, const std:
   return {limit(-z), limit(z)};
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/statistics/bootstrap.h"
+#include "statistics/bootstrap.h"
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
@@ -7,17 +7,17 @@
 #include <map>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/statistics/random_stream.h"
-#include "fsr_pressure_map/statistics/samples.h"
+#include "statistics/random_stream.h"
+#include "statistics/samples.h"
 
-namespace fsr {
+namespace fsr::statistics {
 
 namespace {
 
 using Units = std::vector<std::vector<std::size_t>>;  // observations of each unit
 
 void require(bool holds, const std::string& sentence) {
-  if (!holds) throw InputError("bootstrap: " + sentence);
+  if (!holds) throw settings::InputError("bootstrap: " + sentence);
 }
 
 void validate(const BootstrapProblem& problem, const BootstrapOptions& options) {
@@ -136,4 +136,4 @@ BootstrapResult bootstrap(const BootstrapProblem& problem, const BootstrapOption
   return result;
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

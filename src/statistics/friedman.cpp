@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/statistics/friedman.h"
+#include "statistics/friedman.h"
 
 #include <boost/math/distributions/chi_squared.hpp>
 
-#include "fsr_pressure_map/statistics/ranks.h"
+#include "statistics/ranks.h"
 
-namespace fsr {
+namespace fsr::statistics {
 
 namespace {
 
@@ -48,4 +48,4 @@ TestResult friedman(const RepeatedMeasures& measures) {
   return result;
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace fsr {
+namespace fsr::statistics {
 
 namespace {
 
@@ -120,4 +120,4 @@ Spread spreadOf(const std::vector<double>& values) {
   return {mean, sampleDeviation(known, mean)};
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

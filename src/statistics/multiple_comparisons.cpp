@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/statistics/multiple_comparisons.h"
+#include "statistics/multiple_comparisons.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -7,15 +7,15 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::statistics {
 
 namespace {
 
 void requireProbabilities(const std::vector<double>& p) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (p[i] >= 0 && p[i] <= 1) continue;
-    throw InputError("correction for multiple tests: p value " + std::to_string(i + 1) + " is " +
-                     std::to_string(p[i]) + "; it must lie between 0 and 1");
+    throw settings::InputError("correction for multiple tests: p value " + std::to_string(i + 1) + " is " +
+                               std::to_string(p[i]) + "; it must lie between 0 and 1");
   }
 }
 
@@ -62,4 +62,4 @@ std::vector<double> benjaminiYekutieli(const std::vector<double>& p) {
   return adjusted;
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

@@ -1,11 +1,11 @@
-#include "fsr_pressure_map/statistics/paired_sign_test.h"
+#include "statistics/paired_sign_test.h"
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 
-#include "fsr_pressure_map/statistics/samples.h"
+#include "statistics/samples.h"
 
-namespace fsr {
+namespace fsr::statistics {
 
 TestResult pairedSignTest(const std::vector<double>& first, const std::vector<double>& second) {
   const std::vector<double> differences = pairedDifferences(first, second, "paired sign test");
@@ -29,4 +29,4 @@ TestResult pairedSignTest(const std::vector<double>& first, const std::vector<do
   return result;
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

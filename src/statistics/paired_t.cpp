@@ -1,13 +1,13 @@
-#include "fsr_pressure_map/statistics/paired_t.h"
+#include "statistics/paired_t.h"
 
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <string>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/statistics/samples.h"
+#include "statistics/samples.h"
 
-namespace fsr {
+namespace fsr::statistics {
 
 namespace {
 
@@ -38,8 +38,9 @@ PairedT pairedT(const std::vector<double>& first, const std::vector<double>& sec
   result.low = result.high = result.mean_difference;
   if (isConstant(differences)) {
     if (result.mean_difference == 0) return result;
-    throw InputError(std::string(kName) + ": all differences are " + std::to_string(result.mean_difference) +
-                     "; it needs differences that scatter");
+    throw settings::InputError(std::string(kName) + ": all differences are " +
+                               std::to_string(result.mean_difference) +
+                               "; it needs differences that scatter");
   }
   const double error = std::sqrt(squaredDeviations(differences) / (n - 1) / n);
   const boost::math::students_t distribution(n - 1);
@@ -52,4 +53,4 @@ PairedT pairedT(const std::vector<double>& first, const std::vector<double>& sec
   return result;
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

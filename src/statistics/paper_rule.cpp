@@ -1,19 +1,19 @@
-#include "fsr_pressure_map/statistics/paper_rule.h"
+#include "statistics/paper_rule.h"
 
 #include <string>
 #include <vector>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/statistics/friedman.h"
-#include "fsr_pressure_map/statistics/multiple_comparisons.h"
-#include "fsr_pressure_map/statistics/paired_sign_test.h"
-#include "fsr_pressure_map/statistics/paired_t.h"
-#include "fsr_pressure_map/statistics/repeated_measures_anova.h"
-#include "fsr_pressure_map/statistics/shapiro_wilk.h"
-#include "fsr_pressure_map/statistics/triples_test.h"
-#include "fsr_pressure_map/statistics/wilcoxon_signed_rank.h"
+#include "statistics/friedman.h"
+#include "statistics/multiple_comparisons.h"
+#include "statistics/paired_sign_test.h"
+#include "statistics/paired_t.h"
+#include "statistics/repeated_measures_anova.h"
+#include "statistics/shapiro_wilk.h"
+#include "statistics/triples_test.h"
+#include "statistics/wilcoxon_signed_rank.h"
 
-namespace fsr {
+namespace fsr::statistics {
 
 namespace {
 
@@ -155,10 +155,10 @@ class Walk {
 PaperRuleResult paperRule(const RepeatedMeasures& measures, const PaperRuleOptions& options) {
   requireMeasures(measures, 2, 3, "paper's rule");
   if (!(options.level > 0 && options.level < 1)) {
-    throw InputError("paper's rule: level is " + std::to_string(options.level) +
-                     "; it must lie between 0 and 1");
+    throw settings::InputError("paper's rule: level is " + std::to_string(options.level) +
+                               "; it must lie between 0 and 1");
   }
   return Walk(measures, options).run();
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

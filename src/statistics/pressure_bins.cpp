@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace fsr {
+namespace fsr::statistics {
 
 std::size_t pressureBin(double pressure) {
   const auto above = std::upper_bound(kPressureBinEdges.begin() + 1, kPressureBinEdges.end(), pressure);
@@ -15,4 +15,4 @@ std::string pressureBinName(std::size_t bin) {
   return bin + 1 == kPressureBins ? low + "+" : low + "-" + kilopascal(kPressureBinEdges[bin + 1]);
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

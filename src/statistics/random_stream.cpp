@@ -1,9 +1,9 @@
-#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/random_stream.h"
 
 #include <array>
 #include <cmath>
 
-namespace fsr {
+namespace fsr::statistics {
 
 namespace {
 
@@ -84,4 +84,4 @@ RandomStream randomStream(std::uint64_t seed, std::string_view name, std::uint64
   return RandomStream(splitMix(purpose + (member + 1) * kSplitMixIncrement));
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

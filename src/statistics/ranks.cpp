@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/statistics/ranks.h"
+#include "statistics/ranks.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
 
-namespace fsr {
+namespace fsr::statistics {
 
 Ranking midranks(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
@@ -23,4 +23,4 @@ Ranking midranks(const std::vector<double>& values) {
   return ranking;
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/statistics/repeated_measures_anova.h"
+#include "statistics/repeated_measures_anova.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::statistics {
 
 namespace {
 
@@ -124,8 +124,9 @@ RepeatedMeasuresAnova repeatedMeasuresAnova(const RepeatedMeasures& measures) {
   const double rounding = 10 * std::numeric_limits<double>::epsilon() * largestMagnitude(measures);
   if (covariance.trace() <= q * rounding * rounding) {
     if (mean.norm() <= std::sqrt(q) * rounding) return result;
-    throw InputError(std::string(kName) +
-                     ": the treatments differ by the same on every unit; it needs differences that scatter");
+    throw settings::InputError(
+        std::string(kName) +
+        ": the treatments differ by the same on every unit; it needs differences that scatter");
   }
   const Eigen::VectorXd lambda =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(covariance, Eigen::EigenvaluesOnly).eigenvalues();
@@ -140,4 +141,4 @@ RepeatedMeasuresAnova repeatedMeasuresAnova(const RepeatedMeasures& measures) {
   return result;
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

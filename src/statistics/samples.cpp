@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/statistics/samples.h"
+#include "statistics/samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,12 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::statistics {
 
 namespace {
 
 [[noreturn]] void refuse(const std::string& test, const std::string& sentence) {
-  throw InputError(test + ": " + sentence);
+  throw settings::InputError(test + ": " + sentence);
 }
 
 std::string count(std::size_t n, const std::string& noun) {
@@ -79,4 +79,4 @@ bool isConstant(const std::vector<double>& values) {
   return *high - *low <= 10 * std::numeric_limits<double>::epsilon() * magnitude;
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/statistics/shapiro_wilk.h"
+#include "statistics/shapiro_wilk.h"
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
@@ -7,9 +7,9 @@
 #include <string>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/statistics/samples.h"
+#include "statistics/samples.h"
 
-namespace fsr {
+namespace fsr::statistics {
 
 namespace {
 
@@ -99,11 +99,11 @@ std::vector<double> standardised(std::vector<double> sample) {
 TestResult shapiroWilk(const std::vector<double>& sample) {
   requireSample(sample, kFewest, kName);
   if (sample.size() > kMost) {
-    throw InputError(std::string(kName) + ": " + std::to_string(sample.size()) +
-                     " values given where its approximation holds for at most 5000");
+    throw settings::InputError(std::string(kName) + ": " + std::to_string(sample.size()) +
+                               " values given where its approximation holds for at most 5000");
   }
   if (isConstant(sample))
-    throw InputError(std::string(kName) + ": all values are equal; it needs some scatter");
+    throw settings::InputError(std::string(kName) + ": all values are equal; it needs some scatter");
 
   const double one_minus_w = std::max(0.0, oneMinusW(standardised(sample)));
   TestResult result;
@@ -116,4 +116,4 @@ TestResult shapiroWilk(const std::vector<double>& sample) {
   return result;
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

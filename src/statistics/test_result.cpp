@@ -1,6 +1,6 @@
-#include "fsr_pressure_map/statistics/test_result.h"
+#include "statistics/test_result.h"
 
-namespace fsr {
+namespace fsr::statistics {
 
 std::string pMethodName(PMethod method) {
   switch (method) {
@@ -18,4 +18,4 @@ std::string pMethodName(PMethod method) {
   return "unknown";
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

@@ -1,13 +1,13 @@
-#include "fsr_pressure_map/statistics/triples_test.h"
+#include "statistics/triples_test.h"
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
 
-#include "fsr_pressure_map/statistics/samples.h"
+#include "statistics/samples.h"
 
-namespace fsr {
+namespace fsr::statistics {
 
 namespace {
 
@@ -80,4 +80,4 @@ TestResult triplesTest(const std::vector<double>& sample) {
   return result;
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

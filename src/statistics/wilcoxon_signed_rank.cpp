@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/statistics/wilcoxon_signed_rank.h"
+#include "statistics/wilcoxon_signed_rank.h"
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
@@ -7,10 +7,10 @@
 #include <string>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/statistics/ranks.h"
-#include "fsr_pressure_map/statistics/samples.h"
+#include "statistics/ranks.h"
+#include "statistics/samples.h"
 
-namespace fsr {
+namespace fsr::statistics {
 
 namespace {
 
@@ -68,8 +68,8 @@ double normalP(const SignedRanks& ranks) {
 bool goesExact(WilcoxonMethod method, std::size_t n) {
   if (method != WilcoxonMethod::kExact) return method == WilcoxonMethod::kAuto && n < kWilcoxonExactBelow;
   if (n <= kMostExact) return true;
-  throw InputError(std::string(kName) + ": exact p asked for " + std::to_string(n) +
-                   " differences; it is counted for at most " + std::to_string(kMostExact));
+  throw settings::InputError(std::string(kName) + ": exact p asked for " + std::to_string(n) +
+                             " differences; it is counted for at most " + std::to_string(kMostExact));
 }
 
 }  // namespace
@@ -99,4 +99,4 @@ TestResult wilcoxonSignedRank(const std::vector<double>& first, const std::vecto
   return result;
 }
 
-}  // namespace fsr
+}  // namespace fsr::statistics

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/matrix/for_each_taxel.h"
-#include "fsr_pressure_map/study/evaluation.h"
+#include "matrix/for_each_taxel.h"
+#include "study/evaluation.h"
 
-namespace fsr {
+namespace fsr::study {
 
 namespace {
 
@@ -16,14 +16,16 @@ struct TestedClass {
   double readings = 0;
   double scatter = 0;  // [Pa^2]
 
-  void add(const CodeStatistics& cell) {
-    cell.forEach([&](const CodeSums& sums) {
-      const Int128 spread = sums.sum_of_squares * sums.count - Int128{sums.sum} * sums.sum;
+  void add(const regression::CodeStatistics& cell) {
+    cell.forEach([&](const regression::CodeSums& sums) {
+      const regression::Int128 spread =
+          sums.sum_of_squares * sums.count - regression::Int128{sums.sum} * sums.sum;
       code.push_back(sums.code);
       count.push_back(sums.count);
-      mean.push_back(fromFixed(sums.sum) / sums.count);
+      mean.push_back(regression::fromFixed(sums.sum) / sums.count);
       readings += sums.count;
-      scatter += static_cast<double>(spread) / sums.count * kFixedPressureUnit * kFixedPressureUnit;
+      scatter += static_cast<double>(spread) / sums.count * regression::kFixedPressureUnit *
+                 regression::kFixedPressureUnit;
     });
   }
   double squares(const std::vector<double>& table) const {
@@ -56,7 +58,7 @@ double rangeOf(const StudyData& data, const Grouping& grouping, const Fold& fold
     if (std::find(part.tested.begin(), part.tested.end(), cell.curvature_class) == part.tested.end())
       continue;
     for (const std::uint32_t i : grouping.scans[cell.curvature_class][cell.group]) {
-      const double pressure = fromFixed(data.scans[cell.curvature_class][i].pressure);
+      const double pressure = regression::fromFixed(data.scans[cell.curvature_class][i].pressure);
       low = std::min(low, pressure);
       high = std::max(high, pressure);
     }
@@ -86,11 +88,11 @@ std::vector<double> bandwidthScores(const StudyData& data, const StudyMethod& me
     range.push_back(rangeOf(data, examination.grouping, folds[part.fold], part, plan.range));
   }
   std::vector<std::vector<double>> of_taxel(data.taxels.size());
-  forEachTaxel(data.taxels.size(), plan.threads, [&](std::size_t t) {
+  matrix::forEachTaxel(data.taxels.size(), plan.threads, [&](std::size_t t) {
     const TaxelReadings readings(data, examination.grouping, data.taxels[t]);
     std::vector<double> sums(plan.bandwidths.size(), 0.0);
     for (const FoldParts& of_fold : partsByFold(parts)) {
-      const ClassReadings training = readings.training(folds[of_fold.fold].train, false);
+      const compensation::ClassReadings training = readings.training(folds[of_fold.fold].train, false);
       std::vector<std::vector<TestedClass>> tested;
       for (std::size_t p = of_fold.first; p < of_fold.end; ++p) {
         tested.push_back(testedClasses(parts[p], folds[of_fold.fold], readings));
@@ -116,4 +118,4 @@ std::vector<double> bandwidthScores(const StudyData& data, const StudyMethod& me
   return scores;
 }
 
-}  // namespace fsr
+}  // namespace fsr::study

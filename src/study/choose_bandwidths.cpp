@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <set>
 
-#include "fsr_pressure_map/compensation/held_out_squares.h"
-#include "fsr_pressure_map/matrix/for_each_taxel.h"
-#include "fsr_pressure_map/study/evaluation.h"
+#include "compensation/held_out_squares.h"
+#include "matrix/for_each_taxel.h"
+#include "study/evaluation.h"
 
-namespace fsr {
+namespace fsr::study {
 
 namespace {
 
@@ -29,14 +29,14 @@ std::vector<double> squaresOf(const StudyMethod& method, const std::vector<Fold>
   std::vector<double> squares(plan.bandwidths.size(), 0.0);
   for (const TestPart& part : parts) {
     const Fold& fold = inner[part.fold];
-    const ClassReadings training = readings.training(fold.train, false);
+    const compensation::ClassReadings training = readings.training(fold.train, false);
     for (std::size_t b = 0; b < squares.size(); ++b) {
       const FoldModel model = plainModel(method, grnnOf(plan.grnn, plan.bandwidths[b]));
       const auto answers = answersOf(model, taxel, training, part.tested);
       for (const Cell& cell : fold.test) {
         const auto place = std::find(part.tested.begin(), part.tested.end(), cell.curvature_class);
         const auto k = static_cast<std::size_t>(place - part.tested.begin());
-        squares[b] += squaredErrors(readings.cell(cell), answers[k]);
+        squares[b] += compensation::squaredErrors(readings.cell(cell), answers[k]);
       }
     }
   }
@@ -53,7 +53,7 @@ std::vector<double> chooseBandwidths(const StudyData& data, const StudyMethod& m
     const std::vector<Fold> inner = innerFolds(fold);
     const std::vector<TestPart> parts = testParts(method, {examination.grouping, inner, Scoring::kPooled});
     std::vector<std::vector<double>> of_taxel(taxels.size());
-    forEachTaxel(taxels.size(), plan.threads, [&](std::size_t t) {
+    matrix::forEachTaxel(taxels.size(), plan.threads, [&](std::size_t t) {
       const TaxelReadings readings(data, examination.grouping, taxels[t]);
       of_taxel[t] = squaresOf(method, inner, parts, readings, taxels[t], plan);
     });
@@ -67,4 +67,4 @@ std::vector<double> chooseBandwidths(const StudyData& data, const StudyMethod& m
   return chosen;
 }
 
-}  // namespace fsr
+}  // namespace fsr::study

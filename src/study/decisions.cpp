@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/study/decisions.h"
+#include "study/decisions.h"
 
 #include <sstream>
 
-#include "fsr_pressure_map/study/fold.h"
+#include "study/fold.h"
 
-namespace fsr {
+namespace fsr::study {
 
 namespace {
 
@@ -28,8 +28,9 @@ std::string downSamplingText(const StudyPlan& plan) {
 }
 
 std::string kernelText(const StudyPlan& plan) {
-  return plan.grnn.distance == KernelDistance::kSquared ? "The squared distance, as in Specht's GRNN."
-                                                        : "Literally: the distance.";
+  return plan.grnn.distance == regression::KernelDistance::kSquared
+             ? "The squared distance, as in Specht's GRNN."
+             : "Literally: the distance.";
 }
 
 std::string rangeText(const StudyPlan& plan) {
@@ -45,7 +46,7 @@ std::vector<StudyDecision> studyDecisions(const StudyPlan& plan, const StudyData
        "They are 1/cm; computed in 1/m, printed in both. The \"0.77\" of Fig. 9 is 0.077 1/cm."},
       {"Kernel of the GRNN", "\"D^2 is the Euclidean distance\".", kernelText(plan)},
       {"Spread", "sigma = 2^-7; how it was tuned is not said.",
-       "sigma = " + number(sigmaOf(plan.grnn)) +
+       "sigma = " + number(regression::sigmaOf(plan.grnn)) +
            " to reproduce; beside it the grid, and for use the choice by nested cross-validation."},
       {"0 / 0", "Not mentioned; it happens on held-out data at 2^-7.",
        "The smallest distance is taken out of all exponents, so that the limit is the nearest sample."},
@@ -75,7 +76,8 @@ std::vector<StudyDecision> studyDecisions(const StudyPlan& plan, const StudyData
        "Mount and curvature are taken as one condition effect where the recordings cannot tell them apart."},
       {"Bent axis", "Not said which side of the matrix goes round the cylinder.",
        "Taken from the surfaces of the recordings."},
-      {"What is not reported", "Temperature, ramp rate, the order of the conditions, how well both records were synchronised.",
+      {"What is not reported",
+       "Temperature, ramp rate, the order of the conditions, how well both records were synchronised.",
        "Nothing is corrected for them; bags carry them where a rig records them."},
       {"Transducer", "A digital one, read by an analogue input.",
        "Taken as analogue: the chamber's readings are used as they were recorded."},
@@ -132,4 +134,4 @@ std::vector<std::string> whatItHoldsFor(const StudyData& data, const std::string
   return sentences;
 }
 
-}  // namespace fsr
+}  // namespace fsr::study

@@ -1,15 +1,16 @@
 #include <algorithm>
 #include <numeric>
 
-#include "fsr_pressure_map/statistics/random_stream.h"
-#include "fsr_pressure_map/study/study_data.h"
+#include "statistics/random_stream.h"
+#include "study/study_data.h"
 
-namespace fsr {
+namespace fsr::study {
 
 namespace {
 
 // The first `kept` places of a random order of 0 .. scans - 1 (Fisher and Yates), ascending.
-std::vector<std::uint32_t> drawn(std::size_t scans, std::size_t kept, const RandomStream& stream) {
+std::vector<std::uint32_t> drawn(std::size_t scans, std::size_t kept,
+                                 const statistics::RandomStream& stream) {
   std::vector<std::uint32_t> places(scans);
   std::iota(places.begin(), places.end(), 0u);
   for (std::size_t i = 0; i < kept; ++i) {
@@ -22,7 +23,7 @@ std::vector<std::uint32_t> drawn(std::size_t scans, std::size_t kept, const Rand
 }
 
 std::vector<std::uint32_t> placesKept(std::size_t scans, std::size_t one_of, DownSampling rule,
-                                      const RandomStream& stream) {
+                                      const statistics::RandomStream& stream) {
   const std::size_t kept = (scans + one_of - 1) / one_of;
   if (rule == DownSampling::kRandom) return drawn(scans, kept, stream);
   std::vector<std::uint32_t> places(kept);
@@ -42,8 +43,8 @@ Grouping downSampled(const Grouping& whole, const std::vector<std::size_t>& one_
     std::vector<std::vector<std::uint32_t>> groups(whole.groups);
     for (std::size_t g = 0; g < whole.groups && one_of[c] > 0; ++g) {
       const std::vector<std::uint32_t>& all = whole.scans[c][g];
-      const RandomStream stream =
-          randomStream(seed, "down_sampling_" + std::to_string(one_of[c]), c * whole.groups + g);
+      const statistics::RandomStream stream =
+          statistics::randomStream(seed, "down_sampling_" + std::to_string(one_of[c]), c * whole.groups + g);
       if (all.empty()) continue;
       for (const std::uint32_t place : placesKept(all.size(), one_of[c], rule, stream)) {
         groups[g].push_back(all[place]);
@@ -54,4 +55,4 @@ Grouping downSampled(const Grouping& whole, const std::vector<std::size_t>& one_
   return kept;
 }
 
-}  // namespace fsr
+}  // namespace fsr::study

@@ -1,12 +1,12 @@
-#include "fsr_pressure_map/study/evaluation.h"
+#include "study/evaluation.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/matrix/for_each_taxel.h"
 #include "fsr_pressure_map/statistics/metrics.h"
+#include "matrix/for_each_taxel.h"
 
-namespace fsr {
+namespace fsr::study {
 
 namespace {
 
@@ -18,7 +18,7 @@ bool holds(const Grouping& grouping, const std::vector<Cell>& cells, std::size_t
 
 // Whether the fold trains any of the method's models.
 bool trains(const StudyMethod& method, const Grouping& grouping, const Fold& fold) {
-  for (const SchemePlan::Model& model : method.plan.models) {
+  for (const compensation::SchemePlan::Model& model : method.plan.models) {
     for (const std::size_t c : model.trained_on) {
       if (holds(grouping, fold.train, c)) return true;
     }
@@ -71,15 +71,15 @@ class TaxelScoring {
     errors.push_back(static_cast<float>(predicted - reference));
   }
   void end() {
-    r2_.push_back(rSquared(predicted_, reference_));
-    const double percent = rmsePercent(predicted_, reference_);
+    r2_.push_back(statistics::rSquared(predicted_, reference_));
+    const double percent = statistics::rmsePercent(predicted_, reference_);
     const auto [low, high] = std::minmax_element(reference_.begin(), reference_.end());
     const double own_range = *high - *low;
     const double range = plan_.range == ScoreRange::kAll ? data_.highest - data_.lowest : own_range;
     percent_.push_back(percent * own_range / range);
   }
-  double r2() const { return spreadOf(r2_).mean; }
-  double rmsePercentMean() const { return spreadOf(percent_).mean; }
+  double r2() const { return statistics::spreadOf(r2_).mean; }
+  double rmsePercentMean() const { return statistics::spreadOf(percent_).mean; }
 
   std::vector<float> errors;
 
@@ -134,8 +134,8 @@ Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Exam
   result.errors.resize(data.taxels.size());
   result.r2.resize(data.taxels.size());
   result.rmse_percent.resize(data.taxels.size());
-  const bool by_samples = !makeRegressor(models.front().regressor)->mergeable();
-  forEachTaxel(data.taxels.size(), plan.threads, [&](std::size_t t) {
+  const bool by_samples = !regression::makeRegressor(models.front().regressor)->mergeable();
+  matrix::forEachTaxel(data.taxels.size(), plan.threads, [&](std::size_t t) {
     const std::size_t taxel = data.taxels[t];
     const TaxelReadings readings(data, grouping, taxel);
     TaxelScoring scoring(data, plan);
@@ -145,10 +145,10 @@ Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Exam
                                      readings.training(folds[fold.fold].train, by_samples), fold.asked);
       for (std::size_t p = fold.first; p < fold.end; ++p) {
         scoring.begin();
-        forEachTested(data, grouping, folds[fold.fold], result.parts[p],
-                      [&](std::size_t c, const StudyScan& scan) {
-                        scoring.add(answers[fold.placeOf(c)][scan.counts[taxel]], fromFixed(scan.pressure));
-                      });
+        forEachTested(
+            data, grouping, folds[fold.fold], result.parts[p], [&](std::size_t c, const StudyScan& scan) {
+              scoring.add(answers[fold.placeOf(c)][scan.counts[taxel]], regression::fromFixed(scan.pressure));
+            });
         scoring.end();
       }
     }
@@ -160,4 +160,4 @@ Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Exam
   return result;
 }
 
-}  // namespace fsr
+}  // namespace fsr::study

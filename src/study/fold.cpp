@@ -1,9 +1,9 @@
-#include "fsr_pressure_map/study/fold.h"
+#include "study/fold.h"
 
 #include <algorithm>
 #include <set>
 
-namespace fsr {
+namespace fsr::study {
 
 namespace {
 
@@ -89,7 +89,7 @@ Split leaveMountOut(const StudyData& data) {
 
 TaxelReadings::TaxelReadings(const StudyData& data, const Grouping& grouping, std::size_t taxel)
     : data_(data), grouping_(grouping), taxel_(taxel) {
-  CodeAccumulator accumulator(data.full_scale);
+  regression::CodeAccumulator accumulator(data.full_scale);
   for (std::size_t c = 0; c < data.classes.size(); ++c) {
     for (std::size_t g = 0; g < grouping.groups; ++g) {
       for (const std::uint32_t i : grouping.scans[c][g]) {
@@ -100,16 +100,16 @@ TaxelReadings::TaxelReadings(const StudyData& data, const Grouping& grouping, st
   }
 }
 
-ClassReadings TaxelReadings::training(const std::vector<Cell>& cells, bool by_samples) const {
-  ClassReadings readings;
+compensation::ClassReadings TaxelReadings::training(const std::vector<Cell>& cells, bool by_samples) const {
+  compensation::ClassReadings readings;
   readings.full_scale = data_.full_scale;
   if (!by_samples) {
-    readings.sums.assign(data_.classes.size(), CodeHistogram(data_.full_scale));
+    readings.sums.assign(data_.classes.size(), regression::CodeHistogram(data_.full_scale));
     for (const Cell& part : cells) readings.sums[part.curvature_class].add(cell(part));
     return readings;
   }
   readings.samples.resize(data_.classes.size());
-  for (CodeSamples& samples : readings.samples) samples.full_scale = data_.full_scale;
+  for (regression::CodeSamples& samples : readings.samples) samples.full_scale = data_.full_scale;
   for (const Cell& part : cells) {
     for (const std::uint32_t i : grouping_.scans[part.curvature_class][part.group]) {
       const StudyScan& scan = data_.scans[part.curvature_class][i];
@@ -119,4 +119,4 @@ ClassReadings TaxelReadings::training(const std::vector<Cell>& cells, bool by_sa
   return readings;
 }
 
-}  // namespace fsr
+}  // namespace fsr::study

@@ -1,13 +1,13 @@
-#include "fsr_pressure_map/study/fold_model.h"
+#include "study/fold_model.h"
 
 #include <algorithm>
 
-#include "fsr_pressure_map/compensation/effect_law.h"
-#include "fsr_pressure_map/compensation/fit_scheme.h"
-#include "fsr_pressure_map/compensation/learn_scheme.h"
-#include "fsr_pressure_map/matrix/for_each_taxel.h"
+#include "compensation/effect_law.h"
+#include "compensation/fit_scheme.h"
+#include "compensation/learn_scheme.h"
+#include "matrix/for_each_taxel.h"
 
-namespace fsr {
+namespace fsr::study {
 
 namespace {
 
@@ -23,17 +23,18 @@ std::vector<std::size_t> trainedClasses(const Grouping& grouping, const Fold& fo
   return trained;
 }
 
-std::vector<CurvatureClass> conditionsOf(const StudyData& data, const std::vector<std::size_t>& classes) {
-  std::vector<CurvatureClass> conditions;
+std::vector<dataset::CurvatureClass> conditionsOf(const StudyData& data,
+                                                  const std::vector<std::size_t>& classes) {
+  std::vector<dataset::CurvatureClass> conditions;
   for (const std::size_t c : classes) conditions.push_back(data.classes[c]);
   return conditions;
 }
 
 // The fold's training cells of some taxels, numbered from 0, as schemes learn from them.
-TrainingStatistics statisticsOf(const StudyData& data, const Grouping& grouping, const Fold& fold,
-                                const std::vector<std::size_t>& classes,
-                                const std::vector<std::size_t>& taxels) {
-  TrainingStatistics statistics;
+compensation::TrainingStatistics statisticsOf(const StudyData& data, const Grouping& grouping,
+                                              const Fold& fold, const std::vector<std::size_t>& classes,
+                                              const std::vector<std::size_t>& taxels) {
+  compensation::TrainingStatistics statistics;
   statistics.full_scale = data.full_scale;
   statistics.taxels = taxels.size();
   statistics.sections = grouping.groups;
@@ -52,9 +53,10 @@ TrainingStatistics statisticsOf(const StudyData& data, const Grouping& grouping,
 }
 
 // The ranges that were learned, in numbers of all classes; a class without readings stays alone.
-void takeRanges(const SchemePlan& learned, const std::vector<std::size_t>& trained, SchemePlan& plan) {
+void takeRanges(const compensation::SchemePlan& learned, const std::vector<std::size_t>& trained,
+                compensation::SchemePlan& plan) {
   std::vector<std::vector<std::size_t>> ranges;
-  for (const SchemePlan::Model& model : learned.models) {
+  for (const compensation::SchemePlan::Model& model : learned.models) {
     ranges.emplace_back();
     for (const std::size_t k : model.trained_on) ranges.back().push_back(trained[k]);
   }
@@ -62,11 +64,12 @@ void takeRanges(const SchemePlan& learned, const std::vector<std::size_t>& train
     if (!std::binary_search(trained.begin(), trained.end(), c)) ranges.push_back({c});
   }
   std::sort(ranges.begin(), ranges.end());
-  planRanges(ranges, plan);
+  compensation::planRanges(ranges, plan);
 }
 
-CodeTable tableOf(const std::vector<double>& pressure, const CodeHistogram& readings) {
-  CodeTable table;
+regression::CodeTable tableOf(const std::vector<double>& pressure,
+                              const regression::CodeHistogram& readings) {
+  regression::CodeTable table;
   table.pressure.assign(pressure.begin(), pressure.end());
   const auto& count = readings.count();
   const auto occurs = [](std::int64_t number) { return number > 0; };
@@ -77,62 +80,66 @@ CodeTable tableOf(const std::vector<double>& pressure, const CodeHistogram& read
   return table;
 }
 
-EffectLaw lawOf(const StudyData& data, const Grouping& grouping, const Fold& fold, const FoldModel& model,
-                const std::vector<std::size_t>& trained, unsigned threads) {
-  std::vector<TaxelEffect> effects(data.taxels.size());
-  forEachTaxel(data.taxels.size(), threads, [&](std::size_t t) {
+compensation::EffectLaw lawOf(const StudyData& data, const Grouping& grouping, const Fold& fold,
+                              const FoldModel& model, const std::vector<std::size_t>& trained,
+                              unsigned threads) {
+  std::vector<compensation::TaxelEffect> effects(data.taxels.size());
+  matrix::forEachTaxel(data.taxels.size(), threads, [&](std::size_t t) {
     const TaxelReadings readings(data, grouping, data.taxels[t]);
-    const ClassReadings training = readings.training(fold.train, false);
-    const std::vector<Fit> fits = fitScheme(model.plan, data.taxels[t], training, model.regressor);
-    std::vector<CodeTable> tables;
+    const compensation::ClassReadings training = readings.training(fold.train, false);
+    const std::vector<regression::Fit> fits =
+        compensation::fitScheme(model.plan, data.taxels[t], training, model.regressor);
+    std::vector<regression::CodeTable> tables;
     for (const std::size_t c : trained) {
       tables.push_back(tableOf(fits[model.plan.model_of_class[c]].pressure, training.sums[c]));
     }
-    effects[t] = effectOf(tables.data(), tables.size());
+    effects[t] = compensation::effectOf(tables.data(), tables.size());
   });
-  return learnLaw(conditionsOf(data, trained), effects);
+  return compensation::learnLaw(conditionsOf(data, trained), effects);
 }
 
 }  // namespace
 
-RegressorOptions grnnOf(const GrnnOptions& options, double bandwidth) {
-  RegressorOptions regressor;
+regression::RegressorOptions grnnOf(const regression::GrnnOptions& options, double bandwidth) {
+  regression::RegressorOptions regressor;
   regressor.grnn = options;
   regressor.grnn.bandwidth = bandwidth;
   return regressor;
 }
 
-FoldModel plainModel(const StudyMethod& method, const RegressorOptions& regressor) {
+FoldModel plainModel(const StudyMethod& method, const regression::RegressorOptions& regressor) {
   return {method.plan, regressor, {}};
 }
 
 FoldModel learnedModel(const StudyData& data, const StudyMethod& method, const Grouping& grouping,
                        const Fold& fold, double bandwidth, const StudyPlan& plan) {
   FoldModel model = plainModel(method, grnnOf(plan.grnn, bandwidth));
-  const Scheme scheme = method.plan.scheme;
+  const compensation::Scheme scheme = method.plan.scheme;
   const std::vector<std::size_t> trained = trainedClasses(grouping, fold);
-  if (scheme == Scheme::kCurvatureMap) {
+  if (scheme == compensation::Scheme::kCurvatureMap) {
     model.law = lawOf(data, grouping, fold, model, trained, plan.threads);
   }
-  if (scheme != Scheme::kScaledCurvature && scheme != Scheme::kCurvatureRanges) return model;
+  if (scheme != compensation::Scheme::kScaledCurvature && scheme != compensation::Scheme::kCurvatureRanges)
+    return model;
   const std::vector<std::size_t> taxels = someTaxels(data, plan);
-  const TrainingStatistics statistics = statisticsOf(data, grouping, fold, trained, taxels);
+  const compensation::TrainingStatistics statistics = statisticsOf(data, grouping, fold, trained, taxels);
   std::vector<std::size_t> all(taxels.size());
   for (std::size_t t = 0; t < all.size(); ++t) all[t] = t;
-  SchemePlan learned = planScheme(scheme, statistics.classes);
-  learnScheme(statistics, model.regressor.grnn, all, plan.threads, learned);
+  compensation::SchemePlan learned = compensation::planScheme(scheme, statistics.classes);
+  compensation::learnScheme(statistics, model.regressor.grnn, all, plan.threads, learned);
   model.plan.curvature_scale = learned.curvature_scale;
-  if (scheme == Scheme::kCurvatureRanges) takeRanges(learned, trained, model.plan);
+  if (scheme == compensation::Scheme::kCurvatureRanges) takeRanges(learned, trained, model.plan);
   return model;
 }
 
 std::vector<std::vector<double>> answersOf(const FoldModel& model, std::size_t taxel,
-                                           const ClassReadings& training,
+                                           const compensation::ClassReadings& training,
                                            const std::vector<std::size_t>& asked) {
-  const std::vector<Fit> fits = fitScheme(model.plan, taxel, training, model.regressor);
+  const std::vector<regression::Fit> fits =
+      compensation::fitScheme(model.plan, taxel, training, model.regressor);
   std::vector<std::vector<double>> answers;
   for (const std::size_t c : asked) {
-    answers.push_back(answerOn(model.plan, taxel, training, fits, c, model.law));
+    answers.push_back(compensation::answerOn(model.plan, taxel, training, fits, c, model.law));
   }
   return answers;
 }
@@ -144,4 +151,4 @@ std::vector<std::size_t> someTaxels(const StudyData& data, const StudyPlan& plan
   return some;
 }
 
-}  // namespace fsr
+}  // namespace fsr::study

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <sstream>
 
-#include "fsr_pressure_map/study/paper_numbers.h"
-#include "fsr_pressure_map/study/study_score.h"
-#include "study_context.h"
+#include "study/paper_numbers.h"
+#include "study/study_context.h"
+#include "study/study_score.h"
 
-namespace fsr {
+namespace fsr::study {
 
 namespace {
 
@@ -32,8 +32,8 @@ std::vector<StudyMethod> methodsOf(const StudyContext& study) {
     if (study.plan.beyond_the_paper || drawn) methods.push_back(method);
   }
   for (const StudyMethod& method : further) {
-    const bool possible =
-        study.plan.grnn.distance == KernelDistance::kSquared || !hasSecondInput(method.plan.scheme);
+    const bool possible = study.plan.grnn.distance == regression::KernelDistance::kSquared ||
+                          !compensation::hasSecondInput(method.plan.scheme);
     if (study.plan.beyond_the_paper && possible) methods.push_back(method);
   }
   return methods;
@@ -43,7 +43,8 @@ std::vector<StudyMethod> methodsOf(const StudyContext& study) {
 std::vector<double> bandwidthsFor(const StudyContext& study, const StudyMethod& method,
                                   const Examination& examination, const SplitResult& before) {
   for (const StudyScore& score : before.scores) {
-    if (isFurther(method) && score.id == schemeName(Scheme::kPerCurvature)) return score.bandwidth;
+    if (isFurther(method) && score.id == compensation::schemeName(compensation::Scheme::kPerCurvature))
+      return score.bandwidth;
   }
   return chooseBandwidths(study.data, method, examination, study.plan);
 }
@@ -106,7 +107,7 @@ StudyHeadline headlineOf(const std::vector<SplitResult>& splits) {
   text.precision(3);
   text << "Where " << split.description << ", " << score.id << " errs least of " << split.scores.size()
        << " methods: RMSE " << headline.rmse / 1e3 << " kPa";
-  if (headline.interval.method != IntervalMethod::kNone) {
+  if (headline.interval.method != statistics::IntervalMethod::kNone) {
     text << " (95 % interval " << headline.interval.low / 1e3 << " to " << headline.interval.high / 1e3
          << " kPa over " << headline.interval.units << " " << headline.interval.level << "s)";
   }
@@ -115,4 +116,4 @@ StudyHeadline headlineOf(const std::vector<SplitResult>& splits) {
   return headline;
 }
 
-}  // namespace fsr
+}  // namespace fsr::study

@@ -1,9 +1,9 @@
-#include "fsr_pressure_map/study/paper_numbers.h"
+#include "study/paper_numbers.h"
 
 #include <cmath>
 #include <map>
 
-namespace fsr {
+namespace fsr::study {
 
 std::optional<PaperScore> paperScore(const std::string& method) {
   static const std::map<std::string, PaperScore> kScores = {
@@ -38,4 +38,4 @@ std::vector<std::string> paperStatements(const std::string& comparison) {
   return found == kStatements.end() ? std::vector<std::string>{} : found->second;
 }
 
-}  // namespace fsr
+}  // namespace fsr::study

@@ -1,10 +1,10 @@
 #include <algorithm>
 
-#include "fsr_pressure_map/statistics/random_stream.h"
-#include "fsr_pressure_map/study/study_score.h"
-#include "study_context.h"
+#include "statistics/random_stream.h"
+#include "study/study_context.h"
+#include "study/study_score.h"
 
-namespace fsr {
+namespace fsr::study {
 
 namespace {
 
@@ -14,9 +14,9 @@ struct Scored {
   CycleSums sums;
 };
 
-RepeatedMeasures measuresOf(const std::vector<const Scored*>& scored,
-                            std::vector<double> StudyScore::*measure) {
-  RepeatedMeasures measures;
+statistics::RepeatedMeasures measuresOf(const std::vector<const Scored*>& scored,
+                                        std::vector<double> StudyScore::*measure) {
+  statistics::RepeatedMeasures measures;
   for (const Scored* const one : scored) {
     measures.treatments.push_back(one->score.label);
     measures.values.push_back(one->score.*measure);
@@ -25,7 +25,7 @@ RepeatedMeasures measuresOf(const std::vector<const Scored*>& scored,
 }
 
 Scored score(const StudyContext& study, const StudyMethod& method, const Split& split,
-             const RegressorOptions& regressor, const std::string& stage) {
+             const regression::RegressorOptions& regressor, const std::string& stage) {
   const Grouping kept = downSampled(split.grouping, method.one_of, study.plan.down_sampling, study.plan.seed);
   const Evaluation evaluation = study.evaluateMethod(method, {kept, split.folds, Scoring::kByModel},
                                                      {plainModel(method, regressor)}, stage);
@@ -40,8 +40,8 @@ std::vector<Scored> algorithms(const StudyContext& study, const Split& split) {
                                      [](const StudyMethod& method) { return method.id == "baseline"; });
   std::vector<Scored> scored;
   const auto add = [&](const std::string& id, const std::string& label) {
-    RegressorOptions regressor{id, study.plan.grnn, study.plan.forest};
-    regressor.forest.seed = randomStream(study.plan.seed, "forest").bits(0);
+    regression::RegressorOptions regressor{id, study.plan.grnn, study.plan.forest};
+    regressor.forest.seed = statistics::randomStream(study.plan.seed, "forest").bits(0);
     scored.push_back(score(study, *baseline, split, regressor, label + " on the baseline"));
     scored.back().score.id = scored.back().score.model = id;
     scored.back().score.label = label;
@@ -56,8 +56,9 @@ StudyComparison compare(const StudyContext& study, const std::string& id, const 
                         const std::vector<const Scored*>& scored) {
   StudyComparison comparison{id, title, {}, {}, {}, {}};
   for (const Scored* const one : scored) comparison.scores.push_back(one->score);
-  comparison.r2 = paperRule(measuresOf(scored, &StudyScore::r2), study.plan.tests);
-  comparison.rmse_percent = paperRule(measuresOf(scored, &StudyScore::rmse_percent), study.plan.tests);
+  comparison.r2 = statistics::paperRule(measuresOf(scored, &StudyScore::r2), study.plan.tests);
+  comparison.rmse_percent =
+      statistics::paperRule(measuresOf(scored, &StudyScore::rmse_percent), study.plan.tests);
   for (std::size_t i = 0; i < scored.size(); ++i) {
     for (std::size_t j = i + 1; j < scored.size(); ++j) {
       comparison.differences.push_back(
@@ -109,7 +110,7 @@ std::vector<BandwidthCurve> gridOfBandwidths(const StudyContext& study) {
   for (std::size_t m = 0; m < study.methods.size(); ++m) {
     study.say("Grid of bandwidths", m, study.methods.size());
     const StudyMethod& method = study.methods[m];
-    if (method.plan.scheme == Scheme::kOneHot) continue;
+    if (method.plan.scheme == compensation::Scheme::kOneHot) continue;
     const Grouping kept =
         downSampled(split.grouping, method.one_of, study.plan.down_sampling, study.plan.seed);
     curves.push_back(
@@ -120,4 +121,4 @@ std::vector<BandwidthCurve> gridOfBandwidths(const StudyContext& study) {
   return curves;
 }
 
-}  // namespace fsr
+}  // namespace fsr::study

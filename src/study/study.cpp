@@ -1,34 +1,36 @@
-#include "fsr_pressure_map/study/study.h"
+#include "study/study.h"
 
 #include <algorithm>
 #include <mutex>
 
-#include "fsr_pressure_map/calibration/sources.h"
-#include "study_context.h"
+#include "calibration/sources.h"
+#include "study/study_context.h"
 
-namespace fsr {
+namespace fsr::study {
 
 namespace {
 
 // The literal distance has no form with a second input.
 void leaveOutWhatTheKernelCannot(const StudyPlan& plan, std::vector<StudyMethod>& methods, StudyData& data) {
-  if (plan.grnn.distance == KernelDistance::kSquared) return;
-  const auto second = [](const StudyMethod& method) { return hasSecondInput(method.plan.scheme); };
+  if (plan.grnn.distance == regression::KernelDistance::kSquared) return;
+  const auto second = [](const StudyMethod& method) {
+    return compensation::hasSecondInput(method.plan.scheme);
+  };
   methods.erase(std::remove_if(methods.begin(), methods.end(), second), methods.end());
   data.warnings.push_back(
       "grnn.distance is literal: methods with a second input (2, 4, one-hot) are left out");
 }
 
 StudyResult describe(const StudyProblem& problem, const StudyData& data) {
-  const std::vector<Recording>& recordings = problem.recordings;
+  const std::vector<dataset::Recording>& recordings = problem.recordings;
   StudyResult result;
   result.plan = problem.plan;
   result.simulation = problem.simulation;
-  CalibrationOptions options;
+  calibration::CalibrationOptions options;
   options.seed = problem.plan.seed;
   options.date = problem.plan.date;
-  result.provenance = provenanceOf(recordings, options);
-  result.sensor = identityOf(recordings);
+  result.provenance = calibration::provenanceOf(recordings, options);
+  result.sensor = calibration::identityOf(recordings);
   result.layout = recordings.front().layout;
   const Grouping mounts = byMount(data);
   for (std::size_t c = 0; c < data.classes.size(); ++c) {
@@ -79,4 +81,4 @@ StudyResult study(const StudyProblem& problem, const StudyProgress& progress) {
   return result;
 }
 
-}  // namespace fsr
+}  // namespace fsr::study

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/study/evaluation.h"
-#include "fsr_pressure_map/study/study.h"
+#include "study/evaluation.h"
+#include "study/study.h"
 
-namespace fsr {
+namespace fsr::study {
 
 /// What all parts of a study work on.
 struct StudyContext {
@@ -39,4 +39,4 @@ HeldOut holdOut(const StudyContext& study);
 /// Of the hardest split: the one where the best method errs most.
 StudyHeadline headlineOf(const std::vector<SplitResult>& splits);
 
-}  // namespace fsr
+}  // namespace fsr::study

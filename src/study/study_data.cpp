@@ -1,33 +1,33 @@
-#include "fsr_pressure_map/study/study_data.h"
+#include "study/study_data.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
 
+#include "calibration/sources.h"
 #include "fsr_pressure_map/calibration/calibration.h"
-#include "fsr_pressure_map/calibration/sources.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::study {
 
 namespace {
 
 constexpr std::size_t kFewestTaxels = 3;  // Shapiro and Wilk's test
 
 // A calibration asks the same of its recordings.
-void requireUsable(const std::vector<Recording>& recordings, std::size_t sections) {
-  CalibrationProblem problem{recordings, {}};
-  problem.options.scheme = Scheme::kBaseline;
+void requireUsable(const std::vector<dataset::Recording>& recordings, std::size_t sections) {
+  calibration::CalibrationProblem problem{recordings, {}};
+  problem.options.scheme = compensation::Scheme::kBaseline;
   problem.options.folds = sections;
-  validate(problem);
+  calibration::validate(problem);
 }
 
 // Numbers mounts in order of appearance: a mount is a surface with a mount number, whatever the recording. A
 // number of 0 is unknown: then each condition of each recording is taken for one.
 class MountNumbers {
  public:
-  std::uint32_t of(std::size_t recording, std::size_t condition, const Surface& surface) {
+  std::uint32_t of(std::size_t recording, std::size_t condition, const matrix::Surface& surface) {
     const bool known = surface.mount != 0;
     const auto key =
         std::make_tuple(surface.name, surface.mount, known ? 0 : recording, known ? 0 : condition);
@@ -45,8 +45,8 @@ bool varies(const std::vector<StudyScan>& scans, std::size_t taxel) {
   });
 }
 
-void chooseTaxels(const std::vector<Recording>& recordings, StudyData& data) {
-  const std::vector<std::uint8_t> masked = unionOfMasks(recordings, data.matrix_taxels);
+void chooseTaxels(const std::vector<dataset::Recording>& recordings, StudyData& data) {
+  const std::vector<std::uint8_t> masked = calibration::unionOfMasks(recordings, data.matrix_taxels);
   std::string constant;
   for (std::size_t taxel = 0; taxel < data.matrix_taxels; ++taxel) {
     if (masked[taxel] != 0) continue;
@@ -60,18 +60,20 @@ void chooseTaxels(const std::vector<Recording>& recordings, StudyData& data) {
   if (data.taxels.empty()) {
     for (std::size_t c = 0; data.scans.size() > 1 && c < data.scans.size(); ++c) {
       if (data.scans[c].size() > 1) continue;
-      throw InputError(
+      throw settings::InputError(
           "\"" + data.classes[c].surface + "\" has " + std::to_string(data.scans[c].size()) +
           " scan to study, but must have several in each section; record it again, or leave it out");
     }
-    throw InputError(recordings.front().name +
-                     ": every taxel is masked or reads the same count throughout a condition; is the matrix "
-                     "connected?");
+    throw settings::InputError(
+        recordings.front().name +
+        ": every taxel is masked or reads the same count throughout a condition; is the matrix "
+        "connected?");
   }
   if (data.taxels.size() < kFewestTaxels) {
-    throw InputError(recordings.front().name + ": the matrix has " + std::to_string(data.taxels.size()) +
-                     (data.taxels.size() == 1 ? " living taxel" : " living taxels") +
-                     ", but the study's tests need at least 3 taxels");
+    throw settings::InputError(recordings.front().name + ": the matrix has " +
+                               std::to_string(data.taxels.size()) +
+                               (data.taxels.size() == 1 ? " living taxel" : " living taxels") +
+                               ", but the study's tests need at least 3 taxels");
   }
   if (!constant.empty()) {
     data.warnings.push_back("taxels that read the same count throughout a condition are left out: " +
@@ -84,13 +86,13 @@ void findRange(StudyData& data) {
   data.highest = -INFINITY;
   for (const auto& scans : data.scans) {
     for (const StudyScan& scan : scans) {
-      data.lowest = std::min(data.lowest, fromFixed(scan.pressure));
-      data.highest = std::max(data.highest, fromFixed(scan.pressure));
+      data.lowest = std::min(data.lowest, regression::fromFixed(scan.pressure));
+      data.highest = std::max(data.highest, regression::fromFixed(scan.pressure));
     }
   }
 }
 
-void addRecording(const Recording& recording, std::size_t number, const Sections& sections,
+void addRecording(const dataset::Recording& recording, std::size_t number, const dataset::Sections& sections,
                   const std::vector<std::size_t>& class_of, MountNumbers& mounts, StudyData& data) {
   std::vector<std::size_t> first_cycle(recording.conditions.size());
   for (std::size_t i = 0; i < first_cycle.size(); ++i) {
@@ -98,11 +100,11 @@ void addRecording(const Recording& recording, std::size_t number, const Sections
     data.cycles += sections.cycles[i];
   }
   for (std::size_t i = 0; i < recording.scans(); ++i) {
-    if (sections.section[i] == kNoSection) continue;
+    if (sections.section[i] == dataset::kNoSection) continue;
     const std::size_t condition = recording.condition[i];
     StudyScan scan;
     scan.counts = recording.scan(i);
-    scan.pressure = toFixed(recording.pressure[i]);
+    scan.pressure = regression::toFixed(recording.pressure[i]);
     scan.time = recording.time[i];
     scan.section = sections.section[i];
     scan.cycle = static_cast<std::uint32_t>(first_cycle[condition] + sections.cycle[i]);
@@ -136,16 +138,17 @@ std::size_t StudyData::scanCount() const {
 }
 
 std::size_t StudyData::flatClass() const {
-  const auto flat = std::find_if(classes.begin(), classes.end(), isFlat);
+  const auto flat = std::find_if(classes.begin(), classes.end(), dataset::isFlat);
   if (flat == classes.end()) {
-    throw InputError("the study compares with the flat surface, but no recording is of one; add it");
+    throw settings::InputError(
+        "the study compares with the flat surface, but no recording is of one; add it");
   }
   return static_cast<std::size_t>(flat - classes.begin());
 }
 
-StudyData gatherStudyData(const std::vector<Recording>& recordings, std::size_t sections) {
+StudyData gatherStudyData(const std::vector<dataset::Recording>& recordings, std::size_t sections) {
   requireUsable(recordings, sections);
-  const ConditionClasses pooled = poolConditions(recordings);
+  const dataset::ConditionClasses pooled = dataset::poolConditions(recordings);
   StudyData data;
   data.classes = pooled.classes;
   data.scans.resize(data.classes.size());
@@ -153,13 +156,13 @@ StudyData gatherStudyData(const std::vector<Recording>& recordings, std::size_t 
   data.full_scale = recordings.front().full_scale;
   data.matrix_taxels = recordings.front().layout.size.taxels();
   MountNumbers mounts;
-  std::vector<Sections> divided;
+  std::vector<dataset::Sections> divided;
   for (std::size_t r = 0; r < recordings.size(); ++r) {
-    divided.push_back(divideIntoSections(recordings[r], sections));
+    divided.push_back(dataset::divideIntoSections(recordings[r], sections));
     addRecording(recordings[r], r, divided.back(), pooled.class_of[r], mounts, data);
   }
   data.mounts = mounts.count();
-  data.warnings = warningsOf(recordings, divided);
+  data.warnings = calibration::warningsOf(recordings, divided);
   findRange(data);
   chooseTaxels(recordings, data);
   return data;
@@ -173,4 +176,4 @@ Grouping byMount(const StudyData& data) {
   return grouped(data, data.mounts, [](const StudyScan& scan) { return scan.mount; });
 }
 
-}  // namespace fsr
+}  // namespace fsr::study

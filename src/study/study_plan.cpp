@@ -1,22 +1,22 @@
-#include "fsr_pressure_map/study/study_plan.h"
+#include "study/study_plan.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::study {
 
 namespace {
 
 const std::vector<std::string> kDownSamplingNames = {"random", "every_nth", "contiguous"};
-const Range kSections{2, 20, ""};
-const Range kTrees{1, 100000, ""};
-const Range kLeaf{1, 100000, ""};
-const Range kLevel{1e-6, 0.5, ""};
-const Range kBandwidth{1e-6, 1e3, "standard deviations of the readings"};
-const Range kTaxels{1, 4096, ""};
-const Range kResamples{99, 1e6, ""};
+const settings::Range kSections{2, 20, ""};
+const settings::Range kTrees{1, 100000, ""};
+const settings::Range kLeaf{1, 100000, ""};
+const settings::Range kLevel{1e-6, 0.5, ""};
+const settings::Range kBandwidth{1e-6, 1e3, "standard deviations of the readings"};
+const settings::Range kTaxels{1, 4096, ""};
+const settings::Range kResamples{99, 1e6, ""};
 
 template <typename Kind>
-Kind choose(const Settings& settings, const std::string& key, const std::vector<std::string>& names,
+Kind choose(const settings::Settings& settings, const std::string& key, const std::vector<std::string>& names,
             Kind fallback) {
   const std::string chosen = settings.choice(key, names, names.at(static_cast<std::size_t>(fallback)));
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -25,30 +25,31 @@ Kind choose(const Settings& settings, const std::string& key, const std::vector<
   return fallback;
 }
 
-std::size_t whole(const Settings& settings, const std::string& key, const Range& range,
+std::size_t whole(const settings::Settings& settings, const std::string& key, const settings::Range& range,
                   std::size_t fallback) {
   return static_cast<std::size_t>(settings.integer(key, range, static_cast<std::int64_t>(fallback)));
 }
 
-void readGrnn(const Settings& settings, GrnnOptions& grnn) {
+void readGrnn(const settings::Settings& settings, regression::GrnnOptions& grnn) {
   grnn.bandwidth = settings.number("bandwidth", kBandwidth, grnn.bandwidth);
   grnn.spread = choose(settings, "spread", {"sigma", "half"}, grnn.spread);
   grnn.distance = choose(settings, "distance", {"squared", "literal"}, grnn.distance);
 }
 
-void readTests(const Settings& settings, PaperRuleOptions& tests) {
+void readTests(const settings::Settings& settings, statistics::PaperRuleOptions& tests) {
   tests.level = settings.number("level", kLevel, tests.level);
   tests.normality = choose(settings, "normality_of", {"treatments", "differences"}, tests.normality);
 }
 
 void require(bool holds, const std::string& origin, const std::string& field, double value,
-             const Range& range) {
+             const settings::Range& range) {
   if (holds) return;
   std::string text = std::to_string(value);
-  throw InputError(origin + ": " + field + " is " + text + ", but must be " + range.text());
+  throw settings::InputError(origin + ": " + field + " is " + text + ", but must be " + range.text());
 }
 
-void require(const std::string& origin, const std::string& field, double value, const Range& range) {
+void require(const std::string& origin, const std::string& field, double value,
+             const settings::Range& range) {
   require(range.contains(value), origin, field, value, range);
 }
 
@@ -67,10 +68,11 @@ void validate(const StudyPlan& plan, const std::string& origin) {
   require(origin, "bandwidth_taxels", static_cast<double>(plan.bandwidth_taxels), kTaxels);
   require(origin, "resamples", static_cast<double>(plan.resamples), kResamples);
   for (const double bandwidth : plan.bandwidths) require(origin, "bandwidths", bandwidth, kBandwidth);
-  if (plan.bandwidths.empty()) throw InputError(origin + ": bandwidths is empty, but must hold at least one");
+  if (plan.bandwidths.empty())
+    throw settings::InputError(origin + ": bandwidths is empty, but must hold at least one");
 }
 
-StudyPlan readStudyPlan(const Settings& settings) {
+StudyPlan readStudyPlan(const settings::Settings& settings) {
   StudyPlan plan;
   plan.name = settings.text("study");
   plan.sections = whole(settings, "sections", kSections, plan.sections);
@@ -79,7 +81,7 @@ StudyPlan readStudyPlan(const Settings& settings) {
   plan.range = choose(settings, "range", {"held_out", "all"}, plan.range);
   if (settings.has("grnn")) readGrnn(settings.section("grnn"), plan.grnn);
   if (settings.has("forest")) {
-    const Settings forest = settings.section("forest");
+    const settings::Settings forest = settings.section("forest");
     plan.forest.trees = whole(forest, "trees", kTrees, plan.forest.trees);
     plan.forest.minimum_leaf = whole(forest, "minimum_leaf", kLeaf, plan.forest.minimum_leaf);
   }
@@ -96,7 +98,7 @@ StudyPlan readStudyPlan(const Settings& settings) {
 }
 
 StudyPlan readStudyPlanFile(const std::string& path) {
-  return readStudyPlan(Settings::fromFile(path));
+  return readStudyPlan(settings::Settings::fromFile(path));
 }
 
-}  // namespace fsr
+}  // namespace fsr::study

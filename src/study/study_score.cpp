@@ -1,8 +1,8 @@
-#include "fsr_pressure_map/study/study_score.h"
+#include "study/study_score.h"
 
 #include <algorithm>
 
-namespace fsr {
+namespace fsr::study {
 
 namespace {
 
@@ -13,18 +13,18 @@ std::string howScored(const StudyMethod& method, const Evaluation& evaluation) {
 }
 
 void summarise(const Evaluation& evaluation, StudyScore& score) {
-  ErrorBins bins;
+  statistics::ErrorBins bins;
   std::vector<double> first, later;
   for (const std::vector<float>& errors : evaluation.errors) {
     for (std::size_t i = 0; i < errors.size(); ++i) {
       const StudyScan& scan = *evaluation.scans[i];
-      bins.add(errors[i], fromFixed(scan.pressure), scan.direction);
+      bins.add(errors[i], regression::fromFixed(scan.pressure), scan.direction);
       (scan.first_cycle ? first : later).push_back(errors[i]);
     }
   }
   score.errors = bins.summarise();
-  score.first_cycle = summariseErrors(first);
-  score.later_cycles = summariseErrors(later);
+  score.first_cycle = statistics::summariseErrors(first);
+  score.later_cycles = statistics::summariseErrors(later);
 }
 
 }  // namespace
@@ -38,8 +38,8 @@ StudyScore scoreOf(const StudyData& data, const StudyMethod& method, const Evalu
   score.scans = evaluation.scans.size();
   score.r2 = evaluation.r2;
   score.rmse_percent = evaluation.rmse_percent;
-  score.r2_spread = spreadOf(evaluation.r2);
-  score.rmse_percent_spread = spreadOf(evaluation.rmse_percent);
+  score.r2_spread = statistics::spreadOf(evaluation.r2);
+  score.rmse_percent_spread = statistics::spreadOf(evaluation.rmse_percent);
   const auto worst = std::max_element(score.rmse_percent.begin(), score.rmse_percent.end());
   score.worst_rmse_percent = *worst;
   score.worst_taxel = data.taxels[static_cast<std::size_t>(worst - score.rmse_percent.begin())];
@@ -47,4 +47,4 @@ StudyScore scoreOf(const StudyData& data, const StudyMethod& method, const Evalu
   return score;
 }
 
-}  // namespace fsr
+}  // namespace fsr::study

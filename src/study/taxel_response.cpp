@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/study/study_score.h"
+#include "study/study_score.h"
 
-namespace fsr {
+namespace fsr::study {
 
 namespace {
 
@@ -13,7 +13,7 @@ std::size_t gentlestBend(const StudyData& data) {
   double gentlest = INFINITY;
   for (std::size_t c = 0; c < data.classes.size(); ++c) {
     const double bend = std::abs(data.classes[c].at(0));
-    if (isFlat(data.classes[c]) || bend >= gentlest) continue;
+    if (dataset::isFlat(data.classes[c]) || bend >= gentlest) continue;
     gentlest = bend;
     chosen = c;
   }
@@ -25,7 +25,7 @@ TaxelResponse::Curve curveOf(const StudyData& data, std::size_t c, std::size_t t
   for (const StudyScan& scan : data.scans[c]) {
     if (scan.section != section) continue;
     curve.time.push_back(scan.time);
-    curve.pressure.push_back(fromFixed(scan.pressure));
+    curve.pressure.push_back(regression::fromFixed(scan.pressure));
     curve.counts.push_back(scan.counts[taxel]);
   }
   return curve;
@@ -40,7 +40,7 @@ std::vector<double> predictions(const StudyData& data, const Evaluation& evaluat
   for (std::size_t i = 0; i < evaluation.scans.size(); ++i) {
     const StudyScan* const scan = evaluation.scans[i];
     if (scan < begin || scan >= end || scan->section != section) continue;
-    predicted.push_back(fromFixed(scan->pressure) + evaluation.errors[place][i]);
+    predicted.push_back(regression::fromFixed(scan->pressure) + evaluation.errors[place][i]);
   }
   return predicted;
 }
@@ -77,4 +77,4 @@ std::size_t figureTaxel(const StudyData& data, const StudyPlan& plan,
                                   rmse_percent.begin());
 }
 
-}  // namespace fsr
+}  // namespace fsr::study

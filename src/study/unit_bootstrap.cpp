@@ -1,13 +1,13 @@
-#include "fsr_pressure_map/study/unit_bootstrap.h"
+#include "study/unit_bootstrap.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <thread>
 
-#include "fsr_pressure_map/study/fold.h"
+#include "study/fold.h"
 
-namespace fsr {
+namespace fsr::study {
 
 namespace {
 
@@ -20,19 +20,20 @@ std::vector<std::size_t> mountOfCycle(const StudyData& data) {
 }
 
 // Highest level first; mounts where the surfaces were mounted more than once each.
-std::vector<ResamplingLevel> levelsOf(const StudyData& data, const std::vector<std::size_t>& cycles) {
-  const ResamplingLevel by_cycle{"cycle", cycles};
+std::vector<statistics::ResamplingLevel> levelsOf(const StudyData& data,
+                                                  const std::vector<std::size_t>& cycles) {
+  const statistics::ResamplingLevel by_cycle{"cycle", cycles};
   if (leaveMountOut(data).folds.empty()) return {by_cycle};
   const std::vector<std::size_t> mounts = mountOfCycle(data);
-  ResamplingLevel by_mount{"mount", {}};
+  statistics::ResamplingLevel by_mount{"mount", {}};
   for (const std::size_t cycle : cycles) by_mount.unit.push_back(mounts[cycle]);
   return {by_mount, by_cycle};
 }
 
 template <typename Statistic>
-BootstrapResult interval(const StudyData& data, const StudyPlan& plan, const std::vector<std::size_t>& cycles,
-                         Statistic statistic) {
-  BootstrapOptions options;
+statistics::BootstrapResult interval(const StudyData& data, const StudyPlan& plan,
+                                     const std::vector<std::size_t>& cycles, Statistic statistic) {
+  statistics::BootstrapOptions options;
   options.resamples = plan.resamples;
   options.seed = plan.seed;
   options.stream = "study";
@@ -42,7 +43,7 @@ BootstrapResult interval(const StudyData& data, const StudyPlan& plan, const std
     for (const std::size_t i : observations) drawn.push_back(cycles[i]);
     return statistic(drawn);
   };
-  return bootstrap({levelsOf(data, cycles), of_observations}, options);
+  return statistics::bootstrap({levelsOf(data, cycles), of_observations}, options);
 }
 
 }  // namespace
@@ -103,18 +104,20 @@ std::vector<std::size_t> CycleSums::cycles() const {
   return scored;
 }
 
-BootstrapResult rmsePercentInterval(const CycleSums& sums, const StudyData& data, const StudyPlan& plan) {
+statistics::BootstrapResult rmsePercentInterval(const CycleSums& sums, const StudyData& data,
+                                                const StudyPlan& plan) {
   return interval(data, plan, sums.cycles(),
                   [&](const std::vector<std::size_t>& cycles) { return sums.rmsePercent(cycles); });
 }
 
-BootstrapResult rmseInterval(const CycleSums& sums, const StudyData& data, const StudyPlan& plan) {
+statistics::BootstrapResult rmseInterval(const CycleSums& sums, const StudyData& data,
+                                         const StudyPlan& plan) {
   return interval(data, plan, sums.cycles(),
                   [&](const std::vector<std::size_t>& cycles) { return sums.rmse(cycles); });
 }
 
-BootstrapResult differenceInterval(const CycleSums& first, const CycleSums& second, const StudyData& data,
-                                   const StudyPlan& plan) {
+statistics::BootstrapResult differenceInterval(const CycleSums& first, const CycleSums& second,
+                                               const StudyData& data, const StudyPlan& plan) {
   std::vector<std::size_t> either;
   const std::vector<std::size_t> a = first.cycles(), b = second.cycles();
   std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(either));
@@ -123,4 +126,4 @@ BootstrapResult differenceInterval(const CycleSums& first, const CycleSums& seco
   });
 }
 
-}  // namespace fsr
+}  // namespace fsr::study

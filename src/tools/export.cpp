@@ -1,8 +1,8 @@
 #include <iostream>
 
-#include "fsr_pressure_map/ros/export_tool.h"
-#include "fsr_pressure_map/settings/command_line.h"
+#include "ros/tools/export_tool.h"
+#include "settings/command_line.h"
 
 int main(int argc, char** argv) {
-  return fsr::runTool("export", [&] { return fsr_ros::exportTool(argc, argv, std::cout); });
+  return fsr::settings::runTool("export", [&] { return fsr_ros::exportTool(argc, argv, std::cout); });
 }

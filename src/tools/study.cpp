@@ -1,8 +1,8 @@
 #include <iostream>
 
-#include "fsr_pressure_map/ros/study_tool.h"
-#include "fsr_pressure_map/settings/command_line.h"
+#include "ros/tools/study_tool.h"
+#include "settings/command_line.h"
 
 int main(int argc, char** argv) {
-  return fsr::runTool("study", [&] { return fsr_ros::studyTool(argc, argv, std::cout); });
+  return fsr::settings::runTool("study", [&] { return fsr_ros::studyTool(argc, argv, std::cout); });
 }

@@ -1,8 +1,8 @@
 #include <iostream>
 
-#include "fsr_pressure_map/ros/train_tool.h"
-#include "fsr_pressure_map/settings/command_line.h"
+#include "ros/tools/train_tool.h"
+#include "settings/command_line.h"
 
 int main(int argc, char** argv) {
-  return fsr::runTool("train", [&] { return fsr_ros::trainTool(argc, argv, std::cout); });
+  return fsr::settings::runTool("train", [&] { return fsr_ros::trainTool(argc, argv, std::cout); });
 }

@@ -1,9 +1,9 @@
-#include "fsr_pressure_map/view/auto_range.h"
+#include "view/auto_range.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace fsr {
+namespace fsr::view {
 
 namespace {
 
@@ -45,4 +45,4 @@ double AutoRange::update(double time, double peak) {
   return high_;
 }
 
-}  // namespace fsr
+}  // namespace fsr::view

@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/view/bent_sheet.h"
+#include "view/bent_sheet.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace fsr {
+namespace fsr::view {
 
 namespace {
 
@@ -40,15 +40,15 @@ Frame screw(const Frame& from, const Vector& turn, const Vector& path) {
           from.axes * Eigen::AngleAxisd(angle, axis).toRotationMatrix()};
 }
 
-Frame alongRow(const Frame& from, const Curvature& k, double step) {
+Frame alongRow(const Frame& from, const matrix::Curvature& k, double step) {
   return screw(from, step * Vector(-k.xy, k.x, 0), step * Vector::UnitX());
 }
 
-Frame alongColumn(const Frame& from, const Curvature& k, double step) {
+Frame alongColumn(const Frame& from, const matrix::Curvature& k, double step) {
   return screw(from, step * Vector(-k.y, k.xy, 0), step * Vector::UnitY());
 }
 
-Curvature mean(const Curvature& a, const Curvature& b) {
+matrix::Curvature mean(const matrix::Curvature& a, const matrix::Curvature& b) {
   return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.xy + b.xy)};
 }
 
@@ -60,7 +60,7 @@ std::vector<Frame> walk(const Frame& middle, int count, double pitch, CurvatureA
   const int low = (count - 1) / 2;  // the middle point, or the two beside the middle
   const int high = count / 2;
   if (low != high) {
-    const Curvature between = mean(curvature(low), curvature(high));
+    const matrix::Curvature between = mean(curvature(low), curvature(high));
     frames[std::size_t(low)] = step(middle, between, -0.5 * pitch);
     frames[std::size_t(high)] = step(middle, between, 0.5 * pitch);
   }
@@ -79,14 +79,14 @@ Vector3 plain(const Vector& v) {
 
 }  // namespace
 
-std::vector<TaxelPose> bendSheet(const Layout& layout, const Surface& surface) {
-  requireFit(surface, layout.size);
+std::vector<TaxelPose> bendSheet(const matrix::Layout& layout, const matrix::Surface& surface) {
+  matrix::requireFit(surface, layout.size);
   const int rows = layout.size.rows;
   const int columns = layout.size.columns;
   const auto at = [&](int row, int column) {
-    const TaxelIndex taxel =
+    const matrix::TaxelIndex taxel =
         layout.index(static_cast<std::uint16_t>(row), static_cast<std::uint16_t>(column));
-    return surface.known() ? surface.at(taxel) : Curvature{};
+    return surface.known() ? surface.at(taxel) : matrix::Curvature{};
   };
   const auto spine = [&](int row) { return mean(at(row, (columns - 1) / 2), at(row, columns / 2)); };
   std::vector<TaxelPose> poses;
@@ -101,4 +101,4 @@ std::vector<TaxelPose> bendSheet(const Layout& layout, const Surface& surface) {
   return poses;
 }
 
-}  // namespace fsr
+}  // namespace fsr::view

@@ -1,9 +1,9 @@
 #include "fsr_pressure_map/view/colour_map.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "tables.h"
+#include "view/tables.h"
 
-namespace fsr {
+namespace fsr::view {
 
 std::vector<std::string> colourMapNames() {
   return {"viridis", "cividis"};
@@ -12,7 +12,7 @@ std::vector<std::string> colourMapNames() {
 ColourMap colourMapOf(const std::string& name) {
   if (name == "viridis") return ColourMap::kViridis;
   if (name == "cividis") return ColourMap::kCividis;
-  throw InputError("colour map is \"" + name + "\", but must be viridis or cividis");
+  throw settings::InputError("colour map is \"" + name + "\", but must be viridis or cividis");
 }
 
 const std::uint8_t* colourTable(ColourMap map) {
@@ -23,4 +23,4 @@ Colour colourAt(ColourMap map, double fraction) {
   return colourAt(colourTable(map), fraction);
 }
 
-}  // namespace fsr
+}  // namespace fsr::view

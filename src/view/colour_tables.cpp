@@ -1,9 +1,9 @@
 // Written by scripts/view_tables.py, which names the sources; not to be edited.
 // clang-format off
 
-#include "tables.h"
+#include "view/tables.h"
 
-namespace fsr::tables {
+namespace fsr::view::tables {
 
 const std::uint8_t kViridis[256 * 3] = {
     68, 1, 84, 68, 2, 86, 69, 4, 87, 69, 5, 89,
@@ -137,4 +137,4 @@ const std::uint8_t kCividis[256 * 3] = {
     249, 224, 58, 251, 225, 56, 252, 226, 54, 253, 227, 52,
     254, 228, 52, 254, 229, 53, 254, 230, 54, 254, 232, 56,};
 
-}  // namespace fsr::tables
+}  // namespace fsr::view::tables

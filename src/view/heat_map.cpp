@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/view/legend.h"
-#include "fsr_pressure_map/view/taxel_look.h"
+#include "view/legend.h"
+#include "view/taxel_look.h"
 
-namespace fsr {
+namespace fsr::view {
 
 namespace {
 
@@ -33,7 +33,7 @@ Colour colourOf(const PressureScale& scale, double value) {
 
 /// Where things stand in the picture [pixels].
 struct HeatMap::Frame {
-  Layout layout;
+  matrix::Layout layout;
   Pixel corner;       // top left of the matrix
   double pixels = 1;  // a metre of the sheet
   int matrix_width = 0;
@@ -49,7 +49,7 @@ struct HeatMap::Frame {
   }
 };
 
-HeatMap::Frame HeatMap::frame(const Layout& layout, std::size_t lines) const {
+HeatMap::Frame HeatMap::frame(const matrix::Layout& layout, std::size_t lines) const {
   Frame frame;
   frame.layout = layout;
   const double width = layout.pitch_x * layout.size.columns;
@@ -69,11 +69,11 @@ HeatMap::Frame HeatMap::frame(const Layout& layout, std::size_t lines) const {
   return frame;
 }
 
-Pixel HeatMap::centre(const Layout& layout, TaxelIndex taxel, std::size_t lines) const {
+Pixel HeatMap::centre(const matrix::Layout& layout, matrix::TaxelIndex taxel, std::size_t lines) const {
   return frame(layout, lines).at(layout.row(taxel), layout.column(taxel));
 }
 
-Image HeatMap::draw(const PressureMap& map, const std::vector<std::string>& lines) const {
+Image HeatMap::draw(const map::PressureMap& map, const std::vector<std::string>& lines) const {
   requireShowable(map);
   requireSound(style_.scale);
   const Frame frame = this->frame(map.layout, lines.size());
@@ -92,9 +92,9 @@ Image HeatMap::draw(const PressureMap& map, const std::vector<std::string>& line
   return image;
 }
 
-void HeatMap::drawTaxels(const PressureMap& map, const Frame& frame, Image& image) const {
+void HeatMap::drawTaxels(const map::PressureMap& map, const Frame& frame, Image& image) const {
   const std::vector<float>& values = layerOf(map, style_.layer);
-  const MatrixSize size = map.layout.size;
+  const matrix::MatrixSize size = map.layout.size;
   if (style_.smooth) return drawSmoothly(SmoothLayer(values, size), size, frame, image);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const int row = map.layout.row({i});
@@ -104,7 +104,7 @@ void HeatMap::drawTaxels(const PressureMap& map, const Frame& frame, Image& imag
   }
 }
 
-void HeatMap::drawSmoothly(const SmoothLayer& layer, MatrixSize size, const Frame& frame,
+void HeatMap::drawSmoothly(const SmoothLayer& layer, matrix::MatrixSize size, const Frame& frame,
                            Image& image) const {
   std::vector<SmoothLayer::Place> columns;
   for (int x = 0; x < frame.matrix_width; ++x) {
@@ -125,7 +125,7 @@ void HeatMap::drawSmoothly(const SmoothLayer& layer, MatrixSize size, const Fram
   }
 }
 
-void HeatMap::drawMarks(const PressureMap& map, const Frame& frame, Image& image) const {
+void HeatMap::drawMarks(const map::PressureMap& map, const Frame& frame, Image& image) const {
   const std::vector<float>& values = layerOf(map, style_.layer);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const int row = map.layout.row({i});
@@ -138,4 +138,4 @@ void HeatMap::drawMarks(const PressureMap& map, const Frame& frame, Image& image
   }
 }
 
-}  // namespace fsr
+}  // namespace fsr::view

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "tables.h"
+#include "view/tables.h"
 
-namespace fsr {
+namespace fsr::view {
 
 namespace {
 
@@ -90,4 +90,4 @@ int Image::textWidth(const std::string& text) {
   return kGlyphWidth * static_cast<int>(text.size());
 }
 
-}  // namespace fsr
+}  // namespace fsr::view

@@ -1,12 +1,12 @@
-#include "fsr_pressure_map/view/legend.h"
+#include "view/legend.h"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
-#include "fsr_pressure_map/view/taxel_look.h"
+#include "view/taxel_look.h"
 
-namespace fsr {
+namespace fsr::view {
 
 namespace {
 
@@ -48,7 +48,7 @@ void drawKey(Pixel corner, int in_a_row, int width, Colour ink, Image& image) {
     const Pixel square{corner.x + width * (n % in_a_row), corner.y + kKeyRowHeight * (n / in_a_row)};
     const Colour under = look == TaxelLook::kNoReading ? kNoReadingColour : Colour{72, 72, 72};
     image.fill(square, kKeySquare, kKeySquare, under);
-    const auto at = [&](Position p) {
+    const auto at = [&](matrix::Position p) {
       return Pixel{square.x + rounded((p.x + 0.5) * (kKeySquare - 1)),
                    square.y + rounded((p.y + 0.5) * (kKeySquare - 1))};
     };
@@ -83,4 +83,4 @@ Image drawLegend(const Legend& legend) {
   return image;
 }
 
-}  // namespace fsr
+}  // namespace fsr::view

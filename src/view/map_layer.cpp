@@ -6,9 +6,9 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::view {
 
-const std::vector<float>& layerOf(const PressureMap& map, MapLayer layer) {
+const std::vector<float>& layerOf(const map::PressureMap& map, MapLayer layer) {
   return layer == MapLayer::kPressure ? map.pressure : map.deviation;
 }
 
@@ -61,13 +61,13 @@ double SmoothLayer::patched(const Place& r, const Place& c) const {
   return sum / weight;
 }
 
-void requireShowable(const PressureMap& map) {
+void requireShowable(const map::PressureMap& map) {
   const std::size_t n = map.layout.size.taxels();
   if (n > 0 && map.pressure.size() == n && map.deviation.size() == n && map.flags.size() == n) return;
-  throw InputError("a map of " + sizeText(map.layout.size) + " taxels has " +
-                   std::to_string(map.pressure.size()) + " pressures, " +
-                   std::to_string(map.deviation.size()) + " deviations and " +
-                   std::to_string(map.flags.size()) + " flags, but must have one of each for each taxel");
+  throw settings::InputError(
+      "a map of " + matrix::sizeText(map.layout.size) + " taxels has " + std::to_string(map.pressure.size()) +
+      " pressures, " + std::to_string(map.deviation.size()) + " deviations and " +
+      std::to_string(map.flags.size()) + " flags, but must have one of each for each taxel");
 }
 
-}  // namespace fsr
+}  // namespace fsr::view

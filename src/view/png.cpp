@@ -3,7 +3,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/view/image.h"
 
-namespace fsr {
+namespace fsr::view {
 
 std::string pngOf(const Image& image) {
   png_image header = {};
@@ -14,10 +14,10 @@ std::string pngOf(const Image& image) {
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
   std::string bytes(size, '\0');
   if (png_image_write_to_memory(&header, bytes.data(), &size, 0, image.bytes().data(), 0, nullptr) == 0) {
-    throw InputError(std::string("a picture cannot become a PNG file: ") + header.message);
+    throw settings::InputError(std::string("a picture cannot become a PNG file: ") + header.message);
   }
   bytes.resize(size);
   return bytes;
 }
 
-}  // namespace fsr
+}  // namespace fsr::view

@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::view {
 
 namespace {
 
@@ -34,7 +34,7 @@ std::vector<std::string> pressureUnitNames() {
 PressureUnit pressureUnitOf(const std::string& name) {
   if (name == "kPa") return PressureUnit::kKilopascal;
   if (name == "mmHg") return PressureUnit::kMillimetreOfMercury;
-  throw InputError("unit is \"" + name + "\", but must be kPa or mmHg");
+  throw settings::InputError("unit is \"" + name + "\", but must be kPa or mmHg");
 }
 
 std::string name(PressureUnit unit) {
@@ -63,8 +63,8 @@ double pascals(PressureUnit unit) {
 
 void requireSound(const PressureScale& scale) {
   if (std::isfinite(scale.low) && std::isfinite(scale.high) && scale.low < scale.high) return;
-  throw InputError("the scale runs from " + pressureText(scale.low, scale.unit) + " to " +
-                   pressureText(scale.high, scale.unit) + ", but its end must be above its start");
+  throw settings::InputError("the scale runs from " + pressureText(scale.low, scale.unit) + " to " +
+                             pressureText(scale.high, scale.unit) + ", but its end must be above its start");
 }
 
 std::string pressureText(double pressure, PressureUnit unit) {
@@ -89,4 +89,4 @@ std::vector<Tick> ticks(const PressureScale& scale, int most) {
   return result;
 }
 
-}  // namespace fsr
+}  // namespace fsr::view

@@ -1,24 +1,25 @@
-#include "fsr_pressure_map/view/sheet_mesh.h"
+#include "view/sheet_mesh.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace fsr {
+namespace fsr::view {
 
 namespace {
 
 constexpr int kAreaFineness = 8;  // chords of 1/8 pitch: (k s)^2 / 24 = 2.6e-5 at 20/m and 1.25 mm
 
 // Bilinear mean of the taxels round a point of taxel coordinates; ends beyond the outer centres.
-Curvature blend(const Surface& surface, const Layout& layout, double row, double column) {
+matrix::Curvature blend(const matrix::Surface& surface, const matrix::Layout& layout, double row,
+                        double column) {
   const double r = std::clamp(row, 0.0, layout.size.rows - 1.0);
   const double c = std::clamp(column, 0.0, layout.size.columns - 1.0);
   const int r0 = static_cast<int>(r), c0 = static_cast<int>(c);
   const double dr = r - r0, dc = c - c0;
-  Curvature result;
+  matrix::Curvature result;
   const auto add = [&](int i, int j, double w) {
     if (w == 0) return;
-    const Curvature& k = surface.curvature[std::size_t(i) * layout.size.columns + std::size_t(j)];
+    const matrix::Curvature& k = surface.curvature[std::size_t(i) * layout.size.columns + std::size_t(j)];
     result = {result.x + w * k.x, result.y + w * k.y, result.xy + w * k.xy};
   };
   add(r0, c0, (1 - dr) * (1 - dc));
@@ -29,9 +30,10 @@ Curvature blend(const Surface& surface, const Layout& layout, double row, double
 }
 
 // The surface under the vertices of a mesh.
-Surface refined(const Surface& surface, const Layout& layout, const Layout& mesh, int fineness) {
+matrix::Surface refined(const matrix::Surface& surface, const matrix::Layout& layout,
+                        const matrix::Layout& mesh, int fineness) {
   if (surface.curvature.size() <= 1) return {surface.name, surface.mount, surface.curvature, {}};
-  Surface result;
+  matrix::Surface result;
   result.curvature.reserve(mesh.size.taxels());
   for (std::size_t i = 0; i < mesh.size.taxels(); ++i) {
     const double row = double(mesh.row({i})) / fineness - 0.5;
@@ -49,10 +51,10 @@ double triangleArea(const Vector3& a, const Vector3& b, const Vector3& c) {
 
 }  // namespace
 
-SheetMesh::SheetMesh(const Layout& layout, const Surface& surface, int fineness)
+SheetMesh::SheetMesh(const matrix::Layout& layout, const matrix::Surface& surface, int fineness)
     : layout_(layout), fineness_(std::clamp(fineness, 1, 16)) {
-  requireFit(surface, layout.size);
-  Layout mesh;
+  matrix::requireFit(surface, layout.size);
+  matrix::Layout mesh;
   mesh.size = {static_cast<std::uint16_t>(layout.size.rows * fineness_ + 1),
                static_cast<std::uint16_t>(layout.size.columns * fineness_ + 1)};
   mesh.pitch_x = layout.pitch_x / fineness_;
@@ -140,8 +142,8 @@ std::vector<double> SheetMesh::areas() const {
   return result;
 }
 
-std::vector<double> taxelAreas(const Layout& layout, const Surface& surface) {
+std::vector<double> taxelAreas(const matrix::Layout& layout, const matrix::Surface& surface) {
   return SheetMesh(layout, surface, kAreaFineness).areas();
 }
 
-}  // namespace fsr
+}  // namespace fsr::view

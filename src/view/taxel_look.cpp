@@ -1,24 +1,24 @@
-#include "fsr_pressure_map/view/taxel_look.h"
+#include "view/taxel_look.h"
 
 #include <cmath>
 
-namespace fsr {
+namespace fsr::view {
 
 namespace {
 
 constexpr std::uint16_t kBad =
-    taxel_flag::kDead | taxel_flag::kStuck | taxel_flag::kMasked | taxel_flag::kLineFault;
-constexpr std::uint16_t kBeyondTraining = taxel_flag::kReadingExtrapolated |
-                                          taxel_flag::kCurvatureExtrapolated |
-                                          taxel_flag::kTemperatureExtrapolated;
+    map::taxel_flag::kDead | map::taxel_flag::kStuck | map::taxel_flag::kMasked | map::taxel_flag::kLineFault;
+constexpr std::uint16_t kBeyondTraining = map::taxel_flag::kReadingExtrapolated |
+                                          map::taxel_flag::kCurvatureExtrapolated |
+                                          map::taxel_flag::kTemperatureExtrapolated;
 
 }  // namespace
 
 TaxelLook lookOf(float pressure, std::uint16_t flags) {
   if (std::isnan(pressure) || (flags & kBad) != 0) return TaxelLook::kNoReading;
-  if ((flags & taxel_flag::kSaturated) != 0) return TaxelLook::kSaturated;
+  if ((flags & map::taxel_flag::kSaturated) != 0) return TaxelLook::kSaturated;
   // Below training's lowest code is beyond training too, but says more: the pressure is small.
-  if ((flags & taxel_flag::kBelowRange) != 0 && (flags & taxel_flag::kCurvatureExtrapolated) == 0) {
+  if ((flags & map::taxel_flag::kBelowRange) != 0 && (flags & map::taxel_flag::kCurvatureExtrapolated) == 0) {
     return TaxelLook::kBelowRange;
   }
   return (flags & kBeyondTraining) != 0 ? TaxelLook::kExtrapolated : TaxelLook::kGood;
@@ -76,4 +76,4 @@ Colour markColour(Colour under) {
   return luma < 128.5 ? Colour{255, 255, 255} : Colour{0, 0, 0};
 }
 
-}  // namespace fsr
+}  // namespace fsr::view

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsr_pressure_map/emulator/line_damage.h"
+#include "emulator/line_damage.h"
 #include "fsr_pressure_map/protocol/decoder.h"
 
 namespace {
@@ -21,20 +21,20 @@ std::uint16_t countOf(std::uint32_t number, std::size_t taxel) {
                                     20);
 }
 
-class Receiver : public fsr::PacketHandler {
+class Receiver : public fsr::protocol::PacketHandler {
  public:
   std::uint64_t scans = 0;
   std::uint64_t wrong = 0;
 
-  void onScan(const fsr::PacketHeader& header, const fsr::ScanPacket& scan) override {
+  void onScan(const fsr::protocol::PacketHeader& header, const fsr::protocol::ScanPacket& scan) override {
     ++scans;
     bool right = scan.size.taxels() == kTaxels && header.device_time == header.sequence * 10000;
     for (std::size_t i = 0; right && i < kTaxels; ++i) right = scan.counts[i] == countOf(header.sequence, i);
     if (!right) ++wrong;
   }
-  void onTransducer(const fsr::PacketHeader&, std::int32_t) override {}
-  void onTemperature(const fsr::PacketHeader&, std::int32_t) override {}
-  void onIdentity(const fsr::PacketHeader&, const fsr::IdentityPacket&) override {}
+  void onTransducer(const fsr::protocol::PacketHeader&, std::int32_t) override {}
+  void onTemperature(const fsr::protocol::PacketHeader&, std::int32_t) override {}
+  void onIdentity(const fsr::protocol::PacketHeader&, const fsr::protocol::IdentityPacket&) override {}
 };
 
 Bytes packet(std::uint32_t number) {
@@ -47,11 +47,11 @@ Bytes packet(std::uint32_t number) {
 }
 
 void scansAgainstBitErrors(benchmark::State& state) {
-  fsr::LineDamage damage;
+  fsr::emulator::LineDamage damage;
   damage.flipped_bits = std::pow(10.0, -static_cast<double>(state.range(0)) / 2);
-  fsr::LossyLine line(1);
+  fsr::emulator::LossyLine line(1);
   Receiver receiver;
-  fsr::Decoder decoder(receiver);
+  fsr::protocol::Decoder decoder(receiver);
   std::uint32_t sent = 0;
   const std::size_t size = packet(0).size();
   for (auto _ : state) {

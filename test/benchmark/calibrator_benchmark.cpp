@@ -37,19 +37,20 @@ std::vector<std::uint16_t> loadCycles(std::size_t taxels) {
   return counts;
 }
 
-fsr::MatrixSize size(const benchmark::State& state) {
+fsr::matrix::MatrixSize size(const benchmark::State& state) {
   return {std::uint16_t(state.range(0)), std::uint16_t(state.range(1))};
 }
 
 // `scans`: how many different ones follow each other, a power of two.
 void Calibrate(benchmark::State& state, std::size_t scans) {
-  const fsr::MatrixSize matrix = size(state);
-  fsr::Calibrator calibrator(test_support::smallTables(matrix, kCurvatures, kFullScale), {matrix});
-  fsr::Surface surface;
+  const fsr::matrix::MatrixSize matrix = size(state);
+  fsr::calibration::Calibrator calibrator(test_support::smallTables(matrix, kCurvatures, kFullScale),
+                                          {matrix});
+  fsr::matrix::Surface surface;
   surface.curvature = {{kCurvatures[3], 0, 0}};
   calibrator.setSurface(surface, 0);
   const auto counts = loadCycles(matrix.taxels());
-  fsr::PressureMap map;
+  fsr::map::PressureMap map;
   std::size_t i = 0;
   for (auto _ : state) {
     const std::uint16_t* scan = counts.data() + (i % scans + kScans - scans) * matrix.taxels();
@@ -63,8 +64,8 @@ void Calibrate(benchmark::State& state, std::size_t scans) {
 
 // What a calibration of a converter of 16 bits takes: of two taxels, scaled up.
 void FineConverter(benchmark::State& state) {
-  const fsr::MatrixSize matrix = size(state), pair{1, 2};
-  const fsr::Calibrator calibrator(test_support::smallTables(pair, kCurvatures, 65535), {pair});
+  const fsr::matrix::MatrixSize matrix = size(state), pair{1, 2};
+  const fsr::calibration::Calibrator calibrator(test_support::smallTables(pair, kCurvatures, 65535), {pair});
   for (auto _ : state) benchmark::DoNotOptimize(calibrator.bytes());
   state.counters["MB"] =
       static_cast<double>(calibrator.bytes()) / 1e6 / double(pair.taxels()) * double(matrix.taxels());
@@ -72,13 +73,13 @@ void FineConverter(benchmark::State& state) {
 
 /// Between classes, where every taxel has a table of its own.
 void CalibrateBlended(benchmark::State& state) {
-  const fsr::MatrixSize matrix = size(state);
-  fsr::CurvatureTables tables = test_support::smallTables(matrix, kCurvatures, kFullScale);
-  tables.rule.blend = fsr::BlendRule::kInterpolate;
-  fsr::Calibrator calibrator(tables, {matrix});
+  const fsr::matrix::MatrixSize matrix = size(state);
+  fsr::compensation::CurvatureTables tables = test_support::smallTables(matrix, kCurvatures, kFullScale);
+  tables.rule.blend = fsr::compensation::BlendRule::kInterpolate;
+  fsr::calibration::Calibrator calibrator(tables, {matrix});
   calibrator.setSurface({"bend", 1, {{12.5, 0, 0}}, {}}, 0);
   const auto counts = loadCycles(matrix.taxels());
-  fsr::PressureMap map;
+  fsr::map::PressureMap map;
   std::size_t i = 0;
   for (auto _ : state) {
     const std::uint16_t* scan = counts.data() + (i % kScans) * matrix.taxels();
@@ -91,13 +92,13 @@ void CalibrateBlended(benchmark::State& state) {
 
 /// What a new curvature costs once, by rule: 0 nearest, 1 kernel, 2 interpolate.
 void CompileTables(benchmark::State& state) {
-  const fsr::MatrixSize matrix = size(state);
-  fsr::CurvatureTables tables = test_support::smallTables(matrix, kCurvatures, kFullScale);
-  tables.rule.blend = static_cast<fsr::BlendRule>(state.range(2));
+  const fsr::matrix::MatrixSize matrix = size(state);
+  fsr::compensation::CurvatureTables tables = test_support::smallTables(matrix, kCurvatures, kFullScale);
+  tables.rule.blend = static_cast<fsr::compensation::BlendRule>(state.range(2));
   tables.rule.length_scale = {2.0};
   tables.rule.unseen = {{0, 300e3}, {10e3, 20e3}};
-  for (fsr::CodeTable& table : tables.tables) table.log_weight.assign(kFullScale + 1u, 1.0f);
-  fsr::Calibrator calibrator(tables, {matrix});
+  for (fsr::regression::CodeTable& table : tables.tables) table.log_weight.assign(kFullScale + 1u, 1.0f);
+  fsr::calibration::Calibrator calibrator(tables, {matrix});
   std::uint32_t i = 0;
   for (auto _ : state) {
     calibrator.setSurface({"bend", ++i, {{i % 2 == 0 ? 12.5 : 16.5, 0, 0}}, {}}, 0);

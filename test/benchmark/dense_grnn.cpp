@@ -17,9 +17,10 @@ Eigen::ArrayXd toArray(const std::vector<Value>& values, double unit) {
 
 }  // namespace
 
-std::vector<double> denseGrnn(const fsr::CodeSamples& train, const fsr::CodeSamples& test, double bandwidth) {
+std::vector<double> denseGrnn(const fsr::regression::CodeSamples& train,
+                              const fsr::regression::CodeSamples& test, double bandwidth) {
   const Eigen::ArrayXd code = toArray(train.code, 1.0);
-  const Eigen::ArrayXd pressure = toArray(train.pressure, fsr::kFixedPressureUnit);
+  const Eigen::ArrayXd pressure = toArray(train.pressure, fsr::regression::kFixedPressureUnit);
   const double variance = (code - code.mean()).square().sum() / static_cast<double>(code.size() - 1);
   const double precision = 0.5 / (bandwidth * bandwidth * variance);
   Eigen::ArrayXd exponents(code.size());

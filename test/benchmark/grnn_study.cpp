@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "benchmark/rig_readings.h"
-#include "fsr_pressure_map/regression/kernel_mean.h"
+#include "regression/grnn/kernel_mean.h"
 
 namespace benchmark_data {
 
@@ -12,9 +12,9 @@ const std::vector<std::string> kSchemeNames = {"baseline", "method_1", "method_2
 
 namespace {
 
-using fsr::CodeHistogram;
-using fsr::CodeStatistics;
-using fsr::FixedPressure;
+using fsr::regression::CodeHistogram;
+using fsr::regression::CodeStatistics;
+using fsr::regression::FixedPressure;
 
 // One section's readings of a model: their sums by code, and their pressures' range.
 struct Part {
@@ -23,13 +23,13 @@ struct Part {
 };
 
 // Every `stride`-th reading.
-Part partOf(const fsr::CodeSamples& cell, std::size_t stride) {
-  fsr::CodeAccumulator accumulator(kFullScale);
+Part partOf(const fsr::regression::CodeSamples& cell, std::size_t stride) {
+  fsr::regression::CodeAccumulator accumulator(kFullScale);
   Part part;
   for (std::size_t i = 0; i < cell.size(); i += stride) {
     accumulator.add(cell.code[i], cell.pressure[i]);
-    part.lowest = std::min(part.lowest, fsr::fromFixed(cell.pressure[i]));
-    part.highest = std::max(part.highest, fsr::fromFixed(cell.pressure[i]));
+    part.lowest = std::min(part.lowest, fsr::regression::fromFixed(cell.pressure[i]));
+    part.highest = std::max(part.highest, fsr::regression::fromFixed(cell.pressure[i]));
   }
   part.sums = accumulator.take();
   return part;
@@ -41,8 +41,8 @@ struct Group {
   std::vector<Part> sections;  // of all its conditions together
 };
 
-Group groupOf(const std::vector<fsr::CodeSamples>& cells, double input, std::size_t first, std::size_t last,
-              std::size_t stride) {
+Group groupOf(const std::vector<fsr::regression::CodeSamples>& cells, double input, std::size_t first,
+              std::size_t last, std::size_t stride) {
   Group group{input, std::vector<Part>(kSections)};
   for (std::size_t condition = first; condition < last; ++condition) {
     for (std::size_t section = 0; section < kSections; ++section) {
@@ -57,7 +57,8 @@ Group groupOf(const std::vector<fsr::CodeSamples>& cells, double input, std::siz
 }
 
 // Models of a scheme, each a list of groups.
-std::vector<std::vector<Group>> modelsOf(std::size_t scheme, const std::vector<fsr::CodeSamples>& cells) {
+std::vector<std::vector<Group>> modelsOf(std::size_t scheme,
+                                         const std::vector<fsr::regression::CodeSamples>& cells) {
   std::vector<std::vector<Group>> models;
   switch (scheme) {
     case 0:
@@ -103,17 +104,18 @@ class FoldModel {
         training.back().add(group.sections[section].sums);
         all.add(group.sections[section].sums);
       }
-      samples_.push_back(fsr::weightedCodes(training.back()));
+      samples_.push_back(fsr::regression::weightedCodes(training.back()));
     }
-    deviation_ = fsr::readingDeviation(all);
+    deviation_ = fsr::regression::readingDeviation(all);
     input_deviation_ = inputDeviation(groups, training);
   }
 
   double rmsePercent(double bandwidth) const {
-    const auto log_weight = groups_.size() > 1 ? fsr::LogWeight::kYes : fsr::LogWeight::kNo;
-    std::vector<fsr::KernelMean> means;
+    const auto log_weight =
+        groups_.size() > 1 ? fsr::regression::LogWeight::kYes : fsr::regression::LogWeight::kNo;
+    std::vector<fsr::regression::KernelMean> means;
     for (const auto& samples : samples_) {
-      means.push_back(fsr::gaussianMean(samples, bandwidth * deviation_, log_weight));
+      means.push_back(fsr::regression::gaussianMean(samples, bandwidth * deviation_, log_weight));
     }
     double squares = 0, number = 0, lowest = INFINITY, highest = -INFINITY;
     for (const Group& group : groups_) {
@@ -137,8 +139,8 @@ class FoldModel {
     return exponents;
   }
 
-  static double answer(const std::vector<fsr::KernelMean>& means, const std::vector<double>& exponents,
-                       std::size_t code) {
+  static double answer(const std::vector<fsr::regression::KernelMean>& means,
+                       const std::vector<double>& exponents, std::size_t code) {
     if (means.size() == 1) return means[0].pressure[code];
     double largest = -INFINITY, sum = 0, weights = 0;
     for (std::size_t g = 0; g < means.size(); ++g) {
@@ -154,17 +156,20 @@ class FoldModel {
     return sum / weights;
   }
 
-  static double squaredErrors(const CodeStatistics& sums, const std::vector<fsr::KernelMean>& means,
+  static double squaredErrors(const CodeStatistics& sums,
+                              const std::vector<fsr::regression::KernelMean>& means,
                               const std::vector<double>& exponents) {
     double squares = 0;
-    sums.forEach([&](const fsr::CodeSums& s) {
+    sums.forEach([&](const fsr::regression::CodeSums& s) {
       // sum of (p - f)^2 about the code's mean: exact in integers, but for the mean's own rounding
       const auto mean = static_cast<FixedPressure>(s.sum / s.count);
-      const fsr::Int128 scatter =
-          s.sum_of_squares - fsr::Int128{mean} * (2 * fsr::Int128{s.sum} - fsr::Int128{mean} * s.count);
-      const double error = answer(means, exponents, s.code) - fsr::fromFixed(mean);
-      const double rest = fsr::fromFixed(s.sum - mean * s.count);
-      squares += static_cast<double>(scatter) * fsr::kFixedPressureUnit * fsr::kFixedPressureUnit +
+      const fsr::regression::Int128 scatter =
+          s.sum_of_squares - fsr::regression::Int128{mean} * (2 * fsr::regression::Int128{s.sum} -
+                                                              fsr::regression::Int128{mean} * s.count);
+      const double error = answer(means, exponents, s.code) - fsr::regression::fromFixed(mean);
+      const double rest = fsr::regression::fromFixed(s.sum - mean * s.count);
+      squares += static_cast<double>(scatter) * fsr::regression::kFixedPressureUnit *
+                     fsr::regression::kFixedPressureUnit +
                  error * (s.count * error - 2 * rest);
     });
     return squares;
@@ -172,13 +177,13 @@ class FoldModel {
 
   const std::vector<Group>& groups_;
   std::size_t held_out_;
-  std::vector<fsr::WeightedCodes> samples_;  // of each group
+  std::vector<fsr::regression::WeightedCodes> samples_;  // of each group
   double deviation_ = 0, input_deviation_ = 0;
 };
 
 }  // namespace
 
-std::vector<double> grnnStudy(const std::vector<fsr::CodeSamples>& cells,
+std::vector<double> grnnStudy(const std::vector<fsr::regression::CodeSamples>& cells,
                               const std::vector<double>& bandwidths) {
   std::vector<double> rmse(kSchemes * bandwidths.size(), 0.0);
   for (std::size_t scheme = 0; scheme < kSchemes; ++scheme) {

@@ -16,7 +16,7 @@ extern const std::vector<std::string> kSchemeNames;
 
 /// RMSE% [schemes x bandwidths], means over sections (and over the models of methods 1 and 3).
 /// `cells` are the taxel's readings, [conditions x sections].
-std::vector<double> grnnStudy(const std::vector<fsr::CodeSamples>& cells,
+std::vector<double> grnnStudy(const std::vector<fsr::regression::CodeSamples>& cells,
                               const std::vector<double>& bandwidths);
 
 }  // namespace benchmark_data

@@ -77,10 +77,10 @@ class Stopwatch {
   mutable std::mutex mutex_;
 };
 
-void loadCalibration(const fsr::MatrixSize& size) {
+void loadCalibration(const fsr::matrix::MatrixSize& size) {
   const auto path = std::filesystem::temp_directory_path() / ("map_latency_" + std::to_string(getpid()));
   const std::vector<double> curvatures = {0.0, 1 / 0.13, 1 / 0.11, 1 / 0.09, 1 / 0.07, 1 / 0.05};
-  fsr::saveCalibration(test_support::smallCalibration(size, curvatures, "", kFullScale), path);
+  fsr::calibration::saveCalibration(test_support::smallCalibration(size, curvatures, "", kFullScale), path);
   fsr_pressure_map::LoadFile call;
   call.request.path = path;
   ros::service::waitForService("calibration/load_calibration");

@@ -10,25 +10,25 @@
 #include "benchmark/dense_grnn.h"
 #include "benchmark/grnn_study.h"
 #include "benchmark/rig_readings.h"
-#include "fsr_pressure_map/regression/bandwidth_search.h"
 #include "fsr_pressure_map/regression/forest.h"
 #include "fsr_pressure_map/regression/grnn.h"
-#include "fsr_pressure_map/regression/linear_regression.h"
-#include "fsr_pressure_map/regression/monotone.h"
+#include "regression/bandwidth_search.h"
+#include "regression/linear_regression.h"
+#include "regression/monotone.h"
 
 namespace {
 
 using namespace benchmark_data;
 using benchmark::State;
 
-std::vector<double> answersOf(const std::vector<double>& table, const fsr::CodeSamples& test) {
+std::vector<double> answersOf(const std::vector<double>& table, const fsr::regression::CodeSamples& test) {
   std::vector<double> answers(test.size());
   for (std::size_t i = 0; i < test.size(); ++i) answers[i] = table[test.code[i]];
   return answers;
 }
 
 // Readings to answers for a test set, everything included.
-void trainAndAnswer(State& state, const fsr::Regressor& regressor) {
+void trainAndAnswer(State& state, const fsr::regression::Regressor& regressor) {
   const TrainAndTest data = trainAndTest(static_cast<std::size_t>(state.range(0)));
   for (auto _ : state) {
     benchmark::DoNotOptimize(answersOf(regressor.fitSamples(data.train).pressure, data.test));
@@ -36,27 +36,28 @@ void trainAndAnswer(State& state, const fsr::Regressor& regressor) {
 }
 
 void GrnnTable(State& state) {
-  trainAndAnswer(state, fsr::Grnn());
+  trainAndAnswer(state, fsr::regression::Grnn());
 }
 void LinearTable(State& state) {
-  trainAndAnswer(state, fsr::LinearRegression());
+  trainAndAnswer(state, fsr::regression::LinearRegression());
 }
 void ForestTable(State& state) {
-  trainAndAnswer(state, fsr::Forest());
+  trainAndAnswer(state, fsr::regression::Forest());
 }
 void MonotoneTable(State& state) {
-  trainAndAnswer(state, fsr::Monotone());
+  trainAndAnswer(state, fsr::regression::Monotone());
 }
 
 void GrnnDenseEigen(State& state) {
   const TrainAndTest data = trainAndTest(static_cast<std::size_t>(state.range(0)));
 
-  for (auto _ : state) benchmark::DoNotOptimize(denseGrnn(data.train, data.test, fsr::kPaperBandwidth));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(denseGrnn(data.train, data.test, fsr::regression::kPaperBandwidth));
 }
 
 void TableLookUp(State& state) {
   const TrainAndTest data = trainAndTest(6000);
-  const std::vector<double> pressure = fsr::Grnn().fitSamples(data.train).pressure;
+  const std::vector<double> pressure = fsr::regression::Grnn().fitSamples(data.train).pressure;
   const std::vector<float> table(pressure.begin(), pressure.end());
   std::vector<float> answers(data.test.size());
   for (auto _ : state) {
@@ -69,22 +70,23 @@ void TableLookUp(State& state) {
 
 void ForestOnCurvature(State& state) {
   const TrainAndTest data = trainAndTest(static_cast<std::size_t>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(fsr::fitCurvatureForest(data.train));
+  for (auto _ : state) benchmark::DoNotOptimize(fsr::regression::fitCurvatureForest(data.train));
 }
 
 // Of one taxel; the study has seventy.
 void GrnnStudyOfATaxel(State& state) {
   const auto cells = taxelReadings(0);
-  for (auto _ : state) benchmark::DoNotOptimize(grnnStudy(cells, fsr::bandwidthGrid()));
+  for (auto _ : state) benchmark::DoNotOptimize(grnnStudy(cells, fsr::regression::bandwidthGrid()));
 }
 
 // Of one taxel on one surface.
 void BandwidthSearch(State& state) {
   const auto cells = taxelReadings(0);
-  std::vector<fsr::CodeStatistics> sections;
-  for (std::size_t k = 0; k < kSections; ++k) sections.push_back(fsr::statisticsOf(cells[k]));
+  std::vector<fsr::regression::CodeStatistics> sections;
+  for (std::size_t k = 0; k < kSections; ++k) sections.push_back(fsr::regression::statisticsOf(cells[k]));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(fsr::BandwidthErrors(sections, kFullScale, {}, fsr::bandwidthGrid()));
+    benchmark::DoNotOptimize(
+        fsr::regression::BandwidthErrors(sections, kFullScale, {}, fsr::regression::bandwidthGrid()));
   }
 }
 
@@ -104,11 +106,11 @@ std::ofstream csv(const std::string& path, const std::string& header) {
   return file;
 }
 
-void writeSamples(const std::string& path, const fsr::CodeSamples& samples) {
+void writeSamples(const std::string& path, const fsr::regression::CodeSamples& samples) {
   std::ofstream file = csv(path, "code,pressure,curvature");
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    file << samples.code[i] << ',' << fsr::fromFixed(samples.pressure[i]) << ',' << samples.curvature[i]
-         << "\n";
+    file << samples.code[i] << ',' << fsr::regression::fromFixed(samples.pressure[i]) << ','
+         << samples.curvature[i] << "\n";
   }
 }
 
@@ -123,24 +125,25 @@ void exportAll(const std::string& folder) {
     const TrainAndTest data = trainAndTest(number);
     writeSamples(name + "_train.csv", data.train);
     writeSamples(name + "_test.csv", data.test);
-    writeAnswers(name + "_grnn.csv", answersOf(fsr::Grnn().fitSamples(data.train).pressure, data.test));
-    writeAnswers(name + "_grnn_table.csv", fsr::Grnn().fitSamples(data.train).pressure);
-    fsr::ForestOptions options;
+    writeAnswers(name + "_grnn.csv",
+                 answersOf(fsr::regression::Grnn().fitSamples(data.train).pressure, data.test));
+    writeAnswers(name + "_grnn_table.csv", fsr::regression::Grnn().fitSamples(data.train).pressure);
+    fsr::regression::ForestOptions options;
     writeAnswers(name + "_forest.csv",
-                 answersOf(fsr::Forest(options).fitSamples(data.train).pressure, data.test));
-    options.leaf_count = fsr::LeafCount::kDistinct;
+                 answersOf(fsr::regression::Forest(options).fitSamples(data.train).pressure, data.test));
+    options.leaf_count = fsr::regression::LeafCount::kDistinct;
     writeAnswers(name + "_forest_distinct.csv",
-                 answersOf(fsr::Forest(options).fitSamples(data.train).pressure, data.test));
+                 answersOf(fsr::regression::Forest(options).fitSamples(data.train).pressure, data.test));
   }
   const auto cells = taxelReadings(0);
   std::ofstream file = csv(folder + "/taxel.csv", "condition,section,code,pressure");
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
     for (std::size_t i = 0; i < cells[cell].size(); ++i) {
       file << cell / kSections << ',' << cell % kSections << ',' << cells[cell].code[i] << ','
-           << fsr::fromFixed(cells[cell].pressure[i]) << "\n";
+           << fsr::regression::fromFixed(cells[cell].pressure[i]) << "\n";
     }
   }
-  const auto bandwidths = fsr::bandwidthGrid();
+  const auto bandwidths = fsr::regression::bandwidthGrid();
   const std::vector<double> rmse = grnnStudy(cells, bandwidths);
   std::ofstream study = csv(folder + "/study.csv", "scheme,bandwidth,rmse_percent");
   for (std::size_t i = 0; i < rmse.size(); ++i) {

@@ -3,20 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/random_stream.h"
 
 namespace benchmark_data {
 
 const std::vector<double> kCurvature = {0.0, 7.69, 9.09, 11.1, 14.3, 20.0};
 
-fsr::CodeSamples readings(std::size_t taxel, std::size_t condition, std::size_t section, std::size_t number) {
+fsr::regression::CodeSamples readings(std::size_t taxel, std::size_t condition, std::size_t section,
+                                      std::size_t number) {
   const std::uint64_t member = (taxel * kConditions + condition) * kSections + section;
-  const fsr::RandomStream noise = fsr::randomStream(1, "benchmark_noise", member);
-  const fsr::RandomStream sheet = fsr::randomStream(1, "benchmark_sheet", taxel);
+  const fsr::statistics::RandomStream noise = fsr::statistics::randomStream(1, "benchmark_noise", member);
+  const fsr::statistics::RandomStream sheet = fsr::statistics::randomStream(1, "benchmark_sheet", taxel);
   const double gain =
       (1 + 0.05 * sheet.normal(0)) * (condition == 0 ? 1.0 : 0.88 - 0.005 * kCurvature[condition]);
   const double preload = condition == 0 ? 0.0 : 34e3 + 1e3 * sheet.normal(condition);
-  fsr::CodeSamples samples;
+  fsr::regression::CodeSamples samples;
   samples.full_scale = kFullScale;
   for (std::size_t i = 0; i < number; ++i) {
     const double phase = std::fmod(2.0 * static_cast<double>(i) / static_cast<double>(number), 1.0);
@@ -26,14 +27,14 @@ fsr::CodeSamples readings(std::size_t taxel, std::size_t condition, std::size_t 
     const double reading =
         60 + 3400 * gain * load * (1 + 0.015 * noise.normal(2 * i)) + 6 * noise.normal(2 * i + 1);
     const auto code = static_cast<std::uint16_t>(std::clamp(std::round(reading), 0.0, double{kFullScale}));
-    samples.add(code, fsr::toFixed(pressure + 150 * noise.normal(2 * number + i)));
+    samples.add(code, fsr::regression::toFixed(pressure + 150 * noise.normal(2 * number + i)));
     samples.curvature.push_back(kCurvature[condition]);
   }
   return samples;
 }
 
-std::vector<fsr::CodeSamples> taxelReadings(std::size_t taxel) {
-  std::vector<fsr::CodeSamples> cells;
+std::vector<fsr::regression::CodeSamples> taxelReadings(std::size_t taxel) {
+  std::vector<fsr::regression::CodeSamples> cells;
   for (std::size_t condition = 0; condition < kConditions; ++condition) {
     for (std::size_t section = 0; section < kSections; ++section) {
       cells.push_back(readings(taxel, condition, section, kScansOfCondition / kSections));

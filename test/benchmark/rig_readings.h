@@ -21,14 +21,15 @@ constexpr std::size_t kTaxels = 70;
 extern const std::vector<double> kCurvature;
 
 /// Readings of one taxel on one condition in one section, in time order; curvature is filled in.
-fsr::CodeSamples readings(std::size_t taxel, std::size_t condition, std::size_t section, std::size_t number);
+fsr::regression::CodeSamples readings(std::size_t taxel, std::size_t condition, std::size_t section,
+                                      std::size_t number);
 
 /// [conditions x sections] of one taxel, kScansOfCondition / kSections each.
-std::vector<fsr::CodeSamples> taxelReadings(std::size_t taxel);
+std::vector<fsr::regression::CodeSamples> taxelReadings(std::size_t taxel);
 
 /// A training set of `number` readings on all conditions, and a test set of 1,500.
 struct TrainAndTest {
-  fsr::CodeSamples train, test;
+  fsr::regression::CodeSamples train, test;
 };
 TrainAndTest trainAndTest(std::size_t number);
 

@@ -3,30 +3,31 @@
 
 #include <benchmark/benchmark.h>
 
-#include "fsr_pressure_map/emulator/board.h"
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
-#include "fsr_pressure_map/simulation/portrait.h"
-#include "fsr_pressure_map/simulation/sensitivity.h"
+#include "emulator/board.h"
+#include "simulation/effects/effect_library.h"
+#include "simulation/portrait.h"
+#include "simulation/sensitivity.h"
 
 namespace {
 
 constexpr double kPaperRate = 10;  // [Hz]
 
 /// The usual static curve and converter, and either nothing else or every effect at its usual size.
-fsr::SimulationSettings settingsOf(int rows, int columns, bool all) {
+fsr::simulation::SimulationSettings settingsOf(int rows, int columns, bool all) {
   const std::string matrix =
       "matrix: {rows: " + std::to_string(rows) + ", columns: " + std::to_string(columns);
-  fsr::SimulationSettings settings = fsr::readSimulation(fsr::Settings::fromText(
-      "{simulation: b, " + matrix + "}, effects: {static_curve: {}, converter: {}}}", "benchmark"));
-  for (const fsr::EffectEntry& entry : fsr::effectLibrary()) {
-    if (all && entry.make) settings = fsr::withEffect(settings, entry.info.id);
+  fsr::simulation::SimulationSettings settings =
+      fsr::simulation::readSimulation(fsr::settings::Settings::fromText(
+          "{simulation: b, " + matrix + "}, effects: {static_curve: {}, converter: {}}}", "benchmark"));
+  for (const fsr::simulation::EffectEntry& entry : fsr::simulation::effectLibrary()) {
+    if (all && entry.make) settings = fsr::simulation::withEffect(settings, entry.info.id);
   }
   return settings;
 }
 
-void readScans(fsr::SensorChain& chain, const fsr::PressureProfile& profile, double rate,
-               std::uint64_t scans) {
-  const fsr::PressureCourse course = [&](double time) { return profile.at(time); };
+void readScans(fsr::simulation::SensorChain& chain, const fsr::simulation::PressureProfile& profile,
+               double rate, std::uint64_t scans) {
+  const fsr::simulation::PressureCourse course = [&](double time) { return profile.at(time); };
   for (std::uint64_t i = 0; i < scans; ++i) {
     const double time = static_cast<double>(i) / rate;
     benchmark::DoNotOptimize(chain.read({time, profile.at(time), i, 23, &course}).data());
@@ -35,9 +36,9 @@ void readScans(fsr::SensorChain& chain, const fsr::PressureProfile& profile, dou
 
 // One scan of 7 x 10 taxels with one effect beside curve and converter: where the time goes.
 void oneEffect(benchmark::State& state, const std::string& id) {
-  const auto profile = pressureProfile(fsr::ChamberProtocol{});
-  fsr::SensorChain chain(id.empty() ? settingsOf(7, 10, false)
-                                    : fsr::withEffect(settingsOf(7, 10, false), id));
+  const auto profile = pressureProfile(fsr::simulation::ChamberProtocol{});
+  fsr::simulation::SensorChain chain(id.empty() ? settingsOf(7, 10, false)
+                                                : fsr::simulation::withEffect(settingsOf(7, 10, false), id));
   for (auto _ : state) readScans(chain, profile, kPaperRate, 750);
   state.SetItemsProcessed(state.iterations() * 750);
 }
@@ -45,9 +46,9 @@ void oneEffect(benchmark::State& state, const std::string& id) {
 // The paper's 45,000 scans of 70 taxels; target: 5,000 times real time.
 void paperWithAllEffects(benchmark::State& state) {
   const auto settings = settingsOf(7, 10, true);
-  const auto profile = pressureProfile(fsr::ChamberProtocol{});
+  const auto profile = pressureProfile(fsr::simulation::ChamberProtocol{});
   for (auto _ : state) {
-    fsr::SensorChain chain(settings);
+    fsr::simulation::SensorChain chain(settings);
     readScans(chain, profile, kPaperRate, 45000);
   }
   state.counters["real_time"] =
@@ -55,27 +56,27 @@ void paperWithAllEffects(benchmark::State& state) {
 }
 
 void scans(benchmark::State& state) {
-  fsr::SensorChain chain(settingsOf(7, 10, true));
-  const auto profile = pressureProfile(fsr::ChamberProtocol{});
+  fsr::simulation::SensorChain chain(settingsOf(7, 10, true));
+  const auto profile = pressureProfile(fsr::simulation::ChamberProtocol{});
   for (auto _ : state) readScans(chain, profile, kPaperRate, static_cast<std::uint64_t>(state.range(0)));
   state.SetComplexityN(state.range(0));
 }
 
 void taxels(benchmark::State& state) {
   const int side = static_cast<int>(state.range(0));
-  fsr::SensorChain chain(settingsOf(side, side, true));
-  const auto profile = pressureProfile(fsr::ChamberProtocol{});
+  fsr::simulation::SensorChain chain(settingsOf(side, side, true));
+  const auto profile = pressureProfile(fsr::simulation::ChamberProtocol{});
   for (auto _ : state) readScans(chain, profile, kPaperRate, 100);
   state.SetComplexityN(std::int64_t{side} * side);
 }
 
 // What the emulated board does for a scan of 16 x 10 taxels at 1 kHz; target: under a fifth of a core.
 void boardAtOneKilohertz(benchmark::State& state) {
-  fsr::SimulationSettings settings = settingsOf(16, 10, true);
+  fsr::simulation::SimulationSettings settings = settingsOf(16, 10, true);
   settings.board.scan_rate = settings.board.transducer_rate = 1000;
-  fsr::Board board(settings, {});
-  const auto profile = pressureProfile(fsr::ChamberProtocol{});
-  const fsr::PressureCourse course = [&](double time) { return profile.at(time); };
+  fsr::emulator::Board board(settings, {});
+  const auto profile = pressureProfile(fsr::simulation::ChamberProtocol{});
+  const fsr::simulation::PressureCourse course = [&](double time) { return profile.at(time); };
   const std::uint64_t before = board.scans();
   for (auto _ : state) benchmark::DoNotOptimize(board.next(course).data());
   state.counters["core"] = benchmark::Counter(static_cast<double>(board.scans() - before) / 1000,
@@ -84,9 +85,9 @@ void boardAtOneKilohertz(benchmark::State& state) {
 
 // A signature for the search for effects: 7,500 scans of core.yaml's kind.
 void signature(benchmark::State& state) {
-  const auto settings = fsr::withEffect(settingsOf(7, 10, false), "bending_preload");
-  fsr::Sensitivity creep(settings, "creep", "per_decade");
-  const auto profile = pressureProfile(fsr::ChamberProtocol{});
+  const auto settings = fsr::simulation::withEffect(settingsOf(7, 10, false), "bending_preload");
+  fsr::simulation::Sensitivity creep(settings, "creep", "per_decade");
+  const auto profile = pressureProfile(fsr::simulation::ChamberProtocol{});
   std::uint64_t scan = 0;
   for (auto _ : state) {
     for (int i = 0; i < 7500; ++i, ++scan) {
@@ -99,7 +100,7 @@ void signature(benchmark::State& state) {
 
 const int kRegistered = [] {
   benchmark::RegisterBenchmark("effect/none", oneEffect, std::string())->Unit(benchmark::kMicrosecond);
-  for (const fsr::EffectEntry& entry : fsr::effectLibrary()) {
+  for (const fsr::simulation::EffectEntry& entry : fsr::simulation::effectLibrary()) {
     if (!entry.make || entry.info.required) continue;
     benchmark::RegisterBenchmark(("effect/" + entry.info.id).c_str(), oneEffect, entry.info.id)
         ->Unit(benchmark::kMicrosecond);

@@ -29,7 +29,7 @@ const HiddenForm& formFor(const EffectSpec& effect, std::uint64_t seed) {
 }
 
 // A rectangle of taxels, at least a quarter and at most half of the matrix a side.
-std::vector<bool> corner(const fsr::Layout& layout, Random& random) {
+std::vector<bool> corner(const fsr::matrix::Layout& layout, Random& random) {
   const auto side = [&](std::size_t length) {
     const double share = random.uniform(0.35, 0.6);
     return std::max<std::size_t>(1,
@@ -63,14 +63,17 @@ Placed place(const EffectSpec& effect, const CaseSpec& spec, const Campaign& cam
 }
 
 void requireSense(const CaseSpec& spec) {
-  if (spec.matrix.rows == 0 || spec.matrix.columns == 0) throw fsr::InputError("matrix: must have taxels");
-  if (spec.size.surfaces < 1 || spec.size.surfaces > 6) throw fsr::InputError("surfaces: must be 1 to 6");
-  if (!(spec.snr >= 0)) throw fsr::InputError("snr: must be 0 or more");
+  if (spec.matrix.rows == 0 || spec.matrix.columns == 0)
+    throw fsr::settings::InputError("matrix: must have taxels");
+  if (spec.size.surfaces < 1 || spec.size.surfaces > 6)
+    throw fsr::settings::InputError("surfaces: must be 1 to 6");
+  if (!(spec.snr >= 0)) throw fsr::settings::InputError("snr: must be 0 or more");
   for (const EffectSpec& effect : spec.effects) {
     const HiddenForm& form = formFor(effect, spec.seed);
     if (form.needs_remounts && !remounts(spec.protocol)) {
-      throw fsr::InputError("effect " + form.id + " does not show under protocol " + spec.protocol +
-                            ", which mounts every surface once; take paper_remounted or random_order");
+      throw fsr::settings::InputError(
+          "effect " + form.id + " does not show under protocol " + spec.protocol +
+          ", which mounts every surface once; take paper_remounted or random_order");
     }
   }
 }
@@ -164,8 +167,9 @@ void Maker::hide() {
   for (const Placed& placed : placed_) {
     usual.push_back(rig_.signature(rig_.activate(placed, 1), stride(campaign_)).rms());
     if (usual.back() < kShows) {
-      throw fsr::InputError("effect " + placed.form->id + ":" + placed.form->form +
-                            " does not show under protocol " + made_.spec.protocol + "; take another one");
+      throw fsr::settings::InputError("effect " + placed.form->id + ":" + placed.form->form +
+                                      " does not show under protocol " + made_.spec.protocol +
+                                      "; take another one");
     }
   }
   noise_wanted_ = wantedNoise(usual);
@@ -210,8 +214,9 @@ double Maker::scaleOfNoise(const std::vector<Trace>& noise) const {
   const double wanted =
       noise_wanted_ * noise_wanted_ - rounding - made_.reference_noise * made_.reference_noise;
   if (wanted <= 0) {
-    throw fsr::InputError("snr: " + std::to_string(made_.spec.snr) +
-                          " cannot be reached, the converter's step alone is more noise; take a smaller one");
+    throw fsr::settings::InputError(
+        "snr: " + std::to_string(made_.spec.snr) +
+        " cannot be reached, the converter's step alone is more noise; take a smaller one");
   }
   return std::sqrt(wanted / variance);
 }
@@ -250,8 +255,8 @@ void Maker::record(const std::vector<std::vector<std::uint16_t>>& counts) {
   Random random(made_.spec.seed, "reference noise " + made_.spec.protocol + made_.spec.then);
   std::uint32_t mount = 0;
   for (const Visit& visit : campaign_.visits) {
-    fsr::Recording recording;
-    fsr::Surface surface = campaign_.surfaces[visit.surface];
+    fsr::dataset::Recording recording;
+    fsr::matrix::Surface surface = campaign_.surfaces[visit.surface];
     surface.mount = ++mount;
     if (!made_.spec.then.empty() && mount <= campaign_.first_visits) continue;
     recording.name = std::to_string(mount) + "_" + surface.name + ".bag";

@@ -30,7 +30,7 @@ struct CaseSpec {
   double snr = 1;
   std::string protocol = "two_speeds";
   std::string then;  ///< protocol of a second campaign after the first; it alone is recorded; empty = none
-  fsr::MatrixSize matrix{7, 10};
+  fsr::matrix::MatrixSize matrix{7, 10};
   ProtocolSize size;
   bool thermometer = true;
   bool local = true;            ///< effects may be confined to some taxels or surfaces
@@ -67,9 +67,9 @@ struct BlindCase {
   double noise = 0;            ///< rms of everything random, as it came out [share of full scale]
   double reference_noise = 0;  ///< the part of it that came through the reference
   std::vector<HiddenTruth> hidden;
-  std::vector<fsr::Recording> recordings;  ///< one for each mount
-  std::vector<Trace> base;                 ///< [taxel][scan] nothing hidden, no noise [share of full scale]
-  std::vector<Trace> clean;                ///< [taxel][scan] with the hidden effects, no noise
+  std::vector<fsr::dataset::Recording> recordings;  ///< one for each mount
+  std::vector<Trace> base;   ///< [taxel][scan] nothing hidden, no noise [share of full scale]
+  std::vector<Trace> clean;  ///< [taxel][scan] with the hidden effects, no noise
 };
 
 /// Throws fsr::InputError where the spec makes no sense, or an effect does not show under the protocol.

@@ -6,16 +6,16 @@
 
 #include "blind/blind_case.h"
 #include "blind/case_files.h"
-#include "fsr_pressure_map/ros/bag_writer.h"
-#include "fsr_pressure_map/settings/command_line.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/settings/replace_file.h"
-#include "fsr_pressure_map/settings/sha256.h"
+#include "ros/bags/bag_writer.h"
+#include "settings/command_line.h"
+#include "settings/replace_file.h"
+#include "settings/sha256.h"
 
 namespace {
 
-fsr::CommandLine commandLine() {
-  fsr::CommandLine line(
+fsr::settings::CommandLine commandLine() {
+  fsr::settings::CommandLine line(
       "blind_case", "--output DIR --key FILE [--effect ID[:FORM]]...",
       "Bags of a simulated rig with something hidden in it, by formulas that the package does "
       "not know.");
@@ -46,7 +46,7 @@ std::vector<blind::EffectSpec> effectsIn(const std::string& text) {
   return effects;
 }
 
-blind::CaseSpec specFrom(const fsr::CommandLine& line) {
+blind::CaseSpec specFrom(const fsr::settings::CommandLine& line) {
   blind::CaseSpec spec;
   if (line.has("follow")) {
     spec = blind::specFromKey(line.text("follow", ""));
@@ -55,7 +55,7 @@ blind::CaseSpec specFrom(const fsr::CommandLine& line) {
   }
   const std::string size = line.text("size", "full");
   if (size != "full" && size != "small") {
-    throw fsr::InputError("--size is \"" + size + "\", but must be full or small");
+    throw fsr::settings::InputError("--size is \"" + size + "\", but must be full or small");
   }
   if (size == "small") blind::makeSmall(spec);
   spec.seed = static_cast<std::uint64_t>(line.integer("seed", 1, {0, 1e15, ""}));
@@ -75,25 +75,25 @@ void list() {
 void write(const blind::BlindCase& made, const std::string& output, const std::string& key_file) {
   std::filesystem::create_directories(output);
   const std::string key = blind::keyText(made);
-  fsr::replaceFile(key_file, key);
+  fsr::settings::replaceFile(key_file, key);
   fsr_ros::BagOptions options;
   options.ambient_pressure = blind::kAmbientPressure;
   options.session.session_id = "blind";
   options.session.use = "chamber";
   options.session.mounted_on = "fixture";
   options.session.protocol = made.spec.then.empty() ? made.spec.protocol : made.spec.then;
-  for (const fsr::Recording& recording : made.recordings) {
+  for (const fsr::dataset::Recording& recording : made.recordings) {
     fsr_ros::writeBag(output + "/" + recording.name, recording, options);
   }
-  const std::string hash = fsr::sha256(key.data(), key.size());
-  fsr::replaceFile(output + "/case.yaml", blind::publicText(made, hash));
+  const std::string hash = fsr::settings::sha256(key.data(), key.size());
+  fsr::settings::replaceFile(output + "/case.yaml", blind::publicText(made, hash));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return fsr::runTool("blind_case", [&] {
-    fsr::CommandLine line = commandLine();
+  return fsr::settings::runTool("blind_case", [&] {
+    fsr::settings::CommandLine line = commandLine();
     if (!line.parse(argc, argv)) {
       std::cout << line.help();
       return 0;

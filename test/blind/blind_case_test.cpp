@@ -19,7 +19,7 @@ namespace {
 class HatFit {
  public:
   explicit HatFit(const BlindCase& made) : made_(made) {
-    for (const fsr::Recording& recording : made.recordings) {
+    for (const fsr::dataset::Recording& recording : made.recordings) {
       pressure_.insert(pressure_.end(), recording.pressure.begin(), recording.pressure.end());
     }
     lowest_ = *std::min_element(pressure_.begin(), pressure_.end());
@@ -79,7 +79,7 @@ double meanSquare(const Trace& trace) {
 // What a taxel really read [share of full scale].
 Trace measured(const BlindCase& made, std::size_t taxel) {
   Trace readings;
-  for (const fsr::Recording& recording : made.recordings) {
+  for (const fsr::dataset::Recording& recording : made.recordings) {
     for (std::size_t i = 0; i < recording.scans(); ++i) {
       readings.push_back(recording.scan(i)[taxel] / (1.0 * recording.full_scale));
     }
@@ -360,9 +360,10 @@ TEST(BlindCases, KeepMountsTimesAndTemperatureAsARigWould) {
 }
 
 TEST(BlindCases, ThatCannotShowAreRefused) {
-  EXPECT_THROW(makeCase(smallCase("repositioning", "tilt")), fsr::InputError);          // mounted once
-  EXPECT_THROW(makeCase(smallCase("foreign", "valley_memory_bent")), fsr::InputError);  // no inner loops
-  EXPECT_THROW(makeCase(smallCase("hysteresys", "")), fsr::InputError);
+  EXPECT_THROW(makeCase(smallCase("repositioning", "tilt")), fsr::settings::InputError);  // mounted once
+  EXPECT_THROW(makeCase(smallCase("foreign", "valley_memory_bent")),
+               fsr::settings::InputError);  // no inner loops
+  EXPECT_THROW(makeCase(smallCase("hysteresys", "")), fsr::settings::InputError);
 }
 
 }  // namespace

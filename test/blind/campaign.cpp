@@ -109,9 +109,9 @@ double Campaign::pressureAt(const Visit& at, double time_s) const {
   return at.fine_pressure[below] + share * (at.fine_pressure[below + 1] - at.fine_pressure[below]);
 }
 
-std::vector<fsr::Surface> surfacesOf(std::size_t number) {
+std::vector<fsr::matrix::Surface> surfacesOf(std::size_t number) {
   const std::vector<int> radii_cm = {13, 11, 9, 7, 5};
-  std::vector<fsr::Surface> surfaces = {{"flat", 0, {fsr::Curvature{}}, {}}};
+  std::vector<fsr::matrix::Surface> surfaces = {{"flat", 0, {fsr::matrix::Curvature{}}, {}}};
   for (std::size_t i = 1; i < number; ++i) {
     // Evenly chosen, the tightest always among them.
     const std::size_t from_end =
@@ -119,12 +119,12 @@ std::vector<fsr::Surface> surfacesOf(std::size_t number) {
     const std::size_t place = radii_cm.size() - 1 - from_end;
     const int radius = radii_cm[place];
     surfaces.push_back(
-        {"cylinder_" + std::to_string(radius) + "cm", 0, {fsr::Curvature{100.0 / radius, 0, 0}}, {}});
+        {"cylinder_" + std::to_string(radius) + "cm", 0, {fsr::matrix::Curvature{100.0 / radius, 0, 0}}, {}});
   }
   return surfaces;
 }
 
-Campaign runCampaign(const fsr::Layout& layout, const std::vector<std::string>& protocols,
+Campaign runCampaign(const fsr::matrix::Layout& layout, const std::vector<std::string>& protocols,
                      const ProtocolSize& size, std::uint64_t seed) {
   Campaign campaign;
   campaign.layout = layout;

@@ -29,9 +29,9 @@ constexpr double kLead = 5.0;       ///< [s]
 
 /// What truly happened in the laboratory, before any sensor looked at it.
 struct Campaign {
-  fsr::Layout layout;
-  double scan_period = 0.1;            ///< [s]
-  std::vector<fsr::Surface> surfaces;  ///< the first one flat
+  fsr::matrix::Layout layout;
+  double scan_period = 0.1;                    ///< [s]
+  std::vector<fsr::matrix::Surface> surfaces;  ///< the first one flat
   std::vector<Visit> visits;
   std::size_t first_visits = 0;  ///< of the first protocol
   std::size_t first_scans = 0;   ///< likewise
@@ -53,11 +53,11 @@ struct Campaign {
 };
 
 /// Surfaces: flat, then cylinders from wide to tight, names as in config/surfaces.
-std::vector<fsr::Surface> surfacesOf(std::size_t number);
+std::vector<fsr::matrix::Surface> surfacesOf(std::size_t number);
 
 /// One protocol after the other, on the same sheet in the same room; the first alone is the same campaign up
 /// to its end.
-Campaign runCampaign(const fsr::Layout& layout, const std::vector<std::string>& protocols,
+Campaign runCampaign(const fsr::matrix::Layout& layout, const std::vector<std::string>& protocols,
                      const ProtocolSize& size, std::uint64_t seed);
 
 }  // namespace blind

@@ -12,7 +12,7 @@
 namespace blind {
 namespace {
 
-const fsr::Layout kLayout{{3, 4}, 0.010, 0.010};
+const fsr::matrix::Layout kLayout{{3, 4}, 0.010, 0.010};
 
 class EveryProtocol : public testing::TestWithParam<std::string> {};
 
@@ -75,7 +75,7 @@ TEST(BlindProtocol, GoesOnWhereTheOneBeforeItEnded) {
 }
 
 TEST(BlindProtocol, OfAnUnknownNameIsRefused) {
-  EXPECT_THROW(runCampaign(kLayout, {"papers"}, {}, 1), fsr::InputError);
+  EXPECT_THROW(runCampaign(kLayout, {"papers"}, {}, 1), fsr::settings::InputError);
 }
 
 TEST(BlindSheet, RisesWithTheLoadUnderEveryLaw) {

@@ -123,7 +123,7 @@ std::string keyText(const BlindCase& blind_case) {
   out << YAML::Key << "taxels" << YAML::Value << blind_case.campaign.taxels();
   out << YAML::Key << "conditions" << YAML::Value;
   std::vector<std::string> names;
-  for (const fsr::Surface& surface : blind_case.campaign.surfaces) names.push_back(surface.name);
+  for (const fsr::matrix::Surface& surface : blind_case.campaign.surfaces) names.push_back(surface.name);
   flowList(out, names);
   out << YAML::Key << "noise" << YAML::Value << YAML::BeginMap << YAML::Key << "rms" << YAML::Value
       << blind_case.noise << YAML::Key << "through_the_reference" << YAML::Value
@@ -156,15 +156,15 @@ std::string publicText(const BlindCase& blind_case, const std::string& key_sha25
   out << YAML::Key << "thermometer" << YAML::Value << spec.thermometer;
   out << YAML::Key << "mount_labels" << YAML::Value << true;
   out << YAML::Key << "bags" << YAML::Value << YAML::BeginSeq;
-  for (const fsr::Recording& recording : blind_case.recordings) out << recording.name;
+  for (const fsr::dataset::Recording& recording : blind_case.recordings) out << recording.name;
   out << YAML::EndSeq << YAML::EndMap;
   return std::string(out.c_str()) + "\n";
 }
 
 CaseSpec specFromKey(const std::string& path) {
-  const fsr::Settings key = fsr::Settings::fromFile(path);
-  const fsr::Settings made = key.section("spec");
-  const fsr::Range any;
+  const fsr::settings::Settings key = fsr::settings::Settings::fromFile(path);
+  const fsr::settings::Settings made = key.section("spec");
+  const fsr::settings::Range any;
   CaseSpec spec;
   spec.seed = static_cast<std::uint64_t>(made.integer("seed", any));
   spec.protocol = made.text("protocol");
@@ -176,7 +176,7 @@ CaseSpec specFromKey(const std::string& path) {
   spec.thermometer = made.flag("thermometer", true);
   spec.local = made.flag("local", true);
   spec.noise = key.section("noise").number("rms", {0, 1, ""});
-  for (const fsr::Settings& effect : key.sections("effects")) {
+  for (const fsr::settings::Settings& effect : key.sections("effects")) {
     spec.effects.push_back({effect.text("id"), effect.text("form"), effect.number("strength", {0, 10, ""})});
   }
   return spec;

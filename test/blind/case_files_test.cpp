@@ -29,13 +29,13 @@ class CaseFiles : public testing::Test {
 };
 
 TEST_F(CaseFiles, TheKeySaysWhatIsHiddenAndWhere) {
-  const fsr::Settings key = fsr::Settings::fromFile(path_.string());
+  const fsr::settings::Settings key = fsr::settings::Settings::fromFile(path_.string());
   EXPECT_EQ(key.text("truth"), "named");
-  const fsr::Settings effect = key.sections("effects").at(0);
+  const fsr::settings::Settings effect = key.sections("effects").at(0);
   EXPECT_EQ(effect.text("id"), "mains_pickup");
   EXPECT_EQ(effect.text("form"), "swelling");
   EXPECT_NEAR(effect.number("snr", {}), 0.5, 0.02);
-  const fsr::Settings where = effect.section("where");
+  const fsr::settings::Settings where = effect.section("where");
   EXPECT_EQ(where.text("taxels"), "all");
   EXPECT_EQ(where.numbers("pressure", {}).size(), 2u);
   EXPECT_NEAR(key.section("noise").number("rms", {}), made_.noise, 1e-12);

@@ -49,7 +49,7 @@ const HiddenForm& findForm(const std::string& id, const std::string& form) {
     if (candidate.id == id && candidate.form == form) return candidate;
     known += (known.empty() ? "" : ", ") + candidate.id + ":" + candidate.form;
   }
-  throw fsr::InputError("effect is '" + id + ":" + form + "', but must be one of " + known);
+  throw fsr::settings::InputError("effect is '" + id + ":" + form + "', but must be one of " + known);
 }
 
 std::vector<double> taxelScatter(const HiddenSetup& setup, const std::string& purpose, double deviation) {

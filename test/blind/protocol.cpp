@@ -157,7 +157,7 @@ const Protocol& find(const std::string& name) {
   if (found != protocols().end()) return found->second;
   std::string known;
   for (const std::string& other : protocolNames()) known += (known.empty() ? "" : ", ") + other;
-  throw fsr::InputError("protocol is '" + name + "', but must be one of " + known);
+  throw fsr::settings::InputError("protocol is '" + name + "', but must be one of " + known);
 }
 
 std::vector<std::size_t> surfaceOrder(const Protocol& protocol, const std::string& name, std::size_t surfaces,

@@ -38,7 +38,7 @@ Sheet::Sheet(const Campaign& campaign, std::uint64_t seed) {
   gain_scale_ = random.uniform(8, 20);  // [1/m]
   gain_size_ = random.uniform(0.12, 0.23) / gainLoss(gain_law_, kTightest, gain_scale_);
   drawTaxels(campaign.taxels(), seed);
-  for (const fsr::Surface& surface : campaign.surfaces) drawSurface(surface, campaign.taxels(), seed);
+  for (const fsr::matrix::Surface& surface : campaign.surfaces) drawSurface(surface, campaign.taxels(), seed);
 }
 
 void Sheet::drawTaxels(std::size_t number, std::uint64_t seed) {
@@ -61,7 +61,7 @@ void Sheet::drawTaxels(std::size_t number, std::uint64_t seed) {
 }
 
 // Surfaces draw by their names, so that a sheet is the same sheet in whatever campaign.
-void Sheet::drawSurface(const fsr::Surface& surface, std::size_t taxels, std::uint64_t seed) {
+void Sheet::drawSurface(const fsr::matrix::Surface& surface, std::size_t taxels, std::uint64_t seed) {
   const double curvature = surface.curvature[0].x;
   Random random(seed, "bending " + surface.name);
   std::vector<double> preload, gain;

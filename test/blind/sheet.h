@@ -38,7 +38,7 @@ class Sheet {
     double zero, level, a, b;  // a, b: shape, by law
   };
   void drawTaxels(std::size_t number, std::uint64_t seed);
-  void drawSurface(const fsr::Surface& surface, std::size_t taxels, std::uint64_t seed);
+  void drawSurface(const fsr::matrix::Surface& surface, std::size_t taxels, std::uint64_t seed);
   double shape(const Taxel& taxel, double load) const;
   double commonPreload(double curvature) const;
   double commonGain(double curvature) const;

@@ -10,13 +10,13 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/synthetic_recording.h"
 
-namespace fsr {
+namespace fsr::calibration {
 namespace {
 
 using test_support::syntheticRecording;
 using test_support::SyntheticRig;
 
-using Bags = std::vector<Recording>;
+using Bags = std::vector<dataset::Recording>;
 
 SyntheticRig rig() {
   SyntheticRig rig;
@@ -27,15 +27,15 @@ SyntheticRig rig() {
   return rig;
 }
 
-Bags oneBag(const std::function<void(Recording&)>& spoil) {
-  Recording recording = syntheticRecording(rig());
+Bags oneBag(const std::function<void(dataset::Recording&)>& spoil) {
+  dataset::Recording recording = syntheticRecording(rig());
   spoil(recording);
   return {recording};
 }
 
 // The scans of each condition beyond the first `number` leave.
-void keepOfEach(Recording& recording, std::size_t number) {
-  Recording kept = recording;
+void keepOfEach(dataset::Recording& recording, std::size_t number) {
+  dataset::Recording kept = recording;
   kept.time.clear();
   kept.counts.clear();
   kept.pressure.clear();
@@ -52,7 +52,7 @@ void keepOfEach(Recording& recording, std::size_t number) {
   recording = kept;
 }
 
-void holdTaxel(Recording& recording, std::size_t taxel) {
+void holdTaxel(dataset::Recording& recording, std::size_t taxel) {
   const std::size_t taxels = recording.layout.size.taxels();
   for (std::size_t i = 0; i < recording.scans(); ++i) recording.counts[i * taxels + taxel] = 7;
 }
@@ -73,7 +73,7 @@ Bags twoMatrices() {
 struct Case {
   std::string what;
   std::function<Bags()> bags;
-  Scheme scheme;
+  compensation::Scheme scheme;
   std::string outcome;  // "trained", with the warnings; or the sentence
 };
 
@@ -83,32 +83,33 @@ std::string fewCycles(const std::string& surface, const std::string& number) {
          "split, and the scores flatter";
 }
 
-const Scheme kEach = Scheme::kPerCurvature;
+const compensation::Scheme kEach = compensation::Scheme::kPerCurvature;
 
 std::vector<Case> cases() {
   const auto spoilt = [](auto spoil) { return [spoil] { return oneBag(spoil); }; };
   return {
-      {"nothing bad", spoilt([](Recording&) {}), kEach, "trained"},
-      {"a constant taxel", spoilt([](Recording& r) { holdTaxel(r, 3); }), kEach,
+      {"nothing bad", spoilt([](dataset::Recording&) {}), kEach, "trained"},
+      {"a constant taxel", spoilt([](dataset::Recording& r) { holdTaxel(r, 3); }), kEach,
        "trained; these taxels (row * columns + column) read the same count throughout a condition and get no "
        "model: 3"},
-      {"one sample a condition", spoilt([](Recording& r) {
+      {"one sample a condition", spoilt([](dataset::Recording& r) {
          keepOfEach(r, 1);
          r.pressure[1] = 5e3;
        }),
        kEach, "a.bag: every taxel is masked or reads the same count throughout; is the matrix connected?"},
-      {"two samples a condition", spoilt([](Recording& r) { keepOfEach(r, 2); }), kEach,
+      {"two samples a condition", spoilt([](dataset::Recording& r) { keepOfEach(r, 2); }), kEach,
        "trained; " + fewCycles("flat", "1 cycle is") + "; " + fewCycles("cylinder_5cm", "1 cycle is")},
       {"one condition", oneSurface, kEach, "trained"},
-      {"one condition, all in one model", oneSurface, Scheme::kBaseline, "trained"},
+      {"one condition, all in one model", oneSurface, compensation::Scheme::kBaseline, "trained"},
       {"pressure that never changes",
-       spoilt([](Recording& r) { std::fill(r.pressure.begin(), r.pressure.end(), 3e3); }), kEach,
+       spoilt([](dataset::Recording& r) { std::fill(r.pressure.begin(), r.pressure.end(), 3e3); }), kEach,
        "a.bag: the chamber pressure never changes (3000 to 3000 Pa gauge), but training needs cycles"},
       {"pressure that is zero throughout",
-       spoilt([](Recording& r) { std::fill(r.pressure.begin(), r.pressure.end(), 0.0); }), kEach,
+       spoilt([](dataset::Recording& r) { std::fill(r.pressure.begin(), r.pressure.end(), 0.0); }), kEach,
        "a.bag: the chamber pressure never changes (0 to 0 Pa gauge), but training needs cycles"},
       {"pressure that is zero on one surface",
-       spoilt([](Recording& r) { std::fill(r.pressure.begin(), r.pressure.begin() + 200, 0.0); }), kEach,
+       spoilt([](dataset::Recording& r) { std::fill(r.pressure.begin(), r.pressure.begin() + 200, 0.0); }),
+       kEach,
        "trained; a.bag, \"flat\": the chamber pressure never changes, so that there is nothing to learn "
        "from"},
       {"fewer cycles than sections",
@@ -119,12 +120,13 @@ std::vector<Case> cases() {
          return Bags{syntheticRecording(few)};
        },
        kEach, "trained; " + fewCycles("flat", "3 cycles are")},
-      {"a pressure that is no number", spoilt([](Recording& r) { r.pressure[7] = std::nan(""); }), kEach,
-       "trained"},
+      {"a pressure that is no number", spoilt([](dataset::Recording& r) { r.pressure[7] = std::nan(""); }),
+       kEach, "trained"},
       {"no pressure at all",
-       spoilt([](Recording& r) { std::fill(r.pressure.begin(), r.pressure.end(), std::nan("")); }), kEach,
-       "a.bag: no scan on \"flat\" has a chamber pressure"},
-      {"an infinite pressure", spoilt([](Recording& r) { r.pressure[7] = INFINITY; }), kEach, "trained"},
+       spoilt([](dataset::Recording& r) { std::fill(r.pressure.begin(), r.pressure.end(), std::nan("")); }),
+       kEach, "a.bag: no scan on \"flat\" has a chamber pressure"},
+      {"an infinite pressure", spoilt([](dataset::Recording& r) { r.pressure[7] = INFINITY; }), kEach,
+       "trained"},
       {"bags of different matrices", twoMatrices, kEach,
        "b.bag: the matrix is 3 x 3, but that of a.bag is 2 x 2; a calibration is of one matrix"},
       {"no bag", [] { return Bags{}; }, kEach, "there is no recording to train on; give one bag or more"},
@@ -135,7 +137,7 @@ std::vector<Case> cases() {
 void expectSound(const Calibration& calibration, const std::string& what) {
   const std::size_t classes = calibration.tables.classes.size();
   for (std::size_t i = 0; i < calibration.tables.tables.size(); ++i) {
-    const CodeTable& table = calibration.tables.tables[i];
+    const regression::CodeTable& table = calibration.tables.tables[i];
     const bool model = calibration.no_model[i / classes] == 0;
     for (std::size_t code = 0; code < table.pressure.size(); ++code) {
       ASSERT_EQ(std::isfinite(table.pressure[code]), model) << what << ", code " << code;
@@ -156,7 +158,7 @@ std::string outcomeOf(const Case& row, const std::string& model) {
     std::string outcome = "trained";
     for (const std::string& warning : calibration.warnings) outcome += "; " + warning;
     return outcome;
-  } catch (const InputError& error) {
+  } catch (const settings::InputError& error) {
     return error.what();
   }
 }
@@ -167,8 +169,8 @@ TEST_P(BadInput, HasADocumentedOutcome) {
   for (const Case& row : cases()) EXPECT_EQ(outcomeOf(row, GetParam()), row.outcome) << row.what;
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, BadInput, testing::ValuesIn(regressorNames()),
+INSTANTIATE_TEST_SUITE_P(Models, BadInput, testing::ValuesIn(regression::regressorNames()),
                          [](const auto& model) { return model.param; });
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::calibration

@@ -7,28 +7,28 @@
 #include "support/allocation_guard.h"
 #include "support/small_tables.h"
 
-namespace fsr {
+namespace fsr::calibration {
 namespace {
 
 using test_support::knownDeviation;
 using test_support::knownPressure;
 using test_support::smallTables;
-namespace flag = taxel_flag;
+namespace flag = map::taxel_flag;
 
-constexpr MatrixSize kSize{3, 4};
+constexpr matrix::MatrixSize kSize{3, 4};
 constexpr std::uint16_t kFullScale = 1023;
 constexpr std::size_t kTaxel = 7;
 
-Surface bent(double curvature, const std::string& name = "surface") {
+matrix::Surface bent(double curvature, const std::string& name = "surface") {
   return {name, 1, {{curvature, 0, 0}}, {}};
 }
 
-CurvatureTables tablesWith(BlendRule blend) {
-  CurvatureTables tables = smallTables(kSize, {0.0, 10.0, 20.0});
+compensation::CurvatureTables tablesWith(compensation::BlendRule blend) {
+  compensation::CurvatureTables tables = smallTables(kSize, {0.0, 10.0, 20.0});
   tables.rule.blend = blend;
-  if (blend == BlendRule::kKernel) {
+  if (blend == compensation::BlendRule::kKernel) {
     tables.rule.length_scale = {4.0};
-    for (CodeTable& table : tables.tables) table.log_weight.assign(kFullScale + 1u, 0.0f);
+    for (regression::CodeTable& table : tables.tables) table.log_weight.assign(kFullScale + 1u, 0.0f);
   }
   return tables;
 }
@@ -40,13 +40,13 @@ struct Reading {
 
 Reading read(Calibrator& calibrator, std::uint16_t code = 500) {
   const std::vector<std::uint16_t> counts(kSize.taxels(), code);
-  PressureMap map;
+  map::PressureMap map;
   calibrator.calibrate({kSize, kFullScale, counts.data(), counts.size()}, 0, map);
   return {map.pressure[kTaxel], map.deviation[kTaxel], map.flags[kTaxel]};
 }
 
 TEST(BlendedTables, InterpolationGivesEveryCurvatureATableOfItsOwn) {
-  Calibrator calibrator(tablesWith(BlendRule::kInterpolate), {kSize});
+  Calibrator calibrator(tablesWith(compensation::BlendRule::kInterpolate), {kSize});
   for (const double curvature : {0.0, 2.0, 5.0, 10.0, 18.0, 20.0}) {
     calibrator.setSurface(bent(curvature), 0);
     // classes differ by 10 Pa
@@ -55,16 +55,16 @@ TEST(BlendedTables, InterpolationGivesEveryCurvatureATableOfItsOwn) {
 }
 
 TEST(BlendedTables, EachTaxelIsBlendedForItsOwnCurvature) {
-  CurvatureTables tables = tablesWith(BlendRule::kInterpolate);
+  compensation::CurvatureTables tables = tablesWith(compensation::BlendRule::kInterpolate);
   tables.classes[1].curvature.assign(12, 10.0);
   tables.classes[1].curvature[kTaxel] = 4.0;  // trained on a limb
   Calibrator calibrator(tables, {kSize});
-  Surface limb{"limb", 1, {}, {}};
+  matrix::Surface limb{"limb", 1, {}, {}};
   for (std::size_t taxel = 0; taxel < 12; ++taxel)
     limb.curvature.push_back({static_cast<double>(taxel), 0, 0});
   calibrator.setSurface(limb, 0);
   const std::vector<std::uint16_t> counts(12, 500);
-  PressureMap map;
+  map::PressureMap map;
   calibrator.calibrate({kSize, kFullScale, counts.data(), 12}, 0, map);
   EXPECT_NEAR(map.pressure[3], knownPressure(3, 0, 500) + 3, 0.01);
   EXPECT_NEAR(map.pressure[11], knownPressure(11, 0, 500) + 11, 0.01);
@@ -72,7 +72,7 @@ TEST(BlendedTables, EachTaxelIsBlendedForItsOwnCurvature) {
 }
 
 TEST(BlendedTables, InterpolationStillSaysWhatLiesBetweenOrBeyondTheClasses) {
-  Calibrator calibrator(tablesWith(BlendRule::kInterpolate), {kSize});
+  Calibrator calibrator(tablesWith(compensation::BlendRule::kInterpolate), {kSize});
   calibrator.setSurface(bent(10.4), 0);
   EXPECT_EQ(read(calibrator).flags, 0);
   calibrator.setSurface(bent(10.6), 0);
@@ -83,7 +83,8 @@ TEST(BlendedTables, InterpolationStillSaysWhatLiesBetweenOrBeyondTheClasses) {
 }
 
 TEST(BlendedTables, AnUnknownSurfaceIsTakenForTheFlattest) {
-  for (const BlendRule blend : {BlendRule::kNearest, BlendRule::kInterpolate}) {
+  for (const compensation::BlendRule blend :
+       {compensation::BlendRule::kNearest, compensation::BlendRule::kInterpolate}) {
     Calibrator calibrator(tablesWith(blend), {kSize});
     calibrator.setSurface(bent(13), 0);
     calibrator.setSurface({}, 0);
@@ -92,7 +93,7 @@ TEST(BlendedTables, AnUnknownSurfaceIsTakenForTheFlattest) {
 }
 
 TEST(BlendedTables, KernelsAreBlendedOnAClassToo) {
-  Calibrator calibrator(tablesWith(BlendRule::kKernel), {kSize});
+  Calibrator calibrator(tablesWith(compensation::BlendRule::kKernel), {kSize});
   calibrator.setSurface(bent(0), 0);
   const double ten = std::exp(-100.0 / 32), twenty = std::exp(-400.0 / 32);  // weights of the classes
   const double expected = knownPressure(kTaxel, 0, 500) + (10 * ten + 20 * twenty) / (1 + ten + twenty);
@@ -100,13 +101,13 @@ TEST(BlendedTables, KernelsAreBlendedOnAClassToo) {
 }
 
 TEST(BlendedTables, KernelsNeedTheirWeights) {
-  CurvatureTables tables = tablesWith(BlendRule::kKernel);
+  compensation::CurvatureTables tables = tablesWith(compensation::BlendRule::kKernel);
   tables.tables[2].log_weight.clear();
-  EXPECT_THROW(Calibrator(tables, {kSize}), InputError);
+  EXPECT_THROW(Calibrator(tables, {kSize}), settings::InputError);
 }
 
 TEST(BlendedTables, ByNameASurfaceTakesTheTableOfItsName) {
-  Calibrator calibrator(tablesWith(BlendRule::kByName), {kSize});
+  Calibrator calibrator(tablesWith(compensation::BlendRule::kByName), {kSize});
   calibrator.setSurface(bent(0.3, "surface_2"), 0);
   EXPECT_EQ(read(calibrator).pressure, knownPressure(kTaxel, 2, 500));
   EXPECT_EQ(read(calibrator).flags, 0);
@@ -116,12 +117,12 @@ TEST(BlendedTables, ByNameASurfaceTakesTheTableOfItsName) {
 }
 
 TEST(BlendedTables, TheNearestClassIsLessSureOffItsCurvature) {
-  Calibrator calibrator(tablesWith(BlendRule::kNearest), {kSize});
+  Calibrator calibrator(tablesWith(compensation::BlendRule::kNearest), {kSize});
   calibrator.setSurface(bent(9.7), 0);  // within the tolerance
   EXPECT_EQ(read(calibrator).deviation, knownDeviation(kTaxel, 1, 500));
   calibrator.setSurface(bent(6), 0);
   EXPECT_EQ(read(calibrator).pressure, knownPressure(kTaxel, 1, 500));
-  CurvatureTables unsure = tablesWith(BlendRule::kNearest);
+  compensation::CurvatureTables unsure = tablesWith(compensation::BlendRule::kNearest);
   unsure.rule.unseen = {{0}, {3e3}};
   Calibrator less_sure(unsure, {kSize});
   less_sure.setSurface(bent(6), 0);
@@ -131,7 +132,7 @@ TEST(BlendedTables, TheNearestClassIsLessSureOffItsCurvature) {
 TEST(BlendedTables, ASmallStepOfCurvatureKeepsTheTable) {
   CalibratorOptions options;
   options.curvature_step = 0.1;
-  Calibrator calibrator(tablesWith(BlendRule::kInterpolate), {kSize}, options);
+  Calibrator calibrator(tablesWith(compensation::BlendRule::kInterpolate), {kSize}, options);
   calibrator.setSurface(bent(5), 0);
   calibrator.setSurface(bent(5.09), 0);
   EXPECT_NEAR(read(calibrator).pressure, knownPressure(kTaxel, 0, 500) + 5, 0.01);
@@ -140,7 +141,7 @@ TEST(BlendedTables, ASmallStepOfCurvatureKeepsTheTable) {
 }
 
 TEST(BlendedTables, SurvivesAMove) {
-  Calibrator first(tablesWith(BlendRule::kInterpolate), {kSize});
+  Calibrator first(tablesWith(compensation::BlendRule::kInterpolate), {kSize});
   first.setSurface(bent(5), 0);
   Calibrator second(std::move(first));
   second.setSurface(bent(15), 0);
@@ -148,12 +149,14 @@ TEST(BlendedTables, SurvivesAMove) {
 }
 
 TEST(BlendedTables, AScanAllocatesNothingWhateverTheRule) {
-  for (const BlendRule blend : {BlendRule::kNearest, BlendRule::kKernel, BlendRule::kInterpolate}) {
+  for (const compensation::BlendRule blend :
+       {compensation::BlendRule::kNearest, compensation::BlendRule::kKernel,
+        compensation::BlendRule::kInterpolate}) {
     Calibrator calibrator(tablesWith(blend), {kSize});
     calibrator.setSurface(bent(5), 0);
     const std::vector<std::uint16_t> counts(kSize.taxels(), 500);
-    PressureMap map;
-    const ScanView scan{kSize, kFullScale, counts.data(), counts.size()};
+    map::PressureMap map;
+    const matrix::ScanView scan{kSize, kFullScale, counts.data(), counts.size()};
     calibrator.calibrate(scan, 0, map);
     const test_support::AllocationGuard guard;
     calibrator.calibrate(scan, 0.1, map);
@@ -162,4 +165,4 @@ TEST(BlendedTables, AScanAllocatesNothingWhateverTheRule) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::calibration

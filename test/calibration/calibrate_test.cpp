@@ -7,7 +7,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/synthetic_recording.h"
 
-namespace fsr {
+namespace fsr::calibration {
 namespace {
 
 using test_support::syntheticReading;
@@ -21,7 +21,8 @@ SyntheticRig threeSurfaces() {
   return rig;
 }
 
-Calibration train(const std::vector<Recording>& recordings, Scheme scheme, unsigned threads = 2) {
+Calibration train(const std::vector<dataset::Recording>& recordings, compensation::Scheme scheme,
+                  unsigned threads = 2) {
   CalibrationProblem problem{recordings, {}};
   problem.options.scheme = scheme;
   problem.options.choose_bandwidth = false;
@@ -42,7 +43,7 @@ void expectSameTables(const Calibration& a, const Calibration& b) {
 
 TEST(Calibrate, RecoversTheCurveOfEachTaxelAndSurface) {
   const SyntheticRig rig = threeSurfaces();
-  const Calibration calibration = train({syntheticRecording(rig)}, Scheme::kPerCurvature);
+  const Calibration calibration = train({syntheticRecording(rig)}, compensation::Scheme::kPerCurvature);
   ASSERT_EQ(calibration.tables.classes.size(), 3u);
   for (std::size_t taxel = 0; taxel < rig.size.taxels(); ++taxel) {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -58,24 +59,26 @@ TEST(Calibrate, RecoversTheCurveOfEachTaxelAndSurface) {
 }
 
 TEST(Calibrate, PerCurvatureBeatsTheOthersOnABend) {
-  const Recording recording = syntheticRecording(threeSurfaces());
-  const auto rmse = [&](Scheme scheme, std::size_t condition) {
+  const dataset::Recording recording = syntheticRecording(threeSurfaces());
+  const auto rmse = [&](compensation::Scheme scheme, std::size_t condition) {
     return train({recording}, scheme).scores.conditions.at(condition).score.errors.whole.all.rmse;
   };
   for (const std::size_t bent : {std::size_t{1}, std::size_t{2}}) {
-    EXPECT_LT(rmse(Scheme::kPerCurvature, bent), 0.5 * rmse(Scheme::kBaseline, bent));
-    EXPECT_LT(rmse(Scheme::kPerCurvature, bent), 0.5 * rmse(Scheme::kFlatOnly, bent));
+    EXPECT_LT(rmse(compensation::Scheme::kPerCurvature, bent),
+              0.5 * rmse(compensation::Scheme::kBaseline, bent));
+    EXPECT_LT(rmse(compensation::Scheme::kPerCurvature, bent),
+              0.5 * rmse(compensation::Scheme::kFlatOnly, bent));
   }
-  EXPECT_DOUBLE_EQ(rmse(Scheme::kPerCurvature, 0), rmse(Scheme::kFlatOnly, 0));
+  EXPECT_DOUBLE_EQ(rmse(compensation::Scheme::kPerCurvature, 0), rmse(compensation::Scheme::kFlatOnly, 0));
 }
 
 // One taxel, one surface, five cycles of 40 scans; nothing random, so that numpy can make it too.
-Recording plainRecording() {
+dataset::Recording plainRecording() {
   SyntheticRig rig;
   rig.size = {1, 1};
   rig.scans_per_cycle = 40;
   rig.surfaces = {{"flat", 0.0}};
-  Recording recording = syntheticRecording(rig);
+  dataset::Recording recording = syntheticRecording(rig);
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     recording.pressure[i] *= (600e3 - 7e3 * static_cast<double>(i / 40)) / 600e3;
     const double curve = std::round(3000.0 * std::sqrt(recording.pressure[i] / 600e3));
@@ -91,7 +94,7 @@ TEST(Calibrate, ScoresAgreeWithNumpy) {
   //   s = c[tr].std(ddof=1)/128; d2 = (c[te][:,None] - c[tr][None,:])**2
   //   w = np.exp(-(d2 - d2.min(1)[:,None])/(2*s*s)); e = (w*P[tr]).sum(1)/w.sum(1) - P[te]
   //   1 - (e**2).sum()/((P[te] - P[te].mean())**2).sum(), 100*np.sqrt((e**2).mean())/np.ptp(P[te])
-  const Calibration calibration = train({plainRecording()}, Scheme::kPerCurvature);
+  const Calibration calibration = train({plainRecording()}, compensation::Scheme::kPerCurvature);
   const Score& score = calibration.scores.conditions.at(0).score;
   constexpr double kFloats = 1e-6;  // errors are kept as float
   EXPECT_EQ(score.readings, 200u);
@@ -117,9 +120,9 @@ TEST(Calibrate, ChoosesTheSameBandwidthOnAnyNumberOfThreads) {
 }
 
 TEST(Calibrate, GivesTheSameNumbersOnAnyNumberOfThreads) {
-  const Recording recording = syntheticRecording(threeSurfaces());
-  const Calibration one = train({recording}, Scheme::kPerCurvature, 1);
-  const Calibration four = train({recording}, Scheme::kPerCurvature, 4);
+  const dataset::Recording recording = syntheticRecording(threeSurfaces());
+  const Calibration one = train({recording}, compensation::Scheme::kPerCurvature, 1);
+  const Calibration four = train({recording}, compensation::Scheme::kPerCurvature, 4);
   expectSameTables(one, four);
   EXPECT_EQ(one.scores.whole.errors.whole.all.rmse, four.scores.whole.errors.whole.all.rmse);
   EXPECT_EQ(one.scores.whole.within_one_deviation, four.scores.whole.within_one_deviation);
@@ -128,19 +131,20 @@ TEST(Calibrate, GivesTheSameNumbersOnAnyNumberOfThreads) {
 TEST(Calibrate, GivesTheSameTablesInAnyOrderOfTheBags) {
   SyntheticRig rig = threeSurfaces();
   rig.seed = 2;
-  const Recording first = syntheticRecording(rig);
+  const dataset::Recording first = syntheticRecording(rig);
   rig.seed = 3;
   rig.surfaces.pop_back();
-  const Recording second = syntheticRecording(rig);
-  expectSameTables(train({first, second}, Scheme::kPerCurvature),
-                   train({second, first}, Scheme::kPerCurvature));
-  expectSameTables(train({first, second}, Scheme::kBaseline), train({second, first}, Scheme::kBaseline));
+  const dataset::Recording second = syntheticRecording(rig);
+  expectSameTables(train({first, second}, compensation::Scheme::kPerCurvature),
+                   train({second, first}, compensation::Scheme::kPerCurvature));
+  expectSameTables(train({first, second}, compensation::Scheme::kBaseline),
+                   train({second, first}, compensation::Scheme::kBaseline));
 }
 
 TEST(Calibrate, TheStatedDeviationHoldsForHeldOutReadings) {
   SyntheticRig rig = threeSurfaces();
   rig.loop = 60.0;  // loading and unloading are two curves
-  const Calibration calibration = train({syntheticRecording(rig)}, Scheme::kPerCurvature);
+  const Calibration calibration = train({syntheticRecording(rig)}, compensation::Scheme::kPerCurvature);
   for (const ConditionScore& condition : calibration.scores.conditions) {
     EXPECT_GT(condition.score.within_one_deviation, 0.63);
     EXPECT_LT(condition.score.within_one_deviation, 0.73);
@@ -148,9 +152,9 @@ TEST(Calibrate, TheStatedDeviationHoldsForHeldOutReadings) {
 }
 
 TEST(Calibrate, FlatOnlyKnowsOnlyTheFlatSurface) {
-  const Recording recording = syntheticRecording(threeSurfaces());
-  const Calibration flat = train({recording}, Scheme::kFlatOnly);
-  const Calibration each = train({recording}, Scheme::kPerCurvature);
+  const dataset::Recording recording = syntheticRecording(threeSurfaces());
+  const Calibration flat = train({recording}, compensation::Scheme::kFlatOnly);
+  const Calibration each = train({recording}, compensation::Scheme::kPerCurvature);
   ASSERT_EQ(flat.tables.classes.size(), 1u);
   EXPECT_EQ(flat.tables.classes[0].surface, "flat");
   EXPECT_EQ(flat.tables.table(4, 0).pressure, each.tables.table(4, 0).pressure);
@@ -171,7 +175,7 @@ TEST(Calibrate, WithoutScoresTheTablesAreTheSame) {
   EXPECT_TRUE(bare.scores.conditions.empty());
 }
 
-Calibration trainWith(const RegressorOptions& regressor, bool choose_bandwidth = false) {
+Calibration trainWith(const regression::RegressorOptions& regressor, bool choose_bandwidth = false) {
   CalibrationProblem problem{{syntheticRecording(threeSurfaces())}, {}};
   problem.options.regressor = regressor;
   problem.options.choose_bandwidth = choose_bandwidth;
@@ -179,14 +183,14 @@ Calibration trainWith(const RegressorOptions& regressor, bool choose_bandwidth =
 }
 
 TEST(Calibrate, EveryRegressorRecoversTheCurves) {
-  for (const std::string& name : regressorNames()) {
-    RegressorOptions regressor;
+  for (const std::string& name : regression::regressorNames()) {
+    regression::RegressorOptions regressor;
     regressor.name = name;
     const Calibration calibration = trainWith(regressor);
     EXPECT_EQ(calibration.regressor.name, name);
     const double bound = name == "linear" ? 0.15 : 0.02;  // the curve is a root
     EXPECT_LT(calibration.scores.whole.errors.whole.all.rmse, bound * 600e3) << name;
-    for (const CodeTable& table : calibration.tables.tables) {
+    for (const regression::CodeTable& table : calibration.tables.tables) {
       for (const float deviation : table.deviation) ASSERT_GT(deviation, 0.0f) << name;
     }
   }
@@ -197,8 +201,8 @@ TEST(Calibrate, AChosenBandwidthBeatsThePapersOnHeldOutReadings) {
   const Calibration paper = trainWith({}, false);
   EXPECT_TRUE(chosen.bandwidth_chosen);
   EXPECT_FALSE(paper.bandwidth_chosen);
-  EXPECT_EQ(paper.regressor.grnn.bandwidth, kPaperBandwidth);
-  EXPECT_NE(chosen.regressor.grnn.bandwidth, kPaperBandwidth);
+  EXPECT_EQ(paper.regressor.grnn.bandwidth, regression::kPaperBandwidth);
+  EXPECT_NE(chosen.regressor.grnn.bandwidth, regression::kPaperBandwidth);
   EXPECT_LT(chosen.scores.whole.rmse_percent.mean, paper.scores.whole.rmse_percent.mean);
 }
 
@@ -213,12 +217,12 @@ TEST(Calibrate, TheSeedIsThatOfTheForest) {
 
 TEST(Calibrate, SaysWhereItComesFrom) {
   SyntheticRig rig = threeSurfaces();
-  Recording recording = syntheticRecording(rig);
+  dataset::Recording recording = syntheticRecording(rig);
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     recording.temperature.push_back(20.0 + 1e-3 * static_cast<double>(i));
   }
   recording.warnings.push_back("something to know");
-  const Calibration calibration = train({recording}, Scheme::kPerCurvature);
+  const Calibration calibration = train({recording}, compensation::Scheme::kPerCurvature);
   EXPECT_EQ(calibration.provenance.date, "2024-05-06T07:08:09Z");
   EXPECT_EQ(calibration.provenance.bags.at(0).name, "synthetic.bag");
   EXPECT_EQ(calibration.provenance.bags[0].scans, 3000u);
@@ -232,25 +236,25 @@ TEST(Calibrate, SaysWhereItComesFrom) {
 }
 
 TEST(Calibrate, NamesTheWorstTaxel) {
-  Recording recording = syntheticRecording(threeSurfaces());
+  dataset::Recording recording = syntheticRecording(threeSurfaces());
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     recording.counts[6 * i + 2] = static_cast<std::uint16_t>(recording.counts[6 * i + 2] + 97 * i % 200);
   }
-  const Score score = train({recording}, Scheme::kPerCurvature).scores.conditions.at(1).score;
+  const Score score = train({recording}, compensation::Scheme::kPerCurvature).scores.conditions.at(1).score;
   EXPECT_EQ(score.worst_taxel, 2u);
   EXPECT_GT(score.worst_rmse_percent, 2 * score.rmse_percent.mean);
 }
 
-void holdConstant(Recording& recording, std::size_t taxel) {
+void holdConstant(dataset::Recording& recording, std::size_t taxel) {
   const std::size_t taxels = recording.layout.size.taxels();
   for (std::size_t i = 0; i < recording.scans(); ++i) recording.counts[i * taxels + taxel] = 7;
 }
 
 TEST(Calibrate, AConstantTaxelGetsNoModelAndAWarning) {
-  Recording recording = syntheticRecording(threeSurfaces());
+  dataset::Recording recording = syntheticRecording(threeSurfaces());
   recording.mask = {0, 1, 0, 0, 0, 0};
   holdConstant(recording, 3);
-  const Calibration calibration = train({recording}, Scheme::kPerCurvature);
+  const Calibration calibration = train({recording}, compensation::Scheme::kPerCurvature);
   EXPECT_EQ(calibration.no_model, (std::vector<std::uint8_t>{0, 1, 0, 1, 0, 0}));
   EXPECT_TRUE(std::isnan(calibration.tables.table(1, 0).pressure[100]));
   EXPECT_TRUE(std::isnan(calibration.tables.table(3, 2).deviation[100]));
@@ -264,17 +268,17 @@ TEST(Calibrate, ShortRecordingsAreCalibratedWithAWarning) {
   SyntheticRig rig;
   rig.cycles = 1;
   rig.scans_per_cycle = 3;
-  const Calibration calibration = train({syntheticRecording(rig)}, Scheme::kPerCurvature);
+  const Calibration calibration = train({syntheticRecording(rig)}, compensation::Scheme::kPerCurvature);
   for (const float pressure : calibration.tables.table(0, 0).pressure) EXPECT_TRUE(std::isfinite(pressure));
   for (const float deviation : calibration.tables.table(0, 0).deviation) EXPECT_GT(deviation, 0.0f);
   EXPECT_EQ(calibration.warnings.size(), 1u);
 }
 
 TEST(Calibrate, ScansWithoutAPressureAreLeftOut) {
-  const Recording whole = syntheticRecording(threeSurfaces());
-  Recording holed = whole;
+  const dataset::Recording whole = syntheticRecording(threeSurfaces());
+  dataset::Recording holed = whole;
   holed.pressure[1] = std::nan("");
-  const Calibration calibration = train({holed}, Scheme::kPerCurvature);
+  const Calibration calibration = train({holed}, compensation::Scheme::kPerCurvature);
   EXPECT_EQ(calibration.scores.whole.readings, 2999u * 6);
   EXPECT_EQ(calibration.trained.pressure.high, 600e3);
 }
@@ -291,20 +295,20 @@ TEST(Calibrate, ReportsItsProgress) {
 std::string complaint(const CalibrationProblem& problem) {
   try {
     calibrate(problem);
-  } catch (const InputError& error) {
+  } catch (const settings::InputError& error) {
     return error.what();
   }
   return "accepted";
 }
 
 TEST(Calibrate, WhatCannotBeTrainedOnIsRefusedInOneSentence) {
-  const Recording good = syntheticRecording({});
-  Recording bad = good;
+  const dataset::Recording good = syntheticRecording({});
+  dataset::Recording bad = good;
   bad.name = "bad.bag";
-  const auto refusal = [&](Recording recording) { return complaint({{good, recording}, {}}); };
+  const auto refusal = [&](dataset::Recording recording) { return complaint({{good, recording}, {}}); };
 
   EXPECT_EQ(complaint({{}, {}}), "there is no recording to train on; give one bag or more");
-  Recording other = bad;
+  dataset::Recording other = bad;
   other.pressure.clear();
   EXPECT_EQ(refusal(other),
             "bad.bag: no chamber pressure is recorded, but training needs the topic chamber_pressure");
@@ -339,7 +343,7 @@ TEST(Calibrate, WhatCannotBeTrainedOnIsRefusedInOneSentence) {
   EXPECT_EQ(refusal(other),
             "bad.bag: chamber pressure is 1000000000.000000 Pa, but must lie within +-8000000 Pa gauge");
   EXPECT_EQ(refusal(bad), "bad.bag: has the same bytes as synthetic.bag; give each bag once");
-  other = Recording{};
+  other = dataset::Recording{};
   other.name = "bad.bag";
   other.losses.near_change = 12;
   EXPECT_EQ(refusal(other),
@@ -357,7 +361,7 @@ TEST(Calibrate, OptionsOutOfRangeAreRefused) {
 }
 
 TEST(Calibrate, AMatrixThatReadsNothingIsRefused) {
-  Recording recording = syntheticRecording({});
+  dataset::Recording recording = syntheticRecording({});
   for (std::size_t taxel = 0; taxel < 6; ++taxel) holdConstant(recording, taxel);
   EXPECT_EQ(
       complaint({{recording}, {}}),
@@ -365,4 +369,4 @@ TEST(Calibrate, AMatrixThatReadsNothingIsRefused) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::calibration

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/calibration/calibration_check.h"
+#include "calibration/calibration_check.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 
 namespace {
 
-using fsr::CalibrationCheck;
-using fsr::Recording;
+using fsr::calibration::CalibrationCheck;
+using fsr::dataset::Recording;
 using test_support::SyntheticRig;
 
 SyntheticRig rig(unsigned seed) {
@@ -21,13 +21,13 @@ SyntheticRig rig(unsigned seed) {
   return result;
 }
 
-const fsr::Calibration& calibration() {
-  static const fsr::Calibration instance = [] {
-    fsr::CalibrationProblem problem;
+const fsr::calibration::Calibration& calibration() {
+  static const fsr::calibration::Calibration instance = [] {
+    fsr::calibration::CalibrationProblem problem;
     problem.recordings = {syntheticRecording(rig(1))};
     problem.options.scores = false;
     problem.options.choose_bandwidth = false;
-    return fsr::calibrate(problem);
+    return fsr::calibration::calibrate(problem);
   }();
   return instance;
 }
@@ -89,26 +89,27 @@ TEST(CalibrationCheck, ADeadTaxelIsNamed) {
 TEST(CalibrationCheck, ReadingsBeyondTrainingAreCounted) {
   SyntheticRig small = rig(1);
   small.peak = 200e3;
-  fsr::CalibrationProblem problem;
+  fsr::calibration::CalibrationProblem problem;
   problem.recordings = {syntheticRecording(small)};
   problem.options.scores = false;
   problem.options.choose_bandwidth = false;
-  const CalibrationCheck check = checkCalibration(fsr::calibrate(problem), {syntheticRecording(rig(2))});
+  const CalibrationCheck check =
+      checkCalibration(fsr::calibration::calibrate(problem), {syntheticRecording(rig(2))});
   EXPECT_TRUE(says(check, "of the readings lie beyond what training saw"));
 }
 
 TEST(CalibrationCheck, AnotherSensorIsNamedAndAnotherMatrixRefused) {
   Recording other = syntheticRecording(rig(2));
   other.sensor.serial = "FSR-0002";
-  fsr::Calibration ours = calibration();
+  fsr::calibration::Calibration ours = calibration();
   ours.sensor.serial = "FSR-0001";
   EXPECT_TRUE(says(checkCalibration(ours, {other}), "is of sensor FSR-0002"));
   other.pressure.clear();
-  EXPECT_THROW(checkCalibration(ours, {other}), fsr::InputError);
+  EXPECT_THROW(checkCalibration(ours, {other}), fsr::settings::InputError);
   SyntheticRig larger = rig(2);
   larger.size = {3, 3};
-  EXPECT_THROW(checkCalibration(ours, {syntheticRecording(larger)}), fsr::InputError);
-  EXPECT_THROW(checkCalibration(ours, {}), fsr::InputError);
+  EXPECT_THROW(checkCalibration(ours, {syntheticRecording(larger)}), fsr::settings::InputError);
+  EXPECT_THROW(checkCalibration(ours, {}), fsr::settings::InputError);
 }
 
 }  // namespace

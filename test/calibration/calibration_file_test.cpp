@@ -14,7 +14,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/synthetic_recording.h"
 
-namespace fsr {
+namespace fsr::calibration {
 namespace {
 
 using test_support::syntheticRecording;
@@ -32,7 +32,7 @@ class CalibrationFile : public testing::Test {
   std::string complaint() const {
     try {
       loadCalibration(path_, CalibrationParts::kAll);
-    } catch (const InputError& error) {
+    } catch (const settings::InputError& error) {
       return error.what();
     }
     return "accepted";
@@ -48,7 +48,7 @@ Calibration small() {
   rig.surfaces = {{"flat", 0.0}, {"cylinder_5cm", 20.0}};
   rig.cycles = 5;
   rig.scans_per_cycle = 60;
-  Recording recording = syntheticRecording(rig);
+  dataset::Recording recording = syntheticRecording(rig);
   recording.layout.pitch_x = 0.0125;
   recording.sensor = {"matrix_a", "0001", "1.2", "TPE-900", "pdms", "gauge 7, calibrated 2024-01-02"};
   recording.mask = {0, 0, 1, 0};  // one table of NaN
@@ -63,7 +63,7 @@ bool sameBits(const std::vector<float>& a, const std::vector<float>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
-void expectSameErrors(const ErrorSummary& a, const ErrorSummary& b) {
+void expectSameErrors(const statistics::ErrorSummary& a, const statistics::ErrorSummary& b) {
   EXPECT_EQ(std::memcmp(&a, &b, sizeof(a)), 0);
 }
 
@@ -77,7 +77,7 @@ void expectSameScore(const Score& a, const Score& b) {
   EXPECT_EQ(a.worst_rmse_percent, b.worst_rmse_percent);
   EXPECT_EQ(a.within_one_deviation, b.within_one_deviation);
   expectSameErrors(a.errors.whole.unloading, b.errors.whole.unloading);
-  for (std::size_t bin = 0; bin < kPressureBins; ++bin) {
+  for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin) {
     expectSameErrors(a.errors.bins[bin].all, b.errors.bins[bin].all);
     expectSameErrors(a.errors.bins[bin].loading, b.errors.bins[bin].loading);
   }
@@ -89,7 +89,7 @@ TEST_F(CalibrationFile, GivesBackTheTablesBitForBit) {
   const Calibration loaded = loadCalibration(path_);
   EXPECT_EQ(loaded.id, id);
   EXPECT_EQ(id.size(), 12u);
-  EXPECT_EQ(loaded.tables.scheme, Scheme::kInterpolated);
+  EXPECT_EQ(loaded.tables.scheme, compensation::Scheme::kInterpolated);
   EXPECT_EQ(loaded.tables.size, saved.tables.size);
   EXPECT_EQ(loaded.tables.full_scale, 1023);
   EXPECT_EQ(loaded.tables.curvature_high, saved.tables.curvature_high);
@@ -111,22 +111,22 @@ TEST_F(CalibrationFile, GivesBackTheTablesBitForBit) {
 TEST_F(CalibrationFile, GivesBackHowTheModelWasSet) {
   Calibration saved = small();
   saved.bandwidth_chosen = true;
-  saved.regressor.grnn = {0.5, SpreadMeaning::kHalf, KernelDistance::kLiteral,
-                          SampleWeighting::kEachPressureBin};
+  saved.regressor.grnn = {0.5, regression::SpreadMeaning::kHalf, regression::KernelDistance::kLiteral,
+                          regression::SampleWeighting::kEachPressureBin};
   saved.regressor.forest.trees = 20;
   saved.regressor.forest.minimum_leaf = 9;
-  saved.regressor.forest.leaf_count = LeafCount::kDistinct;
+  saved.regressor.forest.leaf_count = regression::LeafCount::kDistinct;
   saveCalibration(saved, path_);
   const Calibration loaded = loadCalibration(path_);
   EXPECT_TRUE(loaded.bandwidth_chosen);
   EXPECT_EQ(loaded.regressor.grnn.bandwidth, saved.regressor.grnn.bandwidth);
   EXPECT_EQ(loaded.regressor.grnn.bandwidth, 0.5);
-  EXPECT_EQ(loaded.regressor.grnn.spread, SpreadMeaning::kHalf);
-  EXPECT_EQ(loaded.regressor.grnn.distance, KernelDistance::kLiteral);
-  EXPECT_EQ(loaded.regressor.grnn.weighting, SampleWeighting::kEachPressureBin);
+  EXPECT_EQ(loaded.regressor.grnn.spread, regression::SpreadMeaning::kHalf);
+  EXPECT_EQ(loaded.regressor.grnn.distance, regression::KernelDistance::kLiteral);
+  EXPECT_EQ(loaded.regressor.grnn.weighting, regression::SampleWeighting::kEachPressureBin);
   EXPECT_EQ(loaded.regressor.forest.trees, 20u);
   EXPECT_EQ(loaded.regressor.forest.minimum_leaf, 9u);
-  EXPECT_EQ(loaded.regressor.forest.leaf_count, LeafCount::kDistinct);
+  EXPECT_EQ(loaded.regressor.forest.leaf_count, regression::LeafCount::kDistinct);
 }
 
 TEST_F(CalibrationFile, GivesBackWhereTheNumbersComeFrom) {
@@ -256,7 +256,7 @@ TEST_F(CalibrationFile, AForeignFileIsRefused) {
   EXPECT_EQ(complaint(), foreign);
   std::filesystem::resize_file(path_, std::uintmax_t{1} << 36);  // takes no room on the disk, nor in memory
   EXPECT_EQ(complaint(), foreign);
-  EXPECT_THROW(loadCalibration(testing::TempDir()), InputError);
+  EXPECT_THROW(loadCalibration(testing::TempDir()), settings::InputError);
   std::remove(path_.c_str());
   EXPECT_EQ(complaint(), path_ + ": cannot be opened (No such file or directory)");
 }
@@ -272,7 +272,7 @@ TEST_F(CalibrationFile, ALaterSchemaAsksForAnUpdate) {
 TEST_F(CalibrationFile, WhatCannotBeWrittenLeavesTheOldFile) {
   write("old");
   const std::string directory = testing::TempDir() + "no_such_directory/";
-  EXPECT_THROW(saveCalibration(small(), directory + "calibration.h5"), InputError);
+  EXPECT_THROW(saveCalibration(small(), directory + "calibration.h5"), settings::InputError);
   EXPECT_EQ(bytes(), "old");
 }
 
@@ -305,4 +305,4 @@ TEST_F(CalibrationFile, OpensInPythonWithUnits) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::calibration

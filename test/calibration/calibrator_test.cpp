@@ -8,24 +8,24 @@
 #include "support/allocation_guard.h"
 #include "support/small_tables.h"
 
-namespace fsr {
+namespace fsr::calibration {
 namespace {
 
 using test_support::knownDeviation;
 using test_support::knownPressure;
 using test_support::smallTables;
-namespace flag = taxel_flag;
+namespace flag = map::taxel_flag;
 
-constexpr MatrixSize kSize{3, 4};
+constexpr matrix::MatrixSize kSize{3, 4};
 constexpr std::uint16_t kFullScale = 1023;
 const std::vector<double> kCurvatures = {0.0, 10.0, 20.0};
 
-Surface bent(double curvature, const std::string& name = "surface", std::uint32_t mount = 1) {
+matrix::Surface bent(double curvature, const std::string& name = "surface", std::uint32_t mount = 1) {
   return {name, mount, {{curvature, 0, 0}}, {}};
 }
 
-Surface bentEach(const std::vector<double>& curvatures) {
-  Surface surface{"limb", 1, {}, {}};
+matrix::Surface bentEach(const std::vector<double>& curvatures) {
+  matrix::Surface surface{"limb", 1, {}, {}};
   for (const double curvature : curvatures) surface.curvature.push_back({curvature, 0, 0});
   return surface;
 }
@@ -36,7 +36,7 @@ class CalibratorTest : public testing::Test {
       : calibrator(smallTables(kSize, kCurvatures), {kSize, 0.010, 0.012}, options),
         counts(kSize.taxels(), 500) {}
 
-  const PressureMap& run(double time = 0) {
+  const map::PressureMap& run(double time = 0) {
     calibrator.calibrate({kSize, kFullScale, counts.data(), counts.size()}, time, map);
     return map;
   }
@@ -44,14 +44,14 @@ class CalibratorTest : public testing::Test {
 
   Calibrator calibrator;
   std::vector<std::uint16_t> counts;
-  PressureMap map;
+  map::PressureMap map;
 };
 
 TEST_F(CalibratorTest, GivesTheTablesValuesExactly) {
   calibrator.setSurface(bent(10), 0);
   for (std::size_t taxel = 0; taxel < counts.size(); ++taxel) counts[taxel] = std::uint16_t(100 + 50 * taxel);
   run();
-  EXPECT_EQ(map.state, MapState::kOk);
+  EXPECT_EQ(map.state, map::MapState::kOk);
   EXPECT_EQ(map.layout.size, kSize);
   EXPECT_EQ(map.layout.pitch_y, 0.012);
   for (std::size_t taxel = 0; taxel < counts.size(); ++taxel) {
@@ -63,12 +63,12 @@ TEST_F(CalibratorTest, GivesTheTablesValuesExactly) {
 
 TEST(Calibrator, GivesTheTablesValuesOfAnyNumberOfTaxels) {
   for (std::uint16_t columns = 1; columns <= 9; ++columns) {
-    const MatrixSize size{1, columns};
+    const matrix::MatrixSize size{1, columns};
     Calibrator calibrator(smallTables(size, {0.0}), {size});
     calibrator.setSurface(bent(0), 0);
     std::vector<std::uint16_t> counts;
     for (std::uint16_t i = 0; i < columns; ++i) counts.push_back(static_cast<std::uint16_t>(100 + 50 * i));
-    PressureMap map;
+    map::PressureMap map;
     calibrator.calibrate({size, kFullScale, counts.data(), counts.size()}, 0, map);
     for (std::size_t i = 0; i < columns; ++i) {
       EXPECT_EQ(map.pressure[i], knownPressure(i, 0, counts[i])) << i << " of " << columns;
@@ -137,49 +137,49 @@ TEST_F(CalibratorTest, ForgetsHysteresisOnAnotherSurfaceOrMount) {
 }
 
 TEST_F(CalibratorTest, FallsBackToTheFlattestClassWhereCurvatureIsUnknown) {
-  EXPECT_EQ(run().state, MapState::kCurvatureUnknown);
+  EXPECT_EQ(run().state, map::MapState::kCurvatureUnknown);
   EXPECT_EQ(map.pressure[3], knownPressure(3, 0, 500));
   calibrator.setSurface(bent(20), 0);
-  EXPECT_EQ(run().state, MapState::kOk);
+  EXPECT_EQ(run().state, map::MapState::kOk);
   calibrator.setSurface({}, 0);
-  EXPECT_EQ(run().state, MapState::kCurvatureUnknown);
+  EXPECT_EQ(run().state, map::MapState::kCurvatureUnknown);
   EXPECT_EQ(map.pressure[3], knownPressure(3, 0, 500));
 }
 
 TEST_F(CalibratorTest, RefusesASurfaceMaskOrTareOfAnotherMatrix) {
-  EXPECT_THROW(calibrator.setSurface(bentEach({1, 2, 3}), 0), InputError);
-  EXPECT_THROW(calibrator.setMask({1, 0}), InputError);
-  EXPECT_THROW(calibrator.setTare({1.0f}), InputError);
-  EXPECT_EQ(run().state, MapState::kCurvatureUnknown);  // nothing changed
+  EXPECT_THROW(calibrator.setSurface(bentEach({1, 2, 3}), 0), settings::InputError);
+  EXPECT_THROW(calibrator.setMask({1, 0}), settings::InputError);
+  EXPECT_THROW(calibrator.setTare({1.0f}), settings::InputError);
+  EXPECT_EQ(run().state, map::MapState::kCurvatureUnknown);  // nothing changed
   EXPECT_EQ(flagsOf(0), 0);
 }
 
 TEST_F(CalibratorTest, SaysWhenTheScanIsOfAnotherSize) {
   const std::vector<std::uint16_t> many(16, 500);
   calibrator.calibrate({{4, 4}, kFullScale, many.data(), many.size()}, 0, map);
-  EXPECT_EQ(map.state, MapState::kSizeMismatch);
+  EXPECT_EQ(map.state, map::MapState::kSizeMismatch);
   ASSERT_EQ(map.pressure.size(), 16u);
   for (const float pressure : map.pressure) EXPECT_TRUE(std::isnan(pressure));
-  EXPECT_EQ(run().state, MapState::kCurvatureUnknown);  // and goes on with the next good one
+  EXPECT_EQ(run().state, map::MapState::kCurvatureUnknown);  // and goes on with the next good one
   EXPECT_EQ(map.pressure.size(), 12u);
 }
 
 TEST_F(CalibratorTest, SaysWhenTheFullScaleIsAnother) {
   calibrator.calibrate({kSize, 4095, counts.data(), counts.size()}, 0, map);
-  EXPECT_EQ(map.state, MapState::kSizeMismatch);
+  EXPECT_EQ(map.state, map::MapState::kSizeMismatch);
   EXPECT_TRUE(std::isnan(map.pressure[0]));
 }
 
 TEST_F(CalibratorTest, TakesNoMemoryFromAScanThatContradictsItself) {
   calibrator.calibrate({{64, 64}, kFullScale, counts.data(), counts.size()}, 0, map);
-  EXPECT_EQ(map.state, MapState::kSizeMismatch);
+  EXPECT_EQ(map.state, map::MapState::kSizeMismatch);
   EXPECT_TRUE(map.pressure.empty());
 }
 
 TEST_F(CalibratorTest, SaysWhenTheBoardIsAnother) {
   calibrator.setSurface(bent(10), 0);
   calibrator.setWrongSensor(true);
-  EXPECT_EQ(run().state, MapState::kWrongSensor);
+  EXPECT_EQ(run().state, map::MapState::kWrongSensor);
   EXPECT_EQ(map.pressure[0], knownPressure(0, 1, 500));
 }
 
@@ -271,41 +271,41 @@ class CurvatureTimeout : public CalibratorTest {
 
 TEST_F(CurvatureTimeout, AnOldSurfaceIsStaleButStillUsed) {
   calibrator.setSurface(bent(20), 100.0);
-  EXPECT_EQ(run(103.0).state, MapState::kOk);
-  EXPECT_EQ(run(103.1).state, MapState::kCurvatureStale);
+  EXPECT_EQ(run(103.0).state, map::MapState::kOk);
+  EXPECT_EQ(run(103.1).state, map::MapState::kCurvatureStale);
   EXPECT_EQ(map.pressure[0], knownPressure(0, 2, 500));
   calibrator.setSurface(bent(20), 103.0);
-  EXPECT_EQ(run(103.2).state, MapState::kOk);
+  EXPECT_EQ(run(103.2).state, map::MapState::kOk);
 }
 
 TEST_F(CurvatureTimeout, TimeThatRunsBackStartsTheAgeAnew) {
   calibrator.setSurface(bent(20), 100.0);
   run(100.0);
-  EXPECT_EQ(run(50.0).state, MapState::kOk);
-  EXPECT_EQ(run(53.1).state, MapState::kCurvatureStale);  // the looped bag brought no surface
+  EXPECT_EQ(run(50.0).state, map::MapState::kOk);
+  EXPECT_EQ(run(53.1).state, map::MapState::kCurvatureStale);  // the looped bag brought no surface
 }
 
 TEST_F(CalibratorTest, NoTimeoutMeansNeverStale) {
   calibrator.setSurface(bent(20), 0.0);
-  EXPECT_EQ(run(1e6).state, MapState::kOk);
+  EXPECT_EQ(run(1e6).state, map::MapState::kOk);
 }
 
 TEST(Calibrator, ABaselineAsksForNoCurvature) {
-  CurvatureTables tables = smallTables(kSize, {0.0});
-  tables.scheme = Scheme::kBaseline;
+  compensation::CurvatureTables tables = smallTables(kSize, {0.0});
+  tables.scheme = compensation::Scheme::kBaseline;
   tables.curvature_high = 20.0;
   Calibrator calibrator(tables, {kSize});
   const std::vector<std::uint16_t> counts(12, 500);
-  PressureMap map;
+  map::PressureMap map;
   calibrator.calibrate({kSize, kFullScale, counts.data(), 12}, 0, map);
-  EXPECT_EQ(map.state, MapState::kOk);
+  EXPECT_EQ(map.state, map::MapState::kOk);
   calibrator.setSurface(bent(12.5), 0);
   calibrator.calibrate({kSize, kFullScale, counts.data(), 12}, 0, map);
   EXPECT_EQ(map.flags[0], 0);  // there are no classes to lie between
 }
 
 TEST(Calibrator, AClassMayHaveACurvatureForEachTaxel) {
-  CurvatureTables tables = smallTables(kSize, {0.0, 10.0});
+  compensation::CurvatureTables tables = smallTables(kSize, {0.0, 10.0});
   tables.classes[1].curvature.assign(12, 10.0);
   tables.classes[1].curvature[4] = 30.0;
   tables.curvature_high = 30.0;
@@ -316,12 +316,12 @@ TEST(Calibrator, AClassMayHaveACurvatureForEachTaxel) {
 }
 
 TEST(Calibrator, ATaxelWithoutAModelIsMasked) {
-  CurvatureTables tables = smallTables(kSize, {0.0});
+  compensation::CurvatureTables tables = smallTables(kSize, {0.0});
   tables.tables[5].pressure.assign(kFullScale + 1u, NAN);
   tables.tables[5].deviation.assign(kFullScale + 1u, NAN);
   Calibrator calibrator(tables, {kSize});
   const std::vector<std::uint16_t> counts(12, 500);
-  PressureMap map;
+  map::PressureMap map;
   calibrator.calibrate({kSize, kFullScale, counts.data(), 12}, 0, map);
   EXPECT_TRUE(std::isnan(map.pressure[5]));
   EXPECT_EQ(map.flags[5], flag::kMasked);
@@ -332,16 +332,16 @@ const std::vector<double> kPapersCurvatures = {0, 7.69, 9.09, 11.1, 14.3, 20};
 
 TEST(Calibrator, AFineConverterIsReadBetweenItsEntries) {
   constexpr std::uint16_t kFine = 65535;
-  constexpr MatrixSize kPair{1, 2};
-  CurvatureTables tables = smallTables(kPair, {0.0}, kFine);
-  for (CodeTable& table : tables.tables) {
+  constexpr matrix::MatrixSize kPair{1, 2};
+  compensation::CurvatureTables tables = smallTables(kPair, {0.0}, kFine);
+  for (regression::CodeTable& table : tables.tables) {
     for (std::size_t code = 0; code <= kFine; ++code) {
       table.pressure[code] = static_cast<float>(620e3 * std::pow(static_cast<double>(code) / kFine, 1.5));
     }
   }
   Calibrator calibrator(tables, {kPair});
   calibrator.setSurface(bent(0), 0);
-  PressureMap map;
+  map::PressureMap map;
   double worst = 0;
   for (unsigned code = 0; code <= kFine; ++code) {
     const std::vector<std::uint16_t> counts(2, static_cast<std::uint16_t>(code));
@@ -356,7 +356,7 @@ TEST(Calibrator, AFineConverterIsReadBetweenItsEntries) {
 }
 
 TEST(Calibrator, TakesLittleMemory) {
-  constexpr MatrixSize kPair{1, 2};
+  constexpr matrix::MatrixSize kPair{1, 2};
   const auto bytesOf = [&](std::uint16_t full_scale, std::size_t taxels) {
     const Calibrator calibrator(smallTables(kPair, kPapersCurvatures, full_scale), {kPair});
     return calibrator.bytes() / kPair.taxels() * taxels;
@@ -366,19 +366,19 @@ TEST(Calibrator, TakesLittleMemory) {
 }
 
 TEST(Calibrator, RefusesTablesThatAreNotWhole) {
-  CurvatureTables missing = smallTables(kSize, {0.0});
+  compensation::CurvatureTables missing = smallTables(kSize, {0.0});
   missing.tables.pop_back();
-  EXPECT_THROW(Calibrator(missing, {kSize}), InputError);
-  CurvatureTables cut = smallTables(kSize, {0.0});
+  EXPECT_THROW(Calibrator(missing, {kSize}), settings::InputError);
+  compensation::CurvatureTables cut = smallTables(kSize, {0.0});
   cut.tables[3].pressure.pop_back();
-  EXPECT_THROW(Calibrator(cut, {kSize}), InputError);
-  CurvatureTables infinite = smallTables(kSize, {0.0});
+  EXPECT_THROW(Calibrator(cut, {kSize}), settings::InputError);
+  compensation::CurvatureTables infinite = smallTables(kSize, {0.0});
   infinite.tables[3].deviation[9] = INFINITY;
-  EXPECT_THROW(Calibrator(infinite, {kSize}), InputError);
-  CurvatureTables holed = smallTables(kSize, {0.0});
+  EXPECT_THROW(Calibrator(infinite, {kSize}), settings::InputError);
+  compensation::CurvatureTables holed = smallTables(kSize, {0.0});
   holed.tables[3].pressure[9] = NAN;
-  EXPECT_THROW(Calibrator(holed, {kSize}), InputError);
-  EXPECT_THROW(Calibrator(smallTables(kSize, {0.0}), {{4, 4}}), InputError);
+  EXPECT_THROW(Calibrator(holed, {kSize}), settings::InputError);
+  EXPECT_THROW(Calibrator(smallTables(kSize, {0.0}), {{4, 4}}), settings::InputError);
 }
 
 TEST_F(FilledTaxels, AScanAllocatesNothing) {
@@ -391,4 +391,4 @@ TEST_F(FilledTaxels, AScanAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::calibration

@@ -9,14 +9,14 @@
 #include <fstream>
 #include <thread>
 
+#include "calibration/tare.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
-#include "fsr_pressure_map/calibration/tare.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/leaks_of_others.h"
 #include "support/small_calibration.h"
 #include "support/small_disk.h"
 
-namespace fsr {
+namespace fsr::calibration {
 namespace {
 
 namespace fs = std::filesystem;
@@ -44,7 +44,7 @@ TEST(FullDisk, LeavesTheOldCalibrationWhole) {
   try {
     saveCalibration(smallCalibration({3, 4}, {0.0, 10.0, 20.0}), path);
     ADD_FAILURE() << "there is no room for it";
-  } catch (const InputError& error) {
+  } catch (const settings::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("No space left on device"), std::string::npos) << error.what();
   }
   EXPECT_EQ(loadCalibration(path).id, id);
@@ -64,7 +64,7 @@ TEST(FullDisk, LeavesTheOldTareWhole) {
   saveTare(tare, path);
   fill(disk.path("filler"));
   tare.offset.assign(12, 2000.0f);
-  EXPECT_THROW(saveTare(tare, path), InputError);
+  EXPECT_THROW(saveTare(tare, path), settings::InputError);
   EXPECT_EQ(loadTare(path).offset, std::vector<float>(12, 1000.0f));
   EXPECT_EQ(filesIn(disk.path("")), 2u);
 }
@@ -90,4 +90,4 @@ TEST(Kill, LeavesAWholeCalibrationWheneverItComes) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::calibration

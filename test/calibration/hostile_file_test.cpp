@@ -15,10 +15,10 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/small_calibration.h"
 
-namespace fsr {
+namespace fsr::calibration {
 namespace {
 
-constexpr MatrixSize kSize{2, 2};
+constexpr matrix::MatrixSize kSize{2, 2};
 constexpr std::uint16_t kFullScale = 1023;
 
 class HostileFile : public testing::Test {
@@ -29,7 +29,7 @@ class HostileFile : public testing::Test {
   std::string complaint() const {
     try {
       loadCalibration(path_, CalibrationParts::kAll);
-    } catch (const InputError& error) {
+    } catch (const settings::InputError& error) {
       return std::string(error.what()).substr(path_.size() + 2);
     }
     return "accepted";
@@ -42,8 +42,8 @@ class HostileFile : public testing::Test {
   }
   static Calibration sound() {
     Calibration calibration = test_support::smallCalibration(kSize, {0.0, 10.0}, "A", kFullScale);
-    calibration.tables.scheme = Scheme::kCurvatureMap;
-    calibration.tables.rule.blend = BlendRule::kInterpolate;
+    calibration.tables.scheme = compensation::Scheme::kCurvatureMap;
+    calibration.tables.rule.blend = compensation::BlendRule::kInterpolate;
     return calibration;
   }
 
@@ -109,7 +109,7 @@ std::uint16_t flagsOf(const Calibration& calibration) {
   Calibrator calibrator(calibration.tables, calibration.layout);
   calibrator.setSurface({"between", 1, {{5, 0, 0}}, {}}, 0);
   const std::vector<std::uint16_t> counts(kSize.taxels(), 500);
-  PressureMap map;
+  map::PressureMap map;
   calibrator.calibrate({kSize, kFullScale, counts.data(), counts.size()}, 0, map);
   EXPECT_FALSE(std::isinf(map.pressure[0]));
   return std::isnan(map.pressure[0]) ? map.flags[0] : std::uint16_t{0};
@@ -119,19 +119,19 @@ TEST_F(HostileFile, WhatBlendsToNoPressureIsMasked) {
   EXPECT_EQ(flagsOf(sound()), 0);
   Calibration steep = sound();
   steep.tables.rule.law = {{0, 5, 10}, {1, 1e300, 1}, {0, 0, 0}};
-  EXPECT_TRUE(flagsOf(steep) & taxel_flag::kMasked);
+  EXPECT_TRUE(flagsOf(steep) & map::taxel_flag::kMasked);
   Calibration halved = sound();
   for (std::vector<float>* column : {&halved.tables.tables[1].pressure, &halved.tables.tables[1].deviation}) {
     column->assign(column->size(), NAN);  // of taxel 0, bent
   }
-  EXPECT_TRUE(flagsOf(halved) & taxel_flag::kMasked);
+  EXPECT_TRUE(flagsOf(halved) & map::taxel_flag::kMasked);
 }
 
 TEST_F(HostileFile, PressuresOfNoSensorAreRefused) {
   Calibration huge = sound();
   huge.tables.tables[2].pressure[7] = 3e38F;
-  EXPECT_THROW(Calibrator(huge.tables, huge.layout), InputError);
+  EXPECT_THROW(Calibrator(huge.tables, huge.layout), settings::InputError);
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::calibration

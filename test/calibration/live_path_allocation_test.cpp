@@ -6,20 +6,21 @@
 #include <vector>
 
 #include "fsr_pressure_map/calibration/calibrator.h"
-#include "fsr_pressure_map/protocol/board_gate.h"
 #include "fsr_pressure_map/protocol/decoder.h"
-#include "fsr_pressure_map/protocol/packet_stamper.h"
+#include "protocol/board_gate.h"
+#include "protocol/packet_stamper.h"
 #include "support/allocation_guard.h"
 #include "support/small_tables.h"
 
-namespace fsr {
+namespace fsr::calibration {
 namespace {
 
-constexpr MatrixSize kSize{16, 10};
+constexpr matrix::MatrixSize kSize{16, 10};
 
-class LivePath : public PacketHandler {
+class LivePath : public protocol::PacketHandler {
  public:
-  explicit LivePath(BlendRule blend) : calibrator_(tables(blend), Layout{kSize}, options()) {
+  explicit LivePath(compensation::BlendRule blend)
+      : calibrator_(tables(blend), matrix::Layout{kSize}, options()) {
     stamper_.startLine(921600);
   }
 
@@ -32,27 +33,31 @@ class LivePath : public PacketHandler {
     calibrator_.setSurface(surface_, 0);
   }
 
-  void onScan(const PacketHeader& header, const ScanPacket& scan) override {
-    const PacketTime time = stamper_.scan(header, scan.duration);
-    if (gate_.scan(arrival_) == BoardGate::Verdict::kHold) return;
+  void onScan(const protocol::PacketHeader& header, const protocol::ScanPacket& scan) override {
+    const protocol::PacketTime time = stamper_.scan(header, scan.duration);
+    if (gate_.scan(arrival_) == protocol::BoardGate::Verdict::kHold) return;
     calibrator_.calibrate({scan.size, scan.full_scale, scan.counts, scan.size.taxels()},
                           1e-9 * double(time.stamp), map_);
-    const bool of_this_size = map_.state == MapState::kOk;
+    const bool of_this_size = map_.state == map::MapState::kOk;
     ++(of_this_size ? maps : others);
     if (of_this_size) sum += map_.pressure.back();
   }
-  void onTransducer(const PacketHeader& header, std::int32_t) override { stamper_.transducer(header); }
-  void onTemperature(const PacketHeader& header, std::int32_t) override { stamper_.temperature(header); }
-  void onIdentity(const PacketHeader&, const IdentityPacket& identity) override {
-    identities += gate_.identity(identity.serial, arrival_) == BoardGate::Board::kSame;
+  void onTransducer(const protocol::PacketHeader& header, std::int32_t) override {
+    stamper_.transducer(header);
+  }
+  void onTemperature(const protocol::PacketHeader& header, std::int32_t) override {
+    stamper_.temperature(header);
+  }
+  void onIdentity(const protocol::PacketHeader&, const protocol::IdentityPacket& identity) override {
+    identities += gate_.identity(identity.serial, arrival_) == protocol::BoardGate::Board::kSame;
   }
 
  private:
-  static CurvatureTables tables(BlendRule blend) {
-    CurvatureTables tables = test_support::smallTables(kSize, {0.0, 10.0, 20.0}, 1023);
+  static compensation::CurvatureTables tables(compensation::BlendRule blend) {
+    compensation::CurvatureTables tables = test_support::smallTables(kSize, {0.0, 10.0, 20.0}, 1023);
     tables.rule.blend = blend;
     tables.rule.length_scale = {5.0};
-    for (CodeTable& table : tables.tables) table.log_weight.assign(table.pressure.size(), 0.0F);
+    for (regression::CodeTable& table : tables.tables) table.log_weight.assign(table.pressure.size(), 0.0F);
     return tables;
   }
   static CalibratorOptions options() {
@@ -61,11 +66,11 @@ class LivePath : public PacketHandler {
     return options;
   }
 
-  PacketStamper stamper_;
-  BoardGate gate_;
+  protocol::PacketStamper stamper_;
+  protocol::BoardGate gate_;
   Calibrator calibrator_;
-  PressureMap map_;
-  Surface surface_{"limb", 1, {Curvature{}}, {}};
+  map::PressureMap map_;
+  matrix::Surface surface_{"limb", 1, {matrix::Curvature{}}, {}};
   std::int64_t arrival_ = 0;  // [ns]
 };
 
@@ -73,7 +78,7 @@ class LivePath : public PacketHandler {
 // its clock.
 class Line {
  public:
-  void send(std::uint32_t i, Decoder& decoder) {
+  void send(std::uint32_t i, protocol::Decoder& decoder) {
     const std::uint32_t time = i * 1000 + (i > 30'000 ? 30'000'000 : 0);  // [us]
     for (std::size_t taxel = 1; taxel < counts_.size(); ++taxel)
       counts_[taxel] = (i * 7 + taxel) % 1024;  // 0 is stuck
@@ -95,12 +100,12 @@ class Line {
   std::vector<std::uint8_t> bytes_ = std::vector<std::uint8_t>(1024);
 };
 
-class AllocatesNothing : public testing::TestWithParam<BlendRule> {};
+class AllocatesNothing : public testing::TestWithParam<compensation::BlendRule> {};
 
 TEST_P(AllocatesNothing, FromBytesToMaps) {
   constexpr std::uint32_t kStart = 2000, kScans = 60'000;  // a minute at 1 kHz
   LivePath path(GetParam());
-  Decoder decoder(path);
+  protocol::Decoder decoder(path);
   Line line;
   path.bend(5.0);
   std::size_t allocated = 0;
@@ -119,7 +124,8 @@ TEST_P(AllocatesNothing, FromBytesToMaps) {
 }
 
 INSTANTIATE_TEST_SUITE_P(LivePath, AllocatesNothing,
-                         testing::Values(BlendRule::kNearest, BlendRule::kKernel, BlendRule::kInterpolate));
+                         testing::Values(compensation::BlendRule::kNearest, compensation::BlendRule::kKernel,
+                                         compensation::BlendRule::kInterpolate));
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::calibration

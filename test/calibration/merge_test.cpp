@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/calibration/merge.h"
+#include "calibration/merge.h"
 
 #include <gtest/gtest.h>
 
@@ -8,30 +8,30 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/synthetic_recording.h"
 
-namespace fsr {
+namespace fsr::calibration {
 namespace {
 
 using test_support::syntheticRecording;
 using test_support::SyntheticRig;
 
 // A bag that differs from the others in everything that merging must put together.
-Recording bag(const std::string& name, unsigned seed,
-              const std::vector<test_support::SyntheticSurface>& surfaces, double peak = 600e3) {
+dataset::Recording bag(const std::string& name, unsigned seed,
+                       const std::vector<test_support::SyntheticSurface>& surfaces, double peak = 600e3) {
   SyntheticRig rig;
   rig.name = name;
   rig.seed = seed;
   rig.surfaces = surfaces;
   rig.peak = peak;
   rig.cycles = 7 + seed;
-  Recording recording = syntheticRecording(rig);
+  dataset::Recording recording = syntheticRecording(rig);
   recording.sha256 = std::string(64, static_cast<char>('0' + seed));
   recording.temperature.assign(recording.scans(), 20.0 + seed);
   recording.warnings = {"a warning"};
   return recording;
 }
 
-std::vector<Recording> threeBags() {
-  std::vector<Recording> bags = {
+std::vector<dataset::Recording> threeBags() {
+  std::vector<dataset::Recording> bags = {
       bag("a.bag", 1, {{"cylinder_10cm", 10.0}}),
       bag("b.bag", 2, {{"flat", 0.0}, {"cylinder_10cm_again", 10.1}}, 500e3),
       bag("c.bag", 3, {{"cylinder_5cm", 20.0}, {"flat", 0.0}, {"nearly_flat", 0.1}}, 620e3)};
@@ -45,18 +45,19 @@ std::vector<Recording> threeBags() {
 
 struct Setting {
   std::string name;
-  Scheme scheme = Scheme::kPerCurvature;
-  RegressorOptions regressor;
+  compensation::Scheme scheme = compensation::Scheme::kPerCurvature;
+  regression::RegressorOptions regressor;
   bool choose_bandwidth = false;
 };
 
-Setting setting(const std::string& name, Scheme scheme, const std::string& model, bool choose = false) {
+Setting setting(const std::string& name, compensation::Scheme scheme, const std::string& model,
+                bool choose = false) {
   Setting set{name, scheme, {}, choose};
   set.regressor.name = model;
   return set;
 }
 
-Calibration train(const std::vector<Recording>& recordings, const Setting& set) {
+Calibration train(const std::vector<dataset::Recording>& recordings, const Setting& set) {
   CalibrationProblem problem{recordings, {}};
   problem.options.scheme = set.scheme;
   problem.options.regressor = set.regressor;
@@ -72,7 +73,7 @@ class Merge : public testing::TestWithParam<Setting> {
     return (std::filesystem::path(testing::TempDir()) / ("merge_" + GetParam().name + name)).string();
   }
   // Through a file, as a user merges.
-  MergePart part(const std::string& name, const std::vector<Recording>& recordings) const {
+  MergePart part(const std::string& name, const std::vector<dataset::Recording>& recordings) const {
     saveCalibration(train(recordings, GetParam()), path(name));
     return {name, loadCalibration(path(name), CalibrationParts::kAll)};
   }
@@ -100,27 +101,28 @@ TEST_P(Merge, OfMergedFilesIsTheSameAgain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Merge,
-                         testing::Values(setting("grnn", Scheme::kPerCurvature, "grnn"),
-                                         setting("tuned", Scheme::kPerCurvature, "grnn", true),
-                                         setting("baseline", Scheme::kBaseline, "grnn"),
-                                         setting("method_2", Scheme::kCurvatureInput, "grnn"),
-                                         setting("scaled", Scheme::kScaledCurvature, "grnn"),
-                                         setting("ranges", Scheme::kCurvatureRanges, "grnn", true),
-                                         setting("by_name", Scheme::kPerSurface, "grnn"),
-                                         setting("linear", Scheme::kPerCurvature, "linear")),
+                         testing::Values(setting("grnn", compensation::Scheme::kPerCurvature, "grnn"),
+                                         setting("tuned", compensation::Scheme::kPerCurvature, "grnn", true),
+                                         setting("baseline", compensation::Scheme::kBaseline, "grnn"),
+                                         setting("method_2", compensation::Scheme::kCurvatureInput, "grnn"),
+                                         setting("scaled", compensation::Scheme::kScaledCurvature, "grnn"),
+                                         setting("ranges", compensation::Scheme::kCurvatureRanges, "grnn",
+                                                 true),
+                                         setting("by_name", compensation::Scheme::kPerSurface, "grnn"),
+                                         setting("linear", compensation::Scheme::kPerCurvature, "linear")),
                          [](const auto& set) { return set.param.name; });
 
 std::string complaint(const std::vector<MergePart>& parts) {
   try {
     mergeCalibrations(parts);
-  } catch (const InputError& error) {
+  } catch (const settings::InputError& error) {
     return error.what();
   }
   return "merged";
 }
 
 TEST(MergeRefuses, WhatWasNotTrainedAlike) {
-  const Setting grnn = setting("grnn", Scheme::kBaseline, "grnn");
+  const Setting grnn = setting("grnn", compensation::Scheme::kBaseline, "grnn");
   const auto bags = threeBags();
   const MergePart first{"a.h5", train({bags[1]}, grnn)};
   const auto refusal = [&](const Calibration& other) { return complaint({first, {"b.h5", other}}); };
@@ -138,11 +140,11 @@ TEST(MergeRefuses, WhatWasNotTrainedAlike) {
   fine.full_scale = 8191;
   EXPECT_EQ(refusal(train({syntheticRecording(fine)}, grnn)),
             "b.h5: full_scale is 8191, but that of a.h5 is 4095" + rest);
-  EXPECT_EQ(refusal(train({bags[2]}, setting("", Scheme::kPerCurvature, "grnn"))),
+  EXPECT_EQ(refusal(train({bags[2]}, setting("", compensation::Scheme::kPerCurvature, "grnn"))),
             "b.h5: the scheme is per_curvature, but that of a.h5 is baseline" + rest);
-  EXPECT_EQ(refusal(train({bags[2]}, setting("", Scheme::kBaseline, "linear"))),
+  EXPECT_EQ(refusal(train({bags[2]}, setting("", compensation::Scheme::kBaseline, "linear"))),
             "b.h5: the model is linear, but that of a.h5 is grnn" + rest);
-  EXPECT_EQ(refusal(train({bags[2]}, setting("", Scheme::kBaseline, "grnn", true))),
+  EXPECT_EQ(refusal(train({bags[2]}, setting("", compensation::Scheme::kBaseline, "grnn", true))),
             "b.h5: the bandwidth is auto, but that of a.h5 is 0.0078125" + rest);
   Calibration other = train({bags[2]}, grnn);
   other.folds = 4;
@@ -155,13 +157,13 @@ TEST(MergeRefuses, WhatWasNotTrainedAlike) {
 TEST(MergeRefuses, WhatNeedsTheBags) {
   const auto bags = threeBags();
   for (const std::string model : {"forest", "monotone"}) {
-    const Setting set = setting("", Scheme::kBaseline, model);
+    const Setting set = setting("", compensation::Scheme::kBaseline, model);
     EXPECT_EQ(
         complaint({{"a.h5", train({bags[0]}, set)}, {"c.h5", train({bags[2]}, set)}}),
         "a.h5: the model " + model +
             " needs the bags, the sums of a calibration file do not serve it; train on all bags instead");
   }
-  const Setting grnn = setting("", Scheme::kBaseline, "grnn");
+  const Setting grnn = setting("", compensation::Scheme::kBaseline, "grnn");
   Calibration bare = train({bags[0]}, grnn);
   bare.statistics = {};
   EXPECT_EQ(complaint({{"a.h5", bare}, {"c.h5", train({bags[2]}, grnn)}}),
@@ -169,7 +171,7 @@ TEST(MergeRefuses, WhatNeedsTheBags) {
 }
 
 TEST(MergeRefuses, CurvaturesThatWouldFormOtherClasses) {
-  const Setting grnn = setting("", Scheme::kPerCurvature, "grnn");
+  const Setting grnn = setting("", compensation::Scheme::kPerCurvature, "grnn");
   // 10.2 and 10.4 are one class, but next to 10.0 only 10.2 is near enough.
   const Calibration pair = train({bag("pair.bag", 1, {{"one", 10.2}, {"two", 10.4}})}, grnn);
   const Calibration lower = train({bag("lower.bag", 2, {{"three", 10.0}})}, grnn);
@@ -194,4 +196,4 @@ TEST(MergeRefuses, NothingOfTheFirstFiles) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::calibration

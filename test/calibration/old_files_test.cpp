@@ -7,7 +7,7 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 
-namespace fsr {
+namespace fsr::calibration {
 namespace {
 
 const std::string kFolder = FSR_SOURCE_DIR "/test/data/calibrations/";
@@ -26,10 +26,10 @@ TEST(OldCalibrationFiles, AllLoadAndCalibrate) {
 TEST(OldCalibrationFiles, SchemaOneKeepsItsMeaning) {
   const Calibration calibration = loadCalibration(kFolder + "schema_1.h5");
   EXPECT_EQ(calibration.id, "6a1d3370726e");
-  EXPECT_EQ(calibration.tables.scheme, Scheme::kPerCurvature);
-  EXPECT_EQ(calibration.tables.rule.blend, BlendRule::kNearest);
+  EXPECT_EQ(calibration.tables.scheme, compensation::Scheme::kPerCurvature);
+  EXPECT_EQ(calibration.tables.rule.blend, compensation::BlendRule::kNearest);
   EXPECT_EQ(calibration.regressor.name, "grnn");
-  EXPECT_EQ(calibration.regressor.grnn.bandwidth, kPaperBandwidth);
+  EXPECT_EQ(calibration.regressor.grnn.bandwidth, regression::kPaperBandwidth);
   EXPECT_FALSE(calibration.bandwidth_chosen);
   EXPECT_EQ(calibration.tables.classes.at(1).surface, "cylinder_7cm");
   EXPECT_EQ(calibration.sensor.serial, "0001");
@@ -40,8 +40,8 @@ TEST(OldCalibrationFiles, SchemaOneKeepsItsMeaning) {
 
 TEST(OldCalibrationFiles, SchemaTwoKeepsItsRule) {
   const Calibration calibration = loadCalibration(kFolder + "schema_2.h5");
-  EXPECT_EQ(calibration.tables.scheme, Scheme::kScaledCurvature);
-  EXPECT_EQ(calibration.tables.rule.blend, BlendRule::kKernel);
+  EXPECT_EQ(calibration.tables.scheme, compensation::Scheme::kScaledCurvature);
+  EXPECT_EQ(calibration.tables.rule.blend, compensation::BlendRule::kKernel);
   EXPECT_EQ(calibration.tables.rule.length_scale, std::vector<double>{0.22265625});
   EXPECT_FLOAT_EQ(calibration.tables.table(1, 1).log_weight.at(100), 1.60943794f);
   EXPECT_FLOAT_EQ(calibration.tables.table(1, 1).pressure.at(100), 180000.0f);
@@ -49,4 +49,4 @@ TEST(OldCalibrationFiles, SchemaTwoKeepsItsRule) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::calibration

@@ -6,19 +6,19 @@
 #include <filesystem>
 #include <map>
 
+#include "compensation/fit_scheme.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
-#include "fsr_pressure_map/compensation/fit_scheme.h"
 #include "support/synthetic_recording.h"
 
-namespace fsr {
+namespace fsr::calibration {
 namespace {
 
 using test_support::syntheticReading;
 using test_support::syntheticRecording;
 using test_support::SyntheticRig;
-namespace flag = taxel_flag;
+namespace flag = map::taxel_flag;
 
 const std::vector<double> kTrained = {0, 7.7, 9, 11, 14, 20};  // [1/m]
 const std::vector<double> kUnseen = {1 / 0.08, 1 / 0.06};
@@ -40,13 +40,13 @@ SyntheticRig paperLikeRig() {
   return rig;
 }
 
-const Recording& recording() {
-  static const Recording made = syntheticRecording(paperLikeRig());
+const dataset::Recording& recording() {
+  static const dataset::Recording made = syntheticRecording(paperLikeRig());
   return made;
 }
 
-const Calibration& train(Scheme scheme) {
-  static std::map<Scheme, Calibration> trained;
+const Calibration& train(compensation::Scheme scheme) {
+  static std::map<compensation::Scheme, Calibration> trained;
   const auto found = trained.find(scheme);
   if (found != trained.end()) return found->second;
   CalibrationProblem problem{{recording()}, {}};
@@ -67,7 +67,7 @@ Live live(Calibrator& calibrator, double curvature, const std::string& name = "n
   const SyntheticRig rig = paperLikeRig();
   calibrator.setSurface({name, 1, {{curvature, 0, 0}}, {}}, 0);
   Live result;
-  PressureMap map;
+  map::PressureMap map;
   double number = 0;
   for (double pressure = 20e3; pressure <= 580e3; pressure += 1.37e3) {
     std::vector<std::uint16_t> counts;
@@ -88,14 +88,14 @@ Live live(Calibrator& calibrator, double curvature, const std::string& name = "n
   return {std::sqrt(result.rmse / number), result.within / number, result.flags};
 }
 
-double unseen(Scheme scheme) {
+double unseen(compensation::Scheme scheme) {
   Calibrator calibrator(train(scheme).tables, {{1, 3}});
   double squares = 0;
   for (const double curvature : kUnseen) squares += std::pow(live(calibrator, curvature).rmse, 2);
   return std::sqrt(squares / 2);
 }
 
-double seen(Scheme scheme) {
+double seen(compensation::Scheme scheme) {
   Calibrator calibrator(train(scheme).tables, {{1, 3}});
   double squares = 0;
   for (const double curvature : kTrained) squares += std::pow(live(calibrator, curvature).rmse, 2);
@@ -103,61 +103,65 @@ double seen(Scheme scheme) {
 }
 
 TEST(Schemes, BetweenTheClassesInterpolationBeatsTheNearest) {
-  const double nearest = unseen(Scheme::kPerCurvature);
-  EXPECT_LT(unseen(Scheme::kInterpolated), 0.6 * nearest);
-  EXPECT_LT(unseen(Scheme::kCurvatureMap), 0.6 * nearest);
-  EXPECT_LT(unseen(Scheme::kScaledCurvature), 0.9 * nearest);
+  const double nearest = unseen(compensation::Scheme::kPerCurvature);
+  EXPECT_LT(unseen(compensation::Scheme::kInterpolated), 0.6 * nearest);
+  EXPECT_LT(unseen(compensation::Scheme::kCurvatureMap), 0.6 * nearest);
+  EXPECT_LT(unseen(compensation::Scheme::kScaledCurvature), 0.9 * nearest);
 }
 
 TEST(Schemes, OnTheClassesNothingIsLost) {
-  const double nearest = seen(Scheme::kPerCurvature);
-  EXPECT_NEAR(seen(Scheme::kInterpolated), nearest, 1.0);
-  EXPECT_NEAR(seen(Scheme::kCurvatureMap), nearest, 1.0);
-  EXPECT_LT(seen(Scheme::kScaledCurvature), 1.2 * nearest);  // its neighbours weigh in on a class too
-  EXPECT_LT(seen(Scheme::kCurvatureInput), 1.05 * nearest);
-  EXPECT_LT(seen(Scheme::kOneHot), 1.05 * nearest);
+  const double nearest = seen(compensation::Scheme::kPerCurvature);
+  EXPECT_NEAR(seen(compensation::Scheme::kInterpolated), nearest, 1.0);
+  EXPECT_NEAR(seen(compensation::Scheme::kCurvatureMap), nearest, 1.0);
+  EXPECT_LT(seen(compensation::Scheme::kScaledCurvature),
+            1.2 * nearest);  // its neighbours weigh in on a class too
+  EXPECT_LT(seen(compensation::Scheme::kCurvatureInput), 1.05 * nearest);
+  EXPECT_LT(seen(compensation::Scheme::kOneHot), 1.05 * nearest);
 }
 
 TEST(Schemes, WhatDoesNotKnowTheCurvatureIsWorse) {
-  const double nearest = seen(Scheme::kPerCurvature);
-  EXPECT_GT(seen(Scheme::kBaseline), 2 * nearest);
-  EXPECT_GT(seen(Scheme::kFlatOnly), 2 * nearest);
-  EXPECT_GT(seen(Scheme::kFlatOrCurved), 1.2 * nearest);
+  const double nearest = seen(compensation::Scheme::kPerCurvature);
+  EXPECT_GT(seen(compensation::Scheme::kBaseline), 2 * nearest);
+  EXPECT_GT(seen(compensation::Scheme::kFlatOnly), 2 * nearest);
+  EXPECT_GT(seen(compensation::Scheme::kFlatOrCurved), 1.2 * nearest);
 }
 
 TEST(Schemes, TheLawFollowsTheBendOfTheCurve) {
   // A gap that straight lines cut across: between flat and 9 1/m most of the effect comes with the first
   // bend.
-  const auto error = [&](Scheme scheme) {
+  const auto error = [&](compensation::Scheme scheme) {
     Calibrator calibrator(train(scheme).tables, {{1, 3}});
     return live(calibrator, 4.0).rmse;
   };
-  EXPECT_LT(error(Scheme::kCurvatureMap), 0.8 * error(Scheme::kInterpolated));
+  EXPECT_LT(error(compensation::Scheme::kCurvatureMap), 0.8 * error(compensation::Scheme::kInterpolated));
 }
 
 TEST(Schemes, TheStatedDeviationHoldsOnUnseenCurvatures) {
-  for (const Scheme scheme : {Scheme::kPerCurvature, Scheme::kInterpolated, Scheme::kCurvatureMap}) {
+  for (const compensation::Scheme scheme :
+       {compensation::Scheme::kPerCurvature, compensation::Scheme::kInterpolated,
+        compensation::Scheme::kCurvatureMap}) {
     Calibrator calibrator(train(scheme).tables, {{1, 3}});
     for (const double curvature : kUnseen) {
-      EXPECT_GT(live(calibrator, curvature).within, 0.6) << schemeName(scheme) << ", " << curvature << " 1/m";
+      EXPECT_GT(live(calibrator, curvature).within, 0.6)
+          << compensation::schemeName(scheme) << ", " << curvature << " 1/m";
     }
   }
 }
 
 TEST(Schemes, TrainingSaysWhatANewCurvatureMayExpect) {
-  const UnseenScore nearest = train(Scheme::kPerCurvature).scores.unseen;
-  const UnseenScore interpolated = train(Scheme::kInterpolated).scores.unseen;
+  const UnseenScore nearest = train(compensation::Scheme::kPerCurvature).scores.unseen;
+  const UnseenScore interpolated = train(compensation::Scheme::kInterpolated).scores.unseen;
   EXPECT_EQ(nearest.readings, 4u * 500 * 3);  // four inner surfaces
   EXPECT_LT(interpolated.rmse, 0.6 * nearest.rmse);
   EXPECT_GT(interpolated.rmse_percent.mean, 0.1);
-  EXPECT_EQ(train(Scheme::kBaseline).scores.unseen.readings, 0u);
+  EXPECT_EQ(train(compensation::Scheme::kBaseline).scores.unseen.readings, 0u);
 }
 
 TEST(Schemes, RangesMergeWhatBendsAlike) {
   SyntheticRig rig = paperLikeRig();
   rig.felt_curvature = [](double curvature) { return curvature < 5 ? 0.0 : curvature < 12 ? 9.0 : 18.0; };
   CalibrationProblem problem{{syntheticRecording(rig)}, {}};
-  problem.options.scheme = Scheme::kCurvatureRanges;
+  problem.options.scheme = compensation::Scheme::kCurvatureRanges;
   problem.options.regressor.grnn.bandwidth = 1.0 / 32;
   problem.options.choose_bandwidth = false;
   const Calibration calibration = calibrate(problem);
@@ -172,7 +176,8 @@ TEST(Schemes, RangesMergeWhatBendsAlike) {
 }
 
 TEST(Schemes, RangesKeepApartWhatDoesNot) {
-  const Calibration ranges = train(Scheme::kCurvatureRanges), each = train(Scheme::kPerCurvature);
+  const Calibration ranges = train(compensation::Scheme::kCurvatureRanges),
+                    each = train(compensation::Scheme::kPerCurvature);
   EXPECT_EQ(ranges.tables.table(0, 0).pressure, each.tables.table(0, 0).pressure);
 }
 
@@ -180,7 +185,7 @@ TEST(Schemes, PerSurfaceGoesByTheName) {
   SyntheticRig rig = paperLikeRig();
   rig.surfaces = {{"left_mould", 10.0}, {"right_mould", 10.1}};  // one class by curvature
   CalibrationProblem problem{{syntheticRecording(rig)}, {}};
-  problem.options.scheme = Scheme::kPerSurface;
+  problem.options.scheme = compensation::Scheme::kPerSurface;
   const Calibration calibration = calibrate(problem);
   ASSERT_EQ(calibration.tables.classes.size(), 2u);
   Calibrator calibrator(calibration.tables, {{1, 3}});
@@ -190,8 +195,8 @@ TEST(Schemes, PerSurfaceGoesByTheName) {
 
 TEST(Schemes, EveryOneGoesThroughItsFileToTheLiveMap) {
   const std::string path = testing::TempDir() + "schemes.h5";
-  for (const std::string& name : schemeNames()) {
-    const Calibration calibration = train(schemeFromName(name));
+  for (const std::string& name : compensation::schemeNames()) {
+    const Calibration calibration = train(compensation::schemeFromName(name));
     saveCalibration(calibration, path);
     const Calibration loaded = loadCalibration(path);
     EXPECT_EQ(loaded.tables.scheme, calibration.tables.scheme);
@@ -208,7 +213,9 @@ TEST(Schemes, EveryOneGoesThroughItsFileToTheLiveMap) {
 }
 
 TEST(Schemes, WhatIsLearnedDoesNotDependOnThreads) {
-  for (const Scheme scheme : {Scheme::kScaledCurvature, Scheme::kCurvatureRanges, Scheme::kCurvatureMap}) {
+  for (const compensation::Scheme scheme :
+       {compensation::Scheme::kScaledCurvature, compensation::Scheme::kCurvatureRanges,
+        compensation::Scheme::kCurvatureMap}) {
     CalibrationProblem problem{{recording()}, {}};
     problem.options.scheme = scheme;
     problem.options.scores = false;
@@ -228,35 +235,38 @@ constexpr double kFloatLogarithms = 6.0;
 
 // The live blend of kernels in floats against the model with two inputs in doubles.
 TEST(Schemes, OnAClassTheLiveMapIsTheOfflineModel) {
-  for (const Scheme scheme : {Scheme::kCurvatureInput, Scheme::kScaledCurvature}) {
+  for (const compensation::Scheme scheme :
+       {compensation::Scheme::kCurvatureInput, compensation::Scheme::kScaledCurvature}) {
     const Calibration& calibration = train(scheme);
-    const TrainingStatistics& statistics = calibration.statistics;
-    SchemePlan plan = planScheme(scheme, statistics.classes);
-    if (scheme == Scheme::kScaledCurvature) plan.curvature_scale = calibration.tables.rule.length_scale.at(0);
-    ClassReadings readings;
+    const compensation::TrainingStatistics& statistics = calibration.statistics;
+    compensation::SchemePlan plan = compensation::planScheme(scheme, statistics.classes);
+    if (scheme == compensation::Scheme::kScaledCurvature)
+      plan.curvature_scale = calibration.tables.rule.length_scale.at(0);
+    compensation::ClassReadings readings;
     readings.full_scale = statistics.full_scale;
     for (std::size_t k = 0; k < kTrained.size(); ++k) {
       readings.sums.emplace_back(statistics.full_scale);
       for (std::size_t s = 0; s < statistics.sections; ++s)
         readings.sums.back().add(statistics.cell(1, k, s));
     }
-    const std::vector<Fit> fits = fitScheme(plan, 1, readings, calibration.regressor);
+    const std::vector<regression::Fit> fits =
+        compensation::fitScheme(plan, 1, readings, calibration.regressor);
     Calibrator calibrator(calibration.tables, {{1, 3}});
-    PressureMap map;
+    map::PressureMap map;
     for (std::size_t k = 0; k < kTrained.size(); ++k) {
       calibrator.setSurface({"new", 1, {{kTrained[k], 0, 0}}, {}}, 0);
       for (std::uint16_t code = 1; code < 4095; code = static_cast<std::uint16_t>(code + 7)) {
         const std::vector<std::uint16_t> counts(3, code);
         calibrator.calibrate({{1, 3}, 4095, counts.data(), 3}, 0, map);
         EXPECT_NEAR(map.pressure[1], fits[k].pressure[code], kFloatLogarithms)
-            << schemeName(scheme) << ", code " << code;
+            << compensation::schemeName(scheme) << ", code " << code;
       }
     }
   }
 }
 
 TEST(Schemes, ClassesOfOneModelShareItsTable) {
-  const Calibration& calibration = train(Scheme::kFlatOrCurved);
+  const Calibration& calibration = train(compensation::Scheme::kFlatOrCurved);
   EXPECT_EQ(calibration.tables.rule.model_of_class, (std::vector<std::size_t>{0, 1, 1, 1, 1, 1}));
   const PackedTables packed(calibration.tables);
   EXPECT_EQ(packed.table(2, 1), packed.table(2, 5));
@@ -265,4 +275,4 @@ TEST(Schemes, ClassesOfOneModelShareItsTable) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::calibration

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/calibration/socket_check.h"
+#include "calibration/socket_check.h"
 
 #include <gtest/gtest.h>
 
@@ -7,19 +7,19 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/small_tables.h"
 
-namespace fsr {
+namespace fsr::calibration {
 namespace {
 
 constexpr std::size_t kTaxels = 12;
 constexpr double kRate = 20;  // [Hz]
 
 /// 10 s of rest, 60 s of steps at about 1 Hz, 10 s of rest: 3 x 4 taxels, 12 bit.
-Recording worn(double rest_after = 40) {
-  Recording recording;
+dataset::Recording worn(double rest_after = 40) {
+  dataset::Recording recording;
   recording.name = "socket.bag";
   recording.layout.size = {3, 4};
   recording.full_scale = 4095;
-  recording.conditions = {Surface{"socket", 1, {Curvature{}}, {}}};
+  recording.conditions = {matrix::Surface{"socket", 1, {matrix::Curvature{}}, {}}};
   for (int i = 0; i < 80 * kRate; ++i) {
     const double time = i / kRate;
     const bool on = time > 10 && time < 70;
@@ -33,7 +33,7 @@ Recording worn(double rest_after = 40) {
   return recording;
 }
 
-void set(Recording& recording, std::size_t taxel, double from, double to, std::uint16_t code) {
+void set(dataset::Recording& recording, std::size_t taxel, double from, double to, std::uint16_t code) {
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     const double time = recording.time[i];
     if (time >= from && time < to)
@@ -41,7 +41,7 @@ void set(Recording& recording, std::size_t taxel, double from, double to, std::u
   }
 }
 
-SocketCheck check(const Recording& recording) {
+SocketCheck check(const dataset::Recording& recording) {
   return checkSocket(recording, {}, nullptr);
 }
 
@@ -63,7 +63,7 @@ TEST(SocketCheck, ComparesRestAfterWithRestBefore) {
 }
 
 TEST(SocketCheck, SaysWhereNoRestWasRecorded) {
-  Recording recording = worn();
+  dataset::Recording recording = worn();
   for (std::size_t t = 0; t < kTaxels; ++t) set(recording, t, 60, 80, 900);
   const SocketCheck result = check(recording);
   EXPECT_FALSE(result.after);
@@ -72,7 +72,7 @@ TEST(SocketCheck, SaysWhereNoRestWasRecorded) {
 }
 
 TEST(SocketCheck, BelievesTheEventsOfPuttingOnAndOff) {
-  Recording recording = worn();
+  dataset::Recording recording = worn();
   DonDoff events;
   events.don = 4.0;
   events.doff = 75.0;
@@ -82,7 +82,7 @@ TEST(SocketCheck, BelievesTheEventsOfPuttingOnAndOff) {
 }
 
 TEST(SocketCheck, FindsTheLongestStaticLoad) {
-  Recording recording = worn();
+  dataset::Recording recording = worn();
   set(recording, 5, 20, 55, 1500);  // the others go up and down with each step
   const SocketCheck result = check(recording);
   EXPECT_EQ(result.longest.taxel, 5u);
@@ -94,7 +94,7 @@ TEST(SocketCheck, FindsTheLongestStaticLoad) {
 }
 
 TEST(SocketCheck, CountsFullScale) {
-  Recording recording = worn();
+  dataset::Recording recording = worn();
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     if (recording.time[i] < 20 || recording.time[i] >= 40) continue;
     for (std::size_t t = 0; t < 4; ++t) recording.counts[i * kTaxels + t] = 4095;
@@ -108,8 +108,8 @@ TEST(SocketCheck, CountsWhatLiesBeyondTraining) {
   Calibration calibration;
   calibration.layout.size = {3, 4};
   calibration.tables = test_support::smallTables({3, 4}, {0.0, 10.0}, 4095);
-  Recording recording = worn();
-  recording.conditions.front().curvature = {Curvature{40, 0, 0}};
+  dataset::Recording recording = worn();
+  recording.conditions.front().curvature = {matrix::Curvature{40, 0, 0}};
   const SocketCheck result = checkSocket(recording, {}, &calibration);
   EXPECT_EQ(result.bent_beyond, 1.0);
   EXPECT_FALSE(std::isnan(result.beyond));
@@ -120,9 +120,9 @@ TEST(SocketCheck, RefusesACalibrationOfAnotherMatrix) {
   Calibration calibration;
   calibration.layout.size = {2, 2};
   calibration.tables = test_support::smallTables({2, 2}, {0.0}, 4095);
-  EXPECT_THROW(checkSocket(worn(), {}, &calibration), InputError);
-  EXPECT_THROW(checkSocket(Recording{}, {}, nullptr), InputError);
+  EXPECT_THROW(checkSocket(worn(), {}, &calibration), settings::InputError);
+  EXPECT_THROW(checkSocket(dataset::Recording{}, {}, nullptr), settings::InputError);
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::calibration

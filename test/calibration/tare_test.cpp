@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/calibration/tare.h"
+#include "calibration/tare.h"
 
 #include <gtest/gtest.h>
 
@@ -11,13 +11,13 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/allocation_guard.h"
 
-namespace fsr {
+namespace fsr::calibration {
 namespace {
 
-const Layout kLayout{{2, 3}};
+const matrix::Layout kLayout{{2, 3}};
 
-PressureMap restingMap(float pressure) {
-  PressureMap map;
+map::PressureMap restingMap(float pressure) {
+  map::PressureMap map;
   map.reset(kLayout);
   map.pressure.assign(6, pressure);
   return map;
@@ -27,7 +27,7 @@ PressureMap restingMap(float pressure) {
 TareMeasurement measured(const std::function<float(int)>& pressure, const TareOptions& options = {}) {
   TareMeasurement measurement(kLayout, options);
   for (int i = 0; i < 30; ++i) {
-    PressureMap map = restingMap(1000.0f);
+    map::PressureMap map = restingMap(1000.0f);
     map.pressure[4] = pressure(i);
     measurement.add(map, i * 0.1);
   }
@@ -37,7 +37,7 @@ TareMeasurement measured(const std::function<float(int)>& pressure, const TareOp
 std::string refusalOf(const std::function<void()>& action) {
   try {
     action();
-  } catch (const InputError& error) {
+  } catch (const settings::InputError& error) {
     return error.what();
   }
   return "accepted";
@@ -111,7 +111,7 @@ TEST(TareMeasurement, StartsAnewWhenTimeRunsBack) {
 
 TEST(TareMeasurement, AllocatesNothingForAMap) {
   TareMeasurement measurement(kLayout, {});
-  const PressureMap map = restingMap(1000.0f);
+  const map::PressureMap map = restingMap(1000.0f);
   const test_support::AllocationGuard guard;
   for (int i = 0; i < 100; ++i) measurement.add(map, (i % 50) * 0.1);
   EXPECT_EQ(guard.allocations(), 0u);
@@ -119,13 +119,13 @@ TEST(TareMeasurement, AllocatesNothingForAMap) {
 
 TEST(Tare, HoldsForOneCalibrationSurfaceAndMount) {
   const Tare tare = someTare();
-  const Surface same{tare.surface, 2, {{14.3, 0, 0}}, {}};
+  const matrix::Surface same{tare.surface, 2, {{14.3, 0, 0}}, {}};
   EXPECT_TRUE(holds(tare, "3f2a", same));
   EXPECT_FALSE(holds(tare, "3f2b", same));
   EXPECT_FALSE(holds(tare, "3f2a", {tare.surface, 3, same.curvature, {}}));
   EXPECT_FALSE(holds(tare, "3f2a", {"flat", 2, same.curvature, {}}));
   EXPECT_FALSE(holds(tare, "3f2a", {tare.surface, 2, {{13.7, 0, 0}}, {}}));
-  EXPECT_FALSE(holds(tare, "3f2a", Surface{}));
+  EXPECT_FALSE(holds(tare, "3f2a", matrix::Surface{}));
 }
 
 class TareFile : public testing::Test {
@@ -174,7 +174,7 @@ TEST_F(TareFile, RefusesWhatItDoesNotKnow) {
                                                                                  {"1.5", "inf"}}) {
     saveTare(someTare(), path);
     replaceInFile(from, to);
-    EXPECT_THROW(loadTare(path), InputError) << to;
+    EXPECT_THROW(loadTare(path), settings::InputError) << to;
   }
 }
 
@@ -183,9 +183,9 @@ TEST_F(TareFile, RefusesACutOrEmptyFile) {
   const std::string whole = content();
   for (const std::size_t size : {std::size_t{0}, whole.size() / 2}) {
     std::ofstream(path) << whole.substr(0, size);
-    EXPECT_THROW(loadTare(path), InputError) << size << " bytes";
+    EXPECT_THROW(loadTare(path), settings::InputError) << size << " bytes";
   }
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::calibration

@@ -6,7 +6,7 @@
 
 #include "support/allocation_guard.h"
 
-namespace fsr {
+namespace fsr::compensation {
 namespace {
 
 constexpr std::size_t kCodes = 600;  // more than one block
@@ -151,4 +151,4 @@ TEST(EffectLawCurve, IsMonotoneBetweenItsKnots) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::compensation

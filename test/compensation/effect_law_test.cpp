@@ -1,17 +1,17 @@
-#include "fsr_pressure_map/compensation/effect_law.h"
+#include "compensation/effect_law.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace fsr {
+namespace fsr::compensation {
 namespace {
 
 constexpr std::size_t kCodes = 400;
 
 // P = gain * curve + offset, trained on codes 50 to 350.
-CodeTable tableOf(double gain, double offset) {
-  CodeTable table;
+regression::CodeTable tableOf(double gain, double offset) {
+  regression::CodeTable table;
   for (std::size_t code = 0; code < kCodes; ++code) {
     const double curve = 2.0 * std::pow(static_cast<double>(code), 2);  // [Pa]
     table.pressure.push_back(static_cast<float>(gain * curve + offset));
@@ -22,8 +22,8 @@ CodeTable tableOf(double gain, double offset) {
 }
 
 TEST(EffectLaw, FindsWhatBendingDoesToATaxel) {
-  const std::vector<CodeTable> tables = {tableOf(0.8, 3e3), tableOf(1.0, 0),
-                                         tableOf(1.2, -3e3)};  // mean: 1, 0
+  const std::vector<regression::CodeTable> tables = {tableOf(0.8, 3e3), tableOf(1.0, 0),
+                                                     tableOf(1.2, -3e3)};  // mean: 1, 0
   const TaxelEffect effect = effectOf(tables.data(), 3);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR(effect.gain[k], 0.8 + 0.2 * static_cast<double>(k), 1e-6);
@@ -32,15 +32,15 @@ TEST(EffectLaw, FindsWhatBendingDoesToATaxel) {
 }
 
 TEST(EffectLaw, ATaxelWithoutAModelSaysNothing) {
-  std::vector<CodeTable> tables = {tableOf(1, 0), tableOf(1, 0)};
+  std::vector<regression::CodeTable> tables = {tableOf(1, 0), tableOf(1, 0)};
   tables[1].pressure.assign(kCodes, NAN);
   EXPECT_TRUE(effectOf(tables.data(), 2).gain.empty());
-  std::vector<CodeTable> apart = {tableOf(1, 0), tableOf(1, 0)};
+  std::vector<regression::CodeTable> apart = {tableOf(1, 0), tableOf(1, 0)};
   apart[0].highest = 40;  // no code in common
   EXPECT_TRUE(effectOf(apart.data(), 2).gain.empty());
 }
 
-const std::vector<CurvatureClass> kClasses = {
+const std::vector<dataset::CurvatureClass> kClasses = {
     {"socket", {-10.0}}, {"flat", {0.0}}, {"a", {7.0}}, {"b", {10.0}}, {"c", {20.0}}};
 
 TEST(EffectLaw, IsTheMeanOfTheTaxelsMadeMonotoneToEitherSide) {
@@ -62,4 +62,4 @@ TEST(EffectLaw, NeedsThreeUniformClasses) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::compensation

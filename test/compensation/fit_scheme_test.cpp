@@ -1,17 +1,17 @@
-#include "fsr_pressure_map/compensation/fit_scheme.h"
+#include "compensation/fit_scheme.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "fsr_pressure_map/regression/weighted_codes.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "regression/grnn/weighted_codes.h"
 
-namespace fsr {
+namespace fsr::compensation {
 namespace {
 
 constexpr std::uint16_t kFullScale = 1023;
-const std::vector<CurvatureClass> kClasses = {
+const std::vector<dataset::CurvatureClass> kClasses = {
     {"flat", {0.0}}, {"radius_10cm", {10.0}}, {"radius_5cm", {20.0}}};
 
 // Readings that numpy can make too:
@@ -19,15 +19,15 @@ const std::vector<CurvatureClass> kClasses = {
 //   i = np.concatenate([np.arange(m) for m in n])
 //   c = np.concatenate([(37*np.arange(m)**2 + 11*np.arange(m)*(j + 1)) % 900 + 100 for j, m in enumerate(n)])
 //   P = 400*c*(1 - 0.01*np.array(k)[q]) + 2000*np.array(k)[q] + (7919*i) % 1000
-CodeSamples samplesOf(std::size_t curvature_class, int keep_each = 1) {
-  CodeSamples samples;
+regression::CodeSamples samplesOf(std::size_t curvature_class, int keep_each = 1) {
+  regression::CodeSamples samples;
   samples.full_scale = kFullScale;
   const int number = 60 + 20 * static_cast<int>(curvature_class);
   for (int i = 0; i < number; i += keep_each) {
     const int code = (37 * i * i + 11 * i * (static_cast<int>(curvature_class) + 1)) % 900 + 100;
     const double curvature = kClasses[curvature_class].curvature[0];
-    samples.add(static_cast<std::uint16_t>(code),
-                toFixed(400.0 * code * (1 - 0.01 * curvature) + 2000 * curvature + (7919 * i) % 1000));
+    samples.add(static_cast<std::uint16_t>(code), regression::toFixed(400.0 * code * (1 - 0.01 * curvature) +
+                                                                      2000 * curvature + (7919 * i) % 1000));
   }
   return samples;
 }
@@ -38,18 +38,19 @@ ClassReadings threeClasses(int keep_each = 1) {
   for (std::size_t k = 0; k < kClasses.size(); ++k) {
     readings.samples.push_back(samplesOf(k, keep_each));
     readings.sums.emplace_back(kFullScale);
-    readings.sums.back().add(statisticsOf(readings.samples.back()));
+    readings.sums.back().add(regression::statisticsOf(readings.samples.back()));
   }
   return readings;
 }
 
-RegressorOptions grnn(double bandwidth) {
-  RegressorOptions options;
+regression::RegressorOptions grnn(double bandwidth) {
+  regression::RegressorOptions options;
   options.grnn.bandwidth = bandwidth;
   return options;
 }
 
-double answer(Scheme scheme, const RegressorOptions& regressor, std::size_t code, std::size_t on_class) {
+double answer(Scheme scheme, const regression::RegressorOptions& regressor, std::size_t code,
+              std::size_t on_class) {
   const SchemePlan plan = planScheme(scheme, kClasses);
   return fitScheme(plan, 0, threeClasses(), regressor)[plan.model_of_class[on_class]].pressure[code];
 }
@@ -92,7 +93,7 @@ TEST(FitScheme, AGrnnOfTwoInputsAgreesWithNumpy) {
 
 TEST(FitScheme, LeastSquaresOnTwoInputsAgreeWithNumpy) {
   // the same readings; A = np.column_stack([np.ones(240), X]); b = np.linalg.lstsq(A, P, rcond=None)[0]
-  RegressorOptions linear;
+  regression::RegressorOptions linear;
   linear.name = "linear";
   const std::vector<Expected> expected = {
       {Scheme::kCurvatureInput, 0, {21789.393973239377, 140281.23605966775, 384892.64516532584}},
@@ -111,15 +112,16 @@ TEST(FitScheme, LeastSquaresOnTwoInputsAgreeWithNumpy) {
 // so many bandwidths apart that no reading of another class has any weight.
 TEST(FitScheme, CurvatureAsInputIsOneModelACurvatureAtThePapersBandwidth) {
   const ClassReadings readings = threeClasses();
-  CodeHistogram all(kFullScale);
-  for (const CodeHistogram& sums : readings.sums) all.add(sums);
+  regression::CodeHistogram all(kFullScale);
+  for (const regression::CodeHistogram& sums : readings.sums) all.add(sums);
   for (const Scheme scheme : {Scheme::kCurvatureInput, Scheme::kOneHot}) {
-    const std::vector<Fit> with_input =
-        fitScheme(planScheme(scheme, kClasses), 0, readings, grnn(kPaperBandwidth));
+    const std::vector<regression::Fit> with_input =
+        fitScheme(planScheme(scheme, kClasses), 0, readings, grnn(regression::kPaperBandwidth));
     for (std::size_t k = 0; k < kClasses.size(); ++k) {
       // the class's own model, its bandwidth in the units of all readings
-      const double unit = readingDeviation(all) / readingDeviation(readings.sums[k]);
-      const Fit alone = Grnn(kPaperBandwidth * unit).fit(readings.sums[k]);
+      const double unit = regression::readingDeviation(all) / regression::readingDeviation(readings.sums[k]);
+      const regression::Fit alone =
+          regression::Grnn(regression::kPaperBandwidth * unit).fit(readings.sums[k]);
       for (std::size_t code = 0; code <= kFullScale; ++code) {
         EXPECT_NEAR(with_input[k].pressure[code] / alone.pressure[code], 1.0, 1e-12);
       }
@@ -129,33 +131,33 @@ TEST(FitScheme, CurvatureAsInputIsOneModelACurvatureAtThePapersBandwidth) {
 
 TEST(FitScheme, BinaryInputIsFlatOrCurvedAtThePapersBandwidth) {
   const ClassReadings readings = threeClasses();
-  CodeHistogram all(kFullScale), bent(kFullScale);
-  for (const CodeHistogram& sums : readings.sums) all.add(sums);
+  regression::CodeHistogram all(kFullScale), bent(kFullScale);
+  for (const regression::CodeHistogram& sums : readings.sums) all.add(sums);
   for (const std::size_t k : {1, 2}) bent.add(readings.sums[k]);
-  const double unit = readingDeviation(all) / readingDeviation(bent);
-  const auto two =
-      fitScheme(planScheme(Scheme::kFlatOrCurved, kClasses), 0, readings, grnn(kPaperBandwidth * unit));
+  const double unit = regression::readingDeviation(all) / regression::readingDeviation(bent);
+  const auto two = fitScheme(planScheme(Scheme::kFlatOrCurved, kClasses), 0, readings,
+                             grnn(regression::kPaperBandwidth * unit));
   const auto input =
-      fitScheme(planScheme(Scheme::kBinaryInput, kClasses), 0, readings, grnn(kPaperBandwidth));
+      fitScheme(planScheme(Scheme::kBinaryInput, kClasses), 0, readings, grnn(regression::kPaperBandwidth));
   for (std::size_t code = 0; code <= kFullScale; ++code) {
     EXPECT_NEAR(input[1].pressure[code] / two[1].pressure[code], 1.0, 1e-12);
   }
 }
 
 TEST(FitScheme, AForestTakesTheCurvatureInWithoutChangingUnits) {
-  RegressorOptions forest;
+  regression::RegressorOptions forest;
   forest.name = "forest";
   forest.forest.trees = 20;
   const ClassReadings readings = threeClasses();
   const auto fits = fitScheme(planScheme(Scheme::kCurvatureInput, kClasses), 0, readings, forest);
-  CodeSamples all;
+  regression::CodeSamples all;
   all.full_scale = kFullScale;
   for (std::size_t k = 0; k < kClasses.size(); ++k) {
-    CodeSamples samples = readings.samples[k];
+    regression::CodeSamples samples = readings.samples[k];
     samples.curvature.assign(samples.size(), kClasses[k].curvature[0]);
     all.append(samples);
   }
-  const CurvatureSteps steps = fitCurvatureForest(all, forest.forest);
+  const regression::CurvatureSteps steps = regression::fitCurvatureForest(all, forest.forest);
   for (std::size_t k = 0; k < kClasses.size(); ++k) {
     EXPECT_EQ(fits[k].pressure, steps.at(kClasses[k].curvature[0]).pressure);
   }
@@ -163,15 +165,16 @@ TEST(FitScheme, AForestTakesTheCurvatureInWithoutChangingUnits) {
 
 TEST(FitScheme, AClassWithoutReadingsIsAnsweredByItsNeighboursWhereCurvatureIsAnInput) {
   ClassReadings readings = threeClasses();
-  readings.sums[1] = CodeHistogram(kFullScale);
+  readings.sums[1] = regression::CodeHistogram(kFullScale);
   readings.samples.clear();
   const auto input = fitScheme(planScheme(Scheme::kCurvatureInput, kClasses), 0, readings, grnn(1.0));
   const auto alone = fitScheme(planScheme(Scheme::kPerCurvature, kClasses), 0, readings, grnn(1.0));
   EXPECT_TRUE(alone[1].pressure.empty());
   EXPECT_GT(input[1].pressure[500], input[0].pressure[500]);
   EXPECT_LT(input[1].pressure[500], input[2].pressure[500]);
-  readings.sums[0] = readings.sums[2] = CodeHistogram(kFullScale);
-  for (const Fit& fit : fitScheme(planScheme(Scheme::kCurvatureInput, kClasses), 0, readings, grnn(1.0))) {
+  readings.sums[0] = readings.sums[2] = regression::CodeHistogram(kFullScale);
+  for (const regression::Fit& fit :
+       fitScheme(planScheme(Scheme::kCurvatureInput, kClasses), 0, readings, grnn(1.0))) {
     EXPECT_TRUE(fit.pressure.empty());
   }
 }
@@ -179,7 +182,7 @@ TEST(FitScheme, AClassWithoutReadingsIsAnsweredByItsNeighboursWhereCurvatureIsAn
 TEST(FitScheme, AClassWithoutReadingsIsAnsweredByTheSchemesRule) {
   ClassReadings readings = threeClasses();
   readings.samples.clear();
-  readings.sums[1] = CodeHistogram(kFullScale);
+  readings.sums[1] = regression::CodeHistogram(kFullScale);
   const auto answer = [&](Scheme scheme, const EffectLaw& law = {}) {
     const SchemePlan plan = planScheme(scheme, kClasses);
     return answerOn(plan, 0, readings, fitScheme(plan, 0, readings, grnn(0.1)), 1, law);
@@ -200,7 +203,7 @@ TEST(FitScheme, OneClassHasNothingToLearnFromItsCurvature) {
   readings.sums.erase(readings.sums.begin() + 1, readings.sums.end());
   readings.samples.clear();
   const auto input = fitScheme(planScheme(Scheme::kCurvatureInput, {kClasses[0]}), 0, readings, grnn(0.1));
-  const Fit alone = Grnn(0.1).fit(readings.sums[0]);
+  const regression::Fit alone = regression::Grnn(0.1).fit(readings.sums[0]);
   for (std::size_t code = 0; code <= kFullScale; ++code) {
     EXPECT_NEAR(input[0].pressure[code] / alone.pressure[code], 1.0, 1e-12);
   }
@@ -212,14 +215,15 @@ TEST(FitScheme, HeldOutModelsAreThoseOfTheOtherSections) {
   ClassReadings without_first;
   without_first.full_scale = kFullScale;
   for (std::size_t k = 0; k < kClasses.size(); ++k) {
-    readings.sums.push_back(
-        {statisticsOf(samplesOf(k)), statisticsOf(samplesOf(k, 2)), statisticsOf(samplesOf(k, 3))});
+    readings.sums.push_back({regression::statisticsOf(samplesOf(k)),
+                             regression::statisticsOf(samplesOf(k, 2)),
+                             regression::statisticsOf(samplesOf(k, 3))});
     without_first.sums.emplace_back(kFullScale);
     for (const std::size_t s : {1, 2}) without_first.sums.back().add(readings.sums[k][s]);
   }
   for (const Scheme scheme : {Scheme::kBaseline, Scheme::kCurvatureInput, Scheme::kFlatOrCurved}) {
     const SchemePlan plan = planScheme(scheme, kClasses);
-    const auto models = crossValidateScheme(plan, 0, readings, grnn(0.1), HeldOutDeviation::kYes);
+    const auto models = crossValidateScheme(plan, 0, readings, grnn(0.1), regression::HeldOutDeviation::kYes);
     const auto fits = fitScheme(plan, 0, without_first, grnn(0.1));
     ASSERT_EQ(models.size(), plan.models.size());
     for (std::size_t m = 0; m < models.size(); ++m) {
@@ -228,17 +232,17 @@ TEST(FitScheme, HeldOutModelsAreThoseOfTheOtherSections) {
   }
 }
 
-std::string refusal(Scheme scheme, const RegressorOptions& regressor) {
+std::string refusal(Scheme scheme, const regression::RegressorOptions& regressor) {
   try {
     requireSchemeFor(scheme, regressor);
-  } catch (const InputError& error) {
+  } catch (const settings::InputError& error) {
     return error.what();
   }
   return "accepted";
 }
 
 TEST(FitScheme, SaysWhichRegressorTakesASecondInput) {
-  RegressorOptions options;
+  regression::RegressorOptions options;
   options.name = "monotone";
   EXPECT_EQ(refusal(Scheme::kPerCurvature, options), "accepted");
   EXPECT_EQ(
@@ -254,7 +258,7 @@ TEST(FitScheme, SaysWhichRegressorTakesASecondInput) {
       "scheme scaled_curvature gives the model a second input, which only a GRNN has a length scale for; "
       "choose grnn, or curvature_input");
   options.name = "grnn";
-  options.grnn.distance = KernelDistance::kLiteral;
+  options.grnn.distance = regression::KernelDistance::kLiteral;
   EXPECT_EQ(
       refusal(Scheme::kBinaryInput, options),
       "scheme binary_input gives the model a second input, which a GRNN takes with the squared distance "
@@ -262,4 +266,4 @@ TEST(FitScheme, SaysWhichRegressorTakesASecondInput) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::compensation

@@ -1,16 +1,16 @@
-#include "fsr_pressure_map/compensation/learn_scheme.h"
+#include "compensation/learn_scheme.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-namespace fsr {
+namespace fsr::compensation {
 namespace {
 
 constexpr std::uint16_t kFullScale = 1023;
 constexpr std::size_t kSections = 3;
-const std::vector<CurvatureClass> kClasses = {
+const std::vector<dataset::CurvatureClass> kClasses = {
     {"flat", {0.0}}, {"r20", {5.0}}, {"r10", {10.0}}, {"r7", {15.0}}, {"r5", {20.0}}};
 
 // One taxel; a reading of code c has 500 Pa x c x (1 + effect of its class), and 10 kPa of noise.
@@ -20,9 +20,9 @@ TrainingStatistics statisticsOf(const std::vector<double>& effect) {
   TrainingStatistics statistics{kFullScale, 1, kSections, kClasses, {}, {}};
   for (const double own : effect) {
     for (std::size_t section = 0; section < kSections; ++section) {
-      CodeAccumulator readings(kFullScale);
+      regression::CodeAccumulator readings(kFullScale);
       for (std::uint16_t code = 20; code < 1000; code = static_cast<std::uint16_t>(code + 2)) {
-        readings.add(code, toFixed(500.0 * code * (1 + own) + noise(random)));
+        readings.add(code, regression::toFixed(500.0 * code * (1 + own) + noise(random)));
       }
       statistics.cells.push_back(readings.take());
     }
@@ -32,7 +32,7 @@ TrainingStatistics statisticsOf(const std::vector<double>& effect) {
 
 SchemePlan learn(Scheme scheme, const std::vector<double>& effect) {
   SchemePlan plan = planScheme(scheme, kClasses);
-  GrnnOptions grnn;
+  regression::GrnnOptions grnn;
   grnn.bandwidth = 0.05;
   learnScheme(statisticsOf(effect), grnn, {0}, 1, plan);
   return plan;
@@ -72,4 +72,4 @@ TEST(LearnScheme, OneCurvatureHasNoScale) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::compensation

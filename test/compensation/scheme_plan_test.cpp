@@ -1,15 +1,15 @@
-#include "fsr_pressure_map/compensation/scheme_plan.h"
+#include "compensation/scheme_plan.h"
 
 #include <gtest/gtest.h>
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::compensation {
 namespace {
 
 using Indices = std::vector<std::size_t>;
 
-const std::vector<CurvatureClass> kClasses = {
+const std::vector<dataset::CurvatureClass> kClasses = {
     {"socket", {-10.0}}, {"flat", {0.0}}, {"cylinder_7cm", {14.3}}, {"limb", {0.0, 9.0}}};
 
 TEST(SchemePlan, PerCurvatureHasAModelForEachClass) {
@@ -39,7 +39,7 @@ TEST(SchemePlan, FlatOnlyNeedsAFlatClass) {
   try {
     planScheme(Scheme::kFlatOnly, {kClasses[0], kClasses[2]});
     FAIL() << "accepted";
-  } catch (const InputError& error) {
+  } catch (const settings::InputError& error) {
     EXPECT_STREQ(
         error.what(),
         "scheme is flat_only, but no recording is of a flat surface (there is socket, cylinder_7cm); "
@@ -69,7 +69,7 @@ TEST(SchemePlan, FlatOrCurvedNeedsBoth) {
   try {
     planScheme(Scheme::kFlatOrCurved, {kClasses[1]});
     FAIL() << "accepted";
-  } catch (const InputError& error) {
+  } catch (const settings::InputError& error) {
     EXPECT_STREQ(
         error.what(),
         "scheme is flat_or_curved, but no recording is of a bent surface; add one, or choose flat_only");
@@ -77,4 +77,4 @@ TEST(SchemePlan, FlatOrCurvedNeedsBoth) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::compensation

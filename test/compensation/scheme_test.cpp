@@ -4,7 +4,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::compensation {
 namespace {
 
 TEST(Scheme, IsFoundByItsName) {
@@ -15,7 +15,7 @@ TEST(Scheme, AnUnknownNameIsRefusedWithTheKnownOnes) {
   try {
     schemeFromName("per_curve");
     FAIL() << "accepted";
-  } catch (const InputError& error) {
+  } catch (const settings::InputError& error) {
     EXPECT_STREQ(error.what(),
                  "scheme is \"per_curve\", but must be one of flat_only, baseline, per_curvature, "
                  "curvature_input, one_hot, flat_or_curved, binary_input, scaled_curvature, curvature_map, "
@@ -24,4 +24,4 @@ TEST(Scheme, AnUnknownNameIsRefusedWithTheKnownOnes) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::compensation

@@ -5,7 +5,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/synthetic_recording.h"
 
-namespace fsr {
+namespace fsr::dataset {
 namespace {
 
 using test_support::syntheticRecording;
@@ -61,7 +61,7 @@ TEST(ConditionClasses, NeedACurvature) {
   try {
     poolConditions({recording});
     FAIL() << "accepted";
-  } catch (const InputError& error) {
+  } catch (const settings::InputError& error) {
     EXPECT_STREQ(error.what(), "a.bag: no curvature is recorded, but training needs the topic curvature");
   }
 }
@@ -107,4 +107,4 @@ TEST(Coverage, SaysWhereCyclesAreFew) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::dataset

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/dataset/recording_builder.h"
+#include "dataset/recording_builder.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::dataset {
 namespace {
 
 using Event = std::function<void(RecordingBuilder&)>;
@@ -21,7 +21,7 @@ constexpr std::int64_t ms(std::int64_t milliseconds) {
 
 Event scan(std::int64_t stamp, std::uint32_t sequence, std::uint16_t count) {
   return [=](RecordingBuilder& builder) {
-    builder.addScan(stamp, sequence, view(Scan{{1, 2}, 4095, {count, 7}}));
+    builder.addScan(stamp, sequence, matrix::view(matrix::Scan{{1, 2}, 4095, {count, 7}}));
   };
 }
 Event chamber(std::int64_t stamp, double absolute) {
@@ -29,10 +29,10 @@ Event chamber(std::int64_t stamp, double absolute) {
 }
 Event surface(std::int64_t stamp, const std::string& name, double curvature) {
   return [=](RecordingBuilder& builder) {
-    builder.addSurface(stamp, {name, 1, {Curvature{curvature, 0, 0}}, {}});
+    builder.addSurface(stamp, {name, 1, {matrix::Curvature{curvature, 0, 0}}, {}});
   };
 }
-Event description(double ambient, const std::string& serial = "0001", MatrixSize size = {1, 2}) {
+Event description(double ambient, const std::string& serial = "0001", matrix::MatrixSize size = {1, 2}) {
   return [=](RecordingBuilder& builder) {
     MatrixDescription described;
     described.sensor.serial = serial;
@@ -137,7 +137,9 @@ TEST(RecordingBuilder, AMeasuredCurvatureThatScattersIsOneCondition) {
 
 TEST(RecordingBuilder, ARemountIsAChangeThoughTheCurvatureStays) {
   const auto mounted = [](std::int64_t stamp, std::uint32_t mount) {
-    return [=](RecordingBuilder& builder) { builder.addSurface(stamp, {"flat", mount, {Curvature{}}, {}}); };
+    return [=](RecordingBuilder& builder) {
+      builder.addSurface(stamp, {"flat", mount, {matrix::Curvature{}}, {}});
+    };
   };
   const Recording recording = build({scan(ms(0), 1, 5), scan(ms(5000), 2, 5), scan(ms(9000), 3, 5),
                                      mounted(ms(0), 1), mounted(ms(5000), 2)});
@@ -234,7 +236,7 @@ TEST(RecordingBuilder, TemperatureHoldsItsEndsAndIsInterpolatedBetween) {
 std::string complaint(const std::vector<Event>& events) {
   try {
     build(events);
-  } catch (const InputError& error) {
+  } catch (const settings::InputError& error) {
     return error.what();
   }
   return "accepted";
@@ -242,7 +244,7 @@ std::string complaint(const std::vector<Event>& events) {
 
 TEST(RecordingBuilder, WhatIsOfTwoMatricesIsRefused) {
   const auto other = [](RecordingBuilder& builder) {
-    builder.addScan(ms(1), 1, view(Scan{{2, 2}, 4095, {1, 2, 3, 4}}));
+    builder.addScan(ms(1), 1, matrix::view(matrix::Scan{{2, 2}, 4095, {1, 2, 3, 4}}));
   };
   EXPECT_EQ(complaint({scan(ms(0), 1, 5), other}),
             "raw holds scans of 1 x 2 taxels with full_scale 4095 and of 2 x 2 with 4095, but a recording is "
@@ -256,8 +258,8 @@ TEST(RecordingBuilder, WhatIsOfTwoMatricesIsRefused) {
 }
 
 TEST(RecordingBuilder, MalformedEventsAreRefused) {
-  const auto malformed = [](const Scan& bad) {
-    return [bad](RecordingBuilder& builder) { builder.addScan(ms(0), 1, view(bad)); };
+  const auto malformed = [](const matrix::Scan& bad) {
+    return [bad](RecordingBuilder& builder) { builder.addScan(ms(0), 1, matrix::view(bad)); };
   };
   EXPECT_EQ(complaint({malformed({{1, 2}, 4095, {1}})}), "a scan holds 1 counts, but its size is 1 x 2");
   EXPECT_EQ(complaint({malformed({{1, 1}, 1023, {1024}})}),
@@ -266,7 +268,7 @@ TEST(RecordingBuilder, MalformedEventsAreRefused) {
             "a scan has 0 x 0 taxels, but must have 1 to 64 rows and columns");
   EXPECT_EQ(complaint({}), "raw holds no scan");
   const auto wide = [](RecordingBuilder& builder) {
-    builder.addSurface(ms(0), {"limb", 1, std::vector<Curvature>(3), {}});
+    builder.addSurface(ms(0), {"limb", 1, std::vector<matrix::Curvature>(3), {}});
   };
   EXPECT_EQ(
       complaint({scan(ms(0), 1, 5), wide}),
@@ -281,8 +283,8 @@ TEST(RecordingBuilder, ClearForgetsEverything) {
   EXPECT_EQ(builder.events().surfaces, 10u);
   builder.clear();
   EXPECT_EQ(builder.events().scans, 0u);
-  EXPECT_THROW(builder.build({}), InputError);
+  EXPECT_THROW(builder.build({}), settings::InputError);
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::dataset

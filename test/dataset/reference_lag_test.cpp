@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/dataset/reference_lag.h"
+#include "dataset/reference_lag.h"
 
 #include <gtest/gtest.h>
 
 #include "support/synthetic_recording.h"
 
-namespace fsr {
+namespace fsr::dataset {
 namespace {
 
 constexpr double kTolerance = 0.03;  // of a lag on a sheet without a loop, a third of a scan [s]
@@ -69,4 +69,4 @@ TEST(ReferenceLag, IgnoresMaskedTaxels) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::dataset

@@ -6,10 +6,10 @@
 #include <random>
 #include <set>
 
-#include "fsr_pressure_map/dataset/cycles.h"
+#include "dataset/cycles.h"
 #include "support/synthetic_recording.h"
 
-namespace fsr {
+namespace fsr::dataset {
 namespace {
 
 using test_support::syntheticRecording;
@@ -27,10 +27,10 @@ std::vector<double> triangles(std::size_t cycles, std::size_t readings, double p
 TEST(Cycles, AreCutAtTheValleys) {
   const Cycles cycles = findCycles(triangles(3, 100, 600e3));
   EXPECT_EQ(cycles.first, (std::vector<std::size_t>{0, 100, 200}));
-  EXPECT_EQ(cycles.direction[50], LoadDirection::kLoading);
-  EXPECT_EQ(cycles.direction[51], LoadDirection::kUnloading);
-  EXPECT_EQ(cycles.direction[100], LoadDirection::kUnloading);
-  EXPECT_EQ(cycles.direction[101], LoadDirection::kLoading);
+  EXPECT_EQ(cycles.direction[50], statistics::LoadDirection::kLoading);
+  EXPECT_EQ(cycles.direction[51], statistics::LoadDirection::kUnloading);
+  EXPECT_EQ(cycles.direction[100], statistics::LoadDirection::kUnloading);
+  EXPECT_EQ(cycles.direction[101], statistics::LoadDirection::kLoading);
 }
 
 TEST(Cycles, NoiseAndStepsOnTheWayAreNone) {
@@ -56,7 +56,7 @@ TEST(Cycles, OfAPressureThatNeverChangesThereAreNone) {
   pressure[50] += 1e3;  // noise
   const Cycles cycles = findCycles(pressure);
   EXPECT_EQ(cycles.count(), 0u);
-  EXPECT_EQ(cycles.direction.at(99), LoadDirection::kNone);
+  EXPECT_EQ(cycles.direction.at(99), statistics::LoadDirection::kNone);
   EXPECT_EQ(findCycles({}).count(), 0u);
   EXPECT_EQ(findCycles({1.0}).count(), 0u);
 }
@@ -64,10 +64,10 @@ TEST(Cycles, OfAPressureThatNeverChangesThereAreNone) {
 TEST(Cycles, ASingleRiseOrFallIsOne) {
   const Cycles rise = findCycles({0, 100e3, 200e3, 300e3});
   EXPECT_EQ(rise.count(), 1u);
-  EXPECT_EQ(rise.direction.at(3), LoadDirection::kLoading);
+  EXPECT_EQ(rise.direction.at(3), statistics::LoadDirection::kLoading);
   const Cycles fall = findCycles({300e3, 200e3, 100e3, 0});
   EXPECT_EQ(fall.count(), 1u);
-  EXPECT_EQ(fall.direction.at(3), LoadDirection::kUnloading);
+  EXPECT_EQ(fall.direction.at(3), statistics::LoadDirection::kUnloading);
 }
 
 // Sections of one condition in order of its scans, without repetitions.
@@ -136,4 +136,4 @@ TEST(Sections, FewerScansThanSectionsLeaveSomeEmpty) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::dataset

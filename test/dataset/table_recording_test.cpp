@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/dataset/table_recording.h"
+#include "dataset/table_recording.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -8,7 +8,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::dataset {
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,7 +31,7 @@ class Table : public testing::Test {
                         const TablePlan& plan = {}) const {
     try {
       read(text, columns, plan);
-    } catch (const InputError& error) {
+    } catch (const settings::InputError& error) {
       return error.what();
     }
     return "";
@@ -55,7 +55,7 @@ TEST_F(Table, BecomesARecordingInSiUnits) {
   plan.surface = "cylinder_8cm";
   const TableRecording table = read(kPlain, "time=t,reference=force:N,reading=left:V,reading=right:V", plan);
   const Recording& recording = table.recording;
-  EXPECT_EQ(recording.layout.size, (MatrixSize{1, 2}));
+  EXPECT_EQ(recording.layout.size, (matrix::MatrixSize{1, 2}));
   EXPECT_EQ(recording.time, (std::vector<double>{0, 0.5, 1}));
   EXPECT_EQ(recording.pressure, (std::vector<double>{50e3, 100e3, 150e3}));  // 10 N on 2 cm^2
   EXPECT_EQ(table.scale.high, 5);
@@ -94,7 +94,7 @@ TEST_F(Table, MayBeGzipped) {
   plan.columns = parseColumns("time=t,reading=left:V");
   EXPECT_EQ(readTable(path_, plan).recording.counts, plain.recording.counts);
   fs::resize_file(path_, fs::file_size(path_) - 12);  // cut short
-  EXPECT_THROW(readTable(path_, plan), InputError);
+  EXPECT_THROW(readTable(path_, plan), settings::InputError);
 }
 
 TEST_F(Table, ConvertsEveryUnit) {
@@ -198,14 +198,14 @@ TEST_F(Table, RefusesAPlanThatDoesNotFit) {
   expectComplaint("t,x\n0,1\n", "time=t,reading=x", {"fewer than two"});
   TablePlan none;
   none.columns = parseColumns("time=1,reading=2");
-  EXPECT_THROW(readTable("/no/such/table.csv", none), InputError);
+  EXPECT_THROW(readTable("/no/such/table.csv", none), settings::InputError);
 }
 
 TEST(TableColumns, AreRefusedWithWhatWouldBeRight) {
   const auto complaint = [](const std::string& text) -> std::string {
     try {
       parseColumns(text);
-    } catch (const InputError& error) {
+    } catch (const settings::InputError& error) {
       return error.what();
     }
     return "";
@@ -238,4 +238,4 @@ TEST_F(Table, ALineThatBeginsWithAByteOfZeroIsRefused) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::dataset

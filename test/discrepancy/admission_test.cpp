@@ -1,13 +1,13 @@
-#include "fsr_pressure_map/discrepancy/admission.h"
+#include "discrepancy/samples/admission.h"
 
 #include <gtest/gtest.h>
 
 #include "support/synthetic_recording.h"
 
-namespace fsr {
+namespace fsr::discrepancy {
 namespace {
 
-Recording recorded(const std::string& surface = "flat", double curvature = 0) {
+dataset::Recording recorded(const std::string& surface = "flat", double curvature = 0) {
   test_support::SyntheticRig rig;
   rig.name = surface + ".bag";
   rig.size = {4, 5};
@@ -23,7 +23,7 @@ bool tells(const std::vector<std::string>& sentences, const std::string& word) {
 }
 
 TEST(Admission, FindsSoundRecordingsFitForBothUses) {
-  Recording second = recorded("cylinder_7cm", 14.25);
+  dataset::Recording second = recorded("cylinder_7cm", 14.25);
   second.sha256 = "another";
   second.start_ns += 600'000'000'000;
   const Admission admission = inspectRecordings({recorded(), second});
@@ -35,7 +35,7 @@ TEST(Admission, FindsSoundRecordingsFitForBothUses) {
 }
 
 TEST(Admission, SaysWhyTrainingWouldRefuse) {
-  Recording recording = recorded();
+  dataset::Recording recording = recorded();
   recording.pressure.clear();
   const Admission admission = inspectRecordings({recording});
   EXPECT_FALSE(admission.fit());
@@ -52,7 +52,7 @@ TEST(Admission, IsFitForTrainingThoughNotForDiscrepancyWhereCyclesAreFew) {
 }
 
 TEST(Admission, TakesClocksThatDifferForAProblem) {
-  Recording recording = recorded();
+  dataset::Recording recording = recorded();
   std::rotate(recording.pressure.begin(), recording.pressure.begin() + 20, recording.pressure.end());
   const Admission admission = inspectRecordings({recording});
   EXPECT_FALSE(admission.fit());
@@ -60,7 +60,7 @@ TEST(Admission, TakesClocksThatDifferForAProblem) {
 }
 
 TEST(Admission, RemarksOnOneBadTaxelAndRefusesMany) {
-  Recording recording = recorded();
+  dataset::Recording recording = recorded();
   const auto kill = [&](std::size_t taxel) {
     for (std::size_t i = 0; i < recording.scans(); ++i) recording.counts[i * 20 + taxel] = 700;
   };
@@ -76,7 +76,7 @@ TEST(Admission, RemarksOnOneBadTaxelAndRefusesMany) {
 }
 
 TEST(Admission, RemarksOnLostScansAndFullScale) {
-  Recording recording = recorded();
+  dataset::Recording recording = recorded();
   recording.losses.sequence_gaps = 2;
   recording.losses.lost_scans = 30;
   for (std::size_t i = 0; i < recording.counts.size(); i += 10) recording.counts[i] = 4095;
@@ -86,4 +86,4 @@ TEST(Admission, RemarksOnLostScansAndFullScale) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::discrepancy

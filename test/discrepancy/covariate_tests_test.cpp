@@ -1,5 +1,5 @@
 // Does what is left depend on a covariate? Silent on noise, each covariate found where it is planted.
-#include "fsr_pressure_map/discrepancy/covariate_tests.h"
+#include "discrepancy/decide/covariate_tests.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <map>
 
 #include "discrepancy/planted.h"
-#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/random_stream.h"
 
-namespace fsr {
+namespace fsr::discrepancy {
 namespace {
 
 constexpr int kNights = 40;
@@ -39,12 +39,13 @@ CovariateTest of(const std::vector<CovariateTest>& tests, const std::string& cov
 // cycle, and noise of every reading.
 void makeNoise(DiscrepancyProblem& problem, std::uint64_t night) {
   const Measured measured = admit(problem);
-  const RandomStream noise = randomStream(night, "night"), gains = randomStream(night, "gain");
+  const statistics::RandomStream noise = statistics::randomStream(night, "night"),
+                                 gains = statistics::randomStream(night, "gain");
   for (std::size_t m = 0; m < measured.moments(); ++m) {
     ASSERT_EQ(measured.scans[m], 1u);
     const double share = measured.pressure[m] / 620e3;
     const double gain = 1 + 0.004 * gains.normal(measured.cycle[m]);
-    Recording& recording = problem.recordings[measured.visits[measured.visit[m]].recording];
+    dataset::Recording& recording = problem.recordings[measured.visits[measured.visit[m]].recording];
     for (std::size_t t = 0; t < measured.taxels(); ++t) {
       const double reading =
           300 + gain * (2600 * share - 700 * share * share + 20.0 * static_cast<double>(t));
@@ -111,4 +112,4 @@ TEST(CovariateTests, FewCyclesChangeNoSigns) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::discrepancy

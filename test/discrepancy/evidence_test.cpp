@@ -1,12 +1,12 @@
 // What recordings hold, so that slow effects may be told apart.
 
-#include "fsr_pressure_map/discrepancy/evidence.h"
+#include "discrepancy/samples/evidence.h"
 
 #include <gtest/gtest.h>
 
 #include "discrepancy/planted.h"
 
-namespace fsr {
+namespace fsr::discrepancy {
 namespace {
 
 using planted::kTwoSurfaces;
@@ -41,4 +41,4 @@ TEST(Evidence, ASurfaceThatIsMountedTwiceIsNoticed) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::discrepancy

@@ -7,13 +7,13 @@
 #include <algorithm>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/simulation/session.h"
+#include "simulation/session.h"
 
 namespace {
 
-using fsr::DiscrepancyProblem;
-using fsr::DiscrepancyReport;
-using fsr::Verdict;
+using fsr::discrepancy::DiscrepancyProblem;
+using fsr::discrepancy::DiscrepancyReport;
+using fsr::discrepancy::Verdict;
 
 // Two speeds and dwells on three surfaces; a scan every 0.4 s keeps it quick.
 const char* const kTwoSpeeds = R"(
@@ -61,21 +61,21 @@ effects:
   converter: {}
 )";
 
-fsr::SimulationSettings simulation(const std::string& text, const std::string& more = "") {
-  return fsr::readSimulation(fsr::Settings::fromText(text + more, "planted.yaml"));
+fsr::simulation::SimulationSettings simulation(const std::string& text, const std::string& more = "") {
+  return fsr::simulation::readSimulation(fsr::settings::Settings::fromText(text + more, "planted.yaml"));
 }
 
 // What a rig with `more` records, against a simulation without it.
 DiscrepancyProblem planted(const std::string& text, const std::string& more) {
   DiscrepancyProblem problem;
   problem.simulation = simulation(text);
-  problem.recordings = fsr::simulateSession(simulation(text, more));
+  problem.recordings = fsr::simulation::simulateSession(simulation(text, more));
   problem.options.threads = 1;
   return problem;
 }
 
 double valueOf(const DiscrepancyReport& report, const std::string& parameter) {
-  for (const fsr::FittedParameter& fitted : report.effects.at(0).parameters) {
+  for (const fsr::discrepancy::FittedParameter& fitted : report.effects.at(0).parameters) {
     if (fitted.name == parameter) return fitted.value;
   }
   return -1;
@@ -124,11 +124,13 @@ TEST(Investigate, DoesNotNameALoopAloneUnderOneSpeed) {
 
 TEST(Investigate, ListsCrosstalkAsNotIdentifiableInAUniformChamber) {
   const DiscrepancyReport report = investigate(planted(kTwoSpeeds, ""));
-  for (const fsr::NotIdentifiable& hidden : report.not_identifiable) {
+  for (const fsr::discrepancy::NotIdentifiable& hidden : report.not_identifiable) {
     if (hidden.id != "crosstalk") continue;
     EXPECT_EQ(hidden.experiment, "uneven_load");
   }
-  const auto crosstalk = [](const fsr::NotIdentifiable& hidden) { return hidden.id == "crosstalk"; };
+  const auto crosstalk = [](const fsr::discrepancy::NotIdentifiable& hidden) {
+    return hidden.id == "crosstalk";
+  };
   EXPECT_EQ(std::count_if(report.not_identifiable.begin(), report.not_identifiable.end(), crosstalk), 1);
 }
 
@@ -230,11 +232,13 @@ TEST(Investigate, RecommendsAnExperimentThatSettlesIt) {
   EXPECT_EQ(std::count(with_two_speeds.begin(), with_two_speeds.end(), before.next_experiment[0].protocol),
             1);
 
-  const std::vector<fsr::Recording> experiment = fsr::simulateSession(simulation(kTwoSpeeds, loop));
+  const std::vector<fsr::dataset::Recording> experiment =
+      fsr::simulation::simulateSession(simulation(kTwoSpeeds, loop));
   EXPECT_TRUE(confirm(before.prediction, before.base, experiment).passed);
-  fsr::Prediction wrong = before.prediction;
+  fsr::discrepancy::Prediction wrong = before.prediction;
   std::swap(wrong.effects, wrong.rivals.at(0));
-  EXPECT_THROW(confirm(wrong, before.base, experiment), fsr::InputError) << "it was changed afterwards";
+  EXPECT_THROW(confirm(wrong, before.base, experiment), fsr::settings::InputError)
+      << "it was changed afterwards";
   wrong.hash = hashOf(wrong, before.base);
   EXPECT_FALSE(confirm(wrong, before.base, experiment).passed);
 
@@ -252,7 +256,7 @@ TEST(Investigate, StartsFromWhatTheSimulationHasAlready) {
   ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
   EXPECT_EQ(report.credible_set.at(0), std::vector<std::string>{"time_skew"});
   EXPECT_NEAR(report.base.effect("hysteresis")->values.at("loop_width"), 0.05, 0.005) << "sized together";
-  problem.recordings = fsr::simulateSession(simulation(kTwoSpeeds, loop));
+  problem.recordings = fsr::simulation::simulateSession(simulation(kTwoSpeeds, loop));
   const DiscrepancyReport quiet = investigate(problem);
   EXPECT_EQ(quiet.verdict, Verdict::kNone) << quiet.sentence;
 }
@@ -272,7 +276,7 @@ TEST(Investigate, RepeatsUntilQuiet) {
 std::string refusal(const DiscrepancyProblem& problem) {
   try {
     investigate(problem);
-  } catch (const fsr::InputError& error) {
+  } catch (const fsr::settings::InputError& error) {
     return error.what();
   }
   return "";

@@ -1,12 +1,12 @@
 // Fits by grams: what acts on bent surfaces alone stands beside what acts everywhere.
 
-#include "fsr_pressure_map/discrepancy/least_squares.h"
+#include "discrepancy/fit/least_squares.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace fsr {
+namespace fsr::discrepancy {
 namespace {
 
 constexpr Eigen::Index kMoments = 40;
@@ -49,4 +49,4 @@ TEST(ColumnSet, KeepsTheSignThatIsNotFree) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::discrepancy

@@ -3,20 +3,20 @@
 
 #include <algorithm>
 
-#include "fsr_pressure_map/dataset/table_recording.h"
+#include "dataset/table_recording.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
-#include "fsr_pressure_map/simulation/driven_rig.h"
+#include "simulation/driven_rig.h"
 
-namespace fsr {
+namespace fsr::discrepancy {
 namespace {
 
-DiscrepancyReport verdictOn(const std::string& table, const std::string& columns, TablePlan plan) {
-  plan.columns = parseColumns(columns);
+DiscrepancyReport verdictOn(const std::string& table, const std::string& columns, dataset::TablePlan plan) {
+  plan.columns = dataset::parseColumns(columns);
   plan.curvature = 0;
   DiscrepancyProblem problem;
-  problem.recordings = {readTable(FSR_SOURCE_DIR "/test/data/measured/" + table, plan).recording};
-  problem.simulation =
-      fitted(readSimulationFile(FSR_SOURCE_DIR "/config/simulation/core.yaml"), problem.recordings[0]);
+  problem.recordings = {dataset::readTable(FSR_SOURCE_DIR "/test/data/measured/" + table, plan).recording};
+  problem.simulation = simulation::fitted(
+      simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/core.yaml"), problem.recordings[0]);
   return investigate(problem);
 }
 
@@ -32,7 +32,7 @@ bool anywhere(const DiscrepancyReport& report, const std::string& id) {
 // Force against position of a piston; the force counted against the forward stroke, since a sheet's reading
 // is the higher one on the way back. Friction turns round within 5 mm of a stroke of 41 mm.
 DiscrepancyReport piston(const std::string& table) {
-  TablePlan plan;
+  dataset::TablePlan plan;
   plan.range = {{10, 0}};
   return verdictOn(table, "time=1:ms,reading=4:V,reference=5:10000Pa", plan);
 }
@@ -53,7 +53,7 @@ TEST(MeasuredPiston, IsALoopThatDoesNotDriftAt7Bar) {
 }
 
 DiscrepancyReport chambers(const std::string& table, double area) {
-  TablePlan plan;
+  dataset::TablePlan plan;
   plan.area = area;
   return verdictOn(
       table, "time=time_s,reading=pressure_left_V:V,reading=pressure_right_V:V,reference=force_N:N", plan);
@@ -76,4 +76,4 @@ TEST(MeasuredFluid, OilLagsBesidesSomethingSlow) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::discrepancy

@@ -1,28 +1,28 @@
 // Which experiment is recommended.
 
-#include "fsr_pressure_map/discrepancy/next_experiment.h"
+#include "discrepancy/prove/next_experiment.h"
 
 #include <gtest/gtest.h>
 
 #include "discrepancy/planted.h"
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::discrepancy {
 namespace {
 
-SimulationSettings rig() {
+simulation::SimulationSettings rig() {
   return planted::simulation(planted::kFourTaxels + planted::kTwoSurfaces);
 }
 
-EnabledEffect usual(const std::string& id) {
-  EnabledEffect enabled{id, {}};
-  for (const EffectParameter& parameter : findEffect(id)->info.parameters)
+simulation::EnabledEffect usual(const std::string& id) {
+  simulation::EnabledEffect enabled{id, {}};
+  for (const simulation::EffectParameter& parameter : simulation::findEffect(id)->info.parameters)
     enabled.values[parameter.name] = parameter.usual;
   return enabled;
 }
 
 TEST(NextExperiment, TakesHoursWhereWearIsAmongTheExplanations) {
-  EnabledEffect wear = usual("wear");
+  simulation::EnabledEffect wear = usual("wear");
   wear.values["loss"] = 0.3;
   const auto next = nextExperiment(rig(), {{wear}, {usual("drift")}, {usual("break_in")}}, {}, 1e-3);
   ASSERT_EQ(next.size(), 1u);
@@ -36,4 +36,4 @@ TEST(NextExperiment, IsNoneForOneExplanation) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::discrepancy

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/discrepancy/measured.h"
-#include "fsr_pressure_map/simulation/driven_rig.h"
-#include "fsr_pressure_map/simulation/session.h"
+#include "discrepancy/samples/measured.h"
+#include "simulation/driven_rig.h"
+#include "simulation/session.h"
 
-namespace fsr::planted {
+namespace fsr::discrepancy::planted {
 
 /// A small rig on three surfaces, run at two speeds and with dwells; a scan every 0.4 s keeps it quick.
 inline const char* const kTwoSpeeds = R"(
@@ -86,15 +86,15 @@ inline const std::string kTwoSurfaces =
     "  - {surface: flat, flat: true}\n"
     "  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}\n";
 
-inline SimulationSettings simulation(const std::string& text, const std::string& more = "") {
-  return readSimulation(Settings::fromText(text + more, "planted.yaml"));
+inline simulation::SimulationSettings simulation(const std::string& text, const std::string& more = "") {
+  return simulation::readSimulation(settings::Settings::fromText(text + more, "planted.yaml"));
 }
 
 /// What a rig with `more` records, against a simulation without it.
 inline DiscrepancyProblem problem(const std::string& text, const std::string& more) {
   DiscrepancyProblem problem;
   problem.simulation = simulation(text);
-  problem.recordings = simulateSession(simulation(text, more));
+  problem.recordings = simulation::simulateSession(simulation(text, more));
   problem.options.threads = 1;
   return problem;
 }
@@ -105,15 +105,15 @@ template <typename More>
 DiscrepancyProblem problemFeeling(const std::string& text, More more) {
   DiscrepancyProblem problem = planted::problem(text, "");
   const Measured measured = admit(problem);
-  std::vector<Recording> felt = problem.recordings;
+  std::vector<dataset::Recording> felt = problem.recordings;
   for (std::size_t m = 0; m < measured.moments(); ++m) {
     const double share = std::clamp(measured.pressure[m] / 620e3, 0.0, 1.0);
-    Recording& recording = felt[measured.visits[measured.visit[m]].recording];
+    dataset::Recording& recording = felt[measured.visits[measured.visit[m]].recording];
     recording.pressure[measured.first_scan[m]] += more(share, measured.direction[m]);
   }
-  DrivenRig rig(problem.simulation);
+  simulation::DrivenRig rig(problem.simulation);
   for (std::size_t r = 0; r < felt.size(); ++r) {
-    rig.run(felt[r], [&](std::size_t scan, const SensorChain& chain) {
+    rig.run(felt[r], [&](std::size_t scan, const simulation::SensorChain& chain) {
       const auto& counts = chain.counts();
       std::copy(counts.begin(), counts.end(),
                 problem.recordings[r].counts.begin() + static_cast<std::ptrdiff_t>(scan * counts.size()));
@@ -131,4 +131,4 @@ inline DiscrepancyProblem crossedLoop() {
   });
 }
 
-}  // namespace fsr::planted
+}  // namespace fsr::discrepancy::planted

@@ -1,13 +1,13 @@
 // Effects fitted through the forward model, and where they act.
 
-#include "fsr_pressure_map/discrepancy/refine.h"
+#include "discrepancy/decide/refine.h"
 
 #include <gtest/gtest.h>
 
 #include "discrepancy/planted.h"
-#include "fsr_pressure_map/discrepancy/show.h"
+#include "discrepancy/prove/show.h"
 
-namespace fsr {
+namespace fsr::discrepancy {
 namespace {
 
 // Divided by a gain, what is left gets smaller, whatever it is: that of an old sheet hardly changes any more.
@@ -16,7 +16,8 @@ TEST(Refine, AGainDoesNotExplainNoiseByDividingIt) {
   const Measured measured = admit(problem);
   const CommonTraces common = commonTraces(measured);
   const StaticFit fit(measured, CurvePer::kClass, common.all);
-  const EnabledEffect grown{"wear", {{"loss", -0.3}, {"exponent", 0.26}, {"age", 1e6}, {"span", 620e3}}};
+  const simulation::EnabledEffect grown{"wear",
+                                        {{"loss", -0.3}, {"exponent", 0.26}, {"age", 1e6}, {"span", 620e3}}};
   EXPECT_LT(refine(measured, common, fit, problem.simulation, {grown}, true, {}).share, 0.05);
 }
 
@@ -47,4 +48,4 @@ TEST(Mask, HeedsAmplitudesAsFarAsTheyAreKnown) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::discrepancy

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "fsr_pressure_map/discrepancy/taxel_curves_fit.h"
-#include "fsr_pressure_map/simulation/session.h"
+#include "discrepancy/fit/taxel_curves_fit.h"
+#include "simulation/session.h"
 
-namespace fsr {
+namespace fsr::discrepancy {
 namespace {
 
 constexpr double kAlike = 0.15;  // spline curves there, hats over pressure here
@@ -31,14 +31,14 @@ effects:
   converter: {}
 )";
 
-SimulationSettings simulation(const std::string& more) {
-  return readSimulation(Settings::fromText(kSession + more, "planted.yaml"));
+simulation::SimulationSettings simulation(const std::string& more) {
+  return simulation::readSimulation(settings::Settings::fromText(kSession + more, "planted.yaml"));
 }
 
 TEST(ReproducedGap, IsTheStatedOneBeforeAndAfter) {
   DiscrepancyProblem problem;
   problem.simulation = simulation("");
-  problem.recordings = simulateSession(simulation("  hysteresis: {loop_width: 0.06}\n"));
+  problem.recordings = simulation::simulateSession(simulation("  hysteresis: {loop_width: 0.06}\n"));
   const DiscrepancyReport report = investigate(problem);
   ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
   const Measured measured = admit(problem);
@@ -52,8 +52,8 @@ TEST(ReproducedGap, OfAnEffectThatActsInSomePlacesOnly) {
   for (const char* where : {"only_surfaces: [cylinder_5cm]", "only_taxels: [3, 4, 5]"}) {
     DiscrepancyProblem problem;
     problem.simulation = simulation("");
-    problem.recordings =
-        simulateSession(simulation(std::string("  hysteresis: {loop_width: 0.08, ") + where + "}\n"));
+    problem.recordings = simulation::simulateSession(
+        simulation(std::string("  hysteresis: {loop_width: 0.08, ") + where + "}\n"));
     const DiscrepancyReport report = investigate(problem);
     ASSERT_FALSE(report.effects.empty()) << report.sentence;
     const Measured measured = admit(problem);
@@ -65,4 +65,4 @@ TEST(ReproducedGap, OfAnEffectThatActsInSomePlacesOnly) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::discrepancy

@@ -1,10 +1,10 @@
 // Two effects that may be one in a form that the library does not have.
 
-#include "fsr_pressure_map/discrepancy/second_effect.h"
+#include "discrepancy/decide/second_effect.h"
 
 #include <gtest/gtest.h>
 
-namespace fsr {
+namespace fsr::discrepancy {
 namespace {
 
 Explanation explanation(std::vector<std::string> ids, double share) {
@@ -23,4 +23,4 @@ TEST(SecondEffect, ALoopWithABreakInMayBeACreepThatComesNear) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::discrepancy

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "discrepancy/planted.h"
-#include "fsr_pressure_map/discrepancy/costs_in_use.h"
-#include "fsr_pressure_map/discrepancy/held_out.h"
+#include "discrepancy/prove/costs_in_use.h"
+#include "discrepancy/samples/held_out.h"
 
-namespace fsr {
+namespace fsr::discrepancy {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -80,7 +80,8 @@ double costOf(const std::vector<GapInUse>& costs, const std::string& situation) 
 TEST(CostsInUse, OfALateClockAreSpeedTimesDelay) {
   const DiscrepancyProblem problem = planted::problem(planted::kOneSurface, "");
   const Measured measured = admit(problem);
-  const SimulationSettings late = planted::simulation(planted::kOneSurface, "  time_skew: {delay: 0.1}\n");
+  const simulation::SimulationSettings late =
+      planted::simulation(planted::kOneSurface, "  time_skew: {delay: 0.1}\n");
   const auto costs = costsInUse(measured, problem.simulation, late, 0.99);
   // 0.1 s at 17 kPa/s; the static curve lies between filling and venting, both as fast
   EXPECT_NEAR(costOf(costs, "ramp"), 1700, 300);
@@ -92,7 +93,7 @@ TEST(CostsInUse, OfALateClockAreSpeedTimesDelay) {
 TEST(CostsInUse, OfCreepGrowWithStanding) {
   const DiscrepancyProblem problem = planted::problem(planted::kOneSurface, "");
   const Measured measured = admit(problem);
-  const SimulationSettings creeping =
+  const simulation::SimulationSettings creeping =
       planted::simulation(planted::kOneSurface, "  creep: {per_decade: 0.04}\n");
   const auto costs = costsInUse(measured, problem.simulation, creeping, 0);
   EXPECT_GT(costOf(costs, "standing"), 1.5 * costOf(costs, "ramp"));
@@ -101,4 +102,4 @@ TEST(CostsInUse, OfCreepGrowWithStanding) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::discrepancy

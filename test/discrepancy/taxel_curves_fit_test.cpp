@@ -1,13 +1,13 @@
-#include "fsr_pressure_map/discrepancy/taxel_curves_fit.h"
+#include "discrepancy/fit/taxel_curves_fit.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "fsr_pressure_map/simulation/driven_rig.h"
+#include "simulation/driven_rig.h"
 #include "support/synthetic_recording.h"
 
-namespace fsr {
+namespace fsr::discrepancy {
 namespace {
 
 // A rig that has nothing to do with the simulation: the curves have to take up all of it.
@@ -17,15 +17,15 @@ DiscrepancyProblem problemOf(test_support::SyntheticRig rig) {
   DiscrepancyProblem problem;
   problem.recordings = {test_support::syntheticRecording(rig)};
   problem.recordings[0].start_ns = 1500000000000000000;
-  problem.simulation =
-      fitted(readSimulationFile(FSR_SOURCE_DIR "/config/simulation/core.yaml"), problem.recordings[0]);
+  problem.simulation = simulation::fitted(
+      simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/core.yaml"), problem.recordings[0]);
   return problem;
 }
 
 TEST(TaxelCurvesFit, LeaveNoiseAloneOfASheetWithoutMemory) {
   const DiscrepancyProblem problem = problemOf({});
   const Measured measured = admit(problem);
-  const SimulationSettings curved = withTaxelCurves(measured, problem.simulation, "curves.csv");
+  const simulation::SimulationSettings curved = withTaxelCurves(measured, problem.simulation, "curves.csv");
   EXPECT_GT(simulatedGap(measured, problem.simulation), 0.05);
   // uniform noise of +-10 counts: 10 / sqrt(3) / 4095 = 0.00141 rms; the corner at rest is no straight line
   EXPECT_NEAR(simulatedGap(measured, curved), 0.00141, 0.0004);
@@ -47,7 +47,7 @@ TEST(TaxelCurvesFit, LeaveALoopToWhoeverExplainsIt) {
 TEST(TaxelCurvesFit, AreNotFittedToWhatIsShown) {
   DiscrepancyProblem problem = problemOf({});
   const Measured first = admit(problem);
-  const SimulationSettings before = withTaxelCurves(first, problem.simulation, "");
+  const simulation::SimulationSettings before = withTaxelCurves(first, problem.simulation, "");
   const double gap = simulatedGap(first, before);
   // Counts of all shown scans, spoilt.
   for (std::size_t i = 0; i < problem.recordings[0].scans(); ++i) {
@@ -59,10 +59,10 @@ TEST(TaxelCurvesFit, AreNotFittedToWhatIsShown) {
     }
   }
   const Measured spoilt = admit(problem);
-  const SimulationSettings after = withTaxelCurves(spoilt, problem.simulation, "");
+  const simulation::SimulationSettings after = withTaxelCurves(spoilt, problem.simulation, "");
   EXPECT_EQ(after.taxel_curves->surfaces[0].added, before.taxel_curves->surfaces[0].added);
   EXPECT_GT(simulatedGap(spoilt, after), 2 * gap);
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::discrepancy

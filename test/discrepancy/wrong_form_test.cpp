@@ -3,7 +3,7 @@
 
 #include "discrepancy/planted.h"
 
-namespace fsr {
+namespace fsr::discrepancy {
 namespace {
 
 TEST(WrongForm, IsSaidOfALoopWhoseBranchesCross) {
@@ -37,4 +37,4 @@ TEST(Unknown, SaysNoMoreCovariatesThanItMust) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::discrepancy

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/emulator/board.h"
+#include "emulator/board.h"
 
 #include <gtest/gtest.h>
 
@@ -7,18 +7,18 @@
 
 namespace {
 
-using fsr::Board;
+using fsr::emulator::Board;
 
-fsr::SimulationSettings smallRig(const std::string& board) {
-  return fsr::readSimulation(
-      fsr::Settings::fromText("{simulation: t, matrix: {rows: 1, columns: 2}, board: " + board +
-                                  ", effects: {static_curve: {}, converter: {}}}",
-                              "test.yaml"));
+fsr::simulation::SimulationSettings smallRig(const std::string& board) {
+  return fsr::simulation::readSimulation(
+      fsr::settings::Settings::fromText("{simulation: t, matrix: {rows: 1, columns: 2}, board: " + board +
+                                            ", effects: {static_curve: {}, converter: {}}}",
+                                        "test.yaml"));
 }
 
 std::vector<std::string> packetsUntil(Board& board, double end) {
   test_support::PacketRecorder recorder;
-  fsr::Decoder decoder(recorder);
+  fsr::protocol::Decoder decoder(recorder);
   while (board.nextDue() <= end) {
     const auto& packet = board.next([](double) { return 0.0; });
     decoder.feed(packet.data(), packet.size());
@@ -27,7 +27,8 @@ std::vector<std::string> packetsUntil(Board& board, double end) {
 }
 
 TEST(Board, SendsEachKindAtItsOwnRate) {
-  Board board(smallRig("{serial: A7, model: m, scan_rate: 4, transducer_rate: 2}, climate: {room: 21.5}"), {});
+  Board board(smallRig("{serial: A7, model: m, scan_rate: 4, transducer_rate: 2}, climate: {room: 21.5}"),
+              {});
   const std::vector<std::string> expected = {
       "identity #0 @0 A7/1.0.0/m 1x2 full 4095 every 250000",
       "temperature #0 @0 21500",
@@ -68,7 +69,7 @@ TEST(Board, StartsAgainWhenReset) {
 
 TEST(Board, KnowsWhatItsLinkMustCarry) {
   // 10 bits a byte; a scan of 7 x 10 is 168 bytes, a transducer or temperature packet 24, identity 76.
-  const auto demo = fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/demo.yaml");
+  const auto demo = fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/demo.yaml");
   EXPECT_NEAR(Board(demo, {}).bitsPerSecond(), 10 * (10 * 168 + 10 * 24 + 24 + 76), 1e-9);
 }
 

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/emulator/chamber.h"
+#include "emulator/chamber.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 
 namespace {
 
-using fsr::Chamber;
-using fsr::ChamberProtocol;
+using fsr::emulator::Chamber;
+using fsr::simulation::ChamberProtocol;
 
 // 10 s rest, 40 s up to 400 kPa, 5 s dwell, 20 s down: 75 s a cycle.
 const ChamberProtocol kSlow{400e3, 10e3, 20e3, 5, 10, 2};

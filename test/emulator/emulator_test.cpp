@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/emulator/emulator.h"
+#include "emulator/emulator.h"
 
 #include <gtest/gtest.h>
 
@@ -12,12 +12,12 @@
 namespace {
 
 using namespace std::chrono_literals;
-using fsr::Curvature;
-using fsr::Emulator;
-using fsr::EmulatorOptions;
-using fsr::LineDamage;
-using fsr::RigStatus;
-using fsr::Surface;
+using fsr::emulator::Emulator;
+using fsr::emulator::EmulatorOptions;
+using fsr::emulator::LineDamage;
+using fsr::emulator::RigStatus;
+using fsr::matrix::Curvature;
+using fsr::matrix::Surface;
 using test_support::BoardListener;
 
 constexpr auto kLong = 30s;  // for what must happen; nothing waits for it to pass
@@ -25,7 +25,7 @@ constexpr auto kLong = 30s;  // for what must happen; nothing waits for it to pa
 /// The bench rig, two hundred times as fast as life.
 EmulatorOptions bench() {
   EmulatorOptions options;
-  options.simulation = fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/bench.yaml");
+  options.simulation = fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/bench.yaml");
   options.time_scale = 200;
   return options;
 }
@@ -44,14 +44,14 @@ Surface cylinder() {
 /// Counts that the chain makes of the pressures that scan 0, 1, 2 ... saw on these surfaces.
 class Replay {
  public:
-  explicit Replay(const fsr::SimulationSettings& settings) : chain_(settings) {}
+  explicit Replay(const fsr::simulation::SimulationSettings& settings) : chain_(settings) {}
   std::vector<std::uint16_t> scan(double time, double pressure, const Surface& surface) {
     chain_.mount(surface);
     return chain_.read({time, pressure, number_++});
   }
 
  private:
-  fsr::SensorChain chain_;
+  fsr::simulation::SensorChain chain_;
   std::uint64_t number_ = 0;
 };
 
@@ -73,8 +73,8 @@ TEST(Emulator, TransducerTellsThePressureOfTheProtocolAtItsStamp) {
   Emulator rig(options);
   BoardListener listener(rig.port());
   ASSERT_TRUE(listener.until([&] { return rig.status().state == RigStatus::State::kDone; }));
-  const fsr::Transducer& line = options.simulation.transducer;
-  const fsr::PressureProfile protocol = pressureProfile(options.simulation.chamber);
+  const fsr::simulation::Transducer& line = options.simulation.transducer;
+  const fsr::simulation::PressureProfile protocol = pressureProfile(options.simulation.chamber);
   double highest = 0;
   for (const auto& reading : listener.transducer) {
     const double time = rig.rigTime(reading.device_time);
@@ -221,7 +221,7 @@ TEST(EmulatorDamage, UnpluggedThePortIsGoneAndComesBackUnderItsName) {
     damage.unplugged = true;
     rig.setDamage(damage);
     EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(options.link)));
-    EXPECT_THROW(listener.until([] { return false; }), fsr::LinkError);
+    EXPECT_THROW(listener.until([] { return false; }), fsr::protocol::LinkError);
   }
   rig.setDamage({});
   BoardListener listener(rig.port());
@@ -324,27 +324,27 @@ TEST(EmulatorLine, AListenerFindsNothingFromBeforeItCame) {
 TEST(Emulator, RefusesWhatCannotBe) {
   EmulatorOptions options = bench();
   options.time_scale = 0;
-  EXPECT_THROW(Emulator{options}, fsr::InputError);
+  EXPECT_THROW(Emulator{options}, fsr::settings::InputError);
   options = bench();
   options.baud = 1200;
-  EXPECT_THROW(Emulator{options}, fsr::InputError);
+  EXPECT_THROW(Emulator{options}, fsr::settings::InputError);
   options = bench();
   options.simulation.board.scan_duration = 0.1;
-  EXPECT_THROW(Emulator{options}, fsr::InputError);
+  EXPECT_THROW(Emulator{options}, fsr::settings::InputError);
   options = bench();
   options.simulation.chamber.peak = 800e3;
-  EXPECT_THROW(Emulator{options}, fsr::InputError);
+  EXPECT_THROW(Emulator{options}, fsr::settings::InputError);
   const test_support::TemporaryFolder folder;
   options = bench();
   options.link = folder.path("board");
   std::ofstream(options.link) << "a file that nobody may lose";
-  EXPECT_THROW(Emulator{options}, fsr::InputError);
+  EXPECT_THROW(Emulator{options}, fsr::settings::InputError);
   EXPECT_TRUE(std::filesystem::is_regular_file(options.link));
 }
 
 TEST(Emulator, ASurfaceOfAnotherSizeIsRefusedAndChangesNothing) {
   Emulator rig(bench());
-  EXPECT_THROW(rig.setSurface({"limb", 2, std::vector<Curvature>(5), {}}), fsr::InputError);
+  EXPECT_THROW(rig.setSurface({"limb", 2, std::vector<Curvature>(5), {}}), fsr::settings::InputError);
   EXPECT_EQ(rig.surface(rig.rigTime()).name, "flat");
 }
 

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/emulator/line_damage.h"
+#include "emulator/line_damage.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 
 namespace {
 
-using fsr::heardByUart;
-using fsr::LineDamage;
-using fsr::LossyLine;
+using fsr::emulator::heardByUart;
+using fsr::emulator::LineDamage;
+using fsr::emulator::LossyLine;
 using Bytes = std::vector<std::uint8_t>;
 
 TEST(HeardByUart, IsTrueAtTheRightSpeedAndWithinItsTolerance) {
@@ -94,10 +94,10 @@ TEST(LossyLine, IsTransparentWhenHealthy) {
 TEST(LineDamage, RefusesWhatIsNoProbability) {
   LineDamage damage;
   damage.lost_bytes = 1.5;
-  EXPECT_THROW(validate(damage), fsr::InputError);
+  EXPECT_THROW(validate(damage), fsr::settings::InputError);
   damage = {};
   damage.flipped_bits = std::nan("");
-  EXPECT_THROW(validate(damage), fsr::InputError);
+  EXPECT_THROW(validate(damage), fsr::settings::InputError);
 }
 
 }  // namespace

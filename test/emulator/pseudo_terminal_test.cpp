@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/emulator/pseudo_terminal.h"
+#include "emulator/pseudo_terminal.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 namespace {
 
-using fsr::PseudoTerminal;
+using fsr::emulator::PseudoTerminal;
 using Outcome = PseudoTerminal::Outcome;
 
 /// A program that opens the port and sets nothing at all.

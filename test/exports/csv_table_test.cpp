@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/exports/csv_table.h"
+#include "exports/csv_table.h"
 
 #include <gtest/gtest.h>
 
@@ -21,10 +21,10 @@ using test_support::outputOf;
 
 class CsvTable : public testing::Test {
  protected:
-  void write(const std::vector<fsr::ScanRecord>& scans) {
-    fsr::CsvTable table(path_);
+  void write(const std::vector<fsr::exports::ScanRecord>& scans) {
+    fsr::exports::CsvTable table(path_);
     table.begin(export_test::exampleSubject());
-    for (const fsr::ScanRecord& scan : scans) table.add(scan);
+    for (const fsr::exports::ScanRecord& scan : scans) table.add(scan);
     table.finish();
   }
   std::vector<std::string> lines() const {
@@ -42,7 +42,7 @@ TEST_F(CsvTable, HasARowForEachTaxelAndScan) {
   write({exampleScan(), bareScan()});
   const std::vector<std::string> rows = lines();
   ASSERT_EQ(rows.size(), 1u + 2 * 6);
-  EXPECT_EQ(rows[0], fsr::kCsvHeader);
+  EXPECT_EQ(rows[0], fsr::exports::kCsvHeader);
   const std::string head =
       "2_cylinder.bag,2026-03-01,cylinder_7cm,3,2,\"note:wet, \"\"warm\"\"\","
       "0.050000001,7,";
@@ -69,7 +69,7 @@ TEST_F(CsvTable, RReadsBackTheExactNumbers) {
   ASSERT_EQ(r.status, 0) << r.text;
   std::istringstream words(r.text);
   std::string word;
-  const fsr::ScanRecord written = exampleScan();
+  const fsr::exports::ScanRecord written = exampleScan();
   for (const float pressure : written.map->pressure) {
     words >> word;
     if (std::isnan(pressure)) {
@@ -109,15 +109,15 @@ TEST_F(CsvTable, IsCompressedWhereItsNameSaysSo) {
 TEST_F(CsvTable, LeavesNothingBehindWhereItIsNotFinishedOrTheDiskIsFull) {
   std::ofstream(path_) << "old";
   {
-    fsr::CsvTable table(path_);
+    fsr::exports::CsvTable table(path_);
     table.begin(export_test::exampleSubject());
     table.add(exampleScan());
   }
   try {
     const test_support::FileSizeLimit limit(1000);
-    write(std::vector<fsr::ScanRecord>(2000, exampleScan()));
+    write(std::vector<fsr::exports::ScanRecord>(2000, exampleScan()));
     FAIL() << "a full disk passed";
-  } catch (const fsr::InputError& error) {
+  } catch (const fsr::settings::InputError& error) {
     EXPECT_NE(std::string(error.what()).find(path_ + ": cannot be written"), std::string::npos)
         << error.what();
   }

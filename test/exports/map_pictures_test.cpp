@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/exports/map_pictures.h"
+#include "exports/map_pictures.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "exports/animated_png.h"
+#include "exports/picture_folder.h"
 #include "exports/scan_examples.h"
-#include "fsr_pressure_map/exports/animated_png.h"
-#include "fsr_pressure_map/exports/picture_folder.h"
-#include "fsr_pressure_map/exports/video_file.h"
+#include "exports/video_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/program_output.h"
 #include "support/pty.h"
@@ -20,56 +20,58 @@ namespace fs = std::filesystem;
 using test_support::outputOf;
 
 // Keeps the pictures.
-class Album : public fsr::PictureSink {
+class Album : public fsr::exports::PictureSink {
  public:
   using PictureSink::PictureSink;
   void finish() override {}
-  std::vector<fsr::Image> pictures;
+  std::vector<fsr::view::Image> pictures;
 
  private:
-  void picture(std::int64_t, const fsr::Image& image) override { pictures.push_back(image); }
+  void picture(std::int64_t, const fsr::view::Image& image) override { pictures.push_back(image); }
 };
 
-fsr::ScanRecord evenScan(float pressure, double time) {
-  fsr::ScanRecord scan = export_test::exampleScan();
+fsr::exports::ScanRecord evenScan(float pressure, double time) {
+  fsr::exports::ScanRecord scan = export_test::exampleScan();
   scan.since_ns = std::llround(time * 1e9);
   scan.map->pressure.assign(6, pressure);
   scan.map->flags.assign(6, 0);
   return scan;
 }
 
-std::vector<fsr::Image> drawn(const std::vector<fsr::ScanRecord>& scans,
-                              const fsr::PictureOptions& options = {}) {
+std::vector<fsr::view::Image> drawn(const std::vector<fsr::exports::ScanRecord>& scans,
+                                    const fsr::exports::PictureOptions& options = {}) {
   Album album(options);
   album.begin(export_test::exampleSubject());
-  for (const fsr::ScanRecord& scan : scans) album.add(scan);
+  for (const fsr::exports::ScanRecord& scan : scans) album.add(scan);
   return album.pictures;
 }
 
 template <typename Sink>
-void write(Sink& sink, const std::vector<fsr::ScanRecord>& scans) {
+void write(Sink& sink, const std::vector<fsr::exports::ScanRecord>& scans) {
   sink.begin(export_test::exampleSubject());
-  for (const fsr::ScanRecord& scan : scans) sink.add(scan);
+  for (const fsr::exports::ScanRecord& scan : scans) sink.add(scan);
   sink.finish();
 }
 
-fsr::Pixel middle(const fsr::ScanRecord& scan) {
-  return fsr::HeatMap(fsr::HeatMapStyle{}).centre(scan.layout, {4}, 4);
+fsr::view::Pixel middle(const fsr::exports::ScanRecord& scan) {
+  return fsr::view::HeatMap(fsr::view::HeatMapStyle{}).centre(scan.layout, {4}, 4);
 }
 
 TEST(MapPictures, ShowTheMapsColoursOnTheRangeOfTheCalibration) {
   const auto pictures = drawn({evenScan(310e3f, 0), evenScan(0, 1)});
   ASSERT_EQ(pictures.size(), 2u);
-  EXPECT_TRUE(pictures[0].at(middle(evenScan(0, 0))) == fsr::colourAt(fsr::ColourMap::kViridis, 0.5));
-  EXPECT_TRUE(pictures[1].at(middle(evenScan(0, 0))) == fsr::colourAt(fsr::ColourMap::kViridis, 0));
-  fsr::PictureOptions options;
+  EXPECT_TRUE(pictures[0].at(middle(evenScan(0, 0))) ==
+              fsr::view::colourAt(fsr::view::ColourMap::kViridis, 0.5));
+  EXPECT_TRUE(pictures[1].at(middle(evenScan(0, 0))) ==
+              fsr::view::colourAt(fsr::view::ColourMap::kViridis, 0));
+  fsr::exports::PictureOptions options;
   options.range = {0, 310e3};
   EXPECT_TRUE(drawn({evenScan(310e3f, 0)}, options)[0].at(middle(evenScan(0, 0))) ==
-              fsr::colourAt(fsr::ColourMap::kViridis, 1));
+              fsr::view::colourAt(fsr::view::ColourMap::kViridis, 1));
 }
 
 TEST(MapPictures, TellTimeAndChamberPressure) {
-  fsr::ScanRecord first = evenScan(1e5f, 1), later = first, higher = first;
+  fsr::exports::ScanRecord first = evenScan(1e5f, 1), later = first, higher = first;
   later.since_ns += 1000000000;
   higher.chamber_pressure = 200e3;
   const auto pictures = drawn({first, later, higher, first});
@@ -79,10 +81,10 @@ TEST(MapPictures, TellTimeAndChamberPressure) {
 }
 
 TEST(MapPictures, AreOfOneSizeHoweverLongTheNames) {
-  fsr::ScanRecord scan = evenScan(1e5f, 0);
-  fsr::Surface surface = *scan.surface;
+  fsr::exports::ScanRecord scan = evenScan(1e5f, 0);
+  fsr::matrix::Surface surface = *scan.surface;
   surface.name.assign(500, 'x');
-  scan.surface = std::make_shared<fsr::Surface>(surface);
+  scan.surface = std::make_shared<fsr::matrix::Surface>(surface);
   const auto pictures = drawn({evenScan(1e5f, 0), scan});
   EXPECT_EQ(pictures[0].width(), pictures[1].width());
   // Nothing is written over the edge: the last column of pixels is paper.
@@ -92,20 +94,20 @@ TEST(MapPictures, AreOfOneSizeHoweverLongTheNames) {
 }
 
 TEST(MapPictures, AreRefusedWhereThereAreNoMaps) {
-  Album album{fsr::PictureOptions{}};
-  fsr::ExportSubject subject = export_test::exampleSubject();
+  Album album{fsr::exports::PictureOptions{}};
+  fsr::exports::ExportSubject subject = export_test::exampleSubject();
   subject.maps = false;
-  EXPECT_THROW(album.begin(subject), fsr::InputError);
+  EXPECT_THROW(album.begin(subject), fsr::settings::InputError);
 }
 
 TEST(PictureFolder, HoldsAPngForEachMapAndNeverTouchesAnOldFolder) {
   const test_support::TemporaryFolder folder;
-  fsr::PictureFolder pictures(folder.path("maps"), {});
+  fsr::exports::PictureFolder pictures(folder.path("maps"), {});
   write(pictures, {evenScan(1e5f, 0), export_test::bareScan(), evenScan(2e5f, 1)});
   EXPECT_TRUE(fs::exists(folder.path("maps/map_000001.png")));
   EXPECT_TRUE(fs::exists(folder.path("maps/map_000002.png")));
   EXPECT_FALSE(fs::exists(folder.path("maps/map_000003.png")));
-  EXPECT_THROW(fsr::PictureFolder(folder.path("maps"), {}), fsr::InputError);
+  EXPECT_THROW(fsr::exports::PictureFolder(folder.path("maps"), {}), fsr::settings::InputError);
   EXPECT_TRUE(fs::exists(folder.path("maps/map_000001.png")));
 }
 
@@ -133,7 +135,7 @@ print(frames, delays, all(len(zlib.decompress(p)) == height * (3 * width + 1) fo
 
 TEST(AnimatedPng, RunsInTheRecordingsOwnTime) {
   const test_support::TemporaryFolder folder;
-  fsr::AnimatedPng movie(folder.path("maps.png"), {});
+  fsr::exports::AnimatedPng movie(folder.path("maps.png"), {});
   write(movie, {evenScan(1e5f, 0), evenScan(2e5f, 0.1), evenScan(3e5f, 1.6)});
   std::ofstream(folder.path("read.py")) << kReadApng;
   const auto python = outputOf("/usr/bin/python3 " + folder.path("read.py") + " " + folder.path("maps.png"));
@@ -145,7 +147,7 @@ TEST(VideoFile, RunsInTheRecordingsOwnTime) {
     GTEST_SKIP() << "ffmpeg is not installed (Debian package ffmpeg): no movie was encoded";
   }
   const test_support::TemporaryFolder folder;
-  fsr::VideoFile movie(folder.path("maps.avi"), {});
+  fsr::exports::VideoFile movie(folder.path("maps.avi"), {});
   write(movie, {evenScan(1e5f, 0), evenScan(2e5f, 0.1), evenScan(3e5f, 1.6)});
   const auto probe = outputOf(
       "ffprobe -v error -count_frames -show_entries stream=nb_read_frames,avg_frame_rate -of csv=p=0 " +
@@ -158,10 +160,10 @@ TEST(VideoFile, SaysWhichPackageIsMissing) {
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", folder.path().c_str(), 1);
   try {
-    fsr::VideoFile movie(folder.path("maps.mp4"), {});
+    fsr::exports::VideoFile movie(folder.path("maps.mp4"), {});
     write(movie, {evenScan(1e5f, 0)});
     ADD_FAILURE() << "a movie without ffmpeg";
-  } catch (const fsr::InputError& error) {
+  } catch (const fsr::settings::InputError& error) {
     EXPECT_EQ(std::string(error.what()),
               "ffmpeg is not installed (Debian package ffmpeg); give --output NAME.png for an animated PNG, "
               "which needs no other program");
@@ -179,14 +181,14 @@ TEST(VideoFile, TellsWhatFfmpegComplainsOfAndLeavesNothing) {
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", (folder.path("bin") + ":" + path).c_str(), 1);
   try {
-    fsr::VideoFile movie(folder.path("maps.mp4"), {});
+    fsr::exports::VideoFile movie(folder.path("maps.mp4"), {});
     write(movie, {evenScan(1e5f, 0), evenScan(1e5f, 5)});
     ADD_FAILURE() << "a movie that ffmpeg did not make";
-  } catch (const fsr::InputError& error) {
+  } catch (const fsr::settings::InputError& error) {
     EXPECT_EQ(std::string(error.what()), folder.path("maps.mp4") + ": ffmpeg: no such encoder");
   }
   ::setenv("PATH", path.c_str(), 1);
-  EXPECT_THROW(fsr::VideoFile(folder.path("maps.txt"), {}), fsr::InputError);
+  EXPECT_THROW(fsr::exports::VideoFile(folder.path("maps.txt"), {}), fsr::settings::InputError);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 

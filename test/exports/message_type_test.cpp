@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/exports/message_type.h"
+#include "exports/message_type.h"
 
 #include <gtest/gtest.h>
 
@@ -26,8 +26,8 @@ string key
 string[] words
 )";
 
-fsr::MessageType type() {
-  return fsr::parseMessageType("test/Everything", kDefinition);
+fsr::exports::MessageType type() {
+  return fsr::exports::parseMessageType("test/Everything", kDefinition);
 }
 
 std::string number(std::uint32_t value) {
@@ -47,27 +47,27 @@ std::string message() {
 
 struct Told {
   std::string all;
-  void count(const fsr::MessageField& field, std::uint32_t n) {
+  void count(const fsr::exports::MessageField& field, std::uint32_t n) {
     all += field.name + "#" + std::to_string(n) + " ";
   }
-  void values(const fsr::MessageField& field, const char*, std::size_t n) {
+  void values(const fsr::exports::MessageField& field, const char*, std::size_t n) {
     all += field.name + "*" + std::to_string(n) + " ";
   }
-  void text(const fsr::MessageField& field, std::string_view text) {
+  void text(const fsr::exports::MessageField& field, std::string_view text) {
     all += field.name + "=" + std::string(text) + " ";
   }
 };
 
 TEST(MessageType, TakesAMessageApartAsItsDefinitionSays) {
   Told told;
-  ASSERT_TRUE(fsr::visitMessage(type(), message(), told));
+  ASSERT_TRUE(fsr::exports::visitMessage(type(), message(), told));
   EXPECT_EQ(told.all,
             "header.seq*1 header.stamp*1 header.frame_id=frame values#2 values*2 triple*3 pairs#2 "
             "pairs.key=a pairs.words#1 pairs.words=x pairs.key=b pairs.words#0 last*1 ");
 }
 
 TEST(MessageType, KnowsCommentsAndWhatIsRepeated) {
-  const fsr::MessageType everything = type();
+  const fsr::exports::MessageType everything = type();
   EXPECT_EQ(everything.fields.at(1).comment, "[Pa], row-major");
   EXPECT_FALSE(everything.fields.at(1).repeated);
   EXPECT_TRUE(everything.fields.at(3).fields.at(1).repeated);
@@ -76,24 +76,24 @@ TEST(MessageType, KnowsCommentsAndWhatIsRepeated) {
 
 TEST(MessageType, RefusesEveryTruncationAndEveryExcess) {
   const std::string whole = message();
-  EXPECT_TRUE(fsr::isMessageOf(type(), whole));
+  EXPECT_TRUE(fsr::exports::isMessageOf(type(), whole));
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    EXPECT_FALSE(fsr::isMessageOf(type(), whole.substr(0, size))) << size;
+    EXPECT_FALSE(fsr::exports::isMessageOf(type(), whole.substr(0, size))) << size;
   }
-  EXPECT_FALSE(fsr::isMessageOf(type(), whole + '\0'));
+  EXPECT_FALSE(fsr::exports::isMessageOf(type(), whole + '\0'));
 }
 
 TEST(MessageType, RefusesAnArrayThatClaimsMoreThanThereIs) {
   std::string lying = message();
   const std::size_t at = number(1).size() * 4 + 5;  // the length of `values`
   lying.replace(at, 4, number(0xffffffff));
-  EXPECT_FALSE(fsr::isMessageOf(type(), lying));
+  EXPECT_FALSE(fsr::exports::isMessageOf(type(), lying));
 }
 
 TEST(MessageType, RefusesATypeThatIsMissingOrContainsItself) {
-  EXPECT_THROW(fsr::parseMessageType("test/A", "B b\n"), fsr::InputError);
-  EXPECT_THROW(fsr::parseMessageType("test/A", "A[] a\n"), fsr::InputError);
-  EXPECT_THROW(fsr::parseMessageType("test/A", "uint8\n"), fsr::InputError);
+  EXPECT_THROW(fsr::exports::parseMessageType("test/A", "B b\n"), fsr::settings::InputError);
+  EXPECT_THROW(fsr::exports::parseMessageType("test/A", "A[] a\n"), fsr::settings::InputError);
+  EXPECT_THROW(fsr::exports::parseMessageType("test/A", "uint8\n"), fsr::settings::InputError);
 }
 
 }  // namespace

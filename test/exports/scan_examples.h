@@ -3,13 +3,13 @@
 #include <cmath>
 #include <limits>
 
-#include "fsr_pressure_map/exports/scan_record.h"
+#include "exports/scan_record.h"
 
 namespace export_test {
 
 /// A scan of 2 x 3 taxels with a map; taxel 4 is dead, taxel 5 saturated.
-inline fsr::ScanRecord exampleScan() {
-  fsr::ScanRecord scan;
+inline fsr::exports::ScanRecord exampleScan() {
+  fsr::exports::ScanRecord scan;
   scan.stamp_ns = 1700000000123456789;
   scan.since_ns = 50000001;
   scan.layout = {{2, 3}, 0.010, 0.008};
@@ -18,22 +18,22 @@ inline fsr::ScanRecord exampleScan() {
   scan.counts = {0, 1, 2, 300, 17, 4095};
   scan.map.emplace();
   scan.map->reset(scan.layout);
-  scan.map->state = fsr::MapState::kOk;
+  scan.map->state = fsr::map::MapState::kOk;
   scan.map->pressure = {0.1f, -14.892578f, 1e-30f, 123456.79f, std::nanf(""), 600000.06f};
   scan.map->deviation = {1.0f, 2.5f, 1.0f / 3, 4409.3486f, std::nanf(""), 5.0f};
   scan.map->flags = {0,
-                     fsr::taxel_flag::kTared | fsr::taxel_flag::kBelowRange,
+                     fsr::map::taxel_flag::kTared | fsr::map::taxel_flag::kBelowRange,
                      0,
                      0,
-                     fsr::taxel_flag::kDead,
-                     fsr::taxel_flag::kSaturated};
+                     fsr::map::taxel_flag::kDead,
+                     fsr::map::taxel_flag::kSaturated};
   scan.chamber_pressure = 100.1;
   scan.temperature = 23.5;
-  fsr::Surface surface;
+  fsr::matrix::Surface surface;
   surface.name = "cylinder_7cm";
   surface.mount = 3;
   surface.curvature = {{14.25, 0, 0}};
-  scan.surface = std::make_shared<fsr::Surface>(surface);
+  scan.surface = std::make_shared<fsr::matrix::Surface>(surface);
   scan.session = "2026-03-01";
   scan.cycle = 2;
   scan.event = "note:wet, \"warm\"";
@@ -41,8 +41,8 @@ inline fsr::ScanRecord exampleScan() {
 }
 
 /// The same without anything but counts.
-inline fsr::ScanRecord bareScan() {
-  fsr::ScanRecord scan;
+inline fsr::exports::ScanRecord bareScan() {
+  fsr::exports::ScanRecord scan;
   scan.stamp_ns = 1700000000223456789;
   scan.since_ns = 150000001;
   scan.layout = {{2, 3}};
@@ -51,8 +51,8 @@ inline fsr::ScanRecord bareScan() {
   return scan;
 }
 
-inline fsr::ExportSubject exampleSubject() {
-  fsr::ExportSubject subject;
+inline fsr::exports::ExportSubject exampleSubject() {
+  fsr::exports::ExportSubject subject;
   subject.name = "2_cylinder.bag";
   subject.maps = true;
   subject.model = "S5051";

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/exports/tekscan_file.h"
+#include "exports/tekscan_file.h"
 
 #include <gtest/gtest.h>
 
@@ -17,12 +17,12 @@ using export_test::exampleScan;
 
 class TekscanFile : public testing::Test {
  protected:
-  std::string write(const std::vector<fsr::ScanRecord>& scans, bool maps) {
-    fsr::TekscanFile file(path_);
-    fsr::ExportSubject subject = export_test::exampleSubject();
+  std::string write(const std::vector<fsr::exports::ScanRecord>& scans, bool maps) {
+    fsr::exports::TekscanFile file(path_);
+    fsr::exports::ExportSubject subject = export_test::exampleSubject();
     subject.maps = maps;
     file.begin(subject);
-    for (const fsr::ScanRecord& scan : scans) file.add(scan);
+    for (const fsr::exports::ScanRecord& scan : scans) file.add(scan);
     file.finish();
     std::ifstream in(path_, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
@@ -33,7 +33,7 @@ class TekscanFile : public testing::Test {
 };
 
 TEST_F(TekscanFile, HasTheHeaderThatItsReadersLookFor) {
-  fsr::ScanRecord later = exampleScan();
+  fsr::exports::ScanRecord later = exampleScan();
   later.since_ns += 100000000;
   const std::string text = write({exampleScan(), later}, true);
   for (const char* line :
@@ -82,9 +82,9 @@ print(float(header['ROW_SPACING'].split()[0]), frames[1][1])
 }
 
 TEST_F(TekscanFile, RefusesAMatrixThatChangesItsSize) {
-  fsr::ScanRecord other = bareScan();
+  fsr::exports::ScanRecord other = bareScan();
   other.layout.size = {3, 2};
-  EXPECT_THROW(write({bareScan(), other}, false), fsr::InputError);
+  EXPECT_THROW(write({bareScan(), other}, false), fsr::settings::InputError);
 }
 
 }  // namespace

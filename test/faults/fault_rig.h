@@ -13,12 +13,12 @@
 #include <utility>
 #include <vector>
 
+#include "emulator/emulator.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
-#include "fsr_pressure_map/emulator/emulator.h"
-#include "fsr_pressure_map/protocol/board_gate.h"
-#include "fsr_pressure_map/protocol/board_reader.h"
-#include "fsr_pressure_map/protocol/packet_stamper.h"
-#include "fsr_pressure_map/protocol/serial_port.h"
+#include "protocol/board_gate.h"
+#include "protocol/board_reader.h"
+#include "protocol/packet_stamper.h"
+#include "protocol/serial_port.h"
 #include "support/pty.h"
 #include "support/small_tables.h"
 
@@ -48,8 +48,8 @@ class FaultBoard {
  public:
   FaultBoard(const std::string& link, SentPackets& sent, const std::string& serial = "A",
              std::uint32_t baud = 0, std::uint32_t clock_offset = 0) {
-    fsr::EmulatorOptions options;
-    options.simulation = fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/bench.yaml");
+    fsr::emulator::EmulatorOptions options;
+    options.simulation = fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/bench.yaml");
     options.simulation.board.scan_rate = 500;
     options.simulation.board.serial = serial;
     options.link = link;
@@ -57,16 +57,16 @@ class FaultBoard {
     options.clock.offset = clock_offset;
     options.autostart = true;
     options.on_packet = [&sent](const std::vector<std::uint8_t>& packet) { sent.add(packet); };
-    rig_ = std::make_unique<fsr::Emulator>(options);
+    rig_ = std::make_unique<fsr::emulator::Emulator>(options);
   }
-  fsr::Emulator* operator->() { return rig_.get(); }
+  fsr::emulator::Emulator* operator->() { return rig_.get(); }
 
  private:
-  std::unique_ptr<fsr::Emulator> rig_;
+  std::unique_ptr<fsr::emulator::Emulator> rig_;
 };
 
 /// From the port to pressure as driver and calibration node do it, each result held against the truth.
-class FaultListener : public fsr::LinkHandler {
+class FaultListener : public fsr::protocol::LinkHandler {
  public:
   /// What was wrong; all stay 0 where the code is right.
   struct Wrong {
@@ -77,14 +77,14 @@ class FaultListener : public fsr::LinkHandler {
   };
 
   explicit FaultListener(const SentPackets& sent)
-      : sent_(sent), calibrator_(smallTables({3, 4}, {0.0}, 4095), fsr::Layout{{3, 4}}) {}
+      : sent_(sent), calibrator_(smallTables({3, 4}, {0.0}, 4095), fsr::matrix::Layout{{3, 4}}) {}
 
-  void onScan(const fsr::PacketHeader& header, const fsr::ScanPacket& scan) override {
-    const fsr::PacketTime time = stamper_.scan(header, scan.duration);
+  void onScan(const fsr::protocol::PacketHeader& header, const fsr::protocol::ScanPacket& scan) override {
+    const fsr::protocol::PacketTime time = stamper_.scan(header, scan.duration);
     const std::uint64_t jumps = stamper_.clock().jumps();
     if (std::exchange(jumps_, jumps) != jumps) gate_.doubt();
-    const bool held = gate_.scan(arrival_) == fsr::BoardGate::Verdict::kHold;
-    const fsr::ScanView view = {scan.size, scan.full_scale, scan.counts, scan.size.taxels()};
+    const bool held = gate_.scan(arrival_) == fsr::protocol::BoardGate::Verdict::kHold;
+    const fsr::matrix::ScanView view = {scan.size, scan.full_scale, scan.counts, scan.size.taxels()};
     calibrator_.calibrate(view, 1e-9 * static_cast<double>(time.stamp), map_);
     const bool sent = sent_.has(asSent(header, scan));
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -98,10 +98,15 @@ class FaultListener : public fsr::LinkHandler {
     stamp_ = time.stamp;
     changed_.notify_all();
   }
-  void onTransducer(const fsr::PacketHeader& header, std::int32_t) override { stamper_.transducer(header); }
-  void onTemperature(const fsr::PacketHeader& header, std::int32_t) override { stamper_.temperature(header); }
-  void onIdentity(const fsr::PacketHeader&, const fsr::IdentityPacket& identity) override {
-    const bool same = gate_.identity(identity.serial, arrival_) == fsr::BoardGate::Board::kSame;
+  void onTransducer(const fsr::protocol::PacketHeader& header, std::int32_t) override {
+    stamper_.transducer(header);
+  }
+  void onTemperature(const fsr::protocol::PacketHeader& header, std::int32_t) override {
+    stamper_.temperature(header);
+  }
+  void onIdentity(const fsr::protocol::PacketHeader&,
+                  const fsr::protocol::IdentityPacket& identity) override {
+    const bool same = gate_.identity(identity.serial, arrival_) == fsr::protocol::BoardGate::Board::kSame;
     const std::lock_guard<std::mutex> lock(mutex_);
     if (same) passed_ = scans_;
     serial_ = identity.serial;
@@ -115,7 +120,7 @@ class FaultListener : public fsr::LinkHandler {
     arrival_ = receive_time;
     stamper_.setArrival(receive_time);
   }
-  void onChange(const fsr::LinkReport& report) override {
+  void onChange(const fsr::protocol::LinkReport& report) override {
     const std::lock_guard<std::mutex> lock(mutex_);
     phase_ = report.phase;
     changed_.notify_all();
@@ -131,7 +136,7 @@ class FaultListener : public fsr::LinkHandler {
     const std::uint64_t target = scans() + more;
     return await([&] { return scans_ >= target; });
   }
-  bool reaches(fsr::LinkPhase phase) {
+  bool reaches(fsr::protocol::LinkPhase phase) {
     return await([&] { return phase_ == phase; });
   }
   bool knows(const std::string& serial) {
@@ -155,7 +160,8 @@ class FaultListener : public fsr::LinkHandler {
     const std::lock_guard<std::mutex> lock(mutex_);
     return value;
   }
-  static std::vector<std::uint8_t> asSent(const fsr::PacketHeader& header, const fsr::ScanPacket& scan) {
+  static std::vector<std::uint8_t> asSent(const fsr::protocol::PacketHeader& header,
+                                          const fsr::protocol::ScanPacket& scan) {
     std::vector<std::uint8_t> packet(FSR_WIRE_MAX_PACKET);
     const fsr_wire_scan content = {static_cast<std::uint8_t>(scan.size.rows),
                                    static_cast<std::uint8_t>(scan.size.columns), scan.full_scale,
@@ -164,7 +170,7 @@ class FaultListener : public fsr::LinkHandler {
         fsr_wire_encode_scan(packet.data(), packet.size(), header.sequence, header.device_time, &content));
     return packet;
   }
-  bool pressureIsTheTables(const fsr::ScanPacket& scan) const {
+  bool pressureIsTheTables(const fsr::protocol::ScanPacket& scan) const {
     for (std::size_t i = 0; i < scan.size.taxels(); ++i) {
       const float pressure = map_.pressure[i];
       if (std::isnan(pressure)) {
@@ -178,10 +184,10 @@ class FaultListener : public fsr::LinkHandler {
 
   const SentPackets& sent_;
   // Of the link's thread:
-  fsr::PacketStamper stamper_;
-  fsr::BoardGate gate_;
-  fsr::Calibrator calibrator_;
-  fsr::PressureMap map_;
+  fsr::protocol::PacketStamper stamper_;
+  fsr::protocol::BoardGate gate_;
+  fsr::calibration::Calibrator calibrator_;
+  fsr::map::PressureMap map_;
   std::int64_t arrival_ = 0, stamp_ = 0;  // [ns]
   std::uint64_t jumps_ = 0;
 
@@ -190,7 +196,7 @@ class FaultListener : public fsr::LinkHandler {
   std::uint64_t scans_ = 0, passed_ = 0, clock_jumps_ = 0;
   Wrong wrong_;
   std::string serial_, expected_serial_;
-  fsr::LinkPhase phase_ = fsr::LinkPhase::kWaiting;
+  fsr::protocol::LinkPhase phase_ = fsr::protocol::LinkPhase::kWaiting;
 };
 
 }  // namespace test_support

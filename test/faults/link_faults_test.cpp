@@ -10,8 +10,8 @@
 
 namespace {
 
-using fsr::LineDamage;
-using fsr::LinkPhase;
+using fsr::emulator::LineDamage;
+using fsr::protocol::LinkPhase;
 using test_support::FaultBoard;
 using test_support::FaultListener;
 using test_support::kFaultPatience;
@@ -31,10 +31,10 @@ class LinkFaults : public testing::Test {
     board_ = std::make_unique<FaultBoard>(port_, sent_, serial, baud, clock_offset);
     if (reader_) return;
     const auto open = [this, baud] {
-      return std::make_unique<fsr::SerialPort>(port_, baud, [this] { return now(); });
+      return std::make_unique<fsr::protocol::SerialPort>(port_, baud, [this] { return now(); });
     };
-    reader_ = std::make_unique<fsr::BoardReader>(
-        open, listener_, fsr::BoardReader::Options{std::chrono::milliseconds(5), capture_});
+    reader_ = std::make_unique<fsr::protocol::BoardReader>(
+        open, listener_, fsr::protocol::BoardReader::Options{std::chrono::milliseconds(5), capture_});
   }
   void restart(const std::string& serial, std::uint32_t baud, std::uint32_t clock_offset = 0) {
     reader_.reset();
@@ -44,9 +44,9 @@ class LinkFaults : public testing::Test {
     const auto time = std::chrono::steady_clock::now().time_since_epoch();
     return 1'000'000'000'000'000'000 + std::chrono::nanoseconds(time).count();
   }
-  fsr::DecoderCounts counts() const { return reader_->report().counts; }
-  fsr::SequenceCounts scanCounts() const { return counts().of(FSR_WIRE_SCAN); }
-  fsr::Emulator& board() { return *board_->operator->(); }
+  fsr::protocol::DecoderCounts counts() const { return reader_->report().counts; }
+  fsr::protocol::SequenceCounts scanCounts() const { return counts().of(FSR_WIRE_SCAN); }
+  fsr::emulator::Emulator& board() { return *board_->operator->(); }
   void damage(const LineDamage& damage) { board().setDamage(damage); }
   test_support::TemporaryFolder folder_;
   std::string port_ = folder_.path("board");
@@ -54,7 +54,7 @@ class LinkFaults : public testing::Test {
   test_support::SentPackets sent_;
   FaultListener listener_{sent_};
   std::unique_ptr<FaultBoard> board_;
-  std::unique_ptr<fsr::BoardReader> reader_;
+  std::unique_ptr<fsr::protocol::BoardReader> reader_;
 };
 
 TEST_F(LinkFaults, CableOutAndInFiftyTimes) {
@@ -144,7 +144,7 @@ TEST_F(LinkFaults, FlippedBitsAndLostBytesCostThePacketsThatTheyHit) {
   ASSERT_TRUE(listener_.hears(500));
   damage({});
   ASSERT_TRUE(listener_.hears(20));
-  const fsr::LinkCounts line = board().counts();
+  const fsr::emulator::LinkCounts line = board().counts();
   EXPECT_GT(scanCounts().lost, 0u);
   EXPECT_LE(scanCounts().lost, line.damage.flipped_bits + line.damage.lost_bytes + line.dropped)
       << "an error costs one packet at most";
@@ -169,13 +169,13 @@ TEST_F(LinkFaults, LostPacketsAreCountedOneByOne) {
   ASSERT_TRUE(listener_.hears(300));
   damage({});
   ASSERT_TRUE(listener_.hears(50));
-  const fsr::SequenceCounts scans = scanCounts();
+  const fsr::protocol::SequenceCounts scans = scanCounts();
   EXPECT_GT(scans.gaps, 30u);
   // Every scan between the first and the last that was heard was either heard or counted as lost.
   EXPECT_LE(scans.packets + scans.lost, board().scans());
   const std::uint64_t made = board().scans();
   EXPECT_TRUE(listener_.await([&] {
-    const fsr::SequenceCounts now = scanCounts();
+    const fsr::protocol::SequenceCounts now = scanCounts();
     return now.packets + now.lost + board().counts().unheard >= made;
   })) << "all but what came before the port was opened";
 }
@@ -228,9 +228,9 @@ TEST_F(LinkFaults, TwoSensorsAtOnceDoNotDisturbEachOther) {
   FaultBoard other(folder_.path("other"), other_sent, "Z");
   FaultListener other_listener(other_sent);
   const auto open = [this, &other] {
-    return std::make_unique<fsr::SerialPort>(other->port(), 0, [this] { return now(); });
+    return std::make_unique<fsr::protocol::SerialPort>(other->port(), 0, [this] { return now(); });
   };
-  const fsr::BoardReader other_reader(open, other_listener, {std::chrono::milliseconds(5), ""});
+  const fsr::protocol::BoardReader other_reader(open, other_listener, {std::chrono::milliseconds(5), ""});
   LineDamage bad_line;
   bad_line.flipped_bits = 1e-3;
   damage(bad_line);

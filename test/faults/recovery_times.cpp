@@ -11,7 +11,7 @@
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using fsr::LineDamage;
+using fsr::emulator::LineDamage;
 using test_support::FaultBoard;
 using test_support::FaultListener;
 
@@ -23,16 +23,16 @@ struct Rig {
   test_support::SentPackets sent;
   FaultListener listener{sent};
   std::unique_ptr<FaultBoard> board = std::make_unique<FaultBoard>(port, sent);
-  fsr::BoardReader reader{[this] {
-                            return std::make_unique<fsr::SerialPort>(port, 0, [] {
-                              return std::int64_t{1'000'000'000'000'000'000} +
-                                     Clock::now().time_since_epoch().count();
-                            });
-                          },
-                          listener,
-                          {std::chrono::milliseconds(1000), ""}};
+  fsr::protocol::BoardReader reader{[this] {
+                                      return std::make_unique<fsr::protocol::SerialPort>(port, 0, [] {
+                                        return std::int64_t{1'000'000'000'000'000'000} +
+                                               Clock::now().time_since_epoch().count();
+                                      });
+                                    },
+                                    listener,
+                                    {std::chrono::milliseconds(1000), ""}};
 
-  fsr::Emulator& rig() { return *board->operator->(); }
+  fsr::emulator::Emulator& rig() { return *board->operator->(); }
   std::uint64_t lost() const { return reader.report().counts.of(FSR_WIRE_SCAN).lost; }
 };
 

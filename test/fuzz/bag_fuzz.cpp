@@ -1,15 +1,15 @@
 // A bag is read or refused; rosbag, which believes what it reads, sees sound records only.
 #include <rosconsole/macros_generated.h>
 
-#include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fuzz/fuzz_file.h"
+#include "ros/bags/bag_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const fuzz::MemoryFile file(bytes, size);
   try {
     fsr_ros::readBag(file.path());
-  } catch (const fsr::InputError&) {
+  } catch (const fsr::settings::InputError&) {
   }
   return 0;
 }

@@ -6,13 +6,13 @@
 #include <iterator>
 #include <vector>
 
+#include "calibration/file/calibration_hdf5.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
-#include "fsr_pressure_map/calibration/calibration_hdf5.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/settings/sha256.h"
 #include "fuzz/fuzz_file.h"
 #include "fuzz/hdf5_damage.h"
+#include "settings/sha256.h"
 #include "support/synthetic_recording.h"
 
 namespace {
@@ -20,50 +20,53 @@ namespace {
 constexpr std::uint16_t kFullScale = 31;
 
 // The bytes of a sound file, with all that training writes; each way of answering to curvature has one.
-std::string soundFile(fsr::Scheme scheme) {
+std::string soundFile(fsr::compensation::Scheme scheme) {
   test_support::SyntheticRig rig;
   rig.size = {1, 2};
   rig.full_scale = kFullScale;
   rig.surfaces = {{"flat", 0.0}, {"cylinder_10cm", 10.0}, {"cylinder_5cm", 20.0}, {"cylinder_4cm", 25.0}};
   rig.scans_per_cycle = 40;
-  fsr::CalibrationProblem problem{{test_support::syntheticRecording(rig)}, {}};
+  fsr::calibration::CalibrationProblem problem{{test_support::syntheticRecording(rig)}, {}};
   problem.options.scheme = scheme;
   const std::string path = "/dev/shm/fsr_fuzz_" + std::to_string(getpid()) + ".h5";
-  fsr::saveCalibration(fsr::calibrate(problem), path);
+  fsr::calibration::saveCalibration(fsr::calibration::calibrate(problem), path);
   std::ifstream file(path, std::ios::binary);
   std::filesystem::remove(path);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
 const std::vector<std::string>& soundFiles() {
-  static const std::vector<std::string> files = {
-      soundFile(fsr::Scheme::kPerCurvature), soundFile(fsr::Scheme::kScaledCurvature),
-      soundFile(fsr::Scheme::kCurvatureMap), soundFile(fsr::Scheme::kPerSurface)};
+  static const std::vector<std::string> files = {soundFile(fsr::compensation::Scheme::kPerCurvature),
+                                                 soundFile(fsr::compensation::Scheme::kScaledCurvature),
+                                                 soundFile(fsr::compensation::Scheme::kCurvatureMap),
+                                                 soundFile(fsr::compensation::Scheme::kPerSurface)};
   return files;
 }
 
 void seal(std::string& file) {
-  const std::string hash = fsr::sha256(file.data() + fsr::kUserBlock, file.size() - fsr::kUserBlock);
-  const std::string line = "fsr_pressure_map calibration schema=" + std::to_string(fsr::kCalibrationSchema) +
-                           " sha256=" + hash + "\n";
+  const std::string hash = fsr::settings::sha256(file.data() + fsr::calibration::kUserBlock,
+                                                 file.size() - fsr::calibration::kUserBlock);
+  const std::string line =
+      "fsr_pressure_map calibration schema=" + std::to_string(fsr::calibration::kCalibrationSchema) +
+      " sha256=" + hash + "\n";
   file.replace(0, line.size(), line);
 }
 
-void tryMaps(fsr::Calibrator& calibrator) {
-  fsr::PressureMap map;
-  const fsr::MatrixSize size = calibrator.layout().size;
+void tryMaps(fsr::calibration::Calibrator& calibrator) {
+  fsr::map::PressureMap map;
+  const fsr::matrix::MatrixSize size = calibrator.layout().size;
   for (unsigned code = 0; code <= kFullScale; ++code) {
     const std::vector<std::uint16_t> counts(size.taxels(), static_cast<std::uint16_t>(code));
     calibrator.calibrate({size, kFullScale, counts.data(), counts.size()}, 0.1 * code, map);
-    if (map.state == fsr::MapState::kSizeMismatch) return;
+    if (map.state == fsr::map::MapState::kSizeMismatch) return;
     for (std::size_t i = 0; i < map.pressure.size(); ++i) {
       fuzz::require(!std::isinf(map.pressure[i]) && (map.flags[i] != 0 || !std::isnan(map.pressure[i])));
     }
   }
 }
 
-void use(const fsr::Calibration& calibration) {
-  fsr::Calibrator calibrator(calibration.tables, calibration.layout);
+void use(const fsr::calibration::Calibration& calibration) {
+  fsr::calibration::Calibrator calibrator(calibration.tables, calibration.layout);
   tryMaps(calibrator);
   for (const double curvature : {0.0, 9.9, 17.0, -40.0, 90.0}) {
     calibrator.setSurface({"cylinder_10cm", 1, {{curvature, 0, 0}}, {}}, 0);
@@ -76,12 +79,12 @@ void use(const fsr::Calibration& calibration) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   fuzz::Numbers numbers(bytes, size);
   std::string file = soundFiles()[numbers.next<std::uint8_t>() % soundFiles().size()];
-  file = std::string(fsr::kUserBlock, '\0') + fuzz::damaged(file, numbers);
+  file = std::string(fsr::calibration::kUserBlock, '\0') + fuzz::damaged(file, numbers);
   seal(file);
   const fuzz::MemoryFile written(reinterpret_cast<const std::uint8_t*>(file.data()), file.size());
   try {
-    use(fsr::loadCalibration(written.path(), fsr::CalibrationParts::kAll));
-  } catch (const fsr::InputError&) {
+    use(fsr::calibration::loadCalibration(written.path(), fsr::calibration::CalibrationParts::kAll));
+  } catch (const fsr::settings::InputError&) {
   }
   return 0;
 }

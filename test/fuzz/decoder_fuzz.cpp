@@ -7,8 +7,8 @@
 
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/protocol/decoder.h"
-#include "fsr_pressure_map/protocol/packet_stamper.h"
 #include "fuzz/fuzz_file.h"
+#include "protocol/packet_stamper.h"
 #include "support/packet_recorder.h"
 #include "support/small_tables.h"
 
@@ -16,32 +16,33 @@ namespace {
 
 class Checker : public test_support::PacketRecorder {
  public:
-  void onScan(const fsr::PacketHeader& header, const fsr::ScanPacket& scan) override {
+  void onScan(const fsr::protocol::PacketHeader& header, const fsr::protocol::ScanPacket& scan) override {
     PacketRecorder::onScan(header, scan);
     stamper_.setArrival(arrival_ += 1'000'000);
-    const fsr::PacketTime time = stamper_.scan(header, scan.duration);
+    const fsr::protocol::PacketTime time = stamper_.scan(header, scan.duration);
     for (std::size_t i = 0; i < scan.size.taxels(); ++i) fuzz::require(scan.counts[i] <= scan.full_scale);
     calibrator().calibrate({scan.size, scan.full_scale, scan.counts, scan.size.taxels()},
                            static_cast<double>(time.stamp) * 1e-9, map_);
     for (std::size_t i = 0; i < map_.pressure.size(); ++i) {
-      const bool silent = map_.state == fsr::MapState::kSizeMismatch || map_.flags[i] != 0;
+      const bool silent = map_.state == fsr::map::MapState::kSizeMismatch || map_.flags[i] != 0;
       fuzz::require(!std::isinf(map_.pressure[i]) && (silent || !std::isnan(map_.pressure[i])));
     }
   }
 
  private:
-  static fsr::Calibrator& calibrator() {
-    static fsr::Calibrator instance(test_support::smallTables({2, 3}, {0.0}, 4095), fsr::Layout{{2, 3}});
+  static fsr::calibration::Calibrator& calibrator() {
+    static fsr::calibration::Calibrator instance(test_support::smallTables({2, 3}, {0.0}, 4095),
+                                                 fsr::matrix::Layout{{2, 3}});
     return instance;
   }
-  fsr::PacketStamper stamper_;
-  fsr::PressureMap map_;
+  fsr::protocol::PacketStamper stamper_;
+  fsr::map::PressureMap map_;
   std::int64_t arrival_ = 1'000'000'000;
 };
 
 std::vector<std::string> packets(const std::uint8_t* bytes, std::size_t size, std::size_t step) {
   Checker checker;
-  const auto decoder = std::make_unique<fsr::Decoder>(checker);
+  const auto decoder = std::make_unique<fsr::protocol::Decoder>(checker);
   for (std::size_t i = 0; i < size; i += step) decoder->feed(bytes + i, std::min(step, size - i));
   decoder->finish();
   fuzz::require(decoder->counts().bytes == size && decoder->counts().skipped_bytes <= size);

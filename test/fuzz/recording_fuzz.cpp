@@ -2,7 +2,7 @@
 // sentence.
 #include <cmath>
 
-#include "fsr_pressure_map/dataset/table_recording.h"
+#include "dataset/table_recording.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fuzz/fuzz_file.h"
 
@@ -15,7 +15,7 @@ constexpr const char* kColumns[] = {
     "reading=1:counts,reading=2:counts,reference=3:2500Pa",
 };
 
-void check(const fsr::Recording& recording) {
+void check(const fsr::dataset::Recording& recording) {
   const std::size_t scans = recording.scans();
   fuzz::require(recording.counts.size() == scans * recording.layout.size.taxels());
   fuzz::require(recording.pressure.empty() || recording.pressure.size() == scans);
@@ -30,14 +30,14 @@ void check(const fsr::Recording& recording) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   if (size == 0) return 0;
   const fuzz::MemoryFile file(bytes + 1, size - 1);
-  fsr::TablePlan plan;
+  fsr::dataset::TablePlan plan;
   plan.skip_bad_rows = bytes[0] >= 128;
   plan.curvature = bytes[0] % 2 == 0 ? std::optional<double>(0.0) : std::nullopt;
   if (bytes[0] % 3 == 0) plan.ambient_pressure = 101325;
   try {
-    plan.columns = fsr::parseColumns(kColumns[bytes[0] / 2 % 4]);
-    check(fsr::readTable(file.path(), plan).recording);
-  } catch (const fsr::InputError&) {
+    plan.columns = fsr::dataset::parseColumns(kColumns[bytes[0] / 2 % 4]);
+    check(fsr::dataset::readTable(file.path(), plan).recording);
+  } catch (const fsr::settings::InputError&) {
   }
   return 0;
 }

@@ -6,8 +6,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const fuzz::MemoryFile file(bytes, size);
   try {
-    fsr::readSimulationFile(file.path());
-  } catch (const fsr::InputError&) {
+    fsr::simulation::readSimulationFile(file.path());
+  } catch (const fsr::settings::InputError&) {
   }
   return 0;
 }

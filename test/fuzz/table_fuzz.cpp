@@ -1,28 +1,28 @@
 // A table of text, of any separator and decimal sign, is read to its end or refused in one sentence.
 #include <cmath>
 
-#include "fsr_pressure_map/dataset/table_reader.h"
+#include "dataset/table_reader.h"
 #include "fuzz/fuzz_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   if (size == 0) return 0;
   static constexpr char kSeparators[] = {0, ',', ';', '\t', ' '};
-  fsr::TableFormat format;
+  fsr::dataset::TableFormat format;
   format.separator = kSeparators[bytes[0] % 5];
-  format.header = static_cast<fsr::TableFormat::Header>(bytes[0] / 5 % 3);
+  format.header = static_cast<fsr::dataset::TableFormat::Header>(bytes[0] / 5 % 3);
   format.decimal_comma = bytes[0] >= 128;
   const fuzz::MemoryFile file(bytes + 1, size - 1);
   try {
-    fsr::TableReader table(file.path(), format);
+    fsr::dataset::TableReader table(file.path(), format);
     while (table.next()) {
       for (std::size_t column = 0; column < table.columns(); ++column) {
         try {
           fuzz::require(std::isfinite(table.number(column)));
-        } catch (const fsr::InputError&) {
+        } catch (const fsr::settings::InputError&) {
         }
       }
     }
-  } catch (const fsr::InputError&) {
+  } catch (const fsr::settings::InputError&) {
   }
   return 0;
 }

@@ -1,17 +1,17 @@
 // A tare file gives a finite offset for every taxel, or is refused in one sentence.
 #include <cmath>
 
-#include "fsr_pressure_map/calibration/tare.h"
+#include "calibration/tare.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fuzz/fuzz_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const fuzz::MemoryFile file(bytes, size);
   try {
-    const fsr::Tare tare = fsr::loadTare(file.path());
+    const fsr::calibration::Tare tare = fsr::calibration::loadTare(file.path());
     fuzz::require(tare.offset.size() == tare.size.taxels());
     for (const float offset : tare.offset) fuzz::require(std::isfinite(offset));
-  } catch (const fsr::InputError&) {
+  } catch (const fsr::settings::InputError&) {
   }
   return 0;
 }

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/health/recording_health.h"
+#include "health/recording_health.h"
 
 #include <gtest/gtest.h>
 
@@ -6,16 +6,16 @@
 
 #include "support/synthetic_recording.h"
 
-namespace fsr {
+namespace fsr::health {
 namespace {
 
-Recording recorded() {
+dataset::Recording recorded() {
   test_support::SyntheticRig rig;
   rig.size = {4, 5};
   return test_support::syntheticRecording(rig);
 }
 
-void keep(Recording& recording, std::size_t taxel, std::uint16_t code) {
+void keep(dataset::Recording& recording, std::size_t taxel, std::uint16_t code) {
   for (std::size_t i = 0; i < recording.scans(); ++i) recording.counts[i * 20 + taxel] = code;
 }
 
@@ -27,19 +27,19 @@ TEST(RecordingHealth, FindsNothingOnAHealthySheet) {
 }
 
 TEST(RecordingHealth, NamesDeadAndStuckTaxelsAndLines) {
-  Recording recording = recorded();
+  dataset::Recording recording = recorded();
   keep(recording, 7, 0);
   keep(recording, 13, 812);
   EXPECT_EQ(recordingHealth(recording).dead, std::vector<std::size_t>{7});
   EXPECT_EQ(recordingHealth(recording).stuck, std::vector<std::size_t>{13});
-  Recording broken = recorded();
+  dataset::Recording broken = recorded();
   for (std::size_t column = 0; column < 5; ++column) keep(broken, 5 + column, 0);
   EXPECT_EQ(recordingHealth(broken).rows, std::vector<std::size_t>{1});
   EXPECT_TRUE(recordingHealth(broken).columns.empty());
 }
 
 TEST(RecordingHealth, SaysFromWhichPressureReadingsAreClipped) {
-  Recording recording = recorded();
+  dataset::Recording recording = recorded();
   std::size_t clipped = 0;
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     if (recording.pressure[i] < 450e3) continue;
@@ -53,7 +53,7 @@ TEST(RecordingHealth, SaysFromWhichPressureReadingsAreClipped) {
 }
 
 TEST(RecordingHealth, LeavesMaskedTaxelsOut) {
-  Recording recording = recorded();
+  dataset::Recording recording = recorded();
   keep(recording, 7, 0);
   keep(recording, 8, recording.full_scale);
   recording.mask.assign(20, 0);
@@ -64,4 +64,4 @@ TEST(RecordingHealth, LeavesMaskedTaxelsOut) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::health

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "fsr_pressure_map/health/taxel_watch.h"
-#include "fsr_pressure_map/simulation/sensor_chain.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
+#include "simulation/sensor_chain.h"
 
 namespace {
 
@@ -16,12 +16,13 @@ constexpr double kPeak = 600e3;    // [Pa]
 constexpr double kDuration = 600;  // of each sheet: 60 windows [s]
 
 // Verdicts on a sheet that has nothing.
-std::size_t alarms(const std::string& file, std::uint64_t seed, const fsr::Surface& surface) {
-  fsr::SimulationSettings settings = fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/" + file);
+std::size_t alarms(const std::string& file, std::uint64_t seed, const fsr::matrix::Surface& surface) {
+  fsr::simulation::SimulationSettings settings =
+      fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/" + file);
   settings.seed = seed;
-  fsr::SensorChain chain(settings);
+  fsr::simulation::SensorChain chain(settings);
   chain.mount(surface);
-  fsr::TaxelWatch watch(settings.layout.size, chain.fullScale());
+  fsr::health::TaxelWatch watch(settings.layout.size, chain.fullScale());
   std::uint64_t number = 0;
   std::size_t found = 0;
   for (double time = 0; time < kDuration; time += 1 / kRate) {
@@ -35,8 +36,8 @@ std::size_t alarms(const std::string& file, std::uint64_t seed, const fsr::Surfa
 // 3 files x 8 sheets x 60 windows x 70 taxels = 100,800 windows of a taxel. None flagged: the rate is below
 // 3 / 100,800 = 3.0e-5 with 95 % confidence (rule of three).
 TEST(TaxelWatchAlarms, NoHealthyTaxelIsFlaggedInAHundredThousandWindows) {
-  const fsr::Surface flat{"flat", 1, {fsr::Curvature{}}, {}};
-  const fsr::Surface bent{"cylinder_5cm", 1, {fsr::Curvature{20, 0, 0}}, {}};
+  const fsr::matrix::Surface flat{"flat", 1, {fsr::matrix::Curvature{}}, {}};
+  const fsr::matrix::Surface bent{"cylinder_5cm", 1, {fsr::matrix::Curvature{20, 0, 0}}, {}};
   for (const std::string file : {"paper.yaml", "demo.yaml", "hot.yaml"}) {
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
       EXPECT_EQ(alarms(file, seed, seed % 2 == 0 ? flat : bent), 0u) << file << ", seed " << seed;
@@ -47,10 +48,10 @@ TEST(TaxelWatchAlarms, NoHealthyTaxelIsFlaggedInAHundredThousandWindows) {
 // Point loads that saturate one taxel of a sheet at rest: 40 places x 250 windows, presses from 2 s to an
 // hour. None flagged: below 3 / 10,000 windows = 3.0e-4 with 95 % confidence.
 TEST(TaxelWatchAlarms, NoPointLoadIsTakenForAShort) {
-  constexpr fsr::MatrixSize kSize{7, 10};
+  constexpr fsr::matrix::MatrixSize kSize{7, 10};
   std::size_t found = 0;
   for (std::size_t place = 0; place < 40; ++place) {
-    fsr::TaxelWatch watch(kSize, 4095);
+    fsr::health::TaxelWatch watch(kSize, 4095);
     const std::size_t taxel = (place * 29) % kSize.taxels();
     const double press = std::min(3600.0, 2.0 * std::pow(1.22, double(place)));  // and as long a pause [s]
     for (double time = 0; time < 2500; time += 0.2) {
@@ -67,12 +68,12 @@ TEST(TaxelWatchAlarms, NoPointLoadIsTakenForAShort) {
 TEST(TaxelWatchAlarms, EachOfAHundredFaultsIsFoundWithinSeventySeconds) {
   for (std::uint64_t seed = 1; seed <= 25; ++seed) {
     for (const int fault : {0, 1, 2, 3}) {  // dead taxel, stuck taxel, short, broken row
-      fsr::SimulationSettings settings =
-          fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/demo.yaml");
+      fsr::simulation::SimulationSettings settings =
+          fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/demo.yaml");
       settings.seed = seed;
-      fsr::SensorChain chain(settings);
-      chain.mount({"flat", 1, {fsr::Curvature{}}, {}});
-      fsr::TaxelWatch watch(settings.layout.size, chain.fullScale());
+      fsr::simulation::SensorChain chain(settings);
+      chain.mount({"flat", 1, {fsr::matrix::Curvature{}}, {}});
+      fsr::health::TaxelWatch watch(settings.layout.size, chain.fullScale());
       const std::size_t taxel = (seed * 31 + 7) % 70;
       std::uint64_t number = 0;
       for (double time = 0; time < 1.5 * kCycle; time += 1 / kRate) {

@@ -7,10 +7,10 @@
 
 #include "support/allocation_guard.h"
 
-namespace fsr {
+namespace fsr::health {
 namespace {
 
-constexpr MatrixSize kSize{7, 10};
+constexpr matrix::MatrixSize kSize{7, 10};
 constexpr std::uint16_t kFullScale = 4095;
 constexpr double kRate = 10.0;  // scans a second
 constexpr std::size_t kTaxels = 70;
@@ -63,7 +63,7 @@ TEST(TaxelWatch, FindsATaxelThatReadsNothingUnderLoad) {
   Sheet sheet;
   sheet.overruled = {{33, 0}};
   sheet.run(kCycle, cycles);
-  EXPECT_EQ(sheet.watch.flags()[33], taxel_flag::kDead);
+  EXPECT_EQ(sheet.watch.flags()[33], map::taxel_flag::kDead);
   EXPECT_EQ(flagged(sheet.watch), 1);
 }
 
@@ -71,7 +71,7 @@ TEST(TaxelWatch, FindsADeadTaxelUnderConstantLoadToo) {
   Sheet sheet;
   sheet.overruled = {{0, 3}};  // a corner, with noise of an open circuit
   sheet.run(kTwoWindows, constantLoad);
-  EXPECT_EQ(sheet.watch.flags()[0], taxel_flag::kDead);
+  EXPECT_EQ(sheet.watch.flags()[0], map::taxel_flag::kDead);
 }
 
 TEST(TaxelWatch, FindsAWholeDeadRowAndColumn) {
@@ -80,7 +80,8 @@ TEST(TaxelWatch, FindsAWholeDeadRowAndColumn) {
   for (std::size_t row = 2; row < 7; ++row) sheet.overruled.push_back({row * 10 + 5, 0});
   sheet.run(kTwoWindows, constantLoad);
   for (const auto& [taxel, value] : sheet.overruled) {
-    EXPECT_EQ(sheet.watch.flags()[taxel] & ~taxel_flag::kLineFault, taxel_flag::kDead) << "taxel " << taxel;
+    EXPECT_EQ(sheet.watch.flags()[taxel] & ~map::taxel_flag::kLineFault, map::taxel_flag::kDead)
+        << "taxel " << taxel;
   }
 }
 
@@ -88,7 +89,7 @@ TEST(TaxelWatch, FindsATaxelThatDoesNotFollowItsNeighbours) {
   Sheet sheet;
   sheet.overruled = {{47, 812}};
   sheet.run(kCycle, cycles);
-  EXPECT_EQ(sheet.watch.flags()[47], taxel_flag::kStuck);
+  EXPECT_EQ(sheet.watch.flags()[47], map::taxel_flag::kStuck);
   EXPECT_EQ(flagged(sheet.watch), 1);
 }
 
@@ -134,7 +135,8 @@ TEST(TaxelWatch, FindsABrokenRowAsALineFault) {
   for (std::size_t column = 0; column < 10; ++column) sheet.overruled.push_back({30 + column, 0});
   sheet.run(kTwoWindows, constantLoad);
   for (std::size_t taxel = 0; taxel < kTaxels; ++taxel) {
-    EXPECT_EQ(sheet.watch.flags()[taxel], taxel / 10 == 3 ? taxel_flag::kDead | taxel_flag::kLineFault : 0);
+    EXPECT_EQ(sheet.watch.flags()[taxel],
+              taxel / 10 == 3 ? map::taxel_flag::kDead | map::taxel_flag::kLineFault : 0);
   }
   sheet.overruled.clear();
   sheet.run(kCycle, cycles);
@@ -147,7 +149,7 @@ TEST(TaxelWatch, FindsAShortedTaxelWhenLoadComesOrGoes) {
   sheet.run(kTwoWindows, noLoad);
   EXPECT_EQ(flagged(sheet.watch), 0) << "a point load reads the same";
   sheet.run(kCycle, cycles);
-  EXPECT_EQ(sheet.watch.flags()[47], taxel_flag::kStuck);
+  EXPECT_EQ(sheet.watch.flags()[47], map::taxel_flag::kStuck);
   EXPECT_EQ(flagged(sheet.watch), 1);
 }
 
@@ -174,7 +176,8 @@ TEST(TaxelWatch, FindsAShortedColumnAtRest) {
   for (std::size_t row = 0; row < 7; ++row) sheet.overruled.push_back({row * 10 + 2, kFullScale});
   sheet.run(kTwoWindows, noLoad);
   for (std::size_t row = 0; row < 7; ++row) {
-    EXPECT_EQ(sheet.watch.flags()[row * 10 + 2], taxel_flag::kStuck | taxel_flag::kLineFault) << row;
+    EXPECT_EQ(sheet.watch.flags()[row * 10 + 2], map::taxel_flag::kStuck | map::taxel_flag::kLineFault)
+        << row;
   }
   EXPECT_EQ(flagged(sheet.watch), 7);
 }
@@ -197,7 +200,7 @@ TEST(TaxelWatch, KeepsAVerdictWhileNothingSpeaksAgainstIt) {
   sheet.overruled = {{33, 0}};
   sheet.run(kCycle, cycles);
   sheet.run(kCycle, noLoad);
-  EXPECT_EQ(sheet.watch.flags()[33], taxel_flag::kDead);
+  EXPECT_EQ(sheet.watch.flags()[33], map::taxel_flag::kDead);
 }
 
 TEST(TaxelWatch, StartsItsWindowAnewWhenTimeRunsBack) {
@@ -235,4 +238,4 @@ TEST(TaxelWatch, AllocatesNothingForAScan) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::health

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -16,11 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::map<std::string, int> kStorey = {
-    {"settings", 0},    {"matrix", 1}, {"statistics", 1},  {"rheology", 1},     {"regression", 2},
-    {"dataset", 2},     {"map", 2},    {"protocol", 2},    {"compensation", 3}, {"simulation", 3},
-    {"health", 3},      {"view", 3},   {"calibration", 4}, {"emulator", 4},     {"study", 5},
-    {"discrepancy", 5}, {"report", 6}, {"exports", 6},     {"ros", 7},          {"nodes", 8},
-    {"tools", 8},
+    {"settings", 0},   {"hdf5", 1},        {"matrix", 1}, {"statistics", 1},  {"rheology", 1},
+    {"regression", 2}, {"dataset", 2},     {"map", 2},    {"protocol", 2},    {"compensation", 3},
+    {"simulation", 3}, {"health", 3},      {"view", 3},   {"calibration", 4}, {"emulator", 4},
+    {"study", 5},      {"discrepancy", 5}, {"report", 6}, {"exports", 6},     {"ros", 7},
+    {"nodes", 8},      {"tools", 8},
 };
 
 const fs::path kSource = FSR_SOURCE_DIR;
@@ -69,12 +70,15 @@ std::vector<Include> allIncludes() {
   return includes;
 }
 
-// The room that an include points to, "" for a header from outside the package's rooms.
+// The room that an include points to, "" for a header from outside the package's rooms. Public headers are
+// included as "fsr_pressure_map/room/file.h", those beside their sources as "room/file.h".
 std::string targetRoom(const std::string& target) {
-  const std::string prefix = "fsr_pressure_map/";
-  if (target.rfind(prefix, 0) != 0) return "";
-  const std::size_t slash = target.find('/', prefix.size());
-  return slash == std::string::npos ? "" : target.substr(prefix.size(), slash - prefix.size());
+  static const std::string prefix = "fsr_pressure_map/";
+  const std::size_t begin = target.rfind(prefix, 0) == 0 ? prefix.size() : 0;
+  const std::size_t slash = target.find('/', begin);
+  if (slash == std::string::npos) return "";
+  if (begin == 0 && !fs::exists(kSource / "src" / target)) return "";
+  return target.substr(begin, slash - begin);
 }
 
 bool isRosHeader(const std::string& target) {
@@ -117,6 +121,40 @@ TEST(House, TestsOfARoomSeeNoHigherRoom) {
   EXPECT_GT(arrows, 100);
 }
 
+// Folders of a room, each of which uses those before it only. What lies in the room's own folder may use all
+// of them.
+const std::map<std::string, std::vector<std::string>> kCorridors = {
+    {"ros", {"messages", "bags", "live", "tools"}},
+    {"discrepancy", {"samples", "fit", "decide", "prove"}},
+};
+
+TEST(House, NoArrowRunsUpACorridor) {
+  int arrows = 0;
+  for (const auto& [room, corridors] : kCorridors) {
+    const auto number = [&, &names = corridors](const std::string& corridor) {
+      return std::find(names.begin(), names.end(), corridor) - names.begin();
+    };
+    for (const Include& include : allIncludes()) {
+      const fs::path relative = fs::relative(include.file, kSource / "src" / room);
+      const fs::path target = fs::path(include.target).lexically_relative(room);
+      const auto from = number(relative.begin()->string()), to = number(target.begin()->string());
+      if (include.room != room || from == static_cast<std::ptrdiff_t>(corridors.size()) ||
+          to == static_cast<std::ptrdiff_t>(corridors.size())) {
+        continue;
+      }
+      EXPECT_LE(to, from) << include.file << " includes " << include.target;
+      ++arrows;
+    }
+  }
+  EXPECT_GT(arrows, 100);
+}
+
+TEST(House, NoRoomIsTooLarge) {
+  std::map<fs::path, int> files;
+  for (const fs::path& file : sourceFiles()) ++files[file.parent_path()];
+  for (const auto& [folder, count] : files) EXPECT_LE(count, 44) << folder;
+}
+
 TEST(House, OnlyTheShellSeesRos) {
   for (const Include& include : allIncludes()) {
     if (kStorey.at(include.room) >= kStorey.at("ros")) continue;
@@ -135,8 +173,7 @@ TEST(House, TheCureNeverSeesTheSimulator) {
 void see(const fs::path& file, std::set<fs::path>& seen) {
   if (!fs::exists(file) || !seen.insert(file).second) return;
   for (const std::string& target : includesOf(file)) {
-    see(kSource / "include" / target, seen);
-    see(kSource / "test" / target, seen);
+    for (const char* root : {"include", "src", "test"}) see(kSource / root / target, seen);
   }
 }
 

@@ -7,7 +7,7 @@
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/map/region.h"
 
-namespace fsr {
+namespace fsr::map {
 namespace {
 
 const AlarmOptions kOptions{100e3, 2.0, 10e3};  // [Pa, s, Pa]
@@ -141,4 +141,4 @@ TEST(AlarmEvidence, AMaskedTaxelAndOneOutsideTheRegionAreNobodysQuestion) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::map

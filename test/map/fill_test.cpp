@@ -1,13 +1,13 @@
-#include "fsr_pressure_map/map/fill.h"
+#include "map/fill.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace fsr {
+namespace fsr::map {
 namespace {
 
-PressureMap mapOf(MatrixSize size, const std::vector<float>& pressure, float deviation) {
+PressureMap mapOf(matrix::MatrixSize size, const std::vector<float>& pressure, float deviation) {
   PressureMap map;
   map.reset({size});
   map.pressure = pressure;
@@ -43,4 +43,4 @@ TEST(Fill, TakesNothingFromBadOrFilledNeighbours) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::map

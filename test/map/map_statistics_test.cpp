@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::map {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -105,7 +105,7 @@ TEST(MapStatistics, WithoutContactTheForceIsZeroAndThereIsNoMean) {
 }
 
 TEST(MapStatistics, RefuseAMaskOfAnotherMatrix) {
-  EXPECT_THROW(regionStatistics(handMap(), {"x", {1, 0}, {}}, flatAreas(), kThreshold), InputError);
+  EXPECT_THROW(regionStatistics(handMap(), {"x", {1, 0}, {}}, flatAreas(), kThreshold), settings::InputError);
 }
 
 // Taxel 0 at 10, 20, 40 kPa after 0, 1, 1.5 s: 15 + 15 = 30 kPa s; taxel 1 always at 16 kPa: 24 kPa s.
@@ -179,4 +179,4 @@ TEST(MapStatistics, OverTimeKnowRegionsIntegralsAndAlarms) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::map

@@ -4,7 +4,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::map {
 namespace {
 
 using Mask = std::vector<std::uint8_t>;
@@ -16,7 +16,7 @@ std::vector<Region> read(const std::string& yaml) {
 std::string refusal(const std::string& yaml) {
   try {
     read(yaml);
-  } catch (const InputError& error) {
+  } catch (const settings::InputError& error) {
     return error.what();
   }
   return "";
@@ -74,4 +74,4 @@ TEST(Regions, RefuseMisspeltKeysAndDoubleNames) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::map

@@ -5,9 +5,9 @@
 
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "fsr_pressure_map/matrix/layout.h"
-#include "fsr_pressure_map/matrix/surface_file.h"
+#include "matrix/surface_file.h"
 
-namespace fsr {
+namespace fsr::matrix {
 namespace {
 
 const MatrixSize kPaper{7, 10};
@@ -46,33 +46,34 @@ TEST(Curvature, ASurfaceOfAnotherMatrixDoesNotFit) {
   surface.curvature.resize(70);
   EXPECT_NO_THROW(requireFit(surface, kPaper));
   surface.deviation.resize(160);
-  EXPECT_THROW(requireFit(surface, kPaper), InputError);
+  EXPECT_THROW(requireFit(surface, kPaper), settings::InputError);
 }
 
 TEST(SurfaceFile, ACylinderWithItsAxisAlongYBendsTheRows) {
-  const auto outside = Settings::fromText("surface: c\ncylinder: {radius: 0.05, axis: y}", "c.yaml");
+  const auto outside =
+      settings::Settings::fromText("surface: c\ncylinder: {radius: 0.05, axis: y}", "c.yaml");
   const Surface surface = readSurface(outside, kPaper);
   ASSERT_EQ(surface.curvature.size(), 1u);
   EXPECT_DOUBLE_EQ(surface.curvature[0].x, 20.0);
   EXPECT_DOUBLE_EQ(surface.curvature[0].y, 0.0);
   const auto inside =
-      Settings::fromText("surface: c\ncylinder: {radius: 0.05, axis: x, side: inside}", "c.yaml");
+      settings::Settings::fromText("surface: c\ncylinder: {radius: 0.05, axis: x, side: inside}", "c.yaml");
   EXPECT_DOUBLE_EQ(readSurface(inside, kPaper).curvature[0].y, -20.0);
 }
 
 TEST(SurfaceFile, ReadsAValueForEachTaxel) {
   const auto settings =
-      Settings::fromText("surface: limb\ntaxels: {x: [1, 2, 3, 4], xy: [0, 0, 0, 1]}", "limb.yaml");
+      settings::Settings::fromText("surface: limb\ntaxels: {x: [1, 2, 3, 4], xy: [0, 0, 0, 1]}", "limb.yaml");
   const Surface surface = readSurface(settings, {2, 2});
   EXPECT_EQ(surface.at({3}), (Curvature{4, 0, 1}));
 }
 
 TEST(SurfaceFile, RefusesTheWrongNumberOfTaxels) {
-  const auto settings = Settings::fromText("surface: limb\ntaxels: {x: [1, 2, 3]}", "limb.yaml");
+  const auto settings = settings::Settings::fromText("surface: limb\ntaxels: {x: [1, 2, 3]}", "limb.yaml");
   try {
     readSurface(settings, kPaper);
     FAIL() << "accepted";
-  } catch (const InputError& error) {
+  } catch (const settings::InputError& error) {
     EXPECT_STREQ(error.what(),
                  "limb.yaml: taxels.x is a list of 3, but must have one value for each of the 70 taxels "
                  "of a 7 x 10 matrix, row after row");
@@ -81,11 +82,14 @@ TEST(SurfaceFile, RefusesTheWrongNumberOfTaxels) {
 
 TEST(SurfaceFile, RefusesTwoFormsAndATightBend) {
   EXPECT_THROW(
-      readSurface(Settings::fromText("surface: c\nflat: true\ntwo_planes: {x: 1, y: 2}", "c"), kPaper),
-      InputError);
-  EXPECT_THROW(readSurface(Settings::fromText("surface: c\ncylinder: {radius: 0.009, axis: y}", "c"), kPaper),
-               InputError);
-  EXPECT_THROW(readSurface(Settings::fromText("surface: c", "c"), kPaper), InputError);
+      readSurface(settings::Settings::fromText("surface: c\nflat: true\ntwo_planes: {x: 1, y: 2}", "c"),
+                  kPaper),
+      settings::InputError);
+  EXPECT_THROW(
+      readSurface(settings::Settings::fromText("surface: c\ncylinder: {radius: 0.009, axis: y}", "c"),
+                  kPaper),
+      settings::InputError);
+  EXPECT_THROW(readSurface(settings::Settings::fromText("surface: c", "c"), kPaper), settings::InputError);
 }
 
 TEST(SurfaceFile, EveryShippedSurfaceLoadsUnderItsFileName) {
@@ -99,4 +103,4 @@ TEST(SurfaceFile, EveryShippedSurfaceLoadsUnderItsFileName) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::matrix

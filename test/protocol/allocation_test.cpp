@@ -4,31 +4,34 @@
 #include <vector>
 
 #include "fsr_pressure_map/protocol/decoder.h"
-#include "fsr_pressure_map/protocol/device_clock.h"
+#include "protocol/device_clock.h"
 #include "support/allocation_guard.h"
 
 namespace {
 
 // Does with a packet what the driver does, ROS messages apart.
-class StampingHandler : public fsr::PacketHandler {
+class StampingHandler : public fsr::protocol::PacketHandler {
  public:
   std::int64_t sum = 0;
   int scans = 0;
 
-  void onScan(const fsr::PacketHeader& header, const fsr::ScanPacket& scan) override {
+  void onScan(const fsr::protocol::PacketHeader& header, const fsr::protocol::ScanPacket& scan) override {
     const std::uint64_t time = clock_.observe(header.device_time, now_ += 1'000'000, scan.duration / 2);
     sum += stamps_.next(clock_.hostTime(time), time) + scan.counts[0];
     ++scans;
   }
-  void onTransducer(const fsr::PacketHeader&, std::int32_t counts) override { sum += counts; }
-  void onTemperature(const fsr::PacketHeader&, std::int32_t millidegrees) override { sum += millidegrees; }
-  void onIdentity(const fsr::PacketHeader&, const fsr::IdentityPacket& identity) override {
+  void onTransducer(const fsr::protocol::PacketHeader&, std::int32_t counts) override { sum += counts; }
+  void onTemperature(const fsr::protocol::PacketHeader&, std::int32_t millidegrees) override {
+    sum += millidegrees;
+  }
+  void onIdentity(const fsr::protocol::PacketHeader&,
+                  const fsr::protocol::IdentityPacket& identity) override {
     sum += static_cast<std::int64_t>(identity.serial.size());
   }
 
  private:
-  fsr::DeviceClock clock_;
-  fsr::StampSequence stamps_;
+  fsr::protocol::DeviceClock clock_;
+  fsr::protocol::StampSequence stamps_;
   std::int64_t now_ = 0;
 };
 
@@ -38,7 +41,7 @@ TEST(Protocol, AllocatesNothingFromBytesToStampedScans) {
   const fsr_wire_identity identity = {"0123456789abcdef", "0123456789abcdef", "", 16, 10, 4095, 1000};
   std::vector<std::uint8_t> bytes(1024);
   StampingHandler handler;
-  fsr::Decoder decoder(handler);
+  fsr::protocol::Decoder decoder(handler);
 
   const test_support::AllocationGuard guard;
   for (std::uint32_t i = 0; i < 300'000;

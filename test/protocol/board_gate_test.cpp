@@ -1,11 +1,11 @@
-#include "fsr_pressure_map/protocol/board_gate.h"
+#include "protocol/board_gate.h"
 
 #include <gtest/gtest.h>
 
 namespace {
 
-using fsr::BoardGate;
-using Verdict = fsr::BoardGate::Verdict;
+using fsr::protocol::BoardGate;
+using Verdict = fsr::protocol::BoardGate::Verdict;
 
 constexpr std::int64_t kPatience = 1000, kSettling = 100;
 

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/protocol/board_reader.h"
+#include "protocol/board_reader.h"
 
 #include <gtest/gtest.h>
 
@@ -10,15 +10,15 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/protocol/serial_port.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "protocol/serial_port.h"
 #include "support/packet_recorder.h"
 #include "support/pty.h"
 
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-using fsr::LinkPhase;
+using fsr::protocol::LinkPhase;
 using std::chrono::milliseconds;
 
 constexpr std::chrono::seconds kPatience(20);  // never waited out where the code is right
@@ -30,23 +30,24 @@ Bytes reading(std::uint32_t sequence) {
 }
 
 // Notes all that a link says, for the test's thread to wait for.
-class Listener : public fsr::LinkHandler {
+class Listener : public fsr::protocol::LinkHandler {
  public:
-  void onScan(const fsr::PacketHeader& header, const fsr::ScanPacket& scan) override {
+  void onScan(const fsr::protocol::PacketHeader& header, const fsr::protocol::ScanPacket& scan) override {
     recorder_.onScan(header, scan);
   }
-  void onTransducer(const fsr::PacketHeader& header, std::int32_t counts) override {
+  void onTransducer(const fsr::protocol::PacketHeader& header, std::int32_t counts) override {
     add([&] { recorder_.onTransducer(header, counts); });
   }
-  void onTemperature(const fsr::PacketHeader& header, std::int32_t value) override {
+  void onTemperature(const fsr::protocol::PacketHeader& header, std::int32_t value) override {
     recorder_.onTemperature(header, value);
   }
-  void onIdentity(const fsr::PacketHeader& header, const fsr::IdentityPacket& identity) override {
+  void onIdentity(const fsr::protocol::PacketHeader& header,
+                  const fsr::protocol::IdentityPacket& identity) override {
     recorder_.onIdentity(header, identity);
   }
   void onOpen(std::uint32_t) override {}
   void onBytes(std::int64_t) override {}
-  void onChange(const fsr::LinkReport& report) override {
+  void onChange(const fsr::protocol::LinkReport& report) override {
     add([&] { phases_.push_back(report.phase); });
   }
 
@@ -90,13 +91,13 @@ class Listener : public fsr::LinkHandler {
 
 class BoardReader : public testing::Test {
  protected:
-  std::unique_ptr<fsr::BoardReader> makeLink(milliseconds reconnect_delay = milliseconds(1),
-                                             const std::string& capture = "") {
+  std::unique_ptr<fsr::protocol::BoardReader> makeLink(milliseconds reconnect_delay = milliseconds(1),
+                                                       const std::string& capture = "") {
     const auto open = [this] {
-      return std::make_unique<fsr::SerialPort>(port_, 115200, [this] { return now_.load(); });
+      return std::make_unique<fsr::protocol::SerialPort>(port_, 115200, [this] { return now_.load(); });
     };
-    return std::make_unique<fsr::BoardReader>(open, listener_,
-                                              fsr::BoardReader::Options{reconnect_delay, capture});
+    return std::make_unique<fsr::protocol::BoardReader>(
+        open, listener_, fsr::protocol::BoardReader::Options{reconnect_delay, capture});
   }
   void plugIn() { board_ = std::make_unique<test_support::Pty>(port_); }
 
@@ -149,7 +150,8 @@ TEST_F(BoardReader, ClosesThePortWhenDisabledAndOpensItAgain) {
   ASSERT_TRUE(listener_.reaches(LinkPhase::kReading));
   link->setEnabled(false);
   ASSERT_TRUE(listener_.reaches(LinkPhase::kDisabled));
-  EXPECT_NO_THROW(fsr::SerialPort(port_, 115200, [] { return 1; })) << "the port is free for others";
+  EXPECT_NO_THROW(fsr::protocol::SerialPort(port_, 115200, [] { return 1; }))
+      << "the port is free for others";
   link->setEnabled(true);
   ASSERT_TRUE(listener_.reaches(LinkPhase::kReading));
   board_->write(reading(1));
@@ -186,8 +188,8 @@ TEST_F(BoardReader, KeepsACaptureThatReplaysToTheSamePackets) {
     ASSERT_TRUE(listener_.packets(50));
   }
   Listener replayed;
-  const auto open = [&] { return std::make_unique<fsr::CaptureReader>(capture); };
-  const fsr::BoardReader link(open, replayed, {milliseconds(1), ""});
+  const auto open = [&] { return std::make_unique<fsr::protocol::CaptureReader>(capture); };
+  const fsr::protocol::BoardReader link(open, replayed, {milliseconds(1), ""});
   ASSERT_TRUE(replayed.reaches(LinkPhase::kEnded));
   EXPECT_EQ(replayed.packetCount(), 50U);
   EXPECT_EQ(link.report().counts.skipped_bytes, 0U);
@@ -195,8 +197,8 @@ TEST_F(BoardReader, KeepsACaptureThatReplaysToTheSamePackets) {
 
 TEST_F(BoardReader, RefusesToStartOnACaptureThatExists) {
   const std::string capture = folder_.path("run.fsrcap");
-  const fsr::CaptureWriter first(capture);
-  EXPECT_THROW(makeLink(milliseconds(1), capture), fsr::InputError);
+  const fsr::protocol::CaptureWriter first(capture);
+  EXPECT_THROW(makeLink(milliseconds(1), capture), fsr::settings::InputError);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/protocol/capture.h"
+#include "protocol/capture.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -30,16 +30,16 @@ using Pieces = std::vector<Piece>;
 const Pieces kPieces = {{-5, {1, 2, 3}}, {1700000000123456789, {4}}, {1700000000223456789, {5, 6, 7, 8, 9}}};
 
 void write(const std::string& path, const Pieces& pieces) {
-  fsr::CaptureWriter writer(path);
+  fsr::protocol::CaptureWriter writer(path);
   writer.noteBaud(115200);
   for (const Piece& piece : pieces) writer.write(piece.bytes.data(), piece.bytes.size(), piece.time);
 }
 
-Pieces readAll(fsr::ByteSource& source, std::size_t capacity = 4096) {
+Pieces readAll(fsr::protocol::ByteSource& source, std::size_t capacity = 4096) {
   Pieces pieces;
   Bytes buffer(capacity);
   while (!source.ended()) {
-    const fsr::Chunk chunk = source.read(buffer.data(), buffer.size(), milliseconds(1000));
+    const fsr::protocol::Chunk chunk = source.read(buffer.data(), buffer.size(), milliseconds(1000));
     if (chunk.size > 0) pieces.push_back({chunk.receive_time, {buffer.begin(), buffer.begin() + chunk.size}});
   }
   return pieces;
@@ -50,7 +50,7 @@ std::string complaintOf(Do action) {
   try {
     action();
     return "";
-  } catch (const fsr::InputError& error) {
+  } catch (const fsr::settings::InputError& error) {
     return error.what();
   }
 }
@@ -63,7 +63,7 @@ class Capture : public testing::Test {
 
 TEST_F(Capture, GivesBytesAndTimesBackAsTheyCame) {
   write(path_, kPieces);
-  fsr::CaptureReader reader(path_);
+  fsr::protocol::CaptureReader reader(path_);
   EXPECT_EQ(reader.baud(), 115200U);
   EXPECT_EQ(readAll(reader), kPieces);
   EXPECT_EQ(reader.remark(), "");
@@ -85,7 +85,7 @@ TEST_F(Capture, HasTheDocumentedBytes) {
 
 TEST_F(Capture, SplitsAPieceThatDoesNotFitTheBuffer) {
   write(path_, {{7, {1, 2, 3}}});
-  fsr::CaptureReader reader(path_);
+  fsr::protocol::CaptureReader reader(path_);
   EXPECT_EQ(readAll(reader, 2), (Pieces{{7, {1, 2}}, {7, {3}}}));
 }
 
@@ -95,9 +95,9 @@ TEST_F(Capture, ReplaysATruncatedFileUpToTheCut) {
   for (const Piece& piece : kPieces) whole.insert(whole.end(), piece.bytes.begin(), piece.bytes.end());
   const std::size_t file_size = std::filesystem::file_size(path_);
   // Bytes of the file before each piece's content: header 16, then 12 + content for each.
-  for (std::size_t size = file_size; size-- > fsr::capture::kFileHeader;) {
+  for (std::size_t size = file_size; size-- > fsr::protocol::capture::kFileHeader;) {
     std::filesystem::resize_file(path_, size);
-    fsr::CaptureReader reader(path_);
+    fsr::protocol::CaptureReader reader(path_);
     Bytes bytes;
     for (const Piece& piece : readAll(reader))
       bytes.insert(bytes.end(), piece.bytes.begin(), piece.bytes.end());
@@ -115,7 +115,7 @@ TEST_F(Capture, StopsAtALengthThatCannotBeAndSaysWhere) {
   file.seekp(31 + 8 + 3);  // highest byte of the second piece's length
   file.put('\x7F');
   file.close();
-  fsr::CaptureReader reader(path_);
+  fsr::protocol::CaptureReader reader(path_);
   EXPECT_EQ(readAll(reader), Pieces{kPieces.front()});
   EXPECT_EQ(reader.remark(), "capture " + path_ + " is damaged at byte 31: replayed up to there");
 }
@@ -123,25 +123,27 @@ TEST_F(Capture, StopsAtALengthThatCannotBeAndSaysWhere) {
 TEST_F(Capture, NeverOverwritesAFile) {
   write(path_, kPieces);
   const auto size = std::filesystem::file_size(path_);
-  const std::string complaint = complaintOf([&] { fsr::CaptureWriter writer(path_); });
+  const std::string complaint = complaintOf([&] { fsr::protocol::CaptureWriter writer(path_); });
   EXPECT_EQ(complaint, "capture " + path_ + " exists already and is not overwritten: name another file");
   EXPECT_EQ(std::filesystem::file_size(path_), size);
 }
 
 TEST_F(Capture, NamesAFileThatCannotBeWrittenOrRead) {
   const std::string lost = folder_.path("nowhere/run.fsrcap");
-  EXPECT_NE(
-      complaintOf([&] { fsr::CaptureWriter writer(lost); }).find(lost + " cannot be written (No such file"),
-      std::string::npos);
-  EXPECT_NE(
-      complaintOf([&] { fsr::CaptureReader reader(lost); }).find(lost + " cannot be read (No such file"),
-      std::string::npos);
+  EXPECT_NE(complaintOf([&] {
+              fsr::protocol::CaptureWriter writer(lost);
+            }).find(lost + " cannot be written (No such file"),
+            std::string::npos);
+  EXPECT_NE(complaintOf([&] {
+              fsr::protocol::CaptureReader reader(lost);
+            }).find(lost + " cannot be read (No such file"),
+            std::string::npos);
 }
 
 TEST_F(Capture, RefusesAFileThatIsNoCapture) {
   for (const std::string content : {"", "FSRCAP01", "#ROSBAG V2.0\n and much more"}) {
     std::ofstream(path_, std::ios::trunc) << content;
-    EXPECT_EQ(complaintOf([&] { fsr::CaptureReader reader(path_); }),
+    EXPECT_EQ(complaintOf([&] { fsr::protocol::CaptureReader reader(path_); }),
               "capture " + path_ +
                   " does not start with FSRCAP01: name a file that the driver's capture_file wrote");
   }
@@ -169,11 +171,11 @@ TEST_F(Capture, SaysThatTheDiskIsFullAndKeepsWhatItHas) {
   const Bytes bytes = {1, 2, 3};
   {
     const FileSizeLimit limit(40);
-    fsr::CaptureWriter writer(path_);
+    fsr::protocol::CaptureWriter writer(path_);
     writer.write(bytes.data(), bytes.size(), 1);
-    EXPECT_THROW(writer.write(bytes.data(), bytes.size(), 2), fsr::LinkError);
+    EXPECT_THROW(writer.write(bytes.data(), bytes.size(), 2), fsr::protocol::LinkError);
   }
-  fsr::CaptureReader reader(path_);
+  fsr::protocol::CaptureReader reader(path_);
   EXPECT_EQ(readAll(reader), (Pieces{{1, bytes}}));
 }
 
@@ -187,7 +189,8 @@ struct SteppingClock {
 TEST_F(Capture, PacesAReplayByItsClockAndShiftsItsTimesToNow) {
   write(path_, {{5000, {1}}, {5000, {2}}, {2005000, {3}}});
   SteppingClock clock;
-  fsr::PacedSource paced(std::make_unique<fsr::CaptureReader>(path_), [&clock] { return clock(); });
+  fsr::protocol::PacedSource paced(std::make_unique<fsr::protocol::CaptureReader>(path_),
+                                   [&clock] { return clock(); });
   Bytes buffer(16);
   const auto next = [&] { return paced.read(buffer.data(), buffer.size(), milliseconds(0)); };
   EXPECT_EQ(next().receive_time, 1000000000);
@@ -206,7 +209,8 @@ TEST_F(Capture, PacedReplayGivesEveryByteThroughASmallBuffer) {
   write(path_, {{0, {1, 2, 3}}, {10, {4}}});
   SteppingClock clock;
   clock.step = 1;
-  fsr::PacedSource paced(std::make_unique<fsr::CaptureReader>(path_), [&clock] { return clock(); });
+  fsr::protocol::PacedSource paced(std::make_unique<fsr::protocol::CaptureReader>(path_),
+                                   [&clock] { return clock(); });
   Bytes bytes;
   for (const Piece& piece : readAll(paced, 2))
     bytes.insert(bytes.end(), piece.bytes.begin(), piece.bytes.end());

@@ -65,14 +65,14 @@ Bytes withHeader(Bytes packet, std::uint8_t version, std::uint8_t type, std::uin
 // A decoder with what it delivered.
 struct Bench {
   test_support::PacketRecorder recorder;
-  fsr::Decoder decoder{recorder};
+  fsr::protocol::Decoder decoder{recorder};
 
   Bench& feed(const Bytes& bytes) {
     decoder.feed(bytes.data(), bytes.size());
     return *this;
   }
   const Lines& lines() const { return recorder.lines; }
-  const fsr::DecoderCounts& counts() const { return decoder.counts(); }
+  const fsr::protocol::DecoderCounts& counts() const { return decoder.counts(); }
 };
 
 Lines linesOf(const Bytes& bytes) {
@@ -279,7 +279,7 @@ TEST(Decoder, CountsGapsDuplicatesAndRestartsOfEachTypeOnItsOwn) {
   for (const std::uint32_t sequence : {10, 11, 14, 14, 15, 0, 1}) {
     bench.feed(scan(sequence, sequence * 1000, {1})).feed(transducer(0xFFFFFFFE + sequence, sequence, 0));
   }
-  const fsr::SequenceCounts& scans = bench.counts().of(FSR_WIRE_SCAN);
+  const fsr::protocol::SequenceCounts& scans = bench.counts().of(FSR_WIRE_SCAN);
   EXPECT_EQ(scans.packets, 6U);
   EXPECT_EQ(scans.gaps, 1U);
   EXPECT_EQ(scans.lost, 2U);

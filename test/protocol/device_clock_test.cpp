@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/protocol/device_clock.h"
+#include "protocol/device_clock.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ struct Errors {
   double highest = 0;
 };
 
-Errors run(const Link& link, double duration, double settled, fsr::DeviceClock& clock) {
+Errors run(const Link& link, double duration, double settled, fsr::protocol::DeviceClock& clock) {
   Errors errors = {1e9, -1e9};
   const std::int64_t offset_ns = std::llround(link.offset * 1e9);
   for (double t = 0; t < duration; t += link.period) {
@@ -57,7 +57,7 @@ std::function<double(double)> exponential(double mean, unsigned seed) {
 TEST(DeviceClock, FollowsOffsetAndDriftThroughRandomDelays) {
   Link link;
   link.delay = exponential(2 * kMs, 1);
-  fsr::DeviceClock clock;
+  fsr::protocol::DeviceClock clock;
   const Errors errors = run(link, 600, 10, clock);
   // A slot of 2 s holds 200 arrivals; the smallest of 200 exponential delays of mean 2 ms is 10 us in the
   // mean, and the envelope rests on the lowest of 64 slots. Ten times that mean covers the short slots of the
@@ -72,7 +72,7 @@ TEST(DeviceClock, RemovesTheJitterOfBatches) {
   Link link;
   // A USB adapter that hands its bytes over every 16 ms of its own clock.
   link.delay = [](double host) { return 16 * kMs - std::fmod(host, 16 * kMs); };
-  fsr::DeviceClock clock;
+  fsr::protocol::DeviceClock clock;
   const Errors errors = run(link, 600, 10, clock);
   // Packets every 10 ms meet the batch every 16 ms at 8 phases 2 ms apart, which drift by at 50 ppm: the
   // smallest delay is a saw-tooth of 2 ms in 40 s, and the line lies within its height.
@@ -86,7 +86,7 @@ TEST(DeviceClock, KeepsTheSpacingOfTheBoardUnderJitter) {
   auto batches = [](double host) { return 16 * kMs - std::fmod(host, 16 * kMs); };
   auto noise = exponential(1 * kMs, 2);
   link.delay = [=](double host) { return batches(host) + noise(host); };
-  fsr::DeviceClock clock;
+  fsr::protocol::DeviceClock clock;
   run(link, 60, 60, clock);
   std::int64_t last = 0;
   for (double t = 60; t < 120; t += link.period) {
@@ -106,7 +106,7 @@ TEST(DeviceClock, FollowsACeramicResonatorFromTheFirstSecond) {
     Link link;
     link.drift = drift;
     link.delay = exponential(1 * kMs, 3);
-    fsr::DeviceClock clock;
+    fsr::protocol::DeviceClock clock;
     const Errors errors = run(link, 200, 1, clock);
     // Without a slope, 0.5 % over the window of 128 s would be 640 ms.
     EXPECT_GT(errors.lowest, -1 * kMs) << drift;
@@ -121,7 +121,7 @@ TEST(DeviceClock, FollowsADriftThatWandersWithTemperature) {
   auto wander = [](double host) { return 20e-6 / kTurn * (1 - std::cos(kTurn * host)); };
   auto noise = exponential(1 * kMs, 4);
   link.delay = [=](double host) { return wander(host) + noise(host); };
-  fsr::DeviceClock clock;
+  fsr::protocol::DeviceClock clock;
   Errors errors = {1e9, -1e9};
   for (double t = 0; t < 1200; t += link.period) {
     const double sent = link.truth(link.first + t);
@@ -138,7 +138,7 @@ TEST(DeviceClock, FollowsADriftThatWandersWithTemperature) {
 }
 
 TEST(DeviceClock, TakesOffTheKnownDelay) {
-  fsr::DeviceClock clock;
+  fsr::protocol::DeviceClock clock;
   const std::uint64_t wide = clock.observe(5000, 1'000'000'000, 14'583'333);
   EXPECT_EQ(wide, 5000U);
   EXPECT_EQ(clock.hostTime(wide), 985'416'667);
@@ -148,7 +148,7 @@ TEST(DeviceClock, CountsOnWhereThirtyTwoBitsWrap) {
   Link link;
   link.first = 4294.9;  // wraps at 4294.967296 s
   link.period = 1;
-  fsr::DeviceClock clock;
+  fsr::protocol::DeviceClock clock;
   std::uint64_t last = 0;
   for (int i = 0; i < 9000; ++i) {  // twice round
     const double device = link.first + i;
@@ -163,7 +163,7 @@ TEST(DeviceClock, CountsOnWhereThirtyTwoBitsWrap) {
 }
 
 TEST(DeviceClock, TakesPacketsOfAnEarlierDeviceTimeInBetween) {
-  fsr::DeviceClock clock;
+  fsr::protocol::DeviceClock clock;
   clock.observe(1'000'000, 2'000'000'000, 0);
   const std::uint64_t older = clock.observe(960'000, 2'000'100'000, 0);
   EXPECT_EQ(older, 960'000U);
@@ -172,7 +172,8 @@ TEST(DeviceClock, TakesPacketsOfAnEarlierDeviceTimeInBetween) {
 }
 
 // Feeds `count` packets 10 ms apart without delay; returns the host time of the last one [ns].
-std::int64_t feed(fsr::DeviceClock& clock, int count, std::uint32_t device_us, std::int64_t host_ns) {
+std::int64_t feed(fsr::protocol::DeviceClock& clock, int count, std::uint32_t device_us,
+                  std::int64_t host_ns) {
   std::int64_t last = 0;
   for (int i = 0; i < count; ++i) {
     last = clock.hostTime(clock.observe(device_us + 10'000U * i, host_ns + std::int64_t{10'000'000} * i, 0));
@@ -181,14 +182,14 @@ std::int64_t feed(fsr::DeviceClock& clock, int count, std::uint32_t device_us, s
 }
 
 TEST(DeviceClock, StartsAnewWhenTheBoardWasReset) {
-  fsr::DeviceClock clock;
+  fsr::protocol::DeviceClock clock;
   feed(clock, 1000, 3'000'000'000U, 0);
   EXPECT_EQ(feed(clock, 100, 500, 30'000'000'000), 30'990'000'000);
   EXPECT_EQ(clock.jumps(), 1U);
 }
 
 TEST(DeviceClock, StartsAnewWhenTheBoardsClockJumpsAhead) {
-  fsr::DeviceClock clock;
+  fsr::protocol::DeviceClock clock;
   feed(clock, 1000, 0, 0);
   EXPECT_EQ(feed(clock, 100, 500'000'000, 10'000'000'000), 10'990'000'000);
   EXPECT_EQ(clock.jumps(), 1U);
@@ -196,7 +197,7 @@ TEST(DeviceClock, StartsAnewWhenTheBoardsClockJumpsAhead) {
 
 TEST(DeviceClock, StartsAnewWhenTheHostsClockIsSetBackOrAhead) {
   for (const std::int64_t step : {-3600'000'000'000, 3600'000'000'000}) {
-    fsr::DeviceClock clock;
+    fsr::protocol::DeviceClock clock;
     feed(clock, 1000, 0, 0);
     EXPECT_EQ(feed(clock, 1000, 10'000'000, 10'000'000'000 + step), 19'990'000'000 + step);
     EXPECT_EQ(clock.jumps(), 1U);
@@ -204,14 +205,14 @@ TEST(DeviceClock, StartsAnewWhenTheHostsClockIsSetBackOrAhead) {
 }
 
 TEST(DeviceClock, StartsAnewAtOnceWhenAYoungBoardWasReset) {
-  fsr::DeviceClock clock;
+  fsr::protocol::DeviceClock clock;
   feed(clock, 300, 0, 0);
   EXPECT_EQ(feed(clock, 1, 500, 5'000'000'000), 5'000'000'000);
   EXPECT_EQ(clock.jumps(), 1U);
 }
 
 TEST(DeviceClock, IsNotMovedByAStallThatEnds) {
-  fsr::DeviceClock clock;
+  fsr::protocol::DeviceClock clock;
   feed(clock, 100, 0, 0);
   // 4 s of packets come together when the computer wakes up, then everything is as before.
   for (std::int64_t us = 1'000'000; us < 5'000'000; us += 10'000) {
@@ -226,7 +227,7 @@ TEST(DeviceClock, IsNotMovedByAStallThatEnds) {
 }
 
 TEST(DeviceClock, ForgetsAnEarlierConnectionWithoutCountingAJump) {
-  fsr::DeviceClock clock;
+  fsr::protocol::DeviceClock clock;
   feed(clock, 10, 3'000'000'000U, 0);
   clock.forget();
   EXPECT_EQ(feed(clock, 1, 7, 9'000'000'000), 9'000'000'000);
@@ -245,9 +246,9 @@ TEST(DeviceClock, KeepsAnEvenSpacingUnderAClockThatTicks) {
     const double arrival = host + bytes(host) - ticks(host);
     return std::floor(arrival / kTick) * kTick - host;
   };
-  fsr::DeviceClockOptions options;
+  fsr::protocol::DeviceClockOptions options;
   options.host_ticks = true;
-  fsr::DeviceClock clock(options);
+  fsr::protocol::DeviceClock clock(options);
   const Errors errors = run(link, 300, 20, clock);
   EXPECT_EQ(clock.jumps(), 0U);
   // Arrivals scatter by a tick (evenly spread: deviation 0.3 ticks) and by 28 ms; the mean of 200 after 20 s
@@ -262,22 +263,22 @@ TEST(DeviceClock, IsNotMovedByTicksThatComeMuchTooLateNowAndThen) {
   link.period = 0.1;
   int packet = 0;
   link.delay = [&packet](double) { return ++packet % 20 == 0 ? -0.4 : 0.0; };
-  fsr::DeviceClockOptions options;
+  fsr::protocol::DeviceClockOptions options;
   options.host_ticks = true;
-  fsr::DeviceClock clock(options);
+  fsr::protocol::DeviceClock clock(options);
   const Errors errors = run(link, 300, 20, clock);
   EXPECT_NEAR(errors.lowest, 0, 1e-6);
   EXPECT_NEAR(errors.highest, 0, 1e-6);
 }
 
 TEST(StampSequence, LetsIncreasingTimesPass) {
-  fsr::StampSequence stamps;
+  fsr::protocol::StampSequence stamps;
   EXPECT_EQ(stamps.next(1000, 5), 1000);
   EXPECT_EQ(stamps.next(10'001'000, 10'005), 10'001'000);
 }
 
 TEST(StampSequence, CatchesUpAtHalfSpeedWhereTheEstimateSteppedBack) {
-  fsr::StampSequence stamps;
+  fsr::protocol::StampSequence stamps;
   stamps.next(100'000'000, 0);
   // The estimate improves by 12 ms: 10 ms later the packet maps to 98 ms.
   EXPECT_EQ(stamps.next(98'000'000, 10'000), 105'000'000);
@@ -286,14 +287,14 @@ TEST(StampSequence, CatchesUpAtHalfSpeedWhereTheEstimateSteppedBack) {
 }
 
 TEST(StampSequence, IncreasesEvenWhereDeviceTimeDoesNot) {
-  fsr::StampSequence stamps;
+  fsr::protocol::StampSequence stamps;
   stamps.next(100'000'000, 5000);
   EXPECT_EQ(stamps.next(100'000'000, 5000), 100'001'000);
   EXPECT_EQ(stamps.next(90'000'000, 0), 100'002'000);
 }
 
 TEST(StampSequence, GoesBackWithTheHostsTime) {
-  fsr::StampSequence stamps;
+  fsr::protocol::StampSequence stamps;
   stamps.next(100'000'000'000, 5000);
   EXPECT_EQ(stamps.next(2'000'000'000, 15'000), 2'000'000'000);
 }

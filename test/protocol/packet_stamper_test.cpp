@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/protocol/packet_stamper.h"
+#include "protocol/packet_stamper.h"
 
 #include <gtest/gtest.h>
 
@@ -6,29 +6,29 @@ namespace {
 
 constexpr std::int64_t kMs = 1'000'000;  // [ns]
 
-fsr::PacketHeader at(std::uint32_t device_time, std::size_t size) {
+fsr::protocol::PacketHeader at(std::uint32_t device_time, std::size_t size) {
   return {0, device_time, size};
 }
 
 TEST(PacketStamper, TakesOffTheLineAndHalfTheScan) {
-  fsr::PacketStamper stamper;
+  fsr::protocol::PacketStamper stamper;
   stamper.startLine(115200);
   stamper.setArrival(1000 * kMs);
   // 168 bytes of 10 bits at 115,200 1/s: 14.583333 ms; half of a scan of 5 ms: 2.5 ms.
-  const fsr::PacketTime time = stamper.scan(at(7000, 168), 5000);
+  const fsr::protocol::PacketTime time = stamper.scan(at(7000, 168), 5000);
   EXPECT_EQ(time.stamp, 1000 * kMs - 14'583'333 - 2'500'000);
   EXPECT_EQ(time.device_time, 7000U);
 }
 
 TEST(PacketStamper, TakesNoLineOffWithoutBaud) {
-  fsr::PacketStamper stamper;
+  fsr::protocol::PacketStamper stamper;
   stamper.startLine(0);
   stamper.setArrival(1000 * kMs);
   EXPECT_EQ(stamper.transducer(at(7000, 24)).stamp, 1000 * kMs);
 }
 
 TEST(PacketStamper, PlacesScansAndReadingsOnOneClock) {
-  fsr::PacketStamper stamper;
+  fsr::protocol::PacketStamper stamper;
   stamper.startLine(115200);
   stamper.setArrival(1000 * kMs);
   const std::int64_t scan = stamper.scan(at(100'000, 168), 5000).stamp;
@@ -38,7 +38,7 @@ TEST(PacketStamper, PlacesScansAndReadingsOnOneClock) {
 }
 
 TEST(PacketStamper, StampsPacketsOfOneReadApart) {
-  fsr::PacketStamper stamper;
+  fsr::protocol::PacketStamper stamper;
   stamper.startLine(0);
   stamper.setArrival(1000 * kMs);
   const std::int64_t first = stamper.scan(at(10'000, 168), 0).stamp;
@@ -49,7 +49,7 @@ TEST(PacketStamper, StampsPacketsOfOneReadApart) {
 }
 
 TEST(PacketStamper, DatesATemperatureBackWithoutLearningFromIt) {
-  fsr::PacketStamper stamper;
+  fsr::protocol::PacketStamper stamper;
   stamper.startLine(0);
   stamper.setArrival(1000 * kMs);
   EXPECT_EQ(stamper.temperature(at(3'000'000, 24)).stamp, 1000 * kMs) << "before any clock: when it came";

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/protocol/serial_port.h"
+#include "protocol/serial_port.h"
 
 #include <gtest/gtest.h>
 
@@ -27,9 +27,9 @@ std::int64_t noTime() {
 // What a constructor of the port complained about; empty where it did not.
 std::string complaintOf(const std::string& path) {
   try {
-    fsr::SerialPort port(path, kBaud, noTime);
+    fsr::protocol::SerialPort port(path, kBaud, noTime);
     return "";
-  } catch (const fsr::LinkError& error) {
+  } catch (const fsr::protocol::LinkError& error) {
     return error.what();
   }
 }
@@ -46,14 +46,14 @@ class SerialPort : public testing::Test {
 };
 
 TEST_F(SerialPort, ReadsBytesAsTheyWereSentWithTheirTime) {
-  fsr::SerialPort port(link_, kBaud, noTime);
+  fsr::protocol::SerialPort port(link_, kBaud, noTime);
   Bytes all(256);  // every value: XON, XOFF, CR, NUL, DEL ... must pass unharmed
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint8_t>(i);
   ASSERT_TRUE(board_->write(all));
   Bytes received;
   Bytes buffer(4096);
   while (received.size() < all.size()) {
-    const fsr::Chunk chunk = port.read(buffer.data(), buffer.size(), kLong);
+    const fsr::protocol::Chunk chunk = port.read(buffer.data(), buffer.size(), kLong);
     ASSERT_GT(chunk.size, 0U);
     EXPECT_EQ(chunk.receive_time, 42);
     received.insert(received.end(), buffer.begin(), buffer.begin() + chunk.size);
@@ -62,38 +62,38 @@ TEST_F(SerialPort, ReadsBytesAsTheyWereSentWithTheirTime) {
 }
 
 TEST_F(SerialPort, ReturnsWithoutBytesWhenTheBoardIsSilent) {
-  fsr::SerialPort port(link_, kBaud, noTime);
+  fsr::protocol::SerialPort port(link_, kBaud, noTime);
   Bytes buffer(16);
   EXPECT_EQ(port.read(buffer.data(), buffer.size(), milliseconds(1)).size, 0U);
 }
 
 TEST_F(SerialPort, SaysThatTheBoardWasUnplugged) {
-  fsr::SerialPort port(link_, kBaud, noTime);
+  fsr::protocol::SerialPort port(link_, kBaud, noTime);
   board_.reset();
   Bytes buffer(16);
   try {
     port.read(buffer.data(), buffer.size(), kLong);
     FAIL() << "no complaint";
-  } catch (const fsr::LinkError& error) {
+  } catch (const fsr::protocol::LinkError& error) {
     EXPECT_TRUE(contains(error.what(), link_ + " was unplugged or switched off")) << error.what();
   }
 }
 
 TEST_F(SerialPort, SetsNamedAndUnnamedSpeedsAndLeavesThePortAloneAtZero) {
   for (const std::uint32_t baud : {9600U, 115200U, 921600U, 250000U, 1234567U}) {
-    fsr::SerialPort port(link_, baud, noTime);
+    fsr::protocol::SerialPort port(link_, baud, noTime);
     EXPECT_EQ(board_->speed(), baud);
   }
-  fsr::SerialPort port(link_, 0, noTime);
+  fsr::protocol::SerialPort port(link_, 0, noTime);
   EXPECT_EQ(board_->speed(), 1234567U);
 }
 
 TEST_F(SerialPort, TakesNoTimeForBytesOfAPseudoTerminal) {
-  EXPECT_EQ(fsr::SerialPort(link_, kBaud, noTime).baud(), 0U);
+  EXPECT_EQ(fsr::protocol::SerialPort(link_, kBaud, noTime).baud(), 0U);
 }
 
 TEST_F(SerialPort, KeepsAnotherReaderOutAndSaysHowToFindTheFirst) {
-  const fsr::SerialPort first(link_, kBaud, noTime);
+  const fsr::protocol::SerialPort first(link_, kBaud, noTime);
   const std::string complaint = complaintOf(link_);
   EXPECT_TRUE(contains(complaint, "another program has " + link_ + " open")) << complaint;
   EXPECT_TRUE(contains(complaint, "fuser -v " + link_)) << complaint;
@@ -118,7 +118,7 @@ TEST_F(SerialPort, RefusesAFileThatIsNoPort) {
 }
 
 TEST_F(SerialPort, NamesTheGroupAndTheCommandWhereThePermissionIsMissing) {
-  const std::string complaint = fsr::explainOpenError("/dev/ttyNone", EACCES);
+  const std::string complaint = fsr::protocol::explainOpenError("/dev/ttyNone", EACCES);
   EXPECT_EQ(complaint,
             "this user may not open /dev/ttyNone: add it to group dialout with 'sudo usermod -aG dialout "
             "$USER', then "
@@ -133,8 +133,8 @@ TEST_F(SerialPort, ListsStableNamesFirst) {
   const std::string dev = folder_.path("dev");
   const std::vector<std::string> expected = {dev + "/serial/by-id/usb-board-if00", dev + "/ttyACM0",
                                              dev + "/ttyUSB0", dev + "/ttyUSB1"};
-  EXPECT_EQ(fsr::serialPortCandidates(dev), expected);
-  EXPECT_TRUE(fsr::serialPortCandidates(folder_.path("nowhere")).empty());
+  EXPECT_EQ(fsr::protocol::serialPortCandidates(dev), expected);
+  EXPECT_TRUE(fsr::protocol::serialPortCandidates(folder_.path("nowhere")).empty());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/bandwidth_search.h"
+#include "regression/bandwidth_search.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::regression {
 namespace {
 
 constexpr std::uint16_t kFullScale = 1023;
@@ -108,7 +108,7 @@ TEST(BandwidthErrors, WithNothingToHoldOutTheyChooseThePapers) {
 TEST(BandwidthErrors, OfPressureBinsAreRefused) {
   GrnnOptions options;
   options.weighting = SampleWeighting::kEachPressureBin;
-  EXPECT_THROW(BandwidthErrors(sumsOf(sectionsOf(3)), kFullScale, options, {0.1}), InputError);
+  EXPECT_THROW(BandwidthErrors(sumsOf(sectionsOf(3)), kFullScale, options, {0.1}), settings::InputError);
 }
 
 TEST(CrossValidateTuned, TrainsEachModelWithItsOwnChoice) {
@@ -126,4 +126,4 @@ TEST(CrossValidateTuned, TrainsEachModelWithItsOwnChoice) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::regression

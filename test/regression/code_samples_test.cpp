@@ -4,11 +4,11 @@
 
 #include <random>
 
-#include "fsr_pressure_map/regression/cross_validation.h"
 #include "fsr_pressure_map/regression/grnn.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "regression/cross_validation.h"
 
-namespace fsr {
+namespace fsr::regression {
 namespace {
 
 constexpr std::uint16_t kFullScale = 4095;
@@ -28,11 +28,11 @@ TEST(CodeSamples, AnImpossibleSetIsRefused) {
   CodeSamples samples = randomSamples(3, 1);
   EXPECT_NO_THROW(validate(samples));
   samples.curvature = {1.0};
-  EXPECT_THROW(validate(samples), InputError);
+  EXPECT_THROW(validate(samples), settings::InputError);
   samples.curvature = {1.0, 2.0, 3.0};
   EXPECT_NO_THROW(validate(samples));
   samples.code[1] = 4096;
-  EXPECT_THROW(validate(samples), InputError);
+  EXPECT_THROW(validate(samples), settings::InputError);
 }
 
 TEST(CodeSamples, CrossValidationOnSamplesAndOnSumsAgreesBitForBit) {
@@ -53,4 +53,4 @@ TEST(CodeSamples, CrossValidationOnSamplesAndOnSumsAgreesBitForBit) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::regression

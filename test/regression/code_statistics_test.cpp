@@ -8,7 +8,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::regression {
 namespace {
 
 struct Reading {
@@ -74,18 +74,18 @@ TEST(CodeStatistics, AnOverflowingSumIsRefused) {
   CodeStatistics a, b;
   a.append(full);
   b.append(full);
-  EXPECT_THROW(a.merge(b), InputError);
+  EXPECT_THROW(a.merge(b), settings::InputError);
 }
 
 TEST(CodeStatistics, AnImpossiblePressureIsRefused) {
-  EXPECT_THROW(toFixed(std::nan("")), InputError);
-  EXPECT_THROW(toFixed(1e9), InputError);
+  EXPECT_THROW(toFixed(std::nan("")), settings::InputError);
+  EXPECT_THROW(toFixed(1e9), settings::InputError);
   EXPECT_EQ(fromFixed(toFixed(-kLargestPressure)), -kLargestPressure);
 }
 
 TEST(CodeAccumulator, ACountAboveFullScaleIsRefused) {
   CodeAccumulator accumulator(1023);
-  EXPECT_THROW(accumulator.add(1024, 0), InputError);
+  EXPECT_THROW(accumulator.add(1024, 0), settings::InputError);
 }
 
 TEST(CodeAccumulator, StartsAfreshOnceTaken) {
@@ -112,4 +112,4 @@ TEST(CodeHistogram, SubtractingUndoesAdding) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/cross_validation.h"
+#include "regression/cross_validation.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <random>
 
 #include "fsr_pressure_map/regression/grnn.h"
-#include "fsr_pressure_map/regression/held_out_deviation.h"
+#include "regression/held_out_deviation.h"
 
-namespace fsr {
+namespace fsr::regression {
 namespace {
 
 constexpr std::uint16_t kFullScale = 4095;
@@ -145,4 +145,4 @@ TEST(HeldOutErrors, LeavingASectionOutForgetsItsErrors) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/regression/deviation_scale.h"
+#include "regression/deviation_scale.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-namespace fsr {
+namespace fsr::regression {
 namespace {
 
 constexpr std::size_t kCodes = 4096;
@@ -72,4 +72,4 @@ TEST(DeviationScale, FewReadingsShareOneFactor) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -10,7 +10,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/regression_data.h"
 
-namespace fsr {
+namespace fsr::regression {
 namespace {
 
 using test_support::regressionData;
@@ -149,17 +149,17 @@ TEST(Forest, TablesCoverEveryCurvature) {
 TEST(Forest, ImpossibleOptionsAndInputAreRefused) {
   ForestOptions none;
   none.trees = 0;
-  EXPECT_THROW(Forest{none}, InputError);
+  EXPECT_THROW(Forest{none}, settings::InputError);
   none = {};
   none.minimum_leaf = 0;
-  EXPECT_THROW(Forest{none}, InputError);
+  EXPECT_THROW(Forest{none}, settings::InputError);
   CodeSamples samples = samplesOf({1, 2}, {1e3, 2e3});
-  EXPECT_THROW(fitCurvatureForest(samples), InputError);  // no curvature
+  EXPECT_THROW(fitCurvatureForest(samples), settings::InputError);  // no curvature
   samples = samplesOf(std::vector<std::uint16_t>(33, 1), std::vector<double>(33, 1e3));
   for (int i = 0; i < 33; ++i) samples.curvature.push_back(i);
-  EXPECT_THROW(fitCurvatureForest(samples), InputError);  // too many
-  EXPECT_THROW(Forest().fit(CodeHistogram(4095)), InputError);
+  EXPECT_THROW(fitCurvatureForest(samples), settings::InputError);  // too many
+  EXPECT_THROW(Forest().fit(CodeHistogram(4095)), settings::InputError);
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::regression

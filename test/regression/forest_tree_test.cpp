@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/forest_tree.h"
+#include "regression/forest/forest_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <limits>
 #include <random>
 
-#include "fsr_pressure_map/regression/best_cut.h"
+#include "regression/forest/best_cut.h"
 
-namespace fsr {
+namespace fsr::regression {
 namespace {
 
 // A second forest, as plain as can be: a replica of the readings, and every cut tried at every node.
@@ -65,7 +65,7 @@ std::vector<Reading> replica(const ForestData& data, std::uint64_t seed, std::ui
     }
     slot += size_class.entries;
   }
-  const RandomStream stream = randomStream(seed, "forest", tree);
+  const statistics::RandomStream stream = statistics::randomStream(seed, "forest", tree);
   std::vector<Reading> drawn;
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::uint64_t bits = stream.bits(i / 2);
@@ -78,7 +78,7 @@ std::vector<Reading> replica(const ForestData& data, std::uint64_t seed, std::ui
 
 std::vector<Box> plainTree(const ForestData& data, const ForestOptions& options, std::uint64_t tree) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const RandomStream inputs = randomStream(options.seed, "forest_input", tree);
+  const statistics::RandomStream inputs = statistics::randomStream(options.seed, "forest_input", tree);
   std::deque<Box> open = {
       {replica(data, options.seed, tree), {-kInfinity, -kInfinity}, {kInfinity, kInfinity}}};
   std::vector<Box> leaves;
@@ -183,4 +183,4 @@ TEST(BestCut, FindsNothingWhereAllAreEqual) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -8,7 +8,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::regression {
 namespace {
 
 struct Reading {
@@ -178,7 +178,7 @@ TEST(Grnn, PressureBinsNeedTheReadings) {
   EXPECT_TRUE(Grnn(options).mergeable());
   options.weighting = SampleWeighting::kEachPressureBin;
   EXPECT_FALSE(Grnn(options).mergeable());
-  EXPECT_THROW(Grnn(options).fit(histogramOf(kFive, 4095)), InputError);
+  EXPECT_THROW(Grnn(options).fit(histogramOf(kFive, 4095)), settings::InputError);
 }
 
 TEST(Grnn, ReadingsThatNeverDifferAnswerWithTheirMean) {
@@ -192,10 +192,10 @@ TEST(Grnn, ReadingsThatNeverDifferAnswerWithTheirMean) {
 }
 
 TEST(Grnn, ABandwidthThatCannotBeIsRefused) {
-  EXPECT_THROW(Grnn(0.0), InputError);
-  EXPECT_THROW(Grnn(-1.0), InputError);
-  EXPECT_THROW(Grnn(std::nan("")), InputError);
+  EXPECT_THROW(Grnn(0.0), settings::InputError);
+  EXPECT_THROW(Grnn(-1.0), settings::InputError);
+  EXPECT_THROW(Grnn(std::nan("")), settings::InputError);
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::regression

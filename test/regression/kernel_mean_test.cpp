@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/kernel_mean.h"
+#include "regression/grnn/kernel_mean.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <random>
 #include <utility>
 
-#include "fsr_pressure_map/regression/coarse_grid.h"
+#include "regression/grnn/coarse_grid.h"
 
-namespace fsr {
+namespace fsr::regression {
 namespace {
 
 constexpr std::uint16_t kFullScale = 4095;
@@ -125,4 +125,4 @@ TEST(CoarseGrid, IsForWideKernels) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -1,8 +1,8 @@
-#include "fsr_pressure_map/regression/linear_regression.h"
+#include "regression/linear_regression.h"
 
 #include <gtest/gtest.h>
 
-namespace fsr {
+namespace fsr::regression {
 namespace {
 
 Fit fit(const std::vector<std::uint16_t>& code, const std::vector<double>& pressure,
@@ -44,4 +44,4 @@ TEST(LinearRegression, ReadingsThatNeverDifferAnswerWithTheirMean) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/monotone.h"
+#include "regression/monotone.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <random>
 
 #include "fsr_pressure_map/regression/grnn.h"
-#include "fsr_pressure_map/regression/isotonic.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "regression/isotonic.h"
 
-namespace fsr {
+namespace fsr::regression {
 namespace {
 
 std::vector<double> levels(const std::vector<double>& values, const std::vector<double>& weights) {
@@ -149,8 +149,8 @@ TEST(Monotone, OneReadingOrOnePressureAnswersWithItsMean) {
 
 TEST(Monotone, NeedsTheReadings) {
   EXPECT_FALSE(Monotone().mergeable());
-  EXPECT_THROW(Monotone().fit(CodeHistogram(15)), InputError);
+  EXPECT_THROW(Monotone().fit(CodeHistogram(15)), settings::InputError);
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::regression

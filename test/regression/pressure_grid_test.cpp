@@ -1,8 +1,8 @@
-#include "fsr_pressure_map/regression/pressure_grid.h"
+#include "regression/pressure_grid.h"
 
 #include <gtest/gtest.h>
 
-namespace fsr {
+namespace fsr::regression {
 namespace {
 
 TEST(PressureGrid, HoldsEveryPressureInAsManyBinsAsAllowed) {
@@ -44,4 +44,4 @@ TEST(PressureGrid, WeightsAddUpToTheSamplesWhateverTheirOrder) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <random>
 
-#include "fsr_pressure_map/regression/cross_validation.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "regression/cross_validation.h"
 #include "support/regression_data.h"
 
-namespace fsr {
+namespace fsr::regression {
 namespace {
 
 struct Way {
@@ -124,7 +124,7 @@ TEST_P(EveryRegressor, MergesExactlyOrSaysThatItNeedsTheBags) {
   CodeHistogram merged(4095);
   merged.add(sums);
   if (!regressor_->mergeable()) {
-    EXPECT_THROW(regressor_->fit(merged), InputError);
+    EXPECT_THROW(regressor_->fit(merged), settings::InputError);
     return;
   }
   CodeSamples both = first;
@@ -198,10 +198,10 @@ TEST(Regressors, AllNamesAreKnownAndOthersAreNot) {
   try {
     makeRegressor(other);
     FAIL();
-  } catch (const InputError& error) {
+  } catch (const settings::InputError& error) {
     EXPECT_STREQ(error.what(), "model is \"perceptron\", but must be one of linear, grnn, forest, monotone");
   }
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::regression

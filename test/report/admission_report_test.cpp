@@ -1,16 +1,16 @@
-#include "fsr_pressure_map/report/admission_report.h"
+#include "report/admission_report.h"
 
 #include <gtest/gtest.h>
 
-namespace fsr {
+namespace fsr::report {
 namespace {
 
-SocketCheck example() {
-  SocketCheck check;
+calibration::SocketCheck example() {
+  calibration::SocketCheck check;
   check.name = "socket.bag";
   check.layout.size = {2, 2};
-  check.before = SocketRest{0.5, 9.5, {}, {}};
-  check.after = SocketRest{71, 79, {}, {}};
+  check.before = calibration::SocketRest{0.5, 9.5, {}, {}};
+  check.after = calibration::SocketRest{71, 79, {}, {}};
   check.change = {0, 0.01, -0.03, 0};
   check.worst = 2;
   check.changed = 1;
@@ -40,7 +40,7 @@ TEST(SocketText, SaysWhatARecordingWithoutReferenceTellsOfItself) {
 }
 
 TEST(SocketText, EndsWithTheWorstReasonToLookAgain) {
-  SocketCheck check = example();
+  calibration::SocketCheck check = example();
   check.after.reset();
   check.change.clear();
   check.reasons = {"no rest was recorded after", "4 % of the readings are at full scale"};
@@ -52,7 +52,7 @@ TEST(SocketText, EndsWithTheWorstReasonToLookAgain) {
 }
 
 TEST(AdmissionText, EndsWithWhatTheRecordingsAreFitFor) {
-  Admission admission;
+  discrepancy::Admission admission;
   EXPECT_EQ(lastLine(admissionText(admission)), "Fit for training and for discrepancy.\n");
   admission.discrepancy = "one cycle is not enough";
   EXPECT_EQ(lastLine(admissionText(admission)),
@@ -62,4 +62,4 @@ TEST(AdmissionText, EndsWithWhatTheRecordingsAreFitFor) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::report

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/report/calibration_report.h"
+#include "report/calibration_report.h"
 
 #include <gtest/gtest.h>
 
@@ -8,20 +8,20 @@
 
 #include "support/synthetic_recording.h"
 
-namespace fsr {
+namespace fsr::report {
 namespace {
 
 using test_support::syntheticRecording;
 using test_support::SyntheticRig;
 
-Calibration trained(Scheme scheme) {
+calibration::Calibration trained(compensation::Scheme scheme) {
   SyntheticRig rig;
   rig.surfaces = {{"flat", 0.0}, {"cylinder_5cm", 20.0}};
   rig.peak = 300e3;
-  CalibrationProblem problem{{syntheticRecording(rig)}, {}};
+  calibration::CalibrationProblem problem{{syntheticRecording(rig)}, {}};
   problem.options.scheme = scheme;
   problem.options.date = "2024-05-06T07:08:09Z";
-  return calibrate(problem);
+  return calibration::calibrate(problem);
 }
 
 // The line that begins with `start`.
@@ -35,7 +35,7 @@ std::string lineOf(const std::string& text, const std::string& start) {
 }
 
 TEST(CalibrationReport, ShowsCoverageInBothUnitsOfCurvature) {
-  const std::string text = coverageText(trained(Scheme::kPerCurvature).coverage);
+  const std::string text = coverageText(trained(compensation::Scheme::kPerCurvature).coverage);
   EXPECT_EQ(
       lineOf(text, "cylinder_5cm"),
       "cylinder_5cm              20.00       0.200     500      5         40/45         40/40         85/85"
@@ -44,9 +44,9 @@ TEST(CalibrationReport, ShowsCoverageInBothUnitsOfCurvature) {
 }
 
 TEST(CalibrationReport, ShowsScoresOfEachSurface) {
-  const Calibration calibration = trained(Scheme::kPerCurvature);
+  const calibration::Calibration calibration = trained(compensation::Scheme::kPerCurvature);
   const std::string text = scoresText(calibration.scores);
-  const Score& score = calibration.scores.conditions[1].score;
+  const calibration::Score& score = calibration.scores.conditions[1].score;
   char rmse[32];
   std::snprintf(rmse, sizeof(rmse), "%.1f", score.errors.whole.all.rmse / 1e3);
   EXPECT_NE(lineOf(text, "cylinder_5cm").find(rmse), std::string::npos);
@@ -56,19 +56,19 @@ TEST(CalibrationReport, ShowsScoresOfEachSurface) {
 }
 
 TEST(CalibrationReport, MarksSurfacesThatTheModelNeverSaw) {
-  const std::string text = scoresText(trained(Scheme::kFlatOnly).scores);
+  const std::string text = scoresText(trained(compensation::Scheme::kFlatOnly).scores);
   EXPECT_NE(text.find("cylinder_5cm *"), std::string::npos);
   EXPECT_NE(text.find("* the model that answers has not been trained on this surface"), std::string::npos);
-  EXPECT_EQ(scoresText(trained(Scheme::kBaseline).scores).find('*'), std::string::npos);
+  EXPECT_EQ(scoresText(trained(compensation::Scheme::kBaseline).scores).find('*'), std::string::npos);
 }
 
 TEST(CalibrationReport, SaysWhatTheSchemeLearned) {
-  Calibration calibration;
+  calibration::Calibration calibration;
   EXPECT_EQ(learnedText(calibration), "");
-  calibration.tables.scheme = Scheme::kScaledCurvature;
+  calibration.tables.scheme = compensation::Scheme::kScaledCurvature;
   calibration.tables.rule.length_scale = {1.25};
   EXPECT_EQ(learnedText(calibration), "Length scale of curvature: 1.25 1/m\n");
-  calibration.tables.scheme = Scheme::kCurvatureRanges;
+  calibration.tables.scheme = compensation::Scheme::kCurvatureRanges;
   calibration.tables.classes = {{"flat", {0.0}}, {"cylinder_13cm", {7.7}}, {"cylinder_11cm", {9.1}}};
   EXPECT_EQ(learnedText(calibration), "Curvature ranges: flat; cylinder_13cm; cylinder_11cm\n");
   calibration.tables.rule.model_of_class = {0, 1, 1};
@@ -80,21 +80,21 @@ TEST(CalibrationReport, SaysThatScoresWereNotAskedFor) {
 }
 
 TEST(CalibrationReport, PrintsWarningsLineByLine) {
-  Calibration calibration;
+  calibration::Calibration calibration;
   EXPECT_EQ(warningsText(calibration), "");
   calibration.warnings = {"one", "two"};
   EXPECT_EQ(warningsText(calibration), "Warning: one\nWarning: two\n");
 }
 
 TEST(CalibrationReport, JsonHoldsTheSameNumbers) {
-  const Calibration calibration = trained(Scheme::kPerCurvature);
+  const calibration::Calibration calibration = trained(compensation::Scheme::kPerCurvature);
   const auto json = nlohmann::json::parse(calibrationJson(calibration));
   EXPECT_EQ(json["scheme"], "per_curvature");
   EXPECT_EQ(json["provenance"]["date"], "2024-05-06T07:08:09Z");
   EXPECT_EQ(json["trained"]["pressure"][1], 300e3);
   EXPECT_TRUE(json["trained"]["temperature"][0].is_null());
   const auto& bent = json["scores"]["conditions"][1];
-  const Score& score = calibration.scores.conditions[1].score;
+  const calibration::Score& score = calibration.scores.conditions[1].score;
   EXPECT_EQ(bent["r2"]["mean"], score.r2.mean);
   EXPECT_EQ(bent["errors_pa"]["bins"]["100-200 kPa"]["loading"]["rmse"], score.errors.bins[2].loading.rmse);
   EXPECT_EQ(json["coverage"]["conditions"][0]["loading"]["0-50 kPa"]["scans"],
@@ -103,4 +103,4 @@ TEST(CalibrationReport, JsonHoldsTheSameNumbers) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::report

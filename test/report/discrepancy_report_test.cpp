@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/report/discrepancy_report.h"
+#include "report/discrepancy_report.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "support/example_discrepancy.h"
 
-namespace fsr {
+namespace fsr::report {
 namespace {
 
 using test_support::exampleDiscrepancy;
@@ -18,18 +18,17 @@ void expectHolds(const std::string& text, const std::vector<std::string>& parts)
 }
 
 TEST(DiscrepancyText, SaysWhatIsNotExcludedAndWhatIsNotTestable) {
-  expectHolds(
-      discrepancyText(exampleDiscrepancy()),
-      {"Best explanation among 23 effects tested", "Not excluded: hysteresis | hysteresis + creep.",
-       "crosstalk (uneven_load), wear (many_cycles)",
-       "3.10 % FS (19.2 kPa) before, 0.80 % FS (5.0 kPa) after, floor 0.60 % FS (3.7 kPa)",
-       "closed 92 % (90 to 94 %)", "Held out: cycles, condition",
-       "Closed on each condition by what the others foretell: 88 % (flat 90 %, cylinder_7cm 86 %)",
-       "21.0 kPa in a ramp (5.0 with it)", "Next experiment: Run five cycles", "looked at 3 times"});
+  expectHolds(discrepancyText(exampleDiscrepancy()),
+              {"Best explanation among 23 effects tested", "Not excluded: hysteresis | hysteresis + creep.",
+               "crosstalk (uneven_load), wear (many_cycles)",
+               "3.10 % FS (19.2 kPa) before, 0.80 % FS (5.0 kPa) after, floor 0.60 % FS (3.7 kPa)",
+               "closed 92 % (90 to 94 %)", "Held out: cycles, condition",
+               "Closed on each condition by what the others foretell: 88 % (flat 90 %, cylinder_7cm 86 %)",
+               "21.0 kPa in a ramp (5.0 with it)", "Next experiment: Run five cycles", "looked at 3 times"});
 }
 
 TEST(DiscrepancyText, LeavesOutWhatIsAbsent) {
-  const DiscrepancyReport nothing;
+  const discrepancy::DiscrepancyReport nothing;
   const std::string text = discrepancyText(nothing);
   for (const char* part : {"Not excluded", "Not testable", "Next experiment", "looked at", "Held out"})
     EXPECT_EQ(text.find(part), std::string::npos) << part;
@@ -45,7 +44,7 @@ TEST(DiscrepancyJson, HoldsEveryNumberAndNullForNone) {
   EXPECT_EQ(json["covariates"][0]["adjusted_p"], 3e-3);
   EXPECT_EQ(json["gap"]["foretold"][0]["parts"][1]["part"], "cylinder_7cm");
   EXPECT_EQ(json["curves"][0]["at"].size(), 20u);
-  const DiscrepancyReport nothing;
+  const discrepancy::DiscrepancyReport nothing;
   EXPECT_TRUE(json["in_use"][2]["after_pa"].is_null());
   EXPECT_EQ(json["inputs"][1]["show_opened"], 3);
   EXPECT_TRUE(nlohmann::json::parse(discrepancyJson(nothing))["next_experiment"].is_null());
@@ -63,7 +62,7 @@ TEST(DiscrepancyTables, AreOneForEachFigureWithUnitsInTheirHeadings) {
 }
 
 TEST(DiscrepancyTables, LeaveACellEmptyWhereThereIsNoValue) {
-  DiscrepancyReport report = exampleDiscrepancy();
+  discrepancy::DiscrepancyReport report = exampleDiscrepancy();
   report.gap.after = NAN;
   report.gap.after_interval = {NAN, NAN};
   report.gap.after_pressure = NAN;
@@ -71,13 +70,13 @@ TEST(DiscrepancyTables, LeaveACellEmptyWhereThereIsNoValue) {
 }
 
 TEST(FitRemarks, TellTheIntervalOfWhatWasFitted) {
-  const ValueRemarks remarks = fitRemarks(exampleDiscrepancy());
+  const simulation::ValueRemarks remarks = fitRemarks(exampleDiscrepancy());
   EXPECT_EQ(remarks.at("hysteresis.loop_width"),
             "fitted, 95 % interval 0.058 to 0.067 fraction of full scale");
 }
 
 TEST(ConfirmationText, SaysPassedOrNotAndTheRival) {
-  Confirmation confirmation;
+  discrepancy::Confirmation confirmation;
   confirmation.passed = false;
   confirmation.sentence = "The loop did not keep its width.";
   confirmation.size = 0.4;
@@ -90,4 +89,4 @@ TEST(ConfirmationText, SaysPassedOrNotAndTheRival) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::report

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/report/study_report.h"
+#include "report/study_report.h"
 
 #include <gtest/gtest.h>
 
@@ -10,20 +10,20 @@
 
 namespace {
 
-fsr::StudyProblem smallProblem() {
+fsr::study::StudyProblem smallProblem() {
   test_support::SyntheticRig rig;
   rig.size = {1, 3};
   rig.surfaces = {{"flat", 0.0}, {"a \"bent\", sheet", 7.7}, {"cylinder_5cm", 20.0}};
   rig.scans_per_cycle = 40;
-  fsr::StudyProblem problem{{test_support::syntheticRecording(rig)}, {}, "paper"};
+  fsr::study::StudyProblem problem{{test_support::syntheticRecording(rig)}, {}, "paper"};
   problem.plan.forest.trees = 2;
   problem.plan.resamples = 99;
   problem.plan.bandwidths = {1.0 / 128, 1.0 / 16};
   return problem;
 }
 
-const fsr::StudyResult& smallStudy() {
-  static const fsr::StudyResult result = fsr::study(smallProblem());
+const fsr::study::StudyResult& smallStudy() {
+  static const fsr::study::StudyResult result = fsr::study::study(smallProblem());
   return result;
 }
 
@@ -45,7 +45,7 @@ bool contains(const std::string& text, const std::string& part) {
 }  // namespace
 
 TEST(StudyTables, HaveAsManyCellsInEachRowAsHeadings) {
-  const auto tables = fsr::studyTables(smallStudy());
+  const auto tables = fsr::report::studyTables(smallStudy());
   EXPECT_EQ(tables.size(), 8u);
   for (const auto& [name, content] : tables) {
     std::istringstream lines(content);
@@ -58,25 +58,25 @@ TEST(StudyTables, HaveAsManyCellsInEachRowAsHeadings) {
 }
 
 TEST(StudyTables, HaveTheSameDigitsFromOneThreadAndMany) {
-  fsr::StudyProblem one = smallProblem(), three = smallProblem();
+  fsr::study::StudyProblem one = smallProblem(), three = smallProblem();
   one.plan.threads = 1;
   three.plan.threads = 3;
-  const fsr::StudyResult first = fsr::study(one);
-  fsr::StudyResult second = fsr::study(three);
+  const fsr::study::StudyResult first = fsr::study::study(one);
+  fsr::study::StudyResult second = fsr::study::study(three);
   second.provenance.date = first.provenance.date;  // a second may have passed
-  EXPECT_TRUE(fsr::studyTables(first) == fsr::studyTables(second));
-  EXPECT_TRUE(fsr::studyJson(first) == fsr::studyJson(second));
+  EXPECT_TRUE(fsr::report::studyTables(first) == fsr::report::studyTables(second));
+  EXPECT_TRUE(fsr::report::studyJson(first) == fsr::report::studyJson(second));
 }
 
 TEST(StudyTables, QuoteNamesAndLeaveUnknownNumbersEmpty) {
-  const auto tables = fsr::studyTables(smallStudy());
+  const auto tables = fsr::report::studyTables(smallStudy());
   EXPECT_TRUE(contains(tables.at("response.csv"), "\"a \"\"bent\"\", sheet\",7.7,"));
   for (const auto& [name, content] : tables) EXPECT_FALSE(contains(content, ",nan")) << name;
 }
 
 TEST(StudyTables, HoldEveryMethodOfEverySplit) {
-  const fsr::StudyResult& result = smallStudy();
-  const std::string scores = fsr::studyTables(result).at("scores.csv");
+  const fsr::study::StudyResult& result = smallStudy();
+  const std::string scores = fsr::report::studyTables(result).at("scores.csv");
   std::size_t expected = 0;
   for (const auto& comparison : result.comparisons) expected += comparison.scores.size();
   for (const auto& split : result.splits) expected += split.scores.size();
@@ -84,7 +84,7 @@ TEST(StudyTables, HoldEveryMethodOfEverySplit) {
 }
 
 TEST(StudyText, PutsThePapersNumbersBesideOursAndSaysWhatTheyAreWorth) {
-  const std::string text = fsr::studyText(smallStudy());
+  const std::string text = fsr::report::studyText(smallStudy());
   EXPECT_TRUE(contains(text, "6.93 +- 0.81")) << text;
   EXPECT_TRUE(contains(text, "As published, taxels treated as independent")) << text;
   EXPECT_TRUE(contains(text, "FITTED to the paper's tables")) << text;
@@ -92,17 +92,17 @@ TEST(StudyText, PutsThePapersNumbersBesideOursAndSaysWhatTheyAreWorth) {
 }
 
 TEST(StudyJson, NamesTheHeadingOfThePublishedTestsAndEveryDecision) {
-  const fsr::StudyResult& result = smallStudy();
-  const std::string json = fsr::studyJson(result);
+  const fsr::study::StudyResult& result = smallStudy();
+  const std::string json = fsr::report::studyJson(result);
   EXPECT_TRUE(contains(json, "\"as_published_taxels_treated_as_independent\""));
-  for (const fsr::StudyDecision& decision : result.decisions) {
+  for (const fsr::study::StudyDecision& decision : result.decisions) {
     EXPECT_TRUE(contains(json, "\"subject\": \"" + decision.subject + '"')) << decision.subject;
   }
   EXPECT_GE(result.decisions.size(), 12u);
 }
 
 TEST(StudyJson, WritesNullWhereANumberIsNotKnown) {
-  fsr::StudyResult result = smallStudy();
+  fsr::study::StudyResult result = smallStudy();
   result.comparisons.front().scores.front().r2_spread.mean = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(contains(fsr::studyJson(result), "\"mean\": null"));
+  EXPECT_TRUE(contains(fsr::report::studyJson(result), "\"mean\": null"));
 }

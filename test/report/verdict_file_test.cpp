@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/report/verdict_file.h"
+#include "report/verdict_file.h"
 
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "fsr_pressure_map/report/prediction_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "report/prediction_file.h"
 #include "support/example_discrepancy.h"
 
-namespace fsr {
+namespace fsr::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -34,7 +34,7 @@ class VerdictOnDisk : public testing::Test {
     write(text.replace(at, from.size(), to));
     try {
       readVerdict(path_);
-    } catch (const InputError& error) {
+    } catch (const settings::InputError& error) {
       return error.what();
     }
     return "";
@@ -60,7 +60,7 @@ gap: {before: 0.031, after: 0.008, floor: 0.006, closed: 0.92, closed_interval: 
 }
 
 TEST(VerdictText, HasNullForWhatIsAbsent) {
-  DiscrepancyReport report;
+  discrepancy::DiscrepancyReport report;
   report.sentence = "Nothing: \"noise\" alone.";
   report.gap.closed = NAN;
   report.gap.closed_interval = {NAN, NAN};
@@ -76,7 +76,7 @@ TEST(VerdictText, HasNullForWhatIsAbsent) {
 }
 
 TEST(VerdictText, SurvivesNamesThatYamlWouldReadOtherwise) {
-  DiscrepancyReport report = exampleDiscrepancy();
+  discrepancy::DiscrepancyReport report = exampleDiscrepancy();
   report.where.conditions = {"no", "12", "a, b: \"c\"", "tilde ~"};
   report.inputs[0].file = "{strange}.bag";
   const YAML::Node yaml = YAML::Load(verdictText(report));
@@ -85,7 +85,7 @@ TEST(VerdictText, SurvivesNamesThatYamlWouldReadOtherwise) {
 }
 
 TEST(VerdictText, HasNumbersThatEveryYamlReaderKnows) {
-  DiscrepancyReport report = exampleDiscrepancy();
+  discrepancy::DiscrepancyReport report = exampleDiscrepancy();
   report.effects[0].parameters[0].value = 1e-6;
   report.effects[0].parameters[0].interval = {-2.5e-7, 123456789};
   const std::string text = verdictText(report);
@@ -95,7 +95,7 @@ TEST(VerdictText, HasNumbersThatEveryYamlReaderKnows) {
 }
 
 TEST_F(VerdictOnDisk, ReadsBackTheSame) {
-  const DiscrepancyReport report = exampleDiscrepancy();
+  const discrepancy::DiscrepancyReport report = exampleDiscrepancy();
   write(verdictText(report));
   const VerdictFile verdict = readVerdict(path_);
   EXPECT_EQ(verdict.verdict, "named");
@@ -125,12 +125,12 @@ TEST_F(VerdictOnDisk, RefusesByFieldAndWhatWouldBeRight) {
     for (std::size_t i = 2; i < parts.size(); ++i) EXPECT_NE(said.find(parts[i]), std::string::npos) << said;
   }
   write("verdict: [");
-  EXPECT_THROW(readVerdict(path_), InputError);
-  EXPECT_THROW(readVerdict("/no/such/verdict.yaml"), InputError);
+  EXPECT_THROW(readVerdict(path_), settings::InputError);
+  EXPECT_THROW(readVerdict("/no/such/verdict.yaml"), settings::InputError);
 }
 
 TEST_F(VerdictOnDisk, PredictionKeepsEveryBit) {
-  const Prediction prediction = exampleDiscrepancy().prediction;
+  const discrepancy::Prediction prediction = exampleDiscrepancy().prediction;
   write(predictionText({prediction, std::string(64, 'd')}));
   const FrozenPrediction read = readPrediction(path_);
   EXPECT_EQ(read.verdict_sha256, std::string(64, 'd'));
@@ -143,7 +143,7 @@ TEST_F(VerdictOnDisk, PredictionKeepsEveryBit) {
 }
 
 TEST_F(VerdictOnDisk, PredictionKeepsADriftThatNeverEnds) {
-  Prediction prediction;
+  discrepancy::Prediction prediction;
   prediction.rivals = {{{"drift", {{"rate", -0.002}, {"time_constant", INFINITY}}}}};
   write(predictionText({prediction, std::string(64, 'd')}));
   EXPECT_EQ(readPrediction(path_).prediction.rivals[0][0].values, prediction.rivals[0][0].values);
@@ -156,4 +156,4 @@ TEST_F(VerdictOnDisk, EmptyPredictionIsOneToo) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::report

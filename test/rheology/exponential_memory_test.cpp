@@ -7,7 +7,7 @@
 
 namespace {
 
-using fsr::ExponentialMemory;
+using fsr::rheology::ExponentialMemory;
 
 // Rounding of a few hundred steps; the formula itself is exact.
 constexpr double kRounding = 1e-12;

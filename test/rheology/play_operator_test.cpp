@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/rheology/play_operator.h"
+#include "rheology/play_operator.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 namespace {
 
-using fsr::PrandtlIshlinskii;
+using fsr::rheology::PrandtlIshlinskii;
 
 const PrandtlIshlinskii kOperator({0, 1, 2, 4}, {0.4, 0.3, 0.2, 0.1});
 
@@ -42,10 +42,10 @@ class Drive {
 };
 
 TEST(PlayOperator, StandsStillInsideItsGapAndFollowsAtItsEdge) {
-  EXPECT_EQ(fsr::playStep(0.9, 1.0, 0.0), 0.0);
-  EXPECT_EQ(fsr::playStep(3.0, 1.0, 0.0), 2.0);
-  EXPECT_EQ(fsr::playStep(1.5, 1.0, 2.0), 2.0);
-  EXPECT_EQ(fsr::playStep(-3.0, 1.0, 2.0), -2.0);
+  EXPECT_EQ(fsr::rheology::playStep(0.9, 1.0, 0.0), 0.0);
+  EXPECT_EQ(fsr::rheology::playStep(3.0, 1.0, 0.0), 2.0);
+  EXPECT_EQ(fsr::rheology::playStep(1.5, 1.0, 2.0), 2.0);
+  EXPECT_EQ(fsr::rheology::playStep(-3.0, 1.0, 2.0), -2.0);
 }
 
 TEST(PlayOperator, DependsOnTurningPointsOnlyAndNotOnTheRate) {

@@ -12,7 +12,7 @@
 #include <future>
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
-#include "fsr_pressure_map/ros/resource_path.h"
+#include "ros/bags/resource_path.h"
 #include "support/calibration_rig.h"
 #include "support/small_calibration.h"
 #include "support/small_tables.h"
@@ -31,10 +31,10 @@ using test_support::kRigTaxels;
 const fs::path kFolder = fsr_ros::rosHome() + "/calibration_test";  // as in calibration.test
 const std::string kFile = kFolder / "calibration.h5";
 const std::string kTareFile = kFolder / "tare.yaml";
-const fsr::MatrixSize kSize{test_support::kRigRows, test_support::kRigColumns};
+const fsr::matrix::MatrixSize kSize{test_support::kRigRows, test_support::kRigColumns};
 
 std::string save(const std::string& path, const std::vector<double>& curvatures) {
-  return fsr::saveCalibration(test_support::smallCalibration(kSize, curvatures), path);
+  return fsr::calibration::saveCalibration(test_support::smallCalibration(kSize, curvatures), path);
 }
 
 struct Reply {
@@ -163,27 +163,29 @@ TEST_F(CalibrationNode, FlagsEachTaxelByItsCodeAndCurvature) {
 TEST_F(CalibrationNode, BlendsItsTablesByTheRuleOfTheFile) {
   // between classes of 0 and 10 1/m, whose tables differ by 10 Pa
   struct Expected {
-    fsr::BlendRule blend;
+    fsr::compensation::BlendRule blend;
     std::string surface;
     double above_flat;  // [Pa]
   };
   const double ten = std::exp(-49.0 / 32 + 9.0 / 32),
                twenty = std::exp(-289.0 / 32 + 9.0 / 32);  // scale 4 1/m
   for (const Expected& e :
-       {Expected{fsr::BlendRule::kNearest, "new", 0.0}, Expected{fsr::BlendRule::kInterpolate, "new", 3.0},
-        Expected{fsr::BlendRule::kKernel, "new", (10 * ten + 20 * twenty) / (1 + ten + twenty)},
-        Expected{fsr::BlendRule::kByName, "surface_2", 20.0}}) {
-    fsr::Calibration calibration = test_support::smallCalibration(kSize, {0.0, 10.0, 20.0});
+       {Expected{fsr::compensation::BlendRule::kNearest, "new", 0.0},
+        Expected{fsr::compensation::BlendRule::kInterpolate, "new", 3.0},
+        Expected{fsr::compensation::BlendRule::kKernel, "new", (10 * ten + 20 * twenty) / (1 + ten + twenty)},
+        Expected{fsr::compensation::BlendRule::kByName, "surface_2", 20.0}}) {
+    fsr::calibration::Calibration calibration = test_support::smallCalibration(kSize, {0.0, 10.0, 20.0});
     calibration.tables.rule.blend = e.blend;
     calibration.tables.rule.length_scale = {4.0};
-    for (fsr::CodeTable& table : calibration.tables.tables) table.log_weight.assign(kRigFullScale + 1u, 0.0f);
+    for (fsr::regression::CodeTable& table : calibration.tables.tables)
+      table.log_weight.assign(kRigFullScale + 1u, 0.0f);
     const std::string path = kFolder / "blended.h5";
-    const std::string id = fsr::saveCalibration(calibration, path);
+    const std::string id = fsr::calibration::saveCalibration(calibration, path);
     ASSERT_TRUE(load(path).success);
     rig.lieOn({3.0f}, e.surface, ++mount);
     const PressureMap map = reach([&](const PressureMap& m) {
       const bool between = (m.flags[0] & PressureMap::FLAG_BETWEEN_CLASSES) != 0;
-      return m.calibration == id && between == (e.blend != fsr::BlendRule::kByName);
+      return m.calibration == id && between == (e.blend != fsr::compensation::BlendRule::kByName);
     });
     EXPECT_NEAR(map.pressure[3], knownPressure(3, 0, 500) + e.above_flat, 0.02);
   }

@@ -29,7 +29,7 @@ bool isLoaded(const std::string& name) {
 
 TEST(CalibrationNodelet, CalibratesAndShowsInsideARealManager) {
   const std::string file = (std::filesystem::temp_directory_path() / "fsr_nodelet_test.h5").string();
-  fsr::saveCalibration(test_support::smallCalibration({3, 4}, {0.0, 10.0}), file);
+  fsr::calibration::saveCalibration(test_support::smallCalibration({3, 4}, {0.0, 10.0}), file);
   CalibrationRig rig;
   ASSERT_TRUE(rig.connected());
   EXPECT_TRUE(isLoaded("/fsr/calibration"));

@@ -13,8 +13,8 @@
 #include <map>
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
-#include "fsr_pressure_map/ros/bag_writer.h"
-#include "fsr_pressure_map/ros/resource_path.h"
+#include "ros/bags/bag_writer.h"
+#include "ros/bags/resource_path.h"
 #include "support/ros_listener.h"
 #include "support/small_calibration.h"
 #include "support/small_tables.h"
@@ -27,7 +27,7 @@ using test_support::Listener;
 
 const std::string kFolder = fsr_ros::rosHome() + "/looped_bag_test";  // as in looped_bag.test
 const std::string kBag = kFolder + "/loop.bag";
-const fsr::MatrixSize kSize{3, 4};
+const fsr::matrix::MatrixSize kSize{3, 4};
 constexpr std::uint16_t kFullScale = 1023;
 constexpr std::int64_t kStart = 1'500'000'000'000'000'000;  // [ns]
 constexpr std::int64_t kScanPeriod = 20'000'000;            // [ns]
@@ -39,7 +39,7 @@ void writeLoop() {
   fsr_ros::BagWriter bag(kBag);
   for (int i = 0; i < kScans; ++i) {
     if (i * kScanPeriod == kCurvatureAt) {
-      bag.addSurface(kStart + kCurvatureAt, {"flat", 1, {fsr::Curvature{}}, {}});
+      bag.addSurface(kStart + kCurvatureAt, {"flat", 1, {fsr::matrix::Curvature{}}, {}});
     }
     const std::vector<std::uint16_t> counts(kSize.taxels(), static_cast<std::uint16_t>(300 + i));
     bag.addScan(kStart + i * kScanPeriod, static_cast<std::uint32_t>(i),
@@ -128,7 +128,7 @@ int main(int argc, char** argv) {
   const ros::NodeHandle keeps_ros_running;
   std::filesystem::create_directories(kFolder);
   writeLoop();
-  fsr::saveCalibration(test_support::smallCalibration(kSize, {0.0, 10.0}, "", kFullScale),
-                       kFolder + "/calibration.h5");
+  fsr::calibration::saveCalibration(test_support::smallCalibration(kSize, {0.0, 10.0}, "", kFullScale),
+                                    kFolder + "/calibration.h5");
   return RUN_ALL_TESTS();
 }

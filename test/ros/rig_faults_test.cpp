@@ -14,9 +14,9 @@
 #include <filesystem>
 #include <map>
 
+#include "emulator/emulator.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
-#include "fsr_pressure_map/emulator/emulator.h"
-#include "fsr_pressure_map/ros/resource_path.h"
+#include "ros/bags/resource_path.h"
 #include "support/ros_listener.h"
 #include "support/small_calibration.h"
 #include "support/small_tables.h"
@@ -30,15 +30,15 @@ using test_support::Listener;
 
 constexpr std::uint32_t kOthersClock = 1'000'000'000;  // [us]: tells the scans of board B from those of A
 
-std::unique_ptr<fsr::Emulator> makeBoard(const std::string& serial) {
-  fsr::EmulatorOptions options;
-  options.simulation = fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/bench.yaml");
+std::unique_ptr<fsr::emulator::Emulator> makeBoard(const std::string& serial) {
+  fsr::emulator::EmulatorOptions options;
+  options.simulation = fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/bench.yaml");
   options.simulation.board.scan_rate = 100;
   options.simulation.board.serial = serial;
   options.link = ros::NodeHandle("~").param<std::string>("port", "");
   options.clock.offset = serial == "B" ? kOthersClock : 0;
   options.autostart = true;
-  return std::make_unique<fsr::Emulator>(options);
+  return std::make_unique<fsr::emulator::Emulator>(options);
 }
 
 // 0 where the node does not answer.
@@ -100,7 +100,7 @@ class RigFaults : public testing::Test {
 
   Listener<MatrixFrame> raw_{"raw"};
   Listener<PressureMap> maps_{"pressure_map"};
-  std::unique_ptr<fsr::Emulator> board_;
+  std::unique_ptr<fsr::emulator::Emulator> board_;
 };
 
 TEST_F(RigFaults, EachNodeMayBeKilledAndComesBack) {
@@ -137,7 +137,7 @@ TEST_F(RigFaults, WhatABadLineCostsIsCountedInDiagnostics) {
   };
   const ros::Subscriber subscriber =
       ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 100, keep);
-  fsr::LineDamage damage;
+  fsr::emulator::LineDamage damage;
   damage.lost_packets = 0.2;
   damage.flipped_bits = 1e-4;
   board_->setDamage(damage);
@@ -154,7 +154,7 @@ int main(int argc, char** argv) {
   const ros::NodeHandle keeps_ros_running;
   const std::filesystem::path folder = fsr_ros::rosHome() + "/faults_test";
   std::filesystem::create_directories(folder);
-  fsr::saveCalibration(test_support::smallCalibration({3, 4}, {0.0, 10.0}, "A", 4095),
-                       folder / "calibration.h5");
+  fsr::calibration::saveCalibration(test_support::smallCalibration({3, 4}, {0.0, 10.0}, "A", 4095),
+                                    folder / "calibration.h5");
   return RUN_ALL_TESTS();
 }

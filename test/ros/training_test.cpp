@@ -16,9 +16,9 @@
 #include <sstream>
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
-#include "fsr_pressure_map/ros/bag_writer.h"
-#include "fsr_pressure_map/ros/resource_path.h"
-#include "fsr_pressure_map/ros/train_tool.h"
+#include "ros/bags/bag_writer.h"
+#include "ros/bags/resource_path.h"
+#include "ros/tools/train_tool.h"
 #include "support/synthetic_recording.h"
 
 namespace {
@@ -87,11 +87,11 @@ std::map<std::string, std::size_t> messagesIn(const std::string& path) {
   return counts;
 }
 
-fsr::Calibration trainedByTool(const std::string& bag, const std::string& output) {
+fsr::calibration::Calibration trainedByTool(const std::string& bag, const std::string& output) {
   const char* const words[] = {"train", bag.c_str(), "--output", output.c_str()};
   std::ostringstream out;
   EXPECT_EQ(fsr_ros::trainTool(4, words, out), 0);
-  return fsr::loadCalibration(output, fsr::CalibrationParts::kAll);
+  return fsr::calibration::loadCalibration(output, fsr::calibration::CalibrationParts::kAll);
 }
 
 TEST_F(Training, SaysWhatItWaitsFor) {
@@ -108,7 +108,7 @@ TEST_F(Training, AReplayedBagGivesTheTablesOfTheTool) {
   test_support::SyntheticRig rig;
   rig.surfaces = {{"flat", 0.0}, {"cylinder_7cm", 14.25}};
   rig.scans_per_cycle = 60;
-  fsr::Recording recording = test_support::syntheticRecording(rig);
+  fsr::dataset::Recording recording = test_support::syntheticRecording(rig);
   recording.start_ns = 1500000000000000000;
   recording.temperature.assign(recording.scans(), 23.5);
   fsr_ros::writeBag(bag, recording);
@@ -130,8 +130,9 @@ TEST_F(Training, AReplayedBagGivesTheTablesOfTheTool) {
   const std::string output = fsr_ros::rosHome() + "/trained_on_topics.h5";
   EXPECT_NE(answer.message.find(" is in " + output), std::string::npos) << answer.message;
 
-  const fsr::Calibration live = fsr::loadCalibration(output, fsr::CalibrationParts::kAll);
-  const fsr::Calibration direct = trainedByTool(bag, (folder_ / "direct.h5").string());
+  const fsr::calibration::Calibration live =
+      fsr::calibration::loadCalibration(output, fsr::calibration::CalibrationParts::kAll);
+  const fsr::calibration::Calibration direct = trainedByTool(bag, (folder_ / "direct.h5").string());
   EXPECT_EQ(live.statistics.cells, direct.statistics.cells);
   ASSERT_EQ(live.tables.tables.size(), direct.tables.tables.size());
   for (std::size_t i = 0; i < direct.tables.tables.size(); ++i) {

@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/settings/command_line.h"
+#include "settings/command_line.h"
 
 #include <gtest/gtest.h>
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::settings {
 namespace {
 
 CommandLine tool() {
@@ -90,4 +90,4 @@ TEST(RunTool, TurnsUnusableInputIntoStatusTwo) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::settings

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/settings/replace_file.h"
+#include "settings/replace_file.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/file_size_limit.h"
 
-namespace fsr {
+namespace fsr::settings {
 namespace {
 
 namespace fs = std::filesystem;
@@ -67,4 +67,4 @@ TEST_F(ReplaceFile, LeavesNothingBehindWhenTheRenameFails) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::settings

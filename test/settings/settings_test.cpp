@@ -7,7 +7,7 @@
 #include <fstream>
 #include <functional>
 
-namespace fsr {
+namespace fsr::settings {
 namespace {
 
 std::string messageOf(const std::function<void()>& action) {
@@ -104,4 +104,4 @@ TEST(Range, SaysItsBoundsInWords) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::settings

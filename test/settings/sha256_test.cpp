@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/settings/sha256.h"
+#include "settings/sha256.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::settings {
 namespace {
 
 TEST(Sha256, AgreesWithCoreutils) {
@@ -36,4 +36,4 @@ TEST(Sha256, AFileThatIsNotThereIsNamed) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::settings

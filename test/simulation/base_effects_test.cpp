@@ -9,9 +9,9 @@
 
 namespace {
 
-using fsr::Curvature;
-using fsr::SensorChain;
-using fsr::SimulationSettings;
+using fsr::matrix::Curvature;
+using fsr::simulation::SensorChain;
+using fsr::simulation::SimulationSettings;
 using test_support::cylinder;
 using test_support::deviation;
 using test_support::mean;
@@ -212,7 +212,7 @@ TEST(Converter, RefusesAFractionalFullScale) {
   for (auto& effect : settings.effects) {
     if (effect.id == "converter") effect.values["full_scale"] = 4095.5;
   }
-  EXPECT_THROW(SensorChain{settings}, fsr::InputError);
+  EXPECT_THROW(SensorChain{settings}, fsr::settings::InputError);
 }
 
 }  // namespace

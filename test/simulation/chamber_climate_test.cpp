@@ -6,15 +6,15 @@
 
 namespace {
 
-using fsr::ChamberGas;
-using fsr::Settings;
+using fsr::settings::Settings;
+using fsr::simulation::ChamberGas;
 
-fsr::ChamberClimate climate(const std::string& text) {
-  return fsr::readChamberClimate(Settings::fromText(text, "a.yaml"));
+fsr::simulation::ChamberClimate climate(const std::string& text) {
+  return fsr::simulation::readChamberClimate(Settings::fromText(text, "a.yaml"));
 }
 
 TEST(ChamberClimate, IsTwentyThreeDegreesWhereNothingIsSaid) {
-  ChamberGas gas(fsr::ChamberClimate{});
+  ChamberGas gas(fsr::simulation::ChamberClimate{});
   EXPECT_EQ(gas.temperature(0, 0), 23);
   EXPECT_EQ(gas.temperature(1000, 620e3), 23);
 }
@@ -37,9 +37,10 @@ TEST(ChamberClimate, HeatsTheGasThatIsCompressedAndCoolsTheGasThatExpands) {
 }
 
 TEST(ChamberClimate, RefusesByName) {
-  EXPECT_THROW(climate("room: 200"), fsr::InputError);
-  EXPECT_THROW(climate("cooling: 0"), fsr::InputError);
-  EXPECT_THROW(climate("room: [{time: 5, temperature: 20}, {time: 5, temperature: 21}]"), fsr::InputError);
+  EXPECT_THROW(climate("room: 200"), fsr::settings::InputError);
+  EXPECT_THROW(climate("cooling: 0"), fsr::settings::InputError);
+  EXPECT_THROW(climate("room: [{time: 5, temperature: 20}, {time: 5, temperature: 21}]"),
+               fsr::settings::InputError);
 }
 
 }  // namespace

@@ -6,13 +6,13 @@
 
 namespace {
 
-using fsr::InputError;
-using fsr::PressureProfile;
-using fsr::Settings;
+using fsr::settings::InputError;
+using fsr::settings::Settings;
+using fsr::simulation::PressureProfile;
 
 PressureProfile program(const std::string& parts) {
-  return pressureProfile(
-      fsr::readChamberProgram(Settings::fromText("program: " + parts, "a.yaml").sections("program")));
+  return pressureProfile(fsr::simulation::readChamberProgram(
+      Settings::fromText("program: " + parts, "a.yaml").sections("program")));
 }
 
 std::string complaintAbout(const std::string& parts) {

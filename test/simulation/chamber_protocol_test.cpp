@@ -9,10 +9,10 @@
 
 namespace {
 
-using fsr::ChamberProtocol;
-using fsr::InputError;
-using fsr::PressureProfile;
-using fsr::Settings;
+using fsr::settings::InputError;
+using fsr::settings::Settings;
+using fsr::simulation::ChamberProtocol;
+using fsr::simulation::PressureProfile;
 
 // 10 s rest, 100 s up, 20 s at 500 kPa, 50 s down.
 ChamberProtocol slopes() {
@@ -49,16 +49,16 @@ TEST(ChamberProtocol, CyclesForEverWhenAskedForNone) {
 }
 
 TEST(ChamberProtocol, VentsFromWhereItStands) {
-  const PressureProfile profile = fsr::ventingProfile(slopes(), 200e3);
+  const PressureProfile profile = fsr::simulation::ventingProfile(slopes(), 200e3);
   EXPECT_EQ(profile.at(0), 200e3);
   EXPECT_EQ(profile.at(10), 100e3);
   EXPECT_EQ(profile.at(1e9), 0);
-  EXPECT_EQ(fsr::ventingProfile(slopes(), 0).duration(), 0);
+  EXPECT_EQ(fsr::simulation::ventingProfile(slopes(), 0).duration(), 0);
 }
 
 TEST(ChamberProtocol, ReadsOneRateForBothWays) {
-  const auto protocol =
-      fsr::readChamberProtocol(Settings::fromText("{rate: 31000, cycles: 2}", "a.yaml"), slopes());
+  const auto protocol = fsr::simulation::readChamberProtocol(
+      Settings::fromText("{rate: 31000, cycles: 2}", "a.yaml"), slopes());
   EXPECT_EQ(protocol.fill_rate, 31e3);
   EXPECT_EQ(protocol.vent_rate, 31e3);
   EXPECT_EQ(protocol.cycles, 2u);
@@ -68,7 +68,7 @@ TEST(ChamberProtocol, ReadsOneRateForBothWays) {
 TEST(ChamberProtocol, RefusesMoreThanTheChambersRating) {
   const auto settings = Settings::fromText("peak: 800000", "a.yaml");
   try {
-    fsr::readChamberProtocol(settings);
+    fsr::simulation::readChamberProtocol(settings);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
@@ -109,7 +109,7 @@ TEST(PressureProfile, RefusesTimesThatRunBackwardsAndPartsAfterTheEndlessOne) {
 }
 
 TEST(Transducer, ReadsInStepsOfTheDaq) {
-  const fsr::Transducer transducer;
+  const fsr::simulation::Transducer transducer;
   EXPECT_NEAR(transducer.step(), 277.6, 0.1);
   EXPECT_EQ(transducer.counts(-103e3), 0);
   EXPECT_EQ(transducer.counts(1034e3), 4096);

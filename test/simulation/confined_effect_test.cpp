@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/simulation/session.h"
-#include "fsr_pressure_map/simulation/simulation_text.h"
+#include "simulation/session.h"
+#include "simulation/simulation_text.h"
 
-namespace fsr {
+namespace fsr::simulation {
 namespace {
 
 const char* const kRig = R"(
@@ -22,11 +22,11 @@ effects:
 )";
 
 SimulationSettings settings(const std::string& more) {
-  return readSimulation(Settings::fromText(kRig + more, "confined.yaml"));
+  return readSimulation(settings::Settings::fromText(kRig + more, "confined.yaml"));
 }
 
 // Whether a taxel reads otherwise anywhere in a recording.
-bool differs(const Recording& a, const Recording& b, std::size_t taxel) {
+bool differs(const dataset::Recording& a, const dataset::Recording& b, std::size_t taxel) {
   for (std::size_t i = 0; i < a.scans(); ++i) {
     if (a.scan(i)[taxel] != b.scan(i)[taxel]) return true;
   }
@@ -53,15 +53,16 @@ TEST(ConfinedEffect, EverywhereIsAsIfNothingWereSaid) {
 TEST(ConfinedEffect, SurvivesSavingAndLoading) {
   const SimulationSettings written =
       settings("  hysteresis: {only_taxels: [1, 5], only_surfaces: [cylinder_5cm, \"a, b\"]}\n");
-  const SimulationSettings read = readSimulation(Settings::fromText(simulationText(written), "written.yaml"));
+  const SimulationSettings read =
+      readSimulation(settings::Settings::fromText(simulationText(written), "written.yaml"));
   EXPECT_EQ(read.effect("hysteresis")->only_taxels, (std::vector<std::size_t>{1, 5}));
   EXPECT_EQ(read.effect("hysteresis")->only_surfaces, (std::vector<std::string>{"cylinder_5cm", "a, b"}));
 }
 
 TEST(ConfinedEffect, RefusesTaxelsThatAreNotThere) {
-  EXPECT_THROW(settings("  creep: {only_taxels: [6]}\n"), InputError);
-  EXPECT_THROW(settings("  creep: {only_surfaces: flat}\n"), InputError);
+  EXPECT_THROW(settings("  creep: {only_taxels: [6]}\n"), settings::InputError);
+  EXPECT_THROW(settings("  creep: {only_surfaces: flat}\n"), settings::InputError);
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::simulation

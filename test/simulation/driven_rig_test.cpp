@@ -1,19 +1,19 @@
-#include "fsr_pressure_map/simulation/driven_rig.h"
+#include "simulation/driven_rig.h"
 
 #include <gtest/gtest.h>
 
-#include "fsr_pressure_map/simulation/session.h"
+#include "simulation/session.h"
 #include "support/simulated_rig.h"
 
 namespace {
 
-using fsr::DrivenRig;
-using fsr::InputError;
-using fsr::Recording;
+using fsr::dataset::Recording;
+using fsr::settings::InputError;
+using fsr::simulation::DrivenRig;
 
 // Two surfaces, a warming room, every kind of memory, a late clock; the reference reads finely.
-fsr::SimulationSettings richRig(const std::string& more = "") {
-  return fsr::readSimulation(fsr::Settings::fromText(
+fsr::simulation::SimulationSettings richRig(const std::string& more = "") {
+  return fsr::simulation::readSimulation(fsr::settings::Settings::fromText(
       "{simulation: t, matrix: {rows: 2, columns: 3}, transducer: {low: 0, high: 1e6, full_counts: 16000000},"
       " program: [{hold: {pressure: 300e3, rate: 30e3, duration: 20}}, {rest: {rate: 30e3, duration: 10}}],"
       " climate: {room: [{time: 0, temperature: 23}, {time: 100, temperature: 30}]},"
@@ -25,12 +25,12 @@ fsr::SimulationSettings richRig(const std::string& more = "") {
       "a.yaml"));
 }
 
-std::vector<std::uint16_t> drive(const fsr::SimulationSettings& settings,
+std::vector<std::uint16_t> drive(const fsr::simulation::SimulationSettings& settings,
                                  const std::vector<Recording>& through) {
   DrivenRig rig(settings);
   std::vector<std::uint16_t> counts;
   for (const Recording& recording : through) {
-    rig.run(recording, [&](std::size_t, const fsr::SensorChain& chain) {
+    rig.run(recording, [&](std::size_t, const fsr::simulation::SensorChain& chain) {
       counts.insert(counts.end(), chain.counts().begin(), chain.counts().end());
     });
   }
@@ -44,7 +44,7 @@ std::vector<std::uint16_t> countsOf(const std::vector<Recording>& recordings) {
 }
 
 TEST(DrivenRig, GivesTheCountsOfTheRigThatMadeTheRecordings) {
-  const auto recordings = fsr::simulateSession(richRig());
+  const auto recordings = fsr::simulation::simulateSession(richRig());
   const auto expected = countsOf(recordings), counts = drive(richRig(), recordings);
   ASSERT_EQ(counts.size(), expected.size());
   // The recorded pressure is rounded to 0.06 Pa, and straight between scans where the chamber turned.
@@ -53,26 +53,26 @@ TEST(DrivenRig, GivesTheCountsOfTheRigThatMadeTheRecordings) {
 
 TEST(DrivenRig, FeelsTheTruePressureBehindAWrongReference) {
   const std::string error = ", transducer_error: {offset: 4e3, gain: 0.01}";
-  const auto recordings = fsr::simulateSession(richRig(error));
+  const auto recordings = fsr::simulation::simulateSession(richRig(error));
   const auto expected = countsOf(recordings), counts = drive(richRig(error), recordings);
   for (std::size_t i = 0; i < counts.size(); ++i) EXPECT_NEAR(counts[i], expected[i], 3) << i;
   EXPECT_GT(drive(richRig(), recordings)[6 * 250], expected[6 * 250] + 20);  // without it the model is off
 }
 
 TEST(DrivenRig, TakesMatrixAndFullScaleOfTheRecording) {
-  auto recordings = fsr::simulateSession(richRig());
+  auto recordings = fsr::simulation::simulateSession(richRig());
   recordings[0].full_scale = 1023;
   recordings[0].layout.pitch_x = 0.02;
   const auto settings = fitted(test_support::rig("", 5, 5), recordings[0]);
   EXPECT_EQ(settings.fullScale(), 1023);
-  EXPECT_EQ(settings.layout.size, (fsr::MatrixSize{2, 3}));
+  EXPECT_EQ(settings.layout.size, (fsr::matrix::MatrixSize{2, 3}));
   EXPECT_EQ(settings.layout.pitch_x, 0.02);
 }
 
 TEST(DrivenRig, RefusesWhatItCannotGoThrough) {
-  auto recordings = fsr::simulateSession(richRig());
+  auto recordings = fsr::simulation::simulateSession(richRig());
   DrivenRig rig(richRig());
-  const auto ignore = [](std::size_t, const fsr::SensorChain&) {};
+  const auto ignore = [](std::size_t, const fsr::simulation::SensorChain&) {};
   rig.run(recordings[1], ignore);
   EXPECT_THROW(rig.run(recordings[0], ignore), InputError);  // earlier
   Recording silent = recordings[1];

@@ -1,7 +1,7 @@
 // One checker for all effects of the library: what each says of itself holds, and each behaves as every
 // effect must.
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
 #include <gtest/gtest.h>
 
@@ -9,35 +9,36 @@
 #include <cmath>
 #include <set>
 
-#include "fsr_pressure_map/simulation/reference_channel.h"
-#include "fsr_pressure_map/simulation/sensitivity.h"
+#include "simulation/reference_channel.h"
+#include "simulation/sensitivity.h"
 #include "support/allocation_guard.h"
 #include "support/simulated_rig.h"
 
 namespace {
 
-using fsr::EffectEntry;
-using fsr::EffectKind;
-using fsr::EffectParameter;
-using fsr::EffectValues;
-using fsr::ParameterRole;
-using fsr::RigMoment;
-using fsr::SensorChain;
-using fsr::SimulationSettings;
+using fsr::simulation::EffectEntry;
+using fsr::simulation::EffectKind;
+using fsr::simulation::EffectParameter;
+using fsr::simulation::EffectValues;
+using fsr::simulation::ParameterRole;
+using fsr::simulation::RigMoment;
+using fsr::simulation::SensorChain;
+using fsr::simulation::SimulationSettings;
 using test_support::rig;
 
 // A run that lets every effect show: two cycles, warming up, a second mount half-way on another surface
 // under a disc. The fault that needs time has it: 140 s.
 class Course {
  public:
-  Course() : profile_(fsr::pressureProfile({500e3, 20e3, 30e3, 20, 8, 2})) {}
+  Course() : profile_(fsr::simulation::pressureProfile({500e3, 20e3, 30e3, 20, 8, 2})) {}
   int scans() const { return static_cast<int>(profile_.duration() / kPeriod); }
 
   template <typename Chain>
   void prepare(Chain& chain, int scan) const {
     if (scan == 0) chain.mount(test_support::cylinder(0.07, 1));
     if (scan == scans() / 2) {
-      chain.mount(test_support::cylinder(0.05, 2), {fsr::LoadPattern::Kind::kDisc, {0, 0}, 0.015, 0});
+      chain.mount(test_support::cylinder(0.05, 2),
+                  {fsr::simulation::LoadPattern::Kind::kDisc, {0, 0}, 0.015, 0});
     }
   }
   RigMoment moment(int scan) const {
@@ -47,8 +48,8 @@ class Course {
 
  private:
   static constexpr double kPeriod = 0.3;  // [s]
-  fsr::PressureProfile profile_;
-  fsr::PressureCourse course_ = [this](double time) { return profile_.at(time); };
+  fsr::simulation::PressureProfile profile_;
+  fsr::simulation::PressureCourse course_ = [this](double time) { return profile_.at(time); };
 };
 
 const Course kCourse;
@@ -64,7 +65,7 @@ void readOn(SensorChain& chain, int first, int last, std::vector<double>& readin
 /// Unrounded readings of all scans and taxels, and what the reference shows.
 std::vector<double> run(const SimulationSettings& settings) {
   SensorChain chain(settings);
-  const fsr::ReferenceChannel reference(settings);
+  const fsr::simulation::ReferenceChannel reference(settings);
   std::vector<double> readings;
   readOn(chain, 0, kCourse.scans(), readings);
   for (int scan = 0; scan < kCourse.scans(); ++scan) {
@@ -103,7 +104,7 @@ bool simulated(const EffectEntry& entry) {
 /// Runs a check on each effect, and says on failure on which.
 template <typename Check>
 void onEvery(bool (*wanted)(const EffectEntry&), Check check) {
-  for (const EffectEntry& entry : fsr::effectLibrary()) {
+  for (const EffectEntry& entry : fsr::simulation::effectLibrary()) {
     if (!wanted(entry)) continue;
     SCOPED_TRACE(entry.info.id);
     check(entry);
@@ -121,7 +122,7 @@ bool triedByStrength(const EffectEntry& entry) {
 }
 
 TEST(EffectLibrary, HoldsTheEffectsThatAreKnownByName) {
-  const std::vector<std::string> ids = fsr::effectIds();
+  const std::vector<std::string> ids = fsr::simulation::effectIds();
   const std::set<std::string> known = {
       "static_curve",    "turn_on",     "bending_preload", "bending_gain", "hysteresis", "creep",
       "drift",           "temperature", "break_in",        "wear",         "time_skew",  "scan_skew",
@@ -131,7 +132,7 @@ TEST(EffectLibrary, HoldsTheEffectsThatAreKnownByName) {
       "transducer_error"};
   EXPECT_EQ(ids.size(), known.size());
   EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()), known);
-  EXPECT_EQ(fsr::findEffect("hysterese"), nullptr);
+  EXPECT_EQ(fsr::simulation::findEffect("hysterese"), nullptr);
 }
 
 TEST(EveryEffect, DescribesItself) {
@@ -141,7 +142,7 @@ TEST(EveryEffect, DescribesItself) {
     EXPECT_FALSE(entry.info.depends_on.empty() && entry.info.kind != EffectKind::kBase);
     EXPECT_EQ(simulated(entry), entry.info.kind != EffectKind::kListed);
     if (entry.info.kind == EffectKind::kListed) {
-      EXPECT_NE(entry.info.experiment, fsr::Experiment::kNone);
+      EXPECT_NE(entry.info.experiment, fsr::simulation::Experiment::kNone);
     }
     const bool tried_by_strength =
         entry.info.kind == EffectKind::kAdditive || entry.info.kind == EffectKind::kGrid;
@@ -189,10 +190,10 @@ TEST(EveryEffect, HasParametersInTheirRanges) {
 TEST(EveryEffect, HasStrengthsOfTheSignThatItStates) {
   onEvery(triedByStrength, [](const EffectEntry& entry) {
     for (const EffectParameter& strength : strengths(entry.info)) {
-      if (entry.info.sign == fsr::SignRule::kPositive) {
+      if (entry.info.sign == fsr::simulation::SignRule::kPositive) {
         EXPECT_GE(strength.plausible.low, 0) << strength.name;
       }
-      if (entry.info.sign == fsr::SignRule::kNegative) {
+      if (entry.info.sign == fsr::simulation::SignRule::kNegative) {
         EXPECT_LE(strength.plausible.high, 0) << strength.name;
       }
     }
@@ -202,7 +203,7 @@ TEST(EveryEffect, HasStrengthsOfTheSignThatItStates) {
 TEST(EveryEffect, KnowsItsDoublesAndTheyKnowIt) {
   onEvery(simulated, [](const EffectEntry& entry) {
     for (const std::string& id : entry.info.collinear) {
-      const EffectEntry* other = fsr::findEffect(id);
+      const EffectEntry* other = fsr::simulation::findEffect(id);
       ASSERT_NE(other, nullptr) << id;
       const auto& back = other->info.collinear;
       EXPECT_NE(std::find(back.begin(), back.end(), entry.info.id), back.end()) << id << " does not list it";
@@ -244,7 +245,7 @@ TEST(EveryEffect, StaysFiniteAtTheEndsOfEveryPermittedRange) {
         std::vector<double> readings;
         try {
           readings = run(with(entry.info.id, values));
-        } catch (const fsr::InputError&) {
+        } catch (const fsr::settings::InputError&) {
           continue;  // refused because it does not go with the other parameters
         }
         EXPECT_TRUE(std::all_of(readings.begin(), readings.end(), [](double y) { return std::isfinite(y); }))
@@ -322,9 +323,9 @@ constexpr double kNoLoad = 2e3;
 
 TEST(EveryEffect, ItsDerivativesAgreeWithFiniteDifferences) {
   onEvery(triedByStrength, [](const EffectEntry& entry) {
-    if (entry.info.stage == fsr::ChainStage::kReference) return;  // see TransducerError
+    if (entry.info.stage == fsr::simulation::ChainStage::kReference) return;  // see TransducerError
     for (const EffectParameter& strength : strengths(entry.info)) {
-      fsr::Sensitivity sensitivity(rig("", 3, 4), entry.info.id, strength.name);
+      fsr::simulation::Sensitivity sensitivity(rig("", 3, 4), entry.info.id, strength.name);
       const std::vector<double> expected = slope(entry, neutralValues(entry), strength);
       double error = 0, size = 0;  // sums of squares
       for (int scan = 0; scan < kCourse.scans(); ++scan) {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
 namespace {
 
@@ -14,9 +14,9 @@ TEST(EffectsDocument, TellsOfEveryEffectAndShowsItsPicture) {
   const std::filesystem::path docs = FSR_SOURCE_DIR "/docs";
   std::ifstream file(docs / "effects.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
-  for (const fsr::EffectEntry& entry : fsr::effectLibrary()) {
+  for (const fsr::simulation::EffectEntry& entry : fsr::simulation::effectLibrary()) {
     const std::string& id = entry.info.id;
-    if (entry.info.kind == fsr::EffectKind::kBase) continue;
+    if (entry.info.kind == fsr::simulation::EffectKind::kBase) continue;
     EXPECT_NE(text.find("`" + id + "`"), std::string::npos) << id;
     if (!entry.make) continue;
     const std::string picture = "images/effects/" + id + ".png";

@@ -8,8 +8,8 @@
 
 namespace {
 
-using fsr::InputError;
-using fsr::SensorChain;
+using fsr::settings::InputError;
+using fsr::simulation::SensorChain;
 using test_support::cylinder;
 using test_support::fitLine;
 using test_support::kStraightCounts;
@@ -22,7 +22,8 @@ using test_support::straightRig;
 
 constexpr double kCount = 1 / kStraightCounts;  // one step of the converter, share of full scale
 
-std::vector<Reading> along(const std::string& effect, const fsr::PressureProfile& course, double period) {
+std::vector<Reading> along(const std::string& effect, const fsr::simulation::PressureProfile& course,
+                           double period) {
   SensorChain chain(straightRig(effect));
   return readAlong(chain, course, period);
 }
@@ -38,7 +39,8 @@ constexpr double kHalfScan = 2 * (0.005 * 17e3 / kStraightSpan + kCount);
 // --- hysteresis --------------------------------------------------------------------------------------
 
 // Two cycles to 620 kPa at 17 kPa/s: at 310 kPa after 18.235 s up, 54.706 s down (and 72.941 s later again).
-const fsr::PressureProfile kTwoCycles = fsr::pressureProfile({620e3, 17e3, 17e3, 0, 0, 2});
+const fsr::simulation::PressureProfile kTwoCycles =
+    fsr::simulation::pressureProfile({620e3, 17e3, 17e3, 0, 0, 2});
 constexpr double kCycle = 2 * 620.0 / 17;
 
 TEST(Hysteresis, OpensTheLoopByItsShareOfFullScale) {
@@ -87,8 +89,9 @@ TEST(Hysteresis, RefusesALoopThatWouldRunBackwards) {
 
 // --- creep -------------------------------------------------------------------------------------------
 
-const fsr::PressureProfile kHold = profile({{0, 0}, {0.1, 310e3}, {1000, 310e3}});
-const fsr::PressureProfile kStepAndHold = profile({{0, 0}, {1, 310e3}, {3000, 310e3}, {3001, 0}, {33000, 0}});
+const fsr::simulation::PressureProfile kHold = profile({{0, 0}, {0.1, 310e3}, {1000, 310e3}});
+const fsr::simulation::PressureProfile kStepAndHold =
+    profile({{0, 0}, {1, 310e3}, {3000, 310e3}, {3001, 0}, {33000, 0}});
 
 /// Rise per decade of time since the step, share of the reading just after it.
 double perDecade(const std::vector<Reading>& readings, double from, double to) {
@@ -196,7 +199,7 @@ TEST(Temperature, FollowsTheGasWithItsLag) {
   SensorChain chain(straightRig("  temperature: {coefficient: 0.003, lag: 60}\n"));
   std::vector<double> times, logs;
   for (std::uint64_t second = 0; second < 200; ++second) {
-    fsr::RigMoment moment{double(second), 310e3, second, second == 0 ? 23.0 : 33.0};
+    fsr::simulation::RigMoment moment{double(second), 310e3, second, second == 0 ? 23.0 : 33.0};
     const double rise = chain.read(moment)[0] / (0.5 * kStraightCounts) - 1;
     if (second < 2 || second > 120) continue;
     times.push_back(double(second));
@@ -207,7 +210,8 @@ TEST(Temperature, FollowsTheGasWithItsLag) {
 
 TEST(BreakIn, FadesOverTheFirstCyclesAndComesBackWithEachMount) {
   SensorChain chain(straightRig("  break_in: {change: -0.04, cycles: 2}\n"));
-  const fsr::PressureProfile cycles = fsr::pressureProfile({620e3, 62e3, 62e3, 0, 0, 4});
+  const fsr::simulation::PressureProfile cycles =
+      fsr::simulation::pressureProfile({620e3, 62e3, 62e3, 0, 0, 4});
   for (const std::uint32_t mount : {1u, 2u}) {
     chain.mount(test_support::surfaceOf({}, mount));
     const auto readings = readAlong(chain, cycles, 0.1);
@@ -224,7 +228,7 @@ TEST(BreakIn, FadesOverTheFirstCyclesAndComesBackWithEachMount) {
 }
 
 TEST(Wear, TakesItsShareInTenMillionCyclesAndHardlyAnyInSixty) {
-  const auto cycles = fsr::pressureProfile({620e3, 620e3, 620e3, 0, 0, 61});
+  const auto cycles = fsr::simulation::pressureProfile({620e3, 620e3, 620e3, 0, 0, 61});
   const auto fresh = along("  wear: {loss: 0.07}\n", cycles, 0.1);
   const auto old = along("  wear: {loss: 0.07, age: 1e7}\n", cycles, 0.1);
   EXPECT_NEAR(share(readingAt(old, 1)), 0.93, 1e-3);

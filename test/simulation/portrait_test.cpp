@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/simulation/portrait.h"
+#include "simulation/portrait.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 
 namespace {
 
-using fsr::Portrait;
-using fsr::withEffect;
+using fsr::simulation::Portrait;
+using fsr::simulation::withEffect;
 using test_support::rig;
 
 double largest(const std::vector<double>& values) {
@@ -59,8 +59,8 @@ TEST(Portrait, KnowsWhatBelongsToEveryBentMatrix) {
   EXPECT_EQ(ids, (std::vector<std::string>{"bending_gain", "static_curve", "converter", "white_noise"}));
   EXPECT_EQ(withEffect(settings, "creep").effects.size(), settings.effects.size());
   EXPECT_EQ(withoutEffect(settings, "creep").effect("creep"), nullptr);
-  EXPECT_THROW(withEffect(settings, "humidity"), fsr::InputError);
-  EXPECT_THROW(withEffect(settings, "hysterese"), fsr::InputError);
+  EXPECT_THROW(withEffect(settings, "humidity"), fsr::settings::InputError);
+  EXPECT_THROW(withEffect(settings, "hysterese"), fsr::settings::InputError);
 }
 
 }  // namespace

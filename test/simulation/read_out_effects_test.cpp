@@ -6,15 +6,15 @@
 #include <cmath>
 #include <set>
 
-#include "fsr_pressure_map/simulation/reference_channel.h"
-#include "fsr_pressure_map/simulation/sensitivity.h"
+#include "simulation/reference_channel.h"
+#include "simulation/sensitivity.h"
 #include "support/simulated_rig.h"
 
 namespace {
 
-using fsr::InputError;
-using fsr::LoadPattern;
-using fsr::SensorChain;
+using fsr::settings::InputError;
+using fsr::simulation::LoadPattern;
+using fsr::simulation::SensorChain;
 using test_support::cylinder;
 using test_support::deviation;
 using test_support::fitLine;
@@ -92,16 +92,16 @@ TEST(Repositioning, ShiftsAnUnevenLoad) {
 }
 
 TEST(LoadPattern, LoadsADiscOrWhatLiesBesideAnEdge) {
-  const fsr::Layout layout{{7, 10}, 0.01, 0.01};
+  const fsr::matrix::Layout layout{{7, 10}, 0.01, 0.01};
   const auto total = [&](const LoadPattern& pattern) {
     double sum = 0;
-    for (const double share : loadShares(pattern, layout)) sum += share * 1e-4;
+    for (const double share : fsr::simulation::loadShares(pattern, layout)) sum += share * 1e-4;
     return sum;
   };
   EXPECT_NEAR(total({}), 0.007, 1e-15);
   EXPECT_NEAR(total({LoadPattern::Kind::kDisc, {0.003, -0.002}, 0.02, 0}), M_PI * 4e-4, 1e-5);
   EXPECT_NEAR(total({LoadPattern::Kind::kEdge, {0.01, 0}, 0, 0}), 0.04 * 0.07, 1e-9);
-  const auto upper = loadShares({LoadPattern::Kind::kEdge, {0, 0.005}, 0, M_PI / 2}, layout);
+  const auto upper = fsr::simulation::loadShares({LoadPattern::Kind::kEdge, {0, 0.005}, 0, M_PI / 2}, layout);
   EXPECT_EQ(upper[0], 0);
   EXPECT_EQ(upper[69], 1);
 }
@@ -110,7 +110,7 @@ TEST(LoadPattern, LoadsADiscOrWhatLiesBesideAnEdge) {
 
 // 0.1 s at 17 kPa/s is 0.27 % of 620 kPa.
 TEST(TimeSkew, ReadsEarlierPressuresThanItsStampsSay) {
-  const auto course = fsr::pressureProfile({620e3, 17e3, 17e3, 5, 5, 1});
+  const auto course = fsr::simulation::pressureProfile({620e3, 17e3, 17e3, 5, 5, 1});
   SensorChain late(straightRig("  time_skew: {delay: 0.1}\n")), right(straightRig());
   const auto shifted = readAlong(late, course, 0.1), straight = readAlong(right, course, 0.1);
   const auto difference = [&](double time) {
@@ -263,8 +263,8 @@ TEST(LineFaults, TakeAWholeRowOrColumnForTheirShareOfTheTime) {
 // --- reference ---------------------------------------------------------------------------------------
 
 TEST(TransducerError, BowsByAQuarterPerCentOfItsSpan) {
-  const fsr::ReferenceChannel reference(straightRig("  transducer_error: {bow: 0.0025}\n"));
-  const fsr::Transducer transducer;
+  const fsr::simulation::ReferenceChannel reference(straightRig("  transducer_error: {bow: 0.0025}\n"));
+  const fsr::simulation::Transducer transducer;
   double largest = 0;  // what the recording says above the truth [Pa]
   for (double pressure = 0; pressure <= 793e3; pressure += 1e3) {
     largest = std::max(largest, transducer.gaugePressure(reference.counts(pressure)) - pressure);
@@ -273,7 +273,7 @@ TEST(TransducerError, BowsByAQuarterPerCentOfItsSpan) {
 }
 
 TEST(TransducerError, CanBeTakenBack) {
-  const fsr::ReferenceChannel reference(
+  const fsr::simulation::ReferenceChannel reference(
       straightRig("  transducer_error: {offset: 3e3, gain: -0.02, bow: 0.005}\n"));
   for (const double pressure : {0.0, 50e3, 620e3}) {
     EXPECT_NEAR(reference.truePressure(reference.indicated(pressure)), pressure, 1e-6);
@@ -281,7 +281,7 @@ TEST(TransducerError, CanBeTakenBack) {
 }
 
 TEST(TransducerError, IsAnErrorOfTheReadingsAtTheRecordedPressure) {
-  fsr::Sensitivity sensitivity(straightRig(), "transducer_error", "gain");
+  fsr::simulation::Sensitivity sensitivity(straightRig(), "transducer_error", "gain");
   // A gauge that shows 1 % too much at 310 kPa belongs to readings of 1 % less.
   EXPECT_NEAR(sensitivity.read({0, 310e3, 0}).reading[0], -0.5 * kStraightCounts, 0.01);
 }

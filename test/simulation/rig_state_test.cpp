@@ -1,19 +1,19 @@
-#include "fsr_pressure_map/simulation/rig_state.h"
+#include "simulation/rig_state.h"
 
 #include <gtest/gtest.h>
 
-#include "fsr_pressure_map/simulation/driven_rig.h"
-#include "fsr_pressure_map/simulation/session.h"
+#include "simulation/driven_rig.h"
+#include "simulation/session.h"
 
 namespace {
 
-using fsr::RigState;
-using fsr::Settings;
+using fsr::settings::Settings;
+using fsr::simulation::RigState;
 using Counts = std::vector<std::uint16_t>;
 
 // Every kind of memory, noise and mounts that scatter.
-fsr::SimulationSettings rig(const std::string& session, const std::string& more = "") {
-  return fsr::readSimulation(Settings::fromText(
+fsr::simulation::SimulationSettings rig(const std::string& session, const std::string& more = "") {
+  return fsr::simulation::readSimulation(Settings::fromText(
       "{simulation: t, start: 1704099600.5, matrix: {rows: 2, columns: 3},"
       " program: [{hold: {pressure: 300e3, rate: 30e3, duration: 5}}, {rest: {rate: 30e3, duration: 5}}],"
       " climate: {room: 23, heating: 1.0e-5}, session: [" +
@@ -29,7 +29,7 @@ fsr::SimulationSettings rig(const std::string& session, const std::string& more 
 const std::string kFlat = "{surface: flat, flat: true}";
 const std::string kBent = "{surface: bent, cylinder: {radius: 0.05, axis: y}, pause: 30}";
 
-void goThrough(fsr::Session& session, Counts& counts) {
+void goThrough(fsr::simulation::Session& session, Counts& counts) {
   for (std::size_t i = 0; i < session.stations(); ++i) {
     session.runNext(
         {[&](double, const Counts& scan) { counts.insert(counts.end(), scan.begin(), scan.end()); }, {}, {}});
@@ -37,12 +37,12 @@ void goThrough(fsr::Session& session, Counts& counts) {
 }
 
 RigState throughText(const RigState& state) {
-  return readRigState(Settings::fromText(stateText(state), "state.yaml"));
+  return fsr::simulation::readRigState(Settings::fromText(stateText(state), "state.yaml"));
 }
 
 TEST(RigState, ASessionInTwoPartsReadsWhatItReadsInOne) {
   Counts whole, parts;
-  fsr::Session one(rig(kFlat + "," + kBent)), first(rig(kFlat)), second(rig(kBent));
+  fsr::simulation::Session one(rig(kFlat + "," + kBent)), first(rig(kFlat)), second(rig(kBent));
   goThrough(one, whole);
   goThrough(first, parts);
   second.resume(throughText(first.state()));
@@ -51,38 +51,38 @@ TEST(RigState, ASessionInTwoPartsReadsWhatItReadsInOne) {
   goThrough(second, parts);
   EXPECT_EQ(parts, whole);
   EXPECT_EQ(stateText(second.state()), stateText(one.state()));
-  fsr::Session fresh(rig(kBent));
+  fsr::simulation::Session fresh(rig(kBent));
   Counts without;
   goThrough(fresh, without);
   EXPECT_NE(without, Counts(whole.end() - static_cast<std::ptrdiff_t>(without.size()), whole.end()));
 }
 
 TEST(RigState, ADrivenRigGoesOnWhereItWasLeft) {
-  const auto recordings = fsr::simulateSession(rig(kFlat + "," + kBent));
-  const auto run = [](fsr::DrivenRig& driven, const fsr::Recording& recording) {
+  const auto recordings = fsr::simulation::simulateSession(rig(kFlat + "," + kBent));
+  const auto run = [](fsr::simulation::DrivenRig& driven, const fsr::dataset::Recording& recording) {
     Counts counts;
-    driven.run(recording, [&](std::size_t, const fsr::SensorChain& chain) {
+    driven.run(recording, [&](std::size_t, const fsr::simulation::SensorChain& chain) {
       counts.insert(counts.end(), chain.counts().begin(), chain.counts().end());
     });
     return counts;
   };
-  fsr::DrivenRig one(rig(kFlat)), first(rig(kFlat)), second(rig(kFlat));
+  fsr::simulation::DrivenRig one(rig(kFlat)), first(rig(kFlat)), second(rig(kFlat));
   run(one, recordings[0]);
   run(first, recordings[0]);
   second.resume(throughText(first.state()));
   EXPECT_EQ(run(second, recordings[1]), run(one, recordings[1]));
-  EXPECT_THROW(run(second, recordings[0]), fsr::InputError);  // before what it remembers
+  EXPECT_THROW(run(second, recordings[0]), fsr::settings::InputError);  // before what it remembers
 }
 
 TEST(RigState, ASheetThatStayedWhereItLayIsNotMountedAnew) {
-  auto recordings = fsr::simulateSession(rig(kFlat + "," + kFlat));
+  auto recordings = fsr::simulation::simulateSession(rig(kFlat + "," + kFlat));
   recordings[1].conditions[0].mount = recordings[0].conditions[0].mount;
   const auto last = [&](bool saved) {
-    fsr::DrivenRig first(rig(kFlat)), second(rig(kFlat));
-    const auto ignore = [](std::size_t, const fsr::SensorChain&) {};
+    fsr::simulation::DrivenRig first(rig(kFlat)), second(rig(kFlat));
+    const auto ignore = [](std::size_t, const fsr::simulation::SensorChain&) {};
     first.run(recordings[0], ignore);
     if (saved) second.resume(first.state());
-    fsr::DrivenRig& then = saved ? second : first;
+    fsr::simulation::DrivenRig& then = saved ? second : first;
     then.run(recordings[1], ignore);
     return stateText(then.state());
   };
@@ -90,12 +90,12 @@ TEST(RigState, ASheetThatStayedWhereItLayIsNotMountedAnew) {
 }
 
 TEST(RigState, OfAnotherRigIsRefused) {
-  fsr::Session other(rig(kFlat, ", turn_on: {}, time_skew: {}"));
-  EXPECT_NO_THROW(other.resume(fsr::Session(rig(kFlat)).state()));  // these remember nothing
-  fsr::SimulationSettings small = rig(kFlat);
+  fsr::simulation::Session other(rig(kFlat, ", turn_on: {}, time_skew: {}"));
+  EXPECT_NO_THROW(other.resume(fsr::simulation::Session(rig(kFlat)).state()));  // these remember nothing
+  fsr::simulation::SimulationSettings small = rig(kFlat);
   small.layout.size = {1, 1};
-  EXPECT_THROW(fsr::Session(small).resume(other.state()), fsr::InputError);
-  EXPECT_THROW(readRigState(Settings::fromText("{rig_state: 2}", "state.yaml")), fsr::InputError);
+  EXPECT_THROW(fsr::simulation::Session(small).resume(other.state()), fsr::settings::InputError);
+  EXPECT_THROW(fsr::simulation::readRigState(Settings::fromText("{rig_state: 2}", "state.yaml")), fsr::settings::InputError);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/simulation/sensor_chain.h"
+#include "simulation/sensor_chain.h"
 
 #include <gtest/gtest.h>
 
@@ -8,16 +8,16 @@
 
 namespace {
 
-using fsr::SensorChain;
-using fsr::SimulationSettings;
+using fsr::simulation::SensorChain;
+using fsr::simulation::SimulationSettings;
 
 SimulationSettings demo() {
-  return fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/demo.yaml");
+  return fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/demo.yaml");
 }
 
 /// Counts of all scans from `first` to `last` of the paper's cycles at 10 Hz.
 std::vector<std::uint16_t> scans(SensorChain& chain, int first, int last) {
-  const fsr::PressureProfile profile = pressureProfile(fsr::ChamberProtocol{});
+  const fsr::simulation::PressureProfile profile = pressureProfile(fsr::simulation::ChamberProtocol{});
   std::vector<std::uint16_t> counts;
   for (int i = first; i < last; ++i) {
     const auto& scan = chain.read({i * 0.1, profile.at(i * 0.1), static_cast<std::uint64_t>(i)});
@@ -51,15 +51,16 @@ TEST(SensorChain, ForgetsItsHistoryWhenReset) {
 }
 
 TEST(SensorChain, RefusesTheStateOfAnotherChain) {
-  const auto bench = fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/bench.yaml");
+  const auto bench = fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/bench.yaml");
   SensorChain chain(demo()), other(bench);
-  EXPECT_THROW(chain.restore(other.state()), fsr::InputError);
+  EXPECT_THROW(chain.restore(other.state()), fsr::settings::InputError);
 }
 
 TEST(SensorChain, RefusesASurfaceOfAnotherSize) {
   SensorChain chain(demo());
-  EXPECT_THROW(chain.mount({"limb", 1, std::vector<fsr::Curvature>(12), {}}), fsr::InputError);
-  EXPECT_THROW(chain.mount({"unknown", 1, {}, {}}), fsr::InputError);
+  EXPECT_THROW(chain.mount({"limb", 1, std::vector<fsr::matrix::Curvature>(12), {}}),
+               fsr::settings::InputError);
+  EXPECT_THROW(chain.mount({"unknown", 1, {}, {}}), fsr::settings::InputError);
 }
 
 TEST(SensorChain, UsesMostOfTheConvertersRangeWithoutClipping) {

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/simulation/session.h"
+#include "simulation/session.h"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,11 @@
 
 namespace {
 
-using fsr::InputError;
-using fsr::readSimulation;
-using fsr::Session;
-using fsr::Settings;
-using fsr::SimulationSettings;
+using fsr::settings::InputError;
+using fsr::settings::Settings;
+using fsr::simulation::readSimulation;
+using fsr::simulation::Session;
+using fsr::simulation::SimulationSettings;
 
 SimulationSettings twoStations(const std::string& effects = "") {
   return readSimulation(Settings::fromText(
@@ -30,7 +30,7 @@ SimulationSettings twoStations(const std::string& effects = "") {
 TEST(Session, GoesThroughItsStationsInRigTime) {
   Session session(twoStations());
   std::vector<double> scans, pressures, temperatures;
-  const fsr::RigListener listener{
+  const fsr::simulation::RigListener listener{
       [&](double time, const auto&) { scans.push_back(time); },
       [&](double time, double) { pressures.push_back(time); },
       [&](double time, double) { temperatures.push_back(time); },
@@ -58,30 +58,30 @@ TEST(Session, LaysTheSheetOnTheSurfacesAndItRemembers) {
 }
 
 TEST(Session, IsAlsoThereAsRecordings) {
-  const auto recordings = fsr::simulateSession(twoStations());
+  const auto recordings = fsr::simulation::simulateSession(twoStations());
   ASSERT_EQ(recordings.size(), 2u);
-  const fsr::Recording& bent = recordings[1];
+  const fsr::dataset::Recording& bent = recordings[1];
   EXPECT_EQ(bent.name, "2_bent.bag");
   EXPECT_EQ(bent.sensor.serial, "SIM-0001");
   EXPECT_EQ(bent.scans(), 81u);
   ASSERT_EQ(bent.conditions.size(), 1u);
   EXPECT_EQ(bent.conditions[0].name, "bent");
   EXPECT_EQ(bent.conditions[0].mount, 2u);
-  EXPECT_NEAR(bent.pressure[40], 300e3, fsr::Transducer{}.step());
+  EXPECT_NEAR(bent.pressure[40], 300e3, fsr::simulation::Transducer{}.step());
   EXPECT_EQ(bent.temperature.size(), bent.scans());
   EXPECT_EQ(bent.start_ns - recordings[0].start_ns, 38000000000);
 }
 
 TEST(Session, HasAReferenceWithItsOwnErrors) {
-  const auto right = fsr::simulateSession(twoStations());
-  const auto wrong = fsr::simulateSession(twoStations("transducer_error: {offset: 5e3, bow: 0}"));
+  const auto right = fsr::simulation::simulateSession(twoStations());
+  const auto wrong = fsr::simulation::simulateSession(twoStations("transducer_error: {offset: 5e3, bow: 0}"));
   EXPECT_EQ(wrong[0].counts, right[0].counts);
-  EXPECT_NEAR(wrong[0].pressure[40] - right[0].pressure[40], 5e3, fsr::Transducer{}.step());
+  EXPECT_NEAR(wrong[0].pressure[40] - right[0].pressure[40], 5e3, fsr::simulation::Transducer{}.step());
 }
 
 TEST(Session, RefusesCyclesWithoutEnd) {
   auto settings = test_support::rig();
-  settings.session[0].program = {fsr::ChamberProtocol{620e3, 17e3, 17e3, 1, 1, 0}};
+  settings.session[0].program = {fsr::simulation::ChamberProtocol{620e3, 17e3, 17e3, 1, 1, 0}};
   EXPECT_THROW(Session{settings}, InputError);
 }
 

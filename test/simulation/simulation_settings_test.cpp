@@ -6,22 +6,22 @@
 #include <filesystem>
 #include <map>
 
-#include "fsr_pressure_map/settings/yaml_text.h"
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
-#include "fsr_pressure_map/simulation/sensor_chain.h"
-#include "fsr_pressure_map/simulation/simulation_text.h"
+#include "settings/yaml_text.h"
+#include "simulation/effects/effect_library.h"
+#include "simulation/sensor_chain.h"
+#include "simulation/simulation_text.h"
 
 namespace {
 
-using fsr::InputError;
-using fsr::readSimulation;
-using fsr::Settings;
+using fsr::settings::InputError;
+using fsr::settings::Settings;
+using fsr::simulation::readSimulation;
 
 const std::filesystem::path kFolder = FSR_SOURCE_DIR "/config/simulation";
 
 std::string complaintAbout(const std::string& yaml) {
   try {
-    fsr::SensorChain chain(readSimulation(Settings::fromText(yaml, "my.yaml")));
+    fsr::simulation::SensorChain chain(readSimulation(Settings::fromText(yaml, "my.yaml")));
   } catch (const InputError& error) {
     return error.what();
   }
@@ -35,10 +35,10 @@ std::string withEffects(const std::string& effects) {
 TEST(SimulationSettings, EveryShippedFileIsReadAndRuns) {
   int files = 0;
   for (const auto& file : std::filesystem::directory_iterator(kFolder)) {
-    const auto settings = fsr::readSimulationFile(file.path());
+    const auto settings = fsr::simulation::readSimulationFile(file.path());
     EXPECT_EQ(settings.name, file.path().stem()) << "the name inside is the file's";
-    fsr::SensorChain chain(settings);
-    const fsr::PressureCourse course = [](double) { return 100e3; };
+    fsr::simulation::SensorChain chain(settings);
+    const fsr::simulation::PressureCourse course = [](double) { return 100e3; };
     EXPECT_EQ(chain.read({0, 100e3, 0, 23, &course}).size(), settings.layout.size.taxels());
     for (const auto& station : settings.session)
       EXPECT_TRUE(std::isfinite(pressureProfile(station.program).duration()));
@@ -49,18 +49,18 @@ TEST(SimulationSettings, EveryShippedFileIsReadAndRuns) {
 
 TEST(SimulationSettings, WrittenOutAndReadBackTheyAreTheSame) {
   for (const auto& file : std::filesystem::directory_iterator(kFolder)) {
-    const auto settings = fsr::readSimulationFile(file.path());
+    const auto settings = fsr::simulation::readSimulationFile(file.path());
     const std::string text = simulationText(settings, "what it is\nand why");
     const auto again = readSimulation(Settings::fromText(text, "again.yaml"));
     EXPECT_EQ(simulationText(again, "what it is\nand why"), text);
     EXPECT_EQ(again.seed, settings.seed);
     EXPECT_EQ(again.session.size(), settings.session.size());
-    fsr::SensorChain before(settings), after(again);
+    fsr::simulation::SensorChain before(settings), after(again);
     before.mount(settings.session.back().surface);
     after.mount(again.session.back().surface);
-    const fsr::PressureCourse course = [](double time) { return 5e3 * time; };
+    const fsr::simulation::PressureCourse course = [](double time) { return 5e3 * time; };
     for (std::uint64_t i = 0; i < 100; ++i) {
-      const fsr::RigMoment moment{double(i), 5e3 * double(i), i, 23, &course};
+      const fsr::simulation::RigMoment moment{double(i), 5e3 * double(i), i, 23, &course};
       EXPECT_EQ(before.read(moment), after.read(moment));
     }
   }
@@ -85,14 +85,14 @@ TEST(SimulationSettings, WrittenOutTheyKeepEveryFormOfSurfaceLoadAndProgram) {
   EXPECT_EQ(again.name, "a \"strange\" \\ name");
   EXPECT_EQ(again.seed, 8999999999999999u);
   EXPECT_EQ(again.session[0].surface.curvature[1].y, 0.1);
-  EXPECT_EQ(again.session[2].load.kind, fsr::LoadPattern::Kind::kEdge);
+  EXPECT_EQ(again.session[2].load.kind, fsr::simulation::LoadPattern::Kind::kEdge);
   EXPECT_EQ(pressureProfile(again.session[2].program).at(5),
             pressureProfile(settings.session[2].program).at(5));
   EXPECT_EQ(again.climate.room[1].temperature, 21.5);
 }
 
 TEST(SimulationSettings, WrittenOutTheySayUnitsMeaningsAndWhereAValueComesFrom) {
-  const auto settings = fsr::readSimulationFile(kFolder / "bench.yaml");
+  const auto settings = fsr::simulation::readSimulationFile(kFolder / "bench.yaml");
   const std::string text = simulationText(settings, "Fitted.", {{"hysteresis.span", "95 %: 6 to\n7"}});
   EXPECT_EQ(text.find("# Fitted.\n"), 0u);
   EXPECT_NE(text.find("    span: 620000  # [Pa] pressure that loop_width is a share of; 95 %: 6 to 7\n"),
@@ -102,21 +102,23 @@ TEST(SimulationSettings, WrittenOutTheySayUnitsMeaningsAndWhereAValueComesFrom) 
 
 TEST(SimulationSettings, CoreHoldsWhatEveryMatrixHasAndNothingElse) {
   std::vector<std::string> ids;
-  for (const auto& effect : fsr::readSimulationFile(kFolder / "core.yaml").effects) ids.push_back(effect.id);
+  for (const auto& effect : fsr::simulation::readSimulationFile(kFolder / "core.yaml").effects)
+    ids.push_back(effect.id);
   EXPECT_EQ(ids, (std::vector<std::string>{"bending_preload", "bending_gain", "static_curve", "converter",
                                            "white_noise"}));
 }
 
 TEST(SimulationSettings, TheBenchmarksRigHasEveryEffect) {
-  const auto settings = fsr::readSimulationFile(FSR_SOURCE_DIR "/test/benchmark/all_effects.yaml");
-  for (const fsr::EffectEntry& entry : fsr::effectLibrary()) {
+  const auto settings =
+      fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/test/benchmark/all_effects.yaml");
+  for (const fsr::simulation::EffectEntry& entry : fsr::simulation::effectLibrary()) {
     EXPECT_EQ(settings.effect(entry.info.id) != nullptr, entry.make != nullptr) << entry.info.id;
   }
 }
 
 TEST(SimulationSettings, MissingPartsHaveTheirDefaults) {
   const auto settings = readSimulation(Settings::fromText(withEffects("hysteresis: {}"), "my.yaml"));
-  EXPECT_EQ(settings.layout.size, (fsr::MatrixSize{7, 10}));
+  EXPECT_EQ(settings.layout.size, (fsr::matrix::MatrixSize{7, 10}));
   EXPECT_EQ(settings.chamber.peak, 620e3);
   EXPECT_EQ(settings.fullScale(), 4095);
   EXPECT_EQ(settings.effect("hysteresis")->values.at("loop_width"), 0.05);
@@ -150,8 +152,8 @@ TEST(SimulationSettings, ValuesOutOfRangeAreRefusedByName) {
       std::string::npos);
 }
 
-std::map<std::string, fsr::Range> rangesOf(const fsr::EffectEntry& entry) {
-  std::map<std::string, fsr::Range> ranges;
+std::map<std::string, fsr::settings::Range> rangesOf(const fsr::simulation::EffectEntry& entry) {
+  std::map<std::string, fsr::settings::Range> ranges;
   for (const auto& parameter : entry.info.parameters) ranges[parameter.name] = parameter.permitted;
   return ranges;
 }
@@ -198,7 +200,7 @@ void expectRefused(const std::string& yaml, const std::string& field) {
 }
 
 TEST(SimulationSettings, EveryParameterOfEveryEffectIsRefusedByNameOutsideItsRange) {
-  for (const fsr::EffectEntry& entry : fsr::effectLibrary()) {
+  for (const fsr::simulation::EffectEntry& entry : fsr::simulation::effectLibrary()) {
     if (!entry.make) continue;
     const std::string& id = entry.info.id;
     expectRefused(oneEffect(id, "bogus: 1"), "effects." + id + ".bogus");
@@ -207,12 +209,14 @@ TEST(SimulationSettings, EveryParameterOfEveryEffectIsRefusedByNameOutsideItsRan
       expectRefused(oneEffect(id, name + ": .nan"), field);
       expectRefused(oneEffect(id, name + ": much"), field);
       if (std::isfinite(range.low)) {
-        expectRefused(oneEffect(id, name + ": " + fsr::numberText(range.low - 1 - std::abs(range.low))),
-                      field);
+        expectRefused(
+            oneEffect(id, name + ": " + fsr::settings::numberText(range.low - 1 - std::abs(range.low))),
+            field);
       }
       if (std::isfinite(range.high)) {
-        expectRefused(oneEffect(id, name + ": " + fsr::numberText(range.high + 1 + std::abs(range.high))),
-                      field);
+        expectRefused(
+            oneEffect(id, name + ": " + fsr::settings::numberText(range.high + 1 + std::abs(range.high))),
+            field);
       }
     }
   }
@@ -220,7 +224,7 @@ TEST(SimulationSettings, EveryParameterOfEveryEffectIsRefusedByNameOutsideItsRan
 
 TEST(SimulationSettings, NoTimeConstantMayBeNegative) {
   int seen = 0;
-  for (const fsr::EffectEntry& entry : fsr::effectLibrary()) {
+  for (const fsr::simulation::EffectEntry& entry : fsr::simulation::effectLibrary()) {
     for (const auto& [name, range] : rangesOf(entry)) {
       const bool delay = name == "delay" || name == "taxel_time";  // may be early, or backwards
       if (range.unit != "s" || delay) continue;

@@ -6,10 +6,10 @@
 #include <fstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/simulation/sensor_chain.h"
-#include "fsr_pressure_map/simulation/simulation_text.h"
+#include "simulation/sensor_chain.h"
+#include "simulation/simulation_text.h"
 
-namespace fsr {
+namespace fsr::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -29,7 +29,7 @@ class TaxelCurvesFile : public testing::Test {
   std::string complaint(const std::string& text) const {
     try {
       readTaxelCurves(write("bad.csv", text));
-    } catch (const InputError& error) {
+    } catch (const settings::InputError& error) {
       return error.what();
     }
     return "";
@@ -69,8 +69,8 @@ TEST(TaxelCurves, AddToWhatTheChainReads) {
   corrected.read(moment);
   EXPECT_NEAR(corrected.reading()[0] - plain.reading()[0], 4095 * 0.01, 1e-9);
   EXPECT_NEAR(corrected.reading()[1] - plain.reading()[1], 4095 * 0.02, 1e-9);
-  corrected.mount(Surface{"bent", 1, {Curvature{13, 0, 0}}, {}});
-  plain.mount(Surface{"bent", 1, {Curvature{13, 0, 0}}, {}});
+  corrected.mount(matrix::Surface{"bent", 1, {matrix::Curvature{13, 0, 0}}, {}});
+  plain.mount(matrix::Surface{"bent", 1, {matrix::Curvature{13, 0, 0}}, {}});
   moment.time = 1;
   plain.read(moment);
   corrected.read(moment);
@@ -81,7 +81,7 @@ TEST(TaxelCurves, RefuseAnotherMatrix) {
   SimulationSettings settings = smallRig();
   settings.layout.size = {2, 2};
   settings.taxel_curves = std::make_shared<const TaxelCurves>(example());
-  EXPECT_THROW(SensorChain chain(settings), InputError);
+  EXPECT_THROW(SensorChain chain(settings), settings::InputError);
 }
 
 TEST_F(TaxelCurvesFile, KeepsEveryBitBesideItsSimulation) {
@@ -106,4 +106,4 @@ TEST_F(TaxelCurvesFile, IsRefusedByLineAndColumn) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::simulation

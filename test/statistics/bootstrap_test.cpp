@@ -1,18 +1,18 @@
-#include "fsr_pressure_map/statistics/bootstrap.h"
+#include "statistics/bootstrap.h"
 
 #include <numeric>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/random_stream.h"
 #include "statistics/sample_data.h"
 
 namespace {
 
 using namespace sample_data;
-using fsr::bootstrap;
-using fsr::BootstrapProblem;
-using fsr::BootstrapResult;
-using fsr::IntervalMethod;
+using fsr::statistics::bootstrap;
+using fsr::statistics::BootstrapProblem;
+using fsr::statistics::BootstrapResult;
+using fsr::statistics::IntervalMethod;
 
 using Indices = std::vector<std::size_t>;
 
@@ -44,10 +44,12 @@ BootstrapProblem meanOfUnits(const Values& x, std::size_t each = 1) {
 // boot:::bca.ci(NULL, 0.95, t0 = 0.4, t = pm(31, 199), L = L(c(1,2,4,8,16,17,18,3,5,9)))[4:5]
 // boot:::bca.ci(NULL, 0.90, t0 = 0.9, t = -log(pm(32, 999)), L = L(-log(pm(33, 12))))[4:5]
 TEST(Bootstrap, BcaIntervalAgreesWithRGivenTheReplicates) {
-  const fsr::Interval one = fsr::bcaInterval(0.4, uniform(31, 199), {1, 2, 4, 8, 16, 17, 18, 3, 5, 9}, 0.95);
+  const fsr::statistics::Interval one =
+      fsr::statistics::bcaInterval(0.4, uniform(31, 199), {1, 2, 4, 8, 16, 17, 18, 3, 5, 9}, 0.95);
   expectNear(one.low, 0.000975154420368836);
   expectNear(one.high, 0.895317718274641);
-  const fsr::Interval other = fsr::bcaInterval(0.9, exponential(32, 999), exponential(33, 12), 0.90);
+  const fsr::statistics::Interval other =
+      fsr::statistics::bcaInterval(0.9, exponential(32, 999), exponential(33, 12), 0.90);
   expectNear(other.low, 0.0744696075194973);
   expectNear(other.high, 3.04935962091628);
 }
@@ -56,16 +58,18 @@ TEST(Bootstrap, BcaCountsAReplicateThatEqualsTheEstimateHalf) {
   Values replicates;  // a statistic that jumps: 0, 1 and 2, as often below the estimate as above
   for (const auto& [value, times] : {std::pair{0.0, 25}, {1.0, 50}, {2.0, 25}})
     replicates.insert(replicates.end(), times, value);
-  const fsr::Interval interval = fsr::bcaInterval(1, replicates, {1, 2, 3}, 0.95);
+  const fsr::statistics::Interval interval = fsr::statistics::bcaInterval(1, replicates, {1, 2, 3}, 0.95);
   EXPECT_EQ(interval.low, 0);
   EXPECT_EQ(interval.high, 2);
 }
 
 TEST(Bootstrap, BcaEndsAtTheExtremeReplicatesWhereTheyAreTooFew) {
-  const fsr::Interval interval = fsr::bcaInterval(3.5, {1, 2, 3, 4, 5, 6}, {1, 2, 3}, 0.95);
+  const fsr::statistics::Interval interval =
+      fsr::statistics::bcaInterval(3.5, {1, 2, 3, 4, 5, 6}, {1, 2, 3}, 0.95);
   EXPECT_EQ(interval.low, 1);
   EXPECT_EQ(interval.high, 6);
-  const fsr::Interval beyond = fsr::bcaInterval(9, {1, 2, 3, 4, 5, 6}, {1, 2, 3}, 0.95);
+  const fsr::statistics::Interval beyond =
+      fsr::statistics::bcaInterval(9, {1, 2, 3, 4, 5, 6}, {1, 2, 3}, 0.95);
   EXPECT_LE(beyond.low, beyond.high);
   EXPECT_EQ(beyond.high, 6);
 }
@@ -74,7 +78,7 @@ TEST(Bootstrap, BcaEndsAtTheExtremeReplicatesWhereTheyAreTooFew) {
 // j <- sapply(1:70, function(i) sd(x70[-i]) / mean(x70[-i]))
 // c(b$t0, boot:::bca.ci(NULL, 0.95, t0 = b$t0, t = b$t[, 1], L = mean(j) - j)[4:5], sd(b$t[, 1]))
 TEST(Bootstrap, AgreesWithRWithinTheScatterOfResampling) {
-  fsr::BootstrapOptions options;
+  fsr::statistics::BootstrapOptions options;
   options.resamples = 40000;
   const BootstrapProblem problem{{{"taxel", blocks(70, 1)}},
                                  [](const Indices& at) { return variationAt(kX70, at); }};
@@ -147,7 +151,7 @@ TEST(Bootstrap, DrawsUnitsWhole) {
 }
 
 TEST(Bootstrap, GivesTheSameNumbersOnAnyNumberOfThreads) {
-  fsr::BootstrapOptions options;
+  fsr::statistics::BootstrapOptions options;
   const BootstrapResult one = bootstrap(meanOfUnits(kX70), options);
   for (const std::size_t threads : {2, 3, 8}) {
     options.threads = threads;
@@ -159,7 +163,7 @@ TEST(Bootstrap, GivesTheSameNumbersOnAnyNumberOfThreads) {
 }
 
 TEST(Bootstrap, DependsOnSeedAndStream) {
-  fsr::BootstrapOptions options;
+  fsr::statistics::BootstrapOptions options;
   const double low = bootstrap(meanOfUnits(kX70), options).low;
   options.seed = 2;
   const double of_seed = bootstrap(meanOfUnits(kX70), options).low;
@@ -171,14 +175,14 @@ TEST(Bootstrap, DependsOnSeedAndStream) {
 
 /// Units of five readings that share a deviation: readings are not independent, units are.
 Values clustered(std::uint64_t trial, std::size_t units) {
-  const fsr::RandomStream stream = fsr::randomStream(1, "clusters", trial);
+  const fsr::statistics::RandomStream stream = fsr::statistics::randomStream(1, "clusters", trial);
   Values x(5 * units);
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = stream.normal(i) + 2 * stream.normal(1000 + i / 5);
   return x;
 }
 
 int coveredOf(int trials, std::size_t units, std::size_t each) {
-  fsr::BootstrapOptions options;
+  fsr::statistics::BootstrapOptions options;
   options.resamples = 399;
   int covered = 0;
   for (int trial = 0; trial < trials; ++trial) {
@@ -221,7 +225,7 @@ TEST(Bootstrap, PassesOnWhatTheStatisticThrowsInAThread) {
     if (std::count(at.begin(), at.end(), 0u) > 3) throw std::runtime_error("no");
     return meanAt(kX70, at);
   };
-  fsr::BootstrapOptions options;
+  fsr::statistics::BootstrapOptions options;
   options.threads = 4;
   EXPECT_THROW(bootstrap(problem, options), std::runtime_error);
 }
@@ -229,19 +233,19 @@ TEST(Bootstrap, PassesOnWhatTheStatisticThrowsInAThread) {
 TEST(Bootstrap, RefusesWhatItCannotResample) {
   BootstrapProblem problem = meanOfUnits(kX70);
   problem.levels.clear();
-  EXPECT_THROW(bootstrap(problem), fsr::InputError);
+  EXPECT_THROW(bootstrap(problem), fsr::settings::InputError);
   problem.levels = {{"cycle", blocks(70, 1)}, {"taxel", blocks(60, 1)}};
-  EXPECT_THROW(bootstrap(problem), fsr::InputError);
+  EXPECT_THROW(bootstrap(problem), fsr::settings::InputError);
   problem.levels = {{"cycle", {}}};
-  EXPECT_THROW(bootstrap(problem), fsr::InputError);
+  EXPECT_THROW(bootstrap(problem), fsr::settings::InputError);
   problem = meanOfUnits({1, 2, std::nan(""), 4, 5});
-  EXPECT_THROW(bootstrap(problem), fsr::InputError);
-  fsr::BootstrapOptions options;
+  EXPECT_THROW(bootstrap(problem), fsr::settings::InputError);
+  fsr::statistics::BootstrapOptions options;
   options.confidence = 1;
-  EXPECT_THROW(bootstrap(meanOfUnits(kX70), options), fsr::InputError);
+  EXPECT_THROW(bootstrap(meanOfUnits(kX70), options), fsr::settings::InputError);
   options = {};
   options.resamples = 0;
-  EXPECT_THROW(bootstrap(meanOfUnits(kX70), options), fsr::InputError);
+  EXPECT_THROW(bootstrap(meanOfUnits(kX70), options), fsr::settings::InputError);
 }
 
 }  // namespace

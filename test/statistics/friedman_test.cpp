@@ -1,16 +1,16 @@
-#include "fsr_pressure_map/statistics/friedman.h"
+#include "statistics/friedman.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/random_stream.h"
 #include "statistics/repeated_data.h"
 
 namespace {
 
 using namespace sample_data;
-using fsr::friedman;
+using fsr::statistics::friedman;
 
-void expectR(const fsr::RepeatedMeasures& data, double chi2, double df, double p) {
-  const fsr::TestResult result = friedman(data);
+void expectR(const fsr::statistics::RepeatedMeasures& data, double chi2, double df, double p) {
+  const fsr::statistics::TestResult result = friedman(data);
   expectNear(result.statistic, chi2);
   EXPECT_EQ(result.degrees_of_freedom, Values{df});
   expectNear(result.p, p);
@@ -32,7 +32,7 @@ TEST(Friedman, ReachesNTimesKMinusOneAtMost) {
 }
 
 TEST(Friedman, SeesOnlyTheOrderWithinUnits) {
-  fsr::RepeatedMeasures data = tied5();
+  fsr::statistics::RepeatedMeasures data = tied5();
   const double p = friedman(data).p;
   for (Values& values : data.values) {
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -47,7 +47,7 @@ TEST(Friedman, RejectsTheNullAtItsLevel) {
   constexpr int kTrials = 2000;
   int rejections = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const fsr::RandomStream stream = fsr::randomStream(1, "friedman", trial);
+    const fsr::statistics::RandomStream stream = fsr::statistics::randomStream(1, "friedman", trial);
     std::vector<Values> values(3, Values(70));
     for (std::size_t i = 0; i < 210; ++i) values[i % 3][i / 3] = 1 / stream.uniform(i);
     rejections += friedman(measures(values)).p < 0.05;
@@ -56,25 +56,25 @@ TEST(Friedman, RejectsTheNullAtItsLevel) {
 }
 
 TEST(Friedman, FindsNothingWhereEveryUnitIsTied) {
-  const fsr::TestResult result = friedman(measures({kA, kA, kA}));
+  const fsr::statistics::TestResult result = friedman(measures({kA, kA, kA}));
   EXPECT_EQ(result.p, 1);
   EXPECT_EQ(result.statistic, 0);
-  EXPECT_EQ(result.method, fsr::PMethod::kNothingToTest);
+  EXPECT_EQ(result.method, fsr::statistics::PMethod::kNothingToTest);
 }
 
 TEST(Friedman, RefusesWhatItCannotJudge) {
-  EXPECT_THROW(friedman({}), fsr::InputError);
-  EXPECT_THROW(friedman(measures({kA})), fsr::InputError);
-  EXPECT_THROW(friedman(measures({{1}, {2}})), fsr::InputError);
-  EXPECT_THROW(friedman(measures({{1, 2}, {2, std::nan("")}})), fsr::InputError);
-  EXPECT_THROW(friedman({{"one"}, {{1, 2}, {2, 3}}}), fsr::InputError);
+  EXPECT_THROW(friedman({}), fsr::settings::InputError);
+  EXPECT_THROW(friedman(measures({kA})), fsr::settings::InputError);
+  EXPECT_THROW(friedman(measures({{1}, {2}})), fsr::settings::InputError);
+  EXPECT_THROW(friedman(measures({{1, 2}, {2, std::nan("")}})), fsr::settings::InputError);
+  EXPECT_THROW(friedman({{"one"}, {{1, 2}, {2, 3}}}), fsr::settings::InputError);
 }
 
 TEST(Friedman, SaysWhichTreatmentLacksUnits) {
   try {
     friedman({{"flat", "curved"}, {{1, 2, 3}, {1, 2}}});
     FAIL();
-  } catch (const fsr::InputError& error) {
+  } catch (const fsr::settings::InputError& error) {
     EXPECT_STREQ(
         error.what(),
         "Friedman test of 'curved': 2 values where 'flat' has 3; every treatment needs the same units");

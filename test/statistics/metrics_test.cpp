@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace fsr {
+namespace fsr::statistics {
 namespace {
 
 // Expected values: /usr/bin/python3 with numpy 1.24.2 and scipy 1.10.1, where
@@ -111,4 +111,4 @@ TEST(ErrorBins, KeepBinsAndDirectionsApart) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::statistics

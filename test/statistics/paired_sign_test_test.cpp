@@ -1,16 +1,16 @@
-#include "fsr_pressure_map/statistics/paired_sign_test.h"
+#include "statistics/paired_sign_test.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/random_stream.h"
 #include "statistics/sample_data.h"
 
 namespace {
 
 using namespace sample_data;
-using fsr::pairedSignTest;
+using fsr::statistics::pairedSignTest;
 
 void expectR(const Values& first, const Values& second, double positive, std::size_t signs, double p) {
-  const fsr::TestResult result = pairedSignTest(first, second);
+  const fsr::statistics::TestResult result = pairedSignTest(first, second);
   EXPECT_EQ(result.statistic, positive);
   EXPECT_EQ(result.n - result.dropped, signs);
   expectNear(result.p, p);
@@ -37,7 +37,7 @@ TEST(PairedSignTest, RejectsTheNullAtItsExactLevel) {
   constexpr int kTrials = 4000;
   int rejections = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const fsr::RandomStream stream = fsr::randomStream(1, "sign", trial);
+    const fsr::statistics::RandomStream stream = fsr::statistics::randomStream(1, "sign", trial);
     Values d(20);  // median zero, not symmetric
     for (std::size_t i = 0; i < d.size(); ++i) d[i] = -std::log(stream.uniform(i)) - std::log(2.0);
     rejections += pairedSignTest(d, Values(20, 0.0)).p < 0.05;
@@ -47,15 +47,15 @@ TEST(PairedSignTest, RejectsTheNullAtItsExactLevel) {
 }
 
 TEST(PairedSignTest, FindsNothingWhereAllDifferencesAreZero) {
-  const fsr::TestResult result = pairedSignTest(kA, kA);
+  const fsr::statistics::TestResult result = pairedSignTest(kA, kA);
   EXPECT_EQ(result.p, 1);
-  EXPECT_EQ(result.method, fsr::PMethod::kNothingToTest);
+  EXPECT_EQ(result.method, fsr::statistics::PMethod::kNothingToTest);
 }
 
 TEST(PairedSignTest, RefusesWhatItCannotJudge) {
-  EXPECT_THROW(pairedSignTest({}, {}), fsr::InputError);
-  EXPECT_THROW(pairedSignTest({1}, {1, 2}), fsr::InputError);
-  EXPECT_THROW(pairedSignTest({std::nan("")}, {1}), fsr::InputError);
+  EXPECT_THROW(pairedSignTest({}, {}), fsr::settings::InputError);
+  EXPECT_THROW(pairedSignTest({1}, {1, 2}), fsr::settings::InputError);
+  EXPECT_THROW(pairedSignTest({std::nan("")}, {1}), fsr::settings::InputError);
 }
 
 }  // namespace

@@ -1,20 +1,20 @@
-#include "fsr_pressure_map/statistics/paired_t.h"
+#include "statistics/paired_t.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/random_stream.h"
 #include "statistics/sample_data.h"
 
 namespace {
 
 using namespace sample_data;
-using fsr::pairedT;
+using fsr::statistics::pairedT;
 
 struct Reference {
   double t, df, p, mean, low, high;
 };
 
 void expectR(const Values& first, const Values& second, const Reference& r) {
-  const fsr::PairedT result = pairedT(first, second);
+  const fsr::statistics::PairedT result = pairedT(first, second);
   expectNear(result.test.statistic, r.t);
   EXPECT_EQ(result.test.degrees_of_freedom, Values{r.df});
   expectNear(result.test.p, r.p);
@@ -46,7 +46,7 @@ TEST(PairedT, KeepsItsDigitsFarInTheTail) {
 }
 
 TEST(PairedT, ChangesSignOnlyWhenSwapped) {
-  const fsr::PairedT there = pairedT(kA, kB), back = pairedT(kB, kA);
+  const fsr::statistics::PairedT there = pairedT(kA, kB), back = pairedT(kB, kA);
   EXPECT_DOUBLE_EQ(there.test.statistic, -back.test.statistic);
   EXPECT_DOUBLE_EQ(there.test.p, back.test.p);
   EXPECT_DOUBLE_EQ(there.low, -back.high);
@@ -56,7 +56,7 @@ TEST(PairedT, RejectsEqualMeansAtItsLevel) {
   constexpr int kTrials = 4000;
   int rejections = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const fsr::RandomStream stream = fsr::randomStream(1, "t", trial);
+    const fsr::statistics::RandomStream stream = fsr::statistics::randomStream(1, "t", trial);
     Values first(8), second(8);
     for (std::size_t i = 0; i < 8; ++i) first[i] = stream.normal(2 * i), second[i] = stream.normal(2 * i + 1);
     rejections += pairedT(first, second).test.p < 0.05;
@@ -65,18 +65,18 @@ TEST(PairedT, RejectsEqualMeansAtItsLevel) {
 }
 
 TEST(PairedT, FindsNothingBetweenEqualSamples) {
-  const fsr::PairedT result = pairedT(kA, kA);
+  const fsr::statistics::PairedT result = pairedT(kA, kA);
   EXPECT_EQ(result.test.p, 1);
   EXPECT_EQ(result.test.statistic, 0);
-  EXPECT_EQ(result.test.method, fsr::PMethod::kNothingToTest);
+  EXPECT_EQ(result.test.method, fsr::statistics::PMethod::kNothingToTest);
 }
 
 TEST(PairedT, RefusesWhatItCannotJudge) {
-  EXPECT_THROW(pairedT({}, {}), fsr::InputError);
-  EXPECT_THROW(pairedT({1}, {2}), fsr::InputError);
-  EXPECT_THROW(pairedT({1, 2}, {2}), fsr::InputError);
-  EXPECT_THROW(pairedT({1, 2, 3}, {3, 4, 5}), fsr::InputError);  // always 2 apart
-  EXPECT_THROW(pairedT({1, std::nan("")}, {3, 4}), fsr::InputError);
+  EXPECT_THROW(pairedT({}, {}), fsr::settings::InputError);
+  EXPECT_THROW(pairedT({1}, {2}), fsr::settings::InputError);
+  EXPECT_THROW(pairedT({1, 2}, {2}), fsr::settings::InputError);
+  EXPECT_THROW(pairedT({1, 2, 3}, {3, 4, 5}), fsr::settings::InputError);  // always 2 apart
+  EXPECT_THROW(pairedT({1, std::nan("")}, {3, 4}), fsr::settings::InputError);
 }
 
 }  // namespace

@@ -1,18 +1,18 @@
-#include "fsr_pressure_map/statistics/paper_rule.h"
+#include "statistics/paper_rule.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/random_stream.h"
 #include "statistics/repeated_data.h"
 
 namespace {
 
 using namespace sample_data;
-using fsr::paperRule;
-using fsr::PaperRuleResult;
+using fsr::statistics::paperRule;
+using fsr::statistics::PaperRuleResult;
 
 std::vector<std::string> conclusions(const PaperRuleResult& result) {
   std::vector<std::string> list;
-  for (const fsr::Decision& decision : result.decisions)
+  for (const fsr::statistics::Decision& decision : result.decisions)
     list.push_back(decision.subject + ": " + decision.conclusion);
   return list;
 }
@@ -21,7 +21,7 @@ using Lines = std::vector<std::string>;
 
 // t.test(n3[, 1], n3[, 3], paired = TRUE)$p.value
 TEST(PaperRule, TakesThePairedTTestForTwoNormalTreatments) {
-  const fsr::RepeatedMeasures all = normal3();
+  const fsr::statistics::RepeatedMeasures all = normal3();
   const PaperRuleResult result = paperRule({{"flat", "bent"}, {all.values[0], all.values[2]}});
   EXPECT_EQ(conclusions(result), (Lines{"flat: normal", "bent: normal", "all treatments: tests of means"}));
   EXPECT_EQ(result.test.test, "paired t");
@@ -86,7 +86,7 @@ TEST(PaperRule, AsksTheSymmetryOfTheDifferences) {
 }
 
 TEST(PaperRule, CorrectsForWantOfSphericity) {
-  fsr::RepeatedMeasures data = normal3();
+  fsr::statistics::RepeatedMeasures data = normal3();
   for (double& x : data.values[2]) x = 5 * x;
   const PaperRuleResult result = paperRule(data);
   EXPECT_EQ(conclusions(result).at(4), "all treatments: not spherical: Greenhouse-Geisser");
@@ -100,13 +100,13 @@ TEST(PaperRule, ComparesNoPairsWhereNothingDiffersTogether) {
 }
 
 TEST(PaperRule, CanAskTheNormalityOfTheDifferencesInstead) {
-  fsr::PaperRuleOptions options;
-  options.normality = fsr::NormalityOf::kDifferences;
+  fsr::statistics::PaperRuleOptions options;
+  options.normality = fsr::statistics::NormalityOf::kDifferences;
   // Skewed levels that both treatments share; normal differences.
-  const Values noise = mapped(uniform(15, 70), fsr::normalQuantile);
+  const Values noise = mapped(uniform(15, 70), fsr::statistics::normalQuantile);
   Values shifted = kX70;
   for (std::size_t i = 0; i < shifted.size(); ++i) shifted[i] += noise[i] - 1;
-  const fsr::RepeatedMeasures data{{"a", "b"}, {kX70, shifted}};
+  const fsr::statistics::RepeatedMeasures data{{"a", "b"}, {kX70, shifted}};
   EXPECT_EQ(paperRule(data).test.test, "Wilcoxon signed-rank");
   EXPECT_EQ(paperRule(data, options).test.test, "paired t");
   EXPECT_EQ(conclusions(paperRule(data, options)).front(), "a - b: normal");
@@ -127,13 +127,13 @@ TEST(PaperRule, AnswersDegenerateDataAsDocumented) {
 }
 
 TEST(PaperRule, RefusesWhatItCannotJudge) {
-  EXPECT_THROW(paperRule(measures({kA})), fsr::InputError);
-  EXPECT_THROW(paperRule(measures({{1, 2}, {2, 3}})), fsr::InputError);
-  EXPECT_THROW(paperRule(measures({{1, 2, 3}, {2, 3}})), fsr::InputError);
-  EXPECT_THROW(paperRule(measures({{1, 2, 3}, {2, 3, std::nan("")}})), fsr::InputError);
-  fsr::PaperRuleOptions options;
+  EXPECT_THROW(paperRule(measures({kA})), fsr::settings::InputError);
+  EXPECT_THROW(paperRule(measures({{1, 2}, {2, 3}})), fsr::settings::InputError);
+  EXPECT_THROW(paperRule(measures({{1, 2, 3}, {2, 3}})), fsr::settings::InputError);
+  EXPECT_THROW(paperRule(measures({{1, 2, 3}, {2, 3, std::nan("")}})), fsr::settings::InputError);
+  fsr::statistics::PaperRuleOptions options;
   options.level = 5;
-  EXPECT_THROW(paperRule(measures({kA, kB}), options), fsr::InputError);
+  EXPECT_THROW(paperRule(measures({kA, kB}), options), fsr::settings::InputError);
 }
 
 }  // namespace

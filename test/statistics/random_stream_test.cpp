@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/random_stream.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 
 namespace {
 
-using fsr::normalQuantile;
-using fsr::RandomStream;
-using fsr::randomStream;
+using fsr::statistics::normalQuantile;
+using fsr::statistics::RandomStream;
+using fsr::statistics::randomStream;
 
 // SplitMix64 started at 1234567, as its authors publish it.
 TEST(RandomStream, GivesTheNumbersOfSplitMix64) {

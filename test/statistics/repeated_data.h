@@ -1,8 +1,8 @@
 #pragma once
 
-#include "fsr_pressure_map/statistics/random_stream.h"
-#include "fsr_pressure_map/statistics/samples.h"
+#include "statistics/random_stream.h"
 #include "statistics/sample_data.h"
+#include "statistics/samples.h"
 
 // Repeated measures for the tests, with their lines in R:
 //   m5 <- sapply(1:5, function(j) -log(pm(20 + j, 70)) * (1 + j / 10))
@@ -12,20 +12,20 @@
 
 namespace sample_data {
 
-inline fsr::RepeatedMeasures measures(const std::vector<Values>& values) {
-  fsr::RepeatedMeasures result;
+inline fsr::statistics::RepeatedMeasures measures(const std::vector<Values>& values) {
+  fsr::statistics::RepeatedMeasures result;
   result.values = values;
   for (std::size_t j = 0; j < values.size(); ++j) result.treatments.push_back("m" + std::to_string(j + 1));
   return result;
 }
 
-inline fsr::RepeatedMeasures skewed5(double step = 10) {
+inline fsr::statistics::RepeatedMeasures skewed5(double step = 10) {
   std::vector<Values> values;
   for (int j = 1; j <= 5; ++j) values.push_back(exponential(20 + j, 70, 1 + j / step));
   return measures(values);
 }
 
-inline fsr::RepeatedMeasures tied5() {
+inline fsr::statistics::RepeatedMeasures tied5() {
   std::vector<Values> values;
   for (int j = 1; j <= 5; ++j) {
     values.push_back(
@@ -35,7 +35,7 @@ inline fsr::RepeatedMeasures tied5() {
 }
 
 /// Times to round first base, three ways, 22 players: Hollander and Wolfe 1999, table 7.1.
-inline fsr::RepeatedMeasures roundingTimes() {
+inline fsr::statistics::RepeatedMeasures roundingTimes() {
   return measures({{5.40, 5.85, 5.20, 5.55, 5.90, 5.45, 5.40, 5.45, 5.25, 5.85, 5.25,
                     5.65, 5.60, 5.05, 5.50, 5.45, 5.55, 5.45, 5.50, 5.65, 5.70, 6.30},
                    {5.50, 5.70, 5.60, 5.50, 5.85, 5.55, 5.40, 5.50, 5.15, 5.80, 5.20,
@@ -44,12 +44,12 @@ inline fsr::RepeatedMeasures roundingTimes() {
                     5.45, 5.45, 4.95, 5.40, 5.50, 5.35, 5.55, 5.25, 5.40, 5.55, 6.25}});
 }
 
-inline fsr::RepeatedMeasures normal3() {
+inline fsr::statistics::RepeatedMeasures normal3() {
   std::vector<Values> values;
   for (int j = 0; j < 3; ++j) {
     const double shift = std::vector<double>{0, 0.2, 1}[j];
-    values.push_back(
-        mapped(uniform(41 + j, 30), [shift](double u) { return fsr::normalQuantile(u) + shift; }));
+    values.push_back(mapped(uniform(41 + j, 30),
+                            [shift](double u) { return fsr::statistics::normalQuantile(u) + shift; }));
   }
   return measures(values);
 }

@@ -1,14 +1,14 @@
-#include "fsr_pressure_map/statistics/repeated_measures_anova.h"
+#include "statistics/repeated_measures_anova.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/statistics/paired_t.h"
-#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/paired_t.h"
+#include "statistics/random_stream.h"
 #include "statistics/repeated_data.h"
 
 namespace {
 
 using namespace sample_data;
-using fsr::repeatedMeasuresAnova;
+using fsr::statistics::repeatedMeasuresAnova;
 
 struct Reference {
   double f, df1, df2, p;  // of R's table
@@ -16,8 +16,8 @@ struct Reference {
   double w, mauchly_p;
 };
 
-void expectR(const fsr::RepeatedMeasures& data, const Reference& r) {
-  const fsr::RepeatedMeasuresAnova result = repeatedMeasuresAnova(data);
+void expectR(const fsr::statistics::RepeatedMeasures& data, const Reference& r) {
+  const fsr::statistics::RepeatedMeasuresAnova result = repeatedMeasuresAnova(data);
   expectNear(result.test.statistic, r.f);
   EXPECT_EQ(result.test.degrees_of_freedom, (Values{r.df1, r.df2}));
   expectNear(result.test.p, r.p);
@@ -29,7 +29,8 @@ void expectR(const fsr::RepeatedMeasures& data, const Reference& r) {
   expectNear(result.mauchly.p, r.mauchly_p);
 }
 
-fsr::RepeatedMeasures firstUnits(fsr::RepeatedMeasures data, std::size_t units, std::size_t treatments) {
+fsr::statistics::RepeatedMeasures firstUnits(fsr::statistics::RepeatedMeasures data, std::size_t units,
+                                             std::size_t treatments) {
   data.values.resize(treatments);
   data.treatments.resize(treatments);
   for (Values& values : data.values) values.resize(units);
@@ -73,8 +74,8 @@ TEST(RepeatedMeasuresAnova, DiffersFromRsDefaultMauchlyBySecondOrderOnly) {
 }
 
 TEST(RepeatedMeasuresAnova, IsThePairedTTestOnTwoTreatments) {
-  const fsr::RepeatedMeasuresAnova result = repeatedMeasuresAnova(measures({kA, kB}));
-  const fsr::TestResult t = fsr::pairedT(kA, kB).test;
+  const fsr::statistics::RepeatedMeasuresAnova result = repeatedMeasuresAnova(measures({kA, kB}));
+  const fsr::statistics::TestResult t = fsr::statistics::pairedT(kA, kB).test;
   expectNear(result.test.statistic, t.statistic * t.statistic);
   expectNear(result.test.p, t.p);
   expectNear(result.greenhouse_geisser.p, t.p);
@@ -83,13 +84,13 @@ TEST(RepeatedMeasuresAnova, IsThePairedTTestOnTwoTreatments) {
 }
 
 TEST(RepeatedMeasuresAnova, DoesNotDependOnTheLevelOfAUnitOrTheOrderOfTreatments) {
-  fsr::RepeatedMeasures data = roundingTimes();
-  const fsr::RepeatedMeasuresAnova before = repeatedMeasuresAnova(data);
+  fsr::statistics::RepeatedMeasures data = roundingTimes();
+  const fsr::statistics::RepeatedMeasuresAnova before = repeatedMeasuresAnova(data);
   for (Values& values : data.values) {
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = -3 * values[i] + 10 * static_cast<double>(i);
   }
   std::swap(data.values[0], data.values[2]);
-  const fsr::RepeatedMeasuresAnova after = repeatedMeasuresAnova(data);
+  const fsr::statistics::RepeatedMeasuresAnova after = repeatedMeasuresAnova(data);
   expectNear(after.test.p, before.test.p);
   expectNear(after.greenhouse_geisser.p, before.greenhouse_geisser.p);
   expectNear(after.mauchly.p, before.mauchly.p);
@@ -99,10 +100,10 @@ TEST(RepeatedMeasuresAnova, KeepsItsLevelWithoutSphericityOnlyIfCorrected) {
   constexpr int kTrials = 2000;
   int plain = 0, corrected = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const fsr::RandomStream stream = fsr::randomStream(1, "anova", trial);
+    const fsr::statistics::RandomStream stream = fsr::statistics::randomStream(1, "anova", trial);
     std::vector<Values> values(4, Values(20));
     for (std::size_t i = 0; i < 80; ++i) values[i % 4][i / 4] = stream.normal(i) * (i % 4 == 3 ? 10 : 1);
-    const fsr::RepeatedMeasuresAnova result = repeatedMeasuresAnova(measures(values));
+    const fsr::statistics::RepeatedMeasuresAnova result = repeatedMeasuresAnova(measures(values));
     plain += result.test.p < 0.05;
     corrected += result.greenhouse_geisser.p < 0.05;
   }
@@ -114,10 +115,10 @@ TEST(RepeatedMeasuresAnova, RejectsTheSphericalNullAtItsLevel) {
   constexpr int kTrials = 2000;
   int rejections = 0, not_spherical = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const fsr::RandomStream stream = fsr::randomStream(2, "anova", trial);
+    const fsr::statistics::RandomStream stream = fsr::statistics::randomStream(2, "anova", trial);
     std::vector<Values> values(4, Values(20));
     for (std::size_t i = 0; i < 80; ++i) values[i % 4][i / 4] = stream.normal(i) + static_cast<double>(i / 4);
-    const fsr::RepeatedMeasuresAnova result = repeatedMeasuresAnova(measures(values));
+    const fsr::statistics::RepeatedMeasuresAnova result = repeatedMeasuresAnova(measures(values));
     rejections += result.test.p < 0.05;
     not_spherical += result.mauchly.p < 0.05;
   }
@@ -126,11 +127,12 @@ TEST(RepeatedMeasuresAnova, RejectsTheSphericalNullAtItsLevel) {
 }
 
 TEST(RepeatedMeasuresAnova, AnswersDegenerateDataAsDocumented) {
-  const fsr::RepeatedMeasuresAnova same = repeatedMeasuresAnova(measures({kA, kA, kA}));
+  const fsr::statistics::RepeatedMeasuresAnova same = repeatedMeasuresAnova(measures({kA, kA, kA}));
   EXPECT_EQ(same.test.p, 1);
-  EXPECT_EQ(same.test.method, fsr::PMethod::kNothingToTest);
+  EXPECT_EQ(same.test.method, fsr::statistics::PMethod::kNothingToTest);
 
-  const fsr::RepeatedMeasuresAnova few = repeatedMeasuresAnova(measures({{1, 2}, {2, 5}, {3, 1}, {7, 3}}));
+  const fsr::statistics::RepeatedMeasuresAnova few =
+      repeatedMeasuresAnova(measures({{1, 2}, {2, 5}, {3, 1}, {7, 3}}));
   EXPECT_TRUE(std::isnan(few.mauchly.p));
   EXPECT_EQ(few.mauchly.statistic, 0);
   EXPECT_TRUE(few.greenhouse_geisser.p > 0 && few.greenhouse_geisser.p <= 1);
@@ -138,12 +140,12 @@ TEST(RepeatedMeasuresAnova, AnswersDegenerateDataAsDocumented) {
 }
 
 TEST(RepeatedMeasuresAnova, RefusesWhatItCannotJudge) {
-  EXPECT_THROW(repeatedMeasuresAnova({}), fsr::InputError);
-  EXPECT_THROW(repeatedMeasuresAnova(measures({kA})), fsr::InputError);
-  EXPECT_THROW(repeatedMeasuresAnova(measures({{1}, {2}})), fsr::InputError);
-  EXPECT_THROW(repeatedMeasuresAnova(measures({{1, 2}, {2}})), fsr::InputError);
-  EXPECT_THROW(repeatedMeasuresAnova(measures({{1, 2}, {2, std::nan("")}})), fsr::InputError);
-  EXPECT_THROW(repeatedMeasuresAnova(measures({{1, 2, 3}, {3, 4, 5}, {0, 1, 2}})), fsr::InputError);
+  EXPECT_THROW(repeatedMeasuresAnova({}), fsr::settings::InputError);
+  EXPECT_THROW(repeatedMeasuresAnova(measures({kA})), fsr::settings::InputError);
+  EXPECT_THROW(repeatedMeasuresAnova(measures({{1}, {2}})), fsr::settings::InputError);
+  EXPECT_THROW(repeatedMeasuresAnova(measures({{1, 2}, {2}})), fsr::settings::InputError);
+  EXPECT_THROW(repeatedMeasuresAnova(measures({{1, 2}, {2, std::nan("")}})), fsr::settings::InputError);
+  EXPECT_THROW(repeatedMeasuresAnova(measures({{1, 2, 3}, {3, 4, 5}, {0, 1, 2}})), fsr::settings::InputError);
 }
 
 }  // namespace

@@ -1,16 +1,16 @@
-#include "fsr_pressure_map/statistics/shapiro_wilk.h"
+#include "statistics/shapiro_wilk.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/random_stream.h"
 #include "statistics/sample_data.h"
 
 namespace {
 
 using namespace sample_data;
-using fsr::shapiroWilk;
+using fsr::statistics::shapiroWilk;
 
 void expectR(const Values& sample, double w, double p, double relative = kAgreement) {
-  const fsr::TestResult result = shapiroWilk(sample);
+  const fsr::statistics::TestResult result = shapiroWilk(sample);
   expectNear(result.statistic, w, relative);
   expectNear(result.p, p, relative);
   EXPECT_EQ(result.n, sample.size());
@@ -35,10 +35,10 @@ TEST(ShapiroWilk, AgreesWithRWhereItsFormulaChanges) {
 TEST(ShapiroWilk, AgreesWithROnSkewedTiedAndLargeSamples) {
   expectR(kX70, 0.640049540293506, 8.07455181988756e-12);
   expectR(kT70, 0.896529191828873, 2.83512325026557e-05);
-  const Values q70 = mapped(uniform(15, 70), fsr::normalQuantile);
+  const Values q70 = mapped(uniform(15, 70), fsr::statistics::normalQuantile);
   expectR(q70, 0.978587491293275, 0.274113783033309);                       // qnorm(pm(15, 70))
   expectR(exponential(16, 5000), 0.805485414053933, 4.59146572556039e-61);  // -log(pm(16, 5000))
-  const Values q5000 = mapped(uniform(16, 5000), fsr::normalQuantile);
+  const Values q5000 = mapped(uniform(16, 5000), fsr::statistics::normalQuantile);
   expectR(q5000, 0.999369312150204, 0.0798703711317994);  // qnorm(pm(16, 5000))
 }
 
@@ -63,7 +63,7 @@ TEST(ShapiroWilk, RejectsNormalSamplesAtItsLevel) {
   constexpr int kTrials = 2000;
   int rejections = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const fsr::RandomStream stream = fsr::randomStream(1, "shapiro", trial);
+    const fsr::statistics::RandomStream stream = fsr::statistics::randomStream(1, "shapiro", trial);
     Values sample(70);
     for (std::size_t i = 0; i < sample.size(); ++i) sample[i] = stream.normal(i);
     rejections += shapiroWilk(sample).p < 0.05;
@@ -72,19 +72,19 @@ TEST(ShapiroWilk, RejectsNormalSamplesAtItsLevel) {
 }
 
 TEST(ShapiroWilk, RefusesWhatItCannotJudge) {
-  EXPECT_THROW(shapiroWilk({}), fsr::InputError);
-  EXPECT_THROW(shapiroWilk({1, 2}), fsr::InputError);
-  EXPECT_THROW(shapiroWilk(Values(10, 0.1)), fsr::InputError);
-  EXPECT_THROW(shapiroWilk({1, 2, std::nan("")}), fsr::InputError);
-  EXPECT_THROW(shapiroWilk({1, 2, HUGE_VAL}), fsr::InputError);
-  EXPECT_THROW(shapiroWilk(uniform(1, 5001)), fsr::InputError);
+  EXPECT_THROW(shapiroWilk({}), fsr::settings::InputError);
+  EXPECT_THROW(shapiroWilk({1, 2}), fsr::settings::InputError);
+  EXPECT_THROW(shapiroWilk(Values(10, 0.1)), fsr::settings::InputError);
+  EXPECT_THROW(shapiroWilk({1, 2, std::nan("")}), fsr::settings::InputError);
+  EXPECT_THROW(shapiroWilk({1, 2, HUGE_VAL}), fsr::settings::InputError);
+  EXPECT_THROW(shapiroWilk(uniform(1, 5001)), fsr::settings::InputError);
 }
 
 TEST(ShapiroWilk, SaysWhichValueIsBad) {
   try {
     shapiroWilk({1, std::nan(""), 3});
     FAIL();
-  } catch (const fsr::InputError& error) {
+  } catch (const fsr::settings::InputError& error) {
     EXPECT_STREQ(error.what(),
                  "Shapiro-Wilk test: value 2 of 3 is NaN; leave its unit out of every treatment");
   }

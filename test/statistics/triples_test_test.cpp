@@ -1,13 +1,13 @@
-#include "fsr_pressure_map/statistics/triples_test.h"
+#include "statistics/triples_test.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/random_stream.h"
 #include "statistics/sample_data.h"
 
 namespace {
 
 using namespace sample_data;
-using fsr::triplesTest;
+using fsr::statistics::triplesTest;
 
 Values differences(const Values& first, const Values& second) {
   Values d = first;
@@ -16,7 +16,7 @@ Values differences(const Values& first, const Values& second) {
 }
 
 void expectR(const Values& sample, double z, double p) {
-  const fsr::TestResult result = triplesTest(sample);
+  const fsr::statistics::TestResult result = triplesTest(sample);
   expectNear(result.statistic, z);
   expectNear(result.p, p);
 }
@@ -46,8 +46,8 @@ TEST(TriplesTest, StaysFiniteWhereEveryTripleLeansOneWay) {
 }
 
 TEST(TriplesTest, ChangesSignOnlyWhenMirroredAndIgnoresShiftAndScale) {
-  const fsr::TestResult there = triplesTest(kT70);
-  const fsr::TestResult back = triplesTest(mapped(kT70, [](double x) { return 100 - 4 * x; }));
+  const fsr::statistics::TestResult there = triplesTest(kT70);
+  const fsr::statistics::TestResult back = triplesTest(mapped(kT70, [](double x) { return 100 - 4 * x; }));
   EXPECT_DOUBLE_EQ(back.statistic, -there.statistic);
   EXPECT_DOUBLE_EQ(back.p, there.p);
 }
@@ -56,7 +56,7 @@ template <typename Quantile>
 int rejectionsOf(Quantile quantile, std::size_t n, int trials) {
   int rejections = 0;
   for (int trial = 0; trial < trials; ++trial) {
-    const fsr::RandomStream stream = fsr::randomStream(1, "triples", trial);
+    const fsr::statistics::RandomStream stream = fsr::statistics::randomStream(1, "triples", trial);
     Values sample(n);
     for (std::size_t i = 0; i < n; ++i) sample[i] = quantile(stream.uniform(i));
     rejections += triplesTest(sample).p < 0.05;
@@ -84,11 +84,11 @@ TEST(TriplesTest, FindsSkewness) {
 }
 
 TEST(TriplesTest, AnswersDegenerateDataAsDocumented) {
-  const fsr::TestResult result = triplesTest(Values(10, 0.0));
+  const fsr::statistics::TestResult result = triplesTest(Values(10, 0.0));
   EXPECT_EQ(result.p, 1);
-  EXPECT_EQ(result.method, fsr::PMethod::kNothingToTest);
-  EXPECT_THROW(triplesTest({1, 2, 3, 4}), fsr::InputError);
-  EXPECT_THROW(triplesTest({1, 2, 3, 4, std::nan("")}), fsr::InputError);
+  EXPECT_EQ(result.method, fsr::statistics::PMethod::kNothingToTest);
+  EXPECT_THROW(triplesTest({1, 2, 3, 4}), fsr::settings::InputError);
+  EXPECT_THROW(triplesTest({1, 2, 3, 4, std::nan("")}), fsr::settings::InputError);
 }
 
 }  // namespace

@@ -1,19 +1,19 @@
-#include "fsr_pressure_map/statistics/wilcoxon_signed_rank.h"
+#include "statistics/wilcoxon_signed_rank.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/random_stream.h"
 #include "statistics/sample_data.h"
 
 namespace {
 
 using namespace sample_data;
-using fsr::PMethod;
-using fsr::WilcoxonMethod;
-using fsr::wilcoxonSignedRank;
+using fsr::statistics::PMethod;
+using fsr::statistics::WilcoxonMethod;
+using fsr::statistics::wilcoxonSignedRank;
 
 void expectR(const Values& first, const Values& second, WilcoxonMethod method, double v, double p,
              PMethod taken) {
-  const fsr::TestResult result = wilcoxonSignedRank(first, second, method);
+  const fsr::statistics::TestResult result = wilcoxonSignedRank(first, second, method);
   EXPECT_EQ(result.statistic, v);
   expectNear(result.p, p);
   EXPECT_EQ(result.method, taken);
@@ -51,7 +51,7 @@ TEST(WilcoxonSignedRank, CountsTheConditionalDistributionUnderTiesAndZeros) {
 }
 
 TEST(WilcoxonSignedRank, DropsDifferencesOfZeroAndSaysSo) {
-  const fsr::TestResult result = wilcoxonSignedRank(kSleep1, kSleep2);
+  const fsr::statistics::TestResult result = wilcoxonSignedRank(kSleep1, kSleep2);
   EXPECT_EQ(result.n, 10u);
   EXPECT_EQ(result.dropped, 1u);
 }
@@ -75,7 +75,7 @@ TEST(WilcoxonSignedRank, RejectsTheNullNoMoreOftenThanItsExactLevel) {
   constexpr int kTrials = 4000;
   int rejections = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const fsr::RandomStream stream = fsr::randomStream(1, "wilcoxon", trial);
+    const fsr::statistics::RandomStream stream = fsr::statistics::randomStream(1, "wilcoxon", trial);
     Values d(10);
     for (std::size_t i = 0; i < d.size(); ++i) d[i] = stream.normal(i);
     rejections += wilcoxonSignedRank(d, Values(10, 0.0)).p < 0.05;
@@ -85,7 +85,7 @@ TEST(WilcoxonSignedRank, RejectsTheNullNoMoreOftenThanItsExactLevel) {
 }
 
 TEST(WilcoxonSignedRank, FindsNothingWhereAllDifferencesAreZero) {
-  const fsr::TestResult result = wilcoxonSignedRank(kA, kA);
+  const fsr::statistics::TestResult result = wilcoxonSignedRank(kA, kA);
   EXPECT_EQ(result.p, 1);
   EXPECT_EQ(result.dropped, kA.size());
   EXPECT_EQ(result.method, PMethod::kNothingToTest);
@@ -98,11 +98,11 @@ TEST(WilcoxonSignedRank, StaysFiniteOnMagnitudesThatAreAllEqual) {
 }
 
 TEST(WilcoxonSignedRank, RefusesWhatItCannotJudge) {
-  EXPECT_THROW(wilcoxonSignedRank({}, {}), fsr::InputError);
-  EXPECT_THROW(wilcoxonSignedRank({1, 2}, {1}), fsr::InputError);
-  EXPECT_THROW(wilcoxonSignedRank({1, std::nan("")}, {1, 2}), fsr::InputError);
+  EXPECT_THROW(wilcoxonSignedRank({}, {}), fsr::settings::InputError);
+  EXPECT_THROW(wilcoxonSignedRank({1, 2}, {1}), fsr::settings::InputError);
+  EXPECT_THROW(wilcoxonSignedRank({1, std::nan("")}, {1, 2}), fsr::settings::InputError);
   EXPECT_THROW(wilcoxonSignedRank(uniform(1, 1001), uniform(2, 1001), WilcoxonMethod::kExact),
-               fsr::InputError);
+               fsr::settings::InputError);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/study/study.h"
+#include "study/study.h"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <map>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/simulation/session.h"
-#include "fsr_pressure_map/study/evaluation.h"
+#include "simulation/session.h"
+#include "study/evaluation.h"
 #include "support/synthetic_recording.h"
 
-using namespace fsr;
+namespace fsr::study {
 
 namespace {
 
@@ -63,9 +63,9 @@ double plainRmsePercent(const StudyData& data, const Grouping& kept, std::size_t
       for (const StudyScan* scan : train) {
         const double share = std::exp(nearest - distance(scan));
         weight += share;
-        weighted += share * fromFixed(scan->pressure);
+        weighted += share * regression::fromFixed(scan->pressure);
       }
-      const double truth = fromFixed(asked->pressure);
+      const double truth = regression::fromFixed(asked->pressure);
       squares += std::pow(weighted / weight - truth, 2);
       low = std::min(low, truth);
       high = std::max(high, truth);
@@ -138,14 +138,14 @@ TEST(Study, RefusesRecordingsWithoutAFlatSurface) {
   try {
     study(problem);
     FAIL() << "took it";
-  } catch (const InputError& error) {
+  } catch (const settings::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("flat"), std::string::npos) << error.what();
   }
 }
 
 TEST(Study, LeavesOutTaxelsThatNeverChangeAndSaysSo) {
   StudyProblem problem = smallProblem();
-  Recording& recording = problem.recordings[0];
+  dataset::Recording& recording = problem.recordings[0];
   for (std::size_t i = 0; i < recording.scans(); ++i) recording.counts[i * 6 + 4] = 7;
   const StudyResult result = study(problem);
   EXPECT_EQ(result.taxels, (std::vector<std::size_t>{0, 1, 2, 3, 5}));
@@ -176,7 +176,7 @@ TEST(Evaluation, GridAgreesWithTheSingleBandwidth) {
     const auto grid = bandwidthScores(data, method, {kept, split.folds, Scoring::kByModel}, problem.plan);
     const Evaluation one = evaluate(data, method, {kept, split.folds, Scoring::kByModel},
                                     {plainModel(method, grnnOf({}, 1.0 / 16))}, problem.plan, {});
-    EXPECT_NEAR(grid[1], spreadOf(one.rmse_percent).mean, 1e-9) << method.id;
+    EXPECT_NEAR(grid[1], statistics::spreadOf(one.rmse_percent).mean, 1e-9) << method.id;
   }
 }
 
@@ -195,12 +195,12 @@ TEST(Evaluation, AnswersFromTheNearestCurvatureWhereNoneWasTrained) {
 TEST(Evaluation, SchemesLearnNothingFromTheCurvatureLeftOut) {
   const StudyProblem problem = smallProblem();
   const StudyData data = gatherStudyData(problem.recordings, 5);
-  Recording spoilt = problem.recordings[0];
+  dataset::Recording spoilt = problem.recordings[0];
   for (std::size_t i = 0; i < spoilt.scans(); ++i) {
     if (spoilt.condition[i] != 1) continue;
     for (std::size_t taxel = 0; taxel < 6; ++taxel) spoilt.counts[i * 6 + taxel] /= 2;
   }
-  const std::vector<Recording> recordings = {spoilt};
+  const std::vector<dataset::Recording> recordings = {spoilt};
   const StudyData other = gatherStudyData(recordings, 5);
   const Split split = leaveCurvatureOut(data), other_split = leaveCurvatureOut(other);
   for (const StudyMethod& method : furtherMethods(data)) {
@@ -266,20 +266,23 @@ TEST(StudyPlan, ShippedFileHoldsTheDefaults) {
 }
 
 TEST(StudyPlan, RefusesWhatItDoesNotKnow) {
-  EXPECT_THROW(readStudyPlan(Settings::fromText("study: x\nsectoins: 5\n", "x.yaml")), InputError);
-  EXPECT_THROW(readStudyPlan(Settings::fromText("study: x\ndown_sampling: some\n", "x.yaml")), InputError);
-  EXPECT_THROW(readStudyPlan(Settings::fromText("study: x\nsections: 1\n", "x.yaml")), InputError);
+  EXPECT_THROW(readStudyPlan(settings::Settings::fromText("study: x\nsectoins: 5\n", "x.yaml")),
+               settings::InputError);
+  EXPECT_THROW(readStudyPlan(settings::Settings::fromText("study: x\ndown_sampling: some\n", "x.yaml")),
+               settings::InputError);
+  EXPECT_THROW(readStudyPlan(settings::Settings::fromText("study: x\nsections: 1\n", "x.yaml")),
+               settings::InputError);
 }
 
 // The setting was fitted on seeds 1 and 2; these it has not seen. Twelve taxels instead of 70 scatter by some
 // 0.1 %, which the tolerance of 10 % covers.
 TEST(PaperSetting, ReachesThePapersTableOnAnotherSheet) {
-  SimulationSettings settings =
-      readSimulationFile(std::string(FSR_SOURCE_DIR) + "/config/simulation/paper.yaml");
+  simulation::SimulationSettings settings =
+      simulation::readSimulationFile(std::string(FSR_SOURCE_DIR) + "/config/simulation/paper.yaml");
   settings.layout.size = {3, 4};
   for (const std::uint64_t seed : {201, 202}) {
     settings.seed = seed;
-    const std::vector<Recording> recordings = simulateSession(settings);
+    const std::vector<dataset::Recording> recordings = simulation::simulateSession(settings);
     const StudyData data = gatherStudyData(recordings, 5);
     const Split split = leaveSectionOut(data);
     std::map<std::string, double> rmse;
@@ -287,8 +290,8 @@ TEST(PaperSetting, ReachesThePapersTableOnAnotherSheet) {
       const Grouping kept = downSampled(split.grouping, method.one_of, DownSampling::kRandom, 1);
       const Evaluation evaluation =
           evaluate(data, method, {kept, split.folds, Scoring::kByModel},
-                   {plainModel(method, grnnOf({}, kPaperBandwidth))}, StudyPlan{}, {});
-      rmse[method.id] = spreadOf(evaluation.rmse_percent).mean;
+                   {plainModel(method, grnnOf({}, regression::kPaperBandwidth))}, StudyPlan{}, {});
+      rmse[method.id] = statistics::spreadOf(evaluation.rmse_percent).mean;
     }
     EXPECT_NEAR(rmse["flat_only"], 3.51, 0.351);
     EXPECT_NEAR(rmse["per_curvature"], 4.26, 0.426);
@@ -313,7 +316,7 @@ std::string refusal(const StudyProblem& problem) {
   try {
     study(problem);
     return "";
-  } catch (const InputError& error) {
+  } catch (const settings::InputError& error) {
     return error.what();
   }
 }
@@ -373,8 +376,10 @@ TEST(StudyInput, RefusesAMatrixOfTooFewTaxelsToTest) {
 
 TEST(StudyInput, LiteralDistanceLeavesSecondInputsOutAndSaysSo) {
   StudyProblem problem = smallProblem();
-  problem.plan.grnn.distance = KernelDistance::kLiteral;
+  problem.plan.grnn.distance = regression::KernelDistance::kLiteral;
   const StudyResult result = study(problem);
   EXPECT_EQ(result.comparisons.size(), 3u);
   EXPECT_NE(result.warnings.back().find("literal"), std::string::npos);
 }
+
+}  // namespace fsr::study

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "fsr_pressure_map/protocol/decoder.h"
-#include "fsr_pressure_map/protocol/serial_port.h"
+#include "protocol/serial_port.h"
 
 namespace test_support {
 
 /// Opens a board's port as the driver does and keeps what the decoder found.
-class BoardListener : public fsr::PacketHandler {
+class BoardListener : public fsr::protocol::PacketHandler {
  public:
   struct Scan {
     std::uint32_t sequence;
@@ -42,30 +42,31 @@ class BoardListener : public fsr::PacketHandler {
     const std::size_t target = scans.size() + more;
     return until([this, target] { return scans.size() >= target; });
   }
-  const fsr::DecoderCounts& counts() const { return decoder_.counts(); }
+  const fsr::protocol::DecoderCounts& counts() const { return decoder_.counts(); }
 
-  void onScan(const fsr::PacketHeader& header, const fsr::ScanPacket& scan) override {
+  void onScan(const fsr::protocol::PacketHeader& header, const fsr::protocol::ScanPacket& scan) override {
     scans.push_back({header.sequence, header.device_time, {scan.counts, scan.counts + scan.size.taxels()}});
   }
-  void onTransducer(const fsr::PacketHeader& header, std::int32_t counts) override {
+  void onTransducer(const fsr::protocol::PacketHeader& header, std::int32_t counts) override {
     transducer.push_back({header.device_time, counts});
   }
-  void onTemperature(const fsr::PacketHeader& header, std::int32_t millidegrees) override {
+  void onTemperature(const fsr::protocol::PacketHeader& header, std::int32_t millidegrees) override {
     temperature.push_back({header.device_time, millidegrees});
   }
-  void onIdentity(const fsr::PacketHeader&, const fsr::IdentityPacket& identity) override {
+  void onIdentity(const fsr::protocol::PacketHeader&,
+                  const fsr::protocol::IdentityPacket& identity) override {
     serials.emplace_back(identity.serial);
   }
 
  private:
   void read() {
     std::uint8_t bytes[4096];
-    const fsr::Chunk chunk = port_.read(bytes, sizeof(bytes), std::chrono::milliseconds(100));
+    const fsr::protocol::Chunk chunk = port_.read(bytes, sizeof(bytes), std::chrono::milliseconds(100));
     decoder_.feed(bytes, chunk.size);
   }
 
-  fsr::SerialPort port_;
-  fsr::Decoder decoder_;
+  fsr::protocol::SerialPort port_;
+  fsr::protocol::Decoder decoder_;
 };
 
 }  // namespace test_support

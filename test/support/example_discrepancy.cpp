@@ -7,8 +7,9 @@ namespace test_support {
 namespace {
 
 // A loop: the residual is high while loading, low while unloading.
-fsr::ResidualCurve curve(const std::string& covariate, const std::string& unit, double low, double high) {
-  fsr::ResidualCurve curve;
+fsr::discrepancy::ResidualCurve curve(const std::string& covariate, const std::string& unit, double low,
+                                      double high) {
+  fsr::discrepancy::ResidualCurve curve;
   curve.covariate = covariate;
   curve.unit = unit;
   for (int i = 0; i < 20; ++i) {
@@ -21,8 +22,8 @@ fsr::ResidualCurve curve(const std::string& covariate, const std::string& unit, 
   return curve;
 }
 
-fsr::Gap gap() {
-  fsr::Gap gap;
+fsr::discrepancy::Gap gap() {
+  fsr::discrepancy::Gap gap;
   gap.before = 0.031;
   gap.after = 0.008;
   gap.floor = 0.006;
@@ -40,8 +41,8 @@ fsr::Gap gap() {
   return gap;
 }
 
-fsr::FoundEffect loop() {
-  fsr::FoundEffect effect;
+fsr::discrepancy::FoundEffect loop() {
+  fsr::discrepancy::FoundEffect effect;
   effect.id = "hysteresis";
   effect.summary = "loading and unloading differ, at any speed";
   effect.parameters = {{"loop_width", 0.062, "fraction of full scale", {0.058, 0.067}}};
@@ -52,9 +53,9 @@ fsr::FoundEffect loop() {
 
 }  // namespace
 
-fsr::DiscrepancyReport exampleDiscrepancy() {
-  fsr::DiscrepancyReport report;
-  report.verdict = fsr::Verdict::kNamed;
+fsr::discrepancy::DiscrepancyReport exampleDiscrepancy() {
+  fsr::discrepancy::DiscrepancyReport report;
+  report.verdict = fsr::discrepancy::Verdict::kNamed;
   report.sentence =
       "Best explanation among 23 effects tested, under this protocol: hysteresis (loop_width 0.062, 0.058 to "
       "0.067).";

@@ -5,6 +5,6 @@
 namespace test_support {
 
 /// A report with something in every field, for tests of those who write it down.
-fsr::DiscrepancyReport exampleDiscrepancy();
+fsr::discrepancy::DiscrepancyReport exampleDiscrepancy();
 
 }  // namespace test_support

@@ -20,17 +20,18 @@ RegressionData regressionData() {
   double pressure = 0, curvature = 0;
   char comma;
   while (file >> code >> comma >> pressure >> comma >> curvature >> comma >> held_out) {
-    fsr::CodeSamples& part = held_out != 0 ? data.test : data.train;
-    part.add(static_cast<std::uint16_t>(code), fsr::toFixed(pressure));
+    fsr::regression::CodeSamples& part = held_out != 0 ? data.test : data.train;
+    part.add(static_cast<std::uint16_t>(code), fsr::regression::toFixed(pressure));
     part.curvature.push_back(curvature);
   }
   return data;
 }
 
-double rmsePercentOn(const fsr::CodeSamples& test, const std::vector<double>& answers) {
+double rmsePercentOn(const fsr::regression::CodeSamples& test, const std::vector<double>& answers) {
   std::vector<double> pressure;
-  for (const fsr::FixedPressure p : test.pressure) pressure.push_back(fsr::fromFixed(p));
-  return fsr::rmsePercent(answers, pressure);
+  for (const fsr::regression::FixedPressure p : test.pressure)
+    pressure.push_back(fsr::regression::fromFixed(p));
+  return fsr::statistics::rmsePercent(answers, pressure);
 }
 
 }  // namespace test_support

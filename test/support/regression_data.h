@@ -6,12 +6,12 @@ namespace test_support {
 
 /// test/data/regression.csv: readings of one imagined taxel on six surfaces.
 struct RegressionData {
-  fsr::CodeSamples train, test;  ///< with curvature
+  fsr::regression::CodeSamples train, test;  ///< with curvature
 };
 
 RegressionData regressionData();
 
 /// RMSE in percent of the range of the test pressures, of an answer for each test reading [Pa].
-double rmsePercentOn(const fsr::CodeSamples& test, const std::vector<double>& answers);
+double rmsePercentOn(const fsr::regression::CodeSamples& test, const std::vector<double>& answers);
 
 }  // namespace test_support

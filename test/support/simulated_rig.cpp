@@ -6,17 +6,17 @@
 
 namespace test_support {
 
-using fsr::SensorChain;
+using fsr::simulation::SensorChain;
 
-fsr::SimulationSettings rig(const std::string& more, int rows, int columns) {
-  return fsr::readSimulation(fsr::Settings::fromText(
+fsr::simulation::SimulationSettings rig(const std::string& more, int rows, int columns) {
+  return fsr::simulation::readSimulation(fsr::settings::Settings::fromText(
       "simulation: test\nmatrix: {rows: " + std::to_string(rows) + ", columns: " + std::to_string(columns) +
           "}\neffects:\n  static_curve: {conductance_scatter: 0}\n  converter: {}\n" + more,
       "test.yaml"));
 }
 
-fsr::SimulationSettings straightRig(const std::string& more, int rows, int columns) {
-  fsr::SimulationSettings settings = rig(more, rows, columns);
+fsr::simulation::SimulationSettings straightRig(const std::string& more, int rows, int columns) {
+  fsr::simulation::SimulationSettings settings = rig(more, rows, columns);
   for (auto& effect : settings.effects) {
     if (effect.id == "converter") effect.values["full_scale"] = 65535;
     if (effect.id != "static_curve") continue;
@@ -27,11 +27,11 @@ fsr::SimulationSettings straightRig(const std::string& more, int rows, int colum
   return settings;
 }
 
-fsr::Surface surfaceOf(const fsr::Curvature& curvature, std::uint32_t mount) {
+fsr::matrix::Surface surfaceOf(const fsr::matrix::Curvature& curvature, std::uint32_t mount) {
   return {"bent", mount, {curvature}, {}};
 }
 
-fsr::Surface cylinder(double radius, std::uint32_t mount) {
+fsr::matrix::Surface cylinder(double radius, std::uint32_t mount) {
   return surfaceOf({1 / radius, 0, 0}, mount);
 }
 
@@ -40,13 +40,13 @@ double readAt(SensorChain& chain, double pressure, std::size_t taxel, std::uint6
   return chain.reading()[taxel];
 }
 
-std::vector<Reading> readAlong(SensorChain& chain, const fsr::PressureProfile& profile, double period,
-                               std::size_t taxel, double temperature) {
-  const fsr::PressureCourse course = [&](double time) { return profile.at(time); };
+std::vector<Reading> readAlong(SensorChain& chain, const fsr::simulation::PressureProfile& profile,
+                               double period, std::size_t taxel, double temperature) {
+  const fsr::simulation::PressureCourse course = [&](double time) { return profile.at(time); };
   std::vector<Reading> readings;
   for (std::uint64_t scan = 0; static_cast<double>(scan) * period <= profile.duration(); ++scan) {
     const double time = static_cast<double>(scan) * period;
-    fsr::RigMoment moment{time, profile.at(time), scan, temperature, &course};
+    fsr::simulation::RigMoment moment{time, profile.at(time), scan, temperature, &course};
     readings.push_back({time, moment.pressure, chain.read(moment)[taxel]});
   }
   return readings;
@@ -58,8 +58,8 @@ const Reading& readingAt(const std::vector<Reading>& readings, double time) {
   });
 }
 
-fsr::PressureProfile profile(const std::vector<fsr::PressurePoint>& corners) {
-  fsr::PressureProfile result;
+fsr::simulation::PressureProfile profile(const std::vector<fsr::simulation::PressurePoint>& corners) {
+  fsr::simulation::PressureProfile result;
   result.append(corners);
   return result;
 }

@@ -4,9 +4,10 @@
 
 namespace test_support {
 
-fsr::Calibration smallCalibration(fsr::MatrixSize size, const std::vector<double>& curvatures,
-                                  const std::string& serial, std::uint16_t full_scale) {
-  fsr::Calibration calibration;
+fsr::calibration::Calibration smallCalibration(fsr::matrix::MatrixSize size,
+                                               const std::vector<double>& curvatures,
+                                               const std::string& serial, std::uint16_t full_scale) {
+  fsr::calibration::Calibration calibration;
   calibration.folds = 5;
   calibration.sensor.serial = serial;
   calibration.layout = {size, 0.010, 0.012};

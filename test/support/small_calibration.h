@@ -8,7 +8,9 @@
 namespace test_support {
 
 /// A whole calibration around smallTables(): what a file needs, and no more.
-fsr::Calibration smallCalibration(fsr::MatrixSize size, const std::vector<double>& curvatures,
-                                  const std::string& serial = "board-1", std::uint16_t full_scale = 1023);
+fsr::calibration::Calibration smallCalibration(fsr::matrix::MatrixSize size,
+                                               const std::vector<double>& curvatures,
+                                               const std::string& serial = "board-1",
+                                               std::uint16_t full_scale = 1023);
 
 }  // namespace test_support

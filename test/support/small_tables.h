@@ -21,9 +21,10 @@ constexpr std::uint16_t kLowestTrained = 20;
 constexpr std::uint16_t kMarginAtTop = 95;  // codes below full scale that training did not reach
 
 /// A calibration small enough to check by hand: one class for each of `curvatures` [1/m], ascending.
-inline fsr::CurvatureTables smallTables(fsr::MatrixSize size, const std::vector<double>& curvatures,
-                                        std::uint16_t full_scale = 1023) {
-  fsr::CurvatureTables tables;
+inline fsr::compensation::CurvatureTables smallTables(fsr::matrix::MatrixSize size,
+                                                      const std::vector<double>& curvatures,
+                                                      std::uint16_t full_scale = 1023) {
+  fsr::compensation::CurvatureTables tables;
   tables.size = size;
   tables.full_scale = full_scale;
   tables.curvature_low = curvatures.front();
@@ -33,7 +34,7 @@ inline fsr::CurvatureTables smallTables(fsr::MatrixSize size, const std::vector<
   }
   for (std::size_t taxel = 0; taxel < size.taxels(); ++taxel) {
     for (std::size_t k = 0; k < curvatures.size(); ++k) {
-      fsr::CodeTable table;
+      fsr::regression::CodeTable table;
       for (std::size_t code = 0; code <= full_scale; ++code) {
         table.pressure.push_back(knownPressure(taxel, k, code));
         table.deviation.push_back(knownDeviation(taxel, k, code));

@@ -18,8 +18,8 @@ double syntheticReading(const SyntheticRig& rig, std::size_t taxel, double curva
          std::sqrt(std::max(std::max(pressure, 0.0) + preload, 0.0) / (rig.peak + 60e3));
 }
 
-fsr::Recording syntheticRecording(const SyntheticRig& rig) {
-  fsr::Recording recording;
+fsr::dataset::Recording syntheticRecording(const SyntheticRig& rig) {
+  fsr::dataset::Recording recording;
   recording.name = rig.name;
   recording.sha256 = std::string(64, static_cast<char>('a' + (rig.seed - 1) % 6));
   recording.sensor.sensor_id = "matrix_a";
@@ -30,7 +30,7 @@ fsr::Recording syntheticRecording(const SyntheticRig& rig) {
   std::uniform_real_distribution<double> noise(-rig.noise, rig.noise);
   for (std::size_t s = 0; s < rig.surfaces.size(); ++s) {
     const double curvature = rig.surfaces[s].curvature;
-    recording.conditions.push_back({rig.surfaces[s].name, 1, {fsr::Curvature{curvature, 0, 0}}, {}});
+    recording.conditions.push_back({rig.surfaces[s].name, 1, {fsr::matrix::Curvature{curvature, 0, 0}}, {}});
     for (std::size_t i = 0; i < rig.cycles * rig.scans_per_cycle; ++i) {
       const double phase = static_cast<double>(i) / static_cast<double>(rig.scans_per_cycle);
       const double pressure = trianglePressure(phase, rig.peak);

@@ -18,7 +18,7 @@ struct SyntheticSurface {
 /// counts growing with the root of the pressure, less gain and some preload on a bend.
 struct SyntheticRig {
   std::string name = "synthetic.bag";
-  fsr::MatrixSize size{2, 3};
+  fsr::matrix::MatrixSize size{2, 3};
   std::uint16_t full_scale = 4095;
   std::vector<SyntheticSurface> surfaces = {{"flat", 0.0}};  // one after the other
   std::size_t cycles = 5;                                    // on each surface
@@ -38,6 +38,6 @@ double trianglePressure(double phase, double peak);
 /// The noise-free reading of a taxel [counts].
 double syntheticReading(const SyntheticRig& rig, std::size_t taxel, double curvature, double pressure);
 
-fsr::Recording syntheticRecording(const SyntheticRig& rig);
+fsr::dataset::Recording syntheticRecording(const SyntheticRig& rig);
 
 }  // namespace test_support

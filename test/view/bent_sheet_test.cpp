@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/view/bent_sheet.h"
+#include "view/bent_sheet.h"
 
 #include <gtest/gtest.h>
 
@@ -6,21 +6,21 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 
-namespace fsr {
+namespace fsr::view {
 namespace {
 
-const Layout kLayout{{7, 10}, 0.010, 0.012};
+const matrix::Layout kLayout{{7, 10}, 0.010, 0.012};
 constexpr double kRounding = 1e-14;  // [m], of some 20 chained motions
 
-Surface uniform(const Curvature& curvature) {
-  Surface surface;
+matrix::Surface uniform(const matrix::Curvature& curvature) {
+  matrix::Surface surface;
   surface.curvature = {curvature};
   return surface;
 }
 
 // Position on a cylinder of curvature k [1/m] whose axis stands at `angle` [rad] from the y axis: by arc
 // length across the axis, straight along it.
-Vector3 onCylinder(const Position& flat, double k, double angle) {
+Vector3 onCylinder(const matrix::Position& flat, double k, double angle) {
   const double across = flat.x * std::cos(angle) + flat.y * std::sin(angle);
   const double along = -flat.x * std::sin(angle) + flat.y * std::cos(angle);
   const double sideways = std::sin(k * across) / k;
@@ -39,11 +39,11 @@ double distance(const Vector3& a, const Vector3& b) {
 }
 
 TEST(BentSheet, AFlatOrUnknownSurfaceIsTheLayout) {
-  for (const Surface& surface : {uniform({}), Surface{}}) {
+  for (const matrix::Surface& surface : {uniform({}), matrix::Surface{}}) {
     const auto poses = bendSheet(kLayout, surface);
     ASSERT_EQ(poses.size(), 70u);
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      const Position flat = kLayout.position({i});
+      const matrix::Position flat = kLayout.position({i});
       expectNear(poses[i].position, {flat.x, flat.y, 0}, i);
       expectNear(poses[i].normal, {0, 0, 1}, i);
     }
@@ -81,7 +81,7 @@ TEST(BentSheet, LiesExactlyOnASphere) {
 }
 
 TEST(BentSheet, KeepsLengthsAlongRowsWhereCurvatureDiffersFromTaxelToTaxel) {
-  Surface surface;
+  matrix::Surface surface;
   for (std::size_t i = 0; i < 70; ++i) surface.curvature.push_back({5.0 + double(i % 10), -2.0, 0});
   const auto poses = bendSheet(kLayout, surface);
   for (std::size_t row = 0; row < 7; ++row) {
@@ -95,8 +95,8 @@ TEST(BentSheet, KeepsLengthsAlongRowsWhereCurvatureDiffersFromTaxelToTaxel) {
 }
 
 TEST(BentSheet, OneValueForAllEqualsTheSameValueForEach) {
-  const Curvature saddle{12, -7, 3};
-  Surface each;
+  const matrix::Curvature saddle{12, -7, 3};
+  matrix::Surface each;
   each.curvature.assign(70, saddle);
   const auto a = bendSheet(kLayout, uniform(saddle));
   const auto b = bendSheet(kLayout, each);
@@ -118,11 +118,11 @@ TEST(BentSheet, TwistLiftsOppositeCorners) {
 }
 
 TEST(BentSheet, RefusesASurfaceOfAnotherMatrix) {
-  Surface surface;
+  matrix::Surface surface;
   surface.name = "limb";
   surface.curvature.resize(64);
-  EXPECT_THROW(bendSheet(kLayout, surface), InputError);
+  EXPECT_THROW(bendSheet(kLayout, surface), settings::InputError);
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::view

@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/view/auto_range.h"
 #include "fsr_pressure_map/view/colour_map.h"
 #include "fsr_pressure_map/view/pressure_scale.h"
+#include "view/auto_range.h"
 
-namespace fsr {
+namespace fsr::view {
 namespace {
 
 // matplotlib 3.6.3: [tuple(round(c * 255) for c in colormaps["viridis"](i)[:3]) for i in (0, 128, 255)]
@@ -48,7 +48,7 @@ TEST(ColourMap, GrowsLighterInEvenSteps) {
 
 TEST(ColourMap, IsChosenByName) {
   for (const std::string& name : colourMapNames()) EXPECT_NO_THROW(colourMapOf(name));
-  EXPECT_THROW(colourMapOf("jet"), InputError);
+  EXPECT_THROW(colourMapOf("jet"), settings::InputError);
 }
 
 std::string labels(const PressureScale& scale, int most) {
@@ -73,8 +73,8 @@ TEST(PressureScale, WritesPressuresWithTheirUnit) {
 }
 
 TEST(PressureScale, RefusesAnEmptyRange) {
-  EXPECT_THROW(requireSound(PressureScale{5, 5, {}, {}}), InputError);
-  EXPECT_THROW(requireSound(PressureScale{0, NAN, {}, {}}), InputError);
+  EXPECT_THROW(requireSound(PressureScale{5, 5, {}, {}}), settings::InputError);
+  EXPECT_THROW(requireSound(PressureScale{0, NAN, {}, {}}), settings::InputError);
 }
 
 TEST(AutoRange, GrowsAtOnceToARoundValue) {
@@ -103,4 +103,4 @@ TEST(AutoRange, StepsDownWhenPeaksStayLowForLong) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::view

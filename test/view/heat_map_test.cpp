@@ -5,16 +5,16 @@
 #include <cmath>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/view/legend.h"
-#include "fsr_pressure_map/view/taxel_look.h"
+#include "view/legend.h"
+#include "view/taxel_look.h"
 
-namespace fsr {
+namespace fsr::view {
 namespace {
 
-PressureMap ramp(MatrixSize size) {
-  PressureMap map;
+map::PressureMap ramp(matrix::MatrixSize size) {
+  map::PressureMap map;
   map.reset({size, 0.010, 0.012});
-  map.state = MapState::kOk;
+  map.state = map::MapState::kOk;
   for (std::size_t i = 0; i < size.taxels(); ++i) {
     map.pressure[i] = 8e3f * float(i);
     map.deviation[i] = 1e3f * float(i);
@@ -23,7 +23,7 @@ PressureMap ramp(MatrixSize size) {
 }
 
 TEST(HeatMap, ShowsEachTaxelInItsColourWithRowZeroOnTop) {
-  const PressureMap map = ramp({7, 10});
+  const map::PressureMap map = ramp({7, 10});
   const HeatMap painter(HeatMapStyle{});
   const Image image = painter.draw(map, {"one", "two"});
   Pixel before{-1, -1};
@@ -36,7 +36,7 @@ TEST(HeatMap, ShowsEachTaxelInItsColourWithRowZeroOnTop) {
 }
 
 TEST(HeatMap, ShowsTheDeviationOnRequest) {
-  const PressureMap map = ramp({7, 10});
+  const map::PressureMap map = ramp({7, 10});
   HeatMapStyle style;
   style.layer = MapLayer::kDeviation;
   style.scale.high = 70e3;
@@ -45,7 +45,7 @@ TEST(HeatMap, ShowsTheDeviationOnRequest) {
 }
 
 TEST(HeatMap, RunsOverFromTaxelToTaxelWhereSmooth) {
-  PressureMap map = ramp({1, 2});
+  map::PressureMap map = ramp({1, 2});
   map.pressure = {0, 600e3f};
   HeatMapStyle style;
   style.smooth = true;
@@ -58,7 +58,7 @@ TEST(HeatMap, RunsOverFromTaxelToTaxelWhereSmooth) {
 
 TEST(HeatMap, HoldsTheWholeScaleInItsColourBar) {
   const HeatMap painter(HeatMapStyle{});
-  const PressureMap map = ramp({7, 10});
+  const map::PressureMap map = ramp({7, 10});
   const Image image = painter.draw(map);
   const int x = image.width() - 60;  // inside the bar
   const Pixel top = painter.centre(map.layout, {0}, 0), bottom = painter.centre(map.layout, {60}, 0);
@@ -72,11 +72,11 @@ TEST(HeatMap, HoldsTheWholeScaleInItsColourBar) {
 
 TEST(HeatMap, MarksTaxelsThatAreNotToBeBelieved) {
   for (const TaxelLook look : markedLooks()) {
-    PressureMap map = ramp({3, 3});
+    map::PressureMap map = ramp({3, 3});
     if (look == TaxelLook::kNoReading) map.pressure[4] = NAN;
-    if (look == TaxelLook::kSaturated) map.flags[4] = taxel_flag::kSaturated;
-    if (look == TaxelLook::kExtrapolated) map.flags[4] = taxel_flag::kReadingExtrapolated;
-    if (look == TaxelLook::kBelowRange) map.flags[4] = taxel_flag::kBelowRange;
+    if (look == TaxelLook::kSaturated) map.flags[4] = map::taxel_flag::kSaturated;
+    if (look == TaxelLook::kExtrapolated) map.flags[4] = map::taxel_flag::kReadingExtrapolated;
+    if (look == TaxelLook::kBelowRange) map.flags[4] = map::taxel_flag::kBelowRange;
     EXPECT_EQ(lookOf(map.pressure[4], map.flags[4]), look);
     const HeatMap painter(HeatMapStyle{});
     const Image plain = painter.draw(ramp({3, 3}));
@@ -87,7 +87,7 @@ TEST(HeatMap, MarksTaxelsThatAreNotToBeBelieved) {
 
 TEST(HeatMap, HasOneSizeForAllMapsOfAMatrix) {
   const HeatMap painter(HeatMapStyle{});
-  PressureMap dark = ramp({16, 10});
+  map::PressureMap dark = ramp({16, 10});
   dark.pressure.assign(160, NAN);
   const Image a = painter.draw(ramp({16, 10}), {"t = 1 s"}), b = painter.draw(dark, {"t = 2 s"});
   EXPECT_EQ(a.width(), b.width());
@@ -95,16 +95,17 @@ TEST(HeatMap, HasOneSizeForAllMapsOfAMatrix) {
 }
 
 TEST(HeatMap, TakesEveryMatrixSize) {
-  for (const MatrixSize size : {MatrixSize{1, 1}, MatrixSize{1, 64}, MatrixSize{64, 1}, MatrixSize{64, 64}}) {
+  for (const matrix::MatrixSize size : {matrix::MatrixSize{1, 1}, matrix::MatrixSize{1, 64},
+                                        matrix::MatrixSize{64, 1}, matrix::MatrixSize{64, 64}}) {
     EXPECT_NO_THROW(HeatMap(HeatMapStyle{}).draw(ramp(size)));
   }
 }
 
 TEST(HeatMap, RefusesAMapThatContradictsItself) {
-  PressureMap map = ramp({3, 3});
+  map::PressureMap map = ramp({3, 3});
   map.flags.pop_back();
-  EXPECT_THROW(HeatMap(HeatMapStyle{}).draw(map), InputError);
-  EXPECT_THROW(HeatMap(HeatMapStyle{}).draw(PressureMap{}), InputError);
+  EXPECT_THROW(HeatMap(HeatMapStyle{}).draw(map), settings::InputError);
+  EXPECT_THROW(HeatMap(HeatMapStyle{}).draw(map::PressureMap{}), settings::InputError);
 }
 
 TEST(Legend, HoldsTheScaleFromItsHighEndDown) {
@@ -149,4 +150,4 @@ TEST(Image, BecomesAPngFile) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::view

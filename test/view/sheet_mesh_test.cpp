@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/view/sheet_mesh.h"
+#include "view/sheet_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 
 #include "fsr_pressure_map/map/map_statistics.h"
 
-namespace fsr {
+namespace fsr::view {
 namespace {
 
-const Layout kLayout{{7, 10}, 0.010, 0.012};
+const matrix::Layout kLayout{{7, 10}, 0.010, 0.012};
 
-Surface uniform(const Curvature& curvature) {
-  Surface surface;
+matrix::Surface uniform(const matrix::Curvature& curvature) {
+  matrix::Surface surface;
   surface.curvature = {curvature};
   return surface;
 }
@@ -39,9 +39,9 @@ TEST(SheetMesh, FacesTheSideThatPressureActsOn) {
 }
 
 TEST(SheetMesh, PutsTaxelCentresWhereBendSheetPutsThem) {
-  Surface uneven;
+  matrix::Surface uneven;
   for (std::size_t i = 0; i < 70; ++i) uneven.curvature.push_back({3.0 + double(i % 10), -4, 2});
-  for (const Surface& surface : {uniform({}), uniform({20, 0, 0}), uniform({7, -9, 4}), uneven}) {
+  for (const matrix::Surface& surface : {uniform({}), uniform({20, 0, 0}), uniform({7, -9, 4}), uneven}) {
     const SheetMesh mesh(kLayout, surface, 2);
     const auto poses = bendSheet(kLayout, surface);
     for (std::size_t i = 0; i < poses.size(); ++i) {
@@ -59,7 +59,8 @@ TEST(SheetMesh, LiftsAPointAlongTheNormal) {
 }
 
 TEST(TaxelAreas, OfACylinderAreThoseOfTheFlatSheet) {
-  for (const Curvature k : {Curvature{20, 0, 0}, Curvature{0, -20, 0}, Curvature{10, 10, 10}}) {
+  for (const matrix::Curvature k :
+       {matrix::Curvature{20, 0, 0}, matrix::Curvature{0, -20, 0}, matrix::Curvature{10, 10, 10}}) {
     for (const double area : taxelAreas(kLayout, uniform(k))) EXPECT_NEAR(area, 1.2e-4, 1e-4 * 1.2e-4);
   }
 }
@@ -77,19 +78,19 @@ TEST(TaxelAreas, OfASphereShrinkTowardsTheEndsOfTheRows) {
 // An even 200 kPa on a sphere of 8 cm radius: the area above, 0.084 m x 0.16 m x sin(0.625) = 78.64 cm^2,
 // times 200 kPa = 1572.8 N; on the flat sheet of 84 cm^2 it would be 1680 N.
 TEST(TaxelAreas, MakeTheForceOnABentSheetThatOfItsOwnArea) {
-  PressureMap map;
+  map::PressureMap map;
   map.reset(kLayout);
   map.pressure.assign(70, 200e3f);
-  const RegionStatistics bent =
-      regionStatistics(map, {}, taxelAreas(kLayout, uniform({12.5, 12.5, 0})), 10e3);
+  const map::RegionStatistics bent =
+      map::regionStatistics(map, {}, taxelAreas(kLayout, uniform({12.5, 12.5, 0})), 10e3);
   EXPECT_NEAR(bent.force, 1572.8, 0.5);
   EXPECT_NEAR(bent.contact_area, 78.64e-4, 0.02e-4);
   EXPECT_NEAR(bent.mean, 200e3, 1e-3);
-  EXPECT_NEAR(regionStatistics(map, {}, taxelAreas(kLayout, uniform({})), 10e3).force, 1680.0, 1e-6);
+  EXPECT_NEAR(map::regionStatistics(map, {}, taxelAreas(kLayout, uniform({})), 10e3).force, 1680.0, 1e-6);
 }
 
-PressureMap ramp() {
-  PressureMap map;
+map::PressureMap ramp() {
+  map::PressureMap map;
   map.reset(kLayout);
   for (std::size_t i = 0; i < 70; ++i) map.pressure[i] = 8e3f * float(i);
   return map;
@@ -97,7 +98,7 @@ PressureMap ramp() {
 
 TEST(SheetMesh, ColoursEachTaxelAlike) {
   const SheetMesh mesh(kLayout, uniform({}), 2);
-  PressureMap map = ramp();
+  map::PressureMap map = ramp();
   map.pressure[69] = NAN;
   std::vector<Colour> colours;
   mesh.colourCells(map.pressure, {}, colours);
@@ -147,4 +148,4 @@ TEST(SmoothLayer, GivesAWholeRowAsItGivesPoints) {
 }
 
 }  // namespace
-}  // namespace fsr
+}  // namespace fsr::view

@@ -14,11 +14,12 @@
 #include "fsr_pressure_map/dataset/recording.h"
 #include "fsr_pressure_map/regression/regressors.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 struct CalibrationOptions {
-  Scheme scheme = Scheme::kInterpolated;  ///< as kPerCurvature on surfaces of training, better between them
-  RegressorOptions regressor;             ///< which model; its forest's seed is `seed`
+  compensation::Scheme scheme =
+      compensation::Scheme::kInterpolated;  ///< as kPerCurvature on surfaces of training, better between them
+  regression::RegressorOptions regressor;   ///< which model; its forest's seed is `seed`
   /// Of a GRNN, by nested cross-validation; the one among the regressor's options is not looked at then.
   bool choose_bandwidth = true;
   std::size_t folds = 5;   ///< sections of each condition, 2 to 20
@@ -30,7 +31,7 @@ struct CalibrationOptions {
 
 /// Bags in.
 struct CalibrationProblem {
-  std::vector<Recording> recordings;
+  std::vector<dataset::Recording> recordings;
   CalibrationOptions options;
 };
 
@@ -50,23 +51,23 @@ struct Provenance {
 
 /// Everything that turns scans into pressure, and what is known of how well.
 struct Calibration {
-  std::string id;                 ///< first hex digits of its file's hash; empty until it was saved or loaded
-  RegressorOptions regressor;     ///< the model; of a GRNN with its bandwidth, chosen or told
-  bool bandwidth_chosen = false;  ///< from the data, and not told
+  std::string id;  ///< first hex digits of its file's hash; empty until it was saved or loaded
+  regression::RegressorOptions regressor;  ///< the model; of a GRNN with its bandwidth, chosen or told
+  bool bandwidth_chosen = false;           ///< from the data, and not told
   std::size_t folds = 0;
-  SensorIdentity sensor;
-  Layout layout;
+  dataset::SensorIdentity sensor;
+  matrix::Layout layout;
   /// 1 = this taxel has no model: masked in the bags, or its reading never changed. Its tables are
   /// NaN. One value for each taxel.
   std::vector<std::uint8_t> no_model;
   std::vector<std::uint8_t> masked;  ///< 1 = masked in the bags, likewise
-  CurvatureTables tables;
+  compensation::CurvatureTables tables;
   TrainedRanges trained;
-  Coverage coverage;
+  dataset::Coverage coverage;
   CalibrationScores scores;
   Provenance provenance;
-  TrainingStatistics statistics;      ///< empty where it was loaded without
-  std::vector<std::string> warnings;  ///< sentences for the user
+  compensation::TrainingStatistics statistics;  ///< empty where it was loaded without
+  std::vector<std::string> warnings;            ///< sentences for the user
 };
 
 /// Throws InputError: one sentence that names the first thing in the way and what would be right.
@@ -79,4 +80,4 @@ using CalibrationProgress = std::function<void(std::size_t done, std::size_t tax
 /// threads.
 Calibration calibrate(const CalibrationProblem& problem, const CalibrationProgress& progress = {});
 
-}  // namespace fsr
+}  // namespace fsr::calibration

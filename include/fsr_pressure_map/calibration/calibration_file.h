@@ -4,7 +4,7 @@
 
 #include "fsr_pressure_map/calibration/calibration.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 // A calibration on disk: HDF5 (h5dump, h5py, MATLAB and R read it) behind a user block of 512 bytes,
 // one line of text:
@@ -24,4 +24,4 @@ std::string saveCalibration(const Calibration& calibration, const std::string& p
 Calibration loadCalibration(const std::string& path,
                             CalibrationParts parts = CalibrationParts::kWithoutStatistics);
 
-}  // namespace fsr
+}  // namespace fsr::calibration

@@ -10,7 +10,7 @@
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/matrix/scan.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 /// Choices of the user at the live path; every default stands here.
 struct CalibratorOptions {
@@ -19,7 +19,7 @@ struct CalibratorOptions {
   double curvature_step =
       0.02;  ///< a taxel's blended table is compiled anew when curvature moved by more [1/m]
   bool fill_bad_taxels = false;  ///< dead and stuck taxels take the mean of their neighbours, flagged
-  TaxelWatchOptions watch;
+  health::TaxelWatchOptions watch;
 };
 
 /// Turns scans into pressure maps, one table look-up a taxel, whatever the scheme: a surface whose table is
@@ -45,13 +45,14 @@ struct CalibratorOptions {
 class Calibrator {
  public:
   /// Throws InputError where the tables are not whole or the layout is not theirs.
-  Calibrator(const CurvatureTables& tables, const Layout& layout, const CalibratorOptions& options = {});
+  Calibrator(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
+             const CalibratorOptions& options = {});
   Calibrator(Calibrator&&) = default;  // not to be copied: it points into its own tables
   Calibrator(const Calibrator&) = delete;
 
   /// The surface under the matrix as of `time`, the stamp of its message [s]; one without curvature means
   /// unknown. Throws InputError, and changes nothing, where it does not fit the matrix.
-  void setSurface(const Surface& surface, double time);
+  void setSurface(const matrix::Surface& surface, double time);
 
   /// 1 = ignore this taxel; empty = none. Throws InputError where it does not fit the matrix.
   void setMask(const std::vector<std::uint8_t>& mask);
@@ -64,33 +65,33 @@ class Calibrator {
 
   /// The map of one scan; `time` is the scan's stamp [s]. Allocates only where `out` has to grow.
   /// Time that runs back (a looped bag) starts windows and ages anew.
-  void calibrate(const ScanView& scan, double time, PressureMap& out) noexcept;
+  void calibrate(const matrix::ScanView& scan, double time, map::PressureMap& out) noexcept;
 
-  const Layout& layout() const { return layout_; }
+  const matrix::Layout& layout() const { return layout_; }
   /// What the tables take [bytes].
-  std::size_t bytes() const { return tables_.bytes() + blended_.size() * sizeof(TableEntry); }
-  const TaxelWatch& watch() const { return watch_; }
+  std::size_t bytes() const { return tables_.bytes() + blended_.size() * sizeof(compensation::TableEntry); }
+  const health::TaxelWatch& watch() const { return watch_; }
   const std::vector<ClassSwitch::Choice>& choices() const { return switch_.choices(); }
 
  private:
-  void selectTables(const Surface& surface);
+  void selectTables(const matrix::Surface& surface);
   void selectTable(std::size_t taxel, double curvature);
-  const TableEntry* blended(std::size_t taxel, double curvature);
+  const compensation::TableEntry* blended(std::size_t taxel, double curvature);
   void refreshStanding() noexcept;
   void noteTime(double time) noexcept;
   void clip(const std::uint16_t* counts) noexcept;
-  void lookUp(PressureMap& out) const noexcept;
-  void flagCodes(PressureMap& out) const noexcept;
-  void strikeBad(PressureMap& out) const noexcept;
-  MapState state(double time) const noexcept;
+  void lookUp(map::PressureMap& out) const noexcept;
+  void flagCodes(map::PressureMap& out) const noexcept;
+  void strikeBad(map::PressureMap& out) const noexcept;
+  map::MapState state(double time) const noexcept;
 
   PackedTables tables_;
-  Layout layout_;
+  matrix::Layout layout_;
   CalibratorOptions options_;
   bool needs_curvature_;
-  CurvatureRule rule_;
+  compensation::CurvatureRule rule_;
   ClassSwitch switch_;
-  TaxelWatch watch_;
+  health::TaxelWatch watch_;
 
   bool surface_known_ = false;
   double surface_time_ = 0;  // [s]
@@ -105,13 +106,13 @@ class Calibrator {
     std::size_t chosen;
     bool finite;
   };
-  std::vector<TableEntry> blended_;   // [taxels x stride]
-  std::vector<Blended> blended_for_;  // [taxels]
+  std::vector<compensation::TableEntry> blended_;  // [taxels x stride]
+  std::vector<Blended> blended_for_;               // [taxels]
   bool tared_ = false;
 
   // What the loop over taxels reads, each [taxels], row-major.
   std::vector<std::uint16_t> codes_;  // of the scan, none beyond full scale
-  std::vector<const TableEntry*> table_;
+  std::vector<const compensation::TableEntry*> table_;
   std::vector<float> offset_;          // [Pa]
   std::vector<std::uint16_t> lowest_;  // trained codes of the table in use
   std::vector<std::uint16_t> highest_;
@@ -120,4 +121,4 @@ class Calibrator {
   std::vector<std::size_t> failed_;      // dead or stuck taxels that are not masked
 };
 
-}  // namespace fsr
+}  // namespace fsr::calibration

@@ -8,7 +8,7 @@
 #include "fsr_pressure_map/compensation/curvature_tables.h"
 #include "fsr_pressure_map/matrix/curvature.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 /// Chooses the curvature class of each taxel: the nearest by principal curvature, with hysteresis while
 /// the sheet stays on one surface and mount, so that a curvature that wavers between two classes does
@@ -24,10 +24,10 @@ class ClassSwitch {
 
   /// A taxel leaves its class only when another is nearer by more than `hysteresis` [1/m]. `tables` is
   /// read for its classes, range, tolerance and rule only.
-  ClassSwitch(const CurvatureTables& tables, double hysteresis);
+  ClassSwitch(const compensation::CurvatureTables& tables, double hysteresis);
 
   /// Chooses anew for a surface of known curvature that fits the matrix.
-  void choose(const Surface& surface);
+  void choose(const matrix::Surface& surface);
 
   /// Curvature unknown: the flattest class of each taxel, which is what a calibration falls back to.
   void fallBack();
@@ -42,14 +42,14 @@ class ClassSwitch {
   double distance(std::size_t taxel, std::size_t curvature_class, double curvature) const;
   std::uint16_t flags(std::size_t taxel, std::size_t curvature_class, double curvature) const;
 
-  std::vector<CurvatureClass> classes_;
+  std::vector<dataset::CurvatureClass> classes_;
   double low_;
   double high_;
   double tolerance_;
   double hysteresis_;
   bool by_name_;
-  Surface last_;  // name and mount only; unknown after fallBack()
+  matrix::Surface last_;  // name and mount only; unknown after fallBack()
   std::vector<Choice> choices_;
 };
 
-}  // namespace fsr
+}  // namespace fsr::calibration

@@ -8,7 +8,7 @@
 #include "fsr_pressure_map/compensation/blend_table.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 /// CurvatureTables laid out for look-up: [taxels x models x entries] in one block, so that a scan touches
 /// one line for each taxel. 7 x 10 taxels, 12 bit, six classes take 14 MB.
@@ -34,11 +34,11 @@ class PackedTables {
   };
 
   /// Throws InputError where a table has not one finite value for each code, nor NaN throughout.
-  explicit PackedTables(const CurvatureTables& tables);
+  explicit PackedTables(const compensation::CurvatureTables& tables);
   PackedTables(PackedTables&&) = default;  // not to be copied: it points into itself
   PackedTables(const PackedTables&) = delete;
 
-  MatrixSize size() const { return size_; }
+  matrix::MatrixSize size() const { return size_; }
   std::uint16_t fullScale() const { return full_scale_; }
   std::size_t classes() const { return classes_; }
 
@@ -48,39 +48,39 @@ class PackedTables {
   unsigned shift() const { return shift_; }
 
   /// The entries of one taxel in one class.
-  const TableEntry* table(std::size_t taxel, std::size_t curvature_class) const {
+  const compensation::TableEntry* table(std::size_t taxel, std::size_t curvature_class) const {
     return entries_.data() + taxel * stride() + slot_of_class_[curvature_class] * entries();
   }
   /// What all of them take [bytes].
   std::size_t bytes() const {
-    return entries_.size() * sizeof(TableEntry) + log_weight_.size() * sizeof(float);
+    return entries_.size() * sizeof(compensation::TableEntry) + log_weight_.size() * sizeof(float);
   }
   /// All tables of one taxel, for blendTable().
-  const TaxelTables& tables(std::size_t taxel) const { return of_taxel_[taxel]; }
+  const compensation::TaxelTables& tables(std::size_t taxel) const { return of_taxel_[taxel]; }
   TrainedCodes trained(std::size_t taxel, std::size_t curvature_class) const {
     return trained_[number(taxel, curvature_class)];
   }
 
  private:
   // Moves the last entry, which lies beyond full scale, onto the line through the one before and full scale.
-  void endAtFullScale(TableEntry* table) const;
-  const float* packLogWeight(const CodeTable& table, std::size_t number);
+  void endAtFullScale(compensation::TableEntry* table) const;
+  const float* packLogWeight(const regression::CodeTable& table, std::size_t number);
   std::size_t stride() const { return slots_ * entries() + kPadding; }
   std::size_t codeOf(std::size_t entry) const { return std::min<std::size_t>(entry << shift_, full_scale_); }
   std::size_t number(std::size_t taxel, std::size_t curvature_class) const {
     return taxel * classes_ + curvature_class;
   }
 
-  MatrixSize size_;
+  matrix::MatrixSize size_;
   std::uint16_t full_scale_;
   std::size_t classes_;
   std::size_t slots_ = 0;
   std::vector<std::size_t> slot_of_class_;  // classes of one model share a table
   unsigned shift_ = 0;
-  std::vector<TableEntry> entries_;
+  std::vector<compensation::TableEntry> entries_;
   std::vector<TrainedCodes> trained_;  // [taxels x classes]
   std::vector<float> log_weight_;      // [taxels x classes x entries]; empty unless kernels are blended
-  std::vector<TaxelTables> of_taxel_;
+  std::vector<compensation::TaxelTables> of_taxel_;
 };
 
-}  // namespace fsr
+}  // namespace fsr::calibration

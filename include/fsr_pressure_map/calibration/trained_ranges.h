@@ -6,7 +6,7 @@
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
 
-namespace fsr {
+namespace fsr::calibration {
 
 /// Lowest and highest value over training; NaN = not recorded.
 struct TrainedInterval {
@@ -26,7 +26,7 @@ struct TrainedRanges {
 };
 
 /// Over the scans of the classes for which `trained` is true.
-TrainedRanges findTrainedRanges(const std::vector<Recording>& recordings, const ConditionClasses& classes,
-                                const std::vector<bool>& trained);
+TrainedRanges findTrainedRanges(const std::vector<dataset::Recording>& recordings,
+                                const dataset::ConditionClasses& classes, const std::vector<bool>& trained);
 
-}  // namespace fsr
+}  // namespace fsr::calibration

@@ -6,7 +6,7 @@
 #include "fsr_pressure_map/compensation/curvature_rule.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 
-namespace fsr {
+namespace fsr::compensation {
 
 /// What a code means: one cache line holds eight neighbouring codes.
 struct TableEntry {
@@ -51,4 +51,4 @@ struct TaxelTables {
 void blendTable(const CurvatureRule& rule, double length_scale, const TaxelTables& tables, double at,
                 std::size_t chosen, TableEntry* out);
 
-}  // namespace fsr
+}  // namespace fsr::compensation

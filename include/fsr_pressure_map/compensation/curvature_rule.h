@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace fsr {
+namespace fsr::compensation {
 
 /// How the tables of a taxel's curvature classes become the one table for the curvature at hand.
 enum class BlendRule {
@@ -58,4 +58,4 @@ struct CurvatureRule {
   }
 };
 
-}  // namespace fsr
+}  // namespace fsr::compensation

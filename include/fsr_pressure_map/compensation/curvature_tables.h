@@ -11,19 +11,19 @@
 #include "fsr_pressure_map/matrix/layout.h"
 #include "fsr_pressure_map/regression/code_table.h"
 
-namespace fsr {
+namespace fsr::compensation {
 
 /// A scheme, compiled: for each taxel one CodeTable for each curvature class, and the rule that makes one
 /// table of them for any curvature (see blend_table.h).
 struct CurvatureTables {
   Scheme scheme = Scheme::kPerCurvature;
-  MatrixSize size;
+  matrix::MatrixSize size;
   std::uint16_t full_scale = 0;
   /// Classes by ascending curvature of taxel 0. Schemes that ignore curvature have one, which
   /// answers everywhere.
-  std::vector<CurvatureClass> classes;
+  std::vector<dataset::CurvatureClass> classes;
   /// [taxels x classes], taxel by taxel.
-  std::vector<CodeTable> tables;
+  std::vector<regression::CodeTable> tables;
   /// Range of principal curvature over training [1/m]: a taxel outside it is flagged
   /// kCurvatureExtrapolated, whatever the scheme does with it.
   double curvature_low = 0;
@@ -32,9 +32,9 @@ struct CurvatureTables {
   double class_tolerance = 0.5;
   CurvatureRule rule = {};
 
-  const CodeTable& table(std::size_t taxel, std::size_t curvature_class) const {
+  const regression::CodeTable& table(std::size_t taxel, std::size_t curvature_class) const {
     return tables[taxel * classes.size() + curvature_class];
   }
 };
 
-}  // namespace fsr
+}  // namespace fsr::compensation

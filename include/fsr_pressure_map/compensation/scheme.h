@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace fsr {
+namespace fsr::compensation {
 
 /// How a model answers to curvature. Numbers of the paper's methods in brackets.
 enum class Scheme {
@@ -42,4 +42,4 @@ bool usesCurvature(Scheme scheme);
 /// Whether the scheme's model takes something of the curvature in beside the reading.
 bool hasSecondInput(Scheme scheme);
 
-}  // namespace fsr
+}  // namespace fsr::compensation

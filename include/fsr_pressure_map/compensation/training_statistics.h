@@ -7,7 +7,7 @@
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/regression/code_statistics.h"
 
-namespace fsr {
+namespace fsr::compensation {
 
 /// All that the schemes need of the bags: sums of pressure by code for each taxel, curvature class
 /// and section.
@@ -15,14 +15,15 @@ struct TrainingStatistics {
   std::uint16_t full_scale = 0;
   std::size_t taxels = 0;
   std::size_t sections = 0;
-  std::vector<CurvatureClass> classes;  ///< by ascending curvature of taxel 0
-  std::vector<CodeStatistics> cells;    ///< [taxels x classes x sections]
+  std::vector<dataset::CurvatureClass> classes;   ///< by ascending curvature of taxel 0
+  std::vector<regression::CodeStatistics> cells;  ///< [taxels x classes x sections]
   /// What the classes were pooled from: each bag's conditions, bag after bag.
-  std::vector<RecordedCondition> conditions;
+  std::vector<dataset::RecordedCondition> conditions;
 
-  const CodeStatistics& cell(std::size_t taxel, std::size_t curvature_class, std::size_t section) const {
+  const regression::CodeStatistics& cell(std::size_t taxel, std::size_t curvature_class,
+                                         std::size_t section) const {
     return cells[(taxel * classes.size() + curvature_class) * sections + section];
   }
 };
 
-}  // namespace fsr
+}  // namespace fsr::compensation

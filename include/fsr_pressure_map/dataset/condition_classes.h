@@ -7,7 +7,7 @@
 
 #include "fsr_pressure_map/dataset/recording.h"
 
-namespace fsr {
+namespace fsr::dataset {
 
 /// One curvature class: conditions whose curvature agrees, from any number of bags.
 struct CurvatureClass {
@@ -64,4 +64,4 @@ struct ConditionClasses {
 /// The same for recordings. By name it throws InputError where a surface has none.
 ConditionClasses poolConditions(const std::vector<Recording>& recordings, PooledBy by = PooledBy::kCurvature);
 
-}  // namespace fsr
+}  // namespace fsr::dataset

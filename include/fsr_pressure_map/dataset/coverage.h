@@ -10,7 +10,7 @@
 #include "fsr_pressure_map/dataset/sections.h"
 #include "fsr_pressure_map/statistics/pressure_bins.h"
 
-namespace fsr {
+namespace fsr::dataset {
 
 /// What the recordings hold of one pressure bin in one direction.
 struct CoverageCell {
@@ -25,8 +25,8 @@ struct ConditionCoverage {
   std::uint64_t cycles = 0;
   double pressure_low = 0;   ///< gauge [Pa]
   double pressure_high = 0;  ///< gauge [Pa]
-  std::array<CoverageCell, kPressureBins> loading;
-  std::array<CoverageCell, kPressureBins> unloading;
+  std::array<CoverageCell, statistics::kPressureBins> loading;
+  std::array<CoverageCell, statistics::kPressureBins> unloading;
 };
 
 /// Pressure x curvature x direction: where a calibration from these recordings stands on much data,
@@ -52,4 +52,4 @@ Coverage measureCoverage(const std::vector<Recording>& recordings, const Conditi
 /// The same with classes and sections as a calibration of the recordings has them.
 Coverage coverageOf(const std::vector<Recording>& recordings, std::size_t sections);
 
-}  // namespace fsr
+}  // namespace fsr::dataset

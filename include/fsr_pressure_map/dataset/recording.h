@@ -8,7 +8,7 @@
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "fsr_pressure_map/matrix/layout.h"
 
-namespace fsr {
+namespace fsr::dataset {
 
 /// Which sensor made a recording; empty strings are unknown.
 struct SensorIdentity {
@@ -40,11 +40,11 @@ struct Recording {
   std::string name;    ///< base name of the bag, e.g. 1_flat.bag
   std::string sha256;  ///< of the bag's bytes, hexadecimal; empty where it came over topics
   SensorIdentity sensor;
-  Layout layout;
+  matrix::Layout layout;
   std::uint16_t full_scale = 0;
   std::vector<std::uint8_t> mask;  ///< 1 = ignore this taxel; empty = none
   /// Surfaces in order of first appearance; one of unknown curvature where none was recorded.
-  std::vector<Surface> conditions;
+  std::vector<matrix::Surface> conditions;
 
   std::vector<double> time;           ///< header stamp [s] since `start`
   std::vector<std::uint16_t> counts;  ///< [scans x taxels]
@@ -62,4 +62,4 @@ struct Recording {
 /// One sentence for each kind of loss that a user should know of.
 std::vector<std::string> describeLosses(const RecordingLosses& losses);
 
-}  // namespace fsr
+}  // namespace fsr::dataset

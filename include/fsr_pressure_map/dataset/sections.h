@@ -8,7 +8,7 @@
 #include "fsr_pressure_map/dataset/recording.h"
 #include "fsr_pressure_map/statistics/pressure_bins.h"
 
-namespace fsr {
+namespace fsr::dataset {
 
 /// A scan that no section holds (its pressure is not finite).
 constexpr std::uint32_t kNoSection = 0xffffffff;
@@ -20,15 +20,15 @@ constexpr std::uint32_t kNoSection = 0xffffffff;
 /// held out together. A condition with fewer cycles than sections is cut by number of scans instead,
 /// and a warning says that its scores flatter.
 struct Sections {
-  std::size_t number = 0;                ///< of sections
-  std::vector<std::uint32_t> section;    ///< of each scan, 0 .. number - 1, or kNoSection
-  std::vector<std::uint32_t> cycle;      ///< of each scan, counted within its condition
-  std::vector<LoadDirection> direction;  ///< of each scan
-  std::vector<std::size_t> cycles;       ///< number of cycles of each condition
+  std::size_t number = 0;                            ///< of sections
+  std::vector<std::uint32_t> section;                ///< of each scan, 0 .. number - 1, or kNoSection
+  std::vector<std::uint32_t> cycle;                  ///< of each scan, counted within its condition
+  std::vector<statistics::LoadDirection> direction;  ///< of each scan
+  std::vector<std::size_t> cycles;                   ///< number of cycles of each condition
   std::vector<std::string> warnings;
 };
 
 /// `recording` must have a chamber pressure.
 Sections divideIntoSections(const Recording& recording, std::size_t number);
 
-}  // namespace fsr
+}  // namespace fsr::dataset

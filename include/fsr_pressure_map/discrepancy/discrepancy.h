@@ -9,7 +9,7 @@
 #include "fsr_pressure_map/dataset/recording.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
 
-namespace fsr {
+namespace fsr::discrepancy {
 
 struct DiscrepancyOptions {
   /// Ids of effects that somebody asks for: where the recordings cannot show one of them, that is the
@@ -23,8 +23,8 @@ struct DiscrepancyOptions {
 
 /// A simulation that may lack effects, and measurements.
 struct DiscrepancyProblem {
-  SimulationSettings simulation;
-  std::vector<Recording> recordings;  ///< one for each bag, of one matrix
+  simulation::SimulationSettings simulation;
+  std::vector<dataset::Recording> recordings;  ///< one for each bag, of one matrix
   DiscrepancyOptions options;
 };
 
@@ -157,10 +157,10 @@ struct RepeatStep {
 
 /// What was foretold before the next experiment; confirm() holds it against new recordings.
 struct Prediction {
-  std::vector<EnabledEffect> effects;              ///< of the best explanation
-  std::vector<std::vector<EnabledEffect>> rivals;  ///< other explanations that were credible
-  Interval size;                                   ///< factor of the first effect's strength, 1 = as fitted
-  std::string hash;                                ///< SHA-256 of all of the above and the simulation
+  std::vector<simulation::EnabledEffect> effects;              ///< of the best explanation
+  std::vector<std::vector<simulation::EnabledEffect>> rivals;  ///< other explanations that were credible
+  Interval size;     ///< factor of the first effect's strength, 1 = as fitted
+  std::string hash;  ///< SHA-256 of all of the above and the simulation
 };
 
 /// Everything that verdict.yaml, results.json and the report say.
@@ -181,8 +181,9 @@ struct DiscrepancyReport {
   std::vector<std::string> limitations;         ///< sentences
   std::vector<ResidualCurve> curves;
   std::vector<RepeatStep> steps;
-  SimulationSettings base;   ///< the simulation given, its enabled effects fitted to the recordings
-  SimulationSettings added;  ///< `base` with the effects found
+  simulation::SimulationSettings
+      base;  ///< the simulation given, its enabled effects fitted to the recordings
+  simulation::SimulationSettings added;  ///< `base` with the effects found
   Prediction prediction;
   std::vector<InputUse> inputs;
   std::uint64_t seed = 0;
@@ -213,10 +214,10 @@ struct Confirmation {
 
 /// Whether recordings that nobody had seen bear out what was predicted. `simulation` is the `base` of the
 /// report. Throws InputError, also where hash and prediction do not belong together.
-Confirmation confirm(const Prediction& prediction, const SimulationSettings& simulation,
-                     const std::vector<Recording>& recordings);
+Confirmation confirm(const Prediction& prediction, const simulation::SimulationSettings& simulation,
+                     const std::vector<dataset::Recording>& recordings);
 
 /// Hash of a prediction made with a simulation.
-std::string hashOf(const Prediction& prediction, const SimulationSettings& simulation);
+std::string hashOf(const Prediction& prediction, const simulation::SimulationSettings& simulation);
 
-}  // namespace fsr
+}  // namespace fsr::discrepancy

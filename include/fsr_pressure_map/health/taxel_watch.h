@@ -7,7 +7,7 @@
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/matrix/layout.h"
 
-namespace fsr {
+namespace fsr::health {
 
 /// When TaxelWatch speaks. Shares are of full scale, so that they fit any converter.
 struct TaxelWatchOptions {
@@ -54,7 +54,7 @@ struct TaxelWatchOptions {
 /// nothing is allocated after construction.
 class TaxelWatch {
  public:
-  TaxelWatch(MatrixSize size, std::uint16_t full_scale, const TaxelWatchOptions& options = {});
+  TaxelWatch(matrix::MatrixSize size, std::uint16_t full_scale, const TaxelWatchOptions& options = {});
 
   /// Takes a scan: counts [rows x columns], row-major; time of its stamp [s]. True where a verdict
   /// changed. Time that runs back starts the window anew.
@@ -98,7 +98,7 @@ class TaxelWatch {
   bool flagLine(const Line& line) noexcept;
   Neighbours neighbours(std::uint16_t row, std::uint16_t column) const noexcept;
 
-  MatrixSize size_;
+  matrix::MatrixSize size_;
   std::uint16_t full_scale_;
   TaxelWatchOptions options_;
   std::uint16_t floor_;
@@ -115,4 +115,4 @@ class TaxelWatch {
   std::uint64_t revivals_ = 0;
 };
 
-}  // namespace fsr
+}  // namespace fsr::health

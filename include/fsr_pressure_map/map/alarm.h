@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace fsr {
+namespace fsr::map {
 
 struct PressureMap;
 struct Region;
@@ -38,8 +38,8 @@ AlarmEvidence evidence(const PressureMap& map, const Region& region);
 ///
 /// It rises where a pressure that is surely there stays at or above the threshold for the dwell time, and
 /// falls only below threshold - hysteresis. Where the map cannot answer (stale, uncalibrated, curvature
-/// unknown, extrapolated, saturated or failed taxels, "less than" a pressure above the threshold) the answer is
-/// unknown, never OK; an alarm that is sure stays an alarm.
+/// unknown, extrapolated, saturated or failed taxels, "less than" a pressure above the threshold) the answer
+/// is unknown, never OK; an alarm that is sure stays an alarm.
 class Alarm {
  public:
   explicit Alarm(const AlarmOptions& options = {}) : options_(options) {}
@@ -58,4 +58,4 @@ class Alarm {
   bool raised_ = false;
 };
 
-}  // namespace fsr
+}  // namespace fsr::map

@@ -9,7 +9,7 @@
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/map/region.h"
 
-namespace fsr {
+namespace fsr::map {
 
 /// Summary of one region of a map; NaN where the map gives no answer. Pressures are gauge.
 struct RegionStatistics {
@@ -17,7 +17,7 @@ struct RegionStatistics {
 
   std::string region;                 ///< "" = the whole matrix
   double peak = kNone;                ///< highest reading [Pa]
-  TaxelIndex peak_taxel;              ///< where it is; meaningless while peak is NaN
+  matrix::TaxelIndex peak_taxel;      ///< where it is; meaningless while peak is NaN
   double mean = kNone;                ///< over the contact area, weighted by area [Pa]
   double standard_deviation = kNone;  ///< over the contact area, likewise [Pa]
   double contact_area = 0;            ///< of the taxels in contact [m^2]
@@ -27,7 +27,7 @@ struct RegionStatistics {
   double duration = 0;                ///< that the integral spans [s]
   std::size_t bad = 0;                ///< taxels without a reading, masked ones left out
   std::size_t saturated = 0;
-  std::optional<Position> centre;  ///< of pressure, on the flat sheet [m]; none without contact
+  std::optional<matrix::Position> centre;  ///< of pressure, on the flat sheet [m]; none without contact
   AlarmState alarm = AlarmState::kUnknown;
 };
 
@@ -85,4 +85,4 @@ class MapStatistics {
   std::vector<RegionStatistics> statistics_;
 };
 
-}  // namespace fsr
+}  // namespace fsr::map

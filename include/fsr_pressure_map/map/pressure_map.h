@@ -5,7 +5,7 @@
 
 #include "fsr_pressure_map/matrix/layout.h"
 
-namespace fsr {
+namespace fsr::map {
 
 /// State of a whole map; the numbers are those of PressureMap.msg.
 enum class MapState : std::uint8_t {
@@ -35,14 +35,14 @@ constexpr std::uint16_t kTemperatureExtrapolated = 2048;
 
 /// Calibrated gauge pressure of each taxel.
 struct PressureMap {
-  Layout layout;
+  matrix::Layout layout;
   MapState state = MapState::kUncalibrated;
   std::vector<float> pressure;       ///< [rows x columns], row-major [Pa]; NaN = no reading, never Inf
   std::vector<float> deviation;      ///< one standard deviation of a held-out reading [Pa], likewise
   std::vector<std::uint16_t> flags;  ///< taxel_flag bits, likewise
 
   /// Makes room for `layout` and fills with NaN, NaN and 0; allocates only where the size grows.
-  void reset(const Layout& new_layout);
+  void reset(const matrix::Layout& new_layout);
 };
 
-}  // namespace fsr
+}  // namespace fsr::map

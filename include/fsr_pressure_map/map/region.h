@@ -7,7 +7,7 @@
 #include "fsr_pressure_map/map/alarm.h"
 #include "fsr_pressure_map/matrix/layout.h"
 
-namespace fsr {
+namespace fsr::map {
 
 /// A named part of the matrix.
 struct Region {
@@ -32,8 +32,8 @@ struct Region {
 ///         alarm: {threshold: 120e3, dwell: 2.0}
 ///
 /// The whole matrix comes first, under the name "". Throws InputError.
-std::vector<Region> readRegionFile(const std::string& path, MatrixSize size);
+std::vector<Region> readRegionFile(const std::string& path, matrix::MatrixSize size);
 /// The same from text; `origin` stands where messages name the file.
-std::vector<Region> readRegions(const std::string& yaml, const std::string& origin, MatrixSize size);
+std::vector<Region> readRegions(const std::string& yaml, const std::string& origin, matrix::MatrixSize size);
 
-}  // namespace fsr
+}  // namespace fsr::map

@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/matrix/layout.h"
 
-namespace fsr {
+namespace fsr::matrix {
 
 /// Curvature tensor of the surface under one taxel [1/m], in the matrix frame. Positive where the
 /// sheet is convex towards +z (wrapped round a limb phantom and loaded from outside), negative on
@@ -42,4 +42,4 @@ void requireFit(const Surface& surface, MatrixSize size);
 /// Same name, mount and curvature (deviation left aside).
 bool sameCondition(const Surface& a, const Surface& b);
 
-}  // namespace fsr
+}  // namespace fsr::matrix

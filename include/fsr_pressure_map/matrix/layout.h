@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace fsr {
+namespace fsr::matrix {
 
 /// Rows and columns of a sensor matrix.
 struct MatrixSize {
@@ -52,4 +52,4 @@ struct Layout {
   Position position(TaxelIndex taxel) const;
 };
 
-}  // namespace fsr
+}  // namespace fsr::matrix

@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/matrix/layout.h"
 
-namespace fsr {
+namespace fsr::matrix {
 
 /// One reading of every taxel, as the converter gave it.
 struct Scan {
@@ -37,4 +37,4 @@ inline ScanView view(const Scan& scan) {
 /// size's, or a count is above full scale.
 void requireSound(const ScanView& scan);
 
-}  // namespace fsr
+}  // namespace fsr::matrix

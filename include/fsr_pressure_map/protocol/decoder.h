@@ -7,7 +7,7 @@
 #include "fsr_pressure_map/protocol/packet.h"
 #include "fsr_pressure_map/protocol/wire.h"
 
-namespace fsr {
+namespace fsr::protocol {
 
 /// How the packets of one type followed each other.
 struct SequenceCounts {
@@ -84,4 +84,4 @@ class Decoder {
   std::array<std::uint16_t, FSR_WIRE_MAX_SIDE * FSR_WIRE_MAX_SIDE> scan_counts_{};
 };
 
-}  // namespace fsr
+}  // namespace fsr::protocol

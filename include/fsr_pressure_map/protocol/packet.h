@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/matrix/layout.h"
 
-namespace fsr {
+namespace fsr::protocol {
 
 /// What every packet of the wire format carries.
 struct PacketHeader {
@@ -17,7 +17,7 @@ struct PacketHeader {
 
 /// One scan. The counts are the decoder's own memory, valid during the call only.
 struct ScanPacket {
-  MatrixSize size;
+  matrix::MatrixSize size;
   std::uint16_t full_scale = 0;           ///< largest count that the converter can give
   std::uint32_t duration = 0;             ///< first to last taxel [us]; 0 = unknown
   const std::uint16_t* counts = nullptr;  ///< [rows x columns], row-major, none above full_scale
@@ -29,7 +29,7 @@ struct IdentityPacket {
   std::string_view serial;
   std::string_view firmware;
   std::string_view model;
-  MatrixSize size;
+  matrix::MatrixSize size;
   std::uint16_t full_scale = 0;
   std::uint32_t scan_period = 0;  ///< [us]; 0 = unknown
 };
@@ -47,4 +47,4 @@ class PacketHandler {
   virtual void onIdentity(const PacketHeader& header, const IdentityPacket& identity) = 0;
 };
 
-}  // namespace fsr
+}  // namespace fsr::protocol

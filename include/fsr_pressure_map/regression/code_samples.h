@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/regression/code_statistics.h"
 
-namespace fsr {
+namespace fsr::regression {
 
 /// Training readings of one taxel, one by one: for the regressors that sums do not serve (a forest
 /// draws readings at random, a monotone curve looks at the reading of a pressure). Their order has no
@@ -33,4 +33,4 @@ void validate(const CodeSamples& samples);
 CodeStatistics statisticsOf(const CodeSamples& samples);
 CodeHistogram histogramOf(const CodeSamples& samples);
 
-}  // namespace fsr
+}  // namespace fsr::regression

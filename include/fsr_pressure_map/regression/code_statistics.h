@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace fsr {
+namespace fsr::regression {
 
 /// Pressure as sums take it: an integer number of 2^-20 Pa, so that addition is exact and its order
 /// does not matter.
@@ -114,4 +114,4 @@ class CodeHistogram {
   std::uint64_t samples_ = 0;
 };
 
-}  // namespace fsr
+}  // namespace fsr::regression

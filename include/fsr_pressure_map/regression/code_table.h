@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace fsr {
+namespace fsr::regression {
 
 /// What any regressor of one reading becomes: a converter gives integers, so pressure is a table
 /// over the codes. All vectors but log_weight have full_scale + 1 entries. A taxel without a model (masked,
@@ -19,4 +19,4 @@ struct CodeTable {
   std::uint16_t highest = 0;  ///< largest code seen in training
 };
 
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/regression/regressor.h"
 
-namespace fsr {
+namespace fsr::regression {
 
 /// What happens where the input drawn for a node cannot split it (all its values agree, or every cut
 /// would leave too few readings on one side). Libraries differ, and do not say so.
@@ -81,4 +81,4 @@ constexpr std::size_t kMostForestCurvatures = 32;
 /// kMostForestCurvatures different ones.
 CurvatureSteps fitCurvatureForest(const CodeSamples& training, const ForestOptions& options = {});
 
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -5,7 +5,7 @@
 
 #include "fsr_pressure_map/regression/regressor.h"
 
-namespace fsr {
+namespace fsr::regression {
 
 /// Bandwidth of the paper: the spread sigma in units of the training readings' deviation.
 constexpr double kPaperBandwidth = 1.0 / 128.0;
@@ -71,4 +71,4 @@ class Grnn : public Regressor {
   GrnnOptions options_;
 };
 
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -7,7 +7,7 @@
 #include "fsr_pressure_map/regression/code_samples.h"
 #include "fsr_pressure_map/regression/code_statistics.h"
 
-namespace fsr {
+namespace fsr::regression {
 
 /// What a regressor of one reading becomes: its answer at every code. One value for each code
 /// 0 .. full scale.
@@ -39,4 +39,4 @@ class Regressor {
   [[noreturn]] void refuseSums() const;
 };
 
-}  // namespace fsr
+}  // namespace fsr::regression

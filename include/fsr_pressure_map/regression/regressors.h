@@ -8,7 +8,7 @@
 #include "fsr_pressure_map/regression/grnn.h"
 #include "fsr_pressure_map/regression/regressor.h"
 
-namespace fsr {
+namespace fsr::regression {
 
 /// Which regressor, and how each would be set.
 struct RegressorOptions {
@@ -23,4 +23,4 @@ std::vector<std::string> regressorNames();
 /// Throws InputError that lists the names, or where the options of the one that is named cannot be.
 std::unique_ptr<Regressor> makeRegressor(const RegressorOptions& options);
 
-}  // namespace fsr
+}  // namespace fsr::regression

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace fsr {
+namespace fsr::rheology {
 
 /// Fading memory of first order, tau dm/dt = x - m: a low-pass of the input, a Kelvin-Voigt element.
 /// Exact for an input that runs straight between its samples, so that sampling faster changes
@@ -36,4 +36,4 @@ class ExponentialMemory {
   double time_constant_;
 };
 
-}  // namespace fsr
+}  // namespace fsr::rheology

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-namespace fsr {
+namespace fsr::settings {
 
 /// Input that cannot be used: a file, a setting, an option, a recording.
 /// what() is one sentence for the user that names file, field, value and what would be right.
@@ -12,4 +12,4 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-}  // namespace fsr
+}  // namespace fsr::settings

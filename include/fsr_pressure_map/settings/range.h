@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-namespace fsr {
+namespace fsr::settings {
 
 /// Permitted interval of a setting, ends included, with the unit that messages print.
 struct Range {
@@ -17,4 +17,4 @@ struct Range {
   std::string text() const;
 };
 
-}  // namespace fsr
+}  // namespace fsr::settings

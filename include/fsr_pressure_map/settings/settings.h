@@ -8,7 +8,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/settings/range.h"
 
-namespace fsr {
+namespace fsr::settings {
 
 /// One mapping of a YAML file, read strictly: what is missing, mistyped, out of range or unknown
 /// raises an InputError that names file, field (dotted path), value and what would be right.
@@ -60,4 +60,4 @@ class Settings {
   std::shared_ptr<Node> node_;
 };
 
-}  // namespace fsr
+}  // namespace fsr::settings

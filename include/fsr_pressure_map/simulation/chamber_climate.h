@@ -5,7 +5,7 @@
 #include "fsr_pressure_map/rheology/exponential_memory.h"
 #include "fsr_pressure_map/settings/settings.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 /// A moment of the room's temperature.
 struct TemperaturePoint {
@@ -25,7 +25,7 @@ struct ChamberClimate {
 
 /// Reads the mapping `room: [{time: 0, temperature: 23}, ...]` (or one number), `heating`, `cooling`.
 /// Throws InputError.
-ChamberClimate readChamberClimate(const Settings& settings);
+ChamberClimate readChamberClimate(const settings::Settings& settings);
 
 /// The gas in the chamber, whose temperature follows the pressure's history.
 class ChamberGas {
@@ -44,8 +44,8 @@ class ChamberGas {
   double room(double time) const;
 
   ChamberClimate climate_;
-  ExponentialMemory cooling_;
+  rheology::ExponentialMemory cooling_;
   std::vector<double> state_;
 };
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/simulation/chamber_protocol.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 /// Step or ramp to a pressure, and stay there.
 struct HoldPart {
@@ -44,11 +44,11 @@ using ChamberProgram = std::vector<ProgramPart>;
 ///
 /// Throws InputError that names what is missing or out of range, also where something follows cycles that
 /// never end.
-ChamberProgram readChamberProgram(const std::vector<Settings>& parts);
+ChamberProgram readChamberProgram(const std::vector<settings::Settings>& parts);
 
 PressureProfile pressureProfile(const ChamberProgram& program);
 
 /// The part as readChamberProgram() reads it, on one line, without the leading dash.
 std::string programText(const ProgramPart& part);
 
-}  // namespace fsr
+}  // namespace fsr::simulation

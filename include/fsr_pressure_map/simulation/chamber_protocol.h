@@ -6,7 +6,7 @@
 #include "fsr_pressure_map/settings/settings.h"
 #include "fsr_pressure_map/simulation/pressure_profile.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 /// Gauge pressure that the chamber is built for [Pa]; nothing may ask for more.
 constexpr double kChamberRating = 793e3;
@@ -24,7 +24,7 @@ struct ChamberProtocol {
 
 /// Reads the mapping `peak`, `rate` (both ways) or `fill_rate` and `vent_rate`, `dwell_peak`,
 /// `dwell_rest`, `cycles`; what is missing keeps the value of `defaults`. Throws InputError.
-ChamberProtocol readChamberProtocol(const Settings& settings, const ChamberProtocol& defaults = {});
+ChamberProtocol readChamberProtocol(const settings::Settings& settings, const ChamberProtocol& defaults = {});
 
 /// Throws InputError that names what is out of range; `origin` stands where messages name the file.
 void validate(const ChamberProtocol& protocol, const std::string& origin);
@@ -42,4 +42,4 @@ PressureProfile pressureProfile(const ChamberProtocol& protocol);
 /// Straight from `pressure` down to 0 at the protocol's venting rate.
 PressureProfile ventingProfile(const ChamberProtocol& protocol, double pressure);
 
-}  // namespace fsr
+}  // namespace fsr::simulation

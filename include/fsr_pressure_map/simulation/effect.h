@@ -10,14 +10,14 @@
 #include "fsr_pressure_map/matrix/layout.h"
 #include "fsr_pressure_map/simulation/effect_info.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 /// Values of all parameters of one effect, by name, in SI units.
 using EffectValues = std::map<std::string, double>;
 
 /// What an effect may know about the rig when it is made.
 struct EffectContext {
-  Layout layout;
+  matrix::Layout layout;
   std::uint64_t seed = 0;  ///< of the whole simulation; see randomStream()
 };
 
@@ -102,4 +102,4 @@ std::unique_ptr<Effect> makeEffect(const EffectValues& values, const EffectConte
   return std::make_unique<Type>(values, context);
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/settings/range.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 /// Where in the forward chain an effect acts; effects run in this order, within a stage in the order
 /// of the library.
@@ -106,12 +106,12 @@ struct EffectParameter {
   std::string name;
   std::string meaning;
   ParameterRole role = ParameterRole::kShape;
-  Range permitted;   ///< with the unit; settings outside it are refused
-  double usual = 0;  ///< where the settings do not give it
+  settings::Range permitted;  ///< with the unit; settings outside it are refused
+  double usual = 0;           ///< where the settings do not give it
   /// At this value the parameter changes nothing, bit for bit; NaN for a shape.
   double neutral = std::numeric_limits<double>::quiet_NaN();
   /// What a real rig may have: a fit outside it is no explanation.
-  Range plausible = {};
+  settings::Range plausible = {};
   /// Of a shape: the values that are tried when the effect is looked for; empty = the usual one.
   std::vector<double> tried = {};
 
@@ -121,9 +121,11 @@ struct EffectParameter {
 };
 
 /// A strength or scatter that is off at 0, a shape; plausible is what is permitted until within().
-EffectParameter strength(std::string name, std::string meaning, const Range& permitted, double usual);
-EffectParameter scatter(std::string name, std::string meaning, const Range& permitted, double usual);
-EffectParameter shape(std::string name, std::string meaning, const Range& permitted, double usual);
+EffectParameter strength(std::string name, std::string meaning, const settings::Range& permitted,
+                         double usual);
+EffectParameter scatter(std::string name, std::string meaning, const settings::Range& permitted,
+                        double usual);
+EffectParameter shape(std::string name, std::string meaning, const settings::Range& permitted, double usual);
 
 /// What an effect says about itself.
 struct EffectInfo {
@@ -157,4 +159,4 @@ std::string name(Covariate covariate);
 std::string name(Evidence evidence);
 std::string name(Experiment experiment);
 
-}  // namespace fsr
+}  // namespace fsr::simulation

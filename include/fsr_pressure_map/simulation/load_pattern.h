@@ -5,24 +5,24 @@
 #include "fsr_pressure_map/matrix/layout.h"
 #include "fsr_pressure_map/settings/settings.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 /// Where on the sheet the pressure acts: everywhere, as gas does, or under a disc or beside an edge, as
 /// an indenter does. Uneven loads show what uniform ones cannot: crosstalk, and the map.
 struct LoadPattern {
   enum class Kind { kUniform, kDisc, kEdge };
   Kind kind = Kind::kUniform;
-  Position centre;    ///< of the disc; a point of the edge [m]
-  double radius = 0;  ///< of the disc [m]
-  double angle = 0;   ///< from x to the edge's loaded side [rad]
+  matrix::Position centre;  ///< of the disc; a point of the edge [m]
+  double radius = 0;        ///< of the disc [m]
+  double angle = 0;         ///< from x to the edge's loaded side [rad]
 };
 
 /// Reads the mapping `disc: {x, y, radius}` or `edge: {x, y, angle}`; x and y are 0 where missing.
 /// Throws InputError.
-LoadPattern readLoadPattern(const Settings& settings);
+LoadPattern readLoadPattern(const settings::Settings& settings);
 
 /// Share of each taxel's cell, pitch by pitch, that is loaded, [rows x columns], row-major; exactly 1
 /// everywhere for the uniform load.
-std::vector<double> loadShares(const LoadPattern& pattern, const Layout& layout);
+std::vector<double> loadShares(const LoadPattern& pattern, const matrix::Layout& layout);
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace fsr {
+namespace fsr::simulation {
 
 /// A moment of a pressure profile: gauge pressure [Pa] at a time [s].
 struct PressurePoint {
@@ -38,4 +38,4 @@ class PressureProfile {
   std::vector<Part> parts_;
 };
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -15,7 +15,7 @@
 #include "fsr_pressure_map/simulation/taxel_curves.h"
 #include "fsr_pressure_map/simulation/transducer.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 /// The simulated board, as far as it is no effect.
 struct SimulatedBoard {
@@ -41,7 +41,7 @@ struct EnabledEffect {
 
 /// One mount of the matrix and what the chamber then does: one bag.
 struct Station {
-  Surface surface;  ///< mounts are numbered from 1
+  matrix::Surface surface;  ///< mounts are numbered from 1
   LoadPattern load;
   double pause = 60;  ///< at rest before it, not recorded [s]
   ChamberProgram program;
@@ -52,7 +52,7 @@ struct SimulationSettings {
   std::string origin;  ///< the file, for messages
   std::string name;
   std::uint64_t seed = 1;
-  Layout layout{{7, 10}, 0.010, 0.010};
+  matrix::Layout layout{{7, 10}, 0.010, 0.010};
   SimulatedBoard board;
   ChamberProtocol chamber;       ///< cycles that the emulator runs
   std::vector<Station> session;  ///< what `simulate` goes through, at least one
@@ -89,7 +89,7 @@ struct SimulationSettings {
 ///     taxel_curves: taxel_curves.csv    # beside this file; see TaxelCurves
 ///
 /// Throws InputError that names unknown effects and keys, and values out of range.
-SimulationSettings readSimulation(const Settings& settings);
+SimulationSettings readSimulation(const settings::Settings& settings);
 SimulationSettings readSimulationFile(const std::string& path);
 
-}  // namespace fsr
+}  // namespace fsr::simulation

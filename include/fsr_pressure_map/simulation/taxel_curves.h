@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace fsr {
+namespace fsr::simulation {
 
 /// What single taxels read beyond the simulation's static law, by surface and pressure: no two taxels of a
 /// sheet have one law, and a model of a real sheet needs all of them. Fitted by `discrepancy`.
@@ -30,4 +30,4 @@ std::string taxelCurvesText(const TaxelCurves& curves);
 /// Throws InputError that names file, line and column.
 TaxelCurves readTaxelCurves(const std::string& path);
 
-}  // namespace fsr
+}  // namespace fsr::simulation

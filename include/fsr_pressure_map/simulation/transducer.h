@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace fsr {
+namespace fsr::simulation {
 
 /// The chamber's own pressure transducer behind its converter: counts on a straight line of gauge
 /// pressure. The defaults are the paper's Omega PX309 (-103 to 1034 kPa, 0 to 5 V) read by a 14-bit
@@ -18,4 +18,4 @@ struct Transducer {
   double gaugePressure(std::int32_t counts) const { return low + counts * step(); }
 };
 
-}  // namespace fsr
+}  // namespace fsr::simulation

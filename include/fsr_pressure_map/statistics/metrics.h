@@ -7,7 +7,7 @@
 
 #include "fsr_pressure_map/statistics/pressure_bins.h"
 
-namespace fsr {
+namespace fsr::statistics {
 
 // Measures of how far predictions lie from the reference. An error is predicted - reference.
 // NaN stands where a measure has no meaning for the data; every function says when.
@@ -73,4 +73,4 @@ struct Spread {
 };
 Spread spreadOf(const std::vector<double>& values);
 
-}  // namespace fsr
+}  // namespace fsr::statistics

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace fsr {
+namespace fsr::statistics {
 
 /// Lower edges of the bins in which errors and coverage are stated, gauge [Pa]. The first bin takes
 /// what lies below it too (a vented chamber scatters around zero), the last has no upper end.
@@ -25,4 +25,4 @@ enum class LoadDirection : std::uint8_t {
   kUnloading,  ///< from the peak back
 };
 
-}  // namespace fsr
+}  // namespace fsr::statistics

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace fsr {
+namespace fsr::view {
 
 /// A colour as screens take it (sRGB).
 struct Colour {
@@ -39,4 +39,4 @@ inline Colour colourAt(const std::uint8_t* table, double fraction) {
   return {rgb[0], rgb[1], rgb[2]};
 }
 
-}  // namespace fsr
+}  // namespace fsr::view

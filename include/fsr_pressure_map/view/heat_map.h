@@ -8,7 +8,7 @@
 #include "fsr_pressure_map/view/map_layer.h"
 #include "fsr_pressure_map/view/pressure_scale.h"
 
-namespace fsr {
+namespace fsr::view {
 
 /// How a heat map looks; every default stands here.
 struct HeatMapStyle {
@@ -30,19 +30,20 @@ class HeatMap {
 
   /// Width and height depend on the matrix, the style and the number of lines alone. Throws InputError for
   /// a map without taxels or with arrays that do not fit its layout.
-  Image draw(const PressureMap& map, const std::vector<std::string>& lines = {}) const;
+  Image draw(const map::PressureMap& map, const std::vector<std::string>& lines = {}) const;
 
   /// Where a taxel's centre lies in draw()'s picture.
-  Pixel centre(const Layout& layout, TaxelIndex taxel, std::size_t lines) const;
+  Pixel centre(const matrix::Layout& layout, matrix::TaxelIndex taxel, std::size_t lines) const;
 
  private:
   struct Frame;
-  Frame frame(const Layout& layout, std::size_t lines) const;
-  void drawTaxels(const PressureMap& map, const Frame& frame, Image& image) const;
-  void drawSmoothly(const SmoothLayer& layer, MatrixSize size, const Frame& frame, Image& image) const;
-  void drawMarks(const PressureMap& map, const Frame& frame, Image& image) const;
+  Frame frame(const matrix::Layout& layout, std::size_t lines) const;
+  void drawTaxels(const map::PressureMap& map, const Frame& frame, Image& image) const;
+  void drawSmoothly(const SmoothLayer& layer, matrix::MatrixSize size, const Frame& frame,
+                    Image& image) const;
+  void drawMarks(const map::PressureMap& map, const Frame& frame, Image& image) const;
 
   HeatMapStyle style_;
 };
 
-}  // namespace fsr
+}  // namespace fsr::view

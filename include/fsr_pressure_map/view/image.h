@@ -6,7 +6,7 @@
 
 #include "fsr_pressure_map/view/colour_map.h"
 
-namespace fsr {
+namespace fsr::view {
 
 /// A point of an image [pixels] from its top left corner.
 struct Pixel {
@@ -49,4 +49,4 @@ class Image {
 /// The picture as the bytes of a PNG file. Throws InputError where memory or libpng fail.
 std::string pngOf(const Image& image);
 
-}  // namespace fsr
+}  // namespace fsr::view

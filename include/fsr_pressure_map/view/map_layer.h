@@ -5,13 +5,13 @@
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/view/pressure_scale.h"
 
-namespace fsr {
+namespace fsr::view {
 
 /// What of a map is shown in colour.
 enum class MapLayer { kPressure, kDeviation };
 
 /// The layer's values [rows x columns], row-major [Pa], NaN = no reading.
-const std::vector<float>& layerOf(const PressureMap& map, MapLayer layer);
+const std::vector<float>& layerOf(const map::PressureMap& map, MapLayer layer);
 
 /// "pressure, gauge" or "standard deviation": what a legend calls it.
 const char* name(MapLayer layer);
@@ -20,7 +20,8 @@ const char* name(MapLayer layer);
 /// none, and takes no part in its neighbours'. The values must outlive it.
 class SmoothLayer {
  public:
-  SmoothLayer(const std::vector<float>& values, MatrixSize size) : values_(values.data()), size_(size) {}
+  SmoothLayer(const std::vector<float>& values, matrix::MatrixSize size)
+      : values_(values.data()), size_(size) {}
 
   /// A coordinate along rows or columns: the two centres beside it, and how far it is from the first.
   struct Place {
@@ -43,10 +44,10 @@ class SmoothLayer {
   double value(int row, int column) const { return double(values_[row * size_.columns + column]); }
 
   const float* values_;
-  MatrixSize size_;
+  matrix::MatrixSize size_;
 };
 
 /// Throws InputError for a map without taxels or with arrays that do not fit its layout.
-void requireShowable(const PressureMap& map);
+void requireShowable(const map::PressureMap& map);
 
-}  // namespace fsr
+}  // namespace fsr::view

@@ -5,7 +5,7 @@
 
 #include "fsr_pressure_map/view/colour_map.h"
 
-namespace fsr {
+namespace fsr::view {
 
 /// Units of screens; everything else is in Pa. Only a picture of raw scans has counts, which are no pressure.
 enum class PressureUnit { kKilopascal, kMillimetreOfMercury, kCount };
@@ -43,4 +43,4 @@ struct Tick {
 /// Round values inside the scale, at most `most` of them, a step of 1, 2 or 5 times a power of ten apart.
 std::vector<Tick> ticks(const PressureScale& scale, int most);
 
-}  // namespace fsr
+}  // namespace fsr::view

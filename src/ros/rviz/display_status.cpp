@@ -1,8 +1,8 @@
-#include "display_status.h"
+#include "ros/rviz/display_status.h"
 
 #include <map>
 
-#include "fsr_pressure_map/ros/surface_markers.h"
+#include "ros/messages/surface_markers.h"
 
 namespace fsr_rviz {
 
@@ -14,16 +14,16 @@ constexpr double kSilence = 2.0;  // [s] without a map before the status speaks 
 
 }  // namespace
 
-StatusLine stateStatus(fsr::MapState state) {
+StatusLine stateStatus(fsr::map::MapState state) {
   const std::string text = fsr_ros::stateText(state);
   switch (state) {
-    case fsr::MapState::kOk:
+    case fsr::map::MapState::kOk:
       return {StatusProperty::Ok, "calibrated"};
-    case fsr::MapState::kUncalibrated:
+    case fsr::map::MapState::kUncalibrated:
       return {StatusProperty::Error, text + "; load a calibration (calibration:=FILE or ~load_calibration)"};
-    case fsr::MapState::kSizeMismatch:
+    case fsr::map::MapState::kSizeMismatch:
       return {StatusProperty::Error, text + ": no pressure to show"};
-    case fsr::MapState::kWrongSensor:
+    case fsr::map::MapState::kWrongSensor:
       return {StatusProperty::Error, text + ": pressures are not to be believed"};
     default:
       return {StatusProperty::Warn, text};
@@ -34,19 +34,19 @@ bool isSilent(double seconds) {
   return seconds < 0 || seconds >= kSilence;
 }
 
-std::string stateHeadline(fsr::MapState state) {
+std::string stateHeadline(fsr::map::MapState state) {
   switch (state) {
-    case fsr::MapState::kOk:
+    case fsr::map::MapState::kOk:
       return "";
-    case fsr::MapState::kUncalibrated:
+    case fsr::map::MapState::kUncalibrated:
       return "UNCALIBRATED";
-    case fsr::MapState::kCurvatureUnknown:
+    case fsr::map::MapState::kCurvatureUnknown:
       return "CURVATURE UNKNOWN";
-    case fsr::MapState::kCurvatureStale:
+    case fsr::map::MapState::kCurvatureStale:
       return "CURVATURE STALE";
-    case fsr::MapState::kSizeMismatch:
+    case fsr::map::MapState::kSizeMismatch:
       return "ANOTHER MATRIX SIZE";
-    case fsr::MapState::kWrongSensor:
+    case fsr::map::MapState::kWrongSensor:
       return "ANOTHER SENSOR";
   }
   return "";
@@ -60,23 +60,24 @@ StatusLine messageStatus(double seconds, const std::string& noun, const std::str
                                     " s on " + topic + ": the last one is shown"};
 }
 
-StatusLine curvatureStatus(const fsr::Surface& surface, const std::string& error, const std::string& topic) {
+StatusLine curvatureStatus(const fsr::matrix::Surface& surface, const std::string& error,
+                           const std::string& topic) {
   if (!error.empty()) return {StatusProperty::Error, error};
   if (!surface.known()) return {StatusProperty::Warn, "none on " + topic + ": the sheet is drawn flat"};
   return {StatusProperty::Ok, surface.name.empty() ? "received" : surface.name};
 }
 
-StatusLine taxelStatus(const std::vector<fsr::TaxelLook>& looks) {
-  std::map<fsr::TaxelLook, int> counts;
-  for (const fsr::TaxelLook look : looks) ++counts[look];
+StatusLine taxelStatus(const std::vector<fsr::view::TaxelLook>& looks) {
+  std::map<fsr::view::TaxelLook, int> counts;
+  for (const fsr::view::TaxelLook look : looks) ++counts[look];
   std::string text;
-  for (const fsr::TaxelLook look : fsr::markedLooks()) {
+  for (const fsr::view::TaxelLook look : fsr::view::markedLooks()) {
     if (counts[look] == 0) continue;
-    text += (text.empty() ? "" : ", ") + std::to_string(counts[look]) + " " + fsr::name(look);
+    text += (text.empty() ? "" : ", ") + std::to_string(counts[look]) + " " + fsr::view::name(look);
   }
   if (text.empty()) return {StatusProperty::Ok, "all read within range"};
-  const bool harmless =
-      counts[fsr::TaxelLook::kGood] + counts[fsr::TaxelLook::kBelowRange] == static_cast<int>(looks.size());
+  const bool harmless = counts[fsr::view::TaxelLook::kGood] + counts[fsr::view::TaxelLook::kBelowRange] ==
+                        static_cast<int>(looks.size());
   return {harmless ? StatusProperty::Ok : StatusProperty::Warn, text};
 }
 

@@ -7,7 +7,7 @@
 
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/matrix/curvature.h"
-#include "fsr_pressure_map/view/taxel_look.h"
+#include "view/taxel_look.h"
 
 namespace fsr_rviz {
 
@@ -18,7 +18,7 @@ struct StatusLine {
 };
 
 /// Why no pressure is shown, or what is to be kept in mind about the one that is.
-StatusLine stateStatus(fsr::MapState state);
+StatusLine stateStatus(fsr::map::MapState state);
 
 /// `seconds` since the last message; below 0 = none ever came on `topic`. `noun`: what it is, e.g. "map".
 StatusLine messageStatus(double seconds, const std::string& noun, const std::string& topic);
@@ -27,12 +27,13 @@ StatusLine messageStatus(double seconds, const std::string& noun, const std::str
 bool isSilent(double seconds);
 
 /// The state for a legend, in capitals: it must not be overlooked; empty = nothing to say.
-std::string stateHeadline(fsr::MapState state);
+std::string stateHeadline(fsr::map::MapState state);
 
 /// What the sheet's shape comes from; `error` where the last message could not be used.
-StatusLine curvatureStatus(const fsr::Surface& surface, const std::string& error, const std::string& topic);
+StatusLine curvatureStatus(const fsr::matrix::Surface& surface, const std::string& error,
+                           const std::string& topic);
 
 /// How many taxels are not to be believed as they stand.
-StatusLine taxelStatus(const std::vector<fsr::TaxelLook>& looks);
+StatusLine taxelStatus(const std::vector<fsr::view::TaxelLook>& looks);
 
 }  // namespace fsr_rviz

@@ -1,4 +1,4 @@
-#include "legend_overlay.h"
+#include "ros/rviz/legend_overlay.h"
 
 #include <OgreHardwarePixelBuffer.h>
 #include <OgreMaterialManager.h>
@@ -52,7 +52,7 @@ void LegendOverlay::moveTo(int left, int top) {
   panel_->setPosition(static_cast<Ogre::Real>(left), static_cast<Ogre::Real>(top));
 }
 
-void LegendOverlay::makeTexture(const fsr::Image& image) {
+void LegendOverlay::makeTexture(const fsr::view::Image& image) {
   Ogre::TextureManager& textures = Ogre::TextureManager::getSingleton();
   if (texture_) textures.remove(texture_);
   texture_ = textures.createManual(
@@ -70,13 +70,13 @@ void LegendOverlay::makeTexture(const fsr::Image& image) {
   panel_->setDimensions(static_cast<Ogre::Real>(image.width()), static_cast<Ogre::Real>(image.height()));
 }
 
-void LegendOverlay::show(const fsr::Legend& legend) {
-  if (!texture_ || !(legend == drawn_)) blit(fsr::drawLegend(legend));
+void LegendOverlay::show(const fsr::view::Legend& legend) {
+  if (!texture_ || !(legend == drawn_)) blit(fsr::view::drawLegend(legend));
   drawn_ = legend;
   overlay_->show();
 }
 
-void LegendOverlay::blit(const fsr::Image& image) {
+void LegendOverlay::blit(const fsr::view::Image& image) {
   const bool fits = texture_ && texture_->getWidth() == static_cast<Ogre::uint32>(image.width()) &&
                     texture_->getHeight() == static_cast<Ogre::uint32>(image.height());
   if (!fits) makeTexture(image);

@@ -3,7 +3,7 @@
 #include <OgrePrerequisites.h>
 #include <OgreTexture.h>
 
-#include "fsr_pressure_map/view/legend.h"
+#include "view/legend.h"
 
 namespace Ogre {
 class Overlay;
@@ -20,21 +20,21 @@ class LegendOverlay {
   LegendOverlay(const LegendOverlay&) = delete;
   LegendOverlay& operator=(const LegendOverlay&) = delete;
 
-  void show(const fsr::Legend& legend);
+  void show(const fsr::view::Legend& legend);
   void hide();
   /// Of the top left corner [pixels].
   void moveTo(int left, int top);
 
  private:
-  void makeTexture(const fsr::Image& image);
-  void blit(const fsr::Image& image);
+  void makeTexture(const fsr::view::Image& image);
+  void blit(const fsr::view::Image& image);
 
   std::string name_;
   Ogre::Overlay* overlay_;
   Ogre::PanelOverlayElement* panel_;
   Ogre::MaterialPtr material_;
   Ogre::TexturePtr texture_;
-  fsr::Legend drawn_;
+  fsr::view::Legend drawn_;
 };
 
 }  // namespace fsr_rviz

@@ -1,13 +1,13 @@
-#include "panel_text.h"
+#include "ros/rviz/panel_text.h"
 
 #include <QStringList>
 #include <cmath>
 #include <vector>
 
-#include "display_status.h"
-#include "fsr_pressure_map/ros/pressure_map_message.h"
-#include "fsr_pressure_map/ros/surface_markers.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/messages/pressure_map_message.h"
+#include "ros/messages/surface_markers.h"
+#include "ros/rviz/display_status.h"
 
 namespace fsr_rviz {
 
@@ -19,16 +19,16 @@ using fsr_pressure_map::PressureStatistics;
 QString doubt(const fsr_pressure_map::PressureMapConstPtr& message) {
   if (!message) return " (no maps)";
   try {
-    const fsr::PressureMap map = fsr_ros::toPressureMap(*message);
+    const fsr::map::PressureMap map = fsr_ros::toPressureMap(*message);
     const std::string state = fsr_ros::stateText(map.state);
     if (!state.empty()) return " (" + text(state) + ")";
-    std::vector<fsr::TaxelLook> looks;
+    std::vector<fsr::view::TaxelLook> looks;
     for (std::size_t i = 0; i < map.flags.size(); ++i) {
-      looks.push_back(fsr::lookOf(map.pressure[i], map.flags[i]));
+      looks.push_back(fsr::view::lookOf(map.pressure[i], map.flags[i]));
     }
     const StatusLine taxels = taxelStatus(looks);
     return taxels.level == rviz::StatusProperty::Ok ? "" : " (" + text(taxels.text) + ")";
-  } catch (const fsr::InputError&) {
+  } catch (const fsr::settings::InputError&) {
     return "";  // the display says what is wrong with it
   }
 }

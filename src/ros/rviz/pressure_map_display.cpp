@@ -1,4 +1,4 @@
-#include "pressure_map_display.h"
+#include "ros/rviz/pressure_map_display.h"
 
 #include <rviz/properties/bool_property.h>
 #include <rviz/properties/enum_property.h>
@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "fsr_pressure_map/ros/pressure_map_message.h"
+#include "ros/messages/pressure_map_message.h"
 
 namespace fsr_rviz {
 
@@ -22,8 +22,8 @@ PressureMapDisplay::PressureMapDisplay() : SheetDisplay("map") {
   addSource(ros::message_traits::datatype<fsr_pressure_map::PressureMap>(), "Pressure maps to show.");
   layer_ = choice("Layer", {"Pressure", "Deviation"}, "Gauge pressure, or one standard deviation of it.",
                   this, SLOT(updateStyle()));
-  unit_ =
-      choice("Unit", fsr::pressureUnitNames(), "Of the legend and the read-out.", this, SLOT(updateStyle()));
+  unit_ = choice("Unit", fsr::view::pressureUnitNames(), "Of the legend and the read-out.", this,
+                 SLOT(updateStyle()));
   low_ = new rviz::FloatProperty("Low (kPa)", 0, "Pressure at the dark end.", this, SLOT(updateStyle()));
   high_ =
       new rviz::FloatProperty("High (kPa)", 600, "Pressure at the bright end.", this, SLOT(updateStyle()));
@@ -46,44 +46,44 @@ void PressureMapDisplay::onMap(const fsr_pressure_map::PressureMapConstPtr& mess
   received(message->header);
 }
 
-fsr::MapLayer PressureMapDisplay::layer() const {
-  return layer_->getOptionInt() == 0 ? fsr::MapLayer::kPressure : fsr::MapLayer::kDeviation;
+fsr::view::MapLayer PressureMapDisplay::layer() const {
+  return layer_->getOptionInt() == 0 ? fsr::view::MapLayer::kPressure : fsr::view::MapLayer::kDeviation;
 }
 
-fsr::PressureScale PressureMapDisplay::scale() const {
-  fsr::PressureScale scale;
+fsr::view::PressureScale PressureMapDisplay::scale() const {
+  fsr::view::PressureScale scale;
   scale.low = 1000.0 * double(low_->getFloat());
   scale.high = auto_range_->getBool() && auto_high_ > 0 ? auto_high_ : 1000.0 * double(high_->getFloat());
   if (!(scale.high > scale.low)) scale.high = scale.low + 1000;
-  scale.unit = fsr::pressureUnitOf(unit_->getStdString());
+  scale.unit = fsr::view::pressureUnitOf(unit_->getStdString());
   scale.colours = colours();
   return scale;
 }
 
 void PressureMapDisplay::followPeaks() {
   double highest = NAN;
-  for (const float value : fsr::layerOf(map_, layer())) highest = std::fmax(highest, double(value));
+  for (const float value : fsr::view::layerOf(map_, layer())) highest = std::fmax(highest, double(value));
   auto_high_ = range_.update(last_->header.stamp.toSec(), highest);
 }
 
 void PressureMapDisplay::paint(SheetPicture& picture) {
-  fsr::PressureMap map = fsr_ros::toPressureMap(*last_);
-  fsr::requireShowable(map);
+  fsr::map::PressureMap map = fsr_ros::toPressureMap(*last_);
+  fsr::view::requireShowable(map);
   map_ = std::move(map);
   followPeaks();
   picture.layout = map_.layout;
-  picture.values = fsr::layerOf(map_, layer());
+  picture.values = fsr::view::layerOf(map_, layer());
   picture.looks.clear();
   for (std::size_t i = 0; i < map_.flags.size(); ++i) {
-    picture.looks.push_back(fsr::lookOf(map_.pressure[i], map_.flags[i]));
+    picture.looks.push_back(fsr::view::lookOf(map_.pressure[i], map_.flags[i]));
   }
   picture.scale = scale();
 }
 
-fsr::Legend PressureMapDisplay::legend() const {
-  fsr::Legend legend;
+fsr::view::Legend PressureMapDisplay::legend() const {
+  fsr::view::Legend legend;
   legend.scale = scale();
-  legend.title = fsr::name(layer());
+  legend.title = fsr::view::name(layer());
   legend.lines = {last_ ? "calibration " + (last_->scheme.empty() ? "none" : last_->scheme)
                         : "waiting for maps"};
   const std::string state = last_ ? stateHeadline(map_.state) : "";
@@ -92,9 +92,9 @@ fsr::Legend PressureMapDisplay::legend() const {
 }
 
 ReadOut PressureMapDisplay::readOut(std::size_t taxel) const {
-  const fsr::PressureUnit unit = picture().scale.unit;
-  return {{"Gauge pressure", fsr::pressureText(double(map_.pressure[taxel]), unit)},
-          {"Standard deviation", fsr::pressureText(double(map_.deviation[taxel]), unit)},
+  const fsr::view::PressureUnit unit = picture().scale.unit;
+  return {{"Gauge pressure", fsr::view::pressureText(double(map_.pressure[taxel]), unit)},
+          {"Standard deviation", fsr::view::pressureText(double(map_.deviation[taxel]), unit)},
           {"Flags", flagsText(map_.flags[taxel])}};
 }
 
@@ -104,7 +104,7 @@ void PressureMapDisplay::sayState() {
 }
 
 std::string flagsText(std::uint16_t flags) {
-  using namespace fsr::taxel_flag;
+  using namespace fsr::map::taxel_flag;
   static const std::pair<std::uint16_t, const char*> names[] = {
       {kSaturated, "saturated"},
       {kDead, "dead"},

@@ -3,9 +3,9 @@
 #ifndef Q_MOC_RUN
 #include <fsr_pressure_map/PressureMap.h>
 
-#include "fsr_pressure_map/view/auto_range.h"
 #include "fsr_pressure_map/view/map_layer.h"
-#include "sheet_display.h"
+#include "ros/rviz/sheet_display.h"
+#include "view/auto_range.h"
 #endif
 
 namespace fsr_rviz {
@@ -20,15 +20,15 @@ class PressureMapDisplay : public SheetDisplay {
  protected:
   ros::Subscriber listen(const std::string& topic) override;
   void paint(SheetPicture& picture) override;
-  fsr::Legend legend() const override;
+  fsr::view::Legend legend() const override;
   ReadOut readOut(std::size_t taxel) const override;
   void sayState() override;
   void forget() override { last_.reset(); }
 
  private:
   void onMap(const fsr_pressure_map::PressureMapConstPtr& message);
-  fsr::MapLayer layer() const;
-  fsr::PressureScale scale() const;
+  fsr::view::MapLayer layer() const;
+  fsr::view::PressureScale scale() const;
   void followPeaks();
 
   rviz::EnumProperty* layer_;
@@ -38,8 +38,8 @@ class PressureMapDisplay : public SheetDisplay {
   rviz::BoolProperty* auto_range_;
 
   fsr_pressure_map::PressureMapConstPtr last_;
-  fsr::PressureMap map_;
-  fsr::AutoRange range_;
+  fsr::map::PressureMap map_;
+  fsr::view::AutoRange range_;
   double auto_high_ = 0;  // [Pa]
 };
 

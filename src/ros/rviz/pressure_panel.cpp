@@ -1,4 +1,4 @@
-#include "pressure_panel.h"
+#include "ros/rviz/pressure_panel.h"
 
 #include <fsr_pressure_map/Mark.h>
 #include <ros/service.h>
@@ -16,7 +16,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "fsr_pressure_map/view/pressure_scale.h"
-#include "panel_text.h"
+#include "ros/rviz/panel_text.h"
 
 namespace fsr_rviz {
 
@@ -118,7 +118,7 @@ void PressurePanel::addNumbers(QGridLayout* grid) {
   integral_ = addLine(grid, "Pressure x time");
   alarms_ = addLine(grid, "Alarms");
   unit_ = new QComboBox;
-  for (const std::string& unit : fsr::pressureUnitNames()) unit_->addItem(QString::fromStdString(unit));
+  for (const std::string& unit : fsr::view::pressureUnitNames()) unit_->addItem(QString::fromStdString(unit));
   const int row = grid->rowCount();
   grid->addWidget(new QLabel("Unit"), row, 0);
   grid->addWidget(unit_, row, 1);
@@ -178,10 +178,10 @@ void PressurePanel::listen() {
 }
 
 void PressurePanel::refresh() {
-  const fsr::PressureUnit unit = fsr::pressureUnitOf(unit_->currentText().toStdString());
+  const fsr::view::PressureUnit unit = fsr::view::pressureUnitOf(unit_->currentText().toStdString());
   const double air = last_matrix_.message ? last_matrix_.message->ambient_pressure : kStandardAir;
   chamber_->setText(last_chamber_.fresh()
-                        ? text(fsr::pressureText(last_chamber_.message->fluid_pressure - air, unit)) +
+                        ? text(fsr::view::pressureText(last_chamber_.message->fluid_pressure - air, unit)) +
                               " gauge"
                         : QString("-"));
   const auto& surface = last_surface_.message;
@@ -218,13 +218,13 @@ void PressurePanel::showStatistics() {
   PressureStatistics whole;
   const bool fresh = last_statistics_.fresh() && !last_statistics_.message->regions.empty();
   if (fresh) whole = last_statistics_.message->regions.front();
-  const fsr::PressureUnit unit = fsr::pressureUnitOf(unit_->currentText().toStdString());
+  const fsr::view::PressureUnit unit = fsr::view::pressureUnitOf(unit_->currentText().toStdString());
   const double none = std::nan("");
   const QString place = fresh && std::isfinite(whole.peak)
                             ? QString(", row %1, column %2").arg(whole.peak_row).arg(whole.peak_column)
                             : QString();
-  peak_->setText(text(fsr::pressureText(fresh ? whole.peak : none, unit)) + place);
-  mean_->setText(text(fsr::pressureText(fresh ? whole.mean : none, unit)));
+  peak_->setText(text(fsr::view::pressureText(fresh ? whole.peak : none, unit)) + place);
+  mean_->setText(text(fsr::view::pressureText(fresh ? whole.mean : none, unit)));
   area_->setText(number(fresh ? whole.contact_area : none, 1e-4, "cm\u00b2", 1));
   force_->setText(number(fresh ? whole.force : none, 1, "N", 1));
   integral_->setText(number(fresh ? whole.pressure_time_integral : none, 1000, "kPa s", 0) +

@@ -1,4 +1,4 @@
-#include "raw_counts_display.h"
+#include "ros/rviz/raw_counts_display.h"
 
 #include <rviz/properties/float_property.h>
 #include <pluginlib/class_list_macros.hpp>
@@ -14,9 +14,9 @@ namespace {
 constexpr std::uint32_t kQueueSize = 10;  // [messages]
 constexpr double kUsualFullScale = 4095;  // until a scan tells its own
 
-fsr::Layout layoutOf(const fsr_pressure_map::MatrixFrame& scan,
-                     const fsr_pressure_map::MatrixInfoConstPtr& info) {
-  fsr::Layout layout;
+fsr::matrix::Layout layoutOf(const fsr_pressure_map::MatrixFrame& scan,
+                             const fsr_pressure_map::MatrixInfoConstPtr& info) {
+  fsr::matrix::Layout layout;
   layout.size = {scan.rows, scan.columns};
   if (info && info->pitch_x > 0 && info->pitch_y > 0) {
     layout.pitch_x = double(info->pitch_x);
@@ -46,34 +46,36 @@ void RawCountsDisplay::onScan(const fsr_pressure_map::MatrixFrameConstPtr& messa
   received(message->header);
 }
 
-fsr::PressureScale RawCountsDisplay::scale() const {
+fsr::view::PressureScale RawCountsDisplay::scale() const {
   const double full_scale = last_ && last_->full_scale > 0 ? last_->full_scale : kUsualFullScale;
-  fsr::PressureScale scale;
+  fsr::view::PressureScale scale;
   scale.high = high_->getFloat() > 0 ? double(high_->getFloat()) : full_scale;
-  scale.unit = fsr::PressureUnit::kCount;
+  scale.unit = fsr::view::PressureUnit::kCount;
   scale.colours = colours();
   return scale;
 }
 
 void RawCountsDisplay::paint(SheetPicture& picture) {
-  const fsr::Layout layout = layoutOf(*last_, info_);
+  const fsr::matrix::Layout layout = layoutOf(*last_, info_);
   const std::size_t taxels = layout.size.taxels();
   if (taxels == 0 || last_->counts.size() != taxels) {
-    throw fsr::InputError("a scan of " + fsr::sizeText(layout.size) + " taxels has " +
-                          std::to_string(last_->counts.size()) + " counts, but must have one for each taxel");
+    throw fsr::settings::InputError("a scan of " + fsr::matrix::sizeText(layout.size) + " taxels has " +
+                                    std::to_string(last_->counts.size()) +
+                                    " counts, but must have one for each taxel");
   }
   full_scale_ = last_->full_scale;
   picture.layout = layout;
   picture.values.assign(last_->counts.begin(), last_->counts.end());
   picture.looks.clear();
   for (const std::uint16_t count : last_->counts) {
-    picture.looks.push_back(count >= last_->full_scale ? fsr::TaxelLook::kSaturated : fsr::TaxelLook::kGood);
+    picture.looks.push_back(count >= last_->full_scale ? fsr::view::TaxelLook::kSaturated
+                                                       : fsr::view::TaxelLook::kGood);
   }
   picture.scale = scale();
 }
 
-fsr::Legend RawCountsDisplay::legend() const {
-  fsr::Legend legend;
+fsr::view::Legend RawCountsDisplay::legend() const {
+  fsr::view::Legend legend;
   legend.scale = scale();
   legend.title = "raw reading";
   legend.lines = {last_ ? "not calibrated" : "waiting for scans"};

@@ -4,7 +4,7 @@
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/MatrixInfo.h>
 
-#include "sheet_display.h"
+#include "ros/rviz/sheet_display.h"
 #endif
 
 namespace fsr_rviz {
@@ -20,7 +20,7 @@ class RawCountsDisplay : public SheetDisplay {
  protected:
   ros::Subscriber listen(const std::string& topic) override;
   void paint(SheetPicture& picture) override;
-  fsr::Legend legend() const override;
+  fsr::view::Legend legend() const override;
   ReadOut readOut(std::size_t taxel) const override;
   void sayState() override;
   void forget() override { last_.reset(); }
@@ -28,7 +28,7 @@ class RawCountsDisplay : public SheetDisplay {
  private:
   void onScan(const fsr_pressure_map::MatrixFrameConstPtr& message);
   void onInfo(const fsr_pressure_map::MatrixInfoConstPtr& message) { info_ = message; }
-  fsr::PressureScale scale() const;
+  fsr::view::PressureScale scale() const;
 
   rviz::FloatProperty* high_;
   ros::Subscriber infos_;

@@ -1,4 +1,4 @@
-#include "sheet_display.h"
+#include "ros/rviz/sheet_display.h"
 
 #include <OgreManualObject.h>
 #include <OgreSceneNode.h>
@@ -13,8 +13,8 @@
 
 #include <cmath>
 
-#include "fsr_pressure_map/ros/surface_message.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/messages/surface_message.h"
 
 namespace fsr_rviz {
 
@@ -31,7 +31,7 @@ std::string titleLine(const std::string& title, const SheetPicture& picture) {
     sum += double(value);
     ++count;
   }
-  return title + ": mean " + fsr::pressureText(sum / count, picture.scale.unit);
+  return title + ": mean " + fsr::view::pressureText(sum / count, picture.scale.unit);
 }
 
 }  // namespace
@@ -58,8 +58,8 @@ void SheetDisplay::addSource(const std::string& message_type, const char* help) 
 void SheetDisplay::addLook() {
   shape_ = choice("Style", {"Smooth", "Cells"}, "Colours run over between taxels, or a square each.", this,
                   SLOT(updateStyle()));
-  colours_ =
-      choice("Colour Map", fsr::colourMapNames(), "Dark = low, bright = high.", this, SLOT(updateStyle()));
+  colours_ = choice("Colour Map", fsr::view::colourMapNames(), "Dark = low, bright = high.", this,
+                    SLOT(updateStyle()));
   fineness_ = new rviz::IntProperty("Fineness", 4, "Squares of the mesh along each side of a taxel.", this,
                                     SLOT(updateStyle()));
   fineness_->setMin(1);
@@ -134,7 +134,7 @@ std::string SheetDisplay::curvatureTopic() const {
 
 void SheetDisplay::subscribe() {
   if (!isEnabled() || topic_->getTopicStd().empty()) return;
-  surface_ = fsr::Surface();
+  surface_ = fsr::matrix::Surface();
   surface_error_.clear();
   try {
     data_ = listen(topic_->getTopicStd());
@@ -153,12 +153,12 @@ void SheetDisplay::unsubscribe() {
 void SheetDisplay::onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& message) {
   surface_error_.clear();
   try {
-    fsr::Surface surface = fsr_ros::toSurface(*message);
-    if (fsr::sameCondition(surface, surface_)) return;
+    fsr::matrix::Surface surface = fsr_ros::toSurface(*message);
+    if (fsr::matrix::sameCondition(surface, surface_)) return;
     surface_ = std::move(surface);
     shown_.mesh.reset();
     fresh_ = last_.has_value();
-  } catch (const fsr::InputError& error) {
+  } catch (const fsr::settings::InputError& error) {
     surface_error_ = error.what();
   }
 }
@@ -169,31 +169,31 @@ void SheetDisplay::received(const std_msgs::Header& header) {
   fresh_ = true;
 }
 
-fsr::ColourMap SheetDisplay::colours() const {
-  return fsr::colourMapOf(colours_->getStdString());
+fsr::view::ColourMap SheetDisplay::colours() const {
+  return fsr::view::colourMapOf(colours_->getStdString());
 }
 
 // A surface that does not fit the matrix is said in the status, and the sheet drawn flat.
 void SheetDisplay::makeMesh() {
   selection_.reset();
-  const fsr::Layout& layout = shown_.picture.layout;
+  const fsr::matrix::Layout& layout = shown_.picture.layout;
   try {
     shown_.mesh.emplace(layout, surface_, fineness_->getInt());
-  } catch (const fsr::InputError& error) {
+  } catch (const fsr::settings::InputError& error) {
     surface_error_ = error.what();
-    shown_.mesh.emplace(layout, fsr::Surface(), fineness_->getInt());
+    shown_.mesh.emplace(layout, fsr::matrix::Surface(), fineness_->getInt());
   }
 }
 
 bool SheetDisplay::repaint() {
-  const fsr::Layout old = shown_.picture.layout;
+  const fsr::matrix::Layout old = shown_.picture.layout;
   try {
     paint(shown_.picture);
-  } catch (const fsr::InputError& error) {
+  } catch (const fsr::settings::InputError& error) {
     setStatus(rviz::StatusProperty::Error, "State", error.what());
     return false;
   }
-  const fsr::Layout& now = shown_.picture.layout;
+  const fsr::matrix::Layout& now = shown_.picture.layout;
   if (now.size != old.size || now.pitch_x != old.pitch_x || now.pitch_y != old.pitch_y) shown_.mesh.reset();
   shown_.picture.smooth = shape_->getOptionInt() == 0;
   shown_.picture.marks = marks_->getBool();
@@ -247,7 +247,7 @@ void SheetDisplay::updatePlace() {
 void SheetDisplay::updateLegend() {
   if (!overlay_) return;
   if (!isEnabled() || !legend_->getBool()) return overlay_->hide();
-  fsr::Legend now = legend();
+  fsr::view::Legend now = legend();
   now.marks = marks_->getBool();
   if (last_ && isSilent(age())) now.lines.push_back("STOPPED: no more " + std::string(noun_) + "s");
   now.lines.push_back(surface_.name.empty() ? "surface not named" : "surface " + surface_.name);

@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "display_status.h"
-#include "fsr_pressure_map/view/legend.h"
-#include "legend_overlay.h"
-#include "sheet_title.h"
-#include "sheet_visual.h"
-#include "taxel_selection.h"
+#include "ros/rviz/display_status.h"
+#include "ros/rviz/legend_overlay.h"
+#include "ros/rviz/sheet_title.h"
+#include "ros/rviz/sheet_visual.h"
+#include "ros/rviz/taxel_selection.h"
+#include "view/legend.h"
 #endif
 
 namespace rviz {
@@ -57,7 +57,7 @@ class SheetDisplay : public rviz::Display {
   /// Values, looks and scale of what came last. Throws fsr::InputError where it cannot be shown.
   virtual void paint(SheetPicture& picture) = 0;
   /// Title, scale and lines; the base adds the name of the surface, and whether there are marks.
-  virtual fsr::Legend legend() const = 0;
+  virtual fsr::view::Legend legend() const = 0;
   virtual ReadOut readOut(std::size_t taxel) const = 0;
   virtual void sayState() = 0;
   virtual void forget() = 0;
@@ -66,7 +66,7 @@ class SheetDisplay : public rviz::Display {
   void received(const std_msgs::Header& header);
   void say(const char* name, const StatusLine& line);
   std::string besideTopic(const std::string& name) const;
-  fsr::ColourMap colours() const;
+  fsr::view::ColourMap colours() const;
   const SheetPicture& picture() const { return shown_.picture; }
 
   void onInitialize() override;
@@ -111,7 +111,7 @@ class SheetDisplay : public rviz::Display {
 
   ros::Subscriber data_;
   ros::Subscriber curvature_;
-  fsr::Surface surface_;
+  fsr::matrix::Surface surface_;
   std::string surface_error_;
   std::optional<std_msgs::Header> last_;  // of what came last; none = nothing came
   ros::WallTime last_time_;

@@ -1,4 +1,4 @@
-#include "sheet_title.h"
+#include "ros/rviz/sheet_title.h"
 
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
@@ -27,7 +27,7 @@ SheetTitle::~SheetTitle() {
   scene_->destroySceneNode(node_);
 }
 
-void SheetTitle::show(const std::string& text, const fsr::Layout& layout) {
+void SheetTitle::show(const std::string& text, const fsr::matrix::Layout& layout) {
   if (text.empty()) return hide();
   text_->setCaption(text);
   const double y = -0.5 * layout.pitch_y * layout.size.rows - kGap;

@@ -22,7 +22,7 @@ class SheetTitle {
   SheetTitle& operator=(const SheetTitle&) = delete;
 
   /// Empty = none.
-  void show(const std::string& text, const fsr::Layout& layout);
+  void show(const std::string& text, const fsr::matrix::Layout& layout);
   void hide();
 
  private:

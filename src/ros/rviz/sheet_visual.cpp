@@ -1,4 +1,4 @@
-#include "sheet_visual.h"
+#include "ros/rviz/sheet_visual.h"
 
 #include <OgreManualObject.h>
 #include <OgreMaterialManager.h>
@@ -15,11 +15,11 @@ namespace {
 constexpr double kMarkLift = 0.0004;  // [m] above the face, so that strokes are not hidden in it
 constexpr double kMarkWidth = 0.06;   // of a taxel's side
 
-Ogre::Vector3 toOgre(const fsr::Vector3& v) {
+Ogre::Vector3 toOgre(const fsr::view::Vector3& v) {
   return {static_cast<Ogre::Real>(v.x), static_cast<Ogre::Real>(v.y), static_cast<Ogre::Real>(v.z)};
 }
 
-Ogre::ColourValue toOgre(fsr::Colour c) {
+Ogre::ColourValue toOgre(fsr::view::Colour c) {
   return Ogre::ColourValue(static_cast<float>(c.red) / 255, static_cast<float>(c.green) / 255,
                            static_cast<float>(c.blue) / 255);
 }
@@ -43,11 +43,11 @@ Ogre::MaterialPtr plainMaterial() {
 }
 
 // Four corners of a stroke as a narrow band on the face.
-void addBand(Ogre::ManualObject& object, const fsr::SheetMesh& mesh, double row, double column,
-             const fsr::Stroke& stroke, const Ogre::ColourValue& colour) {
+void addBand(Ogre::ManualObject& object, const fsr::view::SheetMesh& mesh, double row, double column,
+             const fsr::view::Stroke& stroke, const Ogre::ColourValue& colour) {
   const double dx = stroke.to.x - stroke.from.x, dy = stroke.to.y - stroke.from.y;
   const double half = 0.5 * kMarkWidth / std::hypot(dx, dy);
-  const auto corner = [&](const fsr::Position& end, double side) {
+  const auto corner = [&](const fsr::matrix::Position& end, double side) {
     object.position(
         toOgre(mesh.point(row + end.y + side * half * dx, column + end.x - side * half * dy, kMarkLift)));
     object.colour(colour);
@@ -85,7 +85,7 @@ void SheetVisual::setVisible(bool visible) {
   node_->setVisible(visible);
 }
 
-void SheetVisual::show(const SheetPicture& picture, const fsr::SheetMesh& mesh) {
+void SheetVisual::show(const SheetPicture& picture, const fsr::view::SheetMesh& mesh) {
   if (picture.smooth) {
     mesh.colourSmoothly(picture.values, picture.scale, colours_);
   } else {
@@ -96,8 +96,8 @@ void SheetVisual::show(const SheetPicture& picture, const fsr::SheetMesh& mesh) 
   if (picture.marks) drawMarks(picture, mesh);
 }
 
-void SheetVisual::showIndices(const fsr::SheetMesh& mesh) {
-  std::vector<fsr::Colour> indices;
+void SheetVisual::showIndices(const fsr::view::SheetMesh& mesh) {
+  std::vector<fsr::view::Colour> indices;
   for (std::size_t i = 0; i < mesh.corners().size(); ++i) {
     const std::size_t value = i / mesh.cornersOfTaxel() + 1;
     indices.push_back({static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 8),
@@ -106,7 +106,7 @@ void SheetVisual::showIndices(const fsr::SheetMesh& mesh) {
   draw(mesh, indices);
 }
 
-void SheetVisual::draw(const fsr::SheetMesh& mesh, const std::vector<fsr::Colour>& colours) {
+void SheetVisual::draw(const fsr::view::SheetMesh& mesh, const std::vector<fsr::view::Colour>& colours) {
   if (drawn_) {
     sheet_->beginUpdate(0);
   } else {
@@ -121,18 +121,18 @@ void SheetVisual::draw(const fsr::SheetMesh& mesh, const std::vector<fsr::Colour
   sheet_->end();
 }
 
-void SheetVisual::drawMarks(const SheetPicture& picture, const fsr::SheetMesh& mesh) {
+void SheetVisual::drawMarks(const SheetPicture& picture, const fsr::view::SheetMesh& mesh) {
   bool any = false;
   for (std::size_t i = 0; i < picture.looks.size(); ++i) {
-    const auto& strokes = fsr::mark(picture.looks[i]);
+    const auto& strokes = fsr::view::mark(picture.looks[i]);
     if (strokes.empty()) continue;
     if (!any) marks_->begin(material_->getName(), Ogre::RenderOperation::OT_TRIANGLE_LIST);
     any = true;
     const auto value = double(picture.values[i]);
-    const auto under = std::isnan(value) ? fsr::kNoReadingColour : picture.scale.colour(value);
-    for (const fsr::Stroke& stroke : strokes) {
+    const auto under = std::isnan(value) ? fsr::view::kNoReadingColour : picture.scale.colour(value);
+    for (const fsr::view::Stroke& stroke : strokes) {
       addBand(*marks_, mesh, picture.layout.row({i}), picture.layout.column({i}), stroke,
-              toOgre(fsr::markColour(under)));
+              toOgre(fsr::view::markColour(under)));
     }
   }
   if (any) marks_->end();

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/view/sheet_mesh.h"
-#include "sheet_picture.h"
+#include "ros/rviz/sheet_picture.h"
+#include "view/sheet_mesh.h"
 
 namespace fsr_rviz {
 
@@ -20,25 +20,25 @@ class SheetVisual {
   SheetVisual(const SheetVisual&) = delete;
   SheetVisual& operator=(const SheetVisual&) = delete;
 
-  void show(const SheetPicture& picture, const fsr::SheetMesh& mesh);
+  void show(const SheetPicture& picture, const fsr::view::SheetMesh& mesh);
   /// In colours that tell the index of a taxel + 1 (red highest), for rviz's selection.
-  void showIndices(const fsr::SheetMesh& mesh);
+  void showIndices(const fsr::view::SheetMesh& mesh);
   void setVisible(bool visible);
 
   Ogre::SceneNode* node() { return node_; }
   Ogre::ManualObject* sheet() { return sheet_; }
 
  private:
-  void draw(const fsr::SheetMesh& mesh, const std::vector<fsr::Colour>& colours);
-  void drawMarks(const SheetPicture& picture, const fsr::SheetMesh& mesh);
+  void draw(const fsr::view::SheetMesh& mesh, const std::vector<fsr::view::Colour>& colours);
+  void drawMarks(const SheetPicture& picture, const fsr::view::SheetMesh& mesh);
 
   Ogre::SceneManager* scene_;
   Ogre::SceneNode* node_;
   Ogre::ManualObject* sheet_;
   Ogre::ManualObject* marks_;
   Ogre::MaterialPtr material_;
-  bool drawn_ = false;                // the sheet has its section
-  std::vector<fsr::Colour> colours_;  // of the corners, as last drawn
+  bool drawn_ = false;                      // the sheet has its section
+  std::vector<fsr::view::Colour> colours_;  // of the corners, as last drawn
 };
 
 }  // namespace fsr_rviz

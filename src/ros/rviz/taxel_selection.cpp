@@ -1,4 +1,4 @@
-#include "taxel_selection.h"
+#include "ros/rviz/taxel_selection.h"
 
 #include <OgreManualObject.h>
 #include <OgreSceneNode.h>
@@ -37,7 +37,7 @@ void TaxelSelection::createProperties(const rviz::Picked& picked, rviz::Property
   for (const uint64_t handle : picked.extra_handles) {
     std::size_t taxel = 0;
     if (!taxelOf(handle, taxel)) continue;
-    const fsr::Layout& layout = shown_.picture.layout;
+    const fsr::matrix::Layout& layout = shown_.picture.layout;
     auto* group = new rviz::Property(
         QString("Taxel row %1, column %2").arg(layout.row({taxel})).arg(layout.column({taxel})), QVariant(),
         "", parent);
@@ -57,7 +57,7 @@ void TaxelSelection::getAABBs(const rviz::Picked& picked, rviz::V_AABB& boxes) {
     Ogre::AxisAlignedBox box;
     const std::size_t corners = shown_.mesh->cornersOfTaxel();
     for (std::size_t i = taxel * corners; i < (taxel + 1) * corners; ++i) {
-      const fsr::Vector3& v = shown_.mesh->corners()[i];
+      const fsr::view::Vector3& v = shown_.mesh->corners()[i];
       const Ogre::Vector3 corner(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
       box.merge(visual_.node()->convertLocalToWorldPosition(corner));
     }

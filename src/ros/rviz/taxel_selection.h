@@ -8,14 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "sheet_visual.h"
+#include "ros/rviz/sheet_visual.h"
 
 namespace fsr_rviz {
 
 /// What a display shows at the moment.
 struct ShownSheet {
   SheetPicture picture;
-  std::optional<fsr::SheetMesh> mesh;
+  std::optional<fsr::view::SheetMesh> mesh;
 };
 
 /// What is known of a taxel, as names and values.

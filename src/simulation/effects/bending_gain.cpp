@@ -11,10 +11,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
-#include "fsr_pressure_map/simulation/effects/taxel_scatter.h"
+#include "simulation/effects/effect_library.h"
+#include "simulation/effects/taxel_scatter.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -85,4 +85,4 @@ EffectEntry bendingGain() {
   return {info(), makeEffect<BendingGain>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

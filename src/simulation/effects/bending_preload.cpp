@@ -9,10 +9,10 @@
 
 #include <cmath>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
-#include "fsr_pressure_map/simulation/effects/taxel_scatter.h"
+#include "simulation/effects/effect_library.h"
+#include "simulation/effects/taxel_scatter.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -81,4 +81,4 @@ EffectEntry bendingPreload() {
   return {info(), makeEffect<BendingPreload>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -8,9 +8,9 @@
 
 #include <cmath>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -64,4 +64,4 @@ EffectEntry breakIn() {
   return {info(), makeEffect<BreakIn>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

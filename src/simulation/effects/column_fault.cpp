@@ -4,10 +4,10 @@
 //
 // A crimped connector or a cracked tail; what a burst looks like is an assumption.
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
-#include "fsr_pressure_map/simulation/effects/faults.h"
+#include "simulation/effects/effect_library.h"
+#include "simulation/effects/faults.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -39,7 +39,7 @@ class ColumnFault : public Effect {
   }
 
  private:
-  MatrixSize size_;
+  matrix::MatrixSize size_;
   LooseLine line_;
 };
 
@@ -49,4 +49,4 @@ EffectEntry columnFault() {
   return {info(), makeEffect<ColumnFault>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -5,9 +5,9 @@
 // Gas presses the same everywhere and on both: K, whose sum is 1, changes nothing. An indenter on a liner
 // shows it.
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 EffectEntry compliance() {
   EffectInfo info;
@@ -25,4 +25,4 @@ EffectEntry compliance() {
   return {info, nullptr};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -9,9 +9,9 @@
 #include <cmath>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -39,7 +39,7 @@ class Converter : public Effect {
       : counts_per_siemens_(values.at("full_scale") * values.at("feedback_resistance")),
         offset_(values.at("offset")) {
     if (values.at("full_scale") != std::floor(values.at("full_scale"))) {
-      throw InputError("effects.converter: full_scale must be a whole number of counts, e.g. 4095");
+      throw settings::InputError("effects.converter: full_scale must be a whole number of counts, e.g. 4095");
     }
   }
 
@@ -60,4 +60,4 @@ EffectEntry converter() {
   return {info(), makeEffect<Converter>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -14,9 +14,9 @@
 
 #include "fsr_pressure_map/rheology/exponential_memory.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -46,10 +46,11 @@ EffectInfo info() {
   return info;
 }
 
-std::vector<ExponentialMemory> elements(double fastest, double slowest) {
-  if (slowest < fastest) throw InputError("effects.creep: slowest must not be shorter than fastest");
+std::vector<rheology::ExponentialMemory> elements(double fastest, double slowest) {
+  if (slowest < fastest)
+    throw settings::InputError("effects.creep: slowest must not be shorter than fastest");
   const long steps = std::lround(kElementsPerDecade * std::log10(slowest / fastest));
-  std::vector<ExponentialMemory> memories;
+  std::vector<rheology::ExponentialMemory> memories;
   for (long i = 0; i <= steps; ++i) {
     memories.emplace_back(fastest * std::pow(10, static_cast<double>(i) / kElementsPerDecade));
   }
@@ -93,8 +94,8 @@ class Creep : public Effect {
   double weight_;
   double load_share_;
   double gain_share_;  // [1/Pa]
-  std::vector<ExponentialMemory> memories_;
-  std::vector<ExponentialMemory::Step> steps_;  // of this scan
+  std::vector<rheology::ExponentialMemory> memories_;
+  std::vector<rheology::ExponentialMemory::Step> steps_;  // of this scan
 };
 
 }  // namespace
@@ -103,4 +104,4 @@ EffectEntry creep() {
   return {info(), makeEffect<Creep>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -9,9 +9,9 @@
 
 #include <algorithm>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -79,4 +79,4 @@ EffectEntry crosstalk() {
   return {info(), makeEffect<Crosstalk>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -4,10 +4,10 @@
 //
 // A cracked trace or a detached layer.
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
-#include "fsr_pressure_map/simulation/effects/faults.h"
+#include "simulation/effects/effect_library.h"
+#include "simulation/effects/faults.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -47,4 +47,4 @@ EffectEntry deadTaxel() {
   return {info(), makeEffect<DeadTaxel>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

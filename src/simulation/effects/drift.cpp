@@ -8,10 +8,10 @@
 
 #include <cmath>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
-#include "fsr_pressure_map/simulation/effects/taxel_scatter.h"
+#include "simulation/effects/effect_library.h"
+#include "simulation/effects/taxel_scatter.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -74,4 +74,4 @@ EffectEntry drift() {
   return {info(), makeEffect<Drift>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

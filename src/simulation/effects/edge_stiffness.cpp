@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -34,8 +34,8 @@ EffectInfo info() {
   return info;
 }
 
-double distanceFromEdge(const Layout& layout, std::size_t taxel) {
-  const Position place = layout.position({taxel});
+double distanceFromEdge(const matrix::Layout& layout, std::size_t taxel) {
+  const matrix::Position place = layout.position({taxel});
   const double x = layout.size.columns * layout.pitch_x / 2 - std::abs(place.x);
   const double y = layout.size.rows * layout.pitch_y / 2 - std::abs(place.y);
   return std::min(x, y);
@@ -64,4 +64,4 @@ EffectEntry edgeStiffness() {
   return {info(), makeEffect<EdgeStiffness>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -1,8 +1,8 @@
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
 #include <algorithm>
 
-namespace fsr {
+namespace fsr::simulation {
 
 const std::vector<EffectEntry>& effectLibrary() {
   static const std::vector<EffectEntry> library = {
@@ -29,4 +29,4 @@ std::vector<std::string> effectIds() {
   return ids;
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -6,9 +6,9 @@
 // relative humidity, where dry heat made it -15 %. A sealed sheet in dry gas keeps what it has: two ambient
 // humidities over days show it.
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 EffectEntry humidity() {
   EffectInfo info;
@@ -26,4 +26,4 @@ EffectEntry humidity() {
   return {info, nullptr};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

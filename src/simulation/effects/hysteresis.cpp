@@ -15,11 +15,11 @@
 
 #include <sstream>
 
-#include "fsr_pressure_map/rheology/play_operator.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "rheology/play_operator.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -70,7 +70,7 @@ class Hysteresis : public Effect {
       std::ostringstream sentence;
       sentence << "effects.hysteresis: loop_width is " << values.at("loop_width") << ", but must be at most "
                << widest << " with this span and reach";
-      throw InputError(sentence.str());
+      throw settings::InputError(sentence.str());
     }
     state_.assign(context.layout.size.taxels() * kPlays, 0.0);
   }
@@ -81,7 +81,7 @@ class Hysteresis : public Effect {
       const double load = signals.load[taxel];
       double behind = 0;
       for (int i = 0; i < kPlays; ++i, ++play) {
-        *play = playStep(load + shifts_[i], radii_[i], *play);
+        *play = rheology::playStep(load + shifts_[i], radii_[i], *play);
         behind += load - *play;
       }
       signals.load[taxel] -= load_share_ * weight_ * behind;
@@ -103,4 +103,4 @@ EffectEntry hysteresis() {
   return {info(), makeEffect<Hysteresis>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

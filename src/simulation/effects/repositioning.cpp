@@ -10,11 +10,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
-#include "fsr_pressure_map/simulation/effects/taxel_scatter.h"
-#include "fsr_pressure_map/statistics/random_stream.h"
+#include "simulation/effects/effect_library.h"
+#include "simulation/effects/taxel_scatter.h"
+#include "statistics/random_stream.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -41,7 +41,8 @@ EffectInfo info() {
 }
 
 /// Values of a sheet's taxels at places between them, straight between neighbours, held at the edges.
-std::vector<double> shifted(const std::vector<double>& values, MatrixSize size, double columns, double rows) {
+std::vector<double> shifted(const std::vector<double>& values, matrix::MatrixSize size, double columns,
+                            double rows) {
   std::vector<double> result(values.size());
   for (int row = 0; row < size.rows; ++row) {
     for (int column = 0; column < size.columns; ++column) {
@@ -73,8 +74,9 @@ class Repositioning : public Effect {
 
   void place(Mounting& mounting) override {
     if (shift_deviation_ == 0) return;
-    const RandomStream stream = randomStream(context_.seed, "repositioning.shift", mounting.number);
-    const Layout& layout = context_.layout;
+    const statistics::RandomStream stream =
+        statistics::randomStream(context_.seed, "repositioning.shift", mounting.number);
+    const matrix::Layout& layout = context_.layout;
     const double columns = shift_deviation_ * stream.normal(0) / layout.pitch_x;
     const double rows = shift_deviation_ * stream.normal(1) / layout.pitch_y;
     mounting.curvature = shifted(mounting.curvature, layout.size, columns, rows);
@@ -113,4 +115,4 @@ EffectEntry repositioning() {
   return {info(), makeEffect<Repositioning>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

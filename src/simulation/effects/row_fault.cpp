@@ -4,10 +4,10 @@
 //
 // A crimped connector or a cracked tail; what a burst looks like is an assumption.
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
-#include "fsr_pressure_map/simulation/effects/faults.h"
+#include "simulation/effects/effect_library.h"
+#include "simulation/effects/faults.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -40,7 +40,7 @@ class RowFault : public Effect {
   }
 
  private:
-  MatrixSize size_;
+  matrix::MatrixSize size_;
   LooseLine line_;
 };
 
@@ -50,4 +50,4 @@ EffectEntry rowFault() {
   return {info(), makeEffect<RowFault>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -58,4 +58,4 @@ EffectEntry saturation() {
   return {info(), makeEffect<Saturation>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

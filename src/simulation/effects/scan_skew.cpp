@@ -5,9 +5,9 @@
 // t, the stamp, is the middle of the scan. Size: 7 to 70 ms for 70 taxels (0.1 to 1 ms a taxel: settling
 // of the amplifier and conversion by a common microcontroller; an estimate).
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -50,4 +50,4 @@ EffectEntry scanSkew() {
   return {info(), makeEffect<ScanSkew>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

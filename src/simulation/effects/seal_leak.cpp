@@ -7,9 +7,9 @@
 // paper's sheet was sealed with PDMS (section 2.2) and the seal not checked: tau is an estimate.
 
 #include "fsr_pressure_map/rheology/exponential_memory.h"
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -50,7 +50,7 @@ class SealLeak : public Effect {
  private:
   enum { kBefore, kCavity, kState };  // chamber at the scan before, cavity [Pa]
   double share_;
-  ExponentialMemory leak_;
+  rheology::ExponentialMemory leak_;
 };
 
 }  // namespace
@@ -59,4 +59,4 @@ EffectEntry sealLeak() {
   return {info(), makeEffect<SealLeak>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

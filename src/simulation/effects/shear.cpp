@@ -4,9 +4,9 @@
 //
 // Gas at rest has no shear. A sledge on the loaded sheet shows it.
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 EffectEntry shear() {
   EffectInfo info;
@@ -24,4 +24,4 @@ EffectEntry shear() {
   return {info, nullptr};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -8,10 +8,10 @@
 
 #include <cmath>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
-#include "fsr_pressure_map/simulation/effects/taxel_scatter.h"
+#include "simulation/effects/effect_library.h"
+#include "simulation/effects/taxel_scatter.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -77,4 +77,4 @@ EffectEntry staticCurve() {
   return {info(), makeEffect<StaticCurve>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

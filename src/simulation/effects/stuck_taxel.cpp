@@ -5,10 +5,10 @@
 // A short, a crease, or a converter that answers with an old value: `value` -1 keeps the reading that the
 // taxel had when the fault began.
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
-#include "fsr_pressure_map/simulation/effects/faults.h"
+#include "simulation/effects/effect_library.h"
+#include "simulation/effects/faults.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -60,4 +60,4 @@ EffectEntry stuckTaxel() {
   return {info(), makeEffect<StuckTaxel>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -53,4 +53,4 @@ EffectEntry supplyDroop() {
   return {info(), makeEffect<SupplyDroop>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

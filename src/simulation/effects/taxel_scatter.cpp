@@ -1,23 +1,23 @@
-#include "fsr_pressure_map/simulation/effects/taxel_scatter.h"
+#include "simulation/effects/taxel_scatter.h"
 
 #include <cmath>
 
-#include "fsr_pressure_map/statistics/random_stream.h"
+#include "statistics/random_stream.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 std::vector<double> scatteredValues(double value, double deviation, const std::string& name,
                                     const EffectContext& context) {
   std::vector<double> values(context.layout.size.taxels());
   for (std::size_t i = 0; i < values.size(); ++i) {
-    values[i] = value * std::exp(deviation * randomStream(context.seed, name, i).normal(0));
+    values[i] = value * std::exp(deviation * statistics::randomStream(context.seed, name, i).normal(0));
   }
   return values;
 }
 
 SmoothRandomFunction::SmoothRandomFunction(double length, std::uint64_t seed, const std::string& name,
                                            std::uint64_t member) {
-  const RandomStream stream = randomStream(seed, name, member);
+  const statistics::RandomStream stream = statistics::randomStream(seed, name, member);
   for (std::uint64_t i = 0; i < kWaves; ++i) {
     frequency_[i] = stream.normal(2 * i) / length;
     phase_[i] = 2 * M_PI * stream.uniform(2 * i + 1);
@@ -32,7 +32,7 @@ double SmoothRandomFunction::operator()(double x) const {
 
 SmoothRandomField::SmoothRandomField(double length, std::uint64_t seed, const std::string& name,
                                      std::uint64_t member) {
-  const RandomStream stream = randomStream(seed, name, member);
+  const statistics::RandomStream stream = statistics::randomStream(seed, name, member);
   for (std::uint64_t i = 0; i < kWaves; ++i) {
     frequency_x_[i] = stream.normal(3 * i) / length;
     frequency_y_[i] = stream.normal(3 * i + 1) / length;
@@ -40,7 +40,7 @@ SmoothRandomField::SmoothRandomField(double length, std::uint64_t seed, const st
   }
 }
 
-double SmoothRandomField::operator()(Position place) const {
+double SmoothRandomField::operator()(matrix::Position place) const {
   double sum = 0;
   for (int i = 0; i < kWaves; ++i) {
     sum += std::cos(frequency_x_[i] * place.x + frequency_y_[i] * place.y + phase_[i]);
@@ -48,4 +48,4 @@ double SmoothRandomField::operator()(Position place) const {
   return sum * std::sqrt(2.0 / kWaves);
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -11,9 +11,9 @@
 #include <cmath>
 
 #include "fsr_pressure_map/rheology/exponential_memory.h"
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -69,7 +69,7 @@ class Temperature : public Effect {
 
   double coefficient_;  // [1/K]
   double quadratic_;    // [1/K^2]
-  ExponentialMemory sheet_;
+  rheology::ExponentialMemory sheet_;
 };
 
 }  // namespace
@@ -78,4 +78,4 @@ EffectEntry temperature() {
   return {info(), makeEffect<Temperature>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

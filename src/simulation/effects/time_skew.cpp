@@ -6,9 +6,9 @@
 // filter, two computers. At 17 kPa/s, 0.1 s is 1.7 kPa, 0.27 % of 620 kPa. The paper says that both were
 // synchronised in LabVIEW, not how well; the range is an estimate.
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -45,4 +45,4 @@ EffectEntry timeSkew() {
   return {info(), makeEffect<TimeSkew>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -6,9 +6,9 @@
 // Omega PX309 is within 0.25 % of its best straight line over -103 to 1034 kPa (section 2.4): 2.8 kPa; a
 // gauge transducer's zero moves with the weather by some kPa unless it is vented (estimate).
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -59,4 +59,4 @@ EffectEntry transducerError() {
   return {info(), makeEffect<TransducerError>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -8,9 +8,9 @@
 
 #include <algorithm>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -60,4 +60,4 @@ EffectEntry trappedGas() {
   return {info(), makeEffect<TrappedGas>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

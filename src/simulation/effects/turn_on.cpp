@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
-#include "fsr_pressure_map/simulation/effects/taxel_scatter.h"
+#include "simulation/effects/effect_library.h"
+#include "simulation/effects/taxel_scatter.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -69,4 +69,4 @@ EffectEntry turnOn() {
   return {info(), makeEffect<TurnOn>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

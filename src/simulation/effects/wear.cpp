@@ -9,9 +9,9 @@
 
 #include <cmath>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -72,4 +72,4 @@ EffectEntry wear() {
   return {info(), makeEffect<Wear>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

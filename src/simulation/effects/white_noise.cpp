@@ -8,10 +8,10 @@
 
 #include <cmath>
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
-#include "fsr_pressure_map/statistics/random_stream.h"
+#include "simulation/effects/effect_library.h"
+#include "statistics/random_stream.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 namespace {
 
@@ -36,7 +36,7 @@ class WhiteNoise : public Effect {
   WhiteNoise(const EffectValues& values, const EffectContext& context)
       : absolute_(values.at("absolute")), relative_(values.at("relative")) {
     for (std::size_t i = 0; i < context.layout.size.taxels(); ++i) {
-      streams_.push_back(randomStream(context.seed, "white_noise", i));
+      streams_.push_back(statistics::randomStream(context.seed, "white_noise", i));
     }
   }
 
@@ -51,7 +51,7 @@ class WhiteNoise : public Effect {
  private:
   double absolute_;  // [counts]
   double relative_;
-  std::vector<RandomStream> streams_;  // [taxels]
+  std::vector<statistics::RandomStream> streams_;  // [taxels]
 };
 
 }  // namespace
@@ -60,4 +60,4 @@ EffectEntry whiteNoise() {
   return {info(), makeEffect<WhiteNoise>};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

@@ -5,9 +5,9 @@
 // In a chamber it looks like one more preload of a few taxels, and whether the next mount has it is chance.
 // An indenter beside and on the crease shows it.
 
-#include "fsr_pressure_map/simulation/effects/effect_library.h"
+#include "simulation/effects/effect_library.h"
 
-namespace fsr {
+namespace fsr::simulation {
 
 EffectEntry wrinkle() {
   EffectInfo info;
@@ -25,4 +25,4 @@ EffectEntry wrinkle() {
   return {info, nullptr};
 }
 
-}  // namespace fsr
+}  // namespace fsr::simulation

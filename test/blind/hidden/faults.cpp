@@ -170,7 +170,7 @@ class LineFault : public Fault {
 
  protected:
   LineFault(const HiddenSetup& setup, bool row) : Fault(setup, row ? "row fault" : "column fault") {
-    const fsr::Layout& layout = setup.campaign.layout;
+    const fsr::matrix::Layout& layout = setup.campaign.layout;
     const std::size_t line = random_.below(row ? layout.size.rows : layout.size.columns);
     for (std::size_t i = 0; i < setup.campaign.taxels(); ++i) {
       if ((row ? layout.row({i}) : layout.column({i})) == line) taxels_.push_back(i);

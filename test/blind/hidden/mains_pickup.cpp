@@ -12,7 +12,7 @@ namespace {
 class Pickup : public Hidden {
  public:
   void onReading(std::size_t taxel, Trace& reading) const override {
-    const fsr::Layout& layout = setup_.campaign.layout;
+    const fsr::matrix::Layout& layout = setup_.campaign.layout;
     const double size = size_ * row_[layout.row({taxel})];
     const double later = 2 * M_PI * mains_ * taxel_time_ * static_cast<double>(taxel);
     for (std::size_t scan = 0; scan < reading.size(); ++scan) {

@@ -16,9 +16,9 @@ struct Place {
 class Repositioning : public Hidden {
  protected:
   explicit Repositioning(const HiddenSetup& setup) : setup_(setup), random_(setup.seed, "repositioning") {
-    const fsr::Layout& layout = setup.campaign.layout;
+    const fsr::matrix::Layout& layout = setup.campaign.layout;
     for (std::size_t i = 0; i < setup.campaign.taxels(); ++i) {
-      const fsr::Position at = layout.position({i});
+      const fsr::matrix::Position at = layout.position({i});
       const double half_x = std::max(1, layout.size.columns - 1) * layout.pitch_x / 2;
       const double half_y = std::max(1, layout.size.rows - 1) * layout.pitch_y / 2;
       places_.push_back({at.x / half_x, at.y / half_y});

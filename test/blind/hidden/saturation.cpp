@@ -65,7 +65,7 @@ class RowClip : public Saturation {
  private:
   double kneeOf(std::size_t taxel) const override { return row_knee_[layout_.row({taxel})]; }
   double lost(double over) const override { return 0.9 * over; }
-  fsr::Layout layout_;
+  fsr::matrix::Layout layout_;
   std::vector<double> row_knee_;
 };
 

@@ -102,7 +102,7 @@ class TwoChamber : public Leak {
  private:
   // 0 on the outermost taxels, 1 in the middle of the sheet.
   double depth(std::size_t taxel) const {
-    const fsr::Layout& layout = setup_.campaign.layout;
+    const fsr::matrix::Layout& layout = setup_.campaign.layout;
     const double rows = layout.size.rows - 1.0, columns = layout.size.columns - 1.0;
     const double row = layout.row({taxel}), column = layout.column({taxel});
     const double nearest = std::min({row, rows - row, column, columns - column});

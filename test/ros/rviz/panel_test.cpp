@@ -13,7 +13,7 @@
 #include <memory>
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
-#include "fsr_pressure_map/ros/resource_path.h"
+#include "ros/bags/resource_path.h"
 #include "support/calibration_rig.h"
 #include "support/small_calibration.h"
 #include "support/small_tables.h"
@@ -32,7 +32,7 @@ class Panel : public testing::Test {
   }
 
   void SetUp() override {
-    fsr::saveCalibration(test_support::smallCalibration({3, 4}, {0.0, 10.0}), kFile);
+    fsr::calibration::saveCalibration(test_support::smallCalibration({3, 4}, {0.0, 10.0}), kFile);
     rig.identify("board-1");
     rig.lieOn({0.0f}, "flat", 3);
   }
@@ -109,7 +109,8 @@ TEST_F(Panel, TaresTheSheet) {
 }
 
 TEST_F(Panel, ReloadsTheCalibration) {
-  const std::string id = fsr::saveCalibration(test_support::smallCalibration({3, 4}, {0.0, 30.0}), kFile);
+  const std::string id =
+      fsr::calibration::saveCalibration(test_support::smallCalibration({3, 4}, {0.0, 30.0}), kFile);
   press("Reload calibration");
   EXPECT_TRUE(runUntil([&] { return says("reply", kFile); })) << label("reply");
   EXPECT_TRUE(runUntil([&] { return says("Calibration", id.substr(0, 12)); })) << label("Calibration");

@@ -33,7 +33,7 @@
 #include <typeinfo>
 
 #include "fsr_pressure_map/view/pressure_scale.h"
-#include "fsr_pressure_map/view/taxel_look.h"
+#include "view/taxel_look.h"
 
 namespace {
 
@@ -134,14 +134,14 @@ class Rviz : public testing::Test {
             static_cast<int>(0.5 * double(1 - clip.y / clip.w) * image.height())};
   }
 
-  static bool hasColour(const QImage& image, const QPoint& at, fsr::Colour colour, int tolerance) {
+  static bool hasColour(const QImage& image, const QPoint& at, fsr::view::Colour colour, int tolerance) {
     const QColor pixel = image.pixelColor(at);
     return std::abs(pixel.red() - colour.red) <= tolerance &&
            std::abs(pixel.green() - colour.green) <= tolerance &&
            std::abs(pixel.blue() - colour.blue) <= tolerance;
   }
 
-  static std::size_t rightTaxels(const std::vector<float>& values, const fsr::PressureScale& scale,
+  static std::size_t rightTaxels(const std::vector<float>& values, const fsr::view::PressureScale& scale,
                                  int tolerance) {
     const QImage image = picture();
     std::size_t right = 0;
@@ -250,7 +250,7 @@ TEST_F(Rviz, CShowsATaxelWithoutAReadingInGreyWithItsMark) {
   gap.flags[36] = PressureMap::FLAG_DEAD;
   const auto grey = [&](const QPoint& off) {
     const QImage image = picture();
-    return hasColour(image, place(36, image) + off, fsr::kNoReadingColour, 2);
+    return hasColour(image, place(36, image) + off, fsr::view::kNoReadingColour, 2);
   };
   const auto publish = [&] { return maps.publish(gap), grey({0, 0}); };
   EXPECT_TRUE(runUntil(publish, false));
@@ -277,7 +277,7 @@ TEST_F(Rviz, DShowsTheDeviationOnItsOwnScale) {
   set("Style", "Cells");
   set("Layer", "Deviation");
   set("High (kPa)", 40);
-  fsr::PressureScale scale;
+  fsr::view::PressureScale scale;
   scale.high = 40e3;
   const auto all = map->deviation.size();
   EXPECT_TRUE(runUntil([&] { return rightTaxels(map->deviation, scale, 2) == all; }));
@@ -287,7 +287,7 @@ TEST_F(Rviz, DShowsTheDeviationOnItsOwnScale) {
 
 TEST_F(Rviz, EShowsItsLegendFromTheHighEndDown) {
   set("Legend", true);
-  const fsr::PressureScale scale;
+  const fsr::view::PressureScale scale;
   const auto bar = [&] {
     const QImage image = picture();
     const int x = 30, top = 76, height = 190;  // of the bar in the window [pixels]
@@ -295,7 +295,7 @@ TEST_F(Rviz, EShowsItsLegendFromTheHighEndDown) {
     for (int i = 0; i < 10; ++i) {
       const double part = (i + 0.5) / 10;
       right += hasColour(image, {x, top + static_cast<int>(part * height)},
-                         fsr::colourAt(scale.colours, 1 - part), 8);
+                         fsr::view::colourAt(scale.colours, 1 - part), 8);
     }
     return right;
   };
@@ -315,7 +315,7 @@ TEST_F(Rviz, FReadsATaxelOutWhenItIsSelected) {
   ASSERT_TRUE(runUntil([&] { return readOut() != nullptr; }));
   EXPECT_EQ(readOut()->getName().toStdString(), "Taxel row 3, column 6");
   EXPECT_EQ(readOut()->subProp("Gauge pressure")->getValue().toString().toStdString(),
-            fsr::pressureText(double(map->pressure[taxel]), fsr::PressureUnit::kKilopascal));
+            fsr::view::pressureText(double(map->pressure[taxel]), fsr::view::PressureUnit::kKilopascal));
 }
 
 TEST_F(Rviz, GShowsTheNumbersInItsPanelAndWhatItIsNotFor) {
@@ -335,7 +335,7 @@ TEST_F(Rviz, GShowsRawCountsOnTheirOwnScale) {
            {"Topic", "/fsr/raw"}, {"Style", "Cells"}, {"Marks", false}, {"Legend", false}}) {
     counts->subProp(name)->setValue(value);
   }
-  fsr::PressureScale scale;
+  fsr::view::PressureScale scale;
   scale.high = scan->full_scale;
   const std::vector<float> values(scan->counts.begin(), scan->counts.end());
   const auto shown = [&] { return raw.publish(scan), rightTaxels(values, scale, 2) == values.size(); };

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/bag_reader.h"
+#include "ros/bags/bag_reader.h"
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "fsr_pressure_map/ros/bag_writer.h"
-#include "fsr_pressure_map/ros/message_events.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/settings/sha256.h"
+#include "ros/bags/bag_writer.h"
+#include "ros/bags/message_events.h"
+#include "settings/sha256.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr_ros {
@@ -38,7 +38,7 @@ class BagReader : public testing::Test {
     options.topics = topics;
     try {
       readBag(path, options);
-    } catch (const fsr::InputError& error) {
+    } catch (const fsr::settings::InputError& error) {
       return error.what();
     }
     return "accepted";
@@ -49,11 +49,11 @@ class BagReader : public testing::Test {
   std::string path_;
 };
 
-fsr::Recording twoSurfaces() {
+fsr::dataset::Recording twoSurfaces() {
   test_support::SyntheticRig rig;
   rig.surfaces = {{"flat", 0.0}, {"cylinder_7cm", 14.25}};  // exact in the message's float
   rig.peak = 512e3;
-  fsr::Recording recording = test_support::syntheticRecording(rig);
+  fsr::dataset::Recording recording = test_support::syntheticRecording(rig);
   recording.start_ns = 1500000000123456789;
   recording.temperature.assign(recording.scans(), 23.5);
   recording.layout.pitch_x = 0.015625;
@@ -69,11 +69,11 @@ BagOptions inNamespace(const std::string& topics) {
 }
 
 TEST_F(BagReader, GivesBackTheRecordingThatWasWritten) {
-  const fsr::Recording written = twoSurfaces();
+  const fsr::dataset::Recording written = twoSurfaces();
   writeBag(path_, written, inNamespace("fsr"));
-  const fsr::Recording read = readBag(path_);
+  const fsr::dataset::Recording read = readBag(path_);
   EXPECT_EQ(read.name, "1_flat.bag");
-  EXPECT_EQ(read.sha256, fsr::sha256OfFile(path_));
+  EXPECT_EQ(read.sha256, fsr::settings::sha256OfFile(path_));
   EXPECT_EQ(read.sensor.serial, written.sensor.serial);
   EXPECT_EQ(read.layout.pitch_x, 0.015625);
   EXPECT_EQ(read.mask, written.mask);
@@ -95,7 +95,7 @@ TEST_F(BagReader, GivesBackTheRecordingThatWasWritten) {
 // The same bag, packed as rosbag record does it.
 TEST_F(BagReader, ReadsPackedBags) {
   writeBag(path_, twoSurfaces(), inNamespace("fsr"));
-  const fsr::Recording plain = readBag(path_);
+  const fsr::dataset::Recording plain = readBag(path_);
   for (const auto packing : {rosbag::compression::LZ4, rosbag::compression::BZ2}) {
     const std::string packed = (folder_ / "packed.bag").string();
     {
@@ -106,17 +106,17 @@ TEST_F(BagReader, ReadsPackedBags) {
         to.write(message.getTopic(), message.getTime(), message);
       }
     }
-    const fsr::Recording read = readBag(packed);
+    const fsr::dataset::Recording read = readBag(packed);
     EXPECT_EQ(read.counts, plain.counts);
     EXPECT_EQ(read.pressure, plain.pressure);
-    EXPECT_EQ(read.sha256, fsr::sha256OfFile(packed));
+    EXPECT_EQ(read.sha256, fsr::settings::sha256OfFile(packed));
     std::fstream(packed, std::ios::in | std::ios::out | std::ios::binary).seekp(6000).write("!!!!!!!!", 8);
     EXPECT_NE(complaintOf(packed).find("is no whole bag"), std::string::npos) << complaintOf(packed);
   }
 }
 
 TEST_F(BagReader, TakesTheSensorThatIsAskedFor) {
-  fsr::Recording recording = twoSurfaces();
+  fsr::dataset::Recording recording = twoSurfaces();
   {
     BagWriter bag(path_, "left/fsr");
     bag.addScan(1000000000, 1, {recording.layout.size, 4095, recording.scan(0), 6});
@@ -133,7 +133,7 @@ TEST_F(BagReader, TakesTheSensorThatIsAskedFor) {
   EXPECT_EQ(complaint(), path_ + ": holds several sensors: left/fsr, right; choose one with --namespace");
   BagReadOptions options;
   options.topics = "/right/";
-  EXPECT_EQ(readBag(path_, options).layout.size, (fsr::MatrixSize{1, 1}));
+  EXPECT_EQ(readBag(path_, options).layout.size, (fsr::matrix::MatrixSize{1, 1}));
   EXPECT_EQ(complaint("middle"), path_ +
                                      ": holds no topic /middle/raw, but /left/fsr/raw, /right/raw; choose "
                                      "the sensor with --namespace");
@@ -188,7 +188,7 @@ TEST_F(BagReader, ABagCutAnywhereIsRefusedInASentence) {
 // Bags come from other people. A changed byte may go unnoticed (rosbag has no check of its own), but never
 // ends the program.
 TEST_F(BagReader, ABagWithAnyByteChangedIsReadOrRefused) {
-  fsr::Recording small = twoSurfaces();
+  fsr::dataset::Recording small = twoSurfaces();
   writeBag(path_, small, inNamespace("fsr"));
   std::string bytes(fs::file_size(path_), ' ');
   std::ifstream(path_, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -246,7 +246,7 @@ TEST_F(BagReader, MessagesThatDoNotFitEachOtherAreRefusedWithTheBagsName) {
     BagWriter bag(path_, "fsr");
     const std::uint16_t counts[] = {1, 2, 3, 4};
     bag.addScan(1000000000, 1, {{2, 2}, 4095, counts, 4});
-    bag.addSurface(1000000000, {"limb", 1, std::vector<fsr::Curvature>(6), {}});
+    bag.addSurface(1000000000, {"limb", 1, std::vector<fsr::matrix::Curvature>(6), {}});
     bag.close();
   }
   EXPECT_EQ(complaint(), path_ +
@@ -262,12 +262,12 @@ TEST(MessageEvents, AMalformedDescriptionIsRefused) {
   try {
     toDescription(info);
     FAIL() << "accepted";
-  } catch (const fsr::InputError& error) {
+  } catch (const fsr::settings::InputError& error) {
     EXPECT_STREQ(error.what(), "matrix_info: mask has 2 values, but must have none or 4");
   }
   info.mask.clear();
   info.pitch_y = 0;
-  EXPECT_THROW(toDescription(info), fsr::InputError);
+  EXPECT_THROW(toDescription(info), fsr::settings::InputError);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/bag_sink.h"
+#include "ros/bags/bag_sink.h"
 
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
@@ -100,12 +100,12 @@ TEST_F(BagSinkTest, LeavesWhatWasWrittenWhereAWriteFails) {
 
 TEST_F(BagSinkTest, OverwritesNoRecording) {
   { const BagSink sink(options(), nullptr); }
-  EXPECT_THROW(BagSink(options(), nullptr), fsr::InputError);
+  EXPECT_THROW(BagSink(options(), nullptr), fsr::settings::InputError);
   fs::rename(folder_.path("run.bag"), folder_.path("run.bag.active"));  // as a kill leaves it
-  EXPECT_THROW(BagSink(options(), nullptr), fsr::InputError);
+  EXPECT_THROW(BagSink(options(), nullptr), fsr::settings::InputError);
   BagSinkOptions nowhere = options();
   nowhere.bag = folder_.path("none/run");
-  EXPECT_THROW(BagSink(nowhere, nullptr), fsr::InputError);
+  EXPECT_THROW(BagSink(nowhere, nullptr), fsr::settings::InputError);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/bag_writer.h"
+#include "ros/bags/bag_writer.h"
 
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/SurfaceCurvature.h>
@@ -38,12 +38,12 @@ class BagFile : public testing::Test {
   std::string path_;
 };
 
-fsr::Recording twoSurfaces() {
+fsr::dataset::Recording twoSurfaces() {
   test_support::SyntheticRig rig;
   rig.surfaces = {{"flat", 0.0}, {"cylinder_7cm", 14.25}};
   rig.cycles = 2;
   rig.scans_per_cycle = 103;  // the surface changes between two whole seconds, at 20.6 s
-  fsr::Recording recording = test_support::syntheticRecording(rig);
+  fsr::dataset::Recording recording = test_support::syntheticRecording(rig);
   recording.start_ns = 1500000000123456789;
   recording.temperature.assign(recording.scans(), 23.5);
   recording.mask = {0, 0, 1, 0, 0, 0};
@@ -61,7 +61,7 @@ std::vector<Message> messages(const rosbag::Bag& bag, const std::string& topic) 
 }
 
 TEST_F(BagFile, HoldsWhatTheRecordingHolds) {
-  const fsr::Recording recording = twoSurfaces();
+  const fsr::dataset::Recording recording = twoSurfaces();
   BagOptions options;
   options.ambient_pressure = 98000;
   writeBag(path_, recording, options);
@@ -84,7 +84,7 @@ TEST_F(BagFile, HoldsWhatTheRecordingHolds) {
 }
 
 TEST_F(BagFile, SaysOnceASecondWhatTheMatrixIsAndLiesOn) {
-  const fsr::Recording recording = twoSurfaces();  // 412 scans at 10 Hz
+  const fsr::dataset::Recording recording = twoSurfaces();  // 412 scans at 10 Hz
   BagOptions options;
   options.session.session_id = "s1";
   options.reference_voltage = 2.5;
@@ -115,12 +115,12 @@ TEST_F(BagFile, LeavesNothingBehindWithoutClose) {
 }
 
 TEST_F(BagFile, CannotHoldTheYear1970AndSaysSo) {
-  fsr::Recording recording = twoSurfaces();
+  fsr::dataset::Recording recording = twoSurfaces();
   recording.start_ns = 0;
   try {
     writeBag(path_, recording);
     FAIL() << "wrote it";
-  } catch (const fsr::InputError& error) {
+  } catch (const fsr::settings::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("1_flat.bag"), std::string::npos) << error.what();
   }
   EXPECT_EQ(filesLeft(), 0u);
@@ -129,12 +129,12 @@ TEST_F(BagFile, CannotHoldTheYear1970AndSaysSo) {
 // rosbag throws once more as such a bag is destroyed, which would end the process.
 TEST_F(BagFile, SaysThatTheDiskIsFullAndLeavesNothingBehind) {
   const test_support::FileSizeLimit limit(6000);
-  EXPECT_THROW(writeBag(path_, twoSurfaces()), fsr::InputError);
+  EXPECT_THROW(writeBag(path_, twoSurfaces()), fsr::settings::InputError);
   EXPECT_EQ(filesLeft(), 0u);
 }
 
 TEST_F(BagFile, CannotBeMadeInAFolderThatIsNotThere) {
-  EXPECT_THROW(writeBag((folder_ / "no/1.bag").string(), twoSurfaces()), fsr::InputError);
+  EXPECT_THROW(writeBag((folder_ / "no/1.bag").string(), twoSurfaces()), fsr::settings::InputError);
 }
 
 }  // namespace

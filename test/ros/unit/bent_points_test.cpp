@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/bent_points.h"
+#include "ros/messages/bent_points.h"
 
 #include <gtest/gtest.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
@@ -9,11 +9,11 @@ namespace fsr_ros {
 namespace {
 
 TEST(BentPoints, CarryPlacePressureAndFlagsOfEachTaxel) {
-  fsr::PressureMap map;
+  fsr::map::PressureMap map;
   map.reset({{2, 3}, 0.010, 0.012});
   map.pressure = {0, 1e3f, 2e3f, 3e3f, NAN, 5e3f};
-  map.flags[4] = fsr::taxel_flag::kDead;
-  const sensor_msgs::PointCloud2 cloud = toPoints(map, fsr::bendSheet(map.layout, {}));
+  map.flags[4] = fsr::map::taxel_flag::kDead;
+  const sensor_msgs::PointCloud2 cloud = toPoints(map, fsr::view::bendSheet(map.layout, {}));
 
   EXPECT_EQ(cloud.height, 2u);
   EXPECT_EQ(cloud.width, 3u);
@@ -31,7 +31,7 @@ TEST(BentPoints, CarryPlacePressureAndFlagsOfEachTaxel) {
   EXPECT_EQ(intensity[0], 5e3f);
   EXPECT_EQ(row[0], 1);
   EXPECT_EQ(column[0], 1);
-  EXPECT_EQ(flags[0], fsr::taxel_flag::kDead);
+  EXPECT_EQ(flags[0], fsr::map::taxel_flag::kDead);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/calibration_health.h"
+#include "ros/live/calibration_health.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ CalibrationHealth healthy() {
   health.board = "A1";
   health.scans = 100;
   health.map.reset({{2, 3}});
-  health.map.state = fsr::MapState::kOk;
+  health.map.state = fsr::map::MapState::kOk;
   health.map.pressure = {0, 5e3f, 10e3f, 20e3f, NAN, 30e3f};
   return health;
 }
@@ -53,7 +53,7 @@ TEST(CalibrationHealth, SaysWhichTopicBringsNoScans) {
 
 TEST(CalibrationHealth, NamesDeadTaxelsByRowAndColumn) {
   CalibrationHealth health = healthy();
-  health.map.flags[4] = fsr::taxel_flag::kDead;
+  health.map.flags[4] = fsr::map::taxel_flag::kDead;
   const Status status = maps(health);
   EXPECT_EQ(status.level, Level::WARN);
   EXPECT_EQ(valueOf(status, "dead taxels (row, column)"), "(1, 1)");
@@ -62,7 +62,7 @@ TEST(CalibrationHealth, NamesDeadTaxelsByRowAndColumn) {
 TEST(CalibrationHealth, NamesBothBoardsWhereTheSensorIsWrong) {
   CalibrationHealth health = healthy();
   health.board = "B2";
-  health.map.state = fsr::MapState::kWrongSensor;
+  health.map.state = fsr::map::MapState::kWrongSensor;
   const Status status = maps(health);
   EXPECT_EQ(status.level, Level::ERROR);
   EXPECT_EQ(status.message, "the board is B2, but the calibration was made with A1");
@@ -70,7 +70,7 @@ TEST(CalibrationHealth, NamesBothBoardsWhereTheSensorIsWrong) {
 
 TEST(CalibrationHealth, WarnsWithoutCurvature) {
   CalibrationHealth health = healthy();
-  health.map.state = fsr::MapState::kCurvatureUnknown;
+  health.map.state = fsr::map::MapState::kCurvatureUnknown;
   EXPECT_EQ(maps(health).level, Level::WARN);
   health.surface_complaint = "x has 3 values";
   EXPECT_NE(maps(health).message.find("x has 3 values"), std::string::npos);

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/check_bag_tool.h"
+#include "ros/tools/check_bag_tool.h"
 
 #include <fsr_pressure_map/Event.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <sstream>
 
-#include "fsr_pressure_map/ros/bag_topics.h"
-#include "fsr_pressure_map/ros/bag_writer.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/bags/bag_topics.h"
+#include "ros/bags/bag_writer.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr_ros {
@@ -32,7 +32,7 @@ class CheckBagTool : public testing::Test {
   std::string record(bool with_chamber = true) const {
     test_support::SyntheticRig rig;
     rig.size = {3, 4};
-    fsr::Recording recording = test_support::syntheticRecording(rig);
+    fsr::dataset::Recording recording = test_support::syntheticRecording(rig);
     recording.start_ns = kStart;
     if (!with_chamber) recording.pressure.clear();
     const std::string path = (folder_ / "session.bag").string();
@@ -50,7 +50,7 @@ class CheckBagTool : public testing::Test {
       const int status = checkBagTool(static_cast<int>(arguments.size()), arguments.data(), out);
       said_ = out.str();
       return status;
-    } catch (const fsr::InputError& error) {
+    } catch (const fsr::settings::InputError& error) {
       said_ = error.what();
       return -1;
     }

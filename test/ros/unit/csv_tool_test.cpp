@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/csv_tool.h"
+#include "ros/tools/csv_tool.h"
 
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/bags/bag_reader.h"
 
 namespace fsr_ros {
 namespace {
@@ -56,12 +56,12 @@ class CsvToBag : public testing::Test {
 TEST_F(CsvToBag, ConvertsForceAgainstPositionOfAPiston) {
   run({kMeasured + "piston_o_ring_3bar.txt.gz", "--columns", "time=1:ms,reading=4:V,reference=5:10000Pa",
        "--range", "0,10", "--curvature", "0", "--surface", "flat"});
-  const fsr::Recording recording = readBag(bag_);
+  const fsr::dataset::Recording recording = readBag(bag_);
   // zcat piston_o_ring_3bar.txt.gz | awk: 6340 rows, 65.697 s; column 5 -3.333 to 37.722, column 4 3.175
   // to 3.596
   EXPECT_EQ(recording.scans(), 6340u);
   EXPECT_NEAR(recording.time.back(), 65.697, 1e-6);
-  EXPECT_EQ(recording.layout.size, (fsr::MatrixSize{1, 1}));
+  EXPECT_EQ(recording.layout.size, (fsr::matrix::MatrixSize{1, 1}));
   EXPECT_NEAR(range(recording.pressure).first, -33330, 1e-3);
   EXPECT_NEAR(range(recording.pressure).second, 377220, 1e-3);
   const auto [least, most] = std::minmax_element(recording.counts.begin(), recording.counts.end());
@@ -76,9 +76,9 @@ TEST_F(CsvToBag, ConvertsTwoChambersAgainstForce) {
   run({kMeasured + "fluid_air_4hz.csv.gz", "--columns",
        "time=time_s,reading=pressure_left_V:V,reading=pressure_right_V:V,reference=force_N:N", "--area",
        "2e-5"});
-  const fsr::Recording recording = readBag(bag_);
+  const fsr::dataset::Recording recording = readBag(bag_);
   EXPECT_EQ(recording.scans(), 10400u);
-  EXPECT_EQ(recording.layout.size, (fsr::MatrixSize{1, 2}));
+  EXPECT_EQ(recording.layout.size, (fsr::matrix::MatrixSize{1, 2}));
   EXPECT_NEAR(range(recording.pressure).second, 12.51942 / 2e-5, 1e-3);
   EXPECT_EQ(matrixInfo().reference_voltage, 5.0f);
   EXPECT_NE(out_.str().find("10400 scans of 1 x 2 taxels"), std::string::npos) << out_.str();
@@ -88,7 +88,7 @@ TEST_F(CsvToBag, ConvertsTwoChambersAgainstForce) {
 TEST_F(CsvToBag, KeepsEveryStepOfTheOilRecording) {
   run({kMeasured + "fluid_oil_20min.csv.gz", "--columns",
        "time=time_s,reading=pressure_left_V:V,reference=force_N:N", "--area", "5e-6", "--ambient", "99000"});
-  const fsr::Recording recording = readBag(bag_);
+  const fsr::dataset::Recording recording = readBag(bag_);
   EXPECT_EQ(recording.scans(), 24000u);
   EXPECT_EQ(recording.losses.no_reference, 0u);
   EXPECT_NEAR(recording.pressure.at(0), 0.36411 / 5e-6, 1e-6);
@@ -106,7 +106,7 @@ TEST_F(CsvToBag, LeavesNoBagBehindAnErrorAndNamesIt) {
   const auto complaint = [&](std::vector<std::string> words) -> std::string {
     try {
       run(std::move(words));
-    } catch (const fsr::InputError& error) {
+    } catch (const fsr::settings::InputError& error) {
       return error.what();
     }
     return "";

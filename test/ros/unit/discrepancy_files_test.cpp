@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/discrepancy_files.h"
+#include "ros/tools/discrepancy_files.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,10 +8,10 @@
 #include <fstream>
 #include <iterator>
 
-#include "fsr_pressure_map/report/verdict_file.h"
-#include "fsr_pressure_map/ros/figure_script.h"
-#include "fsr_pressure_map/ros/show_ledger.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "report/verdict_file.h"
+#include "ros/tools/figure_script.h"
+#include "ros/tools/show_ledger.h"
 #include "support/example_discrepancy.h"
 
 namespace fsr_ros {
@@ -26,7 +26,8 @@ class DiscrepancyFiles : public testing::Test {
               ("discrepancy_" + std::to_string(::getpid()) +
                std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder_);
-    report_.base = report_.added = fsr::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/core.yaml");
+    report_.base = report_.added =
+        fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/core.yaml");
   }
   void TearDown() override { fs::remove_all(folder_); }
 
@@ -38,20 +39,21 @@ class DiscrepancyFiles : public testing::Test {
   std::string draw() const {
     try {
       runPython(FSR_SOURCE_DIR "/scripts/figures/discrepancy.py", {folder_.string()});
-    } catch (const fsr::InputError& error) {
+    } catch (const fsr::settings::InputError& error) {
       return error.what();
     }
     return "";
   }
 
   fs::path folder_;
-  fsr::DiscrepancyReport report_ = test_support::exampleDiscrepancy();
+  fsr::discrepancy::DiscrepancyReport report_ = test_support::exampleDiscrepancy();
 };
 
 TEST_F(DiscrepancyFiles, AreAllThereAndReadBack) {
   writeDiscrepancy(report_, outputFolder(folder_.string()));
-  EXPECT_EQ(fsr::readVerdict((folder_ / "verdict.yaml").string()).verdict, "named");
-  const fsr::SimulationSettings added = fsr::readSimulationFile((folder_ / "simulation.yaml").string());
+  EXPECT_EQ(fsr::report::readVerdict((folder_ / "verdict.yaml").string()).verdict, "named");
+  const fsr::simulation::SimulationSettings added =
+      fsr::simulation::readSimulationFile((folder_ / "simulation.yaml").string());
   EXPECT_EQ(added.effects.size(), report_.added.effects.size());
   const StoredPrediction stored = readPredictionBeside((folder_ / "verdict.yaml").string());
   EXPECT_EQ(stored.frozen.prediction.hash, report_.prediction.hash);
@@ -65,7 +67,7 @@ TEST_F(DiscrepancyFiles, RefuseAVerdictThatWasEditedSince) {
   try {
     readPredictionBeside((folder_ / "verdict.yaml").string());
     FAIL() << "not refused";
-  } catch (const fsr::InputError& error) {
+  } catch (const fsr::settings::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("edited"), std::string::npos) << error.what();
   }
 }
@@ -84,7 +86,7 @@ TEST_F(DiscrepancyFiles, BecomeAReportThatNeedsNoNetwork) {
 }
 
 TEST_F(DiscrepancyFiles, BecomeAReportWhateverIsAbsent) {
-  fsr::DiscrepancyReport nothing;
+  fsr::discrepancy::DiscrepancyReport nothing;
   nothing.sentence = "Nothing is missing.";
   nothing.base = nothing.added = report_.base;
   nothing.gap.closed = NAN;
@@ -106,7 +108,8 @@ TEST_F(DiscrepancyFiles, CountEveryLookAtABag) {
 TEST_F(DiscrepancyFiles, SayWhereTheLedgerCannotBeWritten) {
   fs::create_directories(folder_);
   std::ofstream(folder_ / "ledger") << "a file, no folder";
-  EXPECT_THROW(ShowLedger((folder_ / "ledger").string()).open(std::string(64, 'a'), 1), fsr::InputError);
+  EXPECT_THROW(ShowLedger((folder_ / "ledger").string()).open(std::string(64, 'a'), 1),
+               fsr::settings::InputError);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/discrepancy_tool.h"
+#include "ros/tools/discrepancy_tool.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,10 +8,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "fsr_pressure_map/report/verdict_file.h"
-#include "fsr_pressure_map/ros/bag_writer.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/simulation/simulation_text.h"
+#include "report/verdict_file.h"
+#include "ros/bags/bag_writer.h"
+#include "simulation/simulation_text.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr_ros {
@@ -35,25 +35,25 @@ class DiscrepancyTool : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  static fsr::Recording recorded(const test_support::SyntheticRig& rig) {
-    fsr::Recording recording = test_support::syntheticRecording(rig);
+  static fsr::dataset::Recording recorded(const test_support::SyntheticRig& rig) {
+    fsr::dataset::Recording recording = test_support::syntheticRecording(rig);
     recording.start_ns = 1500000000000000000;
     return recording;
   }
-  static fsr::Recording recording(const std::string& surface, double curvature) {
+  static fsr::dataset::Recording recording(const std::string& surface, double curvature) {
     test_support::SyntheticRig rig;
     rig.surfaces = {{surface, curvature}};
     return recorded(rig);
   }
-  std::string bag(const std::string& name, const fsr::Recording& recording) const {
+  std::string bag(const std::string& name, const fsr::dataset::Recording& recording) const {
     writeBag(path(name), recording);
     return path(name);
   }
   /// A simulation of the synthetic rig's matrix.
   std::string simulation() const {
-    fsr::SimulationSettings settings = fsr::readSimulationFile(kCore);
+    fsr::simulation::SimulationSettings settings = fsr::simulation::readSimulationFile(kCore);
     settings.layout = recording("flat", 0).layout;
-    std::ofstream(path("small.yaml")) << fsr::simulationText(settings);
+    std::ofstream(path("small.yaml")) << fsr::simulation::simulationText(settings);
     return path("small.yaml");
   }
   /// What it says: its words, or the complaint.
@@ -65,7 +65,7 @@ class DiscrepancyTool : public testing::Test {
     try {
       EXPECT_EQ(discrepancyTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
       return out.str();
-    } catch (const fsr::InputError& error) {
+    } catch (const fsr::settings::InputError& error) {
       return error.what();
     }
   }
@@ -83,20 +83,20 @@ TEST_F(DiscrepancyTool, TakesAFolderAndCountsEveryLook) {
   const std::vector<std::string> words = {path("session"), "--simulation", simulation(),         "--output",
                                           path("out"),     "--no-report",  "__name:=discrepancy"};
   expectSaid(run(words), {"Gap, rms", "Written: " + path("out/verdict.yaml")});
-  const fsr::VerdictFile first = fsr::readVerdict(path("out/verdict.yaml"));
+  const fsr::report::VerdictFile first = fsr::report::readVerdict(path("out/verdict.yaml"));
   ASSERT_EQ(first.inputs.size(), 2u);
   EXPECT_EQ(first.inputs[0].file, "1_flat.bag");
   EXPECT_EQ(first.inputs[0].sha256.size(), 64u);
   EXPECT_EQ(first.inputs[1].show_opened, 1);
   run(words);
-  EXPECT_EQ(fsr::readVerdict(path("out/verdict.yaml")).inputs[1].show_opened, 2);
+  EXPECT_EQ(fsr::report::readVerdict(path("out/verdict.yaml")).inputs[1].show_opened, 2);
   for (const char* file : {"simulation.yaml", "base.yaml", "prediction.yaml", "results.json"})
     EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
 }
 
 TEST_F(DiscrepancyTool, RefusesWithOneSentenceAndLeavesNoVerdict) {
   const std::string flat = bag("flat.bag", recording("flat", 0));
-  fsr::Recording silent = recording("flat", 0);
+  fsr::dataset::Recording silent = recording("flat", 0);
   silent.pressure.clear();
   const std::string no_pressure = bag("silent.bag", silent);
   std::ofstream(path("text.bag")) << "no bag";
@@ -130,7 +130,7 @@ TEST_F(DiscrepancyTool, RefusesRecordingsThatBearNoVerdict) {
     EXPECT_EQ(said.find('\n'), std::string::npos) << said;
     return said;
   };
-  const fsr::Recording good = recording("flat", 0);
+  const fsr::dataset::Recording good = recording("flat", 0);
   const std::string flat = bag("flat.bag", good);
   expectSaid(tried({flat, flat}), {"flat.bag: holds the same scans as flat.bag; give every bag once"});
   fs::copy_file(flat, path("copy.bag"));
@@ -145,11 +145,11 @@ TEST_F(DiscrepancyTool, RefusesRecordingsThatBearNoVerdict) {
   once.cycles = 1;
   expectSaid(tried({bag("once.bag", recorded(once))}), {"once.bag: 1 cycle of", "at least 3 are needed"});
 
-  fsr::Recording low = good;
+  fsr::dataset::Recording low = good;
   for (double& pressure : low.pressure) pressure *= 0.05;
   expectSaid(tried({bag("low.bag", low)}), {"low.bag: chamber pressure covers", "at least 50 kPa"});
 
-  fsr::Recording dead = good;
+  fsr::dataset::Recording dead = good;
   for (std::size_t k = 0; k < dead.counts.size(); ++k) {
     if (k % 6 < 4) dead.counts[k] = 0;
   }
@@ -166,7 +166,7 @@ TEST_F(DiscrepancyTool, RefusesRecordingsThatBearNoVerdict) {
 
 // A clock that is set back while the bag is recorded puts later scans among earlier ones.
 TEST_F(DiscrepancyTool, RefusesStampsThatRunBackwards) {
-  fsr::Recording set_back = recording("flat", 0);
+  fsr::dataset::Recording set_back = recording("flat", 0);
   for (std::size_t i = 250; i < set_back.scans(); ++i) set_back.time[i] -= 10.05;
   expectSaid(run({bag("back.bag", set_back), "--output", path("out"), "--no-report"}),
              {"back.bag: its stamps run backwards", "was a clock set"});
@@ -174,7 +174,7 @@ TEST_F(DiscrepancyTool, RefusesStampsThatRunBackwards) {
 }
 
 TEST_F(DiscrepancyTool, StatesWhatARecordingLacks) {
-  fsr::Recording swapped = recording("flat", 0);
+  fsr::dataset::Recording swapped = recording("flat", 0);
   std::swap(swapped.time[100], swapped.time[110]);
   const std::string said = run({bag("swapped.bag", swapped), "--output", path("out"), "--no-report"});
   expectSaid(said, {"Limitation: swapped.bag: the board's counter ran backwards 2 times",
@@ -191,7 +191,7 @@ TEST_F(DiscrepancyTool, ConfirmsByBagsThatAreNewWhatItPredicted) {
   rig.loop = 200;
   const std::string loop = bag("loop.bag", recorded(rig));
   run({loop, "--simulation", simulation(), "--output", path("out"), "--no-report"});
-  const fsr::VerdictFile verdict = fsr::readVerdict(path("out/verdict.yaml"));
+  const fsr::report::VerdictFile verdict = fsr::report::readVerdict(path("out/verdict.yaml"));
   ASSERT_FALSE(verdict.effects.empty()) << verdict.verdict;
   expectSaid(run({"--confirm", path("out/verdict.yaml"), loop}), {"loop.bag", "made from this bag"});
   rig.seed = 2;

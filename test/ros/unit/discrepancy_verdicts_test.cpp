@@ -8,12 +8,12 @@
 #include <sstream>
 
 #include "discrepancy/planted.h"
-#include "fsr_pressure_map/report/verdict_file.h"
-#include "fsr_pressure_map/ros/bag_writer.h"
-#include "fsr_pressure_map/ros/discrepancy_tool.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/settings/replace_file.h"
-#include "fsr_pressure_map/simulation/simulation_text.h"
+#include "report/verdict_file.h"
+#include "ros/bags/bag_writer.h"
+#include "ros/tools/discrepancy_tool.h"
+#include "settings/replace_file.h"
+#include "simulation/simulation_text.h"
 
 namespace fsr_ros {
 namespace {
@@ -36,11 +36,11 @@ class DiscrepancyVerdicts : public testing::Test {
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   /// Writes a session's bags to a folder, and the simulation that lacks what is hidden beside it.
-  std::string session(const std::string& name, const fsr::DiscrepancyProblem& problem) const {
+  std::string session(const std::string& name, const fsr::discrepancy::DiscrepancyProblem& problem) const {
     fs::create_directories(folder_ / name);
-    for (const fsr::Recording& recording : problem.recordings)
+    for (const fsr::dataset::Recording& recording : problem.recordings)
       writeBag(path(name + "/" + recording.name), recording);
-    fsr::replaceFile(path("simulation.yaml"), fsr::simulationText(problem.simulation));
+    fsr::settings::replaceFile(path("simulation.yaml"), fsr::simulation::simulationText(problem.simulation));
     return path(name);
   }
   std::string run(const Words& more) const {
@@ -52,20 +52,20 @@ class DiscrepancyVerdicts : public testing::Test {
     try {
       EXPECT_EQ(discrepancyTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
       return out.str();
-    } catch (const fsr::InputError& error) {
+    } catch (const fsr::settings::InputError& error) {
       return error.what();
     }
   }
-  fsr::VerdictFile verdict(const Words& bags, const Words& more = {}) const {
+  fsr::report::VerdictFile verdict(const Words& bags, const Words& more = {}) const {
     Words words = {"--simulation", path("simulation.yaml"), "--output", path("out")};
     words.insert(words.end(), bags.begin(), bags.end());
     words.insert(words.end(), more.begin(), more.end());
     const std::string said = run(words);
     EXPECT_NE(said.find("Written: "), std::string::npos) << said;
-    return fsr::readVerdict(path("out/verdict.yaml"));
+    return fsr::report::readVerdict(path("out/verdict.yaml"));
   }
-  fsr::VerdictFile hidden(const char* rig, const std::string& effects, const Words& more = {}) const {
-    return verdict({session("bags", fsr::planted::problem(rig, effects))}, more);
+  fsr::report::VerdictFile hidden(const char* rig, const std::string& effects, const Words& more = {}) const {
+    return verdict({session("bags", fsr::discrepancy::planted::problem(rig, effects))}, more);
   }
 
   fs::path folder_;
@@ -74,39 +74,41 @@ class DiscrepancyVerdicts : public testing::Test {
 const std::string kLoop = "  hysteresis: {loop_width: 0.05}\n";
 
 TEST_F(DiscrepancyVerdicts, None) {
-  const fsr::VerdictFile file = hidden(fsr::planted::kTwoSpeeds, "");
+  const fsr::report::VerdictFile file = hidden(fsr::discrepancy::planted::kTwoSpeeds, "");
   EXPECT_EQ(file.verdict, "none");
   EXPECT_TRUE(file.credible_set.empty());
 }
 
 TEST_F(DiscrepancyVerdicts, NamedOne) {
-  const fsr::VerdictFile file = hidden(fsr::planted::kTwoSpeeds, kLoop);
+  const fsr::report::VerdictFile file = hidden(fsr::discrepancy::planted::kTwoSpeeds, kLoop);
   EXPECT_EQ(file.verdict, "named");
   EXPECT_EQ(file.effects, Words{"hysteresis"});
 }
 
 TEST_F(DiscrepancyVerdicts, NamedTwo) {
-  fsr::VerdictFile file = hidden(fsr::planted::kTwoSpeeds, kLoop + "  time_skew: {delay: 0.5}\n");
+  fsr::report::VerdictFile file =
+      hidden(fsr::discrepancy::planted::kTwoSpeeds, kLoop + "  time_skew: {delay: 0.5}\n");
   EXPECT_EQ(file.verdict, "named");
   std::sort(file.effects.begin(), file.effects.end());
   EXPECT_EQ(file.effects, (Words{"hysteresis", "time_skew"}));
 }
 
 TEST_F(DiscrepancyVerdicts, Unknown) {
-  const fsr::VerdictFile file =
-      hidden(fsr::planted::kTwoSpeeds, "  time_skew: {delay: 0.3}\n", {"--without", "time_skew"});
+  const fsr::report::VerdictFile file = hidden(fsr::discrepancy::planted::kTwoSpeeds,
+                                               "  time_skew: {delay: 0.3}\n", {"--without", "time_skew"});
   EXPECT_EQ(file.verdict, "unknown");
   EXPECT_TRUE(file.effects.empty());
 }
 
 TEST_F(DiscrepancyVerdicts, WrongForm) {
-  const fsr::VerdictFile file = verdict({session("bags", fsr::planted::crossedLoop())});
+  const fsr::report::VerdictFile file = verdict({session("bags", fsr::discrepancy::planted::crossedLoop())});
   EXPECT_EQ(file.verdict, "wrong_form");
   EXPECT_EQ(file.effects, Words{"hysteresis"});
 }
 
 TEST_F(DiscrepancyVerdicts, NotIdentifiable) {
-  const fsr::VerdictFile file = hidden(fsr::planted::kTwoSpeeds, "", {"--ask", "crosstalk"});
+  const fsr::report::VerdictFile file =
+      hidden(fsr::discrepancy::planted::kTwoSpeeds, "", {"--ask", "crosstalk"});
   EXPECT_EQ(file.verdict, "not_identifiable");
   EXPECT_EQ(file.credible_set, (std::vector<Words>{{"crosstalk"}}));
 }
@@ -114,32 +116,34 @@ TEST_F(DiscrepancyVerdicts, NotIdentifiable) {
 // One speed cannot tell a loop from a short memory. The experiment that the verdict recommends gives the one
 // right name; what was frozen before it passes, and fails where the rig has a short memory instead.
 TEST_F(DiscrepancyVerdicts, AmbiguousUntilTheRecommendedExperimentIsRun) {
-  const std::string first = session("one_speed", fsr::planted::problem(fsr::planted::kOneSpeed, kLoop));
-  const fsr::VerdictFile before = verdict({first});
+  const std::string first =
+      session("one_speed", fsr::discrepancy::planted::problem(fsr::discrepancy::planted::kOneSpeed, kLoop));
+  const fsr::report::VerdictFile before = verdict({first});
   ASSERT_EQ(before.verdict, "ambiguous");
   EXPECT_EQ(before.credible_set.front(), Words{"hysteresis"});
   EXPECT_GE(before.credible_set.size(), 2u);
   const std::string experiment =
-      session("two_speeds", fsr::planted::problem(fsr::planted::kTwoSpeeds, kLoop));
+      session("two_speeds", fsr::discrepancy::planted::problem(fsr::discrepancy::planted::kTwoSpeeds, kLoop));
   const std::string memory =
-      session("memory",
-              fsr::planted::problem(fsr::planted::kTwoSpeeds, "  creep: {per_decade: 0.05, slowest: 100}\n"));
+      session("memory", fsr::discrepancy::planted::problem(fsr::discrepancy::planted::kTwoSpeeds,
+                                                           "  creep: {per_decade: 0.05, slowest: 100}\n"));
   const std::string confirmed = run({"--confirm", path("out/verdict.yaml"), experiment});
   EXPECT_EQ(confirmed.find("Confirmed: hysteresis"), 0u) << confirmed;
   const std::string refuted = run({"--confirm", path("out/verdict.yaml"), memory});
   EXPECT_EQ(refuted.find("Not confirmed: "), 0u) << refuted;
-  const fsr::VerdictFile after = verdict({first, experiment});
+  const fsr::report::VerdictFile after = verdict({first, experiment});
   EXPECT_EQ(after.verdict, "named");
   EXPECT_EQ(after.effects, Words{"hysteresis"});
 }
 
 // The loop was not in the library, so its neighbour was put forward and frozen. The experiment refutes it.
 TEST_F(DiscrepancyVerdicts, AFrozenWrongPredictionIsNotConfirmed) {
-  const std::string first = session("one_speed", fsr::planted::problem(fsr::planted::kOneSpeed, kLoop));
-  const fsr::VerdictFile wrong = verdict({first}, {"--without", "hysteresis"});
+  const std::string first =
+      session("one_speed", fsr::discrepancy::planted::problem(fsr::discrepancy::planted::kOneSpeed, kLoop));
+  const fsr::report::VerdictFile wrong = verdict({first}, {"--without", "hysteresis"});
   ASSERT_FALSE(wrong.effects.empty()) << wrong.verdict;
   const std::string experiment =
-      session("two_speeds", fsr::planted::problem(fsr::planted::kTwoSpeeds, kLoop));
+      session("two_speeds", fsr::discrepancy::planted::problem(fsr::discrepancy::planted::kTwoSpeeds, kLoop));
   const std::string said = run({"--confirm", path("out/verdict.yaml"), experiment});
   EXPECT_EQ(said.find("Not confirmed: " + wrong.effects.front()), 0u) << said;
 }

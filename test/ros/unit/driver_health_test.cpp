@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/driver_health.h"
+#include "ros/live/driver_health.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 namespace {
 
-using fsr::LinkPhase;
+using fsr::protocol::LinkPhase;
 using fsr_ros::DriverHealth;
 using fsr_ros::DriverSettings;
 using Level = diagnostic_msgs::DiagnosticStatus;

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/driver_messages.h"
+#include "ros/messages/driver_messages.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@ namespace {
 
 using fsr_ros::DriverSettings;
 
-constexpr fsr::PacketTime kTime = {1'700'000'000'123'456'789, 5'000'000'000};
+constexpr fsr::protocol::PacketTime kTime = {1'700'000'000'123'456'789, 5'000'000'000};
 
 TEST(DriverMessages, CarriesAScanWithStampAndDeviceTime) {
   const std::array<std::uint16_t, 6> counts = {0, 1, 2, 3, 4, 4095};
@@ -64,7 +64,7 @@ TEST(DriverMessages, DescribesTheMatrix) {
   DriverSettings settings;
   settings.sealing = "pdms";
   settings.pitch_y = 0.012;
-  fsr::IdentityPacket identity;
+  fsr::protocol::IdentityPacket identity;
   identity.serial = "FSR-\xC3\n42";
   identity.size = {16, 10};
   identity.full_scale = 65535;

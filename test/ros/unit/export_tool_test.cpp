@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/export_tool.h"
+#include "ros/tools/export_tool.h"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <fsr_pressure_map/Event.h>
@@ -25,9 +25,9 @@
 #include <tuple>
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
-#include "fsr_pressure_map/ros/bag_writer.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/settings/sha256.h"
+#include "ros/bags/bag_writer.h"
+#include "settings/sha256.h"
 #include "support/file_size_limit.h"
 #include "support/program_output.h"
 #include "support/pty.h"
@@ -63,7 +63,7 @@ class ExportTool : public testing::Test {
     try {
       EXPECT_EQ(fsr_ros::exportTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
       return out.str();
-    } catch (const fsr::InputError& error) {
+    } catch (const fsr::settings::InputError& error) {
       return error.what();
     }
   }
@@ -125,7 +125,7 @@ class ExportTool : public testing::Test {
   test_support::TemporaryFolder folder_;
   std::string bag_ = folder_.path("1_flat.bag");
   std::string csv_ = folder_.path("out.csv");
-  fsr::Recording recording_;
+  fsr::dataset::Recording recording_;
 };
 
 TEST_F(ExportTool, WritesEveryScanOfABagWithoutMaps) {
@@ -161,7 +161,7 @@ TEST_F(ExportTool, JoinsScansWithTheirMapsAndEvents) {
 
 TEST_F(ExportTool, ComputesMapsWithACalibration) {
   const std::string calibration = folder_.path("calibration.h5");
-  fsr::saveCalibration(test_support::smallCalibration({2, 3}, {0.0, 14.25}), calibration);
+  fsr::calibration::saveCalibration(test_support::smallCalibration({2, 3}, {0.0, 14.25}), calibration);
   run({bag_, "--to", "csv", "--output", csv_, "--calibration", calibration});
   const auto columns = table(csv_);
   ASSERT_EQ(columns.at("pressure_Pa").size(), 6000u);
@@ -207,7 +207,7 @@ TEST_F(ExportTool, DrawsMapsInThePaceThatIsAskedFor) {
 
 TEST_F(ExportTool, RefusesACalibrationOfAnotherMatrix) {
   const std::string calibration = folder_.path("calibration.h5");
-  fsr::saveCalibration(test_support::smallCalibration({3, 3}, {0.0}), calibration);
+  fsr::calibration::saveCalibration(test_support::smallCalibration({3, 3}, {0.0}), calibration);
   EXPECT_NE(run({bag_, "--to", "csv", "--output", csv_, "--calibration", calibration})
                 .find("the scans are of 2 x 3 taxels up to 1023 counts, but the calibration is of 3 x 3"),
             std::string::npos);
@@ -299,7 +299,7 @@ TEST_F(ExportTool, AnArchiveIsReadPlainlyByH5py) {
       " f[\"archive\"].attrs[\"sha256\"].decode())'");
   EXPECT_EQ(python.text, "(1000, 2, 3) " + std::to_string(recording_.scan(500)[5]) +
                              " (1000, 2, 3) Pa gzip s1 " + std::to_string(kStart) + " " +
-                             fsr::sha256OfFile(folder_.path("maps.bag")) + "\n");
+                             fsr::settings::sha256OfFile(folder_.path("maps.bag")) + "\n");
 }
 
 // The joined scans say what the table says.

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/figure_script.h"
+#include "ros/tools/figure_script.h"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ class FigureScript : public testing::Test {
   std::string refusal(const std::string& path) {
     try {
       fsr_ros::runPython(path, {});
-    } catch (const fsr::InputError& error) {
+    } catch (const fsr::settings::InputError& error) {
       return error.what();
     }
     return "not refused";
@@ -64,7 +64,7 @@ TEST_F(FigureScript, IsFoundInThePackage) {
   try {
     fsr_ros::drawFigures("no_such_figure.py", {});
     FAIL();
-  } catch (const fsr::InputError& error) {
+  } catch (const fsr::settings::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("/scripts/figures/no_such_figure.py"), std::string::npos)
         << error.what();
   }

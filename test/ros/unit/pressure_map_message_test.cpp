@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/pressure_map_message.h"
+#include "ros/messages/pressure_map_message.h"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 namespace fsr_ros {
 namespace {
 
-fsr::PressureMap someMap() {
-  fsr::PressureMap map;
+fsr::map::PressureMap someMap() {
+  fsr::map::PressureMap map;
   map.reset({{2, 3}, 0.010, 0.012});
-  map.state = fsr::MapState::kCurvatureStale;
+  map.state = fsr::map::MapState::kCurvatureStale;
   map.pressure = {0, 1, 2, 3, 4, 5};
   map.deviation.assign(6, 7.0f);
-  map.flags[4] = fsr::taxel_flag::kTared;
+  map.flags[4] = fsr::map::taxel_flag::kTared;
   return map;
 }
 
@@ -30,8 +30,8 @@ TEST(PressureMapMessage, CarriesTheMapThereAndBack) {
   EXPECT_EQ(message.columns, 3);
   EXPECT_FLOAT_EQ(message.pitch_y, 0.012f);
   EXPECT_EQ(message.flags[4], fsr_pressure_map::PressureMap::FLAG_TARED);
-  const fsr::PressureMap map = toPressureMap(message);
-  EXPECT_EQ(map.state, fsr::MapState::kCurvatureStale);
+  const fsr::map::PressureMap map = toPressureMap(message);
+  EXPECT_EQ(map.state, fsr::map::MapState::kCurvatureStale);
   EXPECT_EQ(map.layout.size, someMap().layout.size);
   EXPECT_EQ(map.pressure, someMap().pressure);
   EXPECT_EQ(map.deviation, someMap().deviation);
@@ -41,16 +41,16 @@ TEST(PressureMapMessage, CarriesTheMapThereAndBack) {
 TEST(PressureMapMessage, RefusesArraysOfAnotherSize) {
   auto message = someMessage();
   message.flags.pop_back();
-  EXPECT_THROW(toPressureMap(message), fsr::InputError);
+  EXPECT_THROW(toPressureMap(message), fsr::settings::InputError);
   message = someMessage();
   message.rows = 64;
-  EXPECT_THROW(toPressureMap(message), fsr::InputError);
+  EXPECT_THROW(toPressureMap(message), fsr::settings::InputError);
 }
 
 TEST(PressureMapMessage, RefusesAnUnknownState) {
   auto message = someMessage();
   message.state = 6;
-  EXPECT_THROW(toPressureMap(message), fsr::InputError);
+  EXPECT_THROW(toPressureMap(message), fsr::settings::InputError);
 }
 
 TEST(PressureMapMessage, ViewsAScanWithoutACopy) {
@@ -59,11 +59,11 @@ TEST(PressureMapMessage, ViewsAScanWithoutACopy) {
   frame.columns = 3;
   frame.full_scale = 4095;
   frame.counts = {1, 2, 3, 4, 5, 6};
-  const fsr::ScanView scan = toScanView(frame);
+  const fsr::matrix::ScanView scan = toScanView(frame);
   EXPECT_EQ(scan.counts, frame.counts.data());
-  EXPECT_EQ(fsr::honestSize(scan), (fsr::MatrixSize{2, 3}));
+  EXPECT_EQ(fsr::matrix::honestSize(scan), (fsr::matrix::MatrixSize{2, 3}));
   frame.counts.pop_back();
-  EXPECT_EQ(fsr::honestSize(toScanView(frame)), fsr::MatrixSize{});
+  EXPECT_EQ(fsr::matrix::honestSize(toScanView(frame)), fsr::matrix::MatrixSize{});
 }
 
 }  // namespace

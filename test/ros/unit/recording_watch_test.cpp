@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/recording_watch.h"
+#include "ros/live/recording_watch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/resource_path.h"
+#include "ros/bags/resource_path.h"
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ TEST_F(ResourcePath, FindsAFileOfAPackage) {
 TEST_F(ResourcePath, RefusesWhatCannotMeanAFile) {
   for (const char* text : {"c.h5", "../c.h5", "http://rig/c.h5", "${HOME}/c.h5",
                            "package://no_such_package/c", "package:///c"}) {
-    EXPECT_THROW(resolveResource(text), fsr::InputError) << text;
+    EXPECT_THROW(resolveResource(text), fsr::settings::InputError) << text;
   }
 }
 

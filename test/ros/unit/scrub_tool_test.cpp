@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/scrub_tool.h"
+#include "ros/tools/scrub_tool.h"
 
 #include <fsr_pressure_map/Event.h>
 #include <fsr_pressure_map/MatrixFrame.h>
@@ -63,7 +63,7 @@ class ScrubTool : public testing::Test {
     try {
       EXPECT_EQ(fsr_ros::scrubTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
       return out.str();
-    } catch (const fsr::InputError& error) {
+    } catch (const fsr::settings::InputError& error) {
       return error.what();
     }
   }

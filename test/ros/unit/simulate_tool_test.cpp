@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/simulate_tool.h"
+#include "ros/tools/simulate_tool.h"
 
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <gtest/gtest.h>
@@ -11,12 +11,12 @@
 #include <set>
 #include <sstream>
 
-#include "fsr_pressure_map/ros/bag_reader.h"
-#include "fsr_pressure_map/ros/bag_writer.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/simulation/portrait.h"
-#include "fsr_pressure_map/simulation/session.h"
-#include "fsr_pressure_map/simulation/simulation_text.h"
+#include "ros/bags/bag_reader.h"
+#include "ros/bags/bag_writer.h"
+#include "simulation/portrait.h"
+#include "simulation/session.h"
+#include "simulation/simulation_text.h"
 
 namespace fsr_ros {
 namespace {
@@ -43,7 +43,7 @@ class SimulateTool : public testing::Test {
     try {
       status_ = simulateTool(static_cast<int>(arguments.size()), arguments.data(), out);
       return out.str();
-    } catch (const fsr::InputError& error) {
+    } catch (const fsr::settings::InputError& error) {
       printed_ = out.str();
       return error.what();
     }
@@ -74,16 +74,16 @@ TEST_F(SimulateTool, WritesABagForEachStationAndTheTruthBeside) {
   EXPECT_EQ(status_, 0);
   EXPECT_EQ(filesIn(path("out")), (std::set<std::string>{"1_flat.bag", "2_cylinder_5cm.bag", "truth.yaml"}));
   EXPECT_NE(printed.find(path("out/1_flat.bag")), std::string::npos);
-  const auto truth = fsr::readSimulationFile(path("out/truth.yaml"));
-  const auto bench = fsr::readSimulationFile(kBench);
+  const auto truth = fsr::simulation::readSimulationFile(path("out/truth.yaml"));
+  const auto bench = fsr::simulation::readSimulationFile(kBench);
   EXPECT_EQ(simulationText(truth), simulationText(bench));
 }
 
 TEST_F(SimulateTool, ItsBagsReadAsTheRigsRecordings) {
   run({"--simulation", kBench, "--output", path("out")});
-  const auto expected = fsr::simulateSession(fsr::readSimulationFile(kBench));
-  for (const fsr::Recording& recording : expected) {
-    const fsr::Recording read = readBag(path("out/" + recording.name));
+  const auto expected = fsr::simulation::simulateSession(fsr::simulation::readSimulationFile(kBench));
+  for (const fsr::dataset::Recording& recording : expected) {
+    const fsr::dataset::Recording read = readBag(path("out/" + recording.name));
     EXPECT_EQ(read.counts, recording.counts);
     EXPECT_EQ(read.time, recording.time);
     EXPECT_EQ(read.start_ns, recording.start_ns);
@@ -136,8 +136,8 @@ TEST_F(SimulateTool, GoesOnFromASavedState) {
   ASSERT_EQ(status_, 0);
   run({"--simulation", kBench, "--output", path("two"), "--state", path("state.yaml")});
   EXPECT_EQ(filesIn(path("two")), (std::set<std::string>{"3_flat.bag", "4_cylinder_5cm.bag", "truth.yaml"}));
-  const fsr::Recording before = readBag(path("one/2_cylinder_5cm.bag")),
-                       after = readBag(path("two/3_flat.bag"));
+  const fsr::dataset::Recording before = readBag(path("one/2_cylinder_5cm.bag")),
+                                after = readBag(path("two/3_flat.bag"));
   EXPECT_GT(after.start_ns, before.start_ns + static_cast<std::int64_t>(1e9 * before.time.back()));
   EXPECT_NE(after.counts, readBag(path("one/1_flat.bag")).counts);
   run({"--simulation", kBench, "--output", path("model"), "--drive", path("two/3_flat.bag"), "--state",
@@ -151,7 +151,8 @@ TEST_F(SimulateTool, DrivesTheModelWithRecordedBags) {
        path("real/2_cylinder_5cm.bag"), "--seed", "7"});
   EXPECT_EQ(status_, 0);
   for (const std::string name : {"1_flat.bag", "2_cylinder_5cm.bag"}) {
-    const fsr::Recording real = readBag(path("real/" + name)), model = readBag(path("model/" + name));
+    const fsr::dataset::Recording real = readBag(path("real/" + name)),
+                                  model = readBag(path("model/" + name));
     EXPECT_EQ(topicsOf(path("model/" + name)), topicsOf(path("real/" + name)));
     EXPECT_EQ(model.time, real.time);
     EXPECT_EQ(model.start_ns, real.start_ns);
@@ -163,11 +164,13 @@ TEST_F(SimulateTool, DrivesTheModelWithRecordedBags) {
 
 TEST_F(SimulateTool, DrivenByItsOwnBagsTheRigReadsThemAgain) {
   const std::string bare = path("bare.yaml");
-  const auto settings = fsr::withoutEffect(fsr::readSimulationFile(kBench), "white_noise");
+  const auto settings =
+      fsr::simulation::withoutEffect(fsr::simulation::readSimulationFile(kBench), "white_noise");
   std::ofstream(bare) << simulationText(settings);
   run({"--simulation", bare, "--output", path("real")});
   run({"--simulation", bare, "--output", path("model"), "--drive", path("real/1_flat.bag")});
-  const fsr::Recording real = readBag(path("real/1_flat.bag")), model = readBag(path("model/1_flat.bag"));
+  const fsr::dataset::Recording real = readBag(path("real/1_flat.bag")),
+                                model = readBag(path("model/1_flat.bag"));
   ASSERT_EQ(model.counts.size(), real.counts.size());
   for (std::size_t i = 0; i < real.counts.size(); ++i) {
     EXPECT_NEAR(model.counts[i], real.counts[i], 4);  // the recorded pressure is rounded to 278 Pa
@@ -205,11 +208,11 @@ TEST_F(SimulateTool, LeavesNothingBehindWhereABagCannotDriveIt) {
 }
 
 TEST_F(SimulateTool, SaysWhatADrivenModelIsLikeAndWhatItMissed) {
-  fsr::Recording recording;
+  fsr::dataset::Recording recording;
   recording.name = "bare";
   recording.layout = {{2, 5}, 0.02, 0.02};
   recording.full_scale = 1023;
-  recording.conditions = {fsr::Surface{}};
+  recording.conditions = {fsr::matrix::Surface{}};
   recording.start_ns = 1700000000000000000;
   for (int i = 0; i < 20; ++i) {
     recording.time.push_back(0.1 * i);
@@ -224,8 +227,8 @@ TEST_F(SimulateTool, SaysWhatADrivenModelIsLikeAndWhatItMissed) {
   EXPECT_NE(printed.find("is of a matrix of 2 x 5"), std::string::npos) << printed;
   EXPECT_NE(printed.find("holds no temperature"), std::string::npos) << printed;
   EXPECT_NE(printed.find("the model lies flat there"), std::string::npos) << printed;
-  const auto truth = fsr::readSimulationFile(path("model/truth.yaml"));
-  EXPECT_EQ(truth.layout.size, (fsr::MatrixSize{2, 5}));
+  const auto truth = fsr::simulation::readSimulationFile(path("model/truth.yaml"));
+  EXPECT_EQ(truth.layout.size, (fsr::matrix::MatrixSize{2, 5}));
   EXPECT_EQ(truth.fullScale(), 1023);
 }
 

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/study_tool.h"
+#include "ros/tools/study_tool.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <iterator>
 #include <sstream>
 
-#include "fsr_pressure_map/ros/bag_writer.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/bags/bag_writer.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr_ros {
@@ -38,7 +38,7 @@ class StudyTool : public testing::Test {
     rig.surfaces = {{"flat", 0.0}, {"cylinder_13cm", 7.7}, {"cylinder_5cm", 20.0}};
     rig.scans_per_cycle = 60;
     rig.noise = 60;
-    fsr::Recording recording = test_support::syntheticRecording(rig);
+    fsr::dataset::Recording recording = test_support::syntheticRecording(rig);
     recording.start_ns = 1500000000000000000;
     const std::string path = (folder_ / "session.bag").string();
     writeBag(path, recording);
@@ -53,7 +53,7 @@ class StudyTool : public testing::Test {
     try {
       EXPECT_EQ(studyTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
       return out.str();
-    } catch (const fsr::InputError& error) {
+    } catch (const fsr::settings::InputError& error) {
       return error.what();
     }
   }

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/tare_keeper.h"
+#include "ros/live/tare_keeper.h"
 
 #include <gtest/gtest.h>
 
@@ -29,8 +29,8 @@ class TareKeeperTest : public testing::Test {
   void TearDown() override { fs::remove_all(folder); }
 
   std::string folder, path;
-  fsr::Tare tare;
-  fsr::Surface flat;
+  fsr::calibration::Tare tare;
+  fsr::matrix::Surface flat;
 };
 
 TEST_F(TareKeeperTest, TakesUpWhatAnEarlierRunLeft) {

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/ros/train_tool.h"
+#include "ros/tools/train_tool.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
-#include "fsr_pressure_map/ros/bag_writer.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/bags/bag_writer.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr_ros {
@@ -31,7 +31,7 @@ class TrainTool : public testing::Test {
   std::string record(const std::string& name, const test_support::SyntheticSurface& surface) const {
     test_support::SyntheticRig rig;
     rig.surfaces = {surface};
-    fsr::Recording recording = test_support::syntheticRecording(rig);
+    fsr::dataset::Recording recording = test_support::syntheticRecording(rig);
     recording.start_ns = 1500000000000000000;
     const std::string path = (folder_ / name).string();
     writeBag(path, recording);
@@ -46,7 +46,7 @@ class TrainTool : public testing::Test {
     try {
       EXPECT_EQ(trainTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
       return out.str();
-    } catch (const fsr::InputError& error) {
+    } catch (const fsr::settings::InputError& error) {
       return error.what();
     }
   }
@@ -59,7 +59,7 @@ TEST_F(TrainTool, PrintsCoverageThenScoresThenThePath) {
   const std::string flat = record("flat.bag", {"flat", 0.0});
   const std::string output = (folder_ / "calibration.h5").string();
   const std::string text = run({flat, bend_, "--output", output});
-  const fsr::Calibration calibration = fsr::loadCalibration(output);
+  const fsr::calibration::Calibration calibration = fsr::calibration::loadCalibration(output);
   const std::size_t coverage = text.find("Coverage"), scores = text.find("Held-out readings");
   const std::size_t path = text.find("Calibration " + calibration.id + " (interpolated, grnn, bandwidth ");
   EXPECT_LT(coverage, scores);
@@ -76,8 +76,8 @@ TEST_F(TrainTool, TakesItsOptions) {
   const std::string text = run({bend_, "--output=" + output, "--scheme", "baseline", "--ambient", "100000",
                                 "--bandwidth", "0.05", "--folds", "4", "--seed", "7", "--threads", "1",
                                 "--no-scores", "--namespace", "fsr", "--report", report});
-  const fsr::Calibration calibration = fsr::loadCalibration(output);
-  EXPECT_EQ(calibration.tables.scheme, fsr::Scheme::kBaseline);
+  const fsr::calibration::Calibration calibration = fsr::calibration::loadCalibration(output);
+  EXPECT_EQ(calibration.tables.scheme, fsr::compensation::Scheme::kBaseline);
   EXPECT_EQ(calibration.regressor.grnn.bandwidth, 0.05);
   EXPECT_FALSE(calibration.bandwidth_chosen);
   EXPECT_EQ(calibration.folds, 4u);
@@ -92,10 +92,10 @@ TEST_F(TrainTool, TakesItsOptions) {
 TEST_F(TrainTool, TrainsEverySchemeByItsName) {
   const std::string flat = record("flat.bag", {"flat", 0.0});
   const std::string output = (folder_ / "calibration.h5").string();
-  for (const std::string& scheme : fsr::schemeNames()) {
+  for (const std::string& scheme : fsr::compensation::schemeNames()) {
     const std::string text = run({flat, bend_, "--scheme", scheme, "--bandwidth", "0.1", "--output", output});
     EXPECT_NE(text.find(" (" + scheme + ", grnn, bandwidth 0.1) is in " + output), std::string::npos) << text;
-    EXPECT_EQ(fsr::schemeName(fsr::loadCalibration(output).tables.scheme), scheme);
+    EXPECT_EQ(fsr::compensation::schemeName(fsr::calibration::loadCalibration(output).tables.scheme), scheme);
   }
 }
 
@@ -105,20 +105,22 @@ TEST_F(TrainTool, TrainsEachModelWithItsOptions) {
     words.insert(words.end(), {bend_, "--output", output});
     const std::string text = run(words);
     EXPECT_NE(text.find("is in " + output), std::string::npos) << text;
-    return fsr::loadCalibration(output);
+    return fsr::calibration::loadCalibration(output);
   };
   EXPECT_EQ(trained({"--model", "linear"}).regressor.name, "linear");
   EXPECT_EQ(trained({"--model", "monotone"}).regressor.name, "monotone");
-  const fsr::Calibration forest =
+  const fsr::calibration::Calibration forest =
       trained({"--model", "forest", "--trees", "20", "--minimum-leaf", "9", "--leaf-rule", "distinct"});
   EXPECT_EQ(forest.regressor.forest.trees, 20u);
   EXPECT_EQ(forest.regressor.forest.minimum_leaf, 9u);
-  EXPECT_EQ(forest.regressor.forest.leaf_count, fsr::LeafCount::kDistinct);
-  const fsr::Calibration grnn = trained({"--bandwidth", "auto", "--spread", "matlab", "--equal-bins"});
-  EXPECT_EQ(grnn.regressor.grnn.spread, fsr::SpreadMeaning::kHalf);
-  EXPECT_EQ(grnn.regressor.grnn.weighting, fsr::SampleWeighting::kEachPressureBin);
+  EXPECT_EQ(forest.regressor.forest.leaf_count, fsr::regression::LeafCount::kDistinct);
+  const fsr::calibration::Calibration grnn =
+      trained({"--bandwidth", "auto", "--spread", "matlab", "--equal-bins"});
+  EXPECT_EQ(grnn.regressor.grnn.spread, fsr::regression::SpreadMeaning::kHalf);
+  EXPECT_EQ(grnn.regressor.grnn.weighting, fsr::regression::SampleWeighting::kEachPressureBin);
   EXPECT_TRUE(grnn.bandwidth_chosen);
-  EXPECT_EQ(trained({"--distance=literal"}).regressor.grnn.distance, fsr::KernelDistance::kLiteral);
+  EXPECT_EQ(trained({"--distance=literal"}).regressor.grnn.distance,
+            fsr::regression::KernelDistance::kLiteral);
 }
 
 TEST_F(TrainTool, MergesCalibrations) {
@@ -131,8 +133,8 @@ TEST_F(TrainTool, MergesCalibrations) {
   const std::string text = run({"--merge", a, b, "--output", merged, "--threads", "1"});
   EXPECT_NE(text.find("Scores need the bags"), std::string::npos) << text;
   EXPECT_NE(text.find(" is in " + merged), std::string::npos) << text;
-  const fsr::CurvatureTables one = fsr::loadCalibration(merged).tables;
-  const fsr::CurvatureTables other = fsr::loadCalibration(whole).tables;
+  const fsr::compensation::CurvatureTables one = fsr::calibration::loadCalibration(merged).tables;
+  const fsr::compensation::CurvatureTables other = fsr::calibration::loadCalibration(whole).tables;
   ASSERT_EQ(one.tables.size(), other.tables.size());
   for (std::size_t i = 0; i < one.tables.size(); ++i) {
     EXPECT_EQ(one.tables[i].pressure, other.tables[i].pressure);

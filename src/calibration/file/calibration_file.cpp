@@ -1,0 +1,138 @@
+#include "fsr_pressure_map/calibration/calibration_file.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <tuple>
+
+#include "calibration/file/calibration_hdf5.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "settings/fresh_file.h"
+#include "settings/replace_file.h"
+#include "settings/sha256.h"
+
+namespace fsr::calibration {
+
+namespace {
+
+constexpr char kFormat[] = "fsr_pressure_map calibration";
+constexpr std::size_t kIdDigits = 12;
+// 32 x 32 taxels of 16 bit with six classes fit [bytes].
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{4} << 30;
+
+// The whole user block: a line of text, the rest zeros.
+std::string userBlock(std::uint64_t schema, const std::string& hash) {
+  std::string block = std::string(kFormat) + " schema=" + std::to_string(schema) + " sha256=" + hash + "\n";
+  block.resize(hdf5::kUserBlock, '\0');
+  return block;
+}
+
+// The schema that the user block names; refuses what is no calibration file.
+std::uint64_t schemaOf(const std::string& bytes) {
+  if (bytes.empty()) throw settings::InputError("is empty; train again, or copy the file again");
+  const std::string start = std::string(kFormat) + " schema=";
+  if (bytes.compare(0, start.size(), start) != 0) {
+    throw settings::InputError("is no calibration file; give one that train has written");
+  }
+  return std::strtoull(bytes.c_str() + start.size(), nullptr, 10);
+}
+
+void readUpTo(std::uintmax_t size, std::ifstream& file, std::string& bytes) {
+  const std::size_t begin = bytes.size();
+  bytes.resize(size);
+  if (!file.read(bytes.data() + begin, static_cast<std::streamsize>(size - begin))) {
+    throw settings::InputError("cannot be read to its end; is it being written?");
+  }
+}
+
+// The file; of one that is no calibration no more than its first line.
+std::string readWhole(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw settings::InputError("cannot be opened (" + std::string(std::strerror(errno)) + ")");
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) throw settings::InputError("is no file; give the path of a calibration file");
+  std::string bytes;
+  readUpTo(std::min<std::uintmax_t>(size, hdf5::kUserBlock), file, bytes);
+  schemaOf(bytes);
+  if (size > kLargestFile) throw settings::InputError("is larger than 4 GiB, which no calibration is");
+  readUpTo(size, file, bytes);
+  return bytes;
+}
+
+// The id; refuses bytes that do not have the hash that the user block names.
+std::string verified(const std::string& bytes) {
+  const std::size_t content = bytes.size() - std::min(bytes.size(), hdf5::kUserBlock);
+  const std::string hash = settings::sha256(bytes.data() + bytes.size() - content, content);
+  // The hash does not cover the line's own number, so that this is held against what the schema brought.
+  const std::uint64_t own = bytes.find(kRuleMeaning) == std::string::npos ? 1 : kCalibrationSchema;
+  if (content == 0 || bytes.compare(0, hdf5::kUserBlock, userBlock(own, hash)) != 0) {
+    throw settings::InputError(
+        "is damaged or cut short: its bytes do not have the SHA-256 that its first line names; "
+        "copy the file again or train again");
+  }
+  return hash.substr(0, kIdDigits);
+}
+
+// The id of a whole file of a schema that is known; refuses any other.
+std::string verifiedId(const std::string& path) {
+  const std::string bytes = readWhole(path);
+  const std::uint64_t schema = schemaOf(bytes);
+  if (schema > kCalibrationSchema) {
+    throw settings::InputError("has schema " + std::to_string(schema) + ", but this version reads up to " +
+                               std::to_string(kCalibrationSchema) + "; update the package");
+  }
+  return verified(bytes);
+}
+
+// What changes when a file is replaced or written to: which it is, when and how long it is. Zeros where it
+// is not there.
+using FileState = std::tuple<ino_t, time_t, long, off_t>;
+
+FileState stateOf(const std::string& path) {
+  struct stat state {};
+  ::stat(path.c_str(), &state);
+  return {state.st_ino, state.st_mtim.tv_sec, state.st_mtim.tv_nsec, state.st_size};
+}
+
+}  // namespace
+
+std::string saveCalibration(const Calibration& calibration, const std::string& path) {
+  settings::FreshPath fresh(path);
+  errno = 0;
+  try {
+    hdf5::Writer writer(fresh.name());
+    writeCalibration(calibration, writer);
+    writer.finish();
+  } catch (const settings::InputError&) {
+    throw settings::cannotWrite(path, errno == 0 ? EIO : errno);
+  }
+  const std::string hash = settings::sha256OfFile(fresh.name(), hdf5::kUserBlock);
+  const std::string first_line = userBlock(kCalibrationSchema, hash);
+  std::fstream file(fresh.name(), std::ios::in | std::ios::out | std::ios::binary);
+  if (!file.write(first_line.data(), static_cast<std::streamsize>(first_line.size())).flush()) {
+    throw settings::cannotWrite(path, errno);
+  }
+  fresh.finish();
+  return hash.substr(0, kIdDigits);
+}
+
+Calibration loadCalibration(const std::string& path, CalibrationParts parts) {
+  try {
+    const FileState before = stateOf(path);
+    const std::string id = verifiedId(path);
+    Calibration calibration = readCalibration(hdf5::Reader(path), parts);
+    if (stateOf(path) != before) throw settings::InputError("was replaced while it was read; read it again");
+    calibration.id = id;
+    return calibration;
+  } catch (const settings::InputError& error) {
+    throw settings::InputError(path + ": " + error.what());
+  }
+}
+
+}  // namespace fsr::calibration

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "fsr_pressure_map/calibration/calibration.h"
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "hdf5/reader.h"
+#include "hdf5/writer.h"
+
+namespace fsr::calibration {
+
+// The content of a calibration file, schema 2:
+//
+//     /            attributes scheme, model, bandwidth, folds, full_scale, curvature_rule, use
+//     /model       attributes bandwidth_chosen, spread, distance, weighting, trees, minimum_leaf, leaf_rule
+//                  (absent in the first files)
+//     /sensor      attributes sensor_id, serial, firmware, model, sealing, transducer
+//     /layout      attributes rows, columns, pitch_x [m], pitch_y [m]; no_model, masked [taxels]
+//     /trained     attributes pressure, pressure_rate, curvature, temperature: lowest, highest
+//     /provenance  attributes tool_version, date, seed; bags, sha256, scans [bags]; warnings
+//     /tables      surfaces [models], curvature [models x (1 or taxels)],
+//                  pressure, deviation, support [taxels x models x codes], trained_codes [taxels x models x
+//                  2]
+//     /rule        attribute blend; model_of_class, length_scale, law_curvature, law_gain, law_offset,
+//                  unseen_pressure, unseen_deviation, log_weight where the scheme has them (absent in schema
+//                  1: nearest)
+//     /coverage    scans, cycles [classes x bins x 2], totals, pressure, thin
+//     /scores      see scores_hdf5 (absent where not asked for)
+//     /statistics  surfaces, curvature of the classes; first [taxels x classes x sections + 1] and the rows
+//                  code, count, sum that it points into; square_high, square_low of the rows with count > 1
+//
+// Taxels are row-major. Numbers carry `unit`, everything says its `meaning`.
+constexpr std::uint64_t kCalibrationSchema = 2;
+
+// Stands in every file from schema 2 on, and in none before.
+constexpr char kRuleMeaning[] = "how the tables of the classes become the table of any curvature";
+
+void writeCalibration(const Calibration& calibration, hdf5::Writer& writer);
+
+/// Throws InputError that names what is missing or does not fit.
+Calibration readCalibration(const hdf5::Reader& reader, CalibrationParts parts);
+
+// Parts with a file of their own.
+void writeTables(const compensation::CurvatureTables& tables, hdf5::Writer& writer);
+compensation::CurvatureTables readTables(const hdf5::Reader& reader, matrix::MatrixSize size);
+void writeRule(const compensation::CurvatureTables& tables, hdf5::Writer& writer);
+void readRule(const hdf5::Reader& reader, compensation::CurvatureTables& tables);
+void writeCoverage(const dataset::Coverage& coverage, hdf5::Writer& writer);
+dataset::Coverage readCoverage(const hdf5::Reader& reader,
+                               const std::vector<dataset::CurvatureClass>& classes);
+void writeScores(const CalibrationScores& scores, hdf5::Writer& writer);
+CalibrationScores readScores(const hdf5::Reader& reader, const std::vector<dataset::CurvatureClass>& classes);
+void writeStatistics(const compensation::TrainingStatistics& statistics, hdf5::Writer& writer);
+/// `cells` = whether to read the sums too, not the classes alone.
+compensation::TrainingStatistics readStatistics(const hdf5::Reader& reader, matrix::MatrixSize size,
+                                                bool cells);
+void writeClasses(const std::string& group, const std::vector<dataset::CurvatureClass>& classes,
+                  hdf5::Writer& writer);
+std::vector<dataset::CurvatureClass> readClasses(const std::string& group, matrix::MatrixSize size,
+                                                 const hdf5::Reader& reader);
+
+}  // namespace fsr::calibration

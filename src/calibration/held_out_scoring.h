@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "calibration/training_scans.h"
+#include "compensation/scheme_plan.h"
+#include "fsr_pressure_map/calibration/scores.h"
+#include "regression/cross_validation.h"
+
+namespace fsr::calibration {
+
+/// Scores the held-out readings of a calibration, taxel by taxel: each reading is predicted by the model
+/// that answers for its class, trained without the reading's section.
+class HeldOutScoring {
+ public:
+  /// `scans` and `plan` must outlive the object.
+  HeldOutScoring(const TrainingScans& scans, const compensation::SchemePlan& plan, std::size_t sections,
+                 std::size_t taxels);
+
+  /// `models` as fitTaxel() gives them, with held-out deviations. Different taxels may be scored at the
+  /// same time; a taxel that never is stays out of the scores.
+  void scoreTaxel(std::size_t taxel, const std::vector<regression::CrossValidatedModel>& models);
+
+  CalibrationScores summarise(const std::vector<dataset::CurvatureClass>& classes) const;
+
+ private:
+  // What one taxel contributes to the score of one class, or of all together.
+  struct TaxelScore {
+    double r2;
+    double rmse_percent;
+    std::size_t within;  // readings within one deviation
+  };
+  struct TaxelScores {
+    std::vector<TaxelScore> scores;          // of each class, then of all together
+    std::vector<std::vector<float>> errors;  // [class][scan of the class] [Pa]; NaN = not scored
+  };
+
+  Score pool(const std::vector<std::size_t>& classes, std::size_t entry) const;
+
+  const TrainingScans& scans_;
+  const compensation::SchemePlan& plan_;
+  std::size_t sections_;
+  std::vector<TaxelScores> taxels_;  // empty members: not scored
+};
+
+}  // namespace fsr::calibration

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fsr_pressure_map/compensation/training_statistics.h"
+#include "fsr_pressure_map/regression/grnn.h"
+
+namespace fsr::compensation {
+
+/// Classes that share one model, ascending.
+using CurvatureRange = std::vector<std::size_t>;
+
+/// Neighbouring ranges, at first one for each class, are merged as long as that raises the squared error on
+/// held-out sections by no more than kMergeCost, the cheapest first.
+std::vector<CurvatureRange> learnRanges(const TrainingStatistics& statistics, const regression::Grnn& grnn,
+                                        const std::vector<std::size_t>& taxels, unsigned threads);
+
+constexpr double kMergeCost = 0.02;
+
+}  // namespace fsr::compensation

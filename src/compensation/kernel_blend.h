@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "fsr_pressure_map/regression/regressor.h"
+#include "regression/grnn/kernel_mean.h"
+
+namespace fsr::compensation {
+
+/// A GRNN of two inputs is, at one value of the second, the mean of one-input GRNNs, one for each value
+/// that training held:
+///
+///     f(c) = sum_k e^-x_k w_k(c) f_k(c) / sum_k e^-x_k w_k(c),
+///
+/// w_k being the kernel sum of class k at code c and x_k = D_k^2 / 2 sigma^2 the exponent of the class's
+/// distance. `classes` [K] with log_weight (kWhereZero will do), `exponent` [K] >= 0. Where everything
+/// underflows the logarithms decide, so that the nearest sample answers, as in gaussianMean().
+regression::Fit blendKernels(const std::vector<regression::KernelMean>& classes,
+                             const std::vector<double>& exponent);
+
+}  // namespace fsr::compensation

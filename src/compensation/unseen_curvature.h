@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fsr_pressure_map/compensation/blend_table.h"
+#include "fsr_pressure_map/compensation/curvature_tables.h"
+#include "fsr_pressure_map/compensation/training_statistics.h"
+#include "fsr_pressure_map/statistics/pressure_bins.h"
+
+namespace fsr::compensation {
+
+/// Errors of one taxel on curvatures that it had not been trained on: each of its inner classes in turn is
+/// answered from the others.
+struct UnseenErrors {
+  struct Bin {
+    double readings = 0;
+    double squares = 0;   ///< of the errors [Pa^2]
+    double stated = 0;    ///< of the class's own stated deviation, which it has anyway [Pa^2]
+    double pressure = 0;  ///< sum of the answers [Pa]
+  };
+  std::array<Bin, statistics::kPressureBins> bins;  ///< by answer
+  double lowest = 0, highest = 0;                   ///< pressures of the readings, means of a code [Pa]
+
+  double readings() const;
+  double rmse() const;  ///< [Pa]; NaN where there is no inner class
+};
+
+/// `law_without` [classes] is the law learned without each class; empty = no law. `tables` has one class or
+/// more with a model at this taxel.
+UnseenErrors leaveClassesOut(const CurvatureTables& tables, std::size_t taxel,
+                             const TrainingStatistics& statistics, const std::vector<EffectLaw>& law_without);
+
+/// What the errors of all taxels say beyond the stated deviation. Empty where there is no inner class.
+UnseenDeviation unseenDeviation(const std::vector<UnseenErrors>& taxels);
+
+}  // namespace fsr::compensation

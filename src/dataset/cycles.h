@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fsr_pressure_map/statistics/pressure_bins.h"
+
+namespace fsr::dataset {
+
+/// How far the pressure must turn back before a peak or a valley counts.
+struct CycleOptions {
+  double share_of_range = 0.05;  ///< of the largest - smallest pressure of the series
+  double least = 2e3;            ///< and at least this: noise is no cycle [Pa]
+};
+
+/// Fill and vent cycles of a chamber. A cycle runs from one valley to the next.
+struct Cycles {
+  std::vector<std::size_t> first;  ///< index of each cycle's first reading; first[0] = 0
+  std::vector<statistics::LoadDirection>
+      direction;  ///< of each reading; kNone where the pressure never changes
+
+  std::size_t count() const { return first.size(); }
+};
+
+/// `pressure` [Pa] in time order, finite. A series that never changes, and an empty one, has no
+/// cycle; a single rise or fall is one.
+Cycles findCycles(const std::vector<double>& pressure, const CycleOptions& options = {});
+
+}  // namespace fsr::dataset

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dataset/surface_timeline.h"
+#include "dataset/time_series.h"
+#include "fsr_pressure_map/dataset/recording.h"
+#include "fsr_pressure_map/matrix/scan.h"
+
+namespace fsr::dataset {
+
+/// What a matrix says of itself (MatrixInfo.msg).
+struct MatrixDescription {
+  SensorIdentity sensor;
+  matrix::Layout layout;
+  std::uint16_t full_scale = 0;
+  double ambient_pressure = 0;     ///< of the place; 0 = unknown [Pa]
+  std::vector<std::uint8_t> mask;  ///< 1 = ignore this taxel; empty = none
+};
+
+struct RecordingOptions {
+  std::string name;    ///< base name of the bag
+  std::string sha256;  ///< of the bag's bytes
+  /// Ambient pressure [Pa]; without it the matrix's own description says, else kStandardAmbient and
+  /// a warning.
+  std::optional<double> ambient_pressure;
+  double change_margin = 1.0;          ///< scans this near to a change of surface are dropped [s]
+  double longest_reference_gap = 2.0;  ///< chamber readings farther apart bracket nothing [s]
+  /// Surfaces of one name and mount whose curvature differs by less than this at every taxel are
+  /// one condition: a measured curvature scatters [1/m].
+  double same_curvature = 0.1;
+};
+
+constexpr double kStandardAmbient = 101325.0;  // [Pa]
+
+/// Makes a Recording of raw events, the same one whatever the order of the calls: from a bag, from
+/// topics, live or replayed.
+///
+/// The rule: events are sorted by their own stamps, of scans with one stamp one is kept, the chamber
+/// pressure is interpolated to the scans, gauge = absolute - ambient. A surface holds from its stamp
+/// to the next one's; scans before the first belong to it. Scans near a change of surface are
+/// dropped. Receive times play no part.
+class RecordingBuilder {
+ public:
+  /// How many events came in.
+  struct Events {
+    std::uint64_t scans = 0;
+    std::uint64_t chamber_pressures = 0;
+    std::uint64_t surfaces = 0;
+    std::uint64_t temperatures = 0;
+    std::uint64_t descriptions = 0;
+  };
+
+  /// Throws InputError where the scan is malformed or of another matrix than those before.
+  void addScan(std::int64_t stamp_ns, std::uint32_t sequence, const matrix::ScanView& scan);
+  void addChamberPressure(std::int64_t stamp_ns, double absolute_pressure);  // [Pa]
+  void addSurface(std::int64_t stamp_ns, const matrix::Surface& surface);
+  void addTemperature(std::int64_t stamp_ns, double temperature);  // [degree Celsius]
+  void addDescription(std::int64_t stamp_ns, const MatrixDescription& description);
+
+  const Events& events() const { return events_; }
+  void clear() { *this = RecordingBuilder(); }
+
+  /// Throws InputError where there is no scan, or where descriptions, surfaces and scans do not
+  /// belong to one matrix. A recording without chamber pressure or surface is a recording: whoever
+  /// needs them asks for them.
+  Recording build(const RecordingOptions& options) const;
+
+ private:
+  struct ScanEvent {
+    std::int64_t stamp_ns;
+    std::uint32_t sequence;
+    std::size_t first_count;  // in counts_
+  };
+  using DescriptionEvent = std::pair<std::int64_t, MatrixDescription>;
+
+  std::vector<ScanEvent> sortedScans(RecordingLosses& losses) const;
+  // The earliest of the descriptions, which all fit the scans and each other; none = none came.
+  const MatrixDescription* description() const;
+  Recording emptyRecording(const RecordingOptions& options) const;
+  double ambient(const RecordingOptions& options, std::vector<std::string>& warnings) const;
+
+  matrix::MatrixSize size_;
+  std::uint16_t full_scale_ = 0;
+  std::vector<ScanEvent> scans_;
+  std::vector<std::uint16_t> counts_;  // of all scans, as they came
+  TimeSeries chamber_pressure_;
+  TimeSeries temperature_;
+  std::vector<SurfaceTimeline::Event> surfaces_;
+  std::vector<DescriptionEvent> descriptions_;
+  Events events_;
+};
+
+}  // namespace fsr::dataset

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "discrepancy/decide/competition.h"
+#include "discrepancy/decide/refine.h"
+#include "discrepancy/fit/taxel_fit.h"
+#include "discrepancy/samples/evidence.h"
+
+namespace fsr::discrepancy {
+
+/// Thresholds of every decision; each file has those of its own besides.
+namespace weigh {
+constexpr double kLeastShareOfError = 0.02;  // of the readings' squared error: less does not matter
+constexpr double kSignificant = 2;           // standard errors
+constexpr double kGoodForm = 0.7;            // of the ceiling: who explains less has not the right form
+constexpr double kDriftHides = 0.5;          // of what drift explains: it may be any slow effect that near
+}  // namespace weigh
+
+/// An explanation by one effect or two, as signatures and, where it came near, through the forward model.
+struct Explanation {
+  Score score;
+  double share = 0;  ///< of the common trace's error that it explains; the better of the two
+  bool is_refined = false;
+  Refined refined;
+
+  bool has(const std::string& id) const;
+};
+
+/// Whether an effect changes from cycle to cycle: some dozens of gains do not hold two of them.
+bool isSlow(const std::string& id);
+
+/// Every single explanation, and the measures by which explanations are compared: what each explains of
+/// cycles that took no part in its fit, and how sure one is ahead of another.
+class Contest {
+ public:
+  Contest(const Measured& measured, const CommonTraces& common, const StaticFit& fit, const TaxelFit& taxels,
+          const Competition& competition, const simulation::SimulationSettings& base);
+
+  const Competition& competition() const { return competition_; }
+  const Selection& selection() const { return competition_.selection(); }
+  const EvidenceAtHand& evidence() const { return evidence_; }
+  const std::vector<Explanation>& singles() const { return singles_; }
+  std::vector<Explanation>& singles() { return singles_; }
+  const std::vector<Score>& generics() const { return generics_; }
+  std::vector<simulation::Covariate> covariates(const Score& generic) const;
+
+  /// Share of the common trace's error that anything explains.
+  double ceiling() const { return ceiling_; }
+  void raiseCeiling(double share);
+
+  const Explanation* best() const;   ///< of the single effects; null without any
+  const Score* bestGeneric() const;  ///< null without any
+  /// Of the generic terms that do nearly as well as the best those with the fewest covariates: more are not
+  /// said to matter unless they do.
+  const Score* simplestGeneric() const;
+
+  /// What it explains of the common trace's error.
+  double shareOf(const Score& score) const { return Selection::share(selection().nothing(), score); }
+  /// Of the readings' squared error, where the cycles' gains count in full, as far as it holds on cycles that
+  /// took no part.
+  double shareOfError(const Score& score) const;
+  /// A share of the common trace's error as one of the readings'.
+  double shareOfReadings(double share) const;
+  /// Whether it stands out from noise and from what is too small to matter.
+  bool shows(const Score& score) const;
+  bool shows(const Explanation& explanation) const;
+  double z(const Score& score) const { return selection().z(selection().nothing(), score); }
+  /// By how many standard errors `worse` is behind; see Selection::z().
+  double behindInErrors(const Explanation& worse, const Explanation& better) const;
+
+  /// What the effects explain together with the generic terms of their own covariates that add most to them:
+  /// what some form of them may explain.
+  Score inAnyForm(const Explanation& explanation) const;
+  /// Whether each of the covariates is one that the effects depend on.
+  static bool within(const std::vector<simulation::Covariate>& covariates, const Score& effects);
+
+  /// Fits it through the forward model, once.
+  void refineOne(Explanation& explanation) const;
+  /// Those single effects that may yet be the best; none where the best has no rival worth the time.
+  void refineNear();
+
+ private:
+  Trace leftBy(const Explanation& explanation) const;
+
+  const Measured& measured_;
+  const CommonTraces& common_;
+  const StaticFit& fit_;
+  const TaxelFit& taxels_;
+  const Competition& competition_;
+  const simulation::SimulationSettings& base_;
+  const EvidenceAtHand evidence_;
+  std::vector<Explanation> singles_;
+  std::vector<Score> generics_;
+  double ceiling_ = 0;
+};
+
+}  // namespace fsr::discrepancy

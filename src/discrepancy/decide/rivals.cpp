@@ -1,0 +1,107 @@
+#include "discrepancy/decide/rivals.h"
+
+#include <algorithm>
+
+#include "discrepancy/decide/second_effect.h"
+#include "simulation/effects/effect_library.h"
+
+namespace fsr::discrepancy {
+
+namespace {
+
+constexpr double kRivalWithin = 0.05;  // of what the best explains
+constexpr double kRivalFar = 0.15;     // likewise: behind it by more it is none, whatever the errors
+constexpr double kSecondRival = 0.7;   // of what the second adds: another that adds as much is as good
+constexpr double kNearBadForm = 0.6;   // of the best one's share, where its form is wrong
+
+using Ids = std::vector<std::string>;
+
+// Whether the recordings do not tell them apart.
+bool isRival(const Contest& contest, const Explanation& other, const Explanation& best) {
+  const EvidenceAtHand& evidence = contest.evidence();
+  const double behind = best.share - other.share;
+  if (contest.behindInErrors(other, best) < weigh::kSignificant && behind < kRivalFar * best.share)
+    return true;
+  if (mayBeOne(other, best)) return true;
+  // One effect against two was weighed by what the second adds; two against two by the same.
+  if (best.score.ids.size() > 1 && other.score.ids.size() == 1) return false;
+  if (best.score.ids.size() > 1) return behind <= (1 - kSecondRival) * (best.share - contest.best()->share);
+  const std::string &first = best.score.ids.front(), &second = other.score.ids.front();
+  // What everything slow looks like excludes nothing slow, unless that went another way than the clock.
+  if (first == "drift" && isSlow(second))
+    return behind <= (evidence.apartFromClock(second) ? kRivalFar : weigh::kDriftHides) * best.share;
+  // And where that did, a drift with its three parameters is no simpler explanation that comes near.
+  if (second == "drift" && isSlow(first) && evidence.apartFromClock(first)) return false;
+  return behind <= kRivalWithin * best.share;
+}
+
+// Whether the recordings hold what an effect needs, to be named without a partner.
+bool standsAlone(const EvidenceAtHand& evidence, const simulation::EffectInfo& info) {
+  const bool all = std::all_of(info.needs.begin(), info.needs.end(),
+                               [&](simulation::Evidence e) { return evidence.has(e); });
+  // Whatever goes on slowly looks like a drift while the clock and the cycles go on together, and a wear that
+  // fades like a break-in until a surface is mounted again.
+  if (info.id == "drift") return all && evidence.uneven_pace;
+  if (info.id == "break_in") return all && evidence.remounted;
+  return all;
+}
+
+// The best of the effects that are easily taken for one of the explanation's; null where none comes near.
+const Explanation* partnerOf(const Contest& contest, const simulation::EffectInfo& info,
+                             const Explanation& explanation) {
+  const Explanation* partner = nullptr;
+  for (const Explanation& single : contest.singles()) {
+    const std::string& other = single.score.ids.front();
+    const bool listed = std::count(info.collinear.begin(), info.collinear.end(), other) > 0;
+    const bool near = contest.shows(single) || single.share >= kNearBadForm * explanation.share;
+    if (!listed || explanation.has(other) || !near) continue;
+    if (!partner || single.share > partner->share) partner = &single;
+  }
+  return partner;
+}
+
+}  // namespace
+
+std::vector<Ids> credibleSet(const Contest& contest, const std::vector<Explanation>& pairs,
+                             const Explanation& best) {
+  std::vector<const Explanation*> rivals;
+  const auto gather = [&](const Explanation& other) {
+    if (other.score.ids != best.score.ids && isRival(contest, other, best)) rivals.push_back(&other);
+  };
+  for (const Explanation& single : contest.singles()) {
+    if (contest.shows(single)) gather(single);
+  }
+  for (const Explanation& pair : pairs) gather(pair);
+  std::sort(rivals.begin(), rivals.end(),
+            [](const Explanation* a, const Explanation* b) { return a->share > b->share; });
+  std::vector<Ids> credible = {best.score.ids};
+  for (const Explanation* rival : rivals) credible.push_back(rival->score.ids);
+  if (contest.evidence().temperature_moved) {
+    std::stable_partition(credible.begin(), credible.end(),
+                          [](const Ids& ids) { return ids == Ids{"temperature"}; });
+  }
+  std::stable_partition(credible.begin(), credible.end(), [](const Ids& ids) { return ids != Ids{"drift"}; });
+  return credible;
+}
+
+std::vector<Ids> partnersOf(const Contest& contest, const Explanation& first) {
+  std::vector<Ids> partners;
+  for (const std::string& id : first.score.ids) {
+    const simulation::EffectInfo& info = simulation::findEffect(id)->info;
+    if (standsAlone(contest.evidence(), info)) continue;
+    if (const Explanation* partner = partnerOf(contest, info, first)) partners.push_back(partner->score.ids);
+  }
+  if (!partners.empty() || first.share >= weigh::kGoodForm * contest.ceiling()) return partners;
+  const std::string& id = first.score.ids.front();
+  const bool slow_apart = isSlow(id) && contest.evidence().apartFromClock(id);
+  for (const Explanation& single : contest.singles()) {
+    if (single.score.ids == first.score.ids || single.share < kNearBadForm * first.share) continue;
+    // Hours of cycles and pauses have told it from what else is slow, in whatever form.
+    const bool told = slow_apart && isSlow(single.score.ids.front()) &&
+                      contest.behindInErrors(single, first) > weigh::kSignificant;
+    if (!told) partners.push_back(single.score.ids);
+  }
+  return partners;
+}
+
+}  // namespace fsr::discrepancy

@@ -1,0 +1,88 @@
+#include "discrepancy/decide/second_effect.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fsr::discrepancy {
+
+namespace {
+
+constexpr double kSecondOfRest = 0.45;   // of what remains explainable: a wrong form alone leaves that much
+constexpr double kSecondOfFirst = 0.03;  // of what the first effect explains
+constexpr double kSecondLookalike = 8;   // standard errors, where a wrong form of one looks like the other
+constexpr double kAnyForm = 0.7;    // of what the second adds: if a form of the first does, there is none
+constexpr double kCreepNear = 0.8;  // of a loop with a break-in
+constexpr std::size_t kPairsRefined = 4;
+constexpr double kMuchOpen = 0.75;  // of the common trace's error: less explained leaves room for two
+
+// A creep whose form is not quite the library's leaves something of a loop, and goes on otherwise in the
+// first cycles of every mount, as a break-in does.
+bool lookAlike(const Explanation& pair) {
+  return pair.has("creep") && (pair.has("break_in") || pair.has("hysteresis"));
+}
+
+// The pairs that do best as signatures, best first, and the best single effect with each of the others: a
+// large effect bends, and its signature alone says too little of it.
+std::vector<Explanation> bestPairs(const Contest& contest, const Explanation& one) {
+  const Selection& selection = contest.selection();
+  const std::vector<Explanation>& singles = contest.singles();
+  const std::vector<Family>& families = contest.competition().effects();
+  std::vector<Explanation> pairs;
+  for (std::size_t a = 0; a < singles.size(); ++a) {
+    for (std::size_t b = a + 1; b < singles.size(); ++b) {
+      if (isSlow(families[a].id) && isSlow(families[b].id)) continue;
+      Explanation pair;
+      pair.score = selection.score(singles[a].score, families[b]);
+      Score swapped = selection.score(singles[b].score, families[a]);
+      std::swap(swapped.ids.front(), swapped.ids.back());
+      if (swapped.total < pair.score.total) pair.score = swapped;
+      pair.share = contest.shareOf(pair.score);
+      pairs.push_back(pair);
+    }
+  }
+  const auto better = [](const Explanation& a, const Explanation& b) { return a.share > b.share; };
+  std::sort(pairs.begin(), pairs.end(), better);
+  const auto first = pairs.begin() + static_cast<std::ptrdiff_t>(std::min(pairs.size(), kPairsRefined));
+  pairs.erase(
+      std::remove_if(first, pairs.end(), [&](const auto& pair) { return !pair.has(one.score.ids.front()); }),
+      pairs.end());
+  return pairs;
+}
+
+bool isWorthIt(const Contest& contest, const Explanation& one, double in_any_form, const Explanation& two) {
+  const double gain = two.share - one.share, rest = std::max(contest.ceiling(), two.share) - one.share;
+  if (lookAlike(two) && contest.selection().z(one.score, two.score) < kSecondLookalike) return false;
+  if (in_any_form >= one.share + kAnyForm * gain) return false;
+  return gain >= kSecondOfRest * rest && gain >= kSecondOfFirst * one.share &&
+         contest.behindInErrors(one, two) > weigh::kSignificant &&
+         gain / two.share * contest.shareOfError(two.score) >= weigh::kLeastShareOfError;
+}
+
+}  // namespace
+
+bool mayBeOne(const Explanation& single, const Explanation& pair) {
+  return single.has("creep") && pair.has("hysteresis") && pair.has("break_in") &&
+         single.share >= kCreepNear * pair.share;
+}
+
+std::vector<Explanation> pairsWorthIt(Contest& contest, const Explanation& one) {
+  std::vector<Explanation> pairs = bestPairs(contest, one);
+  if (pairs.empty()) return pairs;
+  const double open = std::max(contest.ceiling(), pairs.front().share) - one.share;
+  if (open < kSecondOfFirst * one.share && one.share > kMuchOpen) pairs.clear();
+  for (Explanation& pair : pairs) contest.refineOne(pair);
+  const double in_any_form = contest.shareOf(contest.inAnyForm(one));
+  const auto hopeless = [&](const Explanation& pair) { return !isWorthIt(contest, one, in_any_form, pair); };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), hopeless), pairs.end());
+  const auto merit = [&](const Explanation& pair) {
+    return one.share +
+           (pair.share - one.share) * (pair.has("drift") || pair.refined.at_bound ? weigh::kDriftHides : 1);
+  };
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [&](const auto& a, const auto& b) { return merit(a) > merit(b); });
+  if (!pairs.empty()) contest.raiseCeiling(pairs.front().share);
+  return pairs;
+}
+
+}  // namespace fsr::discrepancy

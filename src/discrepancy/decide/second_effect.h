@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "discrepancy/decide/contest.h"
+
+namespace fsr::discrepancy {
+
+/// Two effects, where the second closes enough of what `one`, the best single effect, leaves: best first.
+/// Raises the contest's ceiling to what the best of them explain. A pair with drift, which everything slow
+/// looks like, or beyond what is plausible, comes first only where no other pair adds half as much.
+std::vector<Explanation> pairsWorthIt(Contest& contest, const Explanation& one);
+
+/// Whether the single effect stays beside the pair as what it may be instead: a loop with a break-in does
+/// what a creep in a form that the library lacks does.
+bool mayBeOne(const Explanation& single, const Explanation& pair);
+
+}  // namespace fsr::discrepancy

@@ -1,0 +1,178 @@
+#include "discrepancy/fit/base_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "discrepancy/fit/levenberg.h"
+#include "discrepancy/fit/signatures.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "simulation/effects/effect_library.h"
+#include "simulation/sensor_chain.h"
+
+namespace fsr::discrepancy {
+
+namespace {
+
+constexpr std::size_t kPressures = 24;  // at which curves are compared, of each visit
+constexpr double kLargestStep = 4;      // of a logarithm: a factor of 50 either way
+
+// Base parameters that are fitted, all on logarithms of their size.
+struct BaseParameter {
+  const char* effect;
+  const char* name;
+};
+const BaseParameter kBase[] = {
+    {"static_curve", "conductance"},
+    {"static_curve", "exponent"},
+    {"static_curve", "saturation_pressure"},
+    {"static_curve", "offset"},
+    {"bending_preload", "amplitude"},
+    {"bending_preload", "curvature_constant"},
+    {"bending_gain", "change"},
+    {"saturation", "level"},
+    {"saturation", "sharpness"},
+    {"bending_gain", "curvature_constant"},
+};
+
+struct Fitted {
+  std::string effect, name;
+  double start;
+  settings::Range range;
+};
+
+simulation::EnabledEffect& enabled(simulation::SimulationSettings& settings, const std::string& id) {
+  return *std::find_if(settings.effects.begin(), settings.effects.end(),
+                       [&](const simulation::EnabledEffect& e) { return e.id == id; });
+}
+
+// What is fitted of these settings; parameters that are off start from a hundredth of what they may be.
+std::vector<Fitted> fittedOf(const simulation::SimulationSettings& settings, bool bent) {
+  std::vector<Fitted> fitted;
+  for (const auto& [effect, name] : kBase) {
+    const simulation::EnabledEffect* present = settings.effect(effect);
+    const bool by_bending = std::string(effect).rfind("bending", 0) == 0;
+    if (!present || (!bent && by_bending)) continue;
+    const settings::Range& range =
+        simulation::parameter(simulation::findEffect(effect)->info, name).permitted;
+    double start = present->values.at(name);
+    if (std::string(name) == "offset" && start == 0) start = 0.01 * present->values.at("conductance");
+    if (start == 0 || !std::isfinite(start)) continue;
+    fitted.push_back({effect, name, start, range});
+  }
+  return fitted;
+}
+
+simulation::SimulationSettings settingsAt(simulation::SimulationSettings settings,
+                                          const std::vector<Fitted>& fitted, const std::vector<double>& at) {
+  for (std::size_t k = 0; k < fitted.size(); ++k) {
+    const double value = fitted[k].start * std::exp(std::clamp(at[k], -kLargestStep, kLargestStep));
+    enabled(settings, fitted[k].effect).values[fitted[k].name] =
+        std::clamp(value, fitted[k].range.low, fitted[k].range.high);
+  }
+  return settings;
+}
+
+// A few moments of every visit, evenly over the pressures that it saw.
+std::vector<std::size_t> chosenMoments(const Measured& measured) {
+  std::vector<std::size_t> chosen;
+  for (const Visit& visit : measured.visits) {
+    std::vector<std::size_t> order;
+    for (std::size_t i = visit.first; i < visit.last; ++i) order.push_back(i);
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return measured.pressure[a] < measured.pressure[b]; });
+    const double low = measured.pressure[order.front()], high = measured.pressure[order.back()];
+    auto next = order.begin();
+    for (std::size_t k = 0; k < kPressures; ++k) {
+      const double wanted = low + (high - low) * static_cast<double>(k) / (kPressures - 1);
+      while (next + 1 != order.end() && measured.pressure[*next] < wanted) ++next;
+      chosen.push_back(*next);
+    }
+  }
+  return chosen;
+}
+
+// Static readings of the representative taxel at the chosen moments [share of full scale].
+Eigen::VectorXd staticReadings(const Measured& measured, const simulation::SimulationSettings& settings,
+                               const std::vector<std::size_t>& moments) {
+  simulation::SensorChain chain(representative(settings));
+  Eigen::VectorXd readings(static_cast<Eigen::Index>(moments.size()));
+  std::size_t mounted = measured.visits.size();
+  for (std::size_t k = 0; k < moments.size(); ++k) {
+    if (measured.visit[moments[k]] != mounted) {
+      mounted = measured.visit[moments[k]];
+      matrix::Surface surface = measured.visits[mounted].surface;
+      matrix::Curvature mean;
+      for (const matrix::Curvature& c : surface.curvature)
+        mean.x += matrix::principalCurvature(c) / static_cast<double>(surface.curvature.size());
+      surface.curvature = {mean};
+      chain.mount(surface);
+    }
+    simulation::RigMoment moment;
+    moment.pressure = measured.pressure[moments[k]];
+    chain.read(moment);
+    readings[static_cast<Eigen::Index>(k)] = chain.reading()[0] / settings.fullScale();
+  }
+  return readings;
+}
+
+// Only what is static: the curves hold nothing else.
+simulation::SimulationSettings withoutMemory(simulation::SimulationSettings settings) {
+  auto& effects = settings.effects;
+  effects.erase(std::remove_if(effects.begin(), effects.end(),
+                               [](const simulation::EnabledEffect& e) {
+                                 return std::none_of(
+                                            std::begin(kBase), std::end(kBase),
+                                            [&](const BaseParameter& b) { return e.id == b.effect; }) &&
+                                        e.id != "converter";
+                               }),
+                effects.end());
+  return settings;
+}
+
+// Relative deviation of the taxels' readings at high pressure.
+double taxelScatter(const Measured& measured) {
+  const auto peak = std::max_element(measured.pressure.begin(), measured.pressure.end());
+  std::vector<double> readings;
+  measured.readings(static_cast<std::size_t>(peak - measured.pressure.begin()), readings);
+  double sum = 0, squares = 0, number = 0;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    if (!measured.used[i] || readings[i] <= 0) continue;
+    sum += std::log(readings[i]);
+    squares += std::pow(std::log(readings[i]), 2);
+    ++number;
+  }
+  return number > 1 ? std::sqrt(std::max(0.0, (squares - sum * sum / number) / (number - 1))) : 0;
+}
+
+}  // namespace
+
+simulation::SimulationSettings fitBase(const Measured& measured, const StaticFit& fit,
+                                       const simulation::SimulationSettings& settings) {
+  bool bent = false;
+  for (const dataset::CurvatureClass& c : measured.classes) bent = bent || !dataset::isFlat(c);
+  const std::vector<Fitted> fitted = fittedOf(settings, bent);
+  const std::vector<std::size_t> moments = chosenMoments(measured);
+  Eigen::VectorXd wanted(static_cast<Eigen::Index>(moments.size()));
+  for (std::size_t k = 0; k < moments.size(); ++k) {
+    wanted[static_cast<Eigen::Index>(k)] = fit.curve()[static_cast<Eigen::Index>(moments[k])];
+  }
+  const simulation::SimulationSettings still = withoutMemory(settings);
+  const Residuals residuals = [&](const std::vector<double>& at) -> std::optional<Eigen::VectorXd> {
+    try {
+      return staticReadings(measured, settingsAt(still, fitted, at), moments) - wanted;
+    } catch (const settings::InputError&) {
+      return std::nullopt;
+    }
+  };
+  LevenbergOptions options;
+  options.steps = 40;
+  const auto at = levenberg(residuals, std::vector<double>(fitted.size(), 0.0), options);
+  simulation::SimulationSettings base = settingsAt(settings, fitted, at);
+  enabled(base, "static_curve").values["conductance_scatter"] =
+      std::min(taxelScatter(measured),
+               simulation::parameter(simulation::findEffect("static_curve")->info, "conductance_scatter")
+                   .permitted.high);
+  return base;
+}
+
+}  // namespace fsr::discrepancy

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "discrepancy/fit/static_fit.h"
+#include "discrepancy/samples/measured.h"
+#include "fsr_pressure_map/simulation/effect_info.h"
+#include "statistics/random_stream.h"
+
+namespace fsr::discrepancy {
+
+// Gain and zero of every cycle that is fitted on, against those of its like (same surface, same protocol):
+// what changes from one cycle to the next, slowly or by chance.
+class CycleLevels {
+ public:
+  // A covariate, as functions of the cycle.
+  struct Course {
+    simulation::Covariate covariate;
+    Eigen::MatrixXd terms;  // [cycles x terms], orthonormal, each without its means over cycles alike
+  };
+
+  CycleLevels(const Measured& measured, const StaticFit& fit, const Trace& residual);
+
+  const std::vector<Course>& courses() const { return courses_; }  // none with too few cycles
+  const Eigen::MatrixXd& measured() const { return levels_; }      // [cycles x 2]
+  // The same where nothing is slow: number `draw`.
+  Eigen::MatrixXd drawn(const statistics::RandomStream& stream, std::uint64_t draw) const;
+  // What the course explains, in units of the scatter from each cycle to the next.
+  double statistic(const Eigen::MatrixXd& levels, const Course& course) const;
+  // Mean square of the common trace that it explains [share of full scale, squared].
+  double explained(const Course& course) const;
+
+ private:
+  void judge(const Measured& measured, const StaticFit& fit, const Trace& residual);
+  void group(const Measured& measured);
+  void plan(const Measured& measured);
+  void add(simulation::Covariate covariate, Eigen::MatrixXd terms);
+  void centre(Eigen::MatrixXd& rows) const;
+
+  std::vector<std::size_t> cycles_;
+  std::vector<std::size_t> visit_, group_;  // of each
+  std::size_t groups_ = 0;
+  Eigen::MatrixXd levels_;
+  Eigen::Matrix2d gram_;  // of rise and 1, summed over all moments
+  double moments_ = 0;
+  std::vector<Course> courses_;
+};
+
+}  // namespace fsr::discrepancy

@@ -1,0 +1,218 @@
+#include "discrepancy/fit/generic_terms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace fsr::discrepancy {
+
+namespace {
+
+constexpr std::size_t kPressureHats = 5;
+constexpr std::size_t kTimeHats = 4;  // of the clock, in each visit
+constexpr double kReversalStart = 1;  // first knot of the time since a reversal [s]
+constexpr double kReversalStep = 5;   // factor from knot to knot
+constexpr std::size_t kReversalHats = 4;
+
+// Triangle of width 1 about 0.
+double hat(double x) {
+  return std::max(0.0, 1 - std::abs(x));
+}
+
+// What the columns are functions of, at each moment.
+struct Covariates {
+  std::vector<double> pressure;      // share of the highest
+  std::vector<double> rate;          // in units of a usual ramp
+  std::vector<double> since;         // a reversal [s]
+  std::vector<double> valley, peak;  // the last ones, shares of the highest pressure
+  std::vector<double> in_visit;      // 0 .. 1
+  std::vector<double> cycle;         // since the visit began
+  std::vector<double> bend;          // share of the largest curvature
+};
+
+double usualRate(const Measured& measured) {
+  std::vector<double> rates;
+  for (const double rate : measured.rate) rates.push_back(std::abs(rate));
+  const auto upper = rates.begin() + static_cast<std::ptrdiff_t>(rates.size() * 3 / 4);
+  std::nth_element(rates.begin(), upper, rates.end());
+  return std::max(*upper, 1.0);
+}
+
+double bendOf(const Visit& visit) {
+  double sum = 0;
+  for (const matrix::Curvature& c : visit.surface.curvature) sum += std::abs(matrix::principalCurvature(c));
+  return sum / static_cast<double>(visit.surface.curvature.size());
+}
+
+// Time since the pressure turned, and the last turning points, of the moments of one visit.
+void followTurns(const Measured& measured, const Visit& visit, double highest, Covariates& covariates) {
+  double turned = measured.time[visit.first], valley = measured.pressure[visit.first], peak = valley;
+  double low = valley, high = valley;
+  for (std::size_t i = visit.first; i < visit.last; ++i) {
+    const double now = measured.pressure[i];
+    if (i > visit.first && measured.direction[i] != measured.direction[i - 1]) {
+      turned = measured.time[i];
+      if (measured.direction[i] > 0) valley = low;
+      if (measured.direction[i] < 0) peak = high;
+      low = high = now;
+    }
+    low = std::min(low, now);
+    high = std::max(high, now);
+    covariates.since.push_back(measured.time[i] - turned);
+    covariates.valley.push_back(valley / highest);
+    covariates.peak.push_back(peak / highest);
+  }
+}
+
+Covariates covariatesOf(const Measured& measured) {
+  Covariates covariates;
+  const double highest = *std::max_element(measured.pressure.begin(), measured.pressure.end());
+  const double usual = usualRate(measured);
+  double most_bend = 1e-9;
+  for (const Visit& visit : measured.visits) most_bend = std::max(most_bend, bendOf(visit));
+  for (const Visit& visit : measured.visits) {
+    followTurns(measured, visit, highest, covariates);
+    const double bend = bendOf(visit) / most_bend;
+    const auto moments = static_cast<double>(visit.last - visit.first);
+    for (std::size_t i = visit.first; i < visit.last; ++i) {
+      covariates.pressure.push_back(measured.pressure[i] / highest);
+      covariates.rate.push_back(measured.rate[i] / usual);
+      covariates.in_visit.push_back(static_cast<double>(i - visit.first) / moments);
+      covariates.cycle.push_back(static_cast<double>(measured.cycle[i] - measured.cycle[visit.first]));
+      covariates.bend.push_back(bend);
+    }
+  }
+  return covariates;
+}
+
+using Function = std::function<double(std::size_t)>;
+
+class Terms {
+ public:
+  Terms(const Measured& measured, const StaticFit& fit) : measured_(measured), fit_(fit) {}
+
+  void load(const Function& f) { add(f, fit_.slope()); }
+  void gain(const Function& f) { add(f, fit_.rise()); }
+  void zero(const Function& f) { add(f, Trace::Ones(fit_.rise().size())); }
+  void loadAndGain(const Function& f) {
+    load(f);
+    gain(f);
+  }
+  std::vector<Trace> take() { return std::move(columns_); }
+
+ private:
+  void add(const Function& f, const Trace& through) {
+    Trace column(through.size());
+    for (std::size_t i = 0; i < measured_.moments(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      column[at] = f(i) * through[at];
+    }
+    const double norm = column.norm();
+    if (norm > 0) column *= std::sqrt(static_cast<double>(column.size())) / norm;
+    columns_.push_back(fit_.project(column));
+  }
+  const Measured& measured_;
+  const StaticFit& fit_;
+  std::vector<Trace> columns_;
+};
+
+using Fill = std::function<void(Terms&, const std::function<double(std::size_t)>& weight)>;
+
+Fill byDirection(const Measured& m, const Covariates& c) {
+  return [&](Terms& terms, const Function& weight) {
+    for (std::size_t k = 0; k < kPressureHats; ++k) {
+      const double centre = static_cast<double>(k) / (kPressureHats - 1);
+      terms.load([&, centre](std::size_t i) {
+        return weight(i) * m.direction[i] * hat((c.pressure[i] - centre) * (kPressureHats - 1));
+      });
+    }
+  };
+}
+
+Fill byRate(const Covariates& c) {
+  return [&](Terms& terms, const Function& weight) {
+    const auto sized = [&](std::size_t i) { return std::abs(c.rate[i]); };
+    terms.loadAndGain([&](std::size_t i) { return weight(i) * c.rate[i]; });
+    terms.loadAndGain([&](std::size_t i) { return weight(i) * sized(i); });
+    terms.loadAndGain([&](std::size_t i) { return weight(i) * sized(i) / (0.3 + sized(i)); });
+    terms.loadAndGain([&](std::size_t i) { return weight(i) * c.rate[i] / (0.3 + sized(i)); });
+  };
+}
+
+Fill bySinceReversal(const Measured& m, const Covariates& c) {
+  return [&](Terms& terms, const Function& weight) {
+    for (std::size_t k = 0; k < kReversalHats; ++k) {
+      for (const int direction : {-1, 1}) {
+        terms.loadAndGain([&, k, direction](std::size_t i) {
+          if (m.direction[i] != direction) return 0.0;
+          const double logarithm = std::log(1 + c.since[i] / kReversalStart) / std::log(kReversalStep);
+          return weight(i) * hat(logarithm - static_cast<double>(k) - 0.5);
+        });
+      }
+    }
+  };
+}
+
+Fill byExtremes(const Measured& m, const Covariates& c) {
+  return [&](Terms& terms, const Function& weight) {
+    for (const int direction : {-1, 1}) {
+      const auto on = [&, direction](std::size_t i) { return m.direction[i] == direction ? weight(i) : 0.0; };
+      terms.loadAndGain([&](std::size_t i) { return on(i) * c.valley[i]; });
+      terms.loadAndGain([&](std::size_t i) { return on(i) * c.peak[i]; });
+      terms.gain([&](std::size_t i) { return on(i) * c.valley[i] * c.valley[i]; });
+    }
+    terms.gain([&](std::size_t i) { return weight(i) * std::min(c.valley[i], c.pressure[i]); });
+  };
+}
+
+Fill byCycle(const Covariates& c) {
+  return [&](Terms& terms, const Function& weight) {
+    for (const double length : {1.0, 3.0}) {
+      terms.loadAndGain([&, length](std::size_t i) { return weight(i) * std::exp(-c.cycle[i] / length); });
+    }
+  };
+}
+
+Fill byClock(const Measured& m, const Covariates& c) {
+  return [&](Terms& terms, const Function&) {
+    for (std::size_t v = 0; v < m.visits.size(); ++v) {
+      for (std::size_t k = 0; k < kTimeHats; ++k) {
+        const auto shape = [&, v, k](std::size_t i) {
+          return m.visit[i] == v ? hat(c.in_visit[i] * (kTimeHats - 1) - static_cast<double>(k)) : 0.0;
+        };
+        terms.zero(shape);
+        terms.gain(shape);
+      }
+    }
+  };
+}
+
+}  // namespace
+
+std::vector<GenericTerms> genericTerms(const Measured& measured, const StaticFit& fit) {
+  const Covariates c = covariatesOf(measured);
+  const std::vector<std::pair<std::vector<simulation::Covariate>, Fill>> groups = {
+      {{simulation::Covariate::kDirection, simulation::Covariate::kPressure}, byDirection(measured, c)},
+      {{simulation::Covariate::kPressureRate}, byRate(c)},
+      {{simulation::Covariate::kTimeSinceReversal}, bySinceReversal(measured, c)},
+      {{simulation::Covariate::kPreviousExtremes}, byExtremes(measured, c)},
+      {{simulation::Covariate::kCycle}, byCycle(c)},
+      {{simulation::Covariate::kClockTime}, byClock(measured, c)},
+  };
+  std::vector<GenericTerms> all;
+  for (const auto& [covariates, fill] : groups) {
+    Terms terms(measured, fit);
+    fill(terms, [](std::size_t) { return 1.0; });
+    all.push_back({covariates, terms.take()});
+    if (measured.classes.size() < 2 || covariates.front() == simulation::Covariate::kClockTime) continue;
+    Terms bent(measured, fit);
+    fill(bent, [&](std::size_t i) { return c.bend[i]; });
+    GenericTerms with = all.back();
+    with.covariates.push_back(simulation::Covariate::kCurvature);
+    for (Trace& column : bent.take()) with.columns.push_back(std::move(column));
+    all.push_back(std::move(with));
+  }
+  return all;
+}
+
+}  // namespace fsr::discrepancy

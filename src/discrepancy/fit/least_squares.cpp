@@ -1,0 +1,157 @@
+#include "discrepancy/fit/least_squares.h"
+
+#include <algorithm>
+
+#include "matrix/for_each_taxel.h"
+
+namespace fsr::discrepancy {
+
+namespace {
+
+// Of each diagonal element: columns that are nearly one stay solvable.
+constexpr double kRidge = 1e-9;
+constexpr int kMostRounds = 300;
+
+using Members = std::vector<Eigen::Index>;
+
+Eigen::VectorXd solveMembers(const Eigen::MatrixXd& gram, const Eigen::VectorXd& right,
+                             const Members& members) {
+  const auto size = static_cast<Eigen::Index>(members.size());
+  Eigen::MatrixXd part(size, size);
+  Eigen::VectorXd side(size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    side[i] = right[members[static_cast<std::size_t>(i)]];
+    for (Eigen::Index j = 0; j < size; ++j) {
+      part(i, j) = gram(members[static_cast<std::size_t>(i)], members[static_cast<std::size_t>(j)]);
+    }
+    part(i, i) *= 1 + kRidge;
+    part(i, i) += 1e-300;
+  }
+  return part.ldlt().solve(side);
+}
+
+// Takes the step from `now` towards `goal` as far as no sign is broken; members that reach 0 leave.
+void step(Eigen::VectorXd& now, const Eigen::VectorXd& goal, Members& members,
+          const std::vector<bool>& free) {
+  double share = 1;
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    const Eigen::Index i = members[k];
+    const double to = goal[static_cast<Eigen::Index>(k)];
+    if (!free[static_cast<std::size_t>(i)] && to <= 0 && now[i] > to)
+      share = std::min(share, now[i] / (now[i] - to));
+  }
+  Members stay;
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    const Eigen::Index i = members[k];
+    now[i] += share * (goal[static_cast<Eigen::Index>(k)] - now[i]);
+    if (free[static_cast<std::size_t>(i)] || now[i] > 1e-12) {
+      stay.push_back(i);
+    } else {
+      now[i] = 0;
+    }
+  }
+  members = stay;
+}
+
+bool allowed(const Eigen::VectorXd& goal, const Members& members, const std::vector<bool>& free) {
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    if (!free[static_cast<std::size_t>(members[k])] && goal[static_cast<Eigen::Index>(k)] <= 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Eigen::VectorXd solveSigned(const Eigen::MatrixXd& gram, const Eigen::VectorXd& right,
+                            const std::vector<bool>& free) {
+  Eigen::VectorXd solution = Eigen::VectorXd::Zero(right.size());
+  Members members;
+  for (Eigen::Index i = 0; i < right.size(); ++i) {
+    if (free[static_cast<std::size_t>(i)]) members.push_back(i);
+  }
+  for (int round = 0; round < kMostRounds; ++round) {
+    Eigen::VectorXd goal = solveMembers(gram, right, members);
+    while (!members.empty() && !allowed(goal, members, free)) {
+      step(solution, goal, members, free);
+      goal = solveMembers(gram, right, members);
+    }
+    for (std::size_t k = 0; k < members.size(); ++k)
+      solution[members[k]] = goal[static_cast<Eigen::Index>(k)];
+    // The column that would gain most by entering.
+    const Eigen::VectorXd slope = right - gram * solution;
+    Eigen::Index best = -1;
+    double most = 1e-9;
+    for (Eigen::Index i = 0; i < right.size(); ++i) {
+      const double norm = std::sqrt(gram(i, i));
+      if (norm <= 0 || std::count(members.begin(), members.end(), i)) continue;
+      const double gain = slope[i] / norm;
+      if (gain > most * std::max(1e-12, right.cwiseAbs().maxCoeff() / norm)) {
+        most = gain / std::max(1e-12, right.cwiseAbs().maxCoeff() / norm);
+        best = i;
+      }
+    }
+    if (best < 0) break;
+    members.push_back(best);
+  }
+  return solution;
+}
+
+CycleGrams::CycleGrams(const Eigen::MatrixXd& columns,
+                       const std::vector<std::pair<std::size_t, std::size_t>>& ranges, unsigned threads)
+    : target_(columns.cols() - 1), grams_(ranges.size()) {
+  matrix::forEachTaxel(ranges.size(), threads, [&](std::size_t c) {
+    const auto first = static_cast<Eigen::Index>(ranges[c].first);
+    const auto scans = static_cast<Eigen::Index>(ranges[c].second - ranges[c].first);
+    const auto part = columns.middleRows(first, scans);
+    grams_[c] = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
+    grams_[c].selfadjointView<Eigen::Lower>().rankUpdate(part.transpose());
+    grams_[c] = Eigen::MatrixXd(grams_[c].selfadjointView<Eigen::Lower>());
+  });
+}
+
+Eigen::MatrixXd CycleGrams::sum(const std::vector<bool>& wanted) const {
+  Eigen::MatrixXd total = Eigen::MatrixXd::Zero(target_ + 1, target_ + 1);
+  for (std::size_t c = 0; c < grams_.size(); ++c) {
+    if (wanted[c]) total += grams_[c];
+  }
+  return total;
+}
+
+ColumnSet together(const ColumnSet& a, const ColumnSet& b) {
+  ColumnSet both = a;
+  both.columns.insert(both.columns.end(), b.columns.begin(), b.columns.end());
+  both.free.insert(both.free.end(), b.free.begin(), b.free.end());
+  both.bent_only.insert(both.bent_only.end(), b.bent_only.begin(), b.bent_only.end());
+  return both;
+}
+
+Eigen::MatrixXd partOf(const Eigen::MatrixXd& gram, const ColumnSet& set, bool flat) {
+  const auto size = static_cast<Eigen::Index>(set.columns.size());
+  const auto at = [&](Eigen::Index i) {
+    return i < size ? set.columns[static_cast<std::size_t>(i)] : gram.cols() - 1;
+  };
+  const auto acts = [&](Eigen::Index i) {
+    return i == size || !flat || !set.bent_only[static_cast<std::size_t>(i)];
+  };
+  Eigen::MatrixXd part = Eigen::MatrixXd::Zero(size + 1, size + 1);
+  for (Eigen::Index i = 0; i <= size; ++i) {
+    if (!acts(i)) continue;
+    for (Eigen::Index j = 0; j <= size; ++j) {
+      if (acts(j)) part(i, j) = gram(at(i), at(j));
+    }
+  }
+  return part;
+}
+
+Eigen::VectorXd fitColumns(const Eigen::MatrixXd& part, const ColumnSet& set) {
+  const Eigen::Index size = part.cols() - 1;
+  return solveSigned(part.topLeftCorner(size, size), part.col(size).head(size), set.free);
+}
+
+double squaredError(const Eigen::MatrixXd& part, const Eigen::VectorXd& coefficients) {
+  const Eigen::Index size = part.cols() - 1;
+  return part(size, size) - 2 * coefficients.dot(part.col(size).head(size)) +
+         coefficients.dot(part.topLeftCorner(size, size) * coefficients);
+}
+
+}  // namespace fsr::discrepancy

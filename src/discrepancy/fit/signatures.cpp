@@ -1,0 +1,250 @@
+#include "discrepancy/fit/signatures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "matrix/for_each_taxel.h"
+#include "simulation/effects/effect_library.h"
+#include "simulation/sensitivity.h"
+
+namespace fsr::discrepancy {
+
+namespace {
+
+// A break between two visits that is worth telling the chain of: the chamber was vented [s].
+constexpr double kBreak = 2;
+
+// Recorded pressure at any time, straight between the scans.
+class RecordedCourse {
+ public:
+  explicit RecordedCourse(const Measured& measured) : measured_(measured) {}
+
+  double operator()(double time) {
+    const std::vector<double>& times = measured_.time;
+    while (at_ > 0 && times[at_] > time) --at_;
+    while (at_ + 2 < times.size() && times[at_ + 1] <= time) ++at_;
+    const std::size_t next = std::min(at_ + 1, times.size() - 1);
+    if (next == at_) return measured_.pressure[at_];
+    double share = (time - times[at_]) / (times[next] - times[at_]);
+    // Between two visits nothing was recorded: each one's end is held.
+    if (measured_.visit[at_] != measured_.visit[next]) share = std::round(share);
+    return measured_.pressure[at_] +
+           std::clamp(share, 0.0, 1.0) * (measured_.pressure[next] - measured_.pressure[at_]);
+  }
+
+ private:
+  const Measured& measured_;
+  std::size_t at_ = 0;
+};
+
+// Leads a chain, or a difference of two, through everything that was recorded.
+template <typename Chain, typename Make, typename Use>
+void drive(const Measured& measured, bool carried, Make make, Use use) {
+  RecordedCourse recorded(measured);
+  const simulation::PressureCourse course = [&](double time) { return recorded(time); };
+  Chain chain = make();
+  simulation::RigMoment moment;
+  moment.course = &course;
+  const auto rest = [&](double time) {
+    moment.time = time;
+    moment.pressure = 0;
+    chain.read(moment);
+  };
+  for (const Visit& visit : measured.visits) {
+    const double start = measured.time[visit.first];
+    const double before = visit.first > 0 ? measured.time[visit.first - 1] : start;
+    if (!carried && visit.first > 0) chain = make();
+    if (carried && start - before > kBreak) rest(before + kBreak / 4);
+    chain.mount(visit.surface);
+    if (carried && start - before > kBreak) rest(start - kBreak / 4);
+    for (std::size_t i = visit.first; i < visit.last; ++i) {
+      moment.time = measured.time[i];
+      moment.pressure = measured.pressure[i];
+      moment.scan = i;
+      moment.temperature =
+          measured.temperature.empty() ? simulation::kRoomTemperature : measured.temperature[i];
+      use(i, chain.read(moment), chain);
+    }
+  }
+}
+
+DrivenSignals emptySignals(const Measured& measured) {
+  const auto scans = static_cast<Eigen::Index>(measured.moments());
+  return {Trace::Zero(scans), Trace::Zero(scans), Trace::Zero(scans)};
+}
+
+matrix::Surface oneTaxel(const matrix::Surface& surface) {
+  matrix::Surface one = surface;
+  one.deviation.clear();
+  matrix::Curvature mean;
+  for (const matrix::Curvature& c : surface.curvature) {
+    const auto taxels = static_cast<double>(surface.curvature.size());
+    mean.x += c.x / taxels;
+    mean.y += c.y / taxels;
+    mean.xy += c.xy / taxels;
+  }
+  one.curvature = {mean};
+  return one;
+}
+
+// Of the derivative of one strength.
+struct Derivative {
+  simulation::Sensitivity sensitivity;
+  const simulation::TaxelSignals& read(const simulation::RigMoment& moment) {
+    return sensitivity.read(moment);
+  }
+  void mount(const matrix::Surface& surface) { sensitivity.mount(oneTaxel(surface)); }
+};
+
+struct Chain {
+  simulation::SensorChain chain;
+  const simulation::TaxelSignals& read(const simulation::RigMoment& moment) {
+    chain.read(moment);
+    return chain.signals();
+  }
+  void mount(const matrix::Surface& surface) { chain.mount(oneTaxel(surface)); }
+};
+
+template <typename Driver>
+auto keep(DrivenSignals& signals, double full_scale) {
+  return [&signals, full_scale](std::size_t scan, const simulation::TaxelSignals& now, Driver&) {
+    const auto at = static_cast<Eigen::Index>(scan);
+    signals.load[at] = now.load[0];
+    signals.gain[at] = now.gain[0];
+    signals.reading[at] = now.reading[0] / full_scale;
+  };
+}
+
+// All combinations of the tried values of an effect's shapes; its other strengths and scatters off.
+std::vector<simulation::EffectValues> shapeGrid(const simulation::EffectInfo& info) {
+  std::vector<simulation::EffectValues> grid(1);
+  for (const simulation::EffectParameter& parameter : info.parameters) {
+    std::vector<double> tried = {parameter.usual};
+    if (parameter.role != simulation::ParameterRole::kShape) tried = {parameter.neutral};
+    if (parameter.role == simulation::ParameterRole::kShape && !parameter.tried.empty())
+      tried = parameter.tried;
+    std::vector<simulation::EffectValues> next;
+    for (const simulation::EffectValues& values : grid) {
+      for (const double value : tried) {
+        next.push_back(values);
+        next.back()[parameter.name] = value;
+      }
+    }
+    grid = std::move(next);
+  }
+  return grid;
+}
+
+bool sought(const simulation::EffectEntry& entry, const simulation::SimulationSettings& settings,
+            const std::vector<std::string>& leave_out) {
+  const simulation::EffectKind kind = entry.info.kind;
+  const bool by_derivative =
+      kind == simulation::EffectKind::kAdditive || kind == simulation::EffectKind::kGrid;
+  const bool left_out = std::count(leave_out.begin(), leave_out.end(), entry.info.id) > 0;
+  return by_derivative && !left_out && !settings.effect(entry.info.id) && entry.info.id != "mains_pickup";
+}
+
+bool remembers(const simulation::EffectEntry& entry) {
+  return entry.info.stage == simulation::ChainStage::kMemory ||
+         entry.info.stage == simulation::ChainStage::kCavity;
+}
+
+std::vector<Signature> planned(const simulation::SimulationSettings& settings,
+                               const std::vector<std::string>& leave_out) {
+  std::vector<Signature> plan;
+  for (const simulation::EffectEntry& entry : simulation::effectLibrary()) {
+    if (!sought(entry, settings, leave_out)) continue;
+    for (const simulation::EffectValues& values : shapeGrid(entry.info)) {
+      for (const simulation::EffectParameter& strength : simulation::strengths(entry.info)) {
+        Signature signature;
+        signature.id = entry.info.id;
+        signature.strength = strength.name;
+        signature.values = values;
+        signature.values.erase(strength.name);
+        signature.free_sign = entry.info.sign == simulation::SignRule::kEither;
+        signature.scale = entry.info.sign == simulation::SignRule::kNegative ? -1 : 1;
+        plan.push_back(signature);
+        if (!remembers(entry)) continue;
+        signature.carried = false;
+        plan.push_back(signature);
+      }
+    }
+  }
+  return plan;
+}
+
+bool possible(const simulation::EffectValues& values) {
+  const auto fastest = values.find("fastest"), slowest = values.find("slowest");
+  return fastest == values.end() || slowest == values.end() || fastest->second < slowest->second;
+}
+
+}  // namespace
+
+simulation::SimulationSettings representative(const simulation::SimulationSettings& settings) {
+  simulation::SimulationSettings one = settings;
+  one.layout.size = {1, 1};
+  one.taxel_curves = nullptr;
+  auto& effects = one.effects;
+  const auto unwanted = [](const simulation::EnabledEffect& effect) {
+    const simulation::EffectEntry* entry = simulation::findEffect(effect.id);
+    const bool detected = entry->info.kind == simulation::EffectKind::kDetector && effect.id != "saturation";
+    return effect.id == "white_noise" || detected;
+  };
+  effects.erase(std::remove_if(effects.begin(), effects.end(), unwanted), effects.end());
+  for (simulation::EnabledEffect& effect : effects) {
+    effect.only_taxels.clear();  // the one taxel is one on which it acts
+    for (const simulation::EffectParameter& parameter : simulation::findEffect(effect.id)->info.parameters) {
+      if (parameter.role == simulation::ParameterRole::kScatter)
+        effect.values[parameter.name] = parameter.neutral;
+    }
+  }
+  return one;
+}
+
+DrivenSignals drivenDerivative(const Measured& measured, const simulation::SimulationSettings& settings,
+                               const std::string& id, const std::string& strength,
+                               const simulation::EffectValues& values, bool carried) {
+  DrivenSignals signals = emptySignals(measured);
+  const simulation::SimulationSettings one = representative(settings);
+  const auto make = [&] { return Derivative{simulation::Sensitivity(one, id, strength, values)}; };
+  drive<Derivative>(measured, carried, make, keep<Derivative>(signals, one.fullScale()));
+  return signals;
+}
+
+DrivenSignals driven(const Measured& measured, const simulation::SimulationSettings& settings, bool carried) {
+  DrivenSignals signals = emptySignals(measured);
+  const simulation::SimulationSettings one = representative(settings);
+  drive<Chain>(
+      measured, carried, [&] { return Chain{simulation::SensorChain(one)}; },
+      keep<Chain>(signals, one.fullScale()));
+  return signals;
+}
+
+Trace throughCurve(const StaticFit& fit, const DrivenSignals& derivative, simulation::ChainStage stage) {
+  if (stage >= simulation::ChainStage::kConductance) return derivative.reading;
+  return derivative.load.cwiseProduct(fit.slope()) + derivative.gain.cwiseProduct(fit.rise());
+}
+
+std::vector<Signature> signatures(const Measured& measured, const StaticFit& fit,
+                                  const simulation::SimulationSettings& settings,
+                                  const std::vector<std::string>& leave_out, unsigned threads) {
+  std::vector<Signature> all = planned(settings, leave_out);
+  matrix::forEachTaxel(all.size(), threads, [&](std::size_t s) {
+    Signature& signature = all[s];
+    if (!possible(signature.values)) return;
+    const DrivenSignals derivative = drivenDerivative(measured, settings, signature.id, signature.strength,
+                                                      signature.values, signature.carried);
+    Trace trace = throughCurve(fit, derivative, simulation::findEffect(signature.id)->info.stage);
+    const double rms = std::sqrt(trace.squaredNorm() / static_cast<double>(trace.size()));
+    if (!(rms > 0) || !std::isfinite(rms)) return;
+    trace *= signature.scale / rms;
+    signature.scale /= rms;
+    signature.trace = fit.project(trace);
+    signature.left = std::sqrt(signature.trace.squaredNorm() / static_cast<double>(trace.size()));
+  });
+  const auto nothing = [](const Signature& s) { return s.trace.size() == 0; };
+  all.erase(std::remove_if(all.begin(), all.end(), nothing), all.end());
+  return all;
+}
+
+}  // namespace fsr::discrepancy

@@ -1,0 +1,249 @@
+#include "discrepancy/fit/static_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fsr::discrepancy {
+
+namespace {
+
+// Closer where static curves bend most, at low pressure; shares of the range.
+constexpr double kKnots[] = {0, 0.012, 0.03, 0.06, 0.1, 0.15, 0.22, 0.3, 0.4, 0.52, 0.64, 0.76, 0.88, 1};
+// Of the largest diagonal element: coefficients that no scan speaks of become 0.
+constexpr double kRidge = 1e-10;
+// Cycle gains that scatter less than this are no matter [relative].
+constexpr double kLeastScatter = 1e-5;
+
+// Gains that were shrunk to less than this are not grown by more.
+constexpr double kLeastKept = 0.02;
+// Of the median of absolute normal numbers.
+constexpr double kDeviationPerMedian = 1.4826;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::vector<double> knotsOf(const Trace& load) {
+  const double low = load.minCoeff(), high = std::max(load.maxCoeff(), low + 1);
+  std::vector<double> knots;
+  for (const double share : kKnots) knots.push_back(low + share * (high - low));
+  return knots;
+}
+
+Trace loadOf(const Measured& measured) {
+  const std::vector<double>& load = measured.load.empty() ? measured.pressure : measured.load;
+  return Eigen::Map<const Trace>(load.data(), static_cast<Eigen::Index>(measured.moments()));
+}
+
+template <typename Use>
+void eachSpline(const SplineBasis::Values& at, Use use) {
+  for (std::size_t j = 0; j < SplineBasis::kAtOnce; ++j) {
+    use(static_cast<Eigen::Index>(at.first + j), at.value[j], at.slope[j]);
+  }
+}
+
+Eigen::LDLT<Eigen::MatrixXd> decompose(Eigen::MatrixXd matrix) {
+  matrix.diagonal().array() += kRidge * matrix.diagonal().maxCoeff() + 1e-300;
+  return matrix.ldlt();
+}
+
+}  // namespace
+
+CommonTraces commonTraces(const Measured& measured) {
+  CommonTraces traces;
+  const auto scans = static_cast<Eigen::Index>(measured.moments());
+  traces.all.setZero(scans);
+  for (Trace& half : traces.halves) half.setZero(scans);
+  std::vector<std::size_t> taxels[2];
+  for (std::size_t i = 0; i < measured.taxels(); ++i) {
+    if (measured.used[i]) taxels[(measured.layout.row({i}) + measured.layout.column({i})) % 2].push_back(i);
+  }
+  std::vector<double> readings;
+  for (std::size_t scan = 0; scan < measured.moments(); ++scan) {
+    measured.readings(scan, readings);
+    const auto at = static_cast<Eigen::Index>(scan);
+    for (int h = 0; h < 2; ++h) {
+      double sum = 0;
+      for (const std::size_t i : taxels[h]) sum += readings[i];
+      traces.all[at] += sum / static_cast<double>(measured.usedTaxels());
+      traces.halves[h][at] = taxels[h].empty() ? 0 : sum / static_cast<double>(taxels[h].size());
+    }
+  }
+  if (taxels[0].empty() || taxels[1].empty()) traces.halves[0] = traces.halves[1] = traces.all;
+  return traces;
+}
+
+StaticFit::StaticFit(const Measured& measured, CurvePer per, const Trace& common) : measured_(measured) {
+  for (std::size_t i = 0; i < measured.moments(); ++i) {
+    group_.push_back(per == CurvePer::kVisit ? measured.visit[i]
+                                             : static_cast<std::uint32_t>(measured.classOf(i)));
+  }
+  per_ = per;
+  groups_ = per == CurvePer::kVisit ? measured.visits.size() : measured.classes.size();
+  fitCurves(common, loadOf(measured));
+  judgeGainScatter(residual(common));
+}
+
+StaticFit::StaticFit(const StaticFit& like, const Trace& common, const Trace& load)
+    : measured_(like.measured_),
+      group_(like.group_),
+      groups_(like.groups_),
+      per_(like.per_),
+      gain_scatter_(like.gain_scatter_),
+      kept_(like.kept_) {
+  fitCurves(common, load);
+  prepare();
+}
+
+void StaticFit::fitCurves(const Trace& common, const Trace& load) {
+  basis_ = SplineBasis(knotsOf(load));
+  for (Eigen::Index i = 0; i < load.size(); ++i) splines_.push_back(basis_.at(load[i]));
+  const auto size = static_cast<Eigen::Index>(basis_.size());
+  std::vector<Eigen::MatrixXd> normal(groups_, Eigen::MatrixXd::Zero(size, size));
+  for (std::size_t i = 0; i < splines_.size(); ++i) {
+    eachSpline(splines_[i], [&](Eigen::Index a, double x, double) {
+      eachSpline(splines_[i], [&](Eigen::Index b, double y, double) { normal[group_[i]](a, b) += x * y; });
+    });
+  }
+  for (Eigen::MatrixXd& matrix : normal) plain_.push_back(decompose(matrix));
+  fitted_ = coefficientsOf(common, plain_);
+  curve_ = curveFrom(fitted_);
+  slope_.resize(common.size());
+  for (Eigen::Index i = 0; i < common.size(); ++i) {
+    double slope = 0;
+    const auto scan = static_cast<std::size_t>(i);
+    eachSpline(splines_[scan],
+               [&](Eigen::Index k, double, double s) { slope += s * fitted_(k, group_[scan]); });
+    slope_[i] = std::max(slope, 0.0);
+  }
+  zero_ = curve_.minCoeff();
+  rise_ = curve_.array() - zero_;
+}
+
+double StaticFit::curveAt(std::size_t scan, double load) const {
+  const SplineBasis::Values at = basis_.at(load);
+  double value = 0, slope = 0;
+  eachSpline(at, [&](Eigen::Index k, double x, double s) {
+    value += x * fitted_(k, group_[scan]);
+    slope += s * fitted_(k, group_[scan]);
+  });
+  const double beyond = load - std::clamp(load, basis_.low(), basis_.high());
+  return std::max(value + std::max(slope, 0.0) * beyond, std::min(zero_, value));
+}
+
+Eigen::MatrixXd StaticFit::coefficientsOf(const Trace& trace, const std::vector<Normal>& normal) const {
+  Eigen::MatrixXd right =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(basis_.size()), static_cast<Eigen::Index>(groups_));
+  for (std::size_t i = 0; i < splines_.size(); ++i) {
+    const double y = trace[static_cast<Eigen::Index>(i)];
+    eachSpline(splines_[i], [&](Eigen::Index k, double x, double) { right(k, group_[i]) += x * y; });
+  }
+  for (std::size_t g = 0; g < groups_; ++g) {
+    const auto column = static_cast<Eigen::Index>(g);
+    right.col(column) = normal[g].solve(right.col(column)).eval();
+  }
+  return right;
+}
+
+Trace StaticFit::curveFrom(const Eigen::MatrixXd& coefficients) const {
+  Trace curve(static_cast<Eigen::Index>(splines_.size()));
+  for (std::size_t i = 0; i < splines_.size(); ++i) {
+    double value = 0;
+    eachSpline(splines_[i],
+               [&](Eigen::Index k, double x, double) { value += x * coefficients(k, group_[i]); });
+    curve[static_cast<Eigen::Index>(i)] = value;
+  }
+  return curve;
+}
+
+Trace StaticFit::residual(const Trace& trace) const {
+  return trace - curveFrom(coefficientsOf(trace, plain_));
+}
+
+// Multiplies each cycle's share along its gain by factor(cycle).
+template <typename Factor>
+void StaticFit::scaleGains(Trace& trace, Factor factor) const {
+  for (std::size_t c = 0; c < measured_.cycles.size(); ++c) {
+    const MeasuredCycle& cycle = measured_.cycles[c];
+    const auto first = static_cast<Eigen::Index>(cycle.first);
+    const auto scans = static_cast<Eigen::Index>(cycle.last - cycle.first);
+    const auto gain = rise_.segment(first, scans);
+    const double square = gain.squaredNorm();
+    if (square <= 0) continue;
+    trace.segment(first, scans) += (factor(c) - 1) * gain.dot(trace.segment(first, scans)) / square * gain;
+  }
+}
+
+void StaticFit::shrink(Trace& trace) const {
+  scaleGains(trace, [&](std::size_t cycle) { return kept_[cycle]; });
+}
+
+Trace StaticFit::grown(const Trace& projected) const {
+  Trace trace = projected;
+  scaleGains(trace, [&](std::size_t cycle) { return 1 / std::max(kept_[cycle], kLeastKept); });
+  return trace;
+}
+
+// The curves live in shrunk space too: x' = W x, B' = W B, and B'^T x' = B^T W (W x).
+Trace StaticFit::project(const Trace& trace) const {
+  Trace shrunk = trace;
+  shrink(shrunk);
+  Trace twice = shrunk;
+  shrink(twice);
+  Trace curve = curveFrom(coefficientsOf(twice, shrunk_));
+  shrink(curve);
+  return shrunk - curve;
+}
+
+void StaticFit::judgeGainScatter(const Trace& left) {
+  std::vector<double> gain, weight;
+  for (const MeasuredCycle& cycle : measured_.cycles) {
+    const auto first = static_cast<Eigen::Index>(cycle.first);
+    const auto scans = static_cast<Eigen::Index>(cycle.last - cycle.first);
+    weight.push_back(rise_.segment(first, scans).squaredNorm());
+    gain.push_back(
+        weight.back() > 0 ? rise_.segment(first, scans).dot(left.segment(first, scans)) / weight.back() : 0);
+  }
+  std::vector<double> steps;
+  for (std::size_t c = 1; c < gain.size(); ++c) {
+    if (measured_.cycles[c].visit != measured_.cycles[c - 1].visit) continue;
+    steps.push_back(std::abs(gain[c] - gain[c - 1]));
+  }
+  kept_.resize(gain.size());
+  gain_scatter_ = std::max(kLeastScatter, kDeviationPerMedian / std::sqrt(2.0) * median(steps));
+  const double noise = left.squaredNorm() / static_cast<double>(left.size());
+  for (std::size_t c = 0; c < gain.size(); ++c) {
+    const double by_noise = noise / std::max(weight[c], 1e-12);
+    kept_[c] = std::sqrt(by_noise / (by_noise + gain_scatter_ * gain_scatter_));
+  }
+  prepare();
+}
+
+void StaticFit::prepare() {
+  const auto size = static_cast<Eigen::Index>(basis_.size());
+  std::vector<Eigen::MatrixXd> normal(groups_, Eigen::MatrixXd::Zero(size, size));
+  for (std::size_t i = 0; i < splines_.size(); ++i) {
+    eachSpline(splines_[i], [&](Eigen::Index a, double x, double) {
+      eachSpline(splines_[i], [&](Eigen::Index b, double y, double) { normal[group_[i]](a, b) += x * y; });
+    });
+  }
+  for (std::size_t c = 0; c < measured_.cycles.size(); ++c) {
+    const MeasuredCycle& cycle = measured_.cycles[c];
+    Eigen::VectorXd along = Eigen::VectorXd::Zero(size);
+    double square = 0;
+    for (std::size_t i = cycle.first; i < cycle.last; ++i) {
+      const double gain = rise_[static_cast<Eigen::Index>(i)];
+      square += gain * gain;
+      eachSpline(splines_[i], [&](Eigen::Index k, double x, double) { along[k] += gain * x; });
+    }
+    if (square <= 0) continue;
+    normal[group_[cycle.first]] -= (1 - kept_[c] * kept_[c]) / square * along * along.transpose();
+  }
+  shrunk_.clear();
+  for (const Eigen::MatrixXd& matrix : normal) shrunk_.push_back(decompose(matrix));
+}
+
+}  // namespace fsr::discrepancy

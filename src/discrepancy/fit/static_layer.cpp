@@ -1,0 +1,238 @@
+#include "discrepancy/fit/static_layer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "discrepancy/fit/levenberg.h"
+
+namespace fsr::discrepancy {
+
+namespace {
+
+constexpr double kLeastShare = 0.02;  // of the readings' squared error
+constexpr double kLeastZ = 6;
+constexpr std::size_t kPoints = 60;     // of a curve
+constexpr double kShows = 0.2;          // of the largest rms
+constexpr double kSure = 2;             // standard errors of a curve
+constexpr double kFewMoments = 8;       // at one pressure
+constexpr double kTogether = 5;         // moments that hang together: noise is coloured
+constexpr double kPreloadScale = 50e3;  // [Pa]
+
+// Smooth functions of the place on the sheet, without the constant: powers of x and y up to a degree.
+Eigen::MatrixXd smoothFields(const matrix::Layout& layout, const std::vector<std::size_t>& taxels) {
+  const std::size_t degree = taxels.size() >= 40 ? 3 : taxels.size() >= 12 ? 2 : 1;
+  const auto n = static_cast<Eigen::Index>(taxels.size());
+  Eigen::MatrixXd fields(n, 0);
+  const double half_x = std::max(1, layout.size.columns - 1) * layout.pitch_x / 2;
+  const double half_y = std::max(1, layout.size.rows - 1) * layout.pitch_y / 2;
+  for (std::size_t i = 0; i <= degree; ++i) {
+    for (std::size_t j = 0; i + j <= degree; ++j) {
+      if (i + j == 0) continue;
+      fields.conservativeResize(Eigen::NoChange, fields.cols() + 1);
+      for (Eigen::Index t = 0; t < n; ++t) {
+        const matrix::Position at = layout.position({taxels[static_cast<std::size_t>(t)]});
+        fields(t, fields.cols() - 1) =
+            std::pow(at.x / half_x, static_cast<double>(i)) * std::pow(at.y / half_y, static_cast<double>(j));
+      }
+    }
+  }
+  fields.rowwise() -= fields.colwise().mean();
+  return Eigen::MatrixXd(fields.householderQr().householderQ() * Eigen::MatrixXd::Identity(n, fields.cols()));
+}
+
+// One mount's preload and gain of each taxel against the surface's mean.
+struct MountFields {
+  Eigen::MatrixXd change;  // [taxels x 2], preload [Pa] and gain
+  Eigen::Matrix2d gram;    // of slope and rise, summed over the moments
+  double moments = 0;
+  std::size_t curvature_class = 0;
+};
+
+MountFields fieldsOf(const Measured& measured, const StaticFit& fit, const TaxelFit& taxels,
+                     std::size_t visit, const std::vector<std::size_t>& used, const Trace& explained,
+                     const Eigen::MatrixXd& mask) {
+  MountFields fields;
+  const Visit& at = measured.visits[visit];
+  fields.curvature_class = at.curvature_class;
+  fields.gram.setZero();
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(2, static_cast<Eigen::Index>(used.size()));
+  std::vector<double> residual;
+  for (std::size_t i = at.first; i < at.last; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    taxels.residuals(i, residual);
+    const Eigen::Vector2d x(fit.slope()[k], fit.rise()[k]);
+    fields.gram += x * x.transpose();
+    for (std::size_t t = 0; t < used.size(); ++t) {
+      double r = residual[used[t]];
+      if (explained.size() > 0) {
+        r -= mask(static_cast<Eigen::Index>(used[t]), static_cast<Eigen::Index>(at.curvature_class)) *
+             explained[k];
+      }
+      right.col(static_cast<Eigen::Index>(t)) += x * r;
+    }
+    ++fields.moments;
+  }
+  fields.change = fields.gram.ldlt().solve(right).transpose();
+  return fields;
+}
+
+// Gain and preload that make one curve of another.
+struct Referred {
+  Eigen::VectorXd misfit;  // at each of the pressures that both have; else 0
+};
+
+double interpolate(const Eigen::VectorXd& values, double low, double step, double at) {
+  const double place = (at - low) / step;
+  const auto i = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::floor(place)), 0, values.size() - 2);
+  const double share = place - static_cast<double>(i);
+  return values[i] + share * (values[i + 1] - values[i]);
+}
+
+Eigen::VectorXd misfitOf(const Eigen::VectorXd& curve, const Eigen::VectorXd& reference, double low,
+                         double step, double unloaded) {
+  const double high = low + step * static_cast<double>(reference.size() - 1);
+  const auto residuals = [&](const std::vector<double>& at) -> std::optional<Eigen::VectorXd> {
+    Eigen::VectorXd error = Eigen::VectorXd::Zero(curve.size());
+    for (Eigen::Index i = 0; i < curve.size(); ++i) {
+      const double load = low + step * static_cast<double>(i) + at[1] * kPreloadScale;
+      if (load > high || load < low) continue;
+      error[i] = curve[i] - unloaded - (1 + at[0]) * (interpolate(reference, low, step, load) - unloaded);
+    }
+    return error;
+  };
+  LevenbergOptions options;
+  options.steps = 30;
+  std::vector<double> at = levenberg(residuals, {-0.1, 0.3}, options);
+  const auto result = residuals(at);
+  return result ? *result : Eigen::VectorXd::Zero(curve.size());
+}
+
+// Variance of each class's curve at each pressure, by what is left round it there; infinite where hardly a
+// moment speaks of it.
+Eigen::MatrixXd chanceOf(const Measured& measured, const StaticFit& fit, const Trace& common, double low,
+                         double step) {
+  const auto classes = static_cast<Eigen::Index>(measured.classes.size());
+  const auto points = static_cast<Eigen::Index>(kPoints);
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(points, classes), number = squares;
+  const Trace left = fit.residual(common);
+  for (std::size_t i = 0; i < measured.moments(); ++i) {
+    const auto k = static_cast<Eigen::Index>(std::lround((measured.pressure[i] - low) / step));
+    const auto c = static_cast<Eigen::Index>(measured.classOf(i));
+    if (k < 0 || k >= points) continue;
+    squares(k, c) += std::pow(left[static_cast<Eigen::Index>(i)], 2);
+    number(k, c) += 1;
+  }
+  Eigen::MatrixXd chance(points, classes);
+  for (Eigen::Index c = 0; c < classes; ++c) {
+    for (Eigen::Index k = 0; k < points; ++k) {
+      const double n = number(k, c);
+      chance(k, c) = n < kFewMoments ? INFINITY : kTogether * squares(k, c) / (n * n);
+    }
+  }
+  return chance;
+}
+
+}  // namespace
+
+Repositioning findRepositioning(const Measured& measured, const StaticFit& fit, const TaxelFit& taxels,
+                                const Trace& explained, const Eigen::MatrixXd& mask) {
+  Repositioning found;
+  std::vector<std::size_t> used;
+  for (std::size_t t = 0; t < measured.taxels(); ++t) {
+    if (measured.used[t]) used.push_back(t);
+  }
+  std::vector<std::size_t> visits_of(measured.classes.size());
+  for (const Visit& visit : measured.visits) ++visits_of[visit.curvature_class];
+  if (used.size() < 4 || *std::max_element(visits_of.begin(), visits_of.end()) < 2) return found;
+  const Eigen::MatrixXd smooth = smoothFields(measured.layout, used);
+  const auto n = static_cast<double>(used.size()), terms = static_cast<double>(smooth.cols());
+  double inside = 0, outside = 0, moments = 0, offsets = 0, gains = 0, mounts = 0;
+  std::map<std::size_t, double> by_class;
+  for (std::size_t v = 0; v < measured.visits.size(); ++v) {
+    if (visits_of[measured.visits[v].curvature_class] < 2) continue;
+    MountFields fields = fieldsOf(measured, fit, taxels, v, used, explained, mask);
+    fields.change.rowwise() -= fields.change.colwise().mean().eval();
+    const Eigen::MatrixXd smoothed = smooth * (smooth.transpose() * fields.change);
+    const double all = (fields.change * fields.gram * fields.change.transpose()).trace();
+    const double explains = (smoothed * fields.gram * smoothed.transpose()).trace();
+    inside += explains;
+    outside += all - explains;
+    moments += fields.moments;
+    by_class[fields.curvature_class] += explains;
+    offsets += smoothed.col(0).squaredNorm() / n;
+    gains += smoothed.col(1).squaredNorm() / n;
+    ++mounts;
+  }
+  const double chance = outside / (n - 1 - terms) * terms;  // what the smooth fields would take of chance
+  const Spread nothing = spreadOf(measured, taxels, Trace::Zero(fit.rise().size()));
+  found.share = nothing.square > 0 ? (inside - chance) / (moments * n) / nothing.square : 0;
+  found.z = (inside - chance) / std::max(1e-300, chance * std::sqrt(1 / (terms * mounts)));
+  found.offset = std::sqrt(offsets / mounts);
+  found.gain = std::sqrt(gains / mounts);
+  found.found = found.share >= kLeastShare && found.z >= kLeastZ;
+  double most = 0;
+  for (const auto& [c, square] : by_class) most = std::max(most, square);
+  for (const auto& [c, square] : by_class) {
+    if (square >= kShows * kShows * most) found.where.conditions.push_back(measured.classes[c].surface);
+  }
+  if (found.where.conditions.size() == measured.classes.size()) found.where.conditions.clear();
+  found.where.pressure = {0, *std::max_element(measured.pressure.begin(), measured.pressure.end())};
+  return found;
+}
+
+StaticMisfit findStaticMisfit(const Measured& measured, const StaticFit& fit, const Trace& common,
+                              double square) {
+  StaticMisfit result;
+  if (measured.classes.size() < 2) return result;
+  const auto [least, most] = std::minmax_element(measured.pressure.begin(), measured.pressure.end());
+  const double low = std::max(0.0, *least), step = (*most - low) / (kPoints - 1);
+  std::vector<std::size_t> moment_of(measured.classes.size(), measured.moments());
+  for (std::size_t i = 0; i < measured.moments(); ++i) moment_of[measured.classOf(i)] = i;
+  Eigen::MatrixXd curves(static_cast<Eigen::Index>(kPoints),
+                         static_cast<Eigen::Index>(measured.classes.size()));
+  for (Eigen::Index c = 0; c < curves.cols(); ++c) {
+    for (Eigen::Index k = 0; k < curves.rows(); ++k) {
+      curves(k, c) = fit.curveAt(moment_of[static_cast<std::size_t>(c)], low + step * static_cast<double>(k));
+    }
+  }
+  const Eigen::MatrixXd chance = chanceOf(measured, fit, common, low, step);
+  Eigen::MatrixXd misfit = Eigen::MatrixXd::Zero(curves.rows(), curves.cols());
+  for (Eigen::Index c = 1; c < curves.cols(); ++c) {
+    misfit.col(c) = misfitOf(curves.col(c), curves.col(0), low, step, fit.unloaded());
+    for (Eigen::Index k = 0; k < curves.rows(); ++k) {
+      const double by_chance = kSure * std::sqrt(chance(k, c) + chance(k, 0));
+      misfit(k, c) = std::copysign(std::max(0.0, std::abs(misfit(k, c)) - by_chance), misfit(k, c));
+    }
+  }
+  const double mean = misfit.squaredNorm() / static_cast<double>(misfit.size());
+  result.rms = std::sqrt(mean);
+  result.share = square > 0 ? mean / square : 0;
+  // One function of the reading: hats over the readings.
+  constexpr Eigen::Index kHats = 8;
+  Eigen::MatrixXd hats = Eigen::MatrixXd::Zero(misfit.size(), kHats);
+  const double highest = curves.maxCoeff();
+  for (Eigen::Index i = 0; i < misfit.size(); ++i) {
+    const double place = curves(i % curves.rows(), i / curves.rows()) / highest * (kHats - 1);
+    for (Eigen::Index h = 0; h < kHats; ++h)
+      hats(i, h) = std::max(0.0, 1 - std::abs(place - static_cast<double>(h)));
+  }
+  const Eigen::Map<const Eigen::VectorXd> flat(misfit.data(), misfit.size());
+  const Eigen::VectorXd fitted = hats * hats.colPivHouseholderQr().solve(flat);
+  result.by_code = flat.squaredNorm() > 0 ? 1 - (flat - fitted).squaredNorm() / flat.squaredNorm() : 0;
+  const Eigen::VectorXd by_pressure = misfit.rowwise().norm();
+  result.pressure = {INFINITY, 0};
+  for (Eigen::Index k = 0; k < by_pressure.size(); ++k) {
+    if (by_pressure[k] < 0.25 * by_pressure.maxCoeff()) continue;
+    result.pressure.low = std::min(result.pressure.low, low + step * static_cast<double>(k));
+    result.pressure.high = std::max(result.pressure.high, low + step * static_cast<double>(k));
+  }
+  const Eigen::VectorXd by_class = misfit.colwise().norm();
+  for (Eigen::Index c = 0; c < by_class.size(); ++c) {
+    if (by_class[c] >= kShows * by_class.maxCoeff())
+      result.conditions.push_back(measured.classes[static_cast<std::size_t>(c)].surface);
+  }
+  return result;
+}
+
+}  // namespace fsr::discrepancy

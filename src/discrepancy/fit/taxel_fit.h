@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "discrepancy/fit/static_fit.h"
+#include "discrepancy/samples/measured.h"
+
+namespace fsr::discrepancy {
+
+/// Static curves of every taxel, fitted to the cycles that are not shown.
+class TaxelFit {
+ public:
+  TaxelFit(const Measured& measured, const StaticFit& fit);
+
+  /// What the curves leave of every taxel's reading [share of full scale]; 0 for those not used.
+  void residuals(std::size_t moment, std::vector<double>& result) const;
+
+  /// Mean square of single scans round the mean of their moment [share of full scale, squared]: noise
+  /// that no explanation reaches.
+  double within() const { return within_; }
+
+ private:
+  void judgeWithin();
+
+  const Measured& measured_;
+  const StaticFit& fit_;
+  std::vector<Eigen::MatrixXd> coefficients_;  // of each group, [coefficients x taxels]
+  double within_ = 0;
+};
+
+/// How strongly a trace shows in every taxel, on every class of curvature.
+struct Spread {
+  Eigen::MatrixXd amplitude;  ///< [taxels x classes], 1 = as in the trace; NaN for taxels not used
+  Eigen::MatrixXd error;      ///< standard error, with the noise taken as white
+  double square = 0;          ///< mean square of the readings' residual, scan by scan
+  double local = 1;           ///< mean square of the amplitude / its mean squared: 1 where all taxels agree
+};
+Spread spreadOf(const Measured& measured, const TaxelFit& taxels, const Trace& trace);
+
+}  // namespace fsr::discrepancy

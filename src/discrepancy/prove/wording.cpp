@@ -1,0 +1,70 @@
+#include "discrepancy/prove/wording.h"
+
+#include <sstream>
+
+namespace fsr::discrepancy {
+
+namespace {
+
+// Data sheets call creep "drift": whoever reads the word must not take it for the other.
+std::string called(const std::string& id) {
+  return id == "creep" ? "creep (data sheets: drift under constant load)" : id;
+}
+
+std::string called(const std::vector<std::string>& ids) {
+  std::vector<std::string> names;
+  for (const std::string& id : ids) names.push_back(called(id));
+  return listText(names, " with ");
+}
+
+std::string sizeText(const DiscrepancyReport& report) {
+  if (report.effects.empty() || report.effects.front().parameters.empty()) return "";
+  const FittedParameter& size = report.effects.front().parameters.front();
+  std::ostringstream text;
+  text.precision(3);
+  text << " (" << size.name << " " << size.value << (size.unit.empty() ? "" : " " + size.unit);
+  if (size.interval.low < size.interval.high) {
+    text << ", 95 % " << size.interval.low << " to " << size.interval.high;
+  }
+  text << ")";
+  return text.str();
+}
+
+}  // namespace
+
+std::string listText(const std::vector<std::string>& items, const std::string& last) {
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i > 0) text += i + 1 == items.size() ? last : ", ";
+    text += items[i];
+  }
+  return text;
+}
+
+std::string sentenceOf(const DiscrepancyReport& report) {
+  const std::string tested = std::to_string(report.tested.size()) + " effects tested";
+  std::vector<std::string> sets;
+  for (const auto& ids : report.credible_set) sets.push_back(called(ids));
+  switch (report.verdict) {
+    case Verdict::kNone:
+      return "Among " + tested + ", none is missing that these recordings show.";
+    case Verdict::kUnknown:
+      return "Something is missing that none of the " + tested + " explains; it depends on " +
+             listText(report.depends_on) + ".";
+    case Verdict::kAmbiguous:
+      return "Among " + tested +
+             ", under this protocol, these are not told apart: " + listText(sets, " or ") + ".";
+    case Verdict::kWrongForm:
+      return "Best explanation among " + tested + ", under this protocol: " + sets.front() +
+             sizeText(report) + ", but not in the form that the library has.";
+    case Verdict::kNotIdentifiable:
+      return "These recordings cannot show " + listText(report.depends_on) +
+             ": see the experiments that would.";
+    case Verdict::kNamed:
+      return "Best explanation among " + tested + ", under this protocol: " + sets.front() +
+             sizeText(report) + ".";
+  }
+  return "";
+}
+
+}  // namespace fsr::discrepancy

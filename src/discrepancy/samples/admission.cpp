@@ -1,0 +1,121 @@
+#include "discrepancy/samples/admission.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+#include "fsr_pressure_map/calibration/calibration.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr::discrepancy {
+
+namespace {
+
+std::string number(double value, int digits) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(digits) << value;
+  return text.str();
+}
+
+std::string percent(double share) {
+  return number(100 * share, share < 0.001 ? 3 : 1) + " %";
+}
+
+AdmittedRecording lookAt(const dataset::Recording& recording) {
+  AdmittedRecording result;
+  result.name = recording.name;
+  result.scans = recording.scans();
+  result.seconds = recording.scans() > 1 ? recording.time.back() - recording.time.front() : 0;
+  result.surfaces = recording.conditions.size();
+  result.chamber = !recording.pressure.empty();
+  result.temperature = !recording.temperature.empty();
+  result.losses = recording.losses;
+  if (recording.scans() == 0) return result;
+  result.health = health::recordingHealth(recording);
+  result.lag = dataset::referenceLag(recording);
+  return result;
+}
+
+void judgeLag(const AdmittedRecording& recording, const AdmissionOptions& options, Admission& admission) {
+  if (!recording.chamber || recording.scans == 0) return;
+  if (!recording.lag) {
+    admission.problems.push_back(recording.name +
+                                 ": the matrix does not follow the chamber: was it in it, and did it move?");
+    return;
+  }
+  const double lag = recording.lag->seconds;
+  if (std::abs(lag) <= options.lag) return;
+  admission.problems.push_back(recording.name + ": the matrix answers " + number(std::abs(lag), 2) + " s " +
+                               (lag > 0 ? "later" : "earlier") + " than chamber_pressure says (allowed: " +
+                               number(options.lag, 2) + " s): do both stamps come from one clock?");
+}
+
+void judgeFaults(const AdmittedRecording& recording, std::size_t taxels, const AdmissionOptions& options,
+                 Admission& admission) {
+  const std::size_t failing = recording.health.dead.size() + recording.health.stuck.size();
+  if (failing == 0) return;
+  const std::string sentence = recording.name + ": " + std::to_string(failing) + " of " +
+                               std::to_string(taxels) + " taxels are dead or stuck";
+  const bool many = double(failing) > options.failing_share * double(taxels);
+  if (many) admission.problems.push_back(sentence + ", more than " + percent(options.failing_share));
+  if (!many) admission.remarks.push_back(sentence);
+}
+
+void judgeRest(const AdmittedRecording& recording, const AdmissionOptions& options, Admission& admission) {
+  const auto lost = double(recording.losses.lost_scans);
+  if (lost > options.lost_share * (lost + double(recording.scans))) {
+    admission.remarks.push_back(recording.name + ": " + percent(lost / (lost + double(recording.scans))) +
+                                " of the scans are lost (" + std::to_string(recording.losses.sequence_gaps) +
+                                " gaps in the board's counter)");
+  }
+  if (recording.health.saturated > options.saturated_share) {
+    admission.remarks.push_back(recording.name + ": " + percent(recording.health.saturated) +
+                                " of the readings are at full scale");
+  }
+}
+
+// The sentence with which `ask` refuses; empty = it does not.
+template <typename Ask>
+std::string refusal(Ask ask) {
+  try {
+    ask();
+    return "";
+  } catch (const settings::InputError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+Admission inspectRecordings(std::vector<dataset::Recording> recordings, const AdmissionOptions& options) {
+  Admission admission;
+  if (recordings.empty()) return admission;
+  admission.layout = recordings.front().layout;
+  for (const dataset::Recording& recording : recordings) {
+    const AdmittedRecording looked = lookAt(recording);
+    judgeLag(looked, options, admission);
+    judgeFaults(looked, recording.layout.size.taxels(), options, admission);
+    judgeRest(looked, options, admission);
+    for (const std::string& warning : recording.warnings) {
+      admission.remarks.push_back(recording.name + ": " + warning);
+    }
+    admission.recordings.push_back(looked);
+  }
+  calibration::CalibrationProblem training{std::move(recordings), {}};
+  training.options.folds = options.sections;
+  admission.training = refusal([&] {
+    calibration::validate(training);
+    admission.coverage = dataset::coverageOf(training.recordings, options.sections);
+  });
+  DiscrepancyProblem measured;
+  measured.recordings = std::move(training.recordings);
+  measured.simulation.layout = admission.layout;
+  admission.discrepancy = refusal([&] {
+    validate(measured);
+    admission.faults = findFaults(admit(measured)).faults;
+  });
+  return admission;
+}
+
+}  // namespace fsr::discrepancy

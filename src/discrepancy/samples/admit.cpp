@@ -1,0 +1,360 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+#include "dataset/cycles.h"
+#include "discrepancy/samples/measured.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "simulation/effects/effect_library.h"
+#include "statistics/random_stream.h"
+
+namespace fsr::discrepancy {
+
+namespace {
+
+constexpr std::size_t kFewestCycles = 3;
+constexpr std::size_t kFewestScans = 200;
+constexpr std::uint64_t kFewRestarts = 2;  // of the board in one bag
+constexpr double kAnswers = 0.05;          // of what most taxels move, between low and high pressure
+constexpr double kLeastAnswer = 0.0005;    // likewise, at least [share of full scale]
+constexpr double kLeastRange = 50e3;       // of the pressure [Pa]
+constexpr double kMostUnusable = 0.5;      // share of the taxels
+constexpr double kBetween = 60;            // bags whose stamps overlap, one after the other [s]
+constexpr double kShowShare = 0.2;         // of the cycles
+
+std::string number(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+void requireWhole(const dataset::Recording& recording) {
+  const auto refuse = [&](const std::string& what) {
+    throw settings::InputError(recording.name + ": " + what);
+  };
+  if (recording.scans() == 0) refuse("it has no scan");
+  if (recording.pressure.empty()) {
+    refuse("no chamber pressure is recorded, but without the topic chamber_pressure nothing can be compared");
+  }
+  const bool whole = recording.counts.size() == recording.scans() * recording.layout.size.taxels() &&
+                     recording.pressure.size() == recording.scans() &&
+                     recording.condition.size() == recording.scans() &&
+                     (recording.mask.empty() || recording.mask.size() == recording.layout.size.taxels()) &&
+                     (recording.temperature.empty() || recording.temperature.size() == recording.scans());
+  if (!whole) refuse("counts, pressure, temperature, condition and mask do not fit each other");
+  for (std::size_t i = 1; i < recording.scans(); ++i) {
+    if (recording.time[i] > recording.time[i - 1]) continue;
+    refuse("its stamps run backwards at " + number(recording.time[i]) + " s, but must ascend");
+  }
+  if (recording.losses.counter_back > kFewRestarts) {
+    refuse("its stamps run backwards, or the board started afresh, " +
+           std::to_string(recording.losses.counter_back) +
+           " times; was a clock set while it was recorded? Record it again");
+  }
+}
+
+void requireFinite(const dataset::Recording& recording) {
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    if (std::isfinite(recording.pressure[i])) continue;
+    throw settings::InputError(recording.name + ": chamber pressure at " + number(recording.time[i]) +
+                               " s is no number");
+  }
+}
+
+void requireFit(const dataset::Recording& recording, const simulation::SimulationSettings& simulation) {
+  if (recording.layout.size != simulation.layout.size) {
+    throw settings::InputError(simulation.origin + ": matrix is " + matrix::sizeText(simulation.layout.size) +
+                               ", but " + recording.name + " has " + matrix::sizeText(recording.layout.size));
+  }
+}
+
+// One sheet throughout, and nothing twice: what is shown would have been fitted to.
+void requireTogether(const std::vector<dataset::Recording>& recordings) {
+  const dataset::Recording& first = recordings.front();
+  for (auto r = recordings.begin(); r != recordings.end(); ++r) {
+    if (r->layout.size != first.layout.size || r->full_scale != first.full_scale) {
+      throw settings::InputError(r->name + ": is of a matrix of " + matrix::sizeText(r->layout.size) +
+                                 " up to " + std::to_string(r->full_scale) + " counts, but " + first.name +
+                                 " of " + matrix::sizeText(first.layout.size) + " up to " +
+                                 std::to_string(first.full_scale) + "; give bags of one sheet");
+    }
+    const auto same = std::find_if(recordings.begin(), r, [&](const dataset::Recording& other) {
+      return other.start_ns == r->start_ns && other.time == r->time && other.counts == r->counts;
+    });
+    if (same != r)
+      throw settings::InputError(r->name + ": holds the same scans as " + same->name +
+                                 "; give every bag once");
+  }
+}
+
+void requireKnown(const std::vector<std::string>& ids, const std::string& option) {
+  for (const std::string& id : ids) {
+    if (!simulation::findEffect(id)) throw settings::InputError(option + ": no effect is called " + id);
+  }
+}
+
+std::vector<std::size_t> inOrderOfTime(const std::vector<dataset::Recording>& recordings) {
+  std::vector<std::size_t> order(recordings.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return recordings[a].start_ns < recordings[b].start_ns;
+  });
+  return order;
+}
+
+// One visit, scan by scan, before scans are pooled.
+struct VisitCourse {
+  std::vector<double> time, pressure, rate;
+  dataset::Cycles cycles;
+};
+
+VisitCourse courseOf(const dataset::Recording& recording, const Visit& visit, double start) {
+  VisitCourse course;
+  const auto at = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
+  for (std::size_t i = visit.first_scan; i < visit.last_scan; ++i) {
+    course.time.push_back(start + recording.time[i]);
+  }
+  const std::vector<double> pressure(recording.pressure.begin() + at(visit.first_scan),
+                                     recording.pressure.begin() + at(visit.last_scan));
+  course.pressure = smoothCourse(course.time, pressure, course.rate);
+  course.cycles = dataset::findCycles(course.pressure);
+  if (course.cycles.first.empty()) {
+    course.cycles.first = {0};
+    course.cycles.direction.assign(pressure.size(), statistics::LoadDirection::kNone);
+  }
+  return course;
+}
+
+double mean(const std::vector<double>& values, std::size_t first, std::size_t last) {
+  const auto at = [&](std::size_t i) { return values.begin() + static_cast<std::ptrdiff_t>(i); };
+  return std::accumulate(at(first), at(last), 0.0) / static_cast<double>(last - first);
+}
+
+int sign(statistics::LoadDirection direction) {
+  return direction == statistics::LoadDirection::kLoading     ? 1
+         : direction == statistics::LoadDirection::kUnloading ? -1
+                                                              : 0;
+}
+
+// Scans first .. last - 1 of a visit become one moment.
+void appendMoment(Measured& measured, const VisitCourse& course, std::size_t first, std::size_t last) {
+  const Visit& visit = measured.visits.back();
+  const std::vector<double>& temperature = (*measured.recordings)[visit.recording].temperature;
+  measured.time.push_back(mean(course.time, first, last));
+  measured.pressure.push_back(mean(course.pressure, first, last));
+  measured.rate.push_back(mean(course.rate, first, last));
+  measured.direction.push_back(static_cast<std::int8_t>(sign(course.cycles.direction[first])));
+  measured.visit.push_back(static_cast<std::uint32_t>(measured.visits.size() - 1));
+  measured.cycle.push_back(static_cast<std::uint32_t>(measured.cycles.size() - 1));
+  measured.first_scan.push_back(visit.first_scan + first);
+  measured.scans.push_back(static_cast<std::uint32_t>(last - first));
+  if (!temperature.empty()) {
+    measured.temperature.push_back(mean(temperature, visit.first_scan + first, visit.first_scan + last));
+  }
+}
+
+void appendVisit(Measured& measured, double start, std::size_t pooled) {
+  Visit& visit = measured.visits.back();
+  const VisitCourse course = courseOf((*measured.recordings)[visit.recording], visit, start);
+  visit.first = measured.moments();
+  for (std::size_t c = 0; c < course.cycles.count(); ++c) {
+    const bool last = c + 1 == course.cycles.count();
+    const std::size_t end = last ? course.time.size() : course.cycles.first[c + 1];
+    measured.cycles.push_back({measured.visits.size() - 1, measured.moments(), 0, 0, CycleUse::kFit});
+    for (std::size_t i = course.cycles.first[c]; i < end; i += pooled) {
+      appendMoment(measured, course, i, std::min(i + pooled, end));
+    }
+    measured.cycles.back().last = measured.moments();
+  }
+  visit.last = measured.moments();
+}
+
+std::size_t scansPooled(const std::vector<dataset::Recording>& recordings) {
+  std::size_t scans = 0;
+  double shortest = INFINITY;  // mean time from scan to scan [s]
+  for (const dataset::Recording& recording : recordings) {
+    scans += recording.scans();
+    if (recording.scans() < 2) continue;
+    const double seconds = recording.time.back() - recording.time.front();
+    shortest = std::min(shortest, seconds / static_cast<double>(recording.scans() - 1));
+  }
+  const double most = std::max(1.0, std::floor(Measured::kLongestMoment / shortest));
+  const double wanted = static_cast<double>(scans) / static_cast<double>(Measured::kManyMoments);
+  return static_cast<std::size_t>(std::clamp(std::round(wanted), 1.0, most));
+}
+
+void appendRecording(Measured& measured, const dataset::ConditionClasses& classes, std::size_t r,
+                     std::size_t pooled) {
+  const dataset::Recording& recording = (*measured.recordings)[r];
+  double start = static_cast<double>(recording.start_ns - (*measured.recordings)[0].start_ns) * 1e-9;
+  if (!measured.time.empty() && start + recording.time.front() <= measured.time.back()) {
+    start = measured.time.back() + kBetween - recording.time.front();
+    measured.limitations.push_back(recording.name +
+                                   " overlaps another bag in time; it is taken to follow it.");
+  }
+  for (std::size_t from = 0, to = 0; from < recording.scans(); from = to) {
+    while (to < recording.scans() && recording.condition[to] == recording.condition[from]) ++to;
+    const std::size_t condition = recording.condition[from];
+    Visit visit{r, recording.conditions.at(condition), classes.class_of[r][condition], 0, 0, from, to};
+    if (!visit.surface.known()) visit.surface.curvature = {matrix::Curvature{}};
+    measured.visits.push_back(visit);
+    appendVisit(measured, start, pooled);
+  }
+}
+
+// Interleaved folds, and cycles to show on: in each visit as many, drawn by the seed.
+void partCycles(Measured& measured, std::uint64_t seed) {
+  const statistics::RandomStream stream = statistics::randomStream(seed, "discrepancy.split");
+  std::vector<std::vector<std::size_t>> of_visit(measured.visits.size());
+  for (std::size_t c = 0; c < measured.cycles.size(); ++c) of_visit[measured.cycles[c].visit].push_back(c);
+  std::uint32_t next = 0;
+  double owed = 0;
+  for (std::size_t v = 0; v < of_visit.size(); ++v) {
+    std::vector<std::size_t>& cycles = of_visit[v];
+    owed += kShowShare * static_cast<double>(cycles.size());
+    for (; owed >= 1 && cycles.size() > 1; owed -= 1) {
+      const std::size_t drawn = stream.bits(v * 1000 + cycles.size()) % cycles.size();
+      measured.cycles[cycles[drawn]].use = CycleUse::kShow;
+      cycles.erase(cycles.begin() + static_cast<std::ptrdiff_t>(drawn));
+    }
+    for (const std::size_t c : cycles) measured.cycles[c].fold = next++ % Measured::kFolds;
+  }
+}
+
+void maskTaxels(Measured& measured) {
+  measured.used.assign(measured.taxels(), 1);
+  for (const dataset::Recording& recording : *measured.recordings) {
+    for (std::size_t i = 0; i < recording.mask.size(); ++i) {
+      if (recording.mask[i]) measured.used[i] = 0;
+    }
+  }
+  if (static_cast<double>(measured.usedTaxels()) <
+      (1 - kMostUnusable) * static_cast<double>(measured.taxels())) {
+    throw settings::InputError(
+        (*measured.recordings)[0].name + ": " + std::to_string(measured.taxels() - measured.usedTaxels()) +
+        " of " + std::to_string(measured.taxels()) + " taxels are masked, but at least half must be usable");
+  }
+}
+
+// Deviation of what each taxel reads [share of full scale].
+std::vector<double> movements(const Measured& measured) {
+  std::vector<double> sum(measured.taxels()), squares(measured.taxels()), readings;
+  for (std::size_t i = 0; i < measured.moments(); ++i) {
+    measured.recorded(i, readings);
+    for (std::size_t t = 0; t < readings.size(); ++t) {
+      sum[t] += readings[t];
+      squares[t] += readings[t] * readings[t];
+    }
+  }
+  const auto moments = static_cast<double>(measured.moments());
+  for (std::size_t t = 0; t < sum.size(); ++t) {
+    squares[t] = std::sqrt(std::max(0.0, squares[t] / moments - std::pow(sum[t] / moments, 2)));
+  }
+  return squares;
+}
+
+// Detectors hold a taxel against the others: where most of them are dead, a dead one looks like all.
+void requireAnswers(const Measured& measured) {
+  const std::vector<double> answer = movements(measured);
+  std::vector<double> sorted = answer;
+  std::sort(sorted.begin(), sorted.end());
+  const double usual = sorted[sorted.size() * 9 / 10];
+  const double least = std::max(kLeastAnswer, kAnswers * usual);
+  std::size_t usable = 0;
+  for (std::size_t t = 0; t < answer.size(); ++t) usable += measured.used[t] && answer[t] >= least;
+  if (2 * usable >= answer.size()) return;
+  throw settings::InputError(
+      (*measured.recordings)[0].name + ": " + std::to_string(answer.size() - usable) + " of " +
+      std::to_string(answer.size()) +
+      " taxels are masked or do not answer to the pressure, but at least half must be usable");
+}
+
+void requireJudgeable(const Measured& measured) {
+  const std::string name = (*measured.recordings)[0].name;
+  const auto [low, high] = std::minmax_element(measured.pressure.begin(), measured.pressure.end());
+  if (*high - *low < kLeastRange) {
+    throw settings::InputError(name + ": chamber pressure covers " + number((*high - *low) * 1e-3) +
+                               " kPa, but at least 50 kPa are needed to tell anything");
+  }
+  if (measured.cycles.size() < kFewestCycles) {
+    throw settings::InputError(
+        name + ": " + std::to_string(measured.cycles.size()) +
+        (measured.cycles.size() == 1 ? " cycle" : " cycles") +
+        " of filling and venting, but at least 3 are needed: what was found must be held "
+        "against others");
+  }
+  if (measured.moments() < kFewestScans) {
+    throw settings::InputError(name + ": " + std::to_string(measured.moments()) +
+                               " scans, but at least 200 are needed");
+  }
+}
+
+}  // namespace
+
+std::size_t Measured::usedTaxels() const {
+  return static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
+}
+
+void Measured::recorded(std::size_t moment, std::vector<double>& result) const {
+  const dataset::Recording& recording = (*recordings)[visits[visit[moment]].recording];
+  result.assign(taxels(), 0.0);
+  for (std::size_t s = 0; s < scans[moment]; ++s) {
+    const std::uint16_t* counts = recording.scan(first_scan[moment] + s);
+    for (std::size_t i = 0; i < result.size(); ++i) result[i] += counts[i];
+  }
+  for (double& reading : result) reading /= full_scale * static_cast<double>(scans[moment]);
+}
+
+void Measured::readings(std::size_t moment, std::vector<double>& result) const {
+  recorded(moment, result);
+  if (gain.empty()) return;
+  for (double& reading : result) reading = (reading - added[moment] - unloaded) / gain[moment] + unloaded;
+}
+
+void validate(const DiscrepancyProblem& problem) {
+  if (problem.recordings.empty()) throw settings::InputError("discrepancy: no bag was given");
+  for (const dataset::Recording& recording : problem.recordings) {
+    requireWhole(recording);
+    requireFinite(recording);
+  }
+  requireTogether(problem.recordings);
+  requireFit(problem.recordings.front(), problem.simulation);
+  requireKnown(problem.options.ask, "--ask");
+  requireKnown(problem.options.leave_out, "--without");
+}
+
+Measured admit(const DiscrepancyProblem& problem) {
+  Measured measured;
+  measured.recordings = &problem.recordings;
+  const dataset::Recording& first = problem.recordings.front();
+  measured.layout = first.layout;
+  measured.full_scale = first.full_scale;
+  const dataset::ConditionClasses classes = dataset::poolConditions(problem.recordings);
+  measured.classes = classes.classes;
+  bool thermometer = true;
+  const std::size_t pooled = scansPooled(problem.recordings);
+  for (const std::size_t r : inOrderOfTime(problem.recordings)) {
+    appendRecording(measured, classes, r, pooled);
+    for (const std::string& warning : problem.recordings[r].warnings)
+      measured.limitations.push_back(problem.recordings[r].name + ": " + warning + ".");
+    thermometer = thermometer && !problem.recordings[r].temperature.empty();
+  }
+  if (!thermometer) {
+    measured.temperature.clear();
+    measured.limitations.push_back("No temperature was recorded: what is slow cannot be told apart.");
+  }
+  const double start = measured.time.front();
+  for (double& time : measured.time) time -= start;
+  measured.way.assign(measured.moments(), 0);
+  for (std::size_t i = 1; i < measured.moments(); ++i) {
+    measured.way[i] = measured.way[i - 1] + std::abs(measured.pressure[i] - measured.pressure[i - 1]);
+  }
+  partCycles(measured, problem.options.seed);
+  maskTaxels(measured);
+  requireJudgeable(measured);
+  requireAnswers(measured);
+  return measured;
+}
+
+}  // namespace fsr::discrepancy

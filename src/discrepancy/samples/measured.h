@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/dataset/condition_classes.h"
+#include "fsr_pressure_map/dataset/recording.h"
+#include "fsr_pressure_map/discrepancy/discrepancy.h"
+
+namespace fsr::discrepancy {
+
+/// A stay of the matrix on one surface: moments first .. last - 1.
+struct Visit {
+  std::size_t recording = 0;
+  matrix::Surface surface;
+  std::size_t curvature_class = 0;
+  std::size_t first = 0;
+  std::size_t last = 0;
+  std::size_t first_scan = 0;  ///< of the recording
+  std::size_t last_scan = 0;   ///< likewise, excluded
+};
+
+/// Which use a cycle serves. What is shown at the end takes no part in anything before.
+enum class CycleUse : std::uint8_t { kFit, kShow };
+
+/// One filling and venting: moments first .. last - 1.
+struct MeasuredCycle {
+  std::size_t visit = 0;
+  std::size_t first = 0;
+  std::size_t last = 0;
+  std::uint32_t fold = 0;  ///< for choosing between explanations: 0 .. kFolds - 1, interleaved
+  CycleUse use = CycleUse::kFit;
+};
+
+/// All recordings of a problem as one course of events. A moment is one scan or the mean of a few
+/// consecutive ones: what is looked for is slower than scans are, and fewer moments are sooner done.
+struct Measured {
+  static constexpr std::uint32_t kFolds = 4;
+  static constexpr std::size_t kManyMoments = 14000;  ///< above it scans are pooled, up to kLongestMoment
+  static constexpr double kLongestMoment = 0.5;       ///< [s]
+
+  const std::vector<dataset::Recording>* recordings = nullptr;
+  matrix::Layout layout;
+  double full_scale = 0;                         ///< [counts]
+  std::vector<dataset::CurvatureClass> classes;  ///< by ascending curvature of taxel 0
+  std::vector<Visit> visits;
+  std::vector<MeasuredCycle> cycles;
+  std::vector<std::uint8_t> used;  ///< of each taxel; 0 = masked or faulty
+
+  // Of each moment, in time order:
+  std::vector<double> time;         ///< since the first scan of the first recording [s]
+  std::vector<double> pressure;     ///< gauge, its noise smoothed away where it runs straight [Pa]
+  std::vector<double> rate;         ///< [Pa/s]
+  std::vector<double> temperature;  ///< [degree Celsius]; empty where a recording has none
+  std::vector<double> way;          ///< sum of |dP| since the first moment [Pa]
+  std::vector<std::uint32_t> visit;
+  std::vector<std::uint32_t> cycle;
+  std::vector<std::int8_t> direction;   ///< +1 loading, -1 unloading, 0 = never changes
+  std::vector<std::size_t> first_scan;  ///< of the visit's recording
+  std::vector<std::uint32_t> scans;     ///< how many
+
+  // Effects that were taken out; empty = none.
+  std::vector<double> load;   ///< what the taxels felt, the chamber's pressure and its history [Pa]
+  std::vector<double> gain;   ///< factor of what they read above `unloaded`
+  std::vector<double> added;  ///< to their readings [share of full scale]
+  double unloaded = 0;        ///< reading without load [share of full scale]
+
+  std::vector<std::string> limitations;  ///< sentences
+
+  std::size_t moments() const { return time.size(); }
+  std::size_t taxels() const { return layout.size.taxels(); }
+  std::size_t usedTaxels() const;
+  std::size_t classOf(std::size_t moment) const { return visits[visit[moment]].curvature_class; }
+  /// Mean reading of every taxel as it was recorded [share of full scale], [taxels], row-major.
+  void recorded(std::size_t moment, std::vector<double>& result) const;
+  /// The same without the gain and the reading of effects that were taken out.
+  void readings(std::size_t moment, std::vector<double>& result) const;
+};
+
+/// Puts the recordings in order of time, finds visits and cycles, and parts the cycles, by the seed,
+/// into those to fit on and those to show on. The recordings must outlive it. Throws InputError where
+/// they cannot be judged.
+Measured admit(const DiscrepancyProblem& problem);
+
+/// A course of pressure [Pa] without its noise: where it runs straight over some scans, the straight
+/// line, beside corners from the straight side alone. `rate` becomes its slope [Pa/s].
+std::vector<double> smoothCourse(const std::vector<double>& time, const std::vector<double>& pressure,
+                                 std::vector<double>& rate);
+
+}  // namespace fsr::discrepancy

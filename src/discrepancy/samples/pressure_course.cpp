@@ -1,0 +1,86 @@
+// The reference scatters by a transducer step or so from scan to scan, and its slope by much more. A chamber
+// runs along ramps and dwells, so that straight lines through a few scans take the scatter away; beside a
+// corner the line must lie on one side of it (M. Kuwahara et al., 1976, does the same for pictures).
+
+#include <algorithm>
+#include <cmath>
+
+#include "discrepancy/samples/measured.h"
+
+namespace fsr::discrepancy {
+
+namespace {
+
+constexpr std::size_t kScans = 9;  // of a line
+constexpr double kLongestGap = 5;  // between two scans of one line [s]
+constexpr double kStraight = 3;    // scatter round a straight line, in units of the usual one
+
+// A straight line through kScans scans, about its own middle.
+struct Line {
+  double time = 0, pressure = 0, slope = 0;
+  double scatter = 0;  // rms round it [Pa]
+
+  double at(double t) const { return pressure + slope * (t - time); }
+};
+
+Line lineThrough(const std::vector<double>& time, const std::vector<double>& pressure, std::size_t first) {
+  Line line;
+  for (std::size_t i = first; i < first + kScans; ++i) {
+    line.time += time[i] / kScans;
+    line.pressure += pressure[i] / kScans;
+  }
+  double tt = 0, tp = 0;
+  for (std::size_t i = first; i < first + kScans; ++i) {
+    tt += (time[i] - line.time) * (time[i] - line.time);
+    tp += (time[i] - line.time) * (pressure[i] - line.pressure);
+  }
+  line.slope = tt > 0 ? tp / tt : 0;
+  for (std::size_t i = first; i < first + kScans; ++i) {
+    line.scatter += std::pow(pressure[i] - line.at(time[i]), 2);
+  }
+  line.scatter = std::sqrt(line.scatter / (kScans - 2));
+  const bool gap = time[first + kScans - 1] - time[first] > kLongestGap * kScans;
+  if (gap) line.scatter = INFINITY;
+  return line;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double plainSlope(const std::vector<double>& time, const std::vector<double>& pressure, std::size_t i) {
+  const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, time.size() - 1);
+  return time[after] > time[before] ? (pressure[after] - pressure[before]) / (time[after] - time[before]) : 0;
+}
+
+}  // namespace
+
+std::vector<double> smoothCourse(const std::vector<double>& time, const std::vector<double>& pressure,
+                                 std::vector<double>& rate) {
+  std::vector<double> smooth = pressure;
+  rate.resize(time.size());
+  for (std::size_t i = 0; i < time.size(); ++i) rate[i] = plainSlope(time, pressure, i);
+  if (time.size() < kScans) return smooth;
+  std::vector<Line> lines;
+  std::vector<double> scatters;
+  for (std::size_t first = 0; first + kScans <= time.size(); ++first) {
+    lines.push_back(lineThrough(time, pressure, first));
+    scatters.push_back(lines.back().scatter);
+  }
+  const double most = kStraight * median(scatters) + 1e-9;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    const std::size_t from = i >= kScans - 1 ? i - (kScans - 1) : 0, to = std::min(i, lines.size() - 1);
+    const auto best = std::min_element(lines.begin() + static_cast<std::ptrdiff_t>(from),
+                                       lines.begin() + static_cast<std::ptrdiff_t>(to) + 1,
+                                       [](const Line& a, const Line& b) { return a.scatter < b.scatter; });
+    if (best->scatter > most) continue;
+    smooth[i] = best->at(time[i]);
+    rate[i] = best->slope;
+  }
+  return smooth;
+}
+
+}  // namespace fsr::discrepancy

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "fsr_pressure_map/simulation/chamber_protocol.h"
+
+namespace fsr::emulator {
+
+/// The pressure chamber as it is operated: at rest at first, then whatever runs and stops were asked
+/// for. All times are rig time [s]; a command acts from its time on and never changes the past.
+class Chamber {
+ public:
+  /// Starts a fresh run of cycles, after venting where the chamber is under pressure.
+  void startCycles(double time, const simulation::ChamberProtocol& protocol);
+
+  /// Vents to rest at the rate of the last run.
+  void stop(double time);
+
+  /// Gauge pressure at any time so far [Pa].
+  double gaugePressure(double time) const;
+
+  /// When the last run's cycles are done; infinite where they never end or were stopped.
+  double cyclesEnd() const { return cycles_end_; }
+
+ private:
+  struct Section {
+    double start;  // [s]
+    simulation::PressureProfile profile;
+  };
+  double vent(double time);
+
+  simulation::ChamberProtocol protocol_;
+  std::vector<Section> sections_;  // by ascending start
+  double cycles_end_ = 0;
+};
+
+}  // namespace fsr::emulator

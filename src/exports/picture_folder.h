@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "exports/map_pictures.h"
+#include "settings/fresh_file.h"
+
+namespace fsr::exports {
+
+/// PNG files map_000001.png, map_000002.png ... in a new folder, which appears whole or not at all.
+class PictureFolder : public PictureSink {
+ public:
+  /// Throws InputError where there is something of that name already.
+  PictureFolder(const std::string& path, const PictureOptions& options);
+
+  void finish() override;
+
+ private:
+  void picture(std::int64_t since_ns, const view::Image& image) override;
+
+  std::string path_;
+  settings::FreshPath fresh_;
+  std::size_t pictures_ = 0;
+};
+
+}  // namespace fsr::exports

@@ -1,0 +1,201 @@
+#include "hdf5/column.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace fsr::hdf5 {
+
+namespace {
+
+constexpr std::size_t kChunk = 1 << 16;         // [bytes]; a column holds back as much
+constexpr std::size_t kLargestEntry = 1 << 28;  // that is read [bytes]; a claim alone must make no room
+constexpr unsigned kDeflate = 4;                // level
+
+std::vector<hsize_t> dimensions(std::size_t entries, const std::vector<std::size_t>& shape) {
+  std::vector<hsize_t> all = {entries};
+  all.insert(all.end(), shape.begin(), shape.end());
+  return all;
+}
+
+// Columns are written and read chunk by chunk: HDF5's own megabyte of cache for each would be for nothing.
+hid_t accessPlan() {
+  const hid_t plan = H5Pcreate(H5P_DATASET_ACCESS);
+  H5Pset_chunk_cache(plan, 7, 4 * kChunk, 1.0);
+  return plan;
+}
+
+hid_t makeDataset(hid_t file, const ColumnPlan& plan, hid_t type, std::size_t chunk_entries) {
+  const std::vector<hsize_t> none = dimensions(0, plan.shape);
+  const std::vector<hsize_t> any = dimensions(H5S_UNLIMITED, plan.shape);
+  const std::vector<hsize_t> chunk = dimensions(chunk_entries, plan.shape);
+  const int rank = static_cast<int>(none.size());
+  const Handle space(H5Screate_simple(rank, none.data(), any.data()), H5Sclose, plan.path);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, plan.path);
+  require(H5Pset_obj_track_times(creation, false), plan.path);  // the same content, the same bytes
+  require(H5Pset_chunk(creation, rank, chunk.data()), plan.path);
+  require(H5Pset_shuffle(creation), plan.path);
+  require(H5Pset_deflate(creation, kDeflate), plan.path);
+  const Handle access(accessPlan(), H5Pclose, plan.path);
+  return H5Dcreate2(file, plan.path.c_str(), type, space, H5P_DEFAULT, creation, access);
+}
+
+hid_t openDataset(hid_t file, const std::string& path) {
+  const Handle access(accessPlan(), H5Pclose, path);
+  return H5Dopen2(file, path.c_str(), access);
+}
+
+std::size_t chunkEntries(std::size_t entry_size) {
+  return std::max<std::size_t>(1, kChunk / entry_size);
+}
+
+// The file's own type for texts, the asked for one for numbers.
+hid_t readType(hid_t dataset, hid_t wanted) {
+  if (wanted != 0) return H5Tcopy(wanted);
+  const hid_t type = H5Dget_type(dataset);
+  if (type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0) return type;
+  H5Tclose(type);
+  return -1;
+}
+
+}  // namespace
+
+hid_t textType(std::size_t size) {
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, std::max<std::size_t>(size, 1));
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return type;
+}
+
+void setAttribute(hid_t file, const std::string& path, const std::string& name, const std::string& text) {
+  const Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, path);
+  const Handle type(textType(text.size()), H5Tclose, name);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+  const Handle made(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  require(H5Awrite(made, type, text.c_str()), name);
+}
+
+void setAttribute(hid_t file, const std::string& path, const std::string& name, std::uint64_t value) {
+  const Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, path);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+  const Handle made(H5Acreate2(object, name.c_str(), H5T_NATIVE_UINT64, space, H5P_DEFAULT, H5P_DEFAULT),
+                    H5Aclose, name);
+  require(H5Awrite(made, H5T_NATIVE_UINT64, &value), name);
+}
+
+std::string textAttribute(hid_t file, const std::string& path, const std::string& name) {
+  const std::string what = path + " " + name;
+  const Handle attribute(H5Aopen_by_name(file, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                         H5Aclose, what);
+  const Handle type(H5Aget_type(attribute), H5Tclose, what);
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) {
+    throw settings::InputError("its " + what + " is not a text of fixed length");
+  }
+  std::string text(H5Tget_size(type), '\0');
+  require(H5Aread(attribute, type, text.data()), what);
+  return text.substr(0, text.find('\0'));
+}
+
+ColumnWriter::ColumnWriter(hid_t file, const ColumnPlan& plan)
+    : type_(plan.type != 0 ? H5Tcopy(plan.type) : textType(plan.text_size), H5Tclose, plan.path),
+      path_(plan.path),
+      shape_(plan.shape),
+      entry_size_(H5Tget_size(type_) * elements(plan.shape)),
+      chunk_entries_(chunkEntries(entry_size_)),
+      dataset_(makeDataset(file, plan, type_, chunk_entries_), H5Dclose, plan.path) {
+  if (!plan.unit.empty()) setAttribute(file, path_, "unit", plan.unit);
+  if (!plan.meaning.empty()) setAttribute(file, path_, "meaning", plan.meaning);
+}
+
+void ColumnWriter::append(const void* bytes, std::size_t entries) {
+  const char* from = static_cast<const char*>(bytes);
+  while (entries > 0) {
+    const std::size_t room = chunk_entries_ - waiting_.size() / entry_size_;
+    const std::size_t now = std::min(room, entries);
+    waiting_.insert(waiting_.end(), from, from + now * entry_size_);
+    from += now * entry_size_;
+    entries -= now;
+    if (now == room) flush();
+  }
+}
+
+void ColumnWriter::appendText(std::string_view text) {
+  waiting_.insert(waiting_.end(), text.begin(), text.end());
+  waiting_.resize(waiting_.size() + entry_size_ - text.size(), '\0');
+  if (waiting_.size() == chunk_entries_ * entry_size_) flush();
+}
+
+// Whole chunks only, but for the last: none is compressed twice.
+void ColumnWriter::flush() {
+  const std::size_t entries = waiting_.size() / entry_size_;
+  if (entries == 0) return;
+  const std::vector<hsize_t> size = dimensions(written_ + entries, shape_);
+  require(H5Dset_extent(dataset_, size.data()), path_);
+  std::vector<hsize_t> start(size.size(), 0);
+  start[0] = written_;
+  const std::vector<hsize_t> count = dimensions(entries, shape_);
+  const Handle space(H5Dget_space(dataset_), H5Sclose, path_);
+  require(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), path_);
+  const Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose,
+                      path_);
+  require(H5Dwrite(dataset_, type_, memory, space, H5P_DEFAULT, waiting_.data()), path_);
+  written_ += entries;
+  waiting_.clear();
+}
+
+void ColumnWriter::finish() {
+  flush();
+}
+
+ColumnReader::ColumnReader(hid_t file, const std::string& path, hid_t type)
+    : path_(path),
+      dataset_(openDataset(file, path), H5Dclose, path),
+      type_(readType(dataset_, type), H5Tclose, path) {
+  const Handle space(H5Dget_space(dataset_), H5Sclose, path);
+  shape_.resize(static_cast<std::size_t>(std::max(1, H5Sget_simple_extent_ndims(space))));
+  require(H5Sget_simple_extent_dims(space, shape_.data(), nullptr), path);
+  entries_ = shape_[0];
+  for (std::size_t i = 1; i < shape_.size(); ++i) {
+    width_ = shape_[i] > kLargestEntry ? 0 : std::min<std::size_t>(width_ * shape_[i], kLargestEntry + 1);
+  }
+  const std::size_t value = H5Tget_size(type_);
+  if (value == 0 || width_ == 0 || width_ > kLargestEntry / value) {
+    throw settings::InputError("its " + path + " has entries of no usable size");
+  }
+  entry_size_ = value * width_;
+}
+
+void ColumnReader::load(std::size_t entries) {
+  if (entries > entries_ - loaded_ || entries > kLargestEntry / entry_size_)
+    throw settings::InputError("its " + path_ + " has too few entries");
+  const std::size_t now = std::min(std::max(entries, chunkEntries(entry_size_)), entries_ - loaded_);
+  buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(at_));
+  at_ = 0;
+  const std::size_t old = buffer_.size();
+  buffer_.resize(old + now * entry_size_);
+  std::vector<hsize_t> start(shape_.size(), 0), count = shape_;
+  start[0] = loaded_;
+  count[0] = now;
+  const Handle space(H5Dget_space(dataset_), H5Sclose, path_);
+  require(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), path_);
+  const Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose,
+                      path_);
+  require(H5Dread(dataset_, type_, memory, space, H5P_DEFAULT, buffer_.data() + old), path_);
+  loaded_ += now;
+}
+
+const char* ColumnReader::next(std::size_t entries) {
+  const std::size_t wanted = entries * entry_size_;
+  const std::size_t there = buffer_.size() - at_;
+  if (there < wanted) load((wanted - there + entry_size_ - 1) / entry_size_);
+  const char* bytes = buffer_.data() + at_;
+  at_ += wanted;
+  return bytes;
+}
+
+std::string_view ColumnReader::nextText() {
+  const char* bytes = next();
+  return {bytes, static_cast<std::size_t>(std::find(bytes, bytes + entry_size_, '\0') - bytes)};
+}
+
+}  // namespace fsr::hdf5

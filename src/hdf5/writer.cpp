@@ -1,0 +1,148 @@
+#include "hdf5/writer.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <type_traits>
+
+#include "hdf5/handle.h"
+
+namespace fsr::hdf5 {
+
+namespace {
+
+inline std::vector<hsize_t> dimensions(const std::vector<std::size_t>& shape) {
+  return {shape.begin(), shape.end()};
+}
+
+// Fixed length, padded with zeros: every reader of HDF5 knows it.
+hid_t textType(std::size_t length) {
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, std::max<std::size_t>(length, 1));
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return type;
+}
+
+void writeAttribute(hid_t file, const std::string& path, const std::string& name, hid_t type, hid_t space,
+                    const void* values) {
+  const Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, path);
+  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                         name);
+  require(H5Awrite(attribute, type, values), name);
+}
+
+void writeDataset(hid_t file, const std::string& path, hid_t type, const std::vector<std::size_t>& shape,
+                  const void* values) {
+  const std::vector<hsize_t> size = dimensions(shape);
+  const Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose, path);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path);
+  require(H5Pset_obj_track_times(creation, false), path);  // the same content, the same bytes
+  const Handle dataset(H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                       H5Dclose, path);
+  if (elements(shape) > 0) require(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);
+}
+
+hid_t createFile(const std::string& name) {
+  hdf5::openLibrary();
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "file");
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "file");
+  require(H5Pset_file_locking(access, false, true), "file");  // not every file system has locks
+  require(H5Pset_userblock(creation, kUserBlock), "file");
+  return H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation, access);
+}
+
+}  // namespace
+
+Writer::Writer(const std::string& name) : lock_(hdf5Mutex()), file_(createFile(name)) {
+  require(file_ < 0 ? -1 : 0, "file");
+}
+
+Writer::~Writer() {
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void Writer::group(const std::string& path) {
+  const Handle made(H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
+}
+
+void Writer::attribute(const std::string& path, const std::string& name, const std::string& text) {
+  const Handle type(textType(text.size()), H5Tclose, name);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+  writeAttribute(file_, path, name, type, space, text.c_str());
+}
+
+void Writer::attribute(const std::string& path, const std::string& name, const std::vector<double>& values) {
+  const hsize_t size = values.size();
+  const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, name);
+  writeAttribute(file_, path, name, H5T_NATIVE_DOUBLE, space, values.data());
+}
+
+void Writer::attribute(const std::string& path, const std::string& name, std::uint64_t value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+  writeAttribute(file_, path, name, H5T_NATIVE_UINT64, space, &value);
+}
+
+namespace {
+
+// Whether all values fit into Narrow.
+template <typename Narrow, typename T>
+bool fits(const std::vector<T>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return values.empty() || (*low >= static_cast<T>(std::numeric_limits<Narrow>::min()) &&
+                            *high <= static_cast<T>(std::numeric_limits<Narrow>::max()));
+}
+
+}  // namespace
+
+template <typename T>
+void Writer::dataset(const std::string& path, const std::vector<T>& values,
+                     const std::vector<std::size_t>& shape, const std::string& unit,
+                     const std::string& meaning) {
+  if (elements(shape) != values.size()) throw std::logic_error(path + " is not " + shapeText(shape));
+  if constexpr (std::is_integral_v<T> && sizeof(T) > 1) {
+    using OfHalf = std::conditional_t<sizeof(T) == 4, std::uint16_t, std::uint8_t>;
+    using Narrower = std::conditional_t<sizeof(T) == 8, std::uint32_t, OfHalf>;
+    if (fits<Narrower>(values)) {
+      dataset(path, std::vector<Narrower>(values.begin(), values.end()), shape, unit, meaning);
+      return;
+    }
+  }
+  writeDataset(file_, path, typeOf<T>(), shape, values.data());
+  if (!unit.empty()) attribute(path, "unit", unit);
+  if (!meaning.empty()) attribute(path, "meaning", meaning);
+}
+
+void Writer::texts(const std::string& path, const std::vector<std::string>& texts,
+                   const std::string& meaning) {
+  std::size_t length = 1;
+  for (const std::string& text : texts) length = std::max(length, text.size());
+  std::string padded;
+  for (const std::string& text : texts) padded += text + std::string(length - text.size(), '\0');
+  const Handle type(textType(length), H5Tclose, path);
+  writeDataset(file_, path, type, {texts.size()}, padded.data());
+  if (!meaning.empty()) attribute(path, "meaning", meaning);
+}
+
+void Writer::finish() {
+  const herr_t closed = H5Fclose(file_);
+  file_ = -1;
+  require(closed, "file");
+}
+
+template void Writer::dataset(const std::string&, const std::vector<std::uint8_t>&,
+                              const std::vector<std::size_t>&, const std::string&, const std::string&);
+template void Writer::dataset(const std::string&, const std::vector<std::uint16_t>&,
+                              const std::vector<std::size_t>&, const std::string&, const std::string&);
+template void Writer::dataset(const std::string&, const std::vector<std::uint32_t>&,
+                              const std::vector<std::size_t>&, const std::string&, const std::string&);
+template void Writer::dataset(const std::string&, const std::vector<std::uint64_t>&,
+                              const std::vector<std::size_t>&, const std::string&, const std::string&);
+template void Writer::dataset(const std::string&, const std::vector<std::int64_t>&,
+                              const std::vector<std::size_t>&, const std::string&, const std::string&);
+template void Writer::dataset(const std::string&, const std::vector<float>&, const std::vector<std::size_t>&,
+                              const std::string&, const std::string&);
+template void Writer::dataset(const std::string&, const std::vector<double>&, const std::vector<std::size_t>&,
+                              const std::string&, const std::string&);
+
+}  // namespace fsr::hdf5

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "fsr_pressure_map/matrix/curvature.h"
+#include "fsr_pressure_map/settings/settings.h"
+
+namespace fsr::matrix {
+
+/// Tightest bend that a surface may have: 10 mm radius.
+constexpr double kMaxCurvature = 100.0;  // [1/m]
+
+/// Reads a surface file (config/surfaces/*.yaml). Forms:
+///
+///     surface: cylinder_7cm          surface: saddle              surface: limb_7
+///     cylinder:                      two_planes:                  taxels:
+///       radius: 0.07    # [m]          x: 14.3    # [1/m]           x: [...]   # [1/m], row-major
+///       axis: y         # x or y       y: -3.0                      y: [...]   # optional
+///       side: outside   # or inside    xy: 0.0                      xy: [...]  # optional
+///
+/// or `flat: true`. A cylinder with its axis along y bends the rows (curvature x); `inside` makes it
+/// negative. `deviation` [1/m] is optional. `size` checks the number of values in a `taxels` form.
+/// Throws InputError; readSurface() leaves keys of its caller's alone, readSurfaceFile() refuses them.
+Surface readSurface(const settings::Settings& settings, MatrixSize size);
+/// Whether the settings hold a form, and not a name alone.
+bool hasSurfaceForm(const settings::Settings& settings);
+Surface readSurfaceFile(const std::string& path, MatrixSize size);
+
+}  // namespace fsr::matrix

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fsr_pressure_map/regression/code_statistics.h"
+#include "fsr_pressure_map/regression/grnn.h"
+#include "regression/cross_validation.h"
+
+namespace fsr::regression {
+
+/// Bandwidths to choose from: powers of two, 2^-10 to 2^1.
+std::vector<double> bandwidthGrid();
+
+/// Squared held-out errors of GRNNs of several bandwidths, for choosing one. The choice for a held-out
+/// section must not have seen that section either: for it the errors of models count that were trained
+/// without two sections, on the one of them that is not held out (nested cross-validation).
+class BandwidthErrors {
+ public:
+  static constexpr std::size_t kNoneLeftOut = static_cast<std::size_t>(-1);
+
+  /// Trains K (K + 1) / 2 models of each bandwidth for K sections. `options` gives all but the bandwidth.
+  /// Throws InputError where the options are not mergeable, or a bandwidth cannot be.
+  BandwidthErrors(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
+                  const GrnnOptions& options, const std::vector<double>& grid);
+
+  /// Adds the errors of another model, e.g. of another taxel, for a choice that both share. Grid and
+  /// number of sections must be the same.
+  void add(const BandwidthErrors& other);
+
+  /// Sum of squared errors over all sections but `left_out` [Pa^2], none of the models trained on it.
+  double squares(std::size_t bandwidth, std::size_t left_out = kNoneLeftOut) const;
+
+  /// Bandwidth of the least squares, the largest of equally good ones; kPaperBandwidth where there is
+  /// nothing to hold out.
+  double best(std::size_t left_out = kNoneLeftOut) const;
+
+  const std::vector<double>& grid() const { return grid_; }
+
+ private:
+  // Errors on section `tested` of the model trained without it and without `left_out`.
+  double& at(std::size_t bandwidth, std::size_t tested, std::size_t left_out);
+
+  std::vector<double> grid_;
+  std::size_t sections_;
+  std::vector<double> squares_;  // [bandwidths x tested x left out], left out = tested: only the one
+};
+
+/// A GRNN whose bandwidth was chosen by nested cross-validation.
+struct TunedModel {
+  CrossValidatedModel model;
+  double bandwidth = 0;                   ///< of the model trained on everything
+  std::vector<double> section_bandwidth;  ///< of the model trained without each section
+};
+
+/// crossValidate() with the bandwidths that `errors` chooses; `errors` may hold those of other taxels too.
+TunedModel crossValidateTuned(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
+                              GrnnOptions options, const BandwidthErrors& errors,
+                              HeldOutDeviation held_out_deviation);
+
+}  // namespace fsr::regression

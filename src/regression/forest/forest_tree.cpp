@@ -1,0 +1,234 @@
+#include "regression/forest/forest_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "regression/forest/best_cut.h"
+#include "regression/grnn/vector_width.h"
+
+namespace fsr::regression {
+
+namespace {
+
+constexpr std::size_t kLanes = 8;
+
+// Of `number` entries, lanes of the vector unit, what was drawn of their readings, which stand `stride`
+// apart.
+template <std::size_t number>
+inline __attribute__((always_inline)) void sumLanes(const std::uint8_t* times, const double* pressure,
+                                                    std::size_t stride, std::size_t readings, double* count,
+                                                    double* sum) {
+  double counts[number] = {}, sums[number] = {};
+  for (std::size_t reading = 0; reading < readings; ++reading, times += stride, pressure += stride) {
+    for (std::size_t i = 0; i < number; ++i) {
+      const double drawn = times[i];
+      counts[i] += drawn;
+      sums[i] += drawn * pressure[i];
+    }
+  }
+  std::copy(counts, counts + number, count);
+  std::copy(sums, sums + number, sum);
+}
+
+// Of each entry of a class what was drawn of its readings.
+FSR_EACH_VECTOR_WIDTH
+void sumDrawn(const std::uint8_t* times, const double* pressure, std::size_t entries, std::size_t readings,
+              double* count, double* sum) {
+  std::size_t i = 0;
+  for (; i + kLanes <= entries; i += kLanes) {
+    sumLanes<kLanes>(times + i, pressure + i, entries, readings, count + i, sum + i);
+  }
+  for (; i < entries; ++i) sumLanes<1>(times + i, pressure + i, entries, readings, count + i, sum + i);
+}
+
+FSR_EACH_VECTOR_WIDTH
+void addDistinct(const std::uint8_t* times, std::size_t entries, double* distinct) {
+  for (std::size_t i = 0; i < entries; ++i) distinct[i] += times[i] != 0 ? 1.0 : 0.0;
+}
+
+}  // namespace
+
+TreeGrower::TreeGrower(const ForestData& data, std::int32_t table_size, const ForestOptions& options)
+    : data_(data),
+      table_size_(table_size),
+      minimum_leaf_(static_cast<double>(options.minimum_leaf)),
+      distinct_(options.leaf_count == LeafCount::kDistinct),
+      sampling_(options.sampling),
+      seed_(options.seed),
+      times_drawn_(data.pressure.size()),
+      slot_count_(data.entries()),
+      slot_sum_(data.entries()),
+      slot_distinct_(distinct_ ? data.entries() : 0),
+      code_(data.entries() + kCutLanes),
+      count_before_(data.entries() + kCutLanes),
+      sum_before_(data.entries() + kCutLanes),
+      distinct_before_(distinct_ ? data.entries() + kCutLanes : 0),
+      curvature_(data.entries() + 1) {
+  nodes_.reserve(2 * data.entries());  // no cut parts an entry, so references to nodes stay valid
+}
+
+// As many readings as there are, with replacement. A reading drawn 256 times would wrap round, once in
+// 10^500 trees.
+void TreeGrower::draw(statistics::RandomStream stream) {
+  std::fill(times_drawn_.begin(), times_drawn_.end(), std::uint8_t{0});
+  const std::uint64_t readings = times_drawn_.size();
+  const auto take = [&](std::uint64_t bits) { ++times_drawn_[bits * readings >> 32]; };
+  for (std::uint64_t i = 0; i < readings / 2; ++i) {
+    const std::uint64_t bits = stream.bits(i);
+    take(bits & 0xffffffffu);
+    take(bits >> 32);
+  }
+  if (readings % 2 != 0) take(stream.bits(readings / 2) >> 32);
+}
+
+// Sums of the entries that were drawn; returns their number.
+std::size_t TreeGrower::pool() {
+  std::fill(slot_distinct_.begin(), slot_distinct_.end(), 0.0);
+  std::size_t reading = 0, slot = 0;
+  for (const ForestData::SizeClass& size_class : data_.classes) {
+    sumDrawn(&times_drawn_[reading], &data_.pressure[reading], size_class.entries, size_class.readings_each,
+             &slot_count_[slot], &slot_sum_[slot]);
+    for (std::size_t i = 0; i < size_class.readings_each; ++i, reading += size_class.entries) {
+      if (distinct_) addDistinct(&times_drawn_[reading], size_class.entries, &slot_distinct_[slot]);
+    }
+    slot += size_class.entries;
+  }
+  double count = 0, sum = 0, distinct = 0;
+  std::size_t entries = 0;
+  for (std::size_t entry = 0; entry < data_.entries(); ++entry) {
+    // written always, kept where a reading was drawn: no branch to mispredict
+    code_[entries] = data_.code[entry];
+    curvature_[entries] = data_.curvature[entry];
+    count_before_[entries] = count;
+    sum_before_[entries] = sum;
+    if (distinct_) distinct_before_[entries] = distinct;
+    const double drawn = slot_count_[data_.slot[entry]];
+    count += drawn;
+    sum += slot_sum_[data_.slot[entry]];
+    if (distinct_) distinct += slot_distinct_[data_.slot[entry]];
+    entries += drawn != 0;
+  }
+  count_before_[entries] = count;
+  sum_before_[entries] = sum;
+  // what stands beyond the last entry must not look like one more cut
+  std::vector<double>& size = sizeBefore();
+  std::fill_n(size.begin() + static_cast<std::ptrdiff_t>(entries), kCutLanes, distinct_ ? distinct : count);
+  return entries;
+}
+
+const std::vector<ForestLeaf>& TreeGrower::grow(std::uint64_t tree) {
+  draw(statistics::randomStream(seed_, "forest", tree));
+  input_stream_ = statistics::randomStream(seed_, "forest_input", tree);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  leaves_.clear();
+  nodes_.clear();
+  addNode(0, pool(), 0, table_size_, -kInfinity, kInfinity);
+  // Level by level: neighbours in the list do not wait for each other's cut.
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (!cut(nodes_[i], i)) addLeaf(nodes_[i]);
+  }
+  return leaves_;
+}
+
+// Fields are written in place: a node that is built aside and copied would stall on its own stores.
+void TreeGrower::addNode(std::size_t begin, std::size_t end, std::int32_t first_code, std::int32_t end_code,
+                         double low, double high) {
+  Node& node = nodes_.emplace_back();
+  node.begin = static_cast<std::uint32_t>(begin);
+  node.end = static_cast<std::uint32_t>(end);
+  node.first_code = first_code;
+  node.end_code = end_code;
+  node.low = low;
+  node.high = high;
+  if (data_.curvatures.size() > 1 || mayBeCut(node)) return;  // draws of inputs go by nodes' numbers
+  addLeaf(node);
+  nodes_.pop_back();
+}
+
+void TreeGrower::addLeaf(const Node& node) {
+  ForestLeaf& leaf = leaves_.emplace_back();
+  leaf.first = node.first_code;
+  leaf.end = node.end_code;
+  leaf.low = node.low;
+  leaf.high = node.high;
+  leaf.readings = count_before_[node.end] - count_before_[node.begin];
+  leaf.pressure = (sum_before_[node.end] - sum_before_[node.begin]) / leaf.readings;
+}
+
+bool TreeGrower::mayBeCut(const Node& node) {
+  return node.end - node.begin > 1 && sizeBefore()[node.end] - sizeBefore()[node.begin] >= 2 * minimum_leaf_;
+}
+
+bool TreeGrower::cut(const Node& node, std::uint64_t number) {
+  if (data_.curvatures.size() == 1) return cutCode(node);
+  if (!mayBeCut(node)) return false;
+  const bool code_first = input_stream_.bits(number) >> 63 != 0;
+  if (code_first ? cutCode(node) : cutCurvature(node)) return true;
+  if (sampling_ == InputSampling::kLeaf) return false;
+  return code_first ? cutCurvature(node) : cutCode(node);
+}
+
+bool TreeGrower::cutCode(const Node& node) {
+  const std::size_t at = bestCut({sizeBefore().data(), count_before_.data(), sum_before_.data(), code_.data(),
+                                  data_.curvatures.size() > 1, node.begin, node.end, minimum_leaf_});
+  if (at == kNoCut) return false;
+  // the first code not below the midpoint
+  const auto code = (static_cast<std::int32_t>(code_[at - 1] + code_[at]) + 1) / 2;
+  addNode(node.begin, at, node.first_code, code, node.low, node.high);
+  addNode(at, node.end, code, node.end_code, node.low, node.high);
+  return true;
+}
+
+// The same search over the sums of the node's curvatures.
+bool TreeGrower::cutCurvature(const Node& node) {
+  std::array<double, kMostForestCurvatures> all_size{}, all_count{}, all_sum{};
+  for (std::size_t i = node.begin; i < node.end; ++i) {
+    all_size[curvature_[i]] += sizeBefore()[i + 1] - sizeBefore()[i];
+    all_count[curvature_[i]] += count_before_[i + 1] - count_before_[i];
+    all_sum[curvature_[i]] += sum_before_[i + 1] - sum_before_[i];
+  }
+  std::array<double, kMostForestCurvatures + kCutLanes> size{}, count{}, sum{}, value{};
+  std::array<std::uint8_t, kMostForestCurvatures> index;
+  std::size_t present = 0;
+  for (std::size_t k = 0; k < data_.curvatures.size(); ++k) {
+    if (all_count[k] == 0) continue;
+    size[present + 1] = size[present] + all_size[k];
+    count[present + 1] = count[present] + all_count[k];
+    sum[present + 1] = sum[present] + all_sum[k];
+    value[present] = data_.curvatures[k];
+    index[present++] = static_cast<std::uint8_t>(k);
+  }
+  const std::size_t at =
+      bestCut({size.data(), count.data(), sum.data(), value.data(), false, 0, present, minimum_leaf_});
+  if (at == kNoCut) return false;
+  const double midway = 0.5 * (value[at - 1] + value[at]);
+  const double split = midway > value[at - 1] ? midway : value[at];  // neighbouring doubles have no middle
+  const std::size_t middle = partition(node, index[at]);
+  addNode(node.begin, middle, node.first_code, node.end_code, node.low, split);
+  addNode(middle, node.end, node.first_code, node.end_code, split, node.high);
+  return true;
+}
+
+// Moves the node's entries of curvatures below `first_right` to the front, both sides keeping their
+// order, and returns where the right side begins.
+std::size_t TreeGrower::partition(const Node& node, std::uint8_t first_right) {
+  moved_.clear();
+  for (std::size_t i = node.begin; i < node.end; ++i) {
+    moved_.push_back({code_[i], count_before_[i + 1] - count_before_[i], sum_before_[i + 1] - sum_before_[i],
+                      sizeBefore()[i + 1] - sizeBefore()[i], curvature_[i]});
+  }
+  const auto right = std::stable_partition(moved_.begin(), moved_.end(),
+                                           [&](const Entry& entry) { return entry.curvature < first_right; });
+  for (std::size_t i = node.begin; i < node.end; ++i) {
+    const Entry& entry = moved_[i - node.begin];
+    code_[i] = entry.code;
+    curvature_[i] = entry.curvature;
+    count_before_[i + 1] = count_before_[i] + entry.count;
+    sum_before_[i + 1] = sum_before_[i] + entry.sum;
+    if (distinct_) distinct_before_[i + 1] = distinct_before_[i] + entry.size;
+  }
+  return node.begin + static_cast<std::size_t>(right - moved_.begin());
+}
+
+}  // namespace fsr::regression

@@ -1,0 +1,112 @@
+#include "regression/grnn/weighted_codes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "regression/grnn/vector_width.h"
+
+namespace fsr::regression {
+
+namespace {
+
+// So many times the square of a code of 16 bits is exact in a double.
+constexpr std::uint64_t kExactSamples = std::uint64_t{1} << 21;
+
+}  // namespace
+
+WeightedCodes weightedCodes(const CodeHistogram& training) {
+  const std::vector<std::int64_t>& count = training.count();
+  const std::size_t occupied = count.size() - std::count(count.begin(), count.end(), 0);
+  // Every code is written and kept where it occurs, no branch to mispredict: one place more than kept.
+  WeightedCodes samples{count.size(),
+                        static_cast<double>(training.samples()),
+                        std::vector<std::int32_t>(occupied + 1),
+                        std::vector<double>(occupied + 1),
+                        std::vector<double>(occupied + 1),
+                        std::vector<std::int32_t>(count.size() + 1)};
+  std::size_t found = 0;
+  const auto occurs = [](std::int64_t number) { return number != 0; };
+  const auto first =
+      static_cast<std::size_t>(std::find_if(count.begin(), count.end(), occurs) - count.begin());
+  std::size_t code = first;  // none occurs below it, and none from where all are found
+  for (; found < occupied; ++code) {
+    samples.code[found] = static_cast<std::int32_t>(code);
+    samples.count[found] = static_cast<double>(count[code]);
+    samples.sum[found] = fromFixed(training.sum()[code]);
+    samples.below[code] = static_cast<std::int32_t>(found);
+    found += count[code] != 0;
+  }
+  std::fill(samples.below.begin() + static_cast<std::ptrdiff_t>(code), samples.below.end(),
+            static_cast<std::int32_t>(found));
+  samples.code.pop_back();
+  samples.count.pop_back();
+  samples.sum.pop_back();
+  return samples;
+}
+
+namespace {
+
+struct Moments {
+  double sum = 0, squares = 0;
+};
+
+// Sums of count x code and count x code^2. In doubles, lane by lane: whole numbers, all of them exact.
+FSR_EACH_VECTOR_WIDTH
+Moments momentsOf(const std::int64_t* count, std::size_t codes) {
+  constexpr std::size_t kLanes = 8;
+  double reading[kLanes], sum[kLanes] = {}, squares[kLanes] = {};
+  for (std::size_t i = 0; i < kLanes; ++i) reading[i] = static_cast<double>(i);
+  std::size_t code = 0;
+  for (; code + kLanes <= codes; code += kLanes) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const double product = static_cast<double>(count[code + i]) * reading[i];
+      sum[i] += product;
+      squares[i] += product * reading[i];
+      reading[i] += kLanes;
+    }
+  }
+  Moments all;
+  for (; code < codes; ++code) {
+    all.sum += static_cast<double>(count[code]) * static_cast<double>(code);
+    all.squares += static_cast<double>(count[code]) * static_cast<double>(code * code);
+  }
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    all.sum += sum[i];
+    all.squares += squares[i];
+  }
+  return all;
+}
+
+// number (number - 1) times the variance of the readings, exactly.
+Int128 scatterOf(const CodeHistogram& training) {
+  const std::vector<std::int64_t>& count = training.count();
+  const Int128 number = training.samples();
+  if (training.samples() <= kExactSamples) {
+    const Moments moments = momentsOf(count.data(), count.size());
+    const auto sum = static_cast<std::int64_t>(moments.sum);
+    return number * static_cast<std::int64_t>(moments.squares) - Int128{sum} * sum;
+  }
+  Int128 sum = 0, squares = 0;
+  for (std::size_t code = 0; code < count.size(); ++code) {
+    sum += Int128{count[code]} * code;
+    squares += Int128{count[code]} * (code * code);
+  }
+  return number * squares - sum * sum;
+}
+
+}  // namespace
+
+double readingDeviation(const CodeHistogram& training) {
+  if (training.samples() < 2) return 0.0;
+  const auto number = static_cast<double>(training.samples());
+  return std::sqrt(static_cast<double>(scatterOf(training)) / (number * (number - 1)));
+}
+
+Fit constantFit(const WeightedCodes& samples) {
+  Fit fit{std::vector<double>(samples.table_size, samples.sum.front() / samples.count.front()),
+          std::vector<double>(samples.table_size, 0.0)};
+  fit.support[static_cast<std::size_t>(samples.code.front())] = samples.count.front();
+  return fit;
+}
+
+}  // namespace fsr::regression

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/regression/forest.h"
+#include "fsr_pressure_map/regression/grnn.h"
+
+namespace fsr::regression {
+
+// The readable words of the regressors' options, as files, parameters and command lines use them. Every
+// ...FromName() throws InputError that lists the words.
+
+/// "sigma", "matlab".
+std::vector<std::string> spreadNames();
+std::string spreadName(SpreadMeaning spread);
+SpreadMeaning spreadFromName(const std::string& name);
+
+/// "squared", "literal".
+std::vector<std::string> distanceNames();
+std::string distanceName(KernelDistance distance);
+KernelDistance distanceFromName(const std::string& name);
+
+/// "each_sample", "equal_bins".
+std::vector<std::string> weightingNames();
+std::string weightingName(SampleWeighting weighting);
+SampleWeighting weightingFromName(const std::string& name);
+
+/// "draws", "distinct".
+std::vector<std::string> leafRuleNames();
+std::string leafRuleName(LeafCount count);
+LeafCount leafRuleFromName(const std::string& name);
+
+/// A bandwidth, or none for "auto". Throws InputError where `text` is neither.
+std::optional<double> bandwidthFromText(const std::string& text);
+
+}  // namespace fsr::regression

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/discrepancy/discrepancy.h"
+
+namespace fsr::report {
+
+/// The verdict as verdict.yaml says it, for people and for programs; null = absent:
+///
+///     verdict: named                # none, unknown, ambiguous, wrong_form, named, not_identifiable
+///     effects:
+///       - id: hysteresis
+///         parameters: [{name: loop_width, value: 0.062, unit: ..., interval: [0.058, 0.067]}]
+///         evidence: {z: 14.1, share_of_ceiling: 0.93}
+///     credible_set: [[hysteresis]]  # every explanation not excluded, best first
+///     depends_on: [direction, pressure]
+///     not_identifiable: [{id: crosstalk, experiment: uneven_load}]
+///     where: {taxels: all, conditions: all, pressure: [0, 620000], direction: both, time: all}
+///     gap: {before: 0.031, ..., closed_interval: [0.9, 0.94], unit: fraction of full scale, ...}
+///     next_experiment: null         # or {protocol: two_speeds, sentence: ..., separation: 6.2}
+///     seed: 1
+///     version: 0.1.0
+///     inputs: [{file: 1_flat.bag, sha256: ..., show_opened: 1}]
+///
+/// Numbers have five digits; results.json has all of them.
+std::string verdictText(const discrepancy::DiscrepancyReport& report);
+
+/// What a verdict.yaml says, as far as somebody needs it who holds new recordings against it.
+struct VerdictFile {
+  std::string verdict;
+  std::vector<std::string> effects;  ///< ids
+  std::vector<std::vector<std::string>> credible_set;
+  std::vector<discrepancy::InputUse> inputs;
+  std::uint64_t seed = 0;
+  std::string version;
+};
+
+/// Reads a verdict.yaml strictly: unknown and missing keys, other kinds of value and ids that the library
+/// does not hold raise InputError, one sentence that names file, field and what would be right.
+VerdictFile readVerdict(const std::string& path);
+
+}  // namespace fsr::report

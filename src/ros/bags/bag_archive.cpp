@@ -1,0 +1,236 @@
+#include "ros/bags/bag_archive.h"
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "exports/archive.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "ros/bags/abandon_bag.h"
+#include "ros/bags/scan_context.h"
+#include "ros/bags/scan_source.h"
+#include "ros/bags/sensor_topics.h"
+#include "ros/messages/message_reader.h"
+#include "settings/fresh_file.h"
+#include "settings/sha256.h"
+
+namespace fsr_ros {
+
+/// A message that is written as it stands, with the connection that it belongs to.
+struct SerialisedMessage {
+  const fsr::exports::ArchivedConnection& connection;
+  const std::string& bytes;
+};
+
+}  // namespace fsr_ros
+
+// How rosbag asks a message for its type.
+namespace ros {
+namespace message_traits {
+template <>
+struct MD5Sum<fsr_ros::SerialisedMessage> {
+  static const char* value(const fsr_ros::SerialisedMessage& m) { return m.connection.md5sum.c_str(); }
+};
+template <>
+struct DataType<fsr_ros::SerialisedMessage> {
+  static const char* value(const fsr_ros::SerialisedMessage& m) { return m.connection.type.c_str(); }
+};
+template <>
+struct Definition<fsr_ros::SerialisedMessage> {
+  static const char* value(const fsr_ros::SerialisedMessage& m) { return m.connection.definition.c_str(); }
+};
+}  // namespace message_traits
+namespace serialization {
+template <>
+struct Serializer<fsr_ros::SerialisedMessage> {
+  template <typename Stream>
+  static void write(Stream& stream, const fsr_ros::SerialisedMessage& m) {
+    std::copy(m.bytes.begin(), m.bytes.end(), stream.advance(static_cast<std::uint32_t>(m.bytes.size())));
+  }
+  static std::uint32_t serializedLength(const fsr_ros::SerialisedMessage& m) {
+    return static_cast<std::uint32_t>(m.bytes.size());
+  }
+};
+}  // namespace serialization
+}  // namespace ros
+
+namespace fsr_ros {
+
+namespace {
+
+// Full names of the topics to keep; empty = all.
+std::vector<std::string> topicsToKeep(const SensorTopics& topics, const std::vector<std::string>& wanted) {
+  std::vector<std::string> names;
+  for (const std::string& name : wanted) {
+    const std::string topic = topics.has(name) ? name : topics.find(name);
+    if (topic.empty()) throw fsr::settings::InputError("holds no topic " + name + ", but " + topics.list());
+    names.push_back(topic);
+  }
+  return names;
+}
+
+// The messages of the selection, in the bag's order.
+class Selected {
+ public:
+  Selected(const rosbag::Bag& bag, const ArchiveSelection& selection) {
+    const SensorTopics topics(bag, selection.topics, sensorMarks());
+    rosbag::View all(bag);
+    const ros::Time begin = all.getBeginTime();
+    const ros::Time from = begin + ros::Duration(selection.from);
+    // Beyond what a duration holds there is nothing to cut off.
+    const ros::Time until = selection.until < 1e9 ? begin + ros::Duration(selection.until) : ros::TIME_MAX;
+    const std::vector<std::string> keep = topicsToKeep(topics, selection.wanted);
+    if (keep.empty()) {
+      view_.addQuery(bag, from, until);
+    } else {
+      view_.addQuery(bag, rosbag::TopicQuery(keep), from, until);
+    }
+    if (view_.size() == 0) {
+      throw fsr::settings::InputError("holds no message between --from and --until; widen them");
+    }
+    for (const rosbag::ConnectionInfo* info : view_.getConnections()) {
+      row_[info->header.get()] = connections_.size();
+      connections_.push_back({info->topic,
+                              info->datatype,
+                              info->md5sum,
+                              info->msg_def,
+                              {info->header->begin(), info->header->end()}});
+    }
+  }
+
+  const std::vector<fsr::exports::ArchivedConnection>& connections() const { return connections_; }
+
+  /// Calls take(connection, received [ns], bytes) for each message.
+  template <typename Take>
+  std::uint64_t forEach(Take take) {
+    for (const rosbag::MessageInstance& instance : view_) {
+      take(row_.at(instance.getConnectionHeader().get()),
+           static_cast<std::int64_t>(instance.getTime().toNSec()), reader_.bytes(instance));
+    }
+    return view_.size();
+  }
+
+ private:
+  rosbag::View view_;
+  MessageReader reader_;
+  std::map<const ros::M_string*, std::size_t> row_;
+  std::vector<fsr::exports::ArchivedConnection> connections_;
+};
+
+// A full disk is told by the archive's own end.
+std::string joinScans(const std::string& path, const std::string& topics,
+                      fsr::exports::ArchiveWriter& archive) {
+  ScanSelection selection;
+  selection.topics = topics;
+  fsr::exports::ScanSink& scans = archive.scans();
+  try {
+    sendScans(path, selection, scans);
+    return "";
+  } catch (const fsr::settings::InputError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+ArchiveResult archiveBag(const std::string& path, const ArchiveSelection& selection,
+                         const std::string& output) {
+  ArchiveResult result;
+  withSoundBag(path, [&](const rosbag::Bag& bag) {
+    Selected selected(bag, selection);
+    const fsr::exports::ArchiveSource source{std::filesystem::path(path).filename().string(),
+                                             fsr::settings::sha256OfFile(path)};
+    fsr::exports::ArchiveWriter archive(output, source, selected.connections());
+    selected.forEach([&](std::size_t connection, std::int64_t, std::string_view bytes) {
+      archive.look(connection, bytes);
+    });
+    result.messages =
+        selected.forEach([&](std::size_t connection, std::int64_t received_ns, std::string_view bytes) {
+          archive.add(connection, received_ns, bytes);
+        });
+    if (selection.whole()) result.complaint = joinScans(path, selection.topics, archive);
+    archive.finish();
+  });
+  return result;
+}
+
+namespace {
+
+// Writes an archive's messages into a bag.
+class Restorer {
+ public:
+  Restorer(fsr::exports::ArchiveReader& archive, rosbag::Bag& bag) : archive_(archive), bag_(bag) {
+    for (const fsr::exports::ArchivedConnection& connection : archive.connections()) {
+      headers_.push_back(
+          boost::make_shared<ros::M_string>(connection.header.begin(), connection.header.end()));
+    }
+  }
+
+  std::uint64_t run() {
+    for (fsr::exports::ArchivedMessage message; archive_.next(message); ++messages_) {
+      if (!together_.empty() && together_.front().received_ns != message.received_ns) write();
+      together_.push_back(message);
+    }
+    write();
+    return messages_;
+  }
+
+ private:
+  // rosbag numbers connections as they come, and replays messages of one moment by these numbers: those of
+  // one moment are written in the old numbers' order, so that they are replayed as before.
+  void write() {
+    std::stable_sort(together_.begin(), together_.end(),
+                     [](const auto& a, const auto& b) { return a.connection < b.connection; });
+    for (const fsr::exports::ArchivedMessage& message : together_) {
+      const fsr::exports::ArchivedConnection& connection = archive_.connections()[message.connection];
+      bag_.write(connection.topic, receivedAt(message), SerialisedMessage{connection, message.bytes},
+                 headers_[message.connection]);
+    }
+    together_.clear();
+  }
+
+  static ros::Time receivedAt(const fsr::exports::ArchivedMessage& message) {
+    constexpr std::int64_t kEnd = std::int64_t{1} << 32;  // of what a bag can tell [s]
+    if (message.received_ns < 0 || message.received_ns / 1000000000 >= kEnd) {
+      throw fsr::settings::InputError("a message was received at " + std::to_string(message.received_ns) +
+                                      " ns, but a bag holds the years 1970 to 2106");
+    }
+    ros::Time time;
+    return time.fromNSec(static_cast<std::uint64_t>(message.received_ns));
+  }
+
+  fsr::exports::ArchiveReader& archive_;
+  rosbag::Bag& bag_;
+  std::vector<boost::shared_ptr<ros::M_string>> headers_;
+  std::vector<fsr::exports::ArchivedMessage> together_;  // of one moment
+  std::uint64_t messages_ = 0;
+};
+
+}  // namespace
+
+std::uint64_t restoreBag(const std::string& path, const std::string& output) {
+  fsr::exports::ArchiveReader archive(path);
+  fsr::settings::FreshPath fresh(output);
+  auto bag = std::make_unique<rosbag::Bag>();
+  std::uint64_t messages = 0;
+  try {
+    bag->open(fresh.name(), rosbag::bagmode::Write);
+    messages = Restorer(archive, *bag).run();
+    bag->close();
+  } catch (const rosbag::BagException& error) {
+    abandonBag(std::move(bag));
+    throw fsr::settings::InputError(output + ": the bag cannot be written (" + error.what() + ")");
+  } catch (const fsr::settings::InputError&) {
+    abandonBag(std::move(bag));
+    throw;
+  }
+  fresh.finish();
+  return messages;
+}
+
+}  // namespace fsr_ros

@@ -1,0 +1,170 @@
+#include "ros/bags/bag_sink.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iomanip>
+#include <sstream>
+#include <utility>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr_ros {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMessagesBetweenLooks = 256;  // at the disk's space
+
+std::string withExtension(const std::string& bag) {
+  const std::string end = ".bag";
+  const bool has_it = bag.size() >= end.size() && bag.compare(bag.size() - end.size(), end.size(), end) == 0;
+  return has_it ? bag : bag + end;
+}
+
+std::string megabytes(std::uint64_t bytes) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1) << static_cast<double>(bytes) / 1e6 << " MB";
+  return text.str();
+}
+
+// A second recording under one name would overwrite the first, or what a kill left of it.
+void refuseTaken(const std::string& bag) {
+  std::error_code error;
+  if (fs::exists(bag, error))
+    throw fsr::settings::InputError(bag + ": there is a bag of that name; give another one");
+  if (fs::exists(bag + ".active", error)) {
+    throw fsr::settings::InputError(
+        bag + ".active: is left of a recording that was not closed; rescue it with rosbag " +
+        "reindex under another name, or remove it");
+  }
+}
+
+}  // namespace
+
+BagSink::BagSink(const BagSinkOptions& options, std::function<void(const std::string&)> ended)
+    : options_(options),
+      closed_name_(withExtension(options.bag)),
+      ended_(std::move(ended)),
+      bag_(std::make_unique<rosbag::Bag>()) {
+  refuseTaken(closed_name_);
+  report_.file = closed_name_ + ".active";
+  try {
+    bag_->open(report_.file, rosbag::bagmode::Write);
+    bag_->setChunkThreshold(options.chunk_size);
+  } catch (const rosbag::BagException& error) {
+    throw fsr::settings::InputError(
+        report_.file + ": cannot be written (" + error.what() +
+        "); give a path in a directory that exists and may be written to, on a disk with room");
+  }
+  thread_ = std::thread([this] { run(); });
+}
+
+BagSink::~BagSink() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+bool BagSink::add(std::uint64_t bytes, Write write) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!report_.complaint.empty() || report_.waiting + bytes > options_.buffer) {
+      ++report_.lost;
+      return false;
+    }
+    report_.waiting += bytes;
+    queue_.push_back({bytes, std::move(write)});
+  }
+  changed_.notify_all();
+  return true;
+}
+
+BagSinkReport BagSink::report() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return report_;
+}
+
+void BagSink::run() {
+  while (true) {
+    std::deque<Waiting> batch;
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      changed_.wait_for(lock, std::chrono::seconds(1), [this] { return stopping_ || !queue_.empty(); });
+      if (stopping_ && queue_.empty()) break;
+      const auto end =
+          queue_.begin() + static_cast<std::ptrdiff_t>(std::min(queue_.size(), kMessagesBetweenLooks));
+      batch.assign(std::make_move_iterator(queue_.begin()), std::make_move_iterator(end));
+      queue_.erase(queue_.begin(), end);
+    }
+    if (!hasSpace() || !writeAll(batch)) return;
+  }
+  close();
+}
+
+// False where the disk is as full as it may get: the bag is closed then, with what is left for its index.
+bool BagSink::hasSpace() {
+  std::error_code error;
+  const fs::space_info space = fs::space(fs::path(closed_name_ + ".active"), error);
+  if (error) return true;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    report_.space = space.available;
+  }
+  if (space.available >= options_.least_space) return true;
+  if (close()) {
+    end("NOTHING IS RECORDED any more: " + megabytes(space.available) + " are left on the disk, less than " +
+        megabytes(options_.least_space) + "; " + closed_name_ +
+        " is closed and whole; make room, then start "
+        "a new recording");
+  }
+  return false;
+}
+
+bool BagSink::writeAll(std::deque<Waiting>& batch) {
+  for (const Waiting& message : batch) {
+    try {
+      message.write(*bag_);
+    } catch (const rosbag::BagException& error) {
+      static_cast<void>(bag_.release());  // its destructor would write, fail, and end the program
+      end("NOTHING IS RECORDED any more: " + closed_name_ + ".active cannot be written (" + error.what() +
+          "); make room, then rosbag reindex it");
+      return false;
+    }
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++report_.messages;
+    report_.waiting -= message.bytes;
+  }
+  return true;
+}
+
+bool BagSink::close() {
+  try {
+    bag_->close();
+    fs::rename(closed_name_ + ".active", closed_name_);
+  } catch (const std::exception& error) {
+    static_cast<void>(bag_.release());
+    end(closed_name_ + ".active cannot be closed (" + error.what() + "); rosbag reindex it");
+    return false;
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  report_.file = closed_name_;
+  return true;
+}
+
+void BagSink::end(const std::string& complaint) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    report_.complaint = complaint;
+    report_.lost += queue_.size();
+    report_.waiting = 0;
+    queue_.clear();
+  }
+  if (ended_) ended_(complaint);
+}
+
+}  // namespace fsr_ros

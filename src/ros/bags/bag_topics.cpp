@@ -1,0 +1,141 @@
+#include "ros/bags/bag_topics.h"
+
+#include <fsr_pressure_map/Event.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iomanip>
+#include <map>
+#include <sstream>
+
+namespace fsr_ros {
+
+namespace {
+
+// A stamped type's definition begins with its header, comments aside.
+bool beginsWithHeader(const std::string& definition) {
+  std::istringstream lines(definition);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first == std::string::npos || line[first] == '#') continue;
+    return line.compare(first, 7, "Header ") == 0 || line.compare(first, 16, "std_msgs/Header ") == 0;
+  }
+  return false;
+}
+
+class Course {
+ public:
+  explicit Course(const rosbag::ConnectionInfo& connection) {
+    course_.topic = connection.topic;
+    course_.type = connection.datatype;
+    course_.stamped = beginsWithHeader(connection.msg_def);
+  }
+
+  void add(const rosbag::MessageInstance& instance) {
+    ++course_.messages;
+    const double arrival = instance.getTime().toSec();
+    const double time = course_.stamped ? stampOf(instance) : arrival;
+    if (time <= 0) return;  // no stamp was set
+    if (!times_.empty() && time < times_.back()) ++course_.backwards;
+    if (!times_.empty() && time == times_.back()) ++course_.repeated;
+    if (course_.stamped) course_.latest = std::max(course_.latest, arrival - time);
+    times_.push_back(time);
+  }
+
+  TopicCourse finish(double start) {
+    std::sort(times_.begin(), times_.end());
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < times_.size(); ++i) steps.push_back(times_[i] - times_[i - 1]);
+    if (steps.empty()) return course_;
+    const auto longest = std::max_element(steps.begin(), steps.end());
+    course_.longest_gap = *longest;
+    course_.gap_at = times_[static_cast<std::size_t>(longest - steps.begin())] - start;
+    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    if (*middle > 0) course_.rate = 1 / *middle;
+    return course_;
+  }
+
+ private:
+  // A header is serialised as seq, secs, nsecs, 32 bits each.
+  double stampOf(const rosbag::MessageInstance& instance) {
+    bytes_.resize(instance.size());
+    if (bytes_.size() < 12) return 0;
+    ros::serialization::OStream into(bytes_.data(), static_cast<std::uint32_t>(bytes_.size()));
+    instance.write(into);
+    std::uint32_t seconds = 0, nanoseconds = 0;
+    std::memcpy(&seconds, bytes_.data() + 4, sizeof(seconds));
+    std::memcpy(&nanoseconds, bytes_.data() + 8, sizeof(nanoseconds));
+    return seconds + 1e-9 * nanoseconds;
+  }
+
+  TopicCourse course_;
+  std::vector<double> times_;  // [s]
+  std::vector<std::uint8_t> bytes_;
+};
+
+std::string number(double value, int digits) {
+  if (std::isnan(value)) return "-";
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(digits) << value;
+  return text.str();
+}
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+}  // namespace
+
+std::vector<TopicCourse> topicCourses(const std::string& path) {
+  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  rosbag::View view(bag);
+  std::map<std::string, Course> courses;
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    courses.try_emplace(connection->topic, *connection);
+  }
+  for (const rosbag::MessageInstance& instance : view) courses.at(instance.getTopic()).add(instance);
+  std::vector<TopicCourse> result;
+  const double start = view.size() > 0 ? view.getBeginTime().toSec() : 0;
+  for (auto& [topic, course] : courses) result.push_back(course.finish(start));
+  return result;
+}
+
+std::string topicsText(const std::vector<TopicCourse>& courses) {
+  std::size_t width = 8;
+  for (const TopicCourse& course : courses) width = std::max(width, course.topic.size() + 2);
+  std::ostringstream out;
+  const auto row = [&](const std::string& topic, const std::vector<std::string>& cells) {
+    out << std::left << std::setw(static_cast<int>(width)) << topic << std::right;
+    for (const std::string& cell : cells) out << std::setw(12) << cell;
+    out << '\n';
+  };
+  row("topic", {"messages", "rate [1/s]", "gap [s]", "at [s]", "backwards", "same stamp", "late [s]"});
+  for (const TopicCourse& course : courses) {
+    row(course.topic, {std::to_string(course.messages), number(course.rate, 2), number(course.longest_gap, 3),
+                       number(course.gap_at, 1), std::to_string(course.backwards),
+                       std::to_string(course.repeated), course.stamped ? number(course.latest, 3) : "-"});
+  }
+  return out.str();
+}
+
+std::vector<std::int64_t> eventTimes(const std::string& path, const std::string& kind) {
+  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  const auto is_event = [](const rosbag::ConnectionInfo* connection) {
+    return endsWith(connection->topic, "events");
+  };
+  rosbag::View view(bag, is_event);
+  std::vector<std::int64_t> times;
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto event = instance.instantiate<fsr_pressure_map::Event>();
+    if (event == nullptr || event->kind != kind) continue;
+    times.push_back(static_cast<std::int64_t>(event->header.stamp.toNSec()));
+  }
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
+}  // namespace fsr_ros

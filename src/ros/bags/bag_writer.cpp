@@ -1,0 +1,221 @@
+#include "ros/bags/bag_writer.h"
+
+#include <fsr_pressure_map/MatrixFrame.h>
+#include <rosbag/exceptions.h>
+#include <sensor_msgs/FluidPressure.h>
+#include <sensor_msgs/Temperature.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "ros/bags/abandon_bag.h"
+#include "ros/messages/surface_message.h"
+
+namespace fsr_ros {
+
+namespace {
+
+constexpr std::int64_t kSecond = 1000000000;  // [ns]
+
+fsr::settings::InputError cannotWrite(const std::string& path, const std::string& why) {
+  return fsr::settings::InputError(
+      path + ": the bag cannot be written (" + why +
+      "); give a path in a directory that exists and may be written to, on a disk with room");
+}
+
+ros::Time rosTime(std::int64_t stamp_ns, const std::string& path) {
+  if (stamp_ns <= 0 || stamp_ns / kSecond > std::numeric_limits<std::uint32_t>::max()) {
+    throw fsr::settings::InputError(path + ": a stamp of " + std::to_string(stamp_ns) +
+                                    " ns cannot stand in a bag, which holds the years 1970 to 2106");
+  }
+  ros::Time time;
+  time.fromNSec(static_cast<std::uint64_t>(stamp_ns));
+  return time;
+}
+
+fsr_pressure_map::MatrixInfo describe(const fsr::dataset::Recording& recording, const BagOptions& options) {
+  fsr_pressure_map::MatrixInfo info;
+  info.sensor_id = recording.sensor.sensor_id;
+  info.serial = recording.sensor.serial;
+  info.firmware = recording.sensor.firmware;
+  info.sensor_model = recording.sensor.model;
+  info.sealing = recording.sensor.sealing;
+  info.transducer = recording.sensor.transducer;
+  info.rows = recording.layout.size.rows;
+  info.columns = recording.layout.size.columns;
+  info.full_scale = recording.full_scale;
+  info.pitch_x = static_cast<float>(recording.layout.pitch_x);
+  info.pitch_y = static_cast<float>(recording.layout.pitch_y);
+  info.reference_voltage = static_cast<float>(options.reference_voltage);
+  info.feedback_resistance = static_cast<float>(options.feedback_resistance);
+  info.ambient_pressure = options.ambient_pressure;
+  info.mask = recording.mask;
+  return info;
+}
+
+// The header of a connection whose publisher latches, as rosbag record keeps it, so that a replay latches
+// too; nullptr for other topics.
+template <typename Message>
+boost::shared_ptr<ros::M_string> latched(const std::string& topic) {
+  if (topic != "matrix_info" && topic != "curvature" && topic != "session") return nullptr;
+  return boost::make_shared<ros::M_string>(
+      ros::M_string{{"type", ros::message_traits::datatype<Message>()},
+                    {"md5sum", ros::message_traits::md5sum<Message>()},
+                    {"message_definition", ros::message_traits::definition<Message>()},
+                    {"latching", "1"}});
+}
+
+// Says what stands in the bag again and again: once a second and where the surface changes.
+class Repeater {
+ public:
+  Repeater(const fsr::dataset::Recording& recording, const BagOptions& options)
+      : recording_(recording), session_(options.session), info_(describe(recording, options)) {}
+
+  void before(std::size_t scan, std::int64_t stamp_ns, BagWriter& bag) {
+    const bool due = scan == 0 || stamp_ns - last_ns_ >= kSecond;
+    const bool changed = scan > 0 && recording_.condition[scan] != recording_.condition[scan - 1];
+    if (due) {
+      bag.addMatrixInfo(stamp_ns, info_);
+      if (!session_.session_id.empty()) bag.addSession(stamp_ns, session_);
+      last_ns_ = stamp_ns;
+    }
+    if (due || changed) bag.addSurface(stamp_ns, recording_.conditions.at(recording_.condition[scan]));
+  }
+
+ private:
+  const fsr::dataset::Recording& recording_;
+  const fsr_pressure_map::Session& session_;
+  fsr_pressure_map::MatrixInfo info_;
+  std::int64_t last_ns_ = 0;
+};
+
+}  // namespace
+
+BagWriter::BagWriter(const std::string& path, const std::string& topics, const std::string& frame_id)
+    : path_(path), fresh_(path + ".new-" + std::to_string(::getpid())), topics_(topics), frame_id_(frame_id) {
+  try {
+    bag_ = std::make_unique<rosbag::Bag>(fresh_, rosbag::bagmode::Write);
+  } catch (const rosbag::BagException& error) {
+    throw cannotWrite(path, error.what());
+  }
+}
+
+BagWriter::~BagWriter() {
+  if (bag_ == nullptr) return;
+  abandonBag(std::move(bag_));
+  ::unlink(fresh_.c_str());
+}
+
+template <typename Message>
+void BagWriter::write(const std::string& topic, std::int64_t stamp_ns, Message& message) {
+  message.header.stamp = rosTime(stamp_ns, path_);
+  message.header.frame_id = frame_id_;
+  add(topic, message);
+}
+
+template <typename Write>
+void BagWriter::attempt(Write write) {
+  try {
+    write(*bag_);
+  } catch (const rosbag::BagException& error) {
+    throw cannotWrite(path_, error.what());
+  }
+}
+
+template <typename Message>
+void BagWriter::add(const std::string& topic, const Message& message) {
+  const std::string name = "/" + topics_ + "/" + topic;
+  attempt([&](rosbag::Bag& bag) { bag.write(name, message.header.stamp, message, latched<Message>(topic)); });
+}
+
+void BagWriter::copy(const rosbag::MessageInstance& instance) {
+  attempt([&](rosbag::Bag& bag) { bag.write(instance.getTopic(), instance.getTime(), instance); });
+}
+
+template <typename Message>
+void BagWriter::replace(const rosbag::MessageInstance& instance, const Message& message) {
+  attempt([&](rosbag::Bag& bag) {
+    bag.write(instance.getTopic(), instance.getTime(), message, instance.getConnectionHeader());
+  });
+}
+
+template void BagWriter::replace(const rosbag::MessageInstance&, const fsr_pressure_map::MatrixFrame&);
+template void BagWriter::replace(const rosbag::MessageInstance&, const fsr_pressure_map::MatrixInfo&);
+template void BagWriter::add(const std::string&, const fsr_pressure_map::MatrixFrame&);
+template void BagWriter::add(const std::string&, const fsr_pressure_map::MatrixInfo&);
+template void BagWriter::add(const std::string&, const fsr_pressure_map::Session&);
+template void BagWriter::add(const std::string&, const fsr_pressure_map::SurfaceCurvature&);
+template void BagWriter::add(const std::string&, const sensor_msgs::FluidPressure&);
+template void BagWriter::add(const std::string&, const sensor_msgs::Temperature&);
+
+void BagWriter::addScan(std::int64_t stamp_ns, std::uint32_t sequence, const fsr::matrix::ScanView& scan) {
+  fsr::matrix::requireSound(scan);
+  fsr_pressure_map::MatrixFrame message;
+  message.sequence = sequence;
+  message.rows = scan.size.rows;
+  message.columns = scan.size.columns;
+  message.full_scale = scan.full_scale;
+  message.counts.assign(scan.counts, scan.counts + scan.count);
+  write("raw", stamp_ns, message);
+}
+
+void BagWriter::addChamberPressure(std::int64_t stamp_ns, double absolute_pressure, double variance) {
+  sensor_msgs::FluidPressure message;
+  message.fluid_pressure = absolute_pressure;
+  message.variance = variance;
+  write("chamber_pressure", stamp_ns, message);
+}
+
+void BagWriter::addTemperature(std::int64_t stamp_ns, double temperature) {
+  sensor_msgs::Temperature message;
+  message.temperature = temperature;
+  write("temperature", stamp_ns, message);
+}
+
+void BagWriter::addSurface(std::int64_t stamp_ns, const fsr::matrix::Surface& surface) {
+  fsr_pressure_map::SurfaceCurvature message = toMessage(surface);
+  write("curvature", stamp_ns, message);
+}
+
+void BagWriter::addMatrixInfo(std::int64_t stamp_ns, fsr_pressure_map::MatrixInfo info) {
+  write("matrix_info", stamp_ns, info);
+}
+
+void BagWriter::addSession(std::int64_t stamp_ns, fsr_pressure_map::Session session) {
+  write("session", stamp_ns, session);
+}
+
+void BagWriter::close() {
+  try {
+    bag_->close();
+  } catch (const rosbag::BagException& error) {
+    throw cannotWrite(path_, error.what());
+  }
+  if (std::rename(fresh_.c_str(), path_.c_str()) != 0) throw cannotWrite(path_, std::strerror(errno));
+  bag_.reset();
+}
+
+void writeBag(const std::string& path, const fsr::dataset::Recording& recording, const BagOptions& options) {
+  BagWriter bag(path, options.topics);
+  Repeater repeater(recording, options);
+  const std::size_t taxels = recording.layout.size.taxels();
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    const std::int64_t stamp_ns = recording.start_ns + std::llround(recording.time[i] * 1e9);
+    repeater.before(i, stamp_ns, bag);
+    if (!recording.pressure.empty()) {
+      const double absolute = recording.pressure[i] + options.ambient_pressure;
+      bag.addChamberPressure(stamp_ns, absolute, options.pressure_variance);
+    }
+    if (!recording.temperature.empty()) bag.addTemperature(stamp_ns, recording.temperature[i]);
+    bag.addScan(stamp_ns, static_cast<std::uint32_t>(i),
+                {recording.layout.size, recording.full_scale, recording.scan(i), taxels});
+  }
+  bag.close();
+}
+
+}  // namespace fsr_ros

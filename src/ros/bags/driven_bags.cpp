@@ -1,0 +1,163 @@
+#include <fsr_pressure_map/MatrixFrame.h>
+#include <fsr_pressure_map/MatrixInfo.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <set>
+
+#include "ros/bags/bag_reader.h"
+#include "ros/bags/bag_writer.h"
+#include "ros/bags/simulated_bags.h"
+#include "simulation/driven_rig.h"
+
+namespace fsr_ros {
+
+namespace {
+
+/// All scans that have a reference, also those near a change of surface.
+fsr::dataset::Recording readWhole(const std::string& path, const std::string& topics) {
+  BagReadOptions options;
+  options.topics = topics;
+  options.recording.change_margin = 0;
+  return readBag(path, options);
+}
+
+/// What a simulated matrix read at each of a recording's stamps.
+class SimulatedScans {
+ public:
+  SimulatedScans(fsr::simulation::DrivenRig& rig, const fsr::dataset::Recording& recording)
+      : taxels_(recording.layout.size.taxels()) {
+    rig.run(recording, [&](std::size_t scan, const fsr::simulation::SensorChain& chain) {
+      stamps_.push_back(recording.start_ns + std::llround(recording.time[scan] * 1e9));
+      counts_.insert(counts_.end(), chain.counts().begin(), chain.counts().end());
+    });
+  }
+
+  /// nullptr where there is none at that stamp.
+  const std::uint16_t* find(std::int64_t stamp_ns) const {
+    const auto found = std::lower_bound(stamps_.begin(), stamps_.end(), stamp_ns - kRounding);
+    if (found == stamps_.end() || *found > stamp_ns + kRounding) return nullptr;
+    return counts_.data() + static_cast<std::size_t>(found - stamps_.begin()) * taxels_;
+  }
+
+ private:
+  static constexpr std::int64_t kRounding = 2;  // of times kept in seconds [ns]
+  std::size_t taxels_;
+  std::vector<std::int64_t> stamps_;
+  std::vector<std::uint16_t> counts_;
+};
+
+std::string withoutLeadingSlash(const std::string& name) {
+  return name.rfind('/', 0) == 0 ? name.substr(1) : name;
+}
+
+/// Copies one sensor's topics message by message, with other readings.
+class Copier {
+ public:
+  Copier(const fsr::simulation::SimulationSettings& settings, const std::string& topics,
+         const SimulatedScans& scans, BagWriter& out)
+      : settings_(settings), topics_(withoutLeadingSlash(topics)), scans_(scans), out_(out) {}
+
+  void copy(const rosbag::MessageInstance& instance) {
+    const std::string topic = withoutLeadingSlash(instance.getTopic());
+    const std::size_t slash = topic.rfind('/');
+    const std::string name = topic.substr(slash == std::string::npos ? 0 : slash + 1);
+    const bool ours = topics_.empty() || topic == topics_ + "/" + name;
+    if (!ours) return;
+    if (name == "raw") return copyScan(instance);
+    if (name == "matrix_info") return copyInfo(instance);
+    static const std::set<std::string> kRecorded = {"chamber_pressure", "curvature", "temperature", "session",
+                                                    "events"};
+    if (kRecorded.count(name) > 0) out_.copy(instance);
+  }
+
+ private:
+  void copyScan(const rosbag::MessageInstance& instance) {
+    const auto message = instance.instantiate<fsr_pressure_map::MatrixFrame>();
+    const std::uint16_t* counts = scans_.find(static_cast<std::int64_t>(message->header.stamp.toNSec()));
+    if (counts == nullptr) return;
+    std::copy(counts, counts + message->counts.size(), message->counts.begin());
+    out_.replace(instance, *message);
+  }
+
+  void copyInfo(const rosbag::MessageInstance& instance) {
+    const auto message = instance.instantiate<fsr_pressure_map::MatrixInfo>();
+    message->serial = message->sensor_id = settings_.board.serial;
+    message->firmware = settings_.board.firmware;
+    message->sensor_model = settings_.board.model;
+    out_.replace(instance, *message);
+  }
+
+  const fsr::simulation::SimulationSettings& settings_;
+  std::string topics_;
+  const SimulatedScans& scans_;
+  BagWriter& out_;
+};
+
+void copyBag(const std::string& from, const std::string& to,
+             const fsr::simulation::SimulationSettings& settings, const std::string& topics,
+             const SimulatedScans& scans) {
+  const rosbag::Bag bag(from, rosbag::bagmode::Read);
+  BagWriter out(to);
+  Copier copier(settings, topics, scans, out);
+  rosbag::View view(bag);
+  for (const rosbag::MessageInstance& instance : view) copier.copy(instance);
+  out.close();
+}
+
+void warn(const fsr::dataset::Recording& recording, std::vector<std::string>& warnings) {
+  for (const std::string& warning : recording.warnings) warnings.push_back(recording.name + ": " + warning);
+  const auto& surfaces = recording.conditions;
+  const bool known = std::all_of(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.known(); });
+  if (!known)
+    warnings.push_back(recording.name + ": the surface is not known throughout; the model lies flat there");
+  if (recording.temperature.empty()) {
+    warnings.push_back(recording.name + ": holds no temperature; the model is at 23 degree Celsius");
+  }
+}
+
+void warnOfSize(const fsr::dataset::Recording& recording, const fsr::simulation::SimulationSettings& settings,
+                std::vector<std::string>& warnings) {
+  const fsr::matrix::MatrixSize simulated = settings.layout.size;
+  if (recording.layout.size == simulated) return;
+  warnings.push_back(recording.name + ": is of a matrix of " + sizeText(recording.layout.size) + ", " +
+                     settings.origin + " of " + sizeText(simulated) + "; the model takes the bag's");
+}
+
+std::string outputPath(const std::string& bag, const std::string& output) {
+  const auto path = std::filesystem::path(output) / std::filesystem::path(bag).filename();
+  std::error_code error;
+  if (std::filesystem::equivalent(path, bag, error)) {
+    throw fsr::settings::InputError(bag + ": would be overwritten; give another folder with --output");
+  }
+  return path;
+}
+
+}  // namespace
+
+SimulatedRun writeDrivenBags(const fsr::simulation::SimulationSettings& settings, const DrivingBags& driving,
+                             const SimulatedBags& bags) {
+  SimulatedRun run{settings, {}, {}};
+  std::optional<fsr::simulation::DrivenRig> rig;
+  for (const std::string& bag : driving.paths) {
+    const std::string path = outputPath(bag, bags.output);
+    const fsr::dataset::Recording recording = readWhole(bag, driving.topics);
+    if (bags.progress) bags.progress(path);
+    warn(recording, run.warnings);
+    if (!rig) {
+      warnOfSize(recording, settings, run.warnings);
+      run.rig = fitted(settings, recording);
+      rig.emplace(run.rig);
+      if (bags.state) rig->resume(*bags.state);
+    }
+    copyBag(bag, path, settings, driving.topics, SimulatedScans(*rig, recording));
+    run.state = rig->state();
+  }
+  return run;
+}
+
+}  // namespace fsr_ros

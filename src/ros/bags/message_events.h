@@ -1,0 +1,25 @@
+#pragma once
+
+#include <fsr_pressure_map/MatrixFrame.h>
+#include <fsr_pressure_map/MatrixInfo.h>
+#include <fsr_pressure_map/SurfaceCurvature.h>
+#include <sensor_msgs/FluidPressure.h>
+#include <sensor_msgs/Temperature.h>
+
+#include "dataset/recording_builder.h"
+
+namespace fsr_ros {
+
+// Messages as events of a RecordingBuilder, by their header stamps: the same for a bag and for topics.
+// Each throws fsr::InputError where the message is malformed.
+
+void addEvent(const fsr_pressure_map::MatrixFrame& message, fsr::dataset::RecordingBuilder& builder);
+void addEvent(const sensor_msgs::FluidPressure& message, fsr::dataset::RecordingBuilder& builder);
+void addEvent(const fsr_pressure_map::SurfaceCurvature& message, fsr::dataset::RecordingBuilder& builder);
+void addEvent(const sensor_msgs::Temperature& message, fsr::dataset::RecordingBuilder& builder);
+void addEvent(const fsr_pressure_map::MatrixInfo& message, fsr::dataset::RecordingBuilder& builder);
+
+/// Throws fsr::InputError where the size, pitch or mask are none that a matrix can have.
+fsr::dataset::MatrixDescription toDescription(const fsr_pressure_map::MatrixInfo& message);
+
+}  // namespace fsr_ros

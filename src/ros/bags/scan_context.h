@@ -1,0 +1,63 @@
+#pragma once
+
+#include <fsr_pressure_map/CalibrationInfo.h>
+#include <fsr_pressure_map/MatrixInfo.h>
+#include <rosbag/bag.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dataset/time_series.h"
+#include "exports/scan_record.h"
+#include "ros/bags/sensor_topics.h"
+#include "ros/messages/message_reader.h"
+
+namespace fsr_ros {
+
+/// The topics by which an export finds a sensor: raw, or maps alone.
+std::vector<SensorTopics::Mark> sensorMarks(const std::string& map = "pressure_map");
+
+/// What a bag tells beside its scans: chamber pressure and its cycles, temperature, board, session, events,
+/// calibration. Read once, from end to end.
+class ScanContext {
+ public:
+  /// `ambient` [Pa]; none = what matrix_info says, else 101325. Throws fsr::InputError.
+  ScanContext(const rosbag::Bag& bag, const SensorTopics& topics, std::optional<double> ambient);
+
+  const fsr_pressure_map::MatrixInfo& board() const { return board_; }
+  const std::shared_ptr<const fsr::matrix::Surface>& firstSurface() const { return first_surface_; }
+  /// Pitch as the board states it, else the usual one.
+  fsr::matrix::Layout layout(fsr::matrix::MatrixSize size) const;
+  /// All but name and maps.
+  fsr::exports::ExportSubject subject() const;
+  static void describe(const fsr_pressure_map::CalibrationInfo& info, fsr::exports::ExportSubject& subject);
+
+  /// Fills in chamber pressure, temperature, session, cycle and event.
+  void complete(fsr::exports::ScanRecord& scan) const;
+
+ private:
+  using Label = std::pair<std::int64_t, std::string>;  // stamp [ns], text that holds from then on
+
+  void readBoard(const rosbag::Bag& bag, const SensorTopics& topics);
+  void readSeries(const rosbag::Bag& bag, const SensorTopics& topics);
+  void readLabels(const rosbag::Bag& bag, const SensorTopics& topics);
+  void findCycles(const std::vector<std::pair<std::int64_t, double>>& pressure);
+  template <typename Message, typename Take>
+  void forEach(const rosbag::Bag& bag, const SensorTopics& topics, const std::string& base, Take take);
+
+  MessageReader reader_;
+  fsr_pressure_map::MatrixInfo board_;
+  fsr_pressure_map::CalibrationInfo calibration_;
+  double ambient_;  // [Pa]
+  std::shared_ptr<const fsr::matrix::Surface> first_surface_;
+  fsr::dataset::TimeSeries chamber_;  // absolute [Pa]
+  fsr::dataset::TimeSeries temperature_;
+  std::vector<std::int64_t> cycles_;  // stamps at which each begins
+  std::vector<Label> sessions_;
+  std::vector<Label> events_;
+};
+
+}  // namespace fsr_ros

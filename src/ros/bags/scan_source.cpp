@@ -1,0 +1,249 @@
+#include "ros/bags/scan_source.h"
+
+#include <fsr_pressure_map/CalibrationInfo.h>
+#include <fsr_pressure_map/MatrixFrame.h>
+#include <fsr_pressure_map/MatrixInfo.h>
+#include <fsr_pressure_map/PressureMap.h>
+#include <fsr_pressure_map/SurfaceCurvature.h>
+#include <rosbag/view.h>
+
+#include <cmath>
+#include <deque>
+#include <filesystem>
+#include <map>
+
+#include "dataset/recording_builder.h"
+#include "ros/bags/loaded_calibration.h"
+#include "ros/bags/message_events.h"
+#include "ros/bags/scan_context.h"
+#include "ros/bags/sensor_topics.h"
+#include "ros/messages/message_reader.h"
+#include "ros/messages/pressure_map_message.h"
+#include "ros/messages/surface_message.h"
+
+namespace fsr_ros {
+
+namespace {
+
+constexpr std::int64_t kPatience = 2000000000;  // a scan waits as long for its map [ns]
+
+std::int64_t stampOf(const std_msgs::Header& header) {
+  return static_cast<std::int64_t>(header.stamp.toNSec());
+}
+
+// Computes maps where a calibration file is given.
+class MapMaker {
+ public:
+  MapMaker(const std::string& path, const fsr_pressure_map::MatrixInfo& board) {
+    if (path.empty()) return;
+    loaded_ = loadForUse(path, {});
+    const std::string& serial = loaded_->info.sensor_serial;
+    loaded_->calibrator.setWrongSensor(!serial.empty() && !board.serial.empty() && serial != board.serial);
+    if (board.mask.size() == loaded_->calibrator.layout().size.taxels()) {
+      loaded_->calibrator.setMask(board.mask);
+    }
+  }
+
+  const fsr_pressure_map::CalibrationInfo* info() const { return loaded_ ? &loaded_->info : nullptr; }
+
+  void make(fsr::exports::ScanRecord& scan) {
+    if (!loaded_ || scan.counts.empty()) return;
+    const double time = 1e-9 * static_cast<double>(scan.stamp_ns);
+    if (scan.surface != surface_ && scan.surface != nullptr) {
+      surface_ = scan.surface;
+      loaded_->calibrator.setSurface(*surface_, time);
+    }
+    fsr::map::PressureMap map;
+    loaded_->calibrator.calibrate({scan.layout.size, scan.full_scale, scan.counts.data(), scan.counts.size()},
+                                  time, map);
+    if (map.state == fsr::map::MapState::kSizeMismatch) {
+      throw fsr::settings::InputError("the scans are of " + fsr::matrix::sizeText(scan.layout.size) +
+                                      " taxels up to " + std::to_string(scan.full_scale) +
+                                      " counts, but the calibration is of " +
+                                      fsr::matrix::sizeText(loaded_->calibrator.layout().size) +
+                                      " or another full scale; give the one that belongs to this matrix");
+    }
+    scan.layout = map.layout;
+    scan.map = std::move(map);
+  }
+
+ private:
+  std::unique_ptr<LoadedCalibration> loaded_;
+  std::shared_ptr<const fsr::matrix::Surface> surface_;
+};
+
+// Joins what belongs to one scan and sends it on, in the order of the stamps.
+class Joiner {
+ public:
+  Joiner(const ScanSelection& selection, const ScanContext& context, fsr::exports::ScanSink& sink)
+      : selection_(selection),
+        context_(context),
+        maker_(selection.calibration, context.board()),
+        sink_(sink),
+        until_ns_(nanoseconds(selection.until)) {}
+
+  void begin(fsr::exports::ExportSubject subject) {
+    if (maker_.info() != nullptr) {
+      subject.maps = true;
+      context_.describe(*maker_.info(), subject);
+    }
+    sink_.begin(subject);
+  }
+
+  void add(const fsr_pressure_map::MatrixFrame& message) {
+    fsr::matrix::requireSound(toScanView(message));
+    fsr::exports::ScanRecord& scan = at(stampOf(message.header));
+    requireOneSize(scan, {message.rows, message.columns});
+    scan.sequence = message.sequence;
+    scan.raw_row = raw_rows_++;
+    scan.full_scale = message.full_scale;
+    scan.counts = message.counts;
+  }
+
+  void add(const fsr_pressure_map::PressureMap& message) {
+    fsr::map::PressureMap map = toPressureMap(message);
+    fsr::exports::ScanRecord& scan = at(stampOf(message.header));
+    requireOneSize(scan, map.layout.size);
+    scan.layout = map.layout;
+    scan.map = std::move(map);
+    scan.map_row = map_rows_++;
+  }
+
+  void add(const fsr_pressure_map::SurfaceCurvature& message) {
+    surfaces_.emplace_back(stampOf(message.header),
+                           std::make_shared<fsr::matrix::Surface>(toSurface(message)));
+  }
+
+  std::size_t finish() {
+    while (!waiting_.empty()) sendFirst();
+    return sent_;
+  }
+
+ private:
+  static std::int64_t nanoseconds(double seconds) {
+    return seconds < 9e9 ? std::llround(seconds * 1e9) : std::numeric_limits<std::int64_t>::max();
+  }
+
+  // The record of a stamp; those that are old enough go.
+  fsr::exports::ScanRecord& at(std::int64_t stamp_ns) {
+    while (!waiting_.empty() && waiting_.begin()->first < stamp_ns - kPatience) sendFirst();
+    fsr::exports::ScanRecord& scan = waiting_[stamp_ns];
+    scan.stamp_ns = stamp_ns;
+    return scan;
+  }
+
+  void requireOneSize(fsr::exports::ScanRecord& scan, fsr::matrix::MatrixSize size) const {
+    if (scan.layout.size.taxels() == 0) scan.layout = context_.layout(size);
+    if (scan.layout.size == size) return;
+    throw fsr::settings::InputError("the scan of " + fsr::matrix::sizeText(scan.layout.size) + " taxels at " +
+                                    std::to_string(scan.stamp_ns) + " ns has a map of " +
+                                    fsr::matrix::sizeText(size));
+  }
+
+  void sendFirst() {
+    auto node = waiting_.extract(waiting_.begin());
+    fsr::exports::ScanRecord& scan = node.mapped();
+    if (!first_ns_) first_ns_ = scan.stamp_ns;
+    scan.since_ns = scan.stamp_ns - *first_ns_;
+    scan.surface = surfaceAt(scan.stamp_ns);
+    maker_.make(scan);  // also where it is not wanted: what watches over taxels sees every scan
+    if (!wanted(scan.since_ns)) return;
+    context_.complete(scan);
+    sink_.add(scan);
+    ++sent_;
+  }
+
+  bool wanted(std::int64_t since_ns) {
+    if (since_ns < nanoseconds(selection_.from) || since_ns > until_ns_) return false;
+    if (selection_.rate <= 0) return true;
+    const double due = std::floor(1e-9 * static_cast<double>(since_ns) * selection_.rate + 1e-6);
+    if (due <= last_due_) return false;
+    last_due_ = due;
+    return true;
+  }
+
+  // The first surface holds before its stamp too, for it is repeated each second.
+  std::shared_ptr<const fsr::matrix::Surface> surfaceAt(std::int64_t stamp_ns) {
+    while (!surfaces_.empty() && surfaces_.front().first <= stamp_ns) {
+      surface_ = surfaces_.front().second;
+      surfaces_.pop_front();
+    }
+    return surface_ != nullptr ? surface_ : context_.firstSurface();
+  }
+
+  const ScanSelection& selection_;
+  const ScanContext& context_;
+  MapMaker maker_;
+  fsr::exports::ScanSink& sink_;
+  std::int64_t until_ns_;
+  std::map<std::int64_t, fsr::exports::ScanRecord> waiting_;
+  std::deque<std::pair<std::int64_t, std::shared_ptr<const fsr::matrix::Surface>>> surfaces_;
+  std::shared_ptr<const fsr::matrix::Surface> surface_;
+  std::optional<std::int64_t> first_ns_;
+  double last_due_ = -1;
+  std::uint64_t raw_rows_ = 0, map_rows_ = 0;
+  std::size_t sent_ = 0;
+};
+
+// The topics that a joiner is fed with, as the bag spells them.
+struct ScanTopics {
+  std::string raw, map, curvature;
+};
+
+ScanTopics scanTopics(const SensorTopics& topics, const ScanSelection& selection) {
+  ScanTopics found;
+  const auto find = [&](const std::string& base, const std::string& type) {
+    const std::string topic = topics.find(base);
+    if (!topic.empty()) topics.requireType(topic, type);
+    return topic;
+  };
+  found.raw = find("raw", ros::message_traits::datatype<fsr_pressure_map::MatrixFrame>());
+  found.map = find(selection.map, ros::message_traits::datatype<fsr_pressure_map::PressureMap>());
+  found.curvature = find("curvature", ros::message_traits::datatype<fsr_pressure_map::SurfaceCurvature>());
+  if (!selection.calibration.empty()) {
+    if (found.raw.empty())
+      throw fsr::settings::InputError("holds no topic raw to compute maps from with --calibration");
+    found.map.clear();
+  }
+  if (!selection.counts && !found.map.empty()) found.raw.clear();
+  if (selection.map != ScanSelection().map && found.map.empty() && selection.calibration.empty()) {
+    throw fsr::settings::InputError("holds no topic " + selection.map + ", but " + topics.list());
+  }
+  return found;
+}
+
+void feed(const rosbag::Bag& bag, const ScanTopics& topics, Joiner& joiner) {
+  std::vector<std::string> wanted;
+  for (const std::string& topic : {topics.raw, topics.map, topics.curvature}) {
+    if (!topic.empty()) wanted.push_back(topic);
+  }
+  MessageReader reader;
+  rosbag::View view(bag, rosbag::TopicQuery(wanted));
+  for (const rosbag::MessageInstance& instance : view) {
+    const std::string& topic = instance.getTopic();
+    if (topic == topics.raw) joiner.add(reader.read<fsr_pressure_map::MatrixFrame>(instance));
+    if (topic == topics.map) joiner.add(reader.read<fsr_pressure_map::PressureMap>(instance));
+    if (topic == topics.curvature) joiner.add(reader.read<fsr_pressure_map::SurfaceCurvature>(instance));
+  }
+}
+
+}  // namespace
+
+std::size_t sendScans(const std::string& path, const ScanSelection& selection, fsr::exports::ScanSink& sink) {
+  std::size_t sent = 0;
+  withSoundBag(path, [&](const rosbag::Bag& bag) {
+    const SensorTopics topics(bag, selection.topics, sensorMarks(selection.map));
+    const ScanTopics scans = scanTopics(topics, selection);
+    ScanContext context(bag, topics, selection.ambient);
+    fsr::exports::ExportSubject subject = context.subject();
+    subject.name = std::filesystem::path(path).filename().string();
+    subject.maps = !scans.map.empty();
+    Joiner joiner(selection, context, sink);
+    joiner.begin(subject);
+    feed(bag, scans, joiner);
+    sent = joiner.finish();
+  });
+  return sent;
+}
+
+}  // namespace fsr_ros

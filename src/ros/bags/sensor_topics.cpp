@@ -1,0 +1,129 @@
+#include "ros/bags/sensor_topics.h"
+
+#include <ros/serialization.h>
+#include <rosbag/view.h>
+
+#include <filesystem>
+#include <set>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "ros/bags/bag_walk.h"
+
+namespace fsr_ros {
+
+namespace {
+
+std::string withoutSlashes(const std::string& name) {
+  const std::size_t first = name.find_first_not_of('/');
+  return first == std::string::npos ? "" : name.substr(first, name.find_last_not_of('/') - first + 1);
+}
+
+template <typename Names>
+std::string listOf(const Names& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list.empty() ? "none" : list;
+}
+
+void requireFile(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    throw fsr::settings::InputError("there is no such file");
+  if (std::filesystem::file_size(path, error) == 0) {
+    throw fsr::settings::InputError("is empty; give a bag that record.launch has written");
+  }
+}
+
+SensorTopics::Types typesOf(const rosbag::Bag& bag) {
+  SensorTopics::Types types;
+  rosbag::View view(bag);
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    types[connection->topic] = connection->datatype;
+  }
+  return types;
+}
+
+}  // namespace
+
+void tellingOfDamage(const std::string& path, const std::function<void()>& read) {
+  const std::string way_out = "; copy it again, or save what is left with: rosbag reindex " + path;
+  try {
+    requireFile(path);
+    read();
+  } catch (const rosbag::BagUnindexedException&) {
+    throw fsr::settings::InputError(path + ": the bag was not closed and has no index; run: rosbag reindex " +
+                                    path);
+  } catch (const rosbag::BagException& error) {
+    throw fsr::settings::InputError(path + ": is no whole bag (" + error.what() + ")" + way_out);
+  } catch (const ros::serialization::StreamOverrunException&) {
+    throw fsr::settings::InputError(path + ": a message in it is cut short" + way_out);
+  } catch (const fsr::settings::InputError& complaint) {
+    throw fsr::settings::InputError(path + ": " + complaint.what());
+  }
+}
+
+void withSoundBag(const std::string& path, const std::function<void(const rosbag::Bag&)>& use) {
+  tellingOfDamage(path, [&] {
+    requireSoundBag(path);
+    const rosbag::Bag bag(path, rosbag::bagmode::Read);
+    use(bag);
+  });
+}
+
+SensorTopics::SensorTopics(const rosbag::Bag& bag, const std::string& topics, const std::vector<Mark>& marks)
+    : SensorTopics(typesOf(bag), topics, marks) {}
+
+SensorTopics::SensorTopics(Types types, const std::string& topics, const std::vector<Mark>& marks)
+    : types_(std::move(types)) {
+  prefix_ = withoutSlashes(topics);
+  if (prefix_.empty()) prefix_ = findNamespace(marks);
+  for (const Mark& mark : marks) {
+    if (!find(mark.base).empty()) return;
+  }
+  throw fsr::settings::InputError("holds no topic /" + (prefix_.empty() ? "" : prefix_ + "/") +
+                                  marks.front().base + ", but " + list() +
+                                  "; choose the sensor with --namespace");
+}
+
+std::string SensorTopics::findNamespace(const std::vector<Mark>& marks) const {
+  std::set<std::string> found;
+  for (const auto& [topic, type] : types_) {
+    const std::string name = "/" + withoutSlashes(topic);
+    const std::size_t base = name.rfind('/') + 1;
+    for (const Mark& mark : marks) {
+      if (name.substr(base) == mark.base && type == mark.type) {
+        found.insert(withoutSlashes(name.substr(0, base)));
+      }
+    }
+  }
+  if (found.empty()) {
+    throw fsr::settings::InputError("holds no topic " + marks.front().base + " of type " +
+                                    marks.front().type + ", but " + list() + "; record with record.launch");
+  }
+  if (found.size() > 1) {
+    throw fsr::settings::InputError("holds several sensors: " + listOf(found) +
+                                    "; choose one with --namespace");
+  }
+  return *found.begin();
+}
+
+std::string SensorTopics::find(const std::string& base) const {
+  const std::string wanted = prefix_.empty() ? base : prefix_ + "/" + base;
+  for (const auto& entry : types_) {
+    if (withoutSlashes(entry.first) == wanted) return entry.first;
+  }
+  return "";
+}
+
+std::string SensorTopics::list() const {
+  std::vector<std::string> names;
+  for (const auto& entry : types_) names.push_back(entry.first);
+  return listOf(names);
+}
+
+void SensorTopics::requireType(const std::string& topic, const std::string& type) const {
+  if (types_.at(topic) == type) return;
+  throw fsr::settings::InputError(topic + " is of type " + types_.at(topic) + ", but must be " + type);
+}
+
+}  // namespace fsr_ros

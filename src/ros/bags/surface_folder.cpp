@@ -1,0 +1,43 @@
+#include "ros/bags/surface_folder.h"
+
+#include <filesystem>
+
+#include "matrix/surface_file.h"
+#include "ros/bags/resource_path.h"
+
+namespace fsr_ros {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string namesIn(const std::string& folder) {
+  std::string names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".yaml")
+      names += (names.empty() ? "" : ", ") + entry.path().stem().string();
+  }
+  return names.empty() ? "none" : names;
+}
+
+}  // namespace
+
+SurfaceFolder::SurfaceFolder(const std::string& folder, fsr::matrix::MatrixSize size)
+    : folder_(resolveResource(folder)), size_(size) {}
+
+std::string SurfaceFolder::pathOf(const std::string& surface) const {
+  const bool is_path = surface.find('/') != std::string::npos;
+  std::string path = is_path ? resolveResource(surface) : (fs::path(folder_) / (surface + ".yaml")).string();
+  if (!fs::exists(path)) {
+    throw fsr::settings::InputError("surface " + surface + ": there is no file " + path + "; surfaces in " +
+                                    folder_ + ": " + namesIn(folder_));
+  }
+  return path;
+}
+
+fsr::matrix::Surface SurfaceFolder::load(const std::string& surface) const {
+  return fsr::matrix::readSurfaceFile(pathOf(surface), size_);
+}
+
+}  // namespace fsr_ros

@@ -1,0 +1,131 @@
+#include "ros/live/calibration_health.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+
+namespace fsr_ros {
+
+namespace {
+
+using Status = diagnostic_updater::DiagnosticStatusWrapper;
+using Level = diagnostic_msgs::DiagnosticStatus;
+using fsr::map::MapState;
+namespace flag = fsr::map::taxel_flag;
+
+constexpr std::size_t kListedTaxels = 10;
+
+std::string rounded(double value) {
+  std::ostringstream text;
+  text << std::setprecision(4) << value;
+  return text.str();
+}
+
+std::size_t flagged(const fsr::map::PressureMap& map, std::uint16_t flags) {
+  const auto has = [flags](std::uint16_t f) { return (f & flags) != 0; };
+  return std::size_t(std::count_if(map.flags.begin(), map.flags.end(), has));
+}
+
+// "(0, 3), (2, 9)": row and column of the first taxels that carry a flag.
+std::string places(const fsr::map::PressureMap& map, std::uint16_t flags) {
+  std::string text;
+  std::size_t listed = 0;
+  for (std::size_t taxel = 0; taxel < map.flags.size(); ++taxel) {
+    if ((map.flags[taxel] & flags) == 0) continue;
+    if (listed++ == kListedTaxels) return text + ", ...";
+    text += (text.empty() ? "(" : ", (") + std::to_string(map.layout.row({taxel})) + ", " +
+            std::to_string(map.layout.column({taxel})) + ")";
+  }
+  return text;
+}
+
+void addPressures(const fsr::map::PressureMap& map, double contact_threshold, Status& status) {
+  float peak = 0;
+  int contact = 0;
+  for (const float pressure : map.pressure) {
+    if (!(pressure >= contact_threshold)) continue;  // false for NaN
+    ++contact;
+    peak = std::max(peak, pressure);
+  }
+  status.add("taxels in contact", contact);
+  status.add("peak in contact, gauge [kPa]", rounded(peak / 1000));
+}
+
+void addFlags(const fsr::map::PressureMap& map, Status& status) {
+  status.add("dead taxels (row, column)", places(map, flag::kDead));
+  status.add("stuck taxels (row, column)", places(map, flag::kStuck));
+  status.add("taxels of a broken or shorted line (row, column)", places(map, flag::kLineFault));
+  status.add("masked taxels", flagged(map, flag::kMasked));
+  status.add("saturated taxels", flagged(map, flag::kSaturated));
+  status.add("taxels below range", flagged(map, flag::kBelowRange));
+  status.add("taxels with a reading beyond training", flagged(map, flag::kReadingExtrapolated));
+  status.add("taxels with a curvature beyond training", flagged(map, flag::kCurvatureExtrapolated));
+  status.add("taxels between curvature classes", flagged(map, flag::kBetweenClasses));
+}
+
+bool isError(MapState state) {
+  return state == MapState::kUncalibrated || state == MapState::kSizeMismatch ||
+         state == MapState::kWrongSensor;
+}
+
+}  // namespace
+
+std::string stateSentence(const CalibrationHealth& health) {
+  switch (health.map.state) {
+    case MapState::kOk:
+      return "";
+    case MapState::kUncalibrated:
+      return "maps are empty, for no calibration is loaded: " + health.complaint;
+    case MapState::kCurvatureUnknown:
+      return "curvature is unknown, so every taxel uses its flattest class: " +
+             (health.surface_complaint.empty() ? "no curvature came" : health.surface_complaint);
+    case MapState::kCurvatureStale:
+      return "the last curvature is older than ~curvature_timeout and still in use: is its node alive?";
+    case MapState::kSizeMismatch:
+      return "maps are empty, for the board sends " + sizeText(health.map.layout.size) +
+             " taxels or has a full scale that are not the calibration's (" + health.info.path + ")";
+    case MapState::kWrongSensor:
+      return "the board is " + health.board + ", but the calibration was made with " +
+             health.info.sensor_serial;
+  }
+  return "";
+}
+
+void judgeCalibration(const CalibrationHealth& health, Status& status) {
+  if (health.info.id.empty()) {
+    status.summary(Level::ERROR, "waiting for a calibration: " + health.complaint);
+  } else {
+    status.summary(Level::OK, health.info.scheme + " from " + health.info.path);
+  }
+  status.add("id", health.info.id);
+  status.add("file", health.info.path);
+  status.add("scheme", health.info.scheme);
+  status.add("sensor serial number", health.info.sensor_serial);
+  status.add("board serial number", health.board);
+  status.add("surface", health.surface.name);
+  status.add("mount", health.surface.mount);
+  status.add("tare", health.tare ? health.tare->date : "none");
+}
+
+void judgeMaps(const CalibrationHealth& before, const CalibrationHealth& now, double seconds,
+               const std::string& scan_topic, double contact_threshold, Status& status) {
+  const std::uint64_t scans = now.scans - before.scans;
+  const std::string complaint = stateSentence(now);
+  const std::size_t bad = flagged(now.map, flag::kDead | flag::kStuck);
+  if (scans == 0) {
+    status.summary(Level::ERROR, "waiting for scans: none came on " + scan_topic);
+  } else if (!complaint.empty()) {
+    status.summary(isError(now.map.state) ? Level::ERROR : Level::WARN, complaint);
+  } else if (bad > 0) {
+    status.summary(Level::WARN, std::to_string(bad) + " taxels are dead or stuck");
+  } else {
+    status.summary(Level::OK, "maps are calibrated");
+  }
+  status.add("maps a second of wall time", rounded(double(scans) / seconds));
+  status.add("maps", now.scans);
+  status.add("taxels come back to life", now.revivals);
+  addFlags(now.map, status);
+  addPressures(now.map, contact_threshold, status);
+}
+
+}  // namespace fsr_ros

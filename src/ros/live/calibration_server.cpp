@@ -1,0 +1,163 @@
+#include "ros/live/calibration_server.h"
+
+#include <boost/make_shared.hpp>
+#include <filesystem>
+
+#include "ros/bags/resource_path.h"
+#include "ros/live/calibration_health.h"
+#include "ros/live/service_answer.h"
+
+namespace fsr_ros {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kPatience = 5.0;      // without a scan, until a tare gives up [s]
+constexpr double kWatchPeriod = 0.25;  // of a file that is waited for [s]
+constexpr double kSecond = 1.0;        // [s]
+
+// Changes whenever the file does.
+std::string fingerprint(const std::string& path) {
+  std::error_code error;
+  const auto time = fs::last_write_time(path, error).time_since_epoch().count();
+  if (error) return path + " is missing";
+  const auto size = fs::file_size(path, error);
+  return path + " " + std::to_string(time) + " " + std::to_string(size);
+}
+
+}  // namespace
+
+CalibrationServer::CalibrationServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : handle_(handle),
+      private_handle_(private_handle),
+      settings_(readCalibrationSettings(private_handle)),
+      live_(settings_),
+      diagnostics_(handle, private_handle, private_handle.getNamespace()),
+      slow_thread_(1, &slow_queue_) {
+  advertise();
+  serve();
+  subscribe();
+  slow_thread_.start();
+  ROS_INFO_STREAM(private_handle_.getNamespace() << ": waiting for scans on " << scans_.getTopic());
+}
+
+void CalibrationServer::advertise() {
+  maps_ = handle_.advertise<fsr_pressure_map::PressureMap>("pressure_map", settings_.queue_size);
+  info_ = handle_.advertise<fsr_pressure_map::CalibrationInfo>("calibration_info", 10, true);
+  diagnostics_.add("calibration", [this](auto& status) { judgeCalibration(now_, status); });
+  diagnostics_.add("maps", [this](auto& status) {
+    judgeMaps(before_, now_, kSecond, scans_.getTopic(), settings_.contact_threshold, status);
+  });
+  second_ = handle_.createWallTimer(ros::WallDuration(kSecond),
+                                    [this](const ros::WallTimerEvent&) { everySecond(); });
+}
+
+void CalibrationServer::serve() {
+  ros::NodeHandle slow(private_handle_);
+  slow.setCallbackQueue(&slow_queue_);
+  services_ = {slow.advertiseService("load_calibration", &CalibrationServer::loadCalibration, this),
+               slow.advertiseService("reload", &CalibrationServer::reload, this),
+               slow.advertiseService("set_mask", &CalibrationServer::setMask, this),
+               slow.advertiseService("tare", &CalibrationServer::tare, this),
+               slow.advertiseService("clear_tare", &CalibrationServer::clearTare, this)};
+  watch_ = slow.createWallTimer(ros::WallDuration(kWatchPeriod),
+                                [this](const ros::WallTimerEvent&) { tryWanted(); });
+}
+
+void CalibrationServer::subscribe() {
+  const auto at_once = ros::TransportHints().tcpNoDelay();
+  curvature_ = handle_.subscribe("curvature", 10, &CalibrationServer::onCurvature, this, at_once);
+  board_ = handle_.subscribe<fsr_pressure_map::MatrixInfo>(
+      "matrix_info", 10, [this](const fsr_pressure_map::MatrixInfoConstPtr& info) { live_.setBoard(*info); });
+  scans_ = handle_.subscribe("raw", settings_.queue_size, &CalibrationServer::onScan, this, at_once);
+}
+
+CalibrationServer::~CalibrationServer() {
+  live_.stop();  // a tare that waits for scans would keep the thread
+  slow_thread_.stop();
+}
+
+void CalibrationServer::onScan(const fsr_pressure_map::MatrixFrameConstPtr& scan) {
+  const auto map = boost::make_shared<fsr_pressure_map::PressureMap>();
+  live_.calibrate(*scan, *map);
+  maps_.publish(map);
+}
+
+void CalibrationServer::onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& message) {
+  live_.setSurface(*message);
+}
+
+void CalibrationServer::everySecond() {
+  publishInfo();
+  before_ = std::move(now_);
+  now_ = live_.health();
+  diagnostics_.setHardwareID(now_.board.empty() ? scans_.getTopic() : now_.board);
+  diagnostics_.force_update();
+  logChange();
+}
+
+// Once a second at most, whatever a sender does.
+void CalibrationServer::logChange() {
+  const std::string sentence = stateSentence(now_);
+  if (now_.scans == 0 || sentence == logged_) return;
+  logged_ = sentence;
+  if (sentence.empty()) {
+    ROS_INFO_STREAM(private_handle_.getNamespace() << ": maps are calibrated");
+  } else {
+    ROS_WARN_STREAM(private_handle_.getNamespace() << ": " << sentence);
+  }
+}
+
+void CalibrationServer::publishInfo() {
+  fsr_pressure_map::CalibrationInfo info = live_.info();
+  info.header.stamp = ros::Time::now();
+  info_.publish(info);
+}
+
+void CalibrationServer::tryWanted() {
+  const std::string path = live_.wanted();
+  if (path.empty()) return;
+  const std::string now = fingerprint(path);
+  if (now == tried_) return;
+  tried_ = now;
+  fsr_pressure_map::LoadFile::Response reply;
+  answer(reply, [&] { return live_.load(path); });
+  if (reply.success) publishInfo();
+}
+
+bool CalibrationServer::loadCalibration(fsr_pressure_map::LoadFile::Request& request,
+                                        fsr_pressure_map::LoadFile::Response& response) {
+  answer(response, [&] {
+    if (request.path.empty())
+      throw fsr::settings::InputError("path is empty, but must name a calibration file");
+    return live_.load(resolveResource(request.path));
+  });
+  if (!response.success) {
+    const std::string used = live_.info().path;
+    response.message += used.empty() ? "; still none is loaded" : "; still in use: " + used;
+  }
+  publishInfo();
+  return true;
+}
+
+bool CalibrationServer::reload(Trigger::Request& /*request*/, Trigger::Response& response) {
+  answer(response, [&] { return live_.reload(); });
+  publishInfo();
+  return true;
+}
+
+bool CalibrationServer::setMask(fsr_pressure_map::SetMask::Request& request,
+                                fsr_pressure_map::SetMask::Response& response) {
+  return answer(response, [&] { return live_.setMask(request.mask); });
+}
+
+bool CalibrationServer::tare(Trigger::Request& /*request*/, Trigger::Response& response) {
+  return answer(response, [&] { return live_.tare(kPatience); });
+}
+
+bool CalibrationServer::clearTare(Trigger::Request& /*request*/, Trigger::Response& response) {
+  return answer(response, [&] { return live_.clearTare(); });
+}
+
+}  // namespace fsr_ros

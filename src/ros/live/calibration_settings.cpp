@@ -1,0 +1,43 @@
+#include "ros/live/calibration_settings.h"
+
+#include <algorithm>
+
+#include "ros/bags/resource_path.h"
+
+namespace fsr_ros {
+
+namespace {
+
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
+
+// One file for each node: /fsr/calibration -> ${ROS_HOME}/fsr_pressure_map/fsr_calibration_tare.yaml.
+std::string defaultTareFile(const std::string& node) {
+  std::string name = node.substr(node.find_first_not_of('/'));
+  std::replace(name.begin(), name.end(), '/', '_');
+  return "${ROS_HOME}/fsr_pressure_map/" + name + "_tare.yaml";
+}
+
+}  // namespace
+
+CalibrationSettings readCalibrationSettings(const ros::NodeHandle& private_handle) {
+  const Parameters parameters(private_handle);
+  CalibrationSettings s;
+  s.calibration = resolveResource(parameters.text("calibration", ""));
+  s.calibrator.class_hysteresis =
+      parameters.number("class_hysteresis", s.calibrator.class_hysteresis, {0, 1000, "1/m"});
+  s.calibrator.curvature_step =
+      parameters.number("curvature_step", s.calibrator.curvature_step, {0, 1000, "1/m"});
+  s.calibrator.curvature_timeout =
+      parameters.number("curvature_timeout", s.calibrator.curvature_timeout, {0, kNoBound, "s"});
+  s.calibrator.fill_bad_taxels = parameters.flag("fill_bad_taxels", s.calibrator.fill_bad_taxels);
+  s.contact_threshold = parameters.number("contact_threshold", s.contact_threshold, {0, 1e6, "Pa"});
+  s.tare.limit = parameters.number("tare_limit", s.tare.limit, {0, 1e6, "Pa"});
+  s.tare.scatter = parameters.number("tare_scatter", s.tare.scatter, {0, 1e6, "Pa"});
+  s.tare.window = parameters.number("tare_window", s.tare.window, {0.1, 60, "s"});
+  s.tare_file = resolveResource(parameters.text("tare_file", defaultTareFile(private_handle.getNamespace())));
+  s.queue_size =
+      static_cast<std::uint32_t>(parameters.integer("queue_size", s.queue_size, {1, 100000, "messages"}));
+  return s;
+}
+
+}  // namespace fsr_ros

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <cstdint>
+#include <string>
+
+#include "calibration/tare.h"
+#include "fsr_pressure_map/calibration/calibrator.h"
+#include "ros/live/parameters.h"
+
+namespace fsr_ros {
+
+/// Every parameter of the calibration node with its default.
+struct CalibrationSettings {
+  std::string calibration;  ///< resolved path; empty = wait for ~load_calibration
+  fsr::calibration::CalibratorOptions
+      calibrator;  ///< ~class_hysteresis, ~curvature_step, ~curvature_timeout, ~fill_bad_taxels
+  fsr::calibration::TareOptions tare;  ///< ~tare_limit, ~tare_scatter, ~tare_window
+  std::string tare_file;               ///< resolved path; empty = in ${ROS_HOME}, named after the node
+  double contact_threshold = 10e3;     ///< from here on diagnostics count a taxel as in contact [Pa]
+  std::uint32_t queue_size = 10000;    ///< of scans in and maps out [messages]: ten seconds at 1 kHz
+};
+
+/// Reads and checks the private parameters. Throws fsr::InputError.
+CalibrationSettings readCalibrationSettings(const ros::NodeHandle& private_handle);
+
+}  // namespace fsr_ros

@@ -1,0 +1,225 @@
+#include "ros/live/driver.h"
+
+#include <ros/console.h>
+
+#include <utility>
+
+#include "protocol/serial_port.h"
+#include "ros/live/driver_parameters.h"
+
+namespace fsr_ros {
+namespace {
+
+constexpr std::uint32_t kQueue = 10000;  // messages for a subscriber that is behind: ten seconds at 1 kHz
+constexpr int kLooksPerSecond = 10;
+constexpr std::size_t kMostHeld = 4096;  // scans that wait for their board's name
+
+std::int64_t rosTime() {
+  return static_cast<std::int64_t>(ros::Time::now().toNSec());
+}
+
+// Simulated time may run many times faster than the computer, so that a hiccup of its scheduler is seconds
+// long.
+fsr::protocol::DeviceClockOptions clockOptions() {
+  fsr::protocol::DeviceClockOptions options;
+  if (!ros::Time::isSimTime()) return options;
+  options.host_ticks = true;
+  options.early_limit = 5;
+  options.late_limit = 10;
+  options.late_patience = 60;
+  return options;
+}
+
+// The baud of a line that takes time in ROS's time: none in a simulated one.
+std::uint32_t baudInRosTime(std::uint32_t baud) {
+  return ros::Time::isSimTime() ? 0 : baud;
+}
+
+fsr::protocol::BoardReader::Open opener(const DriverSettings& settings) {
+  if (settings.replay_file.empty()) {
+    return [port = settings.serial_port, baud = settings.serial_baud] {
+      return std::make_unique<fsr::protocol::SerialPort>(port, baud, rosTime);
+    };
+  }
+  const fsr::protocol::CaptureReader refuses_what_is_no_capture(settings.replay_file);
+  return [file = settings.replay_file] {
+    return std::make_unique<fsr::protocol::PacedSource>(std::make_unique<fsr::protocol::CaptureReader>(file),
+                                                        rosTime);
+  };
+}
+
+DriverSettings readSettings(const ros::NodeHandle& private_handle) {
+  const Parameters parameters(private_handle);
+  const DriverSettings settings = readDriverSettings(parameters);
+  for (const std::string& name : parameters.unknown()) {
+    ROS_WARN_STREAM("parameter " << name << " is set, but the driver has none of that name: it does nothing");
+  }
+  return settings;
+}
+
+bool operator!=(const Board& a, const Board& b) {
+  return a.serial != b.serial || a.firmware != b.firmware || a.size != b.size || a.full_scale != b.full_scale;
+}
+
+}  // namespace
+
+Driver::Driver(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : handle_(handle),
+      private_handle_(private_handle),
+      settings_(readSettings(private_handle)),
+      stamper_(clockOptions()),
+      diagnostics_(handle, private_handle, private_handle.getNamespace()) {
+  raw_ = handle_.advertise<fsr_pressure_map::MatrixFrame>("raw", kQueue);
+  pressure_ = handle_.advertise<sensor_msgs::FluidPressure>("chamber_pressure", kQueue);
+  temperature_ = handle_.advertise<sensor_msgs::Temperature>("temperature", kQueue);
+  info_ = handle_.advertise<fsr_pressure_map::MatrixInfo>("matrix_info", 10, true);
+  service_ = private_handle_.advertiseService("set_enabled", &Driver::setEnabled, this);
+  diagnostics_.add("link", [this](auto& status) { judgeLink(before_, now_, settings_, status); });
+  diagnostics_.add("scans", [this](auto& status) { judgeScans(before_, now_, settings_, status); });
+  const fsr::protocol::BoardReader::Options options = {settings_.reconnect_delay, settings_.capture_file};
+  fsr::protocol::LinkHandler& handler = *this;
+  reader_ = std::make_unique<fsr::protocol::BoardReader>(opener(settings_), handler, options);
+  timer_ = handle_.createWallTimer(ros::WallDuration(1.0 / kLooksPerSecond),
+                                   [this](const ros::WallTimerEvent&) { look(); });
+}
+
+void Driver::onScan(const fsr::protocol::PacketHeader& header, const fsr::protocol::ScanPacket& scan) {
+  const fsr::protocol::PacketTime time = stamper_.scan(header, scan.duration);
+  if (std::exchange(jumps_, stamper_.clock().jumps()) != stamper_.clock().jumps()) doubtBoard();
+  const bool expected = isExpected(scan.size);
+  const auto message = scanMessage(header, scan, time, settings_);
+  if (expected && !message->header.stamp.isZero()) publishScan(message);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  health_.board.size = scan.size;
+  health_.board.full_scale = scan.full_scale;
+  ++(expected ? health_.scans : health_.refused_scans);
+  health_.scan_time = time.device_time;
+  health_.clock_drift = stamper_.clock().drift();
+  health_.clock_jumps = stamper_.clock().jumps();
+}
+
+// At once, or when the board that sent it has named itself.
+void Driver::publishScan(const fsr_pressure_map::MatrixFramePtr& message) {
+  const bool hold = gate_.scan(arrival_) == fsr::protocol::BoardGate::Verdict::kHold;
+  if (gate_.gaveUp()) note({});
+  if (!hold) releaseHeld();
+  if (!hold) {
+    raw_.publish(message);
+  } else if (held_.size() < kMostHeld) {
+    held_.push_back(message);
+  }
+}
+
+void Driver::releaseHeld() {
+  for (const auto& message : held_) raw_.publish(message);
+  held_.clear();
+}
+
+void Driver::doubtBoard() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    health_.unclaimed_scans += held_.size();
+  }
+  held_.clear();
+  gate_.doubt();
+}
+
+void Driver::onTransducer(const fsr::protocol::PacketHeader& header, std::int32_t counts) {
+  const auto message = pressureMessage(counts, stamper_.transducer(header), settings_);
+  if (!message->header.stamp.isZero()) pressure_.publish(message);
+}
+
+void Driver::onTemperature(const fsr::protocol::PacketHeader& header, std::int32_t millidegrees) {
+  const auto message = temperatureMessage(millidegrees, stamper_.temperature(header), settings_);
+  if (!message->header.stamp.isZero()) temperature_.publish(message);
+}
+
+void Driver::onIdentity(const fsr::protocol::PacketHeader& /*header*/,
+                        const fsr::protocol::IdentityPacket& identity) {
+  note(toBoard(identity));
+  if (gate_.identity(identity.serial, arrival_) == fsr::protocol::BoardGate::Board::kSame) releaseHeld();
+}
+
+void Driver::onOpen(std::uint32_t baud) {
+  stamper_.startLine(baudInRosTime(baud));
+  doubtBoard();
+}
+
+void Driver::onBytes(std::int64_t receive_time) {
+  arrival_ = receive_time;
+  stamper_.setArrival(receive_time);
+}
+
+void Driver::onChange(const fsr::protocol::LinkReport& report) {
+  const std::string sentence = linkSentence(report, settings_);
+  if (report.phase == fsr::protocol::LinkPhase::kWaiting ||
+      report.phase == fsr::protocol::LinkPhase::kNoTime) {
+    ROS_WARN_STREAM(private_handle_.getNamespace() << ": " << sentence);
+  } else {
+    ROS_INFO_STREAM(private_handle_.getNamespace() << ": " << sentence);
+  }
+}
+
+bool Driver::isExpected(fsr::matrix::MatrixSize size) const {
+  const fsr::matrix::MatrixSize expected = settings_.expected;
+  return (expected.rows == 0 || expected.rows == size.rows) &&
+         (expected.columns == 0 || expected.columns == size.columns);
+}
+
+void Driver::note(const Board& board) {
+  bool news = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    news = health_.board != board;
+    health_.board = board;
+  }
+  if (!news) return;
+  ROS_INFO_STREAM(private_handle_.getNamespace()
+                  << ": board " << board.serial << ", firmware " << board.firmware << ", " << board.size.rows
+                  << " x " << board.size.columns << " taxels");
+  publishInfo();
+}
+
+void Driver::publishInfo() {
+  fsr_pressure_map::MatrixInfo info = matrixInfo(board(), settings_);
+  if (info.rows == 0) return;
+  info.header.stamp = ros::Time::now();
+  info_.publish(info);
+}
+
+bool Driver::setEnabled(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+  reader_->setEnabled(request.data);
+  response.success = true;
+  response.message = (request.data ? "opening " : "closing ") + sourceName(settings_);
+  return true;
+}
+
+// Diagnostics come each second, and at once where the link changed.
+void Driver::look() {
+  const DriverHealth now = health();
+  const bool second_passed = ++looks_ % kLooksPerSecond == 0;
+  const bool changed = now.link.phase != now_.link.phase || now.link.reason != now_.link.reason;
+  if (second_passed) {
+    publishInfo();
+    before_ = std::exchange(last_second_, now);
+  }
+  if (!second_passed && !changed) return;
+  now_ = now;
+  diagnostics_.setHardwareID(now_.board.serial.empty() ? sourceName(settings_) : now_.board.serial);
+  diagnostics_.force_update();
+}
+
+Board Driver::board() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return health_.board;
+}
+
+DriverHealth Driver::health() const {
+  const fsr::protocol::LinkReport link = reader_->report();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  DriverHealth health = health_;
+  health.link = link;
+  return health;
+}
+
+}  // namespace fsr_ros

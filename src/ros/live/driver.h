@@ -1,0 +1,85 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+#include <std_srvs/SetBool.h>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "protocol/board_gate.h"
+#include "protocol/board_reader.h"
+#include "protocol/packet_stamper.h"
+#include "ros/live/driver_health.h"
+#include "ros/messages/driver_messages.h"
+#include "ros/messages/driver_settings.h"
+
+namespace fsr_ros {
+
+/// Reads a board and publishes `raw`, `chamber_pressure`, `temperature`, `matrix_info` (latched and repeated
+/// each second) and diagnostics; service `~set_enabled` closes and opens the port. Parameters:
+/// DriverSettings.
+///
+/// Packets are published from the link's own thread as they come, as shared pointers, so that nodelets of
+/// one manager get them without a copy. Everything else runs in the node's callback queue.
+///
+/// Under simulated time a host time is what /clock said last: stamps are then rig time, as evenly spaced as
+/// the board made them and early by about half a tick of /clock (see fsr::DeviceClock).
+class Driver : private fsr::protocol::LinkHandler {
+ public:
+  /// Throws fsr::InputError for parameters and files that cannot be used. A port that is missing is waited
+  /// for.
+  Driver(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+
+ private:
+  void onScan(const fsr::protocol::PacketHeader& header, const fsr::protocol::ScanPacket& scan) override;
+  void onTransducer(const fsr::protocol::PacketHeader& header, std::int32_t counts) override;
+  void onTemperature(const fsr::protocol::PacketHeader& header, std::int32_t millidegrees) override;
+  void onIdentity(const fsr::protocol::PacketHeader& header,
+                  const fsr::protocol::IdentityPacket& identity) override;
+  void onOpen(std::uint32_t baud) override;
+  void onBytes(std::int64_t receive_time) override;
+  void onChange(const fsr::protocol::LinkReport& report) override;
+
+  bool isExpected(fsr::matrix::MatrixSize size) const;
+  void publishScan(const fsr_pressure_map::MatrixFramePtr& message);
+  void releaseHeld();
+  void doubtBoard();
+  void note(const Board& board);
+  void publishInfo();
+  bool setEnabled(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  void look();
+  Board board() const;
+  DriverHealth health() const;
+
+  ros::NodeHandle handle_;
+  ros::NodeHandle private_handle_;
+  DriverSettings settings_;
+  ros::Publisher raw_;
+  ros::Publisher pressure_;
+  ros::Publisher temperature_;
+  ros::Publisher info_;
+  // Of the link's thread:
+  fsr::protocol::PacketStamper stamper_;
+  fsr::protocol::BoardGate gate_;
+  std::vector<fsr_pressure_map::MatrixFramePtr> held_;  // scans of a board in doubt
+  std::uint64_t jumps_ = 0;                             // of the board's clock, so far
+  std::int64_t arrival_ = 0;                            // of the bytes at hand [ns]
+
+  mutable std::mutex mutex_;  // over health_, which both threads use
+  DriverHealth health_;
+
+  diagnostic_updater::Updater diagnostics_;
+  // What diagnostics judge: now_ against before_, one to two seconds apart.
+  DriverHealth before_;
+  DriverHealth last_second_;
+  DriverHealth now_;
+  int looks_ = 0;
+  ros::ServiceServer service_;
+  ros::WallTimer timer_;
+  std::unique_ptr<fsr::protocol::BoardReader> reader_;  // last: its thread uses everything above
+};
+
+}  // namespace fsr_ros

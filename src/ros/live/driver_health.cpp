@@ -1,0 +1,148 @@
+#include "ros/live/driver_health.h"
+
+#include <cmath>
+#include <iomanip>
+#include <optional>
+#include <sstream>
+
+namespace fsr_ros {
+namespace {
+
+using Status = diagnostic_updater::DiagnosticStatusWrapper;
+using Level = diagnostic_msgs::DiagnosticStatus;
+using fsr::protocol::LinkPhase;
+
+std::string rounded(double value) {
+  std::ostringstream text;
+  text << std::setprecision(3) << value;
+  return text.str();
+}
+
+std::uint64_t packets(const fsr::protocol::DecoderCounts& counts) {
+  std::uint64_t sum = 0;
+  for (const fsr::protocol::SequenceCounts& sequence : counts.sequences) sum += sequence.packets;
+  return sum;
+}
+
+bool onlyNoise(const DriverHealth& before, const DriverHealth& now) {
+  return now.link.counts.bytes > before.link.counts.bytes &&
+         packets(now.link.counts) == packets(before.link.counts) &&
+         now.link.counts.skipped_bytes > before.link.counts.skipped_bytes;
+}
+
+std::string noiseSentence(const DriverSettings& settings) {
+  return "bytes come from " + sourceName(settings) + ", but none of them makes a packet: is serial_baud " +
+         std::to_string(settings.serial_baud) + " the board's rate, and is it this board's port?";
+}
+
+std::string silenceSentence(double silence, const DriverSettings& settings) {
+  return "no byte from " + sourceName(settings) + " for " + rounded(silence) +
+         " s: is the board powered and does its firmware run?";
+}
+
+double expectedRate(const Board& board, const DriverSettings& settings) {
+  if (settings.expected_frequency > 0) return settings.expected_frequency;
+  return board.scan_period > 0 ? 1 / board.scan_period : 0;
+}
+
+// Scans a second of the board's own time [1/s]; none where the two moments do not tell.
+std::optional<double> scanRate(const DriverHealth& before, const DriverHealth& now) {
+  if (before.scans == 0 || now.scan_time <= before.scan_time) return std::nullopt;
+  return static_cast<double>(now.scans - before.scans) /
+         (static_cast<double>(now.scan_time - before.scan_time) * 1e-6);
+}
+
+void summarizeRate(std::optional<double> rate, double expected, double tolerance, Status& status) {
+  const std::string text = rate ? rounded(*rate) + " scans a second" : "first scans of the board";
+  if (rate && expected > 0 && std::abs(*rate - expected) > tolerance * expected) {
+    status.summary(Level::WARN, text + " where " + rounded(expected) + " are expected");
+  } else {
+    status.summary(Level::OK, text);
+  }
+}
+
+void addCounts(const DriverHealth& now, Status& status) {
+  const fsr::protocol::DecoderCounts& counts = now.link.counts;
+  const fsr::protocol::SequenceCounts& scans = counts.of(FSR_WIRE_SCAN);
+  status.add("scans published", now.scans);
+  status.add("scans lost", scans.lost);
+  status.add("gaps in the scan counter", scans.gaps);
+  status.add("duplicate scans", scans.duplicates);
+  status.add("restarts of the board", scans.restarts);
+  status.add("scans of another size", now.refused_scans);
+  status.add("dropped: board never named itself", now.unclaimed_scans);
+  status.add("dropped: packet check", counts.bad_packet_check);
+  status.add("dropped: header check", counts.bad_header_check);
+  status.add("dropped: length", counts.bad_length);
+  status.add("dropped: unknown version", counts.unknown_version);
+  status.add("dropped: unknown type", counts.unknown_type);
+  status.add("dropped: impossible content", counts.bad_content);
+  status.add("skipped bytes", counts.skipped_bytes);
+}
+
+}  // namespace
+
+std::string sourceName(const DriverSettings& settings) {
+  return settings.replay_file.empty() ? settings.serial_port : "replay of " + settings.replay_file;
+}
+
+std::string linkSentence(const fsr::protocol::LinkReport& report, const DriverSettings& settings) {
+  const std::string source = sourceName(settings);
+  switch (report.phase) {
+    case LinkPhase::kDisabled:
+      return "disabled: " + source + " is closed until ~set_enabled is called with true";
+    case LinkPhase::kWaiting:
+      return "waiting for the board: " + (report.reason.empty() ? "opening " + source : report.reason);
+    case LinkPhase::kReading:
+      return "reading " + source;
+    case LinkPhase::kNoTime:
+      return "waiting for /clock: use_sim_time is true and no time has come";
+    case LinkPhase::kEnded:
+      return source + " is over" + (report.reason.empty() ? "" : ": " + report.reason);
+  }
+  return "";
+}
+
+void judgeLink(const DriverHealth& before, const DriverHealth& now, const DriverSettings& settings,
+               Status& status) {
+  const fsr::protocol::LinkReport& link = now.link;
+  if (link.phase == LinkPhase::kReading && link.silence > settings.read_timeout) {
+    status.summary(Level::ERROR, silenceSentence(link.silence, settings));
+  } else if (link.phase == LinkPhase::kReading && onlyNoise(before, now)) {
+    status.summary(Level::ERROR, noiseSentence(settings));
+  } else {
+    const bool good = link.phase == LinkPhase::kReading || link.phase == LinkPhase::kEnded;
+    const auto bad = link.phase == LinkPhase::kDisabled ? Level::WARN : Level::ERROR;
+    status.summary(good ? Level::OK : bad, linkSentence(link, settings));
+  }
+  if (!link.capture_complaint.empty()) status.mergeSummary(Level::ERROR, link.capture_complaint);
+  status.add("serial number", now.board.serial);
+  status.add("firmware", now.board.firmware);
+  status.add("board", now.board.model);
+  status.add("connections", link.connections);
+  status.add("bytes", link.counts.bytes);
+  status.add("captured bytes", link.captured_bytes);
+  status.add("clock drift [ppm]", now.clock_drift * 1e6);
+  status.add("clock jumps", now.clock_jumps);
+}
+
+void judgeScans(const DriverHealth& before, const DriverHealth& now, const DriverSettings& settings,
+                Status& status) {
+  const std::optional<double> rate = scanRate(before, now);
+  const double expected = expectedRate(now.board, settings);
+  if (now.refused_scans > before.refused_scans) {
+    status.summary(Level::ERROR, "the board sends " + sizeText(now.board.size) +
+                                     " taxels, but rows and columns say " + sizeText(settings.expected) +
+                                     ": no scan is published");
+  } else if (now.scans > before.scans) {
+    summarizeRate(rate, expected, settings.frequency_tolerance, status);
+  } else {
+    const bool meant = now.link.phase == LinkPhase::kEnded || now.link.phase == LinkPhase::kDisabled;
+    status.summary(meant ? Level::OK : Level::ERROR, "no scans: " + linkSentence(now.link, settings));
+  }
+  status.add("rate [1/s]", rate.value_or(0));
+  status.add("expected rate [1/s]", expected);
+  addCounts(now, status);
+}
+
+}  // namespace fsr_ros

@@ -1,0 +1,28 @@
+#include <nodelet/nodelet.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <memory>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "ros/live/driver.h"
+
+namespace fsr_ros {
+
+/// The driver inside a nodelet manager.
+class DriverNodelet : public nodelet::Nodelet {
+ private:
+  void onInit() override {
+    try {
+      driver_ = std::make_unique<Driver>(getNodeHandle(), getPrivateNodeHandle());
+    } catch (const fsr::settings::InputError& error) {
+      NODELET_FATAL_STREAM(error.what());
+      throw;  // the manager then reports that the nodelet did not load
+    }
+  }
+
+  std::unique_ptr<Driver> driver_;
+};
+
+}  // namespace fsr_ros
+
+PLUGINLIB_EXPORT_CLASS(fsr_ros::DriverNodelet, nodelet::Nodelet)

@@ -1,0 +1,97 @@
+#include "ros/live/limb_server.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "ros/live/parameters.h"
+#include "ros/messages/statistics_message.h"
+
+namespace fsr_ros {
+
+namespace {
+
+using fsr_pressure_map::PressureStatisticsArray;
+using fsr_pressure_map::PressureStatisticsArrayConstPtr;
+
+constexpr std::uint32_t kQueueSize = 100;  // [messages]
+
+std::vector<std::string> words(std::string text) {
+  std::replace(text.begin(), text.end(), ',', ' ');
+  std::istringstream in(text);
+  std::vector<std::string> result;
+  for (std::string word; in >> word;) result.push_back(word);
+  return result;
+}
+
+// Region names of all sheets, each once, in the order of their first appearance.
+std::vector<std::string> regionNames(const std::vector<PressureStatisticsArrayConstPtr>& arrays) {
+  std::vector<std::string> names;
+  for (const auto& array : arrays) {
+    for (const auto& region : array->regions) {
+      if (std::find(names.begin(), names.end(), region.region) == names.end()) names.push_back(region.region);
+    }
+  }
+  return names;
+}
+
+fsr::map::RegionStatistics sumOf(const std::string& name,
+                                 const std::vector<PressureStatisticsArrayConstPtr>& arrays) {
+  std::vector<fsr::map::RegionStatistics> parts;
+  for (const auto& array : arrays) {
+    for (const auto& region : array->regions) {
+      if (region.region == name) parts.push_back(toStatistics(region));
+    }
+  }
+  return fsr::map::sumOfSheets(name, parts);
+}
+
+}  // namespace
+
+LimbServer::LimbServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : handle_(handle) {
+  const Parameters parameters(private_handle);
+  stale_after_ = parameters.number("stale_after", 1.0, {0.05, 3600, "s"});
+  const std::vector<std::string> topics = words(parameters.text("sheets", "statistics"));
+  if (topics.empty()) throw parameters.error("sheets", "must name at least one topic of statistics");
+  sum_ = handle_.advertise<PressureStatisticsArray>("limb_statistics", kQueueSize);
+  sheets_.resize(topics.size());
+  for (std::size_t i = 0; i < topics.size(); ++i) {
+    const auto keep = [this, i](const PressureStatisticsArrayConstPtr& message) {
+      sheets_[i].last = message;
+      sheets_[i].received = ros::WallTime::now();
+      publish();
+    };
+    sheets_[i].subscriber = handle_.subscribe<PressureStatisticsArray>(topics[i], kQueueSize, keep);
+  }
+  const auto look = [this](const ros::WallTimerEvent&) {
+    if (std::none_of(sheets_.begin(), sheets_.end(), [this](const Sheet& sheet) { return speaks(sheet); })) {
+      publish();
+    }
+  };
+  silence_ = handle_.createWallTimer(ros::WallDuration(0.5 * stale_after_), look);
+}
+
+bool LimbServer::speaks(const Sheet& sheet) const {
+  return sheet.last && (ros::WallTime::now() - sheet.received).toSec() <= stale_after_;
+}
+
+void LimbServer::publish() {
+  std::vector<PressureStatisticsArrayConstPtr> heard;
+  PressureStatisticsArray array;
+  for (const Sheet& sheet : sheets_) {
+    if (!speaks(sheet)) continue;
+    heard.push_back(sheet.last);
+    array.header.stamp = std::max(array.header.stamp, sheet.last->header.stamp);
+  }
+  std::vector<std::string> names = regionNames(heard);
+  if (names.empty()) names = {""};
+  for (const std::string& name : names) {
+    fsr::map::RegionStatistics sum = sumOf(name, heard);
+    const bool silent_sheet = heard.size() < sheets_.size();
+    if (silent_sheet && sum.alarm == fsr::map::AlarmState::kOk) sum.alarm = fsr::map::AlarmState::kUnknown;
+    array.regions.push_back(toMessage(sum, {}));
+  }
+  sum_.publish(array);
+}
+
+}  // namespace fsr_ros

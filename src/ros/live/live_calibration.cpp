@@ -1,0 +1,197 @@
+#include "ros/live/live_calibration.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "ros/messages/pressure_map_message.h"
+#include "ros/messages/surface_message.h"
+
+namespace fsr_ros {
+
+namespace {
+
+constexpr double kComplaintPeriod = 10.0;  // [s]
+
+using Lock = std::lock_guard<std::mutex>;
+
+// The pitch that the board states, else the usual one.
+fsr::matrix::Layout layoutOf(fsr::matrix::MatrixSize size, const fsr_pressure_map::MatrixInfo& board) {
+  fsr::matrix::Layout layout{size};
+  if (board.pitch_x > 0) layout.pitch_x = board.pitch_x;
+  if (board.pitch_y > 0) layout.pitch_y = board.pitch_y;
+  return layout;
+}
+
+}  // namespace
+
+LiveCalibration::LiveCalibration(const CalibrationSettings& settings)
+    : settings_(settings), wanted_path_(settings.calibration), tare_(settings.tare_file) {
+  complaint_ = wanted_path_.empty() ? "~calibration is empty: call ~load_calibration with the path of a file"
+                                    : "loading " + wanted_path_;
+}
+
+void LiveCalibration::calibrate(const fsr_pressure_map::MatrixFrame& scan,
+                                fsr_pressure_map::PressureMap& map) {
+  const fsr::matrix::ScanView view = toScanView(scan);
+  const double time = scan.header.stamp.toSec();
+  const Lock lock(mutex_);
+  if (loaded_) {
+    loaded_->calibrator.calibrate(view, time, map_);
+    map.calibration = loaded_->info.id;
+    map.scheme = loaded_->info.scheme;
+  } else {
+    map_.reset(layoutOf(fsr::matrix::honestSize(view), board_));
+    map_.state = fsr::map::MapState::kUncalibrated;
+  }
+  ++scans_;
+  if (measurement_) {
+    measured_ |= measurement_->add(map_, time);
+    progress_.notify_all();
+  }
+  map.header = scan.header;
+  fillMessage(map_, map);
+}
+
+void LiveCalibration::setSurface(const fsr_pressure_map::SurfaceCurvature& message) {
+  const Lock lock(mutex_);
+  surface_received_ = true;
+  // By hand (rostopic pub) messages come without a stamp: they are of now.
+  surface_time_ = (message.header.stamp.isZero() ? ros::Time::now() : message.header.stamp).toSec();
+  surface_complaint_.clear();
+  try {
+    surface_ = toSurface(message);
+  } catch (const fsr::settings::InputError& error) {
+    surface_ = {};
+    surface_complaint_ = error.what();
+  }
+  applySurface();
+  applyTare();
+}
+
+void LiveCalibration::setBoard(const fsr_pressure_map::MatrixInfo& message) {
+  const Lock lock(mutex_);
+  board_ = message;
+  applyBoard();
+  applyMask();
+}
+
+std::string LiveCalibration::load(const std::string& path) {
+  std::unique_ptr<LoadedCalibration> next;
+  try {
+    next = loadForUse(path, settings_.calibrator);  // the long part, while scans go on
+  } catch (const fsr::settings::InputError& error) {
+    const Lock lock(mutex_);
+    if (!loaded_) complaint_ = error.what();
+    throw;
+  }
+  const std::string what = describe(*next);
+  {
+    const Lock lock(mutex_);
+    loaded_.swap(next);  // the old one is freed after the lock
+    wanted_path_ = path;
+    complaint_.clear();
+    if (surface_received_) applySurface();
+    applyBoard();
+    applyMask();
+    applyTare();
+  }
+  return "loaded " + path + ": " + what;
+}
+
+std::string LiveCalibration::reload() {
+  std::string path;
+  {
+    const Lock lock(mutex_);
+    path = wanted_path_;
+  }
+  if (path.empty()) {
+    throw fsr::settings::InputError(
+        "no calibration was ever named; call ~load_calibration with the path of a file");
+  }
+  return load(path);
+}
+
+void LiveCalibration::applySurface() {
+  if (!loaded_) return;
+  try {
+    loaded_->calibrator.setSurface(surface_, surface_time_);
+  } catch (const fsr::settings::InputError& error) {
+    surface_complaint_ = error.what();
+    surface_ = {};
+    loaded_->calibrator.setSurface(surface_, surface_time_);
+  }
+  if (!surface_complaint_.empty()) ROS_WARN_STREAM_THROTTLE(kComplaintPeriod, surface_complaint_);
+}
+
+void LiveCalibration::applyBoard() {
+  if (!loaded_) return;
+  const std::string& trained = loaded_->info.sensor_serial;
+  loaded_->calibrator.setWrongSensor(!trained.empty() && !board_.serial.empty() && trained != board_.serial);
+}
+
+// Masked is what the board or the user masks; a mask of another size cannot be meant for this calibration.
+void LiveCalibration::applyMask() {
+  if (!loaded_) return;
+  std::vector<std::uint8_t> mask(loaded_->calibrator.layout().size.taxels(), 0);
+  for (const auto* source : {&board_.mask, &mask_}) {
+    if (source->size() != mask.size()) {
+      if (!source->empty()) {
+        ROS_WARN_STREAM_THROTTLE(kComplaintPeriod, "a mask of " << source->size() << " taxels is left aside: "
+                                                                << "the calibration has " << mask.size());
+      }
+      continue;
+    }
+    for (std::size_t taxel = 0; taxel < mask.size(); ++taxel) mask[taxel] |= (*source)[taxel];
+  }
+  loaded_->calibrator.setMask(mask);
+}
+
+void LiveCalibration::applyTare() {
+  if (!loaded_) return;
+  const std::vector<float> offset = tare_.review(id(), surface_received_ ? &surface_ : nullptr);
+  loaded_->calibrator.setTare(offset);
+}
+
+std::string LiveCalibration::setMask(const std::vector<std::uint8_t>& mask) {
+  const Lock lock(mutex_);
+  if (loaded_ && !mask.empty() && mask.size() != loaded_->calibrator.layout().size.taxels()) {
+    throw fsr::settings::InputError(
+        "the mask has " + std::to_string(mask.size()) + " values, but must have none, or " +
+        std::to_string(loaded_->calibrator.layout().size.taxels()) + ", row after row");
+  }
+  mask_ = mask;
+  applyMask();
+  const auto masked = std::count_if(mask.begin(), mask.end(), [](std::uint8_t m) { return m != 0; });
+  return std::to_string(masked) + " taxels are masked until the node ends";
+}
+
+std::string LiveCalibration::wanted() const {
+  const Lock lock(mutex_);
+  return loaded_ ? std::string() : wanted_path_;
+}
+
+fsr_pressure_map::CalibrationInfo LiveCalibration::info() const {
+  const Lock lock(mutex_);
+  return loaded_ ? loaded_->info : fsr_pressure_map::CalibrationInfo();
+}
+
+CalibrationHealth LiveCalibration::health() const {
+  const Lock lock(mutex_);
+  CalibrationHealth health;
+  health.complaint = complaint_;
+  health.surface_complaint = surface_complaint_;
+  if (loaded_) {
+    health.info = loaded_->info;
+    health.revivals = loaded_->calibrator.watch().revivals();
+  }
+  health.surface = surface_;
+  health.board = board_.serial;
+  health.tare = tare_.tare();
+  health.scans = scans_;
+  health.map = map_;
+  return health;
+}
+
+}  // namespace fsr_ros

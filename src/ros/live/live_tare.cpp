@@ -1,0 +1,111 @@
+// The tare of LiveCalibration: a service waits while scans fill the window.
+
+#include <chrono>
+#include <ctime>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "ros/live/live_calibration.h"
+
+namespace fsr_ros {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Waiting for ever is no answer: stamps may stand still.
+constexpr std::chrono::seconds kLongestWait{60};
+
+fsr::settings::InputError changedMeanwhile() {
+  return fsr::settings::InputError("the tare is refused: the calibration or the surface changed meanwhile");
+}
+
+std::string nowUtc() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+}  // namespace
+
+std::string LiveCalibration::tare(double patience) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  startTare();
+  fsr::calibration::Tare tare;
+  try {
+    tare = measureTare(lock, patience);
+  } catch (...) {
+    measurement_.reset();
+    throw;
+  }
+  measurement_.reset();
+  lock.unlock();  // no scan waits for the disk
+  TareKeeper::write(tare, settings_.tare_file);
+  lock.lock();
+  tare_.adopt(tare);
+  applyTare();
+  if (!tare_.tare()) throw changedMeanwhile();
+  return "the sheet is tared on surface \"" + tare.surface + "\", mount " + std::to_string(tare.mount) +
+         "; kept in " + settings_.tare_file;
+}
+
+void LiveCalibration::startTare() {
+  if (!loaded_) {
+    throw fsr::settings::InputError("the tare is refused: no calibration is loaded (" + complaint_ + ")");
+  }
+  if (measurement_) throw fsr::settings::InputError("the tare is refused: one is being measured already");
+  measurement_.emplace(loaded_->calibrator.layout(), settings_.tare);
+  measured_ = false;
+  measured_for_ = {};
+  measured_for_.calibration = id();
+  measured_for_.surface = surface_.name;
+  measured_for_.mount = surface_.mount;
+  measured_for_.curvature = fsr::calibration::meanCurvature(surface_);
+  measured_for_.size = loaded_->calibrator.layout().size;
+}
+
+fsr::calibration::Tare LiveCalibration::measureTare(std::unique_lock<std::mutex>& lock, double patience) {
+  awaitWindow(lock, patience);
+  fsr::calibration::Tare tare = measured_for_;
+  tare.offset = measurement_->offset(tare_.review(id(), surface_received_ ? &surface_ : nullptr));
+  tare.date = nowUtc();
+  return tare;
+}
+
+void LiveCalibration::awaitWindow(std::unique_lock<std::mutex>& lock, double patience) {
+  const auto give_up = Clock::now() + kLongestWait;
+  while (!measured_) {
+    const std::uint64_t seen = scans_;
+    const bool came = progress_.wait_for(lock, std::chrono::duration<double>(patience),
+                                         [&] { return scans_ != seen || stopping_; });
+    if (stopping_) throw fsr::settings::InputError("the tare is refused: the node is ending");
+    if (!came)
+      throw fsr::settings::InputError(
+          "the tare is refused: no scan came for a while; is the driver running?");
+    if (map_.state == fsr::map::MapState::kSizeMismatch || map_.state == fsr::map::MapState::kWrongSensor) {
+      throw fsr::settings::InputError("the tare is refused: the board does not match the calibration");
+    }
+    if (!loaded_ || !fsr::calibration::holds(measured_for_, id(), surface_)) throw changedMeanwhile();
+    if (Clock::now() > give_up) {
+      throw fsr::settings::InputError(
+          "the tare is refused: its window did not fill; do the scans' stamps advance?");
+    }
+  }
+}
+
+std::string LiveCalibration::clearTare() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const bool was = tare_.clear();
+  applyTare();
+  return was ? "the tare is cleared and its file removed: " + tare_.path() : "there was no tare";
+}
+
+void LiveCalibration::stop() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  stopping_ = true;
+  progress_.notify_all();
+}
+
+}  // namespace fsr_ros

@@ -1,0 +1,89 @@
+#include "ros/live/parameters.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace fsr_ros {
+
+namespace {
+
+using Value = XmlRpc::XmlRpcValue;
+
+std::string textOf(const Value& value) {
+  if (value.getType() == Value::TypeString) return static_cast<std::string>(Value(value));
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+}  // namespace
+
+fsr::settings::InputError Parameters::error(const std::string& name, const std::string& complaint) const {
+  Value value;
+  const bool set = handle_.getParam(name, value);
+  return fsr::settings::InputError("parameter " + handle_.resolveName(name) +
+                                   (set ? " is " + textOf(value) : " is not set") + ", but " + complaint);
+}
+
+bool Parameters::isSet(const std::string& name) const {
+  asked_.insert(handle_.resolveName(name));
+  return handle_.hasParam(name);
+}
+
+std::vector<std::string> Parameters::unknown() const {
+  const std::string own = handle_.getNamespace() + "/";
+  std::vector<std::string> names;
+  std::vector<std::string> unknown;
+  handle_.getParamNames(names);
+  for (const std::string& name : names) {
+    const bool is_own = name.compare(0, own.size(), own) == 0;
+    if (is_own && asked_.count(name) == 0 && name != own + "diagnostic_period") unknown.push_back(name);
+  }
+  return unknown;
+}
+
+double Parameters::number(const std::string& name, double fallback, const fsr::settings::Range& range) const {
+  if (!isSet(name)) return fallback;
+  double value = 0;
+  if (!handle_.getParam(name, value) || !range.contains(value)) {
+    throw error(name, "must be a number, " + range.text());
+  }
+  return value;
+}
+
+std::int64_t Parameters::integer(const std::string& name, std::int64_t fallback,
+                                 const fsr::settings::Range& range) const {
+  if (!isSet(name)) return fallback;
+  int value = 0;
+  if (!handle_.getParam(name, value) || !range.contains(value)) {
+    throw error(name, "must be a whole number, " + range.text());
+  }
+  return value;
+}
+
+bool Parameters::flag(const std::string& name, bool fallback) const {
+  if (!isSet(name)) return fallback;
+  bool value = false;
+  if (!handle_.getParam(name, value)) throw error(name, "must be true or false");
+  return value;
+}
+
+std::string Parameters::text(const std::string& name, const std::string& fallback) const {
+  Value value;
+  if (!isSet(name) || !handle_.getParam(name, value)) return fallback;
+  if (value.getType() == Value::TypeArray || value.getType() == Value::TypeStruct) {
+    throw error(name, "must be a text");
+  }
+  return textOf(value);
+}
+
+std::string Parameters::choice(const std::string& name, const std::vector<std::string>& choices,
+                               const std::string& fallback) const {
+  const std::string value = text(name, fallback);
+  if (std::find(choices.begin(), choices.end(), value) != choices.end()) return value;
+  std::string list;
+  for (const auto& choice : choices) list += (list.empty() ? "" : ", ") + choice;
+  throw error(name, "must be one of " + list);
+}
+
+}  // namespace fsr_ros

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/settings/range.h"
+
+namespace fsr_ros {
+
+/// The private parameters of a node, read once at start and checked: a value of the wrong type or
+/// out of range raises fsr::InputError that names the parameter with its full path, its value and
+/// what would be right. Every parameter has a default.
+class Parameters {
+ public:
+  explicit Parameters(const ros::NodeHandle& private_handle) : handle_(private_handle) {}
+
+  double number(const std::string& name, double fallback, const fsr::settings::Range& range) const;
+  std::int64_t integer(const std::string& name, std::int64_t fallback,
+                       const fsr::settings::Range& range) const;
+  bool flag(const std::string& name, bool fallback) const;
+  /// Numbers are taken as their text, so that `_trial:=3` works.
+  std::string text(const std::string& name, const std::string& fallback) const;
+  std::string choice(const std::string& name, const std::vector<std::string>& choices,
+                     const std::string& fallback) const;
+
+  /// Full paths of parameters that are set under the node's name although nobody asked for them: call it
+  /// after the last read and warn, since a misspelt parameter otherwise does nothing in silence.
+  std::vector<std::string> unknown() const;
+
+  /// An InputError about a parameter: "parameter /fsr/driver/rows is 90, but " + `complaint`.
+  [[nodiscard]] fsr::settings::InputError error(const std::string& name, const std::string& complaint) const;
+
+ private:
+  bool isSet(const std::string& name) const;
+
+  ros::NodeHandle handle_;
+  mutable std::set<std::string> asked_;  // full paths
+};
+
+/// Runs a node's main part; an InputError becomes one fatal log line and exit status 2.
+template <typename Run>
+int runNode(Run run) {
+  const ros::NodeHandle keeps_the_log_open;  // the last handle that goes would close it before the sentence
+  try {
+    run();
+    return 0;
+  } catch (const fsr::settings::InputError& error) {
+    ROS_FATAL_STREAM(error.what());
+    return 2;
+  }
+}
+
+}  // namespace fsr_ros

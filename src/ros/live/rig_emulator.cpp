@@ -1,0 +1,182 @@
+#include "ros/live/rig_emulator.h"
+
+#include <ros/console.h>
+#include <ros/param.h>
+#include <rosgraph_msgs/Clock.h>
+#include <std_msgs/String.h>
+
+#include <sstream>
+
+#include "ros/bags/resource_path.h"
+#include "ros/live/service_answer.h"
+
+namespace fsr_ros {
+
+namespace {
+
+std::string describe(const fsr::simulation::ChamberProtocol& protocol) {
+  std::ostringstream text;
+  text << (protocol.cycles == 0 ? "endless" : std::to_string(protocol.cycles))
+       << (protocol.cycles == 1 ? " cycle to " : " cycles to ") << protocol.peak / 1000 << " kPa gauge, "
+       << fsr::simulation::cycleDuration(protocol) << " s each";
+  return text.str();
+}
+
+std::string describe(const fsr::emulator::LineDamage& damage) {
+  std::ostringstream text;
+  text << "lost bytes " << damage.lost_bytes << ", flipped bits " << damage.flipped_bits << ", lost packets "
+       << damage.lost_packets << ", doubled packets " << damage.doubled_packets << ", noise " << damage.noise
+       << ", pause " << damage.pause << " s";
+  if (damage.unplugged) text << ", unplugged";
+  if (damage.baud != 0) text << ", sends at " << damage.baud << " baud";
+  return text.str();
+}
+
+void warnOfOtherTime(double time_scale) {
+  bool simulated = false;
+  ros::param::get("/use_sim_time", simulated);
+  if (simulated != (time_scale != 1)) {
+    ROS_WARN("/use_sim_time is %s, but must be %s at a time scale of %g: set it before the nodes start",
+             simulated ? "true" : "false", simulated ? "false" : "true", time_scale);
+  }
+}
+
+}  // namespace
+
+RigEmulator::RigEmulator(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : parameters_(private_handle) {
+  ros::NodeHandle global(handle), own(private_handle);
+  fsr::emulator::EmulatorOptions options = readOptions();
+  warnOfOtherTime(options.time_scale);
+  origin_.fromSec(std::floor(ros::WallTime::now().toSec()));
+  status_ = own.advertise<std_msgs::String>("status", 10, true);
+  options.on_status = [this](const fsr::emulator::RigStatus& status) { publishStatus(status); };
+  if (options.time_scale != 1) {
+    clock_ = global.advertise<rosgraph_msgs::Clock>("/clock", 100);
+    options.on_clock = [this](double rig_time) { publishClock(rig_time); };
+  }
+  rig_ = std::make_unique<fsr::emulator::Emulator>(options);
+  services_ = {own.advertiseService("start", &RigEmulator::start, this),
+               own.advertiseService("stop", &RigEmulator::stop, this),
+               own.advertiseService("set_surface", &RigEmulator::setSurface, this),
+               own.advertiseService("set_damage", &RigEmulator::setDamage, this)};
+  ROS_INFO_STREAM("emulated board " << options.simulation.board.serial << " (" << options.simulation.origin
+                                    << ") on " << rig_->port() << ", on " << options.surface.name);
+}
+
+fsr::simulation::SimulationSettings RigEmulator::readSimulation() {
+  fsr::simulation::SimulationSettings simulation = fsr::simulation::readSimulationFile(resolveResource(
+      parameters_.text("simulation", "package://fsr_pressure_map/config/simulation/demo.yaml")));
+  const auto side = [this](const char* name, std::uint16_t fallback) {
+    return static_cast<std::uint16_t>(
+        parameters_.integer(name, fallback, {1, fsr::matrix::kMaxMatrixSide, ""}));
+  };
+  fsr::matrix::MatrixSize& size = simulation.layout.size;
+  size = {side("rows", size.rows), side("columns", size.columns)};
+  const auto seed = static_cast<std::int64_t>(simulation.seed);
+  simulation.seed = static_cast<std::uint64_t>(parameters_.integer("seed", seed, {0, 2147483647, ""}));
+  fsr::simulation::SimulatedBoard& board = simulation.board;
+  board.serial = parameters_.text("serial", board.serial);
+  board.scan_rate = parameters_.number("scan_rate", board.scan_rate, {0.01, 10000, "Hz"});
+  file_protocol_ = simulation.chamber;
+  simulation.chamber = readProtocol();
+  return simulation;
+}
+
+fsr::emulator::EmulatorOptions RigEmulator::readOptions() {
+  fsr::emulator::EmulatorOptions options;
+  options.simulation = readSimulation();
+  surfaces_ =
+      SurfaceFolder(parameters_.text("surfaces", SurfaceFolder::shipped()), options.simulation.layout.size);
+  options.surface = surfaces_.load(parameters_.text("surface", "flat"));
+  mount_ = static_cast<std::uint32_t>(parameters_.integer("mount", 1, {0, 1e9, ""}));
+  options.surface.mount = mount_;
+  options.link = resolveResource(parameters_.text("link", "${ROS_HOME}/fsr_rig_port"));
+  options.baud = static_cast<std::uint32_t>(parameters_.integer("baud", 0, {0, 4e6, "1/s"}));
+  options.time_scale = parameters_.number("time_scale", 1, {0.01, 1000, ""});
+  options.autostart = parameters_.flag("autostart", true);
+  options.clock.offset =
+      static_cast<std::uint32_t>(parameters_.integer("clock_offset", 0, {0, 2147483647, "us"}));
+  options.clock.drift = parameters_.number("clock_drift", 0, {-10000, 10000, "ppm"});
+  return options;
+}
+
+fsr::simulation::ChamberProtocol RigEmulator::readProtocol() const {
+  fsr::simulation::ChamberProtocol protocol = file_protocol_;
+  const fsr::settings::Range any;
+  protocol.peak = parameters_.number("chamber/peak", protocol.peak, any);
+  protocol.fill_rate = parameters_.number("chamber/fill_rate", protocol.fill_rate, any);
+  protocol.vent_rate = parameters_.number("chamber/vent_rate", protocol.vent_rate, any);
+  protocol.dwell_peak = parameters_.number("chamber/dwell_peak", protocol.dwell_peak, any);
+  protocol.dwell_rest = parameters_.number("chamber/dwell_rest", protocol.dwell_rest, any);
+  protocol.cycles =
+      static_cast<unsigned>(parameters_.integer("chamber/cycles", protocol.cycles, {0, 1e6, ""}));
+  validate(protocol, "parameters ~chamber/");
+  return protocol;
+}
+
+fsr::emulator::LineDamage RigEmulator::readDamage() const {
+  fsr::emulator::LineDamage damage;
+  damage.lost_bytes = parameters_.number("damage/lost_bytes", 0, {0, 1, ""});
+  damage.flipped_bits = parameters_.number("damage/flipped_bits", 0, {0, 1, ""});
+  damage.lost_packets = parameters_.number("damage/lost_packets", 0, {0, 1, ""});
+  damage.doubled_packets = parameters_.number("damage/doubled_packets", 0, {0, 1, ""});
+  damage.noise = parameters_.number("damage/noise", 0, {0, 100, ""});
+  damage.pause = parameters_.number("damage/pause", 0, {0, 86400, "s"});
+  damage.unplugged = parameters_.flag("damage/unplug", false);
+  damage.baud = static_cast<std::uint32_t>(parameters_.integer("damage/wrong_baud", 0, {0, 4e6, "1/s"}));
+  return damage;
+}
+
+void RigEmulator::publishClock(double rig_time) {
+  rosgraph_msgs::Clock message;
+  message.clock = origin_ + ros::Duration(rig_time);
+  clock_.publish(message);
+}
+
+void RigEmulator::publishStatus(const fsr::emulator::RigStatus& status) {
+  std_msgs::String message;
+  message.data = stateName(status.state) + " " + std::to_string(status.run);
+  status_.publish(message);
+}
+
+bool RigEmulator::start(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  return answer(response, [this] {
+    const fsr::simulation::ChamberProtocol protocol = readProtocol();
+    return "run " + std::to_string(rig_->startCycles(protocol)) + ": " + describe(protocol);
+  });
+}
+
+bool RigEmulator::stop(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  return answer(response, [this] {
+    rig_->stopCycles();
+    return std::string("the chamber vents to rest");
+  });
+}
+
+bool RigEmulator::setSurface(fsr_pressure_map::SetSurface::Request& request,
+                             fsr_pressure_map::SetSurface::Response& response) {
+  return answer(response, [&] {
+    fsr::matrix::Surface surface = surfaces_.load(request.surface);
+    surface.mount = request.mount != 0 ? request.mount : mount_ + 1;
+    rig_->setSurface(surface);
+    mount_ = surface.mount;
+    return "the emulated matrix lies on " + surface.name + " (mount " + std::to_string(mount_) + ")";
+  });
+}
+
+bool RigEmulator::setDamage(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+  return answer(response, [&] {
+    const fsr::emulator::LineDamage damage = request.data ? readDamage() : fsr::emulator::LineDamage{};
+    rig_->setDamage(damage);
+    if (!request.data) return std::string("the line is healthy");
+    const bool reset = parameters_.flag("damage/reset", false);
+    if (reset) rig_->resetBoard();
+    const double jump = parameters_.number("damage/clock_jump", 0, {-1000, 1000, "s"});
+    if (jump != 0) rig_->jumpClock(jump);
+    return "the line is damaged: " + describe(damage) + (reset ? "; the board was reset" : "") +
+           (jump != 0 ? "; its clock jumped" : "");
+  });
+}
+
+}  // namespace fsr_ros

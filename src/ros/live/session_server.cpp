@@ -1,0 +1,108 @@
+#include "ros/live/session_server.h"
+
+#include <fsr_pressure_map/Event.h>
+
+#include <algorithm>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "ros/live/parameters.h"
+
+namespace fsr_ros {
+
+namespace {
+
+constexpr double kPatience = 10.0;         // with a bag that stays the same [s]
+constexpr double kComplaintPeriod = 10.0;  // [s]
+
+const std::vector<std::string> kUses = {"chamber", "socket", "bench"};
+const std::vector<std::string> kMounts = {"fixture", "mould", "limb", "liner", "socket_wall"};
+const std::vector<std::string> kKinds = {"cycle_start", "conditioning", "don",  "doff",
+                                         "step",        "sync",         "note", "reject"};
+
+fsr_pressure_map::Session readSession(const Parameters& parameters) {
+  fsr_pressure_map::Session session;
+  session.session_id = parameters.text("session_id", "");
+  session.subject_code = parameters.text("subject_code", "");
+  session.sensor_id = parameters.text("sensor_id", "");
+  session.use = parameters.choice("use", kUses, "chamber");
+  session.mounted_on = parameters.choice("mounted_on", kMounts, "fixture");
+  session.trial = parameters.text("trial", "");
+  session.protocol = parameters.text("protocol", "");
+  session.operator_code = parameters.text("operator_code", "");
+  session.ethics_reference = parameters.text("ethics_reference", "");
+  session.person = parameters.flag("person", false);
+  static const std::regex code("[A-Z]{1,3}[0-9]{2,4}");
+  if (!session.subject_code.empty() && !std::regex_match(session.subject_code, code)) {
+    throw parameters.error("subject_code",
+                           "must be a code of one to three capitals and two to four digits, e.g. S012");
+  }
+  if (session.person && session.subject_code.empty()) {
+    throw parameters.error("subject_code", "must be given where person is true");
+  }
+  return session;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+}  // namespace
+
+SessionServer::SessionServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : handle_(handle), session_(readSession(Parameters(private_handle))) {
+  session_publisher_ = handle_.advertise<fsr_pressure_map::Session>("session", 10, true);
+  event_publisher_ = handle_.advertise<fsr_pressure_map::Event>("events", 100);
+  ros::NodeHandle services(private_handle);
+  service_ = services.advertiseService("mark", &SessionServer::mark, this);
+  timer_ = handle_.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { publish(); });
+  publish();
+  const Parameters parameters(private_handle);
+  const std::string bag = parameters.text("bag", "");
+  if (!bag.empty()) watchRecording(bag, parameters.number("min_space", 200, {0, 1e9, "MB"}));
+}
+
+void SessionServer::watchRecording(const std::string& bag, double least_space) {
+  recording_ = std::make_unique<RecordingWatch>(static_cast<std::uint64_t>(least_space * 1e6), kPatience);
+  diagnostics_ = std::make_unique<diagnostic_updater::Updater>();
+  diagnostics_->setHardwareID(bag);
+  diagnostics_->add("recording", [this, bag](auto& status) { judgeRecording(bag, status); });
+  recording_timer_ = handle_.createWallTimer(
+      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { diagnostics_->force_update(); });
+}
+
+void SessionServer::judgeRecording(const std::string& bag,
+                                   diagnostic_updater::DiagnosticStatusWrapper& status) {
+  recording_->judge(lookAtRecording(bag), ros::SteadyTime::now().toSec(), status);
+  if (status.level == diagnostic_msgs::DiagnosticStatus::ERROR) {
+    ROS_ERROR_STREAM_THROTTLE(kComplaintPeriod, status.message);
+  }
+}
+
+bool SessionServer::mark(fsr_pressure_map::Mark::Request& request,
+                         fsr_pressure_map::Mark::Response& response) {
+  response.success = std::find(kKinds.begin(), kKinds.end(), request.kind) != kKinds.end();
+  if (!response.success) {
+    response.message =
+        "kind is '" + request.kind + "', but must be one of " + joined(kKinds) + "; nothing was marked";
+    return true;
+  }
+  fsr_pressure_map::Event event;
+  event.header.stamp = ros::Time::now();
+  event.kind = request.kind;
+  event.label = request.label;
+  event_publisher_.publish(event);
+  response.message = "marked " + request.kind + " '" + request.label + "' at " +
+                     std::to_string(event.header.stamp.toSec()) + " s on " + event_publisher_.getTopic();
+  return true;
+}
+
+void SessionServer::publish() {
+  session_.header.stamp = ros::Time::now();
+  session_publisher_.publish(session_);
+}
+
+}  // namespace fsr_ros

@@ -1,0 +1,49 @@
+#include "ros/live/tare_keeper.h"
+
+#include <ros/console.h>
+
+#include <filesystem>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr_ros {
+
+namespace fs = std::filesystem;
+
+TareKeeper::TareKeeper(std::string path) : path_(std::move(path)) {
+  if (!fs::exists(path_)) return;
+  try {
+    tare_ = fsr::calibration::loadTare(path_);
+  } catch (const fsr::settings::InputError& error) {
+    ROS_ERROR_STREAM("no tare: " << error.what());
+  }
+}
+
+std::vector<float> TareKeeper::review(const std::string& id, const fsr::matrix::Surface* surface) {
+  if (!tare_ || id.empty()) return {};
+  // A tare that was taken without any curvature need not wait for one.
+  if (fsr::calibration::holds(*tare_, id, surface != nullptr ? *surface : fsr::matrix::Surface{}))
+    return tare_->offset;
+  if (surface == nullptr && tare_->calibration == id) return {};
+  ROS_WARN_STREAM("the tare of " << tare_->date << " is dropped: it was taken with calibration "
+                                 << tare_->calibration << " on surface \"" << tare_->surface << "\", mount "
+                                 << tare_->mount << ", and one of them is another now");
+  clear();
+  return {};
+}
+
+void TareKeeper::write(const fsr::calibration::Tare& tare, const std::string& path) {
+  std::error_code ignored;  // the write itself says what is wrong with the folder
+  fs::create_directories(fs::path(path).parent_path(), ignored);
+  fsr::calibration::saveTare(tare, path);
+}
+
+bool TareKeeper::clear() {
+  const bool was = tare_.has_value();
+  tare_.reset();
+  std::error_code ignored;
+  fs::remove(path_, ignored);
+  return was;
+}
+
+}  // namespace fsr_ros

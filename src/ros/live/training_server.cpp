@@ -1,0 +1,217 @@
+#include "ros/live/training_server.h"
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+
+#include <filesystem>
+#include <sstream>
+
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "regression/option_names.h"
+#include "report/calibration_report.h"
+#include "ros/bags/message_events.h"
+#include "ros/bags/resource_path.h"
+#include "ros/live/parameters.h"
+#include "settings/replace_file.h"
+
+namespace fsr_ros {
+
+namespace {
+
+// A bag replayed at many times its speed sends faster than a busy machine takes; messages are small.
+constexpr std::uint32_t kQueue = 100000;
+constexpr double kReportPeriod = 0.5;  // [s], wall time
+
+fsr::regression::RegressorOptions regressorOptions(const Parameters& parameters) {
+  fsr::regression::RegressorOptions options;
+  options.name = parameters.choice("model", fsr::regression::regressorNames(), options.name);
+  options.grnn.spread =
+      fsr::regression::spreadFromName(parameters.choice("spread", fsr::regression::spreadNames(), "sigma"));
+  options.grnn.distance = fsr::regression::distanceFromName(
+      parameters.choice("distance", fsr::regression::distanceNames(), "squared"));
+  if (parameters.flag("equal_bins", false))
+    options.grnn.weighting = fsr::regression::SampleWeighting::kEachPressureBin;
+  options.forest.trees = static_cast<std::size_t>(parameters.integer("trees", 150, {1, 1e5, ""}));
+  options.forest.minimum_leaf = static_cast<std::size_t>(parameters.integer("minimum_leaf", 5, {1, 1e6, ""}));
+  options.forest.leaf_count = fsr::regression::leafRuleFromName(
+      parameters.choice("leaf_rule", fsr::regression::leafRuleNames(), "draws"));
+  return options;
+}
+
+fsr::calibration::CalibrationOptions calibrationOptions(const Parameters& parameters) {
+  fsr::calibration::CalibrationOptions options;
+  options.scheme = fsr::compensation::schemeFromName(parameters.choice(
+      "scheme", fsr::compensation::schemeNames(), fsr::compensation::schemeName(options.scheme)));
+  options.regressor = regressorOptions(parameters);
+  try {
+    const auto bandwidth = fsr::regression::bandwidthFromText(parameters.text("bandwidth", "auto"));
+    options.choose_bandwidth = !bandwidth;
+    if (bandwidth) options.regressor.grnn.bandwidth = *bandwidth;
+  } catch (const fsr::settings::InputError&) {
+    throw parameters.error("bandwidth", "must be auto, or a number, 1e-06 to 1000");
+  }
+  options.folds = static_cast<std::size_t>(parameters.integer("folds", 5, {2, 20, ""}));
+  options.scores = parameters.flag("scores", true);
+  options.threads = static_cast<unsigned>(parameters.integer("threads", 0, {0, 1024, ""}));
+  options.seed = static_cast<std::uint64_t>(parameters.integer("seed", 1, {0, 2e9, ""}));
+  return options;
+}
+
+diagnostic_msgs::KeyValue pair(const std::string& key, std::uint64_t value) {
+  diagnostic_msgs::KeyValue entry;
+  entry.key = key;
+  entry.value = std::to_string(value);
+  return entry;
+}
+
+std::string whatIsMissing(const fsr::dataset::RecordingBuilder::Events& events) {
+  std::string missing;
+  const auto need = [&](std::uint64_t number, const std::string& topic) {
+    if (number == 0) missing += (missing.empty() ? "" : ", ") + topic;
+  };
+  need(events.scans, "raw");
+  need(events.chamber_pressures, "chamber_pressure");
+  need(events.surfaces, "curvature");
+  return missing.empty() ? "" : "waiting for " + missing;
+}
+
+std::string summary(const fsr::calibration::Calibration& calibration, const std::string& path) {
+  std::uint64_t scans = 0;
+  for (const fsr::calibration::SourceBag& bag : calibration.provenance.bags) scans += bag.scans;
+  std::ostringstream text;
+  text << "calibration " << calibration.id << " (" << fsr::compensation::schemeName(calibration.tables.scheme)
+       << ", " << scans << " scans, " << calibration.coverage.conditions.size() << " surfaces";
+  if (!calibration.scores.conditions.empty()) {
+    text << ", RMSE " << calibration.scores.whole.rmse_percent.mean << " %";
+  }
+  text << ") is in " << path;
+  return text.str();
+}
+
+}  // namespace
+
+TrainingServer::TrainingServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : handle_(handle) {
+  const Parameters parameters(private_handle);
+  std::error_code exists_or_cannot;  // the latter is said when it is written to
+  std::filesystem::create_directories(rosHome(), exists_or_cannot);
+  output_ = resolveResource(parameters.text("output", rosHome() + "/calibration.h5"));
+  if (output_.empty()) throw parameters.error("output", "must name the calibration file to write");
+  report_ = resolveResource(parameters.text("report", ""));
+  options_ = calibrationOptions(parameters);
+  const double ambient = parameters.number("ambient_pressure", -1, {-1, 120e3, "Pa"});
+  if (ambient >= 0) recording_options_.ambient_pressure = ambient;
+  for (const std::string& name : parameters.unknown()) {
+    ROS_WARN_STREAM("parameter " << name << " is set, but training has none of that name: it does nothing");
+  }
+  recording_options_.name = "topics of " + handle_.getNamespace();
+
+  ros::NodeHandle own(private_handle);
+  gathered_ = own.advertise<diagnostic_msgs::DiagnosticStatus>("gathered", 1, true);
+  services_.push_back(own.advertiseService("train", &TrainingServer::train, this));
+  services_.push_back(own.advertiseService("clear", &TrainingServer::clear, this));
+  subscribe<fsr_pressure_map::MatrixFrame>("raw");
+  subscribe<sensor_msgs::FluidPressure>("chamber_pressure");
+  subscribe<fsr_pressure_map::SurfaceCurvature>("curvature");
+  subscribe<sensor_msgs::Temperature>("temperature");
+  subscribe<fsr_pressure_map::MatrixInfo>("matrix_info");
+  timer_ = handle_.createWallTimer(ros::WallDuration(kReportPeriod),
+                                   [this](const ros::WallTimerEvent&) { publishGathered(); });
+  publishGathered();
+}
+
+template <typename Message>
+void TrainingServer::subscribe(const std::string& topic) {
+  const boost::function<void(const Message&)> callback = [this](const Message& message) { gather(message); };
+  subscribers_.push_back(handle_.subscribe<Message>(topic, kQueue, callback));
+}
+
+template <typename Message>
+void TrainingServer::gather(const Message& message) {
+  const std::lock_guard<std::mutex> lock(gathering_);
+  try {
+    addEvent(message, builder_);
+  } catch (const fsr::settings::InputError& error) {
+    ++refused_;
+    ROS_WARN_STREAM_THROTTLE(10.0, "Left out: " << error.what());
+  }
+}
+
+bool TrainingServer::train(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  const std::unique_lock<std::mutex> alone(training_, std::try_to_lock);
+  if (!alone.owns_lock()) {
+    response.success = false;
+    response.message = "a training is running; wait for its answer";
+    return true;
+  }
+  try {
+    response.message = trainNow();
+    response.success = true;
+    ROS_INFO_STREAM("Trained: " << response.message);
+  } catch (const fsr::settings::InputError& error) {
+    response.success = false;
+    response.message = error.what();
+    ROS_ERROR_STREAM("Not trained: " << error.what());
+  }
+  return true;
+}
+
+std::string TrainingServer::trainNow() {
+  fsr::settings::requireReplaceable(output_);
+  fsr::calibration::CalibrationProblem problem;
+  problem.options = options_;
+  {
+    const std::lock_guard<std::mutex> lock(gathering_);
+    const std::string missing = whatIsMissing(builder_.events());
+    if (!missing.empty()) {
+      throw fsr::settings::InputError(missing + " in " + handle_.getNamespace() +
+                                      "; replay a bag with rosbag play");
+    }
+    problem.recordings.push_back(builder_.build(recording_options_));
+  }
+  fsr::calibration::validate(problem);
+  ROS_INFO_STREAM('\n'
+                  << fsr::report::coverageText(fsr::dataset::coverageOf(problem.recordings, options_.folds)));
+  fsr::calibration::Calibration calibration = fsr::calibration::calibrate(problem);
+  ROS_INFO_STREAM('\n'
+                  << fsr::report::warningsText(calibration) << fsr::report::scoresText(calibration.scores)
+                  << fsr::report::learnedText(calibration));
+  calibration.id = fsr::calibration::saveCalibration(calibration, output_);
+  if (!report_.empty()) fsr::settings::replaceFile(report_, fsr::report::calibrationJson(calibration));
+  return summary(calibration, output_);
+}
+
+bool TrainingServer::clear(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  {
+    const std::lock_guard<std::mutex> lock(gathering_);
+    response.message = "forgot " + std::to_string(builder_.events().scans) + " scans";
+    builder_.clear();
+    refused_ = 0;
+  }
+  response.success = true;
+  publishGathered();
+  return true;
+}
+
+void TrainingServer::publishGathered() {
+  const std::lock_guard<std::mutex> lock(gathering_);
+  const fsr::dataset::RecordingBuilder::Events& events = builder_.events();
+  diagnostic_msgs::DiagnosticStatus status;
+  status.name = ros::this_node::getName();
+  status.message = whatIsMissing(events);
+  status.level = status.message.empty() ? diagnostic_msgs::DiagnosticStatus::OK
+                                        : diagnostic_msgs::DiagnosticStatus::WARN;
+  if (status.message.empty()) status.message = "ready to train";
+  status.values = {pair("raw", events.scans),
+                   pair("chamber_pressure", events.chamber_pressures),
+                   pair("curvature", events.surfaces),
+                   pair("temperature", events.temperatures),
+                   pair("matrix_info", events.descriptions),
+                   pair("left out", refused_)};
+  std::string shown;
+  for (const diagnostic_msgs::KeyValue& value : status.values) shown += value.value + " ";
+  if (shown == last_gathered_) return;
+  last_gathered_ = shown;
+  gathered_.publish(status);
+}
+
+}  // namespace fsr_ros

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "dataset/recording_builder.h"
+#include "fsr_pressure_map/calibration/calibration.h"
+
+namespace fsr_ros {
+
+/// Gathers what `rosbag play` replays, or a rig sends, on raw, chamber_pressure, curvature, temperature
+/// and matrix_info, and trains a calibration of it on `~train`; `~clear` forgets it. Of one bag replayed
+/// without loss the tables are those of the tool `train`, bit for bit.
+///
+/// Training runs in the service's own thread: give the node two spinner threads or more, and it goes on
+/// gathering meanwhile. `~gathered` (diagnostic_msgs/DiagnosticStatus, latched) tells what has come and
+/// what is still missing.
+///
+/// Parameters: ~output, ~report, ~scheme, ~model, ~bandwidth, ~spread, ~distance, ~equal_bins, ~trees,
+/// ~minimum_leaf, ~leaf_rule, ~folds, ~scores, ~threads, ~seed, ~ambient_pressure; train.launch says what
+/// each means.
+class TrainingServer {
+ public:
+  /// Throws fsr::InputError.
+  TrainingServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+
+ private:
+  template <typename Message>
+  void subscribe(const std::string& topic);
+  template <typename Message>
+  void gather(const Message& message);
+  bool train(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool clear(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  std::string trainNow();
+  void publishGathered();
+
+  ros::NodeHandle handle_;
+  std::string output_, report_;
+  fsr::calibration::CalibrationOptions options_;
+  fsr::dataset::RecordingOptions recording_options_;
+
+  std::mutex gathering_;  // guards builder_ and refused_
+  fsr::dataset::RecordingBuilder builder_;
+  std::uint64_t refused_ = 0;  // messages
+  std::mutex training_;        // one at a time
+
+  std::vector<ros::Subscriber> subscribers_;
+  ros::Publisher gathered_;
+  std::vector<ros::ServiceServer> services_;
+  ros::WallTimer timer_;
+  std::string last_gathered_;
+};
+
+}  // namespace fsr_ros

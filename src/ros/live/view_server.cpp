@@ -1,0 +1,165 @@
+#include "ros/live/view_server.h"
+
+#include <fsr_pressure_map/PressureStatisticsArray.h>
+#include <geometry_msgs/PointStamped.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "ros/messages/bent_points.h"
+#include "ros/messages/image_message.h"
+#include "ros/messages/pressure_map_message.h"
+#include "ros/messages/statistics_message.h"
+#include "ros/messages/surface_markers.h"
+#include "ros/messages/surface_message.h"
+
+namespace fsr_ros {
+
+namespace {
+
+constexpr double kComplaintPeriod = 10.0;  // [s]
+
+}  // namespace
+
+ViewServer::ViewServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : handle_(handle),
+      settings_(private_handle),
+      shape_(settings_.fineness),
+      statistics_({}, 0),
+      auto_range_(std::max(10e3, 1.5 * settings_.style.scale.low)) {
+  const ros::SubscriberStatusCallback follow = [this](const auto&) { followSubscribers(); };
+  const std::uint32_t queue = settings_.queue_size;
+  outputs_["points"] = handle_.advertise<sensor_msgs::PointCloud2>("points", queue, follow, follow);
+  outputs_["surface"] = handle_.advertise<visualization_msgs::MarkerArray>("surface", queue, follow, follow);
+  outputs_["image"] = handle_.advertise<sensor_msgs::Image>("image", queue, follow, follow);
+  outputs_["statistics"] =
+      handle_.advertise<fsr_pressure_map::PressureStatisticsArray>("statistics", queue, follow, follow);
+  outputs_["centre_of_pressure"] =
+      handle_.advertise<geometry_msgs::PointStamped>("centre_of_pressure", queue, follow, follow);
+  silence_ = handle_.createWallTimer(ros::WallDuration(0.5 * settings_.stale_after),
+                                     [this](const ros::WallTimerEvent&) { complainOfSilence(); });
+}
+
+void ViewServer::followSubscribers() {
+  const bool anybody = std::any_of(outputs_.begin(), outputs_.end(), [](const auto& output) {
+    return output.second && output.second.getNumSubscribers() > 0;
+  });
+  if (!anybody) {
+    maps_.shutdown();
+    curvature_.shutdown();
+    statistics_.resetIntegral();
+  } else if (!maps_) {
+    last_map_ = ros::WallTime::now();
+    curvature_ = handle_.subscribe("curvature", settings_.queue_size, &ViewServer::onCurvature, this);
+    maps_ = handle_.subscribe("pressure_map", settings_.queue_size, &ViewServer::onMap, this,
+                              ros::TransportHints().tcpNoDelay());
+  }
+}
+
+void ViewServer::onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& message) {
+  try {
+    shape_.setSurface(toSurface(*message));
+  } catch (const fsr::settings::InputError& error) {
+    ROS_WARN_STREAM_THROTTLE(kComplaintPeriod, error.what());
+  }
+}
+
+void ViewServer::onMap(const fsr_pressure_map::PressureMapConstPtr& message) {
+  last_map_ = ros::WallTime::now();
+  frame_id_ = message->header.frame_id;
+  try {
+    const fsr::map::PressureMap map = toPressureMap(*message);
+    if (map.layout.size.taxels() == 0) return;
+    shape_.setLayout(map.layout);
+    if (map.layout.size != size_) prepare(map.layout);
+    now_ = statistics_.update(message->header.stamp.toSec(), map, shape_.areas());
+    publish(*message, map);
+  } catch (const fsr::settings::InputError& error) {
+    ROS_WARN_STREAM_THROTTLE(kComplaintPeriod, error.what());
+  }
+}
+
+// Regions belong to a matrix size, which only the first map tells.
+void ViewServer::prepare(const fsr::matrix::Layout& layout) {
+  std::vector<fsr::map::Region> regions(1);
+  try {
+    if (!settings_.regions.empty()) regions = fsr::map::readRegionFile(settings_.regions, layout.size);
+  } catch (const fsr::settings::InputError& error) {
+    ROS_ERROR_STREAM(error.what() << "; until the node is started again, statistics are of the whole matrix");
+  }
+  statistics_ = fsr::map::MapStatistics(std::move(regions), settings_.contact_threshold);
+  size_ = layout.size;
+}
+
+void ViewServer::publish(const fsr_pressure_map::PressureMap& message, const fsr::map::PressureMap& map) {
+  if (wanted("statistics")) publishStatistics(message.header, now_);
+  if (wanted("centre_of_pressure")) publishCentre(message.header, whole());
+  if (wanted("points")) {
+    sensor_msgs::PointCloud2 cloud = toPoints(map, shape_.poses());
+    cloud.header = message.header;
+    outputs_["points"].publish(cloud);
+  }
+  if (settings_.auto_range) {
+    const std::vector<float>& values = fsr::view::layerOf(map, settings_.style.layer);
+    double highest = fsr::map::RegionStatistics::kNone;
+    for (const float value : values) highest = std::fmax(highest, double(value));
+    settings_.style.scale.high = auto_range_.update(message.header.stamp.toSec(), highest);
+  }
+  const ros::WallTime now = ros::WallTime::now();
+  if (now < next_picture_ || !(wanted("surface") || wanted("image"))) return;
+  next_picture_ = std::max(next_picture_ + ros::WallDuration(1 / settings_.rate), now);
+  publishPictures(message, map);
+}
+
+void ViewServer::publishPictures(const fsr_pressure_map::PressureMap& message,
+                                 const fsr::map::PressureMap& map) {
+  if (wanted("surface")) {
+    outputs_["surface"].publish(toMarkers(message.header, map, shape_.mesh(), settings_.style, whole()));
+  }
+  if (wanted("image")) {
+    const std::string calibration =
+        message.scheme.empty() ? "no calibration" : "calibration " + message.scheme;
+    const std::string numbers = "peak " + fsr::view::pressureText(whole().peak, settings_.style.scale.unit) +
+                                "  mean " + fsr::view::pressureText(whole().mean, settings_.style.scale.unit);
+    const fsr::view::HeatMap painter(settings_.style);
+    outputs_["image"].publish(
+        toMessage(message.header, painter.draw(map, {calibration, numbers, stateText(map.state)})));
+  }
+}
+
+void ViewServer::publishStatistics(const std_msgs::Header& header,
+                                   const std::vector<fsr::map::RegionStatistics>& regions) {
+  fsr_pressure_map::PressureStatisticsArray array;
+  array.header = header;
+  fsr::matrix::Layout layout;
+  layout.size = size_;
+  for (const fsr::map::RegionStatistics& region : regions) array.regions.push_back(toMessage(region, layout));
+  outputs_["statistics"].publish(array);
+}
+
+void ViewServer::publishCentre(const std_msgs::Header& header, const fsr::map::RegionStatistics& whole) {
+  if (!whole.centre) return;
+  geometry_msgs::PointStamped message;
+  message.header = header;
+  message.point.x = whole.centre->x;
+  message.point.y = whole.centre->y;
+  outputs_["centre_of_pressure"].publish(message);
+}
+
+// Whoever waits for an alarm must hear that nobody knows, rather than nothing.
+void ViewServer::complainOfSilence() {
+  if (!maps_ || !wanted("statistics")) return;
+  if ((ros::WallTime::now() - last_map_).toSec() < settings_.stale_after) return;
+  if (size_.taxels() == 0)
+    statistics_ = fsr::map::MapStatistics({fsr::map::Region{}}, settings_.contact_threshold);
+  std_msgs::Header header;
+  header.stamp = ros::Time::now();
+  header.frame_id = frame_id_;
+  publishStatistics(header, statistics_.stale());
+}
+
+}  // namespace fsr_ros

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <fsr_pressure_map/PressureMap.h>
+#include <fsr_pressure_map/SurfaceCurvature.h>
+#include <ros/node_handle.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/map/map_statistics.h"
+#include "ros/live/view_settings.h"
+#include "ros/messages/sheet_shape.h"
+#include "view/auto_range.h"
+
+namespace fsr_ros {
+
+/// Publishes pictures and numbers of the pressure map on its sheet, bent by `curvature` (flat while that is
+/// unknown), in the frame of the scan: `points`, `surface`, `image`, `statistics`, `centre_of_pressure`.
+/// Works only while somebody subscribes: else it does not even receive maps. `surface` and `image` come no
+/// more often than `~rate`, the rest for every map. Statistics count from the first subscriber on, and say
+/// UNKNOWN when maps stop. Parameters: ViewSettings.
+class ViewServer {
+ public:
+  /// Throws fsr::InputError.
+  ViewServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+
+ private:
+  bool wanted(const std::string& topic) const { return outputs_.at(topic).getNumSubscribers() > 0; }
+  void followSubscribers();
+  void onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& message);
+  void onMap(const fsr_pressure_map::PressureMapConstPtr& message);
+  void publish(const fsr_pressure_map::PressureMap& message, const fsr::map::PressureMap& map);
+  void publishPictures(const fsr_pressure_map::PressureMap& message, const fsr::map::PressureMap& map);
+  void publishStatistics(const std_msgs::Header& header,
+                         const std::vector<fsr::map::RegionStatistics>& regions);
+  void publishCentre(const std_msgs::Header& header, const fsr::map::RegionStatistics& whole);
+  void complainOfSilence();
+  void prepare(const fsr::matrix::Layout& layout);
+  const fsr::map::RegionStatistics& whole() const { return now_.front(); }
+
+  ros::NodeHandle handle_;
+  ViewSettings settings_;
+  std::map<std::string, ros::Publisher> outputs_;
+  ros::Subscriber maps_;
+  ros::Subscriber curvature_;
+  ros::WallTimer silence_;
+
+  SheetShape shape_;
+  fsr::matrix::MatrixSize size_;  // that statistics_ were made for
+  fsr::map::MapStatistics statistics_;
+  std::vector<fsr::map::RegionStatistics> now_;
+  fsr::view::AutoRange auto_range_;
+  std::string frame_id_;
+  ros::WallTime last_map_;
+  ros::WallTime next_picture_;
+};
+
+}  // namespace fsr_ros

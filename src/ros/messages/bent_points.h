@@ -1,0 +1,18 @@
+#pragma once
+
+#include <sensor_msgs/PointCloud2.h>
+
+#include <vector>
+
+#include "fsr_pressure_map/map/pressure_map.h"
+#include "view/bent_sheet.h"
+
+namespace fsr_ros {
+
+/// The map as points on its bent sheet, rows x columns: x, y, z [m] and intensity (pressure, gauge [Pa], NaN
+/// = no reading) as float32; row, column and flags (of PressureMap.msg) as uint16. `poses` has one entry for
+/// each taxel. Header left empty.
+sensor_msgs::PointCloud2 toPoints(const fsr::map::PressureMap& map,
+                                  const std::vector<fsr::view::TaxelPose>& poses);
+
+}  // namespace fsr_ros

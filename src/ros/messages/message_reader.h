@@ -1,0 +1,65 @@
+#pragma once
+
+#include <ros/message_traits.h>
+#include <ros/serialization.h>
+#include <rosbag/message_instance.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "exports/message_type.h"
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr_ros {
+
+/// Throws fsr::InputError where a bag's definition of a topic's type, known by its hash, is another one.
+template <typename Message>
+void requireDefinition(const std::string& topic, const std::string& md5sum) {
+  if (md5sum == ros::message_traits::md5sum<Message>()) return;
+  throw fsr::settings::InputError(topic + " was recorded with another definition of " +
+                                  ros::message_traits::datatype<Message>() +
+                                  "; convert the bag with rosbag fix");
+}
+
+/// Reads a serialised message. Throws ros::serialization::StreamOverrunException where it is cut short or
+/// claims more than it has: ROS would make room for as many values as a message merely claims to hold, up to
+/// 16 GB.
+template <typename Message>
+void readMessage(std::uint8_t* bytes, std::size_t size, Message& message) {
+  static const fsr::exports::MessageType structure = fsr::exports::parseMessageType(
+      ros::message_traits::datatype<Message>(), ros::message_traits::definition<Message>());
+  if (!fsr::exports::isMessageOf(structure, {reinterpret_cast<const char*>(bytes), size})) {
+    throw ros::serialization::StreamOverrunException("");
+  }
+  ros::serialization::IStream from(bytes, static_cast<std::uint32_t>(size));
+  ros::serialization::deserialize(from, message);
+}
+
+/// Reads messages out of a bag that may be damaged.
+class MessageReader {
+ public:
+  /// As serialised; valid until the next call.
+  std::string_view bytes(const rosbag::MessageInstance& instance) {
+    bytes_.resize(instance.size());
+    ros::serialization::OStream into(bytes_.data(), static_cast<std::uint32_t>(bytes_.size()));
+    instance.write(into);
+    return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
+  }
+
+  /// Throws as the two functions above.
+  template <typename Message>
+  Message read(const rosbag::MessageInstance& instance) {
+    requireDefinition<Message>(instance.getTopic(), instance.getMD5Sum());
+    bytes(instance);
+    Message message;
+    readMessage(bytes_.data(), bytes_.size(), message);
+    return message;
+  }
+
+ private:
+  std::vector<std::uint8_t> bytes_;
+};
+
+}  // namespace fsr_ros

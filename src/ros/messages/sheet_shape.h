@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fsr_pressure_map/matrix/curvature.h"
+#include "view/sheet_mesh.h"
+
+namespace fsr_ros {
+
+/// The bent sheet of the last layout and surface, made anew only when one of them changes and somebody asks.
+class SheetShape {
+ public:
+  explicit SheetShape(int fineness) : fineness_(fineness) {}
+
+  void setSurface(fsr::matrix::Surface surface);
+  /// Where the surface does not fit the layout, the next question throws fsr::InputError.
+  void setLayout(const fsr::matrix::Layout& layout);
+
+  const std::vector<fsr::view::TaxelPose>& poses();
+  const fsr::view::SheetMesh& mesh();
+  const std::vector<double>& areas();  ///< of the taxels on the bent sheet [m^2]
+
+ private:
+  void forget();
+
+  int fineness_;
+  fsr::matrix::Surface surface_;
+  fsr::matrix::Layout layout_;
+  std::optional<std::vector<fsr::view::TaxelPose>> poses_;
+  std::optional<fsr::view::SheetMesh> mesh_;
+  std::optional<std::vector<double>> areas_;
+};
+
+}  // namespace fsr_ros

@@ -1,0 +1,72 @@
+#include "ros/messages/surface_message.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr_ros {
+
+namespace {
+
+double valueAt(const std::vector<float>& values, std::size_t i) {
+  if (values.empty()) return 0.0;
+  return values.size() == 1 ? values.front() : values[i];
+}
+
+// One value where every array has one at most, else the number of taxels that the longest has.
+std::size_t taxelsOf(const fsr_pressure_map::SurfaceCurvature& message) {
+  return std::max({message.x.size(), message.y.size(), message.xy.size(), std::size_t{1}});
+}
+
+void checkArray(const std::vector<float>& values, const char* field, std::size_t taxels) {
+  if (values.size() > 1 && values.size() != taxels) {
+    throw fsr::settings::InputError(std::string("curvature message: ") + field + " has " +
+                                    std::to_string(values.size()) + " values, but must have none, one or " +
+                                    std::to_string(taxels) + " like its longest array");
+  }
+  for (const float value : values) {
+    if (!std::isfinite(value)) {
+      throw fsr::settings::InputError(
+          std::string("curvature message: ") + field +
+          " holds a value that is not finite, but must be in 1/m; leave it empty where unknown");
+    }
+  }
+}
+
+}  // namespace
+
+fsr::matrix::Surface toSurface(const fsr_pressure_map::SurfaceCurvature& message) {
+  const std::size_t taxels = taxelsOf(message);
+  checkArray(message.x, "x", taxels);
+  checkArray(message.y, "y", taxels);
+  checkArray(message.xy, "xy", taxels);
+  checkArray(message.deviation, "deviation", std::max(taxels, message.deviation.size()));
+
+  fsr::matrix::Surface surface;
+  surface.name = message.surface;
+  surface.mount = message.mount;
+  surface.deviation.assign(message.deviation.begin(), message.deviation.end());
+  if (message.x.empty()) return surface;  // unknown, by the message's definition
+  surface.curvature.resize(taxels);
+  for (std::size_t i = 0; i < taxels; ++i) {
+    surface.curvature[i] = {valueAt(message.x, i), valueAt(message.y, i), valueAt(message.xy, i)};
+  }
+  return surface;
+}
+
+fsr_pressure_map::SurfaceCurvature toMessage(const fsr::matrix::Surface& surface) {
+  fsr_pressure_map::SurfaceCurvature message;
+  message.surface = surface.name;
+  message.mount = surface.mount;
+  for (const fsr::matrix::Curvature& curvature : surface.curvature) {
+    message.x.push_back(static_cast<float>(curvature.x));
+    message.y.push_back(static_cast<float>(curvature.y));
+    message.xy.push_back(static_cast<float>(curvature.xy));
+  }
+  for (const double deviation : surface.deviation) message.deviation.push_back(static_cast<float>(deviation));
+  return message;
+}
+
+}  // namespace fsr_ros

@@ -1,0 +1,133 @@
+#include "ros/tools/check_bag_tool.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "report/admission_report.h"
+#include "ros/bags/bag_reader.h"
+#include "ros/bags/bag_topics.h"
+#include "settings/command_line.h"
+
+namespace fsr_ros {
+
+namespace {
+
+constexpr int kNotFit = 1;  // exit status with --strict
+
+fsr::settings::CommandLine options() {
+  fsr::settings::CommandLine line(
+      "check_bag", "[--use socket [--calibration FILE]] BAG...",
+      "Looks at recordings before anything is made of them: topics, rates, gaps and stamps; lag between "
+      "matrix "
+      "and chamber; dead, stuck and clipped taxels, failing lines; coverage of pressure, curvature and "
+      "direction. "
+      "The last line is the verdict.\n"
+      "Exit status: 0 whatever the verdict is, with --strict 1 where it is not fit or to be looked at again; "
+      "2 where a bag cannot be read.");
+  line.option("use", "NAME",
+              "chamber (default) or socket: there is no reference, the bag is judged by itself")
+      .option("calibration", "FILE",
+              "with --use socket: says what lies beyond the training of this calibration")
+      .option("sections", "N", "of the cross-validation that coverage is judged for, 2 to 20; default 5")
+      .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
+      .option("namespace", "NS", "the sensor's namespace, where a bag holds several")
+      .flag("strict", "exit status 1 where the verdict is not good");
+  return line;
+}
+
+BagReadOptions readOptions(const fsr::settings::CommandLine& line) {
+  BagReadOptions how;
+  how.topics = line.text("namespace", "");
+  if (line.has("ambient")) how.recording.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
+  return how;
+}
+
+// What the reader sorted in silence, and labels that it does not need.
+std::vector<std::string> remarksOn(const std::vector<TopicCourse>& courses) {
+  std::vector<std::string> remarks;
+  for (const TopicCourse& course : courses) {
+    if (course.backwards == 0) continue;
+    remarks.push_back(course.topic + " has " + std::to_string(course.backwards) +
+                      " stamps that run backwards; they were sorted");
+  }
+  for (const auto& [base, why] : {std::pair{"temperature", "what is slow cannot be told from what is warm"},
+                                  std::pair{"session", "nothing says whose recording this is"}}) {
+    const auto is_it = [&](const TopicCourse& course) {
+      const std::string end = std::string("/") + base;
+      return course.topic.size() >= end.size() &&
+             course.topic.compare(course.topic.size() - end.size(), end.size(), end) == 0;
+    };
+    if (std::any_of(courses.begin(), courses.end(), is_it)) continue;
+    remarks.push_back(std::string("no topic ") + base + ": " + why);
+  }
+  return remarks;
+}
+
+int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {
+  fsr::discrepancy::AdmissionOptions chosen;
+  chosen.sections = static_cast<std::size_t>(line.integer("sections", 5, {2, 20, ""}));
+  std::vector<fsr::dataset::Recording> recordings;
+  for (const std::string& path : line.files()) {
+    recordings.push_back(readBag(path, readOptions(line)));
+    const std::vector<TopicCourse> courses = topicCourses(path);
+    std::vector<std::string>& warnings = recordings.back().warnings;
+    for (const std::string& remark : remarksOn(courses)) warnings.push_back(remark);
+    out << recordings.back().name << '\n' << topicsText(courses) << '\n';
+  }
+  const fsr::discrepancy::Admission admission =
+      fsr::discrepancy::inspectRecordings(std::move(recordings), chosen);
+  out << fsr::report::admissionText(admission) << std::flush;
+  return line.has("strict") && !admission.fit() ? kNotFit : 0;
+}
+
+// Since the first scan [s].
+std::optional<double> since(const fsr::dataset::Recording& recording, const std::vector<std::int64_t>& times,
+                            bool first) {
+  if (times.empty()) return std::nullopt;
+  return 1e-9 * static_cast<double>((first ? times.front() : times.back()) - recording.start_ns);
+}
+
+int checkSockets(const fsr::settings::CommandLine& line, std::ostream& out) {
+  std::optional<fsr::calibration::Calibration> calibration;
+  if (line.has("calibration")) {
+    calibration = fsr::calibration::loadCalibration(line.text("calibration", ""),
+                                                    fsr::calibration::CalibrationParts::kWithoutStatistics);
+  }
+  bool good = true;
+  for (const std::string& path : line.files()) {
+    const fsr::dataset::Recording recording = readBag(path, readOptions(line));
+    out << topicsText(topicCourses(path)) << '\n';
+    const fsr::calibration::DonDoff events = {since(recording, eventTimes(path, "don"), true),
+                                              since(recording, eventTimes(path, "doff"), false)};
+    const fsr::calibration::SocketCheck check =
+        fsr::calibration::checkSocket(recording, events, calibration ? &*calibration : nullptr);
+    out << fsr::report::socketText(check) << std::flush;
+    good = good && check.reasons.empty();
+  }
+  return line.has("strict") && !good ? kNotFit : 0;
+}
+
+}  // namespace
+
+int checkBagTool(int argc, const char* const* argv, std::ostream& out) {
+  fsr::settings::CommandLine line = options();
+  if (!line.parse(argc, argv)) {
+    out << line.help();
+    return 0;
+  }
+  if (line.files().empty()) throw fsr::settings::InputError("no BAG is given; see check_bag --help");
+  const std::string use = line.text("use", "chamber");
+  if (use == "socket") return checkSockets(line, out);
+  if (use != "chamber")
+    throw fsr::settings::InputError("--use is '" + use + "', but must be chamber or socket");
+  if (line.has("calibration"))
+    throw fsr::settings::InputError("--calibration goes with --use socket; see train --check");
+  return checkChamber(line, out);
+}
+
+}  // namespace fsr_ros

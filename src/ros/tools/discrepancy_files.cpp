@@ -1,0 +1,78 @@
+#include "ros/tools/discrepancy_files.h"
+
+#include <filesystem>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "report/discrepancy_report.h"
+#include "report/verdict_file.h"
+#include "settings/replace_file.h"
+#include "settings/sha256.h"
+
+namespace fsr_ros {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string heading(const fsr::discrepancy::DiscrepancyReport& report) {
+  std::string text = report.sentence + "\nBy discrepancy " + report.version + ", seed " +
+                     std::to_string(report.seed) + ", from";
+  for (const fsr::discrepancy::InputUse& input : report.inputs)
+    text += "\n  " + input.file + " " + input.sha256;
+  return text;
+}
+
+// A simulation and, beside it, the curves of its taxels.
+void writeSimulation(const fsr::simulation::SimulationSettings& settings, const std::string& folder,
+                     const std::string& name, const std::string& head,
+                     const fsr::simulation::ValueRemarks& remarks) {
+  if (settings.taxel_curves) {
+    fsr::settings::replaceFile(folder + "/" + settings.taxel_curves_file,
+                               fsr::simulation::taxelCurvesText(*settings.taxel_curves));
+  }
+  fsr::settings::replaceFile(folder + "/" + name, fsr::simulation::simulationText(settings, head, remarks));
+}
+
+}  // namespace
+
+std::string outputFolder(const std::string& path) {
+  const fs::path folder = fs::absolute(path).lexically_normal();
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    throw fsr::settings::InputError(folder.string() + ": the folder cannot be made (" + error.message() +
+                                    "); give another one with --output");
+  }
+  return folder;
+}
+
+void writeDiscrepancy(const fsr::discrepancy::DiscrepancyReport& report, const std::string& folder) {
+  const std::string figures = outputFolder(folder + "/figures");
+  for (const auto& [name, table] : fsr::report::discrepancyTables(report))
+    fsr::settings::replaceFile(figures + "/" + name, table);
+  fsr::settings::replaceFile(folder + "/results.json", fsr::report::discrepancyJson(report));
+  writeSimulation(
+      report.base, folder, "base.yaml",
+      "The simulation before anything was added to it, fitted to the recordings.\n" + heading(report), {});
+  writeSimulation(report.added, folder, "simulation.yaml", heading(report), fsr::report::fitRemarks(report));
+  const std::string verdict = fsr::report::verdictText(report);
+  fsr::settings::replaceFile(folder + "/prediction.yaml",
+                             fsr::report::predictionText(
+                                 {report.prediction, fsr::settings::sha256(verdict.data(), verdict.size())}));
+  fsr::settings::replaceFile(folder + "/verdict.yaml", verdict);
+}
+
+StoredPrediction readPredictionBeside(const std::string& verdict_path) {
+  const std::string folder = fs::absolute(verdict_path).parent_path();
+  StoredPrediction stored{fsr::report::readPrediction(folder + "/prediction.yaml"),
+                          fsr::simulation::readSimulationFile(folder + "/base.yaml")};
+  if (fsr::settings::sha256OfFile(verdict_path) != stored.frozen.verdict_sha256) {
+    throw fsr::settings::InputError(
+        verdict_path +
+        ": is not the file that prediction.yaml was frozen with; an edited verdict cannot be "
+        "confirmed, run discrepancy again");
+  }
+  return stored;
+}
+
+}  // namespace fsr_ros

@@ -1,0 +1,221 @@
+#include "ros/tools/discrepancy_tool.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+
+#include "fsr_pressure_map/discrepancy/discrepancy.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "report/discrepancy_report.h"
+#include "report/verdict_file.h"
+#include "ros/bags/bag_reader.h"
+#include "ros/bags/resource_path.h"
+#include "ros/tools/discrepancy_files.h"
+#include "ros/tools/figure_script.h"
+#include "ros/tools/show_ledger.h"
+#include "settings/command_line.h"
+#include "settings/replace_file.h"
+#include "simulation/driven_rig.h"
+
+namespace fsr_ros {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFiguresMissing = 3;  // exit status where everything else is there
+constexpr char kDefaultSimulation[] = "package://fsr_pressure_map/config/simulation/core.yaml";
+
+fsr::settings::CommandLine options() {
+  fsr::settings::CommandLine line(
+      "discrepancy", "[--simulation FILE] BAG... --output DIR  |  --confirm verdict.yaml NEWBAG...",
+      "Says where a simulation and measured bags disagree, which physical effect is missing and how small "
+      "the gap is\nonce it is in; or that nothing is missing, or that no effect of the library explains it. "
+      "A folder stands for the\nbags in it. How often the held-out part of a bag was looked at is counted in "
+      "ROS_HOME/fsr_pressure_map/show_opened.");
+  line.option("simulation", "FILE",
+              "what is believed so far (config/simulation/core.yaml, with the bags' layout)")
+      .option("output", "DIR", "verdict.yaml, simulation.yaml, results.json, report.html go there")
+      .option("ask", "ID,...",
+              "effects that you ask for: where the bags cannot show one, that is the verdict")
+      .flag("repeat", "add effects one after another until none is left")
+      .option("confirm", "FILE", "a verdict.yaml: do these new bags bear out what it predicted?")
+      .option("without", "ID,...", "leave these effects out of the library")
+      .option("seed", "N", "of the split into find and show, and of the tests (1)")
+      .option("threads", "N", "0 = one for each core (0); the numbers do not depend on it")
+      .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
+      .option("namespace", "NS", "the sensor's namespace, where a bag holds several")
+      .flag("no-report", "leave report.html and its figures out");
+  return line;
+}
+
+std::vector<std::string> listOf(const fsr::settings::CommandLine& line, const std::string& name) {
+  std::vector<std::string> items;
+  std::istringstream text(line.text(name, ""));
+  for (std::string item; std::getline(text, item, ',');) {
+    if (!item.empty()) items.push_back(item);
+  }
+  return items;
+}
+
+// By the number that a session puts before the name: 2_bent before 10_flat.
+bool comesFirst(const fs::path& a, const fs::path& b) {
+  const double first = std::atof(a.filename().c_str()), second = std::atof(b.filename().c_str());
+  return first != second ? first < second : a < b;
+}
+
+std::vector<std::string> bagsOf(const fsr::settings::CommandLine& line) {
+  std::vector<std::string> bags;
+  for (const std::string& path : line.files()) {
+    if (!fs::is_directory(path)) {
+      bags.push_back(path);
+      continue;
+    }
+    std::vector<fs::path> inside;
+    for (const auto& entry : fs::directory_iterator(path)) {
+      if (entry.path().extension() == ".bag") inside.push_back(entry.path());
+    }
+    if (inside.empty()) throw fsr::settings::InputError(path + ": holds no file that ends with .bag");
+    std::sort(inside.begin(), inside.end(), comesFirst);
+    bags.insert(bags.end(), inside.begin(), inside.end());
+  }
+  if (bags.empty()) throw fsr::settings::InputError("no BAG is given; see discrepancy --help");
+  return bags;
+}
+
+std::vector<fsr::dataset::Recording> readBags(const fsr::settings::CommandLine& line,
+                                              const fsr::discrepancy::DiscrepancyProgress& progress) {
+  BagReadOptions how;
+  how.topics = line.text("namespace", "");
+  if (line.has("ambient")) how.recording.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
+  std::vector<fsr::dataset::Recording> recordings;
+  for (const std::string& path : bagsOf(line)) {
+    if (progress) progress("reading " + path, 0);
+    recordings.push_back(readBag(path, how));
+  }
+  return recordings;
+}
+
+// Without a file: the core alone, for whatever matrix the bags are of.
+fsr::simulation::SimulationSettings simulationFor(const fsr::settings::CommandLine& line,
+                                                  const fsr::dataset::Recording& recording) {
+  if (line.has("simulation")) return fsr::simulation::readSimulationFile(line.text("simulation", ""));
+  return fsr::simulation::fitted(fsr::simulation::readSimulationFile(resolveResource(kDefaultSimulation)),
+                                 recording);
+}
+
+fsr::discrepancy::DiscrepancyOptions discrepancyOptions(const fsr::settings::CommandLine& line) {
+  fsr::discrepancy::DiscrepancyOptions chosen;
+  chosen.ask = listOf(line, "ask");
+  chosen.leave_out = listOf(line, "without");
+  chosen.repeat = line.has("repeat");
+  chosen.seed = static_cast<std::uint64_t>(line.integer("seed", 1, {0, 9e15, ""}));
+  chosen.threads = static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
+  return chosen;
+}
+
+// One line that is written over, on a terminal; nothing elsewhere.
+fsr::discrepancy::DiscrepancyProgress progressOnTerminal() {
+  if (::isatty(STDERR_FILENO) == 0) return {};
+  return [](const std::string& step, double share) {
+    std::cerr << "\r\033[K" << static_cast<int>(std::lround(100 * share)) << " % " << step
+              << (share >= 1 ? "\n" : "") << std::flush;
+  };
+}
+
+void countLooks(fsr::discrepancy::DiscrepancyReport& report) {
+  const ShowLedger ledger;
+  for (fsr::discrepancy::InputUse& input : report.inputs) {
+    if (input.show_opened > 0 && !input.sha256.empty())
+      input.show_opened = ledger.open(input.sha256, report.seed);
+  }
+}
+
+int drawReport(const std::string& folder, std::ostream& out) {
+  try {
+    drawFigures("discrepancy.py", {folder});
+  } catch (const fsr::settings::InputError& error) {
+    out << error.what() << std::endl;
+    return kFiguresMissing;
+  }
+  out << "Report: " << folder << "/report.html" << std::endl;
+  return 0;
+}
+
+int find(const fsr::settings::CommandLine& line, std::ostream& out) {
+  const std::string folder = outputFolder(line.requiredText("output"));
+  fsr::settings::requireReplaceable(folder + "/verdict.yaml");
+  const fsr::discrepancy::DiscrepancyProgress progress = progressOnTerminal();
+  fsr::discrepancy::DiscrepancyProblem problem;
+  problem.options = discrepancyOptions(line);
+  problem.recordings = readBags(line, progress);
+  problem.simulation = simulationFor(line, problem.recordings.front());
+  fsr::discrepancy::DiscrepancyReport report = fsr::discrepancy::investigate(problem, progress);
+  countLooks(report);
+  writeDiscrepancy(report, folder);
+  out << fsr::report::discrepancyText(report) << "Written: " << folder << "/verdict.yaml" << std::endl;
+  return line.has("no-report") ? 0 : drawReport(folder, out);
+}
+
+// A bag that the verdict was made from proves nothing about it.
+void requireNew(const std::vector<fsr::dataset::Recording>& recordings,
+                const fsr::report::VerdictFile& verdict, const std::string& path) {
+  for (const fsr::dataset::Recording& recording : recordings) {
+    for (const fsr::discrepancy::InputUse& used : verdict.inputs) {
+      if (used.sha256 != recording.sha256) continue;
+      throw fsr::settings::InputError(recording.name + ": " + path +
+                                      " was made from this bag, but only one that was "
+                                      "recorded afterwards can confirm it");
+    }
+  }
+}
+
+int confirmVerdict(const fsr::settings::CommandLine& line, std::ostream& out) {
+  const std::string path = line.text("confirm", "");
+  const fsr::report::VerdictFile verdict = fsr::report::readVerdict(path);
+  const StoredPrediction stored = readPredictionBeside(path);
+  if (stored.frozen.prediction.effects.empty()) {
+    throw fsr::settings::InputError(path + ": its verdict is " + verdict.verdict +
+                                    ", which predicts nothing that could be "
+                                    "confirmed");
+  }
+  const std::vector<fsr::dataset::Recording> recordings = readBags(line, progressOnTerminal());
+  requireNew(recordings, verdict, path);
+  const fsr::discrepancy::Confirmation answer =
+      fsr::discrepancy::confirm(stored.frozen.prediction, stored.base, recordings);
+  std::vector<fsr::discrepancy::InputUse> inputs;
+  for (const fsr::dataset::Recording& r : recordings) inputs.push_back({r.name, r.sha256, r.scans(), 0});
+  const std::string folder =
+      line.has("output") ? outputFolder(line.text("output", "")) : fs::absolute(path).parent_path().string();
+  fsr::settings::replaceFile(folder + "/confirmation.yaml",
+                             fsr::report::confirmationYaml(answer, stored.frozen.prediction.hash, inputs));
+  out << fsr::report::confirmationText(answer) << "Written: " << folder << "/confirmation.yaml" << std::endl;
+  return 0;
+}
+
+// roslaunch adds __name:=... and __log:=... to what it starts.
+std::vector<const char*> withoutRemappings(int argc, const char* const* argv) {
+  std::vector<const char*> words;
+  for (int i = 0; i < argc; ++i) {
+    if (std::string(argv[i]).find(":=") == std::string::npos) words.push_back(argv[i]);
+  }
+  return words;
+}
+
+}  // namespace
+
+int discrepancyTool(int argc, const char* const* argv, std::ostream& out) {
+  fsr::settings::CommandLine line = options();
+  const std::vector<const char*> words = withoutRemappings(argc, argv);
+  if (!line.parse(static_cast<int>(words.size()), words.data())) {
+    out << line.help();
+    return 0;
+  }
+  return line.has("confirm") ? confirmVerdict(line, out) : find(line, out);
+}
+
+}  // namespace fsr_ros

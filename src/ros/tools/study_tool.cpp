@@ -1,0 +1,134 @@
+#include "ros/tools/study_tool.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "report/study_report.h"
+#include "ros/bags/bag_reader.h"
+#include "ros/tools/figure_script.h"
+#include "settings/command_line.h"
+#include "settings/replace_file.h"
+#include "simulation/session.h"
+#include "study/study.h"
+
+namespace fsr_ros {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFiguresMissing = 3;  // exit status where all is there but the figures
+
+fsr::settings::CommandLine options() {
+  fsr::settings::CommandLine line(
+      "study", "BAG... | --simulation FILE --output DIR",
+      "Repeats the paper's study on bags of a matrix in a pressure chamber, or on a simulated "
+      "one: algorithms, flat against bent, methods, tests; and how far the numbers carry.");
+  line.option("output", "DIR", "folder to write to; it is made where it is not there")
+      .option("simulation", "FILE", "simulate these recordings, e.g. config/simulation/paper.yaml")
+      .option("simulation-seed", "N", "instead of the simulation's: another sheet and other noise")
+      .option("plan", "FILE", "what the study decides, e.g. config/study/paper.yaml; default: as there")
+      .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
+      .option("namespace", "NS", "the sensor's namespace, where a bag holds several")
+      .option("seed", "N", "of down-sampling, forest and bootstrap; default: the plan's")
+      .option("threads", "N", "default: one for each core; the numbers do not depend on it")
+      .flag("paper-only", "leave out what goes beyond the paper: harder splits, further schemes")
+      .flag("no-figures", "write results.json and the tables only");
+  return line;
+}
+
+fsr::study::StudyPlan planOf(const fsr::settings::CommandLine& line) {
+  fsr::study::StudyPlan plan =
+      line.has("plan") ? fsr::study::readStudyPlanFile(line.text("plan", "")) : fsr::study::StudyPlan{};
+  plan.seed =
+      static_cast<std::uint64_t>(line.integer("seed", static_cast<std::int64_t>(plan.seed), {0, 1e15, ""}));
+  plan.beyond_the_paper = plan.beyond_the_paper && !line.has("paper-only");
+  plan.threads = static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
+  return plan;
+}
+
+void simulate(const fsr::settings::CommandLine& line, fsr::study::StudyProblem& problem) {
+  fsr::simulation::SimulationSettings settings =
+      fsr::simulation::readSimulationFile(line.text("simulation", ""));
+  settings.seed = static_cast<std::uint64_t>(
+      line.integer("simulation-seed", static_cast<std::int64_t>(settings.seed), {0, 9e15, ""}));
+  problem.simulation = settings.name;
+  problem.recordings = fsr::simulation::simulateSession(settings);
+}
+
+fsr::study::StudyProblem problemOf(const fsr::settings::CommandLine& line) {
+  if (line.has("simulation") == !line.files().empty()) {
+    throw fsr::settings::InputError("study: give either bags or --simulation FILE");
+  }
+  fsr::study::StudyProblem problem;
+  problem.plan = planOf(line);
+  if (line.has("simulation")) {
+    simulate(line, problem);
+    return problem;
+  }
+  BagReadOptions reading;
+  reading.topics = line.text("namespace", "");
+  if (line.has("ambient")) reading.recording.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
+  for (const std::string& path : line.files()) problem.recordings.push_back(readBag(path, reading));
+  return problem;
+}
+
+fs::path folderOf(const fsr::settings::CommandLine& line) {
+  const fs::path folder = fs::absolute(line.requiredText("output")).lexically_normal();
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    throw fsr::settings::InputError(folder.string() + ": the folder cannot be made (" + error.message() +
+                                    "); give another one with --output");
+  }
+  fsr::settings::requireReplaceable((folder / "results.json").string());
+  return folder;
+}
+
+void showProgress(const std::string& stage, std::size_t done, std::size_t total) {
+  static std::string last;
+  if (!last.empty() && stage != last) std::cerr << '\n';
+  last = stage;
+  std::cerr << '\r' << stage << ": " << done << " of " << total << std::flush;
+}
+
+void write(const fs::path& folder, const fsr::study::StudyResult& result) {
+  fsr::settings::replaceFile((folder / "results.json").string(), fsr::report::studyJson(result));
+  fs::create_directories(folder / "tables");
+  for (const auto& [name, content] : fsr::report::studyTables(result)) {
+    fsr::settings::replaceFile((folder / "tables" / name).string(), content);
+  }
+}
+
+}  // namespace
+
+int studyTool(int argc, const char* const* argv, std::ostream& out) {
+  fsr::settings::CommandLine line = options();
+  if (!line.parse(argc, argv)) {
+    out << line.help();
+    return 0;
+  }
+  const fs::path folder = folderOf(line);
+  const fsr::study::StudyProblem problem = problemOf(line);
+  const bool terminal = ::isatty(STDERR_FILENO) != 0;
+  const fsr::study::StudyResult result =
+      fsr::study::study(problem, terminal ? showProgress : fsr::study::StudyProgress{});
+  if (terminal) std::cerr << '\n';
+  out << fsr::report::studyText(result);
+  write(folder, result);
+  out << "\nResults are in " << (folder / "results.json").string() << '\n';
+  if (line.has("no-figures")) return 0;
+  try {
+    drawFigures("study.py", {folder.string()});
+  } catch (const fsr::settings::InputError& error) {
+    std::cerr << "study: the figures are missing: " << error.what() << std::endl;
+    return kFiguresMissing;
+  }
+  out << "The report is in " << (folder / "report.html").string() << std::endl;
+  return 0;
+}
+
+}  // namespace fsr_ros

@@ -1,0 +1,205 @@
+#include "ros/tools/train_tool.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "calibration/calibration_check.h"
+#include "calibration/merge.h"
+#include "fsr_pressure_map/calibration/calibration.h"
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "regression/option_names.h"
+#include "report/calibration_check_report.h"
+#include "report/calibration_report.h"
+#include "ros/bags/bag_reader.h"
+#include "settings/command_line.h"
+#include "settings/replace_file.h"
+
+namespace fsr_ros {
+
+namespace {
+
+std::string list(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+fsr::settings::CommandLine options() {
+  fsr::settings::CommandLine line(
+      "train", "BAG... --output FILE, or --merge CALIBRATION... --output FILE, or --check FILE BAG...",
+      "Trains a calibration from bags of a matrix in a pressure chamber: topics raw, "
+      "chamber_pressure and curvature, and matrix_info and temperature where recorded.");
+  line.option("output", "FILE", "calibration file to write (HDF5)")
+      .option("check", "FILE", "score this calibration on the bags instead: still good, or recalibrate?")
+      .flag("merge", "of calibration files, what training on all their bags would give; without scores")
+      .option("scheme", "NAME",
+              fsr::compensation::schemeList() + "; default " +
+                  fsr::compensation::schemeName(fsr::calibration::CalibrationOptions{}.scheme))
+      .option("model", "NAME", list(fsr::regression::regressorNames()) + "; default grnn")
+      .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
+      .option("namespace", "NS", "the sensor's namespace, where a bag holds several")
+      .option("bandwidth", "SIGMA",
+              "spread of the GRNN in deviations of the readings (the paper: 0.0078125); default auto: "
+              "by nested cross-validation")
+      .option("spread", "NAME", "what the bandwidth means, sigma or matlab (newgrnn's spread); default sigma")
+      .option("distance", "NAME",
+              "in the GRNN's exponent, squared or literal (as the paper is worded); default squared")
+      .flag("equal-bins", "GRNN: every bin of chamber pressure weighs alike, however long it was held")
+      .option("trees", "N", "of the forest; default 150")
+      .option("minimum-leaf", "N", "readings that a leaf of the forest keeps; default 5")
+      .option("leaf-rule", "NAME",
+              "a reading drawn twice counts twice (draws, as MATLAB) or once (distinct, as scikit-learn); "
+              "default draws")
+      .option("folds", "N", "sections of the cross-validation, 2 to 20; default 5")
+      .option("seed", "N", "of the forest's draws, kept in the file; default 1")
+      .option("threads", "N", "default: one for each core; the numbers do not depend on it")
+      .flag("no-scores", "leave the cross-validated scores out")
+      .option("report", "FILE", "also write coverage, scores and provenance as JSON");
+  return line;
+}
+
+// Options of a model that was not chosen are refused: they would do nothing in silence.
+void refuseOptionsOfOthers(const fsr::settings::CommandLine& line, const std::string& model) {
+  const std::vector<std::pair<std::string, std::string>> options = {
+      {"bandwidth", "grnn"}, {"spread", "grnn"},         {"distance", "grnn"},   {"equal-bins", "grnn"},
+      {"trees", "forest"},   {"minimum-leaf", "forest"}, {"leaf-rule", "forest"}};
+  for (const auto& [option, of] : options) {
+    if (line.has(option) && of != model) {
+      throw fsr::settings::InputError("--" + option + " is an option of --model " + of +
+                                      ", but the model is " + model);
+    }
+  }
+}
+
+fsr::regression::RegressorOptions regressorOptions(const fsr::settings::CommandLine& line) {
+  fsr::regression::RegressorOptions options;
+  options.name = line.text("model", options.name);
+  fsr::regression::makeRegressor(options);  // refuses a name that there is not
+  refuseOptionsOfOthers(line, options.name);
+  options.grnn.spread =
+      fsr::regression::spreadFromName(line.text("spread", fsr::regression::spreadName(options.grnn.spread)));
+  options.grnn.distance = fsr::regression::distanceFromName(
+      line.text("distance", fsr::regression::distanceName(options.grnn.distance)));
+  if (line.has("equal-bins")) options.grnn.weighting = fsr::regression::SampleWeighting::kEachPressureBin;
+  options.forest.trees = static_cast<std::size_t>(line.integer("trees", 150, {1, 1e5, ""}));
+  options.forest.minimum_leaf = static_cast<std::size_t>(line.integer("minimum-leaf", 5, {1, 1e6, ""}));
+  options.forest.leaf_count = fsr::regression::leafRuleFromName(
+      line.text("leaf-rule", fsr::regression::leafRuleName(options.forest.leaf_count)));
+  return options;
+}
+
+unsigned threadsOf(const fsr::settings::CommandLine& line) {
+  return static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
+}
+
+fsr::calibration::CalibrationOptions calibrationOptions(const fsr::settings::CommandLine& line) {
+  fsr::calibration::CalibrationOptions options;
+  options.scheme =
+      fsr::compensation::schemeFromName(line.text("scheme", fsr::compensation::schemeName(options.scheme)));
+  options.regressor = regressorOptions(line);
+  const auto bandwidth = fsr::regression::bandwidthFromText(line.text("bandwidth", "auto"));
+  options.choose_bandwidth = !bandwidth;
+  if (bandwidth) options.regressor.grnn.bandwidth = *bandwidth;
+  options.folds = static_cast<std::size_t>(line.integer("folds", 5, {2, 20, ""}));
+  options.seed = static_cast<std::uint64_t>(line.integer("seed", 1, {0, 1e15, ""}));
+  options.threads = threadsOf(line);
+  options.scores = !line.has("no-scores");
+  return options;
+}
+
+std::vector<fsr::dataset::Recording> readBags(const fsr::settings::CommandLine& line) {
+  BagReadOptions options;
+  options.topics = line.text("namespace", "");
+  if (line.has("ambient")) options.recording.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
+  std::vector<fsr::dataset::Recording> recordings;
+  for (const std::string& path : line.files()) recordings.push_back(readBag(path, options));
+  return recordings;
+}
+
+std::string fullPath(const std::string& path) {
+  return std::filesystem::absolute(path).lexically_normal().string();
+}
+
+void showProgress(std::size_t done, std::size_t taxels) {
+  std::cerr << "\rtaxel " << done << " of " << taxels << (done == taxels ? "\n" : "") << std::flush;
+}
+
+int check(const fsr::settings::CommandLine& line, std::ostream& out) {
+  if (line.has("output"))
+    throw fsr::settings::InputError("--check writes no calibration: leave --output out");
+  const std::string path = line.text("check", "");
+  const fsr::calibration::Calibration calibration =
+      fsr::calibration::loadCalibration(path, fsr::calibration::CalibrationParts::kWithoutStatistics);
+  out << "Calibration " << calibration.id << " (" << fsr::compensation::schemeName(calibration.tables.scheme)
+      << ", " << calibration.provenance.date << ") on " << line.files().size() << " bags\n"
+      << fsr::report::checkText(fsr::calibration::checkCalibration(calibration, readBags(line)));
+  return 0;
+}
+
+// What merging takes from the files, and cannot be told.
+void refuseOptionsOfTraining(const fsr::settings::CommandLine& line) {
+  for (const char* const option :
+       {"scheme", "model", "bandwidth", "spread", "distance", "equal-bins", "trees", "minimum-leaf",
+        "leaf-rule", "folds", "seed", "ambient", "namespace"}) {
+    if (!line.has(option)) continue;
+    throw fsr::settings::InputError("--" + std::string(option) +
+                                    " cannot be given with --merge: the files decide");
+  }
+}
+
+fsr::calibration::Calibration merge(const fsr::settings::CommandLine& line, std::ostream& out) {
+  refuseOptionsOfTraining(line);
+  std::vector<fsr::calibration::MergePart> parts;
+  for (const std::string& path : line.files()) {
+    parts.push_back(
+        {path, fsr::calibration::loadCalibration(path, fsr::calibration::CalibrationParts::kAll)});
+  }
+  fsr::calibration::MergeOptions options;
+  options.threads = threadsOf(line);
+  fsr::calibration::Calibration calibration = fsr::calibration::mergeCalibrations(parts, options);
+  out << fsr::report::coverageText(calibration.coverage) << '\n' << fsr::report::warningsText(calibration);
+  out << "Scores need the bags: train on all of them to have some.\n";
+  return calibration;
+}
+
+fsr::calibration::Calibration train(const fsr::settings::CommandLine& line, std::ostream& out) {
+  const fsr::calibration::CalibrationOptions chosen = calibrationOptions(line);
+  const fsr::calibration::CalibrationProblem problem{readBags(line), chosen};
+  fsr::calibration::validate(problem);
+  out << fsr::report::coverageText(fsr::dataset::coverageOf(problem.recordings, chosen.folds)) << std::endl;
+  const bool terminal = ::isatty(STDERR_FILENO) != 0;
+  fsr::calibration::Calibration calibration =
+      fsr::calibration::calibrate(problem, terminal ? showProgress : fsr::calibration::CalibrationProgress{});
+  out << fsr::report::warningsText(calibration) << fsr::report::scoresText(calibration.scores)
+      << fsr::report::learnedText(calibration);
+  return calibration;
+}
+
+}  // namespace
+
+int trainTool(int argc, const char* const* argv, std::ostream& out) {
+  fsr::settings::CommandLine line = options();
+  if (!line.parse(argc, argv)) {
+    out << line.help();
+    return 0;
+  }
+  if (line.has("check")) return check(line, out);
+  const std::string output = line.requiredText("output");
+  const std::string report = line.text("report", "");
+  fsr::settings::requireReplaceable(output);
+  if (!report.empty()) fsr::settings::requireReplaceable(report);
+
+  fsr::calibration::Calibration calibration = line.has("merge") ? merge(line, out) : train(line, out);
+  out << std::endl;
+  calibration.id = fsr::calibration::saveCalibration(calibration, output);
+  if (!report.empty()) fsr::settings::replaceFile(report, fsr::report::calibrationJson(calibration));
+  out << "Calibration " << calibration.id << " (" << fsr::compensation::schemeName(calibration.tables.scheme)
+      << ", " << fsr::report::modelText(calibration) << ") is in " << fullPath(output) << std::endl;
+  if (!report.empty()) out << "Report is in " << fullPath(report) << std::endl;
+  return 0;
+}
+
+}  // namespace fsr_ros

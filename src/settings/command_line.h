@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/settings/range.h"
+
+namespace fsr::settings {
+
+/// The options of a tool: `tool FILE... --option VALUE --flag`. Options are declared first, so that help
+/// and refusals know them all; `--option=VALUE` and options before, between and after the files are fine,
+/// `--` ends the options. What is wrong raises InputError that names option, value and what would be
+/// right.
+class CommandLine {
+ public:
+  /// `usage` is what follows the tool's name in its help, e.g. "BAG... --output FILE".
+  CommandLine(const std::string& tool, const std::string& usage, const std::string& purpose);
+
+  CommandLine& option(const std::string& name, const std::string& placeholder, const std::string& help);
+  CommandLine& flag(const std::string& name, const std::string& help);
+
+  /// False where help was asked for: then `help()` is what to print.
+  bool parse(int argc, const char* const* argv);
+  std::string help() const;
+
+  const std::vector<std::string>& files() const { return files_; }
+  bool has(const std::string& name) const;
+  std::string text(const std::string& name, const std::string& fallback) const;
+  /// Refuses a command line without it.
+  std::string requiredText(const std::string& name) const;
+  double number(const std::string& name, double fallback, const Range& range) const;
+  std::int64_t integer(const std::string& name, std::int64_t fallback, const Range& range) const;
+
+ private:
+  struct Declared {
+    std::string placeholder;  // empty = a flag
+    std::string help;
+  };
+  void take(const std::string& name, const std::string* value);
+
+  std::string tool_, usage_, purpose_;
+  std::vector<std::string> order_;
+  std::map<std::string, Declared> declared_;
+  std::map<std::string, std::string> values_;
+  std::vector<std::string> files_;
+};
+
+/// What a tool's main returns: run()'s status, or 2 after one sentence on the terminal where an
+/// InputError stops it.
+int runTool(const std::string& tool, const std::function<int()>& run);
+
+}  // namespace fsr::settings
