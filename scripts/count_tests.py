@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""count_tests.py JUNIT RESULTS: the last lines of scripts/test: what was skipped and why, then "N passed, N failed".
+"""count_tests.py JUNIT RESULTS: prints which tests were skipped and why, then "N passed, N failed" (end of scripts/test).
 
-Counts ctest's cases; a rostest counts as the cases inside it, read from its own results under
-RESULTS/<name>, and as one failed case where it left none. Status 1 where one failed or none ran.
+Counts the cases of ctest. A rostest counts as the cases inside it, read from its own results under RESULTS/<name>, or as one
+failed case if it left no results. Exit status 1 if a case failed or none ran.
 """
 import pathlib
 import re
@@ -11,7 +11,7 @@ import xml.etree.ElementTree as ElementTree
 
 
 def inner_cases(folder):
-    """(passed, failed) of the gtest cases that a rostest ran."""
+    """(passed, failed): numbers of the gtest cases inside a rostest."""
     passed = failed = 0
     for file in folder.rglob("rosunit-*.xml"):
         for case in ElementTree.parse(file).getroot().iter("testcase"):
@@ -21,7 +21,7 @@ def inner_cases(folder):
 
 
 def skipped(results):
-    """What rostests said of cases that they could not try here; ctest tells those of the others itself."""
+    """Lines in which rostests report skipped cases. ctest reports the others itself."""
     for file in sorted(results.rglob("rosunit-*.xml")):
         for why in re.findall("SKIPPED: .*", file.read_text(errors="replace")):
             yield f"{file.relative_to(results).parts[0]}: {why}"
@@ -32,7 +32,7 @@ def main():
     passed = failed = 0
     for case in ElementTree.parse(junit).getroot().iter("testcase"):
         skip = case.find("skipped")
-        if skip is not None and "SKIP_" in skip.get("message", ""):  # by itself; else ctest could not run it
+        if skip is not None and "SKIP_" in skip.get("message", ""):  # skipped by the test itself; otherwise ctest could not run it
             print(f"{case.get('name')}: SKIPPED: this system forbids what it needs (root)")
             continue
         good = case.get("status") == "run"

@@ -1,4 +1,4 @@
-"""The demo's last step: something is hidden in bags, and `discrepancy` is asked what."""
+"""Last step of the demo: an effect is hidden in bags, and the tool `discrepancy` looks for it."""
 import pathlib
 import shutil
 import subprocess
@@ -9,7 +9,7 @@ HIDDEN = ["--effect", "hysteresis:duhem", "--snr", "2", "--protocol", "two_speed
 
 
 def run(tool, *words, result):
-    """What the tool prints. 3 = only its figures are missing, but also rosrun's word for no such tool."""
+    """Output of the tool. Exit status 3 means that only its figures are missing; rosrun also uses it if there is no such tool."""
     done = subprocess.run(["rosrun", "fsr_pressure_map", tool, *map(str, words)], stdout=subprocess.PIPE, text=True)
     if done.returncode not in (0, 3) or not result.exists():
         raise subprocess.CalledProcessError(done.returncode, tool)
@@ -21,12 +21,12 @@ def percent(value):
 
 
 def find_hidden(folder, say):
-    """Makes bags and sealed key, asks, and returns verdict and key side by side."""
+    """Makes the bags and the key, runs `discrepancy`, and returns verdict and key side by side."""
     folder = pathlib.Path(folder)
     shutil.rmtree(folder, ignore_errors=True)
     run("blind_case", *HIDDEN, "--output", folder / "bags", "--key", folder / "key.yaml",
         result=folder / "key.yaml")
-    say("something is hidden in six bags; `discrepancy` is asked what, without the key")
+    say("an effect is hidden in six bags; `discrepancy` looks for it, without the key")
     words = run("discrepancy", folder / "bags", "--output", folder / "found",
                 result=folder / "found" / "verdict.yaml")
     key = yaml.safe_load((folder / "key.yaml").read_text())

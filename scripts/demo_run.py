@@ -1,18 +1,18 @@
 #!/usr/bin/python3
-"""Records, trains and compares on an emulated rig; started by scripts/demo, which builds and sources first.
+"""Records, trains and compares on an emulated rig. scripts/demo builds the package and starts this program.
 
-1. Records one bag for each surface of the paper: chamber cycles of the emulated rig through the real
-   serial driver.
+1. Records one bag for each surface of the paper (C. Ahmadizadeh, C. Menon, Sensors 2019, 19(24), 5519,
+   https://doi.org/10.3390/s19245519): chamber cycles of the emulated rig through the real serial driver.
 2. Trains four calibrations from these bags: flat-only, one for all (baseline), per curvature, and interpolated.
-3. Runs four live calibration nodes on new cycles, on each surface and on one that none was trained on,
-   and prints their errors against the chamber's pressure.
-4. Shows the pressure map in rviz, kept as a picture: on the display where there is one, until its window is
-   closed, else headless.
-5. Hides an effect in measurements made by formulas that the package does not know, asks `discrepancy` what is
-   missing, and prints its answer beside the key.
+3. Runs four live calibration nodes on new cycles, on each surface and on one that was not used for training, and prints
+   their errors against the chamber's pressure.
+4. Shows the pressure map in rviz and saves a picture: on the display, until the window is closed, or without a display on a
+   virtual one.
+5. Hides an effect in measurements made with formulas from outside the package, asks `discrepancy` what is missing, and
+   prints its answer beside the key.
 
-Exit status 0 only where per-curvature beats both others on every bent surface of the training and is no
-worse than flat-only on the flat one.
+The exit status is 0 only if per-curvature has a smaller error than flat-only and one-for-all on every bent surface of the
+training, and is no worse than flat-only on the flat one.
 """
 import argparse
 import contextlib
@@ -32,8 +32,8 @@ NAMESPACE = "fsr"
 TRAINED = ["flat", "cylinder_13cm", "cylinder_11cm", "cylinder_9cm", "cylinder_7cm", "cylinder_5cm"]
 UNSEEN = "cylinder_8cm"
 SCHEMES = ["flat_only", "baseline", "per_curvature", "interpolated"]
-START_LIMIT = 60.0  # [s] for a process to come up; then something is wrong
-SHOW_PRESSURE = 300e3  # [Pa] gauge; the picture is taken above it
+START_LIMIT = 60.0  # time for a process to start before the demo gives up [s]
+SHOW_PRESSURE = 300e3  # the picture is taken above this gauge pressure [Pa]
 
 
 def options():
@@ -44,7 +44,7 @@ def options():
     parser.add_argument("--cycles", type=int, default=6, help="chamber cycles of each training bag (%(default)s)")
     parser.add_argument("--live-cycles", type=int, default=2, help="chamber cycles of each live run (%(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="seed of the emulated rig (%(default)s)")
-    parser.add_argument("--no-rviz", action="store_true", help="leave the picture out")
+    parser.add_argument("--no-rviz", action="store_true", help="do not open rviz and take no picture")
     return parser.parse_args()
 
 
@@ -56,12 +56,12 @@ STARTED = time.monotonic()
 
 
 class Failure(Exception):
-    """The demo cannot go on; its text says why and where to look."""
+    """The demo cannot go on. The text says why and where to look."""
 
 
 @contextlib.contextmanager
 def process(command, log, stop_signal=signal.SIGINT, **keywords):
-    """A child process, its output in `log`, ended by its id when the block is left."""
+    """A child process with its output in `log`. It is ended when the block is left."""
     with open(log, "w") as output:
         child = subprocess.Popen(command, stdout=output, stderr=subprocess.STDOUT, start_new_session=True, **keywords)
         try:
@@ -77,13 +77,13 @@ def process(command, log, stop_signal=signal.SIGINT, **keywords):
 
 
 def wait_until(condition, child, what, log):
-    """Polls `condition` (of the ROS graph, which sends no events) while `child` lives."""
+    """Polls `condition` while `child` runs. (The ROS graph sends no events to wait for.)"""
     give_up = time.monotonic() + START_LIMIT
     while not condition():
         if child.poll() is not None:
-            raise Failure(f"{what} ended by itself; its log is {log}")
+            raise Failure(f"{what} ended unexpectedly; its log is {log}")
         if time.monotonic() > give_up:
-            raise Failure(f"{what} did not come up within {START_LIMIT:.0f} s; its log is {log}")
+            raise Failure(f"{what} did not start within {START_LIMIT:.0f} s; its log is {log}")
         time.sleep(0.05)
 
 
@@ -94,7 +94,7 @@ def free_port():
 
 
 class Rig:
-    """The emulated rig, by the services that a user would call."""
+    """The emulated rig, controlled by the services that a user would call."""
 
     def __init__(self, logs):
         import rosgraph
@@ -127,7 +127,7 @@ class Rig:
                 raise Failure(reply.message)
 
     def subscribed(self, node, topic):
-        """Whether `node` is known to the master as a listener of `topic`."""
+        """Whether `node` is registered at the master as a subscriber of `topic`."""
         subscribers = dict(self.master.getSystemState()[1])
         return f"/{NAMESPACE}/{node}" in subscribers.get(f"/{NAMESPACE}/{topic}", [])
 
@@ -140,11 +140,11 @@ class Rig:
         give_up = time.monotonic() + limit
         while not self.status.startswith("done"):
             if time.monotonic() > give_up:
-                raise Failure(f"the rig's cycles did not end within {limit:.0f} s; its logs are in {self.logs}")
+                raise Failure(f"the chamber cycles did not end within {limit:.0f} s; the logs are in {self.logs}")
             time.sleep(0.02)
 
     def record(self, bag, surface, trial, cycles, limit, topics=()):
-        """One bag of the rig's cycles by record.launch; returns its path."""
+        """Records one run of chamber cycles with record.launch and returns the path of the bag."""
         log = self.logs / f"record_{bag.name}.log"
         command = ["roslaunch", "fsr_pressure_map", "record.launch", f"bag:={bag}", f"trial:={trial}",
                    "protocol:=paper_cycles", f"session:=demo_{surface}", "use:=chamber", "mounted_on:=fixture"]
@@ -170,7 +170,7 @@ def train(scheme, bags, output, logs):
 
 
 def show(rig, output, logs, limit):
-    """rviz with the live map while the chamber is under pressure; returns the screenshot's path or None."""
+    """Opens rviz on the live map while the chamber is under pressure. Returns the path of the screenshot, or None."""
     config = pathlib.Path(subprocess.check_output(["rospack", "find", "fsr_pressure_map"], text=True).strip())
     rviz = ["rviz", "-d", str(config / "config/rviz/live.rviz"), "--splash-screen", ""]
     picture = output / "rviz.png"
@@ -197,7 +197,7 @@ def show(rig, output, logs, limit):
 def run(arguments, output, logs):
     cycle_limit = 60 + 200 * max(arguments.cycles, arguments.live_cycles) / arguments.time_scale
     rig = Rig(logs)
-    say(f"rig is up, {arguments.time_scale:g} x real time; recording {len(TRAINED)} surfaces")
+    say(f"the rig runs at {arguments.time_scale:g} x real time; recording {len(TRAINED)} surfaces")
     bags = []
     for mount, surface in enumerate(TRAINED, start=1):
         rig.mount(surface, mount)
@@ -216,7 +216,7 @@ def run(arguments, output, logs):
     with process(["roslaunch", "fsr_pressure_map", "compare.launch", *files], log) as child:
         nodes = ["calibration_flat_only", "calibration_baseline", "calibration_per_curvature", "calibration"]
         wait_until(lambda: all(rig.subscribed(node, "raw") for node in nodes), child, "compare.launch", log)
-        say("four calibration nodes are live; new cycles on every surface, and on one never trained on")
+        say("four calibration nodes run; new cycles on every surface, and on one that was not used for training")
         live = {}
         maps = ["flat_only/pressure_map", "baseline/pressure_map", "per_curvature/pressure_map", "pressure_map"]
         for mount, surface in enumerate(TRAINED + [UNSEEN], start=len(TRAINED) + 1):
@@ -242,7 +242,7 @@ def main():
     log = logs / "rig.log"
     rig_launch = ["roslaunch", "-p", port, "fsr_pressure_map", "demo.launch", f"link:={output / 'board'}",
                   f"time_scale:={arguments.time_scale}", f"seed:={arguments.seed}", "autostart:=false"]
-    say(f"starting roscore on 127.0.0.1:{port}, the emulated rig and the driver; everything goes to {output}")
+    say(f"starting roscore on 127.0.0.1:{port}, the emulated rig and the driver; all files go to {output}")
     try:
         with process(rig_launch, log) as child:
             import rosgraph
@@ -265,7 +265,7 @@ def main():
         complaints.append("no picture of the map could be taken")
     for complaint in complaints:
         print(f"demo: {complaint}", file=sys.stderr)
-    say("the demo " + ("FAILED" if complaints else "is done: knowing the curvature beats not knowing it on every bent surface"))
+    say("the demo " + ("FAILED" if complaints else "is done: calibrations that know the curvature have the smaller error on every bent surface"))
     return 1 if complaints else 0
 
 

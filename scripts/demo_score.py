@@ -1,4 +1,4 @@
-"""Scores of the demo's live runs against the chamber's own pressure, and its picture."""
+"""Scores of the demo's live runs against the chamber pressure, and the demo's picture."""
 import functools
 import subprocess
 import time
@@ -6,11 +6,11 @@ import time
 import numpy
 import rosbag
 
-UNDER_PRESSURE = 2e3  # [Pa] gauge: where a run's first cycle begins and its last ends
+UNDER_PRESSURE = 2e3  # gauge pressure at which the first cycle of a run begins and the last ends [Pa]
 
 
 def read_run(path, namespace, maps):
-    """Reference (stamps [s], gauge pressure [Pa]) and for each scheme (stamps [s], maps [scans x taxels])."""
+    """The reference (stamps [s], gauge pressure [Pa]), and for each scheme (stamps [s], maps [scans x taxels])."""
     reference, ambient = [], 101325.0
     series = {scheme: ([], []) for scheme in maps}
     scheme_of = {f"/{namespace}/{topic}": scheme for scheme, topic in maps.items()}
@@ -30,9 +30,9 @@ def read_run(path, namespace, maps):
 
 
 def score(path, namespace, maps):
-    """For each scheme: RMSE [% of the run's range] and [kPa] and bias [kPa], means over taxels, over the
-    run's cycles (rest before and after left out), readings missing, scans. Schemes are compared on the
-    scans that all of them answered: the recorder may meet one node's first map later than another's."""
+    """For each scheme: RMSE in % of the run's range and in kPa, and bias [kPa], as means over taxels; number of missing readings
+    and of scans. Counts the cycles of the run without the rest before and after. Schemes are compared on scans that all of them
+    have a map of, because the recorder may receive the first map of one node later than that of another."""
     reference, series = read_run(path, namespace, maps)
     under = reference[reference[:, 1] > UNDER_PRESSURE, 0]
     common = functools.reduce(numpy.intersect1d, [stamps for stamps, _ in series.values()])
@@ -41,7 +41,7 @@ def score(path, namespace, maps):
         inside = (stamps >= under[0]) & (stamps <= under[-1]) & numpy.isin(stamps, common)
         truth = numpy.interp(stamps[inside], reference[:, 0], reference[:, 1])[:, None]
         error = pressures[inside] - truth
-        rmse = numpy.sqrt(numpy.nanmean(error**2, axis=0))  # one for each taxel
+        rmse = numpy.sqrt(numpy.nanmean(error**2, axis=0))  # of each taxel
         result[scheme] = {
             "rmse_percent": 100 * rmse.mean() / numpy.ptp(truth),
             "rmse_kpa": rmse.mean() / 1e3,
@@ -65,23 +65,24 @@ def table(scores, trained, unseen):
 
 
 def complaints(scores, trained):
-    """What stands against "knowing the curvature helps", a sentence each; empty = nothing."""
+    """Sentences that contradict "knowing the curvature reduces the error"; empty = none."""
     result = []
     for surface in trained:
         rmse = {scheme: values["rmse_percent"] for scheme, values in scores[surface].items()}
         if any(value != value for value in rmse.values()):
-            result.append(f"{surface}: a scheme gave no readings")
+            result.append(f"{surface}: a scheme gave no reading")
         elif surface == "flat":
             if rmse["per_curvature"] > rmse["flat_only"] * (1 + 1e-9):
                 result.append(f"flat: per-curvature ({rmse['per_curvature']:.2f} %) is worse than flat-only ({rmse['flat_only']:.2f} %)")
         elif rmse["per_curvature"] >= min(rmse["flat_only"], rmse["baseline"]):
-            result.append(f"{surface}: per-curvature ({rmse['per_curvature']:.2f} %) does not beat both others")
+            result.append(f"{surface}: per-curvature ({rmse['per_curvature']:.2f} %) does not have a smaller error than flat-only "
+                          "and one-for-all")
     return result
 
 
 def screenshot(rig, picture, environment, pressure, limit):
-    """Starts a cycle and takes rviz's picture once the chamber is above `pressure` [Pa] gauge and the scene
-    has content; False where that did not come within `limit` [s]."""
+    """Starts cycles and takes a picture of rviz when the gauge pressure is above `pressure` [Pa] and the sheet is drawn. Returns
+    False if this did not happen within `limit` [s]."""
     from sensor_msgs.msg import FluidPressure
     latest = {"pressure": 0.0}
     subscriber = rig.rospy.Subscriber("/fsr/chamber_pressure", FluidPressure,
@@ -93,10 +94,10 @@ def screenshot(rig, picture, environment, pressure, limit):
     while not taken and time.monotonic() < give_up:
         if latest["pressure"] > pressure:
             subprocess.run(["import", "-window", "root", str(picture)], env=environment, check=True)
-            coloured = subprocess.check_output(  # share of the scene under the legend that is no grey
+            coloured = subprocess.check_output(  # share of the scene below the legend that is coloured
                 ["convert", str(picture), "-crop", "600x400+380+340", "-colorspace", "HSL", "-channel", "G", "-separate",
                  "+channel", "-threshold", "25%", "-format", "%[fx:mean]", "info:"], text=True)
-            taken = float(coloured) > 0.1  # 0.2 to 0.3 with the sheet, 0.002 with the axes alone
+            taken = float(coloured) > 0.1  # 0.2 to 0.3 with the sheet, 0.002 with only the axes
         else:
             time.sleep(0.01)
     subscriber.unregister()

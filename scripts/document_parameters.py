@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""document_parameters.py [--check] PAGE.md: the parameter tables of a page (docs/nodes.md), from the launch files.
+"""document_parameters.py [--check] PAGE.md: writes the parameter tables of a page (docs/nodes.md) from the launch files.
 
-A table stands between `<!-- parameters: launch/NAME.launch -->` and `<!-- end -->`; each row is an
-<arg> with its default and doc. --check changes nothing and leaves with status 1 where one is out of date.
+A table stands between `<!-- parameters: launch/NAME.launch -->` and `<!-- end -->`. Each row is an <arg> with its default
+and doc. --check changes nothing; its exit status is 1 if a table is out of date.
 """
 import pathlib
 import re
@@ -24,9 +24,9 @@ def table(launch):
 def main():
     check = "--check" in sys.argv
     page = pathlib.Path(sys.argv[-1])
-    house = pathlib.Path(__file__).resolve().parent.parent
+    package = pathlib.Path(__file__).resolve().parent.parent
     old = page.read_text()
-    new = BLOCK.sub(lambda match: match[1] + table(house / match[2]) + match[4], old)
+    new = BLOCK.sub(lambda match: match[1] + table(package / match[2]) + match[4], old)
     if check and new != old:
         print(f"{page}: parameter tables are out of date; run scripts/document_parameters.py {page}", file=sys.stderr)
         return 1

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""view_tables.py FONT.pcf.gz: writes src/view/colour_tables.cpp and src/view/font_table.cpp anew.
+"""view_tables.py FONT.pcf.gz: writes src/view/colour_tables.cpp and src/view/font_table.cpp.
 
-Colours: viridis (van der Walt, Smith; CC0) and cividis (Nunez, Anderton, Renslow, PLoS ONE 13(7) e0199239, 2018; CC0), as
-python3-matplotlib has them. Font: misc-fixed 7x13 ("Public domain font. Share and enjoy."), e.g. from Debian's
+Colours: viridis (van der Walt, Smith; CC0) and cividis (Nunez, Anderton, Renslow, PLoS ONE 13(7) e0199239, 2018; CC0), as in
+python3-matplotlib. Font: misc-fixed 7x13 ("Public domain font. Share and enjoy."), e.g. from Debian's
 xfonts-base: /usr/share/fonts/X11/misc/7x13.pcf.gz. Needs python3-matplotlib and python3-pil.
 """
 import gzip

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Draws the figures of a discrepancy run and writes its report: discrepancy.py DIR.
+"""discrepancy.py DIR: draws the figures of a discrepancy run and writes its report.
 
-DIR holds results.json and figures/*.csv as the tool `discrepancy` wrote them; figures/*.png and report.html are
-made beside them. Nothing is computed here that a reader could quote.
+DIR holds results.json and figures/*.csv, which the tool `discrepancy` wrote. This script adds figures/*.png and report.html.
+All numbers come from the tool; the script computes none.
 """
 
 import csv
@@ -15,12 +15,12 @@ import sys
 import figure_style as style
 import matplotlib.pyplot as plt
 
-# Covariates in the order in which their curves are worth a look, where the verdict names none.
+# Order of the covariates' curves if the verdict names none.
 ORDER = ["pressure", "direction", "time_since_reversal", "pressure_rate", "cycle", "clock_time", "temperature"]
-SCALES = {"Pa": (1e-3, "kPa"), "Pa/s": (1e-3, "kPa/s")}  # for screens
+SCALES = {"Pa": (1e-3, "kPa"), "Pa/s": (1e-3, "kPa/s")}  # units on screens
 WORDS = {
-    "named": "named", "none": "nothing is missing", "unknown": "unknown: no effect of the library explains it",
-    "ambiguous": "ambiguous: several explanations remain", "wrong_form": "right place, wrong form",
+    "named": "named", "none": "nothing is missing", "unknown": "unknown: no effect of the library explains the gap",
+    "ambiguous": "ambiguous: several explanations remain", "wrong_form": "right effect, wrong form",
     "not_identifiable": "not identifiable under this protocol",
 }
 SITUATIONS = {"ramp": "in a ramp", "stance": "in a stance of 0.6 s", "standing": "in ten minutes of standing"}
@@ -35,7 +35,7 @@ body { max-width: 76em; margin: 1em auto; } h1 { margin: 0.3em 0; }
 
 
 def read_table(path):
-    """{heading: [cells]}; numbers where they are some, NaN where there is none."""
+    """{heading: [cells]}; a cell is a number if it can be read as one, and NaN if it is empty."""
     with open(path, newline="", encoding="utf-8") as table:
         rows = list(csv.reader(table))
 
@@ -55,7 +55,7 @@ def spelt(name):
 
 
 def curves(folder, results):
-    """Tables of residual curves, the most telling first."""
+    """Tables of residual curves; those on which the residual depends come first."""
     names = [curve["covariate"] for curve in results["curves"] if curve["at"]]
     first = [name for name in results["depends_on"] if name in names]
     rest = sorted(set(names) - set(first), key=lambda n: (ORDER.index(n) if n in ORDER else len(ORDER), n))
@@ -63,7 +63,7 @@ def curves(folder, results):
 
 
 def branches(name, at):
-    """[(style, rows)]: one curve, or loading and unloading apart where unloading is given as negative pressure."""
+    """[(style, rows)]: one curve, or one each for loading and unloading if unloading has negative pressure."""
     if name != "direction" or max(at) <= 1:
         return [("-", range(len(at)))]
     up, down = ([i for i, x in enumerate(at) if (x >= 0) == side] for side in (True, False))
@@ -88,7 +88,7 @@ def draw_curve(axes, name, table):
                       label=label if line == "-" else None)
     axes.set_xlabel(spelt(name) + (" [%s]" % shown if shown else ""))
     if len(parts) > 1:
-        axes.set_xlabel("pressure [kPa], filling solid, venting dashed")
+        axes.set_xlabel("pressure [kPa]; solid: filling, dashed: venting")
     elif name == "direction":
         axes.set_xticks([-1, 1], ["unloading", "loading"])
 
@@ -112,13 +112,13 @@ def draw_gap(axes, table):
 
 
 def draw_first(folder, results):
-    """The disagreement before and after, and its size: one picture."""
+    """One picture: the disagreement before and after, and its size."""
     tables = curves(folder, results)[:2]
     drawing, axes = plt.subplots(1, len(tables) + 1, figsize=(style.PAGE, 2.9),
                                  width_ratios=[3] * len(tables) + [2])
     axes = list(axes) if tables else [axes]
     for other in axes[1:len(tables)]:
-        other.sharey(axes[0])  # what is small is to look small
+        other.sharey(axes[0])  # so that sizes can be compared
     for i, (name, table) in enumerate(tables):
         draw_curve(axes[i], name, table)
     if tables:
@@ -129,7 +129,7 @@ def draw_first(folder, results):
 
 
 def draw_rest(folder, results):
-    """All other curves, three in a row; None where there are none."""
+    """All other curves, three in a row; None if there are none."""
     tables = curves(folder, results)[2:]
     if not tables:
         return None
@@ -146,7 +146,7 @@ def draw_rest(folder, results):
 
 
 def draw_candidates(folder):
-    """What each candidate explains of the squared error, held out; None where there is none."""
+    """Share of the held-out squared error that each candidate explains; None if there is no candidate."""
     table = read_table(os.path.join(folder, "candidates.csv"))
     number = min(len(table["effects"]), 15)
     if number == 0:
@@ -197,7 +197,7 @@ def item(title, text):
 
 def not_excluded(results):
     sets = [" + ".join(spelt(i) for i in ids) for ids in results["credible_set"]]
-    return "; ".join(sets) if sets else "nothing: no effect of the library is an explanation"
+    return "; ".join(sets) if sets else "none: no effect of the library explains the gap"
 
 
 def not_testable(results):
@@ -216,7 +216,7 @@ def held_out(gap):
 def foretold_section(results):
     rows = [(held["by"], part["part"], percent(part["closed"]))
             for held in results["gap"]["foretold"] for part in held["parts"]]
-    return [style.paragraph("What was found, sized on all the others, closes of the gap on"),
+    return [style.paragraph("Share of the gap that the effects found close on data held out; their sizes were fitted to all other data:"),
             style.table(["held out", "", "closed"], rows)] if rows else []
 
 
@@ -235,12 +235,12 @@ def first_screen(results, figure):
     facts = "".join([
         item("Not excluded", not_excluded(results)),
         item("Not testable here (what would show it)", not_testable(results)),
-        item("Next experiment", following["sentence"] if following else "none is needed to tell explanations apart"),
+        item("Next experiment", following["sentence"] if following else "none is needed to separate explanations"),
         item("Held out by", held_out(results["gap"]) + "; looked at " + opened(results)),
-        item("Largest error of who leaves it out", costs(results)) if results["in_use"] else "",
+        item("Largest error if it is left out", costs(results)) if results["in_use"] else "",
     ])
-    caption = ("Measured minus simulated, mean with its 95 % interval, before and after what was found was added, "
-               "and its rms on data that took no part; floor = what no explanation could undercut")
+    caption = ("Measured minus simulated: mean with 95 % interval, before and after the effects found were added, "
+               "and its rms on hold-out data. Floor: the smallest gap that any explanation could leave")
     return ("<div class=first><p class=verdict><b>%s.</b> %s</p><div><dl>%s</dl><div class=gap>%s</div></div>%s</div>"
             % (html.escape(WORDS.get(results["verdict"], results["verdict"]).capitalize()),
                html.escape(results["sentence"]), facts, gap_table(results["gap"]), style.picture(figure, caption)))
@@ -255,7 +255,7 @@ def effects_section(results):
                          "" if low is None else "%.4g to %.4g" % (low, high), effect["z"], effect["share_of_ceiling"]))
     pieces = [style.paragraph("%s: %s" % (spelt(e["id"]), e["summary"])) for e in results["effects"]]
     if rows:
-        pieces.append(style.table(["effect", "parameter", "value", "unit", "95 % interval", "z", "share of ceiling"],
+        pieces.append(style.table(["effect", "parameter", "value", "unit", "95 % interval", "z", "share of explainable part"],
                                   rows))
     if any(e["id"] == "creep" for e in results["effects"]):
         pieces.append(style.paragraph("Data sheets call creep \"drift under constant load\"."))
@@ -275,29 +275,29 @@ def where_section(results):
 
 
 def covariates_section(results):
-    methods = {"sign_flips": "signs of whole cycles changed", "block_bootstrap": "cycles or blocks drawn anew"}
+    methods = {"sign_flips": "permutation test on whole cycles", "block_bootstrap": "bootstrap over cycles or blocks"}
     rows = [(spelt(t["covariate"]), "yes" if t["depends"] else "no", "%.2g" % t["p"], "%.2g" % t["adjusted_p"],
              percent(max(0, t["share_of_error"])), methods.get(t["method"], t["method"]))
             for t in results["covariates"]]
-    return [style.paragraph("What the static curves leave, asked before any effect was named; p adjusted by Benjamini and "
-                            "Yekutieli; yes: at most 0.05, and at least 2 % of the squared error."),
-            style.table(["covariate", "depends", "p", "adjusted", "of the squared error", "by"], rows)] if rows else []
+    return [style.paragraph("Dependence of the residual of the static curves, tested before any effect was named. p is adjusted by Benjamini "
+                            "and Yekutieli. Yes: p is at most 0.05 and the share of the squared error at least 2 %."),
+            style.table(["covariate", "depends", "p", "adjusted p", "share of the squared error", "test"], rows)] if rows else []
 
 
 def use_section(results):
     rows = [(SITUATIONS.get(u["situation"], u["situation"]), kilopascal(u["before_pa"]), kilopascal(u["after_pa"]))
             for u in results["in_use"]]
-    return [style.paragraph("Of who reads the sheet through static curves alone, and of who models what was found:"),
+    return [style.paragraph("Before: with static curves only. After: with the effects found."),
             style.table(["largest error", "before", "after"], rows)] if rows else []
 
 
 def provenance(results):
     rows = [(i["file"], i["sha256"], i["scans"], i["show_opened"]) for i in results["inputs"]]
     tested = ", ".join(spelt(t) for t in results["tested"])
-    return [style.table(["bag", "SHA-256", "scans", "held-out part looked at"], rows),
+    return [style.table(["bag", "SHA-256", "scans", "looks at the hold-out part"], rows),
             style.paragraph("Started from the simulation \"%s\"; seed %d; version %s. Effects tested: %s." %
                             (results["simulation"], results["seed"], results["version"], tested or "none")),
-            style.paragraph("Research use; not for diagnosis or fitting decisions.")]
+            style.paragraph("Research use. Not for diagnosis or fitting decisions.")]
 
 
 def sections(results, figures):
@@ -308,17 +308,17 @@ def sections(results, figures):
     parts = [
         (None, [LAYOUT, first_screen(results, figures["first"])]),
         ("What was found", effects_section(results) + [style.paragraph(s["sentence"]) for s in results["steps"]]),
-        ("Where it shows", where_section(results) if shown else []),
-        ("On what the residual depends", covariates_section(results)),
-        ("Does it hold elsewhere", foretold_section(results)),
-        ("What it costs in use", use_section(results)),
-        ("All candidates", pictures((figures["candidates"], "The best explanations, each alone or in pairs; green: "
+        ("Where it appears", where_section(results) if shown else []),
+        ("What the residual depends on", covariates_section(results)),
+        ("Hold-out surfaces and protocols", foretold_section(results)),
+        ("Largest errors in use", use_section(results)),
+        ("All candidates", pictures((figures["candidates"], "The best explanations, alone or in pairs. Green: "
                                      "named, orange: not excluded, grey: refused"))),
-        ("Other covariates", pictures((figures["rest"], "The same residual over everything else that was recorded"))),
-        ("Not testable with these bags", [style.table(["effect", "would show it", "why"], testable)] if testable else []),
+        ("Other covariates", pictures((figures["rest"], "The same residual over all other covariates"))),
+        ("Not testable with these bags", [style.table(["effect", "experiment that would show it", "reason"], testable)] if testable else []),
         ("Limits", [sentence_list(results["limitations"] + results["gap"]["missing"])]
          if results["limitations"] or results["gap"]["missing"] else []),
-        ("Where it comes from", provenance(results)),
+        ("Provenance", provenance(results)),
     ]
     return [(heading, pieces) for heading, pieces in parts if pieces]
 

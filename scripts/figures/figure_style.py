@@ -1,7 +1,6 @@
-"""How the package's figures and reports look: one style, one way to save them.
+"""Style of the package's figures and reports, and functions that save them.
 
-Scripts beside this one read results that the tools wrote (CSV, JSON) and draw them; they compute
-nothing that a reader could quote.
+The scripts beside this one draw results that the tools wrote (CSV, JSON). They compute no results of their own.
 """
 
 import base64
@@ -17,7 +16,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 COLUMN = 3.5  # width of one journal column [inch]
 PAGE = 7.16  # width of two columns [inch]
 
-# Okabe and Ito's colours, told apart by colour-blind readers (https://jfly.uni-koeln.de/color/).
+# Okabe and Ito's colours, which colour-blind readers can distinguish (https://jfly.uni-koeln.de/color/).
 BLUE, ORANGE, GREEN, RED, PURPLE, SKY, YELLOW, BLACK = (
     "#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#F0E442", "#000000")
 COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY, BLACK)
@@ -31,15 +30,15 @@ plt.rcParams.update({
 
 
 def figure(width=COLUMN, height=2.4, **subplots):
-    """(figure, axes) of so many inches; further arguments go to plt.subplots."""
+    """(figure, axes) of this size [inch]; further arguments go to plt.subplots."""
     return plt.subplots(figsize=(width, height), **subplots)
 
 
 def save(drawing, stem, columns=None):
-    """Writes STEM.png and STEM.pdf and, from {heading: values}, STEM.csv: the numbers that were drawn."""
+    """Writes STEM.png, STEM.pdf and, if {heading: values} is given, STEM.csv with the numbers drawn."""
     os.makedirs(os.path.dirname(os.path.abspath(stem)), exist_ok=True)
     for ending in ("png", "pdf"):
-        # No date inside: the same results give the same bytes.
+        # Without a date, so that the same results give the same bytes.
         drawing.savefig(f"{stem}.{ending}", metadata={"CreationDate": None} if ending == "pdf" else {"Software": None})
     plt.close(drawing)
     if columns is not None:
@@ -48,7 +47,7 @@ def save(drawing, stem, columns=None):
 
 
 def write_csv(path, columns):
-    """{heading: values} of equal length; a heading says its unit, e.g. "pressure [kPa]"."""
+    """Writes {heading: values} of equal length. A heading contains its unit, e.g. "pressure [kPa]"."""
     lengths = {name: len(values) for name, values in columns.items()}
     if len(set(lengths.values())) > 1:
         raise ValueError(f"{path}: columns of different length: {lengths}")
@@ -59,7 +58,7 @@ def write_csv(path, columns):
 
 
 def picture(path, caption):
-    """A figure for page(), with the image inside."""
+    """A figure for page() that contains the image."""
     with open(path, "rb") as image:
         data = base64.b64encode(image.read()).decode("ascii")
     text = html.escape(caption)
@@ -68,7 +67,7 @@ def picture(path, caption):
 
 
 def table(headings, rows, caption=""):
-    """An HTML table; a cell is text or a number, numbers to the right."""
+    """An HTML table. A cell is text or a number; numbers are right-aligned."""
     def cell(value):
         number = isinstance(value, (int, float)) and not isinstance(value, bool)
         text = f"{value:.4g}" if isinstance(value, float) else str(value)
@@ -94,7 +93,7 @@ figure { margin: 1em 0; } img { max-width: 100%; } figcaption { color: #555; fon
 
 
 def page(path, title, sections):
-    """Writes one HTML file that opens without network; `sections` is [(heading or None, [html, ...])]."""
+    """Writes one HTML file that needs no network; `sections` is [(heading or None, [html, ...])]."""
     parts = [f"<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8><title>{html.escape(title)}</title>"
              f"<style>{_PAGE_STYLE}</style></head><body><h1>{html.escape(title)}</h1>"]
     for heading, pieces in sections:

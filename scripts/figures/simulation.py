@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Draws what the effects of a simulated rig do: simulation.py DATA.json STEM [PANEL...]
+"""simulation.py DATA.json STEM [PANEL...]: draws what the effects of a simulated rig do.
 
-The data are those that `simulate --plot` writes: readings in per cent of full scale, pressures in kPa.
-STEM.png and STEM.pdf are drawn; with panels by name, only those, and a small STEM.png alone.
+`simulate --plot` writes the data: readings in % of full scale, pressures in kPa. Draws STEM.png and STEM.pdf. With names of
+panels it draws only those, into a small STEM.png.
 """
 import io
 import json
@@ -25,7 +25,7 @@ SMALL_DPI = 100
 
 
 def response(axes, data):
-    """The first loading with the effects, and without in grey."""
+    """The first loading with the effects, and without them in grey."""
     for line, colour in zip(data["response"], ("0.6", style.BLUE, "0.6", style.RED)):
         without = line["label"].endswith("without")
         axes.plot(line["x"], line["y"], "--" if without else "-", color=colour, label=line["label"])
@@ -55,14 +55,14 @@ def hold(axes, data):
 
 
 def low(axes, data):
-    """The begin of the response, where a turn-on pressure or a preload shows."""
+    """The beginning of the response, which shows a turn-on pressure or a preload."""
     response(axes, data)
     readings = [y for line in data["response"] for x, y in zip(line["x"], line["y"]) if x <= 60]
     axes.set(title="first loading, low pressures", xlim=(0, 60), ylim=(-0.5, 1.1 * max(readings)))
 
 
 def beginning(axes, data):
-    """The first half minute of the hold, at rest, where a beat shows."""
+    """The first half minute of the hold, at rest, which shows a beat."""
     for line, look in zip(data["hold"], STYLES):
         axes.plot(line["x"], line["y"], label=line["label"], **look)
     axes.set(title="at rest", xlabel="time [s]", ylabel=CHANGE, xlim=(0, 30))
@@ -70,7 +70,7 @@ def beginning(axes, data):
 
 
 def rows_of(axes, rows, title, change):
-    """A map; few steps of colour, which can be told apart and make small files."""
+    """A map with few steps of colour, which are easy to distinguish and make small files."""
     if change:
         largest = max(max(abs(value) for value in row) for row in rows) or 1
         colours = {"cmap": plt.get_cmap("RdBu_r", 21), "vmin": -largest, "vmax": largest}
@@ -98,7 +98,7 @@ DETAILS = {panel.__name__: panel for panel in (low, beginning)}
 
 
 def save_small(drawing, path):
-    """Few colours make a small file; a new name at first, so that nothing half-written remains."""
+    """Writes a small file with few colours, under a temporary name first so that no incomplete file remains."""
     picture = io.BytesIO()
     drawing.savefig(picture, format="png", dpi=SMALL_DPI)
     plt.close(drawing)

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""Draws a study's figures and its report: study.py FOLDER, which holds results.json and tables/.
+"""study.py FOLDER: draws the figures of a study and writes its report. FOLDER holds results.json and tables/.
 
-Writes figures/*.png, *.pdf and *.csv in the manner of the paper's Figs 5 to 10, and report.html.
+Writes figures/*.png, *.pdf and *.csv, like Figs 5 to 10 of the paper (C. Ahmadizadeh, C. Menon, Sensors 2019, 19(24), 5519,
+https://doi.org/10.3390/s19245519), and report.html.
 """
 
 import csv
@@ -13,11 +14,14 @@ import figure_style as style
 
 SHOWN_BY_PRESSURE = ("baseline", "per_curvature", "flat_or_curved", "curvature_map")
 PAPER_ALGORITHM = {"linear": "LR", "grnn": "GRNN", "forest": "RF"}
-NOT_FOR_PATIENTS = "For research; not for diagnosis or fitting decisions."
+PAPER = ("\"The paper\": C. Ahmadizadeh, C. Menon, \"Investigation of Regression Methods for Reduction of Errors Caused by "
+         "Bending of FSR-Based Pressure Sensing Systems Used for Prosthetic Applications\", Sensors 2019, 19(24), 5519, "
+         "doi 10.3390/s19245519.")
+NOT_FOR_PATIENTS = "Research use. Not for diagnosis or fitting decisions."
 
 
 def read_table(folder, name):
-    """{heading: values}; numbers where all of a column are."""
+    """{heading: values}; a column is numbers if all its values are."""
     with open(os.path.join(folder, "tables", name), newline="", encoding="utf-8") as table:
         rows = list(csv.DictReader(table))
     columns = {}
@@ -31,20 +35,20 @@ def read_table(folder, name):
 
 
 def plain_name(score):
-    """per curvature (Method 1)."""
+    """A score's name, e.g. "per curvature (Method 1)"."""
     name = score["id"].replace("_", " ")
     return f"{name} ({score['label']})" if score["paper"] and score["label"].startswith("Method") else name
 
 
 def radius(curvature):
-    """Curvature [1/m] as a figure names it."""
+    """The radius of a curvature [1/m], as text."""
     if abs(curvature) < 0.25:
         return "flat"
     return f"{100 / abs(curvature):.0f} cm" + (" inside" if curvature < 0 else "")
 
 
 def curves(response):
-    """[(curvature, times, pressures, readings)] by ascending bend."""
+    """[(curvature, times, pressures, readings)] by ascending magnitude of the curvature."""
     kept = {}
     for surface, curvature, *values in zip(*(response[name] for name in (
             "surface", "curvature [1/m]", "time [s]", "pressure [kPa]", "reading [counts]"))):
@@ -65,7 +69,7 @@ def response_columns(chosen, highest):
 
 
 def medians(points):
-    """Median reading of equal bins of pressure: a line to guide the eye."""
+    """Median reading in equal bins of pressure, as a guide for the eye."""
     low, high = min(p for p, _ in points), max(p for p, _ in points)
     bins = max(3, min(16, sum(p > low + 0.02 * (high - low) for p, _ in points) // 12))
     lists = [[] for _ in range(bins)]
@@ -116,7 +120,7 @@ def draw_boxes(stem, scores, names, stacked):
 
 
 def one_cycle(table):
-    """The part of a prediction that shows a cycle: from the rest before the first filling to the next rest."""
+    """The range of a prediction that shows one cycle, from the rest before the first filling to the next rest."""
     pressure = table["reference [kPa]"]
     level = 0.02 * max(pressure)
     above = [i for i, value in enumerate(pressure) if value > level]
@@ -133,7 +137,7 @@ def draw_prediction(stem, table, curvature):
     axes.plot(part["time [s]"], part["without curvature [kPa]"], ".", color=style.RED, markersize=3,
               label="predicted without curvature (one model for all)")
     axes.plot(part["time [s]"], part["with curvature [kPa]"], ".", color=style.BLUE, markersize=3,
-              label="predicted with curvature (one model a curvature)")
+              label="predicted with curvature (one model for each curvature)")
     axes.plot(part["time [s]"], part["reference [kPa]"], "-", color=style.BLACK, label="chamber")
     axes.set(xlabel="time [s]", ylabel="pressure [kPa gauge]", title=f"radius {radius(curvature)}")
     axes.legend(loc="upper right")
@@ -152,7 +156,7 @@ def draw_bandwidths(stem, table, chosen):
                   textcoords="offset points", color="0.4", fontsize=7)
     axes.set_xscale("log", base=2)
     axes.set_ylim(0, min(10, max(max(v) for n, v in table.items() if n.endswith("%]"))))
-    axes.set(xlabel="bandwidth [deviations of the readings]", ylabel="RMSE [% of range]")
+    axes.set(xlabel="bandwidth [standard deviations of the readings]", ylabel="RMSE [% of range]")
     axes.legend(ncol=2)
     return style.save(drawing, stem, table)
 
@@ -239,7 +243,7 @@ def probability(p):
 
 def interval_text(interval, unit=1.0, digits=2):
     if interval is None:
-        return "none: holds for these recordings only"
+        return "none: valid for these recordings only"
     low, high = interval["interval_95"]
     return (f"{low / unit:.{digits}f} to {high / unit:.{digits}f} "
             f"({interval['method']}, {interval['n']} {interval['unit']}s)")
@@ -258,7 +262,7 @@ def score_rows(scores):
 def paper_table(comparison):
     return style.table(["", "R²", "paper's R²", "RMSE%", "paper's RMSE%", "95 % interval of our RMSE%", "scored"],
                        score_rows(comparison["scores"]),
-                       "Mean ± deviation over taxels; interval: whole units resampled, readings of a model pooled.")
+                       "Mean ± standard deviation over taxels. Interval: bootstrap over whole units, readings of a model pooled.")
 
 
 def use_table(scores, caption):
@@ -309,14 +313,14 @@ def tests_of(comparison):
              number(d["rmse_percent"]["estimate"] if d["rmse_percent"] else None),
              interval_text(d["rmse_percent"])] for d in comparison["differences_of_rmse_percent"]]
     pieces.append(style.table(["pair", "difference of RMSE%", "95 % interval"], rows,
-                              "Beside it: whole units resampled, the highest level that has five."))
+                              "Interval: bootstrap over whole units of the highest level that has at least five."))
     return pieces
 
 
 def comparison_section(comparison, pictures):
     return (comparison["title"],
             [paper_table(comparison)] + pictures +
-            [use_table(comparison["scores"], "The same held-out readings in kPa."),
+            [use_table(comparison["scores"], "Errors of the same held-out readings [kPa]."),
              "<h3>As published, taxels treated as independent</h3>"] + tests_of(comparison))
 
 
@@ -334,7 +338,7 @@ def beyond_sections(results, pictures):
         name = split["id"].replace("_", " ")
         pieces.append(use_table(split["scores"], f"{name}: {split['description']}"))
         pieces.append(bin_table(split["scores"], f"{name}, by chamber pressure"))
-    return [("Beyond the paper: all scans, bandwidth by nested cross-validation, harder splits", pieces)]
+    return [("Beyond the paper: all scans, bandwidth chosen by nested cross-validation, harder splits", pieces)]
 
 
 def write_report(folder, results, pictures):
@@ -343,7 +347,7 @@ def write_report(folder, results, pictures):
     sections = [
         (None, ([f"<p class=verdict>{style.html.escape(results['headline']['text'])}</p>"] if beyond else []) +
          [style.paragraph(sentence) for sentence in results["holds_for"] + results["warnings"]] +
-         [style.paragraph(NOT_FOR_PATIENTS)]),
+         [style.paragraph(PAPER), style.paragraph(NOT_FOR_PATIENTS)]),
         ("Data", [style.table(["surface", "radius", "1/m", "1/cm", "scans", "cycles", "mounts"],
                               condition_rows(results)),
                   style.paragraph(f"{results['scans']} scans of {len(results['taxels'])} taxels."),
@@ -352,10 +356,10 @@ def write_report(folder, results, pictures):
         comparison_section(comparisons["flat_against_all"], []),
         comparison_section(comparisons["methods"], [pictures["methods"], pictures["prediction"]]),
         *([comparison_section(comparisons["one_hot"], [])] if "one_hot" in comparisons else []),
-        ("Numbers of the paper that cannot be matched", [style.paragraph(text) for text in results["unmatchable"]]),
+        ("Numbers of the paper that cannot be reproduced", [style.paragraph(text) for text in results["unmatchable"]]),
         ("Bandwidth", [pictures["bandwidths"]]),
         *beyond_sections(results, pictures),
-        ("Where the paper leaves a choice", [style.table(
+        ("Choices that the paper leaves open", [style.table(
             ["", "the paper", "this study"],
             [[row["subject"], row["paper"], row["study"]] for row in results["decisions"]])]),
         ("Provenance", [style.table(["bag", "scans", "SHA-256"], [
@@ -391,15 +395,15 @@ def main(folder):
                            f"Taxel {taxel} on all surfaces (Fig. 10)."),
         "algorithms": (draw_boxes(stem("fig6_algorithms"), algorithms,
                                   [PAPER_ALGORITHM[score["id"]] for score in algorithms], stacked=False),
-                       "Algorithms on the baseline, one point a taxel (Fig. 6)."),
+                       "Algorithms on the baseline, one point for each taxel (Fig. 6)."),
         "methods": (draw_boxes(stem("fig7_methods"), methods,
                                [score["label"].replace("Method ", "M") for score in methods], stacked=True),
-                    "Methods, one point a taxel (Fig. 7)."),
+                    "Methods, one point for each taxel (Fig. 7)."),
         "prediction": (draw_prediction(stem("fig9_prediction"), prediction, pair[-1][0]),
                        f"Held-out predictions of taxel {taxel}, without and with curvature (Fig. 9)."),
         "bandwidths": (draw_bandwidths(stem("bandwidths"), read_table(folder, "bandwidths.csv"),
                                        results["plan"]["bandwidth"]),
-                       "RMSE% over the grid of bandwidths, on the data of the paper's tables."),
+                       "RMSE% over the bandwidth, on the same data as the tables."),
     }
     if results["plan"]["beyond_the_paper"]:
         pictures["bins"] = (draw_bins(stem("errors_by_pressure"), results["splits"][0]),
