@@ -1,5 +1,5 @@
 // Scans that come through a line that flips bits, beside the most that any receiver can have without
-// repeating: a packet with an error is lost, its neighbours are not. The table is in docs/faults.md.
+// repeating: a packet with an error is lost, its neighbours are not. The table is in docs/reliability.md.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """kill_cost.py [KILLS]: what kill -9 of the recorder costs: seconds before the kill that are not in the rescued bag.
 
-Prints the table of docs/faults.md, median and worst of KILLS (11) for each rate, with the chunk that record.launch chooses.
+Prints the table of docs/reliability.md, median and worst of KILLS (11) for each rate, with the chunk that record.launch chooses.
 An emulated board, the driver and the recorder, each killed at another moment. Source out/devel/setup.bash first.
 """
 import os

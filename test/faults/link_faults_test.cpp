@@ -1,6 +1,6 @@
 // What can go wrong between a board and its pressure map, each tried for real: an emulated board behind a
 // pseudo-terminal, read as the driver reads it. Every scan that comes out is held against what the board
-// sent, every pressure against the table. docs/faults.md tells what each fault costs.
+// sent, every pressure against the table. docs/reliability.md tells what each fault costs.
 #include <gtest/gtest.h>
 
 #include <filesystem>

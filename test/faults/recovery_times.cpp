@@ -1,5 +1,5 @@
 // How long until data flow again after each fault of the link, driver's defaults: the port is tried again
-// each second. Prints the table of docs/faults.md. The board is emulated, 3 x 4 taxels at 500 Hz.
+// each second. Prints the table of docs/reliability.md. The board is emulated, 3 x 4 taxels at 500 Hz.
 #include <algorithm>
 #include <cstdio>
 #include <functional>
