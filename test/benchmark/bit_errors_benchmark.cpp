@@ -1,5 +1,6 @@
-// Scans that come through a line that flips bits, beside the most that any receiver can have without
-// repeating: a packet with an error is lost, its neighbours are not. The table is in docs/faults.md.
+// Share of scans received through a line with bit errors, beside the best possible share without
+// retransmission: a packet with an error is lost, its neighbours are not. The table is in
+// docs/reliability.md.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -15,7 +16,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::size_t kTaxels = 70;
 
-// What scan `number` holds, so that a receiver can tell a scan that was never sent.
+// Content of scan `number`, so that a receiver can recognise a scan that was never sent.
 std::uint16_t countOf(std::uint32_t number, std::size_t taxel) {
   return static_cast<std::uint16_t>((number * 2654435761U + static_cast<std::uint32_t>(taxel) * 40503U) >>
                                     20);
@@ -63,7 +64,7 @@ void scansAgainstBitErrors(benchmark::State& state) {
   state.counters["ber"] = damage.flipped_bits;
   state.counters["got_%"] = 100.0 * static_cast<double>(receiver.scans) / sent;
   state.counters["best_%"] = 100 * best;
-  state.counters["sd_%"] = 100 * std::sqrt(best * (1 - best) / sent);  // of the share, by chance alone
+  state.counters["sd_%"] = 100 * std::sqrt(best * (1 - best) / sent);  // of the share, by chance
   state.counters["wrong"] = static_cast<double>(receiver.wrong);
 }
 // 1e-6, 3e-6, ... 1e-2.

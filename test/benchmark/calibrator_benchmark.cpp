@@ -1,7 +1,7 @@
-// Cost of calibrating a scan, with pressure, deviation, flags and the watch for dead and stuck taxels,
-// beside the mere copy of a scan from counts to floats. Scans follow load cycles with noise, a taxel
-// scatter of 4 % and a new scan each time, so that the tables' cache lines really move; under a standing load
-// they do not.
+// Cost of calibrating a scan (pressure, deviation, flags and the watch for dead and stuck taxels) beside the
+// cost of copying a scan from counts to floats. The scans follow load cycles with noise and a taxel scatter
+// of 4 %. Each scan is new, so that the cache lines of the tables change; under a constant load they would
+// not.
 
 #include <benchmark/benchmark.h>
 
@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::uint16_t kFullScale = 4095;
 constexpr std::size_t kScans = 4096;  // a power of two
-constexpr double kRate = 100.0;       // scans a second
-constexpr double kCycle = 72.0;       // [s], fill and vent
+constexpr double kRate = 100.0;       // [scans/s]
+constexpr double kCycle = 72.0;       // fill and vent [s]
 const std::vector<double> kCurvatures = {0.0, 1 / 0.13, 1 / 0.11, 1 / 0.09, 1 / 0.07, 1 / 0.05};
 
 /// [kScans x taxels] counts.
@@ -41,7 +41,7 @@ fsr::matrix::MatrixSize size(const benchmark::State& state) {
   return {std::uint16_t(state.range(0)), std::uint16_t(state.range(1))};
 }
 
-// `scans`: how many different ones follow each other, a power of two.
+// `scans`: number of different scans in sequence, a power of two.
 void Calibrate(benchmark::State& state, std::size_t scans) {
   const fsr::matrix::MatrixSize matrix = size(state);
   fsr::calibration::Calibrator calibrator(test_support::smallTables(matrix, kCurvatures, kFullScale),
@@ -62,7 +62,7 @@ void Calibrate(benchmark::State& state, std::size_t scans) {
   state.counters["MB"] = static_cast<double>(calibrator.bytes()) / 1e6;
 }
 
-// What a calibration of a converter of 16 bits takes: of two taxels, scaled up.
+// Memory of a calibration of a 16 bit converter, extrapolated from two taxels.
 void FineConverter(benchmark::State& state) {
   const fsr::matrix::MatrixSize matrix = size(state), pair{1, 2};
   const fsr::calibration::Calibrator calibrator(test_support::smallTables(pair, kCurvatures, 65535), {pair});
@@ -71,7 +71,7 @@ void FineConverter(benchmark::State& state) {
       static_cast<double>(calibrator.bytes()) / 1e6 / double(pair.taxels()) * double(matrix.taxels());
 }
 
-/// Between classes, where every taxel has a table of its own.
+/// Between curvature classes, where every taxel has its own table.
 void CalibrateBlended(benchmark::State& state) {
   const fsr::matrix::MatrixSize matrix = size(state);
   fsr::compensation::CurvatureTables tables = test_support::smallTables(matrix, kCurvatures, kFullScale);
@@ -90,7 +90,7 @@ void CalibrateBlended(benchmark::State& state) {
   }
 }
 
-/// What a new curvature costs once, by rule: 0 nearest, 1 kernel, 2 interpolate.
+/// Cost of one change of curvature, by rule: 0 nearest, 1 kernel, 2 interpolate.
 void CompileTables(benchmark::State& state) {
   const fsr::matrix::MatrixSize matrix = size(state);
   fsr::compensation::CurvatureTables tables = test_support::smallTables(matrix, kCurvatures, kFullScale);

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """cpu_share.py ROWS COLUMNS RATE CALIBRATION|none [SECONDS [SIMULATION]]: CPU share of emulator, driver and calibration node.
 
-Starts an emulated board of that size and scan rate [Hz] in real time, driver, curvature and calibration node on
-a roscore of its own, waits until maps flow, then reads each process's CPU time from /proc over SECONDS (20).
-With `none` the size has no calibration: one is recorded at 20 x real time and trained first.
-SIMULATION is the emulated rig, a full path; all_effects.yaml beside this file has every effect.
+Starts an emulated board of that size and scan rate [Hz] in real time, with driver, curvature and calibration node on its own
+roscore. Waits until maps are published, then reads the CPU time of each process from /proc over SECONDS (20). With `none`
+a calibration of this size is first recorded at 20 times real time and trained. SIMULATION is the full path of the emulated
+rig; all_effects.yaml in this folder has every effect.
 """
 import contextlib
 import os

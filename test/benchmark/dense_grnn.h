@@ -6,8 +6,8 @@
 
 namespace benchmark_data {
 
-/// The peer: the GRNN as its formula stands, in float64 with Eigen's vectorised exp, the smallest distance
-/// taken out of the exponents. Compiled for this very machine.
+/// Reference for comparison: the GRNN's formula in float64 with Eigen's vectorised exp; the smallest distance
+/// is subtracted from the exponents. Compiled for the computer on which it runs.
 std::vector<double> denseGrnn(const fsr::regression::CodeSamples& train,
                               const fsr::regression::CodeSamples& test, double bandwidth);
 

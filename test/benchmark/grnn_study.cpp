@@ -16,7 +16,7 @@ using fsr::regression::CodeHistogram;
 using fsr::regression::CodeStatistics;
 using fsr::regression::FixedPressure;
 
-// One section's readings of a model: their sums by code, and their pressures' range.
+// The readings of one section of a model: sums by code, and the range of the pressures.
 struct Part {
   CodeStatistics sums;
   double lowest = INFINITY, highest = -INFINITY;  // [Pa]
@@ -35,10 +35,10 @@ Part partOf(const fsr::regression::CodeSamples& cell, std::size_t stride) {
   return part;
 }
 
-// Inputs of a model besides the reading: one value for each group of conditions.
+// A group of conditions that share one value of the second input of a model.
 struct Group {
   double input;
-  std::vector<Part> sections;  // of all its conditions together
+  std::vector<Part> sections;  // all conditions of the group together
 };
 
 Group groupOf(const std::vector<fsr::regression::CodeSamples>& cells, double input, std::size_t first,
@@ -129,7 +129,7 @@ class FoldModel {
   }
 
  private:
-  // Of each group the logarithm of its input's kernel value.
+  // For each group, the logarithm of the kernel value of its input.
   std::vector<double> inputExponents(double input, double bandwidth) const {
     std::vector<double> exponents;
     for (const Group& group : groups_) {
@@ -161,7 +161,7 @@ class FoldModel {
                               const std::vector<double>& exponents) {
     double squares = 0;
     sums.forEach([&](const fsr::regression::CodeSums& s) {
-      // sum of (p - f)^2 about the code's mean: exact in integers, but for the mean's own rounding
+      // sum of (p - f)^2 about the mean of the code: exact in integers, except for the rounding of the mean
       const auto mean = static_cast<FixedPressure>(s.sum / s.count);
       const fsr::regression::Int128 scatter =
           s.sum_of_squares - fsr::regression::Int128{mean} * (2 * fsr::regression::Int128{s.sum} -
@@ -177,7 +177,7 @@ class FoldModel {
 
   const std::vector<Group>& groups_;
   std::size_t held_out_;
-  std::vector<fsr::regression::WeightedCodes> samples_;  // of each group
+  std::vector<fsr::regression::WeightedCodes> samples_;  // for each group
   double deviation_ = 0, input_deviation_ = 0;
 };
 

@@ -5,8 +5,8 @@
 
 #include "fsr_pressure_map/regression/code_samples.h"
 
-// The GRNN part of the paper's study on one taxel, for timing: five schemes, each down-sampled as the
-// paper did, each section held out in turn, a grid of bandwidths.
+// The GRNN part of the paper's study on one taxel, for timing: five schemes, down-sampled as in the paper,
+// with each section held out in turn, over a grid of bandwidths.
 
 namespace benchmark_data {
 

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""kill_cost.py [KILLS]: what kill -9 of the recorder costs: seconds before the kill that are not in the rescued bag.
+"""kill_cost.py [KILLS]: cost of kill -9 of the recorder: seconds before the kill that are missing from the rescued bag.
 
-Prints the table of docs/faults.md, median and worst of KILLS (11) for each rate, with the chunk that record.launch chooses.
-An emulated board, the driver and the recorder, each killed at another moment. Source out/devel/setup.bash first.
+Prints the table of docs/reliability.md: median and worst of KILLS (11) for each rate, with the chunk size that record.launch
+chooses. Runs an emulated board, the driver and the recorder, and kills the recorder at a different time in each run. Source
+out/devel/setup.bash first.
 """
 import os
 import pathlib
@@ -30,7 +31,7 @@ def cost(folder, programs, start, chunk, number):
     bag = folder / f"killed_{number}.bag"
     active = pathlib.Path(f"{bag}.active")
     recorder = start(programs / "recorder_node", "__name:=recorder", f"_bag:={bag}", "_topics:=/raw", f"_chunk_kb:={chunk}", "_min_space:=1")
-    while not active.exists() or active.stat().st_size < 9000 + 3000 * chunk:  # beyond its head
+    while not active.exists() or active.stat().st_size < 9000 + 3000 * chunk:  # beyond its header
         time.sleep(0.05)
     time.sleep(random.uniform(0, 1))
     recorder.send_signal(signal.SIGKILL)

@@ -1,6 +1,6 @@
-// Time from publishing a scan to receiving its pressure map, both in this process: with the calibration as
-// a node of its own (two hops over TCP) or, with --nodelet, loaded into this process (no copy, no socket).
-// Run it by map_latency.launch.
+// Time from publishing a scan to receiving its pressure map, both in this process. The calibration runs as a
+// separate node (two hops over TCP) or, with --nodelet, inside this process (no copy, no socket). Start it
+// with map_latency.launch.
 
 #include <fsr_pressure_map/LoadFile.h>
 #include <fsr_pressure_map/MatrixFrame.h>
@@ -37,7 +37,7 @@ struct Plan {
   double rate;  // [1/s]
 };
 
-/// Stamps of scans are their numbers, so that a map tells which scan it belongs to.
+/// The stamp of each scan is its number, so that a map shows which scan it belongs to.
 class Stopwatch {
  public:
   explicit Stopwatch(int scans) : sent_(scans), received_(scans) {}
@@ -103,7 +103,7 @@ MatrixFrame::Ptr scanOf(const Plan& plan, int number) {
 void publishScans(const ros::Publisher& raw, const Plan& plan, Stopwatch& watch) {
   const auto period =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / plan.rate));
-  while (!watch.cameBack(0) && ros::ok()) {  // until everybody is connected
+  while (!watch.cameBack(0) && ros::ok()) {  // until all connections are made
     raw.publish(scanOf(plan, 0));
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }

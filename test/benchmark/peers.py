@@ -1,14 +1,13 @@
 #!/usr/bin/python3
-"""Holds the package against others and against its targets, in one run on the same data.
+"""Compares the package with other packages and with its targets, in one run on the same data.
 
-Prints the targets with what was reached, then every comparison. Peers that are not installed are left out:
+Prints the targets with the values reached, then every comparison. Packages that are not installed are left out:
 python3-sklearn, python3-scipy, python3-opencv, r-cran-ranger (with r-base-core), libdlib-dev (when the
-benchmarks were built). Times are CPU times of one thread, medians; on a shared machine only their ratios
-mean anything.
+benchmarks were built). Times are CPU times of one thread, medians. On a shared machine only their ratios are
+meaningful.
 
-    test/benchmark/peers.py FOLDER [--tools FOLDER] the folder that holds regression_benchmark and
-                                                    calibrator_benchmark, and that of train, simulate, study and
-                                                    rosbag_peer
+    test/benchmark/peers.py FOLDER [--tools FOLDER] folder of regression_benchmark and calibrator_benchmark, and
+                                                    folder of train, simulate, study and rosbag_peer
 """
 import argparse
 import datetime
@@ -35,7 +34,7 @@ PAPER_BANDWIDTH = 2.0**-7
 
 
 def cpu_seconds(work, repetitions):
-    """Median CPU time of work(), and its last result."""
+    """Median CPU time of work(), and the result of its last call."""
     times = []
     for _ in range(repetitions):
         start = time.process_time()
@@ -53,7 +52,7 @@ def read(path):
 
 
 class Table:
-    """Rows of the report: what, who, seconds, ours, how good; and the targets."""
+    """Rows of the report (work, package, its seconds, our speed-up, remark), and the targets."""
 
     def __init__(self, ours):
         self.ours = ours
@@ -61,12 +60,12 @@ class Table:
         self.targets = []
 
     def add(self, work, peer, seconds, ours, quality=""):
-        """Returns by how much ours is faster."""
+        """Adds a row; returns the factor by which our code is faster."""
         self.rows.append((work, peer, seconds, seconds / self.ours[ours], quality))
         return seconds / self.ours[ours]
 
     def ratio(self, work, peer):
-        """By how much ours is faster, None where the peer is not installed."""
+        """Factor by which our code is faster; None where the other package is not installed."""
         return next((row[3] for row in self.rows if row[0] == work and row[1] == peer), None)
 
     def target(self, what, wanted, value, met, unit):
@@ -102,7 +101,7 @@ def processor():
 
 
 def benchmarks(binary, repetitions):
-    """Medians of each benchmark, as Google Benchmark writes them."""
+    """Median of each benchmark, from the output of Google Benchmark."""
     output = subprocess.run(
         [binary, "--benchmark_format=json", "--benchmark_repetitions=%d" % repetitions, "--benchmark_min_time=0.1"],
         check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL).stdout
@@ -120,7 +119,7 @@ def our_times(binary, repetitions):
 
 
 def dense_grnn(inputs, pressure, queries):
-    """The formula in float64, the smallest exponent taken out. Inputs [samples x inputs] in bandwidths."""
+    """The formula in float64; the smallest exponent is subtracted. Inputs [samples x inputs], in bandwidths."""
     answers = np.empty(len(queries))
     for start in range(0, len(queries), 100):
         block = queries[start:start + 100]
@@ -136,7 +135,7 @@ def filtered(values, sigma):
 
 
 def scipy_grnn(code, pressure, queries, bandwidth):
-    """Histogram and filter: the best short GRNN that we know of. NaN where the filter does not reach."""
+    """GRNN by histogram and filter, the fastest short implementation known to us. NaN beyond the filter's reach."""
     sigma = code.std(ddof=1) * bandwidth
     count = np.bincount(code, minlength=CODES).astype(float)
     total = np.bincount(code, weights=pressure, minlength=CODES)
@@ -169,7 +168,7 @@ def compare_grnn(table, folder, repetitions):
 
 
 def compare_every_code(table, train, folder):
-    """The whole table against log-sum-exp in long double, far codes and gaps included."""
+    """Compares the whole table with log-sum-exp in long double, including far codes and gaps."""
     ours = read(folder + "/6000_grnn_table.csv")[:, 0]
     code, counts = np.unique(train[:, 0].astype(int), return_counts=True)
     sums = np.bincount(train[:, 0].astype(int), weights=train[:, 1], minlength=CODES)[code].astype(np.longdouble)
@@ -188,7 +187,7 @@ def compare_every_code(table, train, folder):
 
 
 def models_of(scheme, cells):
-    """Models of a scheme: lists of groups (input, sections), a section being (code, pressure)."""
+    """Models of a scheme: lists of groups (input, sections); a section is (code, pressure)."""
 
     def group(value, conditions, stride):
         def section(k):
@@ -208,7 +207,7 @@ def models_of(scheme, cells):
 
 
 def fold(groups, held_out):
-    """Training readings of each group, inputs' deviations, and the section held out."""
+    """Training readings of each group, deviation of the inputs, and the held-out section."""
     train = [(value, *(np.concatenate(x) for x in zip(*(s for k, s in enumerate(sections) if k != held_out))))
              for value, sections in groups]
     code = np.concatenate([g[1] for g in train])
@@ -317,7 +316,7 @@ cat(sqrt(mean((predict(m, test, num.threads = 1)$predictions - test$pressure)^2)
 
 
 def forest_program(command, test):
-    """A program that prints CPU seconds of each training and last its RMSE [Pa]."""
+    """Runs a program that prints the CPU seconds of each training and finally its RMSE [Pa]."""
     run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     if run.returncode != 0:
         raise ImportError(command[0])
@@ -347,7 +346,7 @@ def compare_forest(table, folder, programs, repetitions):
                 continue
             trained.append(table.add("forest, %d readings" % number, name, seconds, "ForestTable/%d" % number,
                                      "RMSE%% %.3f, ours %.3f" % (rmse, distinct if name == "scikit-learn" else ours)))
-            if name == "scikit-learn":  # the one whose minimum leaf means what ours can mean
+            if name == "scikit-learn":  # its minimum leaf has the same meaning as one of our options
                 table.at_most("forest of %d readings, RMSE %% against scikit-learn's, same leaf rule" % number,
                               0.05, "RMSE %", abs(rmse - distinct))
             if predicting is not None:
@@ -387,7 +386,7 @@ def children_seconds(command, repetitions):
 
 
 def compare_training(table, tools, folder, repetitions):
-    """Six bags of 7,500 scans x 70 taxels, made here."""
+    """Generates six bags of 7,500 scans x 70 taxels."""
     settings = os.path.join(os.path.dirname(__file__), "..", "..", "config", "simulation", "paper.yaml")
     bags, output = os.path.join(folder, "bags"), os.path.join(folder, "calibration.h5")
     children_seconds([os.path.join(tools, "simulate"), "--simulation", settings, "--output", bags], 1)

@@ -1,5 +1,5 @@
-// Cost of training and of predicting, beside dense sums in Eigen on the same data. With --export=FOLDER
-// it writes its data and answers instead, for test/benchmark/peers.py.
+// Cost of training and of predicting, beside dense sums in Eigen on the same data. With --export=FOLDER the
+// program writes its data and predictions instead, for test/benchmark/peers.py.
 
 #include <benchmark/benchmark.h>
 
@@ -27,7 +27,7 @@ std::vector<double> answersOf(const std::vector<double>& table, const fsr::regre
   return answers;
 }
 
-// Readings to answers for a test set, everything included.
+// From training readings to predictions for a test set, all steps included.
 void trainAndAnswer(State& state, const fsr::regression::Regressor& regressor) {
   const TrainAndTest data = trainAndTest(static_cast<std::size_t>(state.range(0)));
   for (auto _ : state) {
@@ -73,13 +73,13 @@ void ForestOnCurvature(State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(fsr::regression::fitCurvatureForest(data.train));
 }
 
-// Of one taxel; the study has seventy.
+// For one taxel; the study has seventy.
 void GrnnStudyOfATaxel(State& state) {
   const auto cells = taxelReadings(0);
   for (auto _ : state) benchmark::DoNotOptimize(grnnStudy(cells, fsr::regression::bandwidthGrid()));
 }
 
-// Of one taxel on one surface.
+// For one taxel on one surface.
 void BandwidthSearch(State& state) {
   const auto cells = taxelReadings(0);
   std::vector<fsr::regression::CodeStatistics> sections;

@@ -6,8 +6,8 @@
 
 #include "fsr_pressure_map/regression/code_samples.h"
 
-// Readings like those of the paper's rig, for timing: six surfaces, five sections of load cycles up to
-// 620 kPa, a 12-bit converter; a bent sheet reads less, and more at rest.
+// Readings like those of the paper's rig, for timing: six surfaces, five sections of load cycles up to 620
+// kPa, a 12-bit converter. A bent sheet has a lower gain and a higher reading at rest.
 
 namespace benchmark_data {
 
@@ -20,7 +20,7 @@ constexpr std::size_t kTaxels = 70;
 /// Curvature of each condition [1/m]: flat, then cylinders of 13 to 5 cm radius.
 extern const std::vector<double> kCurvature;
 
-/// Readings of one taxel on one condition in one section, in time order; curvature is filled in.
+/// Readings of one taxel on one condition in one section, in time order, with the curvature.
 fsr::regression::CodeSamples readings(std::size_t taxel, std::size_t condition, std::size_t section,
                                       std::size_t number);
 

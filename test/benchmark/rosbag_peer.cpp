@@ -1,5 +1,5 @@
-// The least that any reader of bags must do: open each bag and instantiate every scan and chamber pressure
-// with rosbag. Prints the CPU time of each repetition [s]. Usage: rosbag_peer REPETITIONS BAG...
+// The minimum work of any reader of bags: open each bag and instantiate every scan and chamber pressure with
+// rosbag. Prints the CPU time of each repetition [s]. Usage: rosbag_peer REPETITIONS BAG...
 
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <rosbag/bag.h>

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""How fast `simulate` writes bags: simulated_bags.py SIMULATE
+"""simulated_bags.py SIMULATE: speed of `simulate` when it writes bags.
 
-Six conditions of 7,500 scans of 70 taxels at 10 Hz with every effect at its usual size; prints rig time over
-CPU time of the whole tool, start and closing of the files included. Target: 1,000.
+Simulates six conditions of 7,500 scans of 70 taxels at 10 Hz with every effect at its usual size. Prints the ratio of rig time
+to CPU time of the whole tool, including its start and the closing of the files. Target: 1,000.
 """
 import os
 import resource

@@ -1,5 +1,5 @@
-// Speed of the sensor chain. Counters: `real_time` is seconds of rig time simulated in a second of one core
-// at the scan rate of the case, `core` the share of a core that real time takes.
+// Speed of the sensor chain. Counters, at the scan rate of the case: `real_time` is the rig time [s]
+// simulated in one second of a core, `core` is the share of a core that real time needs.
 
 #include <benchmark/benchmark.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPaperRate = 10;  // [Hz]
 
-/// The usual static curve and converter, and either nothing else or every effect at its usual size.
+/// The usual static curve and converter, alone or with every effect at its usual size.
 fsr::simulation::SimulationSettings settingsOf(int rows, int columns, bool all) {
   const std::string matrix =
       "matrix: {rows: " + std::to_string(rows) + ", columns: " + std::to_string(columns);
@@ -34,7 +34,7 @@ void readScans(fsr::simulation::SensorChain& chain, const fsr::simulation::Press
   }
 }
 
-// One scan of 7 x 10 taxels with one effect beside curve and converter: where the time goes.
+// One scan of 7 x 10 taxels with static curve, converter and one effect: the cost of each effect.
 void oneEffect(benchmark::State& state, const std::string& id) {
   const auto profile = pressureProfile(fsr::simulation::ChamberProtocol{});
   fsr::simulation::SensorChain chain(id.empty() ? settingsOf(7, 10, false)
@@ -70,7 +70,7 @@ void taxels(benchmark::State& state) {
   state.SetComplexityN(std::int64_t{side} * side);
 }
 
-// What the emulated board does for a scan of 16 x 10 taxels at 1 kHz; target: under a fifth of a core.
+// Work of the emulated board for a scan of 16 x 10 taxels at 1 kHz; target: under a fifth of a core.
 void boardAtOneKilohertz(benchmark::State& state) {
   fsr::simulation::SimulationSettings settings = settingsOf(16, 10, true);
   settings.board.scan_rate = settings.board.transducer_rate = 1000;
@@ -83,7 +83,7 @@ void boardAtOneKilohertz(benchmark::State& state) {
                                               benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-// A signature for the search for effects: 7,500 scans of core.yaml's kind.
+// One signature of the discrepancy search: 7,500 scans of a rig like core.yaml.
 void signature(benchmark::State& state) {
   const auto settings = fsr::simulation::withEffect(settingsOf(7, 10, false), "bending_preload");
   fsr::simulation::Sensitivity creep(settings, "creep", "per_decade");

@@ -11,9 +11,9 @@ namespace blind {
 
 namespace {
 
-// Noise of a sheet and read-out that someone would use [share of full scale].
+// Realistic noise of a sheet and its read-out [share of full scale].
 constexpr double kLeastNoise = 6e-4, kMostNoise = 12e-3;
-// Less than this after the static fit is the fit's own error: it does not show.
+// A residual below this after the static fit is the error of the fit: the effect does not show.
 constexpr double kShows = 2e-4;
 constexpr std::int64_t kEpoch = 1717401600000000000;  // 2024-06-03 08:00:00 UTC [ns]
 
@@ -24,11 +24,11 @@ std::size_t stride(const Campaign& campaign) {
 const HiddenForm& formFor(const EffectSpec& effect, std::uint64_t seed) {
   if (!effect.form.empty()) return findForm(effect.id, effect.form);
   const std::vector<const HiddenForm*> forms = formsOf(effect.id);
-  if (forms.empty()) return findForm(effect.id, "");  // throws, and lists what there is
+  if (forms.empty()) return findForm(effect.id, "");  // throws, with a list of all forms
   return *forms[Random(seed, "form of " + effect.id).below(forms.size())];
 }
 
-// A rectangle of taxels, at least a quarter and at most half of the matrix a side.
+// A rectangle of taxels; each side is at least a quarter and at most half of the matrix.
 std::vector<bool> corner(const fsr::matrix::Layout& layout, Random& random) {
   const auto side = [&](std::size_t length) {
     const double share = random.uniform(0.35, 0.6);
@@ -46,7 +46,7 @@ std::vector<bool> corner(const fsr::matrix::Layout& layout, Random& random) {
   return inside;
 }
 
-// Half of the effects that can be confined are: to a corner of the sheet, or to the bent surfaces.
+// Half of the effects that can be limited are limited to a corner of the sheet or to the bent surfaces.
 Placed place(const EffectSpec& effect, const CaseSpec& spec, const Campaign& campaign) {
   Placed placed;
   placed.form = &formFor(effect, spec.seed);
@@ -109,7 +109,7 @@ std::vector<std::string> protocolsOf(const CaseSpec& spec) {
   return {spec.protocol, spec.then};
 }
 
-// Makes one case, step by step; each step needs those before it.
+// Generates one case step by step; each step needs the ones before it.
 class Maker {
  public:
   explicit Maker(const CaseSpec& spec)
@@ -153,8 +153,8 @@ class Maker {
   double noise_wanted_ = 0;  // [share of full scale]
 };
 
-// Effects of their usual size, with noise to match; where that noise would be more or less than anyone
-// has, the effects shrink or grow.
+// Effects have their usual size and the noise is scaled to match. Where that noise would be unrealistic, the
+// size of the effects is changed instead.
 double Maker::wantedNoise(const std::vector<double>& usual) const {
   if (made_.spec.noise) return *made_.spec.noise;
   if (usual.empty()) return Random(made_.spec.seed, "noise level").logUniform(1e-3, kMostNoise);
@@ -181,13 +181,13 @@ void Maker::hide() {
     made_.hidden.push_back(truthOf(active_[i], strength, rig_, campaign_));
     log_left += std::log(std::max(1e-9, made_.hidden.back().left));
   }
-  // The noise follows what is really left, so that the ratio holds by construction.
+  // The noise is scaled to what is really left, so the ratio holds by construction.
   if (!placed_.empty() && !made_.spec.noise) {
     noise_wanted_ = std::exp(log_left / static_cast<double>(placed_.size())) / made_.spec.snr;
   }
 }
 
-// What the reference's noise looks like in the readings of a fit against it.
+// The reference's noise as it appears in the readings after a fit against the reference.
 double Maker::referenceNoise() const {
   Random random(made_.spec.seed, "reference noise seen");
   double squares = 0, number = 0;

@@ -1,4 +1,4 @@
-// Writes the bags of a blind case, what a user would know of them, and the sealed key.
+// Writes the bags of a blind case, a file with what a user would know about them, and the sealed key.
 
 #include <filesystem>
 #include <iostream>

@@ -14,8 +14,8 @@
 namespace blind {
 namespace {
 
-// A static fit of the tests' own: least squares of hat functions each 20 kPa, taxel by taxel and surface
-// by surface, on what the Recordings say of the pressure.
+// An independent static fit for the tests: least squares with hat functions every 20 kPa, for each taxel and
+// surface, on the pressure in the Recordings.
 class HatFit {
  public:
   explicit HatFit(const BlindCase& made) : made_(made) {
@@ -76,7 +76,7 @@ double meanSquare(const Trace& trace) {
   return squares / static_cast<double>(trace.size());
 }
 
-// What a taxel really read [share of full scale].
+// The recorded reading of a taxel [share of full scale].
 Trace measured(const BlindCase& made, std::size_t taxel) {
   Trace readings;
   for (const fsr::dataset::Recording& recording : made.recordings) {
@@ -92,7 +92,7 @@ Trace minus(Trace a, const Trace& b) {
   return a;
 }
 
-// --- the size is what it claims to be -------------------------------------------------------------
+// --- size of the effect ---------------------------------------------------------------------------
 
 struct Claim {
   const char* id;
@@ -117,7 +117,7 @@ TEST_P(SizeOf, WhatIsHiddenIsTheOneClaimed) {
     noise += meanSquare(minus(measured(made, taxel), made.clean[taxel]));
   }
   ASSERT_EQ(made.hidden.size(), 1u);
-  // Two static fits of different kinds agree within a few per cent.
+  // Two different static fits agree within a few per cent.
   EXPECT_NEAR(std::sqrt(left / noise), GetParam().snr, 0.06 * GetParam().snr);
   EXPECT_NEAR(made.hidden[0].snr, GetParam().snr, 0.02 * GetParam().snr);
 }
@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Claim{"repositioning", "tilt", 1}, Claim{"dead_taxel", "open_spells", 0.5},
                     Claim{"temperature", "quadratic", 1}, Claim{"drift", "random_walk", 0.125}));
 
-// --- it shows where the key says ------------------------------------------------------------------
+// --- place of the effect --------------------------------------------------------------------------
 
 struct Shares {
   std::map<std::size_t, double> taxel, surface, bin;  // mean squares, then as share of the largest rms
@@ -168,8 +168,8 @@ Shares sharesOf(const BlindCase& made, bool is_static) {
   return shares;
 }
 
-// `named` has a share of at least `least`, all others less; a tenth to either side of the border may
-// fall either way, the fits being two.
+// `named` has a share of at least `least` and all others have less. Because the two fits differ, values
+// within a tenth of the limit may fall on either side.
 void expectExactly(const std::map<std::size_t, double>& shares, const std::vector<std::size_t>& named,
                    double least, const std::string& what) {
   for (const auto& [member, share] : shares) {
@@ -186,7 +186,7 @@ class EveryForm : public testing::TestWithParam<HiddenForm> {};
 
 TEST_P(EveryForm, ShowsWhereTheKeySaysAndNowhereElse) {
   const HiddenForm& form = GetParam();
-  for (const std::uint64_t seed : {3u, 4u}) {  // one of them confined, where a form can be
+  for (const std::uint64_t seed : {3u, 4u}) {  // the effect is limited in one, where the form permits it
     CaseSpec spec = smallCase(form.id, form.form, 1, seed);
     spec.protocol = protocolFor(form);
     const BlindCase made = makeCase(spec);
@@ -262,8 +262,8 @@ TEST(BlindForms, AreThreeOrMoreOfEveryEffect) {
 
 // --- nothing hidden -------------------------------------------------------------------------------
 
-// Von Neumann's ratio of block means: 2 where blocks are independent, near 0 where something slow runs
-// through them.
+// Von Neumann's ratio of block means: 2 where the blocks are independent, near 0 where a slow change connects
+// them.
 double vonNeumann(const std::vector<double>& means) {
   double mean = 0, squares = 0, steps = 0;
   for (const double value : means) mean += value / static_cast<double>(means.size());
@@ -274,7 +274,7 @@ double vonNeumann(const std::vector<double>& means) {
   return steps / squares;
 }
 
-// Mean ratio over the taxels, of what a static fit leaves of each cycle on average.
+// Mean over the taxels of this ratio, for the mean residual of each cycle after a static fit.
 double slowness(const BlindCase& made) {
   const HatFit fit(made);
   double ratio = 0;
@@ -306,7 +306,7 @@ TEST(NothingHidden, LeavesWhiteCyclesWhateverTheColourOfTheNoise) {
   }
   EXPECT_EQ(ratios.size(), 3u);
   for (const auto& [colour, values] : ratios) {
-    // 40 cycles, whose gain is common to all taxels: deviation 2 / sqrt(40) of one ratio.
+    // 40 cycles with a gain that is common to all taxels: one ratio has a deviation of 2 / sqrt(40).
     const double mean =
         std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
     EXPECT_NEAR(mean, 2, 3 * 0.32 / std::sqrt(static_cast<double>(values.size()))) << colour;

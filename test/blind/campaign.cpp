@@ -7,7 +7,7 @@ namespace blind {
 
 namespace {
 
-// A valve and its hoses round the corners of what the regulator is told [s].
+// Time constant with which valve and hoses smooth the set pressure [s].
 constexpr double kValveLag = 0.3;
 
 double along(const ChamberPath& path, std::size_t& piece, double time) {
@@ -31,7 +31,7 @@ std::vector<double> finePressure(const ChamberPath& path) {
   return fine;
 }
 
-// First-order lag of whatever is fed in.
+// First-order lag of its input.
 struct Lag {
   double time_constant;  // [s]
   double value;
@@ -41,8 +41,8 @@ struct Lag {
   }
 };
 
-// Room, gas and the two bodies in it. Gas heats when it is compressed and cools at the wall; sheet and
-// thermometer feel a little of that, each with a lag of its own.
+// Temperatures of room, gas, sheet and thermometer. The gas heats when it is compressed and cools at the
+// wall. Sheet and thermometer follow a part of that, each with its own lag.
 class Climate {
  public:
   explicit Climate(Random random)
@@ -61,7 +61,7 @@ class Climate {
 
   void run(const Visit& visit, double ambient_step, Campaign& campaign, Random& random) const {
     const double seconds = campaign.scan_period;
-    double gas = 0;  // above the room's temperature [K]
+    double gas = 0;  // temperature above the room's [K]
     Lag sheet{sheet_lag_, room(visit.start) + ambient_step};
     Lag thermometer{thermometer_lag_, sheet.value};
     for (std::size_t i = visit.first; i < visit.last; ++i) {
@@ -70,7 +70,7 @@ class Climate {
       const double air = room(campaign.time[i]) + ambient_step;
       campaign.temperature.push_back(sheet.step(air + 0.05 * gas, seconds));
       const double reading = thermometer.step(air + 0.08 * gas, seconds) + 0.03 * random.normal();
-      campaign.thermometer.push_back(std::round(reading * 16) / 16);  // a step of 1/16 K
+      campaign.thermometer.push_back(std::round(reading * 16) / 16);  // resolution of 1/16 K
     }
   }
 
@@ -113,7 +113,7 @@ std::vector<fsr::matrix::Surface> surfacesOf(std::size_t number) {
   const std::vector<int> radii_cm = {13, 11, 9, 7, 5};
   std::vector<fsr::matrix::Surface> surfaces = {{"flat", 0, {fsr::matrix::Curvature{}}, {}}};
   for (std::size_t i = 1; i < number; ++i) {
-    // Evenly chosen, the tightest always among them.
+    // Evenly spaced, always including the smallest radius.
     const std::size_t from_end =
         (number - 1 - i) * (radii_cm.size() - 1) / std::max<std::size_t>(1, number - 2);
     const std::size_t place = radii_cm.size() - 1 - from_end;
@@ -130,7 +130,7 @@ Campaign runCampaign(const fsr::matrix::Layout& layout, const std::vector<std::s
   campaign.layout = layout;
   campaign.surfaces = surfacesOf(size.surfaces);
   Random random(seed, "campaign " + protocols.front());
-  // No board keeps its rate to better than some hundred parts in a million.
+  // The scan rate of a board is accurate to some hundred parts in a million.
   campaign.scan_period = 0.1 * (1 + 2e-4 * random.normal());
   const Climate climate{Random(seed, "climate " + protocols.front())};
   double clock = 0;

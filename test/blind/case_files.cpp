@@ -11,7 +11,7 @@ namespace blind {
 namespace {
 
 constexpr int kFormat = 1;
-constexpr int kDigits = 12;  // enough that a followed key gives the same sheet to the last count, or nearly
+constexpr int kDigits = 12;  // enough for a followed key to give the same counts, or nearly
 
 double rounded(double value, int digits = 5) {
   if (value == 0 || !std::isfinite(value)) return value;
@@ -103,7 +103,7 @@ void specOf(YAML::Emitter& out, const CaseSpec& spec) {
   out << YAML::EndMap;
 }
 
-// What a verdict should be; "named" goes with all effects of the list.
+// The correct verdict; "named" stands for all effects of the list.
 const char* truthText(const BlindCase& blind_case) {
   if (blind_case.hidden.empty()) return "none";
   return blind_case.hidden.front().foreign ? "unknown" : "named";

@@ -6,15 +6,15 @@
 
 namespace blind {
 
-/// The sealed key: what was hidden, where it shows, by how much, and the spec that makes the case again.
-/// YAML; README.md beside this file lists its fields.
+/// The sealed key, as YAML: what was hidden, where it shows, how much, and the spec that generates the case
+/// again. README.md in this folder lists its fields.
 std::string keyText(const BlindCase& blind_case);
 
-/// What a user of the rig would know of the bags, and the SHA-256 of the key. YAML.
+/// What a user of the rig would know about the bags, and the SHA-256 of the key, as YAML.
 std::string publicText(const BlindCase& blind_case, const std::string& key_sha256);
 
-/// The spec of a campaign with the same sheet and the same hidden effects, in strength and noise, as in a
-/// key: with `then` it goes on under the experiment that was recommended. Throws fsr::InputError.
+/// Reads from a key the spec of a campaign with the same sheet and the same hidden effects, strengths and
+/// noise. With `then`, the campaign continues under a recommended experiment. Throws fsr::InputError.
 CaseSpec specFromKey(const std::string& path);
 
 }  // namespace blind

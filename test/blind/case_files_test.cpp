@@ -60,7 +60,7 @@ TEST_F(CaseFiles, AKeyIsFollowedByTheSameSheetUnderAnotherProtocol) {
   EXPECT_NEAR(followed.noise, made_.noise, 0.01 * made_.noise);
   EXPECT_NEAR(followed.hidden[0].parameters[0].value, made_.hidden[0].parameters[0].value, 1e-9);
   EXPECT_GT(followed.recordings.front().start_ns, made_.recordings.back().start_ns);
-  // Without load the same taxel reads the same.
+  // Without load, the reading of the taxel is the same.
   EXPECT_NEAR(followed.base[7][0], made_.base[7][0], 1e-6);
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A small part of the grid with the real command, on development seeds: grid_test.py GENERATOR COMMAND."""
+"""grid_test.py GENERATOR COMMAND: a small part of the grid with the real command, on development seeds."""
 
 import json
 import pathlib

@@ -7,7 +7,7 @@ namespace blind {
 
 namespace {
 
-// Time constants of the parts of flicker noise [s]: a factor of 4 apart, equal variances.
+// Time constants of the components of flicker noise [s]: a factor of 4 apart, with equal variances.
 constexpr std::array<double, 4> kFlicker = {0.12, 0.5, 2.0, 8.0};
 
 }  // namespace

@@ -7,13 +7,14 @@
 
 namespace blind {
 
-/// The noise of a sheet and its read-out, up to a common factor: coloured and white noise of each
-/// taxel, something common to all, all of it growing with the reading; and a gain that scatters from
-/// cycle to cycle. Nothing in it is slower than some ten seconds but the gain of a whole cycle, so
-/// that over blocks of minutes it is white: what is slower is drift, and drift is never noise here.
+/// The noise of a sheet and its read-out, up to a common factor. It has three parts: coloured and white
+/// noise of each taxel, noise common to all taxels, and a gain that scatters from cycle to cycle. The first
+/// two increase with the reading. Except for the gain of a cycle, nothing in it is slower than about ten
+/// seconds, so it is white over blocks of minutes. Slower changes are drift, which is never part of this
+/// noise.
 ///
-/// Coloured noise: "ar1", first order; "ar2", second order, with a broad peak; "flicker", 1/f from
-/// 0.02 Hz to the scan rate, as a sum of first-order ones.
+/// Coloured noise: "ar1", first order; "ar2", second order with a broad peak; "flicker", 1/f from 0.02 Hz to
+/// the scan rate, as a sum of first-order processes.
 class Noise {
  public:
   Noise(const Campaign& campaign, std::uint64_t seed);
@@ -22,7 +23,7 @@ class Noise {
   Trace ofTaxel(std::size_t taxel, const Trace& reading) const;
 
   const std::string& colour() const { return colour_; }
-  double colouredShare() const { return coloured_; }  ///< of the variance
+  double colouredShare() const { return coloured_; }  ///< share of the variance
   double cycleGain() const { return cycle_gain_; }  ///< deviation of the cycles' gain, in units of the noise
 
  private:
@@ -34,16 +35,16 @@ class Noise {
   std::uint64_t seed_;
   std::string colour_;
   double coloured_, common_share_, absolute_, cycle_gain_;
-  double keep_, damping_, peak_;  // of the coloured noise's filters
+  double keep_, damping_, peak_;  // filters of the coloured noise
   Trace common_;
   std::vector<double> gain_of_cycle_;
 };
 
-/// Noise of the chamber's transducer and its converter [Pa]: a little white noise, then a step.
+/// Error of the chamber's transducer and its converter [Pa]: white noise, then quantisation.
 class ReferenceError {
  public:
   explicit ReferenceError(std::uint64_t seed);
-  /// A straight-line error and some curvature: what no second reference shows.
+  /// A linear error with some curvature, which only a second reference would reveal.
   double systematic(double pressure) const;
   double measured(double pressure, Random& random) const;
 

@@ -56,7 +56,7 @@ ChamberPath paperPath(double share) {
   return path.take();
 }
 
-// Up and down at one speed with dwells: creep goes on where a loop stands still.
+// Up and down at one speed with dwells: creep continues during a dwell, a loop does not.
 void dwellCycle(PathBuilder& path, double rate, double dwell) {
   path.cycle().hold(2).ramp(0.5 * kPeak, rate).hold(dwell).ramp(kPeak, rate).hold(dwell);
   path.ramp(0.5 * kPeak, rate).hold(dwell).ramp(0, rate);
@@ -71,7 +71,7 @@ ChamberPath twoSpeedsPath(double share) {
 
 ChamberPath minorLoopsPath(double share) {
   PathBuilder path;
-  const double depths[] = {0.15, 0.3, 0.5, 0.75};  // of the peak
+  const double depths[] = {0.15, 0.3, 0.5, 0.75};  // share of the peak
   for (int i = 0; i < scaled(8, share); ++i) {
     const double depth = depths[i % 4] * kPeak;
     const double middle = (i / 4 % 2 == 0 ? 0.55 : 0.4) * kPeak;
@@ -110,9 +110,9 @@ using MakePath = ChamberPath (*)(double share);
 struct Protocol {
   const char* description;
   MakePath path;
-  bool twice;           // every surface a second time
-  bool shuffled_first;  // random order already the first time
-  bool warmer_second;   // the second time in a warmer room
+  bool twice;           // every surface is mounted a second time
+  bool shuffled_first;  // random order in the first round, too
+  bool warmer_second;   // the second round is in a warmer room
 };
 
 const std::map<std::string, Protocol>& protocols() {
@@ -173,7 +173,7 @@ std::vector<std::size_t> surfaceOrder(const Protocol& protocol, const std::strin
   return order;
 }
 
-// Clock, cycles, mounts and warmth go their own ways.
+// Clock time, cycles, mounts and temperature vary independently.
 std::vector<PlannedVisit> hoursApart(const ProtocolSize& size, Random& random) {
   const double warmer = random.uniform(8, 12);
   std::vector<PlannedVisit> visits;
@@ -215,7 +215,7 @@ std::vector<PlannedVisit> planVisits(const std::string& name, const ProtocolSize
     if (second && protocol.warmer_second) visit.ambient_step = warmer;
     visits.push_back(visit);
   }
-  if (protocol.warmer_second) visits[size.surfaces].pause = 3600;  // the room takes its time
+  if (protocol.warmer_second) visits[size.surfaces].pause = 3600;  // time for the room to warm up
   return visits;
 }
 

@@ -10,8 +10,8 @@ namespace blind {
 
 constexpr double kPeak = 620e3;  ///< highest gauge pressure of the protocols [Pa]
 
-/// What the chamber is told to do while the matrix lies on one surface: gauge pressure [Pa] at times
-/// [s] from the first scan, straight between them.
+/// Set pressure of the chamber while the matrix lies on one surface: gauge pressure [Pa] at times [s] from
+/// the first scan, linear between them.
 struct ChamberPath {
   std::vector<double> time;
   std::vector<double> pressure;
@@ -24,8 +24,8 @@ struct ChamberPath {
 struct PlannedVisit {
   std::size_t surface = 0;  ///< index into the campaign's surfaces; 0 = flat
   ChamberPath path;
-  double ambient_step = 0;  ///< room temperature against the campaign's usual one [K]
-  double pause = 300;       ///< before the first scan, without pressure: mounting [s]
+  double ambient_step = 0;  ///< room temperature relative to the usual one of the campaign [K]
+  double pause = 300;       ///< time without pressure before the first scan, for mounting [s]
 };
 
 /// How much of a protocol is recorded.
@@ -36,20 +36,20 @@ struct ProtocolSize {
 
 /// Protocols by name:
 ///
-///     paper            10 cycles at 17 kPa/s on each surface, once through
-///     paper_remounted  5 of them on each surface, then all again in another order
+///     paper            10 cycles at 17 kPa/s on each surface
+///     paper_remounted  5 such cycles on each surface, then all surfaces again in another order
 ///     two_speeds       cycles at 8 and at 40 kPa/s, with dwells at half and full pressure
 ///     minor_loops      loops within loops, of four depths
 ///     step_hold        steps to half and full pressure, each held for 300 s, with rests
 ///     rest             200 s without load before and after the cycles
-///     two_ambients     5 cycles on each surface, all again in a room 8 to 12 K warmer
-///     random_order     two speeds, surfaces in random order, remounted, the flat one again at the end
-///     hours_apart      6 to 60 quick cycles on the flat surface, five times within eight hours, once in a
-///     warmer room
+///     two_ambients     5 cycles on each surface, then all surfaces again in a room 8 to 12 K warmer
+///     random_order     two speeds, surfaces in random order, each mounted again, the flat one at the end
+///     hours_apart      6 to 60 fast cycles on the flat surface, five times within eight hours, once in a
+///                      warmer room
 const std::vector<std::string>& protocolNames();
 /// One sentence for the public description.
 std::string protocolDescription(const std::string& protocol);
-/// Whether it lays the matrix on one surface more than once.
+/// Whether the protocol mounts the matrix on one surface more than once.
 bool remounts(const std::string& protocol);
 
 /// Throws fsr::InputError where the name is unknown.

@@ -8,8 +8,8 @@ namespace blind {
 
 namespace {
 
-// Seeds that differ in one bit, or purposes that differ in one letter, must give streams that have
-// nothing in common: bytes are stirred one by one (FNV-1a), then finished with a strong mixer.
+// Seeds that differ in one bit, or purposes that differ in one letter, must give independent streams. The
+// bytes are hashed one by one (FNV-1a), then passed through a strong mixing function.
 std::uint64_t stir(std::uint64_t state, std::uint64_t value) {
   for (int byte = 0; byte < 8; ++byte) state = (state ^ ((value >> (8 * byte)) & 0xFF)) * 0x100000001B3u;
   return state;

@@ -8,9 +8,9 @@
 
 namespace blind {
 
-/// Random numbers of one purpose and one member of it (e.g. a taxel), from the seed of the case. The
-/// engine is the standard's Mersenne Twister; the distributions are written out, because those of the
-/// standard library differ from one library to the next.
+/// Random numbers for one purpose and one member (e.g. a taxel), derived from the seed of the case. The
+/// engine is the Mersenne Twister of the standard. The distributions are implemented here, because those of
+/// the standard library differ between implementations.
 class Random {
  public:
   Random(std::uint64_t seed, std::string_view purpose, std::uint64_t member = 0);
@@ -23,7 +23,7 @@ class Random {
   std::size_t below(std::size_t number);  ///< 0 .. number - 1
   double sign() { return chance(0.5) ? 1.0 : -1.0; }
 
-  /// A draw of `number` different members out of 0 .. size - 1, ascending.
+  /// `number` different members of 0 .. size - 1, in ascending order.
   std::vector<std::size_t> choose(std::size_t number, std::size_t size);
   /// 0 .. size - 1 in random order.
   std::vector<std::size_t> order(std::size_t size);

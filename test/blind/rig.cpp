@@ -90,8 +90,8 @@ Signature Rig::difference(const Active& active) const {
   return signature;
 }
 
-// Secant steps in logarithms, within the bracket known so far; what a fault leaves grows with its time
-// in fits and starts.
+// Secant steps in logarithms, limited to the bracket known so far: what a fault leaves does not increase
+// smoothly with its duration.
 double Rig::strengthFor(const Placed& placed, double target) const {
   constexpr double kLeast = 1e-4, kLargest = 3, kNear = 0.02;
   const std::size_t stride = 1 + campaign_.taxels() / 15;

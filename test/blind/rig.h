@@ -9,7 +9,7 @@
 
 namespace blind {
 
-/// A hidden effect with the places that it is confined to.
+/// A hidden effect with the taxels and surfaces to which it is limited.
 struct Placed {
   const HiddenForm* form = nullptr;
   std::uint64_t seed = 0;
@@ -20,13 +20,13 @@ struct Placed {
   std::unique_ptr<Hidden> make(const Campaign& campaign, const Sheet& sheet, double strength) const;
 };
 
-/// A hidden effect of a certain strength, in its place.
+/// A placed effect with its strength.
 struct Active {
   const Placed* placed;
   std::shared_ptr<const Hidden> hidden;
 };
 
-/// The sheet in its chamber: readings without noise.
+/// The sheet in its chamber; gives readings without noise.
 class Rig {
  public:
   Rig(const Campaign& campaign, const Sheet& sheet)
@@ -37,19 +37,19 @@ class Rig {
 
   /// Reading of one taxel at each scan [share of full scale].
   Trace reading(std::size_t taxel, const std::vector<Active>& hidden) const;
-  /// By how much the hidden effects quieten the noise.
+  /// Factor by which the hidden effects reduce the noise.
   Trace noiseFactor(std::size_t taxel, const std::vector<Active>& hidden) const;
 
   Active activate(const Placed& placed, double strength) const {
     return {&placed, placed.make(campaign_, sheet_, strength)};
   }
-  /// What an effect alone leaves after the best static fit, measured on every `stride`-th taxel, but
-  /// on all where it shows on a few only.
+  /// What an effect alone leaves after the best static fit. Measured on every `stride`-th taxel, or on all of
+  /// its taxels where it shows on only a few.
   Signature signature(const Active& active, std::size_t stride) const;
-  /// What an effect alone changes, static curve or not, of every taxel.
+  /// What an effect alone changes in every taxel, including changes that a static curve could absorb.
   Signature difference(const Active& active) const;
-  /// The strength at which it leaves about `target` [share of full scale]; where it cannot leave that
-  /// much, the largest. Whoever needs it exactly sets the noise by what is left in the end.
+  /// The strength at which the effect leaves about `target` [share of full scale], or the largest strength
+  /// where it cannot leave that much. For an exact ratio, callers scale the noise to what is left in the end.
   double strengthFor(const Placed& placed, double target) const;
 
  private:

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Scores verdicts against sealed keys: the third program, beside the generator and the one that is tested.
+"""Scores verdicts against sealed keys. This is the third program, beside the generator and the one under test.
 
     score.py RESULTS [--json FILE]
 
 RESULTS is a folder of scripts/blind_trials: RESULTS/cases/*/{key.yaml, verdict.yaml, run.json}. Prints
-confusion matrix, rates with their 95 % intervals (Clopper-Pearson, pooled over the cells of the grid), rates
-against SNR, localisation, gap closed, and every target with what was reached.
+the confusion matrix, rates with their 95 % intervals (Clopper-Pearson, pooled over the cells of the grid), rates
+by SNR, localisation, gap closed, and every target with the value reached.
 """
 
 import argparse
@@ -20,12 +20,12 @@ import yaml
 FAULTS = {"stuck_taxel", "dead_taxel", "row_fault", "column_fault"}
 QUICK = {"hysteresis", "creep", "time_skew", "seal_leak", "mains_pickup", "repositioning"} | FAULTS
 SLOW = {"temperature", "wear"}
-NAMING = {"named", "wrong_form"}  # verdicts that put a name forward as the answer
+NAMING = {"named", "wrong_form"}  # verdicts that give a name as the answer
 VERDICTS = NAMING | {"none", "unknown", "ambiguous", "not_identifiable"}
 TWO_SPEEDS = {"two_speeds", "random_order"}
 PAPER = {"paper", "paper_remounted"}
 
-# What else a verdict may call the covariates of the key.
+# Other names that a verdict may use for the covariates of the key.
 ALIASES = {"dP/dt": "pressure_rate", "rate": "pressure_rate", "direction x pressure": "direction", "P": "pressure",
            "previous extremes": "previous_extremes", "clock time": "clock_time", "time": "clock_time",
            "cycle number": "cycle", "accumulated abs(dP)": "accumulated_pressure",
@@ -50,7 +50,7 @@ def set_f1(truth, told):
 
 
 def localisation(key, verdict):
-    """F1 of taxels, conditions and pressure range, and their mean; None where the verdict gives no place."""
+    """F1 of taxels, conditions and pressure range, and their mean; None where the verdict states no place."""
     truth, told = key["effects"][0]["where"], verdict.get("where")
     if not told:
         return None
@@ -73,7 +73,7 @@ def explanations(verdict):
 
 
 def score_case(key, verdict, run):
-    """What one verdict is worth; fields that do not apply are None."""
+    """Score of one verdict; fields that do not apply are None."""
     if verdict.get("verdict") not in VERDICTS:
         raise ValueError("verdict is %r, but must be one of %s" % (verdict.get("verdict"), ", ".join(sorted(VERDICTS))))
     truth = frozenset(effect["id"] for effect in key["effects"])
@@ -114,7 +114,7 @@ def score_case(key, verdict, run):
 
 
 def left_out_right(verdict, run):
-    """Without the true effect: unknown, but where another one closes 90 % of what it does, ambiguous and a next step."""
+    """True effect left out: `unknown` is right; where another effect closes 90 % as much, `ambiguous` with a next step."""
     shares = dict(run.get("shares_with_it") or {})
     true = shares.pop(run["left_out"], None)
     substitute = true is not None and max(shares.values(), default=0) >= 0.9 * true
@@ -138,7 +138,7 @@ def binomial_tail(k, n, p):
 
 
 def solve(rising, target):
-    """Where a rising function of 0 .. 1 passes `target`."""
+    """The argument in 0 .. 1 at which an increasing function reaches `target`."""
     low, high = 0.0, 1.0
     for _ in range(60):
         middle = (low + high) / 2
@@ -189,7 +189,7 @@ def median(values):
 
 
 def summarise(cases):
-    """Every figure of the published table, as data."""
+    """All figures of the published table, as data."""
     named = [c for c in cases if c["kind"] == "named"]
     loud = [c for c in named if c["snr"] >= 1]
     gaps = {}
@@ -248,7 +248,7 @@ def summarise(cases):
 
 
 def figure(name, value, sense, target):
-    """A line of the table of targets."""
+    """One line of the table of targets."""
     number = value[2] if isinstance(value, list) else value
     met = None if number is None else number <= target if sense == "<=" else number >= target
     return {"figure": name, "value": value, "target": sense + " " + format(target, "g"), "met": met}
@@ -298,7 +298,7 @@ def markdown(summary):
 
 
 def read_results(folder):
-    """Scores of every finished case below the folder; cases refused or failed are counted apart."""
+    """Scores of all finished cases below the folder; refused and failed cases are counted separately."""
     cases, failed = [], []
     for run_file in sorted(pathlib.Path(folder, "cases").glob("*/run.json")):
         run = json.loads(run_file.read_text())

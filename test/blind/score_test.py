@@ -74,7 +74,7 @@ class OneCase(unittest.TestCase):
         self.assertTrue(right(verdict("unknown"), far))
         self.assertFalse(right(verdict("named", ["drift"]), far))
         self.assertFalse(right(ambiguous | {"next_experiment": step}, far))
-        self.assertTrue(right(verdict("unknown"), {"drift": 0.7}))  # found by a detector: no other closes anything
+        self.assertTrue(right(verdict("unknown"), {"drift": 0.7}))  # found by a detector: no other effect closes anything
 
     def test_a_left_out_effect_with_a_good_substitute_wants_an_ambiguous_one_and_a_next_step(self):
         right = lambda v: scored(key("creep"), v, left_out="creep", shares_with_it={"creep": 0.9, "drift": 0.85})["right_first"]

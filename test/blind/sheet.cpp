@@ -11,7 +11,7 @@ const std::vector<std::string> Sheet::gain_names_ = {"power_1.5", "power_law", "
 
 namespace {
 
-constexpr double kTightest = 20.0;  // curvature that the sizes below belong to [1/m]
+constexpr double kTightest = 20.0;  // curvature for which the sizes below hold [1/m]
 
 double preloadShape(std::size_t law, double curvature, double scale) {
   if (law == 0) return curvature / (curvature + scale);
@@ -60,13 +60,13 @@ void Sheet::drawTaxels(std::size_t number, std::uint64_t seed) {
   }
 }
 
-// Surfaces draw by their names, so that a sheet is the same sheet in whatever campaign.
+// The random draws depend on the name of the surface, so a sheet is the same in every campaign.
 void Sheet::drawSurface(const fsr::matrix::Surface& surface, std::size_t taxels, std::uint64_t seed) {
   const double curvature = surface.curvature[0].x;
   Random random(seed, "bending " + surface.name);
   std::vector<double> preload, gain;
   for (std::size_t i = 0; i < taxels; ++i) {
-    // A sheet that was glued down flat is not quite without load either.
+    // A sheet that was glued to a flat surface has a small preload, too.
     preload.push_back(3e3 + commonPreload(curvature) * (1 + 0.10 * std::clamp(random.normal(), -3.0, 3.0)));
     gain.push_back(curvature == 0 ? 1.0 : commonGain(curvature) * (1 + 0.02 * random.normal()));
   }

@@ -8,23 +8,23 @@
 
 namespace blind {
 
-/// The sensor sheet without anything hidden: what a taxel reads at a pressure on a surface. None of its
-/// laws is one that the package knows.
+/// The sensor sheet without hidden effects: the reading of a taxel at a pressure on a surface. The package
+/// contains none of its laws.
 ///
 /// Static laws, F(load), 1 at the peak:
-///     lognormal    share of the asperities that touch, their turn-on pressures log-normal
+///     lognormal    share of the asperities in contact, with log-normal turn-on pressures
 ///     rational     (x^2 + a x) / (x^2 + b x + c), x in units of 100 kPa
 ///     percolation  (load / (load + w))^t
 /// Preload by bending: c k / (k + k0), c sqrt(k), or c tanh(k / k0), k = curvature.
 /// Gain by bending: 1 / (1 + (k / k1)^1.5), (1 + k / k1)^-q, or 1 - b k / (k + k1).
-/// Level, shape, preload and gain scatter from taxel to taxel.
+/// Level, shape, preload and gain vary at random from taxel to taxel.
 class Sheet {
  public:
   Sheet(const Campaign& campaign, std::uint64_t seed);
 
-  /// Reading at no conductance [share of full scale].
+  /// Reading at zero conductance [share of full scale].
   double zero(std::size_t taxel) const { return taxels_[taxel].zero; }
-  /// Rise of the reading over its zero on the flat [share of full scale]; 0 where `load` <= 0 [Pa].
+  /// Reading above zero() on the flat surface [share of full scale]; 0 where `load` <= 0 [Pa].
   double rise(std::size_t taxel, double load) const;
   double preload(std::size_t taxel, std::size_t surface) const { return preload_[surface][taxel]; }  ///< [Pa]
   double gain(std::size_t taxel, std::size_t surface) const { return gain_[surface][taxel]; }
@@ -35,7 +35,7 @@ class Sheet {
 
  private:
   struct Taxel {
-    double zero, level, a, b;  // a, b: shape, by law
+    double zero, level, a, b;  // a, b: shape parameters of the law
   };
   void drawTaxels(std::size_t number, std::uint64_t seed);
   void drawSurface(const fsr::matrix::Surface& surface, std::size_t taxels, std::uint64_t seed);

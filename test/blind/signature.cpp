@@ -7,7 +7,7 @@ namespace blind {
 
 namespace {
 
-constexpr double kStanding = 1e3;  // slower than this the pressure stands still [Pa/s]
+constexpr double kStanding = 1e3;  // below this rate the pressure counts as constant [Pa/s]
 
 }  // namespace
 

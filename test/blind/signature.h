@@ -10,17 +10,19 @@
 
 namespace blind {
 
-/// Where an effect shows, by what it leaves after the static fit, or changes where it is static itself
-/// (readings without noise). The rule, which the key repeats: taxels and surfaces whose rms is at least
-/// kShare of the largest; pressures from the lowest to the highest bin of kBin whose rms is at least
-/// kPressureShare of the largest; one direction alone where the other one has less than kDirectionShare of
-/// the squares.
+/// Where an effect shows. It is judged by what the effect leaves after the static fit, or, for an effect
+/// that is static itself, by what it changes (readings without noise). The key states the same rule:
+///
+/// - taxels and surfaces: those whose rms is at least kShare of the largest;
+/// - pressures: from the lowest to the highest bin of kBin whose rms is at least kPressureShare of the
+/// largest;
+/// - direction: a single one where the other has less than kDirectionShare of the squares.
 class Signature {
  public:
   explicit Signature(const Campaign& campaign);
   void add(std::size_t taxel, const Trace& residual);
 
-  double rms() const;  ///< over all scans and the taxels that were added [share of full scale]
+  double rms() const;  ///< over all scans of the taxels that were added [share of full scale]
   std::vector<std::size_t> taxels() const;
   std::vector<std::size_t> surfaces() const;
   std::pair<double, double> pressures() const;  ///< [Pa]

@@ -6,7 +6,7 @@
 
 namespace blind {
 
-/// A case that is made in a tenth of a second: 3 x 4 taxels on the flat and on the tightest cylinder.
+/// A case that takes a tenth of a second: 3 x 4 taxels on the flat surface and on the tightest cylinder.
 inline CaseSpec smallCase(const std::string& id, const std::string& form, double snr = 1,
                           std::uint64_t seed = 11) {
   CaseSpec spec;
@@ -18,7 +18,7 @@ inline CaseSpec smallCase(const std::string& id, const std::string& form, double
   return spec;
 }
 
-/// The protocol under which a form shows.
+/// A protocol under which the form shows.
 inline std::string protocolFor(const HiddenForm& form) {
   if (form.needs_remounts) return "random_order";
   if (form.id == "temperature") return "two_ambients";

@@ -13,7 +13,7 @@ struct CurvePoint {
   double pressure, value, weight;  // [Pa], [share of full scale]
 };
 
-// A non-decreasing curve through points of ascending pressure; straight between and beyond its ends.
+// A non-decreasing curve through points of ascending pressure; linear between them and beyond its ends.
 struct Curve {
   std::vector<double> pressure, value;
 
@@ -29,11 +29,11 @@ struct Curve {
     const std::size_t piece = pieceAt(at);
     return value[piece] + slope(piece) * (at - pressure[piece]);
   }
-  // Slope over a stretch long enough that the curve's small steps even out.
+  // Slope over a range that is wide enough to average the small steps of the curve.
   double slopeAt(double at) const { return ((*this)(at + 5e3) - (*this)(at - 5e3)) / 10e3; }
 };
 
-// How one surface's curve comes out of the common one: value = gain * curve(pressure + preload).
+// Curve of one surface from the common one: value = gain * curve(pressure + preload).
 struct Bending {
   double gain = 1, preload = 0;
 };
@@ -49,7 +49,7 @@ Curve poolSurfaces(const std::vector<std::vector<CurvePoint>>& surfaces,
   }
   const auto before = [](const CurvePoint& a, const CurvePoint& b) { return a.pressure < b.pressure; };
   std::sort(all.begin(), all.end(), before);
-  // Means of some neighbours: points of several surfaces at nearly one pressure are one knot.
+  // Neighbouring points are averaged: points of several surfaces at nearly the same pressure form one knot.
   Curve curve;
   std::vector<double> weights;
   const std::size_t together = 2 * surfaces.size();
@@ -141,7 +141,7 @@ StaticFit::BinMeans StaticFit::means(const Trace& base, const Trace& reading) co
 
 Trace StaticFit::subtract(const Trace& base, const Trace& reading, const BinMeans& means,
                           const std::vector<double>& fit) const {
-  std::vector<Curve> off(campaign_.surfaces.size());  // what the fit adds to the base, over pressure
+  std::vector<Curve> off(campaign_.surfaces.size());  // difference of the fit from the base, over pressure
   for (std::size_t surface = 0; surface < off.size(); ++surface) {
     for (std::size_t i = cell(surface, 0); i < cell(surface + 1, 0); ++i) {
       if (means.weight[i] == 0) continue;

@@ -30,7 +30,7 @@ class StaticFits : public testing::Test {
     for (const double value : trace) squares += value * value;
     return std::sqrt(squares / static_cast<double>(trace.size()));
   }
-  // `change(pressure, scan)` added to a taxel's reading.
+  // A taxel's reading plus `change(pressure, scan)`.
   template <typename Change>
   Trace changed(Change change) const {
     Trace reading = made_.base[0];
@@ -64,7 +64,7 @@ TEST_F(StaticFits, OfASharedCurveLeaveWhatOneSurfaceHasForItself) {
   const Trace snap = changed([&](double pressure, std::size_t scan) {
     return made_.campaign.curvature(scan) > 0 && pressure > 300e3 ? 0.05 : 0.0;
   });
-  EXPECT_LT(rms(fit_.residualOfCurves(made_.base[0], snap)), 2e-3);  // of the bin that it jumps in
+  EXPECT_LT(rms(fit_.residualOfCurves(made_.base[0], snap)), 2e-3);  // from the bin that contains the jump
   EXPECT_GT(rms(shared_.residualOfSharedCurve(made_.base[0], snap, 0.045)), 4e-3);
 }
 

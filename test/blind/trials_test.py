@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Tests of scripts/blind_trials with the real generator and a command that answers every case alike.
+"""Tests of scripts/blind_trials with the real generator and a command that gives the same answer to every case.
 
 trials_test.py GENERATOR, the program blind_case.
 """
@@ -56,14 +56,14 @@ class Trials(unittest.TestCase):
         for call in self.calls():
             for word in ("creep", "seal_leak", "snr", "key"):
                 self.assertNotIn(word, call)
-        self.assertEqual(list(self.output.glob("work/*")), [])  # bags are gone
+        self.assertEqual(list(self.output.glob("work/*")), [])  # the bags were removed
 
     def test_goes_on_where_it_stopped(self):
         self.run_trials("none")
         self.assertEqual(len(self.calls()), 5)
         self.run_trials("none")
         self.assertEqual(len(self.calls()), 5)
-        next((self.output / "cases").glob("creep.log_time.*/run.json")).unlink()  # was stopped here
+        next((self.output / "cases").glob("creep.log_time.*/run.json")).unlink()  # as if the run had been stopped here
         self.run_trials("none")
         self.assertEqual(len(self.calls()), 6)
 

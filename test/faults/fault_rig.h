@@ -24,9 +24,10 @@
 
 namespace test_support {
 
-constexpr std::chrono::seconds kFaultPatience(30);  // for what must happen; nothing waits for it to pass
+constexpr std::chrono::seconds kFaultPatience(30);  // limit for events that must happen
 
-/// All packets that boards made, byte for byte: what comes out of a damaged line must be one of them.
+/// All packets that the boards sent, byte for byte. Every packet received over a damaged line must be one of
+/// them.
 class SentPackets {
  public:
   void add(const std::vector<std::uint8_t>& packet) {
@@ -43,7 +44,7 @@ class SentPackets {
   std::set<std::vector<std::uint8_t>> packets_;
 };
 
-/// An emulated board, 3 x 4 taxels at 500 Hz, on a port that keeps its name.
+/// An emulated board with 3 x 4 taxels at 500 Hz, on a port whose name does not change.
 class FaultBoard {
  public:
   FaultBoard(const std::string& link, SentPackets& sent, const std::string& serial = "A",
@@ -65,15 +66,16 @@ class FaultBoard {
   std::unique_ptr<fsr::emulator::Emulator> rig_;
 };
 
-/// From the port to pressure as driver and calibration node do it, each result held against the truth.
+/// Reads from the port to pressure as driver and calibration node do, and compares each result with the
+/// truth.
 class FaultListener : public fsr::protocol::LinkHandler {
  public:
-  /// What was wrong; all stay 0 where the code is right.
+  /// Number of wrong results; all are 0 where the code is correct.
   struct Wrong {
-    std::uint64_t scans = 0;      ///< that no board sent
-    std::uint64_t pressures = 0;  ///< that are not the table's for the count that was sent
-    std::uint64_t stamps = 0;     ///< not later than the one before
-    std::uint64_t boards = 0;     ///< scans that passed as another board's than their own
+    std::uint64_t scans = 0;      ///< scans that no board sent
+    std::uint64_t pressures = 0;  ///< pressures that are not the table's for the count sent
+    std::uint64_t stamps = 0;     ///< stamps that are not later than the previous one
+    std::uint64_t boards = 0;     ///< scans that were attributed to another board
   };
 
   explicit FaultListener(const SentPackets& sent)
@@ -131,7 +133,7 @@ class FaultListener : public fsr::protocol::LinkHandler {
     std::unique_lock<std::mutex> lock(mutex_);
     return changed_.wait_for(lock, kFaultPatience, condition);
   }
-  /// So many scans more.
+  /// Waits for this many further scans.
   bool hears(std::uint64_t more) {
     const std::uint64_t target = scans() + more;
     return await([&] { return scans_ >= target; });
@@ -142,15 +144,15 @@ class FaultListener : public fsr::protocol::LinkHandler {
   bool knows(const std::string& serial) {
     return await([&] { return serial_ == serial; });
   }
-  /// From now on the port's board is this one, whatever the listener believes.
+  /// Sets the board that is really on the port from now on.
   void expectBoard(const std::string& serial) {
     const std::lock_guard<std::mutex> lock(mutex_);
     expected_serial_ = serial;
   }
   std::uint64_t scans() const { return locked(scans_); }
-  /// Scans that a driver has published by now, or held and then published.
+  /// Scans that a driver would have published so far, including those that it held first.
   std::uint64_t passed() const { return locked(passed_); }
-  std::uint64_t passedLocked() const { return passed_; }  ///< inside await() only
+  std::uint64_t passedLocked() const { return passed_; }  ///< only inside await()
   std::uint64_t clockJumps() const { return locked(clock_jumps_); }
   Wrong wrong() const { return locked(wrong_); }
 
@@ -183,7 +185,7 @@ class FaultListener : public fsr::protocol::LinkHandler {
   }
 
   const SentPackets& sent_;
-  // Of the link's thread:
+  // Used by the link's thread:
   fsr::protocol::PacketStamper stamper_;
   fsr::protocol::BoardGate gate_;
   fsr::calibration::Calibrator calibrator_;
@@ -191,7 +193,7 @@ class FaultListener : public fsr::protocol::LinkHandler {
   std::int64_t arrival_ = 0, stamp_ = 0;  // [ns]
   std::uint64_t jumps_ = 0;
 
-  mutable std::mutex mutex_;  // over all that follows
+  mutable std::mutex mutex_;  // guards all members below
   std::condition_variable changed_;
   std::uint64_t scans_ = 0, passed_ = 0, clock_jumps_ = 0;
   Wrong wrong_;

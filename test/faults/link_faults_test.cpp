@@ -1,6 +1,6 @@
-// What can go wrong between a board and its pressure map, each tried for real: an emulated board behind a
-// pseudo-terminal, read as the driver reads it. Every scan that comes out is held against what the board
-// sent, every pressure against the table. docs/faults.md tells what each fault costs.
+// Faults between a board and its pressure map, tested with an emulated board behind a pseudo-terminal that is
+// read as the driver reads it. Every received scan is compared with what the board sent, every pressure with
+// the table. docs/reliability.md lists the cost of each fault.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -19,7 +19,7 @@ using test_support::kFaultPatience;
 class LinkFaults : public testing::Test {
  protected:
   void SetUp() override { start("A"); }
-  // Nothing wrong may ever have come out, whatever a test does.
+  // No test may produce a wrong result, whatever the fault.
   void TearDown() override {
     EXPECT_EQ(listener_.wrong().scans, 0u);
     EXPECT_EQ(listener_.wrong().pressures, 0u);
@@ -73,7 +73,7 @@ TEST_F(LinkFaults, CableOutAndInFiftyTimes) {
 
 TEST_F(LinkFaults, AResetBoardGoesOnWithItsClockAndCountersFromZero) {
   ASSERT_TRUE(listener_.knows("A"));
-  ASSERT_TRUE(board().waitForRigTime(1.5, kFaultPatience));  // a clock that went back by less is no reset
+  ASSERT_TRUE(board().waitForRigTime(1.5, kFaultPatience));  // a smaller step back does not count as a reset
   ASSERT_TRUE(listener_.hears(10));
   board().resetBoard();
   ASSERT_TRUE(listener_.hears(100));
@@ -130,7 +130,7 @@ TEST_F(LinkFaults, NoiseBetweenPacketsCostsNoPacket) {
   ASSERT_TRUE(listener_.hears(300));
   damage({});
   ASSERT_TRUE(listener_.hears(20));
-  // Noise that looks like a header by chance (1 in 4 billion places) is all that could cost one.
+  // Only noise that looks like a header by chance (1 in 4 billion places) could cost a scan.
   EXPECT_EQ(scanCounts().lost, board().counts().dropped);
   EXPECT_GT(counts().skipped_bytes, 1000u);
 }
@@ -171,7 +171,7 @@ TEST_F(LinkFaults, LostPacketsAreCountedOneByOne) {
   ASSERT_TRUE(listener_.hears(50));
   const fsr::protocol::SequenceCounts scans = scanCounts();
   EXPECT_GT(scans.gaps, 30u);
-  // Every scan between the first and the last that was heard was either heard or counted as lost.
+  // Every scan between the first and the last one received was either received or counted as lost.
   EXPECT_LE(scans.packets + scans.lost, board().scans());
   const std::uint64_t made = board().scans();
   EXPECT_TRUE(listener_.await([&] {

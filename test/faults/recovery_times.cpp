@@ -1,5 +1,6 @@
-// How long until data flow again after each fault of the link, driver's defaults: the port is tried again
-// each second. Prints the table of docs/faults.md. The board is emulated, 3 x 4 taxels at 500 Hz.
+// Time until data flow again after each fault of the link, with the driver's defaults (the port is tried
+// again every second). Prints the table of docs/reliability.md. The board is emulated, 3 x 4 taxels at 500
+// Hz.
 #include <algorithm>
 #include <cstdio>
 #include <functional>
@@ -40,7 +41,7 @@ void wait(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-// `harm` and `heal` the rig; what is measured runs from heal's end to the next scan that may be published.
+// Calls `harm`, then `heal`; measures from the end of `heal` to the next scan that may be published.
 void measure(const char* fault, const std::function<void(Rig&)>& harm, double duration,
              const std::function<void(Rig&)>& heal) {
   Rig rig;
@@ -49,7 +50,7 @@ void measure(const char* fault, const std::function<void(Rig&)>& harm, double du
   for (int round = 0; round < kRounds; ++round) {
     rig.listener.hears(50);
     harm(rig);
-    wait(duration + 0.067 * round);  // not always at the same point of the board's second
+    wait(duration + 0.067 * round);  // at a different point of the board's second in each round
     const std::uint64_t before = rig.listener.passed();
     heal(rig);
     const Clock::time_point start = Clock::now();

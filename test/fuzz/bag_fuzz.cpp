@@ -1,4 +1,4 @@
-// A bag is read or refused; rosbag, which believes what it reads, sees sound records only.
+// A bag is read or refused. rosbag does not check its input, so it must receive only valid records.
 #include <rosconsole/macros_generated.h>
 
 #include "fsr_pressure_map/settings/input_error.h"

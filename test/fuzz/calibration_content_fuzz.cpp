@@ -1,5 +1,5 @@
-// A calibration file with a right hash may still hold anything: objects that are gone, or of another type or
-// shape, and any number anywhere. What loads gives maps without Inf, and without NaN that no flag explains.
+// A calibration file with a right hash may contain anything: missing objects, objects of another type or
+// shape, and any number. A file that loads must give maps without Inf, and without NaN that has no flag.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::uint16_t kFullScale = 31;
 
-// The bytes of a sound file, with all that training writes; each way of answering to curvature has one.
+// The bytes of a valid file with all that training writes, one for each rule of handling curvature.
 std::string soundFile(fsr::compensation::Scheme scheme) {
   test_support::SyntheticRig rig;
   rig.size = {1, 2};

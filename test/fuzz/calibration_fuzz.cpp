@@ -1,4 +1,4 @@
-// A calibration file is refused before HDF5 sees it unless its bytes have the hash of its first line.
+// A calibration file is refused before HDF5 reads it unless its bytes match the hash in its first line.
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fuzz/fuzz_file.h"

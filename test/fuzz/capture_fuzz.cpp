@@ -1,4 +1,5 @@
-// A capture is replayed as far as it is sound; a damaged length makes no more memory than a chunk may have.
+// A capture is replayed up to the first damage. A damaged length allocates no more memory than a chunk may
+// have.
 #include <vector>
 
 #include "fsr_pressure_map/settings/input_error.h"

@@ -1,5 +1,5 @@
-// Any bytes may come over the line. However they are cut into reads, the same packets come out; each scan
-// is within its bounds, and no taxel of its map is without both a pressure and a flag.
+// The line may deliver any bytes. Every division of them into reads must give the same packets. Each scan is
+// within its bounds, and each taxel of its map has a pressure or a flag.
 #include <cmath>
 #include <memory>
 #include <string>

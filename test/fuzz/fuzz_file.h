@@ -10,7 +10,7 @@
 
 namespace fuzz {
 
-/// The input as a file that lives in memory, since readers ask for a path.
+/// The input as a file in memory, because readers need a path.
 class MemoryFile {
  public:
   MemoryFile(const std::uint8_t* bytes, std::size_t size) : descriptor_(memfd_create("fuzz", MFD_CLOEXEC)) {
@@ -33,7 +33,7 @@ class MemoryFile {
   std::string path_;
 };
 
-/// A broken promise ends the run as a crash does.
+/// Ends the run like a crash where a condition does not hold.
 inline void require(bool kept) {
   if (!kept) std::abort();
 }

@@ -9,7 +9,7 @@ namespace fuzz {
 
 namespace {
 
-// Names of all groups and datasets, the root's first.
+// Names of all groups and datasets, beginning with the root.
 std::vector<std::string> objectsOf(hid_t file) {
   std::vector<std::string> names;
   const auto keep = [](hid_t, const char* name, const H5O_info_t*, void* list) {
@@ -20,7 +20,7 @@ std::vector<std::string> objectsOf(hid_t file) {
   return names;
 }
 
-// One of the types that a field may claim to have.
+// One of the types that a field may have.
 hid_t typeOf(std::uint8_t choice) {
   const hsize_t three = 3;
   hid_t text = -1;
@@ -50,7 +50,7 @@ hid_t typeOf(std::uint8_t choice) {
   }
 }
 
-// Of any rank up to 3; lengths up to 2^62.
+// Any rank up to 3; lengths up to 2^62.
 hid_t spaceOf(Numbers& numbers) {
   const auto rank = numbers.next<std::uint8_t>() % 5;
   if (rank == 4) return H5Screate(H5S_NULL);
@@ -63,7 +63,7 @@ hid_t spaceOf(Numbers& numbers) {
   return H5Screate_simple(rank, size.data(), nullptr);
 }
 
-// Enough bytes for what is written at all.
+// Enough values for everything that is written.
 std::vector<std::uint64_t> valuesOf(Numbers& numbers) {
   std::vector<std::uint64_t> values(8192);
   const auto count = numbers.next<std::uint8_t>();
@@ -96,7 +96,7 @@ void replaceDataset(hid_t file, const std::string& name, Numbers& numbers) {
   H5Ldelete(file, name.c_str(), H5P_DEFAULT);
   const hid_t type = typeOf(numbers.next<std::uint8_t>()), space = spaceOf(numbers);
   const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
-  const hsize_t chunk[] = {1, 1, 1};  // so that a large one needs no room
+  const hsize_t chunk[] = {1, 1, 1};  // so that a large dataset needs no memory
   const int rank = H5Sget_simple_extent_ndims(space);
   if (rank > 0 && !isSmall(type, space)) H5Pset_chunk(creation, rank, chunk);
   const hid_t dataset = H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
@@ -108,7 +108,7 @@ void replaceDataset(hid_t file, const std::string& name, Numbers& numbers) {
   H5Tclose(type);
 }
 
-// One value of a dataset, or all of them.
+// Changes one value of a dataset, or all of them.
 void replaceValue(hid_t object, Numbers& numbers) {
   const hid_t space = H5Dget_space(object);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
@@ -129,7 +129,7 @@ void change(hid_t file, const std::vector<std::string>& objects, Numbers& number
   const auto how = numbers.next<std::uint8_t>();
   const std::string& name = objects[numbers.next<std::uint8_t>() % objects.size()];
   const hid_t object = H5Oopen(file, name.c_str(), H5P_DEFAULT);
-  if (object < 0) return;  // deleted before
+  if (object < 0) return;  // deleted by an earlier change
   const bool is_dataset = H5Iget_type(object) == H5I_DATASET;
   if (how % 8 < 3) replaceAttribute(object, numbers);
   if (how % 8 >= 3 && how % 8 < 6 && is_dataset) replaceValue(object, numbers);

@@ -6,7 +6,7 @@
 
 namespace fuzz {
 
-/// Numbers off the input, zeros behind its end.
+/// Reads numbers from the input; zeros after its end.
 class Numbers {
  public:
   Numbers(const std::uint8_t* bytes, std::size_t size) : bytes_(bytes), size_(size) {}
@@ -26,9 +26,9 @@ class Numbers {
   std::size_t size_;
 };
 
-/// The HDF5 file `image` (bytes, user block and all) with changes that the numbers choose, by HDF5's own
-/// functions, so that it is still sound HDF5: objects and attributes are deleted, replaced by others of any
-/// type and shape, or get another value. Without the user block.
+/// Returns the HDF5 file `image` (bytes, with its user block) with changes that the numbers choose, without
+/// the user block. Objects and attributes are deleted, replaced by others of any type and shape, or get
+/// another value. HDF5's own functions make the changes, so the result is still valid HDF5.
 std::string damaged(const std::string& image, Numbers& numbers);
 
 }  // namespace fuzz

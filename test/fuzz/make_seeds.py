@@ -51,7 +51,7 @@ def capture(data):
 
 
 def calibration_content():
-    """What calibration_content_fuzz.cpp and hdf5_damage.cpp make of the bytes: a sound file, then changes."""
+    """Inputs as calibration_content_fuzz.cpp and hdf5_damage.cpp read them: a valid file, then changes."""
     def change(how, thing, *fields):
         return struct.pack("<BB", how, thing) + b"".join(fields)
 

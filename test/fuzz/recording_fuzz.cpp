@@ -1,4 +1,4 @@
-// A table of readings becomes a recording that fits together and has finite pressures, or is refused in one
+// A table of readings becomes a recording with consistent sizes and finite pressures, or is refused with one
 // sentence.
 #include <cmath>
 

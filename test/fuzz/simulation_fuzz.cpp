@@ -1,4 +1,4 @@
-// A simulation file is read or refused in one sentence.
+// A simulation file is read, or refused with one sentence.
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
 #include "fuzz/fuzz_file.h"

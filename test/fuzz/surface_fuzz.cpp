@@ -1,4 +1,4 @@
-// A surface file gives finite curvatures for every taxel, or is refused in one sentence.
+// A surface file gives finite curvatures for every taxel, or is refused with one sentence.
 #include <cmath>
 
 #include "fsr_pressure_map/settings/input_error.h"

@@ -1,4 +1,4 @@
-// A table of text, of any separator and decimal sign, is read to its end or refused in one sentence.
+// A text table with any separator and decimal sign is read to its end, or refused with one sentence.
 #include <cmath>
 
 #include "dataset/table_reader.h"

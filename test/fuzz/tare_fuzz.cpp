@@ -1,4 +1,4 @@
-// A tare file gives a finite offset for every taxel, or is refused in one sentence.
+// A tare file gives a finite offset for every taxel, or is refused with one sentence.
 #include <cmath>
 
 #include "calibration/tare.h"

@@ -1,4 +1,4 @@
-// The first cycles after a mounting differ from those that follow, and all over again at the next.
+// The first cycles after each mounting differ from the later ones.
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,8 @@ class BreakIn : public Hidden {
     settled_after_ = random_.uniform(0.8, 2.5);  // [cycles]
     parameters_ = {{"size", size_, "1"}, {"settled_after", settled_after_, "cycles"}};
   }
-  // value(cycles) at each scan; cycles since the mounting, as distance of the pressure or whole ones.
+  // value(cycles) at each scan. `cycles` counts since the mounting, by path length of the pressure or as
+  // whole cycles.
   template <typename Value>
   void run(bool whole_cycles, Value value) {
     for (const Visit& visit : setup_.campaign.visits) {
@@ -40,7 +41,7 @@ class BreakIn : public Hidden {
   HiddenSetup setup_;
   Random random_;
   std::vector<double> scatter_;
-  Trace unsettled_;  // 1 at the mounting, towards 0
+  Trace unsettled_;  // 1 at the mounting, tends to 0
   double size_, settled_after_;
 };
 

@@ -1,4 +1,4 @@
-// The reading goes on growing under a load that stands still.
+// The reading increases under constant load.
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@ namespace blind {
 
 namespace {
 
-// Power law J(t) ~ t^n over seven decades, as one lag a decade from 10 ms to 10^5 s.
+// Power law J(t) ~ t^n over seven decades: one lag for each decade from 10 ms to 10^5 s.
 struct PowerLawState {
   static constexpr std::size_t kDecades = 8;
   std::array<double, kDecades> weight{};
@@ -37,21 +37,21 @@ struct PowerLawState {
   }
 };
 
-// Growth that slows down by itself: dx/dt = load exp(-x) / t0 gives ln(1 + t / t0) under constant load;
-// without load it heals with a time constant.
+// Logarithmic growth: dx/dt = load exp(-x) / t0 gives ln(1 + t / t0) under constant load. Without load it
+// recovers with a time constant.
 struct LogTimeState {
   double start;    // t0 [s]
   double healing;  // [s]
   double x = 0;
   void step(double input, double seconds) {
     const double share = std::clamp(input / kPeak, 0.0, 1.2);
-    // The exact solution of the growth over one step: it may begin faster than the scans follow.
+    // The exact solution over one step, because the first growth may be faster than the scan rate.
     x = std::log(std::exp(x) + share * seconds / start);
     x -= x * std::max(0.0, 1 - 3 * share) * (1 - std::exp(-seconds / healing));
   }
 };
 
-// A softening that the root of the load drives up faster than it comes down again.
+// A softening driven by the root of the load; it increases faster than it decreases.
 struct SofteningState {
   double up, down;  // [s]
   double x = 0;

@@ -1,4 +1,4 @@
-// The zero moves with the clock, whether there is pressure or not.
+// The zero changes with clock time, with or without pressure.
 
 #include <cmath>
 
@@ -18,7 +18,7 @@ class Drift : public Hidden {
   explicit Drift(const HiddenSetup& setup)
       : setup_(setup), random_(setup.seed, "drift"), zero_(setup.campaign.scans()) {
     size_ = random_.uniform(0.02, 0.04) * setup.strength;  // [share of full scale]
-    // Half of the sheets drift as one, the others taxel by taxel.
+    // In half of the sheets all taxels drift equally, in the others each taxel by its own amount.
     const bool common = random_.chance(0.5);
     share_ = taxelScatter(setup, "drift scatter", common ? 0.1 : 0.5);
     parameters_ = {{"size", size_, "share of full scale"}, {"common", common ? 1.0 : 0.0, "1"}};
@@ -26,7 +26,7 @@ class Drift : public Hidden {
   HiddenSetup setup_;
   Random random_;
   double size_;
-  std::vector<double> share_;  // of each taxel
+  std::vector<double> share_;  // share of each taxel
   Trace zero_;                 // [share of full scale]
 };
 
@@ -55,13 +55,13 @@ class Settling : public Drift {
   }
 };
 
-// The zero jumps now and then, within seconds, and stays.
+// The zero jumps at random times, within seconds, and stays at the new value.
 class Steps : public Drift {
  public:
   explicit Steps(const HiddenSetup& setup) : Drift(setup) {
     const std::size_t number = setup.campaign.first_visits / 2 + 2;
     for (std::size_t i = 0; i < number; ++i) {
-      // In the middle part of some mount, where it shows.
+      // In the middle of a mount, where the jump shows.
       const Visit& visit = setup.campaign.visits[random_.below(setup.campaign.first_visits)];
       const double share = random_.uniform(0.2, 0.8);
       const double when =

@@ -1,4 +1,4 @@
-// Taxels and lines that fail: for good, or now and then. How long they fail is the strength.
+// Taxels and lines that fail, permanently or at times. The duration of the failure is the strength.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace blind {
 
 namespace {
 
-// Scans first .. last - 1, never over the end of a mount.
+// Scans first .. last - 1, within one mount.
 struct Spell {
   std::size_t first, last;
 };
@@ -32,7 +32,7 @@ class Fault : public Hidden {
     const std::size_t number = setup_.campaign.taxels();
     taxels_ = random_.choose(1 + random_.below(std::max<std::size_t>(1, number / 30)), number);
   }
-  // From some time on to the end.
+  // From a random time to the end.
   void failForGood() {
     if (setup_.strength <= 0) return;
     const double share = std::min(0.95, random_.uniform(0.2, 0.4) * setup_.strength);
@@ -40,8 +40,8 @@ class Fault : public Hidden {
     addSpell(scans - std::max<std::size_t>(10, static_cast<std::size_t>(share * static_cast<double>(scans))),
              setup_.campaign.scans());
   }
-  // Spells of `seconds` on average, `share` of the time in all, at usual strength; a stronger fault has
-  // more of them and longer ones, among them those of the weaker.
+  // At the usual strength, spells last `seconds` on average and take `share` of the time in total. A stronger
+  // fault has more and longer spells, which include those of a weaker fault.
   void failNowAndThen(double share, double seconds) {
     const auto scans = static_cast<double>(setup_.campaign.scans());
     const double root = std::sqrt(setup_.strength);
@@ -79,7 +79,7 @@ class Fault : public Hidden {
   }
 };
 
-// --- stuck: the same code again and again ---------------------------------------------------------
+// --- stuck: always the same code ------------------------------------------------------------------
 
 class Stuck : public Fault {
  public:
@@ -95,7 +95,7 @@ class Stuck : public Fault {
 
  protected:
   explicit Stuck(const HiddenSetup& setup) : Fault(setup, "stuck") { hitTaxels(); }
-  double level_ = -1;  // [share of full scale]; negative = what was read last
+  double level_ = -1;  // [share of full scale]; negative = the last reading
 };
 
 class Frozen : public Stuck {
@@ -143,7 +143,7 @@ class OpenSpells : public Dead {
   explicit OpenSpells(const HiddenSetup& setup) : Dead(setup) { failNowAndThen(0.2, 8); }
 };
 
-// The contact goes within seconds, comes back at once.
+// The contact is lost within seconds and returns at once.
 class Fading : public Dead {
  public:
   explicit Fading(const HiddenSetup& setup) : Dead(setup), time_(random_.uniform(3, 10)) {
@@ -180,7 +180,7 @@ class LineFault : public Fault {
   virtual double disturbed(double reading, const Spell& spell, std::size_t scan) const = 0;
 };
 
-// Short bursts, up or down, of another height each.
+// Short bursts, up or down, each with its own height.
 template <bool kRow>
 class Bursts : public LineFault {
  public:
@@ -193,7 +193,7 @@ class Bursts : public LineFault {
   }
 };
 
-// A plug that has worked loose puts a resistance into the line: full readings lose most.
+// A loose plug adds a resistance to the line: high readings lose most.
 template <bool kRow>
 class LoosePlug : public LineFault {
  public:
@@ -210,7 +210,7 @@ class LoosePlug : public LineFault {
   double resistance_;
 };
 
-// The line is open: nothing is read, but for a rest that couples over.
+// The line is open: the reading is zero, except for a part that couples from other lines.
 template <bool kRow>
 class Dropout : public LineFault {
  public:

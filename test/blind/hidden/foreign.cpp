@@ -1,4 +1,4 @@
-// What no library has. The right answer is "unknown", with the covariates that it depends on.
+// Effects that no library has. The right answer is "unknown", with the covariates that the effect depends on.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace blind {
 
 namespace {
 
-constexpr double kTight = 12;  // curvature from which on a bend is tight here [1/m]
+constexpr double kTight = 12;  // curvature from which a bend counts as tight [1/m]
 
 class OnlyBent : public Hidden {
  protected:
@@ -20,7 +20,7 @@ class OnlyBent : public Hidden {
   std::vector<double> scatter_;
 };
 
-// The gain falls with the rate of the pressure, up or down alike, but only where the sheet is bent.
+// The gain decreases with the pressure rate, up or down alike, but only where the sheet is bent.
 class RateGainBent : public OnlyBent {
  public:
   explicit RateGainBent(const HiddenSetup& setup)
@@ -38,7 +38,7 @@ class RateGainBent : public OnlyBent {
   double size_;
 };
 
-// In tight bends the sheet snaps on to its backing above some pressure, and reads more from there on.
+// In tight bends the sheet snaps onto its backing above some pressure and reads higher from there on.
 class SnapTight : public OnlyBent {
  public:
   explicit SnapTight(const HiddenSetup& setup)
@@ -59,8 +59,8 @@ class SnapTight : public OnlyBent {
   double size_, threshold_;
 };
 
-// Where the sheet is bent, it reads more after a valley that was not deep: only protocols with loops
-// within loops show it.
+// Where the sheet is bent, it reads higher after a shallow valley. Only protocols with minor loops show this
+// effect.
 class ValleyMemoryBent : public OnlyBent {
  public:
   explicit ValleyMemoryBent(const HiddenSetup& setup)
@@ -77,13 +77,13 @@ class ValleyMemoryBent : public OnlyBent {
   }
 
  private:
-  // The last pressure at which filling began again, once it has gone on for a tenth of the peak.
+  // The last pressure at which loading started again, counted once loading has covered a tenth of the peak.
   void remember(const Visit& visit) {
     double low = 0, high = 0, held = 0;
     for (std::size_t scan = visit.first; scan < visit.last; ++scan) {
       const double share = setup_.campaign.pressure[scan] / kPeak;
       high = std::max(high, share);
-      if (share < high - 0.1) low = high = share;  // still on the way down
+      if (share < high - 0.1) low = high = share;  // still unloading
       low = std::min(low, share);
       if (share > low + 0.1) held = low;
       held = std::min(held, share);

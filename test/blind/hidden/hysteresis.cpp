@@ -1,4 +1,4 @@
-// Loops of loading against unloading, independent of the rate. A sheet reads higher on the way down.
+// Rate-independent loops of loading against unloading. A sheet reads higher during unloading.
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@ namespace blind {
 
 namespace {
 
-// Preisach operator with congruent, lopsided loops, by its Everett function
+// Preisach operator with congruent, asymmetric loops, by its Everett function
 //     E(a, b) = x^2 / (1 + x) (1 + c (a + b - peak) / peak),  x = (a - b) / d:
-// the output rises by 2 E along a branch from the last extremum. Passing an older extremum wipes it out.
+// the output increases by 2 E along a branch from the last extremum. Passing an older extremum deletes it.
 class PreisachState {
  public:
   PreisachState(double scale, double lopsided) : scale_(scale), lopsided_(lopsided) {}
@@ -25,7 +25,8 @@ class PreisachState {
     const Extremum& last = memory_.back();
     return last.output + direction_ * 2 * everett(std::max(input_, last.input), std::min(input_, last.input));
   }
-  // Half way between the arms of the full loop: a matter of the load alone, which is the static curve's.
+  // Midway between the branches of the full loop. It depends on the load alone and so belongs to the static
+  // curve.
   double middle() const {
     const double high = std::max(input_, kPeak);
     return everett(std::max(input_, 0.0), std::min(input_, 0.0)) + everett(high, 0) - everett(high, input_);
@@ -44,7 +45,7 @@ class PreisachState {
       memory_.push_back({input_, output()});
       direction_ = direction;
     }
-    // A branch that leaves the loop it runs in goes on as the branch before that loop.
+    // A branch that leaves its inner loop continues the branch before that loop.
     while (memory_.size() >= 3 && direction * (input - memory_[memory_.size() - 2].input) >= 0) {
       memory_.resize(memory_.size() - 2);
     }
@@ -56,7 +57,7 @@ class PreisachState {
   std::vector<Extremum> memory_ = {{0, 0}};
 };
 
-// Duhem's differential model: the loop's arm swings over to the other side within a length of load.
+// Duhem's differential model: the output moves from one branch to the other within a length of load.
 struct DuhemState {
   double length;  // [Pa]
   double arm = 0;
@@ -68,7 +69,7 @@ struct DuhemState {
   }
 };
 
-// Loading follows one curve whatever came before; only unloading lags behind.
+// Loading always follows the same curve; only unloading lags behind.
 struct OneSidedState {
   double length;  // [Pa]
   double lag = 0;

@@ -1,5 +1,5 @@
-// The hum of the mains on the wires: sampled once a scan it becomes a slow beat, whose phase moves on
-// from taxel to taxel as the scan goes through the matrix.
+// Mains hum on the wires. Sampled once a scan it appears as a slow beat; its phase shifts from taxel to taxel
+// in the order of the scan.
 
 #include <cmath>
 
@@ -34,7 +34,7 @@ class Pickup : public Hidden {
   }
   virtual double wave(std::size_t, double phase) const { return std::sin(phase); }
 
-  // Phase of the hum at each scan, where its frequency is `mains_` + off(scan) [Hz].
+  // Phase of the hum at each scan, for a frequency of `mains_` + off(scan) [Hz].
   template <typename Off>
   void integrate(Off off) {
     double turns = random_.uniform();
@@ -47,7 +47,7 @@ class Pickup : public Hidden {
       before = now;
     }
   }
-  // Step of a process that wanders about 0 with a deviation and a time constant [s].
+  // One step of an Ornstein-Uhlenbeck process about 0 with a deviation and a time constant [s].
   double wander(double value, double deviation, double time_constant) {
     const double keep = std::exp(-setup_.campaign.scan_period / time_constant);
     return keep * value + deviation * std::sqrt(1 - keep * keep) * random_.normal();
@@ -56,13 +56,13 @@ class Pickup : public Hidden {
   HiddenSetup setup_;
   Random random_;
   double size_ = 0;        // [share of full scale]
-  double taxel_time_ = 0;  // from one taxel of a scan to the next [s]
+  double taxel_time_ = 0;  // time from one taxel of a scan to the next [s]
   double mains_ = 50;      // [Hz]
   std::vector<double> row_;
   Trace phase_;
 };
 
-// A steady mains, but a coupling whose phase takes a random walk.
+// Constant mains frequency; the phase of the coupling takes a random walk.
 class WanderingPhase : public Pickup {
  public:
   explicit WanderingPhase(const HiddenSetup& setup) : Pickup(setup) {
@@ -79,7 +79,7 @@ class WanderingPhase : public Pickup {
   }
 };
 
-// The grid's frequency itself wanders about its nominal value, as grids do.
+// The frequency of the grid varies about its nominal value.
 class WanderingGrid : public Pickup {
  public:
   explicit WanderingGrid(const HiddenSetup& setup) : Pickup(setup) {
@@ -93,7 +93,7 @@ class WanderingGrid : public Pickup {
   }
 };
 
-// A rectifier's hum, all even harmonics, swelling and fading.
+// Hum of a rectifier: even harmonics with a slowly varying amplitude.
 class Swelling : public Pickup {
  public:
   explicit Swelling(const HiddenSetup& setup) : Pickup(setup), swell_(setup.campaign.scans()) {

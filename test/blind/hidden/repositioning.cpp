@@ -1,4 +1,4 @@
-// Laid down again, the sheet never lies quite as before: something smooth in space changes by mount.
+// A sheet that is mounted again lies slightly differently: a field that is smooth in space changes by mount.
 
 #include <cmath>
 
@@ -8,7 +8,7 @@ namespace blind {
 
 namespace {
 
-// Position on the sheet in -1 .. 1, both ways.
+// Position on the sheet, -1 .. 1 in both directions.
 struct Place {
   double x, y;
 };
@@ -24,7 +24,7 @@ class Repositioning : public Hidden {
       places_.push_back({at.x / half_x, at.y / half_y});
     }
   }
-  // `value` of every mount at every place; use(scan, value) for the scans of one taxel.
+  // Computes `value` of every mount and place; calls use(scan, value) for the scans of one taxel.
   template <typename Use>
   void eachScan(std::size_t taxel, Use use) const {
     for (std::size_t v = 0; v < setup_.campaign.visits.size(); ++v) {
@@ -38,11 +38,11 @@ class Repositioning : public Hidden {
   std::vector<std::vector<double>> field_;  // [visit][taxel]
 };
 
-// The surface has highs and lows of its own; the sheet comes to lie beside its last place.
+// The surface is uneven, and the sheet lies beside its previous place.
 class ShiftedMap : public Repositioning {
  public:
   explicit ShiftedMap(const HiddenSetup& setup) : Repositioning(setup) {
-    const double size = random_.uniform(0.03, 0.05) * setup.strength;  // of the load
+    const double size = random_.uniform(0.03, 0.05) * setup.strength;  // share of the load
     const double wave_x = random_.uniform(2, 3.5), wave_y = random_.uniform(2, 3.5);
     const double phase_x = random_.uniform(0, 2 * M_PI), phase_y = random_.uniform(0, 2 * M_PI);
     for (std::size_t v = 0; v < setup.campaign.visits.size(); ++v) {
@@ -61,7 +61,7 @@ class ShiftedMap : public Repositioning {
   }
 };
 
-// One side is pulled tighter than the other: a plane of preload.
+// One side is pulled tighter than the other: the preload is a plane.
 class Tilt : public Repositioning {
  public:
   explicit Tilt(const HiddenSetup& setup) : Repositioning(setup) {
@@ -78,7 +78,7 @@ class Tilt : public Repositioning {
   }
 };
 
-// A bubble of glue or air under some spot changes how well the sheet there is pressed.
+// A bubble of glue or air changes the gain of the sheet above it.
 class Bubble : public Repositioning {
  public:
   explicit Bubble(const HiddenSetup& setup) : Repositioning(setup) {

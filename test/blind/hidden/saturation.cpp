@@ -1,5 +1,5 @@
-// High readings come out too low: the read-out runs out of room. A curve of its own for each surface
-// swallows it; that all surfaces bend at the same code gives it away.
+// High readings are too low because the read-out saturates. A static curve for each surface absorbs the
+// effect; what reveals it is that all surfaces bend at the same code.
 
 #include <algorithm>
 #include <cmath>
@@ -27,13 +27,13 @@ class Saturation : public Hidden {
     parameters_ = {{"knee", knee_, "share of full scale"}, {"strength", strength_, "1"}};
   }
   virtual double kneeOf(std::size_t) const { return knee_; }
-  virtual double lost(double over) const = 0;  // of a reading this far over the knee
+  virtual double lost(double over) const = 0;  // loss of a reading that is `over` above the knee
 
   Random random_;
   double knee_, strength_;
 };
 
-// The amplifier's rail gives way with the load on it.
+// The supply of the amplifier drops with its load.
 class RailSag : public Saturation {
  public:
   explicit RailSag(const HiddenSetup& setup) : Saturation(setup) {}
@@ -42,7 +42,7 @@ class RailSag : public Saturation {
   double lost(double over) const override { return over * over / (over + 0.3); }
 };
 
-// A soft rail that no reading passes.
+// A soft limit that no reading exceeds.
 class SoftRail : public Saturation {
  public:
   explicit SoftRail(const HiddenSetup& setup) : Saturation(setup), room_(random_.uniform(0.2, 0.3)) {
@@ -51,10 +51,10 @@ class SoftRail : public Saturation {
 
  private:
   double lost(double over) const override { return over - room_ * std::tanh(over / room_); }
-  double room_;  // over the knee [share of full scale]
+  double room_;  // range above the knee [share of full scale]
 };
 
-// A hard clip, at another height for each row's amplifier.
+// A hard limit, at a different level for each row's amplifier.
 class RowClip : public Saturation {
  public:
   explicit RowClip(const HiddenSetup& setup) : Saturation(setup), layout_(setup.campaign.layout) {

@@ -1,4 +1,4 @@
-// Gas finds its way under the sheet: what presses on a taxel is the chamber less the cavity, which
+// Gas leaks under the sheet. The load on a taxel is the chamber pressure minus the cavity pressure, which
 // follows the chamber within minutes to hours.
 
 #include <algorithm>
@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kAmbient = 101325;  // [Pa]
 
-// Through an orifice, subsonic: flow as the root of the difference.
+// Leak through an orifice, subsonic: flow proportional to the root of the pressure difference.
 struct OrificeState {
-  double rate;  // of the peak, under the peak's difference [1/s]
+  double rate;  // in peak pressures a second, at a difference of the peak [1/s]
   double cavity = 0;
   void step(double pressure, double seconds) {
     const double drive = (pressure - cavity) / kPeak;
@@ -24,7 +24,7 @@ struct OrificeState {
   }
 };
 
-// Along a long narrow gap, laminar and compressible: flow as the difference of the squares.
+// Leak along a narrow gap, laminar and compressible: flow proportional to the difference of the squares.
 struct LaminarState {
   double rate;  // [1/s]
   double cavity = 0;
@@ -35,7 +35,7 @@ struct LaminarState {
   }
 };
 
-// A rim that fills first and a middle that fills from the rim.
+// The rim fills first, the middle fills from the rim.
 struct TwoChamberState {
   double to_rim, to_middle;  // [1/s]
   double rim = 0, middle = 0;

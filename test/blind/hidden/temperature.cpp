@@ -1,4 +1,4 @@
-// The sheet's own temperature, which lags behind the room's and feels the gas heat up under compression.
+// Effect of the sheet's temperature, which lags behind the room's and follows the heating of compressed gas.
 
 #include <cmath>
 
@@ -16,7 +16,7 @@ class Thermal : public Hidden {
       : setup_(setup),
         random_(setup.seed, "thermal"),
         scatter_(taxelScatter(setup, "thermal scatter", 0.15)) {
-    // Data sheets give a fall at both ends of the range: the sign is free.
+    // Data sheets state a decrease at both ends of the range, so either sign is possible.
     slope_ = random_.sign() * random_.uniform(2.5e-3, 4e-3) * setup.strength;  // [1/K]
     parameters_ = {{"slope", slope_, "1/K"}};
   }
@@ -28,7 +28,7 @@ class Thermal : public Hidden {
   double slope_;
 };
 
-// A parabola about an optimum.
+// A parabola about an optimum temperature.
 class Quadratic : public Thermal {
  public:
   explicit Quadratic(const HiddenSetup& setup) : Thermal(setup), bend_(slope_ * random_.uniform(0.02, 0.05)) {
@@ -45,7 +45,7 @@ class Quadratic : public Thermal {
   double bend_;  // [1/K^2]
 };
 
-// A power of the absolute temperature in the ink, which follows the sheet's surface with a lag.
+// A power of the absolute temperature of the ink, which follows the surface of the sheet with a lag.
 class LaggedPower : public Thermal {
  public:
   explicit LaggedPower(const HiddenSetup& setup) : Thermal(setup), lagged_(setup.campaign.scans()) {
@@ -71,7 +71,7 @@ class LaggedPower : public Thermal {
   Trace lagged_;  // [degree Celsius]
 };
 
-// The read-out's zero moves along with the ink's gain.
+// The zero of the read-out changes together with the gain of the ink.
 class ZeroAndGain : public Thermal {
  public:
   explicit ZeroAndGain(const HiddenSetup& setup) : Thermal(setup), zero_(slope_ * random_.uniform(0.2, 0.5)) {

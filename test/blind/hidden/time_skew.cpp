@@ -1,4 +1,4 @@
-// Matrix and chamber pressure are stamped by two clocks, one of them late, the same for all taxels.
+// Two clocks stamp matrix and chamber pressure; one of them is late, equally for all taxels.
 
 #include <cmath>
 
@@ -22,22 +22,22 @@ class TimeSkew : public Hidden {
  protected:
   explicit TimeSkew(const HiddenSetup& setup)
       : setup_(setup), random_(setup.seed, "time skew"), delay_(setup.campaign.scans()) {
-    // Mostly the matrix comes late, over USB; now and then the chamber's DAQ buffers more.
+    // Usually the matrix is late (USB); sometimes the chamber's DAQ buffers more.
     const double sign = random_.chance(0.75) ? 1 : -1;
     mean_ = sign * random_.uniform(0.12, 0.35) * setup.strength;
     parameters_ = {{"mean_delay", mean_, "s"}};
   }
   HiddenSetup setup_;
   Random random_;
-  Trace delay_;  // of the matrix against the chamber [s]
+  Trace delay_;  // delay of the matrix relative to the chamber [s]
   double mean_;
 };
 
-// One clock runs faster than the other and is set anew at every mount.
+// One clock runs faster than the other and is set again at every mount.
 class TwoClocks : public TimeSkew {
  public:
   explicit TwoClocks(const HiddenSetup& setup) : TimeSkew(setup) {
-    const double spread = random_.uniform(0.1, 0.4);  // of the delay, from the start of a mount to its end
+    const double spread = random_.uniform(0.1, 0.4);  // relative change of the delay within a mount
     for (const Visit& visit : setup.campaign.visits) {
       const auto scans = static_cast<double>(visit.last - visit.first);
       for (std::size_t scan = visit.first; scan < visit.last; ++scan) {
@@ -49,7 +49,7 @@ class TwoClocks : public TimeSkew {
   }
 };
 
-// Every start of the two programs leaves another delay.
+// Each start of the two programs gives a different delay.
 class ByMount : public TimeSkew {
  public:
   explicit ByMount(const HiddenSetup& setup) : TimeSkew(setup) {
@@ -60,7 +60,7 @@ class ByMount : public TimeSkew {
   }
 };
 
-// Scans wait in a buffer until it is full: the first waits longest.
+// Scans wait in a buffer until it is full; the first one waits longest.
 class Buffered : public TimeSkew {
  public:
   explicit Buffered(const HiddenSetup& setup) : TimeSkew(setup) {

@@ -1,4 +1,4 @@
-// Every load takes something away, for good: by what the sheet went through, whatever the clock says.
+// Each load reduces the sensitivity permanently. The loss depends on the load history, not on clock time.
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +22,8 @@ class Wear : public Hidden {
         random_(setup.seed, "wear"),
         scatter_(taxelScatter(setup, "wear scatter", 0.15)),
         lost_(setup.campaign.scans()) {
-    // More than data sheets promise, or no campaign of some dozens of cycles could show it.
-    size_ = random_.uniform(0.02, 0.04) * setup.strength;  // lost by the end
+    // More than in data sheets; otherwise a campaign of some dozens of cycles could not show it.
+    size_ = random_.uniform(0.02, 0.04) * setup.strength;  // loss at the end
     parameters_ = {{"lost_by_the_end", size_, "1"}};
   }
   void endAtOne() {
@@ -37,7 +37,7 @@ class Wear : public Hidden {
   double size_;
 };
 
-// Damage by peaks, high ones much more than low ones; each next one does less.
+// Damage by pressure peaks: high peaks count much more than low ones, and each further peak damages less.
 class Peaks : public Wear {
  public:
   explicit Peaks(const HiddenSetup& setup) : Wear(setup) {
@@ -55,7 +55,7 @@ class Peaks : public Wear {
   }
 };
 
-// A power of the distance that the pressure went, counted more where it is high.
+// A power of the path length of the pressure, weighted more at high pressure.
 class LoadedDistance : public Wear {
  public:
   explicit LoadedDistance(const HiddenSetup& setup) : Wear(setup) {
@@ -71,7 +71,7 @@ class LoadedDistance : public Wear {
   }
 };
 
-// What can be worn wears off: towards an end that is far away still.
+// Exponential approach to a final loss that is still far away.
 class WornOff : public Wear {
  public:
   explicit WornOff(const HiddenSetup& setup) : Wear(setup) {
