@@ -31,10 +31,11 @@ struct BagSinkReport {
   std::uint64_t space = 0;     ///< space left on the disk at the last check [bytes]
 };
 
-/// Writes a bag in its own thread, so that a slow disk does not delay whoever receives the messages. The file
-/// is called FILE.bag.active until it is closed and has its index. When the disk is nearly full, the bag is
-/// closed in time and the recording stops. When a write fails, the file stays under the name .active and can
-/// be repaired with `rosbag reindex`. Every message that was added is counted either as written or as lost.
+/// Writes a bag in its own thread, so that a slow disk does not delay the thread that receives messages. The
+/// file is called FILE.bag.active until it is closed and has its index. When the disk is nearly full, the bag
+/// is closed in time and the recording stops. When a write fails, the file stays under the name .active and
+/// can be repaired with `rosbag reindex`. Every message that was added is counted either as written or as
+/// lost.
 class BagSink {
  public:
   using Write = std::function<void(rosbag::Bag&)>;

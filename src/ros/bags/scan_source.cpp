@@ -14,9 +14,9 @@
 
 #include "dataset/recording_builder.h"
 #include "fsr_pressure_map/ros/pressure_map_message.h"
-#include "ros/bags/map_maker.h"
 #include "ros/bags/message_events.h"
 #include "ros/bags/scan_context.h"
+#include "ros/bags/scan_maps.h"
 #include "ros/bags/sensor_topics.h"
 #include "ros/messages/message_reader.h"
 #include "ros/messages/surface_message.h"

@@ -75,7 +75,7 @@ class Panel : public testing::Test {
 TEST_F(Panel, SaysWhichNodesItWaitsFor) {
   listenTo("/nobody");
   ASSERT_TRUE(runUntil([&] { return says("waiting", "Nothing on /nobody/calibration_info"); }));
-  EXPECT_TRUE(says("waiting", "Nothing on /nobody/statistics: the numbers wait for the view node."));
+  EXPECT_TRUE(says("waiting", "Nothing on /nobody/statistics: the numbers need the view node."));
   EXPECT_TRUE(says("waiting", "Nothing on /nobody/session: events can be marked while record.launch runs."));
   EXPECT_TRUE(says("Alarms", "UNKNOWN: no statistics"));
   press("Tare");

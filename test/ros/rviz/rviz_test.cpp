@@ -190,7 +190,7 @@ TEST_F(Rviz, A3SaysInWhichStateAMapIs) {
       {PressureMap::STATE_CURVATURE_STALE, "curvature stale"},
       {PressureMap::STATE_SIZE_MISMATCH, "the calibration is for another matrix size: no pressure to show"},
       {PressureMap::STATE_WRONG_SENSOR,
-       "the calibration is of another sensor: pressures are not to be believed"},
+       "the calibration belongs to another sensor: the pressures are not valid"},
       {PressureMap::STATE_OK, "calibrated"}};
   for (const auto& [state, words] : states) {
     PressureMap other = *map;

@@ -236,7 +236,7 @@ TEST_F(BagReader, ABagThatWasNotClosedAsksForReindexing) {
 TEST_F(BagReader, WhatIsNoBagIsRefused) {
   EXPECT_EQ(complaint(), path_ + ": there is no such file");
   std::ofstream(path_) << "";
-  EXPECT_EQ(complaint(), path_ + ": is empty; give a bag that record.launch has written");
+  EXPECT_EQ(complaint(), path_ + ": the file is empty; give a bag recorded with record.launch");
   std::ofstream(path_) << "pressure,count\n1,2\n";
   EXPECT_NE(complaint().find("is not a complete bag ("), std::string::npos) << complaint();
 }

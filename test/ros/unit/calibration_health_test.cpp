@@ -48,7 +48,7 @@ TEST(CalibrationHealth, IsOkWhenMapsAreCalibrated) {
 TEST(CalibrationHealth, NamesTheTopicWithoutScans) {
   const Status status = maps(healthy(), 100);
   EXPECT_EQ(status.level, Level::ERROR);
-  EXPECT_EQ(status.message, "waiting for scans: none came on /fsr/raw");
+  EXPECT_EQ(status.message, "waiting for scans: none has come on /fsr/raw");
 }
 
 TEST(CalibrationHealth, NamesDeadTaxelsByRowAndColumn) {
@@ -65,7 +65,8 @@ TEST(CalibrationHealth, NamesBothBoardsWhenTheSensorIsWrong) {
   health.map.state = fsr::map::MapState::kWrongSensor;
   const Status status = maps(health);
   EXPECT_EQ(status.level, Level::ERROR);
-  EXPECT_EQ(status.message, "the board is B2, but the calibration was made with A1");
+  EXPECT_EQ(status.message,
+            "the board has the serial number B2, but the calibration was trained with board A1");
 }
 
 TEST(CalibrationHealth, WarnsWithoutCurvature) {

@@ -199,9 +199,9 @@ TEST_F(ExportTool, DrawsMapsAtTheGivenRate) {
   EXPECT_NE(
       run({bag, "--to", "png", "--output", folder_.path("none"), "--range", "5"}).find("--range is \"5\""),
       std::string::npos);
-  EXPECT_NE(
-      run({bag, "--to", "csv", "--output", csv_, "--unit", "kPa"}).find("--unit does not go with --to csv"),
-      std::string::npos);
+  EXPECT_NE(run({bag, "--to", "csv", "--output", csv_, "--unit", "kPa"})
+                .find("--unit cannot be used with --to csv"),
+            std::string::npos);
   EXPECT_FALSE(fs::exists(folder_.path("none")));
 }
 

@@ -142,7 +142,7 @@ TEST_F(TrainTool, MergesCalibrations) {
   }
   EXPECT_EQ(run({"--merge", a, "--output", merged}), "merging needs two calibration files or more");
   EXPECT_EQ(run({"--merge", a, b, "--output", merged, "--model", "linear"}),
-            "--model cannot be given with --merge: the files decide");
+            "--model cannot be used with --merge, because the files determine it");
   EXPECT_EQ(run({"--merge", a, a, "--output", merged}),
             a + ": was trained on flat.bag, as was " + a + "; each bag may count once");
 }

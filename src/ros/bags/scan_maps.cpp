@@ -1,4 +1,4 @@
-#include "ros/bags/map_maker.h"
+#include "ros/bags/scan_maps.h"
 
 #include <utility>
 
