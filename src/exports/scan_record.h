@@ -57,7 +57,7 @@ class ScanSink {
   virtual void finish() = 0;
 };
 
-/// Flags as the README names them, "SATURATED|TARED"; "none" where there are none.
+/// Flags by their names in docs/live.md, e.g. "SATURATED|TARED"; "none" without flags.
 std::string flagWords(std::uint16_t flags);
 
 /// "OK", "CURVATURE_UNKNOWN" ...

@@ -28,25 +28,24 @@ namespace fs = std::filesystem;
 fsr::settings::CommandLine options() {
   fsr::settings::CommandLine line(
       "export", "BAG... --to FORMAT --output PATH, or ARCHIVE --to bag --output BAG",
-      "Writes a recording for those who have no ROS. FORMAT is\n"
-      "  csv      tidy table, a row for each taxel and scan (.gz: compressed); several bags in one\n"
-      "  tekscan  ASCII as Tekscan's I-Scan and F-Scan save it (*.asf)\n"
-      "  hdf5     archive of every topic, from which\n"
-      "  bag      gives back the bag, message by message, byte for byte\n"
-      "  png      a picture of each map, in a new folder\n"
-      "  movie    NAME.png (animated, needs no other program), or .mp4 .webm .mkv .avi .gif by ffmpeg\n"
+      "Writes a recording in a format that needs no ROS. FORMAT is\n"
+      "  csv      tidy table, one row for each taxel and scan (.gz: compressed); several bags in one file\n"
+      "  tekscan  ASCII file as Tekscan's I-Scan and F-Scan save it (*.asf)\n"
+      "  hdf5     archive of every topic\n"
+      "  bag      restores the bag from such an archive, message by message, byte for byte\n"
+      "  png      one picture for each map, in a new folder\n"
+      "  movie    NAME.png (animated, needs no other program), or .mp4 .webm .mkv .avi .gif with ffmpeg\n"
       "docs/exports.md describes every column and dataset.");
-  line.option("to", "FORMAT", "what to write")
-      .option("output", "PATH", "file to write; a file that is there is replaced")
-      .option("calibration", "FILE",
-              "compute the maps with this calibration, instead of taking recorded ones")
-      .option("from", "S", "leave out what is earlier, in seconds since the first scan (0)")
-      .option("until", "S", "leave out what is later, likewise (all)")
+  line.option("to", "FORMAT", "format to write")
+      .option("output", "PATH", "file to write; an existing file is replaced")
+      .option("calibration", "FILE", "compute the maps with this calibration instead of using recorded ones")
+      .option("from", "S", "start, in seconds since the first scan (0)")
+      .option("until", "S", "end, in seconds since the first scan (all)")
       .option("topics", "A,B", "hdf5: only these topics, full names or names under the namespace (all)")
-      .option("rate", "HZ", "at most as many scans a second (all; pictures: 10)")
-      .option("map", "TOPIC", "topic of the maps, where a bag holds several (pressure_map)")
-      .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
-      .option("namespace", "NS", "the sensor's namespace, where a bag holds several");
+      .option("rate", "HZ", "largest number of scans a second (all; pictures: 10)")
+      .option("map", "TOPIC", "topic of the maps, if a bag holds several (pressure_map)")
+      .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
+      .option("namespace", "NS", "namespace of the sensor, if a bag holds several");
   declarePictureOptions(line);
   return line;
 }
@@ -73,11 +72,11 @@ void requireOne(const fsr::settings::CommandLine& line) {
                                   "; only csv takes several bags");
 }
 
-// Throws where an option was given that this format has no use for.
+// Throws if an option was given that does not apply to this format.
 void refuseOthers(const fsr::settings::CommandLine& line, const std::vector<std::string>& options) {
   for (const std::string& option : options) {
     if (!line.has(option)) continue;
-    throw fsr::settings::InputError("--" + option + " does not go with --to " + line.text("to", ""));
+    throw fsr::settings::InputError("--" + option + " cannot be used with --to " + line.text("to", ""));
   }
 }
 
@@ -86,7 +85,7 @@ std::string outputOf(const fsr::settings::CommandLine& line) {
   std::error_code error;
   for (const std::string& input : line.files()) {
     if (fs::equivalent(input, output, error)) {
-      throw fsr::settings::InputError("--output is " + input + " itself: give another name");
+      throw fsr::settings::InputError("--output is " + input + " itself; give another name");
     }
   }
   return output;
@@ -105,7 +104,7 @@ void sendAll(const fsr::settings::CommandLine& line, const ScanSelection& select
                                     ": holds no scan between --from and --until; widen them");
   }
   sink.finish();
-  out << scans << " scans are in " << fullPath(line.text("output", "")) << std::endl;
+  out << scans << " scans written to " << fullPath(line.text("output", "")) << std::endl;
 }
 
 void writeCsv(const fsr::settings::CommandLine& line, std::ostream& out) {
@@ -123,7 +122,7 @@ void writeTekscan(const fsr::settings::CommandLine& line, std::ostream& out) {
   const ScanSelection selection = selectionOf(line);
   const std::string output = outputOf(line);
   if (fs::path(output).extension() == ".gz") {
-    throw fsr::settings::InputError("--output is " + output + ", but only csv is written compressed");
+    throw fsr::settings::InputError("--output is " + output + ", but only csv can be compressed");
   }
   fsr::exports::TekscanFile file(output);
   sendAll(line, selection, file, out);
@@ -175,8 +174,8 @@ void writeArchive(const fsr::settings::CommandLine& line, std::ostream& out) {
   const ArchiveSelection selection{range.topics, split(line.text("topics", "")), range.from, range.until};
   const ArchiveResult result = archiveBag(line.files().front(), selection, outputOf(line));
   if (!result.complaint.empty())
-    out << "Warning: the group /scans is not whole: " << result.complaint << "\n";
-  out << result.messages << " messages are in " << fullPath(line.text("output", "")) << std::endl;
+    out << "Warning: the group /scans is incomplete: " << result.complaint << "\n";
+  out << result.messages << " messages written to " << fullPath(line.text("output", "")) << std::endl;
 }
 
 void writeBag(const fsr::settings::CommandLine& line, std::ostream& out) {
@@ -184,8 +183,8 @@ void writeBag(const fsr::settings::CommandLine& line, std::ostream& out) {
   refuseOthers(line, {"calibration", "rate", "map", "ambient", "topics", "from", "until", "namespace"});
   refuseOthers(line, pictureOptionNames());
   const std::uint64_t messages = restoreBag(line.files().front(), outputOf(line));
-  out << messages << " messages, each as it was in the bag, are in " << fullPath(line.text("output", ""))
-      << std::endl;
+  out << messages << " messages, identical to those of the bag, written to "
+      << fullPath(line.text("output", "")) << std::endl;
 }
 
 using Writer = void (*)(const fsr::settings::CommandLine&, std::ostream&);

@@ -68,7 +68,7 @@ class ExportTool : public testing::Test {
     }
   }
 
-  // The table's columns by name.
+  // The columns of the table by name.
   static std::map<std::string, std::vector<std::string>> table(const std::string& path) {
     std::ifstream file(path);
     std::vector<std::string> names;
@@ -92,7 +92,7 @@ class ExportTool : public testing::Test {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_.path()), {}));
   }
 
-  // The bag with a map for each scan, and an event at second 5.
+  // The bag with a map for each scan, and an event 5 s after the start.
   std::string withMaps() {
     const std::string path = folder_.path("maps.bag");
     rosbag::Bag from(bag_), to(path, rosbag::bagmode::Write);
@@ -130,7 +130,7 @@ class ExportTool : public testing::Test {
 
 TEST_F(ExportTool, WritesEveryScanOfABagWithoutMaps) {
   const std::string said = run({bag_, "--to", "csv", "--output", csv_});
-  EXPECT_EQ(said, "1000 scans are in " + csv_ + "\n");
+  EXPECT_EQ(said, "1000 scans written to " + csv_ + "\n");
   const auto columns = table(csv_);
   ASSERT_EQ(columns.at("counts").size(), 6000u);
   for (std::size_t scan = 0; scan < 1000; scan += 37) {
@@ -185,10 +185,10 @@ TEST_F(ExportTool, WritesTekscanFrames) {
   EXPECT_NE(text.find("SECONDS_PER_FRAME 0.1000"), std::string::npos);
 }
 
-TEST_F(ExportTool, DrawsMapsInThePaceThatIsAskedFor) {
+TEST_F(ExportTool, DrawsMapsAtTheGivenRate) {
   const std::string bag = withMaps(), pictures = folder_.path("pictures");
   EXPECT_EQ(run({bag, "--to", "png", "--output", pictures, "--rate", "2", "--until", "3"}),
-            "7 scans are in " + pictures + "\n");
+            "7 scans written to " + pictures + "\n");
   EXPECT_EQ(std::distance(fs::directory_iterator(pictures), {}), 7);
   EXPECT_NE(run({bag, "--to", "png", "--output", pictures}).find("is there already"), std::string::npos);
   run({bag, "--to", "movie", "--output", folder_.path("maps.png"), "--until", "2", "--unit", "mmHg"});
@@ -199,9 +199,9 @@ TEST_F(ExportTool, DrawsMapsInThePaceThatIsAskedFor) {
   EXPECT_NE(
       run({bag, "--to", "png", "--output", folder_.path("none"), "--range", "5"}).find("--range is \"5\""),
       std::string::npos);
-  EXPECT_NE(
-      run({bag, "--to", "csv", "--output", csv_, "--unit", "kPa"}).find("--unit does not go with --to csv"),
-      std::string::npos);
+  EXPECT_NE(run({bag, "--to", "csv", "--output", csv_, "--unit", "kPa"})
+                .find("--unit cannot be used with --to csv"),
+            std::string::npos);
   EXPECT_FALSE(fs::exists(folder_.path("none")));
 }
 
@@ -214,7 +214,7 @@ TEST_F(ExportTool, RefusesACalibrationOfAnotherMatrix) {
   EXPECT_FALSE(fs::exists(csv_));
 }
 
-// A message as a bag holds it.
+// A message as stored in a bag.
 using Held = std::tuple<std::string, std::string, std::uint64_t, std::string, ros::M_string>;
 
 std::vector<Held> messagesOf(const std::string& path) {
@@ -238,8 +238,8 @@ void expectSame(const std::vector<Held>& after, const std::vector<Held>& before)
   }
 }
 
-// Two publishers of one topic, types of others, texts and times that columns cannot hold, arrays of all
-// sizes.
+// Two publishers of one topic, types of other packages, texts and times that columns cannot hold, and arrays
+// of all sizes.
 void addOddMessages(const std::string& path) {
   rosbag::Bag bag(path, rosbag::bagmode::Append);
   const auto header = [](const char* caller) {
@@ -252,7 +252,7 @@ void addOddMessages(const std::string& path) {
                       {"message_definition", ros::message_traits::definition<std_msgs::String>()}});
   };
   for (int i = 0; i < 40; ++i) {
-    const ros::Time time(1500000001, 1000 * (i / 4));  // ten moments, four messages each
+    const ros::Time time(1500000001, 1000 * (i / 4));  // ten times, four messages each
     std_msgs::String text;
     text.data = i % 7 == 3 ? std::string("a\0b", 3) : "text " + std::to_string(i);
     bag.write("/twice", time, text, header(i % 2 == 0 ? "/one" : "/two"));
@@ -264,12 +264,12 @@ void addOddMessages(const std::string& path) {
     bag.write("/diagnostics", time, diagnostics);
     std_msgs::Duration duration;
     duration.data = ros::Duration(-3, 7 + i);
-    bag.write("/fsr", time, duration);  // the beginning of other topics' names
+    bag.write("/fsr", time, duration);  // also the beginning of other topics' names
     std_msgs::UInt8MultiArray array;
     array.data.assign(static_cast<std::size_t>(i % 5), 7);
     bag.write("/odd name", time, array);
     std_msgs::Header unusual;
-    unusual.stamp.nsec = 2000000000;  // more than a second of them
+    unusual.stamp.nsec = 2000000000;  // more than one second
     bag.write("/unusual", time, unusual);
     bag.write("/empty", time, std_msgs::Empty());
   }
@@ -280,7 +280,7 @@ TEST_F(ExportTool, AnArchiveTurnsBackIntoTheBagByteForByte) {
   addOddMessages(bag);
   const std::vector<Held> before = messagesOf(bag);
   EXPECT_EQ(run({bag, "--to", "hdf5", "--output", archive}),
-            std::to_string(before.size()) + " messages are in " + archive + "\n");
+            std::to_string(before.size()) + " messages written to " + archive + "\n");
   run({archive, "--to", "bag", "--output", back});
   expectSame(messagesOf(back), before);
 }
@@ -302,7 +302,7 @@ TEST_F(ExportTool, AnArchiveIsReadPlainlyByH5py) {
                              fsr::settings::sha256OfFile(folder_.path("maps.bag")) + "\n");
 }
 
-// The joined scans say what the table says.
+// The joined scans are equal to those of the table.
 TEST_F(ExportTool, AnArchiveHoldsTheJoinedScans) {
   if (test_support::outputOf("/usr/bin/python3 -c 'import h5py' 2>&1").status != 0) {
     GTEST_SKIP() << "h5py is not installed (Debian package python3-h5py): it was NOT tried";
@@ -345,9 +345,10 @@ TEST_F(ExportTool, ArchivesABagWithAMalformedScanAllTheSame) {
   }
   const std::string archive = folder_.path("all.h5"), back = folder_.path("back.bag");
   const std::string said = run({bag_, "--to", "hdf5", "--output", archive});
-  EXPECT_NE(said.find("Warning: the group /scans is not whole: " + bag_), std::string::npos) << said;
+  EXPECT_NE(said.find("Warning: the group /scans is incomplete: " + bag_), std::string::npos) << said;
   run({archive, "--to", "bag", "--output", back});
-  // Appending made a second connection like the first; the new bag has one, so moments have another order.
+  // Appending created a second connection like the first one. The new bag has one, so messages with the same
+  // time are in another order.
   std::vector<Held> before = messagesOf(bag_), after = messagesOf(back);
   std::sort(before.begin(), before.end());
   std::sort(after.begin(), after.end());
@@ -383,7 +384,7 @@ TEST_F(ExportTool, RefusesADamagedArchive) {
   EXPECT_FALSE(fs::exists(back));
 }
 
-// Changes a dataset of an archive, and signs the file anew: a hash is no signature.
+// Changes a dataset of an archive and updates its hash.
 constexpr char kForge[] = R"(
 import hashlib, sys, h5py
 path, name, what = sys.argv[1:]
@@ -399,7 +400,7 @@ data[:512] = line.ljust(512, b'\0')
 open(path, 'wb').write(data)
 )";
 
-TEST_F(ExportTool, RefusesAnArchiveThatWasChangedAndSignedAnew) {
+TEST_F(ExportTool, RefusesAChangedArchiveWithAnUpdatedHash) {
   if (test_support::outputOf("/usr/bin/python3 -c 'import h5py' 2>&1").status != 0) {
     GTEST_SKIP() << "h5py is not installed (Debian package python3-h5py): it was NOT tried";
   }
@@ -425,7 +426,7 @@ TEST_F(ExportTool, RefusesAnArchiveThatWasChangedAndSignedAnew) {
   EXPECT_FALSE(fs::exists(back));
 }
 
-TEST_F(ExportTool, LeavesNothingBehindWhereTheDiskIsFull) {
+TEST_F(ExportTool, LeavesNoFileWhenTheDiskIsFull) {
   const std::string maps = withMaps(), archive = folder_.path("all.h5");
   run({maps, "--to", "hdf5", "--output", archive});
   const std::size_t before = files();
@@ -465,10 +466,10 @@ TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
   const std::string cut = folder_.path("cut.bag");
   fs::copy_file(bag_, cut);
   fs::resize_file(cut, fs::file_size(cut) / 2);
-  EXPECT_NE(refusal({cut}).find("is no whole bag"), std::string::npos);
+  EXPECT_NE(refusal({cut}).find("is not a complete bag"), std::string::npos);
   EXPECT_EQ(files(), 3u) << "the bags alone";
   EXPECT_EQ(run({bag_, "--to", "csv", "--output", bag_}),
-            "--output is " + bag_ + " itself: give another name");
+            "--output is " + bag_ + " itself; give another name");
   EXPECT_NE(run({bag_, "--to", "csv", "--output", folder_.path("no/a.csv")}).find("cannot be written"),
             std::string::npos);
 }
