@@ -122,7 +122,14 @@ void CalibrationServer::tryWanted() {
   if (now == tried_) return;
   tried_ = now;
   fsr_pressure_map::LoadFile::Response reply;
-  answer(reply, [&] { return live_.load(path); });
+  answer(reply, [&] {
+    try {
+      return live_.load(path);
+    } catch (const fsr::settings::InputError& error) {
+      throw fsr::settings::InputError(std::string(error.what()) +
+                                      "; the node tries again when the file changes");
+    }
+  });
   if (reply.success) publishInfo();
 }
 

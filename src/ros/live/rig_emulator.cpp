@@ -61,7 +61,7 @@ RigEmulator::RigEmulator(const ros::NodeHandle& handle, const ros::NodeHandle& p
                own.advertiseService("set_surface", &RigEmulator::setSurface, this),
                own.advertiseService("set_damage", &RigEmulator::setDamage, this)};
   ROS_INFO_STREAM("emulated board " << options.simulation.board.serial << " (" << options.simulation.origin
-                                    << ") on " << rig_->port() << ", on " << options.surface.name);
+                                    << ") on port " << rig_->port() << ", surface " << options.surface.name);
 }
 
 fsr::simulation::SimulationSettings RigEmulator::readSimulation() {

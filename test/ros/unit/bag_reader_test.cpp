@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "dataset/recording_builder.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/bags/message_events.h"
@@ -137,6 +138,10 @@ TEST_F(BagReader, TakesTheSensorThatIsAskedFor) {
   EXPECT_EQ(complaint("middle"), path_ +
                                      ": holds no topic /middle/raw, but /left/fsr/raw, /right/raw; choose "
                                      "the sensor with --namespace");
+}
+
+TEST_F(BagReader, HasTheDefaultsOfTheBuilder) {
+  EXPECT_EQ(BagReadOptions().change_margin, fsr::dataset::RecordingOptions().change_margin);
 }
 
 TEST_F(BagReader, ABagWithoutTheMatrixSaysWhatItHolds) {
