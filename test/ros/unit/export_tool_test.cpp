@@ -29,6 +29,7 @@
 #include "ros/bags/bag_writer.h"
 #include "settings/sha256.h"
 #include "support/file_size_limit.h"
+#include "support/line_format.h"
 #include "support/program_output.h"
 #include "support/pty.h"
 #include "support/small_calibration.h"
@@ -56,12 +57,13 @@ class ExportTool : public testing::Test {
     fsr_ros::writeBag(bag_, recording_, options);
   }
 
-  std::string run(const std::vector<std::string>& words) {
+  std::string run(const std::vector<std::string>& words,
+                  const std::vector<fsr::exports::ScanFormat>& formats = fsr::exports::scanFormats()) {
     std::vector<const char*> arguments = {"export"};
     for (const std::string& word : words) arguments.push_back(word.c_str());
     std::ostringstream out;
     try {
-      EXPECT_EQ(fsr_ros::exportTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
+      EXPECT_EQ(fsr_ros::exportTool(static_cast<int>(arguments.size()), arguments.data(), out, formats), 0);
       return out.str();
     } catch (const fsr::settings::InputError& error) {
       return error.what();
@@ -345,7 +347,7 @@ TEST_F(ExportTool, ArchivesABagWithAMalformedScanAllTheSame) {
   }
   const std::string archive = folder_.path("all.h5"), back = folder_.path("back.bag");
   const std::string said = run({bag_, "--to", "hdf5", "--output", archive});
-  EXPECT_NE(said.find("Warning: the group /scans is not whole: " + bag_), std::string::npos) << said;
+  EXPECT_NE(said.find("Warning: the group /scans is incomplete: " + bag_), std::string::npos) << said;
   run({archive, "--to", "bag", "--output", back});
   // Appending made a second connection like the first; the new bag has one, so moments have another order.
   std::vector<Held> before = messagesOf(bag_), after = messagesOf(back);
@@ -443,6 +445,28 @@ TEST_F(ExportTool, LeavesNothingBehindWhereTheDiskIsFull) {
   EXPECT_EQ(files(), before);
 }
 
+TEST_F(ExportTool, OffersAFormatFromOutsideThePackage) {
+  std::vector<fsr::exports::ScanFormat> formats = fsr::exports::scanFormats();
+  formats.push_back(test_support::lineFormat());
+  const std::string output = folder_.path("scans.txt");
+  EXPECT_EQ(run({bag_, "--to", "lines", "--output", output, "--until", "3"}, formats),
+            "31 scans are in " + output + "\n");
+  std::ifstream file(output);
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line, "# 1_flat.bag");
+  std::getline(file, line);
+  std::string first = "0.000000";
+  for (std::size_t taxel = 0; taxel < 6; ++taxel) first += " " + std::to_string(recording_.scan(0)[taxel]);
+  EXPECT_EQ(line, first);
+
+  EXPECT_NE(run({"--help"}, formats).find("lines    one line for each scan"), std::string::npos);
+  EXPECT_NE(run({bag_, "--to", "pdf", "--output", output}, formats).find("lines"), std::string::npos);
+  EXPECT_EQ(run({bag_, "--to", "lines", "--output", output, "--unit", "kPa"}, formats),
+            "--unit does not go with --to lines");
+  EXPECT_NE(run({bag_, "--to", "lines", "--output", output}).find("must be one of"), std::string::npos);
+}
+
 TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
   const auto refusal = [&](const std::vector<std::string>& more, const std::string& to = "csv") {
     std::vector<std::string> words = {"--to", to, "--output", csv_};
@@ -450,12 +474,13 @@ TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
     return run(words);
   };
   EXPECT_EQ(refusal({folder_.path("none.bag")}), folder_.path("none.bag") + ": there is no such file");
-  EXPECT_NE(refusal({bag_}, "pdf").find("--to is \"pdf\", but must be one of "), std::string::npos);
+  EXPECT_EQ(refusal({bag_}, "pdf"),
+            "--to is \"pdf\", but must be one of csv, tekscan, png, movie, hdf5, bag");
   EXPECT_NE(refusal({bag_, "--namespace", "left"}).find("holds no topic /left/raw"), std::string::npos);
   EXPECT_NE(refusal({bag_, "--map", "map_b"}).find("holds no topic map_b, but /fsr/"), std::string::npos);
   EXPECT_NE(refusal({bag_, "--from", "500"}).find("holds no scan between"), std::string::npos);
   EXPECT_NE(refusal({bag_, "--from", "5", "--until", "4"}).find("--from is 5"), std::string::npos);
-  EXPECT_NE(refusal({bag_, bag_}, "tekscan").find("give one file"), std::string::npos);
+  EXPECT_NE(refusal({bag_, bag_}, "tekscan").find("takes one file, but 2 are given"), std::string::npos);
   const std::string foreign = folder_.path("foreign.bag");
   {
     rosbag::Bag bag(foreign, rosbag::bagmode::Write);
@@ -468,7 +493,7 @@ TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
   EXPECT_NE(refusal({cut}).find("is no whole bag"), std::string::npos);
   EXPECT_EQ(files(), 3u) << "the bags alone";
   EXPECT_EQ(run({bag_, "--to", "csv", "--output", bag_}),
-            "--output is " + bag_ + " itself: give another name");
+            "--output is the input file " + bag_ + "; give another name");
   EXPECT_NE(run({bag_, "--to", "csv", "--output", folder_.path("no/a.csv")}).find("cannot be written"),
             std::string::npos);
 }
