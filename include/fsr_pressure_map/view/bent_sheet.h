@@ -14,25 +14,25 @@ struct Vector3 {
   double z = 0;
 };
 
-/// Where a taxel lies once the sheet is bent.
+/// Pose of a taxel on the bent sheet.
 struct TaxelPose {
   Vector3 position;  ///< centre of the taxel [m]
   Vector3 normal;    ///< out of the loaded face, length 1
 };
 
-/// Bends the flat sheet over a surface: the pose of each taxel [rows x columns], row-major. The middle
-/// of the sheet stays at the origin with its normal along +z; positive curvature falls away from +z on
-/// all sides. An unknown surface is drawn flat. Throws InputError where the surface's values do not fit
-/// the matrix.
+/// Bends the flat sheet over a surface and returns the pose of each taxel [rows x columns], row-major. The
+/// middle of the sheet stays at the origin with its normal along +z. A sheet of positive curvature falls away
+/// from +z. An unknown surface is drawn flat. Throws InputError if the surface's values do not fit the
+/// matrix.
 ///
-/// Construction: a frame (along the row, along the column, normal) walks up and down the middle column
-/// from the middle of the sheet, then along each row from there. Moving by ds in the direction u of the
-/// sheet turns the normal by K u ds, K = [[x, xy], [xy, y]], without turning within the sheet; between
-/// neighbours K is the mean of the two, so each step is a screw motion in closed form.
+/// Construction: a frame (along the row, along the column, normal) moves up and down the middle column from
+/// the middle of the sheet, then along each row. A step ds in the direction u of the sheet turns the normal
+/// by K u ds, K = [[x, xy], [xy, y]], without rotation within the sheet. Between neighbouring taxels, K is
+/// the mean of the two, so each step is a screw motion in closed form.
 ///
-/// So lengths along every row and along the middle column are those of the flat sheet; any uniform
-/// cylinder, whatever its axis, and any uniform sphere come out exactly. A sheet cannot follow two
-/// curvatures at once without stretching: there, neighbouring rows open or close at their ends.
+/// Lengths along every row and along the middle column are therefore those of the flat sheet. Uniform
+/// cylinders of any axis and uniform spheres are exact. A sheet cannot follow two curvatures at once without
+/// stretching: on such a surface the ends of neighbouring rows move apart or together.
 std::vector<TaxelPose> bendSheet(const matrix::Layout& layout, const matrix::Surface& surface);
 
 }  // namespace fsr::view
