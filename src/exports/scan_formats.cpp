@@ -21,7 +21,7 @@ Sink openCsv(const std::string& output, const PictureOptions& /*pictures*/) {
 
 Sink openTekscan(const std::string& output, const PictureOptions& /*pictures*/) {
   if (std::filesystem::path(output).extension() == ".gz") {
-    throw settings::InputError("--output is " + output + ", but only csv is written compressed");
+    throw settings::InputError("--output is " + output + ", but only csv can be compressed");
   }
   return std::make_unique<TekscanFile>(output);
 }

@@ -77,8 +77,7 @@ TEST(ScanFormats, TekscanRefusesACompressedOutput) {
       format.open(folder.path("a.asf.gz"), {});
       FAIL() << "opened";
     } catch (const fsr::settings::InputError& error) {
-      EXPECT_EQ(error.what(),
-                "--output is " + folder.path("a.asf.gz") + ", but only csv is written compressed");
+      EXPECT_EQ(error.what(), "--output is " + folder.path("a.asf.gz") + ", but only csv can be compressed");
     }
   }
 }

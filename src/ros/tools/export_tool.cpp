@@ -38,14 +38,14 @@ fsr::settings::CommandLine options(const std::vector<ExportFormat>& formats) {
       "export", "BAG... --to FORMAT --output PATH, or ARCHIVE --to bag --output BAG", purpose.str());
   line.option("to", "FORMAT", "format of the output")
       .option("output", "PATH", "file to write; an existing file is replaced")
-      .option("calibration", "FILE", "compute the maps with this calibration instead of taking recorded maps")
-      .option("from", "S", "leave out earlier scans [s], counted from the bag's first scan (0)")
-      .option("until", "S", "leave out later scans [s], counted likewise (all)")
+      .option("calibration", "FILE", "compute the maps with this calibration instead of using recorded ones")
+      .option("from", "S", "start, in seconds since the first scan (0)")
+      .option("until", "S", "end, in seconds since the first scan (all)")
       .option("topics", "A,B", "hdf5: only these topics, full names or names under the namespace (all)")
       .option("rate", "HZ", "largest number of scans a second (all; pictures: 10)")
       .option("map", "TOPIC", "topic of the maps, if a bag holds several (pressure_map)")
-      .option("ambient", "PA", "ambient pressure [Pa]; default: the value in matrix_info, else 101325")
-      .option("namespace", "NS", "the sensor's namespace, if a bag holds several sensors");
+      .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
+      .option("namespace", "NS", "namespace of the sensor, if a bag holds several");
   declarePictureOptions(line);
   return line;
 }
@@ -72,11 +72,11 @@ void requireOne(const fsr::settings::CommandLine& line) {
                                   std::to_string(line.files().size()) + " are given");
 }
 
-// Throws if the user gave an option that this format does not use.
+// Throws if an option was given that does not apply to this format.
 void refuseOthers(const fsr::settings::CommandLine& line, const std::vector<std::string>& options) {
   for (const std::string& option : options) {
     if (!line.has(option)) continue;
-    throw fsr::settings::InputError("--" + option + " does not go with --to " + line.text("to", ""));
+    throw fsr::settings::InputError("--" + option + " cannot be used with --to " + line.text("to", ""));
   }
 }
 
@@ -85,7 +85,7 @@ std::string outputOf(const fsr::settings::CommandLine& line) {
   std::error_code error;
   for (const std::string& input : line.files()) {
     if (fs::equivalent(input, output, error)) {
-      throw fsr::settings::InputError("--output is the input file " + input + "; give another name");
+      throw fsr::settings::InputError("--output is " + input + " itself; give another name");
     }
   }
   return output;
@@ -104,7 +104,7 @@ void sendAll(const fsr::settings::CommandLine& line, const ScanSelection& select
                                     ": holds no scan between --from and --until; choose a longer interval");
   }
   sink.finish();
-  out << scans << " scans are in " << fullPath(line.text("output", "")) << std::endl;
+  out << scans << " scans written to " << fullPath(line.text("output", "")) << std::endl;
 }
 
 void writeScans(const fsr::exports::ScanFormat& format, const fsr::settings::CommandLine& line,
@@ -142,7 +142,7 @@ void writeArchive(const fsr::settings::CommandLine& line, std::ostream& out) {
   const ArchiveResult result = archiveBag(line.files().front(), selection, outputOf(line));
   if (!result.complaint.empty())
     out << "Warning: the group /scans is incomplete: " << result.complaint << "\n";
-  out << result.messages << " messages are in " << fullPath(line.text("output", "")) << std::endl;
+  out << result.messages << " messages written to " << fullPath(line.text("output", "")) << std::endl;
 }
 
 void writeBag(const fsr::settings::CommandLine& line, std::ostream& out) {
@@ -150,8 +150,8 @@ void writeBag(const fsr::settings::CommandLine& line, std::ostream& out) {
   refuseOthers(line, {"calibration", "rate", "map", "ambient", "topics", "from", "until", "namespace"});
   refuseOthers(line, pictureOptionNames());
   const std::uint64_t messages = restoreBag(line.files().front(), outputOf(line));
-  out << messages << " messages, each as it was in the bag, are in " << fullPath(line.text("output", ""))
-      << std::endl;
+  out << messages << " messages, identical to those of the bag, written to "
+      << fullPath(line.text("output", "")) << std::endl;
 }
 
 std::vector<ExportFormat> exportFormats(const std::vector<fsr::exports::ScanFormat>& scan_formats) {

@@ -132,7 +132,7 @@ class ExportTool : public testing::Test {
 
 TEST_F(ExportTool, WritesEveryScanOfABagWithoutMaps) {
   const std::string said = run({bag_, "--to", "csv", "--output", csv_});
-  EXPECT_EQ(said, "1000 scans are in " + csv_ + "\n");
+  EXPECT_EQ(said, "1000 scans written to " + csv_ + "\n");
   const auto columns = table(csv_);
   ASSERT_EQ(columns.at("counts").size(), 6000u);
   for (std::size_t scan = 0; scan < 1000; scan += 37) {
@@ -190,9 +190,9 @@ TEST_F(ExportTool, WritesTekscanFrames) {
 TEST_F(ExportTool, DrawsMapsInThePaceThatIsAskedFor) {
   const std::string bag = withMaps(), pictures = folder_.path("pictures");
   EXPECT_EQ(run({bag, "--to", "png", "--output", pictures, "--rate", "2", "--until", "3"}),
-            "7 scans are in " + pictures + "\n");
+            "7 scans written to " + pictures + "\n");
   EXPECT_EQ(std::distance(fs::directory_iterator(pictures), {}), 7);
-  EXPECT_NE(run({bag, "--to", "png", "--output", pictures}).find("is there already"), std::string::npos);
+  EXPECT_NE(run({bag, "--to", "png", "--output", pictures}).find("exists already"), std::string::npos);
   run({bag, "--to", "movie", "--output", folder_.path("maps.png"), "--until", "2", "--unit", "mmHg"});
   EXPECT_GT(fs::file_size(folder_.path("maps.png")), 20000u);
   EXPECT_NE(run({bag_, "--to", "png", "--output", folder_.path("none")})
@@ -201,9 +201,9 @@ TEST_F(ExportTool, DrawsMapsInThePaceThatIsAskedFor) {
   EXPECT_NE(
       run({bag, "--to", "png", "--output", folder_.path("none"), "--range", "5"}).find("--range is \"5\""),
       std::string::npos);
-  EXPECT_NE(
-      run({bag, "--to", "csv", "--output", csv_, "--unit", "kPa"}).find("--unit does not go with --to csv"),
-      std::string::npos);
+  EXPECT_NE(run({bag, "--to", "csv", "--output", csv_, "--unit", "kPa"})
+                .find("--unit cannot be used with --to csv"),
+            std::string::npos);
   EXPECT_FALSE(fs::exists(folder_.path("none")));
 }
 
@@ -282,7 +282,7 @@ TEST_F(ExportTool, AnArchiveTurnsBackIntoTheBagByteForByte) {
   addOddMessages(bag);
   const std::vector<Held> before = messagesOf(bag);
   EXPECT_EQ(run({bag, "--to", "hdf5", "--output", archive}),
-            std::to_string(before.size()) + " messages are in " + archive + "\n");
+            std::to_string(before.size()) + " messages written to " + archive + "\n");
   run({archive, "--to", "bag", "--output", back});
   expectSame(messagesOf(back), before);
 }
@@ -381,7 +381,7 @@ TEST_F(ExportTool, RefusesADamagedArchive) {
   EXPECT_NE(run({archive, "--to", "bag", "--output", back}).find("is damaged or cut short"),
             std::string::npos);
   EXPECT_EQ(run({bag_, "--to", "bag", "--output", back}),
-            bag_ + ": is no archive; give one that export --to hdf5 has written");
+            bag_ + ": is not an archive; give one that export --to hdf5 has written");
   EXPECT_FALSE(fs::exists(back));
 }
 
@@ -416,11 +416,12 @@ TEST_F(ExportTool, RefusesAnArchiveThatWasChangedAndSignedAnew) {
     EXPECT_EQ(python.text, "");
     return run({archive, "--to", "bag", "--output", back});
   };
-  EXPECT_NE(refusal("fsr/raw/sequence", "77").find("the messages of /fsr/raw are not those of the bag"),
+  EXPECT_NE(refusal("fsr/raw/sequence", "77").find("the messages of /fsr/raw differ from those of the bag"),
             std::string::npos);
   EXPECT_NE(refusal("archive/message/time", "-5").find("received at -5 ns"), std::string::npos);
-  EXPECT_NE(refusal("archive/message/connection", "99").find("leads nowhere"), std::string::npos);
-  EXPECT_NE(refusal("fsr/raw/counts", "delete").find("are not those of the bag"), std::string::npos);
+  EXPECT_NE(refusal("archive/message/connection", "99").find("has a row that does not exist"),
+            std::string::npos);
+  EXPECT_NE(refusal("fsr/raw/counts", "delete").find("differ from those of the bag"), std::string::npos);
   EXPECT_NE(refusal("fsr/raw/counts", "flat").find("no usable size"), std::string::npos);
   EXPECT_NE(refusal("fsr/raw/counts", "wide").find("no usable size"), std::string::npos);
   EXPECT_NE(refusal("archive/message/time", "long").find("has too few entries"), std::string::npos);
@@ -450,7 +451,7 @@ TEST_F(ExportTool, OffersAFormatFromOutsideThePackage) {
   formats.push_back(test_support::lineFormat());
   const std::string output = folder_.path("scans.txt");
   EXPECT_EQ(run({bag_, "--to", "lines", "--output", output, "--until", "3"}, formats),
-            "31 scans are in " + output + "\n");
+            "31 scans written to " + output + "\n");
   std::ifstream file(output);
   std::string line;
   std::getline(file, line);
@@ -463,7 +464,7 @@ TEST_F(ExportTool, OffersAFormatFromOutsideThePackage) {
   EXPECT_NE(run({"--help"}, formats).find("lines    one line for each scan"), std::string::npos);
   EXPECT_NE(run({bag_, "--to", "pdf", "--output", output}, formats).find("lines"), std::string::npos);
   EXPECT_EQ(run({bag_, "--to", "lines", "--output", output, "--unit", "kPa"}, formats),
-            "--unit does not go with --to lines");
+            "--unit cannot be used with --to lines");
   EXPECT_NE(run({bag_, "--to", "lines", "--output", output}).find("must be one of"), std::string::npos);
 }
 
@@ -493,7 +494,7 @@ TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
   EXPECT_NE(refusal({cut}).find("is no whole bag"), std::string::npos);
   EXPECT_EQ(files(), 3u) << "the bags alone";
   EXPECT_EQ(run({bag_, "--to", "csv", "--output", bag_}),
-            "--output is the input file " + bag_ + "; give another name");
+            "--output is " + bag_ + " itself; give another name");
   EXPECT_NE(run({bag_, "--to", "csv", "--output", folder_.path("no/a.csv")}).find("cannot be written"),
             std::string::npos);
 }
