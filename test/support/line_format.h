@@ -8,7 +8,7 @@
 
 namespace test_support {
 
-/// An export format outside the package, as small as one can be: one line for each scan, time [s] and counts.
+/// A minimal export format outside the package: one line for each scan with time [s] and counts.
 class LineFile : public fsr::exports::ScanSink {
  public:
   explicit LineFile(const std::string& path) : file_(path) {}
