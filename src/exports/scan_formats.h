@@ -16,7 +16,7 @@ struct ScanFormat {
   std::string summary;              ///< one line for the help
   bool several_recordings = false;  ///< whether one output can hold several recordings
   bool pictures = false;            ///< whether it draws maps: it takes PictureOptions and needs no counts
-  /// Opens the output. Throws InputError where it cannot be written.
+  /// Opens the output. Throws InputError if it cannot be written.
   std::function<std::unique_ptr<ScanSink>(const std::string& output, const PictureOptions& pictures)> open;
 };
 

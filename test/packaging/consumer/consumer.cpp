@@ -6,6 +6,7 @@
 #include <fsr_pressure_map/calibration/calibrator.h>
 #include <fsr_pressure_map/dataset/recording.h>
 #include <fsr_pressure_map/map/map_statistics.h>
+#include <fsr_pressure_map/view/bent_sheet.h>
 
 #include <cmath>
 #include <cstdint>
@@ -73,13 +74,14 @@ bool measures(fsr::calibration::Calibrator& calibrator, const fsr::matrix::Surfa
   fsr::map::PressureMap map;
   calibrator.setSurface(surface, 0);
   calibrator.calibrate(fsr::matrix::view(scan), 0, map);
-  const std::vector<double> areas(scan.size.taxels(), kPitch * kPitch);
+  const std::vector<double> areas = fsr::view::taxelAreas(calibrator.layout(), surface);
   const fsr::map::RegionStatistics whole = fsr::map::regionStatistics(map, {}, areas, 10e3);
   std::cout << surface.name << ": applied " << applied / 1000 << " kPa, mean " << whole.mean / 1000
             << " kPa, peak " << whole.peak / 1000 << " kPa, force " << whole.force << " N\n";
+  const double flat_area =
+      kPitch * kPitch * static_cast<double>(areas.size());  // a cylinder keeps areas [m^2]
   return map.state == fsr::map::MapState::kOk && std::abs(whole.mean - applied) < kTolerance &&
-         whole.peak >= whole.mean &&
-         std::abs(whole.force - whole.mean * areas.size() * kPitch * kPitch) < 0.01;
+         whole.peak >= whole.mean && std::abs(whole.force / (whole.mean * flat_area) - 1) < 1e-3;
 }
 
 bool run(const std::string& folder) {
