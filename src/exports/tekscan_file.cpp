@@ -14,7 +14,7 @@ namespace {
 
 constexpr char kEnd[] = "\r\n";
 constexpr char kNoSensel[] = "B";
-constexpr std::size_t kRoom = 12;  // for a number that only the end knows [characters]
+constexpr std::size_t kRoom = 12;  // space for a number that is known only at the end [characters]
 
 std::string formatted(const char* format, double value) {
   std::array<char, 48> text{};
@@ -27,7 +27,7 @@ std::string padded(std::string text) {
   return text;
 }
 
-// Month/day/year and time of day, UTC.
+// Month/day/year and time of day with milliseconds, UTC.
 std::string date(std::int64_t stamp_ns) {
   const std::time_t seconds = stamp_ns / 1000000000;
   std::tm parts{};
@@ -37,7 +37,7 @@ std::string date(std::int64_t stamp_ns) {
   return std::string(text.data()) + secondsText(stamp_ns % 1000000000).substr(1, 4);
 }
 
-// Nine digits give back each float32 of the map [kPa].
+// Pressure [kPa]. Nine digits restore each float32 of the map.
 std::string pressureValue(float pressure) {
   return std::isnan(pressure) ? kNoSensel : formatted("%.9g", double(pressure) * 1e-3);
 }
@@ -100,9 +100,10 @@ void TekscanFile::add(const ScanRecord& scan) {
     file_.write(header(scan));
   }
   if (scan.layout.size != layout_.size) {
-    throw settings::InputError(subject_.name + ": the matrix changes from " + matrix::sizeText(layout_.size) +
-                               " to " + matrix::sizeText(scan.layout.size) +
-                               " taxels, but a Tekscan file has one size; cut with --until");
+    throw settings::InputError(
+        subject_.name + ": the matrix changes from " + matrix::sizeText(layout_.size) + " to " +
+        matrix::sizeText(scan.layout.size) +
+        " taxels, but a Tekscan file has one size; end the export before the change with --until");
   }
   times_.push_back(scan.since_ns);
   std::string text = "Frame " + std::to_string(times_.size()) + kEnd;
@@ -116,7 +117,8 @@ void TekscanFile::add(const ScanRecord& scan) {
 void TekscanFile::finish() {
   const std::size_t frames = times_.size();
   if (frames == 0)
-    throw settings::InputError(path_ + ": there is no scan to write; widen --from and --until");
+    throw settings::InputError(path_ +
+                               ": there is no scan between --from and --until; choose a longer interval");
   const double span = 1e-9 * static_cast<double>(times_.back() - times_.front());
   std::string text = std::string("@@") + kEnd;
   for (std::size_t i = 0; i < frames; ++i) {

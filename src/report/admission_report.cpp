@@ -22,7 +22,7 @@ std::string percent(double share, int digits = 1) {
   return std::isnan(share) ? "not known" : number(100 * share, digits) + " %";
 }
 
-// "(row, column)" of at most eight of them.
+// "(row, column)" of the first eight taxels.
 std::string places(const std::vector<std::size_t>& taxels, const matrix::Layout& layout) {
   constexpr std::size_t kListed = 8;
   std::string list;
@@ -70,12 +70,12 @@ void addHealth(const discrepancy::AdmittedRecording& row, const matrix::Layout& 
     out << row.name << ": dead (row, column): " << places(health.dead, layout) << '\n';
   if (!health.stuck.empty())
     out << row.name << ": stuck (row, column): " << places(health.stuck, layout) << '\n';
-  if (!health.rows.empty()) out << row.name << ": rows that fail: " << numbers(health.rows) << '\n';
-  if (!health.columns.empty()) out << row.name << ": columns that fail: " << numbers(health.columns) << '\n';
+  if (!health.rows.empty()) out << row.name << ": failed rows: " << numbers(health.rows) << '\n';
+  if (!health.columns.empty()) out << row.name << ": failed columns: " << numbers(health.columns) << '\n';
   if (health.saturated_taxels == 0) return;
-  out << row.name << ": " << health.saturated_taxels << " taxels are clipped at full scale";
+  out << row.name << ": " << health.saturated_taxels << " taxels reach full scale";
   if (!std::isnan(health.saturated_from)) {
-    out << ", from " << number(health.saturated_from / 1000, 0) << " kPa on";
+    out << ", at " << number(health.saturated_from / 1000, 0) << " kPa or more";
   }
   out << '\n';
 }
@@ -88,7 +88,7 @@ std::string faultText(const discrepancy::Fault& fault, const matrix::Layout& lay
          number(fault.longest, 1) + " s";
 }
 
-// ", because A; and 2 more": the line is to be read at a glance, all of them stand above it.
+// ", because A; and 2 more". The lines above list all reasons.
 std::string because(const std::vector<std::string>& reasons) {
   if (reasons.empty()) return "";
   const std::string more = reasons.size() == 1 ? "" : "; and " + std::to_string(reasons.size() - 1) + " more";
@@ -112,12 +112,12 @@ void addRests(const calibration::SocketCheck& check, std::ostringstream& out) {
   }
   if (check.change.empty()) return;
   const double worst = check.change[check.worst];
-  out << "Rest after less rest before: median " << percent(check.median_change, 2) << " of full scale";
+  out << "Change of the readings at rest: median " << percent(check.median_change, 2) << " of full scale";
   if (!std::isnan(check.median_pressure_change)) {
     out << " (" << number(check.median_pressure_change / 1000, 1) << " kPa)";
   }
-  out << ", most " << percent(worst, 2) << " at (row, column) " << places({check.worst}, check.layout) << "; "
-      << check.changed << " taxels beyond the limit\n";
+  out << ", largest " << percent(worst, 2) << " at (row, column) " << places({check.worst}, check.layout)
+      << "; " << check.changed << (check.changed == 1 ? " taxel" : " taxels") << " beyond the limit\n";
 }
 
 }  // namespace
@@ -128,7 +128,7 @@ std::string admissionText(const discrepancy::Admission& admission) {
   for (const discrepancy::AdmittedRecording& row : admission.recordings)
     addHealth(row, admission.layout, out);
   for (const discrepancy::Fault& fault : admission.faults) {
-    out << "Spells of failure: " << faultText(fault, admission.layout) << '\n';
+    out << "Intermittent fault: " << faultText(fault, admission.layout) << '\n';
   }
   if (!admission.coverage.conditions.empty()) out << '\n' << coverageText(admission.coverage);
   out << '\n';
@@ -145,12 +145,12 @@ std::string socketText(const calibration::SocketCheck& check) {
   out << check.name << '\n';
   addRests(check, out);
   out << "At full scale: " << percent(check.saturated, 2) << " of the readings\n"
-      << "Beyond the readings of training: " << percent(check.beyond, 2)
-      << "; beyond its curvatures: " << percent(check.bent_beyond, 2)
+      << "Outside the readings of training: " << percent(check.beyond, 2)
+      << "; outside its curvatures: " << percent(check.bent_beyond, 2)
       << (std::isnan(check.beyond) ? " (give --calibration)" : "") << '\n'
       << "Longest static load: " << number(check.longest.seconds, 0) << " s";
   if (check.longest.seconds > 0) {
-    out << ", from " << number(check.longest.from, 0) << " s on, at (row, column) "
+    out << ", from second " << number(check.longest.from, 0) << ", at (row, column) "
         << places({check.longest.taxel}, check.layout);
   }
   out << "\nDead (row, column): " << (check.dead.empty() ? "none" : places(check.dead, check.layout))

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kPercent = 100;
 
-// Empty where there is no value, as spreadsheets read it.
+// A number, or nothing if there is no value: spreadsheets read this as an empty cell.
 std::string cell(double value) {
   return std::isfinite(value) ? settings::numberText(value) : "";
 }

@@ -37,7 +37,7 @@ std::string number(double value) {
   const std::string shortest = text.str();
   const std::size_t exponent = shortest.find('e');
   if (exponent == std::string::npos) return shortest;
-  if (std::abs(value) < 1) {  // YAML 1.1 knows no 1e-06: a number with an exponent has a point
+  if (std::abs(value) < 1) {  // YAML 1.1 reads 1e-06 as a text: a number with an exponent needs a point
     return shortest.find('.') != std::string::npos
                ? shortest
                : shortest.substr(0, exponent) + ".0" + shortest.substr(exponent);

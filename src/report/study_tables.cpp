@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kKilopascal = 1e3;  // [Pa]
 
-// One CSV file. Numbers keep nine digits; NaN is left empty.
+// One CSV file. Numbers have nine digits; NaN is an empty cell.
 class Table {
  public:
   explicit Table(const std::string& headings) {
@@ -46,7 +46,7 @@ class Table {
   bool first_ = true;
 };
 
-// Visits (comparison or split, score) of all.
+// Calls visit(id of the comparison or split, score) for all scores.
 template <typename Visit>
 void forEachScore(const study::StudyResult& result, Visit visit) {
   for (const study::StudyComparison& comparison : result.comparisons) {

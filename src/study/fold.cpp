@@ -7,7 +7,7 @@ namespace fsr::study {
 
 namespace {
 
-// The cells that hold scans.
+// The cells that contain scans.
 std::vector<Cell> occupied(const Grouping& grouping) {
   std::vector<Cell> cells;
   for (std::size_t c = 0; c < grouping.scans.size(); ++c) {
@@ -35,12 +35,13 @@ bool everyClassMountedTwice(const Grouping& mounts) {
 }  // namespace
 
 Split leaveSectionOut(const StudyData& data) {
-  Split split{"five_sections",
-              std::to_string(data.sections) +
-                  " sections of each condition, contiguous in time and cut between cycles; each is predicted "
-                  "by the others, earlier and later ones",
-              bySection(data),
-              {}};
+  Split split{
+      "five_sections",
+      std::to_string(data.sections) +
+          " sections of each condition, contiguous in time and divided between cycles; each section is "
+          "predicted by the earlier and later ones",
+      bySection(data),
+      {}};
   const std::vector<Cell> cells = occupied(split.grouping);
   for (std::size_t k = 0; k < data.sections; ++k) {
     split.folds.push_back(
@@ -63,7 +64,7 @@ Split pastToFuture(const StudyData& data) {
 
 Split leaveCurvatureOut(const StudyData& data) {
   Split split{"leave_curvature_out",
-              "each curvature is predicted by models that have seen only the others",
+              "each curvature is predicted by models trained on the other curvatures",
               bySection(data),
               {}};
   if (data.classes.size() < 3) return split;

@@ -7,7 +7,7 @@ namespace fsr::study {
 
 namespace {
 
-// The gentlest bend, as in the paper's figures; the flat where nothing is bent.
+// The bent class of smallest curvature, as in the paper's figures; the flat class if there is no bent one.
 std::size_t gentlestBend(const StudyData& data) {
   std::size_t chosen = 0;
   double gentlest = INFINITY;
@@ -31,7 +31,7 @@ TaxelResponse::Curve curveOf(const StudyData& data, std::size_t c, std::size_t t
   return curve;
 }
 
-// Held-out predictions on one class in one section, in time order.
+// Held-out predictions for one section of one class, in time order [Pa].
 std::vector<double> predictions(const StudyData& data, const Evaluation& evaluation, std::size_t c,
                                 std::uint32_t section, std::size_t place) {
   const StudyScan* const begin = data.scans[c].data();

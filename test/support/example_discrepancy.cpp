@@ -6,7 +6,7 @@ namespace test_support {
 
 namespace {
 
-// A loop: the residual is high while loading, low while unloading.
+// A curve of the residual over a covariate from `low` to `high`.
 fsr::discrepancy::ResidualCurve curve(const std::string& covariate, const std::string& unit, double low,
                                       double high) {
   fsr::discrepancy::ResidualCurve curve;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/map/pressure_map.h"
-#include "view/bent_sheet.h"
+#include "fsr_pressure_map/view/bent_sheet.h"
 
 namespace fsr_ros {
 

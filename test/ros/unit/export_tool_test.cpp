@@ -29,6 +29,7 @@
 #include "ros/bags/bag_writer.h"
 #include "settings/sha256.h"
 #include "support/file_size_limit.h"
+#include "support/line_format.h"
 #include "support/program_output.h"
 #include "support/pty.h"
 #include "support/small_calibration.h"
@@ -56,12 +57,13 @@ class ExportTool : public testing::Test {
     fsr_ros::writeBag(bag_, recording_, options);
   }
 
-  std::string run(const std::vector<std::string>& words) {
+  std::string run(const std::vector<std::string>& words,
+                  const std::vector<fsr::exports::ScanFormat>& formats = fsr::exports::scanFormats()) {
     std::vector<const char*> arguments = {"export"};
     for (const std::string& word : words) arguments.push_back(word.c_str());
     std::ostringstream out;
     try {
-      EXPECT_EQ(fsr_ros::exportTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
+      EXPECT_EQ(fsr_ros::exportTool(static_cast<int>(arguments.size()), arguments.data(), out, formats), 0);
       return out.str();
     } catch (const fsr::settings::InputError& error) {
       return error.what();
@@ -190,7 +192,7 @@ TEST_F(ExportTool, DrawsMapsAtTheGivenRate) {
   EXPECT_EQ(run({bag, "--to", "png", "--output", pictures, "--rate", "2", "--until", "3"}),
             "7 scans written to " + pictures + "\n");
   EXPECT_EQ(std::distance(fs::directory_iterator(pictures), {}), 7);
-  EXPECT_NE(run({bag, "--to", "png", "--output", pictures}).find("is there already"), std::string::npos);
+  EXPECT_NE(run({bag, "--to", "png", "--output", pictures}).find("exists already"), std::string::npos);
   run({bag, "--to", "movie", "--output", folder_.path("maps.png"), "--until", "2", "--unit", "mmHg"});
   EXPECT_GT(fs::file_size(folder_.path("maps.png")), 20000u);
   EXPECT_NE(run({bag_, "--to", "png", "--output", folder_.path("none")})
@@ -380,7 +382,7 @@ TEST_F(ExportTool, RefusesADamagedArchive) {
   EXPECT_NE(run({archive, "--to", "bag", "--output", back}).find("is damaged or cut short"),
             std::string::npos);
   EXPECT_EQ(run({bag_, "--to", "bag", "--output", back}),
-            bag_ + ": is no archive; give one that export --to hdf5 has written");
+            bag_ + ": is not an archive; give one that export --to hdf5 has written");
   EXPECT_FALSE(fs::exists(back));
 }
 
@@ -415,11 +417,12 @@ TEST_F(ExportTool, RefusesAChangedArchiveWithAnUpdatedHash) {
     EXPECT_EQ(python.text, "");
     return run({archive, "--to", "bag", "--output", back});
   };
-  EXPECT_NE(refusal("fsr/raw/sequence", "77").find("the messages of /fsr/raw are not those of the bag"),
+  EXPECT_NE(refusal("fsr/raw/sequence", "77").find("the messages of /fsr/raw differ from those of the bag"),
             std::string::npos);
   EXPECT_NE(refusal("archive/message/time", "-5").find("received at -5 ns"), std::string::npos);
-  EXPECT_NE(refusal("archive/message/connection", "99").find("leads nowhere"), std::string::npos);
-  EXPECT_NE(refusal("fsr/raw/counts", "delete").find("are not those of the bag"), std::string::npos);
+  EXPECT_NE(refusal("archive/message/connection", "99").find("has a row that does not exist"),
+            std::string::npos);
+  EXPECT_NE(refusal("fsr/raw/counts", "delete").find("differ from those of the bag"), std::string::npos);
   EXPECT_NE(refusal("fsr/raw/counts", "flat").find("no usable size"), std::string::npos);
   EXPECT_NE(refusal("fsr/raw/counts", "wide").find("no usable size"), std::string::npos);
   EXPECT_NE(refusal("archive/message/time", "long").find("has too few entries"), std::string::npos);
@@ -444,6 +447,28 @@ TEST_F(ExportTool, LeavesNoFileWhenTheDiskIsFull) {
   EXPECT_EQ(files(), before);
 }
 
+TEST_F(ExportTool, OffersAFormatFromOutsideThePackage) {
+  std::vector<fsr::exports::ScanFormat> formats = fsr::exports::scanFormats();
+  formats.push_back(test_support::lineFormat());
+  const std::string output = folder_.path("scans.txt");
+  EXPECT_EQ(run({bag_, "--to", "lines", "--output", output, "--until", "3"}, formats),
+            "31 scans written to " + output + "\n");
+  std::ifstream file(output);
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line, "# 1_flat.bag");
+  std::getline(file, line);
+  std::string first = "0.000000";
+  for (std::size_t taxel = 0; taxel < 6; ++taxel) first += " " + std::to_string(recording_.scan(0)[taxel]);
+  EXPECT_EQ(line, first);
+
+  EXPECT_NE(run({"--help"}, formats).find("lines    one line for each scan"), std::string::npos);
+  EXPECT_NE(run({bag_, "--to", "pdf", "--output", output}, formats).find("lines"), std::string::npos);
+  EXPECT_EQ(run({bag_, "--to", "lines", "--output", output, "--unit", "kPa"}, formats),
+            "--unit cannot be used with --to lines");
+  EXPECT_NE(run({bag_, "--to", "lines", "--output", output}).find("must be one of"), std::string::npos);
+}
+
 TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
   const auto refusal = [&](const std::vector<std::string>& more, const std::string& to = "csv") {
     std::vector<std::string> words = {"--to", to, "--output", csv_};
@@ -451,12 +476,13 @@ TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
     return run(words);
   };
   EXPECT_EQ(refusal({folder_.path("none.bag")}), folder_.path("none.bag") + ": there is no such file");
-  EXPECT_NE(refusal({bag_}, "pdf").find("--to is \"pdf\", but must be one of "), std::string::npos);
+  EXPECT_EQ(refusal({bag_}, "pdf"),
+            "--to is \"pdf\", but must be one of csv, tekscan, png, movie, hdf5, bag");
   EXPECT_NE(refusal({bag_, "--namespace", "left"}).find("holds no topic /left/raw"), std::string::npos);
   EXPECT_NE(refusal({bag_, "--map", "map_b"}).find("holds no topic map_b, but /fsr/"), std::string::npos);
   EXPECT_NE(refusal({bag_, "--from", "500"}).find("holds no scan between"), std::string::npos);
   EXPECT_NE(refusal({bag_, "--from", "5", "--until", "4"}).find("--from is 5"), std::string::npos);
-  EXPECT_NE(refusal({bag_, bag_}, "tekscan").find("give one file"), std::string::npos);
+  EXPECT_NE(refusal({bag_, bag_}, "tekscan").find("takes one file, but 2 are given"), std::string::npos);
   const std::string foreign = folder_.path("foreign.bag");
   {
     rosbag::Bag bag(foreign, rosbag::bagmode::Write);

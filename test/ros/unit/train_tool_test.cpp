@@ -84,7 +84,7 @@ TEST_F(TrainTool, TakesItsOptions) {
   EXPECT_EQ(calibration.provenance.seed, 7u);
   EXPECT_NEAR(calibration.trained.pressure.low, 1325.0, 1e-6);  // the bag's ambient is 101325
   EXPECT_TRUE(calibration.scores.conditions.empty());
-  EXPECT_NE(text.find("Scores were not asked for."), std::string::npos);
+  EXPECT_NE(text.find("Scores were not computed."), std::string::npos);
   EXPECT_TRUE(fs::exists(report));
   EXPECT_NE(text.find("Report written to " + report + "\n"), std::string::npos);
 }
