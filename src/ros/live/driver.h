@@ -66,6 +66,7 @@ class Driver : private fsr::protocol::LinkHandler {
   fsr::protocol::BoardGate gate_;
   std::vector<fsr_pressure_map::MatrixFramePtr> held_;  // scans of a board in doubt
   std::uint64_t jumps_ = 0;                             // of the board's clock, so far
+  bool fault_logged_ = false;                           // an exception of this handler was logged
   std::int64_t arrival_ = 0;                            // of the bytes at hand [ns]
 
   mutable std::mutex mutex_;  // over health_, which both threads use

@@ -22,6 +22,7 @@ struct TransducerLine {
 struct DriverSettings {
   std::string serial_port = "/dev/ttyACM0";
   std::uint32_t serial_baud = 115200;  ///< [1/s]; 0 = native USB: no speed to set, bytes take no time
+  std::string protocol = "wire";       ///< that the board speaks: a name of fsr::protocol::protocols()
   std::string frame_id = "fsr_matrix";
   std::string sensor_id;             ///< empty = the board's serial number
   fsr::matrix::MatrixSize expected;  ///< 0 = what the board says
