@@ -1,18 +1,11 @@
 #include "study/decisions.h"
 
-#include <sstream>
-
+#include "settings/number_text.h"
 #include "study/fold.h"
 
 namespace fsr::study {
 
 namespace {
-
-std::string number(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 std::string downSamplingText(const StudyPlan& plan) {
   const std::string rule = plan.down_sampling == DownSampling::kRandom
@@ -46,7 +39,7 @@ std::vector<StudyDecision> studyDecisions(const StudyPlan& plan, const StudyData
        "They are 1/cm; computed in 1/m, printed in both. The \"0.77\" of Fig. 9 is 0.077 1/cm."},
       {"Kernel of the GRNN", "\"D^2 is the Euclidean distance\".", kernelText(plan)},
       {"Spread", "sigma = 2^-7; how it was tuned is not said.",
-       "sigma = " + number(regression::sigmaOf(plan.grnn)) +
+       "sigma = " + settings::roundedText(regression::sigmaOf(plan.grnn)) +
            " to reproduce; beside it the grid, and for use the choice by nested cross-validation."},
       {"0 / 0", "Not mentioned; it happens on held-out data at 2^-7.",
        "The smallest distance is taken out of all exponents, so that the limit is the nearest sample."},
@@ -68,7 +61,7 @@ std::vector<StudyDecision> studyDecisions(const StudyPlan& plan, const StudyData
            "forest on two inputs, plays no part here."},
       {"Tests", "Shapiro-Wilk decides; symmetry decides between signed rank and sign test; SPSS.",
        "The same rule; symmetry by the triples test; Bonferroni over all pairs; level " +
-           number(plan.tests.level) + ". " + std::to_string(data.taxels.size()) +
+           settings::roundedText(plan.tests.level) + ". " + std::to_string(data.taxels.size()) +
            " taxels of one sheet are no independent samples: a bootstrap over the highest level that has "
            "five units "
            "stands beside; cycles of all conditions are drawn together."},

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr::view {
 
 namespace {
 
 std::string number(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value == 0 ? 0.0 : value);  // never "-0"
-  return text;
+  return settings::fixedText(value == 0 ? 0.0 : value, decimals);  // never "-0"
 }
 
 // Smallest of 1, 2, 5 x 10^n that is no smaller than `least`.

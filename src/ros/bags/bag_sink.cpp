@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <iomanip>
-#include <sstream>
 #include <utility>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr_ros {
 
@@ -21,12 +20,6 @@ std::string withExtension(const std::string& bag) {
   const std::string end = ".bag";
   const bool has_it = bag.size() >= end.size() && bag.compare(bag.size() - end.size(), end.size(), end) == 0;
   return has_it ? bag : bag + end;
-}
-
-std::string megabytes(std::uint64_t bytes) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(1) << static_cast<double>(bytes) / 1e6 << " MB";
-  return text.str();
 }
 
 // A second recording under one name would overwrite the first, or what a kill left of it.
@@ -117,8 +110,9 @@ bool BagSink::hasSpace() {
   }
   if (space.available >= options_.least_space) return true;
   if (close()) {
-    end("NOTHING IS RECORDED any more: " + megabytes(space.available) + " are left on the disk, less than " +
-        megabytes(options_.least_space) + "; " + closed_name_ +
+    end("NOTHING IS RECORDED any more: " + fsr::settings::megabytesText(space.available) +
+        " are left on the disk, less than " + fsr::settings::megabytesText(options_.least_space) + "; " +
+        closed_name_ +
         " is closed and whole; make room, then start "
         "a new recording");
   }
