@@ -8,6 +8,7 @@
 #include "calibration/taxel_training.h"
 #include "calibration/training_scans.h"
 #include "compensation/fit_scheme.h"
+#include "dataset/measure_coverage.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "matrix/for_each_taxel.h"

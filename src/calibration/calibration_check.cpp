@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <map>
-#include <sstream>
 
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr::calibration {
 
@@ -50,18 +49,12 @@ struct Sums {
   }
 };
 
-std::string text(double value, int digits = 1) {
-  std::ostringstream out;
-  out << std::fixed << std::setprecision(digits) << value;
-  return out.str();
-}
-
 std::string kilopascals(double value) {
-  return text(value / 1000) + " kPa";
+  return settings::fixedText(value / 1000, 1) + " kPa";
 }
 
 std::string percent(double share) {
-  return text(100 * share) + " %";
+  return settings::fixedText(100 * share, 1) + " %";
 }
 
 std::string places(const std::vector<std::size_t>& taxels, const matrix::Layout& layout) {
@@ -174,10 +167,10 @@ void judgeClass(const CheckedClass& checked, double range, const CalibrationChec
         " of the readings lie beyond what training saw (allowed: " + percent(options.beyond_share) + ")");
   }
   if (checked.rmse > options.rmse_ratio * checked.expected_rmse) {
-    reasons.push_back(where + "errors are " + text(checked.rmse / checked.expected_rmse, 2) +
+    reasons.push_back(where + "errors are " + settings::fixedText(checked.rmse / checked.expected_rmse, 2) +
                       " times what they were (RMSE " + kilopascals(checked.rmse) + " where " +
                       kilopascals(checked.expected_rmse) +
-                      " was expected; allowed: " + text(options.rmse_ratio, 2) + " times)");
+                      " was expected; allowed: " + settings::fixedText(options.rmse_ratio, 2) + " times)");
   }
   if (std::abs(checked.bias) > options.bias_share * range) {
     reasons.push_back(where + "maps lie " + kilopascals(std::abs(checked.bias)) +
@@ -208,10 +201,11 @@ CalibrationCheck checkCalibration(const Calibration& calibration,
   for (const CheckedClass& checked : check.classes) judgeClass(checked, range, options, check.reasons);
   if (double(check.suspicious.size()) > options.taxel_share * double(layout.size.taxels())) {
     check.reasons.push_back(std::to_string(check.suspicious.size()) + " taxels (row, column) err more than " +
-                            text(options.taxel_ratio) +
+                            settings::fixedText(options.taxel_ratio, 1) +
                             " times what they did: " + places(check.suspicious, layout));
   } else if (!check.suspicious.empty()) {
-    check.remarks.push_back("taxels (row, column) that err more than " + text(options.taxel_ratio) +
+    check.remarks.push_back("taxels (row, column) that err more than " +
+                            settings::fixedText(options.taxel_ratio, 1) +
                             " times what they did: " + places(check.suspicious, layout));
   }
   if (!check.dead.empty()) check.reasons.push_back("taxels are dead: " + places(check.dead, layout));

@@ -1,7 +1,6 @@
 #include "calibration/merge.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "calibration/bandwidth_choice.h"
 #include "calibration/sources.h"
@@ -9,6 +8,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "matrix/for_each_taxel.h"
 #include "regression/option_names.h"
+#include "settings/number_text.h"
 
 namespace fsr::calibration {
 
@@ -17,9 +17,7 @@ namespace {
 constexpr char kInstead[] = "; train on all bags instead";
 
 std::string bandwidthText(const Calibration& calibration) {
-  std::ostringstream text;
-  text << calibration.regressor.grnn.bandwidth;
-  return calibration.bandwidth_chosen ? "auto" : text.str();
+  return calibration.bandwidth_chosen ? "auto" : settings::roundedText(calibration.regressor.grnn.bandwidth);
 }
 
 // What two parts must share, in words, with what each has.

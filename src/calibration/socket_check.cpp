@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <iomanip>
-#include <sstream>
 
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "health/recording_health.h"
+#include "settings/number_text.h"
+#include "statistics/median.h"
 
 namespace fsr::calibration {
 
@@ -18,25 +18,12 @@ constexpr double kAtTheEnds = 0.25;     // of the recording: rest is looked for 
 constexpr double kShortestCell = 0.25;  // loads are followed by means over it: short beside a step [s],
 constexpr double kScansOfCell = 2.5;    // and long beside the time from scan to scan
 
-std::string text(double value, int digits = 1) {
-  std::ostringstream out;
-  out << std::fixed << std::setprecision(digits) << value;
-  return out.str();
-}
-
 std::string percent(double share) {
-  return text(100 * share) + " %";
+  return settings::fixedText(100 * share, 1) + " %";
 }
 
 std::string place(const matrix::Layout& layout, std::size_t taxel) {
   return "(" + std::to_string(layout.row({taxel})) + ", " + std::to_string(layout.column({taxel})) + ")";
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 class SocketChecker {
@@ -82,7 +69,7 @@ class SocketChecker {
     std::vector<double> loaded;
     std::copy_if(mean_.begin(), mean_.end(), std::back_inserter(loaded),
                  [&](double value) { return value >= 0.5 * most; });
-    return median(loaded);
+    return statistics::upperMedian(loaded);
   }
 
   // The lowest stretch of rest_time within [from, to] [s].
@@ -131,7 +118,7 @@ class SocketChecker {
       check_.changed += std::abs(check_.change[t]) > options_.rest_change;
       if (std::abs(check_.change[t]) > std::abs(check_.change[check_.worst])) check_.worst = t;
     }
-    check_.median_change = median(changes);
+    check_.median_change = statistics::upperMedian(changes);
   }
 
   void requireFit() const {
@@ -189,7 +176,7 @@ class SocketChecker {
       const double change = check_.after->pressure[t] - check_.before->pressure[t];
       if (!std::isnan(change)) changes.push_back(change);
     }
-    check_.median_pressure_change = median(changes);
+    check_.median_pressure_change = statistics::upperMedian(changes);
   }
 
   /// Mean pressure of each taxel over a rest.
@@ -291,7 +278,7 @@ class SocketChecker {
     }
     if (check_.longest.seconds > options_.static_load) {
       reasons.push_back("taxel " + place(check_.layout, check_.longest.taxel) + " carried a still load for " +
-                        text(check_.longest.seconds, 0) + " s: by then creep counts");
+                        settings::fixedText(check_.longest.seconds, 0) + " s: by then creep counts");
     }
     if (!check_.dead.empty()) reasons.push_back(std::to_string(check_.dead.size()) + " taxels are dead");
     if (!check_.stuck.empty()) reasons.push_back(std::to_string(check_.stuck.size()) + " taxels are stuck");

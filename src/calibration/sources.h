@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "dataset/sections.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/dataset/recording.h"
-#include "fsr_pressure_map/dataset/sections.h"
 
 namespace fsr::calibration {
 

@@ -1,19 +1,16 @@
 #include "calibration/tare.h"
 
 #include <cmath>
-#include <sstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr::calibration {
 
 namespace {
 
 std::string kilopascal(double pressure) {
-  std::ostringstream out;
-  out.precision(3);
-  out << pressure / 1000 << " kPa";
-  return out.str();
+  return settings::roundedText(pressure / 1000, 3) + " kPa";
 }
 
 bool hasReading(const map::PressureMap& map, std::size_t taxel) {

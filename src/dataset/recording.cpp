@@ -4,7 +4,7 @@ namespace fsr::dataset {
 
 namespace {
 
-// A bag begins and ends between two chamber readings; only more than that is worth a sentence.
+// A bag begins and ends between two chamber readings, so a few such scans are normal.
 constexpr std::uint64_t kScansAtTheEnds = 10;
 
 std::string scans(std::uint64_t number) {

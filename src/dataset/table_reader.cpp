@@ -15,7 +15,7 @@ namespace fsr::dataset {
 
 namespace {
 
-constexpr std::size_t kLongestLine = 1 << 20;  // [bytes]: longer is no table
+constexpr std::size_t kLongestLine = 1 << 20;  // [bytes]: a file with longer lines is not a table
 
 std::string trimmed(const std::string& text) {
   const char* const blank = " \t\r\"";
@@ -23,7 +23,7 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
-// The whole text as a number; `ok` false where it is none.
+// The whole text as a number; `ok` is false where it is not one.
 double parsed(std::string text, bool decimal_comma, bool& ok) {
   if (decimal_comma) std::replace(text.begin(), text.end(), ',', '.');
   std::string lower = text;
@@ -40,7 +40,7 @@ double parsed(std::string text, bool decimal_comma, bool& ok) {
   return value;
 }
 
-// Tab and semicolon cannot be part of a number; a comma can, where it is the decimal one.
+// Tab and semicolon cannot be part of a number. A comma can, as a decimal comma.
 char separatorOf(const std::string& line, bool decimal_comma) {
   for (const char candidate : {'\t', ';', ','}) {
     if (candidate == ',' && decimal_comma) continue;
@@ -113,7 +113,7 @@ bool TableReader::readCells() {
     if (source_->line <= format_.skip_lines || content.empty() || content[0] == '#') continue;
     if (format_.separator == 0) format_.separator = separatorOf(line, format_.decimal_comma);
     cells_ = split(line, format_.separator);
-    if (!cells_.empty()) return true;  // else a line of white space of other kinds
+    if (!cells_.empty()) return true;  // otherwise the line is white space
   }
   return false;
 }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr::exports {
 
@@ -20,9 +20,7 @@ double roundedUp(double value) {
 }
 
 std::string timeText(std::int64_t since_ns) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), "t = %.2f s", 1e-9 * static_cast<double>(since_ns));
-  return text.data();
+  return "t = " + settings::fixedText(1e-9 * static_cast<double>(since_ns), 2) + " s";
 }
 
 double peakOf(const map::PressureMap& map) {

@@ -2,11 +2,11 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 
 #include "exports/exact_text.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr::exports {
 
@@ -15,12 +15,6 @@ namespace {
 constexpr char kEnd[] = "\r\n";
 constexpr char kNoSensel[] = "B";
 constexpr std::size_t kRoom = 12;  // space for a number that is known only at the end [characters]
-
-std::string formatted(const char* format, double value) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
 
 std::string padded(std::string text) {
   text.resize(std::max(text.size(), kRoom), ' ');
@@ -39,7 +33,7 @@ std::string date(std::int64_t stamp_ns) {
 
 // Pressure [kPa]. Nine digits restore each float32 of the map.
 std::string pressureValue(float pressure) {
-  return std::isnan(pressure) ? kNoSensel : formatted("%.9g", double(pressure) * 1e-3);
+  return std::isnan(pressure) ? kNoSensel : settings::roundedText(double(pressure) * 1e-3, 9);
 }
 
 std::string value(const ScanRecord& scan, bool maps, std::size_t taxel) {
@@ -63,9 +57,9 @@ std::string TekscanFile::header(const ScanRecord& first) {
   line("SENSOR_TYPE", subject_.model.empty() ? subject_.sensor : subject_.model, text);
   line("ROWS", std::to_string(layout_.size.rows), text);
   line("COLS", std::to_string(layout_.size.columns), text);
-  line("ROW_SPACING", formatted("%.6g mm", layout_.pitch_y * 1e3), text);
-  line("COL_SPACING", formatted("%.6g mm", layout_.pitch_x * 1e3), text);
-  line("SENSEL_AREA", formatted("%.6g mm2", area), text);
+  line("ROW_SPACING", settings::roundedText(layout_.pitch_y * 1e3, 6) + " mm", text);
+  line("COL_SPACING", settings::roundedText(layout_.pitch_x * 1e3, 6) + " mm", text);
+  line("SENSEL_AREA", settings::roundedText(area, 6) + " mm2", text);
   line("NOISE_THRESHOLD", "0", text);
   text += "SECONDS_PER_FRAME ";
   period_at_ = text.size();
@@ -76,9 +70,9 @@ std::string TekscanFile::header(const ScanRecord& first) {
   if (!maps) {
     line("SATURATION_PRESSURE", std::to_string(first.full_scale) + " RAW", text);
   } else if (!std::isnan(subject_.trained_high)) {
-    line("SATURATION_PRESSURE", formatted("%.9g kPa", subject_.trained_high * 1e-3), text);
-    line("CALIBRATION_POINT_1", formatted("%.9g kPa", subject_.trained_low * 1e-3), text);
-    line("CALIBRATION_POINT_2", formatted("%.9g kPa", subject_.trained_high * 1e-3), text);
+    line("SATURATION_PRESSURE", settings::roundedText(subject_.trained_high * 1e-3, 9) + " kPa", text);
+    line("CALIBRATION_POINT_1", settings::roundedText(subject_.trained_low * 1e-3, 9) + " kPa", text);
+    line("CALIBRATION_POINT_2", settings::roundedText(subject_.trained_high * 1e-3, 9) + " kPa", text);
   }
   if (maps) line("CALIBRATION_INFO", subject_.calibration + ' ' + subject_.scheme, text);
   line("UNITS", maps ? "kPa" : "RAW", text);
@@ -126,7 +120,7 @@ void TekscanFile::finish() {
   }
   file_.write(text);
   const double period = frames > 1 ? span / static_cast<double>(frames - 1) : 0;
-  file_.patch(period_at_, padded(formatted("%.9f", period)));
+  file_.patch(period_at_, padded(settings::fixedText(period, 9)));
   file_.patch(end_frame_at_, padded(std::to_string(frames)));
   file_.finish();
 }

@@ -89,7 +89,7 @@ std::vector<std::size_t> Reader::shape(const std::string& path) const {
   return {size.begin(), size.end()};
 }
 
-// Shapes are claims; nothing is compressed, so that values need at least a byte each in the file.
+// A file may claim any shape. Nothing is compressed, so each value takes at least a byte of the file.
 void Reader::requireRoom(const std::string& path, const std::vector<std::size_t>& shape,
                          std::size_t bytes) const {
   std::size_t left = size_ / std::max<std::size_t>(bytes, 1);

@@ -23,7 +23,7 @@ AlarmOptions readAlarm(const settings::Settings& owner) {
   return alarm;
 }
 
-// First and last index of `key`, or all of them where it is left out.
+// First and last index of `key`; the whole range where the key is missing.
 std::pair<int, int> readSpan(const settings::Settings& settings, const std::string& key, int count) {
   if (!settings.has(key)) return {0, count - 1};
   const std::vector<double> span = settings.numbers(key, {0, double(count - 1)});

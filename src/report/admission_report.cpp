@@ -6,20 +6,14 @@
 #include <sstream>
 
 #include "report/calibration_report.h"
+#include "settings/number_text.h"
 
 namespace fsr::report {
 
 namespace {
 
-std::string number(double value, int digits) {
-  if (std::isnan(value)) return "-";
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
-}
-
 std::string percent(double share, int digits = 1) {
-  return std::isnan(share) ? "not known" : number(100 * share, digits) + " %";
+  return std::isnan(share) ? "not known" : settings::cellText(100 * share, digits) + " %";
 }
 
 // "(row, column)" of the first eight taxels.
@@ -40,15 +34,15 @@ std::string numbers(const std::vector<std::size_t>& values) {
 }
 
 std::string lagText(const discrepancy::AdmittedRecording& recording) {
-  return recording.lag ? number(recording.lag->seconds, 2) : "-";
+  return recording.lag ? settings::cellText(recording.lag->seconds, 2) : "-";
 }
 
 void addRow(const discrepancy::AdmittedRecording& row, int width, std::ostringstream& out) {
   out << std::left << std::setw(width) << row.name << std::right << std::setw(8) << row.scans << std::setw(10)
-      << number(row.seconds, 1) << std::setw(10) << row.surfaces << std::setw(7) << row.losses.lost_scans
-      << std::setw(7) << row.losses.sequence_gaps << std::setw(9) << lagText(row) << std::setw(13)
-      << number(100 * row.health.saturated, 2) << std::setw(6) << row.health.dead.size() << std::setw(7)
-      << row.health.stuck.size() << '\n';
+      << settings::cellText(row.seconds, 1) << std::setw(10) << row.surfaces << std::setw(7)
+      << row.losses.lost_scans << std::setw(7) << row.losses.sequence_gaps << std::setw(9) << lagText(row)
+      << std::setw(13) << settings::cellText(100 * row.health.saturated, 2) << std::setw(6)
+      << row.health.dead.size() << std::setw(7) << row.health.stuck.size() << '\n';
 }
 
 void addTable(const discrepancy::Admission& admission, std::ostringstream& out) {
@@ -75,7 +69,7 @@ void addHealth(const discrepancy::AdmittedRecording& row, const matrix::Layout& 
   if (health.saturated_taxels == 0) return;
   out << row.name << ": " << health.saturated_taxels << " taxels reach full scale";
   if (!std::isnan(health.saturated_from)) {
-    out << ", at " << number(health.saturated_from / 1000, 0) << " kPa or more";
+    out << ", at " << settings::cellText(health.saturated_from / 1000, 0) << " kPa or more";
   }
   out << '\n';
 }
@@ -85,7 +79,7 @@ std::string faultText(const discrepancy::Fault& fault, const matrix::Layout& lay
   const std::string where =
       line ? " " + std::to_string(fault.line) : " (row, column): " + places(fault.taxels, layout);
   return fault.id + where + ", " + percent(fault.share, 2) + " of the scans, longest " +
-         number(fault.longest, 1) + " s";
+         settings::cellText(fault.longest, 1) + " s";
 }
 
 // ", because A; and 2 more". The lines above list all reasons.
@@ -105,7 +99,7 @@ void addRests(const calibration::SocketCheck& check, std::ostringstream& out) {
   for (const auto& [name, rest] : {std::pair{"before", &check.before}, std::pair{"after", &check.after}}) {
     out << "Rest " << name << ": ";
     if (*rest) {
-      out << number((*rest)->from, 1) << " to " << number((*rest)->to, 1) << " s\n";
+      out << settings::cellText((*rest)->from, 1) << " to " << settings::cellText((*rest)->to, 1) << " s\n";
     } else {
       out << "none recorded\n";
     }
@@ -114,7 +108,7 @@ void addRests(const calibration::SocketCheck& check, std::ostringstream& out) {
   const double worst = check.change[check.worst];
   out << "Change of the readings at rest: median " << percent(check.median_change, 2) << " of full scale";
   if (!std::isnan(check.median_pressure_change)) {
-    out << " (" << number(check.median_pressure_change / 1000, 1) << " kPa)";
+    out << " (" << settings::cellText(check.median_pressure_change / 1000, 1) << " kPa)";
   }
   out << ", largest " << percent(worst, 2) << " at (row, column) " << places({check.worst}, check.layout)
       << "; " << check.changed << (check.changed == 1 ? " taxel" : " taxels") << " beyond the limit\n";
@@ -148,9 +142,9 @@ std::string socketText(const calibration::SocketCheck& check) {
       << "Outside the readings of training: " << percent(check.beyond, 2)
       << "; outside its curvatures: " << percent(check.bent_beyond, 2)
       << (std::isnan(check.beyond) ? " (give --calibration)" : "") << '\n'
-      << "Longest static load: " << number(check.longest.seconds, 0) << " s";
+      << "Longest static load: " << settings::cellText(check.longest.seconds, 0) << " s";
   if (check.longest.seconds > 0) {
-    out << ", from second " << number(check.longest.from, 0) << ", at (row, column) "
+    out << ", from second " << settings::cellText(check.longest.from, 0) << ", at (row, column) "
         << places({check.longest.taxel}, check.layout);
   }
   out << "\nDead (row, column): " << (check.dead.empty() ? "none" : places(check.dead, check.layout))

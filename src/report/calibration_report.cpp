@@ -5,6 +5,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "settings/number_text.h"
+
 namespace fsr::report {
 
 namespace {
@@ -13,27 +15,21 @@ constexpr int kNameWidth = 18;
 constexpr int kCellWidth = 14;
 constexpr double kKilopascal = 1e3;  // [Pa]
 
-std::string number(double value, int digits) {
-  if (std::isnan(value)) return "-";
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
-}
-
 std::string kilopascal(double pressure) {
-  return number(pressure / kKilopascal, 1);
+  return settings::cellText(pressure / kKilopascal, 1);
 }
 
 std::string spread(const statistics::Spread& value, int digits) {
-  return std::isnan(value.deviation) ? number(value.mean, digits)
-                                     : number(value.mean, digits) + " +- " + number(value.deviation, digits);
+  return std::isnan(value.deviation)
+             ? settings::cellText(value.mean, digits)
+             : settings::cellText(value.mean, digits) + " +- " + settings::cellText(value.deviation, digits);
 }
 
 // "14.3" if all taxels have the same curvature, else "9.0..14.3".
 std::string curvature(const dataset::CurvatureClass& condition, double unit, int digits) {
   const auto [low, high] = std::minmax_element(condition.curvature.begin(), condition.curvature.end());
-  const std::string first = number(*low / unit, digits);
-  return *low == *high ? first : first + ".." + number(*high / unit, digits);
+  const std::string first = settings::cellText(*low / unit, digits);
+  return *low == *high ? first : first + ".." + settings::cellText(*high / unit, digits);
 }
 
 void nameCell(std::ostream& out, const std::string& name) {
@@ -71,8 +67,9 @@ void scoreRow(std::ostream& out, const std::string& name, const calibration::Sco
   cell(out, kilopascal(errors.bias), 8);
   cell(out, kilopascal(errors.limit_low) + ".." + kilopascal(errors.limit_high), 16);
   cell(out, kilopascal(errors.p95_absolute), 8);
-  cell(out, number(score.worst_rmse_percent, 2) + " (" + std::to_string(score.worst_taxel) + ")", 14);
-  cell(out, number(100 * score.within_one_deviation, 1) + " %", 13);
+  cell(out, settings::cellText(score.worst_rmse_percent, 2) + " (" + std::to_string(score.worst_taxel) + ")",
+       14);
+  cell(out, settings::cellText(100 * score.within_one_deviation, 1) + " %", 13);
   out << '\n';
 }
 

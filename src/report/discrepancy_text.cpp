@@ -1,10 +1,9 @@
 #include <cmath>
-#include <iomanip>
 #include <map>
-#include <sstream>
 
 #include "report/discrepancy_report.h"
 #include "report/flow_yaml.h"
+#include "settings/number_text.h"
 
 namespace fsr::report {
 
@@ -14,10 +13,7 @@ constexpr double kKilopascal = 1e3;  // [Pa]
 constexpr double kPercent = 100;
 
 std::string number(double value, int digits) {
-  if (!std::isfinite(value)) return "-";
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
+  return std::isfinite(value) ? settings::fixedText(value, digits) : "-";
 }
 
 std::string joined(const std::vector<std::string>& items, const std::string& between = ", ") {

@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "report/study_report.h"
+#include "settings/number_text.h"
 #include "study/paper_numbers.h"
 
 namespace fsr::report {
@@ -123,9 +124,7 @@ std::string binTable(const study::StudyResult& result) {
 void addTest(Table& table, const statistics::TestResult& test) {
   std::string freedom;
   for (const double degrees : test.degrees_of_freedom) {
-    std::ostringstream text;
-    text << degrees;
-    freedom += (freedom.empty() ? "" : " ") + text.str();
+    freedom += (freedom.empty() ? "" : " ") + settings::roundedText(degrees);
   }
   table << test.test << test.symbol << test.statistic << freedom << test.p << static_cast<double>(test.n);
 }

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "report/study_report.h"
+#include "settings/number_text.h"
 #include "study/paper_numbers.h"
 
 namespace fsr::report {
@@ -13,11 +14,9 @@ constexpr int kNameWidth = 20;
 constexpr double kKilopascal = 1e3;  // [Pa]
 
 std::string number(double value, int digits) {
-  if (std::isnan(value)) return "-";
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  const bool nothing = text.str().find_first_not_of("-0.") == std::string::npos;
-  return nothing && text.str().front() == '-' ? text.str().substr(1) : text.str();
+  const std::string text = settings::cellText(value, digits);
+  const bool negative_zero = text.find_first_not_of("-0.") == std::string::npos && text != "-";
+  return negative_zero && text.front() == '-' ? text.substr(1) : text;
 }
 
 std::string spread(const statistics::Spread& value, int digits, int deviation_digits) {

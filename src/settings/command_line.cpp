@@ -134,11 +134,11 @@ std::int64_t CommandLine::integer(const std::string& name, std::int64_t fallback
 
 namespace {
 
-// Vectors of tens of kilobytes come and go by the thousand in a tool: handing each back to the system and
-// having its pages cleared again takes a sixth of the time of training.
+// A tool allocates and frees thousands of vectors of tens of kilobytes. Returning each to the system, which
+// clears its pages again, takes a sixth of the time of training.
 void keepFreedMemory() {
 #ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // [bytes], the most that glibc takes
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // [bytes], the largest value that glibc accepts
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
 }

@@ -1,18 +1,11 @@
 #include "study/decisions.h"
 
-#include <sstream>
-
+#include "settings/number_text.h"
 #include "study/fold.h"
 
 namespace fsr::study {
 
 namespace {
-
-std::string number(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 std::string downSamplingText(const StudyPlan& plan) {
   const std::string rule = plan.down_sampling == DownSampling::kRandom
@@ -48,7 +41,7 @@ std::vector<StudyDecision> studyDecisions(const StudyPlan& plan, const StudyData
        "The values are in 1/cm. The study computes in 1/m. The \"0.77\" of Fig. 9 is 0.077 1/cm."},
       {"Kernel of the GRNN", "\"D^2 is the Euclidean distance\".", kernelText(plan)},
       {"Spread", "sigma = 2^-7; the paper does not say how it was tuned.",
-       "sigma = " + number(regression::sigmaOf(plan.grnn)) +
+       "sigma = " + settings::roundedText(regression::sigmaOf(plan.grnn)) +
            " for the reproduction. A grid of bandwidths is shown beside it. All other results use the "
            "bandwidth "
            "chosen by nested cross-validation."},
@@ -76,7 +69,7 @@ std::vector<StudyDecision> studyDecisions(const StudyPlan& plan, const StudyData
        "test; "
        "SPSS.",
        "The same rule. Symmetry is tested by the triples test. Bonferroni correction over all pairs; level " +
-           number(plan.tests.level) + ". The " + std::to_string(data.taxels.size()) +
+           settings::roundedText(plan.tests.level) + ". The " + std::to_string(data.taxels.size()) +
            " taxels of one sheet are not independent samples. Therefore a bootstrap is reported, too. It "
            "resamples "
            "the highest level with at least five units; cycles of all conditions are resampled together."},

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "dataset/sections.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
-#include "fsr_pressure_map/dataset/sections.h"
 #include "fsr_pressure_map/regression/code_statistics.h"
 #include "study/study_plan.h"
 

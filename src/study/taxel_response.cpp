@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "statistics/median.h"
 #include "study/study_score.h"
 
 namespace fsr::study {
@@ -70,10 +71,8 @@ std::size_t figureTaxel(const StudyData& data, const StudyPlan& plan,
                         const std::vector<double>& rmse_percent) {
   const auto asked = std::find(data.taxels.begin(), data.taxels.end(), plan.figure_taxel);
   if (asked != data.taxels.end()) return static_cast<std::size_t>(asked - data.taxels.begin());
-  std::vector<double> sorted = rmse_percent;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return static_cast<std::size_t>(std::find(rmse_percent.begin(), rmse_percent.end(), *middle) -
+  const double middle = statistics::upperMedian(rmse_percent);
+  return static_cast<std::size_t>(std::find(rmse_percent.begin(), rmse_percent.end(), middle) -
                                   rmse_percent.begin());
 }
 

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr::view {
 
 namespace {
 
 std::string number(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value == 0 ? 0.0 : value);  // avoids "-0"
-  return text;
+  return settings::fixedText(value == 0 ? 0.0 : value, decimals);  // avoids "-0"
 }
 
 // Smallest value of 1, 2 or 5 x 10^n that is not below `least`.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/calibration/calibrator.h"
-#include "fsr_pressure_map/protocol/decoder.h"
+#include "protocol/wire_decoder.h"
 #include "protocol/board_gate.h"
 #include "protocol/packet_stamper.h"
 #include "support/allocation_guard.h"
@@ -105,7 +105,7 @@ class AllocatesNothing : public testing::TestWithParam<compensation::BlendRule> 
 TEST_P(AllocatesNothing, FromBytesToMaps) {
   constexpr std::uint32_t kStart = 2000, kScans = 60'000;  // a minute at 1 kHz
   LivePath path(GetParam());
-  protocol::Decoder decoder(path);
+  protocol::WireDecoder decoder(path);
   Line line;
   path.bend(5.0);
   std::size_t allocated = 0;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fsr_pressure_map/protocol/decoder.h"
+#include "protocol/wire_decoder.h"
 #include "support/packet_recorder.h"
 
 namespace {
@@ -18,7 +18,7 @@ fsr::simulation::SimulationSettings smallRig(const std::string& board) {
 
 std::vector<std::string> packetsUntil(Board& board, double end) {
   test_support::PacketRecorder recorder;
-  fsr::protocol::Decoder decoder(recorder);
+  fsr::protocol::WireDecoder decoder(recorder);
   while (board.nextDue() <= end) {
     const auto& packet = board.next([](double) { return 0.0; });
     decoder.feed(packet.data(), packet.size());

@@ -64,7 +64,7 @@ TEST(Emulator, ItsBytesDecodeWithoutDamage) {
   EXPECT_FALSE(listener.temperature.empty());
   EXPECT_EQ(listener.temperature.front().value, 23000);
   EXPECT_EQ(listener.counts().skipped_bytes, 0u);
-  EXPECT_EQ(listener.counts().of(FSR_WIRE_SCAN).lost, 0u);
+  EXPECT_EQ(listener.counts().of(fsr::protocol::PacketType::kScan).lost, 0u);
 }
 
 TEST(Emulator, TransducerTellsThePressureOfTheProtocolAtItsStamp) {
@@ -178,12 +178,12 @@ TEST(EmulatorDamage, LostBytesCostPacketsAndNoMore) {
   ASSERT_TRUE(hears(listener, rig, rig.rigTime() + 10));
   const auto& counts = listener.counts();
   EXPECT_GT(rig.counts().damage.lost_bytes, 0u);
-  EXPECT_GT(counts.of(FSR_WIRE_SCAN).lost, 0u);
+  EXPECT_GT(counts.of(fsr::protocol::PacketType::kScan).lost, 0u);
   rig.setDamage({});
   ASSERT_TRUE(hears(listener, rig, rig.rigTime()));
-  const auto lost = counts.of(FSR_WIRE_SCAN).lost;
+  const auto lost = counts.of(fsr::protocol::PacketType::kScan).lost;
   ASSERT_TRUE(listener.untilScans(100));
-  EXPECT_EQ(counts.of(FSR_WIRE_SCAN).lost, lost) << "healed";
+  EXPECT_EQ(counts.of(fsr::protocol::PacketType::kScan).lost, lost) << "healed";
 }
 
 TEST(EmulatorDamage, FlippedBitsFailTheChecks) {
@@ -204,8 +204,9 @@ TEST(EmulatorDamage, APauseIsAGapOfItsLength) {
   LineDamage damage;
   damage.pause = 3;
   rig.setDamage(damage);
-  ASSERT_TRUE(listener.until([&] { return listener.counts().of(FSR_WIRE_SCAN).gaps > 0; }));
-  EXPECT_NEAR(static_cast<double>(listener.counts().of(FSR_WIRE_SCAN).lost), 3 * 20, 1);
+  ASSERT_TRUE(
+      listener.until([&] { return listener.counts().of(fsr::protocol::PacketType::kScan).gaps > 0; }));
+  EXPECT_NEAR(static_cast<double>(listener.counts().of(fsr::protocol::PacketType::kScan).lost), 3 * 20, 1);
 }
 
 TEST(EmulatorDamage, UnpluggedThePortIsGoneAndComesBackUnderItsName) {
@@ -260,7 +261,7 @@ TEST(EmulatorDamage, AResetRestartsClockAndCounters) {
   const auto first = std::next(restart());
   EXPECT_LT(first->device_time, restart()->device_time);
   EXPECT_LE(first->device_time, 100000u * (first->sequence + 1));
-  EXPECT_EQ(listener.counts().of(FSR_WIRE_SCAN).restarts, 1u);
+  EXPECT_EQ(listener.counts().of(fsr::protocol::PacketType::kScan).restarts, 1u);
 }
 
 TEST(EmulatorLine, ASlowReaderLosesWholePacketsAndNeverBlocksTheBoard) {
@@ -274,7 +275,7 @@ TEST(EmulatorLine, ASlowReaderLosesWholePacketsAndNeverBlocksTheBoard) {
   ASSERT_TRUE(rig.waitForReader(kLong));
   while (rig.counts().dropped < 10) ASSERT_TRUE(rig.waitForRigTime(rig.rigTime() + 0.02, kLong));
   ASSERT_TRUE(listener.untilScans(50));
-  EXPECT_GT(listener.counts().of(FSR_WIRE_SCAN).lost, 0u);
+  EXPECT_GT(listener.counts().of(fsr::protocol::PacketType::kScan).lost, 0u);
   EXPECT_EQ(listener.counts().skipped_bytes, 0u) << "no packet in pieces";
 }
 
@@ -293,7 +294,7 @@ TEST(EmulatorLine, ItsOwnLatenessLosesNothing) {
   BoardListener listener(rig.port());
   // Until it has caught up it waits for the reader too, however slow that is on a busy machine; not later.
   ASSERT_TRUE(listener.untilScans(110));
-  EXPECT_EQ(listener.counts().of(FSR_WIRE_SCAN).lost, 0u);
+  EXPECT_EQ(listener.counts().of(fsr::protocol::PacketType::kScan).lost, 0u);
 }
 
 TEST(EmulatorLine, ScaledRigTimeWaitsForASlowReaderButNotForEver) {
@@ -303,7 +304,7 @@ TEST(EmulatorLine, ScaledRigTimeWaitsForASlowReaderButNotForEver) {
   BoardListener listener(rig.port());
   ASSERT_TRUE(rig.waitForReader(kLong));
   ASSERT_TRUE(listener.untilScans(2000));
-  EXPECT_EQ(listener.counts().of(FSR_WIRE_SCAN).lost, 0u);
+  EXPECT_EQ(listener.counts().of(fsr::protocol::PacketType::kScan).lost, 0u);
   const double then = rig.rigTime();
   EXPECT_TRUE(rig.waitForRigTime(then + 500, kLong)) << "though nobody reads any more";
 }

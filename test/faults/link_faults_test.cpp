@@ -45,7 +45,7 @@ class LinkFaults : public testing::Test {
     return 1'000'000'000'000'000'000 + std::chrono::nanoseconds(time).count();
   }
   fsr::protocol::DecoderCounts counts() const { return reader_->report().counts; }
-  fsr::protocol::SequenceCounts scanCounts() const { return counts().of(FSR_WIRE_SCAN); }
+  fsr::protocol::SequenceCounts scanCounts() const { return counts().of(fsr::protocol::PacketType::kScan); }
   fsr::emulator::Emulator& board() { return *board_->operator->(); }
   void damage(const LineDamage& damage) { board().setDamage(damage); }
   test_support::TemporaryFolder folder_;

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "fsr_pressure_map/protocol/decoder.h"
 #include "protocol/device_clock.h"
+#include "protocol/wire_decoder.h"
 #include "support/allocation_guard.h"
 
 namespace {
@@ -41,7 +41,7 @@ TEST(Protocol, AllocatesNothingFromBytesToStampedScans) {
   const fsr_wire_identity identity = {"0123456789abcdef", "0123456789abcdef", "", 16, 10, 4095, 1000};
   std::vector<std::uint8_t> bytes(1024);
   StampingHandler handler;
-  fsr::protocol::Decoder decoder(handler);
+  fsr::protocol::WireDecoder decoder(handler);
 
   const test_support::AllocationGuard guard;
   for (std::uint32_t i = 0; i < 300'000;

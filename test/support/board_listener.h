@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/protocol/decoder.h"
 #include "protocol/serial_port.h"
+#include "protocol/wire_decoder.h"
 
 namespace test_support {
 
@@ -66,7 +66,7 @@ class BoardListener : public fsr::protocol::PacketHandler {
   }
 
   fsr::protocol::SerialPort port_;
-  fsr::protocol::Decoder decoder_;
+  fsr::protocol::WireDecoder decoder_;
 };
 
 }  // namespace test_support

@@ -10,15 +10,16 @@
 
 namespace fsr::settings {
 
-/// One mapping of a YAML file, read strictly: what is missing, mistyped, out of range or unknown
-/// raises an InputError that names file, field (dotted path), value and what would be right.
+/// One mapping of a YAML file, read strictly. A key that is missing, of a wrong type, out of range or
+/// unknown throws an InputError that names the file, the field (dotted path), the value and what would be
+/// right.
 ///
-/// Every read marks its key as known; refuseUnknown() after the last read refuses the keys that
-/// nobody asked for, so that a misspelt optional key can never be ignored in silence.
+/// Every read marks its key as known. refuseUnknown(), called after the last read, refuses all other keys,
+/// so that a misspelt optional key is never silently ignored.
 class Settings {
  public:
   static Settings fromFile(const std::string& path);
-  /// `origin` stands where messages name the file.
+  /// `origin`: name that messages give instead of a file.
   static Settings fromText(const std::string& yaml, const std::string& origin);
 
   bool has(const std::string& key) const;
@@ -43,10 +44,10 @@ class Settings {
   Settings section(const std::string& key) const;
   /// A list of mappings.
   std::vector<Settings> sections(const std::string& key) const;
-  /// The keys of this mapping, in the file's order, none of them marked as known by this call.
+  /// The keys of this mapping, in the order of the file. This call marks none of them as known.
   std::vector<std::string> keys() const;
 
-  /// Refuses keys that were never asked for, here and in every section that was opened.
+  /// Throws InputError where a key was never read, in this mapping or in a section that was opened.
   void refuseUnknown() const;
 
   /// An InputError about `key` of this mapping: "FILE: FIELD is VALUE, but " + `complaint`.

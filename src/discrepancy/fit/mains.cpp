@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "simulation/effects/effect_library.h"
+#include "statistics/median.h"
 
 namespace fsr::discrepancy {
 
@@ -17,12 +18,6 @@ constexpr double kRound = 0.5;        // most of |sum z^2| / sum |z|^2 of someth
 constexpr std::size_t kFewestTaxels = 8;
 constexpr double kMainsFrequency = 50;  // that is assumed [Hz]
 constexpr double kDeviationPerMedian = 1.4826;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Readings less what the static curves and all taxels together say, of the used taxels.
 class Residuals {
@@ -82,14 +77,14 @@ Mains findMains(const Measured& measured, const TaxelFit& taxels) {
     powers.push_back((w.adjoint() * covariance * w).value().real());
     turns.push_back(turn);
   }
-  const double usual = median(powers);
+  const double usual = statistics::upperMedian(powers);
   std::vector<double> deviations;
   for (const double power : powers) deviations.push_back(std::abs(power - usual));
   const auto peak = static_cast<std::size_t>(std::max_element(powers.begin(), powers.end()) - powers.begin());
   const double excess = powers[peak] - usual;
   const double total = covariance.trace() / static_cast<double>(residuals.size()) + taxels.within();
   mains.turn = turns[peak];
-  mains.z = excess / std::max(1e-300, kDeviationPerMedian * median(deviations));
+  mains.z = excess / std::max(1e-300, kDeviationPerMedian * statistics::upperMedian(deviations));
   mains.share = total > 0 ? 2 * excess / static_cast<double>(residuals.size()) / total : 0;
   mains.amplitude = 2 * std::sqrt(excess / static_cast<double>(residuals.size()));
   if (mains.z < kLeastZ || mains.share < kLeastShare) return mains;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "statistics/median.h"
+
 namespace fsr::discrepancy {
 
 namespace {
@@ -13,12 +15,6 @@ constexpr double kDeaf = 0.02;        // of the usual variance of the readings w
 constexpr double kLeastShare = 0.02;  // of the readings' squared error
 constexpr double kTogether = 2;       // times the square that the mean of a line has by chance
 constexpr double kMostOfLine = 0.6;   // of a line's taxels: the line is odd
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Sums over the moments that are not shown, of what is left of each taxel and line beside the mean of all.
 struct Sums {
@@ -111,7 +107,7 @@ bool Judge::isDeaf(std::size_t taxel) const {
     };
     std::vector<double> all;
     for (const std::size_t t : used_) all.push_back(variance(t));
-    if (variance(taxel) < kDeaf * median(all)) return true;
+    if (variance(taxel) < kDeaf * statistics::upperMedian(all)) return true;
   }
   return false;
 }
@@ -141,7 +137,7 @@ OddTaxels Judge::run() const {
   if (used_.size() < 4) return odd;
   std::vector<double> squares;
   for (const std::size_t t : used_) squares.push_back(sums_.squares[static_cast<Eigen::Index>(t)]);
-  const double usual = median(squares);
+  const double usual = statistics::upperMedian(squares);
   double more = 0;
   bool deaf = false;
   for (const std::size_t t : used_) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "statistics/median.h"
+
 namespace fsr::discrepancy {
 
 namespace {
@@ -18,13 +20,6 @@ constexpr double kLeastScatter = 1e-5;
 constexpr double kLeastKept = 0.02;
 // Of the median of absolute normal numbers.
 constexpr double kDeviationPerMedian = 1.4826;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<double> knotsOf(const Trace& load) {
   const double low = load.minCoeff(), high = std::max(load.maxCoeff(), low + 1);
@@ -213,7 +208,8 @@ void StaticFit::judgeGainScatter(const Trace& left) {
     steps.push_back(std::abs(gain[c] - gain[c - 1]));
   }
   kept_.resize(gain.size());
-  gain_scatter_ = std::max(kLeastScatter, kDeviationPerMedian / std::sqrt(2.0) * median(steps));
+  gain_scatter_ =
+      std::max(kLeastScatter, kDeviationPerMedian / std::sqrt(2.0) * statistics::upperMedian(steps, 0));
   const double noise = left.squaredNorm() / static_cast<double>(left.size());
   for (std::size_t c = 0; c < gain.size(); ++c) {
     const double by_noise = noise / std::max(weight[c], 1e-12);

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 
 #include "dataset/cycles.h"
 #include "discrepancy/samples/measured.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 #include "simulation/effects/effect_library.h"
 #include "statistics/random_stream.h"
 
@@ -23,12 +23,6 @@ constexpr double kMostUnusable = 0.5;      // share of the taxels
 constexpr double kBetween = 60;            // bags whose stamps overlap, one after the other [s]
 constexpr double kShowShare = 0.2;         // of the cycles
 
-std::string number(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
 void requireWhole(const dataset::Recording& recording) {
   const auto refuse = [&](const std::string& what) {
     throw settings::InputError(recording.name + ": " + what);
@@ -45,7 +39,7 @@ void requireWhole(const dataset::Recording& recording) {
   if (!whole) refuse("counts, pressure, temperature, condition and mask do not fit each other");
   for (std::size_t i = 1; i < recording.scans(); ++i) {
     if (recording.time[i] > recording.time[i - 1]) continue;
-    refuse("its stamps run backwards at " + number(recording.time[i]) + " s, but must ascend");
+    refuse("its stamps run backwards at " + settings::roundedText(recording.time[i]) + " s, but must ascend");
   }
   if (recording.losses.counter_back > kFewRestarts) {
     refuse("its stamps run backwards, or the board started afresh, " +
@@ -57,8 +51,8 @@ void requireWhole(const dataset::Recording& recording) {
 void requireFinite(const dataset::Recording& recording) {
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     if (std::isfinite(recording.pressure[i])) continue;
-    throw settings::InputError(recording.name + ": chamber pressure at " + number(recording.time[i]) +
-                               " s is no number");
+    throw settings::InputError(recording.name + ": chamber pressure at " +
+                               settings::roundedText(recording.time[i]) + " s is no number");
   }
 }
 
@@ -274,7 +268,8 @@ void requireJudgeable(const Measured& measured) {
   const std::string name = (*measured.recordings)[0].name;
   const auto [low, high] = std::minmax_element(measured.pressure.begin(), measured.pressure.end());
   if (*high - *low < kLeastRange) {
-    throw settings::InputError(name + ": chamber pressure covers " + number((*high - *low) * 1e-3) +
+    throw settings::InputError(name + ": chamber pressure covers " +
+                               settings::roundedText((*high - *low) * 1e-3) +
                                " kPa, but at least 50 kPa are needed to tell anything");
   }
   if (measured.cycles.size() < kFewestCycles) {

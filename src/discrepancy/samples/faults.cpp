@@ -5,6 +5,7 @@
 #include <map>
 
 #include "simulation/effects/effect_library.h"
+#include "statistics/median.h"
 
 namespace fsr::discrepancy {
 
@@ -25,13 +26,6 @@ constexpr std::size_t kLineScans = 2;
 constexpr double kBlock = 5;             // of the slow part of a line's deviation [s]
 constexpr double kBin = 25e3;            // [Pa]
 constexpr double kPressureShows = 0.25;  // of the largest rms
-
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // One visit, scan by scan, against the median of its taxels.
 struct Sheet {
@@ -62,7 +56,7 @@ Sheet sheetOf(const Measured& measured, const Visit& visit) {
     for (std::size_t t = 0; t < measured.taxels(); ++t) {
       if (measured.used[t]) values.push_back(counts[t] / measured.full_scale);
     }
-    sheet.middle.push_back(median(values));
+    sheet.middle.push_back(statistics::upperMedian(values, 0));
   }
   const double most = *std::max_element(sheet.middle.begin(), sheet.middle.end());
   for (std::size_t t = 0; t < measured.taxels(); ++t) {
@@ -70,7 +64,7 @@ Sheet sheetOf(const Measured& measured, const Visit& visit) {
     for (std::size_t i = 0; i < sheet.scans(); i += 3) {
       if (sheet.middle[i] > 0.4 * most) values.push_back(sheet.reading(i, t) / sheet.middle[i]);
     }
-    sheet.ratio.push_back(median(values));
+    sheet.ratio.push_back(statistics::upperMedian(values, 0));
   }
   return sheet;
 }
@@ -146,7 +140,7 @@ std::vector<double> lineDeviation(const Sheet& sheet, const std::vector<std::siz
   for (std::size_t i = 0; i < sheet.scans(); ++i) {
     values.clear();
     for (const std::size_t t : taxels) values.push_back(sheet.reading(i, t) - sheet.expected(i, t));
-    deviation.push_back(median(values));
+    deviation.push_back(statistics::upperMedian(values, 0));
   }
   const double period = sheet.scans() > 1 ? (sheet.time(sheet.scans() - 1) - sheet.time(0)) /
                                                 static_cast<double>(sheet.scans() - 1)
@@ -156,7 +150,7 @@ std::vector<double> lineDeviation(const Sheet& sheet, const std::vector<std::siz
   for (std::size_t from = 0; from < sheet.scans(); from += block) {
     values.assign(deviation.begin() + static_cast<std::ptrdiff_t>(from),
                   deviation.begin() + static_cast<std::ptrdiff_t>(std::min(from + block, sheet.scans())));
-    slow.push_back(median(values));
+    slow.push_back(statistics::upperMedian(values, 0));
   }
   std::vector<double> fast = deviation;
   for (std::size_t i = 0; i < fast.size(); ++i) {
@@ -164,7 +158,7 @@ std::vector<double> lineDeviation(const Sheet& sheet, const std::vector<std::siz
     const std::size_t b = i / block;
     for (std::size_t k = b >= 2 ? b - 2 : 0; k <= std::min(b + 2, slow.size() - 1); ++k)
       around.push_back(slow[k]);
-    fast[i] -= median(around);
+    fast[i] -= statistics::upperMedian(around, 0);
   }
   return fast;
 }
@@ -173,7 +167,7 @@ std::vector<bool> failingScans(const Sheet& sheet, const std::vector<std::size_t
   const std::vector<double> fast = lineDeviation(sheet, taxels);
   std::vector<double> sizes;
   for (const double x : fast) sizes.push_back(std::abs(x));
-  const double usual = 1.48 * median(sizes);
+  const double usual = 1.48 * statistics::upperMedian(sizes, 0);
   std::vector<bool> failing(sheet.scans(), false);
   for (std::size_t i = 0; i < sheet.scans(); ++i) {
     const double least = std::max({kSudden, kSuddenShare * sheet.middle[i], kSuddenNoise * usual});

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+
+#include "settings/number_text.h"
+#include "statistics/median.h"
 
 namespace fsr::discrepancy {
 
@@ -22,13 +24,6 @@ struct Course {
   double peak = 0;   // [Pa]
 };
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 Course courseOf(const Measured& measured, const MeasuredCycle& cycle, double fastest, double highest) {
   Course course;
   std::vector<double> speeds;
@@ -39,7 +34,7 @@ Course courseOf(const Measured& measured, const MeasuredCycle& cycle, double fas
     const bool holds = speed <= kStill * fastest && measured.pressure[i] > kLoaded * highest;
     if (holds && i + 1 < cycle.last) course.dwell += measured.time[i + 1] - measured.time[i];
   }
-  course.speed = median(speeds);
+  course.speed = statistics::upperMedian(speeds, 0);
   course.dwell = std::max(course.dwell, kLeastDwell);
   return course;
 }
@@ -66,13 +61,6 @@ bool anyShown(const Measured& measured, const std::vector<std::size_t>& cycles) 
                      [&](std::size_t c) { return measured.cycles[c].use == CycleUse::kShow; });
 }
 
-std::string figure(double value) {
-  std::ostringstream text;
-  text.precision(2);
-  text << value;
-  return text.str();
-}
-
 // A part that shows nothing, or leaves too few to fit on, is no part: then all count as alike.
 std::vector<Part> partsBy(const Measured& measured, const std::vector<double>& feature, double factor,
                           const char* before, const char* after, double unit) {
@@ -80,7 +68,9 @@ std::vector<Part> partsBy(const Measured& measured, const std::vector<double>& f
   for (const auto& group : groupsBy(feature, factor)) {
     std::vector<double> members;
     for (const std::size_t c : group) members.push_back(feature[c] / unit);
-    if (anyShown(measured, group)) parts.push_back({before + figure(median(members)) + after, group});
+    if (anyShown(measured, group))
+      parts.push_back(
+          {before + settings::roundedText(statistics::upperMedian(members, 0), 2) + after, group});
   }
   return parts.size() < 2 ? std::vector<Part>() : parts;
 }

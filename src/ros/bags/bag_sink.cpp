@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <iomanip>
-#include <sstream>
 #include <utility>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr_ros {
 
@@ -21,12 +20,6 @@ std::string withExtension(const std::string& bag) {
   const std::string end = ".bag";
   const bool has_it = bag.size() >= end.size() && bag.compare(bag.size() - end.size(), end.size(), end) == 0;
   return has_it ? bag : bag + end;
-}
-
-std::string megabytes(std::uint64_t bytes) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(1) << static_cast<double>(bytes) / 1e6 << " MB";
-  return text.str();
 }
 
 // A second recording under the same name would overwrite the first one, or what is left of it after a kill.
@@ -118,9 +111,9 @@ bool BagSink::hasSpace() {
   }
   if (space.available >= options_.least_space) return true;
   if (close()) {
-    end("RECORDING STOPPED: only " + megabytes(space.available) + " are left on the disk, less than " +
-        megabytes(options_.least_space) + "; " + closed_name_ +
-        " was closed and is complete; make room, then start a new recording");
+    end("RECORDING STOPPED: only " + fsr::settings::megabytesText(space.available) +
+        " are left on the disk, less than " + fsr::settings::megabytesText(options_.least_space) + "; " +
+        closed_name_ + " was closed and is complete; make room, then start a new recording");
   }
   return false;
 }

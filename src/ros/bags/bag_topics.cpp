@@ -11,6 +11,9 @@
 #include <map>
 #include <sstream>
 
+#include "settings/number_text.h"
+#include "statistics/median.h"
+
 namespace fsr_ros {
 
 namespace {
@@ -54,9 +57,8 @@ class Course {
     const auto longest = std::max_element(steps.begin(), steps.end());
     course_.longest_gap = *longest;
     course_.gap_at = times_[static_cast<std::size_t>(longest - steps.begin())] - start;
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    if (*middle > 0) course_.rate = 1 / *middle;
+    const double usual = fsr::statistics::upperMedian(steps);
+    if (usual > 0) course_.rate = 1 / usual;
     return course_;
   }
 
@@ -77,13 +79,6 @@ class Course {
   std::vector<double> times_;  // [s]
   std::vector<std::uint8_t> bytes_;
 };
-
-std::string number(double value, int digits) {
-  if (std::isnan(value)) return "-";
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
-}
 
 bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -116,9 +111,11 @@ std::string topicsText(const std::vector<TopicCourse>& courses) {
   };
   row("topic", {"messages", "rate [1/s]", "gap [s]", "at [s]", "backwards", "same stamp", "late [s]"});
   for (const TopicCourse& course : courses) {
-    row(course.topic, {std::to_string(course.messages), number(course.rate, 2), number(course.longest_gap, 3),
-                       number(course.gap_at, 1), std::to_string(course.backwards),
-                       std::to_string(course.repeated), course.stamped ? number(course.latest, 3) : "-"});
+    row(course.topic,
+        {std::to_string(course.messages), fsr::settings::cellText(course.rate, 2),
+         fsr::settings::cellText(course.longest_gap, 3), fsr::settings::cellText(course.gap_at, 1),
+         std::to_string(course.backwards), std::to_string(course.repeated),
+         course.stamped ? fsr::settings::cellText(course.latest, 3) : "-"});
   }
   return out.str();
 }

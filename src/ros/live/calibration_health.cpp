@@ -1,8 +1,8 @@
 #include "ros/live/calibration_health.h"
 
 #include <algorithm>
-#include <iomanip>
-#include <sstream>
+
+#include "settings/number_text.h"
 
 namespace fsr_ros {
 
@@ -14,12 +14,6 @@ using fsr::map::MapState;
 namespace flag = fsr::map::taxel_flag;
 
 constexpr std::size_t kListedTaxels = 10;
-
-std::string rounded(double value) {
-  std::ostringstream text;
-  text << std::setprecision(4) << value;
-  return text.str();
-}
 
 std::size_t flagged(const fsr::map::PressureMap& map, std::uint16_t flags) {
   const auto has = [flags](std::uint16_t f) { return (f & flags) != 0; };
@@ -48,7 +42,7 @@ void addPressures(const fsr::map::PressureMap& map, double contact_threshold, St
     peak = std::max(peak, pressure);
   }
   status.add("taxels in contact", contact);
-  status.add("peak in contact, gauge [kPa]", rounded(peak / 1000));
+  status.add("peak in contact, gauge [kPa]", fsr::settings::roundedText(peak / 1000, 4));
 }
 
 void addFlags(const fsr::map::PressureMap& map, Status& status) {
@@ -122,7 +116,7 @@ void judgeMaps(const CalibrationHealth& before, const CalibrationHealth& now, do
   } else {
     status.summary(Level::OK, "maps are calibrated");
   }
-  status.add("maps a second of wall time", rounded(double(scans) / seconds));
+  status.add("maps a second of wall time", fsr::settings::roundedText(double(scans) / seconds, 4));
   status.add("maps", now.scans);
   status.add("dead taxels that recovered", now.revivals);
   addFlags(now.map, status);

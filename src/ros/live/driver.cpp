@@ -78,7 +78,8 @@ Driver::Driver(const ros::NodeHandle& handle, const ros::NodeHandle& private_han
   service_ = private_handle_.advertiseService("set_enabled", &Driver::setEnabled, this);
   diagnostics_.add("link", [this](auto& status) { judgeLink(before_, now_, settings_, status); });
   diagnostics_.add("scans", [this](auto& status) { judgeScans(before_, now_, settings_, status); });
-  const fsr::protocol::BoardReader::Options options = {settings_.reconnect_delay, settings_.capture_file};
+  const fsr::protocol::BoardReader::Options options = {settings_.reconnect_delay, settings_.capture_file,
+                                                       fsr::protocol::protocolNamed(settings_.protocol).make};
   fsr::protocol::LinkHandler& handler = *this;
   reader_ = std::make_unique<fsr::protocol::BoardReader>(opener(settings_), handler, options);
   timer_ = handle_.createWallTimer(ros::WallDuration(1.0 / kLooksPerSecond),
@@ -153,6 +154,9 @@ void Driver::onBytes(std::int64_t receive_time) {
 }
 
 void Driver::onChange(const fsr::protocol::LinkReport& report) {
+  if (report.handler_faults > 0 && !std::exchange(fault_logged_, true)) {
+    ROS_ERROR_STREAM(private_handle_.getNamespace() << ": " << report.handler_complaint);
+  }
   const std::string sentence = linkSentence(report, settings_);
   if (report.phase == fsr::protocol::LinkPhase::kWaiting ||
       report.phase == fsr::protocol::LinkPhase::kNoTime) {

@@ -66,6 +66,7 @@ class Driver : private fsr::protocol::LinkHandler {
   fsr::protocol::BoardGate gate_;
   std::vector<fsr_pressure_map::MatrixFramePtr> held_;  // scans of a board that has not sent its identity
   std::uint64_t jumps_ = 0;                             // jumps of the board's clock so far
+  bool fault_logged_ = false;                           // an exception of this handler was logged
   std::int64_t arrival_ = 0;                            // time of arrival of the current bytes [ns]
 
   mutable std::mutex mutex_;  // guards health_, which both threads use

@@ -1,9 +1,9 @@
 #include "ros/live/driver_health.h"
 
 #include <cmath>
-#include <iomanip>
 #include <optional>
-#include <sstream>
+
+#include "settings/number_text.h"
 
 namespace fsr_ros {
 namespace {
@@ -13,9 +13,7 @@ using Level = diagnostic_msgs::DiagnosticStatus;
 using fsr::protocol::LinkPhase;
 
 std::string rounded(double value) {
-  std::ostringstream text;
-  text << std::setprecision(3) << value;
-  return text.str();
+  return fsr::settings::roundedText(value, 3);
 }
 
 std::uint64_t packets(const fsr::protocol::DecoderCounts& counts) {
@@ -63,7 +61,7 @@ void summarizeRate(std::optional<double> rate, double expected, double tolerance
 
 void addCounts(const DriverHealth& now, Status& status) {
   const fsr::protocol::DecoderCounts& counts = now.link.counts;
-  const fsr::protocol::SequenceCounts& scans = counts.of(FSR_WIRE_SCAN);
+  const fsr::protocol::SequenceCounts& scans = counts.of(fsr::protocol::PacketType::kScan);
   status.add("scans published", now.scans);
   status.add("scans lost", scans.lost);
   status.add("gaps in the scan counter", scans.gaps);
@@ -78,6 +76,7 @@ void addCounts(const DriverHealth& now, Status& status) {
   status.add("dropped: unknown type", counts.unknown_type);
   status.add("dropped: impossible content", counts.bad_content);
   status.add("skipped bytes", counts.skipped_bytes);
+  status.add("failures of the driver", now.link.handler_faults);
 }
 
 }  // namespace
@@ -116,6 +115,9 @@ void judgeLink(const DriverHealth& before, const DriverHealth& now, const Driver
     status.summary(good ? Level::OK : bad, linkSentence(link, settings));
   }
   if (!link.capture_complaint.empty()) status.mergeSummary(Level::ERROR, link.capture_complaint);
+  if (link.handler_faults > before.link.handler_faults) {
+    status.mergeSummary(Level::ERROR, link.handler_complaint);
+  }
   status.add("serial number", now.board.serial);
   status.add("firmware", now.board.firmware);
   status.add("board", now.board.model);

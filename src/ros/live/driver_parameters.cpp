@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "fsr_pressure_map/protocol/decoder.h"
 #include "ros/bags/resource_path.h"
 
 namespace fsr_ros {
@@ -29,6 +30,7 @@ void readLink(const Parameters& parameters, DriverSettings& settings) {
   settings.serial_port = resolveResource(parameters.text("serial_port", settings.serial_port));
   settings.serial_baud =
       static_cast<std::uint32_t>(parameters.integer("serial_baud", settings.serial_baud, {0, 12e6, "baud"}));
+  settings.protocol = fsr::protocol::protocolNamed(parameters.text("protocol", settings.protocol)).name;
   settings.read_timeout = parameters.number("read_timeout", settings.read_timeout, {0.01, 3600, "s"});
   const double delay = parameters.number("reconnect_delay", 1.0, {0.01, 3600, "s"});
   settings.reconnect_delay = std::chrono::milliseconds(static_cast<std::int64_t>(delay * 1000));

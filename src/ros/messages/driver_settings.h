@@ -22,6 +22,8 @@ struct TransducerLine {
 struct DriverSettings {
   std::string serial_port = "/dev/ttyACM0";
   std::uint32_t serial_baud = 115200;  ///< [1/s]; 0 = native USB, which has no baud rate
+  std::string protocol =
+      "wire";  ///< name of the protocol that the board speaks, see fsr::protocol::protocols()
   std::string frame_id = "fsr_matrix";
   std::string sensor_id;             ///< empty = the board's serial number
   fsr::matrix::MatrixSize expected;  ///< expected matrix size; 0 = accept what the board reports

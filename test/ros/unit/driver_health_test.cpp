@@ -70,6 +70,16 @@ TEST(DriverHealth, ComplainsAboutSilenceBeyondTheTimeout) {
   EXPECT_TRUE(contains(link(now, now), "/dev/ttyACM0 has sent nothing for 1.5 s")) << link(now, now).message;
 }
 
+TEST(DriverHealth, BlamesTheDriverAndNotTheLinkForAFailingHandler) {
+  const DriverHealth before = reading();
+  DriverHealth now = reading();
+  now.link.handler_faults = 1;
+  now.link.handler_complaint = "handling a scan failed in this program, not on the link: out of memory";
+  EXPECT_EQ(link(before, now).level, Level::ERROR);
+  EXPECT_TRUE(contains(link(before, now), now.link.handler_complaint)) << link(before, now).message;
+  EXPECT_FALSE(contains(link(before, now), "waiting")) << link(before, now).message;
+}
+
 TEST(DriverHealth, SuspectsAWrongBaudRateWhenOnlyNoiseComes) {
   const DriverHealth before = reading();
   DriverHealth now = reading();

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/protocol/decoder.h"
+#include "protocol/wire_decoder.h"
 
 #include <gtest/gtest.h>
 
@@ -65,7 +65,7 @@ Bytes withHeader(Bytes packet, std::uint8_t version, std::uint8_t type, std::uin
 // A decoder with what it delivered.
 struct Bench {
   test_support::PacketRecorder recorder;
-  fsr::protocol::Decoder decoder{recorder};
+  fsr::protocol::WireDecoder decoder{recorder};
 
   Bench& feed(const Bytes& bytes) {
     decoder.feed(bytes.data(), bytes.size());
@@ -99,7 +99,7 @@ const Lines kFiveLines = {kFirstScan, "transducer #40 @2000 -2",
                           "temperature #1 @3000 23750",
                           "scan #8 @11000 1x6 full 4095 took 5000 counts 5 6 7 8 9 10"};
 
-TEST(Decoder, ReadsEveryFieldOfAScanFromLiteralBytes) {
+TEST(WireDecoder, ReadsEveryFieldOfAScanFromLiteralBytes) {
   // The packet of docs/wire_format.md, see wire_test.cpp for the Python line that made it.
   const Bytes bytes = {0xA5, 0x5A, 0x01, 0x01, 0x14, 0x00, 0x07, 0x00, 0x00, 0x00, 0x15, 0xCD, 0x5B, 0x07,
                        0x98, 0xC0, 0x02, 0x03, 0xFF, 0x0F, 0x88, 0x13, 0x00, 0x00, 0x00, 0x00, 0x01, 0x00,
@@ -108,14 +108,14 @@ TEST(Decoder, ReadsEveryFieldOfAScanFromLiteralBytes) {
   EXPECT_EQ(linesOf(bytes), expected);
 }
 
-TEST(Decoder, ReadsSeveralPacketsFromOneRead) {
+TEST(WireDecoder, ReadsSeveralPacketsFromOneRead) {
   Bench bench;
   bench.feed(joined(fivePackets()));
   EXPECT_EQ(bench.lines(), kFiveLines);
   EXPECT_EQ(bench.counts().skipped_bytes, 0U);
 }
 
-TEST(Decoder, ReadsTheSamePacketsInChunksOfAnySize) {
+TEST(WireDecoder, ReadsTheSamePacketsInChunksOfAnySize) {
   const Bytes stream = joined(fivePackets());
   for (std::size_t chunk = 1; chunk < stream.size(); ++chunk) {
     Bench bench;
@@ -126,7 +126,7 @@ TEST(Decoder, ReadsTheSamePacketsInChunksOfAnySize) {
   }
 }
 
-TEST(Decoder, DeliversAPacketWithItsLastByteAndNotBefore) {
+TEST(WireDecoder, DeliversAPacketWithItsLastByteAndNotBefore) {
   const Bytes packet = fivePackets().front();
   Bench bench;
   bench.feed({packet.begin(), packet.end() - 1});
@@ -135,7 +135,7 @@ TEST(Decoder, DeliversAPacketWithItsLastByteAndNotBefore) {
   EXPECT_EQ(bench.lines(), Lines{kFirstScan});
 }
 
-TEST(Decoder, LosesOnlyThePacketThatWasCutShortAtAnyByte) {
+TEST(WireDecoder, LosesOnlyThePacketThatWasCutShortAtAnyByte) {
   const std::vector<Bytes> packets = fivePackets();
   for (std::size_t victim = 0; victim < packets.size(); ++victim) {
     Lines expected = kFiveLines;
@@ -149,7 +149,7 @@ TEST(Decoder, LosesOnlyThePacketThatWasCutShortAtAnyByte) {
   }
 }
 
-TEST(Decoder, LosesOnlyThePacketThatAFlippedBitHits) {
+TEST(WireDecoder, LosesOnlyThePacketThatAFlippedBitHits) {
   const std::vector<Bytes> packets = fivePackets();
   for (std::size_t victim = 0; victim < packets.size(); ++victim) {
     Lines expected = kFiveLines;
@@ -162,7 +162,7 @@ TEST(Decoder, LosesOnlyThePacketThatAFlippedBitHits) {
   }
 }
 
-TEST(Decoder, LosesOnlyThePacketThatAnInsertedByteHits) {
+TEST(WireDecoder, LosesOnlyThePacketThatAnInsertedByteHits) {
   const std::vector<Bytes> packets = fivePackets();
   for (std::size_t at = 1; at < packets[0].size(); ++at) {
     for (const int inserted : {0x00, 0xA5, 0x5A, 0xFF}) {
@@ -177,7 +177,7 @@ TEST(Decoder, LosesOnlyThePacketThatAnInsertedByteHits) {
   }
 }
 
-TEST(Decoder, DoesNotWaitForTheLengthOfADamagedHeader) {
+TEST(WireDecoder, DoesNotWaitForTheLengthOfADamagedHeader) {
   Bytes huge = fivePackets().front();
   huge[5] = 0x20;  // length 20 becomes 8,212
   Bench bench;
@@ -186,7 +186,7 @@ TEST(Decoder, DoesNotWaitForTheLengthOfADamagedHeader) {
   EXPECT_EQ(bench.counts().bad_header_check, 1U);
 }
 
-TEST(Decoder, CountsDamageByItsCause) {
+TEST(WireDecoder, CountsDamageByItsCause) {
   const Bytes whole = transducer(40, 2000, -2);
   Bytes bad_check = whole;
   bad_check.back() ^= 1U;
@@ -205,7 +205,7 @@ TEST(Decoder, CountsDamageByItsCause) {
   EXPECT_EQ(bench.counts().bytes, 8 * whole.size());
 }
 
-TEST(Decoder, RefusesSoundPacketsThatSayWhatCannotBe) {
+TEST(WireDecoder, RefusesSoundPacketsThatSayWhatCannotBe) {
   Bytes no_rows = scan(1, 1000, {1, 2});
   no_rows[16] = 0;
   Bytes other_size = scan(2, 1000, {1, 2});
@@ -221,7 +221,7 @@ TEST(Decoder, RefusesSoundPacketsThatSayWhatCannotBe) {
   EXPECT_EQ(bench.feed(transducer(1, 1, 1)).lines().size(), 1U);
 }
 
-TEST(Decoder, FindsPacketsInsideTheRuinsOfADamagedOne) {
+TEST(WireDecoder, FindsPacketsInsideTheRuinsOfADamagedOne) {
   // A scan that lost bytes reaches, by its own sound length, into the packets behind it.
   const std::vector<Bytes> packets = fivePackets();
   Bytes ruined = packets[0];
@@ -232,7 +232,7 @@ TEST(Decoder, FindsPacketsInsideTheRuinsOfADamagedOne) {
   EXPECT_EQ(bench.counts().bad_packet_check, 1U);
 }
 
-TEST(Decoder, ReadsSyncBytesAndWholePacketsInsideAPayload) {
+TEST(WireDecoder, ReadsSyncBytesAndWholePacketsInsideAPayload) {
   // A payload made of a transducer packet and of sync words, and counts of 16 bits.
   const Bytes inner = transducer(1, 2, 3) + Bytes{0xA5, 0x5A, 0xA5, 0xA5, 0x5A, 0x5A};
   std::vector<std::uint16_t> counts;
@@ -247,7 +247,7 @@ TEST(Decoder, ReadsSyncBytesAndWholePacketsInsideAPayload) {
   EXPECT_EQ(bench.counts().skipped_bytes, 0U);
 }
 
-TEST(Decoder, ReadsTheLargestScanBehindTheLargestDamagedOne) {
+TEST(WireDecoder, ReadsTheLargestScanBehindTheLargestDamagedOne) {
   std::vector<std::uint16_t> counts(64 * 64);
   for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = static_cast<std::uint16_t>(i);
   const fsr_wire_scan content = {64, 64, 4095, 0, counts.data()};
@@ -261,7 +261,7 @@ TEST(Decoder, ReadsTheLargestScanBehindTheLargestDamagedOne) {
   EXPECT_EQ(bench.lines()[0].substr(bench.lines()[0].size() - 10), " 4094 4095");
 }
 
-TEST(Decoder, FindsNothingInRandomNoise) {
+TEST(WireDecoder, FindsNothingInRandomNoise) {
   // A false packet needs sync, version, type, length and 48 bits of check to fit: below 1e-16 in 8 MB.
   std::mt19937 random(1);
   Bytes noise(std::size_t{1} << 23);
@@ -274,35 +274,35 @@ TEST(Decoder, FindsNothingInRandomNoise) {
   EXPECT_EQ(bench.feed(joined(fivePackets())).lines(), kFiveLines);
 }
 
-TEST(Decoder, CountsGapsDuplicatesAndRestartsOfEachTypeOnItsOwn) {
+TEST(WireDecoder, CountsGapsDuplicatesAndRestartsOfEachTypeOnItsOwn) {
   Bench bench;
   for (const std::uint32_t sequence : {10, 11, 14, 14, 15, 0, 1}) {
     bench.feed(scan(sequence, sequence * 1000, {1})).feed(transducer(0xFFFFFFFE + sequence, sequence, 0));
   }
-  const fsr::protocol::SequenceCounts& scans = bench.counts().of(FSR_WIRE_SCAN);
+  const fsr::protocol::SequenceCounts& scans = bench.counts().of(fsr::protocol::PacketType::kScan);
   EXPECT_EQ(scans.packets, 6U);
   EXPECT_EQ(scans.gaps, 1U);
   EXPECT_EQ(scans.lost, 2U);
   EXPECT_EQ(scans.duplicates, 1U);
   EXPECT_EQ(scans.restarts, 1U);
-  EXPECT_EQ(bench.counts().of(FSR_WIRE_TEMPERATURE).packets, 0U);
+  EXPECT_EQ(bench.counts().of(fsr::protocol::PacketType::kTemperature).packets, 0U);
 }
 
-TEST(Decoder, CountsNoGapWhereTheCounterWraps) {
+TEST(WireDecoder, CountsNoGapWhereTheCounterWraps) {
   Bench bench;
   for (const std::uint32_t sequence : {0xFFFFFFFEU, 0xFFFFFFFFU, 0U, 1U})
     bench.feed(transducer(sequence, sequence, 0));
-  EXPECT_EQ(bench.counts().of(FSR_WIRE_TRANSDUCER).packets, 4U);
-  EXPECT_EQ(bench.counts().of(FSR_WIRE_TRANSDUCER).gaps, 0U);
-  EXPECT_EQ(bench.counts().of(FSR_WIRE_TRANSDUCER).restarts, 0U);
+  EXPECT_EQ(bench.counts().of(fsr::protocol::PacketType::kTransducer).packets, 4U);
+  EXPECT_EQ(bench.counts().of(fsr::protocol::PacketType::kTransducer).gaps, 0U);
+  EXPECT_EQ(bench.counts().of(fsr::protocol::PacketType::kTransducer).restarts, 0U);
 }
 
-TEST(Decoder, CountsNoGapAcrossTheEndOfAStream) {
+TEST(WireDecoder, CountsNoGapAcrossTheEndOfAStream) {
   Bench bench;
   bench.feed(transducer(1, 1, 0) + Bytes{0xA5, 0x5A, 0x01}).decoder.finish();
   bench.feed(transducer(100, 1, 0));
   EXPECT_EQ(bench.lines().size(), 2U);
-  EXPECT_EQ(bench.counts().of(FSR_WIRE_TRANSDUCER).gaps, 0U);
+  EXPECT_EQ(bench.counts().of(fsr::protocol::PacketType::kTransducer).gaps, 0U);
   EXPECT_EQ(bench.counts().skipped_bytes, 3U);
 }
 

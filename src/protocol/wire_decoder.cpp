@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/protocol/decoder.h"
+#include "protocol/wire_decoder.h"
 
 #include <algorithm>
 #include <cstring>
@@ -23,8 +23,17 @@ std::string_view getText(const std::uint8_t* at) {
   return {text, strnlen(text, FSR_WIRE_TEXT_SIZE)};
 }
 
+static_assert(FSR_WIRE_IDENTITY - FSR_WIRE_SCAN + 1 == kPacketTypes &&
+                  FSR_WIRE_TRANSDUCER - FSR_WIRE_SCAN == static_cast<unsigned>(PacketType::kTransducer) &&
+                  FSR_WIRE_TEMPERATURE - FSR_WIRE_SCAN == static_cast<unsigned>(PacketType::kTemperature),
+              "the wire format numbers the packet types in the order of PacketType");
+
 bool typeIsKnown(unsigned type) {
   return type >= FSR_WIRE_SCAN && type <= FSR_WIRE_IDENTITY;
+}
+
+PacketType typeOf(const std::uint8_t* packet) {
+  return static_cast<PacketType>(packet[3] - FSR_WIRE_SCAN);
 }
 
 bool lengthFits(unsigned type, std::size_t length) {
@@ -45,7 +54,7 @@ bool sizeIsPossible(matrix::MatrixSize size, std::uint16_t full_scale) {
 
 }  // namespace
 
-void Decoder::feed(const std::uint8_t* bytes, std::size_t size) {
+void WireDecoder::feed(const std::uint8_t* bytes, std::size_t size) {
   counts_.bytes += size;
   while (size > 0) {
     const std::size_t taken = std::min(size, buffer_.size() - end_);
@@ -59,7 +68,7 @@ void Decoder::feed(const std::uint8_t* bytes, std::size_t size) {
   }
 }
 
-void Decoder::finish() {
+void WireDecoder::finish() {
   while (available() > 0) {
     if (!step() && available() > 0) skip(1);
   }
@@ -67,8 +76,8 @@ void Decoder::finish() {
   last_ = {};
 }
 
-// Goes on by one packet or one place that is none; false where only more bytes can tell.
-bool Decoder::step() {
+// Consumes one packet or one place that is none; false where more bytes are needed to decide.
+bool WireDecoder::step() {
   skipToSync();
   if (available() < FSR_WIRE_HEADER_SIZE) return false;
   if (!headerIsSound()) {
@@ -88,13 +97,13 @@ bool Decoder::step() {
   return true;
 }
 
-void Decoder::skip(std::size_t size) {
+void WireDecoder::skip(std::size_t size) {
   begin_ += size;
   counts_.skipped_bytes += size;
 }
 
-// Stops at a sync word or at a last byte that may be the first half of one.
-void Decoder::skipToSync() {
+// Stops at a sync word, or at a last byte that may be its first half.
+void WireDecoder::skipToSync() {
   while (available() > 0) {
     const void* found = std::memchr(front(), FSR_WIRE_SYNC_0, available());
     if (found == nullptr) return skip(available());
@@ -104,14 +113,14 @@ void Decoder::skipToSync() {
   }
 }
 
-void Decoder::compact() {
+void WireDecoder::compact() {
   if (begin_ == 0) return;
   std::memmove(buffer_.data(), front(), available());
   end_ -= begin_;
   begin_ = 0;
 }
 
-bool Decoder::headerIsSound() {
+bool WireDecoder::headerIsSound() {
   const std::uint8_t* header = front();
   std::uint64_t* cause = nullptr;
   if (fsr_wire_crc16(header + 2, 12) != get16(header + 14)) {
@@ -127,22 +136,22 @@ bool Decoder::headerIsSound() {
   return cause == nullptr;
 }
 
-void Decoder::deliver(std::size_t payload_size) {
+void WireDecoder::deliver(std::size_t payload_size) {
   const std::uint8_t* packet = front();
-  const unsigned type = packet[3];
+  const PacketType type = typeOf(packet);
   const PacketHeader header = {get32(packet + 6), get32(packet + 10), FSR_WIRE_OVERHEAD + payload_size};
   if (!isNew(type, header)) return;
   if (deliverContent(type, header, packet + FSR_WIRE_HEADER_SIZE, payload_size)) {
-    ++counts_.sequences[type - FSR_WIRE_SCAN].packets;
+    ++counts_.of(type).packets;
   } else {
     ++counts_.bad_content;
   }
 }
 
-// Keeps the books on the board's counter; false for a packet that came twice.
-bool Decoder::isNew(unsigned type, const PacketHeader& header) {
-  Last& last = last_[type - FSR_WIRE_SCAN];
-  SequenceCounts& counts = counts_.sequences[type - FSR_WIRE_SCAN];
+// Counts gaps and restarts of the board's counter; false for a duplicate packet.
+bool WireDecoder::isNew(PacketType type, const PacketHeader& header) {
+  Last& last = last_[static_cast<std::size_t>(type)];
+  SequenceCounts& counts = counts_.of(type);
   const std::uint32_t step = header.sequence - last.sequence;
   const bool twice = last.known && step == 0 && header.device_time == last.device_time;
   if (twice) {
@@ -157,12 +166,12 @@ bool Decoder::isNew(unsigned type, const PacketHeader& header) {
   return !twice;
 }
 
-bool Decoder::deliverContent(unsigned type, const PacketHeader& header, const std::uint8_t* payload,
-                             std::size_t size) {
-  if (type == FSR_WIRE_SCAN) return deliverScan(header, payload, size);
-  if (type == FSR_WIRE_IDENTITY) return deliverIdentity(header, payload);
+bool WireDecoder::deliverContent(PacketType type, const PacketHeader& header, const std::uint8_t* payload,
+                                 std::size_t size) {
+  if (type == PacketType::kScan) return deliverScan(header, payload, size);
+  if (type == PacketType::kIdentity) return deliverIdentity(header, payload);
   const auto value = static_cast<std::int32_t>(get32(payload));
-  if (type == FSR_WIRE_TRANSDUCER) {
+  if (type == PacketType::kTransducer) {
     handler_.onTransducer(header, value);
   } else {
     handler_.onTemperature(header, value);
@@ -170,7 +179,7 @@ bool Decoder::deliverContent(unsigned type, const PacketHeader& header, const st
   return true;
 }
 
-bool Decoder::deliverScan(const PacketHeader& header, const std::uint8_t* payload, std::size_t size) {
+bool WireDecoder::deliverScan(const PacketHeader& header, const std::uint8_t* payload, std::size_t size) {
   const ScanPacket scan = {
       {payload[0], payload[1]}, get16(payload + 2), get32(payload + 4), scan_counts_.data()};
   const std::size_t taxels = scan.size.taxels();
@@ -184,7 +193,7 @@ bool Decoder::deliverScan(const PacketHeader& header, const std::uint8_t* payloa
   return true;
 }
 
-bool Decoder::deliverIdentity(const PacketHeader& header, const std::uint8_t* payload) {
+bool WireDecoder::deliverIdentity(const PacketHeader& header, const std::uint8_t* payload) {
   const std::uint8_t* numbers = payload + 3 * FSR_WIRE_TEXT_SIZE;
   IdentityPacket identity;
   identity.serial = getText(payload);
