@@ -1,4 +1,5 @@
-// The training node beside the tool `train`: a bag that is replayed without loss gives the same tables.
+// The training node compared with the tool `train`: a bag that is replayed without loss gives the same
+// tables.
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// `rosbag play` in a process group of its own; it keeps its connections until it is destroyed.
+/// `rosbag play` in its own process group; it keeps its connections until it is destroyed.
 class Replay {
  public:
   explicit Replay(const std::string& bag) : child_(::fork()) {
@@ -145,7 +146,7 @@ TEST_F(Training, AReplayedBagGivesTheTablesOfTheTool) {
   EXPECT_EQ(live.warnings, std::vector<std::string>{});
 }
 
-TEST_F(Training, ClearForgetsWhatWasGathered) {
+TEST_F(Training, ClearRemovesWhatWasCollected) {
   const std_srvs::Trigger::Response answer = call("training/clear");
   EXPECT_TRUE(answer.success);
   EXPECT_EQ(answer.message, "forgot 600 scans");

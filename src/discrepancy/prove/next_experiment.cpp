@@ -41,7 +41,7 @@ struct Block {
 const Block kHoursApart[] = {
     {600, 6, false}, {7200, 6, true}, {7200, 6, false}, {300, 60, false}, {10800, 6, false}};
 
-// What a chamber with a regulator can do; the names are those that a user finds in the README.
+// Protocols for a chamber with a regulator. The names are those in docs/discrepancy.md.
 const Protocol kProtocols[] = {
     {"two_speeds", "cycles at 8 and at 40 kPa/s with dwells of some ten seconds at half and full pressure",
      "[{cycles: {peak: 620000, rate: 40000, dwell_peak: 10, cycles: 3}},"

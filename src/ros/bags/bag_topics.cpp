@@ -15,7 +15,7 @@ namespace fsr_ros {
 
 namespace {
 
-// A stamped type's definition begins with its header, comments aside.
+// The definition of a stamped type begins with its header, after comments.
 bool beginsWithHeader(const std::string& definition) {
   std::istringstream lines(definition);
   for (std::string line; std::getline(lines, line);) {
@@ -26,6 +26,7 @@ bool beginsWithHeader(const std::string& definition) {
   return false;
 }
 
+// Collects the times of one topic.
 class Course {
  public:
   explicit Course(const rosbag::ConnectionInfo& connection) {
@@ -38,7 +39,7 @@ class Course {
     ++course_.messages;
     const double arrival = instance.getTime().toSec();
     const double time = course_.stamped ? stampOf(instance) : arrival;
-    if (time <= 0) return;  // no stamp was set
+    if (time <= 0) return;  // the publisher set no stamp
     if (!times_.empty() && time < times_.back()) ++course_.backwards;
     if (!times_.empty() && time == times_.back()) ++course_.repeated;
     if (course_.stamped) course_.latest = std::max(course_.latest, arrival - time);
@@ -60,7 +61,7 @@ class Course {
   }
 
  private:
-  // A header is serialised as seq, secs, nsecs, 32 bits each.
+  // A header is serialised as seq, secs and nsecs, 32 bits each.
   double stampOf(const rosbag::MessageInstance& instance) {
     bytes_.resize(instance.size());
     if (bytes_.size() < 12) return 0;

@@ -75,18 +75,19 @@ std::string stateSentence(const CalibrationHealth& health) {
     case MapState::kOk:
       return "";
     case MapState::kUncalibrated:
-      return "maps are empty, for no calibration is loaded: " + health.complaint;
+      return "maps are empty because no calibration is loaded: " + health.complaint;
     case MapState::kCurvatureUnknown:
-      return "curvature is unknown, so every taxel uses its flattest class: " +
-             (health.surface_complaint.empty() ? "no curvature came" : health.surface_complaint);
+      return "the curvature is unknown, so every taxel uses the flattest trained surface: " +
+             (health.surface_complaint.empty() ? "no curvature has been received" : health.surface_complaint);
     case MapState::kCurvatureStale:
-      return "the last curvature is older than ~curvature_timeout and still in use: is its node alive?";
+      return "the last curvature is older than ~curvature_timeout, but still in use: is the curvature node "
+             "running?";
     case MapState::kSizeMismatch:
-      return "maps are empty, for the board sends " + sizeText(health.map.layout.size) +
-             " taxels or has a full scale that are not the calibration's (" + health.info.path + ")";
+      return "maps are empty because the board sends " + sizeText(health.map.layout.size) +
+             " taxels, and this size or the full scale is not that of the calibration " + health.info.path;
     case MapState::kWrongSensor:
-      return "the board is " + health.board + ", but the calibration was made with " +
-             health.info.sensor_serial;
+      return "the board has the serial number " + health.board +
+             ", but the calibration was trained with board " + health.info.sensor_serial;
   }
   return "";
 }
@@ -113,7 +114,7 @@ void judgeMaps(const CalibrationHealth& before, const CalibrationHealth& now, do
   const std::string complaint = stateSentence(now);
   const std::size_t bad = flagged(now.map, flag::kDead | flag::kStuck);
   if (scans == 0) {
-    status.summary(Level::ERROR, "waiting for scans: none came on " + scan_topic);
+    status.summary(Level::ERROR, "waiting for scans: none has come on " + scan_topic);
   } else if (!complaint.empty()) {
     status.summary(isError(now.map.state) ? Level::ERROR : Level::WARN, complaint);
   } else if (bad > 0) {
@@ -123,7 +124,7 @@ void judgeMaps(const CalibrationHealth& before, const CalibrationHealth& now, do
   }
   status.add("maps a second of wall time", rounded(double(scans) / seconds));
   status.add("maps", now.scans);
-  status.add("taxels come back to life", now.revivals);
+  status.add("dead taxels that recovered", now.revivals);
   addFlags(now.map, status);
   addPressures(now.map, contact_threshold, status);
 }

@@ -31,13 +31,13 @@ bool onlyNoise(const DriverHealth& before, const DriverHealth& now) {
 }
 
 std::string noiseSentence(const DriverSettings& settings) {
-  return "bytes come from " + sourceName(settings) + ", but none of them makes a packet: is serial_baud " +
-         std::to_string(settings.serial_baud) + " the board's rate, and is it this board's port?";
+  return sourceName(settings) + " sends bytes, but no valid packet: is serial_baud " +
+         std::to_string(settings.serial_baud) + " the baud rate of the board, and is this its port?";
 }
 
 std::string silenceSentence(double silence, const DriverSettings& settings) {
-  return "no byte from " + sourceName(settings) + " for " + rounded(silence) +
-         " s: is the board powered and does its firmware run?";
+  return sourceName(settings) + " has sent nothing for " + rounded(silence) +
+         " s: does the board have power, and is its firmware running?";
 }
 
 double expectedRate(const Board& board, const DriverSettings& settings) {
@@ -45,7 +45,7 @@ double expectedRate(const Board& board, const DriverSettings& settings) {
   return board.scan_period > 0 ? 1 / board.scan_period : 0;
 }
 
-// Scans a second of the board's own time [1/s]; none where the two moments do not tell.
+// Scan rate in the board's own time [1/s]; none if the two samples are not enough to compute it.
 std::optional<double> scanRate(const DriverHealth& before, const DriverHealth& now) {
   if (before.scans == 0 || now.scan_time <= before.scan_time) return std::nullopt;
   return static_cast<double>(now.scans - before.scans) /
@@ -55,7 +55,7 @@ std::optional<double> scanRate(const DriverHealth& before, const DriverHealth& n
 void summarizeRate(std::optional<double> rate, double expected, double tolerance, Status& status) {
   const std::string text = rate ? rounded(*rate) + " scans a second" : "first scans of the board";
   if (rate && expected > 0 && std::abs(*rate - expected) > tolerance * expected) {
-    status.summary(Level::WARN, text + " where " + rounded(expected) + " are expected");
+    status.summary(Level::WARN, text + ", but " + rounded(expected) + " are expected");
   } else {
     status.summary(Level::OK, text);
   }
@@ -70,7 +70,7 @@ void addCounts(const DriverHealth& now, Status& status) {
   status.add("duplicate scans", scans.duplicates);
   status.add("restarts of the board", scans.restarts);
   status.add("scans of another size", now.refused_scans);
-  status.add("dropped: board never named itself", now.unclaimed_scans);
+  status.add("dropped: board sent no identity", now.unclaimed_scans);
   status.add("dropped: packet check", counts.bad_packet_check);
   status.add("dropped: header check", counts.bad_header_check);
   status.add("dropped: length", counts.bad_length);
@@ -96,9 +96,9 @@ std::string linkSentence(const fsr::protocol::LinkReport& report, const DriverSe
     case LinkPhase::kReading:
       return "reading " + source;
     case LinkPhase::kNoTime:
-      return "waiting for /clock: use_sim_time is true and no time has come";
+      return "waiting for /clock: use_sim_time is true, but no time has been published";
     case LinkPhase::kEnded:
-      return source + " is over" + (report.reason.empty() ? "" : ": " + report.reason);
+      return source + " has ended" + (report.reason.empty() ? "" : ": " + report.reason);
   }
   return "";
 }
@@ -132,8 +132,8 @@ void judgeScans(const DriverHealth& before, const DriverHealth& now, const Drive
   const double expected = expectedRate(now.board, settings);
   if (now.refused_scans > before.refused_scans) {
     status.summary(Level::ERROR, "the board sends " + sizeText(now.board.size) +
-                                     " taxels, but rows and columns say " + sizeText(settings.expected) +
-                                     ": no scan is published");
+                                     " taxels, but the parameters rows and columns are " +
+                                     sizeText(settings.expected) + ": no scan is published");
   } else if (now.scans > before.scans) {
     summarizeRate(rate, expected, settings.frequency_tolerance, status);
   } else {

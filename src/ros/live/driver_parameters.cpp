@@ -15,7 +15,7 @@ TransducerLine readLine(const Parameters& parameters) {
   line.slope = parameters.number("transducer_slope", line.slope, {-1e6, 1e6, "Pa/count"});
   line.absolute = parameters.flag("transducer_absolute", line.absolute);
   line.deviation = parameters.number("transducer_deviation", line.deviation, {0, 1e7, "Pa"});
-  if (line.slope == 0) throw parameters.error("transducer_slope", "a line without slope measures nothing");
+  if (line.slope == 0) throw parameters.error("transducer_slope", "must not be 0");
   return line;
 }
 
@@ -34,7 +34,7 @@ void readLink(const Parameters& parameters, DriverSettings& settings) {
   settings.reconnect_delay = std::chrono::milliseconds(static_cast<std::int64_t>(delay * 1000));
   settings.capture_file = resolveResource(parameters.text("capture_file", ""));
   settings.replay_file = resolveResource(parameters.text("replay_file", ""));
-  if (settings.serial_port.empty()) throw parameters.error("serial_port", "must name the board's port");
+  if (settings.serial_port.empty()) throw parameters.error("serial_port", "must name the port of the board");
 }
 
 void readIdentity(const Parameters& parameters, DriverSettings& settings) {

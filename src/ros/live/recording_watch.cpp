@@ -56,13 +56,14 @@ void RecordingWatch::judge(const RecordingLook& look, double time,
   const double still = time - last_->time;
   const std::string left = megabytes(look.space) + " are left on its disk";
   if (!endsWith(look.file, ".active")) {
-    status.summary(Level::WARN, "the recording is over: " + look.file + " is closed");
+    status.summary(Level::WARN, "the recording has ended: " + look.file + " is closed");
   } else if (look.space < least_space_) {
-    status.summary(Level::ERROR, "NOTHING IS RECORDED: " + left + ", and recording stops below " +
+    status.summary(Level::ERROR, "RECORDING STOPPED: " + left + ", and recording stops below " +
                                      megabytes(least_space_) + "; make room, then start a new recording");
   } else if (still > patience_) {
     status.summary(Level::ERROR, look.file + " has not grown for " + seconds(still) +
-                                     ": do scans come (see the driver's diagnostics)? " + left);
+                                     ": does the board send scans (see the diagnostics of the driver)? " +
+                                     left);
   } else {
     status.summary(Level::OK, "recording to " + look.file + ": " + megabytes(look.size) + ", " + left);
   }

@@ -36,7 +36,7 @@ fsr::settings::CommandLine options(const std::vector<ExportFormat>& formats) {
   purpose << "docs/exports.md describes every column and dataset.";
   fsr::settings::CommandLine line(
       "export", "BAG... --to FORMAT --output PATH, or ARCHIVE --to bag --output BAG", purpose.str());
-  line.option("to", "FORMAT", "format of the output")
+  line.option("to", "FORMAT", "format to write")
       .option("output", "PATH", "file to write; an existing file is replaced")
       .option("calibration", "FILE", "compute the maps with this calibration instead of using recorded ones")
       .option("from", "S", "start, in seconds since the first scan (0)")

@@ -70,7 +70,7 @@ class ExportTool : public testing::Test {
     }
   }
 
-  // The table's columns by name.
+  // The columns of the table by name.
   static std::map<std::string, std::vector<std::string>> table(const std::string& path) {
     std::ifstream file(path);
     std::vector<std::string> names;
@@ -94,7 +94,7 @@ class ExportTool : public testing::Test {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_.path()), {}));
   }
 
-  // The bag with a map for each scan, and an event at second 5.
+  // The bag with a map for each scan, and an event 5 s after the start.
   std::string withMaps() {
     const std::string path = folder_.path("maps.bag");
     rosbag::Bag from(bag_), to(path, rosbag::bagmode::Write);
@@ -187,7 +187,7 @@ TEST_F(ExportTool, WritesTekscanFrames) {
   EXPECT_NE(text.find("SECONDS_PER_FRAME 0.1000"), std::string::npos);
 }
 
-TEST_F(ExportTool, DrawsMapsInThePaceThatIsAskedFor) {
+TEST_F(ExportTool, DrawsMapsAtTheGivenRate) {
   const std::string bag = withMaps(), pictures = folder_.path("pictures");
   EXPECT_EQ(run({bag, "--to", "png", "--output", pictures, "--rate", "2", "--until", "3"}),
             "7 scans written to " + pictures + "\n");
@@ -216,7 +216,7 @@ TEST_F(ExportTool, RefusesACalibrationOfAnotherMatrix) {
   EXPECT_FALSE(fs::exists(csv_));
 }
 
-// A message as a bag holds it.
+// A message as stored in a bag.
 using Held = std::tuple<std::string, std::string, std::uint64_t, std::string, ros::M_string>;
 
 std::vector<Held> messagesOf(const std::string& path) {
@@ -240,8 +240,8 @@ void expectSame(const std::vector<Held>& after, const std::vector<Held>& before)
   }
 }
 
-// Two publishers of one topic, types of others, texts and times that columns cannot hold, arrays of all
-// sizes.
+// Two publishers of one topic, types of other packages, texts and times that columns cannot hold, and arrays
+// of all sizes.
 void addOddMessages(const std::string& path) {
   rosbag::Bag bag(path, rosbag::bagmode::Append);
   const auto header = [](const char* caller) {
@@ -254,7 +254,7 @@ void addOddMessages(const std::string& path) {
                       {"message_definition", ros::message_traits::definition<std_msgs::String>()}});
   };
   for (int i = 0; i < 40; ++i) {
-    const ros::Time time(1500000001, 1000 * (i / 4));  // ten moments, four messages each
+    const ros::Time time(1500000001, 1000 * (i / 4));  // ten times, four messages each
     std_msgs::String text;
     text.data = i % 7 == 3 ? std::string("a\0b", 3) : "text " + std::to_string(i);
     bag.write("/twice", time, text, header(i % 2 == 0 ? "/one" : "/two"));
@@ -266,12 +266,12 @@ void addOddMessages(const std::string& path) {
     bag.write("/diagnostics", time, diagnostics);
     std_msgs::Duration duration;
     duration.data = ros::Duration(-3, 7 + i);
-    bag.write("/fsr", time, duration);  // the beginning of other topics' names
+    bag.write("/fsr", time, duration);  // also the beginning of other topics' names
     std_msgs::UInt8MultiArray array;
     array.data.assign(static_cast<std::size_t>(i % 5), 7);
     bag.write("/odd name", time, array);
     std_msgs::Header unusual;
-    unusual.stamp.nsec = 2000000000;  // more than a second of them
+    unusual.stamp.nsec = 2000000000;  // more than one second
     bag.write("/unusual", time, unusual);
     bag.write("/empty", time, std_msgs::Empty());
   }
@@ -304,7 +304,7 @@ TEST_F(ExportTool, AnArchiveIsReadPlainlyByH5py) {
                              fsr::settings::sha256OfFile(folder_.path("maps.bag")) + "\n");
 }
 
-// The joined scans say what the table says.
+// The joined scans are equal to those of the table.
 TEST_F(ExportTool, AnArchiveHoldsTheJoinedScans) {
   if (test_support::outputOf("/usr/bin/python3 -c 'import h5py' 2>&1").status != 0) {
     GTEST_SKIP() << "h5py is not installed (Debian package python3-h5py): it was NOT tried";
@@ -349,7 +349,8 @@ TEST_F(ExportTool, ArchivesABagWithAMalformedScanAllTheSame) {
   const std::string said = run({bag_, "--to", "hdf5", "--output", archive});
   EXPECT_NE(said.find("Warning: the group /scans is incomplete: " + bag_), std::string::npos) << said;
   run({archive, "--to", "bag", "--output", back});
-  // Appending made a second connection like the first; the new bag has one, so moments have another order.
+  // Appending created a second connection like the first one. The new bag has one, so messages with the same
+  // time are in another order.
   std::vector<Held> before = messagesOf(bag_), after = messagesOf(back);
   std::sort(before.begin(), before.end());
   std::sort(after.begin(), after.end());
@@ -385,7 +386,7 @@ TEST_F(ExportTool, RefusesADamagedArchive) {
   EXPECT_FALSE(fs::exists(back));
 }
 
-// Changes a dataset of an archive, and signs the file anew: a hash is no signature.
+// Changes a dataset of an archive and updates its hash.
 constexpr char kForge[] = R"(
 import hashlib, sys, h5py
 path, name, what = sys.argv[1:]
@@ -401,7 +402,7 @@ data[:512] = line.ljust(512, b'\0')
 open(path, 'wb').write(data)
 )";
 
-TEST_F(ExportTool, RefusesAnArchiveThatWasChangedAndSignedAnew) {
+TEST_F(ExportTool, RefusesAChangedArchiveWithAnUpdatedHash) {
   if (test_support::outputOf("/usr/bin/python3 -c 'import h5py' 2>&1").status != 0) {
     GTEST_SKIP() << "h5py is not installed (Debian package python3-h5py): it was NOT tried";
   }
@@ -428,7 +429,7 @@ TEST_F(ExportTool, RefusesAnArchiveThatWasChangedAndSignedAnew) {
   EXPECT_FALSE(fs::exists(back));
 }
 
-TEST_F(ExportTool, LeavesNothingBehindWhereTheDiskIsFull) {
+TEST_F(ExportTool, LeavesNoFileWhenTheDiskIsFull) {
   const std::string maps = withMaps(), archive = folder_.path("all.h5");
   run({maps, "--to", "hdf5", "--output", archive});
   const std::size_t before = files();
@@ -491,7 +492,7 @@ TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
   const std::string cut = folder_.path("cut.bag");
   fs::copy_file(bag_, cut);
   fs::resize_file(cut, fs::file_size(cut) / 2);
-  EXPECT_NE(refusal({cut}).find("is no whole bag"), std::string::npos);
+  EXPECT_NE(refusal({cut}).find("is not a complete bag"), std::string::npos);
   EXPECT_EQ(files(), 3u) << "the bags alone";
   EXPECT_EQ(run({bag_, "--to", "csv", "--output", bag_}),
             "--output is " + bag_ + " itself; give another name");

@@ -11,8 +11,8 @@
 #include <set>
 #include <sstream>
 
+#include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/bag_reader.h"
 #include "ros/bags/bag_writer.h"
 #include "simulation/portrait.h"
 #include "simulation/session.h"
@@ -52,7 +52,7 @@ class SimulateTool : public testing::Test {
 
   fs::path folder_;
   int status_ = -1;
-  std::string printed_;  // before it failed
+  std::string printed_;  // output before the error
 };
 
 std::set<std::string> topicsOf(const std::string& bag_path) {
@@ -226,7 +226,7 @@ TEST_F(SimulateTool, SaysWhatADrivenModelIsLikeAndWhatItMissed) {
   EXPECT_EQ(status_, 0) << printed;
   EXPECT_NE(printed.find("is of a matrix of 2 x 5"), std::string::npos) << printed;
   EXPECT_NE(printed.find("holds no temperature"), std::string::npos) << printed;
-  EXPECT_NE(printed.find("the model lies flat there"), std::string::npos) << printed;
+  EXPECT_NE(printed.find("the simulated matrix lies flat there"), std::string::npos) << printed;
   const auto truth = fsr::simulation::readSimulationFile(path("model/truth.yaml"));
   EXPECT_EQ(truth.layout.size, (fsr::matrix::MatrixSize{2, 5}));
   EXPECT_EQ(truth.fullScale(), 1023);

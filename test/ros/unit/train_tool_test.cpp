@@ -86,7 +86,7 @@ TEST_F(TrainTool, TakesItsOptions) {
   EXPECT_TRUE(calibration.scores.conditions.empty());
   EXPECT_NE(text.find("Scores were not computed."), std::string::npos);
   EXPECT_TRUE(fs::exists(report));
-  EXPECT_NE(text.find("Report is in " + report + "\n"), std::string::npos);
+  EXPECT_NE(text.find("Report written to " + report + "\n"), std::string::npos);
 }
 
 TEST_F(TrainTool, TrainsEverySchemeByItsName) {
@@ -131,8 +131,8 @@ TEST_F(TrainTool, MergesCalibrations) {
   run({bend_, "--output", b});
   run({flat, bend_, "--output", whole});
   const std::string text = run({"--merge", a, b, "--output", merged, "--threads", "1"});
-  EXPECT_NE(text.find("Scores need the bags"), std::string::npos) << text;
-  EXPECT_NE(text.find(" is in " + merged), std::string::npos) << text;
+  EXPECT_NE(text.find("A merged calibration has no scores"), std::string::npos) << text;
+  EXPECT_NE(text.find(" written to " + merged), std::string::npos) << text;
   const fsr::compensation::CurvatureTables one = fsr::calibration::loadCalibration(merged).tables;
   const fsr::compensation::CurvatureTables other = fsr::calibration::loadCalibration(whole).tables;
   ASSERT_EQ(one.tables.size(), other.tables.size());
@@ -142,7 +142,7 @@ TEST_F(TrainTool, MergesCalibrations) {
   }
   EXPECT_EQ(run({"--merge", a, "--output", merged}), "merging needs two calibration files or more");
   EXPECT_EQ(run({"--merge", a, b, "--output", merged, "--model", "linear"}),
-            "--model cannot be given with --merge: the files decide");
+            "--model cannot be used with --merge, because the files determine it");
   EXPECT_EQ(run({"--merge", a, a, "--output", merged}),
             a + ": was trained on flat.bag, as was " + a + "; each bag may count once");
 }
@@ -167,7 +167,7 @@ TEST_F(TrainTool, ChecksACalibrationOnNewBags) {
   const std::string bad = run({"--check", output, other});
   EXPECT_NE(bad.find("Recalibrate, because"), std::string::npos) << bad;
   EXPECT_EQ(run({"--check", output, "--output", output, bend_}),
-            "--check writes no calibration: leave --output out");
+            "--check writes no calibration; remove --output");
 }
 
 TEST_F(TrainTool, WrongUsageIsOneSentence) {

@@ -8,13 +8,15 @@
 
 namespace fsr_ros {
 
-/// The message's counts, not copied: valid as long as the message.
+/// The scan in a message. The counts are not copied: the view is valid as long as the message.
 fsr::matrix::ScanView toScanView(const fsr_pressure_map::MatrixFrame& message);
 
-/// Fills all but header, calibration and scheme, which a map does not know.
+/// Writes a map to a message. The fields header, calibration and scheme are not part of a map and stay as
+/// they are.
 void fillMessage(const fsr::map::PressureMap& map, fsr_pressure_map::PressureMap& message);
 
-/// Throws fsr::InputError where an array is not rows x columns, or a state is unknown.
+/// The map in a message. Throws fsr::settings::InputError if an array does not have rows x columns values or
+/// if the state is unknown.
 fsr::map::PressureMap toPressureMap(const fsr_pressure_map::PressureMap& message);
 
 }  // namespace fsr_ros
