@@ -72,11 +72,9 @@ void addErrors(Table& table, const statistics::ErrorSummary& errors) {
 std::string scoresTable(const study::StudyResult& result) {
   Table table(
       "part,method,label,model,scored,R2,R2 deviation,RMSE [%],RMSE deviation [%],paper R2,paper R2 "
-      "deviation,"
-      "paper RMSE [%],paper RMSE deviation [%],readings,bias [kPa],RMSE [kPa],limit low [kPa],limit high "
-      "[kPa],"
-      "p95 [kPa],first cycle RMSE [kPa],later cycles RMSE [kPa],worst taxel,worst taxel RMSE [%],"
-      "RMSE low [kPa],RMSE high [kPa],unit,units");
+      "deviation,paper RMSE [%],paper RMSE deviation [%],readings,bias [kPa],RMSE [kPa],limit low "
+      "[kPa],limit high [kPa],p95 [kPa],first cycle RMSE [kPa],later cycles RMSE [kPa],worst taxel,worst "
+      "taxel RMSE [%],RMSE low [kPa],RMSE high [kPa],unit,units");
   forEachScore(result, [&](const std::string& part, const study::StudyScore& score) {
     const study::PaperScore paper = study::paperScore(score.id).value_or(study::PaperScore{});
     table.row() << part << score.id << score.label << score.model << score.scored << score.r2_spread.mean
@@ -105,8 +103,7 @@ std::string taxelTable(const study::StudyResult& result) {
 std::string binTable(const study::StudyResult& result) {
   Table table(
       "part,method,pressure [kPa],direction,readings,bias [kPa],RMSE [kPa],limit low [kPa],limit high "
-      "[kPa],p95 "
-      "[kPa]");
+      "[kPa],p95 [kPa]");
   forEachScore(result, [&](const std::string& part, const study::StudyScore& score) {
     for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin) {
       const statistics::BinnedErrors::Directions& errors = score.errors.bins[bin];

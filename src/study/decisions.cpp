@@ -17,8 +17,7 @@ std::string downSamplingText(const StudyPlan& plan) {
                                  : "half of the shares of method 3";
   return "After the split, within each section, for training and test alike (" + rule +
          "). Baseline, method 2 and one-hot take one in six scans. Method 3 takes all of the flat condition "
-         "and "
-         "one in five scans of the curved ones. Method 4 takes " +
+         "and one in five scans of the curved ones. Method 4 takes " +
          binary + ". For another number of conditions the shares change accordingly.";
 }
 
@@ -38,26 +37,24 @@ std::vector<StudyDecision> studyDecisions(const StudyPlan& plan, const StudyData
   const std::string sections = std::to_string(plan.sections);
   return {
       {"Unit of curvature", "Curvatures \"0.20 ... 0.077 1/m\" belong to radii of 5 to 13 cm.",
-       "The values are in 1/cm. The study computes in 1/m. The \"0.77\" of Fig. 9 is 0.077 1/cm."},
+       "The values are in 1/cm. The study computes in 1/m and prints both. The \"0.77\" of Fig. 9 is 0.077 "
+       "1/cm."},
       {"Kernel of the GRNN", "\"D^2 is the Euclidean distance\".", kernelText(plan)},
       {"Spread", "sigma = 2^-7; the paper does not say how it was tuned.",
        "sigma = " + settings::roundedText(regression::sigmaOf(plan.grnn)) +
            " for the reproduction. A grid of bandwidths is shown beside it. All other results use the "
-           "bandwidth "
-           "chosen by nested cross-validation."},
+           "bandwidth chosen by nested cross-validation."},
       {"0 / 0", "Not mentioned. It occurs on held-out data at 2^-7.",
        "The smallest distance is subtracted in all exponents. The limit is then the nearest sample."},
       {"Cross-validation", "\"Leave-one-out\" in five repetitions.",
        sections + " sections of each condition, contiguous in time and divided between cycles. The same "
-                  "section is held "
-                  "out in every condition. Readings are standardised by mean and deviation of the training "
-                  "readings."},
+                  "section is held out in every condition. Readings are standardised by mean and deviation "
+                  "of the training readings."},
       {"Down-sampling", "The paper does not say how, nor whether before or after the split.",
        downSamplingText(plan)},
       {"Score of several models", "The paper does not say.",
        "Methods 1 and 3: mean of the scores of their models. The other methods pool the readings of their "
-       "one "
-       "model. RMSE% refers to the range of " +
+       "one model. RMSE% refers to the range of " +
            rangeText(plan) + "; +- is the standard deviation over taxels."},
       {"Forest", "150 trees, MATLAB, \"one third of the variables\".",
        "With one input, a forest is bagging: " + std::to_string(plan.forest.trees) + " trees, minimum leaf " +
@@ -66,13 +63,12 @@ std::vector<StudyDecision> studyDecisions(const StudyPlan& plan, const StudyData
            "inputs."},
       {"Tests",
        "Shapiro-Wilk's test chooses between parametric and rank tests, symmetry between signed rank and sign "
-       "test; "
-       "SPSS.",
+       "test; SPSS.",
        "The same rule. Symmetry is tested by the triples test. Bonferroni correction over all pairs; level " +
            settings::roundedText(plan.tests.level) + ". The " + std::to_string(data.taxels.size()) +
            " taxels of one sheet are not independent samples. Therefore a bootstrap is reported, too. It "
-           "resamples "
-           "the highest level with at least five units; cycles of all conditions are resampled together."},
+           "resamples the highest level with at least five units; cycles of all conditions are resampled "
+           "together."},
       {"Mounting", "The matrix was never remounted.",
        "Mount and curvature form one condition effect if the recordings cannot separate them."},
       {"Bent axis", "The paper does not say which side of the matrix is bent round the cylinder.",
@@ -91,44 +87,37 @@ std::vector<StudyDecision> studyDecisions(const StudyPlan& plan, const StudyData
 std::vector<std::string> unmatchable() {
   return {
       "Method 4's R2 of 0.98 with an RMSE of 4.96 % and method 2's R2 of 0.96 with 5.03 % cannot both be "
-      "right for "
-      "one distribution of pressure: equal RMSE on equal data means equal R2. The study reports R2, but it "
-      "was not "
-      "fitted.",
+      "right for one distribution of pressure: equal RMSE on equal data means equal R2. The study reports "
+      "R2, but it was not fitted.",
       "\"Both measures were improved\" by the one-hot input, but 5.05 % is not below 5.03 %. At a bandwidth "
-      "of 2^-7, "
-      "training readings of other curvatures have no weight: after standardisation their curvature is 29 to "
-      "161 "
-      "sigmas away. Method 2 is then method 1 on a sixth of the data, method 4 is method 3 scored on pooled "
-      "readings, and one-hot is method 2. Curvature becomes a useful input with a length scale of its own.",
+      "of 2^-7, training readings of other curvatures have no weight: after standardisation their curvature "
+      "is 29 to 161 sigmas away. Method 2 is then method 1 on a sixth of the data, method 4 is method 3 "
+      "scored on pooled readings, and one-hot is method 2. Curvature becomes a useful input with a length "
+      "scale of its own.",
       "The paper explains method 2 by differences of curvature that the model takes for differences of "
-      "response. "
-      "That needs a larger bandwidth, at which curvature has an influence.",
+      "response. That needs a larger bandwidth, at which curvature has an influence.",
       "Only the means of RMSE% were fitted. R2, deviations over taxels and test statistics were not. "
-      "Friedman's chi2 "
-      "reaches its maximum n (k - 1) if all taxels rank the methods alike, which simulated taxels do more "
-      "than real "
-      "ones.",
+      "Friedman's chi2 reaches its maximum n (k - 1) if all taxels rank the methods alike, which simulated "
+      "taxels do more than real ones.",
       "The tables can be matched without hysteresis, by noise of 3 to 3.5 %. They do not show whether there "
-      "is "
-      "hysteresis.",
+      "is hysteresis.",
   };
 }
 
 std::vector<std::string> limitations(const StudyData& data, const std::string& simulation) {
   std::vector<std::string> sentences;
   if (!simulation.empty()) {
-    sentences.push_back(
-        "The recordings come from the simulated rig \"" + simulation + "\", not from a sensor." +
-        (simulation == "paper" ? " That rig was FITTED to the paper's tables. The agreement therefore "
-                                 "validates neither the simulation nor the paper."
-                               : ""));
+    sentences.push_back("The recordings come from the simulated rig \"" + simulation +
+                        "\", not from a sensor." +
+                        (simulation == "paper" ? " That rig was FITTED to the paper's tables. The agreement "
+                                                 "therefore validates neither the simulation nor the paper."
+                                               : ""));
   }
   const bool remounted = !leaveMountOut(data).folds.empty();
   if (!remounted) {
     sentences.push_back(
-        "Each surface was mounted once. A difference between curvatures is therefore a condition effect: "
-        "the effects of curvature and of that mount together. It holds for this mount only.");
+        "Each surface was mounted once. A difference between curvatures is therefore a condition effect: the "
+        "effects of curvature and of that mount together. It holds for this mount only.");
   }
   sentences.push_back(
       "One sheet (n = 1): intervals and p values do not apply to another sheet. Units: taxel, n = " +

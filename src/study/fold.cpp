@@ -35,13 +35,12 @@ bool everyClassMountedTwice(const Grouping& mounts) {
 }  // namespace
 
 Split leaveSectionOut(const StudyData& data) {
-  Split split{
-      "five_sections",
-      std::to_string(data.sections) +
-          " sections of each condition, contiguous in time and divided between cycles; each section is "
-          "predicted by the earlier and later ones",
-      bySection(data),
-      {}};
+  Split split{"five_sections",
+              std::to_string(data.sections) +
+                  " sections of each condition, contiguous in time and divided between cycles; each section "
+                  "is predicted by the earlier and later ones",
+              bySection(data),
+              {}};
   const std::vector<Cell> cells = occupied(split.grouping);
   for (std::size_t k = 0; k < data.sections; ++k) {
     split.folds.push_back(

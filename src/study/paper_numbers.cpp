@@ -31,8 +31,7 @@ std::vector<std::string> paperStatements(const std::string& comparison) {
       {"methods",
        {"Friedman: chi2(4) = 270.09 (R2), 246.83 (RMSE%), p < 0.001.",
         "All pairs differ by both measures. Method 1 is best. Method 3 is better than method 4 in RMSE% and "
-        "worse "
-        "in R2."}},
+        "worse in R2."}},
       {"one_hot", {"Student's paired t test: no significant difference by either measure."}},
   };
   const auto found = kStatements.find(comparison);

@@ -66,8 +66,7 @@ void chooseTaxels(const std::vector<dataset::Recording>& recordings, StudyData& 
     }
     throw settings::InputError(
         recordings.front().name +
-        ": every taxel is masked or reads the same count during a whole condition; is the matrix "
-        "connected?");
+        ": every taxel is masked or reads the same count during a whole condition; is the matrix connected?");
   }
   if (data.taxels.size() < kFewestTaxels) {
     throw settings::InputError(recordings.front().name + ": the matrix has " +

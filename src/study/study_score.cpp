@@ -7,9 +7,9 @@ namespace fsr::study {
 namespace {
 
 std::string howScored(const StudyMethod& method, const Evaluation& evaluation) {
-  if (method.models() == 1) return "readings of one model pooled";
+  if (method.models() == 1) return "one model, its readings pooled";
   const std::string models = std::to_string(method.models()) + " models";
-  return evaluation.models == 1 ? "readings of " + models + " pooled" : "mean of the scores of " + models;
+  return evaluation.models == 1 ? "the readings of " + models + " pooled" : "mean of the scores of " + models;
 }
 
 void summarise(const Evaluation& evaluation, StudyScore& score) {
