@@ -252,9 +252,8 @@ TEST(RecordingBuilder, RefusesEventsOfTwoMatrices) {
   EXPECT_EQ(complaint({scan(ms(0), 1, 5), description(0, "0001", {7, 10})}),
             "matrix_info describes 7 x 10 taxels with full_scale 4095, but the scans in raw have 1 x 2 with "
             "4095");
-  EXPECT_EQ(
-      complaint({scan(ms(0), 1, 5), description(0, "0001"), description(0, "0002")}),
-      "matrix_info tells of the serial numbers \"0001\" and \"0002\", but a recording is of one matrix");
+  EXPECT_EQ(complaint({scan(ms(0), 1, 5), description(0, "0001"), description(0, "0002")}),
+            "matrix_info has the serial numbers \"0001\" and \"0002\", but a recording is of one matrix");
 }
 
 TEST(RecordingBuilder, MalformedEventsAreRefused) {
@@ -266,7 +265,7 @@ TEST(RecordingBuilder, MalformedEventsAreRefused) {
             "a scan holds a count of 1024, but its full_scale is 1023");
   EXPECT_EQ(complaint({malformed({{0, 0}, 1023, {}})}),
             "a scan has 0 x 0 taxels, but must have 1 to 64 rows and columns");
-  EXPECT_EQ(complaint({}), "raw holds no scan");
+  EXPECT_EQ(complaint({}), "raw has no scan");
   const auto wide = [](RecordingBuilder& builder) {
     builder.addSurface(ms(0), {"limb", 1, std::vector<matrix::Curvature>(3), {}});
   };

@@ -194,7 +194,7 @@ TEST_F(Table, RefusesAPlanThatDoesNotFit) {
   TablePlan plan;
   plan.matrix = {2, 2};
   expectComplaint(kPlain, "time=t,reading=left:V", {"2 x 2"}, plan);
-  expectComplaint("", "time=1,reading=2", {"holds no row"});
+  expectComplaint("", "time=1,reading=2", {"has no row"});
   expectComplaint("t,x\n0,1\n", "time=t,reading=x", {"fewer than two"});
   TablePlan none;
   none.columns = parseColumns("time=1,reading=2");
@@ -215,7 +215,7 @@ TEST(TableColumns, AreRefusedWithTheListOfPermittedValues) {
   EXPECT_NE(complaint("time=1,time=2,reading=3").find("time twice"), std::string::npos);
   EXPECT_NE(complaint("reading=2").find("no time"), std::string::npos);
   EXPECT_NE(complaint("time=1").find("no reading"), std::string::npos);
-  EXPECT_NE(complaint("time=1,reading=").find("names no column"), std::string::npos);
+  EXPECT_NE(complaint("time=1,reading=").find("has no column"), std::string::npos);
   EXPECT_NE(complaint("time=1,reading=2,reference=3:-5Pa").find("-5Pa"), std::string::npos);
   EXPECT_EQ(parseColumns("time=1:ms,reading=a:b:V")[1].column, "a:b");  // a name with a colon, unit given
 }
@@ -230,11 +230,11 @@ TEST_F(Table, RefusesValuesOutsideTheRangeOfTheirUnit) {
 }
 
 TEST_F(Table, SkipsALineOfOtherWhiteSpace) {
-  expectComplaint("\v\n", "time=1,reading=2:V", {"holds no row"});
+  expectComplaint("\v\n", "time=1,reading=2:V", {"has no row"});
 }
 
 TEST_F(Table, RefusesALineThatBeginsWithAZeroByte) {
-  expectComplaint(std::string("\0,1\n", 4), "time=1,reading=2:V", {"holds a byte of 0"});
+  expectComplaint(std::string("\0,1\n", 4), "time=1,reading=2:V", {"has a zero byte"});
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST(CommandLine, TakesEverythingAfterTwoDashesAsFiles) {
 }
 
 TEST(CommandLine, RefusesBadInputWithOneSentence) {
-  EXPECT_EQ(complaint({"--outptu", "x"}), "--outptu is no option of train; see train --help");
+  EXPECT_EQ(complaint({"--outptu", "x"}), "--outptu is not an option of train; see train --help");
   EXPECT_EQ(complaint({"--output"}), "--output needs a value: FILE");
   EXPECT_EQ(complaint({"--output", "a", "--output", "b"}), "--output is given twice; keep one");
   EXPECT_EQ(complaint({"--no-scores=1"}), "--no-scores takes no value");
@@ -76,7 +76,7 @@ TEST(CommandLine, HelpListsEveryOption) {
   EXPECT_FALSE(parse(line, {"--help", "x.bag"}));
   EXPECT_EQ(line.help(),
             "train BAG... --output FILE\n\nTrains a calibration.\n\n"
-            "  --help         print this and stop\n"
+            "  --help         print this help and exit\n"
             "  --output FILE  where to\n"
             "  --ambient PA   ambient pressure\n"
             "  --no-scores    fast\n");
