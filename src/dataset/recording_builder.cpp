@@ -133,7 +133,7 @@ const MatrixDescription* RecordingBuilder::description() const {
                                  std::to_string(full_scale_));
     }
     if (described.sensor.serial != first->second.sensor.serial) {
-      throw settings::InputError("matrix_info tells of the serial numbers \"" + first->second.sensor.serial +
+      throw settings::InputError("matrix_info has the serial numbers \"" + first->second.sensor.serial +
                                  "\" and \"" + described.sensor.serial +
                                  "\", but a recording is of one matrix");
     }
@@ -166,7 +166,7 @@ Recording RecordingBuilder::emptyRecording(const RecordingOptions& options) cons
 }
 
 Recording RecordingBuilder::build(const RecordingOptions& options) const {
-  if (scans_.empty()) throw settings::InputError("raw holds no scan");
+  if (scans_.empty()) throw settings::InputError("raw has no scan");
   for (const SurfaceTimeline::Event& event : surfaces_) matrix::requireFit(event.second, size_);
   Recording recording = emptyRecording(options);
   const SurfaceTimeline timeline(surfaces_, options.same_curvature);

@@ -78,7 +78,7 @@ TableColumn parseOne(const std::string& item) {
   TableColumn column{role->second, rest.substr(0, colon), ""};
   if (colon != std::string::npos) column.unit = rest.substr(colon + 1);
   if (column.column.empty())
-    throw settings::InputError("--columns holds \"" + item + "\", which names no column");
+    throw settings::InputError("--columns holds \"" + item + "\", which has no column");
   unitOf(column);
   return column;
 }

@@ -82,15 +82,15 @@ struct TableReader::Source {
     while (gzgets(file, part.data(), static_cast<int>(part.size())) != nullptr) {
       text += part.data();
       if (text.size() > kLongestLine)
-        throw settings::InputError(path + ": a line has no end; this is no table of text");
-      if (text.empty()) throw settings::InputError(path + ": holds a byte of 0; this is no table of text");
+        throw settings::InputError(path + ": a line is too long; this is not a text table");
+      if (text.empty()) throw settings::InputError(path + ": has a zero byte; this is not a text table");
       if (text.back() == '\n') break;
     }
     int error = Z_OK;
     const char* const why = gzerror(file, &error);
     if (error != Z_OK && error != Z_STREAM_END) {
-      throw settings::InputError(path + ", after line " + std::to_string(line) + ": cannot be read on (" +
-                                 why + ")");
+      throw settings::InputError(path + ", after line " + std::to_string(line) +
+                                 ": cannot be read further (" + why + ")");
     }
     if (text.empty()) return false;
     ++line;
@@ -120,7 +120,7 @@ bool TableReader::readCells() {
 
 void TableReader::begin() {
   if (!readCells())
-    throw settings::InputError(path_ + ": holds no row; a table of text with one row a reading is needed");
+    throw settings::InputError(path_ + ": has no row; a text table with one row for each reading is needed");
   columns_ = cells_.size();
   bool is_number = false;
   parsed(cells_[0], format_.decimal_comma, is_number);

@@ -35,7 +35,7 @@ void refuseOverload(const Board& board, const EmulatorOptions& options) {
   if (options.baud == 0 || board.bitsPerSecond() <= options.baud) return;
   std::ostringstream sentence;
   sentence << options.simulation.origin << ": board.scan_rate is " << options.simulation.board.scan_rate
-           << " Hz, but a link of " << options.baud << " baud does not carry it: it needs "
+           << " Hz, but a link of " << options.baud << " baud cannot carry it: it needs "
            << std::ceil(board.bitsPerSecond()) << " baud";
   throw settings::InputError(sentence.str());
 }

@@ -24,7 +24,7 @@ hid_t openFile(const std::string& path) {
 
 Reader::Reader(const std::string& path)
     : lock_(hdf5Mutex()), file_(openFile(path)), size_(std::filesystem::file_size(path)) {
-  if (file_ < 0) throw settings::InputError("what follows its first 512 bytes is no HDF5 file");
+  if (file_ < 0) throw settings::InputError("what follows its first 512 bytes is not an HDF5 file");
 }
 
 Reader::~Reader() {

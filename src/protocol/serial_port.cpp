@@ -76,9 +76,9 @@ SerialPort::~SerialPort() {
 void SerialPort::configure(std::uint32_t baud) {
   if (isatty(descriptor_) == 0) throw LinkError(explainOpenError(path_, ENOTTY));
   if (!claim(descriptor_)) throw LinkError(explainOpenError(path_, EBUSY));
-  if (!makeRaw(descriptor_)) fail("does not take raw mode");
+  if (!makeRaw(descriptor_)) fail("does not accept raw mode");
   if (baud != 0 && !setSpeed(descriptor_, baud)) {
-    fail("does not take " + std::to_string(baud) + " baud: set serial_baud to the board's own rate");
+    fail("does not accept " + std::to_string(baud) + " baud: set serial_baud to the board's own rate");
   }
   if (!isPseudoTerminal(descriptor_)) baud_ = baud;
   tcflush(descriptor_,

@@ -127,7 +127,7 @@ RepeatedMeasuresAnova repeatedMeasuresAnova(const RepeatedMeasures& measures) {
     if (mean.norm() <= std::sqrt(q) * rounding) return result;
     throw settings::InputError(
         std::string(kName) +
-        ": the treatments differ by the same on every unit; it needs differences that scatter");
+        ": the treatments differ by the same on every unit; it needs differences that are not all equal");
   }
   const Eigen::VectorXd lambda =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(covariance, Eigen::EigenvaluesOnly).eigenvalues();

@@ -100,10 +100,11 @@ TestResult shapiroWilk(const std::vector<double>& sample) {
   requireSample(sample, kFewest, kName);
   if (sample.size() > kMost) {
     throw settings::InputError(std::string(kName) + ": " + std::to_string(sample.size()) +
-                               " values given where its approximation holds for at most 5000");
+                               " values given, but its approximation holds for at most 5000");
   }
   if (isConstant(sample))
-    throw settings::InputError(std::string(kName) + ": all values are equal; it needs some scatter");
+    throw settings::InputError(std::string(kName) +
+                               ": all values are equal; it needs values that are not all equal");
 
   const double one_minus_w = std::max(0.0, oneMinusW(standardised(sample)));
   TestResult result;

@@ -69,8 +69,8 @@ double normalP(const SignedRanks& ranks) {
 bool goesExact(WilcoxonMethod method, std::size_t n) {
   if (method != WilcoxonMethod::kExact) return method == WilcoxonMethod::kAuto && n < kWilcoxonExactBelow;
   if (n <= kMostExact) return true;
-  throw settings::InputError(std::string(kName) + ": exact p asked for " + std::to_string(n) +
-                             " differences; it is counted for at most " + std::to_string(kMostExact));
+  throw settings::InputError(std::string(kName) + ": exact p requested for " + std::to_string(n) +
+                             " differences; it is computed for at most " + std::to_string(kMostExact));
 }
 
 }  // namespace

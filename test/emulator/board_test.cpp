@@ -42,13 +42,13 @@ TEST(Board, SendsEachKindAtItsOwnRate) {
   EXPECT_EQ(packetsUntil(board, 0.99), expected);
 }
 
-TEST(Board, TellsOfTheMiddleOfAScanAndSendsItAtTheEnd) {
+TEST(Board, StampsAScanWithItsMiddleAndSendsItAtTheEnd) {
   Board board(smallRig("{scan_rate: 10, scan_duration: 0.08, transducer_rate: 0}"), {});
   EXPECT_EQ(packetsUntil(board, 0.039).size(), 2u);  // identity and temperature
   EXPECT_EQ(packetsUntil(board, 0.041).front(), "scan #0 @0 1x2 full 4095 took 80000 counts 0 0");
 }
 
-TEST(Board, ItsClockHasAnOffsetADriftAndWrapsOnTheWire) {
+TEST(Board, HasAClockWithOffsetAndDriftThatWrapsInPackets) {
   Board board(smallRig("{scan_rate: 1, transducer_rate: 0}"), {4294000000u, 100});
   EXPECT_EQ(board.deviceTime(10), 4294000000u + std::uint64_t{10001000});
   EXPECT_NEAR(board.rigTime(board.deviceTime(10)), 10, 1e-6);
@@ -67,7 +67,7 @@ TEST(Board, StartsAgainWhenReset) {
   EXPECT_NEAR(board.rigTime(200000), 10.5, 1e-9);
 }
 
-TEST(Board, KnowsWhatItsLinkMustCarry) {
+TEST(Board, ComputesTheBitRateOfItsLink) {
   // 10 bits a byte; a scan of 7 x 10 is 168 bytes, a transducer or temperature packet 24, identity 76.
   const auto demo = fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/demo.yaml");
   EXPECT_NEAR(Board(demo, {}).bitsPerSecond(), 10 * (10 * 168 + 10 * 24 + 24 + 76), 1e-9);

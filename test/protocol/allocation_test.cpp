@@ -9,7 +9,7 @@
 
 namespace {
 
-// Does with a packet what the driver does, ROS messages apart.
+// Processes a packet like the driver, without ROS messages.
 class StampingHandler : public fsr::protocol::PacketHandler {
  public:
   std::int64_t sum = 0;
@@ -44,8 +44,7 @@ TEST(Protocol, AllocatesNothingFromBytesToStampedScans) {
   fsr::protocol::WireDecoder decoder(handler);
 
   const test_support::AllocationGuard guard;
-  for (std::uint32_t i = 0; i < 300'000;
-       ++i) {  // five minutes at 1 kHz: the clock's window fills and moves on
+  for (std::uint32_t i = 0; i < 300'000; ++i) {  // five minutes at 1 kHz: the clock's window fills and moves
     std::size_t size = fsr_wire_encode_scan(bytes.data(), bytes.size(), i, i * 1000, &scan);
     size += fsr_wire_encode_identity(bytes.data() + size, bytes.size() - size, i, i * 1000, &identity);
     if (i % 7 == 0) bytes[i % size] ^= 0x20U;

@@ -57,7 +57,7 @@ TEST_F(BoardReader, ReadsTheBoard) {
   EXPECT_EQ(link->report().connections, 1U);
 }
 
-TEST_F(BoardReader, SaysWhyItWaitsAndStartsWhenTheBoardComes) {
+TEST_F(BoardReader, ReportsWhyItWaitsAndStartsWhenTheBoardIsPluggedIn) {
   const auto link = makeLink();
   ASSERT_TRUE(listener_.reaches(LinkPhase::kWaiting));
   EXPECT_NE(link->report().reason.find("there is no serial port " + port_), std::string::npos)
@@ -69,7 +69,7 @@ TEST_F(BoardReader, SaysWhyItWaitsAndStartsWhenTheBoardComes) {
   EXPECT_TRUE(listener_.packets(1));
 }
 
-TEST_F(BoardReader, SurvivesUnpluggingAsOftenAsItHappens) {
+TEST_F(BoardReader, SurvivesRepeatedUnplugging) {
   const auto link = makeLink();
   for (std::uint32_t round = 1; round <= 3; ++round) {
     plugIn();
@@ -135,7 +135,7 @@ TEST_F(BoardReader, KeepsACaptureThatReplaysToTheSamePackets) {
   EXPECT_EQ(link.report().counts.skipped_bytes, 0U);
 }
 
-TEST_F(BoardReader, TakesAnExceptionOfTheHandlerForAFaultOfTheHandlerAndKeepsTheLink) {
+TEST_F(BoardReader, ReportsAnExceptionOfTheHandlerAsItsFaultAndKeepsTheLink) {
   listener_.before_transducer = [](const fsr::protocol::PacketHeader& header) {
     if (header.sequence == 2) throw std::runtime_error("no room for reading 2");
   };

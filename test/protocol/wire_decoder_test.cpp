@@ -48,7 +48,7 @@ Bytes identity(std::uint8_t rows = 7) {
   return {out.data(), out.data() + fsr_wire_encode_identity(out.data(), out.size(), 2, 2000000, &content)};
 }
 
-// Overwrites the header of a packet and gives it the checks that fit: a sound packet that says something odd.
+// Overwrites the header of a packet and recomputes the checks: a valid packet with unusual content.
 Bytes withHeader(Bytes packet, std::uint8_t version, std::uint8_t type, std::uint16_t length) {
   packet[2] = version;
   packet[3] = type;
@@ -62,7 +62,7 @@ Bytes withHeader(Bytes packet, std::uint8_t version, std::uint8_t type, std::uin
   return packet;
 }
 
-// A decoder with what it delivered.
+// A decoder and the packets that it delivered.
 struct Bench {
   test_support::PacketRecorder recorder;
   fsr::protocol::WireDecoder decoder{recorder};
@@ -81,7 +81,7 @@ Lines linesOf(const Bytes& bytes) {
   return bench.lines();
 }
 
-// One packet of each type and a second scan: the stream that the exhaustive tests damage.
+// One packet of each type and a second scan. The exhaustive tests damage this stream.
 std::vector<Bytes> fivePackets() {
   return {scan(7, 1000, {0, 1, 258, 0x0AAA, 4094, 4095}), transducer(40, 2000, -2), identity(),
           temperature(1, 3000, 23750), scan(8, 11000, {5, 6, 7, 8, 9, 10})};
@@ -171,7 +171,7 @@ TEST(WireDecoder, LosesOnlyThePacketThatAnInsertedByteHits) {
                    Bytes{static_cast<std::uint8_t>(inserted)} +
                    Bytes(packets[0].begin() + at, packets[0].end());
       const Lines lines = linesOf(joined(damaged));
-      // The same value before or behind its twin gives the same bytes behind a sound start or end.
+      // A byte inserted before or behind an equal one gives the same bytes, so the first packet may survive.
       ASSERT_EQ(Lines(lines.end() - 4, lines.end()), Lines(kFiveLines.begin() + 1, kFiveLines.end())) << at;
     }
   }
@@ -205,7 +205,7 @@ TEST(WireDecoder, CountsDamageByItsCause) {
   EXPECT_EQ(bench.counts().bytes, 8 * whole.size());
 }
 
-TEST(WireDecoder, RefusesSoundPacketsThatSayWhatCannotBe) {
+TEST(WireDecoder, RefusesValidPacketsWithImpossibleContent) {
   Bytes no_rows = scan(1, 1000, {1, 2});
   no_rows[16] = 0;
   Bytes other_size = scan(2, 1000, {1, 2});
@@ -221,8 +221,8 @@ TEST(WireDecoder, RefusesSoundPacketsThatSayWhatCannotBe) {
   EXPECT_EQ(bench.feed(transducer(1, 1, 1)).lines().size(), 1U);
 }
 
-TEST(WireDecoder, FindsPacketsInsideTheRuinsOfADamagedOne) {
-  // A scan that lost bytes reaches, by its own sound length, into the packets behind it.
+TEST(WireDecoder, FindsPacketsInsideADamagedOne) {
+  // A scan that lost bytes extends, by its stated length, into the packets behind it.
   const std::vector<Bytes> packets = fivePackets();
   Bytes ruined = packets[0];
   ruined.erase(ruined.begin() + 20, ruined.begin() + 30);
@@ -262,14 +262,14 @@ TEST(WireDecoder, ReadsTheLargestScanBehindTheLargestDamagedOne) {
 }
 
 TEST(WireDecoder, FindsNothingInRandomNoise) {
-  // A false packet needs sync, version, type, length and 48 bits of check to fit: below 1e-16 in 8 MB.
+  // A false packet needs a match of sync, version, type, length and 48 bits of checks: below 1e-16 in 8 MB.
   std::mt19937 random(1);
   Bytes noise(std::size_t{1} << 23);
   std::generate(noise.begin(), noise.end(), [&] { return static_cast<std::uint8_t>(random() >> 24); });
   Bench bench;
   bench.feed(noise);
   EXPECT_EQ(bench.lines(), Lines{});
-  // 2^23 places, each a sync word by chance of 2^-16: 128 expected, 6 deviations (68) either side.
+  // 2^23 places, each a sync word with probability 2^-16: 128 expected, 6 deviations (68) on either side.
   EXPECT_NEAR(static_cast<double>(bench.counts().bad_header_check), 128, 68);
   EXPECT_EQ(bench.feed(joined(fivePackets())).lines(), kFiveLines);
 }

@@ -76,7 +76,7 @@ TEST(Wire, EncodesAnIdentityByteForByteAndCutsLongTexts) {
   EXPECT_EQ(Bytes(buffer.begin(), buffer.begin() + size), expected);
 }
 
-TEST(Wire, RefusesABufferThatIsTooSmallAndLeavesItAlone) {
+TEST(Wire, RefusesABufferThatIsTooSmallWithoutWritingToIt) {
   const fsr_wire_identity identity = {"", "", "", 7, 10, 4095, 0};
   Buffer buffer{};
   for (std::size_t room = 0; room < kScanPacket.size(); ++room) {

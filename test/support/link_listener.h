@@ -85,7 +85,7 @@ class LinkListener : public fsr::protocol::LinkHandler {
     return changed_.wait_for(lock, kPatience, condition);
   }
 
-  static constexpr std::chrono::seconds kPatience{20};  // never waited out where the code is right
+  static constexpr std::chrono::seconds kPatience{20};  // never reached where the code is right
 
   std::mutex mutex_;
   std::condition_variable changed_;
