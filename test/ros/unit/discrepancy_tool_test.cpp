@@ -158,7 +158,7 @@ TEST_F(DiscrepancyTool, RefusesRecordingsThatCannotGiveAVerdict) {
   fs::resize_file(path("copy.bag"), fs::file_size(flat) / 2);
   expectSaid(tried({path("copy.bag")}), {"copy.bag: is not a complete bag", "rosbag reindex"});
   std::ofstream(path("empty.bag"));
-  expectSaid(tried({path("empty.bag")}), {"empty.bag: is empty"});
+  expectSaid(tried({path("empty.bag")}), {"empty.bag: the file is empty"});
   std::ofstream(path("file")) << "x";
   expectSaid(run({flat, "--output", path("file")}), {"file: the folder cannot be created"});
   expectSaid(run({flat, "--output", path("file/under")}), {"the folder cannot be created"});

@@ -211,7 +211,7 @@ TEST_F(ExportTool, RefusesACalibrationOfAnotherMatrix) {
   const std::string calibration = folder_.path("calibration.h5");
   fsr::calibration::saveCalibration(test_support::smallCalibration({3, 3}, {0.0}), calibration);
   EXPECT_NE(run({bag_, "--to", "csv", "--output", csv_, "--calibration", calibration})
-                .find("the scans are of 2 x 3 taxels up to 1023 counts, but the calibration is of 3 x 3"),
+                .find("the scans have 2 x 3 taxels and up to 1023 counts, but the calibration is for 3 x 3"),
             std::string::npos);
   EXPECT_FALSE(fs::exists(csv_));
 }

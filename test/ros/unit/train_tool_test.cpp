@@ -65,7 +65,7 @@ TEST_F(TrainTool, PrintsCoverageThenScoresThenThePath) {
   EXPECT_LT(coverage, scores);
   EXPECT_LT(scores, path);
   EXPECT_NE(path, std::string::npos) << text;
-  EXPECT_NE(text.find(" (chosen)) is in " + output + "\n", path), std::string::npos) << text;
+  EXPECT_NE(text.find(" (chosen)) written to " + output + "\n", path), std::string::npos) << text;
   EXPECT_EQ(calibration.tables.classes.size(), 2u);
   EXPECT_EQ(calibration.provenance.bags.at(1).name, "bend.bag");
 }
@@ -94,7 +94,8 @@ TEST_F(TrainTool, TrainsEverySchemeByItsName) {
   const std::string output = (folder_ / "calibration.h5").string();
   for (const std::string& scheme : fsr::compensation::schemeNames()) {
     const std::string text = run({flat, bend_, "--scheme", scheme, "--bandwidth", "0.1", "--output", output});
-    EXPECT_NE(text.find(" (" + scheme + ", grnn, bandwidth 0.1) is in " + output), std::string::npos) << text;
+    EXPECT_NE(text.find(" (" + scheme + ", grnn, bandwidth 0.1) written to " + output), std::string::npos)
+        << text;
     EXPECT_EQ(fsr::compensation::schemeName(fsr::calibration::loadCalibration(output).tables.scheme), scheme);
   }
 }
@@ -104,7 +105,7 @@ TEST_F(TrainTool, TrainsEachModelWithItsOptions) {
     const std::string output = (folder_ / "calibration.h5").string();
     words.insert(words.end(), {bend_, "--output", output});
     const std::string text = run(words);
-    EXPECT_NE(text.find("is in " + output), std::string::npos) << text;
+    EXPECT_NE(text.find("written to " + output), std::string::npos) << text;
     return fsr::calibration::loadCalibration(output);
   };
   EXPECT_EQ(trained({"--model", "linear"}).regressor.name, "linear");
