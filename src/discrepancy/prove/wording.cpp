@@ -1,5 +1,6 @@
 #include "discrepancy/prove/wording.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace fsr::discrepancy {
@@ -30,6 +31,18 @@ std::string sizeText(const DiscrepancyReport& report) {
   return text.str();
 }
 
+// What would show the effects of the verdict: "; crosstalk needs the experiment uneven_load".
+std::string experimentsText(const DiscrepancyReport& report) {
+  std::vector<std::string> needs;
+  for (const NotIdentifiable& one : report.not_identifiable) {
+    const auto names_it = [&](const auto& ids) { return std::count(ids.begin(), ids.end(), one.id) > 0; };
+    if (!std::any_of(report.credible_set.begin(), report.credible_set.end(), names_it)) continue;
+    if (one.experiment != simulation::name(simulation::Experiment::kNone))
+      needs.push_back(one.id + " needs the experiment " + one.experiment);
+  }
+  return needs.empty() ? "" : "; " + listText(needs);
+}
+
 }  // namespace
 
 std::string listText(const std::vector<std::string>& items, const std::string& last) {
@@ -58,8 +71,7 @@ std::string sentenceOf(const DiscrepancyReport& report) {
       return "Best explanation among " + tested + ", under this protocol: " + sets.front() +
              sizeText(report) + ", but not in the form that the library has.";
     case Verdict::kNotIdentifiable:
-      return "These recordings cannot show " + listText(report.depends_on) +
-             ": see the experiments that would.";
+      return "These recordings cannot show " + listText(sets, " or ") + experimentsText(report) + ".";
     case Verdict::kNamed:
       return "Best explanation among " + tested + ", under this protocol: " + sets.front() +
              sizeText(report) + ".";
