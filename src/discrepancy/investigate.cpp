@@ -41,6 +41,7 @@ class Investigation {
   void tell(const char* step, double share) const {
     if (progress_) progress_(step, share);
   }
+  bool sought(simulation::Detector detector) const { return sought(simulation::foundBy(detector).id); }
   bool sought(const std::string& id) const { return inLibrary(id) && !current_.effect(id); }
   bool inLibrary(const std::string& id) const {
     const auto& out = problem_.options.leave_out;
@@ -189,7 +190,7 @@ void Investigation::moreEffects() {
 }
 
 void Investigation::takeOutMains() {
-  if (!sought("mains_pickup")) return;
+  if (!sought(simulation::Detector::kMains)) return;
   mains_ = findMains(measured_, *taxels_);
   if (!mains_.found) return;
   findings_.push_back(findingOf(mains_, squareOfReadings(), measured_));
@@ -198,7 +199,7 @@ void Investigation::takeOutMains() {
 
 // Where the same surface reads otherwise after each remounting, every mount has curves of its own.
 void Investigation::lookAtMounts() {
-  if (!sought("repositioning")) return;
+  if (!sought(simulation::Detector::kMounts)) return;
   const Repositioning mounts = findRepositioning(measured_, *fit_, *taxels_, Trace(), Eigen::MatrixXd());
   if (!mounts.found) return;
   findings_.push_back(findingOf(mounts, squareOfReadings()));
@@ -225,8 +226,8 @@ void Investigation::lookAtStaticCurves() {
     const Finding saturation = saturationOf(misfit_, measured_, *fit_, report_.base);
     const double level = saturation.enable.front().values.at("level") / measured_.full_scale;
     if (level > kFarLevel * fit_->curve().maxCoeff()) return;
-    if (sought("saturation")) findings_.push_back(saturation);
-    unknown_statics_ = !sought("saturation");
+    if (sought(simulation::Detector::kSaturation)) findings_.push_back(saturation);
+    unknown_statics_ = !sought(simulation::Detector::kSaturation);
   } else {
     unknown_statics_ = decision_.verdict == Verdict::kNone && findings_.empty();
   }
@@ -343,8 +344,9 @@ void Investigation::listNotIdentifiable() {
     if (tried && isStatic(info)) reason = "Under a uniform pressure the static curves take all of it.";
     if (tried && !isStatic(info) && left < kNotIdentifiable)
       reason = "The static curves leave hardly anything of it under this protocol.";
-    if (info.id == "repositioning" && !remounted) reason = "No surface was mounted twice.";
-    if (info.id == "scan_skew") reason = "It is not looked for in this version.";
+    if (info.detector == simulation::Detector::kMounts && !remounted)
+      reason = "No surface was mounted twice.";
+    if (!info.looked_for) reason = "It is not looked for in this version.";
     if (reason.empty()) {
       report_.tested.push_back(info.id);
     } else {

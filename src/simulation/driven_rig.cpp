@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "simulation/effects/enabled_effects.h"
+
 namespace fsr::simulation {
 
 namespace {
@@ -36,7 +38,7 @@ SimulationSettings fitted(const SimulationSettings& settings, const dataset::Rec
   SimulationSettings result = settings;
   result.layout = recording.layout;
   for (EnabledEffect& effect : result.effects) {
-    if (effect.id == "converter") effect.values["full_scale"] = recording.full_scale;
+    if (isConverter(effect)) effect.values["full_scale"] = recording.full_scale;
   }
   return result;
 }

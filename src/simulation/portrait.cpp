@@ -5,6 +5,7 @@
 
 #include "fsr_pressure_map/simulation/chamber_climate.h"
 #include "simulation/effects/effect_library.h"
+#include "simulation/effects/enabled_effects.h"
 #include "simulation/reference_channel.h"
 #include "simulation/sensor_chain.h"
 
@@ -31,7 +32,7 @@ struct Trial {
 
 /// Readings of all scans in shares of full scale, [scans x taxels].
 std::vector<double> run(const SimulationSettings& noisy, const Trial& trial) {
-  const SimulationSettings settings = withoutEffect(noisy, "white_noise");
+  const SimulationSettings settings = withoutNoise(noisy);
   SensorChain chain(settings);
   const ReferenceChannel reference(settings);
   const PressureCourse course = [&](double time) { return reference.truePressure(trial.profile.at(time)); };
@@ -134,8 +135,8 @@ std::vector<double> largest(const std::vector<double>& change, std::size_t taxel
 }
 
 bool isCore(const EnabledEffect& effect) {
-  return findEffect(effect.id)->info.kind == EffectKind::kBase || effect.id == "bending_preload" ||
-         effect.id == "bending_gain";
+  const EffectInfo& info = findEffect(effect.id)->info;
+  return info.kind == EffectKind::kBase || info.with_bending;
 }
 
 template <typename Unwanted>

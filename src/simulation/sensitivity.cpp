@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "simulation/effects/effect_library.h"
+#include "simulation/effects/enabled_effects.h"
 
 namespace fsr::simulation {
 
@@ -40,7 +41,7 @@ double scaleOf(const EffectParameter& strength) {
 }
 
 SimulationSettings with(SimulationSettings settings, const std::string& id, const EffectValues& values) {
-  const auto unwanted = [&](const EnabledEffect& e) { return e.id == id || e.id == "white_noise"; };
+  const auto unwanted = [&](const EnabledEffect& e) { return e.id == id || isNoise(e); };
   auto& effects = settings.effects;
   effects.erase(std::remove_if(effects.begin(), effects.end(), unwanted), effects.end());
   effects.push_back({id, values});

@@ -7,6 +7,7 @@
 #include "fsr_pressure_map/simulation/chamber_program.h"
 #include "matrix/surface_file.h"
 #include "simulation/effects/effect_library.h"
+#include "simulation/effects/enabled_effects.h"
 
 namespace fsr::simulation {
 
@@ -141,7 +142,8 @@ const EnabledEffect* SimulationSettings::effect(const std::string& id) const {
 }
 
 std::uint16_t SimulationSettings::fullScale() const {
-  return static_cast<std::uint16_t>(effect("converter")->values.at("full_scale"));
+  return static_cast<std::uint16_t>(
+      std::find_if(effects.begin(), effects.end(), isConverter)->values.at("full_scale"));
 }
 
 SimulationSettings readSimulation(const settings::Settings& settings) {

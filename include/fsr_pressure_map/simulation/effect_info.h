@@ -35,8 +35,20 @@ enum class EffectKind {
   kBase,      ///< part of every rig: never looked for
   kAdditive,  ///< by the derivatives with respect to its strengths
   kGrid,      ///< likewise, for each combination of the `tried` values of its shape parameters
-  kDetector,  ///< by a test of its own: faults, clipping, what differs from mount to mount by chance
+  kDetector,  ///< by a test of its own, see Detector
   kListed,    ///< not simulated: a gas chamber cannot show it
+};
+
+/// The test that finds an effect which derivatives cannot find.
+enum class Detector {
+  kNone,         ///< no test of its own
+  kStuckTaxels,  ///< taxels that keep one code while the others move
+  kDeadTaxels,   ///< taxels that read far below what the others say
+  kRowFaults,    ///< rows whose taxels leave the others together
+  kColumnFaults,
+  kMains,       ///< a periodic pattern that runs through the matrix with the scan
+  kMounts,      ///< changes of preload and gain from one mount to the next on the same surface
+  kSaturation,  ///< static curves that differ by a function of the reading alone
 };
 
 /// Which sign a strength may have.
@@ -71,6 +83,8 @@ enum class Evidence {
   kSecondReference,  ///< another pressure gauge
   kVentedSheet,      ///< the same sheet without its seal
   kManyCycles,       ///< 10,000 and more, or so unevenly spread that the clock tells nothing of them
+  kRemounts,         ///< some surface was mounted twice
+  kUnevenPace,       ///< many cycles at some times and none for hours at others
 };
 
 /// What to do at the rig to see an effect.
@@ -114,10 +128,17 @@ struct EffectParameter {
   settings::Range plausible = {};
   /// Of a shape: the values that are tried when the effect is looked for; empty = the usual one.
   std::vector<double> tried = {};
+  /// `discrepancy` fits the simulation to the static curves of the recordings before it looks for anything.
+  /// Place of this parameter in that fit, from 1; 0 = it is not fitted.
+  int place_in_base_fit = 0;
+  /// This scatter is set to the relative deviation of the taxels' readings that was measured.
+  bool from_taxel_deviation = false;
 
   EffectParameter within(double low, double high) const;     ///< sets `plausible`
   EffectParameter offAt(double value) const;                 ///< sets `neutral`
   EffectParameter trying(std::vector<double> values) const;  ///< sets `tried` and, by it, `plausible`
+  EffectParameter inBaseFit(int place) const;                ///< sets `place_in_base_fit`
+  EffectParameter fromTaxelDeviation() const;                ///< sets `from_taxel_deviation`
 };
 
 /// A strength or scatter that is off at 0, a shape; plausible is what is permitted until within().
@@ -143,11 +164,24 @@ struct EffectInfo {
   std::vector<std::string> collinear;  ///< ids of effects that leave much the same traces
   Experiment experiment = Experiment::kNone;
   bool required = false;  ///< no chain runs without it
+
+  // What `discrepancy` has to know beyond that.
+  Detector detector = Detector::kNone;
+  bool looked_for = true;   ///< false: its signature is computed, but it competes for nothing in this version
+  bool stochastic = false;  ///< draws new random numbers at each scan; left out where the mean is wanted
+  bool slow = false;        ///< changes from cycle to cycle, hardly within one
+  bool any_course = false;  ///< slow, and its form imitates whatever else is slow
+  bool mixture = false;     ///< any sum of it with several shapes is the same effect in another form
+  bool with_bending = false;  ///< every bent sensor has it; part of the simplest simulation of one
+  /// Ids of effects that together describe what is left of this one where its form is not the library's.
+  std::vector<std::string> wrong_form_like = {};
+  std::string also_called = {};  ///< what data sheets call it, where that could be mistaken
 };
 
 /// The parameter of that name; throws std::out_of_range.
 const EffectParameter& parameter(const EffectInfo& info, const std::string& name);
 std::vector<EffectParameter> strengths(const EffectInfo& info);
+bool dependsOn(const EffectInfo& info, Covariate covariate);
 
 /// Names as files and reports spell them, e.g. "time_since_reversal".
 std::string name(ChainStage stage);

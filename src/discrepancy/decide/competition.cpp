@@ -12,11 +12,6 @@ namespace {
 // Noise that all taxels share is gone after this time [s].
 constexpr double kRepeats = 1.2;
 
-// Effects whose grid of shapes is a set of elements that add up: any mixture of one sign is one effect.
-bool isMixture(const std::string& id) {
-  return id == "hysteresis" || id == "creep" || id == "seal_leak";
-}
-
 bool sameShapes(const Signature& a, const Signature& b) {
   if (a.id != b.id || a.carried != b.carried) return false;
   for (const auto& [name, value] : a.values) {
@@ -32,12 +27,13 @@ bool sameShapes(const Signature& a, const Signature& b) {
 Family familyOf(const std::string& id, const std::vector<Signature>& signatures) {
   Family family;
   family.id = id;
+  const bool mixture = simulation::findEffect(id)->info.mixture;
   std::vector<std::size_t> heads;  // the first signature of each alternative
   for (std::size_t s = 0; s < signatures.size(); ++s) {
     if (signatures[s].id != id) continue;
     const auto belongs = [&](std::size_t head) {
-      return isMixture(id) ? signatures[head].carried == signatures[s].carried
-                           : sameShapes(signatures[head], signatures[s]);
+      return mixture ? signatures[head].carried == signatures[s].carried
+                     : sameShapes(signatures[head], signatures[s]);
     };
     auto head = std::find_if(heads.begin(), heads.end(), belongs);
     if (head == heads.end()) {
@@ -90,8 +86,7 @@ Competition::Competition(const Measured& measured, const CommonTraces& common, c
   std::vector<std::string> ids;
   for (const Signature& s : signatures_) {
     const simulation::EffectInfo& info = simulation::findEffect(s.id)->info;
-    if (!isStatic(info) && s.id != "scan_skew" && !std::count(ids.begin(), ids.end(), s.id))
-      ids.push_back(s.id);
+    if (!isStatic(info) && info.looked_for && !std::count(ids.begin(), ids.end(), s.id)) ids.push_back(s.id);
   }
   for (const std::string& id : ids) {
     effects_.push_back(familyOf(id, signatures_));

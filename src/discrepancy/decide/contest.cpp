@@ -66,8 +66,8 @@ bool Explanation::has(const std::string& id) const {
   return std::count(score.ids.begin(), score.ids.end(), id) > 0;
 }
 
-bool isSlow(const std::string& id) {
-  return id == "drift" || id == "temperature" || id == "wear" || id == "break_in";
+const simulation::EffectInfo& infoOf(const std::string& id) {
+  return simulation::findEffect(id)->info;
 }
 
 Contest::Contest(const Measured& measured, const CommonTraces& common, const StaticFit& fit,

@@ -28,8 +28,8 @@ struct Explanation {
   bool has(const std::string& id) const;
 };
 
-/// Whether an effect changes from cycle to cycle: some dozens of gains do not hold two of them.
-bool isSlow(const std::string& id);
+/// What the library says about an effect.
+const simulation::EffectInfo& infoOf(const std::string& id);
 
 /// Every single explanation, and the measures by which explanations are compared: what each explains of
 /// cycles that took no part in its fit, and how sure one is ahead of another.

@@ -17,10 +17,10 @@ constexpr double kMisfitBeside = 0.08;  // likewise, where time courses were fou
 constexpr double kByCode = 0.4;         // share of a misfit that one function of the reading explains
 constexpr double kHighReadings = 0.6;   // of the highest: where a saturation shows
 
-Finding plain(const std::string& id, double z) {
+Finding plain(simulation::Detector detector, double z) {
   Finding finding;
-  const simulation::EffectInfo& info = simulation::findEffect(id)->info;
-  finding.effect.id = id;
+  const simulation::EffectInfo& info = simulation::foundBy(detector);
+  finding.effect.id = info.id;
   finding.effect.summary = info.summary;
   finding.effect.z = z;
   finding.effect.share_of_ceiling = 1;
@@ -49,7 +49,7 @@ simulation::EnabledEffect usualValues(const std::string& id) {
 }  // namespace
 
 Finding findingOf(const Fault& fault, const FaultyReadings& readings, double square) {
-  Finding finding = plain(fault.id, kFaultZ);
+  Finding finding = plain(fault.detector, kFaultZ);
   finding.enable = {asEffect(fault)};
   finding.where.taxels = fault.taxels;
   finding.where.conditions = readings.conditions;
@@ -61,7 +61,7 @@ Finding findingOf(const Fault& fault, const FaultyReadings& readings, double squ
 }
 
 Finding findingOf(const Mains& mains, double square, const Measured& measured) {
-  Finding finding = plain("mains_pickup", mains.z);
+  Finding finding = plain(simulation::Detector::kMains, mains.z);
   finding.enable = {asEffect(mains, measured.full_scale)};
   tellParameters(finding, {"amplitude", "frequency", "taxel_time"});
   finding.where.pressure = {0, *std::max_element(measured.pressure.begin(), measured.pressure.end())};
@@ -70,8 +70,8 @@ Finding findingOf(const Mains& mains, double square, const Measured& measured) {
 }
 
 Finding findingOf(const Repositioning& repositioning, double square) {
-  Finding finding = plain("repositioning", repositioning.z);
-  finding.enable = {usualValues("repositioning")};
+  Finding finding = plain(simulation::Detector::kMounts, repositioning.z);
+  finding.enable = {usualValues(finding.effect.id)};
   finding.enable.front().values["offset"] = repositioning.offset;
   finding.enable.front().values["gain"] = std::min(0.5, repositioning.gain);
   tellParameters(finding, {"offset", "gain"});
@@ -82,13 +82,13 @@ Finding findingOf(const Repositioning& repositioning, double square) {
 
 Finding saturationOf(const StaticMisfit& misfit, const Measured& measured, const StaticFit& fit,
                      const simulation::SimulationSettings& base) {
-  Finding finding = plain("saturation", kFaultZ);
-  simulation::EnabledEffect effect = usualValues("saturation");
+  Finding finding = plain(simulation::Detector::kSaturation, kFaultZ);
+  simulation::EnabledEffect effect = usualValues(finding.effect.id);
   const double highest = fit.curve().maxCoeff();
   effect.values["level"] = 1.1 * highest * measured.full_scale;
   effect.values["sharpness"] = 4;
   const simulation::SimulationSettings fitted = fitBase(measured, fit, withEffect(base, effect));
-  finding.enable = {*fitted.effect("saturation")};
+  finding.enable = {*fitted.effect(effect.id)};
   tellParameters(finding, {"level", "sharpness"});
   finding.where.pressure = {INFINITY, 0};
   for (std::size_t i = 0; i < measured.moments(); ++i) {

@@ -323,7 +323,7 @@ void takeOut(Measured& measured, const StaticFit& fit, const simulation::Simulat
 
 bool hasTimeCourse(const simulation::EffectInfo& info) {
   return (info.kind == simulation::EffectKind::kAdditive || info.kind == simulation::EffectKind::kGrid) &&
-         !isStatic(info) && info.id != "mains_pickup";
+         !isStatic(info) && info.detector == simulation::Detector::kNone;
 }
 
 simulation::SimulationSettings takeOutEnabled(Measured& measured, const CommonTraces& common,

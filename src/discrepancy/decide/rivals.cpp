@@ -26,24 +26,20 @@ bool isRival(const Contest& contest, const Explanation& other, const Explanation
   // One effect against two was weighed by what the second adds; two against two by the same.
   if (best.score.ids.size() > 1 && other.score.ids.size() == 1) return false;
   if (best.score.ids.size() > 1) return behind <= (1 - kSecondRival) * (best.share - contest.best()->share);
-  const std::string &first = best.score.ids.front(), &second = other.score.ids.front();
+  const simulation::EffectInfo &first = infoOf(best.score.ids.front()),
+                               &second = infoOf(other.score.ids.front());
   // What everything slow looks like excludes nothing slow, unless that went another way than the clock.
-  if (first == "drift" && isSlow(second))
+  if (first.any_course && second.slow)
     return behind <= (evidence.apartFromClock(second) ? kRivalFar : weigh::kDriftHides) * best.share;
   // And where that did, a drift with its three parameters is no simpler explanation that comes near.
-  if (second == "drift" && isSlow(first) && evidence.apartFromClock(first)) return false;
+  if (second.any_course && first.slow && evidence.apartFromClock(first)) return false;
   return behind <= kRivalWithin * best.share;
 }
 
 // Whether the recordings hold what an effect needs, to be named without a partner.
 bool standsAlone(const EvidenceAtHand& evidence, const simulation::EffectInfo& info) {
-  const bool all = std::all_of(info.needs.begin(), info.needs.end(),
-                               [&](simulation::Evidence e) { return evidence.has(e); });
-  // Whatever goes on slowly looks like a drift while the clock and the cycles go on together, and a wear that
-  // fades like a break-in until a surface is mounted again.
-  if (info.id == "drift") return all && evidence.uneven_pace;
-  if (info.id == "break_in") return all && evidence.remounted;
-  return all;
+  return std::all_of(info.needs.begin(), info.needs.end(),
+                     [&](simulation::Evidence e) { return evidence.has(e); });
 }
 
 // The best of the effects that are easily taken for one of the explanation's; null where none comes near.
@@ -77,27 +73,30 @@ std::vector<Ids> credibleSet(const Contest& contest, const std::vector<Explanati
   std::vector<Ids> credible = {best.score.ids};
   for (const Explanation* rival : rivals) credible.push_back(rival->score.ids);
   if (contest.evidence().temperature_moved) {
-    std::stable_partition(credible.begin(), credible.end(),
-                          [](const Ids& ids) { return ids == Ids{"temperature"}; });
+    std::stable_partition(credible.begin(), credible.end(), [](const Ids& ids) {
+      return ids.size() == 1 &&
+             simulation::dependsOn(infoOf(ids.front()), simulation::Covariate::kTemperature);
+    });
   }
-  std::stable_partition(credible.begin(), credible.end(), [](const Ids& ids) { return ids != Ids{"drift"}; });
+  std::stable_partition(credible.begin(), credible.end(),
+                        [](const Ids& ids) { return ids.size() != 1 || !infoOf(ids.front()).any_course; });
   return credible;
 }
 
 std::vector<Ids> partnersOf(const Contest& contest, const Explanation& first) {
   std::vector<Ids> partners;
   for (const std::string& id : first.score.ids) {
-    const simulation::EffectInfo& info = simulation::findEffect(id)->info;
+    const simulation::EffectInfo& info = infoOf(id);
     if (standsAlone(contest.evidence(), info)) continue;
     if (const Explanation* partner = partnerOf(contest, info, first)) partners.push_back(partner->score.ids);
   }
   if (!partners.empty() || first.share >= weigh::kGoodForm * contest.ceiling()) return partners;
-  const std::string& id = first.score.ids.front();
-  const bool slow_apart = isSlow(id) && contest.evidence().apartFromClock(id);
+  const simulation::EffectInfo& info = infoOf(first.score.ids.front());
+  const bool slow_apart = info.slow && contest.evidence().apartFromClock(info);
   for (const Explanation& single : contest.singles()) {
     if (single.score.ids == first.score.ids || single.share < kNearBadForm * first.share) continue;
     // Hours of cycles and pauses have told it from what else is slow, in whatever form.
-    const bool told = slow_apart && isSlow(single.score.ids.front()) &&
+    const bool told = slow_apart && infoOf(single.score.ids.front()).slow &&
                       contest.behindInErrors(single, first) > weigh::kSignificant;
     if (!told) partners.push_back(single.score.ids);
   }

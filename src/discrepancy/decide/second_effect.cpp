@@ -11,15 +11,31 @@ namespace {
 constexpr double kSecondOfRest = 0.45;   // of what remains explainable: a wrong form alone leaves that much
 constexpr double kSecondOfFirst = 0.03;  // of what the first effect explains
 constexpr double kSecondLookalike = 8;   // standard errors, where a wrong form of one looks like the other
-constexpr double kAnyForm = 0.7;    // of what the second adds: if a form of the first does, there is none
-constexpr double kCreepNear = 0.8;  // of a loop with a break-in
+constexpr double kAnyForm = 0.7;        // of what the second adds: if a form of the first does, there is none
+constexpr double kWrongFormNear = 0.8;  // of the pair that describes its wrong form
 constexpr std::size_t kPairsRefined = 4;
 constexpr double kMuchOpen = 0.75;  // of the common trace's error: less explained leaves room for two
 
-// A creep whose form is not quite the library's leaves something of a loop, and goes on otherwise in the
-// first cycles of every mount, as a break-in does.
+// Whether one effect of the pair is like what the other leaves where its form is not the library's.
 bool lookAlike(const Explanation& pair) {
-  return pair.has("creep") && (pair.has("break_in") || pair.has("hysteresis"));
+  return std::any_of(pair.score.ids.begin(), pair.score.ids.end(), [&](const std::string& id) {
+    const std::vector<std::string>& like = infoOf(id).wrong_form_like;
+    return std::any_of(like.begin(), like.end(), [&](const std::string& other) { return pair.has(other); });
+  });
+}
+
+// Whether the pair is what one of the effects leaves where its form is not the library's.
+bool isLeftBy(const Explanation& pair, const Explanation& single) {
+  return std::any_of(single.score.ids.begin(), single.score.ids.end(), [&](const std::string& id) {
+    const std::vector<std::string>& like = infoOf(id).wrong_form_like;
+    const auto in_pair = [&](const std::string& other) { return pair.has(other); };
+    return !like.empty() && std::all_of(like.begin(), like.end(), in_pair);
+  });
+}
+
+bool takesAnyCourse(const Explanation& pair) {
+  const auto any_course = [](const std::string& id) { return infoOf(id).any_course; };
+  return std::any_of(pair.score.ids.begin(), pair.score.ids.end(), any_course);
 }
 
 // The pairs that do best as signatures, best first, and the best single effect with each of the others: a
@@ -31,7 +47,8 @@ std::vector<Explanation> bestPairs(const Contest& contest, const Explanation& on
   std::vector<Explanation> pairs;
   for (std::size_t a = 0; a < singles.size(); ++a) {
     for (std::size_t b = a + 1; b < singles.size(); ++b) {
-      if (isSlow(families[a].id) && isSlow(families[b].id)) continue;
+      // Some dozens of gains of cycles do not hold two slow effects.
+      if (infoOf(families[a].id).slow && infoOf(families[b].id).slow) continue;
       Explanation pair;
       pair.score = selection.score(singles[a].score, families[b]);
       Score swapped = selection.score(singles[b].score, families[a]);
@@ -62,8 +79,7 @@ bool isWorthIt(const Contest& contest, const Explanation& one, double in_any_for
 }  // namespace
 
 bool mayBeOne(const Explanation& single, const Explanation& pair) {
-  return single.has("creep") && pair.has("hysteresis") && pair.has("break_in") &&
-         single.share >= kCreepNear * pair.share;
+  return isLeftBy(pair, single) && single.share >= kWrongFormNear * pair.share;
 }
 
 std::vector<Explanation> pairsWorthIt(Contest& contest, const Explanation& one) {
@@ -76,8 +92,8 @@ std::vector<Explanation> pairsWorthIt(Contest& contest, const Explanation& one) 
   const auto hopeless = [&](const Explanation& pair) { return !isWorthIt(contest, one, in_any_form, pair); };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), hopeless), pairs.end());
   const auto merit = [&](const Explanation& pair) {
-    return one.share +
-           (pair.share - one.share) * (pair.has("drift") || pair.refined.at_bound ? weigh::kDriftHides : 1);
+    const bool doubtful = takesAnyCourse(pair) || pair.refined.at_bound;
+    return one.share + (pair.share - one.share) * (doubtful ? weigh::kDriftHides : 1);
   };
   std::stable_sort(pairs.begin(), pairs.end(),
                    [&](const auto& a, const auto& b) { return merit(a) > merit(b); });

@@ -16,29 +16,23 @@ namespace {
 constexpr std::size_t kPressures = 24;  // at which curves are compared, of each visit
 constexpr double kLargestStep = 4;      // of a logarithm: a factor of 50 either way
 
-// Base parameters that are fitted, all on logarithms of their size.
-struct BaseParameter {
-  const char* effect;
-  const char* name;
-};
-const BaseParameter kBase[] = {
-    {"static_curve", "conductance"},
-    {"static_curve", "exponent"},
-    {"static_curve", "saturation_pressure"},
-    {"static_curve", "offset"},
-    {"bending_preload", "amplitude"},
-    {"bending_preload", "curvature_constant"},
-    {"bending_gain", "change"},
-    {"saturation", "level"},
-    {"saturation", "sharpness"},
-    {"bending_gain", "curvature_constant"},
-};
-
+// A parameter that is fitted, on the logarithm of its size.
 struct Fitted {
+  int place;  // in the fit
   std::string effect, name;
   double start;
   settings::Range range;
 };
+
+bool isFitted(const simulation::EffectParameter& parameter) {
+  return parameter.place_in_base_fit > 0;
+}
+
+bool isFitted(const simulation::EnabledEffect& effect) {
+  const auto& parameters = simulation::findEffect(effect.id)->info.parameters;
+  return std::any_of(parameters.begin(), parameters.end(),
+                     [](const simulation::EffectParameter& parameter) { return isFitted(parameter); });
+}
 
 simulation::EnabledEffect& enabled(simulation::SimulationSettings& settings, const std::string& id) {
   return *std::find_if(settings.effects.begin(), settings.effects.end(),
@@ -48,17 +42,18 @@ simulation::EnabledEffect& enabled(simulation::SimulationSettings& settings, con
 // What is fitted of these settings; parameters that are off start from a hundredth of what they may be.
 std::vector<Fitted> fittedOf(const simulation::SimulationSettings& settings, bool bent) {
   std::vector<Fitted> fitted;
-  for (const auto& [effect, name] : kBase) {
-    const simulation::EnabledEffect* present = settings.effect(effect);
-    const bool by_bending = std::string(effect).rfind("bending", 0) == 0;
-    if (!present || (!bent && by_bending)) continue;
-    const settings::Range& range =
-        simulation::parameter(simulation::findEffect(effect)->info, name).permitted;
-    double start = present->values.at(name);
-    if (std::string(name) == "offset" && start == 0) start = 0.01 * present->values.at("conductance");
-    if (start == 0 || !std::isfinite(start)) continue;
-    fitted.push_back({effect, name, start, range});
+  for (const simulation::EnabledEffect& effect : settings.effects) {
+    const simulation::EffectInfo& info = simulation::findEffect(effect.id)->info;
+    if (!bent && info.with_bending) continue;
+    for (const simulation::EffectParameter& parameter : info.parameters) {
+      if (!isFitted(parameter)) continue;
+      double start = effect.values.at(parameter.name);
+      if (parameter.name == "offset" && start == 0) start = 0.01 * effect.values.at("conductance");
+      if (start == 0 || !std::isfinite(start)) continue;
+      fitted.push_back({parameter.place_in_base_fit, effect.id, parameter.name, start, parameter.permitted});
+    }
   }
+  std::sort(fitted.begin(), fitted.end(), [](const Fitted& a, const Fitted& b) { return a.place < b.place; });
   return fitted;
 }
 
@@ -120,10 +115,7 @@ simulation::SimulationSettings withoutMemory(simulation::SimulationSettings sett
   auto& effects = settings.effects;
   effects.erase(std::remove_if(effects.begin(), effects.end(),
                                [](const simulation::EnabledEffect& e) {
-                                 return std::none_of(
-                                            std::begin(kBase), std::end(kBase),
-                                            [&](const BaseParameter& b) { return e.id == b.effect; }) &&
-                                        e.id != "converter";
+                                 return !isFitted(e) && !simulation::findEffect(e.id)->info.required;
                                }),
                 effects.end());
   return settings;
@@ -168,10 +160,12 @@ simulation::SimulationSettings fitBase(const Measured& measured, const StaticFit
   options.steps = 40;
   const auto at = levenberg(residuals, std::vector<double>(fitted.size(), 0.0), options);
   simulation::SimulationSettings base = settingsAt(settings, fitted, at);
-  enabled(base, "static_curve").values["conductance_scatter"] =
-      std::min(taxelScatter(measured),
-               simulation::parameter(simulation::findEffect("static_curve")->info, "conductance_scatter")
-                   .permitted.high);
+  for (simulation::EnabledEffect& effect : base.effects) {
+    for (const simulation::EffectParameter& parameter : simulation::findEffect(effect.id)->info.parameters) {
+      if (!parameter.from_taxel_deviation) continue;
+      effect.values[parameter.name] = std::min(taxelScatter(measured), parameter.permitted.high);
+    }
+  }
   return base;
 }
 

@@ -134,7 +134,7 @@ void takeOut(const Mains& mains, const StaticFit& fit, CommonTraces& common) {
 }
 
 simulation::EnabledEffect asEffect(const Mains& mains, double full_scale) {
-  simulation::EnabledEffect effect{"mains_pickup", {}};
+  simulation::EnabledEffect effect{simulation::foundBy(simulation::Detector::kMains).id, {}};
   for (const simulation::EffectParameter& parameter : simulation::findEffect(effect.id)->info.parameters) {
     effect.values[parameter.name] = parameter.usual;
   }

@@ -141,7 +141,8 @@ bool sought(const simulation::EffectEntry& entry, const simulation::SimulationSe
   const bool by_derivative =
       kind == simulation::EffectKind::kAdditive || kind == simulation::EffectKind::kGrid;
   const bool left_out = std::count(leave_out.begin(), leave_out.end(), entry.info.id) > 0;
-  return by_derivative && !left_out && !settings.effect(entry.info.id) && entry.info.id != "mains_pickup";
+  return by_derivative && !left_out && !settings.effect(entry.info.id) &&
+         entry.info.detector == simulation::Detector::kNone;
 }
 
 bool remembers(const simulation::EffectEntry& entry) {
@@ -186,9 +187,10 @@ simulation::SimulationSettings representative(const simulation::SimulationSettin
   one.taxel_curves = nullptr;
   auto& effects = one.effects;
   const auto unwanted = [](const simulation::EnabledEffect& effect) {
-    const simulation::EffectEntry* entry = simulation::findEffect(effect.id);
-    const bool detected = entry->info.kind == simulation::EffectKind::kDetector && effect.id != "saturation";
-    return effect.id == "white_noise" || detected;
+    const simulation::EffectInfo& info = simulation::findEffect(effect.id)->info;
+    const bool single =
+        info.kind == simulation::EffectKind::kDetector && info.level != simulation::EffectLevel::kRig;
+    return info.stochastic || single;
   };
   effects.erase(std::remove_if(effects.begin(), effects.end(), unwanted), effects.end());
   for (simulation::EnabledEffect& effect : effects) {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "simulation/driven_rig.h"
+#include "simulation/effects/enabled_effects.h"
 
 namespace fsr::discrepancy {
 
@@ -24,15 +25,6 @@ struct Pair {
   const std::uint16_t* measured;
   const double* simulated;
 };
-
-simulation::SimulationSettings withoutNoise(simulation::SimulationSettings settings) {
-  auto& effects = settings.effects;
-  effects.erase(
-      std::remove_if(effects.begin(), effects.end(),
-                     [](const simulation::EnabledEffect& effect) { return effect.id == "white_noise"; }),
-      effects.end());
-  return settings;
-}
 
 // The cycles that are shown, as times since the first scan of all [s].
 std::vector<std::pair<double, double>> shownTimes(const Measured& measured) {
@@ -62,7 +54,7 @@ std::vector<const dataset::Recording*> inOrderOfTime(const Measured& measured) {
 // Drives the simulation through everything that was recorded.
 void forEachScan(const Measured& measured, const simulation::SimulationSettings& simulation,
                  const std::function<void(const Pair&)>& use) {
-  const simulation::SimulationSettings quiet = withoutNoise(simulation);
+  const simulation::SimulationSettings quiet = simulation::withoutNoise(simulation);
   simulation::DrivenRig rig(quiet);
   double end = -INFINITY;
   const std::vector<const dataset::Recording*> order = inOrderOfTime(measured);

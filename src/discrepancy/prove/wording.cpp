@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <sstream>
 
+#include "simulation/effects/effect_library.h"
+
 namespace fsr::discrepancy {
 
 namespace {
 
-// Data sheets call creep "drift": whoever reads the word must not take it for the other.
+// Some data sheets use the name of another effect.
 std::string called(const std::string& id) {
-  return id == "creep" ? "creep (data sheets: drift under constant load)" : id;
+  const std::string& other = simulation::findEffect(id)->info.also_called;
+  return other.empty() ? id : id + " (data sheets: " + other + ")";
 }
 
 std::string called(const std::vector<std::string>& ids) {

@@ -44,7 +44,10 @@ bool EvidenceAtHand::has(simulation::Evidence evidence) const {
       return two_rates;
     case simulation::Evidence::kMountLabels:
       return mount_labels;
+    case simulation::Evidence::kRemounts:
+      return remounted;
     case simulation::Evidence::kManyCycles:
+    case simulation::Evidence::kUnevenPace:
       return uneven_pace;
     default:
       return false;

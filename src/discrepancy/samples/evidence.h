@@ -18,8 +18,8 @@ struct EvidenceAtHand {
   bool uneven_warmth = false;  ///< the temperature went another way than the clock, over hours
   bool has(simulation::Evidence evidence) const;
   /// Whether what a slow effect follows went another way than the clock, so that a drift is told from it.
-  bool apartFromClock(const std::string& slow) const {
-    return slow == "temperature" ? uneven_warmth : uneven_pace;
+  bool apartFromClock(const simulation::EffectInfo& slow) const {
+    return simulation::dependsOn(slow, simulation::Covariate::kTemperature) ? uneven_warmth : uneven_pace;
   }
 };
 EvidenceAtHand evidenceIn(const Measured& measured);

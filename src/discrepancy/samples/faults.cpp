@@ -197,8 +197,8 @@ class Detectors {
 
   Faults run() {
     for (const bool rows : {true, false}) findLine(rows);
-    findTaxels("stuck_taxel", stuckScans);
-    findTaxels("dead_taxel", deadScans);
+    findTaxels(simulation::Detector::kStuckTaxels, stuckScans);
+    findTaxels(simulation::Detector::kDeadTaxels, deadScans);
     judgeReadings();
     return std::move(faults_);
   }
@@ -212,7 +212,7 @@ class Detectors {
     });
   }
   void findLine(bool rows);
-  void findTaxels(const char* id, Test test);
+  void findTaxels(simulation::Detector detector, Test test);
   void keep(Fault& fault, const std::vector<std::vector<bool>>& flags);
   void judgeReadings();
 
@@ -252,6 +252,8 @@ void Detectors::findLine(bool rows) {
   const std::size_t lines = rows ? measured_.layout.size.rows : measured_.layout.size.columns;
   const std::size_t across = rows ? measured_.layout.size.columns : measured_.layout.size.rows;
   if (lines < 3 || across < 3) return;
+  const simulation::Detector detector =
+      rows ? simulation::Detector::kRowFaults : simulation::Detector::kColumnFaults;
   Fault best;
   std::vector<std::vector<bool>> best_flags;
   double most = 0;
@@ -270,7 +272,7 @@ void Detectors::findLine(bool rows) {
     }
     if (hit <= most) continue;
     most = hit;
-    best = Fault{rows ? "row_fault" : "column_fault", line, taxels, 0, 0, 0, {}};
+    best = Fault{detector, simulation::foundBy(detector).id, line, taxels, 0, 0, 0, {}};
     best_flags = flags;
   }
   if (most < static_cast<double>(kDeadScans) || (!best.taxels.empty() && taken(best.taxels.front()))) return;
@@ -278,8 +280,8 @@ void Detectors::findLine(bool rows) {
   faults_.faults.push_back(best);
 }
 
-void Detectors::findTaxels(const char* id, Test test) {
-  Fault fault{id, 0, {}, 0, 0, 0, {}};
+void Detectors::findTaxels(simulation::Detector detector, Test test) {
+  Fault fault{detector, simulation::foundBy(detector).id, 0, {}, 0, 0, 0, {}};
   std::vector<std::vector<bool>> together;
   for (std::size_t t = 0; t < measured_.taxels(); ++t) {
     if (!measured_.used[t] || taken(t)) continue;

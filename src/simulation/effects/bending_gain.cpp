@@ -28,9 +28,12 @@ EffectInfo info() {
   info.level = EffectLevel::kTaxel;
   info.kind = EffectKind::kGrid;
   info.parameters = {
-      strength("change", "b, change of gain in a tight bend", {-0.9, 1, ""}, -0.17).within(-0.5, 0),
+      strength("change", "b, change of gain in a tight bend", {-0.9, 1, ""}, -0.17)
+          .within(-0.5, 0)
+          .inBaseFit(7),
       shape("curvature_constant", "kg, curvature at which 63 % of b is there", {0.01, 1000, "1/m"}, 6)
-          .trying({1, 6, 15}),
+          .trying({1, 6, 15})
+          .inBaseFit(10),
       scatter("change_scatter", "deviation of b from taxel to taxel, relative", {0, 0.5, ""}, 0),
       scatter("scatter", "c, deviation of the gain from curvature to curvature", {0, 0.2, ""}, 0),
       shape("scatter_length", "l, curvature over which that scatter changes", {0.01, 1000, "1/m"}, 1.5),
@@ -40,6 +43,7 @@ EffectInfo info() {
   info.depends_on = {Covariate::kCurvature, Covariate::kPressure, Covariate::kTaxel};
   info.collinear = {"bending_preload", "repositioning"};
   info.experiment = Experiment::kFlatAgain;
+  info.with_bending = true;
   return info;
 }
 

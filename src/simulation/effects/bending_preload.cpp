@@ -26,10 +26,13 @@ EffectInfo info() {
   info.level = EffectLevel::kTaxel;
   info.kind = EffectKind::kGrid;
   info.parameters = {
-      strength("amplitude", "A, preload of a tight bend", {0, 300e3, "Pa"}, 34e3).within(2e3, 150e3),
+      strength("amplitude", "A, preload of a tight bend", {0, 300e3, "Pa"}, 34e3)
+          .within(2e3, 150e3)
+          .inBaseFit(5),
       strength("slope", "B, further preload by curvature", {0, 20e3, "Pa m"}, 0).within(0, 5e3),
       shape("curvature_constant", "k0, curvature at which 63 % of A is there", {0.01, 1000, "1/m"}, 3)
-          .trying({1, 3, 10}),
+          .trying({1, 3, 10})
+          .inBaseFit(6),
       scatter("scatter", "deviation from taxel to taxel, relative", {0, 0.5, ""}, 0),
       shape("concave_share", "share of it under a concave bend", {0, 1, ""}, 0.6),
   };
@@ -37,6 +40,7 @@ EffectInfo info() {
   info.depends_on = {Covariate::kCurvature, Covariate::kPressure};
   info.collinear = {"turn_on", "bending_gain", "repositioning"};
   info.experiment = Experiment::kFlatAgain;
+  info.with_bending = true;
   return info;
 }
 

@@ -30,9 +30,10 @@ EffectInfo info() {
   };
   info.sign = SignRule::kEither;
   info.depends_on = {Covariate::kCycle, Covariate::kMount};
-  info.needs = {Evidence::kMountLabels};
+  info.needs = {Evidence::kMountLabels, Evidence::kRemounts};
   info.collinear = {"drift", "wear", "temperature"};
   info.experiment = Experiment::kRemount;
+  info.slow = true;
   return info;
 }
 

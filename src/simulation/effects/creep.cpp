@@ -43,6 +43,9 @@ EffectInfo info() {
   info.needs = {Evidence::kTwoRampRates};
   info.collinear = {"hysteresis", "drift", "temperature", "seal_leak", "time_skew"};
   info.experiment = Experiment::kStepAndHold;
+  info.mixture = true;
+  info.wrong_form_like = {"hysteresis", "break_in"};
+  info.also_called = "drift under constant load";
   return info;
 }
 

@@ -23,6 +23,7 @@ EffectInfo info() {
   info.parameters = faultyTaxelParameters();
   info.depends_on = {Covariate::kTaxel};
   info.collinear = {"stuck_taxel"};
+  info.detector = Detector::kDeadTaxels;
   return info;
 }
 

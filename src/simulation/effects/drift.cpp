@@ -35,9 +35,11 @@ EffectInfo info() {
   };
   info.sign = SignRule::kEither;
   info.depends_on = {Covariate::kClockTime};
-  info.needs = {Evidence::kThermometer};
+  info.needs = {Evidence::kThermometer, Evidence::kUnevenPace};
   info.collinear = {"temperature", "wear", "break_in", "creep", "seal_leak", "mains_pickup"};
   info.experiment = Experiment::kRest;
+  info.slow = true;
+  info.any_course = true;
   return info;
 }
 

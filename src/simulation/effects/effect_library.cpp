@@ -1,6 +1,7 @@
 #include "simulation/effects/effect_library.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace fsr::simulation {
 
@@ -21,6 +22,13 @@ const EffectEntry* findEffect(const std::string& id) {
   const auto found = std::find_if(library.begin(), library.end(),
                                   [&](const EffectEntry& entry) { return entry.info.id == id; });
   return found == library.end() ? nullptr : &*found;
+}
+
+const EffectInfo& foundBy(Detector detector) {
+  for (const EffectEntry& entry : effectLibrary()) {
+    if (entry.info.detector == detector) return entry.info;
+  }
+  throw std::out_of_range("no effect of the library is found by that detector");
 }
 
 std::vector<std::string> effectIds() {

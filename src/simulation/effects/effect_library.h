@@ -48,6 +48,9 @@ const std::vector<EffectEntry>& effectLibrary();
 /// The effect of that id, nullptr where there is none.
 const EffectEntry* findEffect(const std::string& id);
 
+/// The effect that a detector finds. Throws std::out_of_range where none is.
+const EffectInfo& foundBy(Detector detector);
+
 /// The ids of all effects, in the library's order.
 std::vector<std::string> effectIds();
 

@@ -49,6 +49,7 @@ EffectInfo info() {
   info.needs = {Evidence::kTwoRampRates};
   info.collinear = {"creep", "time_skew", "seal_leak"};
   info.experiment = Experiment::kTwoRampRates;
+  info.mixture = true;
   return info;
 }
 

@@ -37,6 +37,7 @@ EffectInfo info() {
   info.needs = {Evidence::kMountLabels};
   info.collinear = {"bending_gain", "bending_preload", "edge_stiffness"};
   info.experiment = Experiment::kRemount;
+  info.detector = Detector::kMounts;
   return info;
 }
 

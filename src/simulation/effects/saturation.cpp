@@ -24,11 +24,15 @@ EffectInfo info() {
   info.level = EffectLevel::kRig;
   info.kind = EffectKind::kDetector;
   info.parameters = {
-      strength("level", "y_s, .inf = none", {1, INFINITY, "counts"}, 2500).offAt(INFINITY).within(100, 65535),
-      shape("sharpness", "q, .inf = hard", {1, INFINITY, ""}, 8).trying({4, 8, INFINITY}),
+      strength("level", "y_s, .inf = none", {1, INFINITY, "counts"}, 2500)
+          .offAt(INFINITY)
+          .within(100, 65535)
+          .inBaseFit(8),
+      shape("sharpness", "q, .inf = hard", {1, INFINITY, ""}, 8).trying({4, 8, INFINITY}).inBaseFit(9),
   };
   info.depends_on = {Covariate::kCode, Covariate::kPressure};
   info.collinear = {"static_curve", "trapped_gas"};
+  info.detector = Detector::kSaturation;
   return info;
 }
 

@@ -26,6 +26,7 @@ EffectInfo info() {
   info.depends_on = {Covariate::kPressureRate, Covariate::kRow, Covariate::kTaxel};
   info.collinear = {"time_skew"};
   info.experiment = Experiment::kTwoRampRates;
+  info.looked_for = false;
   return info;
 }
 

@@ -30,6 +30,7 @@ EffectInfo info() {
   info.depends_on = {Covariate::kPressure, Covariate::kTimeSinceReversal, Covariate::kClockTime};
   info.collinear = {"creep", "drift", "hysteresis"};
   info.experiment = Experiment::kStepAndHold;
+  info.mixture = true;
   return info;
 }
 

@@ -26,12 +26,16 @@ EffectInfo info() {
   info.kind = EffectKind::kBase;
   info.required = true;
   info.parameters = {
-      shape("conductance", "k, at the reference pressure but for saturation", {1e-9, 1, "S"}, 3e-4),
+      shape("conductance", "k, at the reference pressure but for saturation", {1e-9, 1, "S"}, 3e-4)
+          .inBaseFit(1),
       shape("reference_pressure", "P_ref", {1e3, 10e6, "Pa"}, 620e3),
-      shape("exponent", "n", {0.2, 3, ""}, 0.9).within(0.5, 1.5),
-      shape("saturation_pressure", "P_s, .inf = none", {1e3, INFINITY, "Pa"}, 1.2e6).offAt(INFINITY),
-      strength("offset", "G0, unloaded", {0, 1, "S"}, 0).within(0, 1e-4),
-      scatter("conductance_scatter", "deviation of k from taxel to taxel, relative", {0, 0.5, ""}, 0.05),
+      shape("exponent", "n", {0.2, 3, ""}, 0.9).within(0.5, 1.5).inBaseFit(2),
+      shape("saturation_pressure", "P_s, .inf = none", {1e3, INFINITY, "Pa"}, 1.2e6)
+          .offAt(INFINITY)
+          .inBaseFit(3),
+      strength("offset", "G0, unloaded", {0, 1, "S"}, 0).within(0, 1e-4).inBaseFit(4),
+      scatter("conductance_scatter", "deviation of k from taxel to taxel, relative", {0, 0.5, ""}, 0.05)
+          .fromTaxelDeviation(),
       scatter("exponent_scatter", "deviation of n from taxel to taxel, relative", {0, 0.2, ""}, 0),
   };
   info.depends_on = {Covariate::kPressure, Covariate::kTaxel};

@@ -26,6 +26,7 @@ EffectInfo info() {
       shape("value", "where it is stuck; -1 = where the fault found it", {-1, 65535, "counts"}, 1000));
   info.depends_on = {Covariate::kTaxel};
   info.collinear = {"dead_taxel"};
+  info.detector = Detector::kStuckTaxels;
   return info;
 }
 

@@ -39,6 +39,7 @@ EffectInfo info() {
   info.needs = {Evidence::kThermometer};
   info.collinear = {"drift", "creep", "wear", "break_in"};
   info.experiment = Experiment::kTwoAmbients;
+  info.slow = true;
   return info;
 }
 

@@ -37,6 +37,7 @@ EffectInfo info() {
   info.needs = {Evidence::kManyCycles, Evidence::kThermometer};
   info.collinear = {"drift", "break_in", "temperature"};
   info.experiment = Experiment::kManyCycles;
+  info.slow = true;
   return info;
 }
 

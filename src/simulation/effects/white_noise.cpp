@@ -28,6 +28,7 @@ EffectInfo info() {
       scatter("absolute", "a, deviation whatever the reading", {0, 10000, "counts"}, 2),
       scatter("relative", "r, deviation as a share of the reading", {0, 0.5, ""}, 0),
   };
+  info.stochastic = true;
   return info;
 }
 
