@@ -13,6 +13,7 @@
 #include "discrepancy/prove/next_experiment.h"
 #include "discrepancy/prove/proof.h"
 #include "discrepancy/prove/wording.h"
+#include "discrepancy/thresholds.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
 
@@ -100,7 +101,7 @@ void Investigation::detectFaults() {
   // What one fault adds to the gap is counted once.
   for (std::size_t f = 1; f < findings_.size(); ++f) findings_[f].before_more = 0;
   const std::size_t usable = measured_.usedTaxels(), all = measured_.taxels();
-  if (2 * usable >= all && usable > 0) return;
+  if (thresholds::enoughUsable(usable, all) && usable > 0) return;
   throw settings::InputError(
       problem_.recordings[0].name + ": " + std::to_string(all - usable) + " of " + std::to_string(all) +
       " taxels are masked, dead, stuck or on a failing line, but at least half must be usable");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discrepancy/thresholds.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
@@ -127,7 +128,7 @@ double Contest::shareOfReadings(double share) const {
 }
 
 bool Contest::shows(const Score& score) const {
-  return z(score) > kLeastZ && shareOfError(score) >= weigh::kLeastShareOfError;
+  return z(score) > kLeastZ && shareOfError(score) >= thresholds::kLeastShareOfError;
 }
 
 bool Contest::shows(const Explanation& explanation) const {
@@ -136,7 +137,7 @@ bool Contest::shows(const Explanation& explanation) const {
   const double by_signatures = shareOf(explanation.score);
   const double more = by_signatures > 0 ? explanation.share / by_signatures : 1;
   return behindInErrors(nothing, explanation) > kLeastZ &&
-         more * shareOfError(explanation.score) >= weigh::kLeastShareOfError;
+         more * shareOfError(explanation.score) >= thresholds::kLeastShareOfError;
 }
 
 const Explanation* Contest::best() const {

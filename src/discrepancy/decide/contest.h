@@ -10,14 +10,6 @@
 
 namespace fsr::discrepancy {
 
-/// Thresholds of every decision; each file has those of its own besides.
-namespace weigh {
-constexpr double kLeastShareOfError = 0.02;  // of the readings' squared error: less does not matter
-constexpr double kSignificant = 2;           // standard errors
-constexpr double kGoodForm = 0.7;            // of the ceiling: who explains less has not the right form
-constexpr double kDriftHides = 0.5;          // of what drift explains: it may be any slow effect that near
-}  // namespace weigh
-
 /// An explanation by one effect or two, as signatures and, where it came near, through the forward model.
 struct Explanation {
   Score score;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "discrepancy/fit/cycle_levels.h"
+#include "discrepancy/thresholds.h"
 #include "fsr_pressure_map/simulation/effect_info.h"
 #include "statistics/multiple_comparisons.h"
 #include "statistics/random_stream.h"
@@ -13,9 +14,8 @@ namespace fsr::discrepancy {
 namespace {
 
 constexpr double kLevel = 0.05;
-constexpr double kLeastShare = 0.02;  // of the readings' squared error
-constexpr double kBlock = 5;          // noise hangs together for less [s]
-constexpr double kSingular = 1e-9;    // of the largest eigenvalue
+constexpr double kBlock = 5;        // noise hangs together for less [s]
+constexpr double kSingular = 1e-9;  // of the largest eigenvalue
 constexpr std::size_t kRateTerms = 2;
 constexpr std::size_t kFewTaxels = 4;  // too few to have rows and columns
 
@@ -292,7 +292,7 @@ std::vector<CovariateTest> Tester::run() {
   const std::vector<double> adjusted = statistics::benjaminiYekutieli(p);
   for (std::size_t t = 0; t < tests_.size(); ++t) {
     tests_[t].adjusted = adjusted[t];
-    tests_[t].depends = adjusted[t] <= kLevel && tests_[t].share_of_error >= kLeastShare;
+    tests_[t].depends = adjusted[t] <= kLevel && tests_[t].share_of_error >= thresholds::kLeastShareOfError;
   }
   return tests_;
 }

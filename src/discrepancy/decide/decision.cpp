@@ -6,6 +6,7 @@
 #include "discrepancy/decide/contest.h"
 #include "discrepancy/decide/rivals.h"
 #include "discrepancy/decide/second_effect.h"
+#include "discrepancy/thresholds.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
@@ -41,7 +42,7 @@ bool Verdicts::unknown(const Explanation& best) {
   if (!generic || !(none || contest_.shows(*generic))) return false;
   const double more = contest_.shareOf(*generic) - best.share;
   const bool beaten = more > kGenericBetter * contest_.ceiling() &&
-                      contest_.selection().z(best.score, *generic) > weigh::kSignificant;
+                      contest_.selection().z(best.score, *generic) > thresholds::kSignificant;
   const bool weak = none || !contest_.shows(best) || best.share < kLeastShareOfCeiling * contest_.ceiling();
   if (!weak && !(beaten && !Contest::within(contest_.covariates(*generic), best.score))) return false;
   decision_.verdict = Verdict::kUnknown;
@@ -56,11 +57,11 @@ bool Verdicts::unknown(const Explanation& best) {
 bool Verdicts::leavesOfItsForm(const Explanation& explanation) const {
   const Score any = contest_.inAnyForm(explanation);
   return contest_.shareOf(any) - explanation.share > kGenericBetter * contest_.ceiling() &&
-         contest_.selection().z(explanation.score, any) > weigh::kSignificant;
+         contest_.selection().z(explanation.score, any) > thresholds::kSignificant;
 }
 
 bool Verdicts::fitsWell(const Explanation& explanation) const {
-  return explanation.share >= weigh::kGoodForm * contest_.ceiling() && !explanation.refined.at_bound &&
+  return explanation.share >= thresholds::kGoodForm * contest_.ceiling() && !explanation.refined.at_bound &&
          !leavesOfItsForm(explanation);
 }
 

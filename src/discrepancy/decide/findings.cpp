@@ -5,17 +5,18 @@
 
 #include "discrepancy/decide/refine.h"
 #include "discrepancy/fit/base_fit.h"
+#include "discrepancy/thresholds.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kFaultZ = 99;          // a detector does not doubt
-constexpr double kMisfitAlone = 0.02;   // of the readings' squared error
-constexpr double kMisfitBeside = 0.08;  // likewise, where time courses were found that bend the curves
-constexpr double kByCode = 0.4;         // share of a misfit that one function of the reading explains
-constexpr double kHighReadings = 0.6;   // of the highest: where a saturation shows
+constexpr double kFaultZ = 99;  // a detector does not doubt
+constexpr double kMisfitBeside =
+    0.08;  // of the readings' squared error, where time courses were found that bend the curves
+constexpr double kByCode = 0.4;        // share of a misfit that one function of the reading explains
+constexpr double kHighReadings = 0.6;  // of the highest: where a saturation shows
 
 Finding plain(simulation::Detector detector, double z) {
   Finding finding;
@@ -101,7 +102,7 @@ Finding saturationOf(const StaticMisfit& misfit, const Measured& measured, const
 }
 
 bool isMisfit(const StaticMisfit& misfit, bool something_else_found) {
-  return misfit.share >= (something_else_found ? kMisfitBeside : kMisfitAlone);
+  return misfit.share >= (something_else_found ? kMisfitBeside : thresholds::kLeastShareOfError);
 }
 
 bool isSaturation(const StaticMisfit& misfit, const Measured& measured) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "discrepancy/decide/second_effect.h"
+#include "discrepancy/thresholds.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
@@ -20,7 +21,7 @@ using Ids = std::vector<std::string>;
 bool isRival(const Contest& contest, const Explanation& other, const Explanation& best) {
   const EvidenceAtHand& evidence = contest.evidence();
   const double behind = best.share - other.share;
-  if (contest.behindInErrors(other, best) < weigh::kSignificant && behind < kRivalFar * best.share)
+  if (contest.behindInErrors(other, best) < thresholds::kSignificant && behind < kRivalFar * best.share)
     return true;
   if (mayBeOne(other, best)) return true;
   // One effect against two was weighed by what the second adds; two against two by the same.
@@ -30,7 +31,7 @@ bool isRival(const Contest& contest, const Explanation& other, const Explanation
                                &second = infoOf(other.score.ids.front());
   // What everything slow looks like excludes nothing slow, unless that went another way than the clock.
   if (first.any_course && second.slow)
-    return behind <= (evidence.apartFromClock(second) ? kRivalFar : weigh::kDriftHides) * best.share;
+    return behind <= (evidence.apartFromClock(second) ? kRivalFar : thresholds::kAnyCourseHides) * best.share;
   // And where that did, a drift with its three parameters is no simpler explanation that comes near.
   if (second.any_course && first.slow && evidence.apartFromClock(first)) return false;
   return behind <= kRivalWithin * best.share;
@@ -90,14 +91,14 @@ std::vector<Ids> partnersOf(const Contest& contest, const Explanation& first) {
     if (standsAlone(contest.evidence(), info)) continue;
     if (const Explanation* partner = partnerOf(contest, info, first)) partners.push_back(partner->score.ids);
   }
-  if (!partners.empty() || first.share >= weigh::kGoodForm * contest.ceiling()) return partners;
+  if (!partners.empty() || first.share >= thresholds::kGoodForm * contest.ceiling()) return partners;
   const simulation::EffectInfo& info = infoOf(first.score.ids.front());
   const bool slow_apart = info.slow && contest.evidence().apartFromClock(info);
   for (const Explanation& single : contest.singles()) {
     if (single.score.ids == first.score.ids || single.share < kNearBadForm * first.share) continue;
     // Hours of cycles and pauses have told it from what else is slow, in whatever form.
     const bool told = slow_apart && infoOf(single.score.ids.front()).slow &&
-                      contest.behindInErrors(single, first) > weigh::kSignificant;
+                      contest.behindInErrors(single, first) > thresholds::kSignificant;
     if (!told) partners.push_back(single.score.ids);
   }
   return partners;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "discrepancy/thresholds.h"
+
 namespace fsr::discrepancy {
 
 namespace {
@@ -72,8 +74,8 @@ bool isWorthIt(const Contest& contest, const Explanation& one, double in_any_for
   if (lookAlike(two) && contest.selection().z(one.score, two.score) < kSecondLookalike) return false;
   if (in_any_form >= one.share + kAnyForm * gain) return false;
   return gain >= kSecondOfRest * rest && gain >= kSecondOfFirst * one.share &&
-         contest.behindInErrors(one, two) > weigh::kSignificant &&
-         gain / two.share * contest.shareOfError(two.score) >= weigh::kLeastShareOfError;
+         contest.behindInErrors(one, two) > thresholds::kSignificant &&
+         gain / two.share * contest.shareOfError(two.score) >= thresholds::kLeastShareOfError;
 }
 
 }  // namespace
@@ -93,7 +95,7 @@ std::vector<Explanation> pairsWorthIt(Contest& contest, const Explanation& one) 
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), hopeless), pairs.end());
   const auto merit = [&](const Explanation& pair) {
     const bool doubtful = takesAnyCourse(pair) || pair.refined.at_bound;
-    return one.share + (pair.share - one.share) * (doubtful ? weigh::kDriftHides : 1);
+    return one.share + (pair.share - one.share) * (doubtful ? thresholds::kAnyCourseHides : 1);
   };
   std::stable_sort(pairs.begin(), pairs.end(),
                    [&](const auto& a, const auto& b) { return merit(a) > merit(b); });

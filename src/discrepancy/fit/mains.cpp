@@ -4,16 +4,16 @@
 #include <cmath>
 #include <complex>
 
+#include "discrepancy/thresholds.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kLeastTurns = 0.4;   // of the phase over the whole scan
-constexpr double kLeastZ = 8;         // of the peak, among the other patterns
-constexpr double kLeastShare = 0.02;  // of the readings' squared error
-constexpr double kRound = 0.5;        // most of |sum z^2| / sum |z|^2 of something that turns
+constexpr double kLeastTurns = 0.4;  // of the phase over the whole scan
+constexpr double kLeastZ = 8;        // of the peak, among the other patterns
+constexpr double kRound = 0.5;       // most of |sum z^2| / sum |z|^2 of something that turns
 constexpr std::size_t kFewestTaxels = 8;
 constexpr double kMainsFrequency = 50;  // that is assumed [Hz]
 constexpr double kDeviationPerMedian = 1.4826;
@@ -92,7 +92,7 @@ Mains findMains(const Measured& measured, const TaxelFit& taxels) {
   mains.z = excess / std::max(1e-300, kDeviationPerMedian * median(deviations));
   mains.share = total > 0 ? 2 * excess / static_cast<double>(residuals.size()) / total : 0;
   mains.amplitude = 2 * std::sqrt(excess / static_cast<double>(residuals.size()));
-  if (mains.z < kLeastZ || mains.share < kLeastShare) return mains;
+  if (mains.z < kLeastZ || mains.share < thresholds::kLeastShareOfError) return mains;
   const Eigen::VectorXcd pattern = patternOf(residuals, mains.turn);
   const auto moments = static_cast<Eigen::Index>(measured.moments());
   mains.cosine.resize(moments);

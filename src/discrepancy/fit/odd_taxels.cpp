@@ -4,15 +4,16 @@
 #include <cmath>
 #include <map>
 
+#include "discrepancy/thresholds.h"
+
 namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kOdd = 6;            // times the usual square of what is left: noise differs by less
-constexpr double kDeaf = 0.02;        // of the usual variance of the readings within a visit
-constexpr double kLeastShare = 0.02;  // of the readings' squared error
-constexpr double kTogether = 2;       // times the square that the mean of a line has by chance
-constexpr double kMostOfLine = 0.6;   // of a line's taxels: the line is odd
+constexpr double kOdd = 6;           // times the usual square of what is left: noise differs by less
+constexpr double kDeaf = 0.02;       // of the usual variance of the readings within a visit
+constexpr double kTogether = 2;      // times the square that the mean of a line has by chance
+constexpr double kMostOfLine = 0.6;  // of a line's taxels: the line is odd
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -129,7 +130,7 @@ void Judge::judgeLines(bool column, OddTaxels& odd) const {
     more += n * (sums_.lines[column][l] - by_chance);
   }
   const double share = more / std::max(1e-300, total());
-  if (share < kLeastShare || share <= odd.share) return;
+  if (share < thresholds::kLeastShareOfError || share <= odd.share) return;
   odd = {{}, column ? simulation::Covariate::kColumn : simulation::Covariate::kRow, share};
   for (const std::size_t t : used_) {
     if (std::count(lines.begin(), lines.end(), lineOf(t, column))) odd.taxels.push_back(t);
@@ -153,7 +154,7 @@ OddTaxels Judge::run() const {
     deaf = deaf || is_deaf;
   }
   odd.share = more / std::max(1e-300, total());
-  if (odd.share < kLeastShare && !deaf) odd = OddTaxels();
+  if (odd.share < thresholds::kLeastShareOfError && !deaf) odd = OddTaxels();
   for (const bool column : {false, true}) judgeLines(column, odd);
   if (odd.by != simulation::Covariate::kTaxel) return odd;
   for (const bool column : {false, true}) {

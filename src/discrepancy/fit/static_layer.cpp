@@ -5,15 +5,14 @@
 #include <map>
 
 #include "discrepancy/fit/levenberg.h"
+#include "discrepancy/thresholds.h"
 
 namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kLeastShare = 0.02;  // of the readings' squared error
 constexpr double kLeastZ = 6;
 constexpr std::size_t kPoints = 60;     // of a curve
-constexpr double kShows = 0.2;          // of the largest rms
 constexpr double kSure = 2;             // standard errors of a curve
 constexpr double kFewMoments = 8;       // at one pressure
 constexpr double kTogether = 5;         // moments that hang together: noise is coloured
@@ -170,11 +169,12 @@ Repositioning findRepositioning(const Measured& measured, const StaticFit& fit, 
   found.z = (inside - chance) / std::max(1e-300, chance * std::sqrt(1 / (terms * mounts)));
   found.offset = std::sqrt(offsets / mounts);
   found.gain = std::sqrt(gains / mounts);
-  found.found = found.share >= kLeastShare && found.z >= kLeastZ;
+  found.found = found.share >= thresholds::kLeastShareOfError && found.z >= kLeastZ;
   double most = 0;
   for (const auto& [c, square] : by_class) most = std::max(most, square);
   for (const auto& [c, square] : by_class) {
-    if (square >= kShows * kShows * most) found.where.conditions.push_back(measured.classes[c].surface);
+    if (square >= thresholds::kShows * thresholds::kShows * most)
+      found.where.conditions.push_back(measured.classes[c].surface);
   }
   if (found.where.conditions.size() == measured.classes.size()) found.where.conditions.clear();
   found.where.pressure = {0, *std::max_element(measured.pressure.begin(), measured.pressure.end())};
@@ -223,13 +223,13 @@ StaticMisfit findStaticMisfit(const Measured& measured, const StaticFit& fit, co
   const Eigen::VectorXd by_pressure = misfit.rowwise().norm();
   result.pressure = {INFINITY, 0};
   for (Eigen::Index k = 0; k < by_pressure.size(); ++k) {
-    if (by_pressure[k] < 0.25 * by_pressure.maxCoeff()) continue;
+    if (by_pressure[k] < thresholds::kPressureShows * by_pressure.maxCoeff()) continue;
     result.pressure.low = std::min(result.pressure.low, low + step * static_cast<double>(k));
     result.pressure.high = std::max(result.pressure.high, low + step * static_cast<double>(k));
   }
   const Eigen::VectorXd by_class = misfit.colwise().norm();
   for (Eigen::Index c = 0; c < by_class.size(); ++c) {
-    if (by_class[c] >= kShows * by_class.maxCoeff())
+    if (by_class[c] >= thresholds::kShows * by_class.maxCoeff())
       result.conditions.push_back(measured.classes[static_cast<std::size_t>(c)].surface);
   }
   return result;

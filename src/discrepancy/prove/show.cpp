@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "discrepancy/thresholds.h"
 #include "fsr_pressure_map/simulation/effect_info.h"
 #include "matrix/for_each_taxel.h"
 #include "statistics/random_stream.h"
@@ -14,10 +15,7 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kShows = 0.2;           // of the largest rms: a taxel, a class
-constexpr double kPressureShows = 0.25;  // of the largest: a bin of pressure
 constexpr double kDirectionShows = 0.1;  // of the squares: a direction
-constexpr double kBin = 25e3;            // [Pa]
 constexpr double kSure = 3;              // standard errors
 constexpr int kDraws = 400;              // of the bootstrap over cycles
 constexpr std::size_t kCurvePoints = 24;
@@ -35,7 +33,8 @@ double ofClass(const Measured& measured, const Trace& left, std::size_t wanted) 
 Interval pressuresOf(const Measured& measured, const Trace& left) {
   std::map<long, std::pair<double, double>> bins;  // squares, number
   for (std::size_t i = 0; i < measured.moments(); ++i) {
-    auto& bin = bins[static_cast<long>(std::floor(std::max(0.0, measured.pressure[i]) / kBin))];
+    auto& bin =
+        bins[static_cast<long>(std::floor(std::max(0.0, measured.pressure[i]) / thresholds::kPressureBin))];
     bin.first += std::pow(left[static_cast<Eigen::Index>(i)], 2);
     bin.second += 1;
   }
@@ -43,9 +42,9 @@ Interval pressuresOf(const Measured& measured, const Trace& left) {
   for (const auto& [bin, sums] : bins) most = std::max(most, std::sqrt(sums.first / sums.second));
   Interval range{INFINITY, 0};
   for (const auto& [bin, sums] : bins) {
-    if (std::sqrt(sums.first / sums.second) < kPressureShows * most) continue;
-    range.low = std::min(range.low, static_cast<double>(bin) * kBin);
-    range.high = std::max(range.high, static_cast<double>(bin + 1) * kBin);
+    if (std::sqrt(sums.first / sums.second) < thresholds::kPressureShows * most) continue;
+    range.low = std::min(range.low, static_cast<double>(bin) * thresholds::kPressureBin);
+    range.high = std::max(range.high, static_cast<double>(bin + 1) * thresholds::kPressureBin);
   }
   return range;
 }
@@ -190,11 +189,11 @@ WhereItShows placeOf(const Measured& measured, const Trace& left, const Spread& 
   const double most = by_taxel.maxCoeff(), most_class = by_class.maxCoeff();
   for (Eigen::Index t = 0; t < rows; ++t) {
     const bool sure = by_taxel[t] > kSure * std::sqrt(error[t]) || kSure * std::sqrt(error[t]) > 0.5 * most;
-    if (by_taxel[t] >= kShows * most && sure) where.taxels.push_back(static_cast<std::size_t>(t));
+    if (by_taxel[t] >= thresholds::kShows * most && sure) where.taxels.push_back(static_cast<std::size_t>(t));
   }
   if (static_cast<double>(where.taxels.size()) >= used) where.taxels.clear();
   for (Eigen::Index c = 0; c < classes; ++c) {
-    if (by_class[c] >= kShows * most_class) {
+    if (by_class[c] >= thresholds::kShows * most_class) {
       where.conditions.push_back(measured.classes[static_cast<std::size_t>(c)].surface);
     }
   }

@@ -5,6 +5,7 @@
 
 #include "dataset/cycles.h"
 #include "discrepancy/samples/measured.h"
+#include "discrepancy/thresholds.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
 #include "statistics/random_stream.h"
@@ -19,7 +20,6 @@ constexpr std::uint64_t kFewRestarts = 2;  // of the board in one bag
 constexpr double kAnswers = 0.05;          // of what most taxels move, between low and high pressure
 constexpr double kLeastAnswer = 0.0005;    // likewise, at least [share of full scale]
 constexpr double kLeastRange = 50e3;       // of the pressure [Pa]
-constexpr double kMostUnusable = 0.5;      // share of the taxels
 constexpr double kBetween = 60;            // bags whose stamps overlap, one after the other [s]
 constexpr double kShowShare = 0.2;         // of the cycles
 
@@ -229,8 +229,7 @@ void maskTaxels(Measured& measured) {
       if (recording.mask[i]) measured.used[i] = 0;
     }
   }
-  if (static_cast<double>(measured.usedTaxels()) <
-      (1 - kMostUnusable) * static_cast<double>(measured.taxels())) {
+  if (!thresholds::enoughUsable(measured.usedTaxels(), measured.taxels())) {
     throw settings::InputError(
         (*measured.recordings)[0].name + ": " + std::to_string(measured.taxels() - measured.usedTaxels()) +
         " of " + std::to_string(measured.taxels()) + " taxels are masked, but at least half must be usable");
@@ -263,7 +262,7 @@ void requireAnswers(const Measured& measured) {
   const double least = std::max(kLeastAnswer, kAnswers * usual);
   std::size_t usable = 0;
   for (std::size_t t = 0; t < answer.size(); ++t) usable += measured.used[t] && answer[t] >= least;
-  if (2 * usable >= answer.size()) return;
+  if (thresholds::enoughUsable(usable, answer.size())) return;
   throw settings::InputError(
       (*measured.recordings)[0].name + ": " + std::to_string(answer.size() - usable) + " of " +
       std::to_string(answer.size()) +

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discrepancy/thresholds.h"
+
 namespace fsr::discrepancy {
 
 namespace {
@@ -70,7 +72,7 @@ EvidenceAtHand evidenceIn(const Measured& measured) {
   double fastest = 0;
   for (const double r : measured.rate) fastest = std::max(fastest, std::abs(r));
   for (std::size_t i = 0; i < measured.moments(); ++i) {
-    if (measured.pressure[i] < 0.1 * highest) continue;
+    if (measured.pressure[i] < thresholds::kLoaded * highest) continue;
     ++loaded;
     if (std::abs(measured.rate[i]) < 0.02 * fastest)
       ++still;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "discrepancy/thresholds.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
@@ -22,9 +23,7 @@ constexpr double kSudden = 0.02;       // a line leaves the others by more than 
 constexpr double kSuddenShare = 0.12;  // and by more than this share of the reading,
 constexpr double kSuddenNoise = 8;     // and by more than this many of its usual deviations
 constexpr std::size_t kLineScans = 2;
-constexpr double kBlock = 5;             // of the slow part of a line's deviation [s]
-constexpr double kBin = 25e3;            // [Pa]
-constexpr double kPressureShows = 0.25;  // of the largest rms
+constexpr double kBlock = 5;  // of the slow part of a line's deviation [s]
 
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -317,7 +316,8 @@ void Detectors::judgeReadings() {
     for (std::size_t i = 0; i < sheet.scans(); ++i) {
       while (moment + 1 < sheet.visit.last && measured_.first_scan[moment + 1] <= sheet.scan(i)) ++moment;
       const bool shown = measured_.cycles[measured_.cycle[moment]].use == CycleUse::kShow;
-      auto& bin = bins[static_cast<long>(std::max(0.0, measured_.pressure[moment]) / kBin)];
+      auto& bin =
+          bins[static_cast<long>(std::max(0.0, measured_.pressure[moment]) / thresholds::kPressureBin)];
       for (const auto& [t, flags] : failing_) {
         bin.second += 1;
         if (!flags[v][i]) continue;
@@ -337,9 +337,11 @@ void Detectors::judgeReadings() {
     most = std::max(most, sums.second > 0 ? std::sqrt(sums.first / sums.second) : 0);
   readings.pressure = {INFINITY, 0};
   for (const auto& [bin, sums] : bins) {
-    if (sums.second == 0 || std::sqrt(sums.first / sums.second) < kPressureShows * most) continue;
-    readings.pressure.low = std::min(readings.pressure.low, static_cast<double>(bin) * kBin);
-    readings.pressure.high = std::max(readings.pressure.high, static_cast<double>(bin + 1) * kBin);
+    if (sums.second == 0 || std::sqrt(sums.first / sums.second) < thresholds::kPressureShows * most) continue;
+    readings.pressure.low =
+        std::min(readings.pressure.low, static_cast<double>(bin) * thresholds::kPressureBin);
+    readings.pressure.high =
+        std::max(readings.pressure.high, static_cast<double>(bin + 1) * thresholds::kPressureBin);
   }
   for (const auto& [surface, squares] : by_surface) {
     if (squares > 0.01 * readings.square) readings.conditions.push_back(surface);

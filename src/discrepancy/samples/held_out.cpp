@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "discrepancy/thresholds.h"
+
 namespace fsr::discrepancy {
 
 namespace {
@@ -12,7 +14,6 @@ constexpr double kOtherSpeed = 1.5;  // factor from one group of cycles to the n
 constexpr double kOtherDwell = 3;    // likewise
 constexpr double kOtherPeak = 1.3;   // likewise
 constexpr double kStill = 0.05;      // of the fastest rate: the chamber holds
-constexpr double kLoaded = 0.1;      // of the highest pressure
 constexpr double kLeastDwell = 2;    // shorter ones are corners [s]
 
 // How one cycle was run.
@@ -36,7 +37,7 @@ Course courseOf(const Measured& measured, const MeasuredCycle& cycle, double fas
     course.peak = std::max(course.peak, measured.pressure[i]);
     const double speed = std::abs(measured.rate[i]);
     if (speed > kStill * fastest) speeds.push_back(speed);
-    const bool holds = speed <= kStill * fastest && measured.pressure[i] > kLoaded * highest;
+    const bool holds = speed <= kStill * fastest && measured.pressure[i] > thresholds::kLoaded * highest;
     if (holds && i + 1 < cycle.last) course.dwell += measured.time[i + 1] - measured.time[i];
   }
   course.speed = median(speeds);
