@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "simulation/effect.h"
 #include "simulation/effects/enabled_effects.h"
 
 namespace fsr::simulation {

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "fsr_pressure_map/simulation/chamber_climate.h"
+#include "simulation/effect.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/effects/enabled_effects.h"
+#include "simulation/pressure_profile.h"
 #include "simulation/reference_channel.h"
 #include "simulation/sensor_chain.h"
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "fsr_pressure_map/simulation/effect.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
+#include "simulation/effect.h"
 
 namespace fsr::simulation {
 

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "fsr_pressure_map/simulation/chamber_climate.h"
+#include "simulation/chamber_gas.h"
+#include "simulation/effect.h"
 #include "simulation/reference_channel.h"
 #include "simulation/rig_state.h"
 #include "simulation/sensor_chain.h"

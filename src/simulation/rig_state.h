@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/settings/settings.h"
+#include "simulation/chamber_gas.h"
 #include "simulation/sensor_chain.h"
 
 namespace fsr::simulation {

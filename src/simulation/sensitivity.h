@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "simulation/effect.h"
 #include "simulation/reference_channel.h"
 #include "simulation/sensor_chain.h"
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "fsr_pressure_map/dataset/recording.h"
+#include "fsr_pressure_map/simulation/simulate.h"
 #include "simulation/rig.h"
 
 namespace fsr::simulation {
@@ -48,9 +48,6 @@ class Session {
   bool resumed_ = false;
   double time_ = 0;  // when the last station ended [s]
 };
-
-/// A whole session as recordings, one for each station, as a bag of it would be read.
-std::vector<dataset::Recording> simulateSession(const SimulationSettings& settings);
 
 /// How a recording names the simulated sensor.
 dataset::SensorIdentity identity(const SimulationSettings& settings);

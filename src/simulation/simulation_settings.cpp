@@ -8,6 +8,8 @@
 #include "matrix/surface_file.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/effects/enabled_effects.h"
+#include "simulation/read_settings.h"
+#include "simulation/taxel_curves.h"
 
 namespace fsr::simulation {
 

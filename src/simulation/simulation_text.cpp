@@ -5,6 +5,7 @@
 
 #include "settings/yaml_text.h"
 #include "simulation/effects/effect_library.h"
+#include "simulation/read_settings.h"
 
 namespace fsr::simulation {
 

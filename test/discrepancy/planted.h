@@ -7,6 +7,7 @@
 
 #include "discrepancy/samples/measured.h"
 #include "simulation/driven_rig.h"
+#include "simulation/read_settings.h"
 #include "simulation/session.h"
 
 namespace fsr::discrepancy::planted {

@@ -7,7 +7,9 @@
 #include <functional>
 
 #include "planted.h"
+#include "simulation/read_settings.h"
 #include "simulation/simulation_text.h"
+#include "simulation/taxel_curves.h"
 
 namespace fsr::discrepancy {
 namespace {

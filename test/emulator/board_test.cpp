@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fsr_pressure_map/protocol/decoder.h"
+#include "simulation/read_settings.h"
 #include "support/packet_recorder.h"
 
 namespace {

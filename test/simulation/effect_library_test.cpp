@@ -9,6 +9,7 @@
 #include <cmath>
 #include <set>
 
+#include "simulation/pressure_profile.h"
 #include "simulation/reference_channel.h"
 #include "simulation/sensitivity.h"
 #include "support/allocation_guard.h"

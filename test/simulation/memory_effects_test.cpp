@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "simulation/pressure_profile.h"
 #include "support/simulated_rig.h"
 
 namespace {

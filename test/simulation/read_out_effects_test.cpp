@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "simulation/pressure_profile.h"
 #include "simulation/reference_channel.h"
 #include "simulation/sensitivity.h"
 #include "support/simulated_rig.h"

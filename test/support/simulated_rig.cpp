@@ -1,4 +1,5 @@
 #include "support/simulated_rig.h"
+#include "simulation/read_settings.h"
 
 #include <algorithm>
 #include <cmath>

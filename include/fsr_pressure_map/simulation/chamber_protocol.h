@@ -1,10 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
-
-#include "fsr_pressure_map/settings/settings.h"
-#include "fsr_pressure_map/simulation/pressure_profile.h"
 
 namespace fsr::simulation {
 
@@ -22,24 +18,10 @@ struct ChamberProtocol {
   unsigned cycles = 10;     ///< 0 = for ever
 };
 
-/// Reads the mapping `peak`, `rate` (both ways) or `fill_rate` and `vent_rate`, `dwell_peak`,
-/// `dwell_rest`, `cycles`; what is missing keeps the value of `defaults`. Throws InputError.
-ChamberProtocol readChamberProtocol(const settings::Settings& settings, const ChamberProtocol& defaults = {});
-
 /// Throws InputError that names what is out of range; `origin` stands where messages name the file.
 void validate(const ChamberProtocol& protocol, const std::string& origin);
 
-/// The protocol as a YAML mapping on one line, as readChamberProtocol() reads it.
-std::string protocolText(const ChamberProtocol& protocol);
-
 /// Length of one cycle [s].
 double cycleDuration(const ChamberProtocol& protocol);
-
-/// One cycle, from its start.
-std::vector<PressurePoint> cyclePoints(const ChamberProtocol& protocol);
-PressureProfile pressureProfile(const ChamberProtocol& protocol);
-
-/// Straight from `pressure` down to 0 at the protocol's venting rate.
-PressureProfile ventingProfile(const ChamberProtocol& protocol, double pressure);
 
 }  // namespace fsr::simulation

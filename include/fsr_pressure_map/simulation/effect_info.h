@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -147,6 +148,9 @@ EffectParameter strength(std::string name, std::string meaning, const settings::
 EffectParameter scatter(std::string name, std::string meaning, const settings::Range& permitted,
                         double usual);
 EffectParameter shape(std::string name, std::string meaning, const settings::Range& permitted, double usual);
+
+/// Values of all parameters of one effect, by name, in SI units.
+using EffectValues = std::map<std::string, double>;
 
 /// What an effect says about itself.
 struct EffectInfo {

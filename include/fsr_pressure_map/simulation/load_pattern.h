@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "fsr_pressure_map/matrix/layout.h"
-#include "fsr_pressure_map/settings/settings.h"
 
 namespace fsr::simulation {
 
@@ -16,10 +15,6 @@ struct LoadPattern {
   double radius = 0;        ///< of the disc [m]
   double angle = 0;         ///< from x to the edge's loaded side [rad]
 };
-
-/// Reads the mapping `disc: {x, y, radius}` or `edge: {x, y, angle}`; x and y are 0 where missing.
-/// Throws InputError.
-LoadPattern readLoadPattern(const settings::Settings& settings);
 
 /// Share of each taxel's cell, pitch by pitch, that is loaded, [rows x columns], row-major; exactly 1
 /// everywhere for the uniform load.

@@ -7,15 +7,15 @@
 
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "fsr_pressure_map/matrix/layout.h"
-#include "fsr_pressure_map/settings/settings.h"
 #include "fsr_pressure_map/simulation/chamber_climate.h"
 #include "fsr_pressure_map/simulation/chamber_program.h"
-#include "fsr_pressure_map/simulation/effect.h"
+#include "fsr_pressure_map/simulation/effect_info.h"
 #include "fsr_pressure_map/simulation/load_pattern.h"
-#include "fsr_pressure_map/simulation/taxel_curves.h"
 #include "fsr_pressure_map/simulation/transducer.h"
 
 namespace fsr::simulation {
+
+struct TaxelCurves;  // src/simulation/taxel_curves.h
 
 /// The simulated board, as far as it is no effect.
 struct SimulatedBoard {
@@ -89,7 +89,6 @@ struct SimulationSettings {
 ///     taxel_curves: taxel_curves.csv    # beside this file; see TaxelCurves
 ///
 /// Throws InputError that names unknown effects and keys, and values out of range.
-SimulationSettings readSimulation(const settings::Settings& settings);
 SimulationSettings readSimulationFile(const std::string& path);
 
 }  // namespace fsr::simulation

@@ -5,7 +5,7 @@
 
 #include "discrepancy/fit/static_fit.h"
 #include "discrepancy/samples/measured.h"
-#include "fsr_pressure_map/simulation/effect.h"
+#include "simulation/effect.h"
 
 namespace fsr::discrepancy {
 

@@ -8,6 +8,7 @@
 
 #include "simulation/driven_rig.h"
 #include "simulation/effects/enabled_effects.h"
+#include "simulation/taxel_curves.h"
 
 namespace fsr::discrepancy {
 

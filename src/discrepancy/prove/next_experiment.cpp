@@ -12,6 +12,8 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/chamber_program.h"
 #include "simulation/effects/effect_library.h"
+#include "simulation/pressure_profile.h"
+#include "simulation/read_settings.h"
 #include "simulation/session.h"
 
 namespace fsr::discrepancy {

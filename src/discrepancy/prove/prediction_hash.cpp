@@ -6,6 +6,7 @@
 #include "settings/sha256.h"
 #include "settings/yaml_text.h"
 #include "simulation/simulation_text.h"
+#include "simulation/taxel_curves.h"
 
 namespace fsr::discrepancy {
 

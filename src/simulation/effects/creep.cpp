@@ -12,8 +12,8 @@
 
 #include <cmath>
 
-#include "fsr_pressure_map/rheology/exponential_memory.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "rheology/exponential_memory.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::simulation {

@@ -6,7 +6,7 @@
 // the cavity is still full and lifts the sheet. Common to all taxels, because air channels join them. The
 // paper's sheet was sealed with PDMS (section 2.2) and the seal not checked: tau is an estimate.
 
-#include "fsr_pressure_map/rheology/exponential_memory.h"
+#include "rheology/exponential_memory.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::simulation {

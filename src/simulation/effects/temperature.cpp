@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-#include "fsr_pressure_map/rheology/exponential_memory.h"
+#include "rheology/exponential_memory.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::simulation {

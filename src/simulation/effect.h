@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,9 +10,6 @@
 #include "fsr_pressure_map/simulation/effect_info.h"
 
 namespace fsr::simulation {
-
-/// Values of all parameters of one effect, by name, in SI units.
-using EffectValues = std::map<std::string, double>;
 
 /// What an effect may know about the rig when it is made.
 struct EffectContext {

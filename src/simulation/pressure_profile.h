@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "fsr_pressure_map/simulation/chamber_program.h"
+
 namespace fsr::simulation {
 
 /// A moment of a pressure profile: gauge pressure [Pa] at a time [s].
@@ -37,5 +39,13 @@ class PressureProfile {
   };
   std::vector<Part> parts_;
 };
+
+/// One cycle, from its start.
+std::vector<PressurePoint> cyclePoints(const ChamberProtocol& protocol);
+PressureProfile pressureProfile(const ChamberProtocol& protocol);
+PressureProfile pressureProfile(const ChamberProgram& program);
+
+/// Straight from `pressure` down to 0 at the protocol's venting rate.
+PressureProfile ventingProfile(const ChamberProtocol& protocol, double pressure);
 
 }  // namespace fsr::simulation
