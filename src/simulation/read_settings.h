@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/settings/settings.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
+#include "settings/settings.h"
 
 namespace fsr::simulation {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
 #include "simulation/chamber_gas.h"
 #include "simulation/sensor_chain.h"
 
