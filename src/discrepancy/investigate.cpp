@@ -176,7 +176,7 @@ void Investigation::repeat() {
 // Effects of a later round stand beside those of the first.
 void Investigation::moreEffects() {
   for (std::size_t e = 0; e < decision_.refined.effects.size(); ++e) {
-    const simulation::EffectInfo& info = simulation::findEffect(decision_.refined.effects[e].id)->info;
+    const simulation::EffectInfo& info = measured_.info(decision_.refined.effects[e].id);
     later_.push_back({{info.id, info.summary, decision_.refined.parameters[e], decision_.z,
                        std::min(1.0, decision_.share / decision_.ceiling)},
                       {decision_.refined.effects[e]},
@@ -258,7 +258,7 @@ void Investigation::put() {
   const Refined& refined = decision_.refined;
   for (std::size_t e = 0; e < refined.effects.size(); ++e) {
     report_.added = withEffect(report_.added, refined.effects[e]);
-    const simulation::EffectInfo& info = simulation::findEffect(refined.effects[e].id)->info;
+    const simulation::EffectInfo& info = measured_.info(refined.effects[e].id);
     report_.effects.push_back({info.id, info.summary, refined.parameters[e], decision_.z,
                                std::min(1.0, decision_.share / decision_.ceiling)});
   }
@@ -329,7 +329,7 @@ void Investigation::show() {
 }
 
 void Investigation::listNotIdentifiable() {
-  for (const simulation::EffectEntry& entry : simulation::effectLibrary()) {
+  for (const simulation::EffectEntry& entry : measured_.effects().entries()) {
     const simulation::EffectInfo& info = entry.info;
     if (!inLibrary(info.id) || info.kind == simulation::EffectKind::kBase) continue;
     double left = 0;

@@ -39,7 +39,7 @@ SimulationSettings fitted(const SimulationSettings& settings, const dataset::Rec
   SimulationSettings result = settings;
   result.layout = recording.layout;
   for (EnabledEffect& effect : result.effects) {
-    if (isConverter(effect)) effect.values["full_scale"] = recording.full_scale;
+    if (effect.id == converterOf(settings).id) effect.values["full_scale"] = recording.full_scale;
   }
   return result;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/chamber_climate.h"
 #include "simulation/effect.h"
 #include "simulation/effects/effect_library.h"
@@ -136,8 +137,7 @@ std::vector<double> largest(const std::vector<double>& change, std::size_t taxel
   return scanAt(change, best, taxels);
 }
 
-bool isCore(const EnabledEffect& effect) {
-  const EffectInfo& info = findEffect(effect.id)->info;
+bool isCore(const EffectInfo& info) {
   return info.kind == EffectKind::kBase || info.with_bending;
 }
 
@@ -151,7 +151,7 @@ SimulationSettings withoutThose(SimulationSettings settings, Unwanted unwanted) 
 }  // namespace
 
 SimulationSettings withEffect(const SimulationSettings& settings, const std::string& id) {
-  const EffectEntry* entry = findEffect(id);
+  const EffectEntry* entry = libraryOf(settings).find(id);
   if (!entry || !entry->make)
     throw settings::InputError(id + ": no effect that can be simulated has that name");
   SimulationSettings result = settings;
@@ -169,7 +169,8 @@ SimulationSettings withoutEffect(const SimulationSettings& settings, const std::
 }
 
 SimulationSettings coreOf(const SimulationSettings& settings) {
-  return withoutThose(settings, [](const EnabledEffect& effect) { return !isCore(effect); });
+  return withoutThose(
+      settings, [&](const EnabledEffect& effect) { return !isCore(libraryOf(settings).info(effect.id)); });
 }
 
 Portrait portray(const SimulationSettings& with, const SimulationSettings& without) {

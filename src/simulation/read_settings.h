@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -8,8 +9,10 @@
 
 namespace fsr::simulation {
 
-/// As readSimulationFile(), of settings that were read already.
-SimulationSettings readSimulation(const settings::Settings& settings);
+/// As readSimulationFile(), of settings that were read already. `library`: the effects that may be enabled;
+/// none = those of this package.
+SimulationSettings readSimulation(const settings::Settings& settings,
+                                  std::shared_ptr<const EffectLibrary> library = nullptr);
 
 /// Reads the mapping `peak`, `rate` (both ways) or `fill_rate` and `vent_rate`, `dwell_peak`,
 /// `dwell_rest`, `cycles`; what is missing keeps the value of `defaults`. Throws InputError.

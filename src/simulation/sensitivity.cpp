@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/effects/enabled_effects.h"
 
@@ -15,8 +16,9 @@ namespace {
 constexpr double kForwardStep = 1e-6;
 constexpr double kCentralStep = 1e-4;
 
-const EffectInfo& knownEffect(const std::string& id, const std::string& strength) {
-  const EffectEntry* entry = findEffect(id);
+const EffectInfo& knownEffect(const EffectLibrary& library, const std::string& id,
+                              const std::string& strength) {
+  const EffectEntry* entry = library.find(id);
   if (!entry || !entry->make) throw settings::InputError("no effect that can be simulated is called " + id);
   for (const EffectParameter& parameter : strengths(entry->info)) {
     if (parameter.name == strength) return entry->info;
@@ -41,8 +43,9 @@ double scaleOf(const EffectParameter& strength) {
 }
 
 SimulationSettings with(SimulationSettings settings, const std::string& id, const EffectValues& values) {
-  const auto unwanted = [&](const EnabledEffect& e) { return e.id == id || isNoise(e); };
+  settings = withoutNoise(settings);
   auto& effects = settings.effects;
+  const auto unwanted = [&](const EnabledEffect& e) { return e.id == id; };
   effects.erase(std::remove_if(effects.begin(), effects.end(), unwanted), effects.end());
   effects.push_back({id, values});
   return settings;
@@ -70,7 +73,7 @@ const TaxelSignals& Sensitivity::Side::read(const RigMoment& moment) {
 
 Sensitivity::Sensitivity(const SimulationSettings& settings, const std::string& effect,
                          const std::string& strength, const EffectValues& values, double step) {
-  const EffectInfo& info = knownEffect(effect, strength);
+  const EffectInfo& info = knownEffect(libraryOf(settings), effect, strength);
   const EffectParameter& varied = parameter(info, strength);
   EffectValues at = valuesAt(settings, info, values);
   const double centre = at.at(strength);

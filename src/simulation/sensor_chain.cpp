@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::simulation {
@@ -67,7 +68,7 @@ SensorChain::SensorChain(const SimulationSettings& settings)
     throw settings::InputError(settings.taxel_curves_file + ": is of " + std::to_string(curves_->taxels) +
                                " taxels, but the matrix has " + std::to_string(layout_.size.taxels()));
   }
-  std::vector<EffectEntry> order = effectLibrary();
+  std::vector<EffectEntry> order = libraryOf(settings).entries();
   std::stable_sort(order.begin(), order.end(), earlier);
   for (const EffectEntry& entry : order) {
     const EnabledEffect* enabled = settings.effect(entry.info.id);

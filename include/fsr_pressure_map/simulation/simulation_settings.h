@@ -15,7 +15,8 @@
 
 namespace fsr::simulation {
 
-struct TaxelCurves;  // src/simulation/taxel_curves.h
+struct TaxelCurves;   // src/simulation/taxel_curves.h
+class EffectLibrary;  // src/simulation/effects/effect_library.h
 
 /// The simulated board, as far as it is no effect.
 struct SimulatedBoard {
@@ -62,6 +63,8 @@ struct SimulationSettings {
   std::vector<EnabledEffect> effects;               ///< in the library's order
   std::shared_ptr<const TaxelCurves> taxel_curves;  ///< beyond the static law; none = nothing
   std::string taxel_curves_file;                    ///< where they come from, as the settings name it
+
+  std::shared_ptr<const EffectLibrary> library;  ///< where `effects` come from; none = those of this package
 
   /// nullptr where it is not enabled.
   const EnabledEffect* effect(const std::string& id) const;

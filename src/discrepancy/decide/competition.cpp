@@ -12,28 +12,26 @@ namespace {
 // Noise that all taxels share is gone after this time [s].
 constexpr double kRepeats = 1.2;
 
-bool sameShapes(const Signature& a, const Signature& b) {
+bool sameShapes(const simulation::EffectInfo& info, const Signature& a, const Signature& b) {
   if (a.id != b.id || a.carried != b.carried) return false;
   for (const auto& [name, value] : a.values) {
     const auto other = b.values.find(name);
-    const bool shape = simulation::parameter(simulation::findEffect(a.id)->info, name).role ==
-                       simulation::ParameterRole::kShape;
+    const bool shape = simulation::parameter(info, name).role == simulation::ParameterRole::kShape;
     if (shape && other != b.values.end() && other->second != value) return false;
   }
   return true;
 }
 
 // Mixtures: one set for each way to begin; others: the strengths of one combination of shapes.
-Family familyOf(const std::string& id, const std::vector<Signature>& signatures) {
+Family familyOf(const simulation::EffectInfo& info, const std::vector<Signature>& signatures) {
   Family family;
-  family.id = id;
-  const bool mixture = simulation::findEffect(id)->info.mixture;
+  family.id = info.id;
   std::vector<std::size_t> heads;  // the first signature of each alternative
   for (std::size_t s = 0; s < signatures.size(); ++s) {
-    if (signatures[s].id != id) continue;
+    if (signatures[s].id != info.id) continue;
     const auto belongs = [&](std::size_t head) {
-      return mixture ? signatures[head].carried == signatures[s].carried
-                     : sameShapes(signatures[head], signatures[s]);
+      return info.mixture ? signatures[head].carried == signatures[s].carried
+                          : sameShapes(info, signatures[head], signatures[s]);
     };
     auto head = std::find_if(heads.begin(), heads.end(), belongs);
     if (head == heads.end()) {
@@ -85,11 +83,11 @@ Competition::Competition(const Measured& measured, const CommonTraces& common, c
     : measured_(measured), signatures_(std::move(signatures)) {
   std::vector<std::string> ids;
   for (const Signature& s : signatures_) {
-    const simulation::EffectInfo& info = simulation::findEffect(s.id)->info;
+    const simulation::EffectInfo& info = measured.info(s.id);
     if (!isStatic(info) && info.looked_for && !std::count(ids.begin(), ids.end(), s.id)) ids.push_back(s.id);
   }
   for (const std::string& id : ids) {
-    effects_.push_back(familyOf(id, signatures_));
+    effects_.push_back(familyOf(measured.info(id), signatures_));
     if (someFlatSomeBent(measured)) addBentOnly(effects_.back());
   }
   gather(fit, measured);

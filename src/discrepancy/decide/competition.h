@@ -22,6 +22,8 @@ class Competition {
     return covariates_[generic];
   }
   const std::vector<Signature>& signatures() const { return signatures_; }
+  /// What the library says about an effect.
+  const simulation::EffectInfo& info(const std::string& id) const { return measured_.info(id); }
   const Selection& selection() const { return *selection_; }
   const CycleGrams& grams() const { return *grams_; }
   /// Some of the projected columns, signatures before generic terms, [moments x chosen].

@@ -52,7 +52,7 @@ Start startOf(const Competition& competition, const Score& explanation) {
     const Signature& signature = competition.signatures()[static_cast<std::size_t>(chosen.columns[k])];
     simulation::EnabledEffect effect{signature.id, signature.values};
     const simulation::EffectParameter& strength =
-        simulation::parameter(simulation::findEffect(signature.id)->info, signature.strength);
+        simulation::parameter(competition.info(signature.id), signature.strength);
     const double value = coefficients[static_cast<Eigen::Index>(k)] * signature.scale;
     effect.values[signature.strength] = std::clamp(value, strength.permitted.low, strength.permitted.high);
     start.effects.push_back(effect);
@@ -65,10 +65,6 @@ Start startOf(const Competition& competition, const Score& explanation) {
 
 bool Explanation::has(const std::string& id) const {
   return std::count(score.ids.begin(), score.ids.end(), id) > 0;
-}
-
-const simulation::EffectInfo& infoOf(const std::string& id) {
-  return simulation::findEffect(id)->info;
 }
 
 Contest::Contest(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
@@ -102,10 +98,10 @@ std::vector<simulation::Covariate> Contest::covariates(const Score& generic) con
   return competition_.covariates(static_cast<std::size_t>(&generic - generics_.data()));
 }
 
-bool Contest::within(const std::vector<simulation::Covariate>& covariates, const Score& effects) {
+bool Contest::within(const std::vector<simulation::Covariate>& covariates, const Score& effects) const {
   return std::all_of(covariates.begin(), covariates.end(), [&](simulation::Covariate c) {
     return std::any_of(effects.ids.begin(), effects.ids.end(), [&](const std::string& id) {
-      const auto& own = simulation::findEffect(id)->info.depends_on;
+      const auto& own = infoOf(id).depends_on;
       return std::count(own.begin(), own.end(), c) > 0;
     });
   });

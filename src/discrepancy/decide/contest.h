@@ -20,9 +20,6 @@ struct Explanation {
   bool has(const std::string& id) const;
 };
 
-/// What the library says about an effect.
-const simulation::EffectInfo& infoOf(const std::string& id);
-
 /// Every single explanation, and the measures by which explanations are compared: what each explains of
 /// cycles that took no part in its fit, and how sure one is ahead of another.
 class Contest {
@@ -32,6 +29,9 @@ class Contest {
 
   const Competition& competition() const { return competition_; }
   const Selection& selection() const { return competition_.selection(); }
+  const simulation::EffectLibrary& library() const { return measured_.effects(); }
+  /// What the library says about an effect.
+  const simulation::EffectInfo& infoOf(const std::string& id) const { return measured_.info(id); }
   const EvidenceAtHand& evidence() const { return evidence_; }
   const std::vector<Explanation>& singles() const { return singles_; }
   std::vector<Explanation>& singles() { return singles_; }
@@ -66,7 +66,7 @@ class Contest {
   /// what some form of them may explain.
   Score inAnyForm(const Explanation& explanation) const;
   /// Whether each of the covariates is one that the effects depend on.
-  static bool within(const std::vector<simulation::Covariate>& covariates, const Score& effects);
+  bool within(const std::vector<simulation::Covariate>& covariates, const Score& effects) const;
 
   /// Fits it through the forward model, once.
   void refineOne(Explanation& explanation) const;

@@ -38,13 +38,13 @@ class Verdicts {
 
 bool Verdicts::unknown(const Explanation& best) {
   const Score* generic = contest_.simplestGeneric();
-  const bool none = mayBeNone(best.refined);
+  const bool none = mayBeNone(best.refined, contest_.library());
   if (!generic || !(none || contest_.shows(*generic))) return false;
   const double more = contest_.shareOf(*generic) - best.share;
   const bool beaten = more > kGenericBetter * contest_.ceiling() &&
                       contest_.selection().z(best.score, *generic) > thresholds::kSignificant;
   const bool weak = none || !contest_.shows(best) || best.share < kLeastShareOfCeiling * contest_.ceiling();
-  if (!weak && !(beaten && !Contest::within(contest_.covariates(*generic), best.score))) return false;
+  if (!weak && !(beaten && !contest_.within(contest_.covariates(*generic), best.score))) return false;
   decision_.verdict = Verdict::kUnknown;
   decision_.explanation = *generic;
   decision_.share = contest_.shareOf(*generic);
@@ -92,7 +92,7 @@ void Verdicts::nameIt(const Explanation& best) {
                       : good                        ? Verdict::kNamed
                                                     : Verdict::kWrongForm;
   for (const std::string& id : first.score.ids) {
-    for (const simulation::Covariate c : simulation::findEffect(id)->info.depends_on) {
+    for (const simulation::Covariate c : contest_.infoOf(id).depends_on) {
       auto& told = decision_.depends_on;
       if (!std::count(told.begin(), told.end(), simulation::name(c))) told.push_back(simulation::name(c));
     }

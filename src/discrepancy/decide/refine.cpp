@@ -46,11 +46,11 @@ settings::Range rangeOf(const simulation::EffectParameter& parameter) {
   return range;
 }
 
-std::vector<Knob> knobsOf(const std::vector<simulation::EnabledEffect>& effects) {
+std::vector<Knob> knobsOf(const simulation::EffectLibrary& library,
+                          const std::vector<simulation::EnabledEffect>& effects) {
   std::vector<Knob> knobs;
   for (std::size_t e = 0; e < effects.size(); ++e) {
-    for (const simulation::EffectParameter& parameter :
-         simulation::findEffect(effects[e].id)->info.parameters) {
+    for (const simulation::EffectParameter& parameter : library.info(effects[e].id).parameters) {
       const bool strength = parameter.role == simulation::ParameterRole::kStrength;
       const bool shape = parameter.role == simulation::ParameterRole::kShape && !parameter.tried.empty();
       const double value = effects[e].values.at(parameter.name);
@@ -69,7 +69,7 @@ simulation::SimulationSettings keepStages(simulation::SimulationSettings setting
   auto& effects = settings.effects;
   effects.erase(std::remove_if(effects.begin(), effects.end(),
                                [&](const simulation::EnabledEffect& effect) {
-                                 const bool late = simulation::findEffect(effect.id)->info.stage >=
+                                 const bool late = simulation::libraryOf(base).info(effect.id).stage >=
                                                    simulation::ChainStage::kConductance;
                                  return !base.effect(effect.id) && late != read_out;
                                }),
@@ -150,7 +150,7 @@ class Refiner {
         bent_only_(std::move(bent_only)),
         plain_(driven(measured, base, carried)) {
     bent_only_.resize(effects_.size(), false);
-    knobs_ = knobsOf(effects_);
+    knobs_ = knobsOf(simulation::libraryOf(base), effects_);
     for (const Knob& knob : knobs_) at_.push_back(knob.read(effects_[knob.effect].values.at(knob.name)));
   }
 
@@ -264,7 +264,7 @@ Refined Refiner::run() {
   for (std::size_t k = 0; k < knobs_.size(); ++k) {
     const Knob& knob = knobs_[k];
     const simulation::EffectParameter& info =
-        simulation::parameter(simulation::findEffect(effects_[knob.effect].id)->info, knob.name);
+        simulation::parameter(measured_.info(effects_[knob.effect].id), knob.name);
     const double value = knob.write(at_[k]), half = kTwoSided * deviation[k];
     refined.parameters[knob.effect].push_back(
         {knob.name, value, info.permitted.unit, {knob.write(at_[k] - half), knob.write(at_[k] + half)}});
@@ -276,10 +276,10 @@ Refined Refiner::run() {
 
 }  // namespace
 
-bool mayBeNone(const Refined& refined) {
+bool mayBeNone(const Refined& refined, const simulation::EffectLibrary& library) {
   bool any = false;
   for (std::size_t e = 0; e < refined.parameters.size(); ++e) {
-    const simulation::EffectInfo& info = simulation::findEffect(refined.effects[e].id)->info;
+    const simulation::EffectInfo& info = library.info(refined.effects[e].id);
     for (const FittedParameter& fitted : refined.parameters[e]) {
       const simulation::EffectParameter& known = simulation::parameter(info, fitted.name);
       if (known.role != simulation::ParameterRole::kStrength) continue;
@@ -292,7 +292,7 @@ bool mayBeNone(const Refined& refined) {
 
 simulation::SimulationSettings withEffect(simulation::SimulationSettings settings,
                                           const simulation::EnabledEffect& effect) {
-  const std::vector<std::string> order = simulation::effectIds();
+  const std::vector<std::string> order = simulation::libraryOf(settings).ids();
   const auto place = [&](const std::string& id) { return std::find(order.begin(), order.end(), id); };
   auto& effects = settings.effects;
   effects.erase(std::remove_if(effects.begin(), effects.end(),
@@ -334,7 +334,7 @@ simulation::SimulationSettings takeOutEnabled(Measured& measured, const CommonTr
   std::vector<simulation::EnabledEffect> moving;
   still.effects.clear();
   for (const simulation::EnabledEffect& effect : base.effects) {
-    const bool moves = hasTimeCourse(simulation::findEffect(effect.id)->info);
+    const bool moves = hasTimeCourse(measured.info(effect.id));
     (moves ? moving : still.effects).push_back(effect);
   }
   if (moving.empty()) return base;
@@ -356,8 +356,7 @@ Foretold foretell(const Measured& measured, const CommonTraces& common, const St
   const Residuals residuals = [&](const std::vector<double>& at) -> std::optional<Eigen::VectorXd> {
     simulation::SimulationSettings with = base;
     for (simulation::EnabledEffect effect : effects) {
-      for (const simulation::EffectParameter& parameter :
-           simulation::strengths(simulation::findEffect(effect.id)->info)) {
+      for (const simulation::EffectParameter& parameter : simulation::strengths(measured.info(effect.id))) {
         effect.values[parameter.name] *= std::exp(std::clamp(at[0], -4.0, 2.0));
       }
       with = withEffect(with, effect);

@@ -7,6 +7,7 @@
 #include "discrepancy/fit/static_fit.h"
 #include "discrepancy/samples/measured.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
+#include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
 
@@ -28,7 +29,8 @@ struct Refined {
 
 /// Whether the intervals of all strengths hold the value at which the effects do nothing; false where no
 /// strength was fitted.
-bool mayBeNone(const Refined& refined);
+bool mayBeNone(const Refined& refined,
+               const simulation::EffectLibrary& library = simulation::EffectLibrary::shipped());
 
 /// `bent_only`, of each effect: it acts where the surface is bent, and nowhere else; empty = none does.
 Refined refine(const Measured& measured, const CommonTraces& common, const StaticFit& fit,

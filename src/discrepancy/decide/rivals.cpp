@@ -23,12 +23,12 @@ bool isRival(const Contest& contest, const Explanation& other, const Explanation
   const double behind = best.share - other.share;
   if (contest.behindInErrors(other, best) < thresholds::kSignificant && behind < kRivalFar * best.share)
     return true;
-  if (mayBeOne(other, best)) return true;
+  if (mayBeOne(other, best, contest.library())) return true;
   // One effect against two was weighed by what the second adds; two against two by the same.
   if (best.score.ids.size() > 1 && other.score.ids.size() == 1) return false;
   if (best.score.ids.size() > 1) return behind <= (1 - kSecondRival) * (best.share - contest.best()->share);
-  const simulation::EffectInfo &first = infoOf(best.score.ids.front()),
-                               &second = infoOf(other.score.ids.front());
+  const simulation::EffectInfo &first = contest.infoOf(best.score.ids.front()),
+                               &second = contest.infoOf(other.score.ids.front());
   // What everything slow looks like excludes nothing slow, unless that went another way than the clock.
   if (first.any_course && second.slow)
     return behind <= (evidence.apartFromClock(second) ? kRivalFar : thresholds::kAnyCourseHides) * best.share;
@@ -74,30 +74,31 @@ std::vector<Ids> credibleSet(const Contest& contest, const std::vector<Explanati
   std::vector<Ids> credible = {best.score.ids};
   for (const Explanation* rival : rivals) credible.push_back(rival->score.ids);
   if (contest.evidence().temperature_moved) {
-    std::stable_partition(credible.begin(), credible.end(), [](const Ids& ids) {
+    std::stable_partition(credible.begin(), credible.end(), [&](const Ids& ids) {
       return ids.size() == 1 &&
-             simulation::dependsOn(infoOf(ids.front()), simulation::Covariate::kTemperature);
+             simulation::dependsOn(contest.infoOf(ids.front()), simulation::Covariate::kTemperature);
     });
   }
-  std::stable_partition(credible.begin(), credible.end(),
-                        [](const Ids& ids) { return ids.size() != 1 || !infoOf(ids.front()).any_course; });
+  std::stable_partition(credible.begin(), credible.end(), [&](const Ids& ids) {
+    return ids.size() != 1 || !contest.infoOf(ids.front()).any_course;
+  });
   return credible;
 }
 
 std::vector<Ids> partnersOf(const Contest& contest, const Explanation& first) {
   std::vector<Ids> partners;
   for (const std::string& id : first.score.ids) {
-    const simulation::EffectInfo& info = infoOf(id);
+    const simulation::EffectInfo& info = contest.infoOf(id);
     if (standsAlone(contest.evidence(), info)) continue;
     if (const Explanation* partner = partnerOf(contest, info, first)) partners.push_back(partner->score.ids);
   }
   if (!partners.empty() || first.share >= thresholds::kGoodForm * contest.ceiling()) return partners;
-  const simulation::EffectInfo& info = infoOf(first.score.ids.front());
+  const simulation::EffectInfo& info = contest.infoOf(first.score.ids.front());
   const bool slow_apart = info.slow && contest.evidence().apartFromClock(info);
   for (const Explanation& single : contest.singles()) {
     if (single.score.ids == first.score.ids || single.share < kNearBadForm * first.share) continue;
     // Hours of cycles and pauses have told it from what else is slow, in whatever form.
-    const bool told = slow_apart && infoOf(single.score.ids.front()).slow &&
+    const bool told = slow_apart && contest.infoOf(single.score.ids.front()).slow &&
                       contest.behindInErrors(single, first) > thresholds::kSignificant;
     if (!told) partners.push_back(single.score.ids);
   }

@@ -19,24 +19,24 @@ constexpr std::size_t kPairsRefined = 4;
 constexpr double kMuchOpen = 0.75;  // of the common trace's error: less explained leaves room for two
 
 // Whether one effect of the pair is like what the other leaves where its form is not the library's.
-bool lookAlike(const Explanation& pair) {
+bool lookAlike(const simulation::EffectLibrary& library, const Explanation& pair) {
   return std::any_of(pair.score.ids.begin(), pair.score.ids.end(), [&](const std::string& id) {
-    const std::vector<std::string>& like = infoOf(id).wrong_form_like;
+    const std::vector<std::string>& like = library.info(id).wrong_form_like;
     return std::any_of(like.begin(), like.end(), [&](const std::string& other) { return pair.has(other); });
   });
 }
 
 // Whether the pair is what one of the effects leaves where its form is not the library's.
-bool isLeftBy(const Explanation& pair, const Explanation& single) {
+bool isLeftBy(const simulation::EffectLibrary& library, const Explanation& pair, const Explanation& single) {
   return std::any_of(single.score.ids.begin(), single.score.ids.end(), [&](const std::string& id) {
-    const std::vector<std::string>& like = infoOf(id).wrong_form_like;
+    const std::vector<std::string>& like = library.info(id).wrong_form_like;
     const auto in_pair = [&](const std::string& other) { return pair.has(other); };
     return !like.empty() && std::all_of(like.begin(), like.end(), in_pair);
   });
 }
 
-bool takesAnyCourse(const Explanation& pair) {
-  const auto any_course = [](const std::string& id) { return infoOf(id).any_course; };
+bool takesAnyCourse(const simulation::EffectLibrary& library, const Explanation& pair) {
+  const auto any_course = [&](const std::string& id) { return library.info(id).any_course; };
   return std::any_of(pair.score.ids.begin(), pair.score.ids.end(), any_course);
 }
 
@@ -50,7 +50,7 @@ std::vector<Explanation> bestPairs(const Contest& contest, const Explanation& on
   for (std::size_t a = 0; a < singles.size(); ++a) {
     for (std::size_t b = a + 1; b < singles.size(); ++b) {
       // Some dozens of gains of cycles do not hold two slow effects.
-      if (infoOf(families[a].id).slow && infoOf(families[b].id).slow) continue;
+      if (contest.infoOf(families[a].id).slow && contest.infoOf(families[b].id).slow) continue;
       Explanation pair;
       pair.score = selection.score(singles[a].score, families[b]);
       Score swapped = selection.score(singles[b].score, families[a]);
@@ -71,7 +71,8 @@ std::vector<Explanation> bestPairs(const Contest& contest, const Explanation& on
 
 bool isWorthIt(const Contest& contest, const Explanation& one, double in_any_form, const Explanation& two) {
   const double gain = two.share - one.share, rest = std::max(contest.ceiling(), two.share) - one.share;
-  if (lookAlike(two) && contest.selection().z(one.score, two.score) < kSecondLookalike) return false;
+  if (lookAlike(contest.library(), two) && contest.selection().z(one.score, two.score) < kSecondLookalike)
+    return false;
   if (in_any_form >= one.share + kAnyForm * gain) return false;
   return gain >= kSecondOfRest * rest && gain >= kSecondOfFirst * one.share &&
          contest.behindInErrors(one, two) > thresholds::kSignificant &&
@@ -80,8 +81,8 @@ bool isWorthIt(const Contest& contest, const Explanation& one, double in_any_for
 
 }  // namespace
 
-bool mayBeOne(const Explanation& single, const Explanation& pair) {
-  return isLeftBy(pair, single) && single.share >= kWrongFormNear * pair.share;
+bool mayBeOne(const Explanation& single, const Explanation& pair, const simulation::EffectLibrary& library) {
+  return isLeftBy(library, pair, single) && single.share >= kWrongFormNear * pair.share;
 }
 
 std::vector<Explanation> pairsWorthIt(Contest& contest, const Explanation& one) {
@@ -94,7 +95,7 @@ std::vector<Explanation> pairsWorthIt(Contest& contest, const Explanation& one) 
   const auto hopeless = [&](const Explanation& pair) { return !isWorthIt(contest, one, in_any_form, pair); };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), hopeless), pairs.end());
   const auto merit = [&](const Explanation& pair) {
-    const bool doubtful = takesAnyCourse(pair) || pair.refined.at_bound;
+    const bool doubtful = takesAnyCourse(contest.library(), pair) || pair.refined.at_bound;
     return one.share + (pair.share - one.share) * (doubtful ? thresholds::kAnyCourseHides : 1);
   };
   std::stable_sort(pairs.begin(), pairs.end(),

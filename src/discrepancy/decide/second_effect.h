@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "discrepancy/decide/contest.h"
+#include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
 
@@ -13,6 +14,7 @@ std::vector<Explanation> pairsWorthIt(Contest& contest, const Explanation& one);
 
 /// Whether the single effect stays beside the pair as what it may be instead: a loop with a break-in does
 /// what a creep in a form that the library lacks does.
-bool mayBeOne(const Explanation& single, const Explanation& pair);
+bool mayBeOne(const Explanation& single, const Explanation& pair,
+              const simulation::EffectLibrary& library = simulation::EffectLibrary::shipped());
 
 }  // namespace fsr::discrepancy

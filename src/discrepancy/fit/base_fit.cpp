@@ -28,9 +28,8 @@ bool isFitted(const simulation::EffectParameter& parameter) {
   return parameter.place_in_base_fit > 0;
 }
 
-bool isFitted(const simulation::EnabledEffect& effect) {
-  const auto& parameters = simulation::findEffect(effect.id)->info.parameters;
-  return std::any_of(parameters.begin(), parameters.end(),
+bool isFitted(const simulation::EffectInfo& info) {
+  return std::any_of(info.parameters.begin(), info.parameters.end(),
                      [](const simulation::EffectParameter& parameter) { return isFitted(parameter); });
 }
 
@@ -43,7 +42,7 @@ simulation::EnabledEffect& enabled(simulation::SimulationSettings& settings, con
 std::vector<Fitted> fittedOf(const simulation::SimulationSettings& settings, bool bent) {
   std::vector<Fitted> fitted;
   for (const simulation::EnabledEffect& effect : settings.effects) {
-    const simulation::EffectInfo& info = simulation::findEffect(effect.id)->info;
+    const simulation::EffectInfo& info = simulation::libraryOf(settings).info(effect.id);
     if (!bent && info.with_bending) continue;
     for (const simulation::EffectParameter& parameter : info.parameters) {
       if (!isFitted(parameter)) continue;
@@ -114,8 +113,10 @@ Eigen::VectorXd staticReadings(const Measured& measured, const simulation::Simul
 simulation::SimulationSettings withoutMemory(simulation::SimulationSettings settings) {
   auto& effects = settings.effects;
   effects.erase(std::remove_if(effects.begin(), effects.end(),
-                               [](const simulation::EnabledEffect& e) {
-                                 return !isFitted(e) && !simulation::findEffect(e.id)->info.required;
+                               [&](const simulation::EnabledEffect& e) {
+                                 const simulation::EffectInfo& info =
+                                     simulation::libraryOf(settings).info(e.id);
+                                 return !isFitted(info) && !info.required;
                                }),
                 effects.end());
   return settings;
@@ -161,7 +162,7 @@ simulation::SimulationSettings fitBase(const Measured& measured, const StaticFit
   const auto at = levenberg(residuals, std::vector<double>(fitted.size(), 0.0), options);
   simulation::SimulationSettings base = settingsAt(settings, fitted, at);
   for (simulation::EnabledEffect& effect : base.effects) {
-    for (const simulation::EffectParameter& parameter : simulation::findEffect(effect.id)->info.parameters) {
+    for (const simulation::EffectParameter& parameter : measured.info(effect.id).parameters) {
       if (!parameter.from_taxel_deviation) continue;
       effect.values[parameter.name] = std::min(taxelScatter(measured), parameter.permitted.high);
     }

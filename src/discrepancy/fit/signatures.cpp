@@ -153,7 +153,7 @@ bool remembers(const simulation::EffectEntry& entry) {
 std::vector<Signature> planned(const simulation::SimulationSettings& settings,
                                const std::vector<std::string>& leave_out) {
   std::vector<Signature> plan;
-  for (const simulation::EffectEntry& entry : simulation::effectLibrary()) {
+  for (const simulation::EffectEntry& entry : simulation::libraryOf(settings).entries()) {
     if (!sought(entry, settings, leave_out)) continue;
     for (const simulation::EffectValues& values : shapeGrid(entry.info)) {
       for (const simulation::EffectParameter& strength : simulation::strengths(entry.info)) {
@@ -186,8 +186,9 @@ simulation::SimulationSettings representative(const simulation::SimulationSettin
   one.layout.size = {1, 1};
   one.taxel_curves = nullptr;
   auto& effects = one.effects;
-  const auto unwanted = [](const simulation::EnabledEffect& effect) {
-    const simulation::EffectInfo& info = simulation::findEffect(effect.id)->info;
+  const simulation::EffectLibrary& library = simulation::libraryOf(settings);
+  const auto unwanted = [&](const simulation::EnabledEffect& effect) {
+    const simulation::EffectInfo& info = library.info(effect.id);
     const bool single =
         info.kind == simulation::EffectKind::kDetector && info.level != simulation::EffectLevel::kRig;
     return info.stochastic || single;
@@ -195,7 +196,7 @@ simulation::SimulationSettings representative(const simulation::SimulationSettin
   effects.erase(std::remove_if(effects.begin(), effects.end(), unwanted), effects.end());
   for (simulation::EnabledEffect& effect : effects) {
     effect.only_taxels.clear();  // the one taxel is one on which it acts
-    for (const simulation::EffectParameter& parameter : simulation::findEffect(effect.id)->info.parameters) {
+    for (const simulation::EffectParameter& parameter : library.info(effect.id).parameters) {
       if (parameter.role == simulation::ParameterRole::kScatter)
         effect.values[parameter.name] = parameter.neutral;
     }
@@ -236,7 +237,7 @@ std::vector<Signature> signatures(const Measured& measured, const StaticFit& fit
     if (!possible(signature.values)) return;
     const DrivenSignals derivative = drivenDerivative(measured, settings, signature.id, signature.strength,
                                                       signature.values, signature.carried);
-    Trace trace = throughCurve(fit, derivative, simulation::findEffect(signature.id)->info.stage);
+    Trace trace = throughCurve(fit, derivative, measured.info(signature.id).stage);
     const double rms = std::sqrt(trace.squaredNorm() / static_cast<double>(trace.size()));
     if (!(rms > 0) || !std::isfinite(rms)) return;
     trace *= signature.scale / rms;

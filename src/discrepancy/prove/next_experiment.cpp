@@ -173,7 +173,8 @@ double smallestApart(const std::vector<Trace>& residuals) {
 }
 
 // Whether it brings what the recordings lacked and some explanation needs, to be named alone.
-bool bringsEvidence(const Protocol& protocol, const EvidenceAtHand& at_hand,
+bool bringsEvidence(const simulation::EffectLibrary& library, const Protocol& protocol,
+                    const EvidenceAtHand& at_hand,
                     const std::vector<std::vector<simulation::EnabledEffect>>& explanations) {
   EvidenceAtHand then = at_hand;
   then.two_rates = then.two_rates || protocol.two_rates;
@@ -181,7 +182,7 @@ bool bringsEvidence(const Protocol& protocol, const EvidenceAtHand& at_hand,
   then.uneven_pace = then.uneven_pace || protocol.hours;
   for (const auto& effects : explanations) {
     for (const simulation::EnabledEffect& effect : effects) {
-      for (const simulation::Evidence need : simulation::findEffect(effect.id)->info.needs) {
+      for (const simulation::Evidence need : library.info(effect.id).needs) {
         const bool can = need == simulation::Evidence::kTwoRampRates ||
                          need == simulation::Evidence::kThermometer ||
                          need == simulation::Evidence::kManyCycles;
@@ -207,7 +208,9 @@ std::vector<NextExperiment> nextExperiment(
   if (explanations.size() < 2) return {};
   const Protocol* best = nullptr;
   double most = -1;
-  const auto brings = [&](const Protocol& p) { return bringsEvidence(p, at_hand, explanations); };
+  const auto brings = [&](const Protocol& p) {
+    return bringsEvidence(simulation::libraryOf(base), p, at_hand, explanations);
+  };
   const bool any_brings = std::any_of(std::begin(kProtocols), std::end(kProtocols), brings);
   for (const Protocol& protocol : kProtocols) {
     if (any_brings && !brings(protocol)) continue;

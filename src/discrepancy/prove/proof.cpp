@@ -39,7 +39,7 @@ void Proof::confine(double amplitude) {
     effect.only_taxels = report_.where.taxels;
     effect.only_surfaces = report_.where.conditions;
     for (const simulation::EffectParameter& strength :
-         simulation::strengths(simulation::findEffect(found.id)->info)) {
+         simulation::strengths(found_.measured.info(found.id))) {
       double& value = effect.values.at(strength.name);
       if (!effect.only_taxels.empty() && amplitude > 1)
         value = std::clamp(amplitude * value, strength.permitted.low, strength.permitted.high);

@@ -10,14 +10,14 @@ namespace fsr::discrepancy {
 namespace {
 
 // Some data sheets use the name of another effect.
-std::string called(const std::string& id) {
-  const std::string& other = simulation::findEffect(id)->info.also_called;
+std::string called(const simulation::EffectLibrary& library, const std::string& id) {
+  const std::string& other = library.info(id).also_called;
   return other.empty() ? id : id + " (data sheets: " + other + ")";
 }
 
-std::string called(const std::vector<std::string>& ids) {
+std::string called(const simulation::EffectLibrary& library, const std::vector<std::string>& ids) {
   std::vector<std::string> names;
-  for (const std::string& id : ids) names.push_back(called(id));
+  for (const std::string& id : ids) names.push_back(called(library, id));
   return listText(names, " with ");
 }
 
@@ -60,7 +60,7 @@ std::string listText(const std::vector<std::string>& items, const std::string& l
 std::string sentenceOf(const DiscrepancyReport& report) {
   const std::string tested = std::to_string(report.tested.size()) + " effects tested";
   std::vector<std::string> sets;
-  for (const auto& ids : report.credible_set) sets.push_back(called(ids));
+  for (const auto& ids : report.credible_set) sets.push_back(called(simulation::libraryOf(report.base), ids));
   switch (report.verdict) {
     case Verdict::kNone:
       return "Among " + tested + ", none is missing that these recordings show.";

@@ -88,9 +88,10 @@ void requireTogether(const std::vector<dataset::Recording>& recordings) {
   }
 }
 
-void requireKnown(const std::vector<std::string>& ids, const std::string& option) {
+void requireKnown(const simulation::EffectLibrary& library, const std::vector<std::string>& ids,
+                  const std::string& option) {
   for (const std::string& id : ids) {
-    if (!simulation::findEffect(id)) throw settings::InputError(option + ": no effect is called " + id);
+    if (!library.find(id)) throw settings::InputError(option + ": no effect is called " + id);
   }
 }
 
@@ -291,6 +292,14 @@ void requireJudgeable(const Measured& measured) {
 
 }  // namespace
 
+const simulation::EffectInfo& Measured::info(const std::string& effect) const {
+  return effects().info(effect);
+}
+
+const simulation::EffectLibrary& Measured::effects() const {
+  return library ? *library : simulation::EffectLibrary::shipped();
+}
+
 std::size_t Measured::usedTaxels() const {
   return static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
 }
@@ -319,13 +328,14 @@ void validate(const DiscrepancyProblem& problem) {
   }
   requireTogether(problem.recordings);
   requireFit(problem.recordings.front(), problem.simulation);
-  requireKnown(problem.options.ask, "--ask");
-  requireKnown(problem.options.leave_out, "--without");
+  requireKnown(simulation::libraryOf(problem.simulation), problem.options.ask, "--ask");
+  requireKnown(simulation::libraryOf(problem.simulation), problem.options.leave_out, "--without");
 }
 
 Measured admit(const DiscrepancyProblem& problem) {
   Measured measured;
   measured.recordings = &problem.recordings;
+  measured.library = problem.simulation.library;
   const dataset::Recording& first = problem.recordings.front();
   measured.layout = first.layout;
   measured.full_scale = first.full_scale;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ struct Measured {
   static constexpr double kLongestMoment = 0.5;       ///< [s]
 
   const std::vector<dataset::Recording>* recordings = nullptr;
+  std::shared_ptr<const simulation::EffectLibrary> library;  ///< of the simulation
   matrix::Layout layout;
   double full_scale = 0;                         ///< [counts]
   std::vector<dataset::CurvatureClass> classes;  ///< by ascending curvature of taxel 0
@@ -71,6 +73,8 @@ struct Measured {
   std::size_t moments() const { return time.size(); }
   std::size_t taxels() const { return layout.size.taxels(); }
   std::size_t usedTaxels() const;
+  const simulation::EffectLibrary& effects() const;
+  const simulation::EffectInfo& info(const std::string& effect) const;
   std::size_t classOf(std::size_t moment) const { return visits[visit[moment]].curvature_class; }
   /// Mean reading of every taxel as it was recorded [share of full scale], [taxels], row-major.
   void recorded(std::size_t moment, std::vector<double>& result) const;

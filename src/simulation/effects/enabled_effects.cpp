@@ -6,18 +6,19 @@
 
 namespace fsr::simulation {
 
-bool isNoise(const EnabledEffect& effect) {
-  return findEffect(effect.id)->info.stochastic;
-}
-
-bool isConverter(const EnabledEffect& effect) {
-  const EffectInfo& info = findEffect(effect.id)->info;
-  return info.required && info.stage == ChainStage::kSample;
+const EnabledEffect& converterOf(const SimulationSettings& settings) {
+  return *std::find_if(settings.effects.begin(), settings.effects.end(), [&](const EnabledEffect& effect) {
+    const EffectInfo& info = libraryOf(settings).info(effect.id);
+    return info.required && info.stage == ChainStage::kSample;
+  });
 }
 
 SimulationSettings withoutNoise(SimulationSettings settings) {
   auto& effects = settings.effects;
-  effects.erase(std::remove_if(effects.begin(), effects.end(), isNoise), effects.end());
+  const auto noise = [&](const EnabledEffect& effect) {
+    return libraryOf(settings).info(effect.id).stochastic;
+  };
+  effects.erase(std::remove_if(effects.begin(), effects.end(), noise), effects.end());
   return settings;
 }
 

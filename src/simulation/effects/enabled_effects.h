@@ -4,10 +4,8 @@
 
 namespace fsr::simulation {
 
-/// Whether an enabled effect draws new random numbers at each scan.
-bool isNoise(const EnabledEffect& effect);
-/// Whether it is the converter, which every chain has.
-bool isConverter(const EnabledEffect& effect);
+/// The converter, without which no chain runs.
+const EnabledEffect& converterOf(const SimulationSettings& settings);
 
 /// The settings without the effects that draw new random numbers at each scan.
 SimulationSettings withoutNoise(SimulationSettings settings);
