@@ -110,13 +110,13 @@ void DrivenRig::run(const dataset::Recording& recording,
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     const matrix::Surface& surface = recording.conditions.at(recording.condition[i]);
     lie(surface);
-    RigMoment moment;
-    moment.time = start + recording.time[i];
-    moment.pressure = reference_.truePressure(recording.pressure[i]);
-    moment.scan = scans_++;
-    if (!recording.temperature.empty()) moment.temperature = recording.temperature[i];
-    moment.course = &course;
-    chain_.read(moment);
+    RigSample sample;
+    sample.time = start + recording.time[i];
+    sample.pressure = reference_.truePressure(recording.pressure[i]);
+    sample.scan = scans_++;
+    if (!recording.temperature.empty()) sample.temperature = recording.temperature[i];
+    sample.course = &course;
+    chain_.read(sample);
     listener(i, chain_);
   }
   end_ = start + recording.time.back();

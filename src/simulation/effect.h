@@ -24,12 +24,12 @@ using PressureCourse = std::function<double(double)>;
 constexpr double kRoomTemperature = 23;
 
 /// What the rig does at the time of one scan.
-struct RigMoment {
+struct RigSample {
   double time = 0;                        ///< rig time, middle of the scan [s]
   double pressure = 0;                    ///< chamber, gauge [Pa]
   std::uint64_t scan = 0;                 ///< number of the scan: picks its noise
   double temperature = kRoomTemperature;  ///< of the chamber [degree Celsius]
-  /// The pressure before and after this moment, which effects of timing need; nullptr = not known.
+  /// The pressure before and after this sample, which effects of timing need; nullptr = not known.
   const PressureCourse* course = nullptr;
   // The chain fills in:
   bool first = false;  ///< first scan since the matrix was reset
@@ -67,9 +67,9 @@ class Effect {
   virtual void mount(const Mounting& mounting) { static_cast<void>(mounting); }
 
   /// Acts on the signals of its stage. Called once a scan, in time order; allocates nothing. From the
-  /// second stage on, time and pressure of `moment` are those at which the scan was really taken.
-  virtual void apply(const RigMoment& moment, TaxelSignals& signals) {
-    static_cast<void>(moment);
+  /// second stage on, time and pressure of `sample` are those at which the scan was really taken.
+  virtual void apply(const RigSample& sample, TaxelSignals& signals) {
+    static_cast<void>(sample);
     static_cast<void>(signals);
   }
 

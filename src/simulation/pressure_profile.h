@@ -6,7 +6,7 @@
 
 namespace fsr::simulation {
 
-/// A moment of a pressure profile: gauge pressure [Pa] at a time [s].
+/// A sample of a pressure profile: gauge pressure [Pa] at a time [s].
 struct PressurePoint {
   double time = 0;
   double pressure = 0;

@@ -18,7 +18,7 @@ class ReferenceChannel {
 
   /// What the transducer shows before its converter [Pa].
   double indicated(double pressure) const;
-  /// The other way round: the chamber's pressure when the transducer shows that [Pa].
+  /// The other path lengthround: the chamber's pressure when the transducer shows that [Pa].
   double truePressure(double indicated) const;
 
   /// What its converter makes of the chamber's pressure [Pa].

@@ -62,10 +62,10 @@ Sensitivity::Side::Side(const SimulationSettings& settings) : chain(settings), r
   course = [this](double time) { return reference.truePressure((*recorded)(time)); };
 }
 
-const TaxelSignals& Sensitivity::Side::read(const RigMoment& moment) {
-  RigMoment true_moment = moment;
-  true_moment.pressure = reference.truePressure(moment.pressure);
-  recorded = moment.course;
+const TaxelSignals& Sensitivity::Side::read(const RigSample& sample) {
+  RigSample true_moment = sample;
+  true_moment.pressure = reference.truePressure(sample.pressure);
+  recorded = sample.course;
   true_moment.course = recorded ? &course : nullptr;
   chain.read(true_moment);
   return chain.signals();
@@ -94,9 +94,9 @@ void Sensitivity::mount(const matrix::Surface& surface, const LoadPattern& patte
   upper_->chain.mount(surface, pattern);
 }
 
-const TaxelSignals& Sensitivity::read(const RigMoment& moment) {
-  const TaxelSignals& low = lower_->read(moment);
-  const TaxelSignals& high = upper_->read(moment);
+const TaxelSignals& Sensitivity::read(const RigSample& sample) {
+  const TaxelSignals& low = lower_->read(sample);
+  const TaxelSignals& high = upper_->read(sample);
   derivative_.skew = (high.skew - low.skew) / step_;
   difference(high.offset, low.offset, step_, derivative_.offset);
   difference(high.load, low.load, step_, derivative_.load);

@@ -31,9 +31,9 @@ class Sensitivity {
   void mount(const matrix::Surface& surface, const LoadPattern& pattern = {});
 
   /// Derivatives of all signals of one scan [per unit of the strength], valid until the next call. The
-  /// pressure of `moment` and its course are what the reference channel shows: an error of the reference
+  /// pressure of `sample` and its course are what the reference channel shows: an error of the reference
   /// is an error of the readings at the pressure that was recorded.
-  const TaxelSignals& read(const RigMoment& moment);
+  const TaxelSignals& read(const RigSample& sample);
 
  private:
   struct Side {
@@ -43,7 +43,7 @@ class Sensitivity {
     PressureCourse course;  // of the true pressure behind the recorded one
 
     explicit Side(const SimulationSettings& settings);
-    const TaxelSignals& read(const RigMoment& moment);
+    const TaxelSignals& read(const RigSample& sample);
   };
   std::unique_ptr<Side> lower_, upper_;
   double step_ = 0;  // of the strength, from the lower to the upper

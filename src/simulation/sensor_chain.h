@@ -19,7 +19,7 @@ using ChainState = std::map<std::string, std::vector<double>>;
 
 /// The sensor matrix in its chamber: gauge pressure in, converter counts out, through the effects that
 /// the settings enable, in the order of ChainStage. Cost is linear in scans and taxels; reading
-/// allocates nothing. The same settings and the same moments give the same counts.
+/// allocates nothing. The same settings and the same samples give the same counts.
 class SensorChain {
  public:
   /// Lies on the flat at first, never loaded. Throws InputError.
@@ -30,10 +30,10 @@ class SensorChain {
   /// taxels, or none is known.
   void mount(const matrix::Surface& surface, const LoadPattern& pattern = {});
 
-  /// Counts of one scan, [rows x columns], row-major; valid until the next call. Moments must come in
-  /// time order. Throws std::invalid_argument where an effect of timing is on and the moment has no
+  /// Counts of one scan, [rows x columns], row-major; valid until the next call. Samples must come in
+  /// time order. Throws std::invalid_argument where an effect of timing is on and the sample has no
   /// course of pressure.
-  const std::vector<std::uint16_t>& read(const RigMoment& moment);
+  const std::vector<std::uint16_t>& read(const RigSample& sample);
 
   /// The last scan.
   const std::vector<std::uint16_t>& counts() const { return counts_; }
@@ -60,9 +60,9 @@ class SensorChain {
     bool here = true;                   // on the surface where the matrix lies
     bool confined() const { return !here || !acts.empty(); }
   };
-  void apply(Link& link, const RigMoment& moment);
-  RigMoment clocked(const RigMoment& moment);
-  void load(const RigMoment& moment);
+  void apply(Link& link, const RigSample& sample);
+  RigSample clocked(const RigSample& sample);
+  void load(const RigSample& sample);
   void addCurves(double pressure);
 
   matrix::Layout layout_;

@@ -1,4 +1,4 @@
-#include "discrepancy/prove/wording.h"
+#include "discrepancy/results/wording.h"
 
 #include <gtest/gtest.h>
 

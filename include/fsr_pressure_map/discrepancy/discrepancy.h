@@ -52,7 +52,7 @@ struct FoundEffect {
   std::string summary;                      ///< the library's one line
   std::vector<FittedParameter> parameters;  ///< empty for what a detector found
   double z = 0;                             ///< of what it explains, over cycles that took no part in its fit
-  double share_of_ceiling = 0;              ///< of what anything explains
+  double share_of_explainable = 0;          ///< of what anything explains
 };
 
 /// An effect that these recordings cannot show, or not alone.
@@ -118,7 +118,7 @@ struct CandidateScore {
   std::vector<std::string> ids;  ///< one effect, or a pair
   std::string outcome;           ///< named, credible, refused, not_identifiable, required_data_missing
   double share_of_error = 0;     ///< of the squared error before, held out
-  double share_of_ceiling = 0;
+  double share_of_explainable = 0;
   double z = 0;
 };
 
@@ -145,7 +145,7 @@ struct InputUse {
   std::string file;
   std::string sha256;
   std::uint64_t scans = 0;
-  int show_opened = 0;
+  int hold_out_opened = 0;
 };
 
 /// One round of `repeat`.

@@ -4,7 +4,7 @@
 
 namespace fsr::simulation {
 
-/// A moment of the room's temperature.
+/// A sample of the room's temperature.
 struct TemperaturePoint {
   double time = 0;         ///< rig time [s]
   double temperature = 0;  ///< [degree Celsius]

@@ -3,13 +3,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "discrepancy/decide/competition.h"
+#include "discrepancy/decide/candidates.h"
 #include "discrepancy/fit/taxel_fit.h"
 
 namespace fsr::discrepancy {
 
 /// Whether what the static curves leave depends on each covariate, asked before any effect is named, of the
-/// cycles to fit on.
+/// cycles to fit.
 ///
 /// Within a cycle (direction, rate, time since the reversal, extremes, curvature, row, column, taxel): cycles
 /// are exchangeable, and by chance alone each could as well have left the opposite. So whole cycles change
@@ -27,7 +27,7 @@ struct CovariateTests {
   const CommonTraces& common;
   const StaticFit& fit;
   const TaxelFit& taxels;
-  const Competition& competition;
+  const Candidates& candidates;
   std::uint64_t seed = 1;
   std::uint64_t draws = 9999;
 

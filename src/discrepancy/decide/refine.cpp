@@ -8,7 +8,7 @@
 #include <cmath>
 #include <memory>
 
-#include "discrepancy/decide/competition.h"
+#include "discrepancy/decide/candidates.h"
 #include "discrepancy/fit/levenberg.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
@@ -83,25 +83,26 @@ struct Changes {
 };
 
 Changes changesBy(const Measured& measured, const simulation::SimulationSettings& base,
-                  const simulation::SimulationSettings& added, const DrivenSignals& without, bool carried) {
+                  const simulation::SimulationSettings& added, const DrivenSignals& without,
+                  bool state_kept) {
   const simulation::SimulationSettings early = keepStages(added, base, false),
                                        late = keepStages(added, base, true);
-  const auto moments = without.load.size();
-  Changes changes{Trace::Zero(moments), Trace::Ones(moments), Trace::Zero(moments)};
+  const auto samples = without.load.size();
+  Changes changes{Trace::Zero(samples), Trace::Ones(samples), Trace::Zero(samples)};
   if (early.effects.size() > base.effects.size()) {
-    const DrivenSignals with = driven(measured, early, carried);
+    const DrivenSignals with = driven(measured, early, state_kept);
     changes.load = with.load - without.load;
     changes.gain = with.gain.cwiseQuotient(without.gain.cwiseMax(1e-9));
   }
   if (late.effects.size() > base.effects.size()) {
-    changes.reading = driven(measured, late, carried).reading - without.reading;
+    changes.reading = driven(measured, late, state_kept).reading - without.reading;
   }
   return changes;
 }
 
 // On flat surfaces the changes are those of `flat`.
 void onFlat(const Measured& measured, const Changes& flat, Changes& changes) {
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     if (!dataset::isFlat(measured.classes[measured.classOf(i)])) continue;
     const auto at = static_cast<Eigen::Index>(i);
     changes.load[at] = flat.load[at];
@@ -116,12 +117,12 @@ void onFlat(const Measured& measured, const Changes& flat, Changes& changes) {
 void levelGain(const Measured& measured, Changes& changes) {
   const auto classes = static_cast<Eigen::Index>(measured.classes.size());
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(classes), number = sum;
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     const auto c = static_cast<Eigen::Index>(measured.classOf(i));
     sum[c] += changes.gain[static_cast<Eigen::Index>(i)];
     number[c] += 1;
   }
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     const auto c = static_cast<Eigen::Index>(measured.classOf(i));
     changes.gain[static_cast<Eigen::Index>(i)] *= number[c] / std::max(1e-9, sum[c]);
   }
@@ -140,15 +141,15 @@ class Refiner {
  public:
   Refiner(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
           const simulation::SimulationSettings& base, std::vector<simulation::EnabledEffect> effects,
-          bool carried, std::vector<bool> bent_only)
+          bool state_kept, std::vector<bool> bent_only)
       : measured_(measured),
         common_(common),
         fit_(fit),
         base_(base),
         effects_(std::move(effects)),
-        carried_(carried),
+        state_kept_(state_kept),
         bent_only_(std::move(bent_only)),
-        plain_(driven(measured, base, carried)) {
+        plain_(driven(measured, base, state_kept)) {
     bent_only_.resize(effects_.size(), false);
     knobs_ = knobsOf(simulation::libraryOf(base), effects_);
     for (const Knob& knob : knobs_) at_.push_back(knob.read(effects_[knob.effect].values.at(knob.name)));
@@ -171,17 +172,17 @@ class Refiner {
       bent = withEffect(bent, effects[e]);
       if (!bent_only_[e]) flat = withEffect(flat, effects[e]);
     }
-    Changes changes = changesBy(measured_, base_, bent, plain_, carried_);
+    Changes changes = changesBy(measured_, base_, bent, plain_, state_kept_);
     if (flat.effects.size() < bent.effects.size())
-      onFlat(measured_, changesBy(measured_, base_, flat, plain_, carried_), changes);
+      onFlat(measured_, changesBy(measured_, base_, flat, plain_, state_kept_), changes);
     levelGain(measured_, changes);
     return changes;
   }
-  Trace withoutShown(Trace trace) const {
+  Trace withoutHoldOut(Trace trace) const {
     for (const MeasuredCycle& cycle : measured_.cycles) {
       if (cycle.use == CycleUse::kFit) continue;
-      const auto moments = static_cast<Eigen::Index>(cycle.last - cycle.first);
-      trace.segment(static_cast<Eigen::Index>(cycle.first), moments).setZero();
+      const auto samples = static_cast<Eigen::Index>(cycle.last - cycle.first);
+      trace.segment(static_cast<Eigen::Index>(cycle.first), samples).setZero();
     }
     return trace;
   }
@@ -190,7 +191,7 @@ class Refiner {
     try {
       const Changes changes = changesAt(at);
       const Trace freed = freedOf(common_.all, fit_.unloaded(), changes);
-      return withoutShown(StaticFit(fit_, freed, loadOf(measured_, changes)).project(freed));
+      return withoutHoldOut(StaticFit(fit_, freed, loadOf(measured_, changes)).project(freed));
     } catch (const settings::InputError&) {
       return std::nullopt;
     }
@@ -203,7 +204,7 @@ class Refiner {
   const StaticFit& fit_;
   const simulation::SimulationSettings& base_;
   std::vector<simulation::EnabledEffect> effects_;
-  bool carried_;
+  bool state_kept_;
   std::vector<bool> bent_only_;  // of each effect
   std::vector<Knob> knobs_;
   std::vector<double> at_;
@@ -217,9 +218,9 @@ std::vector<double> Refiner::deviations(const Eigen::VectorXd& left) const {
   Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
   for (const MeasuredCycle& cycle : measured_.cycles) {
     const auto first = static_cast<Eigen::Index>(cycle.first);
-    const auto moments = static_cast<Eigen::Index>(cycle.last - cycle.first);
+    const auto samples = static_cast<Eigen::Index>(cycle.last - cycle.first);
     const Eigen::VectorXd pull =
-        jacobian.middleRows(first, moments).transpose() * left.segment(first, moments);
+        jacobian.middleRows(first, samples).transpose() * left.segment(first, samples);
     spread += pull * pull.transpose();
   }
   Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
@@ -249,13 +250,13 @@ Refined Refiner::run() {
   for (std::size_t k = 0; k < at_.size(); ++k) at_[k] = knobs_[k].read(knobs_[k].write(at_[k]));
   Refined refined;
   refined.effects = effectsAt(at_);
-  refined.carried = carried_;
+  refined.state_kept = state_kept_;
   refined.parameters.resize(effects_.size());
   refined.trace = Trace::Zero(common_.all.size());
   const auto left = error(at_);
   if (!left) return refined;
   refined.left = *left;
-  refined.share = 1 - left->squaredNorm() / withoutShown(fit_.project(common_.all)).squaredNorm();
+  refined.share = 1 - left->squaredNorm() / withoutHoldOut(fit_.project(common_.all)).squaredNorm();
   const Changes changes = changesAt(at_);
   const Trace freed = freedOf(common_.all, fit_.unloaded(), changes);
   const Trace after = StaticFit(fit_, freed, loadOf(measured_, changes)).residual(freed);
@@ -311,11 +312,11 @@ void takeOut(Measured& measured, const StaticFit& fit, const simulation::Simulat
   const Trace load = loadOf(measured, changes);
   if (measured.gain.empty()) {
     measured.unloaded = fit.unloaded();
-    measured.gain.assign(measured.moments(), 1.0);
-    measured.added.assign(measured.moments(), 0.0);
+    measured.gain.assign(measured.samples(), 1.0);
+    measured.added.assign(measured.samples(), 0.0);
   }
   measured.load.assign(load.data(), load.data() + load.size());
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     measured.gain[i] *= changes.gain[static_cast<Eigen::Index>(i)];
     measured.added[i] += changes.reading[static_cast<Eigen::Index>(i)];
   }
@@ -349,7 +350,7 @@ simulation::SimulationSettings takeOutEnabled(Measured& measured, const CommonTr
   return with;
 }
 
-Foretold foretell(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
+Predicted predict(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                   const simulation::SimulationSettings& base,
                   const std::vector<simulation::EnabledEffect>& effects) {
   const DrivenSignals plain = driven(measured, base, true);
@@ -370,7 +371,7 @@ Foretold foretell(const Measured& measured, const CommonTraces& common, const St
       return std::nullopt;
     }
   };
-  Foretold told;
+  Predicted told;
   const double before = fit.project(common.all).squaredNorm();
   const auto as_told = residuals({0});
   if (!as_told || before <= 0) return told;
@@ -383,8 +384,8 @@ Foretold foretell(const Measured& measured, const CommonTraces& common, const St
   double squares = 0;
   for (const MeasuredCycle& cycle : measured.cycles) {
     const auto first = static_cast<Eigen::Index>(cycle.first);
-    const auto moments = static_cast<Eigen::Index>(cycle.last - cycle.first);
-    squares += std::pow(slope.segment(first, moments).dot(best->segment(first, moments)), 2);
+    const auto samples = static_cast<Eigen::Index>(cycle.last - cycle.first);
+    squares += std::pow(slope.segment(first, samples).dot(best->segment(first, samples)), 2);
   }
   const double half = kTwoSided * std::sqrt(squares) / std::max(1e-300, slope.squaredNorm());
   told.interval = {told.size * std::exp(-half), told.size * std::exp(half)};
@@ -393,9 +394,9 @@ Foretold foretell(const Measured& measured, const CommonTraces& common, const St
 
 Refined refine(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                const simulation::SimulationSettings& base,
-               const std::vector<simulation::EnabledEffect>& start, bool carried,
+               const std::vector<simulation::EnabledEffect>& start, bool state_kept,
                std::vector<bool> bent_only) {
-  return Refiner(measured, common, fit, base, start, carried, std::move(bent_only)).run();
+  return Refiner(measured, common, fit, base, start, state_kept, std::move(bent_only)).run();
 }
 
 }  // namespace fsr::discrepancy

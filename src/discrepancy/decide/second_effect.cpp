@@ -42,21 +42,21 @@ bool takesAnyCourse(const simulation::EffectLibrary& library, const Explanation&
 
 // The pairs that do best as signatures, best first, and the best single effect with each of the others: a
 // large effect bends, and its signature alone says too little of it.
-std::vector<Explanation> bestPairs(const Contest& contest, const Explanation& one) {
-  const Selection& selection = contest.selection();
-  const std::vector<Explanation>& singles = contest.singles();
-  const std::vector<Family>& families = contest.competition().effects();
+std::vector<Explanation> bestPairs(const Comparison& comparison, const Explanation& one) {
+  const CrossValidation& crossValidation = comparison.crossValidation();
+  const std::vector<Explanation>& singles = comparison.singles();
+  const std::vector<Family>& families = comparison.candidates().effects();
   std::vector<Explanation> pairs;
   for (std::size_t a = 0; a < singles.size(); ++a) {
     for (std::size_t b = a + 1; b < singles.size(); ++b) {
       // Some dozens of gains of cycles do not hold two slow effects.
-      if (contest.infoOf(families[a].id).slow && contest.infoOf(families[b].id).slow) continue;
+      if (comparison.infoOf(families[a].id).slow && comparison.infoOf(families[b].id).slow) continue;
       Explanation pair;
-      pair.score = selection.score(singles[a].score, families[b]);
-      Score swapped = selection.score(singles[b].score, families[a]);
+      pair.score = crossValidation.score(singles[a].score, families[b]);
+      Score swapped = crossValidation.score(singles[b].score, families[a]);
       std::swap(swapped.ids.front(), swapped.ids.back());
       if (swapped.total < pair.score.total) pair.score = swapped;
-      pair.share = contest.shareOf(pair.score);
+      pair.share = comparison.shareOf(pair.score);
       pairs.push_back(pair);
     }
   }
@@ -69,14 +69,16 @@ std::vector<Explanation> bestPairs(const Contest& contest, const Explanation& on
   return pairs;
 }
 
-bool isWorthIt(const Contest& contest, const Explanation& one, double in_any_form, const Explanation& two) {
-  const double gain = two.share - one.share, rest = std::max(contest.ceiling(), two.share) - one.share;
-  if (lookAlike(contest.library(), two) && contest.selection().z(one.score, two.score) < kSecondLookalike)
+bool isWorthIt(const Comparison& comparison, const Explanation& one, double in_any_form,
+               const Explanation& two) {
+  const double gain = two.share - one.share, rest = std::max(comparison.explainable(), two.share) - one.share;
+  if (lookAlike(comparison.library(), two) &&
+      comparison.crossValidation().z(one.score, two.score) < kSecondLookalike)
     return false;
   if (in_any_form >= one.share + kAnyForm * gain) return false;
   return gain >= kSecondOfRest * rest && gain >= kSecondOfFirst * one.share &&
-         contest.behindInErrors(one, two) > thresholds::kSignificant &&
-         gain / two.share * contest.shareOfError(two.score) >= thresholds::kLeastShareOfError;
+         comparison.behindInErrors(one, two) > thresholds::kSignificant &&
+         gain / two.share * comparison.shareOfError(two.score) >= thresholds::kLeastShareOfError;
 }
 
 }  // namespace
@@ -85,22 +87,24 @@ bool mayBeOne(const Explanation& single, const Explanation& pair, const simulati
   return isLeftBy(library, pair, single) && single.share >= kWrongFormNear * pair.share;
 }
 
-std::vector<Explanation> pairsWorthIt(Contest& contest, const Explanation& one) {
-  std::vector<Explanation> pairs = bestPairs(contest, one);
+std::vector<Explanation> pairsWorthIt(Comparison& comparison, const Explanation& one) {
+  std::vector<Explanation> pairs = bestPairs(comparison, one);
   if (pairs.empty()) return pairs;
-  const double open = std::max(contest.ceiling(), pairs.front().share) - one.share;
+  const double open = std::max(comparison.explainable(), pairs.front().share) - one.share;
   if (open < kSecondOfFirst * one.share && one.share > kMuchOpen) pairs.clear();
-  for (Explanation& pair : pairs) contest.refineOne(pair);
-  const double in_any_form = contest.shareOf(contest.inAnyForm(one));
-  const auto hopeless = [&](const Explanation& pair) { return !isWorthIt(contest, one, in_any_form, pair); };
+  for (Explanation& pair : pairs) comparison.refineOne(pair);
+  const double in_any_form = comparison.shareOf(comparison.inAnyForm(one));
+  const auto hopeless = [&](const Explanation& pair) {
+    return !isWorthIt(comparison, one, in_any_form, pair);
+  };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), hopeless), pairs.end());
   const auto merit = [&](const Explanation& pair) {
-    const bool doubtful = takesAnyCourse(contest.library(), pair) || pair.refined.at_bound;
+    const bool doubtful = takesAnyCourse(comparison.library(), pair) || pair.refined.at_bound;
     return one.share + (pair.share - one.share) * (doubtful ? thresholds::kAnyCourseHides : 1);
   };
   std::stable_sort(pairs.begin(), pairs.end(),
                    [&](const auto& a, const auto& b) { return merit(a) > merit(b); });
-  if (!pairs.empty()) contest.raiseCeiling(pairs.front().share);
+  if (!pairs.empty()) comparison.raiseExplainable(pairs.front().share);
   return pairs;
 }
 

@@ -66,8 +66,8 @@ simulation::SimulationSettings settingsAt(simulation::SimulationSettings setting
   return settings;
 }
 
-// A few moments of every visit, evenly over the pressures that it saw.
-std::vector<std::size_t> chosenMoments(const Measured& measured) {
+// A few samples of every visit, evenly over the pressures that it saw.
+std::vector<std::size_t> chosenSamples(const Measured& measured) {
   std::vector<std::size_t> chosen;
   for (const Visit& visit : measured.visits) {
     std::vector<std::size_t> order;
@@ -85,15 +85,15 @@ std::vector<std::size_t> chosenMoments(const Measured& measured) {
   return chosen;
 }
 
-// Static readings of the representative taxel at the chosen moments [share of full scale].
+// Static readings of the representative taxel at the chosen samples [share of full scale].
 Eigen::VectorXd staticReadings(const Measured& measured, const simulation::SimulationSettings& settings,
-                               const std::vector<std::size_t>& moments) {
+                               const std::vector<std::size_t>& samples) {
   simulation::SensorChain chain(representative(settings));
-  Eigen::VectorXd readings(static_cast<Eigen::Index>(moments.size()));
+  Eigen::VectorXd readings(static_cast<Eigen::Index>(samples.size()));
   std::size_t mounted = measured.visits.size();
-  for (std::size_t k = 0; k < moments.size(); ++k) {
-    if (measured.visit[moments[k]] != mounted) {
-      mounted = measured.visit[moments[k]];
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (measured.visit[samples[k]] != mounted) {
+      mounted = measured.visit[samples[k]];
       matrix::Surface surface = measured.visits[mounted].surface;
       matrix::Curvature mean;
       for (const matrix::Curvature& c : surface.curvature)
@@ -101,9 +101,9 @@ Eigen::VectorXd staticReadings(const Measured& measured, const simulation::Simul
       surface.curvature = {mean};
       chain.mount(surface);
     }
-    simulation::RigMoment moment;
-    moment.pressure = measured.pressure[moments[k]];
-    chain.read(moment);
+    simulation::RigSample sample;
+    sample.pressure = measured.pressure[samples[k]];
+    chain.read(sample);
     readings[static_cast<Eigen::Index>(k)] = chain.reading()[0] / settings.fullScale();
   }
   return readings;
@@ -144,15 +144,15 @@ simulation::SimulationSettings fitBase(const Measured& measured, const StaticFit
   bool bent = false;
   for (const dataset::CurvatureClass& c : measured.classes) bent = bent || !dataset::isFlat(c);
   const std::vector<Fitted> fitted = fittedOf(settings, bent);
-  const std::vector<std::size_t> moments = chosenMoments(measured);
-  Eigen::VectorXd wanted(static_cast<Eigen::Index>(moments.size()));
-  for (std::size_t k = 0; k < moments.size(); ++k) {
-    wanted[static_cast<Eigen::Index>(k)] = fit.curve()[static_cast<Eigen::Index>(moments[k])];
+  const std::vector<std::size_t> samples = chosenSamples(measured);
+  Eigen::VectorXd wanted(static_cast<Eigen::Index>(samples.size()));
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    wanted[static_cast<Eigen::Index>(k)] = fit.curve()[static_cast<Eigen::Index>(samples[k])];
   }
   const simulation::SimulationSettings still = withoutMemory(settings);
   const Residuals residuals = [&](const std::vector<double>& at) -> std::optional<Eigen::VectorXd> {
     try {
-      return staticReadings(measured, settingsAt(still, fitted, at), moments) - wanted;
+      return staticReadings(measured, settingsAt(still, fitted, at), samples) - wanted;
     } catch (const settings::InputError&) {
       return std::nullopt;
     }

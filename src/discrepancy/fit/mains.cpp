@@ -34,8 +34,8 @@ class Residuals {
   }
   std::size_t size() const { return place_.size(); }
   double place(std::size_t k) const { return static_cast<double>(place_[k]); }
-  void at(std::size_t moment, Eigen::VectorXd& result) {
-    taxels_.residuals(moment, all_);
+  void at(std::size_t sample, Eigen::VectorXd& result) {
+    taxels_.residuals(sample, all_);
     for (std::size_t k = 0; k < place_.size(); ++k) result[static_cast<Eigen::Index>(k)] = all_[place_[k]];
     result.array() -= result.mean();
   }
@@ -51,11 +51,11 @@ Eigen::MatrixXd covarianceOf(const Measured& measured, Residuals& residuals) {
   const auto n = static_cast<Eigen::Index>(residuals.size());
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd now(n);
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     residuals.at(i, now);
     covariance.selfadjointView<Eigen::Lower>().rankUpdate(now);
   }
-  covariance /= static_cast<double>(measured.moments());
+  covariance /= static_cast<double>(measured.samples());
   return covariance.selfadjointView<Eigen::Lower>();
 }
 
@@ -94,24 +94,24 @@ Mains findMains(const Measured& measured, const TaxelFit& taxels) {
   mains.amplitude = 2 * std::sqrt(excess / static_cast<double>(residuals.size()));
   if (mains.z < kLeastZ || mains.share < thresholds::kLeastShareOfError) return mains;
   const Eigen::VectorXcd pattern = patternOf(residuals, mains.turn);
-  const auto moments = static_cast<Eigen::Index>(measured.moments());
-  mains.cosine.resize(moments);
-  mains.sine.resize(moments);
+  const auto samples = static_cast<Eigen::Index>(measured.samples());
+  mains.cosine.resize(samples);
+  mains.sine.resize(samples);
   Eigen::VectorXd now(static_cast<Eigen::Index>(residuals.size()));
   std::vector<std::complex<double>> square(measured.visits.size());
   std::complex<double> turned = 0, before = 0;
   double size = 0, seconds = 0, steps = 0;
-  for (Eigen::Index i = 0; i < moments; ++i) {
-    const auto moment = static_cast<std::size_t>(i);
-    residuals.at(moment, now);
+  for (Eigen::Index i = 0; i < samples; ++i) {
+    const auto sample = static_cast<std::size_t>(i);
+    residuals.at(sample, now);
     const std::complex<double> z = pattern.dot(now.cast<std::complex<double>>());
     mains.cosine[i] = z.real();
     mains.sine[i] = z.imag();
-    square[measured.visit[moment]] += z * z;
+    square[measured.visit[sample]] += z * z;
     size += std::norm(z);
-    if (i > 0 && measured.visit[moment] == measured.visit[moment - 1]) {
+    if (i > 0 && measured.visit[sample] == measured.visit[sample - 1]) {
       turned += std::conj(before) * z;
-      seconds += measured.time[moment] - measured.time[moment - 1];
+      seconds += measured.time[sample] - measured.time[sample - 1];
       ++steps;
     }
     before = z;
@@ -119,7 +119,7 @@ Mains findMains(const Measured& measured, const TaxelFit& taxels) {
   mains.beat = steps > 0 ? std::arg(turned) / (2 * M_PI) / (seconds / steps) : 0;
   double one_phase = 0;  // a pattern that changes from visit to visit only is no hum either
   for (const std::complex<double>& sum : square) one_phase += std::abs(sum);
-  mains.found = one_phase < kRound * (size - static_cast<double>(moments) * usual);
+  mains.found = one_phase < kRound * (size - static_cast<double>(samples) * usual);
   return mains;
 }
 

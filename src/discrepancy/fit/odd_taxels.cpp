@@ -21,14 +21,14 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// Sums over the moments that are not shown, of what is left of each taxel and line beside the mean of all.
+// Sums over the samples that are not shown, of what is left of each taxel and line beside the mean of all.
 struct Sums {
   Eigen::VectorXd squares;                  // [taxels]
   Eigen::VectorXd lines[2];                 // of the means of rows, of columns
   Eigen::MatrixXd reading, reading_square;  // [taxels x visits]
-  Eigen::VectorXd in_visit;                 // moments
+  Eigen::VectorXd in_visit;                 // samples
   double common = 0;                        // square of the mean
-  double moments = 0;
+  double samples = 0;
 };
 
 class Judge {
@@ -51,7 +51,7 @@ class Judge {
   void judgeLines(bool column, OddTaxels& odd) const;
   double total() const {
     return sums_.squares.sum() +
-           static_cast<double>(used_.size()) * (sums_.common + fit_.within() * sums_.moments);
+           static_cast<double>(used_.size()) * (sums_.common + fit_.within() * sums_.samples);
   }
 
   const Measured& measured_;
@@ -78,8 +78,8 @@ void Judge::addUp() {
     sums_.lines[column] = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(members_[column].size()));
   }
   std::vector<double> own, readings;
-  for (std::size_t i = 0; i < measured_.moments(); ++i) {
-    if (measured_.cycles[measured_.cycle[i]].use == CycleUse::kShow) continue;
+  for (std::size_t i = 0; i < measured_.samples(); ++i) {
+    if (measured_.cycles[measured_.cycle[i]].use == CycleUse::kHoldOut) continue;
     fit_.residuals(i, own);
     measured_.readings(i, readings);
     double mean = 0;
@@ -99,7 +99,7 @@ void Judge::addUp() {
       }
     }
     sums_.common += mean * mean;
-    sums_.moments += 1;
+    sums_.samples += 1;
   }
 }
 

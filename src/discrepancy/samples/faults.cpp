@@ -312,22 +312,22 @@ void Detectors::judgeReadings() {
   for (std::size_t v = 0; v < sheets_.size(); ++v) {
     const Sheet& sheet = sheets_[v];
     double squares = 0;
-    std::size_t moment = sheet.visit.first;
+    std::size_t sample = sheet.visit.first;
     for (std::size_t i = 0; i < sheet.scans(); ++i) {
-      while (moment + 1 < sheet.visit.last && measured_.first_scan[moment + 1] <= sheet.scan(i)) ++moment;
-      const bool shown = measured_.cycles[measured_.cycle[moment]].use == CycleUse::kShow;
+      while (sample + 1 < sheet.visit.last && measured_.first_scan[sample + 1] <= sheet.scan(i)) ++sample;
+      const bool held_out = measured_.cycles[measured_.cycle[sample]].use == CycleUse::kHoldOut;
       auto& bin =
-          bins[static_cast<long>(std::max(0.0, measured_.pressure[moment]) / thresholds::kPressureBin)];
+          bins[static_cast<long>(std::max(0.0, measured_.pressure[sample]) / thresholds::kPressureBin)];
       for (const auto& [t, flags] : failing_) {
         bin.second += 1;
         if (!flags[v][i]) continue;
         const double square = std::pow(sheet.reading(i, t) - sheet.expected(i, t), 2);
         bin.first += square;
         squares += square;
-        if (shown) readings.shown += square;
+        if (held_out) readings.held_out += square;
       }
       readings.readings += static_cast<double>(measured_.taxels());
-      if (shown) readings.readings_shown += static_cast<double>(measured_.taxels());
+      if (held_out) readings.held_out_readings += static_cast<double>(measured_.taxels());
     }
     readings.square += squares;
     by_surface[sheet.visit.surface.name] += squares;

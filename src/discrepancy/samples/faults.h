@@ -28,9 +28,9 @@ struct Fault {
 /// What all faults do to the readings, against what the other taxels say.
 struct FaultyReadings {
   double square = 0;    ///< summed over scans and taxels [share of full scale, squared]
-  double shown = 0;     ///< the same over the cycles to show on
+  double held_out = 0;  ///< the same over the hold-out cycles
   double readings = 0;  ///< scans x taxels
-  double readings_shown = 0;
+  double held_out_readings = 0;
   Interval pressure;                    ///< where they differ [Pa]
   std::vector<std::string> conditions;  ///< surfaces; empty = all
 };

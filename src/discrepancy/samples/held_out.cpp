@@ -62,9 +62,9 @@ std::vector<std::vector<std::size_t>> groupsBy(const std::vector<double>& featur
   return groups;
 }
 
-bool anyShown(const Measured& measured, const std::vector<std::size_t>& cycles) {
+bool anyHeldOut(const Measured& measured, const std::vector<std::size_t>& cycles) {
   return std::any_of(cycles.begin(), cycles.end(),
-                     [&](std::size_t c) { return measured.cycles[c].use == CycleUse::kShow; });
+                     [&](std::size_t c) { return measured.cycles[c].use == CycleUse::kHoldOut; });
 }
 
 std::string figure(double value) {
@@ -74,14 +74,14 @@ std::string figure(double value) {
   return text.str();
 }
 
-// A part that shows nothing, or leaves too few to fit on, is no part: then all count as alike.
+// A part that shows nothing, or leaves too few to fit, is no part: then all count as alike.
 std::vector<Part> partsBy(const Measured& measured, const std::vector<double>& feature, double factor,
                           const char* before, const char* after, double unit) {
   std::vector<Part> parts;
   for (const auto& group : groupsBy(feature, factor)) {
     std::vector<double> members;
     for (const std::size_t c : group) members.push_back(feature[c] / unit);
-    if (anyShown(measured, group)) parts.push_back({before + figure(median(members)) + after, group});
+    if (anyHeldOut(measured, group)) parts.push_back({before + figure(median(members)) + after, group});
   }
   return parts.size() < 2 ? std::vector<Part>() : parts;
 }
@@ -94,8 +94,8 @@ std::vector<Part> partsByCondition(const Measured& measured) {
   for (std::size_t c = 0; c < measured.cycles.size(); ++c) {
     parts[measured.visits[measured.cycles[c].visit].curvature_class].cycles.push_back(c);
   }
-  const auto shows_nothing = [&](const Part& part) { return !anyShown(measured, part.cycles); };
-  parts.erase(std::remove_if(parts.begin(), parts.end(), shows_nothing), parts.end());
+  const auto holds_nothing_out = [&](const Part& part) { return !anyHeldOut(measured, part.cycles); };
+  parts.erase(std::remove_if(parts.begin(), parts.end(), holds_nothing_out), parts.end());
   return parts.size() < 2 ? std::vector<Part>() : parts;
 }
 
@@ -118,7 +118,7 @@ std::vector<Part> partsByProtocol(const Measured& measured) {
 
 Measured withoutPart(const Measured& measured, const Part& part) {
   Measured rest = measured;
-  for (const std::size_t c : part.cycles) rest.cycles[c].use = CycleUse::kShow;
+  for (const std::size_t c : part.cycles) rest.cycles[c].use = CycleUse::kHoldOut;
   return rest;
 }
 

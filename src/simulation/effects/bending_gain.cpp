@@ -64,7 +64,7 @@ class BendingGain : public Effect {
     for (std::size_t i = 0; i < gain_.size(); ++i) gain_[i] = gain(i, mounting.curvature[i]);
   }
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     for (std::size_t i = 0; i < gain_.size(); ++i) signals.gain[i] *= gain_[i];
   }
 

@@ -60,7 +60,7 @@ class BendingPreload : public Effect {
     }
   }
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     for (std::size_t i = 0; i < preload_.size(); ++i) signals.load[i] += preload_[i];
   }
 

@@ -32,8 +32,8 @@ class ColumnFault : public Effect {
   ColumnFault(const EffectValues& values, const EffectContext& context)
       : size_(context.layout.size), line_("column_fault", size_.columns, values, context) {}
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    const double contact = line_.contact(moment.time);
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    const double contact = line_.contact(sample.time);
     for (std::size_t row = 0; row < size_.rows; ++row) {
       signals.conductance[row * size_.columns + line_.line()] *= contact;
     }

@@ -43,7 +43,7 @@ class Converter : public Effect {
     }
   }
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     for (std::size_t i = 0; i < signals.reading.size(); ++i) {
       signals.reading[i] = counts_per_siemens_ * signals.conductance[i] + offset_;
     }

@@ -71,8 +71,8 @@ class Creep : public Effect {
     state_.assign(context.layout.size.taxels() * (1 + memories_.size()), 0.0);
   }
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    for (std::size_t k = 0; k < steps_.size(); ++k) steps_[k] = memories_[k].over(moment.elapsed);
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    for (std::size_t k = 0; k < steps_.size(); ++k) steps_[k] = memories_[k].over(sample.elapsed);
     double* state = state_.data();  // of each taxel: the load at the scan before, then the memories [Pa]
     for (std::size_t i = 0; i < signals.load.size(); ++i) {
       const double crept = weight_ * advance(signals.load[i], state);

@@ -44,7 +44,7 @@ class Crosstalk : public Effect {
         row_sum_(context.layout.size.rows),
         column_sum_(context.layout.size.columns) {}
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     addUp(signals.conductance);
     double* conductance = signals.conductance.data();
     for (const double row : row_sum_) {

@@ -32,8 +32,8 @@ class DeadTaxel : public Effect {
   DeadTaxel(const EffectValues& values, const EffectContext& context)
       : start_(values.at("start")), dead_(faultyTaxels("dead_taxel", values, context)) {}
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    if (moment.time < start_) return;
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    if (sample.time < start_) return;
     for (const std::size_t taxel : dead_) signals.conductance[taxel] = 0;
   }
 

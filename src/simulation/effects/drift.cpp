@@ -52,8 +52,8 @@ class Drift : public Effect {
     state_.assign(1, 0.0);  // t [s]
   }
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    state_[0] += moment.elapsed;
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    state_[0] += sample.elapsed;
     const double hours = effectiveTime(state_[0]) / kHour;
     for (std::size_t i = 0; i < rate_.size(); ++i) {
       signals.reading[i] += (rate_[i] * signals.reading[i] + zero_) * hours;

@@ -50,7 +50,7 @@ class EdgeStiffness : public Effect {
     }
   }
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     for (std::size_t i = 0; i < factor_.size(); ++i) signals.load[i] *= factor_[i];
   }
 

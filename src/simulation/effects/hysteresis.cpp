@@ -76,7 +76,7 @@ class Hysteresis : public Effect {
     state_.assign(context.layout.size.taxels() * kPlays, 0.0);
   }
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     double* play = state_.data();
     for (std::size_t taxel = 0; taxel < signals.load.size(); ++taxel) {
       const double load = signals.load[taxel];

@@ -52,10 +52,10 @@ class MainsPickup : public Effect {
     }
   }
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
     // sin(a + b) taken apart: one sine and cosine a scan.
-    const double sine = std::sin(pulsation_ * moment.time);
-    const double cosine = std::cos(pulsation_ * moment.time);
+    const double sine = std::sin(pulsation_ * sample.time);
+    const double cosine = std::cos(pulsation_ * sample.time);
     for (std::size_t i = 0; i < sine_.size(); ++i) {
       signals.reading[i] += cosine_[i] * sine + sine_[i] * cosine;
     }

@@ -93,7 +93,7 @@ class Repositioning : public Effect {
     }
   }
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     for (std::size_t i = 0; i < gain_.size(); ++i) {
       signals.load[i] += offset_[i];
       signals.gain[i] *= gain_[i];

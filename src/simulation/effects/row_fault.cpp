@@ -32,8 +32,8 @@ class RowFault : public Effect {
   RowFault(const EffectValues& values, const EffectContext& context)
       : size_(context.layout.size), line_("row_fault", size_.rows, values, context) {}
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    const double contact = line_.contact(moment.time);
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    const double contact = line_.contact(sample.time);
     const std::size_t columns = size_.columns;
     for (std::size_t column = 0; column < columns; ++column) {
       signals.conductance[line_.line() * columns + column] *= contact;

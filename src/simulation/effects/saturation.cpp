@@ -41,7 +41,7 @@ class Saturation : public Effect {
   Saturation(const EffectValues& values, const EffectContext&)
       : level_(values.at("level")), sharpness_(values.at("sharpness")) {}
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     for (double& reading : signals.reading) {
       if (std::isinf(sharpness_)) {
         reading = std::min(reading, level_);

@@ -34,7 +34,7 @@ class ScanSkew : public Effect {
  public:
   ScanSkew(const EffectValues& values, const EffectContext&) : taxel_time_(values.at("taxel_time")) {}
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     const double middle = (static_cast<double>(signals.offset.size()) - 1) / 2;
     for (std::size_t i = 0; i < signals.offset.size(); ++i) {
       signals.offset[i] += (static_cast<double>(i) - middle) * taxel_time_;

@@ -41,9 +41,9 @@ class SealLeak : public Effect {
     state_.assign(kState, 0.0);
   }
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    state_[kCavity] = leak_.step(state_[kBefore], moment.pressure, moment.elapsed, state_[kCavity]);
-    state_[kBefore] = moment.pressure;
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    state_[kCavity] = leak_.step(state_[kBefore], sample.pressure, sample.elapsed, state_[kCavity]);
+    state_[kBefore] = sample.pressure;
     const double back = share_ * state_[kCavity];
     for (double& load : signals.load) load -= back;
   }

@@ -57,7 +57,7 @@ class StaticCurve : public Effect {
     for (const double n : exponent_) saturation_share_.push_back(std::pow(saturation_, n));
   }
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     for (std::size_t i = 0; i < conductance_.size(); ++i) {
       // (u / P_s)^n = (u / P_ref)^n (P_ref / P_s)^n: one power a taxel.
       const double load = signals.load[i] > 0 ? std::pow(signals.load[i] / reference_, exponent_[i]) : 0.0;

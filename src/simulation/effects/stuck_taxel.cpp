@@ -39,8 +39,8 @@ class StuckTaxel : public Effect {
     state_.assign(1 + stuck_.size(), 0.0);  // whether the fault has begun, then the readings [counts]
   }
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    if (moment.time < start_) return;
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    if (sample.time < start_) return;
     for (std::size_t k = 0; k < stuck_.size(); ++k) {
       double& reading = signals.reading[stuck_[k]];
       if (state_[0] == 0) state_[k + 1] = value_ < 0 ? reading : value_;

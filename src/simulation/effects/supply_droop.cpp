@@ -36,7 +36,7 @@ class SupplyDroop : public Effect {
  public:
   SupplyDroop(const EffectValues& values, const EffectContext&) : resistance_(values.at("resistance")) {}
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     auto& conductance = signals.conductance;
     const double total = std::accumulate(conductance.begin(), conductance.end(), 0.0);
     const double left = std::max(0.0, 1 - resistance_ * total);

@@ -50,10 +50,10 @@ class Temperature : public Effect {
     state_.assign(kState, 0.0);
   }
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    const double gas = moment.temperature - kRoomTemperature;
-    if (moment.first) state_[kSheet] = state_[kBefore] = gas;  // it lay there long enough
-    state_[kSheet] = sheet_.step(state_[kBefore], gas, moment.elapsed, state_[kSheet]);
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    const double gas = sample.temperature - kRoomTemperature;
+    if (sample.first) state_[kSheet] = state_[kBefore] = gas;  // it lay there long enough
+    state_[kSheet] = sheet_.step(state_[kBefore], gas, sample.elapsed, state_[kSheet]);
     state_[kBefore] = gas;
     const double factor = gain(state_[kSheet]);
     for (double& gain : signals.gain) gain *= factor;

@@ -33,7 +33,7 @@ class TimeSkew : public Effect {
  public:
   TimeSkew(const EffectValues& values, const EffectContext&) : delay_(values.at("delay")) {}
 
-  void apply(const RigMoment&, TaxelSignals& signals) override { signals.skew += delay_; }
+  void apply(const RigSample&, TaxelSignals& signals) override { signals.skew += delay_; }
 
  private:
   double delay_;  // [s]

@@ -42,8 +42,8 @@ class TrappedGas : public Effect {
   TrappedGas(const EffectValues& values, const EffectContext&)
       : closing_(values.at("closing")), half_pressure_(values.at("half_pressure")) {}
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    const double pressure = std::max(moment.pressure, 0.0);
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    const double pressure = std::max(sample.pressure, 0.0);
     const double closed = closing_ * pressure / (pressure + half_pressure_);
     const double back = kAmbient * closed / (1 - closed);
     for (double& load : signals.load) load -= back;

@@ -51,7 +51,7 @@ class TurnOn : public Effect {
     }
   }
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     for (std::size_t i = 0; i < pressure_.size(); ++i) {
       signals.load[i] -= std::min(pressure_[i], std::max(signals.load[i], 0.0));
     }

@@ -51,20 +51,20 @@ class Wear : public Effect {
     state_.assign(kState, 0.0);
   }
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    if (!moment.first) state_[kWay] += std::abs(moment.pressure - state_[kBefore]);
-    state_[kBefore] = moment.pressure;
-    const double worn = std::pow((age_ + state_[kWay] / cycle_) / kLifetime, exponent_);
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    if (!sample.first) state_[kPathLength] += std::abs(sample.pressure - state_[kBefore]);
+    state_[kBefore] = sample.pressure;
+    const double worn = std::pow((age_ + state_[kPathLength] / cycle_) / kLifetime, exponent_);
     const double factor = std::max(0.0, 1 - loss_ * worn);
     for (double& gain : signals.gain) gain *= factor;
   }
 
  private:
-  enum { kBefore, kWay, kState };  // chamber at the scan before, W [Pa]
+  enum { kBefore, kPathLength, kState };  // chamber at the scan before, W [Pa]
   double loss_;
   double exponent_;
   double age_;    // [cycles]
-  double cycle_;  // way of the pressure in a whole cycle [Pa]
+  double cycle_;  // path lengthof the pressure in a whole cycle [Pa]
 };
 
 }  // namespace

@@ -41,11 +41,11 @@ class WhiteNoise : public Effect {
     }
   }
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
     for (std::size_t i = 0; i < streams_.size(); ++i) {
       const double relative = relative_ * signals.reading[i];
       const double deviation = std::sqrt(absolute_ * absolute_ + relative * relative);
-      signals.reading[i] += deviation * streams_[i].normal(moment.scan);
+      signals.reading[i] += deviation * streams_[i].normal(sample.scan);
     }
   }
 

@@ -10,7 +10,7 @@
 namespace fsr::discrepancy {
 
 /// Something that a test of its own found, beside what all taxels share.
-struct Finding {
+struct Detection {
   FoundEffect effect;
   std::vector<simulation::EnabledEffect> enable;  ///< how the simulation is told; none where it cannot be
   std::vector<std::string> depends_on;
@@ -20,12 +20,12 @@ struct Finding {
   bool wrong_form = false;
 };
 
-Finding findingOf(const Fault& fault, const FaultyReadings& readings, double square);
-Finding findingOf(const Mains& mains, double square, const Measured& measured);
-Finding findingOf(const Repositioning& repositioning, double square);
+Detection detectionOf(const Fault& fault, const FaultyReadings& readings, double square);
+Detection detectionOf(const Mains& mains, double square, const Measured& measured);
+Detection detectionOf(const Repositioning& repositioning, double square);
 /// Saturation, with its level fitted to the static curves.
-Finding saturationOf(const StaticMisfit& misfit, const Measured& measured, const StaticFit& fit,
-                     const simulation::SimulationSettings& base);
+Detection saturationOf(const StaticMisfit& misfit, const Measured& measured, const StaticFit& fit,
+                       const simulation::SimulationSettings& base);
 
 /// Whether what the static curves differ by is more than chance, and whether it goes by code.
 bool isMisfit(const StaticMisfit& misfit, bool something_else_found);

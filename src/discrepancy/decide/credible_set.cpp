@@ -1,4 +1,4 @@
-#include "discrepancy/decide/rivals.h"
+#include "discrepancy/decide/credible_set.h"
 
 #include <algorithm>
 
@@ -18,17 +18,18 @@ constexpr double kNearBadForm = 0.6;   // of the best one's share, where its for
 using Ids = std::vector<std::string>;
 
 // Whether the recordings do not tell them apart.
-bool isRival(const Contest& contest, const Explanation& other, const Explanation& best) {
-  const EvidenceAtHand& evidence = contest.evidence();
+bool isRival(const Comparison& comparison, const Explanation& other, const Explanation& best) {
+  const AvailableEvidence& evidence = comparison.evidence();
   const double behind = best.share - other.share;
-  if (contest.behindInErrors(other, best) < thresholds::kSignificant && behind < kRivalFar * best.share)
+  if (comparison.behindInErrors(other, best) < thresholds::kSignificant && behind < kRivalFar * best.share)
     return true;
-  if (mayBeOne(other, best, contest.library())) return true;
+  if (mayBeOne(other, best, comparison.library())) return true;
   // One effect against two was weighed by what the second adds; two against two by the same.
   if (best.score.ids.size() > 1 && other.score.ids.size() == 1) return false;
-  if (best.score.ids.size() > 1) return behind <= (1 - kSecondRival) * (best.share - contest.best()->share);
-  const simulation::EffectInfo &first = contest.infoOf(best.score.ids.front()),
-                               &second = contest.infoOf(other.score.ids.front());
+  if (best.score.ids.size() > 1)
+    return behind <= (1 - kSecondRival) * (best.share - comparison.best()->share);
+  const simulation::EffectInfo &first = comparison.infoOf(best.score.ids.front()),
+                               &second = comparison.infoOf(other.score.ids.front());
   // What everything slow looks like excludes nothing slow, unless that went another way than the clock.
   if (first.any_course && second.slow)
     return behind <= (evidence.apartFromClock(second) ? kRivalFar : thresholds::kAnyCourseHides) * best.share;
@@ -38,19 +39,19 @@ bool isRival(const Contest& contest, const Explanation& other, const Explanation
 }
 
 // Whether the recordings hold what an effect needs, to be named without a partner.
-bool standsAlone(const EvidenceAtHand& evidence, const simulation::EffectInfo& info) {
+bool standsAlone(const AvailableEvidence& evidence, const simulation::EffectInfo& info) {
   return std::all_of(info.needs.begin(), info.needs.end(),
                      [&](simulation::Evidence e) { return evidence.has(e); });
 }
 
 // The best of the effects that are easily taken for one of the explanation's; null where none comes near.
-const Explanation* partnerOf(const Contest& contest, const simulation::EffectInfo& info,
+const Explanation* partnerOf(const Comparison& comparison, const simulation::EffectInfo& info,
                              const Explanation& explanation) {
   const Explanation* partner = nullptr;
-  for (const Explanation& single : contest.singles()) {
+  for (const Explanation& single : comparison.singles()) {
     const std::string& other = single.score.ids.front();
     const bool listed = std::count(info.collinear.begin(), info.collinear.end(), other) > 0;
-    const bool near = contest.shows(single) || single.share >= kNearBadForm * explanation.share;
+    const bool near = comparison.shows(single) || single.share >= kNearBadForm * explanation.share;
     if (!listed || explanation.has(other) || !near) continue;
     if (!partner || single.share > partner->share) partner = &single;
   }
@@ -59,47 +60,48 @@ const Explanation* partnerOf(const Contest& contest, const simulation::EffectInf
 
 }  // namespace
 
-std::vector<Ids> credibleSet(const Contest& contest, const std::vector<Explanation>& pairs,
+std::vector<Ids> credibleSet(const Comparison& comparison, const std::vector<Explanation>& pairs,
                              const Explanation& best) {
   std::vector<const Explanation*> rivals;
   const auto gather = [&](const Explanation& other) {
-    if (other.score.ids != best.score.ids && isRival(contest, other, best)) rivals.push_back(&other);
+    if (other.score.ids != best.score.ids && isRival(comparison, other, best)) rivals.push_back(&other);
   };
-  for (const Explanation& single : contest.singles()) {
-    if (contest.shows(single)) gather(single);
+  for (const Explanation& single : comparison.singles()) {
+    if (comparison.shows(single)) gather(single);
   }
   for (const Explanation& pair : pairs) gather(pair);
   std::sort(rivals.begin(), rivals.end(),
             [](const Explanation* a, const Explanation* b) { return a->share > b->share; });
   std::vector<Ids> credible = {best.score.ids};
   for (const Explanation* rival : rivals) credible.push_back(rival->score.ids);
-  if (contest.evidence().temperature_moved) {
+  if (comparison.evidence().temperature_moved) {
     std::stable_partition(credible.begin(), credible.end(), [&](const Ids& ids) {
       return ids.size() == 1 &&
-             simulation::dependsOn(contest.infoOf(ids.front()), simulation::Covariate::kTemperature);
+             simulation::dependsOn(comparison.infoOf(ids.front()), simulation::Covariate::kTemperature);
     });
   }
   std::stable_partition(credible.begin(), credible.end(), [&](const Ids& ids) {
-    return ids.size() != 1 || !contest.infoOf(ids.front()).any_course;
+    return ids.size() != 1 || !comparison.infoOf(ids.front()).any_course;
   });
   return credible;
 }
 
-std::vector<Ids> partnersOf(const Contest& contest, const Explanation& first) {
+std::vector<Ids> partnersOf(const Comparison& comparison, const Explanation& first) {
   std::vector<Ids> partners;
   for (const std::string& id : first.score.ids) {
-    const simulation::EffectInfo& info = contest.infoOf(id);
-    if (standsAlone(contest.evidence(), info)) continue;
-    if (const Explanation* partner = partnerOf(contest, info, first)) partners.push_back(partner->score.ids);
+    const simulation::EffectInfo& info = comparison.infoOf(id);
+    if (standsAlone(comparison.evidence(), info)) continue;
+    if (const Explanation* partner = partnerOf(comparison, info, first))
+      partners.push_back(partner->score.ids);
   }
-  if (!partners.empty() || first.share >= thresholds::kGoodForm * contest.ceiling()) return partners;
-  const simulation::EffectInfo& info = contest.infoOf(first.score.ids.front());
-  const bool slow_apart = info.slow && contest.evidence().apartFromClock(info);
-  for (const Explanation& single : contest.singles()) {
+  if (!partners.empty() || first.share >= thresholds::kGoodForm * comparison.explainable()) return partners;
+  const simulation::EffectInfo& info = comparison.infoOf(first.score.ids.front());
+  const bool slow_apart = info.slow && comparison.evidence().apartFromClock(info);
+  for (const Explanation& single : comparison.singles()) {
     if (single.score.ids == first.score.ids || single.share < kNearBadForm * first.share) continue;
     // Hours of cycles and pauses have told it from what else is slow, in whatever form.
-    const bool told = slow_apart && contest.infoOf(single.score.ids.front()).slow &&
-                      contest.behindInErrors(single, first) > thresholds::kSignificant;
+    const bool told = slow_apart && comparison.infoOf(single.score.ids.front()).slow &&
+                      comparison.behindInErrors(single, first) > thresholds::kSignificant;
     if (!told) partners.push_back(single.score.ids);
   }
   return partners;

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "discrepancy/decide/competition.h"
+#include "discrepancy/decide/candidates.h"
 #include "discrepancy/decide/decision.h"
-#include "discrepancy/decide/findings.h"
+#include "discrepancy/decide/detections.h"
 
 namespace fsr::discrepancy {
 
@@ -14,9 +14,9 @@ struct Found {
   const CommonTraces& common;
   const StaticFit& fit;
   const TaxelFit& taxels;
-  const Competition& competition;
+  const Candidates& candidates;
   const Decision& decision;
-  const std::vector<Finding>& findings;                  ///< of detectors, and of later rounds
+  const std::vector<Detection>& detections;              ///< of detectors, and of later rounds
   const std::vector<simulation::EnabledEffect>& beside;  ///< effects of later rounds
   const Trace& left;      ///< what all this takes from the common trace's residual
   bool by_terms = false;  ///< `left` is that of fitted terms, not of effects in a simulation
@@ -29,6 +29,6 @@ struct Found {
 /// Shows in `report` where it acts and how far it closes the gap: on cycles that took no part in anything, on
 /// each surface and each protocol foretold by what was fitted to the others; confines the effects of
 /// `report.added` to where they act.
-void prove(const Found& found, DiscrepancyReport& report);
+void reportGap(const Found& found, DiscrepancyReport& report);
 
 }  // namespace fsr::discrepancy

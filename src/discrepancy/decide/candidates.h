@@ -4,17 +4,17 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/decide/selection.h"
+#include "discrepancy/decide/cross_validation.h"
 #include "discrepancy/fit/generic_terms.h"
 #include "discrepancy/fit/signatures.h"
 
 namespace fsr::discrepancy {
 
 /// The explanations that compete for what the static curves leave of the common trace.
-class Competition {
+class Candidates {
  public:
-  Competition(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
-              std::vector<Signature> signatures, unsigned threads);
+  Candidates(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
+             std::vector<Signature> signatures, unsigned threads);
 
   const std::vector<Family>& effects() const { return effects_; }
   const std::vector<Family>& generics() const { return generics_; }
@@ -24,13 +24,13 @@ class Competition {
   const std::vector<Signature>& signatures() const { return signatures_; }
   /// What the library says about an effect.
   const simulation::EffectInfo& info(const std::string& id) const { return measured_.info(id); }
-  const Selection& selection() const { return *selection_; }
+  const CrossValidation& crossValidation() const { return *cross_validation_; }
   const CycleGrams& grams() const { return *grams_; }
-  /// Some of the projected columns, signatures before generic terms, [moments x chosen].
+  /// Some of the projected columns, signatures before generic terms, [samples x chosen].
   Eigen::MatrixXd columns(const std::vector<Eigen::Index>& chosen) const;
 
   /// Share of the squared error that repeats from one half of the taxels to the other and from one
-  /// moment to one a second later: what anything could explain. 0 where nothing is hidden.
+  /// sample to one a second later: what anything could explain. 0 where nothing is hidden.
   double repeating() const { return repeating_; }
 
   /// Mean squared error of the common trace [share of full scale, squared].
@@ -52,9 +52,9 @@ class Competition {
   std::vector<Signature> signatures_;
   std::vector<Family> effects_, generics_;
   std::vector<std::vector<simulation::Covariate>> covariates_;  // of each generic
-  Eigen::MatrixXd columns_;  // [moments x columns], the last one the target
+  Eigen::MatrixXd columns_;  // [samples x columns], the last one the target
   std::unique_ptr<CycleGrams> grams_;
-  std::unique_ptr<Selection> selection_;
+  std::unique_ptr<CrossValidation> cross_validation_;
   double repeating_ = 0;
   double mean_square_ = 0;
 };

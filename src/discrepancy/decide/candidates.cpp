@@ -1,4 +1,4 @@
-#include "discrepancy/decide/competition.h"
+#include "discrepancy/decide/candidates.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 constexpr double kRepeats = 1.2;
 
 bool sameShapes(const simulation::EffectInfo& info, const Signature& a, const Signature& b) {
-  if (a.id != b.id || a.carried != b.carried) return false;
+  if (a.id != b.id || a.state_kept != b.state_kept) return false;
   for (const auto& [name, value] : a.values) {
     const auto other = b.values.find(name);
     const bool shape = simulation::parameter(info, name).role == simulation::ParameterRole::kShape;
@@ -30,7 +30,7 @@ Family familyOf(const simulation::EffectInfo& info, const std::vector<Signature>
   for (std::size_t s = 0; s < signatures.size(); ++s) {
     if (signatures[s].id != info.id) continue;
     const auto belongs = [&](std::size_t head) {
-      return info.mixture ? signatures[head].carried == signatures[s].carried
+      return info.mixture ? signatures[head].state_kept == signatures[s].state_kept
                           : sameShapes(info, signatures[head], signatures[s]);
     };
     auto head = std::find_if(heads.begin(), heads.end(), belongs);
@@ -78,8 +78,8 @@ bool isStatic(const simulation::EffectInfo& info) {
   });
 }
 
-Competition::Competition(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
-                         std::vector<Signature> signatures, unsigned threads)
+Candidates::Candidates(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
+                       std::vector<Signature> signatures, unsigned threads)
     : measured_(measured), signatures_(std::move(signatures)) {
   std::vector<std::string> ids;
   for (const Signature& s : signatures_) {
@@ -97,15 +97,15 @@ Competition::Competition(const Measured& measured, const CommonTraces& common, c
   std::vector<std::pair<std::size_t, std::size_t>> ranges;
   for (const MeasuredCycle& cycle : measured.cycles) ranges.emplace_back(cycle.first, cycle.last);
   grams_ = std::make_unique<CycleGrams>(columns_, ranges, threads);
-  selection_ = std::make_unique<Selection>(measured, *grams_);
+  cross_validation_ = std::make_unique<CrossValidation>(measured, *grams_);
   judgeRepeating(measured, common, fit);
 }
 
-void Competition::gather(const StaticFit& fit, const Measured& measured) {
+void Candidates::gather(const StaticFit& fit, const Measured& measured) {
   const std::vector<GenericTerms> generic = genericTerms(measured, fit);
   auto number = static_cast<Eigen::Index>(signatures_.size());
   for (const GenericTerms& terms : generic) number += static_cast<Eigen::Index>(terms.columns.size());
-  columns_.resize(static_cast<Eigen::Index>(measured.moments()), number);
+  columns_.resize(static_cast<Eigen::Index>(measured.samples()), number);
   Eigen::Index next = 0;
   for (Signature& signature : signatures_) {
     columns_.col(next++) = signature.trace;
@@ -129,11 +129,11 @@ void Competition::gather(const StaticFit& fit, const Measured& measured) {
   }
 }
 
-void Competition::judgeRepeating(const Measured& measured, const CommonTraces& common, const StaticFit& fit) {
+void Candidates::judgeRepeating(const Measured& measured, const CommonTraces& common, const StaticFit& fit) {
   const Trace white = fit.project(common.halves[0]), black = fit.project(common.halves[1]);
   double sum = 0, number = 0;
   for (const MeasuredCycle& cycle : measured.cycles) {
-    if (cycle.use == CycleUse::kShow) continue;
+    if (cycle.use == CycleUse::kHoldOut) continue;
     std::size_t later = cycle.first;
     for (std::size_t i = cycle.first; i < cycle.last; ++i) {
       while (later < cycle.last && measured.time[later] - measured.time[i] < kRepeats) ++later;
@@ -146,18 +146,18 @@ void Competition::judgeRepeating(const Measured& measured, const CommonTraces& c
   repeating_ = number > 0 && mean_square_ > 0 ? std::max(0.0, sum / number / mean_square_) : 0;
 }
 
-Eigen::MatrixXd Competition::columns(const std::vector<Eigen::Index>& chosen) const {
+Eigen::MatrixXd Candidates::columns(const std::vector<Eigen::Index>& chosen) const {
   Eigen::MatrixXd columns(columns_.rows(), static_cast<Eigen::Index>(chosen.size()));
   for (std::size_t k = 0; k < chosen.size(); ++k)
     columns.col(static_cast<Eigen::Index>(k)) = columns_.col(chosen[k]);
   return columns;
 }
 
-Trace Competition::explained(const Score& score) const {
+Trace Candidates::explained(const Score& score) const {
   return explainedBy(score.set, score.coefficients);
 }
 
-Trace Competition::explainedWithout(const Score& score, const std::vector<bool>& cycles) const {
+Trace Candidates::explainedWithout(const Score& score, const std::vector<bool>& cycles) const {
   const auto size = static_cast<Eigen::Index>(score.set.columns.size());
   Eigen::MatrixXd part = Eigen::MatrixXd::Zero(size + 1, size + 1);
   for (std::size_t c = 0; c < measured_.cycles.size(); ++c) {
@@ -169,13 +169,13 @@ Trace Competition::explainedWithout(const Score& score, const std::vector<bool>&
   return explainedBy(score.set, fitColumns(part, score.set));
 }
 
-Trace Competition::explainedBy(const ColumnSet& set, const Eigen::VectorXd& coefficients) const {
+Trace Candidates::explainedBy(const ColumnSet& set, const Eigen::VectorXd& coefficients) const {
   Trace everywhere = Trace::Zero(columns_.rows()), bent = everywhere;
   for (std::size_t i = 0; i < set.columns.size(); ++i) {
     const double b = coefficients[static_cast<Eigen::Index>(i)];
     if (b != 0) (set.bent_only[i] ? bent : everywhere) += b * columns_.col(set.columns[i]);
   }
-  for (std::size_t i = 0; i < measured_.moments(); ++i) {
+  for (std::size_t i = 0; i < measured_.samples(); ++i) {
     if (dataset::isFlat(measured_.classes[measured_.classOf(i)])) bent[static_cast<Eigen::Index>(i)] = 0;
   }
   return everywhere + bent;

@@ -8,8 +8,8 @@
 #include "discrepancy/decide/decision.h"
 #include "discrepancy/decide/refine.h"
 #include "discrepancy/fit/base_fit.h"
-#include "discrepancy/prove/prediction_hash.h"
-#include "discrepancy/prove/wording.h"
+#include "discrepancy/results/prediction_hash.h"
+#include "discrepancy/results/wording.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
 
@@ -31,8 +31,8 @@ std::string idsOf(const std::vector<simulation::EnabledEffect>& effects) {
 std::string excludedBy(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                        const simulation::SimulationSettings& base, const std::string& id) {
   const TaxelFit taxels(measured, fit);
-  const Competition competition(measured, common, fit, signatures(measured, fit, base, {}, 0), 0);
-  const Decision decision = decide(measured, common, fit, taxels, competition, base);
+  const Candidates candidates(measured, common, fit, signatures(measured, fit, base, {}, 0), 0);
+  const Decision decision = decide(measured, common, fit, taxels, candidates, base);
   const auto& credible = decision.credible;
   const bool in = std::any_of(credible.begin(), credible.end(), [&](const std::vector<std::string>& ids) {
     return std::count(ids.begin(), ids.end(), id) > 0;
@@ -62,13 +62,13 @@ Confirmation confirm(const Prediction& prediction, const simulation::SimulationS
   const CommonTraces common = commonTraces(measured);
   const StaticFit fit(measured, CurvePer::kClass, common.all);
   Confirmation confirmation;
-  const Foretold told = foretell(measured, common, fit, base, prediction.effects);
+  const Predicted told = predict(measured, common, fit, base, prediction.effects);
   confirmation.share_of_error = told.share;
   confirmation.size = told.size;
   confirmation.interval = told.interval;
   double most = told.share;
   for (const auto& rival : prediction.rivals) {
-    const double share = foretell(measured, common, fit, base, rival).best_share;
+    const double share = predict(measured, common, fit, base, rival).best_share;
     if (share <= std::max(most, told.best_share + kRivalBetter)) continue;
     most = share;
     confirmation.best_rival = idsOf(rival);

@@ -1,6 +1,6 @@
 // What recordings hold, so that slow effects may be told apart.
 
-#include "discrepancy/samples/evidence.h"
+#include "discrepancy/samples/available_evidence.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@ namespace {
 using planted::kTwoSurfaces;
 const std::string kFlatAgainHoursLater = "  - {surface: flat, flat: true, pause: 10000}\n";
 
-EvidenceAtHand evidenceOf(const std::string& more) {
-  return evidenceIn(admit(planted::problem(planted::kFourTaxels + more, "")));
+AvailableEvidence evidenceOf(const std::string& more) {
+  return availableEvidence(admit(planted::problem(planted::kFourTaxels + more, "")));
 }
 
 TEST(Evidence, HoursWithoutACycleSetTheClockApartFromTheWay) {
@@ -27,7 +27,7 @@ TEST(Evidence, ARoomThatWarmsAndCoolsGoesAnotherWayThanTheClock) {
   EXPECT_FALSE(
       evidenceOf(thrice + "climate: {room: [{time: 0, temperature: 23}, {time: 25000, temperature: 23}]}\n")
           .apartFromClock("temperature"));
-  const EvidenceAtHand warmed =
+  const AvailableEvidence warmed =
       evidenceOf(thrice +
                  "climate: {room: [{time: 0, temperature: 23}, {time: 5000, temperature: 23}, {time: 10500, "
                  "temperature: 35}, {time: 11500, temperature: 35}, {time: 20000, temperature: 23}]}\n");

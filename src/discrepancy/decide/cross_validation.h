@@ -20,16 +20,16 @@ struct Family {
 struct Score {
   std::vector<std::string> ids;
   ColumnSet set;                         ///< the alternative that counts
-  std::vector<double> error;             ///< squared error of each cycle, NaN of those to show on
+  std::vector<double> error;             ///< squared error of each cycle, NaN of the hold-out cycles
   double total = 0;                      ///< their sum
-  Eigen::VectorXd coefficients;          ///< by all cycles but those to show on
+  Eigen::VectorXd coefficients;          ///< by all cycles but the hold-out cycles
   std::vector<Eigen::VectorXd> of_fold;  ///< likewise without one fold each
 };
 
 /// Chooses between explanations by cross-validation over the cycles.
-class Selection {
+class CrossValidation {
  public:
-  Selection(const Measured& measured, const CycleGrams& grams);
+  CrossValidation(const Measured& measured, const CycleGrams& grams);
 
   /// Squared error without any explanation.
   const Score& nothing() const { return nothing_; }

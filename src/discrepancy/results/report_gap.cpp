@@ -1,10 +1,10 @@
-#include "discrepancy/prove/proof.h"
+#include "discrepancy/results/report_gap.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "discrepancy/decide/refine.h"
-#include "discrepancy/prove/show.h"
+#include "discrepancy/results/gap.h"
 #include "discrepancy/samples/held_out.h"
 #include "simulation/effects/effect_library.h"
 
@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kHoldsElsewhere = 0.5;  // of the gap closed on cycles: less on a part is worth a word
 
-class Proof {
+class GapReporter {
  public:
-  Proof(const Found& found, DiscrepancyReport& report) : found_(found), report_(report) {}
+  GapReporter(const Found& found, DiscrepancyReport& report) : found_(found), report_(report) {}
 
   void run();
 
@@ -33,7 +33,7 @@ class Proof {
 
 // The simulation's effects act where they were found to, and there as strongly: the common trace is a mean
 // over all taxels.
-void Proof::confine(double amplitude) {
+void GapReporter::confine(double amplitude) {
   for (const simulation::EnabledEffect& found : found_.decision.refined.effects) {
     simulation::EnabledEffect effect = *report_.added.effect(found.id);
     effect.only_taxels = report_.where.taxels;
@@ -48,7 +48,7 @@ void Proof::confine(double amplitude) {
   }
 }
 
-std::vector<Part> Proof::surfacesWhereItShows() const {
+std::vector<Part> GapReporter::surfacesWhereItShows() const {
   std::vector<Part> surfaces = partsByCondition(found_.measured);
   const std::vector<std::string>& where = report_.where.conditions;
   const auto elsewhere = [&](const Part& part) {
@@ -59,31 +59,31 @@ std::vector<Part> Proof::surfacesWhereItShows() const {
 }
 
 // What the explanation takes from the common trace where it was sized without one part.
-Trace Proof::leftWithout(const Part& part) const {
+Trace GapReporter::leftWithout(const Part& part) const {
   if (found_.by_terms) {
     std::vector<bool> unseen(found_.measured.cycles.size());
     for (const std::size_t c : part.cycles) unseen[c] = true;
-    const Trace trace = found_.competition.explainedWithout(found_.decision.explanation, unseen);
+    const Trace trace = found_.candidates.explainedWithout(found_.decision.explanation, unseen);
     return found_.decision.verdict == Verdict::kUnknown ? found_.fit.residual(trace)
-                                                        : found_.fit.grown(trace);
+                                                        : found_.fit.withoutGainWeights(trace);
   }
   std::vector<simulation::EnabledEffect> effects = found_.decision.refined.effects;
   effects.insert(effects.end(), found_.beside.begin(), found_.beside.end());
   return refine(withoutPart(found_.measured, part), found_.common, found_.fit, report_.base, effects,
-                found_.decision.refined.carried, found_.decision.explanation.set.bent_only)
+                found_.decision.refined.state_kept, found_.decision.explanation.set.bent_only)
       .trace;
 }
 
 // The gap once more, each part foretold by what was fitted to the others.
-void Proof::holdOut(const std::string& by, const std::vector<Part>& parts, const GapGround& ground,
-                    const std::string& missing) {
+void GapReporter::holdOut(const std::string& by, const std::vector<Part>& parts, const GapGround& ground,
+                          const std::string& missing) {
   if (found_.decision.verdict == Verdict::kNone) return;
   if (parts.empty()) {
     report_.gap.missing.push_back(missing);
     return;
   }
-  const Trace foretold = foretoldByTheRest(found_.measured, parts, found_.threads,
-                                           [this](const Part& part) { return leftWithout(part); });
+  const Trace foretold = predictedByTheRest(found_.measured, parts, found_.threads,
+                                            [this](const Part& part) { return leftWithout(part); });
   HeldOutGap held{by, 0, {}, {}};
   std::vector<std::size_t> cycles;
   for (const Part& part : parts) {
@@ -102,22 +102,22 @@ void Proof::holdOut(const std::string& by, const std::vector<Part>& parts, const
   report_.gap.foretold.push_back(held);
 }
 
-void Proof::run() {
+void GapReporter::run() {
   const Spread spread = spreadOf(found_.measured, found_.taxels, found_.left);
   const double to_error =
-      spread.square > 0 ? found_.competition.meanSquare() * spread.local / spread.square : 0;
+      spread.square > 0 ? found_.candidates.meanSquare() * spread.local / spread.square : 0;
   const bool in_common = found_.decision.verdict != Verdict::kNone;
   if (in_common) report_.where = placeOf(found_.measured, found_.left, spread);
   const Eigen::MatrixXd mask = maskOf(found_.measured, report_.where, spread);
   GapExtras extras;
-  for (const Finding& finding : found_.findings) {
-    extras.before_more += finding.before_more;
-    extras.after_less += finding.after_less;
+  for (const Detection& detection : found_.detections) {
+    extras.before_more += detection.before_more;
+    extras.after_less += detection.after_less;
   }
   extras.before_more += found_.static_square;
-  const double ceiling = in_common ? std::min(1.0, found_.decision.ceiling * to_error) : 0;
+  const double explainable = in_common ? std::min(1.0, found_.decision.explainable * to_error) : 0;
   if (!found_.by_terms && in_common) confine(mask.maxCoeff());
-  const GapGround ground{found_.measured, found_.fit, found_.taxels, mask, ceiling, extras, found_.seed};
+  const GapGround ground{found_.measured, found_.fit, found_.taxels, mask, explainable, extras, found_.seed};
   report_.gap = measureGap(ground, found_.left, allCycles(found_.measured));
   holdOut("condition", surfacesWhereItShows(), ground,
           "It shows on one surface alone, so none was held out.");
@@ -131,8 +131,8 @@ void Proof::run() {
 
 }  // namespace
 
-void prove(const Found& found, DiscrepancyReport& report) {
-  Proof(found, report).run();
+void reportGap(const Found& found, DiscrepancyReport& report) {
+  GapReporter(found, report).run();
 }
 
 }  // namespace fsr::discrepancy

@@ -1,4 +1,4 @@
-#include "discrepancy/decide/selection.h"
+#include "discrepancy/decide/cross_validation.h"
 
 #include <cmath>
 #include <limits>
@@ -11,7 +11,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-Selection::Selection(const Measured& measured, const CycleGrams& grams) : measured_(measured), grams_(grams) {
+CrossValidation::CrossValidation(const Measured& measured, const CycleGrams& grams)
+    : measured_(measured), grams_(grams) {
   for (const MeasuredCycle& cycle : measured.cycles) {
     flat_.push_back(dataset::isFlat(measured.classes[measured.visits[cycle.visit].curvature_class]));
   }
@@ -28,7 +29,7 @@ Selection::Selection(const Measured& measured, const CycleGrams& grams) : measur
   nothing_ = score(ColumnSet{});
 }
 
-Score Selection::score(const ColumnSet& set) const {
+Score CrossValidation::score(const ColumnSet& set) const {
   Score score;
   score.set = set;
   for (std::size_t fold = 0; fold < sums_[0].size(); ++fold) {
@@ -38,15 +39,15 @@ Score Selection::score(const ColumnSet& set) const {
   score.coefficients = score.of_fold.back();
   for (std::size_t c = 0; c < measured_.cycles.size(); ++c) {
     const MeasuredCycle& cycle = measured_.cycles[c];
-    const bool shown = cycle.use == CycleUse::kShow;
+    const bool held_out = cycle.use == CycleUse::kHoldOut;
     score.error.push_back(
-        shown ? kNaN : squaredError(partOf(grams_.of(c), set, flat_[c]), score.of_fold[cycle.fold]));
-    if (!shown) score.total += score.error.back();
+        held_out ? kNaN : squaredError(partOf(grams_.of(c), set, flat_[c]), score.of_fold[cycle.fold]));
+    if (!held_out) score.total += score.error.back();
   }
   return score;
 }
 
-Score Selection::score(const Score& with, const Family& family) const {
+Score CrossValidation::score(const Score& with, const Family& family) const {
   Score best;
   best.total = std::numeric_limits<double>::infinity();
   for (const ColumnSet& alternative : family.alternatives) {
@@ -58,11 +59,11 @@ Score Selection::score(const Score& with, const Family& family) const {
   return best;
 }
 
-double Selection::share(const Score& before, const Score& after) {
+double CrossValidation::share(const Score& before, const Score& after) {
   return before.total > 0 ? (before.total - after.total) / before.total : 0;
 }
 
-double Selection::z(const Score& before, const Score& after) const {
+double CrossValidation::z(const Score& before, const Score& after) const {
   const ColumnSet both = together(after.set, before.set);
   double sum = 0, squares = 0;
   for (std::size_t c = 0; c < before.error.size(); ++c) {

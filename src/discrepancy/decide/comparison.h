@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/decide/competition.h"
+#include "discrepancy/decide/candidates.h"
 #include "discrepancy/decide/refine.h"
 #include "discrepancy/fit/taxel_fit.h"
-#include "discrepancy/samples/evidence.h"
+#include "discrepancy/samples/available_evidence.h"
 
 namespace fsr::discrepancy {
 
@@ -22,25 +22,26 @@ struct Explanation {
 
 /// Every single explanation, and the measures by which explanations are compared: what each explains of
 /// cycles that took no part in its fit, and how sure one is ahead of another.
-class Contest {
+class Comparison {
  public:
-  Contest(const Measured& measured, const CommonTraces& common, const StaticFit& fit, const TaxelFit& taxels,
-          const Competition& competition, const simulation::SimulationSettings& base);
+  Comparison(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
+             const TaxelFit& taxels, const Candidates& candidates,
+             const simulation::SimulationSettings& base);
 
-  const Competition& competition() const { return competition_; }
-  const Selection& selection() const { return competition_.selection(); }
+  const Candidates& candidates() const { return candidates_; }
+  const CrossValidation& crossValidation() const { return candidates_.crossValidation(); }
   const simulation::EffectLibrary& library() const { return measured_.effects(); }
   /// What the library says about an effect.
   const simulation::EffectInfo& infoOf(const std::string& id) const { return measured_.info(id); }
-  const EvidenceAtHand& evidence() const { return evidence_; }
+  const AvailableEvidence& evidence() const { return evidence_; }
   const std::vector<Explanation>& singles() const { return singles_; }
   std::vector<Explanation>& singles() { return singles_; }
   const std::vector<Score>& generics() const { return generics_; }
   std::vector<simulation::Covariate> covariates(const Score& generic) const;
 
   /// Share of the common trace's error that anything explains.
-  double ceiling() const { return ceiling_; }
-  void raiseCeiling(double share);
+  double explainable() const { return explainable_; }
+  void raiseExplainable(double share);
 
   const Explanation* best() const;   ///< of the single effects; null without any
   const Score* bestGeneric() const;  ///< null without any
@@ -49,7 +50,9 @@ class Contest {
   const Score* simplestGeneric() const;
 
   /// What it explains of the common trace's error.
-  double shareOf(const Score& score) const { return Selection::share(selection().nothing(), score); }
+  double shareOf(const Score& score) const {
+    return CrossValidation::share(crossValidation().nothing(), score);
+  }
   /// Of the readings' squared error, where the cycles' gains count in full, as far as it holds on cycles that
   /// took no part.
   double shareOfError(const Score& score) const;
@@ -58,7 +61,7 @@ class Contest {
   /// Whether it stands out from noise and from what is too small to matter.
   bool shows(const Score& score) const;
   bool shows(const Explanation& explanation) const;
-  double z(const Score& score) const { return selection().z(selection().nothing(), score); }
+  double z(const Score& score) const { return crossValidation().z(crossValidation().nothing(), score); }
   /// By how many standard errors `worse` is behind; see Selection::z().
   double behindInErrors(const Explanation& worse, const Explanation& better) const;
 
@@ -80,12 +83,12 @@ class Contest {
   const CommonTraces& common_;
   const StaticFit& fit_;
   const TaxelFit& taxels_;
-  const Competition& competition_;
+  const Candidates& candidates_;
   const simulation::SimulationSettings& base_;
-  const EvidenceAtHand evidence_;
+  const AvailableEvidence evidence_;
   std::vector<Explanation> singles_;
   std::vector<Score> generics_;
-  double ceiling_ = 0;
+  double explainable_ = 0;
 };
 
 }  // namespace fsr::discrepancy

@@ -1,4 +1,4 @@
-#include "discrepancy/prove/next_experiment.h"
+#include "discrepancy/results/next_experiment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "discrepancy/decide/refine.h"
 #include "discrepancy/fit/signatures.h"
 #include "discrepancy/fit/static_fit.h"
-#include "discrepancy/prove/wording.h"
+#include "discrepancy/results/wording.h"
 #include "discrepancy/samples/measured.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/chamber_program.h"
@@ -174,9 +174,9 @@ double smallestApart(const std::vector<Trace>& residuals) {
 
 // Whether it brings what the recordings lacked and some explanation needs, to be named alone.
 bool bringsEvidence(const simulation::EffectLibrary& library, const Protocol& protocol,
-                    const EvidenceAtHand& at_hand,
+                    const AvailableEvidence& at_hand,
                     const std::vector<std::vector<simulation::EnabledEffect>>& explanations) {
-  EvidenceAtHand then = at_hand;
+  AvailableEvidence then = at_hand;
   then.two_rates = then.two_rates || protocol.two_rates;
   then.thermometer = then.thermometer || protocol.warmer;
   then.uneven_pace = then.uneven_pace || protocol.hours;
@@ -203,7 +203,7 @@ std::string nameOf(const std::vector<simulation::EnabledEffect>& effects) {
 
 std::vector<NextExperiment> nextExperiment(
     const simulation::SimulationSettings& base,
-    const std::vector<std::vector<simulation::EnabledEffect>>& explanations, const EvidenceAtHand& at_hand,
+    const std::vector<std::vector<simulation::EnabledEffect>>& explanations, const AvailableEvidence& at_hand,
     double floor) {
   if (explanations.size() < 2) return {};
   const Protocol* best = nullptr;

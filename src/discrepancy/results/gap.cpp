@@ -1,4 +1,4 @@
-#include "discrepancy/prove/show.h"
+#include "discrepancy/results/gap.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ constexpr std::size_t kCurvePoints = 24;
 
 double ofClass(const Measured& measured, const Trace& left, std::size_t wanted) {
   double squares = 0, number = 0;
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     if (measured.classOf(i) != wanted) continue;
     squares += std::pow(left[static_cast<Eigen::Index>(i)], 2);
     ++number;
@@ -32,7 +32,7 @@ double ofClass(const Measured& measured, const Trace& left, std::size_t wanted) 
 
 Interval pressuresOf(const Measured& measured, const Trace& left) {
   std::map<long, std::pair<double, double>> bins;  // squares, number
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     auto& bin =
         bins[static_cast<long>(std::floor(std::max(0.0, measured.pressure[i]) / thresholds::kPressureBin))];
     bin.first += std::pow(left[static_cast<Eigen::Index>(i)], 2);
@@ -51,7 +51,7 @@ Interval pressuresOf(const Measured& measured, const Trace& left) {
 
 std::string directionOf(const Measured& measured, const Trace& left) {
   double loading = 0, unloading = 0;
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     const double square = std::pow(left[static_cast<Eigen::Index>(i)], 2);
     (measured.direction[i] > 0 ? loading : unloading) += square;
   }
@@ -92,7 +92,7 @@ CycleSums sumsOf(const GapGround& ground, const Trace& left, const MeasuredCycle
 }
 
 // Of the squared errors before and after, and of what anything explains.
-Gap gapOf(const std::vector<CycleSums>& sums, const std::vector<std::size_t>& chosen, double ceiling,
+Gap gapOf(const std::vector<CycleSums>& sums, const std::vector<std::size_t>& chosen, double explainable,
           const GapExtras& extras) {
   CycleSums total;
   for (const std::size_t c : chosen) {
@@ -107,7 +107,7 @@ Gap gapOf(const std::vector<CycleSums>& sums, const std::vector<std::size_t>& ch
   const double n = std::max(1.0, total.number), np = std::max(1.0, total.in_pressure);
   const double common = total.before / n, before = common + extras.before_more;
   const double after = std::max(0.0, total.after / n - extras.after_less);
-  const double floor = std::min(after, common * (1 - ceiling));
+  const double floor = std::min(after, common * (1 - explainable));
   gap.before = std::sqrt(before);
   gap.after = std::sqrt(after);
   gap.floor = std::sqrt(std::max(0.0, floor));
@@ -140,13 +140,13 @@ struct Axis {
 ResidualCurve curveOver(const Measured& measured, const Axis& axis, const Trace& before, const Trace& after) {
   ResidualCurve curve{axis.covariate, axis.unit, {}, {}, {}, {}};
   double low = INFINITY, high = -INFINITY;
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     low = std::min(low, axis.at(i));
     high = std::max(high, axis.at(i));
   }
   if (!(high > low)) return curve;
   std::vector<double> n(kCurvePoints), b(kCurvePoints), a(kCurvePoints), squares(kCurvePoints);
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     const double share = (axis.at(i) - low) / (high - low);
     const auto bin = std::min(kCurvePoints - 1, static_cast<std::size_t>(share * kCurvePoints));
     const auto at = static_cast<Eigen::Index>(i);
@@ -237,11 +237,11 @@ Gap measureGap(const GapGround& ground, const Trace& left, const std::vector<std
   std::vector<CycleSums> sums;
   for (const std::size_t c : cycles) {
     const MeasuredCycle& cycle = ground.measured.cycles[c];
-    if (cycle.use == CycleUse::kShow) sums.push_back(sumsOf(ground, left, cycle));
+    if (cycle.use == CycleUse::kHoldOut) sums.push_back(sumsOf(ground, left, cycle));
   }
   std::vector<std::size_t> all(sums.size());
   std::iota(all.begin(), all.end(), 0);
-  Gap gap = gapOf(sums, all, ground.ceiling, ground.extras);
+  Gap gap = gapOf(sums, all, ground.explainable, ground.extras);
   const statistics::RandomStream stream = statistics::randomStream(ground.seed, "discrepancy.gap");
   std::vector<double> before, after, floor, closed;
   for (int draw = 0; draw < kDraws && !all.empty(); ++draw) {
@@ -249,7 +249,7 @@ Gap measureGap(const GapGround& ground, const Trace& left, const std::vector<std
     for (std::size_t c = 0; c < all.size(); ++c) {
       chosen.push_back(stream.bits(static_cast<std::uint64_t>(draw) * all.size() + c) % all.size());
     }
-    const Gap one = gapOf(sums, chosen, ground.ceiling, ground.extras);
+    const Gap one = gapOf(sums, chosen, ground.explainable, ground.extras);
     before.push_back(one.before);
     after.push_back(one.after);
     floor.push_back(one.floor);
@@ -263,16 +263,16 @@ Gap measureGap(const GapGround& ground, const Trace& left, const std::vector<std
   return gap;
 }
 
-Trace foretoldByTheRest(const Measured& measured, const std::vector<Part>& parts, unsigned threads,
-                        const std::function<Trace(const Part& part)>& left) {
+Trace predictedByTheRest(const Measured& measured, const std::vector<Part>& parts, unsigned threads,
+                         const std::function<Trace(const Part& part)>& left) {
   std::vector<Trace> without(parts.size());
   matrix::forEachTaxel(parts.size(), threads, [&](std::size_t p) { without[p] = left(parts[p]); });
-  Trace foretold = Trace::Zero(static_cast<Eigen::Index>(measured.moments()));
+  Trace foretold = Trace::Zero(static_cast<Eigen::Index>(measured.samples()));
   for (std::size_t p = 0; p < parts.size(); ++p) {
     for (const std::size_t c : parts[p].cycles) {
       const auto first = static_cast<Eigen::Index>(measured.cycles[c].first);
-      const auto moments = static_cast<Eigen::Index>(measured.cycles[c].last) - first;
-      foretold.segment(first, moments) = without[p].segment(first, moments);
+      const auto samples = static_cast<Eigen::Index>(measured.cycles[c].last) - first;
+      foretold.segment(first, samples) = without[p].segment(first, samples);
     }
   }
   return foretold;
@@ -289,7 +289,7 @@ std::vector<ResidualCurve> residualCurves(const Measured& measured, const Trace&
       {"pressure_rate", "Pa/s", [&](std::size_t i) { return measured.rate[i]; }},
       {"clock_time", "s", [&](std::size_t i) { return measured.time[i]; }},
       {"cycle", "", [&](std::size_t i) { return static_cast<double>(measured.cycle[i]); }},
-      {"accumulated_change", "Pa", [&](std::size_t i) { return measured.way[i]; }},
+      {"accumulated_change", "Pa", [&](std::size_t i) { return measured.path_length[i]; }},
   };
   std::vector<ResidualCurve> curves;
   for (const Axis& axis : axes) {

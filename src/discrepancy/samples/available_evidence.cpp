@@ -1,4 +1,4 @@
-#include "discrepancy/samples/evidence.h"
+#include "discrepancy/samples/available_evidence.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ bool wentApart(const Measured& measured, const std::vector<double>& covariate) {
 
 }  // namespace
 
-bool EvidenceAtHand::has(simulation::Evidence evidence) const {
+bool AvailableEvidence::has(simulation::Evidence evidence) const {
   switch (evidence) {
     case simulation::Evidence::kThermometer:
       return thermometer;
@@ -56,22 +56,22 @@ bool EvidenceAtHand::has(simulation::Evidence evidence) const {
   }
 }
 
-EvidenceAtHand evidenceIn(const Measured& measured) {
-  EvidenceAtHand evidence;
+AvailableEvidence availableEvidence(const Measured& measured) {
+  AvailableEvidence evidence;
   evidence.thermometer = !measured.temperature.empty();
-  evidence.uneven_pace = wentApart(measured, measured.way);
+  evidence.uneven_pace = wentApart(measured, measured.path_length);
   evidence.temperature_moved = temperatureMoved(measured);
   evidence.uneven_warmth = evidence.temperature_moved && wentApart(measured, measured.temperature);
   evidence.remounted = measured.classes.size() < measured.visits.size();
   evidence.mount_labels = std::all_of(measured.visits.begin(), measured.visits.end(),
                                       [](const Visit& v) { return v.surface.mount > 0; });
-  // Ramps of one speed show one peak of the rates; dwells at load are moments that stand still.
+  // Ramps of one speed show one peak of the rates; dwells at load are samples that stand still.
   const double highest = *std::max_element(measured.pressure.begin(), measured.pressure.end());
   std::vector<double> moving;
   double still = 0, loaded = 0;
   double fastest = 0;
   for (const double r : measured.rate) fastest = std::max(fastest, std::abs(r));
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     if (measured.pressure[i] < thresholds::kLoaded * highest) continue;
     ++loaded;
     if (std::abs(measured.rate[i]) < 0.02 * fastest)

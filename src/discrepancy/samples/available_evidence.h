@@ -8,7 +8,7 @@
 namespace fsr::discrepancy {
 
 /// What the recordings hold, for effects that must not be named without it.
-struct EvidenceAtHand {
+struct AvailableEvidence {
   bool thermometer = false;
   bool two_rates = false;  ///< or dwells
   bool mount_labels = false;
@@ -22,6 +22,6 @@ struct EvidenceAtHand {
     return simulation::dependsOn(slow, simulation::Covariate::kTemperature) ? uneven_warmth : uneven_pace;
   }
 };
-EvidenceAtHand evidenceIn(const Measured& measured);
+AvailableEvidence availableEvidence(const Measured& measured);
 
 }  // namespace fsr::discrepancy

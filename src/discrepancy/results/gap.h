@@ -30,7 +30,7 @@ struct GapGround {
   const StaticFit& fit;
   const TaxelFit& taxels;
   const Eigen::MatrixXd& mask;  ///< as above
-  double ceiling = 0;           ///< share of the squared error before that anything explains
+  double explainable = 0;       ///< share of the squared error before that anything explains
   GapExtras extras;
   std::uint64_t seed = 0;
 };
@@ -41,8 +41,8 @@ Gap measureGap(const GapGround& ground, const Trace& left, const std::vector<std
 
 /// What an explanation takes from the common trace, each part foretold by the rest: `left` is asked for the
 /// whole trace as it comes out without one part. Parts are independent of each other.
-Trace foretoldByTheRest(const Measured& measured, const std::vector<Part>& parts, unsigned threads,
-                        const std::function<Trace(const Part& part)>& left);
+Trace predictedByTheRest(const Measured& measured, const std::vector<Part>& parts, unsigned threads,
+                         const std::function<Trace(const Part& part)>& left);
 
 /// Indices of all cycles.
 std::vector<std::size_t> allCycles(const Measured& measured);
