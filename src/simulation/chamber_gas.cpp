@@ -8,8 +8,8 @@ namespace fsr::simulation {
 
 namespace {
 
-// A gas's state: whether it was asked before, when [s], the pressure then [Pa], and the pressure to whose
-// heat it has lost its own [Pa].
+// State: whether there was a call before, its time [s], its pressure [Pa], and the slow mean of the pressure
+// [Pa].
 enum { kStarted, kTime, kPressure, kSlow, kGasState };
 
 }  // namespace
@@ -30,7 +30,8 @@ double ChamberGas::room(double time) const {
 }
 
 double ChamberGas::temperature(double time, double pressure) {
-  // dT/dt = c dP/dt - T / tau above the room: what the pressure has over its own slow mean.
+  // dT/dt = c dP/dt - T / tau, T above the room. The solution is c times the pressure less its exponential
+  // mean.
   const double slow = state_[kStarted] == 0
                           ? 0
                           : cooling_.step(state_[kPressure], pressure, time - state_[kTime], state_[kSlow]);

@@ -7,16 +7,16 @@
 
 namespace fsr::simulation {
 
-/// The gas in the chamber, whose temperature follows the pressure's history.
+/// The gas in the chamber. Its temperature depends on the history of the pressure.
 class ChamberGas {
  public:
   explicit ChamberGas(const ChamberClimate& climate);
 
-  /// Temperature at a time at which the chamber stands at that gauge pressure; the pressure ran straight
-  /// since the call before. Times must ascend.
+  /// Temperature at `time` [s], when the chamber is at the gauge pressure `pressure` [Pa]. The pressure is
+  /// taken to be linear since the previous call. Times must ascend.
   double temperature(double time, double pressure);  // [degree Celsius]
 
-  /// What it remembers, for saving and restoring.
+  /// Its state, for saving and restoring.
   std::vector<double>& state() { return state_; }
   const std::vector<double>& state() const { return state_; }
 

@@ -9,8 +9,8 @@ namespace fsr::simulation {
 
 namespace {
 
-/// A recording's pressure, straight between its scans and held outside. Asked about times that run on, it
-/// finds them near the last one.
+/// The pressure of a recording, linear between its scans and constant outside. The search starts at the last
+/// time.
 class RecordedCourse {
  public:
   RecordedCourse(const dataset::Recording& recording, double start) : recording_(recording), start_(start) {}
@@ -71,7 +71,7 @@ void DrivenRig::lie(const matrix::Surface& surface) {
   chain_.mount(surface.known() ? surface
                                : matrix::Surface{surface.name, surface.mount, {matrix::Curvature{}}, {}});
   surface_ = surface;
-  // Where it lay there already, it was not mounted anew.
+  // The sheet lay there already and was not mounted again.
   if (resumed_ && surface.mount == resumed_->mount && surface.name == resumed_->surface) {
     chain_.restore(resumed_->sheet);
   }

@@ -6,15 +6,14 @@
 
 namespace fsr::simulation {
 
-/// A sample of a pressure profile: gauge pressure [Pa] at a time [s].
+/// A point of a pressure profile: gauge pressure [Pa] at a time [s].
 struct PressurePoint {
   double time = 0;
   double pressure = 0;
 };
 
-/// Gauge pressure over time, straight between its points: any mixture of ramps, steps, dwells and
-/// repeated cycles, one part after another. A pure function of time, so that whoever scans faster
-/// sees the same chamber.
+/// Gauge pressure over time, linear between its points: ramps, steps, dwells and repeated cycles, one part
+/// after another. It is a pure function of time and does not depend on the scan rate.
 class PressureProfile {
  public:
   /// Appends a part. The times of its points count from the part's start, ascending from 0; the last
@@ -45,7 +44,7 @@ std::vector<PressurePoint> cyclePoints(const ChamberProtocol& protocol);
 PressureProfile pressureProfile(const ChamberProtocol& protocol);
 PressureProfile pressureProfile(const ChamberProgram& program);
 
-/// Straight from `pressure` down to 0 at the protocol's venting rate.
+/// Linear from `pressure` down to 0 at the protocol's venting rate.
 PressureProfile ventingProfile(const ChamberProtocol& protocol, double pressure);
 
 }  // namespace fsr::simulation

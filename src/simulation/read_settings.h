@@ -14,8 +14,8 @@ namespace fsr::simulation {
 SimulationSettings readSimulation(const settings::Settings& settings,
                                   std::shared_ptr<const EffectLibrary> library = nullptr);
 
-/// Reads the mapping `peak`, `rate` (both ways) or `fill_rate` and `vent_rate`, `dwell_peak`,
-/// `dwell_rest`, `cycles`; what is missing keeps the value of `defaults`. Throws InputError.
+/// Reads the mapping `peak`, `rate` (of filling and venting) or `fill_rate` and `vent_rate`, `dwell_peak`,
+/// `dwell_rest`, `cycles`. A missing key keeps the value of `defaults`. Throws InputError.
 ChamberProtocol readChamberProtocol(const settings::Settings& settings, const ChamberProtocol& defaults = {});
 
 /// The protocol as a YAML mapping on one line, as readChamberProtocol() reads it.
@@ -28,8 +28,8 @@ std::string protocolText(const ChamberProtocol& protocol);
 ///     - loops: {low: 200000, high: 400000, rate: 17000, loops: 4}
 ///     - rest: {rate: 17000, duration: 600}
 ///
-/// Throws InputError that names what is missing or out of range, also where something follows cycles that
-/// never end.
+/// Throws InputError that names what is missing or out of range, or the part that follows cycles that never
+/// end.
 ChamberProgram readChamberProgram(const std::vector<settings::Settings>& parts);
 
 /// The part as readChamberProgram() reads it, on one line, without the leading dash.

@@ -9,8 +9,8 @@
 
 namespace fsr::simulation {
 
-/// The chamber's own gauge beside the sensor chain: gauge pressure in, through the effects of the stage
-/// kReference and the transducer's converter, what a recording says out.
+/// The chamber's pressure transducer. Input: the gauge pressure of the chamber. Output: the pressure that a
+/// recording contains, after the effects of the stage kReference and the transducer's converter.
 class ReferenceChannel {
  public:
   /// Throws InputError.
@@ -18,7 +18,7 @@ class ReferenceChannel {
 
   /// What the transducer shows before its converter [Pa].
   double indicated(double pressure) const;
-  /// The other path lengthround: the chamber's pressure when the transducer shows that [Pa].
+  /// Inverse of indicated(): the chamber's pressure when the transducer shows `indicated` [Pa].
   double truePressure(double indicated) const;
 
   /// What its converter makes of the chamber's pressure [Pa].

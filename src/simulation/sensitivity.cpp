@@ -11,8 +11,9 @@ namespace fsr::simulation {
 
 namespace {
 
-// Steps as shares of the usual strength. The error of a forward difference grows with the step, that of a
-// central one with its square, that of rounding (1e-16 of the reading) falls with it.
+// Steps as shares of the usual strength. The error of a forward difference is proportional to the step, that
+// of a central one to its square. The rounding error (1e-16 of the reading) is inversely proportional to the
+// step.
 constexpr double kForwardStep = 1e-6;
 constexpr double kCentralStep = 1e-4;
 
@@ -63,11 +64,11 @@ Sensitivity::Side::Side(const SimulationSettings& settings) : chain(settings), r
 }
 
 const TaxelSignals& Sensitivity::Side::read(const RigSample& sample) {
-  RigSample true_moment = sample;
-  true_moment.pressure = reference.truePressure(sample.pressure);
+  RigSample true_sample = sample;
+  true_sample.pressure = reference.truePressure(sample.pressure);
   recorded = sample.course;
-  true_moment.course = recorded ? &course : nullptr;
-  chain.read(true_moment);
+  true_sample.course = recorded ? &course : nullptr;
+  chain.read(true_sample);
   return chain.signals();
 }
 

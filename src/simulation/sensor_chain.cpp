@@ -42,7 +42,7 @@ std::vector<std::uint8_t> actingOn(const EnabledEffect& effect, std::size_t taxe
   return acts;
 }
 
-// Back to what it was, for taxels on which an effect does not act.
+// Restores the signals of the taxels on which the effect does not act.
 void keepOthers(const std::vector<std::uint8_t>& acts, const std::vector<double>& before,
                 std::vector<double>& now) {
   for (std::size_t i = 0; i < now.size(); ++i) {
@@ -117,7 +117,7 @@ void SensorChain::addCurves(double pressure) {
   }
 }
 
-// Where an effect does not act it goes on remembering what the sheet went through.
+// An effect updates its state also where it does not act.
 void SensorChain::apply(Link& link, const RigSample& sample) {
   if (!link.confined()) return link.effect->apply(sample, signals_);
   before_ = signals_;

@@ -17,17 +17,16 @@ namespace fsr::simulation {
 /// Memory of all effects of a chain, by effect id, and of its own clock.
 using ChainState = std::map<std::string, std::vector<double>>;
 
-/// The sensor matrix in its chamber: gauge pressure in, converter counts out, through the effects that
-/// the settings enable, in the order of ChainStage. Cost is linear in scans and taxels; reading
-/// allocates nothing. The same settings and the same samples give the same counts.
+/// The sensor matrix in its chamber. Input: gauge pressure. Output: counts of the converter. In between act
+/// the effects that the settings enable, in the order of ChainStage. Cost is linear in scans and taxels.
+/// Reading allocates nothing. Equal settings and equal samples give equal counts.
 class SensorChain {
  public:
-  /// Lies on the flat at first, never loaded. Throws InputError.
+  /// At first the sheet lies on the flat and was never loaded. Throws InputError.
   explicit SensorChain(const SimulationSettings& settings);
 
-  /// Lays the matrix on a surface and says what part of it is loaded; the sheet remembers what it went
-  /// through before. Throws InputError where the number of curvatures is neither 1 nor that of the
-  /// taxels, or none is known.
+  /// Lays the matrix on a surface; `pattern` is the loaded part of it. The sheet keeps its state. Throws
+  /// InputError where no curvature is known, or where their number is neither 1 nor the number of taxels.
   void mount(const matrix::Surface& surface, const LoadPattern& pattern = {});
 
   /// Counts of one scan, [rows x columns], row-major; valid until the next call. Samples must come in
@@ -39,7 +38,7 @@ class SensorChain {
   const std::vector<std::uint16_t>& counts() const { return counts_; }
   /// The last scan before it was rounded and clipped [counts], [rows x columns], row-major.
   const std::vector<double>& reading() const { return signals_.reading; }
-  /// All signals of the last scan: load and gain are what the static curve saw.
+  /// All signals of the last scan. Load and gain are the inputs of the static curve.
   const TaxelSignals& signals() const { return signals_; }
 
   std::uint16_t fullScale() const { return full_scale_; }
@@ -47,7 +46,7 @@ class SensorChain {
   ChainState state() const;
   /// Throws InputError where the state belongs to another chain.
   void restore(const ChainState& state);
-  /// A sheet that was never loaded.
+  /// Resets the sheet to one that was never loaded.
   void reset();
 
  private:

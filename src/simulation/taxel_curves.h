@@ -6,8 +6,8 @@
 
 namespace fsr::simulation {
 
-/// What single taxels read beyond the simulation's static law, by surface and pressure: no two taxels of a
-/// sheet have one law, and a model of a real sheet needs all of them. Fitted by `discrepancy`.
+/// Deviations of single taxels from the static curve of the simulation, by surface and pressure. The taxels
+/// of a real sheet all have different curves. `discrepancy` fits these deviations.
 struct TaxelCurves {
   /// On one surface.
   struct OnSurface {
@@ -22,7 +22,7 @@ struct TaxelCurves {
   const OnSurface& nearest(double curvature) const;
 };
 
-/// Of one taxel at one pressure: straight between the pressures, held beyond them.
+/// Deviation of one taxel at one pressure: linear between the pressures, constant beyond them.
 double addedAt(const TaxelCurves::OnSurface& surface, std::size_t taxels, std::size_t taxel, double pressure);
 
 /// As a table: one row for each surface and pressure, one column for each taxel.

@@ -9,33 +9,33 @@
 
 namespace fsr::simulation {
 
-/// Where in the forward chain an effect acts; effects run in this order, within a stage in the order
-/// of the library.
+/// Where in the forward chain an effect acts. Effects run in this order, and within a stage in the order of
+/// the library.
 ///
-///     chamber P(t) -> when was it read -> less the cavity -> load P_e -> memory u -> gain g
+///     chamber P(t) -> time of reading -> less the cavity -> load P_e -> memory u -> gain g
 ///                  -> G = curve(u, g) -> read-out -> sample y -> reading
 ///     and beside it: chamber P(t) -> reference
 enum class ChainStage {
-  kTiming,       ///< when the taxels were really read: TaxelSignals::skew and offset
+  kTiming,       ///< time at which each taxel is really read: TaxelSignals::skew and offset
   kCavity,       ///< gas behind the taxels: TaxelSignals::load
-  kLoad,         ///< what presses on a taxel: TaxelSignals::load
+  kLoad,         ///< load on a taxel: TaxelSignals::load
   kMemory,       ///< history of the load: TaxelSignals::load
   kGain,         ///< factors of the conductance: TaxelSignals::gain
   kConductance,  ///< static curve: load and gain -> TaxelSignals::conductance
   kReadOut,      ///< wires and supply: TaxelSignals::conductance
   kSample,       ///< conductance -> TaxelSignals::reading
-  kReading,      ///< what disturbs the reading before it is rounded: TaxelSignals::reading
+  kReading,      ///< disturbances of the reading before it is rounded: TaxelSignals::reading
   kReference,    ///< the chamber's transducer: Effect::transduce()
 };
 
-/// What one set of an effect's parameters belongs to.
+/// What has its own realisation of an effect: the whole rig, each row, column or taxel, or each mount.
 enum class EffectLevel { kRig, kRow, kColumn, kTaxel, kMount };
 
-/// How somebody who looks for an effect in measurements tries it.
+/// How `discrepancy` looks for an effect in recordings.
 enum class EffectKind {
   kBase,      ///< part of every rig: never looked for
-  kAdditive,  ///< by the derivatives with respect to its strengths
-  kGrid,      ///< likewise, for each combination of the `tried` values of its shape parameters
+  kAdditive,  ///< by the derivatives of the reading with respect to its strengths
+  kGrid,      ///< the same, for each combination of the `tried` values of its shapes
   kDetector,  ///< by a test of its own, see Detector
   kListed,    ///< not simulated: a gas chamber cannot show it
 };
@@ -75,22 +75,22 @@ enum class Covariate {
   kTotalLoad,
 };
 
-/// What a recording must hold before an effect may be named alone.
+/// What the recordings must contain before an effect may be named alone.
 enum class Evidence {
   kThermometer,
   kMountLabels,
-  kTwoRampRates,     ///< or dwells: one speed cannot tell a loop from a short memory
-  kUnevenLoad,       ///< under uniform pressure the static curve takes it all
+  kTwoRampRates,     ///< or dwells: at one speed a loop cannot be distinguished from a short memory
+  kUnevenLoad,       ///< under uniform pressure the static curve absorbs all of it
   kSecondReference,  ///< another pressure gauge
   kVentedSheet,      ///< the same sheet without its seal
-  kManyCycles,       ///< 10,000 and more, or so unevenly spread that the clock tells nothing of them
+  kManyCycles,       ///< 10,000 and more, or so unevenly spread that they are not proportional to clock time
   kRemounts,         ///< some surface was mounted twice
   kUnevenPace,       ///< many cycles at some times and none for hours at others
 };
 
-/// What to do at the rig to see an effect.
+/// The experiment that shows an effect.
 enum class Experiment {
-  kNone,  ///< ordinary cycles show it
+  kNone,  ///< ordinary cycles
   kTwoRampRates,
   kDwells,
   kStepAndHold,
@@ -100,7 +100,7 @@ enum class Experiment {
   kTwoAmbients,
   kManyCycles,
   kRemount,
-  kFlatAgain,  ///< the flat once more at the end, other surfaces in random order
+  kFlatAgain,  ///< the flat surface again at the end, other surfaces in random order
   kUnevenLoad,
   kOpenRow,
   kVentedSheet,
@@ -109,11 +109,11 @@ enum class Experiment {
   kTwoHumidities,
 };
 
-/// What a parameter is for.
+/// The role of a parameter.
 enum class ParameterRole {
-  kStrength,  ///< scales the effect, which is linear in it where it acts, and off at `neutral`
-  kShape,     ///< gives the form of what a strength scales
-  kScatter,   ///< deviation between taxels or mounts, by the simulation's seed; off at `neutral`
+  kStrength,  ///< scales the effect. Where the effect acts it is linear in it; at `neutral` it is off
+  kShape,     ///< gives the form of the effect
+  kScatter,   ///< standard deviation between taxels or mounts, drawn by the seed; off at `neutral`
 };
 
 /// One parameter of an effect.
@@ -121,13 +121,13 @@ struct EffectParameter {
   std::string name;
   std::string meaning;
   ParameterRole role = ParameterRole::kShape;
-  settings::Range permitted;  ///< with the unit; settings outside it are refused
-  double usual = 0;           ///< where the settings do not give it
-  /// At this value the parameter changes nothing, bit for bit; NaN for a shape.
+  settings::Range permitted;  ///< with the unit; values outside it are refused
+  double usual = 0;           ///< value where the settings give none
+  /// At this value the parameter changes nothing, bit for bit. NaN for a shape.
   double neutral = std::numeric_limits<double>::quiet_NaN();
-  /// What a real rig may have: a fit outside it is no explanation.
+  /// Range of real rigs. A fit outside it is no explanation.
   settings::Range plausible = {};
-  /// Of a shape: the values that are tried when the effect is looked for; empty = the usual one.
+  /// Of a shape: the values that are tried when the effect is looked for. Empty = the usual one.
   std::vector<double> tried = {};
   /// `discrepancy` fits the simulation to the static curves of the recordings before it looks for anything.
   /// Place of this parameter in that fit, from 1; 0 = it is not fitted.
@@ -142,7 +142,8 @@ struct EffectParameter {
   EffectParameter fromTaxelDeviation() const;                ///< sets `from_taxel_deviation`
 };
 
-/// A strength or scatter that is off at 0, a shape; plausible is what is permitted until within().
+/// Make a parameter. Strengths and scatters are off at 0. `plausible` is the permitted range until within()
+/// is called.
 EffectParameter strength(std::string name, std::string meaning, const settings::Range& permitted,
                          double usual);
 EffectParameter scatter(std::string name, std::string meaning, const settings::Range& permitted,
@@ -152,7 +153,7 @@ EffectParameter shape(std::string name, std::string meaning, const settings::Ran
 /// Values of all parameters of one effect, by name, in SI units.
 using EffectValues = std::map<std::string, double>;
 
-/// What an effect says about itself.
+/// The properties of an effect.
 struct EffectInfo {
   std::string id;
   std::string summary;
@@ -164,22 +165,23 @@ struct EffectInfo {
   std::vector<EffectParameter> parameters;
   SignRule sign = SignRule::kPositive;  ///< of its strengths
   std::vector<Covariate> depends_on;
-  std::vector<Evidence> needs;         ///< to be named alone
-  std::vector<std::string> collinear;  ///< ids of effects that leave much the same traces
+  std::vector<Evidence> needs;         ///< needed to name the effect alone
+  std::vector<std::string> collinear;  ///< ids of effects with similar traces
   Experiment experiment = Experiment::kNone;
-  bool required = false;  ///< no chain runs without it
+  bool required = false;  ///< every chain contains it
 
-  // What `discrepancy` has to know beyond that.
+  // Further properties that `discrepancy` uses.
   Detector detector = Detector::kNone;
-  bool looked_for = true;   ///< false: its signature is computed, but it competes for nothing in this version
-  bool stochastic = false;  ///< draws new random numbers at each scan; left out where the mean is wanted
-  bool slow = false;        ///< changes from cycle to cycle, hardly within one
-  bool any_course = false;  ///< slow, and its form imitates whatever else is slow
-  bool mixture = false;     ///< any sum of it with several shapes is the same effect in another form
-  bool with_bending = false;  ///< every bent sensor has it; part of the simplest simulation of one
-  /// Ids of effects that together describe what is left of this one where its form is not the library's.
+  bool looked_for = true;     ///< false: not among the candidates in this version
+  bool stochastic = false;    ///< draws new random numbers at each scan
+  bool slow = false;          ///< changes from cycle to cycle, hardly within a cycle
+  bool any_course = false;    ///< slow, and its form can imitate any other slow effect
+  bool mixture = false;       ///< sums of it with several shapes are forms of the same effect
+  bool with_bending = false;  ///< belongs to the simplest simulation of a bent sensor
+  /// Ids of effects that together describe the residual of this one where its real form differs from the
+  /// library's.
   std::vector<std::string> wrong_form_like = {};
-  std::string also_called = {};  ///< what data sheets call it, where that could be mistaken
+  std::string also_called = {};  ///< name in data sheets, where it could be confused with another effect
 };
 
 /// The parameter of that name; throws std::out_of_range.

@@ -30,10 +30,11 @@ bool isRival(const Comparison& comparison, const Explanation& other, const Expla
     return behind <= (1 - kSecondRival) * (best.share - comparison.best()->share);
   const simulation::EffectInfo &first = comparison.infoOf(best.score.ids.front()),
                                &second = comparison.infoOf(other.score.ids.front());
-  // What everything slow looks like excludes nothing slow, unless that went another way than the clock.
+  // A drift imitates every slow effect. It excludes one only where its covariate was not proportional to
+  // clock time.
   if (first.any_course && second.slow)
     return behind <= (evidence.apartFromClock(second) ? kRivalFar : thresholds::kAnyCourseHides) * best.share;
-  // And where that did, a drift with its three parameters is no simpler explanation that comes near.
+  // In that case a drift, with its three parameters, is no rival of the slow effect.
   if (second.any_course && first.slow && evidence.apartFromClock(first)) return false;
   return behind <= kRivalWithin * best.share;
 }

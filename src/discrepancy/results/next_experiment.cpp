@@ -34,7 +34,7 @@ struct Protocol {
   bool hours = false;   // flat alone, as in kHoursApart
 };
 
-// Cycles on the flat surface that clock, way, mount and warmth count differently.
+// Cycles on the flat surface, so that clock time, path length, mount and temperature are not proportional.
 struct Block {
   double pause;  // before it [s]
   int cycles;

@@ -7,17 +7,18 @@
 
 namespace fsr::discrepancy {
 
-/// What the recordings hold, for effects that must not be named without it.
+/// What the recordings contain of the evidence that effects need before they are named.
 struct AvailableEvidence {
   bool thermometer = false;
   bool two_rates = false;  ///< or dwells
   bool mount_labels = false;
   bool remounted = false;  ///< some surface was mounted twice
   bool temperature_moved = false;
-  bool uneven_pace = false;    ///< cycles in plenty at some time and none for hours at another
-  bool uneven_warmth = false;  ///< the temperature went another way than the clock, over hours
+  bool uneven_pace = false;    ///< many cycles at some times and none for hours at others
+  bool uneven_warmth = false;  ///< over hours the temperature was not proportional to clock time
   bool has(simulation::Evidence evidence) const;
-  /// Whether what a slow effect follows went another way than the clock, so that a drift is told from it.
+  /// Whether the covariate of a slow effect was not proportional to clock time, so that the effect can be
+  /// distinguished from a drift.
   bool apartFromClock(const simulation::EffectInfo& slow) const {
     return simulation::dependsOn(slow, simulation::Covariate::kTemperature) ? uneven_warmth : uneven_pace;
   }

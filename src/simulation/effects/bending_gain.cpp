@@ -1,12 +1,13 @@
-// A bent taxel answers to a load with another slope.
+// Bending changes the sensitivity of a taxel.
 //
 //     g = g (1 + b_i s(kappa) + c s(kappa) f_i(kappa)),   s = 1 - exp(-|kappa| / kg)
 //
-// b_i: change in a tight bend, scattering from taxel to taxel; f_i: a smooth random function of
-// curvature for each taxel i, of deviation 1 and correlation length l [1/m], which makes surfaces differ
-// from each other by chance as they do in the paper. Both vanish on the flat. Source: gains of -10 to
-// -23 % with some 3 % of scatter match the paper's tables (baseline against method 1); the form in kappa
-// is an assumption, as is the share of a concave bend.
+// kappa: principal curvature of the taxel [1/m]. b_i: change of the gain in a tight bend; it scatters from
+// taxel to taxel. f_i: a smooth random function of the curvature for each taxel i, with standard deviation 1
+// and correlation length l [1/m]. It lets surfaces differ from each other at random, as they do in
+// Ahmadizadeh and Menon 2019. Both terms are zero on the flat.
+// Size: gains of -10 to -23 % with a scatter of 3 % reproduce the tables of that paper (baseline against
+// method 1). The form in kappa and the share that a concave bend has are assumptions.
 
 #include <algorithm>
 #include <cmath>

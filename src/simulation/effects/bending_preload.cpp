@@ -1,11 +1,12 @@
-// Bending presses the layers of the sheet together before any gas does.
+// Bending presses the layers of the sheet together before any gas pressure acts.
 //
 //     P_e = P_e + P0(kappa),   P0 = A (1 - exp(-kappa / k0)) + B kappa   [Pa]
 //
-// kappa: the taxel's principal curvature [1/m]. The saturating term is the spacer gap that closes, the
-// linear one the membrane tension T kappa of a stretched sheet (Laplace). Source: the step between flat
-// and bent sheets in the paper's Fig. 5 and tables is matched by some 34 kPa on every cylinder. That a
-// concave bend (kappa < 0) acts likewise but less is an assumption; nobody has published it for a matrix.
+// kappa: principal curvature of the taxel [1/m]. The saturating term is the spacer gap that closes. The
+// linear term is the membrane tension T kappa of a stretched sheet (Laplace).
+// Size: some 34 kPa on every cylinder reproduces the step between the flat and the bent sheets in Fig. 5 and
+// the tables of Ahmadizadeh and Menon 2019. It is an assumption that a concave bend (kappa < 0) has the same
+// effect, but a smaller one; nobody has published it for a matrix.
 
 #include <cmath>
 

@@ -1,10 +1,11 @@
-// The first cycles after mounting read differently, until the sheet has settled.
+// The readings of the first cycles after mounting differ until the sheet has settled.
 //
 //     g = g (1 + a exp(-N / N_0)),   N = W / (2 P_span),   W = sum |dP| since it was mounted
 //
-// N counts cycles by the path lengththat the pressure has gone, so that partial ones count in part. Why
-// makers ask for conditioning: FlexiForce's manual (rev. G) wants 110 % of the load four or five times before
-// use. Size: a few per cent, over in 3 to 10 cycles (estimate); the sign is free.
+// W is the path length of the pressure [Pa]. N is the number of cycles computed from it, so that a partial
+// cycle counts in part. Makers ask for conditioning for this reason: the manual of FlexiForce (rev. G) wants
+// 110 % of the load four or five times before use.
+// Size: a few per cent, which fade within 3 to 10 cycles (estimate). The sign is free.
 
 #include <cmath>
 

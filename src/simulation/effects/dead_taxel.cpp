@@ -1,8 +1,8 @@
-// A taxel without contact.
+// A taxel has no contact.
 //
-//     G_i = 0 from some time on
+//     G_i = 0 from a start time on
 //
-// A cracked trace or a detached layer.
+// Causes: a cracked trace, a detached layer.
 
 #include "simulation/effects/effect_library.h"
 #include "simulation/effects/faults.h"

@@ -1,10 +1,11 @@
-// The reading wanders off with clock time, loaded or not.
+// The reading changes slowly with clock time, with and without load.
 //
 //     y = y + (r y + z) h(t),   h = tau (1 - exp(-t / tau))   [hours]
 //
-// r: share of the reading, z: counts, both an hour; without end where tau is infinite. Either common to all
-// taxels or scattered from taxel to taxel. 1 to 5 % an hour is an estimate from amplifiers and ageing
-// contacts; what data sheets call drift under load is `creep`.
+// r: share of the reading an hour; z: counts an hour. With an infinite tau the drift never ends. It is
+// common to all taxels or scatters from taxel to taxel.
+// Size: 1 to 5 % an hour, an estimate from amplifiers and ageing contacts. What data sheets call drift under
+// load is `creep`.
 
 #include <cmath>
 

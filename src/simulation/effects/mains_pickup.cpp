@@ -1,11 +1,11 @@
-// The wires pick up the mains, and the scan samples it.
+// The wires pick up the mains frequency, and the scan samples it.
 //
 //     y_i = y_i + A sin(2 pi f t_i + phi),   t_i = t + (i - (N - 1) / 2) dt   [counts]
 //
-// i: place of the taxel in the scan, row-major; dt: from one taxel to the next. At f_s scans a second it
-// shows at |f - k f_s|: exactly 50 Hz at exactly 10 Hz stands still, a pattern over the rows, and beats
-// slowly as soon as either clock is off. A large grid stays within 0.2 Hz of 50 or 60 nearly always (not
-// verified).
+// i: place of the taxel in the scan, row-major. N: number of taxels. dt: time from one taxel to the next
+// [s]. At a scan rate f_s the hum appears at |f - k f_s|. Exactly 50 Hz at exactly 10 Hz is a pattern over
+// the rows that does not move; it beats slowly as soon as one of the clocks deviates. A large grid stays
+// within 0.2 Hz of 50 or 60 Hz nearly always (not verified).
 
 #include <cmath>
 

@@ -1,8 +1,8 @@
-// A row's wire makes bad contact: all its taxels fade together, in bursts.
+// The wire of a row has a bad contact. All its taxels lose conductance together, in bursts.
 //
 //     G_i = G_i (1 - depth) in a burst, for all taxels i of the row
 //
-// A crimped connector or a cracked tail; what a burst looks like is an assumption.
+// Causes: a crimped connector, a cracked tail. The form of a burst is an assumption.
 
 #include "simulation/effects/effect_library.h"
 #include "simulation/effects/faults.h"

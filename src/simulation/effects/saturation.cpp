@@ -1,9 +1,9 @@
-// The amplifier runs out of voltage before the converter runs out of codes.
+// The amplifier reaches its voltage limit below the full scale of the converter.
 //
 //     y = y / (1 + (y / y_s)^q)^(1 / q)   [counts],   q infinite: y = min(y, y_s)
 //
-// A smooth limit at y_s, the sharper the larger q. Clipping at the converter's full scale is always there
-// and no effect.
+// This is a smooth limit at y_s; a larger q makes it sharper. Clipping at the full scale of the converter
+// always acts and is not an effect.
 
 #include <algorithm>
 #include <cmath>

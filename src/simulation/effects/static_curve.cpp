@@ -1,10 +1,10 @@
-// What a taxel conducts under a steady load.
+// Conductance of a taxel under a steady load.
 //
 //     G = G0 + k g (max(u, 0) / P_ref)^n / (1 + (u / P_s)^n)   [S]
 //
-// Contact area grows with load as a power n somewhat below 1 (rough contacts; R. Holm, Electric Contacts,
-// 4th ed., Springer 1967) and saturates softly round P_s. Part-to-part scatter: Tangio TPE-500 4 %,
-// Interlink FSR 400 6 % (data sheets).
+// The contact area grows with the load as a power n somewhat below 1 (rough contacts; R. Holm, Electric
+// Contacts, 4th ed., Springer 1967) and saturates softly near P_s. Scatter between parts: Tangio TPE-500 4
+// %, Interlink FSR 400 6 % (data sheets).
 
 #include <cmath>
 

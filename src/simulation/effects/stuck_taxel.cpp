@@ -1,9 +1,9 @@
-// A taxel that always reads the same.
+// A taxel always has the same reading.
 //
-//     y_i = const from some time on   [counts]
+//     y_i = const from a start time on   [counts]
 //
-// A short, a crease, or a converter that answers with an old value: `value` -1 keeps the reading that the
-// taxel had when the fault began.
+// Causes: a short circuit, a crease, a converter that returns an old value. With `value` -1 the taxel keeps
+// the reading that it had when the fault began.
 
 #include "simulation/effects/effect_library.h"
 #include "simulation/effects/faults.h"

@@ -1,12 +1,13 @@
-// The ink conducts better or worse when it is warm.
+// The conductance of the ink depends on temperature.
 //
 //     g = g exp(a x + b (T - T_0)^2),   x = T_0^2 (1 / T_0 - 1 / T)   [K],   T_0 = 23 degree Celsius
 //
-// Thermally activated conduction (Arrhenius), written with its slope a = E_a / (k T_0^2) at T_0, so that
-// a (T - T_0) is its linear form. The sheet follows the gas with a lag tau. Both signs occur. Size: 0.25
-// to 0.36 % a kelvin (0.36 %: FlexiForce A201, from memory, not verified). Interlink's FSR 400 data sheet
-// (PDS-10004-C) states resistance -5 % after an hour at -40 and -15 % at +85 degree Celsius: falling at
-// both ends, which needs b.
+// This is thermally activated conduction (Arrhenius), written with its slope a = E_a / (k T_0^2) at T_0; a
+// (T - T_0) is its linear form. The temperature of the sheet follows that of the gas with the time constant
+// tau. Both signs occur.
+// Size: 0.25 to 0.36 % a kelvin (0.36 %: FlexiForce A201, from memory, not verified). The data sheet of
+// Interlink FSR 400 (PDS-10004-C) states a resistance of -5 % after an hour at -40 and -15 % at +85 degree
+// Celsius. It falls at both ends, which needs b.
 
 #include <cmath>
 

@@ -2,10 +2,10 @@
 //
 //     g = g (1 - c ((N_a + N) / 10^7)^m),   N = W / (2 P_span),   W = sum |dP|
 //
-// N_a: cycles that the sheet had behind it before. Size: 7 % after 10 million actuations (Tangio TPE-500
-// v1.8, 2018, no sign given); resistance -10 % (Interlink FSR 400 PDS-10004-C: there the reading rises, c
-// is negative). With m = 0.26 that is 0.3 % in the paper's 60 cycles, 2 % within 10^5. The form is an
-// assumption.
+// W: path length of the pressure [Pa]. N_a: cycles of the sheet before the simulation begins.
+// Size: 7 % after 10 million actuations (Tangio TPE-500 v1.8, 2018, no sign given); resistance -10 %
+// (Interlink FSR 400 PDS-10004-C: there the reading rises, c is negative). With m = 0.26 that is 0.3 % in
+// the 60 cycles of Ahmadizadeh and Menon 2019, and 2 % within 10^5. The form is an assumption.
 
 #include <cmath>
 
@@ -64,7 +64,7 @@ class Wear : public Effect {
   double loss_;
   double exponent_;
   double age_;    // [cycles]
-  double cycle_;  // path lengthof the pressure in a whole cycle [Pa]
+  double cycle_;  // path length of the pressure in a whole cycle [Pa]
 };
 
 }  // namespace

@@ -2,9 +2,10 @@
 //
 //     y = y + sqrt(a^2 + (r y)^2) N   [counts]
 //
-// a: of the electronics [counts]; r: of the contacts, share of the reading; N: standard normal. Source:
-// together with the loop it makes the paper's 3.5 % RMSE on the flat; data sheets give a single part's
-// repeatability as 2 % (Interlink FSR 400).
+// a: noise of the electronics [counts]. r: noise of the contacts, as a share of the reading. N: a standard
+// normal number.
+// Size: together with the hysteresis loop it makes the RMSE of 3.5 % on the flat in Ahmadizadeh and Menon
+// 2019. Data sheets give the repeatability of a single part as 2 % (Interlink FSR 400).
 
 #include <cmath>
 
