@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/simulation/chamber_protocol.h"
+#include "simulation/pressure_profile.h"
 
 namespace fsr::emulator {
 

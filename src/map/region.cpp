@@ -4,7 +4,7 @@
 #include <set>
 #include <sstream>
 
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
 
 namespace fsr::map {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "fsr_pressure_map/matrix/curvature.h"
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
 
 namespace fsr::matrix {
 

@@ -75,7 +75,7 @@ void addHealth(const discrepancy::AdmittedRecording& row, const matrix::Layout& 
 }
 
 std::string faultText(const discrepancy::Fault& fault, const matrix::Layout& layout) {
-  const bool line = fault.id == "row_fault" || fault.id == "column_fault";
+  const bool line = fault.isLine();
   const std::string where =
       line ? " " + std::to_string(fault.line) : " (row, column): " + places(fault.taxels, layout);
   return fault.id + where + ", " + percent(fault.share, 2) + " of the scans, longest " +

@@ -83,7 +83,7 @@ std::string notTestable(const discrepancy::DiscrepancyReport& report) {
 
 std::string opened(const std::vector<discrepancy::InputUse>& inputs) {
   int most = 0;
-  for (const discrepancy::InputUse& input : inputs) most = std::max(most, input.show_opened);
+  for (const discrepancy::InputUse& input : inputs) most = std::max(most, input.hold_out_opened);
   return most > 1 ? "The hold-out part of a bag was used " + std::to_string(most) +
                         " times by now, so the gap is a weaker proof.\n"
                   : "";

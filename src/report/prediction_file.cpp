@@ -1,6 +1,6 @@
 #include "report/prediction_file.h"
 
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
 #include "settings/yaml_text.h"
 #include "simulation/effects/effect_library.h"
 

@@ -113,8 +113,8 @@ std::vector<discrepancy::InputUse> readInputs(const Mapping& file) {
     use.file = input.as<std::string>("file", "text");
     use.sha256 = input.as<std::string>("sha256", "text");
     if (use.sha256.size() != kSha256Digits) input.fail("sha256", "must have 64 hexadecimal digits");
-    use.show_opened = input.as<int>("show_opened", "a whole number");
-    if (use.show_opened < 0) input.fail("show_opened", "must be 0 or more");
+    use.hold_out_opened = input.as<int>("show_opened", "a whole number");
+    if (use.hold_out_opened < 0) input.fail("show_opened", "must be 0 or more");
     inputs.push_back(use);
   }
   return inputs;

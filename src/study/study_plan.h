@@ -7,8 +7,8 @@
 
 #include "fsr_pressure_map/regression/forest.h"
 #include "fsr_pressure_map/regression/grnn.h"
-#include "fsr_pressure_map/settings/settings.h"
 #include "regression/bandwidth_search.h"
+#include "settings/settings.h"
 #include "statistics/paper_rule.h"
 
 namespace fsr::study {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
 
 namespace blind {
 

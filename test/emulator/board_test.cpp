@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "protocol/wire_decoder.h"
+#include "simulation/read_settings.h"
 #include "support/packet_recorder.h"
 
 namespace {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "simulation/pressure_profile.h"
 #include "support/board_listener.h"
 #include "support/pty.h"
 

@@ -103,7 +103,7 @@ TEST_F(VerdictOnDisk, ReadsBackTheSame) {
   EXPECT_EQ(verdict.credible_set, report.credible_set);
   ASSERT_EQ(verdict.inputs.size(), 2u);
   EXPECT_EQ(verdict.inputs[1].sha256, report.inputs[1].sha256);
-  EXPECT_EQ(verdict.inputs[1].show_opened, 3);
+  EXPECT_EQ(verdict.inputs[1].hold_out_opened, 3);
   EXPECT_EQ(verdict.version, "0.1.0");
 }
 

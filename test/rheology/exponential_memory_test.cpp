@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/rheology/exponential_memory.h"
+#include "rheology/exponential_memory.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
 
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "simulation/pressure_profile.h"
 #include "support/allocation_guard.h"
 
 namespace {

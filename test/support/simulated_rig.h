@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "simulation/pressure_profile.h"
 #include "simulation/sensor_chain.h"
 
 namespace test_support {

@@ -4,6 +4,7 @@
 
 #include "dataset/cycles.h"
 #include "discrepancy/samples/measured.h"
+#include "discrepancy/thresholds.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
 #include "simulation/effects/effect_library.h"
@@ -19,9 +20,8 @@ constexpr std::uint64_t kFewRestarts = 2;  // of the board in one bag
 constexpr double kAnswers = 0.05;          // of what most taxels move, between low and high pressure
 constexpr double kLeastAnswer = 0.0005;    // likewise, at least [share of full scale]
 constexpr double kLeastRange = 50e3;       // of the pressure [Pa]
-constexpr double kMostUnusable = 0.5;      // share of the taxels
 constexpr double kBetween = 60;            // bags whose stamps overlap, one after the other [s]
-constexpr double kShowShare = 0.2;         // of the cycles
+constexpr double kHoldOutShare = 0.2;      // of the cycles
 
 void requireWhole(const dataset::Recording& recording) {
   const auto refuse = [&](const std::string& what) {
@@ -82,9 +82,10 @@ void requireTogether(const std::vector<dataset::Recording>& recordings) {
   }
 }
 
-void requireKnown(const std::vector<std::string>& ids, const std::string& option) {
+void requireKnown(const simulation::EffectLibrary& library, const std::vector<std::string>& ids,
+                  const std::string& option) {
   for (const std::string& id : ids) {
-    if (!simulation::findEffect(id)) throw settings::InputError(option + ": no effect is called " + id);
+    if (!library.find(id)) throw settings::InputError(option + ": no effect is called " + id);
   }
 }
 
@@ -131,8 +132,8 @@ int sign(statistics::LoadDirection direction) {
                                                               : 0;
 }
 
-// Scans first .. last - 1 of a visit become one moment.
-void appendMoment(Measured& measured, const VisitCourse& course, std::size_t first, std::size_t last) {
+// Scans first .. last - 1 of a visit become one sample.
+void appendSample(Measured& measured, const VisitCourse& course, std::size_t first, std::size_t last) {
   const Visit& visit = measured.visits.back();
   const std::vector<double>& temperature = (*measured.recordings)[visit.recording].temperature;
   measured.time.push_back(mean(course.time, first, last));
@@ -151,17 +152,17 @@ void appendMoment(Measured& measured, const VisitCourse& course, std::size_t fir
 void appendVisit(Measured& measured, double start, std::size_t pooled) {
   Visit& visit = measured.visits.back();
   const VisitCourse course = courseOf((*measured.recordings)[visit.recording], visit, start);
-  visit.first = measured.moments();
+  visit.first = measured.samples();
   for (std::size_t c = 0; c < course.cycles.count(); ++c) {
     const bool last = c + 1 == course.cycles.count();
     const std::size_t end = last ? course.time.size() : course.cycles.first[c + 1];
-    measured.cycles.push_back({measured.visits.size() - 1, measured.moments(), 0, 0, CycleUse::kFit});
+    measured.cycles.push_back({measured.visits.size() - 1, measured.samples(), 0, 0, CycleUse::kFit});
     for (std::size_t i = course.cycles.first[c]; i < end; i += pooled) {
-      appendMoment(measured, course, i, std::min(i + pooled, end));
+      appendSample(measured, course, i, std::min(i + pooled, end));
     }
-    measured.cycles.back().last = measured.moments();
+    measured.cycles.back().last = measured.samples();
   }
-  visit.last = measured.moments();
+  visit.last = measured.samples();
 }
 
 std::size_t scansPooled(const std::vector<dataset::Recording>& recordings) {
@@ -173,8 +174,8 @@ std::size_t scansPooled(const std::vector<dataset::Recording>& recordings) {
     const double seconds = recording.time.back() - recording.time.front();
     shortest = std::min(shortest, seconds / static_cast<double>(recording.scans() - 1));
   }
-  const double most = std::max(1.0, std::floor(Measured::kLongestMoment / shortest));
-  const double wanted = static_cast<double>(scans) / static_cast<double>(Measured::kManyMoments);
+  const double most = std::max(1.0, std::floor(Measured::kLongestSample / shortest));
+  const double wanted = static_cast<double>(scans) / static_cast<double>(Measured::kManySamples);
   return static_cast<std::size_t>(std::clamp(std::round(wanted), 1.0, most));
 }
 
@@ -197,7 +198,7 @@ void appendRecording(Measured& measured, const dataset::ConditionClasses& classe
   }
 }
 
-// Interleaved folds, and cycles to show on: in each visit as many, drawn by the seed.
+// Interleaved folds, and hold-out cycles: in each visit as many, drawn by the seed.
 void partCycles(Measured& measured, std::uint64_t seed) {
   const statistics::RandomStream stream = statistics::randomStream(seed, "discrepancy.split");
   std::vector<std::vector<std::size_t>> of_visit(measured.visits.size());
@@ -206,10 +207,10 @@ void partCycles(Measured& measured, std::uint64_t seed) {
   double owed = 0;
   for (std::size_t v = 0; v < of_visit.size(); ++v) {
     std::vector<std::size_t>& cycles = of_visit[v];
-    owed += kShowShare * static_cast<double>(cycles.size());
+    owed += kHoldOutShare * static_cast<double>(cycles.size());
     for (; owed >= 1 && cycles.size() > 1; owed -= 1) {
       const std::size_t drawn = stream.bits(v * 1000 + cycles.size()) % cycles.size();
-      measured.cycles[cycles[drawn]].use = CycleUse::kShow;
+      measured.cycles[cycles[drawn]].use = CycleUse::kHoldOut;
       cycles.erase(cycles.begin() + static_cast<std::ptrdiff_t>(drawn));
     }
     for (const std::size_t c : cycles) measured.cycles[c].fold = next++ % Measured::kFolds;
@@ -223,8 +224,7 @@ void maskTaxels(Measured& measured) {
       if (recording.mask[i]) measured.used[i] = 0;
     }
   }
-  if (static_cast<double>(measured.usedTaxels()) <
-      (1 - kMostUnusable) * static_cast<double>(measured.taxels())) {
+  if (!thresholds::enoughUsable(measured.usedTaxels(), measured.taxels())) {
     throw settings::InputError(
         (*measured.recordings)[0].name + ": " + std::to_string(measured.taxels() - measured.usedTaxels()) +
         " of " + std::to_string(measured.taxels()) + " taxels are masked, but at least half must be usable");
@@ -234,16 +234,16 @@ void maskTaxels(Measured& measured) {
 // Deviation of what each taxel reads [share of full scale].
 std::vector<double> movements(const Measured& measured) {
   std::vector<double> sum(measured.taxels()), squares(measured.taxels()), readings;
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     measured.recorded(i, readings);
     for (std::size_t t = 0; t < readings.size(); ++t) {
       sum[t] += readings[t];
       squares[t] += readings[t] * readings[t];
     }
   }
-  const auto moments = static_cast<double>(measured.moments());
+  const auto samples = static_cast<double>(measured.samples());
   for (std::size_t t = 0; t < sum.size(); ++t) {
-    squares[t] = std::sqrt(std::max(0.0, squares[t] / moments - std::pow(sum[t] / moments, 2)));
+    squares[t] = std::sqrt(std::max(0.0, squares[t] / samples - std::pow(sum[t] / samples, 2)));
   }
   return squares;
 }
@@ -257,7 +257,7 @@ void requireAnswers(const Measured& measured) {
   const double least = std::max(kLeastAnswer, kAnswers * usual);
   std::size_t usable = 0;
   for (std::size_t t = 0; t < answer.size(); ++t) usable += measured.used[t] && answer[t] >= least;
-  if (2 * usable >= answer.size()) return;
+  if (thresholds::enoughUsable(usable, answer.size())) return;
   throw settings::InputError(
       (*measured.recordings)[0].name + ": " + std::to_string(answer.size() - usable) + " of " +
       std::to_string(answer.size()) +
@@ -279,32 +279,40 @@ void requireJudgeable(const Measured& measured) {
         " of filling and venting, but at least 3 are needed: what was found must be held "
         "against others");
   }
-  if (measured.moments() < kFewestScans) {
-    throw settings::InputError(name + ": " + std::to_string(measured.moments()) +
+  if (measured.samples() < kFewestScans) {
+    throw settings::InputError(name + ": " + std::to_string(measured.samples()) +
                                " scans, but at least 200 are needed");
   }
 }
 
 }  // namespace
 
+const simulation::EffectInfo& Measured::info(const std::string& effect) const {
+  return effects().info(effect);
+}
+
+const simulation::EffectLibrary& Measured::effects() const {
+  return library ? *library : simulation::EffectLibrary::shipped();
+}
+
 std::size_t Measured::usedTaxels() const {
   return static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
 }
 
-void Measured::recorded(std::size_t moment, std::vector<double>& result) const {
-  const dataset::Recording& recording = (*recordings)[visits[visit[moment]].recording];
+void Measured::recorded(std::size_t sample, std::vector<double>& result) const {
+  const dataset::Recording& recording = (*recordings)[visits[visit[sample]].recording];
   result.assign(taxels(), 0.0);
-  for (std::size_t s = 0; s < scans[moment]; ++s) {
-    const std::uint16_t* counts = recording.scan(first_scan[moment] + s);
+  for (std::size_t s = 0; s < scans[sample]; ++s) {
+    const std::uint16_t* counts = recording.scan(first_scan[sample] + s);
     for (std::size_t i = 0; i < result.size(); ++i) result[i] += counts[i];
   }
-  for (double& reading : result) reading /= full_scale * static_cast<double>(scans[moment]);
+  for (double& reading : result) reading /= full_scale * static_cast<double>(scans[sample]);
 }
 
-void Measured::readings(std::size_t moment, std::vector<double>& result) const {
-  recorded(moment, result);
+void Measured::readings(std::size_t sample, std::vector<double>& result) const {
+  recorded(sample, result);
   if (gain.empty()) return;
-  for (double& reading : result) reading = (reading - added[moment] - unloaded) / gain[moment] + unloaded;
+  for (double& reading : result) reading = (reading - added[sample] - unloaded) / gain[sample] + unloaded;
 }
 
 void validate(const DiscrepancyProblem& problem) {
@@ -315,13 +323,14 @@ void validate(const DiscrepancyProblem& problem) {
   }
   requireTogether(problem.recordings);
   requireFit(problem.recordings.front(), problem.simulation);
-  requireKnown(problem.options.ask, "--ask");
-  requireKnown(problem.options.leave_out, "--without");
+  requireKnown(simulation::libraryOf(problem.simulation), problem.options.ask, "--ask");
+  requireKnown(simulation::libraryOf(problem.simulation), problem.options.leave_out, "--without");
 }
 
 Measured admit(const DiscrepancyProblem& problem) {
   Measured measured;
   measured.recordings = &problem.recordings;
+  measured.library = problem.simulation.library;
   const dataset::Recording& first = problem.recordings.front();
   measured.layout = first.layout;
   measured.full_scale = first.full_scale;
@@ -341,9 +350,10 @@ Measured admit(const DiscrepancyProblem& problem) {
   }
   const double start = measured.time.front();
   for (double& time : measured.time) time -= start;
-  measured.way.assign(measured.moments(), 0);
-  for (std::size_t i = 1; i < measured.moments(); ++i) {
-    measured.way[i] = measured.way[i - 1] + std::abs(measured.pressure[i] - measured.pressure[i - 1]);
+  measured.path_length.assign(measured.samples(), 0);
+  for (std::size_t i = 1; i < measured.samples(); ++i) {
+    measured.path_length[i] =
+        measured.path_length[i - 1] + std::abs(measured.pressure[i] - measured.pressure[i - 1]);
   }
   partCycles(measured, problem.options.seed);
   maskTaxels(measured);

@@ -10,6 +10,7 @@
 #include "emulator/emulator.h"
 #include "ros/bags/surface_folder.h"
 #include "ros/live/parameters.h"
+#include "simulation/read_settings.h"
 
 namespace fsr_ros {
 

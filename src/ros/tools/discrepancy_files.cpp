@@ -7,6 +7,7 @@
 #include "report/verdict_file.h"
 #include "settings/replace_file.h"
 #include "settings/sha256.h"
+#include "simulation/taxel_curves.h"
 
 namespace fsr_ros {
 

@@ -132,8 +132,8 @@ fsr::discrepancy::DiscrepancyProgress progressOnTerminal() {
 void countUses(fsr::discrepancy::DiscrepancyReport& report) {
   const ShowLedger ledger;
   for (fsr::discrepancy::InputUse& input : report.inputs) {
-    if (input.show_opened > 0 && !input.sha256.empty())
-      input.show_opened = ledger.open(input.sha256, report.seed);
+    if (input.hold_out_opened > 0 && !input.sha256.empty())
+      input.hold_out_opened = ledger.open(input.sha256, report.seed);
   }
 }
 

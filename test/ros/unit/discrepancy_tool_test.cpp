@@ -87,9 +87,9 @@ TEST_F(DiscrepancyTool, TakesAFolderAndCountsEveryUse) {
   ASSERT_EQ(first.inputs.size(), 2u);
   EXPECT_EQ(first.inputs[0].file, "1_flat.bag");
   EXPECT_EQ(first.inputs[0].sha256.size(), 64u);
-  EXPECT_EQ(first.inputs[1].show_opened, 1);
+  EXPECT_EQ(first.inputs[1].hold_out_opened, 1);
   run(words);
-  EXPECT_EQ(fsr::report::readVerdict(path("out/verdict.yaml")).inputs[1].show_opened, 2);
+  EXPECT_EQ(fsr::report::readVerdict(path("out/verdict.yaml")).inputs[1].hold_out_opened, 2);
   for (const char* file : {"simulation.yaml", "base.yaml", "prediction.yaml", "results.json"})
     EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
 }

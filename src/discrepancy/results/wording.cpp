@@ -1,0 +1,85 @@
+#include "discrepancy/results/wording.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "simulation/effects/effect_library.h"
+
+namespace fsr::discrepancy {
+
+namespace {
+
+// Some data sheets use the name of another effect.
+std::string called(const simulation::EffectLibrary& library, const std::string& id) {
+  const std::string& other = library.info(id).also_called;
+  return other.empty() ? id : id + " (data sheets: " + other + ")";
+}
+
+std::string called(const simulation::EffectLibrary& library, const std::vector<std::string>& ids) {
+  std::vector<std::string> names;
+  for (const std::string& id : ids) names.push_back(called(library, id));
+  return listText(names, " with ");
+}
+
+std::string sizeText(const DiscrepancyReport& report) {
+  if (report.effects.empty() || report.effects.front().parameters.empty()) return "";
+  const FittedParameter& size = report.effects.front().parameters.front();
+  std::ostringstream text;
+  text.precision(3);
+  text << " (" << size.name << " " << size.value << (size.unit.empty() ? "" : " " + size.unit);
+  if (size.interval.low < size.interval.high) {
+    text << ", 95 % " << size.interval.low << " to " << size.interval.high;
+  }
+  text << ")";
+  return text.str();
+}
+
+// What would show the effects of the verdict: "; crosstalk needs the experiment uneven_load".
+std::string experimentsText(const DiscrepancyReport& report) {
+  std::vector<std::string> needs;
+  for (const NotIdentifiable& one : report.not_identifiable) {
+    const auto names_it = [&](const auto& ids) { return std::count(ids.begin(), ids.end(), one.id) > 0; };
+    if (!std::any_of(report.credible_set.begin(), report.credible_set.end(), names_it)) continue;
+    if (one.experiment != simulation::name(simulation::Experiment::kNone))
+      needs.push_back(one.id + " needs the experiment " + one.experiment);
+  }
+  return needs.empty() ? "" : "; " + listText(needs);
+}
+
+}  // namespace
+
+std::string listText(const std::vector<std::string>& items, const std::string& last) {
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i > 0) text += i + 1 == items.size() ? last : ", ";
+    text += items[i];
+  }
+  return text;
+}
+
+std::string sentenceOf(const DiscrepancyReport& report) {
+  const std::string tested = std::to_string(report.tested.size()) + " effects tested";
+  std::vector<std::string> sets;
+  for (const auto& ids : report.credible_set) sets.push_back(called(simulation::libraryOf(report.base), ids));
+  switch (report.verdict) {
+    case Verdict::kNone:
+      return "Among " + tested + ", none is missing that these recordings show.";
+    case Verdict::kUnknown:
+      return "Something is missing that none of the " + tested + " explains; it depends on " +
+             listText(report.depends_on) + ".";
+    case Verdict::kAmbiguous:
+      return "Among " + tested +
+             ", under this protocol, these are not told apart: " + listText(sets, " or ") + ".";
+    case Verdict::kWrongForm:
+      return "Best explanation among " + tested + ", under this protocol: " + sets.front() +
+             sizeText(report) + ", but not in the form that the library has.";
+    case Verdict::kNotIdentifiable:
+      return "These recordings cannot show " + listText(sets, " or ") + experimentsText(report) + ".";
+    case Verdict::kNamed:
+      return "Best explanation among " + tested + ", under this protocol: " + sets.front() +
+             sizeText(report) + ".";
+  }
+  return "";
+}
+
+}  // namespace fsr::discrepancy
