@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "compensation/training_statistics.h"
 #include "matrix/for_each_taxel.h"
 #include "regression/bandwidth_search.h"
 

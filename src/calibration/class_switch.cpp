@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/calibration/class_switch.h"
+#include "calibration/class_switch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/calibration/packed_tables.h"
+#include "calibration/packed_tables.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsr_pressure_map/compensation/training_statistics.h"
+#include "compensation/training_statistics.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
 #include "fsr_pressure_map/dataset/sections.h"
-#include "fsr_pressure_map/regression/code_samples.h"
-#include "fsr_pressure_map/regression/code_statistics.h"
+#include "regression/code_samples.h"
+#include "regression/code_statistics.h"
 
 namespace fsr::calibration {
 

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/compensation/blend_table.h"
+#include "compensation/blend_table.h"
 
 #include <algorithm>
 #include <array>

@@ -38,18 +38,10 @@ double scaleOf(const std::vector<std::vector<double>>& columns, std::size_t colu
 
 }  // namespace
 
-double ClassInputs::squaredDistance(std::size_t a, std::size_t b) const {
-  double sum = 0;
-  for (std::size_t i = 0; i < scale.size(); ++i) {
-    const double difference = (columns[a][i] - columns[b][i]) * scale[i];
-    sum += difference * difference;
-  }
-  return sum;
-}
-
-ClassInputs classInputs(Scheme scheme, const std::vector<double>& curvature, const std::vector<bool>& bent,
-                        const std::vector<std::uint64_t>& readings) {
-  ClassInputs inputs;
+regression::ClassInputs classInputs(Scheme scheme, const std::vector<double>& curvature,
+                                    const std::vector<bool>& bent,
+                                    const std::vector<std::uint64_t>& readings) {
+  regression::ClassInputs inputs;
   for (std::size_t k = 0; k < curvature.size(); ++k) {
     inputs.columns.push_back(columnsOf(scheme, k, curvature, bent));
   }

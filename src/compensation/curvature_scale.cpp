@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "compensation/held_out_squares.h"
-#include "compensation/kernel_blend.h"
 #include "matrix/for_each_taxel.h"
 #include "regression/grnn/weighted_codes.h"
+#include "regression/kernel_blend.h"
 
 namespace fsr::compensation {
 
@@ -98,7 +98,7 @@ class ScaleErrors {
         const double away = (curvature_[k] - curvature_[c]) / grid_[i];
         exponent.push_back(c == left_out ? INFINITY : 0.5 * away * away);
       }
-      squares[i] += squaredErrors(readings, blendKernels(means, exponent).pressure);
+      squares[i] += squaredErrors(readings, regression::blendKernels(means, exponent).pressure);
     }
     return static_cast<double>(readings.samples());
   }

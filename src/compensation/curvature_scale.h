@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "fsr_pressure_map/compensation/training_statistics.h"
-#include "fsr_pressure_map/regression/grnn.h"
+#include "compensation/training_statistics.h"
+#include "regression/grnn/grnn.h"
 
 namespace fsr::compensation {
 

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "compensation/class_input.h"
-#include "compensation/class_readings.h"
 #include "compensation/scheme_plan.h"
 #include "fsr_pressure_map/compensation/curvature_rule.h"
-#include "fsr_pressure_map/regression/regressors.h"
+#include "regression/class_readings.h"
 #include "regression/cross_validation.h"
+#include "regression/regressors.h"
 
 namespace fsr::compensation {
 
@@ -22,28 +22,31 @@ namespace fsr::compensation {
 /// by its mean and deviation over all readings given; where they all are of one class, the second input
 /// has nothing to say and is left out.
 ///
-/// Throws InputError where the regressor has no such model: curvature_input and binary_input are for
-/// linear, grnn and forest, one_hot for linear and grnn, scaled_curvature for grnn, and only a GRNN of
-/// Gaussian kernel on samples that weigh alike takes a second input.
+/// Throws InputError as requireSchemeFor() does.
 std::vector<regression::Fit> fitScheme(const SchemePlan& plan, std::size_t taxel,
-                                       const ClassReadings& readings,
+                                       const regression::ClassReadings& readings,
                                        const regression::RegressorOptions& regressor);
 
 /// The inputs that the plan's scheme gives a model with a second input.
-ClassInputs inputsOf(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings,
-                     const regression::RegressorOptions& regressor);
+regression::ClassInputs inputsOf(const SchemePlan& plan, std::size_t taxel,
+                                 const regression::ClassReadings& readings,
+                                 const regression::RegressorOptions& regressor);
 
 /// Pressure of each code on class k [Pa], whether it had readings or not: of a class without any, by the
 /// scheme's rule from the classes that had some, as the live map would answer there (with `law` for
 /// curvature_map). `fits` as fitScheme() made them of `readings`. Empty where there are no readings at all.
-std::vector<double> answerOn(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings,
+std::vector<double> answerOn(const SchemePlan& plan, std::size_t taxel,
+                             const regression::ClassReadings& readings,
                              const std::vector<regression::Fit>& fits, std::size_t k,
                              const EffectLaw& law = {});
 
 /// How tables of a plan's classes become the table of any curvature.
 BlendRule blendOf(Scheme scheme, const regression::RegressorOptions& regressor);
 
-/// Whether fitScheme() takes the plan's scheme with this regressor; throws InputError where not.
+/// Throws InputError if the scheme cannot be combined with this regressor, with a list of the regressors that
+/// it can be combined with. What a regressor can do stands in its entry (regression/regressors.h):
+/// curvature_input and binary_input need a second input, one_hot one of several columns, and scaled_curvature
+/// a kernel.
 void requireSchemeFor(Scheme scheme, const regression::RegressorOptions& regressor);
 
 /// The readings of one taxel by class and section.
@@ -54,7 +57,7 @@ struct SectionedReadings {
       samples;  ///< likewise; empty where the regressor needs none
 };
 
-ClassReadings allSections(const SectionedReadings& readings);
+regression::ClassReadings allSections(const SectionedReadings& readings);
 
 /// The regressor to train with: what is chosen from the data is chosen anew without the section held out.
 struct FoldRegressors {

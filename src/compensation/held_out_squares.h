@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fsr_pressure_map/regression/code_statistics.h"
+#include "regression/code_statistics.h"
 
 namespace fsr::compensation {
 

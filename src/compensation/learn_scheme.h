@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "compensation/scheme_plan.h"
-#include "fsr_pressure_map/compensation/training_statistics.h"
-#include "fsr_pressure_map/regression/grnn.h"
+#include "compensation/training_statistics.h"
+#include "regression/grnn/grnn.h"
 
 namespace fsr::compensation {
 

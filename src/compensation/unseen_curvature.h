@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
-#include "fsr_pressure_map/compensation/blend_table.h"
+#include "compensation/blend_table.h"
+#include "compensation/training_statistics.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
-#include "fsr_pressure_map/compensation/training_statistics.h"
 #include "fsr_pressure_map/statistics/pressure_bins.h"
 
 namespace fsr::compensation {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsr_pressure_map/regression/code_statistics.h"
-#include "fsr_pressure_map/regression/grnn.h"
+#include "regression/code_statistics.h"
 #include "regression/cross_validation.h"
+#include "regression/grnn/grnn.h"
 
 namespace fsr::regression {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fsr_pressure_map/regression/regressor.h"
+#include "regression/regressor.h"
 
 namespace fsr::regression {
 

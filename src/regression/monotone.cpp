@@ -5,6 +5,7 @@
 
 #include "regression/isotonic.h"
 #include "regression/pressure_grid.h"
+#include "regression/regressors.h"
 
 namespace fsr::regression {
 
@@ -181,6 +182,16 @@ Fit Monotone::fitSamples(const CodeSamples& training) const {
     fit.support[code] = curve.supportAt(static_cast<double>(code));
   }
   return fit;
+}
+
+RegressorEntry monotoneEntry() {
+  RegressorEntry entry;
+  entry.name = "monotone";
+  entry.summary = "inverse of a monotone curve of reading over pressure";
+  entry.make = [](const RegressorOptions&) -> std::unique_ptr<Regressor> {
+    return std::make_unique<Monotone>();
+  };
+  return entry;
 }
 
 }  // namespace fsr::regression

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fsr_pressure_map/regression/regressor.h"
+#include "regression/regressor.h"
 
 namespace fsr::regression {
 

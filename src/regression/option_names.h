@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/regression/forest.h"
-#include "fsr_pressure_map/regression/grnn.h"
+#include "fsr_pressure_map/regression/regressor_options.h"
 
 namespace fsr::regression {
 

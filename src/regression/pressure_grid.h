@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "fsr_pressure_map/regression/code_samples.h"
+#include "regression/code_samples.h"
 #include "regression/grnn/weighted_codes.h"
 
 namespace fsr::regression {

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/regressor.h"
+#include "regression/regressor.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
 

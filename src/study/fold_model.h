@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/compensation/curvature_rule.h"
-#include "fsr_pressure_map/regression/regressors.h"
+#include "regression/regressors.h"
 #include "study/fold.h"
 #include "study/study_method.h"
 
@@ -29,7 +29,7 @@ FoldModel learnedModel(const StudyData& data, const StudyMethod& method, const G
 
 /// Pressure of every code on each class of `asked` [Pa], by one taxel's training readings.
 std::vector<std::vector<double>> answersOf(const FoldModel& model, std::size_t taxel,
-                                           const compensation::ClassReadings& training,
+                                           const regression::ClassReadings& training,
                                            const std::vector<std::size_t>& asked);
 
 /// Every n-th of the taxels that take part, about plan.bandwidth_taxels of them.

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/regression/forest.h"
-#include "fsr_pressure_map/regression/grnn.h"
+#include "regression/forest/forest.h"
+#include "regression/grnn/grnn.h"
 #include "fsr_pressure_map/settings/settings.h"
 #include "regression/bandwidth_search.h"
 #include "statistics/paper_rule.h"

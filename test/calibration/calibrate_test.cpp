@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compensation/training_statistics.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/synthetic_recording.h"
@@ -38,7 +39,7 @@ void expectSameTables(const Calibration& a, const Calibration& b) {
     EXPECT_EQ(a.tables.tables[i].deviation, b.tables.tables[i].deviation);
     EXPECT_EQ(a.tables.tables[i].support, b.tables.tables[i].support);
   }
-  EXPECT_EQ(a.statistics.cells, b.statistics.cells);
+  EXPECT_EQ(a.statistics->cells, b.statistics->cells);
 }
 
 TEST(Calibrate, RecoversTheCurveOfEachTaxelAndSurface) {
@@ -163,7 +164,7 @@ TEST(Calibrate, FlatOnlyKnowsOnlyTheFlatSurface) {
   ASSERT_EQ(flat.scores.conditions.size(), 3u);
   EXPECT_TRUE(flat.scores.conditions[0].trained);
   EXPECT_FALSE(flat.scores.conditions[2].trained);
-  EXPECT_EQ(flat.statistics.classes.size(), 3u);  // the file keeps what the bags held
+  EXPECT_EQ(flat.statistics->classes.size(), 3u);  // the file keeps what the bags held
 }
 
 TEST(Calibrate, WithoutScoresTheTablesAreTheSame) {

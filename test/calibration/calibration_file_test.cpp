@@ -1,4 +1,5 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
+#include "compensation/training_statistics.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -158,14 +159,14 @@ TEST_F(CalibrationFile, GivesBackScoresAndStatistics) {
   const Calibration saved = small();
   saveCalibration(saved, path_);
   const Calibration loaded = loadCalibration(path_, CalibrationParts::kAll);
-  EXPECT_EQ(loaded.statistics.cells, saved.statistics.cells);
-  EXPECT_EQ(loaded.statistics.sections, 5u);
-  EXPECT_EQ(loaded.statistics.taxels, 4u);
+  EXPECT_EQ(loaded.statistics->cells, saved.statistics->cells);
+  EXPECT_EQ(loaded.statistics->sections, 5u);
+  EXPECT_EQ(loaded.statistics->taxels, 4u);
   ASSERT_EQ(loaded.scores.conditions.size(), 2u);
   EXPECT_TRUE(loaded.scores.conditions[1].trained);
   expectSameScore(loaded.scores.conditions[1].score, saved.scores.conditions[1].score);
   expectSameScore(loaded.scores.whole, saved.scores.whole);
-  EXPECT_TRUE(loadCalibration(path_).statistics.cells.empty());
+  EXPECT_EQ(loadCalibration(path_).statistics, nullptr);
 }
 
 TEST_F(CalibrationFile, TheSameCalibrationMakesTheSameBytes) {
@@ -267,6 +268,21 @@ TEST_F(CalibrationFile, ALaterSchemaAsksForAnUpdate) {
   content.replace(content.find("schema=2"), 8, "schema=7");
   write(content);
   EXPECT_EQ(complaint(), path_ + ": has schema 7, but this version reads up to 2; update the package");
+  content.replace(content.find("schema=7"), 8, "schema=0");
+  write(content);
+  EXPECT_EQ(complaint(), path_ + ": has schema 0, but this version reads 1 to 2; train again");
+}
+
+// The hash covers the content, not the first line.
+TEST_F(CalibrationFile, AChangedSchemaIsDamage) {
+  saveCalibration(small(), path_);
+  std::string content = bytes();
+  content.replace(content.find("schema=2"), 8, "schema=1");
+  write(content);
+  EXPECT_EQ(complaint(),
+            path_ +
+                ": is damaged: its first line names schema 1, but its content is of another; copy "
+                "the file again or train again");
 }
 
 TEST_F(CalibrationFile, WhatCannotBeWrittenLeavesTheOldFile) {

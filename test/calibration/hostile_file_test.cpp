@@ -10,6 +10,7 @@
 #include <fstream>
 #include <functional>
 
+#include "compensation/training_statistics.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -84,9 +85,11 @@ TEST_F(HostileFile, WhatDoesNotFitIsRefused) {
             }),
             "its knots of /rule/unseen do not ascend");
   EXPECT_EQ(complaintAbout([](Calibration& c) {
-              c.statistics.classes = c.tables.classes;
-              c.statistics.taxels = ~std::size_t{0};
-              c.statistics.sections = 1;
+              compensation::TrainingStatistics statistics;
+              statistics.classes = c.tables.classes;
+              statistics.taxels = ~std::size_t{0};
+              statistics.sections = 1;
+              c.statistics = std::make_shared<const compensation::TrainingStatistics>(statistics);
             }),
             "its /statistics taxels or sections do not fit the matrix");
 }

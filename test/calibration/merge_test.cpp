@@ -165,7 +165,7 @@ TEST(MergeRefuses, WhatNeedsTheBags) {
   }
   const Setting grnn = setting("", compensation::Scheme::kBaseline, "grnn");
   Calibration bare = train({bags[0]}, grnn);
-  bare.statistics = {};
+  bare.statistics = nullptr;
   EXPECT_EQ(complaint({{"a.h5", bare}, {"c.h5", train({bags[2]}, grnn)}}),
             "a.h5: holds no statistics to merge; train on all bags instead");
 }

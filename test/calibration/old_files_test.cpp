@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "compensation/training_statistics.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 
@@ -17,7 +18,7 @@ TEST(OldCalibrationFiles, AllLoadAndCalibrate) {
   for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
     const Calibration calibration = loadCalibration(entry.path().string(), CalibrationParts::kAll);
     EXPECT_NO_THROW(Calibrator(calibration.tables, calibration.layout)) << entry.path();
-    EXPECT_FALSE(calibration.statistics.cells.empty()) << entry.path();
+    EXPECT_FALSE(calibration.statistics->cells.empty()) << entry.path();
     ++files;
   }
   EXPECT_GE(files, 2);

@@ -238,11 +238,11 @@ TEST(Schemes, OnAClassTheLiveMapIsTheOfflineModel) {
   for (const compensation::Scheme scheme :
        {compensation::Scheme::kCurvatureInput, compensation::Scheme::kScaledCurvature}) {
     const Calibration& calibration = train(scheme);
-    const compensation::TrainingStatistics& statistics = calibration.statistics;
+    const compensation::TrainingStatistics& statistics = *calibration.statistics;
     compensation::SchemePlan plan = compensation::planScheme(scheme, statistics.classes);
     if (scheme == compensation::Scheme::kScaledCurvature)
       plan.curvature_scale = calibration.tables.rule.length_scale.at(0);
-    compensation::ClassReadings readings;
+    regression::ClassReadings readings;
     readings.full_scale = statistics.full_scale;
     for (std::size_t k = 0; k < kTrained.size(); ++k) {
       readings.sums.emplace_back(statistics.full_scale);

@@ -32,8 +32,8 @@ regression::CodeSamples samplesOf(std::size_t curvature_class, int keep_each = 1
   return samples;
 }
 
-ClassReadings threeClasses(int keep_each = 1) {
-  ClassReadings readings;
+regression::ClassReadings threeClasses(int keep_each = 1) {
+  regression::ClassReadings readings;
   readings.full_scale = kFullScale;
   for (std::size_t k = 0; k < kClasses.size(); ++k) {
     readings.samples.push_back(samplesOf(k, keep_each));
@@ -111,7 +111,7 @@ TEST(FitScheme, LeastSquaresOnTwoInputsAgreeWithNumpy) {
 // What the paper calls method 2 cannot use the curvature at its bandwidth: standardised, the curvatures lie
 // so many bandwidths apart that no reading of another class has any weight.
 TEST(FitScheme, CurvatureAsInputIsOneModelACurvatureAtThePapersBandwidth) {
-  const ClassReadings readings = threeClasses();
+  const regression::ClassReadings readings = threeClasses();
   regression::CodeHistogram all(kFullScale);
   for (const regression::CodeHistogram& sums : readings.sums) all.add(sums);
   for (const Scheme scheme : {Scheme::kCurvatureInput, Scheme::kOneHot}) {
@@ -130,7 +130,7 @@ TEST(FitScheme, CurvatureAsInputIsOneModelACurvatureAtThePapersBandwidth) {
 }
 
 TEST(FitScheme, BinaryInputIsFlatOrCurvedAtThePapersBandwidth) {
-  const ClassReadings readings = threeClasses();
+  const regression::ClassReadings readings = threeClasses();
   regression::CodeHistogram all(kFullScale), bent(kFullScale);
   for (const regression::CodeHistogram& sums : readings.sums) all.add(sums);
   for (const std::size_t k : {1, 2}) bent.add(readings.sums[k]);
@@ -148,7 +148,7 @@ TEST(FitScheme, AForestTakesTheCurvatureInWithoutChangingUnits) {
   regression::RegressorOptions forest;
   forest.name = "forest";
   forest.forest.trees = 20;
-  const ClassReadings readings = threeClasses();
+  const regression::ClassReadings readings = threeClasses();
   const auto fits = fitScheme(planScheme(Scheme::kCurvatureInput, kClasses), 0, readings, forest);
   regression::CodeSamples all;
   all.full_scale = kFullScale;
@@ -164,7 +164,7 @@ TEST(FitScheme, AForestTakesTheCurvatureInWithoutChangingUnits) {
 }
 
 TEST(FitScheme, AClassWithoutReadingsIsAnsweredByItsNeighboursWhereCurvatureIsAnInput) {
-  ClassReadings readings = threeClasses();
+  regression::ClassReadings readings = threeClasses();
   readings.sums[1] = regression::CodeHistogram(kFullScale);
   readings.samples.clear();
   const auto input = fitScheme(planScheme(Scheme::kCurvatureInput, kClasses), 0, readings, grnn(1.0));
@@ -180,7 +180,7 @@ TEST(FitScheme, AClassWithoutReadingsIsAnsweredByItsNeighboursWhereCurvatureIsAn
 }
 
 TEST(FitScheme, AClassWithoutReadingsIsAnsweredByTheSchemesRule) {
-  ClassReadings readings = threeClasses();
+  regression::ClassReadings readings = threeClasses();
   readings.samples.clear();
   readings.sums[1] = regression::CodeHistogram(kFullScale);
   const auto answer = [&](Scheme scheme, const EffectLaw& law = {}) {
@@ -199,7 +199,7 @@ TEST(FitScheme, AClassWithoutReadingsIsAnsweredByTheSchemesRule) {
 }
 
 TEST(FitScheme, OneClassHasNothingToLearnFromItsCurvature) {
-  ClassReadings readings = threeClasses();
+  regression::ClassReadings readings = threeClasses();
   readings.sums.erase(readings.sums.begin() + 1, readings.sums.end());
   readings.samples.clear();
   const auto input = fitScheme(planScheme(Scheme::kCurvatureInput, {kClasses[0]}), 0, readings, grnn(0.1));
@@ -212,7 +212,7 @@ TEST(FitScheme, OneClassHasNothingToLearnFromItsCurvature) {
 TEST(FitScheme, HeldOutModelsAreThoseOfTheOtherSections) {
   SectionedReadings readings;
   readings.full_scale = kFullScale;
-  ClassReadings without_first;
+  regression::ClassReadings without_first;
   without_first.full_scale = kFullScale;
   for (std::size_t k = 0; k < kClasses.size(); ++k) {
     readings.sums.push_back({regression::statisticsOf(samplesOf(k)),
@@ -245,24 +245,24 @@ TEST(FitScheme, SaysWhichRegressorTakesASecondInput) {
   regression::RegressorOptions options;
   options.name = "monotone";
   EXPECT_EQ(refusal(Scheme::kPerCurvature, options), "accepted");
-  EXPECT_EQ(
-      refusal(Scheme::kCurvatureInput, options),
-      "scheme curvature_input gives the model a second input, which monotone cannot take; choose linear, "
-      "grnn or forest");
+  EXPECT_EQ(refusal(Scheme::kCurvatureInput, options),
+            "scheme curvature_input needs a model that takes a second input, and monotone does not; models "
+            "that do: "
+            "linear, grnn, forest");
   options.name = "forest";
   EXPECT_EQ(refusal(Scheme::kOneHot, options),
-            "scheme one_hot gives the model a second input, which a forest here takes as one column only; "
-            "choose linear or grnn, or curvature_input");
+            "scheme one_hot needs a model that takes a second input of several columns, and forest does not; "
+            "models that do: linear, grnn");
   EXPECT_EQ(
       refusal(Scheme::kScaledCurvature, options),
-      "scheme scaled_curvature gives the model a second input, which only a GRNN has a length scale for; "
-      "choose grnn, or curvature_input");
+      "scheme scaled_curvature needs a model that takes a second input with a length scale of its own, and "
+      "forest does not; models that do: grnn");
   options.name = "grnn";
   options.grnn.distance = regression::KernelDistance::kLiteral;
   EXPECT_EQ(
       refusal(Scheme::kBinaryInput, options),
-      "scheme binary_input gives the model a second input, which a GRNN takes with the squared distance "
-      "and samples of equal weight only");
+      "scheme binary_input needs a model that takes a second input, and grnn does so only with the squared "
+      "distance and samples of equal weight");
 }
 
 }  // namespace

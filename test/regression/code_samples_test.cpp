@@ -1,10 +1,10 @@
-#include "fsr_pressure_map/regression/code_samples.h"
+#include "regression/code_samples.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "fsr_pressure_map/regression/grnn.h"
+#include "regression/grnn/grnn.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "regression/cross_validation.h"
 

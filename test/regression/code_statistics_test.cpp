@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/code_statistics.h"
+#include "regression/code_statistics.h"
 
 #include <gtest/gtest.h>
 

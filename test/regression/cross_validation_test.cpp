@@ -7,7 +7,7 @@
 #include <functional>
 #include <random>
 
-#include "fsr_pressure_map/regression/grnn.h"
+#include "regression/grnn/grnn.h"
 #include "regression/held_out_deviation.h"
 
 namespace fsr::regression {

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/forest.h"
+#include "regression/forest/forest.h"
 
 #include <gtest/gtest.h>
 

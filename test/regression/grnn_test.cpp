@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/grnn.h"
+#include "regression/grnn/grnn.h"
 
 #include <gtest/gtest.h>
 

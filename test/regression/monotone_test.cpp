@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "fsr_pressure_map/regression/grnn.h"
+#include "regression/grnn/grnn.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "regression/isotonic.h"
 

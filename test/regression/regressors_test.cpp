@@ -1,6 +1,6 @@
 // What every regressor owes its callers, checked on each of them and on each way to set it.
 
-#include "fsr_pressure_map/regression/regressors.h"
+#include "regression/regressors.h"
 
 #include <gtest/gtest.h>
 

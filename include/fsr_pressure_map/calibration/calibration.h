@@ -3,16 +3,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "fsr_pressure_map/calibration/scores.h"
 #include "fsr_pressure_map/calibration/trained_ranges.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
-#include "fsr_pressure_map/compensation/training_statistics.h"
 #include "fsr_pressure_map/dataset/coverage.h"
 #include "fsr_pressure_map/dataset/recording.h"
-#include "fsr_pressure_map/regression/regressors.h"
+#include "fsr_pressure_map/regression/regressor_options.h"
+
+namespace fsr::compensation {
+struct TrainingStatistics;
+}
 
 namespace fsr::calibration {
 
@@ -66,8 +70,9 @@ struct Calibration {
   dataset::Coverage coverage;
   CalibrationScores scores;
   Provenance provenance;
-  compensation::TrainingStatistics statistics;  ///< empty where it was loaded without
-  std::vector<std::string> warnings;            ///< sentences for the user
+  /// Sums behind the tables, from which merging trains anew. Null: the file was loaded without them.
+  std::shared_ptr<const compensation::TrainingStatistics> statistics;
+  std::vector<std::string> warnings;  ///< sentences for the user
 };
 
 /// Throws InputError: one sentence that names the first thing in the way and what would be right.

@@ -20,8 +20,11 @@ enum class CalibrationParts { kWithoutStatistics, kAll };
 /// the whole new one. Returns the id. Throws InputError where `path` cannot be written.
 std::string saveCalibration(const Calibration& calibration, const std::string& path);
 
-/// Throws InputError: one sentence that names the file and what is wrong with it.
+/// `regressors` knows the options of the model in the file; null = the regressors of this package. A table
+/// must outlive the calibration. Throws InputError: one sentence that names the file and what is wrong with
+/// it.
 Calibration loadCalibration(const std::string& path,
-                            CalibrationParts parts = CalibrationParts::kWithoutStatistics);
+                            CalibrationParts parts = CalibrationParts::kWithoutStatistics,
+                            const regression::RegressorTable* regressors = nullptr);
 
 }  // namespace fsr::calibration

@@ -1,4 +1,5 @@
 #include "calibration/file/calibration_hdf5.h"
+#include "compensation/training_statistics.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr::calibration {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsr_pressure_map/regression/code_samples.h"
-#include "fsr_pressure_map/regression/forest.h"
+#include "regression/code_samples.h"
+#include "regression/forest/forest.h"
 #include "statistics/random_stream.h"
 
 namespace fsr::regression {

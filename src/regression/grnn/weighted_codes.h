@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsr_pressure_map/regression/code_statistics.h"
-#include "fsr_pressure_map/regression/regressor.h"
+#include "regression/code_statistics.h"
+#include "regression/regressor.h"
 
 namespace fsr::regression {
 

@@ -11,6 +11,7 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "regression/option_names.h"
+#include "regression/regressors.h"
 #include "report/calibration_check_report.h"
 #include "report/calibration_report.h"
 #include "ros/bags/bag_reader.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsr_pressure_map/compensation/blend_table.h"
+#include "compensation/blend_table.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
 
 namespace fsr::calibration {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
 #include "fsr_pressure_map/matrix/curvature.h"
 
@@ -16,12 +17,6 @@ namespace fsr::calibration {
 /// class, whatever its curvature, and any other surface lies between classes.
 class ClassSwitch {
  public:
-  /// What was chosen for a taxel.
-  struct Choice {
-    std::size_t curvature_class = 0;
-    std::uint16_t flags = 0;  ///< taxel_flag::kCurvatureExtrapolated, kBetweenClasses or 0
-  };
-
   /// A taxel leaves its class only when another is nearer by more than `hysteresis` [1/m]. `tables` is
   /// read for its classes, range, tolerance and rule only.
   ClassSwitch(const compensation::CurvatureTables& tables, double hysteresis);
@@ -33,7 +28,7 @@ class ClassSwitch {
   void fallBack();
 
   /// [rows x columns], row-major.
-  const std::vector<Choice>& choices() const { return choices_; }
+  const std::vector<ClassChoice>& choices() const { return choices_; }
 
  private:
   std::size_t nearest(std::size_t taxel, double curvature) const;
@@ -49,7 +44,7 @@ class ClassSwitch {
   double hysteresis_;
   bool by_name_;
   matrix::Surface last_;  // name and mount only; unknown after fallBack()
-  std::vector<Choice> choices_;
+  std::vector<ClassChoice> choices_;
 };
 
 }  // namespace fsr::calibration

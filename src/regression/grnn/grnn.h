@@ -3,37 +3,10 @@
 #include <cstddef>
 #include <string>
 
-#include "fsr_pressure_map/regression/regressor.h"
+#include "fsr_pressure_map/regression/regressor_options.h"
+#include "regression/regressor.h"
 
 namespace fsr::regression {
-
-/// Bandwidth of the paper: the spread sigma in units of the training readings' deviation.
-constexpr double kPaperBandwidth = 1.0 / 128.0;
-
-/// What the number called bandwidth (or spread) means.
-enum class SpreadMeaning {
-  kSigma,  ///< sigma of the Gaussian
-  kHalf,   ///< MATLAB's newgrnn: the distance at which the kernel is 0.5, sigma = 0.8493 spread
-};
-
-/// What stands in the kernel's exponent.
-enum class KernelDistance {
-  kSquared,  ///< -D^2 / 2 sigma^2: Specht's GRNN
-  kLiteral,  ///< -D / 2 sigma^2: as the paper's sentence reads ("D_j^2 is the Euclidean distance")
-};
-
-/// What each training sample counts for.
-enum class SampleWeighting {
-  kEachSample,       ///< every sample alike: the answer leans towards pressures that the chamber held long
-  kEachPressureBin,  ///< every bin of training pressure alike (see pressure_grid.h)
-};
-
-struct GrnnOptions {
-  double bandwidth = kPaperBandwidth;
-  SpreadMeaning spread = SpreadMeaning::kSigma;
-  KernelDistance distance = KernelDistance::kSquared;
-  SampleWeighting weighting = SampleWeighting::kEachSample;
-};
 
 /// Throws InputError where the bandwidth is not within 1e-6 to 1000.
 void validate(const GrnnOptions& options);

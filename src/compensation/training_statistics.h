@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/dataset/condition_classes.h"
-#include "fsr_pressure_map/regression/code_statistics.h"
+#include "regression/code_statistics.h"
 
 namespace fsr::compensation {
 

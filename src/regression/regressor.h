@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/regression/code_samples.h"
-#include "fsr_pressure_map/regression/code_statistics.h"
+#include "regression/code_samples.h"
+#include "regression/code_statistics.h"
 
 namespace fsr::regression {
 

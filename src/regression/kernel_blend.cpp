@@ -1,11 +1,11 @@
-#include "compensation/kernel_blend.h"
+#include "regression/kernel_blend.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "regression/grnn/vector_width.h"
 
-namespace fsr::compensation {
+namespace fsr::regression {
 
 namespace {
 
@@ -18,13 +18,13 @@ constexpr double kNegligibleExponent = 40.0;
 constexpr double kLargestLogWeight = 40.0;
 constexpr std::size_t kCodesInCache = 512;
 
-double logWeight(const regression::KernelMean& mean, std::size_t code) {
+double logWeight(const KernelMean& mean, std::size_t code) {
   return mean.weight[code] > 0 ? std::log(mean.weight[code]) : mean.log_weight[code];
 }
 
 // The answer at one code by logarithms. `log_weight` [K] is room for them; `nearest` = class of the least
 // exponent, from which on most others need not be looked at.
-double byLogarithms(const std::vector<regression::KernelMean>& classes, const std::vector<double>& exponent,
+double byLogarithms(const std::vector<KernelMean>& classes, const std::vector<double>& exponent,
                     std::size_t nearest, std::size_t code, std::vector<double>& log_weight) {
   double largest = logWeight(classes[nearest], code) - exponent[nearest];
   for (std::size_t k = 0; k < classes.size(); ++k) {
@@ -62,10 +62,9 @@ void divide(const double* __restrict__ share, std::size_t codes, double* __restr
 
 }  // namespace
 
-regression::Fit blendKernels(const std::vector<regression::KernelMean>& classes,
-                             const std::vector<double>& exponent) {
+Fit blendKernels(const std::vector<KernelMean>& classes, const std::vector<double>& exponent) {
   const std::size_t codes = classes.front().pressure.size();
-  regression::Fit fit{std::vector<double>(codes, 0.0), std::vector<double>(codes, 0.0)};
+  Fit fit{std::vector<double>(codes, 0.0), std::vector<double>(codes, 0.0)};
   std::vector<double> factor;
   for (const double x : exponent) factor.push_back(std::exp(-x));
   for (std::size_t begin = 0; begin < codes; begin += kCodesInCache) {
@@ -88,4 +87,4 @@ regression::Fit blendKernels(const std::vector<regression::KernelMean>& classes,
   return fit;
 }
 
-}  // namespace fsr::compensation
+}  // namespace fsr::regression

@@ -4,32 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsr_pressure_map/regression/regressor.h"
+#include "fsr_pressure_map/regression/regressor_options.h"
+#include "regression/regressor.h"
 
 namespace fsr::regression {
-
-/// What happens where the input drawn for a node cannot split it (all its values agree, or every cut
-/// would leave too few readings on one side). Libraries differ, and do not say so.
-enum class InputSampling {
-  kRetry,  ///< the other input is tried; scikit-learn nearly does so (it retries constant inputs only)
-  kLeaf,   ///< the node becomes a leaf; ranger does so
-};
-
-/// What the minimum leaf counts. A reading drawn twice is two draws; libraries differ here too, and it
-/// moves RMSE% by some 0.06.
-enum class LeafCount {
-  kDraws,     ///< as trees grown on a replica of the data do: MATLAB, ranger, dlib
-  kDistinct,  ///< different readings: scikit-learn, which weights readings instead of repeating them
-};
-
-/// The paper's forest, with MATLAB's conventions (TreeBagger and fitrensemble 'Bag', regression).
-struct ForestOptions {
-  std::size_t trees = 150;
-  std::size_t minimum_leaf = 5;
-  LeafCount leaf_count = LeafCount::kDraws;
-  InputSampling sampling = InputSampling::kRetry;
-  std::uint64_t seed = 1;
-};
 
 /// Random forest of regression trees (Breiman 2001), exact. Each tree grows on N readings drawn from
 /// the N of training with replacement; a node is cut where the sum of squared errors falls most, midway
