@@ -18,7 +18,7 @@ namespace fsr::calibration {
 
 namespace {
 
-// The recordings as training sees them, and what becomes of them taxel by taxel.
+// Training of a calibration: the recordings in the form that training needs, and the work on each taxel.
 class Training {
  public:
   explicit Training(const CalibrationProblem& problem)
@@ -56,7 +56,7 @@ class Training {
   }
 
  private:
-  // Everything but what is found taxel by taxel.
+  // Everything except the results of each taxel.
   Calibration describe();
   std::shared_ptr<compensation::TrainingStatistics> emptyStatistics() const;
   void sum(std::size_t taxel);

@@ -22,7 +22,7 @@ constexpr double kOnClass = 1e-6;  // [1/m]
 constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
 constexpr std::uint16_t kBelowTraining = map::taxel_flag::kReadingExtrapolated | map::taxel_flag::kBelowRange;
 
-// The flag, or 0.
+// The flag if the condition is true, else 0.
 inline std::uint16_t flagWhere(bool condition, std::uint16_t flag) {
   return static_cast<std::uint16_t>(-static_cast<int>(condition) & flag);
 }
@@ -32,8 +32,8 @@ inline void copyOne(const compensation::TableEntry& entry, float& pressure, floa
   deviation = entry.deviation;
 }
 
-// The entries of four taxels, pressures and deviations sorted apart: the loads go on side by side, which no
-// compiler finds.
+// Loads the entries of four taxels and separates pressures from deviations. The loads run in parallel;
+// compilers do not find this themselves.
 inline void copyFour(const compensation::TableEntry* const* table, const std::uint16_t* codes,
                      float* pressure, float* deviation) {
 #ifdef __SSE2__
@@ -51,7 +51,7 @@ inline void copyFour(const compensation::TableEntry* const* table, const std::ui
 #endif
 }
 
-// Of a code between two entries, on the line that joins them.
+// The entry of a code between two stored entries, by linear interpolation.
 inline compensation::TableEntry between(const compensation::TableEntry* table, std::uint16_t code,
                                         unsigned shift) {
   const compensation::TableEntry* const entry = table + (code >> shift);
@@ -195,7 +195,7 @@ void Calibrator::Impl::setTare(const std::vector<float>& offset) {
   refreshConstantFlags();
 }
 
-// An unknown surface is taken for the class that the switch has fallen back to.
+// For an unknown surface the curvature is that of the class that the switch has chosen.
 void Calibrator::Impl::selectTables(const matrix::Surface& surface) {
   for (std::size_t taxel = 0; taxel < table_.size(); ++taxel) {
     const std::size_t chosen = switch_.choices()[taxel].curvature_class;
@@ -232,7 +232,8 @@ const compensation::TableEntry* Calibrator::Impl::blended(std::size_t taxel, dou
   compensation::blendTable(rule_,
                            rule_.blend == compensation::BlendRule::kKernel ? rule_.lengthScale(taxel) : 0,
                            tables_.tables(taxel), curvature, chosen, table);
-  // A rule that is off, or a class without a model, may blend to what is no pressure: then there is none.
+  // A faulty rule, or a class without a model, may give a value that is not a pressure. Then the taxel has no
+  // model.
   now = {curvature, chosen, allFinite(table, tables_.entries())};
   return table;
 }
@@ -271,7 +272,7 @@ void Calibrator::Impl::calibrate(const matrix::ScanView& scan, double time, map:
   out.state = state(time);
 }
 
-// After a jump back the last surface would lie in the future: it counts as fresh from here on.
+// After a jump back in time the last surface would be in the future; it counts as new from here on.
 void Calibrator::Impl::noteTime(double time) noexcept {
   if (time < last_time_) surface_time_ = std::min(surface_time_, time);
   last_time_ = time;
@@ -302,7 +303,7 @@ void Calibrator::Impl::lookUp(map::PressureMap& out) const noexcept {
   for (std::size_t i = 0; i < n; ++i) pressure[i] -= offset_[i];
 }
 
-// Without branches and in 16 bits, so that the compiler takes eight taxels at a time.
+// Without branches and in 16 bits, so that the compiler vectorises it for eight taxels at a time.
 void Calibrator::Impl::flagCodes(map::PressureMap& out) const noexcept {
   const std::uint16_t full_scale = tables_.fullScale();
   const std::uint16_t* codes = codes_.data();

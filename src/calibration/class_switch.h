@@ -11,20 +11,20 @@
 
 namespace fsr::calibration {
 
-/// Chooses the curvature class of each taxel: the nearest by principal curvature, with hysteresis while
-/// the sheet stays on one surface and mount, so that a curvature that wavers between two classes does
-/// not make the pressure jump to and fro. Where the rule is by name, a surface of a class's name takes that
-/// class, whatever its curvature, and any other surface lies between classes.
+/// Chooses the curvature class of each taxel: the nearest by principal curvature. While the sheet stays on
+/// one surface and mount there is hysteresis, so that a curvature near the middle of two classes does not
+/// make the pressure jump between them. If the rule is by name, a surface with the name of a class gets that
+/// class, whatever its curvature, and any other surface is between classes.
 class ClassSwitch {
  public:
-  /// A taxel leaves its class only when another is nearer by more than `hysteresis` [1/m]. `tables` is
-  /// read for its classes, range, tolerance and rule only.
+  /// A taxel changes its class only if another is nearer by more than `hysteresis` [1/m]. Only classes,
+  /// range, tolerance and rule of `tables` are used.
   ClassSwitch(const compensation::CurvatureTables& tables, double hysteresis);
 
-  /// Chooses anew for a surface of known curvature that fits the matrix.
+  /// Chooses the classes for a surface of known curvature that fits the matrix.
   void choose(const matrix::Surface& surface);
 
-  /// Curvature unknown: the flattest class of each taxel, which is what a calibration falls back to.
+  /// Chooses the flattest class of each taxel, for an unknown curvature.
   void fallBack();
 
   /// [rows x columns], row-major.

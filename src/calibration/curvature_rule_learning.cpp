@@ -12,8 +12,8 @@ namespace fsr::calibration {
 
 namespace {
 
-// Of a GRNN on curvature: its bandwidth in units of the training curvatures' deviation, unless it has a
-// scale of its own.
+// Length scale of a GRNN on curvature: its own, if it has one, else its bandwidth in units of the standard
+// deviation of the training curvatures.
 double lengthScale(const compensation::SchemePlan& plan, const regression::RegressorOptions& regressor,
                    const compensation::TrainingStatistics& statistics, std::size_t taxel) {
   if (plan.curvature_scale > 0) return plan.curvature_scale;

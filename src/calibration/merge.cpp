@@ -19,7 +19,7 @@ namespace {
 
 constexpr char kInstead[] = "; train on all bags instead";
 
-// Options of a regressor that has them in `more`.
+// Options in RegressorOptions::more.
 std::string optionsText(const regression::RegressorOptions& options) {
   std::ostringstream text;
   for (const auto& [name, value] : options.more)
@@ -33,7 +33,7 @@ std::string bandwidthText(const Calibration& calibration) {
   return calibration.bandwidth_chosen ? "auto" : text.str();
 }
 
-// What two parts must share, in words, with what each has.
+// Properties that must be equal in all parts: name and value.
 std::vector<std::pair<std::string, std::string>> traitsOf(const Calibration& calibration) {
   const regression::RegressorOptions& model = calibration.regressor;
   const bool grnn = model.name == "grnn";
@@ -82,10 +82,10 @@ void requireMergeable(const MergePart& part) {
   const bool grnn = calibration.regressor.name == "grnn";
   throw settings::InputError(part.name + ": the model " + calibration.regressor.name +
                              (grnn ? " with equal pressure bins" : "") +
-                             " needs the bags, the sums of a calibration file do not serve it" + kInstead);
+                             " needs the bags; the sums in a calibration file are not sufficient" + kInstead);
 }
 
-// The first files do not keep the conditions: their classes stand for them.
+// Files of the first version do not contain the conditions; their classes are used instead.
 std::vector<dataset::RecordedCondition> conditionsOf(const Calibration& calibration) {
   if (!calibration.statistics->conditions.empty()) return calibration.statistics->conditions;
   std::vector<dataset::RecordedCondition> conditions;
@@ -118,7 +118,8 @@ class Merging {
   Calibration run(const MergeOptions& options);
 
  private:
-  // Which class of the whole each class of a part becomes; `first` = number of its first condition.
+  // The class of the merged calibration for each class of a part; `first` = index of the first condition of
+  // the part.
   std::vector<std::size_t> classesOf(const MergePart& part, std::size_t first) const;
   void mergeFacts(const Calibration& part, Calibration& whole) const;
   compensation::TrainingStatistics mergeStatistics() const;

@@ -17,7 +17,7 @@ namespace {
 constexpr char kConstantTaxels[] =
     "these taxels (row * columns + column) read the same count throughout a condition and get no model: ";
 
-// A reading that never changes tells nothing.
+// Whether the reading changes. One that does not contains no information.
 bool varies(const compensation::TrainingStatistics& statistics, const compensation::SchemePlan::Model& model,
             std::size_t taxel) {
   TrainedInterval codes;
@@ -43,7 +43,7 @@ std::uint64_t scansOf(const compensation::TrainingStatistics& statistics,
   return scans;
 }
 
-// Where no taxel has a model: is it one of several surfaces that gives none?
+// Called if no taxel has a model. Throws if one of several surfaces is the reason.
 void refuseStillSurface(const compensation::SchemePlan& plan, const Calibration& calibration) {
   const std::size_t taxels = calibration.masked.size();
   std::vector<const compensation::SchemePlan::Model*> still;
@@ -70,7 +70,7 @@ regression::CodeTable noModel(std::uint16_t full_scale, bool kernels) {
   return table;
 }
 
-// Where kernels are blended, the tables are those of the classes alone.
+// If kernels are blended, the tables are those of the single classes.
 void useKernels(const regression::ClassReadings& readings, const regression::RegressorOptions& regressor,
                 regression::CodeTable* tables) {
   const std::vector<regression::KernelMean> means =
@@ -81,7 +81,7 @@ void useKernels(const regression::ClassReadings& readings, const regression::Reg
   }
 }
 
-// The model that schemes are learned with.
+// The model with which the parameters of schemes are found.
 regression::GrnnOptions plainKernel(const regression::GrnnOptions& options) {
   regression::GrnnOptions plain;
   plain.bandwidth = options.bandwidth;

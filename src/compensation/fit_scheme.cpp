@@ -29,7 +29,7 @@ regression::Fit fitClasses(const std::vector<std::size_t>& trained_on,
   return pooled.size() > 0 ? regressor.fitSamples(pooled) : regression::Fit{};
 }
 
-// Whether a second input of this kind can be the scheme's.
+// Whether a regressor with this second input can be combined with the scheme.
 bool canTake(Scheme scheme, const std::optional<regression::SecondInput>& input) {
   if (!input) return false;
   if (scheme == Scheme::kOneHot) return input->several_columns;
@@ -104,7 +104,7 @@ class Without {
   regression::ClassReadings all_;
 };
 
-// What a model is tested on, section by section.
+// The readings that a model is tested on, by section.
 std::vector<regression::CodeStatistics> testedSections(const std::vector<std::size_t>& classes,
                                                        const SectionedReadings& readings) {
   std::vector<regression::CodeStatistics> sections(readings.sums.front().size());
@@ -138,7 +138,7 @@ regression::ClassInputs inputsOf(const SchemePlan& plan, std::size_t taxel,
     number.push_back(readings.readings(k));
   }
   regression::ClassInputs inputs = classInputs(plan.scheme, curvature, bent, number);
-  // so that squared distances over 2 sigma^2 are those over 2 scale^2
+  // gives exponents D^2 / 2 curvature_scale^2
   if (plan.curvature_scale > 0)
     inputs.scale.front() =
         regression::entryOf(regressor).second_input->sigma(regressor) / plan.curvature_scale;

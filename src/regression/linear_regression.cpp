@@ -17,7 +17,7 @@ struct Line {
   double scatter = 0;        // sum of (code - mean code)^2
 };
 
-// Sums about the means, so that a narrow range of large codes loses no digits.
+// Sums about the means, so that a narrow range of large codes loses no precision.
 Line leastSquares(const WeightedCodes& samples) {
   Line line;
   for (std::size_t i = 0; i < samples.code.size(); ++i) {

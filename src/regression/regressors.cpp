@@ -4,7 +4,7 @@
 
 namespace fsr::regression {
 
-// Each is defined beside its regressor.
+// Each is defined in the source of its regressor.
 RegressorEntry linearEntry();
 RegressorEntry grnnEntry();
 RegressorEntry forestEntry();

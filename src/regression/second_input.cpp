@@ -15,7 +15,7 @@ CodeHistogram pooled(const ClassReadings& readings) {
   return all;
 }
 
-// Classes whose inputs agree: one value of the second input each.
+// Classes with equal inputs form one group, i.e. one value of the second input.
 struct Groups {
   std::vector<std::size_t> group_of_class;
   std::vector<std::vector<std::size_t>> classes;  // of each group
@@ -40,7 +40,7 @@ WeightedCodes samplesOf(const std::vector<std::size_t>& classes, const ClassRead
   return weightedCodes(sums);
 }
 
-// Products of the standardised inputs (reading, then columns) and of the pressure, about their means.
+// Sums of products of the standardised inputs (reading, then columns) and of the pressure, about their means.
 struct Moments {
   double readings = 0;
   double mean_code = 0, code_scale = 0;  // 1 / deviation
@@ -50,7 +50,7 @@ struct Moments {
   Eigen::VectorXd with_pressure;  // [Pa]
 };
 
-// Standardised columns of each class, about their mean over the readings.
+// Standardised columns of each class, minus their mean over the readings.
 std::vector<Eigen::VectorXd> standardised(const ClassReadings& readings, const ClassInputs& inputs) {
   const auto number = static_cast<Eigen::Index>(inputs.scale.size());
   const Eigen::Map<const Eigen::VectorXd> scale(inputs.scale.data(), number);

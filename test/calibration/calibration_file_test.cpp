@@ -84,7 +84,7 @@ void expectSameScore(const Score& a, const Score& b) {
   }
 }
 
-TEST_F(CalibrationFile, GivesBackTheTablesBitForBit) {
+TEST_F(CalibrationFile, RestoresTheTablesBitForBit) {
   const Calibration saved = small();
   const std::string id = saveCalibration(saved, path_);
   const Calibration loaded = loadCalibration(path_);
@@ -109,7 +109,7 @@ TEST_F(CalibrationFile, GivesBackTheTablesBitForBit) {
   EXPECT_EQ(loaded.no_model, (std::vector<std::uint8_t>{0, 0, 1, 0}));
 }
 
-TEST_F(CalibrationFile, GivesBackHowTheModelWasSet) {
+TEST_F(CalibrationFile, RestoresTheOptionsOfTheModel) {
   Calibration saved = small();
   saved.bandwidth_chosen = true;
   saved.regressor.grnn = {0.5, regression::SpreadMeaning::kHalf, regression::KernelDistance::kLiteral,
@@ -130,7 +130,7 @@ TEST_F(CalibrationFile, GivesBackHowTheModelWasSet) {
   EXPECT_EQ(loaded.regressor.forest.leaf_count, regression::LeafCount::kDistinct);
 }
 
-TEST_F(CalibrationFile, GivesBackWhereTheNumbersComeFrom) {
+TEST_F(CalibrationFile, RestoresTheProvenance) {
   const Calibration saved = small();
   saveCalibration(saved, path_);
   const Calibration loaded = loadCalibration(path_);
@@ -155,7 +155,7 @@ TEST_F(CalibrationFile, GivesBackWhereTheNumbersComeFrom) {
   EXPECT_EQ(loaded.coverage.conditions[1].pressure_high, 600e3);
 }
 
-TEST_F(CalibrationFile, GivesBackScoresAndStatistics) {
+TEST_F(CalibrationFile, RestoresScoresAndStatistics) {
   const Calibration saved = small();
   saveCalibration(saved, path_);
   const Calibration loaded = loadCalibration(path_, CalibrationParts::kAll);
@@ -169,7 +169,7 @@ TEST_F(CalibrationFile, GivesBackScoresAndStatistics) {
   EXPECT_EQ(loadCalibration(path_).statistics, nullptr);
 }
 
-TEST_F(CalibrationFile, TheSameCalibrationMakesTheSameBytes) {
+TEST_F(CalibrationFile, OfTheSameCalibrationHasTheSameBytes) {
   const Calibration calibration = small();
   saveCalibration(calibration, path_);
   const std::string first = bytes();
@@ -200,9 +200,9 @@ TEST_F(CalibrationFile, BeginsWithOneLineOfText) {
   EXPECT_EQ(content.substr(513, 3), "HDF");
 }
 
-// Each byte in turn is another: every other one in the line of text, and behind it the complement and a bit
-// more or less. No complaint is one of HDF5's, so it was never asked.
-TEST_F(CalibrationFile, AnyByteChangedIsRefusedBeforeHdf5SeesIt) {
+// Changes one byte after the other: every second one in the line of text, and after it the complement and
+// single bits. No error message is from HDF5, so it has not read the file.
+TEST_F(CalibrationFile, AnyChangedByteIsRefusedBeforeHdf5ReadsTheFile) {
   SyntheticRig rig;
   rig.size = {1, 1};
   rig.full_scale = 63;
@@ -255,14 +255,14 @@ TEST_F(CalibrationFile, AForeignFileIsRefused) {
   saveCalibration(small(), path_);
   write(bytes().substr(512));  // HDF5 without our first line
   EXPECT_EQ(complaint(), foreign);
-  std::filesystem::resize_file(path_, std::uintmax_t{1} << 36);  // takes no room on the disk, nor in memory
+  std::filesystem::resize_file(path_, std::uintmax_t{1} << 36);  // needs no space on the disk or in memory
   EXPECT_EQ(complaint(), foreign);
   EXPECT_THROW(loadCalibration(testing::TempDir()), settings::InputError);
   std::remove(path_.c_str());
   EXPECT_EQ(complaint(), path_ + ": cannot be opened (No such file or directory)");
 }
 
-TEST_F(CalibrationFile, ALaterSchemaAsksForAnUpdate) {
+TEST_F(CalibrationFile, AnUnknownSchemaIsRefusedByNumber) {
   saveCalibration(small(), path_);
   std::string content = bytes();
   content.replace(content.find("schema=2"), 8, "schema=7");
@@ -274,7 +274,7 @@ TEST_F(CalibrationFile, ALaterSchemaAsksForAnUpdate) {
 }
 
 // The hash covers the content, not the first line.
-TEST_F(CalibrationFile, AChangedSchemaIsDamage) {
+TEST_F(CalibrationFile, AChangedSchemaIsRefused) {
   saveCalibration(small(), path_);
   std::string content = bytes();
   content.replace(content.find("schema=2"), 8, "schema=1");
@@ -285,14 +285,14 @@ TEST_F(CalibrationFile, AChangedSchemaIsDamage) {
                 "the file again or train again");
 }
 
-TEST_F(CalibrationFile, WhatCannotBeWrittenLeavesTheOldFile) {
+TEST_F(CalibrationFile, AFailedWriteKeepsTheOldFile) {
   write("old");
   const std::string directory = testing::TempDir() + "no_such_directory/";
   EXPECT_THROW(saveCalibration(small(), directory + "calibration.h5"), settings::InputError);
   EXPECT_EQ(bytes(), "old");
 }
 
-// h5py prints what it finds; the printed text is compared with what was saved.
+// The text that h5py prints is compared with what was saved.
 TEST_F(CalibrationFile, OpensInPythonWithUnits) {
   const Calibration saved = small();
   saveCalibration(saved, path_);

@@ -2,6 +2,7 @@
 // merged and answers, and is refused where it cannot do what the scheme needs.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "calibration/merge.h"

@@ -1,4 +1,4 @@
-// Every calibration file that a released version wrote stays in test/data and still loads.
+// One file of every schema is kept in test/data and must load.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ TEST(OldCalibrationFiles, AllLoadAndCalibrate) {
   EXPECT_GE(files, 2);
 }
 
-TEST(OldCalibrationFiles, SchemaOneKeepsItsMeaning) {
+TEST(OldCalibrationFiles, SchemaOneIsReadAsBefore) {
   const Calibration calibration = loadCalibration(kFolder + "schema_1.h5");
   EXPECT_EQ(calibration.id, "6a1d3370726e");
   EXPECT_EQ(calibration.tables.scheme, compensation::Scheme::kPerCurvature);
@@ -39,7 +39,7 @@ TEST(OldCalibrationFiles, SchemaOneKeepsItsMeaning) {
   EXPECT_DOUBLE_EQ(calibration.scores.whole.rmse_percent.mean, 0.35330320417948624);
 }
 
-TEST(OldCalibrationFiles, SchemaTwoKeepsItsRule) {
+TEST(OldCalibrationFiles, SchemaTwoIsReadAsBefore) {
   const Calibration calibration = loadCalibration(kFolder + "schema_2.h5");
   EXPECT_EQ(calibration.tables.scheme, compensation::Scheme::kScaledCurvature);
   EXPECT_EQ(calibration.tables.rule.blend, compensation::BlendRule::kKernel);

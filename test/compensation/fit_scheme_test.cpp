@@ -14,7 +14,8 @@ constexpr std::uint16_t kFullScale = 1023;
 const std::vector<dataset::CurvatureClass> kClasses = {
     {"flat", {0.0}}, {"radius_10cm", {10.0}}, {"radius_5cm", {20.0}}};
 
-// Readings that numpy can make too:
+// Readings that numpy can reproduce:
+//
 //   n = [60, 80, 100]; k = [0., 10., 20.]; q = np.repeat([0, 1, 2], n)
 //   i = np.concatenate([np.arange(m) for m in n])
 //   c = np.concatenate([(37*np.arange(m)**2 + 11*np.arange(m)*(j + 1)) % 900 + 100 for j, m in enumerate(n)])
@@ -108,9 +109,9 @@ TEST(FitScheme, LeastSquaresOnTwoInputsAgreeWithNumpy) {
   }
 }
 
-// What the paper calls method 2 cannot use the curvature at its bandwidth: standardised, the curvatures lie
-// so many bandwidths apart that no reading of another class has any weight.
-TEST(FitScheme, CurvatureAsInputIsOneModelACurvatureAtThePapersBandwidth) {
+// Method 2 of the paper cannot use the curvature at the paper's bandwidth: the standardised curvatures are so
+// many bandwidths apart that readings of other classes have no weight.
+TEST(FitScheme, CurvatureInputIsPerCurvatureAtThePapersBandwidth) {
   const regression::ClassReadings readings = threeClasses();
   regression::CodeHistogram all(kFullScale);
   for (const regression::CodeHistogram& sums : readings.sums) all.add(sums);
@@ -118,7 +119,7 @@ TEST(FitScheme, CurvatureAsInputIsOneModelACurvatureAtThePapersBandwidth) {
     const std::vector<regression::Fit> with_input =
         fitScheme(planScheme(scheme, kClasses), 0, readings, grnn(regression::kPaperBandwidth));
     for (std::size_t k = 0; k < kClasses.size(); ++k) {
-      // the class's own model, its bandwidth in the units of all readings
+      // the model of the class, with the bandwidth in units of all readings
       const double unit = regression::readingDeviation(all) / regression::readingDeviation(readings.sums[k]);
       const regression::Fit alone =
           regression::Grnn(regression::kPaperBandwidth * unit).fit(readings.sums[k]);
@@ -144,7 +145,7 @@ TEST(FitScheme, BinaryInputIsFlatOrCurvedAtThePapersBandwidth) {
   }
 }
 
-TEST(FitScheme, AForestTakesTheCurvatureInWithoutChangingUnits) {
+TEST(FitScheme, AForestDoesNotDependOnTheUnitOfCurvature) {
   regression::RegressorOptions forest;
   forest.name = "forest";
   forest.forest.trees = 20;
@@ -163,7 +164,7 @@ TEST(FitScheme, AForestTakesTheCurvatureInWithoutChangingUnits) {
   }
 }
 
-TEST(FitScheme, AClassWithoutReadingsIsAnsweredByItsNeighboursWhereCurvatureIsAnInput) {
+TEST(FitScheme, AClassWithoutReadingsIsPredictedFromItsNeighboursWithCurvatureAsInput) {
   regression::ClassReadings readings = threeClasses();
   readings.sums[1] = regression::CodeHistogram(kFullScale);
   readings.samples.clear();
@@ -179,7 +180,7 @@ TEST(FitScheme, AClassWithoutReadingsIsAnsweredByItsNeighboursWhereCurvatureIsAn
   }
 }
 
-TEST(FitScheme, AClassWithoutReadingsIsAnsweredByTheSchemesRule) {
+TEST(FitScheme, AClassWithoutReadingsIsPredictedByTheSchemesRule) {
   regression::ClassReadings readings = threeClasses();
   readings.samples.clear();
   readings.sums[1] = regression::CodeHistogram(kFullScale);
@@ -189,16 +190,16 @@ TEST(FitScheme, AClassWithoutReadingsIsAnsweredByTheSchemesRule) {
   };
   const auto alone = fitScheme(planScheme(Scheme::kPerCurvature, kClasses), 0, readings, grnn(0.1));
   const std::vector<double>&flat = alone[0].pressure, &bent = alone[2].pressure;
-  EXPECT_EQ(answer(Scheme::kPerCurvature), flat);  // midway, and the first of two as near
+  EXPECT_EQ(answer(Scheme::kPerCurvature), flat);  // midway: the first of two equally near classes
   EXPECT_EQ(answer(Scheme::kFlatOrCurved), flat);
   EXPECT_NEAR(answer(Scheme::kInterpolated)[500], 0.5 * (flat[500] + bent[500]), 1e-6);
   EXPECT_EQ(answer(Scheme::kBaseline),
             fitScheme(planScheme(Scheme::kBaseline, kClasses), 0, readings, grnn(0.1))[0].pressure);
-  const EffectLaw law{{0, 10, 20}, {1.0, 0.8, 0.8}, {0, 0, 0}};  // all of the effect by 10 1/m
+  const EffectLaw law{{0, 10, 20}, {1.0, 0.8, 0.8}, {0, 0, 0}};  // the full effect from 10 1/m on
   EXPECT_NEAR(answer(Scheme::kCurvatureMap, law)[500], 0.8 / 0.9 * 0.5 * (flat[500] + bent[500]), 1e-6);
 }
 
-TEST(FitScheme, OneClassHasNothingToLearnFromItsCurvature) {
+TEST(FitScheme, ASingleClassIsFittedWithoutItsCurvature) {
   regression::ClassReadings readings = threeClasses();
   readings.sums.erase(readings.sums.begin() + 1, readings.sums.end());
   readings.samples.clear();
@@ -209,7 +210,7 @@ TEST(FitScheme, OneClassHasNothingToLearnFromItsCurvature) {
   }
 }
 
-TEST(FitScheme, HeldOutModelsAreThoseOfTheOtherSections) {
+TEST(FitScheme, HeldOutModelsAreTrainedOnTheOtherSections) {
   SectionedReadings readings;
   readings.full_scale = kFullScale;
   regression::ClassReadings without_first;
@@ -241,7 +242,7 @@ std::string refusal(Scheme scheme, const regression::RegressorOptions& regressor
   return "accepted";
 }
 
-TEST(FitScheme, SaysWhichRegressorTakesASecondInput) {
+TEST(FitScheme, RefusesARegressorWithoutTheSecondInputByName) {
   regression::RegressorOptions options;
   options.name = "monotone";
   EXPECT_EQ(refusal(Scheme::kPerCurvature, options), "accepted");

@@ -25,7 +25,7 @@ constexpr std::size_t kIdDigits = 12;
 // 32 x 32 taxels of 16 bit with six classes fit [bytes].
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{4} << 30;
 
-// The whole user block: a line of text, the rest zeros.
+// The user block: a line of text, filled up with zeros.
 std::string userBlock(std::uint64_t schema, const std::string& hash) {
   std::string block = std::string(kFormat) + " schema=" + std::to_string(schema) + " sha256=" + hash + "\n";
   block.resize(hdf5::kUserBlock, '\0');
@@ -50,7 +50,7 @@ void readUpTo(std::uintmax_t size, std::ifstream& file, std::string& bytes) {
   }
 }
 
-// The file; of one that is no calibration no more than its first line.
+// The bytes of the file. Of a file that is not a calibration only the first line is read.
 std::string readWhole(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw settings::InputError("cannot be opened (" + std::string(std::strerror(errno)) + ")");
@@ -97,8 +97,8 @@ VerifiedFile verifiedFile(const std::string& path) {
   return {schema, verified(bytes, schema)};
 }
 
-// What changes when a file is replaced or written to: which it is, when and how long it is. Zeros where it
-// is not there.
+// Properties that change when a file is replaced or written to: inode, time, size. Zeros if it does not
+// exist.
 using FileState = std::tuple<ino_t, time_t, long, off_t>;
 
 FileState stateOf(const std::string& path) {

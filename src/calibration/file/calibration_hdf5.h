@@ -54,7 +54,7 @@ dataset::Coverage readCoverage(const hdf5::Reader& reader,
 void writeScores(const CalibrationScores& scores, hdf5::Writer& writer);
 CalibrationScores readScores(const hdf5::Reader& reader, const std::vector<dataset::CurvatureClass>& classes);
 void writeStatistics(const compensation::TrainingStatistics& statistics, hdf5::Writer& writer);
-/// `cells` = whether to read the sums too, not the classes alone.
+/// `cells`: whether to read the sums too, not only the classes.
 compensation::TrainingStatistics readStatistics(const hdf5::Reader& reader, matrix::MatrixSize size,
                                                 bool cells);
 void writeClasses(const std::string& group, const std::vector<dataset::CurvatureClass>& classes,

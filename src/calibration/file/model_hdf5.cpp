@@ -35,7 +35,7 @@ class ModelReader : public regression::OptionReader {
   const hdf5::Reader& reader_;
 };
 
-// Entries whose options are in a file of this model. The package's GRNN and forest are in files of any table.
+// The entries whose options are in a file of this model. Options of GRNN and forest are in every file.
 std::vector<const regression::RegressorEntry*> entriesIn(const regression::RegressorOptions& options) {
   std::vector<const regression::RegressorEntry*> entries;
   for (const regression::RegressorEntry& entry : regression::packageRegressors().entries) {
@@ -60,13 +60,12 @@ void writeModel(const Calibration& calibration, hdf5::Writer& writer) {
   }
 }
 
-// A model that this version does not know has its tables all the same, so that it can be used but not
-// trained.
+// If the model is unknown to this version, its tables can be used, but it cannot be trained.
 void readModel(const hdf5::Reader& reader, Calibration& calibration) {
   regression::RegressorOptions& options = calibration.regressor;
   options.name = reader.text("/", "model");
   options.grnn.bandwidth = reader.numbers("/", "bandwidth", 1)[0];
-  if (!reader.has(kGroup)) return;  // the first files, all of them of a GRNN with default options
+  if (!reader.has(kGroup)) return;  // files of the first version, all of a GRNN with default options
   calibration.bandwidth_chosen = reader.integer(kGroup, "bandwidth_chosen") != 0;
   const ModelReader model(reader);
   for (const regression::RegressorEntry* entry : entriesIn(options)) {

@@ -28,7 +28,7 @@ compensation::BlendRule blendFromName(const std::string& name) {
                              "\", which this version does not know; update the package");
 }
 
-// Columns of equal length, or none of them.
+// A column of the rule; empty if the file has none.
 std::vector<double> readColumn(const std::string& path, const hdf5::Reader& reader) {
   return reader.has(path) ? reader.dataset<double>(path, reader.shape(path)) : std::vector<double>{};
 }

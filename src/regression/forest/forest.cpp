@@ -29,7 +29,7 @@ Fit zeros(std::size_t table_size) {
   return {std::vector<double>(table_size, 0.0), std::vector<double>(table_size, 0.0)};
 }
 
-// Sums over trees, in their order.
+// Adds a leaf to the sums over trees, in the order of the trees.
 void addLeaf(const ForestLeaf& leaf, Fit& sums) {
   for (auto code = static_cast<std::size_t>(leaf.first); code < static_cast<std::size_t>(leaf.end); ++code) {
     sums.pressure[code] += leaf.pressure;
@@ -37,7 +37,7 @@ void addLeaf(const ForestLeaf& leaf, Fit& sums) {
   }
 }
 
-// Sums to means, units to Pa.
+// Converts sums to means and units to Pa.
 void finish(const ForestData& data, std::size_t trees, Fit& fit) {
   const auto number = static_cast<double>(trees);
   for (double& pressure : fit.pressure) pressure = data.centre + data.unit * (pressure / number);

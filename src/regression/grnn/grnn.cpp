@@ -92,7 +92,7 @@ RegressorEntry grnnEntry() {
     return std::make_unique<Grnn>(options.grnn);
   };
   entry.write = [](const RegressorOptions& options,
-                   OptionWriter& writer) {  // the bandwidth has its own place
+                   OptionWriter& writer) {  // the bandwidth is stored with the model's name
     writer.text("spread", spreadName(options.grnn.spread));
     writer.text("distance", distanceName(options.grnn.distance));
     writer.text("weighting", weightingName(options.grnn.weighting));

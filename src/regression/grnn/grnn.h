@@ -8,24 +8,26 @@
 
 namespace fsr::regression {
 
-/// Throws InputError where the bandwidth is not within 1e-6 to 1000.
+/// Throws InputError if the bandwidth is not within 1e-6 to 1000.
 void validate(const GrnnOptions& options);
 
-/// sigma in units of the training readings' deviation.
+/// Sigma of the kernel in standard deviations of the training readings.
 double sigmaOf(const GrnnOptions& options);
 
-/// General regression neural network (Specht 1991): the mean pressure of the training samples,
-/// weighted by a Gaussian of their distance d from the reading,
+/// General regression neural network (Specht 1991), the paper's model (Ahmadizadeh and Menon 2019,
+/// doi:10.3390/s19245519): the mean pressure of the training samples, weighted by a Gaussian of their
+/// distance d from the reading,
 ///
-///     f(c) = sum_i P_i exp(-d_i^2 / 2 sigma^2) / sum_i exp(-d_i^2 / 2 sigma^2),
+///     f(c) = sum_i P_i exp(-d_i^2 / 2 sigma^2) / sum_i exp(-d_i^2 / 2 sigma^2).
 ///
-/// readings standardised by the mean and (sample) deviation of the training readings. Any code has a
-/// finite answer, the nearest sample's where every weight underflows; see kernel_mean.h.
+/// Readings are standardised by the mean and the (sample) standard deviation of the training readings. Every
+/// code has a finite answer; where all weights underflow it is the answer of the nearest sample (see
+/// kernel_mean.h).
 ///
-/// `support` is sum_i exp(-d_i^2 / 2 sigma^2): the number of samples near the code, 0 where there is none.
+/// `support` is sum_i exp(-d_i^2 / 2 sigma^2), the number of samples near the code; 0 where there is none.
 ///
-/// Mergeable, unless pressure bins weigh the samples: then the sums of each code do not say how many of
-/// its samples lie in which bin.
+/// Mergeable, unless samples are weighted by pressure bins: the sums of a code do not say how many of its
+/// samples are in which bin.
 class Grnn : public Regressor {
  public:
   /// Both throw InputError as validate() does.
