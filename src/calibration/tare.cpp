@@ -69,7 +69,7 @@ std::vector<float> TareMeasurement::offset(const std::vector<float>& standing) c
     const double scatter = m.count > 1 ? std::sqrt(m.squares / (m.count - 1)) : 0.0;
     if (scatter > options_.scatter) {
       throw settings::InputError("the tare is refused: " + place(taxel) + " scatters by " +
-                                 kilopascal(scatter) + " as under a limb, but must keep still within " +
+                                 kilopascal(scatter) + " as on a limb, but must be within " +
                                  kilopascal(options_.scatter) + " (~tare_scatter)");
     }
     result[taxel] = static_cast<float>(offset);

@@ -92,7 +92,7 @@ std::vector<double> bandwidthScores(const StudyData& data, const StudyMethod& me
     const TaxelReadings readings(data, validation.grouping, data.taxels[t]);
     std::vector<double> sums(plan.bandwidths.size(), 0.0);
     for (const FoldParts& of_fold : partsByFold(parts)) {
-      const compensation::ClassReadings training = readings.training(folds[of_fold.fold].train, false);
+      const regression::ClassReadings training = readings.training(folds[of_fold.fold].train, false);
       std::vector<std::vector<TestedClass>> tested;
       for (std::size_t p = of_fold.first; p < of_fold.end; ++p) {
         tested.push_back(testedClasses(parts[p], folds[of_fold.fold], readings));

@@ -29,7 +29,7 @@ std::vector<double> squaresOf(const StudyMethod& method, const std::vector<Fold>
   std::vector<double> squares(plan.bandwidths.size(), 0.0);
   for (const TestPart& part : parts) {
     const Fold& fold = inner[part.fold];
-    const compensation::ClassReadings training = readings.training(fold.train, false);
+    const regression::ClassReadings training = readings.training(fold.train, false);
     for (std::size_t b = 0; b < squares.size(); ++b) {
       const FoldModel model = plainModel(method, grnnOf(plan.grnn, plan.bandwidths[b]));
       const auto tables = tablesFor(model, taxel, training, part.tested);

@@ -100,8 +100,8 @@ TaxelReadings::TaxelReadings(const StudyData& data, const Grouping& grouping, st
   }
 }
 
-compensation::ClassReadings TaxelReadings::training(const std::vector<Cell>& cells, bool by_samples) const {
-  compensation::ClassReadings readings;
+regression::ClassReadings TaxelReadings::training(const std::vector<Cell>& cells, bool by_samples) const {
+  regression::ClassReadings readings;
   readings.full_scale = data_.full_scale;
   if (!by_samples) {
     readings.sums.assign(data_.classes.size(), regression::CodeHistogram(data_.full_scale));

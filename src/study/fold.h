@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "compensation/class_readings.h"
-#include "fsr_pressure_map/regression/code_statistics.h"
+#include "regression/class_readings.h"
+#include "regression/code_statistics.h"
 #include "study/study_data.h"
 
 namespace fsr::study {
@@ -51,7 +51,7 @@ class TaxelReadings {
     return cells_[cell.curvature_class * grouping_.groups + cell.group];
   }
   /// The readings of the given cells by class: as sums of each code, or as single readings if `by_samples`.
-  compensation::ClassReadings training(const std::vector<Cell>& cells, bool by_samples) const;
+  regression::ClassReadings training(const std::vector<Cell>& cells, bool by_samples) const;
 
  private:
   const StudyData& data_;

@@ -88,7 +88,7 @@ compensation::EffectLaw lawOf(const StudyData& data, const Grouping& grouping, c
   std::vector<compensation::TaxelEffect> effects(data.taxels.size());
   matrix::forEachTaxel(data.taxels.size(), threads, [&](std::size_t t) {
     const TaxelReadings readings(data, grouping, data.taxels[t]);
-    const compensation::ClassReadings training = readings.training(fold.train, false);
+    const regression::ClassReadings training = readings.training(fold.train, false);
     const std::vector<regression::Fit> fits =
         compensation::fitScheme(model.plan, data.taxels[t], training, model.regressor);
     std::vector<regression::CodeTable> tables;
@@ -135,7 +135,7 @@ FoldModel learnedModel(const StudyData& data, const StudyMethod& method, const G
 }
 
 std::vector<std::vector<double>> tablesFor(const FoldModel& model, std::size_t taxel,
-                                           const compensation::ClassReadings& training,
+                                           const regression::ClassReadings& training,
                                            const std::vector<std::size_t>& classes) {
   const std::vector<regression::Fit> fits =
       compensation::fitScheme(model.plan, taxel, training, model.regressor);

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/compensation/curvature_rule.h"
-#include "fsr_pressure_map/regression/regressors.h"
+#include "regression/regressors.h"
 #include "study/fold.h"
 #include "study/study_method.h"
 
@@ -31,7 +31,7 @@ FoldModel learnedModel(const StudyData& data, const StudyMethod& method, const G
 /// Pressure of every code for each of `classes` [classes][codes] [Pa], fitted to one taxel's training
 /// readings.
 std::vector<std::vector<double>> tablesFor(const FoldModel& model, std::size_t taxel,
-                                           const compensation::ClassReadings& training,
+                                           const regression::ClassReadings& training,
                                            const std::vector<std::size_t>& classes);
 
 /// Every n-th of the studied taxels, about plan.bandwidth_taxels in all.

@@ -8,7 +8,7 @@
 #include "dataset/sections.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
-#include "fsr_pressure_map/regression/code_statistics.h"
+#include "regression/code_statistics.h"
 #include "study/study_plan.h"
 
 namespace fsr::study {

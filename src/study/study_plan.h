@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/regression/forest.h"
-#include "fsr_pressure_map/regression/grnn.h"
 #include "regression/bandwidth_search.h"
+#include "regression/forest/forest.h"
+#include "regression/grnn/grnn.h"
 #include "settings/settings.h"
 #include "statistics/paper_rule.h"
 

@@ -1,5 +1,5 @@
-// From the bytes of the line to the calibrated map nothing is allocated once it runs: the way of every scan
-// through driver and calibration node, their ROS messages apart.
+// From the bytes of the line to the calibrated map nothing is allocated in operation: the path of every scan
+// through driver and calibration node, except for their ROS messages.
 
 #include <gtest/gtest.h>
 
@@ -74,7 +74,7 @@ class LivePath : public protocol::PacketHandler {
   std::int64_t arrival_ = 0;  // [ns]
 };
 
-// What a board sends in the millisecond `i`; now and then damaged, or of a smaller matrix, or after a jump of
+// The bytes that a board sends in millisecond `i`; sometimes damaged, of a smaller matrix, or after a jump of
 // its clock.
 class Line {
  public:

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fsr_pressure_map/regression/code_samples.h"
+#include "regression/code_samples.h"
 
 namespace test_support {
 

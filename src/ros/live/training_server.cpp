@@ -7,6 +7,7 @@
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "regression/option_names.h"
+#include "regression/regressors.h"
 #include "report/calibration_report.h"
 #include "ros/bags/message_events.h"
 #include "ros/bags/resource_path.h"

@@ -12,6 +12,7 @@
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "regression/option_names.h"
+#include "regression/regressors.h"
 #include "report/calibration_check_report.h"
 #include "report/calibration_report.h"
 #include "settings/command_line.h"

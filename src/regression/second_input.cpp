@@ -1,21 +1,21 @@
-#include "compensation/second_input.h"
+#include "regression/second_input.h"
 
 #include <Eigen/Dense>
 
-#include "compensation/kernel_blend.h"
 #include "regression/grnn/weighted_codes.h"
+#include "regression/kernel_blend.h"
 
-namespace fsr::compensation {
+namespace fsr::regression {
 
 namespace {
 
-regression::CodeHistogram pooled(const ClassReadings& readings) {
-  regression::CodeHistogram all(readings.full_scale);
-  for (const regression::CodeHistogram& sums : readings.sums) all.add(sums);
+CodeHistogram pooled(const ClassReadings& readings) {
+  CodeHistogram all(readings.full_scale);
+  for (const CodeHistogram& sums : readings.sums) all.add(sums);
   return all;
 }
 
-// Classes whose inputs agree: one value of the second input each.
+// Classes with equal inputs form one group, i.e. one value of the second input.
 struct Groups {
   std::vector<std::size_t> group_of_class;
   std::vector<std::vector<std::size_t>> classes;  // of each group
@@ -33,14 +33,14 @@ Groups groupsOf(const ClassInputs& inputs) {
   return groups;
 }
 
-regression::WeightedCodes samplesOf(const std::vector<std::size_t>& classes, const ClassReadings& readings) {
-  if (classes.size() == 1) return regression::weightedCodes(readings.sums[classes.front()]);
-  regression::CodeHistogram sums(readings.full_scale);
+WeightedCodes samplesOf(const std::vector<std::size_t>& classes, const ClassReadings& readings) {
+  if (classes.size() == 1) return weightedCodes(readings.sums[classes.front()]);
+  CodeHistogram sums(readings.full_scale);
   for (const std::size_t k : classes) sums.add(readings.sums[k]);
-  return regression::weightedCodes(sums);
+  return weightedCodes(sums);
 }
 
-// Products of the standardised inputs (reading, then columns) and of the pressure, about their means.
+// Sums of products of the standardised inputs (reading, then columns) and of the pressure, about their means.
 struct Moments {
   double readings = 0;
   double mean_code = 0, code_scale = 0;  // 1 / deviation
@@ -50,7 +50,7 @@ struct Moments {
   Eigen::VectorXd with_pressure;  // [Pa]
 };
 
-// Standardised columns of each class, about their mean over the readings.
+// Standardised columns of each class, minus their mean over the readings.
 std::vector<Eigen::VectorXd> standardised(const ClassReadings& readings, const ClassInputs& inputs) {
   const auto number = static_cast<Eigen::Index>(inputs.scale.size());
   const Eigen::Map<const Eigen::VectorXd> scale(inputs.scale.data(), number);
@@ -69,8 +69,8 @@ std::vector<Eigen::VectorXd> standardised(const ClassReadings& readings, const C
 
 Moments momentsOf(const ClassReadings& readings, const ClassInputs& inputs) {
   Moments m;
-  const regression::WeightedCodes all = regression::weightedCodes(pooled(readings));
-  const double deviation = regression::readingDeviation(pooled(readings));
+  const WeightedCodes all = weightedCodes(pooled(readings));
+  const double deviation = readingDeviation(pooled(readings));
   m.readings = all.samples;
   m.code_scale = deviation > 0 ? 1.0 / deviation : 0.0;
   for (std::size_t i = 0; i < all.code.size(); ++i) {
@@ -83,7 +83,7 @@ Moments momentsOf(const ClassReadings& readings, const ClassInputs& inputs) {
   m.with_pressure = Eigen::VectorXd::Zero(size);
   Eigen::VectorXd row(size);
   for (std::size_t k = 0; k < readings.sums.size(); ++k) {
-    const regression::WeightedCodes samples = regression::weightedCodes(readings.sums[k]);
+    const WeightedCodes samples = weightedCodes(readings.sums[k]);
     row.tail(size - 1) = m.columns[k];
     for (std::size_t i = 0; i < samples.code.size(); ++i) {
       row[0] = (samples.code[i] - m.mean_code) * m.code_scale;
@@ -94,11 +94,11 @@ Moments momentsOf(const ClassReadings& readings, const ClassInputs& inputs) {
   return m;
 }
 
-regression::CodeSamples withInput(const ClassReadings& readings, const ClassInputs& inputs) {
-  regression::CodeSamples all;
+CodeSamples withInput(const ClassReadings& readings, const ClassInputs& inputs) {
+  CodeSamples all;
   all.full_scale = readings.full_scale;
   for (std::size_t k = 0; k < readings.samples.size(); ++k) {
-    regression::CodeSamples of_class = readings.samples[k];
+    CodeSamples of_class = readings.samples[k];
     of_class.curvature.assign(of_class.size(), inputs.columns[k].front());
     all.append(of_class);
   }
@@ -107,35 +107,31 @@ regression::CodeSamples withInput(const ClassReadings& readings, const ClassInpu
 
 }  // namespace
 
-std::vector<regression::KernelMean> classKernels(const ClassReadings& readings,
-                                                 const regression::GrnnOptions& options) {
-  const double sigma = regression::sigmaOf(options) * regression::readingDeviation(pooled(readings));
-  std::vector<regression::KernelMean> means;
-  for (const regression::CodeHistogram& sums : readings.sums) {
-    means.push_back(
-        regression::gaussianMean(regression::weightedCodes(sums), sigma, regression::LogWeight::kYes));
+std::vector<KernelMean> classKernels(const ClassReadings& readings, const GrnnOptions& options) {
+  const double sigma = sigmaOf(options) * readingDeviation(pooled(readings));
+  std::vector<KernelMean> means;
+  for (const CodeHistogram& sums : readings.sums) {
+    means.push_back(gaussianMean(weightedCodes(sums), sigma, LogWeight::kYes));
   }
   return means;
 }
 
-std::vector<regression::Fit> fitGrnnOnInput(const ClassReadings& readings, const ClassInputs& inputs,
-                                            const regression::GrnnOptions& options) {
-  const regression::CodeHistogram all = pooled(readings);
-  const double deviation = regression::readingDeviation(all);
-  if (deviation == 0)
-    return std::vector<regression::Fit>(readings.classes(),
-                                        regression::constantFit(regression::weightedCodes(all)));
+std::vector<Fit> fitGrnnOnInput(const ClassReadings& readings, const ClassInputs& inputs,
+                                const GrnnOptions& options) {
+  const CodeHistogram all = pooled(readings);
+  const double deviation = readingDeviation(all);
+  if (deviation == 0) return std::vector<Fit>(readings.classes(), constantFit(weightedCodes(all)));
   const Groups groups = groupsOf(inputs);
-  const double sigma = regression::sigmaOf(options), precision = 0.5 / (sigma * sigma);
-  std::vector<regression::KernelMean> means;
+  const double sigma = sigmaOf(options), precision = 0.5 / (sigma * sigma);
+  std::vector<KernelMean> means;
   std::vector<std::size_t> class_of_mean;
   for (const std::vector<std::size_t>& classes : groups.classes) {
-    const regression::WeightedCodes samples = samplesOf(classes, readings);
+    const WeightedCodes samples = samplesOf(classes, readings);
     if (samples.code.empty()) continue;
-    means.push_back(regression::gaussianMean(samples, sigma * deviation, regression::LogWeight::kWhereZero));
+    means.push_back(gaussianMean(samples, sigma * deviation, LogWeight::kWhereZero));
     class_of_mean.push_back(classes.front());
   }
-  std::vector<regression::Fit> fits;
+  std::vector<Fit> fits;
   for (std::size_t asked = 0; asked < groups.group_of_class.size(); ++asked) {
     const std::size_t first = groups.classes[groups.group_of_class[asked]].front();
     if (first < asked) {
@@ -151,16 +147,16 @@ std::vector<regression::Fit> fitGrnnOnInput(const ClassReadings& readings, const
   return fits;
 }
 
-std::vector<regression::Fit> fitLinearOnInput(const ClassReadings& readings, const ClassInputs& inputs) {
+std::vector<Fit> fitLinearOnInput(const ClassReadings& readings, const ClassInputs& inputs) {
   const Moments m = momentsOf(readings, inputs);
   const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver(m.products);
   const Eigen::VectorXd slopes = solver.solve(m.with_pressure);
   const Eigen::MatrixXd inverse = solver.pseudoInverse();
-  std::vector<regression::Fit> fits;
+  std::vector<Fit> fits;
   Eigen::VectorXd row(slopes.size());
   for (const Eigen::VectorXd& columns : m.columns) {
     row.tail(columns.size()) = columns;
-    regression::Fit fit;
+    Fit fit;
     for (std::size_t code = 0; code <= readings.full_scale; ++code) {
       row[0] = (static_cast<double>(code) - m.mean_code) * m.code_scale;
       fit.pressure.push_back(m.mean_pressure + slopes.dot(row));
@@ -171,13 +167,12 @@ std::vector<regression::Fit> fitLinearOnInput(const ClassReadings& readings, con
   return fits;
 }
 
-std::vector<regression::Fit> fitForestOnInput(const ClassReadings& readings, const ClassInputs& inputs,
-                                              const regression::ForestOptions& options) {
-  const regression::CurvatureSteps steps =
-      regression::fitCurvatureForest(withInput(readings, inputs), options);
-  std::vector<regression::Fit> fits;
+std::vector<Fit> fitForestOnInput(const ClassReadings& readings, const ClassInputs& inputs,
+                                  const ForestOptions& options) {
+  const CurvatureSteps steps = fitCurvatureForest(withInput(readings, inputs), options);
+  std::vector<Fit> fits;
   for (const std::vector<double>& columns : inputs.columns) fits.push_back(steps.at(columns.front()));
   return fits;
 }
 
-}  // namespace fsr::compensation
+}  // namespace fsr::regression

@@ -5,35 +5,30 @@
 #include <string>
 #include <vector>
 
+#include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
 #include "fsr_pressure_map/matrix/curvature.h"
 
 namespace fsr::calibration {
 
-/// Chooses the curvature class of each taxel: the nearest by principal curvature, with hysteresis while
-/// the sheet stays on one surface and mount, so that a curvature that wavers between two classes does
-/// not make the pressure jump to and fro. Where the rule is by name, a surface of a class's name takes that
-/// class, whatever its curvature, and any other surface lies between classes.
+/// Chooses the curvature class of each taxel: the nearest by principal curvature. While the sheet stays on
+/// one surface and mount there is hysteresis, so that a curvature near the middle of two classes does not
+/// make the pressure jump between them. If the rule is by name, a surface with the name of a class gets that
+/// class, whatever its curvature, and any other surface is between classes.
 class ClassSwitch {
  public:
-  /// What was chosen for a taxel.
-  struct Choice {
-    std::size_t curvature_class = 0;
-    std::uint16_t flags = 0;  ///< taxel_flag::kCurvatureExtrapolated, kBetweenClasses or 0
-  };
-
-  /// A taxel leaves its class only when another is nearer by more than `hysteresis` [1/m]. `tables` is
-  /// read for its classes, range, tolerance and rule only.
+  /// A taxel changes its class only if another is nearer by more than `hysteresis` [1/m]. Only classes,
+  /// range, tolerance and rule of `tables` are used.
   ClassSwitch(const compensation::CurvatureTables& tables, double hysteresis);
 
-  /// Chooses anew for a surface of known curvature that fits the matrix.
+  /// Chooses the classes for a surface of known curvature that fits the matrix.
   void choose(const matrix::Surface& surface);
 
-  /// Curvature unknown: the flattest class of each taxel, which is what a calibration falls back to.
+  /// Chooses the flattest class of each taxel, for an unknown curvature.
   void fallBack();
 
   /// [rows x columns], row-major.
-  const std::vector<Choice>& choices() const { return choices_; }
+  const std::vector<ClassChoice>& choices() const { return choices_; }
 
  private:
   std::size_t nearest(std::size_t taxel, double curvature) const;
@@ -49,7 +44,7 @@ class ClassSwitch {
   double hysteresis_;
   bool by_name_;
   matrix::Surface last_;  // name and mount only; unknown after fallBack()
-  std::vector<Choice> choices_;
+  std::vector<ClassChoice> choices_;
 };
 
 }  // namespace fsr::calibration

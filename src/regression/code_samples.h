@@ -4,32 +4,32 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsr_pressure_map/regression/code_statistics.h"
+#include "regression/code_statistics.h"
 
 namespace fsr::regression {
 
-/// Training readings of one taxel, one by one: for the regressors that sums do not serve (a forest
-/// draws readings at random, a monotone curve looks at the reading of a pressure). Their order has no
-/// effect on any model.
+/// Training readings of one taxel, one by one, for regressors that need more than sums: a forest draws
+/// readings at random, and a monotone curve uses the readings at each pressure. The order of the readings has
+/// no effect on any model.
 struct CodeSamples {
   std::uint16_t full_scale = 0;
   std::vector<std::uint16_t> code;
   std::vector<FixedPressure> pressure;  ///< one for each code
-  std::vector<double> curvature;        ///< one for each code [1/m]; empty = the model has no use for it
+  std::vector<double> curvature;        ///< one for each code [1/m]; empty = not used by the model
 
   std::size_t size() const { return code.size(); }
   void add(std::uint16_t reading, FixedPressure reference) {
     code.push_back(reading);
     pressure.push_back(reference);
   }
-  /// Appends another's readings. Both have curvature or neither has, and full scale is the same.
+  /// Appends the readings of `other`. Both or neither must have curvature, and full scale must be the same.
   void append(const CodeSamples& other);
 };
 
-/// Throws InputError where the vectors' lengths differ or a code is above full scale.
+/// Throws InputError if the vectors differ in length or a code is above full scale.
 void validate(const CodeSamples& samples);
 
-/// Both throw InputError as validate() does, or where a sum would overflow.
+/// Both throw InputError as validate() does, and if a sum would overflow.
 CodeStatistics statisticsOf(const CodeSamples& samples);
 CodeHistogram histogramOf(const CodeSamples& samples);
 

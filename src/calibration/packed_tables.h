@@ -5,35 +5,35 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsr_pressure_map/compensation/blend_table.h"
+#include "compensation/blend_table.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
 
 namespace fsr::calibration {
 
-/// CurvatureTables laid out for look-up: [taxels x models x entries] in one block, so that a scan touches
-/// one line for each taxel. 7 x 10 taxels, 12 bit, six classes take 14 MB.
+/// CurvatureTables in a layout for look-up: [taxels x models x entries] in one block, so that a scan reads
+/// one cache line for each taxel. 7 x 10 taxels, 12 bit, six classes take 14 MB.
 ///
-/// Up to 14 bit each code has an entry of its own. Of a finer converter every second or fourth code has one
-/// and lines join them: between codes so near a table is straight next to what a reading scatters, and 16 x
-/// 10 taxels, 16 bit, six classes take 127 MB instead of 503.
+/// Up to 14 bit each code has its own entry. For a finer converter every second or fourth code has one, and
+/// codes between are interpolated linearly: between such close codes the error is small compared with the
+/// scatter of a reading. 16 x 10 taxels, 16 bit, six classes take 127 MB instead of 503 MB.
 class PackedTables {
  public:
-  /// Entries between the tables of one taxel and those of the next: a page (512 entries) and a cache line (8)
-  /// more than the tables take. 4,096 codes fill whole pages, and the same code of every taxel, as of a sheet
-  /// at rest, would want one and the same set of the cache. Halves the time of a look-up.
+  /// Entries between the tables of one taxel and those of the next: a page (512 entries) and a cache line
+  /// (8). 4,096 codes fill whole pages; without the padding the same code of every taxel, e.g. of a sheet at
+  /// rest, would be in the same set of the cache. This halves the time of a look-up.
   static constexpr std::size_t kPadding = 512 + 8;
 
-  /// Most codes of a converter whose every code has an entry.
+  /// Largest number of codes with an entry for every code.
   static constexpr std::size_t kMostCodes = 16384;
 
-  /// Codes beyond this lie outside of training on the low side (first) or the high side (second).
+  /// The range of codes in training.
   struct TrainedCodes {
     std::uint16_t lowest;
     std::uint16_t highest;
-    bool model;  ///< false: training gave this taxel none, its entries are NaN
+    bool model;  ///< false: the taxel has no model, its entries are NaN
   };
 
-  /// Throws InputError where a table has not one finite value for each code, nor NaN throughout.
+  /// Throws InputError if a table has neither one finite value for each code nor NaN throughout.
   explicit PackedTables(const compensation::CurvatureTables& tables);
   PackedTables(PackedTables&&) = default;  // not to be copied: it points into itself
   PackedTables(const PackedTables&) = delete;
@@ -42,16 +42,16 @@ class PackedTables {
   std::uint16_t fullScale() const { return full_scale_; }
   std::size_t classes() const { return classes_; }
 
-  /// Of the tables of one taxel in one class.
+  /// Number of entries of a table.
   std::size_t entries() const { return (std::size_t{full_scale_} >> shift_) + (shift_ == 0 ? 1 : 2); }
-  /// Entry i is that of code i * 2^shift.
+  /// Entry i belongs to code i * 2^shift.
   unsigned shift() const { return shift_; }
 
   /// The entries of one taxel in one class.
   const compensation::TableEntry* table(std::size_t taxel, std::size_t curvature_class) const {
     return entries_.data() + taxel * stride() + slot_of_class_[curvature_class] * entries();
   }
-  /// What all of them take [bytes].
+  /// Memory of all tables [bytes].
   std::size_t bytes() const {
     return entries_.size() * sizeof(compensation::TableEntry) + log_weight_.size() * sizeof(float);
   }
@@ -62,7 +62,8 @@ class PackedTables {
   }
 
  private:
-  // Moves the last entry, which lies beyond full scale, onto the line through the one before and full scale.
+  // Moves the last entry, which is beyond full scale, onto the line through the entry before it and full
+  // scale.
   void endAtFullScale(compensation::TableEntry* table) const;
   const float* packLogWeight(const regression::CodeTable& table, std::size_t number);
   std::size_t stride() const { return slots_ * entries() + kPadding; }
@@ -75,7 +76,7 @@ class PackedTables {
   std::uint16_t full_scale_;
   std::size_t classes_;
   std::size_t slots_ = 0;
-  std::vector<std::size_t> slot_of_class_;  // classes of one model share a table
+  std::vector<std::size_t> slot_of_class_;  // classes with the same model share a table
   unsigned shift_ = 0;
   std::vector<compensation::TableEntry> entries_;
   std::vector<TrainedCodes> trained_;  // [taxels x classes]

@@ -1,30 +1,30 @@
-#include "compensation/kernel_blend.h"
+#include "regression/kernel_blend.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "regression/grnn/vector_width.h"
 
-namespace fsr::compensation {
+namespace fsr::regression {
 
 namespace {
 
-// Of a larger sum nothing that matters has underflowed: what gaussianMean() lets underflow is below
-// exp(-600), what a product lets below exp(-700).
+// In a larger sum nothing that matters has underflowed: gaussianMean() ignores values below exp(-600), and
+// products underflow below exp(-700).
 const double kSafeWeight = std::exp(-500.0);
-// Weights below exp(-40) of the largest do not count.
+// Weights below exp(-40) of the largest are ignored.
 constexpr double kNegligibleExponent = 40.0;
-// No class has more readings, each of weight 1 at most.
+// Upper limit for the logarithm of the number of readings of a class, each of weight 1 at most.
 constexpr double kLargestLogWeight = 40.0;
 constexpr std::size_t kCodesInCache = 512;
 
-double logWeight(const regression::KernelMean& mean, std::size_t code) {
+double logWeight(const KernelMean& mean, std::size_t code) {
   return mean.weight[code] > 0 ? std::log(mean.weight[code]) : mean.log_weight[code];
 }
 
-// The answer at one code by logarithms. `log_weight` [K] is room for them; `nearest` = class of the least
-// exponent, from which on most others need not be looked at.
-double byLogarithms(const std::vector<regression::KernelMean>& classes, const std::vector<double>& exponent,
+// The answer at one code, computed with logarithms. `log_weight` [K] is memory for them. `nearest` is the
+// class with the smallest exponent; starting from it, most others can be skipped.
+double byLogarithms(const std::vector<KernelMean>& classes, const std::vector<double>& exponent,
                     std::size_t nearest, std::size_t code, std::vector<double>& log_weight) {
   double largest = logWeight(classes[nearest], code) - exponent[nearest];
   for (std::size_t k = 0; k < classes.size(); ++k) {
@@ -44,7 +44,7 @@ double byLogarithms(const std::vector<regression::KernelMean>& classes, const st
   return sum / weight;
 }
 
-// Adds one class's share at `codes` codes.
+// Adds the contribution of one class at `codes` codes.
 FSR_EACH_VECTOR_WIDTH
 void addClass(const double* __restrict__ pressure, const double* __restrict__ weight, double factor,
               std::size_t codes, double* __restrict__ sum, double* __restrict__ share) {
@@ -62,10 +62,9 @@ void divide(const double* __restrict__ share, std::size_t codes, double* __restr
 
 }  // namespace
 
-regression::Fit blendKernels(const std::vector<regression::KernelMean>& classes,
-                             const std::vector<double>& exponent) {
+Fit blendKernels(const std::vector<KernelMean>& classes, const std::vector<double>& exponent) {
   const std::size_t codes = classes.front().pressure.size();
-  regression::Fit fit{std::vector<double>(codes, 0.0), std::vector<double>(codes, 0.0)};
+  Fit fit{std::vector<double>(codes, 0.0), std::vector<double>(codes, 0.0)};
   std::vector<double> factor;
   for (const double x : exponent) factor.push_back(std::exp(-x));
   for (std::size_t begin = 0; begin < codes; begin += kCodesInCache) {
@@ -88,4 +87,4 @@ regression::Fit blendKernels(const std::vector<regression::KernelMean>& classes,
   return fit;
 }
 
-}  // namespace fsr::compensation
+}  // namespace fsr::regression

@@ -6,14 +6,14 @@
 
 namespace fsr::regression {
 
-/// Pressure as sums take it: an integer number of 2^-20 Pa, so that addition is exact and its order
-/// does not matter.
+/// Pressure in fixed point, an integer number of 2^-20 Pa. Sums of integers are exact and do not depend on
+/// the order.
 using FixedPressure = std::int64_t;
 constexpr double kFixedPressureUnit = 1.0 / 1048576.0;  // [Pa]
-/// Largest pressure that statistics accept, either sign: sums of 2^20 such readings still fit [Pa].
+/// Largest absolute pressure that statistics accept: sums of 2^20 such readings do not overflow [Pa].
 constexpr double kLargestPressure = 8e6;
 
-/// Throws InputError where `pressure` [Pa] is not finite or beyond kLargestPressure.
+/// Throws InputError if `pressure` [Pa] is not finite or larger than kLargestPressure.
 FixedPressure toFixed(double pressure);
 inline double fromFixed(FixedPressure pressure) {
   return static_cast<double>(pressure) * kFixedPressureUnit;
@@ -21,7 +21,7 @@ inline double fromFixed(FixedPressure pressure) {
 
 __extension__ using Int128 = __int128;  // GCC and Clang, 64-bit targets
 
-/// What is known of all training readings of one code.
+/// Sums over all training readings of one code.
 struct CodeSums {
   std::uint16_t code = 0;
   std::uint32_t count = 0;
@@ -29,23 +29,23 @@ struct CodeSums {
   Int128 sum_of_squares = 0;  ///< of FixedPressure
 };
 
-/// The sufficient statistics of each code that occurs: all that a regressor of one reading needs
-/// (linear regression, GRNN) and all that its held-out error needs. Sparse, sorted by code. Merging
-/// is exact integer addition: any order, any machine, the same bits.
+/// Sufficient statistics of each code that occurs: all that a regressor of one reading needs (linear
+/// regression, GRNN), and all that its held-out error needs. Sparse, sorted by code. Merging is exact integer
+/// addition, so the result is the same bit for bit in any order and on any computer.
 ///
-/// Of a code that occurs once the sum of squares follows from the sum, so only the others keep one:
-/// 14 bytes for each code and 16 more where it repeats.
+/// The sum of squares of a code that occurs once follows from its sum and is not stored: 14 bytes for each
+/// code, and 16 more for a code that occurs again.
 class CodeStatistics {
  public:
   bool empty() const { return code_.empty(); }
   std::size_t codes() const { return code_.size(); }
   std::uint64_t samples() const;
 
-  /// Makes room for so many codes, `repeated` of which occur more than once.
+  /// Reserves memory for `codes` codes, of which `repeated` occur more than once.
   void reserve(std::size_t codes, std::size_t repeated);
-  /// Appends a code larger than all before it.
+  /// Appends a code. It must be larger than all codes before it.
   void append(const CodeSums& sums);
-  /// Adds another's sums. Throws InputError where a sum would overflow.
+  /// Adds the sums of `other`. Throws InputError if a sum would overflow.
   void merge(const CodeStatistics& other);
 
   /// Calls visit(CodeSums) for each code, ascending.
@@ -58,7 +58,7 @@ class CodeStatistics {
     }
   }
 
-  /// One value for each code, ascending: as files keep them.
+  /// One value for each code, ascending, as in the calibration file.
   const std::vector<std::uint16_t>& code() const { return code_; }
   const std::vector<std::uint32_t>& count() const { return count_; }
   const std::vector<std::int64_t>& sum() const { return sum_; }
@@ -74,15 +74,15 @@ class CodeStatistics {
 
 bool operator==(const CodeStatistics& a, const CodeStatistics& b);
 
-/// Collects readings in any order; the work of a cell is proportional to its readings, not to the
-/// converter's range.
+/// Collects readings in any order. The work is proportional to the number of readings, not to the range of
+/// the converter.
 class CodeAccumulator {
  public:
   explicit CodeAccumulator(std::uint16_t full_scale);
 
   /// Throws InputError where the code's sum would overflow or `code` is above full scale.
   void add(std::uint16_t code, FixedPressure pressure);
-  /// Hands the statistics out and starts afresh.
+  /// Returns the statistics and starts again with none.
   CodeStatistics take();
 
  private:
@@ -91,7 +91,7 @@ class CodeAccumulator {
   std::size_t repeated_ = 0;             // codes with more than one reading
 };
 
-/// Counts and sums of every code, 0 .. full scale: what models train on.
+/// Count and sum of every code, 0 to full scale. Models are trained on this.
 class CodeHistogram {
  public:
   explicit CodeHistogram(std::uint16_t full_scale) : count_(full_scale + 1u), sum_(full_scale + 1u) {}
@@ -100,7 +100,7 @@ class CodeHistogram {
   void add(std::uint16_t code, FixedPressure pressure);
   void add(const CodeStatistics& statistics);
   void subtract(const CodeStatistics& statistics);
-  /// Another's sums, of the same full scale.
+  /// Adds the sums of `other`, which has the same full scale.
   void add(const CodeHistogram& other);
 
   std::uint16_t fullScale() const { return static_cast<std::uint16_t>(count_.size() - 1); }
