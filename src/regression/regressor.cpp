@@ -10,9 +10,8 @@ Fit Regressor::fitSamples(const CodeSamples& training) const {
 }
 
 void Regressor::refuseSums() const {
-  throw settings::InputError(
-      "model " + name() +
-      " needs the bags; the sums in a calibration file are not sufficient");
+  throw settings::InputError("model " + name() +
+                             " needs the bags; the sums in a calibration file are not sufficient");
 }
 
 }  // namespace fsr::regression

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "regression/forest/forest.h"
+#include "regression/grnn/grnn.h"
 #include "regression/grnn/weighted_codes.h"
 
 namespace fsr::compensation {

@@ -44,8 +44,8 @@ const std::vector<std::string>& soundFiles() {
 }
 
 void seal(std::string& file) {
-  const std::string hash = fsr::settings::sha256(file.data() + fsr::hdf5::kUserBlock,
-                                                 file.size() - fsr::hdf5::kUserBlock);
+  const std::string hash =
+      fsr::settings::sha256(file.data() + fsr::hdf5::kUserBlock, file.size() - fsr::hdf5::kUserBlock);
   const std::string line =
       "fsr_pressure_map calibration schema=" + std::to_string(fsr::calibration::kCalibrationSchema) +
       " sha256=" + hash + "\n";
