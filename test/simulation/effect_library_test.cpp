@@ -9,6 +9,7 @@
 #include <cmath>
 #include <set>
 
+#include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/pressure_profile.h"
 #include "simulation/reference_channel.h"
 #include "simulation/sensitivity.h"

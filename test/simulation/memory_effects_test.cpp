@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/pressure_profile.h"
 #include "support/simulated_rig.h"
 
