@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "discrepancy/planted.h"
-#include "discrepancy/results/costs_in_use.h"
+#include "discrepancy/prove/costs_in_use.h"
 #include "discrepancy/samples/held_out.h"
 
 namespace fsr::discrepancy {

@@ -1,6 +1,6 @@
 // Which experiment is recommended.
 
-#include "discrepancy/results/next_experiment.h"
+#include "discrepancy/prove/next_experiment.h"
 
 #include <gtest/gtest.h>
 

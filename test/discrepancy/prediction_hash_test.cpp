@@ -1,6 +1,6 @@
 // The hash of a prediction covers everything that confirm() and the files beside it hold.
 
-#include "discrepancy/results/prediction_hash.h"
+#include "discrepancy/prove/prediction_hash.h"
 
 #include <gtest/gtest.h>
 

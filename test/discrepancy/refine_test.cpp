@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "discrepancy/planted.h"
-#include "discrepancy/results/gap.h"
+#include "discrepancy/prove/gap.h"
 
 namespace fsr::discrepancy {
 namespace {

@@ -150,7 +150,7 @@ TEST_F(Training, AReplayedBagGivesTheTablesOfTheTool) {
 TEST_F(Training, ClearRemovesWhatWasCollected) {
   const std_srvs::Trigger::Response answer = call("training/clear");
   EXPECT_TRUE(answer.success);
-  EXPECT_EQ(answer.message, "forgot 600 scans");
+  EXPECT_EQ(answer.message, "removed 600 scans");
   EXPECT_TRUE(waitUntil([this] { return message_ == "waiting for raw, chamber_pressure, curvature"; }));
 }
 

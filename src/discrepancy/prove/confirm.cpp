@@ -8,8 +8,8 @@
 #include "discrepancy/decide/decision.h"
 #include "discrepancy/decide/refine.h"
 #include "discrepancy/fit/base_fit.h"
-#include "discrepancy/results/prediction_hash.h"
-#include "discrepancy/results/wording.h"
+#include "discrepancy/prove/prediction_hash.h"
+#include "discrepancy/prove/wording.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
 

@@ -1,4 +1,4 @@
-#include "discrepancy/results/prediction_hash.h"
+#include "discrepancy/prove/prediction_hash.h"
 
 #include <sstream>
 #include <utility>

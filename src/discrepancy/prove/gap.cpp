@@ -1,4 +1,4 @@
-#include "discrepancy/results/gap.h"
+#include "discrepancy/prove/gap.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "discrepancy/results/report_gap.h"
+#include "discrepancy/prove/report_gap.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "discrepancy/decide/refine.h"
-#include "discrepancy/results/gap.h"
+#include "discrepancy/prove/gap.h"
 #include "discrepancy/samples/held_out.h"
 #include "simulation/effects/effect_library.h"
 

@@ -1,4 +1,4 @@
-#include "discrepancy/results/next_experiment.h"
+#include "discrepancy/prove/next_experiment.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "discrepancy/decide/refine.h"
 #include "discrepancy/fit/signatures.h"
 #include "discrepancy/fit/static_fit.h"
-#include "discrepancy/results/wording.h"
+#include "discrepancy/prove/wording.h"
 #include "discrepancy/samples/measured.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/chamber_program.h"

@@ -1,4 +1,4 @@
-#include "discrepancy/results/wording.h"
+#include "discrepancy/prove/wording.h"
 
 #include <algorithm>
 #include <sstream>

@@ -1,4 +1,4 @@
-#include "discrepancy/results/costs_in_use.h"
+#include "discrepancy/prove/costs_in_use.h"
 
 #include <algorithm>
 #include <cmath>
