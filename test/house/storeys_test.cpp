@@ -131,6 +131,11 @@ const std::map<std::string, std::vector<std::string>> kCorridors = {
 TEST(House, NoFolderOfARoomUsesALaterOne) {
   int arrows = 0;
   for (const auto& [room, corridors] : kCorridors) {
+    for (const std::string& corridor : corridors) {
+      EXPECT_TRUE(fs::is_directory(kSource / "src" / room / corridor)) << room << '/' << corridor;
+    }
+  }
+  for (const auto& [room, corridors] : kCorridors) {
     const auto number = [&, &names = corridors](const std::string& corridor) {
       return std::find(names.begin(), names.end(), corridor) - names.begin();
     };
