@@ -13,6 +13,7 @@
 #include "discrepancy/prove/next_experiment.h"
 #include "discrepancy/prove/proof.h"
 #include "discrepancy/prove/wording.h"
+#include "discrepancy/samples/held_out.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
 
@@ -421,6 +422,7 @@ DiscrepancyReport Investigation::run() {
   }
   putFindings();
   show();
+  report_.hold_out = holdOutCycles(measured_);
   listNotIdentifiable();
   answerQuestions();
   foresee();

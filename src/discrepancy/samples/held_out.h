@@ -23,4 +23,7 @@ std::vector<Part> partsByProtocol(const Measured& measured);
 /// The recordings, with the cycles of a part among those to show on: what is fitted to them has not seen it.
 Measured withoutPart(const Measured& measured, const Part& part);
 
+/// The hold-out cycles of each recording, in time order.
+std::vector<HoldOutCycles> holdOutCycles(const Measured& measured);
+
 }  // namespace fsr::discrepancy
