@@ -18,9 +18,10 @@ KPA = [1, 3, 10, 30]
 
 # Experiments that remove a reason why an effect could not be told. A reason that is not listed here accepts any experiment.
 EXPERIMENTS = {
-    "one_pace": {"two_speeds", "step_hold", "minor_loops", "rest", "random_order", "two_ramp_rates", "step_and_hold"},
+    "one_pace": {"two_speeds", "step_hold", "minor_loops", "rest", "random_order", "two_ramp_rates", "dwells", "step_and_hold"},
     "no_thermometer": {"two_ambients", "hours_apart"},
-    "one_mount": {"random_order", "hours_apart", "remount"},
+    "one_mount": {"random_order", "hours_apart", "remount", "flat_again"},
+    "one_surface": {"random_order", "remount", "flat_again"},
 }
 
 # Other names that a verdict may use for the covariates of the key.
@@ -76,9 +77,11 @@ def explanations(verdict):
 
 
 def identifiability(key):
-    """{id: its entry in the key} of the hidden effects that could not be told under the protocol of the case."""
+    """{id: its entry in the key} of the hidden effects that could not be told under the protocol of the case. A key may
+    say it of effects that are not hidden, too."""
     entries = (key.get("identifiable") or {}).get("effects") or []
-    return {entry["id"]: entry for entry in entries if not entry.get("could_be_told", True)}
+    truth = {effect["id"] for effect in key["effects"]}
+    return {entry["id"]: entry for entry in entries if entry["id"] in truth and not entry.get("could_be_told", True)}
 
 
 def nearest(value, levels):
@@ -104,7 +107,7 @@ def kind_of(key):
 
 def removes(reason, experiment):
     """Whether an experiment is of use against the reason why an effect could not be told."""
-    return bool(experiment) and experiment in EXPERIMENTS.get(reason, {experiment})
+    return experiment not in (None, "none") and experiment in EXPERIMENTS.get(reason, {experiment})
 
 
 def listed(entry, reason, verdict):
