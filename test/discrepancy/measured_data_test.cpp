@@ -88,7 +88,8 @@ TEST(MeasuredFluid, OilLagsBesidesSomethingSlow) {
   EXPECT_LT(report.gap.after, 0.8 * report.gap.before);
 }
 
-// A capacitive insole in an air chamber. Its counts fall with the load, so they are read as volts from 255 to 0.
+// A capacitive insole in an air chamber. Its counts fall with the load, so they are read as volts from 255 to
+// 0.
 DiscrepancyProblem insole(const std::vector<std::string>& tables, const std::string& pressure,
                           const std::vector<std::string>& more_taxels = {}) {
   std::vector<std::string> taxels = {"001", "004", "008", "011", "014", "017", "021", "024",
@@ -107,22 +108,34 @@ const char* const kFourCycles = "belli_four_cycles.csv.gz";
 const char* const kAligned = "pressure_aligned_kPa";
 const char* const kAsReleased = "pressure_row_kPa";
 
-TEST(MeasuredInsole, Probe) {
-  struct Set { std::vector<std::string> t; const char* p; std::vector<std::string> more; };
-  for (const Set& set : {Set{{kStaircase, kFourCycles}, kAligned, {}}, Set{{kFourCycles}, kAligned, {}}, Set{{kStaircase, kFourCycles}, kAsReleased, {}},
-       Set{{kFourCycles}, kAsReleased, {}}, Set{{kStaircase, kFourCycles}, kAligned, {"182", "192", "262", "265", "267", "271"}}, Set{{kFourCycles}, kAligned, {"182", "192", "262", "265", "267", "271"}}}) {
-    const DiscrepancyProblem problem = insole(set.t, set.p, set.more);
-    std::cerr << set.t.size() << " " << set.p << " " << set.more.size() << "\n";
-    try {
-      const Measured m = admit(problem);
-      std::cerr << m.cycles.size() << " cycles\n";
-      const DiscrepancyReport r = investigate(problem);
-      std::cerr << r.sentence << " gap " << r.gap.before << " " << r.gap.after << "\n";
-      for (const auto& ids : r.credible_set) { for (const auto& id : ids) std::cerr << id << " "; std::cerr << "| "; }
-      for (const auto& d : r.depends_on) std::cerr << d << ", ";
-      std::cerr << "\n";
-    } catch (const std::exception& e) { std::cerr << e.what() << "\n"; }
-  }
+// The mean taxel keeps 0.65 counts rms after a static curve, and 0.24 after plays or exponential memories
+// alike. No taxel saturates; there is no hum. docs/cases.md lists what an honest analysis finds and this test
+// does not yet ask for.
+TEST(MeasuredInsole, IsALoopOrARelaxationThatTheseCyclesDoNotTellApart) {
+  const DiscrepancyProblem problem = insole({kStaircase, kFourCycles}, kAligned);
+  EXPECT_EQ(admit(problem).cycles.size(), 5u);
+  const DiscrepancyReport report = investigate(problem);
+  EXPECT_EQ(report.verdict, Verdict::kAmbiguous) << report.sentence;
+  EXPECT_TRUE(anywhere(report, "hysteresis") && anywhere(report, "creep")) << report.sentence;
+  for (const char* id : {"saturation", "mains_pickup", "drift", "temperature", "time_skew"})
+    EXPECT_FALSE(anywhere(report, id)) << report.sentence;
+}
+
+// Beside its row the pressure is 0.9 s early at first and 1.7 s late at the end.
+TEST(MeasuredInsole, ALagThatDriftsIsNoConstantDelay) {
+  const DiscrepancyReport report = investigate(insole({kStaircase, kFourCycles}, kAsReleased));
+  EXPECT_EQ(report.verdict, Verdict::kUnknown) << report.sentence;
+  EXPECT_FALSE(anywhere(report, "time_skew")) << report.sentence;
+  EXPECT_TRUE(holds(report.depends_on, "clock_time")) << report.sentence;
+}
+
+// Six taxels drop out for a while or stick; 24 are sound.
+TEST(MeasuredInsole, FaultyTaxelsAreNeitherAHumNorASaturation) {
+  const DiscrepancyReport report =
+      investigate(insole({kStaircase, kFourCycles}, kAligned, {"182", "192", "262", "265", "267", "271"}));
+  EXPECT_NE(report.verdict, Verdict::kNone) << report.sentence;
+  for (const char* id : {"saturation", "mains_pickup", "drift", "temperature", "time_skew"})
+    EXPECT_FALSE(anywhere(report, id)) << report.sentence;
 }
 
 }  // namespace
