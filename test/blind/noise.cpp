@@ -12,14 +12,15 @@ constexpr std::array<double, 4> kFlicker = {0.12, 0.5, 2.0, 8.0};
 
 }  // namespace
 
-Noise::Noise(const Campaign& campaign, std::uint64_t seed) : campaign_(campaign), seed_(seed) {
+Noise::Noise(const Campaign& campaign, std::uint64_t seed, double most_cycle_gain)
+    : campaign_(campaign), seed_(seed) {
   Random random(seed, "noise");
   const std::array<const char*, 3> colours = {"ar1", "ar2", "flicker"};
   colour_ = colours[random.below(colours.size())];
   coloured_ = random.uniform(0.3, 0.7);
   common_share_ = random.uniform(0, 0.05);
   absolute_ = random.uniform(0.3, 0.8);
-  cycle_gain_ = random.uniform(0.1, 0.3);
+  cycle_gain_ = random.uniform(0.1, most_cycle_gain);
   keep_ = random.uniform(0.3, 0.8);
   damping_ = random.uniform(0.6, 0.85);
   peak_ = random.uniform(0.3, 1.5);  // [rad a scan]

@@ -17,12 +17,14 @@ namespace blind {
 /// the scan rate, as a sum of first-order processes.
 class Noise {
  public:
-  Noise(const Campaign& campaign, std::uint64_t seed);
+  /// `most_cycle_gain`: largest deviation of the cycles' gain, in units of the noise.
+  Noise(const Campaign& campaign, std::uint64_t seed, double most_cycle_gain = 0.3);
 
   /// Noise of one taxel, of unit variance where a reading is half of full scale.
   Trace ofTaxel(std::size_t taxel, const Trace& reading) const;
 
   const std::string& colour() const { return colour_; }
+  const Trace& gainOfCycle() const { return gain_of_cycle_; }  ///< standard normal, one for each cycle
   double colouredShare() const { return coloured_; }  ///< share of the variance
   double cycleGain() const { return cycle_gain_; }  ///< deviation of the cycles' gain, in units of the noise
 

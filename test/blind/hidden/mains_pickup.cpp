@@ -1,6 +1,7 @@
 // Mains hum on the wires. Sampled once a scan it appears as a slow beat; its phase shifts from taxel to taxel
 // in the order of the scan.
 
+#include <algorithm>
 #include <cmath>
 
 #include "blind/hidden/forms.h"
@@ -24,7 +25,8 @@ class Pickup : public Hidden {
   explicit Pickup(const HiddenSetup& setup)
       : setup_(setup), random_(setup.seed, "mains"), phase_(setup.campaign.scans()) {
     size_ = random_.uniform(0.008, 0.015) * setup.strength;
-    taxel_time_ = random_.uniform(0.2e-3, 1.1e-3);
+    const double most = 0.9 * setup.campaign.scan_period / static_cast<double>(setup.campaign.taxels());
+    taxel_time_ = std::min(random_.uniform(0.2e-3, 1.1e-3), most);
     mains_ = random_.chance(0.7) ? 50 : 60;
     for (std::size_t i = 0; i < setup.campaign.layout.size.rows; ++i)
       row_.push_back(random_.uniform(0.5, 1.5));

@@ -10,8 +10,6 @@ namespace blind {
 
 namespace {
 
-constexpr double kAmbient = 101325;  // [Pa]
-
 // Leak through an orifice, subsonic: flow proportional to the root of the pressure difference.
 struct OrificeState {
   double rate;  // in peak pressures a second, at a difference of the peak [1/s]
@@ -26,10 +24,11 @@ struct OrificeState {
 
 // Leak along a narrow gap, laminar and compressible: flow proportional to the difference of the squares.
 struct LaminarState {
-  double rate;  // [1/s]
+  double rate;     // [1/s]
+  double ambient;  // [Pa]
   double cavity = 0;
   void step(double pressure, double seconds) {
-    const double outside = pressure + kAmbient, inside = cavity + kAmbient;
+    const double outside = pressure + ambient, inside = cavity + ambient;
     const double share = rate * seconds * (outside + inside) / kPeak;
     cavity += (pressure - cavity) * (1 - std::exp(-share));
   }
@@ -78,7 +77,7 @@ class Orifice : public Leak {
 class Laminar : public Leak {
  public:
   explicit Laminar(const HiddenSetup& setup) : Leak(setup) {
-    fill(LaminarState{rate_}, [&](std::size_t scan, const LaminarState& s) { cavity_[scan] = s.cavity; });
+    fill(LaminarState{rate_, setup.campaign.ambient()}, [&](std::size_t scan, const LaminarState& s) { cavity_[scan] = s.cavity; });
   }
 };
 
