@@ -23,7 +23,7 @@ std::size_t stride(const Campaign& campaign) {
 
 const HiddenForm& formFor(const EffectSpec& effect, std::uint64_t seed) {
   if (!effect.form.empty()) return findForm(effect.id, effect.form);
-  const std::vector<const HiddenForm*> forms = formsOf(effect.id);
+  const std::vector<const HiddenForm*> forms = openFormsOf(effect.id);
   if (forms.empty()) return findForm(effect.id, "");  // throws, with a list of all forms
   return *forms[Random(seed, "form of " + effect.id).below(forms.size())];
 }
