@@ -101,4 +101,42 @@ double ReferenceError::measured(double pressure, Random& random) const {
   return step_ * std::round(value / step_);
 }
 
+double between(const std::vector<Sample>& samples, double time, std::size_t& piece) {
+  while (piece + 2 < samples.size() && samples[piece + 1].time <= time) ++piece;
+  const Sample &a = samples[piece], &b = samples[piece + 1];
+  return a.value + (b.value - a.value) * (time - a.time) / (b.time - a.time);
+}
+
+ReferenceChannel::ReferenceChannel(const RigPlan& plan, const Campaign& campaign, std::uint64_t seed)
+    : plan_(plan.reference), peak_(plan.peak) {
+  Random random(seed, "reference channel");
+  const double step = 1.6 * peak_ / std::pow(2.0, plan_.bits);
+  for (const Visit& visit : campaign.visits) {
+    const double end = campaign.time[visit.last - 1] + 1 / plan_.rate;
+    std::vector<Sample> samples;
+    for (double time = visit.start - (0.2 + random.uniform()) / plan_.rate; time < end || samples.size() < 2;
+         time += 1 / plan_.rate) {
+      double value = 0;
+      for (int i = -3; i <= 3; ++i) {
+        value += campaign.pascal * campaign.pressureAt(visit, time + i / 7.0 * plan_.averaged) / 7;
+      }
+      value += systematic(value) + plan_.noise * peak_ * random.normal();
+      samples.push_back({time, step * std::round(value / step)});
+    }
+    std::size_t piece = 0;
+    for (std::size_t scan = visit.first; scan < visit.last; ++scan) {
+      const double seen = between(samples, campaign.time[scan], piece);
+      const double truth = campaign.pascal * campaign.pressure[scan];
+      at_scans_.push_back(seen);
+      error_.push_back((seen - truth - systematic(truth)) / campaign.pascal);
+    }
+    samples_.push_back(std::move(samples));
+  }
+}
+
+double ReferenceChannel::systematic(double pressure) const {
+  const double x = pressure / peak_;
+  return peak_ * (plan_.offset + plan_.slope * x + 4 * plan_.bend * x * (1 - x));
+}
+
 }  // namespace blind
