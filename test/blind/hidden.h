@@ -19,6 +19,12 @@ struct HiddenParameter {
   std::string unit;
 };
 
+/// Where and when a fault strikes, for comparing the kinds of faults at one place.
+struct FaultPlace {
+  std::vector<std::size_t> taxels;                        ///< ascending
+  std::vector<std::pair<std::size_t, std::size_t>> spells;  ///< scans first .. last - 1, each within one mount
+};
+
 /// Input for constructing a hidden effect.
 struct HiddenSetup {
   const Campaign& campaign;
@@ -26,6 +32,7 @@ struct HiddenSetup {
   std::uint64_t seed = 0;
   double strength = 1;       ///< 1 = the usual size, 0 = nothing
   bool carried_over = true;  ///< true: the state is kept at a new mount; false: it is reset
+  const FaultPlace* fault = nullptr;  ///< given: a fault strikes here instead of where the seed says
 };
 
 /// An effect of the sheet, the rig or the read-out besides the static curve. It changes the traces of one
@@ -44,6 +51,9 @@ class Hidden {
   virtual std::vector<std::size_t> taxels() const { return {}; }
   /// Intervals in which the effect acts [s, campaign clock]; empty = always.
   virtual std::vector<std::pair<double, double>> times() const { return {}; }
+
+  /// Where a fault strikes; empty for all other effects.
+  virtual FaultPlace faultPlace() const { return {}; }
 
   const std::vector<HiddenParameter>& parameters() const { return parameters_; }
 
@@ -68,7 +78,13 @@ struct HiddenForm {
   bool needs_remounts = false;  ///< shows only where a surface is mounted more than once
   bool foreign = false;         ///< no library has it; the correct answer is "unknown"
   LeftAfter left_after = LeftAfter::kCurveEach;
+  char set = 'A';  ///< A = development may look at it; B = for the published campaign only
 };
+
+inline HiddenForm inSetB(HiddenForm form) {
+  form.set = 'B';
+  return form;
+}
 
 inline void PrintTo(const HiddenForm& form, std::ostream* out) {
   *out << form.id << ":" << form.form;
@@ -77,6 +93,8 @@ inline void PrintTo(const HiddenForm& form, std::ostream* out) {
 /// All forms of all effects, grouped by effect.
 const std::vector<HiddenForm>& hiddenForms();
 std::vector<const HiddenForm*> formsOf(const std::string& id);
+/// The forms that development may look at.
+std::vector<const HiddenForm*> openFormsOf(const std::string& id);
 /// Ids in the order of the list; foreign effects last.
 std::vector<std::string> hiddenIds();
 /// Throws fsr::InputError where there is no such form.
