@@ -25,7 +25,7 @@ def key(options):
 
 def main():
     parser = argparse.ArgumentParser()
-    for name in ("name", "effect", "snr", "kpa", "output"):
+    for name in ("name", "effect", "snr", "kpa", "size", "output"):
         parser.add_argument("--" + name)
     parser.add_argument("--list", action="store_true")
     options = parser.parse_args()

@@ -11,7 +11,7 @@ import unittest
 
 HERE = pathlib.Path(__file__).resolve().parent
 TRIALS = HERE.parent.parent / "scripts" / "blind_trials"
-GRID = ["--effects", "creep:log_time,seal_leak", "--pairs", "1"]
+GRID = ["--effects", "creep:log_time,seal_leak", "--kpa", "", "--pairs", "1"]
 
 
 class Trials(unittest.TestCase):
@@ -56,7 +56,7 @@ class Trials(unittest.TestCase):
         self.assertIn("A.creep.two_terms.kpa10.0002", self.names())
 
     def test_forms_of_the_other_set_are_not_used(self):
-        self.run_trials("none", "--set", "B", grid=["--nothing", "0"])
+        self.run_trials("none", "--set", "B", grid=["--kpa", "", "--nothing", "0"])
         self.assertEqual(self.names(), ["B.creep.sealed.snr1.0001"])
 
     def test_the_command_sees_nothing_of_the_case_but_its_bags(self):
@@ -67,12 +67,12 @@ class Trials(unittest.TestCase):
         self.assertEqual(list(self.output.glob("cases/*/bags")), [])  # the bags were removed
 
     def test_goes_on_where_it_stopped(self):
-        self.run_trials("none", grid=["--effects", "creep:log_time", "--nothing", "2"])
+        self.run_trials("none", grid=["--effects", "creep:log_time", "--kpa", "", "--nothing", "2"])
         self.assertEqual(len(self.calls()), 3)
-        self.run_trials("none", grid=["--effects", "creep:log_time", "--nothing", "2"])
+        self.run_trials("none", grid=["--effects", "creep:log_time", "--kpa", "", "--nothing", "2"])
         self.assertEqual(len(self.calls()), 3)
         next(self.output.glob("cases/A.creep*/run.json")).unlink()  # as if the run had been stopped here
-        self.run_trials("none", grid=["--effects", "creep:log_time", "--nothing", "2"])
+        self.run_trials("none", grid=["--effects", "creep:log_time", "--kpa", "", "--nothing", "2"])
         self.assertEqual(len(self.calls()), 4)
 
     def test_shards_share_the_campaign(self):
