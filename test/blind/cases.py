@@ -22,6 +22,11 @@ import score
 
 HERE = pathlib.Path(__file__).resolve().parent.parent.parent
 SKIPPED = {"problem": None}  # a gap that nobody asked for
+UNUSABLE = 2  # exit status of a command that refuses its input with one sentence
+
+
+class Refused(Exception):
+    """The command's sentence."""
 
 
 class NotScored(Exception):
@@ -108,6 +113,14 @@ def bags_of(case):
     return sorted((case / "bags").glob("*.bag"), key=in_order)
 
 
+def read_json(path):
+    """What a file holds that these scripts wrote; {} where there is none, or half of one."""
+    try:
+        return json.loads(path.read_text())
+    except (OSError, ValueError):
+        return {}
+
+
 # --- the command under test -------------------------------------------------------------------------
 
 
@@ -135,24 +148,35 @@ def run_command(command, bags, output, home):
         done = subprocess.run(words, capture_output=True, text=True, env=environment(home))
     except OSError as error:
         raise NotScored("command failed", "%s cannot be started (%s)." % (words[0], error.strerror)) from error
+    said = (done.stderr.strip() or done.stdout.strip()).splitlines()[-1:] or ["it said nothing"]
+    if done.returncode == UNUSABLE:
+        raise Refused(said[0])
     if done.returncode not in (0, 3):  # 3: all but the figures
-        said = (done.stderr.strip() or done.stdout.strip()).splitlines()[-1:] or ["it said nothing"]
         raise NotScored("command failed", "the command ended with status %d (%s)." % (done.returncode, said[0]))
     return time.monotonic() - start
 
 
+def answered(found):
+    return (found / "verdict.yaml").exists() or (found / "refused.json").exists()
+
+
 def answer(case, found, command):
-    """Runs the command on the bags of a case; what it writes goes to `found`."""
+    """Runs the command on the bags of a case; what it writes goes to `found`. A refusal is an answer, too."""
     bags = bags_of(case)
     if not bags:
         raise NotScored("bags missing", "%s holds no bag." % (case / "bags"))
     with tempfile.TemporaryDirectory(prefix="case_") as folder:
         folder = pathlib.Path(folder)
         output = folder / "found"
-        seconds = run_command(command, without_name(case, bags, folder), output, folder / "ros_home")
-        if not (output / "verdict.yaml").exists():
-            raise NotScored("no verdict", "the command wrote no verdict.yaml for %s." % case)
-        recompute.write_json(output / "run.json", {"seconds": seconds, "command": command})
+        try:
+            seconds = run_command(command, without_name(case, bags, folder), output, folder / "ros_home")
+            if not (output / "verdict.yaml").exists():
+                raise NotScored("no verdict", "the command wrote no verdict.yaml for %s." % case)
+            recompute.write_json(output / "run.json", {"seconds": seconds, "command": command})
+        except Refused as why:
+            shutil.rmtree(output, ignore_errors=True)
+            output.mkdir()
+            recompute.write_json(output / "refused.json", {"sentence": str(why), "command": command})
         shutil.rmtree(found, ignore_errors=True)
         shutil.copytree(output, found)
 
@@ -163,10 +187,9 @@ def answer(case, found, command):
 def recomputed_gap(case, found, verdict, simulate):
     """The recomputed gap; kept in recomputed.json with the hash of the verdict that it belongs to."""
     path, digest = found / "recomputed.json", hashlib.sha256((found / "verdict.yaml").read_bytes()).hexdigest()
-    if path.exists():
-        kept = json.loads(path.read_text())
-        if kept.get("verdict_sha256") == digest:
-            return kept
+    kept = read_json(path)
+    if kept.get("verdict_sha256") == digest:
+        return kept
     bags = bags_of(case)
     if not bags:
         raise NotScored("bags missing", "%s holds no bag, so its gap is not recomputed." % (case / "bags"))
@@ -184,23 +207,20 @@ def recomputed_gap(case, found, verdict, simulate):
 # --- one case ---------------------------------------------------------------------------------------
 
 
-def seconds_of(found):
-    path = found / "run.json"
-    return json.loads(path.read_text()).get("seconds") if path.exists() else None
-
-
 def score_folder(case, found, version, simulate):
     """(row, problem): the score of an answered case, and what is not scored of it. `simulate` None: no gap is recomputed."""
-    key, verdict, problem = read_key(case), read_verdict(found, version), None
+    refused = not (found / "verdict.yaml").exists() and (found / "refused.json").exists()
+    key, problem = read_key(case), None
+    verdict = score.REFUSED if refused else read_verdict(found, version)
     try:
         row = score.score_case(key, verdict, case.name)
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         said = "%s is missing" % error if isinstance(error, KeyError) else str(error)
         raise NotScored("key or verdict not as documented", "%s: %s." % (case, said)) from error
     try:
-        gap = recomputed_gap(case, found, verdict, simulate) if simulate else SKIPPED
+        gap = recomputed_gap(case, found, verdict, simulate) if simulate and not refused else SKIPPED
     except NotScored as why:
         gap, problem = SKIPPED, why
     score.add_gap(row, gap)
-    row["seconds"] = seconds_of(found)
+    row["seconds"] = read_json(found / "run.json").get("seconds")
     return row, problem

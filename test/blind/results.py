@@ -19,12 +19,14 @@ def score_one(case, options):
     found = found_of(case, options)
     try:
         cases.read_key(case)  # nothing is run for a case that cannot be scored
-        if not options.verdicts and not (found / "verdict.yaml").exists():
+        if not options.verdicts and not cases.answered(found):
             cases.answer(case, found, options.command)
         version = None if options.any_version else cases.package_version()
         return cases.score_folder(case, found, version, None if options.no_gap else options.simulate)
     except cases.NotScored as why:
         return None, why
+    except OSError as error:
+        return None, cases.NotScored("file error", "%s: %s." % (case, error))
 
 
 def report(case, problem, problems):

@@ -10,6 +10,7 @@ import statistics
 SCHEMA = 2  # of the key
 NAMING = {"named", "wrong_form"}  # verdicts that give a name as the answer
 VERDICTS = NAMING | {"none", "unknown", "ambiguous", "not_identifiable"}
+REFUSED = {"verdict": "refused"}  # stands for a command that refuses a case with one sentence instead of answering
 TRUTHS = {"named", "none", "unknown"}
 
 # Levels at which sizes are drawn. Other sizes are counted at the nearest level on a logarithmic scale.
@@ -168,6 +169,8 @@ def outcome_named(verdict, truth, first, hidden):
 
 
 def outcome_of(kind, verdict, truth, sets, first, hidden):
+    if verdict == REFUSED:
+        return "refused"
     if kind == "nothing":
         return outcome_of_nothing(verdict)
     if kind == "foreign":
@@ -207,7 +210,7 @@ def names_of(ids):
 
 def score_case(key, verdict, name=""):
     """One row. Raises ValueError, KeyError or TypeError where key or verdict are not as docs/cases.md says."""
-    if verdict.get("verdict") not in VERDICTS:
+    if verdict != REFUSED and verdict.get("verdict") not in VERDICTS:
         raise ValueError("verdict is %r, but must be one of %s" % (verdict.get("verdict"), ", ".join(sorted(VERDICTS))))
     if key["truth"] not in TRUTHS:
         raise ValueError("truth is %r, but must be one of %s" % (key["truth"], ", ".join(sorted(TRUTHS))))
@@ -231,7 +234,7 @@ def score_case(key, verdict, name=""):
         "verdict": verdict["verdict"], "answer": names_of(first) or verdict["verdict"],
         "credible_set": " | ".join(map(names_of, stated)) or None, "outcome": outcome,
         "right": outcome in ("right", "abstained"), "wrong_name": outcome == "wrong_name",
-        "heard_of": verdict["verdict"] != "none",
+        "heard_of": verdict["verdict"] not in ("none", "refused"),
         "truth_in_set": truth in stated if stated else None, "set_size": len(stated) or None,
         "false_members": len(set().union(*stated) - truth),
         "covariates": covariates_right(key, verdict) if kind == "foreign" else None,

@@ -89,6 +89,14 @@ class Scores(Folder):
         self.assertEqual(self.rows()["quiet"]["outcome"], "false_alarm")
         self.assertEqual(len((self.root / "log").read_text().splitlines()), 2)
 
+    def test_a_refusal_is_an_answer_and_never_right(self):
+        self.assertEqual(self.run_score(answer="refuse").returncode, 0)
+        self.assertEqual({case: row["outcome"] for case, row in self.rows().items()}, {"loop": "refused", "quiet": "refused"})
+        figure = next(f for f in self.summary()["figures"] if f["figure"].startswith("nothing hidden, false"))
+        self.assertEqual((figure["value"]["k"], figure["value"]["n"]), (0, 1))
+        self.run_score(answer="none")  # it is not asked again
+        self.assertEqual(self.summary()["outcomes"]["nothing"], {"refused": 1})
+
     def test_verdicts_of_another_folder_are_scored(self):
         self.run_score()
         for case in ("loop", "quiet"):
