@@ -56,7 +56,8 @@ std::vector<blind::EffectSpec> effectsIn(const std::string& text) {
 blind::CaseSpec namedSpecFrom(const fsr::settings::CommandLine& line) {
   for (const char* other : {"seed", "protocol", "key", "follow"}) {
     if (line.has(other)) {
-      throw fsr::settings::InputError(std::string("--") + other + " is for cases without a name; leave out one of the two");
+      throw fsr::settings::InputError(std::string("--") + other +
+                                      " is for cases without a name; leave out one of the two");
     }
   }
   blind::CaseSpec spec;
@@ -68,7 +69,8 @@ blind::CaseSpec namedSpecFrom(const fsr::settings::CommandLine& line) {
   }
   spec.most_readings = size == "small" ? blind::kSmallReadings : blind::kFullReadings;
   if (line.has("kpa")) {
-    if (line.has("snr")) throw fsr::settings::InputError("--snr and --kpa both set the size; give one of them");
+    if (line.has("snr"))
+      throw fsr::settings::InputError("--snr and --kpa both set the size; give one of them");
     spec.kpa = line.number("kpa", 1, {1e-3, 1e4, "kPa"});
   }
   spec.snr = line.number("snr", 1, {0, 100, ""});
@@ -147,8 +149,9 @@ void writeCaseBag(const std::string& path, const blind::CaseBag& bag) {
       writer.addSurface(stamp, recording.conditions[recording.condition[i]]);
       described = stamp;
     }
-    writer.addScan(stamp, bag.sequence[i],
-                   {recording.layout.size, recording.full_scale, recording.scan(i), recording.layout.size.taxels()});
+    writer.addScan(
+        stamp, bag.sequence[i],
+        {recording.layout.size, recording.full_scale, recording.scan(i), recording.layout.size.taxels()});
   }
   upTo(std::numeric_limits<std::int64_t>::max());
   writer.close();
