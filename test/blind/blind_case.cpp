@@ -126,6 +126,7 @@ std::vector<std::string> protocolsOf(const CaseSpec& spec) {
 
 std::optional<RigPlan> planOf(const CaseSpec& spec) {
   if (spec.name.empty()) return {};
+  if (spec.plan) return spec.plan;
   return drawPlan(spec.seed, spec.protocol_class, spec.most_readings);
 }
 
@@ -366,7 +367,7 @@ void Maker::readOut() {
   const auto counts = convert(noise, scale);
   if (plan_) {
     cutIntoBags(counts);
-    judge(std::move(noise), scale);
+    if (made_.spec.judged) judge(std::move(noise), scale);
   } else {
     record(counts);
   }

@@ -32,6 +32,8 @@ struct CaseSpec {
   std::string name;
   std::string protocol_class;  ///< of a case with a name; empty = drawn
   double most_readings = kSmallReadings;
+  std::optional<RigPlan> plan;  ///< of a case with a name, instead of a drawn one
+  bool judged = true;           ///< false: leave out the identifiability, which takes most of the time
   /// Instead of `snr`: error at the map that each effect causes [kPa]; see Rig::errorAtMap.
   std::optional<double> kpa;
   std::uint64_t seed = 1;
