@@ -126,6 +126,7 @@ std::vector<std::string> protocolsOf(const CaseSpec& spec) {
 
 std::optional<RigPlan> planOf(const CaseSpec& spec) {
   if (spec.name.empty()) return {};
+  if (spec.plan) return spec.plan;
   return drawPlan(spec.seed, spec.protocol_class, spec.most_readings);
 }
 
@@ -204,7 +205,8 @@ double Maker::wantedNoise(const std::vector<double>& usual) const {
 
 double Maker::leastNoise() const {
   const double step = 1.0 / made_.full_scale;
-  return std::max(kLeastNoise, 1.5 * std::sqrt(step * step / 12 + made_.reference_noise * made_.reference_noise));
+  return std::max(kLeastNoise,
+                  1.5 * std::sqrt(step * step / 12 + made_.reference_noise * made_.reference_noise));
 }
 
 // The strength, or the largest one at which no reading is clipped.
@@ -222,12 +224,13 @@ double Maker::belowTheRail(const Placed& placed, double strength) const {
   return strength;
 }
 
-// Nothing is refused here: the protocol must not depend on what is hidden. An effect that does not show has its usual
-// strength, and the key says so.
+// Nothing is refused here: the protocol must not depend on what is hidden. An effect that does not show has
+// its usual strength, and the key says so.
 void Maker::hideInPlan() {
   const double least = leastNoise(), most = std::max(kMostNoise, 2 * least);
-  noise_wanted_ = made_.spec.noise ? *made_.spec.noise
-                                   : Random(made_.spec.seed, "noise level").logUniform(std::max(1e-3, least), most);
+  noise_wanted_ = made_.spec.noise
+                      ? *made_.spec.noise
+                      : Random(made_.spec.seed, "noise level").logUniform(std::max(1e-3, least), most);
   std::vector<double> usual;
   for (const Placed& placed : placed_) {
     usual.push_back(rig_.signature(rig_.activate(placed, 1), stride(campaign_)).rms());
@@ -364,7 +367,7 @@ void Maker::readOut() {
   const auto counts = convert(noise, scale);
   if (plan_) {
     cutIntoBags(counts);
-    judge(std::move(noise), scale);
+    if (made_.spec.judged) judge(std::move(noise), scale);
   } else {
     record(counts);
   }
@@ -437,7 +440,8 @@ CaseBag Maker::bagOf(const std::vector<std::pair<std::size_t, std::size_t>>& pie
     const double from = campaign_.time[first] - 1.3 / plan_->reference.rate;
     const double to = campaign_.time[last - 1] + 1.3 / plan_->reference.rate;
     for (const Sample& sample : channel_->samples(v)) {
-      if (sample.time >= from && sample.time <= to) bag.reference.emplace_back(stamp(sample.time), sample.value);
+      if (sample.time >= from && sample.time <= to)
+        bag.reference.emplace_back(stamp(sample.time), sample.value);
     }
     const auto step = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(plan_->scan_rate)));
     for (std::size_t scan = first; plan_->thermometer && scan < last; scan += step) {
@@ -458,7 +462,8 @@ void Maker::cutIntoBags(const std::vector<std::vector<std::uint16_t>>& counts) {
   std::vector<Pieces> bags;
   for (const Visit& visit : campaign_.visits) {
     const bool joins = plan_->cut.kind == "joined" && !bags.empty() && random.chance(0.7);
-    const bool splits = plan_->cut.kind == "odd_places" && visit.last - visit.first > 400 && random.chance(0.6);
+    const bool splits =
+        plan_->cut.kind == "odd_places" && visit.last - visit.first > 400 && random.chance(0.6);
     if (!joins) bags.emplace_back();
     if (!splits) {
       bags.back().emplace_back(visit.first, visit.last);
@@ -480,10 +485,13 @@ void Maker::judge(std::vector<Trace> noise, double scale) {
       value = scale * (value - noise_.cycleGainAt(scan, made_.clean[taxel][scan]));
     }
   }
-  const double left = made_.hidden.empty() ? made_.noise : std::max(made_.hidden.front().left, 0.25 * made_.noise);
+  const double left =
+      made_.hidden.empty() ? made_.noise : std::max(made_.hidden.front().left, 0.25 * made_.noise);
+  std::vector<double> strengths;
+  for (const HiddenTruth& truth : made_.hidden) strengths.push_back(truth.strength);
   made_.cycle_gain = 2 * scale * noise_.cycleGain();
-  made_.identifiable = identify({campaign_, sheet_, rig_, *plan_, made_.spec.seed, active_, noise, channel_->error(),
-                                 made_.cycle_gain, left});
+  made_.identifiable = identify({campaign_, sheet_, rig_, *plan_, made_.spec.seed, active_, strengths, noise,
+                                 channel_->error(), made_.cycle_gain, left});
 }
 
 void Maker::describe() {

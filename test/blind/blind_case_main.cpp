@@ -1,13 +1,11 @@
 // Writes the bags of a blind case, a file with what a user would know about them, and the sealed key.
 
-#include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <sstream>
 
 #include "blind/blind_case.h"
+#include "blind/case_bags.h"
 #include "blind/case_files.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_writer.h"
@@ -56,7 +54,8 @@ std::vector<blind::EffectSpec> effectsIn(const std::string& text) {
 blind::CaseSpec namedSpecFrom(const fsr::settings::CommandLine& line) {
   for (const char* other : {"seed", "protocol", "key", "follow"}) {
     if (line.has(other)) {
-      throw fsr::settings::InputError(std::string("--") + other + " is for cases without a name; leave out one of the two");
+      throw fsr::settings::InputError(std::string("--") + other +
+                                      " is for cases without a name; leave out one of the two");
     }
   }
   blind::CaseSpec spec;
@@ -68,7 +67,8 @@ blind::CaseSpec namedSpecFrom(const fsr::settings::CommandLine& line) {
   }
   spec.most_readings = size == "small" ? blind::kSmallReadings : blind::kFullReadings;
   if (line.has("kpa")) {
-    if (line.has("snr")) throw fsr::settings::InputError("--snr and --kpa both set the size; give one of them");
+    if (line.has("snr"))
+      throw fsr::settings::InputError("--snr and --kpa both set the size; give one of them");
     spec.kpa = line.number("kpa", 1, {1e-3, 1e4, "kPa"});
   }
   spec.snr = line.number("snr", 1, {0, 100, ""});
@@ -106,66 +106,6 @@ void list() {
   }
 }
 
-// Everything in the order of its stamps, as a recorder writes it.
-void writeCaseBag(const std::string& path, const blind::CaseBag& bag) {
-  const fsr::dataset::Recording& recording = bag.recording;
-  fsr_ros::BagWriter writer(path);
-  fsr_pressure_map::MatrixInfo info;
-  info.sensor_id = recording.sensor.sensor_id;
-  info.serial = recording.sensor.serial;
-  info.firmware = recording.sensor.firmware;
-  info.sensor_model = recording.sensor.model;
-  info.rows = recording.layout.size.rows;
-  info.columns = recording.layout.size.columns;
-  info.full_scale = recording.full_scale;
-  info.pitch_x = static_cast<float>(recording.layout.pitch_x);
-  info.pitch_y = static_cast<float>(recording.layout.pitch_y);
-  info.ambient_pressure = blind::kAmbientPressure;
-  fsr_pressure_map::Session session;
-  session.session_id = "blind";
-  session.use = "chamber";
-  session.mounted_on = "fixture";
-  auto reference = bag.reference.begin();
-  auto thermometer = bag.thermometer.begin();
-  const auto upTo = [&](std::int64_t stamp) {
-    for (; reference != bag.reference.end() && reference->first <= stamp; ++reference) {
-      writer.addChamberPressure(reference->first, reference->second + blind::kAmbientPressure, 0);
-    }
-    for (; thermometer != bag.thermometer.end() && thermometer->first <= stamp; ++thermometer) {
-      writer.addTemperature(thermometer->first, thermometer->second);
-    }
-  };
-  constexpr std::int64_t kSecond = 1000000000;  // [ns]
-  std::int64_t described = 0;
-  for (std::size_t i = 0; i < recording.scans(); ++i) {
-    const std::int64_t stamp = recording.start_ns + std::llround(recording.time[i] * 1e9);
-    upTo(stamp);
-    const bool changed = i > 0 && recording.condition[i] != recording.condition[i - 1];
-    if (i == 0 || changed || stamp - described >= kSecond) {
-      writer.addMatrixInfo(stamp, info);
-      writer.addSession(stamp, session);
-      writer.addSurface(stamp, recording.conditions[recording.condition[i]]);
-      described = stamp;
-    }
-    writer.addScan(stamp, bag.sequence[i],
-                   {recording.layout.size, recording.full_scale, recording.scan(i), recording.layout.size.taxels()});
-  }
-  upTo(std::numeric_limits<std::int64_t>::max());
-  writer.close();
-}
-
-void writeNamed(const blind::BlindCase& made, const std::string& output) {
-  const std::filesystem::path folder(output);
-  std::filesystem::create_directories(folder / "bags");
-  for (const auto& entry : std::filesystem::directory_iterator(folder / "bags")) {
-    if (entry.path().extension() == ".bag") std::filesystem::remove(entry.path());
-  }
-  for (const blind::CaseBag& bag : made.bags) {
-    writeCaseBag((folder / "bags" / bag.recording.name).string(), bag);
-  }
-  fsr::settings::replaceFile((folder / "key.yaml").string(), blind::keyText(made));
-}
-
 void write(const blind::BlindCase& made, const std::string& output, const std::string& key_file) {
   std::filesystem::create_directories(output);
   const std::string key = blind::keyText(made);
@@ -201,7 +141,7 @@ int main(int argc, char** argv) {
       return 0;
     }
     if (line.has("name")) {
-      writeNamed(blind::makeCase(namedSpecFrom(line)), line.requiredText("output"));
+      blind::writeCase(blind::makeCase(namedSpecFrom(line)), line.requiredText("output"));
       return 0;
     }
     const std::string output = line.requiredText("output"), key = line.requiredText("key");

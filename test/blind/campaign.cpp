@@ -73,7 +73,8 @@ class Climate {
     Lag sheet{sheet_lag_, room(visit.start) + ambient_step};
     Lag thermometer{thermometer_lag_, sheet.value};
     for (std::size_t i = visit.first; i < visit.last; ++i) {
-      const double heating = 0.286 * 295 * campaign.rate[i] / (campaign.ambient() + campaign.pressure[i]);  // [K/s]
+      const double heating =
+          0.286 * 295 * campaign.rate[i] / (campaign.ambient() + campaign.pressure[i]);  // [K/s]
       gas += seconds * (heating - gas / 4);
       const double air = room(campaign.time[i]) + ambient_step;
       campaign.temperature.push_back(sheet.step(air + 0.05 * gas, seconds));
@@ -109,8 +110,8 @@ void appendScans(const PlannedVisit& plan, Visit& visit, Campaign& campaign) {
 }
 
 // Appends one stay on a surface that begins `plan.pause` after `clock`; returns the clock at its end [s].
-double stay(const PlannedVisit& plan, double valve_lag, double clock, const Climate& climate, Campaign& campaign,
-            Random& random) {
+double stay(const PlannedVisit& plan, double valve_lag, double clock, const Climate& climate,
+            Campaign& campaign, Random& random) {
   Visit visit;
   visit.surface = plan.surface;
   visit.pause = plan.pause;

@@ -28,8 +28,8 @@ struct Visit {
 
 constexpr double kLead = 5.0;  ///< [s]
 
-/// The true course of events in the laboratory, before any sensor. Pressures are reduced: kPeak stands for the
-/// highest pressure of the protocol, so sheets and effects are those of a sensor made for that range.
+/// The true course of events in the laboratory, before any sensor. Pressures are reduced: kPeak stands for
+/// the highest pressure of the protocol, so sheets and effects are those of a sensor made for that range.
 struct Campaign {
   fsr::matrix::Layout layout;
   double scan_period = 0.1;                    ///< [s]

@@ -120,8 +120,8 @@ void put(YAML::Emitter& out, const char* key, double value) {
   out << YAML::Key << key << YAML::Value << rounded(value);
 }
 
-// The name that the package's simulation has for a parameter; empty where the forms have nothing in common but the
-// effect.
+// The name that the package's simulation has for a parameter; empty where the forms have nothing in common
+// but the effect.
 std::string libraryParameter(const std::string& id, const std::string& parameter) {
   static const std::map<std::string, std::string> names = {{"time_skew.mean_delay", "delay"},
                                                            {"mains_pickup.mains", "frequency"},
@@ -200,7 +200,8 @@ void identifiability(YAML::Emitter& out, const Identifiability& identifiable) {
   put(out, "nats_needed", kNats);
   put(out, "share_needed", kLeftShare);
   put(out, "note",
-      "nats: expected log-likelihood above the static fit; beyond_rival: nats and share of the squares that each rival "
+      "nats: expected log-likelihood above the static fit; beyond_rival: nats and share of the squares that "
+      "each rival "
       "leaves; effects that are not hidden are judged at the size of the hidden one");
   out << YAML::EndMap;
 }

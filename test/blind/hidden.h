@@ -19,12 +19,6 @@ struct HiddenParameter {
   std::string unit;
 };
 
-/// Where and when a fault strikes, for comparing the kinds of faults at one place.
-struct FaultPlace {
-  std::vector<std::size_t> taxels;                        ///< ascending
-  std::vector<std::pair<std::size_t, std::size_t>> spells;  ///< scans first .. last - 1, each within one mount
-};
-
 /// Input for constructing a hidden effect.
 struct HiddenSetup {
   const Campaign& campaign;
@@ -32,7 +26,6 @@ struct HiddenSetup {
   std::uint64_t seed = 0;
   double strength = 1;       ///< 1 = the usual size, 0 = nothing
   bool carried_over = true;  ///< true: the state is kept at a new mount; false: it is reset
-  const FaultPlace* fault = nullptr;  ///< given: a fault strikes here instead of where the seed says
 };
 
 /// An effect of the sheet, the rig or the read-out besides the static curve. It changes the traces of one
@@ -51,9 +44,6 @@ class Hidden {
   virtual std::vector<std::size_t> taxels() const { return {}; }
   /// Intervals in which the effect acts [s, campaign clock]; empty = always.
   virtual std::vector<std::pair<double, double>> times() const { return {}; }
-
-  /// Where a fault strikes; empty for all other effects.
-  virtual FaultPlace faultPlace() const { return {}; }
 
   const std::vector<HiddenParameter>& parameters() const { return parameters_; }
 

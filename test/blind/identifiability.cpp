@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 
@@ -15,11 +14,14 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 const std::set<std::string> kFaults = {"stuck_taxel", "dead_taxel", "row_fault", "column_fault"};
+// Effects whose sign is known: a rival of these cannot be negative.
+const std::set<std::string> kSigned = {"hysteresis", "creep", "seal_leak", "wear"};
 // Effects of a second or a minute, which one pace of the ramps cannot separate.
 const std::set<std::string> kFast = {"hysteresis", "creep", "time_skew", "seal_leak"};
 // Effects that all taxels share; the only ones that rival each other.
-const std::vector<std::string> kRivals = {"hysteresis", "creep",    "time_skew", "seal_leak",    "temperature",
-                                          "wear",       "break_in", "drift",     "repositioning"};
+const std::vector<std::string> kRivals = {"hysteresis", "creep",       "time_skew",
+                                          "seal_leak",  "temperature", "wear",
+                                          "break_in",   "drift",       "repositioning"};
 constexpr std::uint64_t kDraws = 2;      // of the parameters of each form
 constexpr double kMostReadings = 120e3;  // for one signature
 constexpr double kLargestScale = 10;     // of a representative, relative to its usual size
@@ -36,6 +38,13 @@ struct Seen {
   double rms = 0;    // at the full rate
   double fast = 0;   // sum of the squares within the blocks
   double share = 1;  // taxels of the sheet for which one taxel here stands
+};
+
+// A time course that a rival may add, in its own unit, and how much of it: at most three times the usual
+// size.
+struct Course {
+  VectorXd blocks;
+  double low, high;
 };
 
 struct Channel {
@@ -63,7 +72,7 @@ class Study {
       std::vector<Seen> partners = seen;
       partners.erase(partners.begin() + static_cast<std::ptrdiff_t>(i));
       const HiddenForm& form = *p_.hidden[i].placed->form;
-      result.effects.push_back(judge(form, seen[i], partners, p_.hidden[i]));
+      result.effects.push_back(judge(form, seen[i], partners, p_.strengths[i]));
       result.effects.back().hidden = true;
       done.insert(form.id);
     }
@@ -78,8 +87,8 @@ class Study {
   // --- grid of taxels and blocks ---
 
   void chooseTaxels() {
-    const auto most = static_cast<std::size_t>(
-        std::clamp(kMostReadings / static_cast<double>(scans_), 3.0, 12.0));
+    const auto most =
+        static_cast<std::size_t>(std::clamp(kMostReadings / static_cast<double>(scans_), 3.0, 12.0));
     const std::size_t number = campaign_.taxels(), stride = std::max<std::size_t>(1, number / most);
     for (std::size_t i = stride / 2; i < number && taxels_.size() < most; i += stride) taxels_.push_back(i);
     share_ = static_cast<double>(number) / static_cast<double>(taxels_.size());
@@ -213,7 +222,7 @@ class Study {
   }
 
   // One time course that all taxels have, as the curves of a middle taxel leave it.
-  void addShape(const std::string& id, Trace change) {
+  void addShape(const std::string& id, Trace change, double low, double high) {
     double squares = 0;
     for (const double value : change) squares += value * value;
     if (squares <= 0) return;
@@ -221,15 +230,17 @@ class Study {
     for (double& value : change) value *= scale;
     const VectorXd means = blockMeans(p_.rig.leftOf(middle(), change));
     // What the curves leave only numerically is nothing.
-    if (means.norm() > 1e-3 * 1e-3 * std::sqrt(static_cast<double>(blocks_))) shapes_[id].push_back(means);
+    if (means.norm() < 1e-3 * 1e-3 * std::sqrt(static_cast<double>(blocks_))) return;
+    shapes_[id].push_back({means / scale, low, high});
   }
   std::size_t middle() const { return taxels_[taxels_.size() / 2]; }
 
-  // A short or long memory: the load lags behind by any time constant.
+  // A short or long memory: a share of the load follows with any time constant.
   void addLags() {
+    constexpr double kMostCreep = 0.15;  // share of the load, for each time constant
     const Trace slope = p_.rig.slope(middle());
-    for (const double relative : {0.02, 0.06, 0.2, 0.6, 2.0, 6.0, 30.0}) {
-      const double keep = std::exp(-campaign_.scan_period / (relative * p_.plan.fastest));
+    for (const double time_constant : {0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0}) {
+      const double keep = std::exp(-campaign_.scan_period / time_constant);
       Trace change(scans_);
       double lagged = 0;
       for (std::size_t scan = 0; scan < scans_; ++scan) {
@@ -238,7 +249,7 @@ class Study {
         lagged += (1 - keep) * (campaign_.pressure[scan] - lagged);
         change[scan] = slope[scan] * (lagged - campaign_.pressure[scan]);
       }
-      addShape("creep", change);
+      addShape("creep", change, 0, kMostCreep);
     }
   }
 
@@ -252,8 +263,8 @@ class Study {
         zero[scan] = std::sin((k - 0.5) * M_PI * (campaign_.time[scan] - start) / length);
         gain[scan] = zero[scan] * base[scan];
       }
-      addShape(id, zero);
-      if (gain_too) addShape(id, gain);
+      addShape(id, zero, -0.1, 0.1);
+      if (gain_too) addShape(id, gain, -0.1, 0.1);
     }
   }
 
@@ -267,8 +278,8 @@ class Study {
         gain[scan] = base[scan] - p_.sheet.zero(middle());
         preload[scan] = slope[scan];
       }
-      addShape("repositioning", gain);
-      addShape("repositioning", preload);
+      addShape("repositioning", gain, -0.15, 0.15);
+      addShape("repositioning", preload, -40e3, 40e3);
     }
   }
   std::size_t stays(std::size_t surface) const {
@@ -287,11 +298,13 @@ class Study {
       if (svd.singularValues()(k) <= 1e-3 * first) break;
       Channel channel;
       channel.pattern = svd.matrixU().col(k);
+      if (channel.pattern.sum() < 0) channel.pattern = -channel.pattern;
       const double sum = channel.pattern.sum();
       channel.variance = single_variance_ / seen.share + common_variance_ * sum * sum;
       channel.gain = VectorXd::Zero(blocks_);
       for (std::size_t i = 0; i < seen.taxels.size(); ++i) {
-        channel.gain += p_.cycle_gain * channel.pattern(cast(i)) * blockMeans(p_.rig.reading(seen.taxels[i], {}));
+        channel.gain +=
+            p_.cycle_gain * channel.pattern(cast(i)) * blockMeans(p_.rig.reading(seen.taxels[i], {}));
       }
       channels.push_back(std::move(channel));
     }
@@ -316,45 +329,67 @@ class Study {
     return values / std::sqrt(channel.variance);
   }
 
+  // A rival through the pattern of the effect; its amplitude there is its own.
   VectorXd through(const Channel& channel, const Seen& seen, const Seen& rival) const {
     VectorXd course = VectorXd::Zero(blocks_);
     const bool same = seen.taxels == rival.taxels;
+    const double all = channel.pattern.lpNorm<1>() / static_cast<double>(rival.blocks.rows());
     for (Index i = 0; i < rival.blocks.rows(); ++i) {
-      const double weight = same ? std::abs(channel.pattern(i)) : 1.0;
-      course += weight * rival.blocks.row(i).transpose();
+      course += (same ? std::abs(channel.pattern(i)) : all) * rival.blocks.row(i).transpose();
     }
     return course;
   }
 
-  MatrixXd spanOf(const std::string& id, const Channel& channel, const Seen& seen,
-                  const std::vector<Seen>& partners) const {
-    std::vector<VectorXd> columns;
-    for (const Seen& partner : partners) columns.push_back(through(channel, seen, partner));
+  // Everything that a rival may add in a channel, whitened. In the first channel, where all taxels agree, a
+  // rival keeps its sign; in the others, which hold the differences of the taxels, either sign is possible.
+  std::vector<Course> spanOf(const std::string& id, bool first, const Channel& channel, const Seen& seen,
+                             const std::vector<Seen>& partners, double strength) const {
+    std::vector<Course> span;
+    const auto add = [&](const VectorXd& course, double low, double high) {
+      if (!first) low = -(high = std::max(-low, high));
+      span.push_back({whitened(channel, course), low, high});
+    };
+    const double size = 3 * std::max(1.0, strength);
+    for (const Seen& partner : partners) add(through(channel, seen, partner), -2, 2);
     const auto drawn = drawn_.find(id);
     if (drawn != drawn_.end()) {
-      for (const auto& [form, signature] : drawn->second) columns.push_back(through(channel, seen, signature));
+      for (const auto& [form, signature] : drawn->second) {
+        add(through(channel, seen, signature), kSigned.count(id) > 0 ? 0 : -size, size);
+      }
     }
     const auto shapes = shapes_.find(id);
-    if (shapes != shapes_.end()) columns.insert(columns.end(), shapes->second.begin(), shapes->second.end());
-    MatrixXd span(blocks_, cast(columns.size()));
-    Index used = 0;
-    for (const VectorXd& column : columns) {
-      const VectorXd white = whitened(channel, column);
-      const double norm = white.norm();
-      if (norm > 0) span.col(used++) = white / norm;
+    if (shapes != shapes_.end()) {
+      for (const Course& shape : shapes->second) {
+        const double more = std::max(1.0, strength);
+        add(channel.pattern.lpNorm<1>() * shape.blocks, more * shape.low, more * shape.high);
+      }
     }
-    return span.leftCols(used);
+    return span;
   }
 
-  // Squares of `values` that are orthogonal to the span. Directions in which the forms of a rival hardly differ do not
-  // count: a rival's size would be absurd there.
-  static double beyond(const VectorXd& values, const MatrixXd& span) {
-    if (span.cols() == 0) return values.squaredNorm();
-    Eigen::ColPivHouseholderQR<MatrixXd> qr(span);
-    qr.setThreshold(1e-3);
-    VectorXd rotated = values;
-    rotated.applyOnTheLeft(qr.householderQ().adjoint());
-    return rotated.tail(rotated.size() - qr.rank()).squaredNorm();
+  // Squares that least squares within the bounds leave of `values`, by cyclic coordinate descent.
+  static double beyond(const VectorXd& values, const std::vector<Course>& span) {
+    const Index number = cast(span.size());
+    if (number == 0) return values.squaredNorm();
+    MatrixXd courses(values.size(), number);
+    for (Index j = 0; j < number; ++j) courses.col(j) = span[static_cast<std::size_t>(j)].blocks;
+    const MatrixXd gram = courses.transpose() * courses;
+    const VectorXd wanted = courses.transpose() * values;
+    VectorXd size = VectorXd::Zero(number);
+    double before = 0;
+    for (int round = 0; round < 3000; ++round) {
+      for (Index j = 0; j < number; ++j) {
+        if (!(gram(j, j) > 0)) continue;
+        const Course& course = span[static_cast<std::size_t>(j)];
+        const double step = (wanted(j) - gram.row(j).dot(size)) / gram(j, j);
+        size(j) = std::clamp(size(j) + step, course.low, course.high);
+      }
+      if (round % 20 > 0) continue;
+      const double gained = 2 * wanted.dot(size) - size.dot(gram * size);
+      if (round > 0 && gained - before < 1e-4 * (1 + gained)) break;
+      before = gained;
+    }
+    return (values - courses * size).squaredNorm();
   }
 
   double fastNats(const HiddenForm& form, const Seen& seen) const {
@@ -362,10 +397,10 @@ class Study {
     return counts ? 0.5 * seen.share * seen.fast / scan_variance_ : 0;
   }
 
-  Told judge(const HiddenForm& form, const Seen& seen, const std::vector<Seen>& partners, const Active& active) {
+  Told judge(const HiddenForm& form, const Seen& seen, const std::vector<Seen>& partners, double strength) {
     Told told;
     told.id = form.id;
-    const bool fault = kFaults.count(form.id) > 0, is_static = form.left_after == LeftAfter::kCurveShared;
+    const bool is_static = form.left_after == LeftAfter::kCurveShared;
     const double fast = fastNats(form, seen);
     std::vector<Channel> channels;
     std::vector<VectorXd> courses;
@@ -373,53 +408,20 @@ class Study {
     told.nats = fast;
     for (const Channel& channel : channels) {
       courses.push_back(whitened(channel, seen.blocks.transpose() * channel.pattern));
-      told.nats += 0.5 * beyond(courses.back(), spanOf("", channel, seen, partners));
+      const bool first = courses.size() == 1;
+      told.nats += 0.5 * beyond(courses.back(), spanOf("", first, channel, seen, partners, strength));
     }
     for (const std::string& rival : kRivals) {
       if (rival == form.id || is_static || told.nats <= 0) continue;
       if (rival == "repositioning" && !remounted()) continue;
       double left = fast;
       for (std::size_t k = 0; k < channels.size(); ++k) {
-        left += 0.5 * beyond(courses[k], spanOf(rival, channels[k], seen, partners));
+        left += 0.5 * beyond(courses[k], spanOf(rival, k == 0, channels[k], seen, partners, strength));
       }
       told.beyond[rival] = {left, left / told.nats};
     }
-    if (fault) addFaultsAtTheSamePlace(form, seen, active, told);
     conclude(form, told);
     return told;
-  }
-
-  // A dead taxel against a stuck one, and the reverse, at the same taxels and times.
-  void addFaultsAtTheSamePlace(const HiddenForm& form, const Seen& seen, const Active& active, Told& told) const {
-    const std::string rival = form.id == "dead_taxel"    ? "stuck_taxel"
-                              : form.id == "stuck_taxel" ? "dead_taxel"
-                                                         : "";
-    const FaultPlace place = active.hidden->faultPlace();
-    if (rival.empty() || place.spells.empty()) return;
-    const Index rows = cast(seen.taxels.size()) * cast(scans_);
-    const auto stack = [&](const Active& fault) {
-      VectorXd all(rows);
-      for (std::size_t i = 0; i < seen.taxels.size(); ++i) {
-        const Trace left = p_.rig.residual(fault, seen.taxels[i]);
-        all.segment(cast(i * scans_), cast(scans_)) = Eigen::Map<const VectorXd>(left.data(), cast(scans_));
-      }
-      return all;
-    };
-    const VectorXd own = stack(active);
-    std::vector<VectorXd> columns;
-    for (const HiddenForm* other : openFormsOf(rival)) {
-      const Placed placed = everywhere(*other, 0);
-      HiddenSetup setup{campaign_, p_.sheet, placed.seed, 1, true, &place};
-      const Active there{&placed, std::shared_ptr<const Hidden>(other->make(setup))};
-      columns.push_back(stack(there));
-    }
-    MatrixXd span(rows, cast(columns.size()));
-    Index used = 0;
-    for (const VectorXd& column : columns) {
-      if (column.norm() > 0) span.col(used++) = column / column.norm();
-    }
-    const double left = beyond(own, span.leftCols(used)) / std::max(own.squaredNorm(), 1e-30);
-    told.beyond[rival] = {left * told.nats, left};
   }
 
   void conclude(const HiddenForm& form, Told& told) const {
@@ -442,7 +444,8 @@ class Study {
     const auto confused = [&](const char* id) {
       return std::count(told.confused_with.begin(), told.confused_with.end(), id) > 0;
     };
-    if (!p_.plan.thermometer && (form.id == "temperature" || confused("temperature"))) return "no_thermometer";
+    if (!p_.plan.thermometer && (form.id == "temperature" || confused("temperature")))
+      return "no_thermometer";
     const std::string& nearest = told.confused_with.front();
     if (p_.plan.onePace() && kFast.count(form.id) > 0 && kFast.count(nearest) > 0) return "one_pace";
     if (form.id == "break_in" && !remounted()) return "one_mount";
@@ -463,7 +466,7 @@ class Study {
       seen.blocks *= scale;
       seen.rms *= scale;
       seen.fast *= scale * scale;
-      const Told told = judge(*form, seen, {}, active);
+      const Told told = judge(*form, seen, {}, scale);
       if (first || (!told.could_be_told && all.could_be_told)) {
         all.reason = told.reason;
         all.nats = told.nats;
@@ -489,7 +492,7 @@ class Study {
   double single_variance_ = 0, common_variance_ = 0;  // of a block
   double scan_variance_ = 0;                          // of a scan about its block
   std::map<std::string, std::vector<std::pair<const HiddenForm*, Seen>>> drawn_;
-  std::map<std::string, std::vector<VectorXd>> shapes_;
+  std::map<std::string, std::vector<Course>> shapes_;
 };
 
 }  // namespace

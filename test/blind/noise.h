@@ -47,12 +47,13 @@ class Noise {
 
 /// A sample of a slow channel.
 struct Sample {
-  double time = 0;   ///< campaign clock [s]
+  double time = 0;  ///< campaign clock [s]
   double value = 0;
 };
 
-/// What the chamber's transducer, its converter and its recorder make of the true pressure of a drawn plan: samples
-/// at the reference's own rate, centred averages, offset, span and curvature errors, white noise, quantisation.
+/// What the chamber's transducer, its converter and its recorder make of the true pressure of a drawn plan:
+/// samples at the reference's own rate, centred averages, offset, span and curvature errors, white noise,
+/// quantisation.
 class ReferenceChannel {
  public:
   ReferenceChannel(const RigPlan& plan, const Campaign& campaign, std::uint64_t seed);

@@ -26,7 +26,8 @@ class PathBuilder {
     point(path_.time.back() + std::abs(target - path_.pressure.back()) / rate, target);
     return *this;
   }
-  /// An exponential approach that has covered 98.2 % of the distance after `seconds`; the rest is a short ramp.
+  /// An exponential approach that has covered 98.2 % of the distance after `seconds`; the rest is a short
+  /// ramp.
   PathBuilder& approach(double target, double seconds) {
     constexpr int kPieces = 16;
     const double from = path_.pressure.back(), start = path_.time.back();

@@ -46,9 +46,9 @@ class Rig {
   /// What an effect alone leaves after the best static fit. Measured on every `stride`-th taxel, or on all of
   /// its taxels where it shows on only a few.
   Signature signature(const Active& active, std::size_t stride) const;
-  /// The error that a static calibration makes at the pressure map because of an effect: what the effect leaves after
-  /// the static fit, divided by the local slope of the taxel's curve, rms over all taxels and all scans above
-  /// kLoaded [Pa, true]. A slope below kFlat of the taxel's mean slope counts as that.
+  /// The error that a static calibration makes at the pressure map because of an effect: what the effect
+  /// leaves after the static fit, divided by the local slope of the taxel's curve, rms over all taxels and
+  /// all scans above kLoaded [Pa, true]. A slope below kFlat of the taxel's mean slope counts as that.
   double errorAtMap(const Active& active, std::size_t stride) const;
   static constexpr double kLoaded = 0.05;  ///< share of the highest pressure
   static constexpr double kFlat = 0.2;

@@ -121,7 +121,8 @@ class Cycles {
   // Time of a ramp over the whole range [s].
   double pace(RigPlan& plan) {
     double seconds = fastest_;
-    if (paces_ > 1) seconds *= two_paces_ ? (random_.chance(0.4) ? paces_ : 1.0) : random_.logUniform(1, paces_);
+    if (paces_ > 1)
+      seconds *= two_paces_ ? (random_.chance(0.4) ? paces_ : 1.0) : random_.logUniform(1, paces_);
     plan.fastest = plan.fastest > 0 ? std::min(plan.fastest, seconds) : seconds;
     plan.slowest = std::max(plan.slowest, seconds);
     return seconds;
@@ -171,8 +172,9 @@ class Cycles {
 
 void drawSurfaces(const Class& rules, double ease, Random& random, RigPlan& plan) {
   const std::vector<int> radii_mm = {200, 170, 150, 130, 110, 90, 70, 60, 50};
-  const auto most = std::max(rules.surfaces_low, static_cast<std::size_t>(std::lround(
-                                                     ease * static_cast<double>(rules.surfaces_high))));
+  const auto most =
+      std::max(rules.surfaces_low,
+               static_cast<std::size_t>(std::lround(ease * static_cast<double>(rules.surfaces_high))));
   const std::size_t number = between(random, rules.surfaces_low, most);
   plan.radii = {0};
   for (const std::size_t member : random.choose(number - 1, radii_mm.size())) {
@@ -214,7 +216,8 @@ void drawCycles(const Class& rules, double ease, Random& random, RigPlan& plan) 
   plan.valve_lag = random.uniform(0.03, 0.1) * ramp;
   plan.visits.clear();
   for (const std::size_t surface : drawOrder(rules, random, plan)) {
-    PlannedVisit visit{surface, path.visit(cycles, plan.reach[surface], plan), 0, random.logUniform(90, 1500)};
+    PlannedVisit visit{surface, path.visit(cycles, plan.reach[surface], plan), 0,
+                       random.logUniform(90, 1500)};
     plan.cycles += visit.path.cycle_start.size();
     plan.visits.push_back(std::move(visit));
   }

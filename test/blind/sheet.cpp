@@ -5,7 +5,8 @@
 
 namespace blind {
 
-const std::vector<std::string> Sheet::law_names_ = {"lognormal", "rational", "percolation", "weibull", "logarithmic"};
+const std::vector<std::string> Sheet::law_names_ = {"lognormal", "rational", "percolation", "weibull",
+                                                    "logarithmic"};
 const std::vector<std::string> Sheet::preload_names_ = {"hyperbolic", "root", "tanh", "hill"};
 const std::vector<std::string> Sheet::gain_names_ = {"power_1.5", "power_law", "hyperbolic", "exponential"};
 

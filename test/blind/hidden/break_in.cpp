@@ -67,12 +67,13 @@ class ByWholeCycles : public BreakIn {
 };
 
 // Bedding-in that goes on with the logarithm of the cycles, without an end.
-// Source: J. Diani, B. Fayolle, P. Gilormini, A review on the Mullins effect, Eur. Polym. J. 45 (2009) 601, which
-// reports the slow softening of filled rubber after the first cycles.
+// Source: J. Diani, B. Fayolle, P. Gilormini, A review on the Mullins effect, Eur. Polym. J. 45 (2009) 601,
+// which reports the slow softening of filled rubber after the first cycles.
 class LogCycles : public BreakIn {
  public:
   explicit LogCycles(const HiddenSetup& setup) : BreakIn(setup) {
-    run(false, [&](double cycles) { return 1 - std::log1p(cycles / (0.3 * settled_after_)) / std::log1p(100.0); });
+    run(false,
+        [&](double cycles) { return 1 - std::log1p(cycles / (0.3 * settled_after_)) / std::log1p(100.0); });
   }
 };
 

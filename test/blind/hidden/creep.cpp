@@ -61,10 +61,10 @@ struct SofteningState {
   }
 };
 
-// Kohlrausch's stretched exponential exp(-(t / t0)^0.5), as a sum of lags: its distribution of time constants is
-// t^0.5 exp(-t / (4 t0)) for each unit of ln t.
-// Source: G. Williams, D. C. Watts, Non-symmetrical dielectric relaxation behaviour arising from a simple
-// empirical decay function, Trans. Faraday Soc. 66 (1970) 80.
+// Kohlrausch's stretched exponential exp(-(t / t0)^0.5), as a sum of lags: its distribution of time constants
+// is t^0.5 exp(-t / (4 t0)) for each unit of ln t. Source: G. Williams, D. C. Watts, Non-symmetrical
+// dielectric relaxation behaviour arising from a simple empirical decay function, Trans. Faraday Soc. 66
+// (1970) 80.
 struct StretchedState {
   static constexpr std::size_t kLags = 14;
   std::array<double, kLags> weight{}, rate{}, lag{};
@@ -89,8 +89,8 @@ struct StretchedState {
 };
 
 // Flow over barriers that the load lowers: dx/dt = rate sinh((load - x) / scale).
-// Source: H. Eyring, Viscosity, plasticity, and diffusion as examples of absolute reaction rates, J. Chem. Phys. 4
-// (1936) 283.
+// Source: H. Eyring, Viscosity, plasticity, and diffusion as examples of absolute reaction rates, J. Chem.
+// Phys. 4 (1936) 283.
 struct EyringState {
   double rate;   // [1/s]
   double scale;  // share of the peak

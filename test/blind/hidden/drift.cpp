@@ -90,8 +90,8 @@ class Ageing : public Drift {
 };
 
 // Flicker of the zero over minutes and hours, as a sum of three Ornstein-Uhlenbeck processes.
-// Source: R. F. Voss, J. Clarke, Flicker (1/f) noise: equilibrium temperature and resistance fluctuations, Phys.
-// Rev. B 13 (1976) 556.
+// Source: R. F. Voss, J. Clarke, Flicker (1/f) noise: equilibrium temperature and resistance fluctuations,
+// Phys. Rev. B 13 (1976) 556.
 class Flicker : public Drift {
  public:
   explicit Flicker(const HiddenSetup& setup) : Drift(setup) {

@@ -24,26 +24,17 @@ class Fault : public Hidden {
     }
     return times;
   }
-  FaultPlace faultPlace() const override {
-    FaultPlace place{taxels_, {}};
-    for (const Spell& spell : spells_) place.spells.emplace_back(spell.first, spell.last);
-    return place;
-  }
 
  protected:
   Fault(const HiddenSetup& setup, const char* purpose) : setup_(setup), random_(setup.seed, purpose) {}
 
   void hitTaxels() {
-    if (setup_.fault != nullptr) {
-      taxels_ = setup_.fault->taxels;
-      return;
-    }
     const std::size_t number = setup_.campaign.taxels();
     taxels_ = random_.choose(1 + random_.below(std::max<std::size_t>(1, number / 30)), number);
   }
   // From a random time to the end.
   void failForGood() {
-    if (setup_.strength <= 0 || failsWhereTold()) return;
+    if (setup_.strength <= 0) return;
     const double share = std::min(0.95, random_.uniform(0.2, 0.4) * setup_.strength);
     const std::size_t scans = setup_.campaign.first_scans;
     addSpell(scans - std::max<std::size_t>(10, static_cast<std::size_t>(share * static_cast<double>(scans))),
@@ -52,7 +43,6 @@ class Fault : public Hidden {
   // At the usual strength, spells last `seconds` on average and take `share` of the time in total. A stronger
   // fault has more and longer spells, which include those of a weaker fault.
   void failNowAndThen(double share, double seconds, bool random_lengths = false) {
-    if (failsWhereTold()) return;
     const auto scans = static_cast<double>(setup_.campaign.scans());
     const double root = std::sqrt(setup_.strength);
     const double usual = seconds / setup_.campaign.scan_period;  // [scans]
@@ -82,11 +72,6 @@ class Fault : public Hidden {
   std::vector<Spell> spells_;
 
  private:
-  bool failsWhereTold() {
-    if (setup_.fault == nullptr) return false;
-    for (const auto& [first, last] : setup_.fault->spells) addSpell(first, last);
-    return true;
-  }
   void addSpell(std::size_t first, std::size_t last) {
     for (const Visit& visit : setup_.campaign.visits) {
       const Spell part{std::max(first, visit.first), std::min(last, visit.last)};
@@ -133,10 +118,9 @@ class AtALevel : public Stuck {
   }
 };
 
-// Silver grows between two lines and shorts the taxel: within a minute or so the reading moves to a level, where
-// it stays.
-// Source: S. J. Krumbein, Metallic electromigration phenomena, IEEE Trans. Compon. Hybrids Manuf. Technol. 11 (1988)
-// 5.
+// Silver grows between two lines and shorts the taxel: within a minute or so the reading moves to a level,
+// where it stays. Source: S. J. Krumbein, Metallic electromigration phenomena, IEEE Trans. Compon. Hybrids
+// Manuf. Technol. 11 (1988) 5.
 class Migrating : public Stuck {
  public:
   explicit Migrating(const HiddenSetup& setup)
@@ -206,8 +190,8 @@ class Fading : public Dead {
 };
 
 // The contact corrodes by fretting: its resistance grows exponentially until nothing is left of the reading.
-// Source: M. Antler, Survey of contact fretting in electrical connectors, IEEE Trans. Compon. Hybrids Manuf. Technol.
-// 8 (1985) 87.
+// Source: M. Antler, Survey of contact fretting in electrical connectors, IEEE Trans. Compon. Hybrids Manuf.
+// Technol. 8 (1985) 87.
 class Fretting : public Dead {
  public:
   explicit Fretting(const HiddenSetup& setup) : Dead(setup), time_(random_.uniform(5, 30)) {
@@ -243,10 +227,6 @@ class LineFault : public Fault {
  protected:
   LineFault(const HiddenSetup& setup, bool row) : Fault(setup, row ? "row fault" : "column fault") {
     const fsr::matrix::Layout& layout = setup.campaign.layout;
-    if (setup.fault != nullptr) {
-      taxels_ = setup.fault->taxels;
-      return;
-    }
     const std::size_t line = random_.below(row ? layout.size.rows : layout.size.columns);
     for (std::size_t i = 0; i < setup.campaign.taxels(); ++i) {
       if ((row ? layout.row({i}) : layout.column({i})) == line) taxels_.push_back(i);
@@ -297,8 +277,8 @@ class Dropout : public LineFault {
 };
 
 // An intermittent short shifts the line by the same amount each time.
-// Source: S. Machlup, Noise in semiconductors: spectrum of a two-parameter random signal, J. Appl. Phys. 25 (1954)
-// 341.
+// Source: S. Machlup, Noise in semiconductors: spectrum of a two-parameter random signal, J. Appl. Phys. 25
+// (1954) 341.
 template <bool kRow>
 class TwoLevels : public LineFault {
  public:
@@ -316,8 +296,8 @@ class TwoLevels : public LineFault {
 };
 
 // A fretted plug: in each bad spell another resistance, log-normally distributed, in series with the line.
-// Source: M. Antler, Survey of contact fretting in electrical connectors, IEEE Trans. Compon. Hybrids Manuf. Technol.
-// 8 (1985) 87.
+// Source: M. Antler, Survey of contact fretting in electrical connectors, IEEE Trans. Compon. Hybrids Manuf.
+// Technol. 8 (1985) 87.
 template <bool kRow>
 class FrettedPlug : public LineFault {
  public:

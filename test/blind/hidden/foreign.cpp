@@ -109,7 +109,8 @@ class WanderingStep : public OnlyBent {
       }
       threshold_[scan] = value;
     }
-    parameters_ = {{"size", size_, "share of full scale"}, {"middle", middle, "Pa"}, {"spread", spread, "Pa"}};
+    parameters_ = {
+        {"size", size_, "share of full scale"}, {"middle", middle, "Pa"}, {"spread", spread, "Pa"}};
   }
   void onReading(std::size_t taxel, Trace& reading) const override {
     for (std::size_t scan = 0; scan < reading.size(); ++scan) {
@@ -124,8 +125,8 @@ class WanderingStep : public OnlyBent {
 };
 
 // A bent sheet reads lower in the cycle after a high peak and recovers after a low one.
-// Source: J. Diani, B. Fayolle, P. Gilormini, A review on the Mullins effect, Eur. Polym. J. 45 (2009) 601, on
-// softening by the load before and on recovery; the dependence on bending is a choice.
+// Source: J. Diani, B. Fayolle, P. Gilormini, A review on the Mullins effect, Eur. Polym. J. 45 (2009) 601,
+// on softening by the load before and on recovery; the dependence on bending is a choice.
 class PeakMemoryBent : public OnlyBent {
  public:
   explicit PeakMemoryBent(const HiddenSetup& setup) : OnlyBent(setup), before_(setup.campaign.scans()) {

@@ -84,7 +84,8 @@ struct OneSidedState {
 };
 
 // Bouc and Wen's hysteresis: dz/dx = 1 - |z|^n (0.5 + 0.5 sign(z dx)), with the load as x.
-// Source: Y. K. Wen, Method for random vibration of hysteretic systems, J. Eng. Mech. Div. ASCE 102 (1976) 249.
+// Source: Y. K. Wen, Method for random vibration of hysteretic systems, J. Eng. Mech. Div. ASCE 102 (1976)
+// 249.
 struct BoucWenState {
   double length;    // load over which a branch closes [Pa]
   double exponent;  // n
@@ -106,7 +107,8 @@ struct BoucWenState {
 };
 
 // Jiles and Atherton's equation: an anhysteretic curve, here Langevin's, that pinning keeps the output from.
-// Source: D. C. Jiles, D. L. Atherton, Theory of ferromagnetic hysteresis, J. Magn. Magn. Mater. 61 (1986) 48.
+// Source: D. C. Jiles, D. L. Atherton, Theory of ferromagnetic hysteresis, J. Magn. Magn. Mater. 61
+// (1986) 48.
 struct JilesAthertonState {
   double pinning;  // k, share of the peak
   double shape;    // a, share of the peak
@@ -208,7 +210,8 @@ class BoucWen : public Loop {
     parameters_.push_back({"exponent", exponent_, "1"});
   }
   void onLoad(std::size_t taxel, Trace& load) const override {
-    addTo(load, taxel, BoucWenState{length_, exponent_}, [](const BoucWenState& state) { return state.output(); });
+    addTo(load, taxel, BoucWenState{length_, exponent_},
+          [](const BoucWenState& state) { return state.output(); });
   }
 
  private:

@@ -133,13 +133,14 @@ class OddHarmonics : public Pickup {
 
  private:
   double wave(std::size_t, double phase) const override {
-    return std::sin(phase) + 0.8 * std::sin(3 * phase) + 0.45 * std::sin(5 * phase) + 0.2 * std::sin(7 * phase);
+    return std::sin(phase) + 0.8 * std::sin(3 * phase) + 0.45 * std::sin(5 * phase) +
+           0.2 * std::sin(7 * phase);
   }
 };
 
 // A machine on the same line switches on and off: the hum's amplitude has two levels.
-// Source: S. Machlup, Noise in semiconductors: spectrum of a two-parameter random signal, J. Appl. Phys. 25 (1954)
-// 341, for the process between the levels.
+// Source: S. Machlup, Noise in semiconductors: spectrum of a two-parameter random signal, J. Appl. Phys. 25
+// (1954) 341, for the process between the levels.
 class Switched : public Pickup {
  public:
   explicit Switched(const HiddenSetup& setup) : Pickup(setup), level_(setup.campaign.scans()) {

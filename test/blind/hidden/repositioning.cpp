@@ -100,8 +100,8 @@ class Bubble : public Repositioning {
 };
 
 // The gain differs by a smooth random field, a sum of cosine waves of random directions.
-// Source: M. Shinozuka, G. Deodatis, Simulation of stochastic processes by spectral representation, Appl. Mech. Rev.
-// 44 (1991) 191.
+// Source: M. Shinozuka, G. Deodatis, Simulation of stochastic processes by spectral representation, Appl.
+// Mech. Rev. 44 (1991) 191.
 class RandomField : public Repositioning {
  public:
   explicit RandomField(const HiddenSetup& setup) : Repositioning(setup) {
@@ -110,9 +110,11 @@ class RandomField : public Repositioning {
     for (std::size_t v = 0; v < setup.campaign.visits.size(); ++v) {
       field_.emplace_back(places_.size(), 1.0);
       for (int wave = 0; wave < kWaves; ++wave) {
-        const double x = 1.8 * random_.normal(), y = 1.8 * random_.normal(), phase = random_.uniform(0, 2 * M_PI);
+        const double x = 1.8 * random_.normal(), y = 1.8 * random_.normal(),
+                     phase = random_.uniform(0, 2 * M_PI);
         for (std::size_t i = 0; i < places_.size(); ++i) {
-          field_.back()[i] += size * std::sqrt(2.0 / kWaves) * std::cos(x * places_[i].x + y * places_[i].y + phase);
+          field_.back()[i] +=
+              size * std::sqrt(2.0 / kWaves) * std::cos(x * places_[i].x + y * places_[i].y + phase);
         }
       }
     }

@@ -110,7 +110,8 @@ class Orifice : public Leak {
 class Laminar : public Leak {
  public:
   explicit Laminar(const HiddenSetup& setup) : Leak(setup) {
-    fill(LaminarState{rate_, setup.campaign.ambient()}, [&](std::size_t scan, const LaminarState& s) { cavity_[scan] = s.cavity; });
+    fill(LaminarState{rate_, setup.campaign.ambient()},
+         [&](std::size_t scan, const LaminarState& s) { cavity_[scan] = s.cavity; });
   }
 };
 

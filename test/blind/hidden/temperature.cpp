@@ -107,7 +107,8 @@ class Hopping : public Thermal {
 // Source: S. Timoshenko, Analysis of bi-metal thermostats, J. Opt. Soc. Am. 11 (1925) 233.
 class Mismatch : public Thermal {
  public:
-  explicit Mismatch(const HiddenSetup& setup) : Thermal(setup), pressure_(slope_ * random_.uniform(250e3, 400e3)) {
+  explicit Mismatch(const HiddenSetup& setup)
+      : Thermal(setup), pressure_(slope_ * random_.uniform(250e3, 400e3)) {
     parameters_.push_back({"preload", pressure_, "Pa / K"});
   }
   void onLoad(std::size_t taxel, Trace& load) const override {

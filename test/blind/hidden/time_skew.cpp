@@ -75,7 +75,8 @@ class Buffered : public TimeSkew {
 };
 
 // A free-running clock that a time service sets back at intervals: the delay is a saw tooth.
-// Source: D. L. Mills, Internet time synchronization: the Network Time Protocol, IEEE Trans. Commun. 39 (1991) 1482.
+// Source: D. L. Mills, Internet time synchronization: the Network Time Protocol, IEEE Trans. Commun. 39
+// (1991) 1482.
 class SetBack : public TimeSkew {
  public:
   explicit SetBack(const HiddenSetup& setup) : TimeSkew(setup) {

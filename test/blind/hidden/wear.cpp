@@ -112,7 +112,8 @@ class Cracks : public Wear {
     double total = 0;
     for (std::size_t scan = 0; scan < lost_.size(); ++scan) {
       const double share = std::max(0.0, setup.campaign.pressure[scan] / kPeak);
-      total += std::pow(share, power - 1) * std::abs(setup.campaign.rate[scan]) * setup.campaign.scan_period / kPeak;
+      total += std::pow(share, power - 1) * std::abs(setup.campaign.rate[scan]) * setup.campaign.scan_period /
+               kPeak;
       lost_[scan] = total;
     }
     const double end = lost_[setup.campaign.first_scans - 1];
