@@ -89,12 +89,14 @@ def other_figures(rows):
     if coverage["value"]["rate"] is not None:
         coverage.update(target="0.93 to 0.97", met=0.93 <= coverage["value"]["rate"] <= 0.97)
     ten = [r for r in rows if r["kind"] != "nothing" and r["kpa"] == 10]
+    places = [r["f1"]["mean"] for r in rows if r["f1"]]
     return [
         figure("gap before, stated / recomputed in 0.98 .. 1.02", rate(rows, lambda r: within(r, "before")), ">=", 1),
         figure("gap after, stated / recomputed in 0.98 .. 1.02", rate(rows, lambda r: within(r, "after")), ">=", 1),
         figure("gap recomputed: after is larger than before", rate(
             [r for r in rows if r["recomputed_after"]], lambda r: r["recomputed_after"] > r["recomputed_before"])),
         coverage,
+        figure("place of a right single answer, mean F1", mean(places), ">=", 0.9),
         figure("effects of 10 kPa at the map, heard of", rate(ten, field("heard_of"))),
         figure("time, longest [s]", max((r["seconds"] for r in rows if r["seconds"]), default=None), "<=", 60),
     ]
