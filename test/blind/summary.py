@@ -98,6 +98,7 @@ def other_figures(rows):
         coverage,
         figure("place of a right single answer, mean F1", mean(places), ">=", 0.9),
         figure("effects of 10 kPa at the map, heard of", rate(ten, field("heard_of"))),
+        figure("cases that the command refused", rate(rows, lambda r: r["outcome"] == "refused")),
         figure("time, longest [s]", max((r["seconds"] for r in rows if r["seconds"]), default=None), "<=", 60),
     ]
 

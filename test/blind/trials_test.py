@@ -75,6 +75,13 @@ class Trials(unittest.TestCase):
         self.run_trials("none", grid=["--effects", "creep:log_time", "--kpa", "", "--nothing", "2"])
         self.assertEqual(len(self.calls()), 4)
 
+    def test_stops_in_time_and_goes_on(self):
+        done = self.run_trials("none", "--minutes", "0.0001", "--jobs", "1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"[56] cases are left")
+        self.run_trials("none")
+        self.assertEqual(len(self.names()), 6)
+
     def test_shards_share_the_campaign(self):
         self.run_trials("none", "--shard", "1/2")
         first = set(self.names())
