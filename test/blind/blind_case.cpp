@@ -367,6 +367,7 @@ void Maker::readOut() {
   const auto counts = convert(noise, scale);
   if (plan_) {
     cutIntoBags(counts);
+    made_.cycle_gain = 2 * scale * noise_.cycleGain();
     if (made_.spec.judged) judge(std::move(noise), scale);
   } else {
     record(counts);
@@ -489,7 +490,6 @@ void Maker::judge(std::vector<Trace> noise, double scale) {
       made_.hidden.empty() ? made_.noise : std::max(made_.hidden.front().left, 0.25 * made_.noise);
   std::vector<double> strengths;
   for (const HiddenTruth& truth : made_.hidden) strengths.push_back(truth.strength);
-  made_.cycle_gain = 2 * scale * noise_.cycleGain();
   made_.identifiable = identify({campaign_, sheet_, rig_, *plan_, made_.spec.seed, active_, strengths, noise,
                                  channel_->error(), made_.cycle_gain, left});
 }

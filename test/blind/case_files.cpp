@@ -189,6 +189,7 @@ void identifiability(YAML::Emitter& out, const Identifiability& identifiable) {
     out << YAML::Key << "confused_with" << YAML::Value;
     flowList(out, told.confused_with);
     put(out, "nats", told.nats);
+    put(out, "own_forms", told.own_forms);
     out << YAML::Key << "beyond_rival" << YAML::Value << YAML::Flow << YAML::BeginMap;
     for (const auto& [rival, left] : told.beyond) {
       out << YAML::Key << rival << YAML::Value << YAML::Flow << YAML::BeginSeq << rounded(left.first, 3)

@@ -25,6 +25,7 @@ const std::vector<std::string> kRivals = {"hysteresis", "creep",       "time_ske
 constexpr std::uint64_t kDraws = 2;      // of the parameters of each form
 constexpr double kMostReadings = 120e3;  // for one signature
 constexpr double kLargestScale = 10;     // of a representative, relative to its usual size
+constexpr double kShows = 2e-4;  // rms that an effect of its usual size must leave [share of full scale]
 constexpr Index kChannels = 3;
 
 Index cast(std::size_t number) {
@@ -343,7 +344,8 @@ class Study {
   // Everything that a rival may add in a channel, whitened. In the first channel, where all taxels agree, a
   // rival keeps its sign; in the others, which hold the differences of the taxels, either sign is possible.
   std::vector<Course> spanOf(const std::string& id, bool first, const Channel& channel, const Seen& seen,
-                             const std::vector<Seen>& partners, double strength) const {
+                             const std::vector<Seen>& partners, double strength,
+                             const HiddenForm* without = nullptr) const {
     std::vector<Course> span;
     const auto add = [&](const VectorXd& course, double low, double high) {
       if (!first) low = -(high = std::max(-low, high));
@@ -354,6 +356,7 @@ class Study {
     const auto drawn = drawn_.find(id);
     if (drawn != drawn_.end()) {
       for (const auto& [form, signature] : drawn->second) {
+        if (form == without) continue;
         add(through(channel, seen, signature), kSigned.count(id) > 0 ? 0 : -size, size);
       }
     }
@@ -404,8 +407,10 @@ class Study {
     const double fast = fastNats(form, seen);
     std::vector<Channel> channels;
     std::vector<VectorXd> courses;
-    if (seen.rms > 1e-9) channels = channelsOf(seen);
-    told.nats = fast;
+    // What a usual size does not show is the error of the static fit.
+    const bool shows = seen.rms > kShows * std::max(strength, 1e-9);
+    if (shows) channels = channelsOf(seen);
+    told.nats = shows ? fast : 0;
     for (const Channel& channel : channels) {
       courses.push_back(whitened(channel, seen.blocks.transpose() * channel.pattern));
       const bool first = courses.size() == 1;
@@ -420,6 +425,14 @@ class Study {
       }
       told.beyond[rival] = {left, left / told.nats};
     }
+    if (told.nats > 0 && !is_static && drawn_.count(form.id) > 0) {
+      double left = fast;
+      for (std::size_t k = 0; k < channels.size(); ++k) {
+        left +=
+            0.5 * beyond(courses[k], spanOf(form.id, k == 0, channels[k], seen, partners, strength, &form));
+      }
+      told.own_forms = left / told.nats;
+    }
     conclude(form, told);
     return told;
   }
@@ -432,7 +445,8 @@ class Study {
       return told.beyond.at(a).first < told.beyond.at(b).first;
     });
     const bool blind_to_warmth = form.id == "temperature" && !p_.plan.thermometer;
-    told.could_be_told = told.nats >= kNats && told.confused_with.empty() && !blind_to_warmth;
+    told.could_be_told = told.nats >= kNats && told.confused_with.empty() && !blind_to_warmth &&
+                         !(form.needs_remounts && !remounted());
     if (!told.could_be_told) told.reason = reasonOf(form, told);
     if (told.nats < kNats) told.confused_with.clear();
   }
@@ -471,6 +485,7 @@ class Study {
         all.reason = told.reason;
         all.nats = told.nats;
         all.beyond = told.beyond;
+        all.own_forms = told.own_forms;
       }
       first = false;
       all.could_be_told = all.could_be_told && told.could_be_told;

@@ -41,7 +41,6 @@ double meanSquare(const Trace& trace) {
 
 // An independent static fit: for each surface least squares with hat functions every 20 kPa (reduced).
 struct HatCurves {
-  explicit HatCurves(const Campaign& campaign) : campaign(campaign) {}
   Trace fit(const Trace& reading) const {
     constexpr Eigen::Index kKnots = 34;
     Trace fitted(reading.size());
@@ -156,7 +155,7 @@ TEST(NamedCases, HaveTheSnrThatWasAskedFor) {
     CaseSpec spec = handCase("snr", richPlan(), "hysteresis", "bouc_wen", snr);
     spec.judged = false;
     const BlindCase made = makeCase(spec);
-    const HatCurves curves(made.campaign);
+    const HatCurves curves{made.campaign};
     double left = 0, noise = 0;
     for (std::size_t taxel = 0; taxel < made.clean.size(); ++taxel) {
       const Trace change = minus(made.clean[taxel], made.base[taxel]);
@@ -184,7 +183,7 @@ TEST(NamedCases, HaveTheErrorAtTheMapThatWasAskedFor) {
     spec.judged = false;
     spec.kpa = kpa;
     const BlindCase made = makeCase(spec);
-    const HatCurves curves(made.campaign);
+    const HatCurves curves{made.campaign};
     double squares = 0, number = 0;
     for (std::size_t taxel = 0; taxel < made.clean.size(); ++taxel) {
       const Trace change = minus(made.clean[taxel], made.base[taxel]);
@@ -237,7 +236,9 @@ TEST_P(EveryNamedForm, ShowsUnderARichProtocol) {
   spec.judged = false;
   const BlindCase made = makeCase(spec);
   ASSERT_EQ(made.hidden.size(), 1u);
-  EXPECT_TRUE(made.hidden[0].size_reached) << made.hidden[0].snr;
+  // A fault comes in whole spells, so its size jumps.
+  const bool jumps = made.hidden[0].taxels.size() < made.campaign.taxels();
+  EXPECT_TRUE(jumps || made.hidden[0].size_reached) << made.hidden[0].snr;
   EXPECT_GT(made.hidden[0].left, 2e-4);
   for (const Trace& clean : made.clean) {
     for (const double value : clean) ASSERT_TRUE(std::isfinite(value));
@@ -276,7 +277,7 @@ TEST(NamedKey, HoldsEveryFieldOfTheSchema) {
   EXPECT_EQ(effect.sections("parameters").at(0).text("library_parameter"), "delay");
   EXPECT_EQ(effect.section("where").text("taxels"), "all");
   const auto judged = key.section("identifiable").sections("effects");
-  ASSERT_EQ(judged.size(), 14u);
+  ASSERT_EQ(judged.size(), 15u);
   EXPECT_EQ(judged[0].text("id"), "time_skew");
   EXPECT_EQ(key.section("sheet").integer("rows", {}), 4);
   EXPECT_EQ(key.section("sheet").integer("bits", {}), 12);
