@@ -13,6 +13,7 @@
 #include "discrepancy/prove/next_experiment.h"
 #include "discrepancy/prove/report_gap.h"
 #include "discrepancy/prove/wording.h"
+#include "discrepancy/samples/held_out.h"
 #include "discrepancy/thresholds.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
@@ -424,6 +425,7 @@ DiscrepancyReport Investigation::run() {
   }
   putDetections();
   show();
+  report_.hold_out = holdOutCycles(measured_);
   listNotIdentifiable();
   answerQuestions();
   plan();

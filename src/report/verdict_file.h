@@ -19,6 +19,9 @@ namespace fsr::report {
 ///     not_identifiable: [{id: crosstalk, experiment: uneven_load}]
 ///     where: {taxels: all, conditions: all, pressure: [0, 620000], direction: both, time: all}
 ///     gap: {before: 0.031, ..., closed_interval: [0.9, 0.94], unit: fraction of full scale, ...}
+///     hold_out:                     # the gap is measured on these cycles: stamps of the first and last scan
+///     [s]
+///       - {file: 1_flat.bag, cycles: [[946684875.100000000, 946684950.000000000]]}
 ///     next_experiment: null         # or {protocol: two_speeds, sentence: ..., separation: 6.2}
 ///     seed: 1
 ///     version: 0.1.0

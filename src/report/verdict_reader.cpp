@@ -120,12 +120,22 @@ std::vector<discrepancy::InputUse> readInputs(const Mapping& file) {
   return inputs;
 }
 
+void requireHoldOut(const Mapping& file) {
+  using Cycles = std::vector<std::pair<double, double>>;
+  for (const Mapping& bag : file.list("hold_out", {"file", "cycles"})) {
+    bag.as<std::string>("file", "text");
+    for (const auto& [first, last] : bag.as<Cycles>("cycles", "a list of [first, last] stamps")) {
+      if (first > last) bag.fail("cycles", "must have no cycle that ends before it begins");
+    }
+  }
+}
+
 }  // namespace
 
 VerdictFile readVerdict(const std::string& path) {
   const Mapping file(path, load(path), "",
                      {"verdict", "effects", "credible_set", "depends_on", "not_identifiable", "where", "gap",
-                      "next_experiment", "seed", "version", "inputs"});
+                      "hold_out", "next_experiment", "seed", "version", "inputs"});
   VerdictFile verdict;
   verdict.verdict = file.as<std::string>("verdict", "text");
   requireVerdict(file, verdict.verdict);
@@ -137,6 +147,7 @@ VerdictFile readVerdict(const std::string& path) {
   }
   file.as<std::vector<std::string>>("depends_on", "a list of covariates");
   file.list("not_identifiable", {"id", "experiment"});
+  requireHoldOut(file);
   verdict.seed = file.as<std::uint64_t>("seed", "a whole number");
   verdict.version = file.as<std::string>("version", "text");
   verdict.inputs = readInputs(file);

@@ -1,3 +1,6 @@
+#include <iomanip>
+#include <sstream>
+
 #include "report/flow_yaml.h"
 #include "report/verdict_file.h"
 
@@ -75,6 +78,26 @@ std::string gapText(const discrepancy::Gap& gap) {
          "\n";
 }
 
+// A stamp in seconds, every nanosecond kept.
+std::string stampText(std::int64_t stamp_ns) {
+  constexpr std::int64_t kSecond = 1000000000;  // [ns]
+  std::ostringstream text;
+  text << stamp_ns / kSecond << "." << std::setw(9) << std::setfill('0') << stamp_ns % kSecond;
+  return text.str();
+}
+
+std::string holdOutText(const std::vector<discrepancy::HoldOutCycles>& bags) {
+  if (bags.empty()) return "hold_out: []\n";
+  std::string text = "hold_out:\n";
+  for (const discrepancy::HoldOutCycles& bag : bags) {
+    std::vector<std::string> cycles;
+    for (const auto& [first, last] : bag.cycles)
+      cycles.push_back(yaml::list({stampText(first), stampText(last)}));
+    text += "  - " + yaml::map({{"file", yaml::text(bag.file)}, {"cycles", yaml::list(cycles)}}) + "\n";
+  }
+  return text;
+}
+
 std::string nextText(const std::vector<discrepancy::NextExperiment>& next) {
   if (next.empty()) return "next_experiment: null\n";
   return "next_experiment: " +
@@ -105,8 +128,9 @@ std::string verdictText(const discrepancy::DiscrepancyReport& report) {
          effectsText(report.effects) + credibleText(report.credible_set) +
          "depends_on: " + yaml::texts(report.depends_on) + "\n" +
          notIdentifiableText(report.not_identifiable) + (shows ? whereText(report.where) : "where: null\n") +
-         gapText(report.gap) + nextText(report.next_experiment) + "seed: " + std::to_string(report.seed) +
-         "\nversion: " + yaml::text(report.version) + "\n" + inputsText(report.inputs);
+         gapText(report.gap) + holdOutText(report.hold_out) + nextText(report.next_experiment) +
+         "seed: " + std::to_string(report.seed) + "\nversion: " + yaml::text(report.version) + "\n" +
+         inputsText(report.inputs);
 }
 
 }  // namespace fsr::report

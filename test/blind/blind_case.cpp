@@ -15,6 +15,10 @@ namespace {
 constexpr double kLeastNoise = 6e-4, kMostNoise = 12e-3;
 // A residual below this after the static fit is the error of the fit: the effect does not show.
 constexpr double kShows = 2e-4;
+// Largest strength of a hidden effect in a case with a name; more would be another sensor.
+constexpr double kLargestStrength = 10;
+// Readings of a case with a name stay below this share of full scale: a clipped reading is a saturation.
+constexpr double kRail = 0.985;
 constexpr std::int64_t kEpoch = 1717401600000000000;  // 2024-06-03 08:00:00 UTC [ns]
 
 std::size_t stride(const Campaign& campaign) {
@@ -23,7 +27,7 @@ std::size_t stride(const Campaign& campaign) {
 
 const HiddenForm& formFor(const EffectSpec& effect, std::uint64_t seed) {
   if (!effect.form.empty()) return findForm(effect.id, effect.form);
-  const std::vector<const HiddenForm*> forms = formsOf(effect.id);
+  const std::vector<const HiddenForm*> forms = openFormsOf(effect.id);
   if (forms.empty()) return findForm(effect.id, "");  // throws, with a list of all forms
   return *forms[Random(seed, "form of " + effect.id).below(forms.size())];
 }
@@ -63,6 +67,12 @@ Placed place(const EffectSpec& effect, const CaseSpec& spec, const Campaign& cam
 }
 
 void requireSense(const CaseSpec& spec) {
+  if (!spec.name.empty()) {
+    for (const EffectSpec& effect : spec.effects) formFor(effect, spec.seed);
+    if (spec.kpa && !(*spec.kpa > 0)) throw fsr::settings::InputError("kpa: must be more than 0");
+    if (!(spec.snr >= 0)) throw fsr::settings::InputError("snr: must be 0 or more");
+    return;
+  }
   if (spec.matrix.rows == 0 || spec.matrix.columns == 0)
     throw fsr::settings::InputError("matrix: must have taxels");
   if (spec.size.surfaces < 1 || spec.size.surfaces > 6)
@@ -86,6 +96,7 @@ HiddenTruth truthOf(const Active& active, double strength, const Rig& rig, const
   HiddenTruth truth;
   truth.id = form.id;
   truth.form = form.form;
+  truth.set = form.set;
   truth.foreign = form.foreign;
   truth.has_state = form.has_state;
   truth.carried_over = active.placed->carried_over;
@@ -93,10 +104,14 @@ HiddenTruth truthOf(const Active& active, double strength, const Rig& rig, const
   truth.left = left.rms();
   truth.left_after = form.left_after;
   truth.parameters = active.hidden->parameters();
+  for (HiddenParameter& parameter : truth.parameters) {
+    if (parameter.unit.rfind("Pa", 0) == 0) parameter.value *= campaign.pascal;
+  }
+  truth.kpa_at_map = 1e-3 * rig.errorAtMap(active, stride(campaign));
   truth.depends_on = form.depends_on;
   truth.taxels = where.taxels();
   truth.surfaces = where.surfaces();
-  truth.pressures = where.pressures();
+  truth.pressures = {campaign.pascal * where.pressures().first, campaign.pascal * where.pressures().second};
   truth.direction = where.direction();
   for (const auto& [from, to] : active.hidden->times()) {
     truth.times.emplace_back(from - campaign.time.front(), to - campaign.time.front());
@@ -109,20 +124,37 @@ std::vector<std::string> protocolsOf(const CaseSpec& spec) {
   return {spec.protocol, spec.then};
 }
 
+std::optional<RigPlan> planOf(const CaseSpec& spec) {
+  if (spec.name.empty()) return {};
+  if (spec.plan) return spec.plan;
+  return drawPlan(spec.seed, spec.protocol_class, spec.most_readings);
+}
+
+Campaign campaignOf(const CaseSpec& spec, const std::optional<RigPlan>& plan) {
+  if (plan) return runCampaign(*plan, spec.seed);
+  return runCampaign({spec.matrix, 0.010, 0.010}, protocolsOf(spec), spec.size, spec.seed);
+}
+
 // Generates one case step by step; each step needs the ones before it.
 class Maker {
  public:
   explicit Maker(const CaseSpec& spec)
-      : campaign_(runCampaign({spec.matrix, 0.010, 0.010}, protocolsOf(spec), spec.size, spec.seed)),
-        sheet_(campaign_, spec.seed),
+      : plan_(planOf(spec)),
+        campaign_(campaignOf(spec, plan_)),
+        sheet_(campaign_, spec.seed, plan_ ? Laws::kAll : Laws::kFirst),
         rig_(campaign_, sheet_),
-        noise_(campaign_, spec.seed),
+        noise_(campaign_, spec.seed, plan_ ? 0.6 : 0.3),
         reference_(spec.seed) {
     made_.spec = spec;
+    made_.plan = plan_;
+    if (!plan_) return;
+    made_.full_scale = static_cast<std::uint16_t>((1 << plan_->bits) - 1);
+    channel_.emplace(*plan_, campaign_, spec.seed);
+    made_.reference_noise = referenceNoise();
   }
 
   BlindCase make() {
-    if (made_.spec.snr > 0) {
+    if (made_.spec.snr > 0 || made_.spec.kpa) {
       for (const EffectSpec& effect : made_.spec.effects)
         placed_.push_back(place(effect, made_.spec, campaign_));
     }
@@ -134,6 +166,13 @@ class Maker {
 
  private:
   void hide();
+  void hideInPlan();
+  double leastNoise() const;
+  double belowTheRail(const Placed& placed, double strength) const;
+  void cutIntoBags(const std::vector<std::vector<std::uint16_t>>& counts);
+  CaseBag bagOf(const std::vector<std::pair<std::size_t, std::size_t>>& pieces,
+                const std::vector<std::vector<std::uint16_t>>& counts, const std::vector<bool>& lost);
+  void judge(std::vector<Trace> noise, double scale);
   double wantedNoise(const std::vector<double>& usual) const;
   void readOut();
   double referenceNoise() const;
@@ -143,11 +182,13 @@ class Maker {
   void describe();
 
   BlindCase made_;
+  std::optional<RigPlan> plan_;
   Campaign campaign_;
   Sheet sheet_;
   Rig rig_;
   Noise noise_;
   ReferenceError reference_;
+  std::optional<ReferenceChannel> channel_;
   std::vector<Placed> placed_;
   std::vector<Active> active_;
   double noise_wanted_ = 0;  // [share of full scale]
@@ -162,7 +203,70 @@ double Maker::wantedNoise(const std::vector<double>& usual) const {
   return std::clamp(smallest / made_.spec.snr, kLeastNoise, kMostNoise);
 }
 
+double Maker::leastNoise() const {
+  const double step = 1.0 / made_.full_scale;
+  return std::max(kLeastNoise,
+                  1.5 * std::sqrt(step * step / 12 + made_.reference_noise * made_.reference_noise));
+}
+
+// The strength, or the largest one at which no reading is clipped.
+double Maker::belowTheRail(const Placed& placed, double strength) const {
+  for (int round = 0; round < 20; ++round) {
+    const Active active = rig_.activate(placed, strength);
+    double highest = 0;
+    for (std::size_t taxel = 0; taxel < campaign_.taxels(); taxel += stride(campaign_)) {
+      const Trace reading = rig_.reading(taxel, {active});
+      highest = std::max(highest, *std::max_element(reading.begin(), reading.end()));
+    }
+    if (highest < kRail) break;
+    strength *= 0.8;
+  }
+  return strength;
+}
+
+// Nothing is refused here: the protocol must not depend on what is hidden. An effect that does not show has
+// its usual strength, and the key says so.
+void Maker::hideInPlan() {
+  const double least = leastNoise(), most = std::max(kMostNoise, 2 * least);
+  noise_wanted_ = made_.spec.noise
+                      ? *made_.spec.noise
+                      : Random(made_.spec.seed, "noise level").logUniform(std::max(1e-3, least), most);
+  std::vector<double> usual;
+  for (const Placed& placed : placed_) {
+    usual.push_back(rig_.signature(rig_.activate(placed, 1), stride(campaign_)).rms());
+  }
+  const double smallest = usual.empty() ? 0 : *std::min_element(usual.begin(), usual.end());
+  const bool by_snr = !made_.spec.kpa && smallest >= kShows && !made_.spec.noise;
+  if (by_snr) noise_wanted_ = std::clamp(smallest / made_.spec.snr, least, most);
+  double log_left = 0, number = 0;
+  for (std::size_t i = 0; i < placed_.size(); ++i) {
+    const auto given = made_.spec.effects[i].strength;
+    double strength = given ? *given : 1.0;
+    if (!given && usual[i] >= kShows) {
+      strength = made_.spec.kpa
+                     ? rig_.strengthForError(placed_[i], 1e3 * *made_.spec.kpa, kLargestStrength)
+                     : rig_.strengthFor(placed_[i], made_.spec.snr * noise_wanted_, kLargestStrength);
+    }
+    strength = belowTheRail(placed_[i], strength);
+    active_.push_back(rig_.activate(placed_[i], strength));
+    made_.hidden.push_back(truthOf(active_[i], strength, rig_, campaign_));
+    const HiddenTruth& truth = made_.hidden.back();
+    if (truth.left >= kShows) {
+      log_left += std::log(truth.left);
+      number += 1;
+    }
+  }
+  // The noise follows what is really left, within what a sheet and its read-out may have.
+  if (by_snr && number > 0) {
+    noise_wanted_ = std::clamp(std::exp(log_left / number) / made_.spec.snr, least, most);
+  }
+}
+
 void Maker::hide() {
+  if (plan_) {
+    hideInPlan();
+    return;
+  }
   std::vector<double> usual;
   for (const Placed& placed : placed_) {
     usual.push_back(rig_.signature(rig_.activate(placed, 1), stride(campaign_)).rms());
@@ -189,6 +293,17 @@ void Maker::hide() {
 
 // The reference's noise as it appears in the readings after a fit against the reference.
 double Maker::referenceNoise() const {
+  if (plan_) {
+    double squares = 0, number = 0;
+    for (std::size_t taxel = 0; taxel < campaign_.taxels(); taxel += stride(campaign_)) {
+      const Trace slope = rig_.slope(taxel);
+      for (std::size_t scan = 0; scan < campaign_.scans(); ++scan) {
+        squares += std::pow(slope[scan] * channel_->error()[scan], 2);
+        number += 1;
+      }
+    }
+    return std::sqrt(squares / number);
+  }
   Random random(made_.spec.seed, "reference noise seen");
   double squares = 0, number = 0;
   for (std::size_t taxel = 0; taxel < campaign_.taxels(); taxel += stride(campaign_)) {
@@ -210,7 +325,7 @@ double Maker::scaleOfNoise(const std::vector<Trace>& noise) const {
   for (const Trace& trace : noise)
     squares += std::inner_product(trace.begin(), trace.end(), trace.begin(), 0.0);
   const double variance = squares / static_cast<double>(noise.size() * campaign_.scans());
-  const double rounding = 1.0 / 12 / (1.0 * kFullScale * kFullScale);
+  const double rounding = 1.0 / 12 / (1.0 * made_.full_scale * made_.full_scale);
   const double wanted =
       noise_wanted_ * noise_wanted_ - rounding - made_.reference_noise * made_.reference_noise;
   if (wanted <= 0) {
@@ -227,10 +342,10 @@ std::vector<std::vector<std::uint16_t>> Maker::convert(const std::vector<Trace>&
   for (std::size_t taxel = 0; taxel < noise.size(); ++taxel) {
     for (std::size_t scan = 0; scan < campaign_.scans(); ++scan) {
       const double clean = made_.clean[taxel][scan];
-      const double reading = std::round(kFullScale * (clean + scale * noise[taxel][scan]));
-      const double count = std::clamp(reading, 0.0, 1.0 * kFullScale);
+      const double reading = std::round(made_.full_scale * (clean + scale * noise[taxel][scan]));
+      const double count = std::clamp(reading, 0.0, 1.0 * made_.full_scale);
       counts[taxel].push_back(static_cast<std::uint16_t>(count));
-      squares += std::pow(count / kFullScale - clean, 2);
+      squares += std::pow(count / made_.full_scale - clean, 2);
     }
   }
   const double electric = squares / static_cast<double>(noise.size() * campaign_.scans());
@@ -248,7 +363,15 @@ void Maker::readOut() {
     for (std::size_t scan = 0; scan < factor.size(); ++scan) noise.back()[scan] *= factor[scan];
   }
   made_.reference_noise = referenceNoise();
-  record(convert(noise, scaleOfNoise(noise)));
+  const double scale = scaleOfNoise(noise);
+  const auto counts = convert(noise, scale);
+  if (plan_) {
+    cutIntoBags(counts);
+    made_.cycle_gain = 2 * scale * noise_.cycleGain();
+    if (made_.spec.judged) judge(std::move(noise), scale);
+  } else {
+    record(counts);
+  }
 }
 
 void Maker::record(const std::vector<std::vector<std::uint16_t>>& counts) {
@@ -262,7 +385,7 @@ void Maker::record(const std::vector<std::vector<std::uint16_t>>& counts) {
     recording.name = std::to_string(mount) + "_" + surface.name + ".bag";
     recording.sensor = {"blind_matrix", "BLIND-1", "1.0", "printed matrix", "pdms", "transducer 0.1 %"};
     recording.layout = campaign_.layout;
-    recording.full_scale = kFullScale;
+    recording.full_scale = made_.full_scale;
     recording.conditions = {surface};
     recording.start_ns = kEpoch + std::llround(visit.start * 1e9);
     for (std::size_t scan = visit.first; scan < visit.last; ++scan) {
@@ -276,8 +399,108 @@ void Maker::record(const std::vector<std::vector<std::uint16_t>>& counts) {
   }
 }
 
+// Random runs of scans that never reach the bag.
+std::vector<bool> lostScans(const CutPlan& cut, std::size_t scans, std::uint64_t seed) {
+  std::vector<bool> lost(scans, false);
+  if (cut.lost <= 0) return lost;
+  Random random(seed, "lost scans");
+  const double runs = cut.lost * static_cast<double>(scans) / (0.5 + 0.5 * static_cast<double>(cut.longest));
+  for (std::size_t run = 0; run < static_cast<std::size_t>(std::ceil(runs)); ++run) {
+    const std::size_t first = random.below(scans), length = 1 + random.below(cut.longest);
+    for (std::size_t scan = first; scan < std::min(scans, first + length); ++scan) lost[scan] = true;
+  }
+  return lost;
+}
+
+CaseBag Maker::bagOf(const std::vector<std::pair<std::size_t, std::size_t>>& pieces,
+                     const std::vector<std::vector<std::uint16_t>>& counts, const std::vector<bool>& lost) {
+  CaseBag bag;
+  fsr::dataset::Recording& recording = bag.recording;
+  recording.sensor = {"blind_matrix", "BLIND-1", "1.0", "printed matrix", "", ""};
+  recording.layout = campaign_.layout;
+  recording.full_scale = made_.full_scale;
+  const auto stamp = [](double time) { return kEpoch + std::llround(time * 1e9); };
+  for (const auto& [first, last] : pieces) {
+    const std::uint32_t v = campaign_.visit[first];
+    const Visit& visit = campaign_.visits[v];
+    fsr::matrix::Surface surface = campaign_.surfaces[visit.surface];
+    surface.mount = v + 1;
+    recording.conditions.push_back(surface);
+    for (std::size_t scan = first; scan < last; ++scan) {
+      if (lost[scan]) continue;
+      const double time = campaign_.time[scan];
+      if (recording.time.empty()) recording.start_ns = stamp(time);
+      recording.time.push_back(static_cast<double>(stamp(time) - recording.start_ns) * 1e-9);
+      recording.pressure.push_back(channel_->atScans()[scan]);
+      if (plan_->thermometer) recording.temperature.push_back(campaign_.thermometer[scan]);
+      recording.condition.push_back(static_cast<std::uint32_t>(recording.conditions.size() - 1));
+      for (const auto& taxel : counts) recording.counts.push_back(taxel[scan]);
+      bag.sequence.push_back(static_cast<std::uint32_t>(scan));
+    }
+    // The recorders start and stop with the bag: one more sample on either side of the piece.
+    const double from = campaign_.time[first] - 1.3 / plan_->reference.rate;
+    const double to = campaign_.time[last - 1] + 1.3 / plan_->reference.rate;
+    for (const Sample& sample : channel_->samples(v)) {
+      if (sample.time >= from && sample.time <= to)
+        bag.reference.emplace_back(stamp(sample.time), sample.value);
+    }
+    const auto step = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(plan_->scan_rate)));
+    for (std::size_t scan = first; plan_->thermometer && scan < last; scan += step) {
+      bag.thermometer.emplace_back(stamp(campaign_.time[scan]), campaign_.thermometer[scan]);
+    }
+  }
+  const bool one = recording.conditions.size() == 1;
+  recording.name = std::to_string(made_.bags.size() + 1) + "_" +
+                   (one ? recording.conditions[0].name : std::string("session")) + ".bag";
+  return bag;
+}
+
+void Maker::cutIntoBags(const std::vector<std::vector<std::uint16_t>>& counts) {
+  Random random(made_.spec.seed, "bags");
+  const std::vector<bool> lost = lostScans(plan_->cut, campaign_.scans(), made_.spec.seed);
+  made_.lost_scans = static_cast<std::size_t>(std::count(lost.begin(), lost.end(), true));
+  using Pieces = std::vector<std::pair<std::size_t, std::size_t>>;
+  std::vector<Pieces> bags;
+  for (const Visit& visit : campaign_.visits) {
+    const bool joins = plan_->cut.kind == "joined" && !bags.empty() && random.chance(0.7);
+    const bool splits =
+        plan_->cut.kind == "odd_places" && visit.last - visit.first > 400 && random.chance(0.6);
+    if (!joins) bags.emplace_back();
+    if (!splits) {
+      bags.back().emplace_back(visit.first, visit.last);
+      continue;
+    }
+    const double share = random.uniform(0.15, 0.85);
+    const auto length = static_cast<double>(visit.last - visit.first);
+    const std::size_t cut = visit.first + static_cast<std::size_t>(share * length);
+    bags.back().emplace_back(visit.first, cut);
+    bags.push_back({{cut, visit.last}});
+  }
+  for (const Pieces& pieces : bags) made_.bags.push_back(bagOf(pieces, counts, lost));
+}
+
+void Maker::judge(std::vector<Trace> noise, double scale) {
+  for (std::size_t taxel = 0; taxel < noise.size(); ++taxel) {
+    for (std::size_t scan = 0; scan < campaign_.scans(); ++scan) {
+      double& value = noise[taxel][scan];
+      value = scale * (value - noise_.cycleGainAt(scan, made_.clean[taxel][scan]));
+    }
+  }
+  const double left =
+      made_.hidden.empty() ? made_.noise : std::max(made_.hidden.front().left, 0.25 * made_.noise);
+  std::vector<double> strengths;
+  for (const HiddenTruth& truth : made_.hidden) strengths.push_back(truth.strength);
+  made_.identifiable = identify({campaign_, sheet_, rig_, *plan_, made_.spec.seed, active_, strengths, noise,
+                                 channel_->error(), made_.cycle_gain, left});
+}
+
 void Maker::describe() {
-  for (HiddenTruth& truth : made_.hidden) truth.snr = truth.left / made_.noise;
+  for (HiddenTruth& truth : made_.hidden) {
+    truth.snr = truth.left / made_.noise;
+    if (!plan_) continue;
+    const double size = made_.spec.kpa ? truth.kpa_at_map / *made_.spec.kpa : truth.snr / made_.spec.snr;
+    truth.size_reached = std::abs(size - 1) < 0.05;
+  }
   made_.static_law = sheet_.staticLaw();
   made_.preload_law = sheet_.preloadLaw();
   made_.gain_law = sheet_.gainLaw();
@@ -293,8 +516,10 @@ void makeSmall(CaseSpec& spec) {
 }
 
 BlindCase makeCase(const CaseSpec& spec) {
-  requireSense(spec);
-  return Maker(spec).make();
+  CaseSpec seeded = spec;
+  if (!spec.name.empty()) seeded.seed = hashOf(spec.name);
+  requireSense(seeded);
+  return Maker(seeded).make();
 }
 
 }  // namespace blind

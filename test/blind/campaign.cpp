@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 namespace blind {
 
@@ -18,14 +20,14 @@ double along(const ChamberPath& path, std::size_t& piece, double time) {
   return path.pressure[piece] + share * (path.pressure[piece + 1] - path.pressure[piece]);
 }
 
-std::vector<double> finePressure(const ChamberPath& path) {
-  const auto steps = static_cast<std::size_t>((kLead + path.duration() + kLead) / kFineStep);
+std::vector<double> finePressure(const ChamberPath& path, double fine_step, double valve_lag) {
+  const auto steps = static_cast<std::size_t>((kLead + path.duration() + kLead) / fine_step);
   std::vector<double> fine(steps);
   double pressure = path.pressure.front();
   std::size_t piece = 0;
   for (std::size_t i = 0; i < steps; ++i) {
-    const double target = along(path, piece, static_cast<double>(i) * kFineStep - kLead);
-    pressure += (target - pressure) * kFineStep / kValveLag;
+    const double target = along(path, piece, static_cast<double>(i) * fine_step - kLead);
+    pressure += (target - pressure) * fine_step / valve_lag;
     fine[i] = pressure;
   }
   return fine;
@@ -45,6 +47,9 @@ struct Lag {
 // wall. Sheet and thermometer follow a part of that, each with its own lag.
 class Climate {
  public:
+  using Room = std::function<double(double time)>;  // temperature [degree Celsius] at a time [s]
+
+  // The usual room; it warms up and swings.
   explicit Climate(Random random)
       : base_(random.uniform(20, 25)),
         warm_up_(random.uniform(1.5, 3)),
@@ -54,7 +59,10 @@ class Climate {
         sheet_lag_(random.uniform(60, 150)),
         thermometer_lag_(random.uniform(15, 40)) {}
 
+  Climate(Random random, Room room) : Climate(random) { room_ = std::move(room); }
+
   double room(double time) const {
+    if (room_) return room_(time);
     return base_ + warm_up_ * (1 - std::exp(-time / 3000)) +
            swing_ * std::sin(2 * M_PI * time / period_ + phase_);
   }
@@ -65,7 +73,8 @@ class Climate {
     Lag sheet{sheet_lag_, room(visit.start) + ambient_step};
     Lag thermometer{thermometer_lag_, sheet.value};
     for (std::size_t i = visit.first; i < visit.last; ++i) {
-      const double heating = 0.286 * 295 * campaign.rate[i] / (101325 + campaign.pressure[i]);  // [K/s]
+      const double heating =
+          0.286 * 295 * campaign.rate[i] / (campaign.ambient() + campaign.pressure[i]);  // [K/s]
       gas += seconds * (heating - gas / 4);
       const double air = room(campaign.time[i]) + ambient_step;
       campaign.temperature.push_back(sheet.step(air + 0.05 * gas, seconds));
@@ -76,6 +85,7 @@ class Climate {
 
  private:
   double base_, warm_up_, swing_, period_, phase_, sheet_lag_, thermometer_lag_;
+  Room room_;
 };
 
 void appendScans(const PlannedVisit& plan, Visit& visit, Campaign& campaign) {
@@ -99,10 +109,38 @@ void appendScans(const PlannedVisit& plan, Visit& visit, Campaign& campaign) {
   visit.last = campaign.scans();
 }
 
+// Appends one stay on a surface that begins `plan.pause` after `clock`; returns the clock at its end [s].
+double stay(const PlannedVisit& plan, double valve_lag, double clock, const Climate& climate,
+            Campaign& campaign, Random& random) {
+  Visit visit;
+  visit.surface = plan.surface;
+  visit.pause = plan.pause;
+  visit.start = clock + plan.pause;
+  visit.fine_pressure = finePressure(plan.path, campaign.fine_step, valve_lag);
+  appendScans(plan, visit, campaign);
+  clock = campaign.time.back() + campaign.scan_period;
+  climate.run(visit, plan.ambient_step, campaign, random);
+  campaign.visits.push_back(std::move(visit));
+  return clock;
+}
+
+std::vector<fsr::matrix::Surface> surfacesOfRadii(const std::vector<int>& radii_mm) {
+  std::vector<fsr::matrix::Surface> surfaces;
+  for (const int radius : radii_mm) {
+    if (radius == 0) {
+      surfaces.push_back({"flat", 0, {fsr::matrix::Curvature{}}, {}});
+    } else {
+      const fsr::matrix::Curvature curvature{1000.0 / radius, 0, 0};
+      surfaces.push_back({"cylinder_" + std::to_string(radius / 10) + "cm", 0, {curvature}, {}});
+    }
+  }
+  return surfaces;
+}
+
 }  // namespace
 
 double Campaign::pressureAt(const Visit& at, double time_s) const {
-  const double place = (time_s - at.start + kLead) / kFineStep;
+  const double place = (time_s - at.start + kLead) / fine_step;
   const double last = static_cast<double>(at.fine_pressure.size() - 2);
   const auto below = static_cast<std::size_t>(std::clamp(place, 0.0, last));
   const double share = std::clamp(place - static_cast<double>(below), 0.0, 1.0);
@@ -136,20 +174,33 @@ Campaign runCampaign(const fsr::matrix::Layout& layout, const std::vector<std::s
   double clock = 0;
   for (const std::string& protocol : protocols) {
     for (const PlannedVisit& plan : planVisits(protocol, size, Random(seed, "order " + protocol))) {
-      Visit visit;
-      visit.surface = plan.surface;
-      visit.pause = plan.pause;
-      visit.start = clock + plan.pause;
-      visit.fine_pressure = finePressure(plan.path);
-      appendScans(plan, visit, campaign);
-      clock = campaign.time.back() + campaign.scan_period;
-      climate.run(visit, plan.ambient_step, campaign, random);
-      campaign.visits.push_back(std::move(visit));
+      clock = stay(plan, kValveLag, clock, climate, campaign, random);
     }
     if (campaign.first_visits > 0) continue;
     campaign.first_visits = campaign.visits.size();
     campaign.first_scans = campaign.scans();
   }
+  return campaign;
+}
+
+Campaign runCampaign(const RigPlan& plan, std::uint64_t seed) {
+  Campaign campaign;
+  campaign.layout = {plan.matrix, plan.pitch, plan.pitch};
+  campaign.surfaces = surfacesOfRadii(plan.radii);
+  campaign.pascal = plan.peak / kPeak;
+  Random random(seed, "campaign of a plan");
+  campaign.scan_period = (1 + 2e-4 * random.normal()) / plan.scan_rate;
+  campaign.fine_step = std::min({0.02, campaign.scan_period / 2, plan.valve_lag / 4});
+  double length = 0;
+  for (const PlannedVisit& visit : plan.visits) length += visit.pause + visit.path.duration();
+  const auto room = [&](double time) { return plan.room.at(std::min(1.0, time / length), time); };
+  const Climate climate(Random(seed, "climate of a plan"), room);
+  double clock = 0;
+  for (const PlannedVisit& visit : plan.visits) {
+    clock = stay(visit, plan.valve_lag, clock, climate, campaign, random);
+  }
+  campaign.first_visits = campaign.visits.size();
+  campaign.first_scans = campaign.scans();
   return campaign;
 }
 

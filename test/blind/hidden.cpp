@@ -35,6 +35,14 @@ std::vector<const HiddenForm*> formsOf(const std::string& id) {
   return found;
 }
 
+std::vector<const HiddenForm*> openFormsOf(const std::string& id) {
+  std::vector<const HiddenForm*> found;
+  for (const HiddenForm* form : formsOf(id)) {
+    if (form->set == 'A') found.push_back(form);
+  }
+  return found;
+}
+
 std::vector<std::string> hiddenIds() {
   std::vector<std::string> ids;
   for (const HiddenForm& form : hiddenForms()) {

@@ -68,7 +68,13 @@ struct HiddenForm {
   bool needs_remounts = false;  ///< shows only where a surface is mounted more than once
   bool foreign = false;         ///< no library has it; the correct answer is "unknown"
   LeftAfter left_after = LeftAfter::kCurveEach;
+  char set = 'A';  ///< A = development may look at it; B = for the published campaign only
 };
+
+inline HiddenForm inSetB(HiddenForm form) {
+  form.set = 'B';
+  return form;
+}
 
 inline void PrintTo(const HiddenForm& form, std::ostream* out) {
   *out << form.id << ":" << form.form;
@@ -77,6 +83,8 @@ inline void PrintTo(const HiddenForm& form, std::ostream* out) {
 /// All forms of all effects, grouped by effect.
 const std::vector<HiddenForm>& hiddenForms();
 std::vector<const HiddenForm*> formsOf(const std::string& id);
+/// The forms that development may look at.
+std::vector<const HiddenForm*> openFormsOf(const std::string& id);
 /// Ids in the order of the list; foreign effects last.
 std::vector<std::string> hiddenIds();
 /// Throws fsr::InputError where there is no such form.

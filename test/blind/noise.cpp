@@ -12,14 +12,15 @@ constexpr std::array<double, 4> kFlicker = {0.12, 0.5, 2.0, 8.0};
 
 }  // namespace
 
-Noise::Noise(const Campaign& campaign, std::uint64_t seed) : campaign_(campaign), seed_(seed) {
+Noise::Noise(const Campaign& campaign, std::uint64_t seed, double most_cycle_gain)
+    : campaign_(campaign), seed_(seed) {
   Random random(seed, "noise");
   const std::array<const char*, 3> colours = {"ar1", "ar2", "flicker"};
   colour_ = colours[random.below(colours.size())];
   coloured_ = random.uniform(0.3, 0.7);
   common_share_ = random.uniform(0, 0.05);
   absolute_ = random.uniform(0.3, 0.8);
-  cycle_gain_ = random.uniform(0.1, 0.3);
+  cycle_gain_ = random.uniform(0.1, most_cycle_gain);
   keep_ = random.uniform(0.3, 0.8);
   damping_ = random.uniform(0.6, 0.85);
   peak_ = random.uniform(0.3, 1.5);  // [rad a scan]
@@ -98,6 +99,44 @@ double ReferenceError::systematic(double pressure) const {
 double ReferenceError::measured(double pressure, Random& random) const {
   const double value = pressure + systematic(pressure) + noise_ * random.normal();
   return step_ * std::round(value / step_);
+}
+
+double between(const std::vector<Sample>& samples, double time, std::size_t& piece) {
+  while (piece + 2 < samples.size() && samples[piece + 1].time <= time) ++piece;
+  const Sample &a = samples[piece], &b = samples[piece + 1];
+  return a.value + (b.value - a.value) * (time - a.time) / (b.time - a.time);
+}
+
+ReferenceChannel::ReferenceChannel(const RigPlan& plan, const Campaign& campaign, std::uint64_t seed)
+    : plan_(plan.reference), peak_(plan.peak) {
+  Random random(seed, "reference channel");
+  const double step = 1.6 * peak_ / std::pow(2.0, plan_.bits);
+  for (const Visit& visit : campaign.visits) {
+    const double end = campaign.time[visit.last - 1] + 1 / plan_.rate;
+    std::vector<Sample> samples;
+    for (double time = visit.start - (0.2 + random.uniform()) / plan_.rate; time < end || samples.size() < 2;
+         time += 1 / plan_.rate) {
+      double value = 0;
+      for (int i = -3; i <= 3; ++i) {
+        value += campaign.pascal * campaign.pressureAt(visit, time + i / 7.0 * plan_.averaged) / 7;
+      }
+      value += systematic(value) + plan_.noise * peak_ * random.normal();
+      samples.push_back({time, step * std::round(value / step)});
+    }
+    std::size_t piece = 0;
+    for (std::size_t scan = visit.first; scan < visit.last; ++scan) {
+      const double seen = between(samples, campaign.time[scan], piece);
+      const double truth = campaign.pascal * campaign.pressure[scan];
+      at_scans_.push_back(seen);
+      error_.push_back((seen - truth - systematic(truth)) / campaign.pascal);
+    }
+    samples_.push_back(std::move(samples));
+  }
+}
+
+double ReferenceChannel::systematic(double pressure) const {
+  const double x = pressure / peak_;
+  return peak_ * (plan_.offset + plan_.slope * x + 4 * plan_.bend * x * (1 - x));
 }
 
 }  // namespace blind

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "blind/path_builder.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
 namespace blind {
@@ -13,32 +14,6 @@ namespace {
 constexpr double kPaperRate = 17e3;  // [Pa/s]
 constexpr double kSlow = 8e3;        // [Pa/s]
 constexpr double kFast = 40e3;       // [Pa/s]
-
-class PathBuilder {
- public:
-  PathBuilder() { point(0, 0); }
-
-  PathBuilder& cycle() {
-    path_.cycle_start.push_back(path_.time.back());
-    return *this;
-  }
-  PathBuilder& hold(double seconds) {
-    point(path_.time.back() + seconds, path_.pressure.back());
-    return *this;
-  }
-  PathBuilder& ramp(double target, double rate) {
-    point(path_.time.back() + std::abs(target - path_.pressure.back()) / rate, target);
-    return *this;
-  }
-  ChamberPath take() { return std::move(path_); }
-
- private:
-  void point(double time, double pressure) {
-    path_.time.push_back(time);
-    path_.pressure.push_back(pressure);
-  }
-  ChamberPath path_;
-};
 
 int scaled(int cycles, double share) {
   return std::max(2, static_cast<int>(std::lround(cycles * share)));

@@ -25,6 +25,12 @@ std::uint64_t keyOf(std::uint64_t seed, std::string_view purpose, std::uint64_t 
 
 }  // namespace
 
+std::uint64_t hashOf(std::string_view text) {
+  std::uint64_t state = 0xCBF29CE484222325u;
+  for (const char letter : text) state = (state ^ static_cast<unsigned char>(letter)) * 0x100000001B3u;
+  return state;
+}
+
 Random::Random(std::uint64_t seed, std::string_view purpose, std::uint64_t member)
     : engine_(keyOf(seed, purpose, member)) {}
 

@@ -8,6 +8,9 @@
 
 namespace blind {
 
+/// Hash of a text: FNV-1a, 64 bits. The seeds of a case are hashes of its name.
+std::uint64_t hashOf(std::string_view text);
+
 /// Random numbers for one purpose and one member (e.g. a taxel), derived from the seed of the case. The
 /// engine is the Mersenne Twister of the standard. The distributions are implemented here, because those of
 /// the standard library differ between implementations.

@@ -70,6 +70,13 @@ Trace Rig::residual(const Active& active, std::size_t taxel) const {
   return curves_.residualOfCurves(base, reading(taxel, {active}));
 }
 
+Trace Rig::leftOf(std::size_t taxel, const Trace& change) const {
+  const Trace base = reading(taxel, {});
+  Trace with = base;
+  for (std::size_t scan = 0; scan < with.size(); ++scan) with[scan] += change[scan];
+  return curves_.residualOfCurves(base, with);
+}
+
 Signature Rig::signature(const Active& active, std::size_t stride) const {
   Signature signature(campaign_);
   const std::size_t step = active.hidden->taxels().empty() ? stride : 1;
@@ -90,15 +97,54 @@ Signature Rig::difference(const Active& active) const {
   return signature;
 }
 
+Trace Rig::slope(std::size_t taxel) const {
+  constexpr double kStep = 3e3;  // [Pa]
+  Trace slope(campaign_.scans());
+  for (std::size_t scan = 0; scan < slope.size(); ++scan) {
+    const std::size_t surface = campaign_.visits[campaign_.visit[scan]].surface;
+    const double load = campaign_.pressure[scan] + sheet_.preload(taxel, surface);
+    const double rise = sheet_.rise(taxel, load + kStep) - sheet_.rise(taxel, load - kStep);
+    slope[scan] = sheet_.gain(taxel, surface) * rise / (2 * kStep);
+  }
+  return slope;
+}
+
+double Rig::errorAtMap(const Active& active, std::size_t stride) const {
+  double squares = 0, number = 0;
+  const std::size_t step = active.hidden->taxels().empty() ? stride : 1;
+  for (std::size_t taxel = 0; taxel < campaign_.taxels(); taxel += step) {
+    const Trace left = residual(active, taxel), slopes = slope(taxel);
+    const double least = kFlat * sheet_.rise(taxel, kPeak) / kPeak;
+    for (std::size_t scan = 0; scan < left.size(); ++scan) {
+      if (campaign_.pressure[scan] < kLoaded * kPeak) continue;
+      squares += std::pow(left[scan] / std::max(slopes[scan], least), 2);
+      number += 1;
+    }
+  }
+  return number > 0 ? campaign_.pascal * std::sqrt(squares / number) : 0;
+}
+
+double Rig::strengthFor(const Placed& placed, double target, double largest) const {
+  const std::size_t stride = 1 + campaign_.taxels() / 15;
+  return solve(placed, target, largest, 0.02,
+               [&](const Active& active) { return signature(active, stride).rms(); });
+}
+
+double Rig::strengthForError(const Placed& placed, double target, double largest) const {
+  const std::size_t stride = 1 + campaign_.taxels() / 15;
+  return solve(placed, target, largest, 0.01,
+               [&](const Active& active) { return errorAtMap(active, stride); });
+}
+
 // Secant steps in logarithms, limited to the bracket known so far: what a fault leaves does not increase
 // smoothly with its duration.
-double Rig::strengthFor(const Placed& placed, double target) const {
-  constexpr double kLeast = 1e-4, kLargest = 3, kNear = 0.02;
-  const std::size_t stride = 1 + campaign_.taxels() / 15;
-  double low = kLeast, high = kLargest, strength = 1, power = 1, last_strength = 0, last_left = 0;
+template <typename Measure>
+double Rig::solve(const Placed& placed, double target, double largest, double near, Measure measure) const {
+  constexpr double kLeast = 1e-4;
+  double low = kLeast, high = largest, strength = 1, power = 1, last_strength = 0, last_left = 0;
   for (int round = 0; round < 12; ++round) {
-    const double left = signature(activate(placed, strength), stride).rms();
-    if (std::abs(left / target - 1) < kNear) break;
+    const double left = measure(activate(placed, strength));
+    if (std::abs(left / target - 1) < near) break;
     (left < target ? low : high) = strength;
     if (last_strength > 0 && left > 0 && last_left > 0) {
       power = std::clamp(std::log(left / last_left) / std::log(strength / last_strength), 0.3, 2.0);
@@ -107,7 +153,7 @@ double Rig::strengthFor(const Placed& placed, double target) const {
     last_left = left;
     strength = left > 0 ? strength * std::pow(target / left, 1 / power) : high;
     if (strength <= low || strength >= high) strength = std::sqrt(low * high);
-    if (high / low < 1 + kNear) break;
+    if (high / low < 1 + near) break;
   }
   return strength;
 }

@@ -5,9 +5,10 @@
 
 namespace blind {
 
-const std::vector<std::string> Sheet::law_names_ = {"lognormal", "rational", "percolation"};
-const std::vector<std::string> Sheet::preload_names_ = {"hyperbolic", "root", "tanh"};
-const std::vector<std::string> Sheet::gain_names_ = {"power_1.5", "power_law", "hyperbolic"};
+const std::vector<std::string> Sheet::law_names_ = {"lognormal", "rational", "percolation", "weibull",
+                                                    "logarithmic"};
+const std::vector<std::string> Sheet::preload_names_ = {"hyperbolic", "root", "tanh", "hill"};
+const std::vector<std::string> Sheet::gain_names_ = {"power_1.5", "power_law", "hyperbolic", "exponential"};
 
 namespace {
 
@@ -16,23 +17,28 @@ constexpr double kTightest = 20.0;  // curvature for which the sizes below hold 
 double preloadShape(std::size_t law, double curvature, double scale) {
   if (law == 0) return curvature / (curvature + scale);
   if (law == 1) return std::sqrt(curvature);
-  return std::tanh(curvature / scale);
+  if (law == 2) return std::tanh(curvature / scale);
+  return curvature * curvature / (curvature * curvature + scale * scale);
 }
 
 double gainLoss(std::size_t law, double curvature, double scale) {
   const double x = curvature / scale;
   if (law == 0) return 1 - 1 / (1 + std::pow(x, 1.5));
   if (law == 1) return 1 - std::pow(1 + x, -0.3);
-  return x / (1 + x);
+  if (law == 2) return x / (1 + x);
+  return 1 - std::exp(-x);
 }
 
 }  // namespace
 
-Sheet::Sheet(const Campaign& campaign, std::uint64_t seed) {
+Sheet::Sheet(const Campaign& campaign, std::uint64_t seed, Laws laws) {
   Random random(seed, "sheet");
-  law_ = random.below(law_names_.size());
-  preload_law_ = random.below(preload_names_.size());
-  gain_law_ = random.below(gain_names_.size());
+  const auto drawn = [&](const std::vector<std::string>& names) {
+    return random.below(laws == Laws::kFirst ? 3 : names.size());
+  };
+  law_ = drawn(law_names_);
+  preload_law_ = drawn(preload_names_);
+  gain_law_ = drawn(gain_names_);
   preload_scale_ = random.uniform(2, 6);  // [1/m]
   preload_size_ = random.uniform(30e3, 55e3) / preloadShape(preload_law_, kTightest, preload_scale_);
   gain_scale_ = random.uniform(8, 20);  // [1/m]
@@ -46,10 +52,12 @@ void Sheet::drawTaxels(std::size_t number, std::uint64_t seed) {
   const double level = common.uniform(0.68, 0.75);
   const double a = law_ == 0   ? common.uniform(380e3, 600e3)
                    : law_ == 1 ? common.uniform(1, 2.5)
-                               : common.uniform(250e3, 600e3);
+                   : law_ == 2 ? common.uniform(250e3, 600e3)
+                   : law_ == 3 ? common.uniform(300e3, 700e3)
+                               : common.uniform(60e3, 250e3);
   const double b = law_ == 0   ? common.uniform(1.1, 1.5)
                    : law_ == 1 ? common.uniform(5, 8)
-                               : common.uniform(0.8, 1.3);
+                               : common.uniform(0.8, 1.3);  // exponents
   for (std::size_t i = 0; i < number; ++i) {
     Random random(seed, "taxel", i);
     const double scatter = std::clamp(random.normal(), -2.0, 2.0);
@@ -89,7 +97,9 @@ double Sheet::shape(const Taxel& taxel, double load) const {
     const double x = load / 100e3;
     return x * (x + taxel.a) / (x * x + taxel.b * x + 9);
   }
-  return std::pow(load / (load + taxel.a), taxel.b);
+  if (law_ == 2) return std::pow(load / (load + taxel.a), taxel.b);
+  if (law_ == 3) return 1 - std::exp(-std::pow(load / taxel.a, taxel.b));
+  return std::pow(std::log1p(load / taxel.a), taxel.b);
 }
 
 double Sheet::rise(std::size_t taxel, double load) const {

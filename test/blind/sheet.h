@@ -15,12 +15,19 @@ namespace blind {
 ///     lognormal    share of the asperities in contact, with log-normal turn-on pressures
 ///     rational     (x^2 + a x) / (x^2 + b x + c), x in units of 100 kPa
 ///     percolation  (load / (load + w))^t
-/// Preload by bending: c k / (k + k0), c sqrt(k), or c tanh(k / k0), k = curvature.
-/// Gain by bending: 1 / (1 + (k / k1)^1.5), (1 + k / k1)^-q, or 1 - b k / (k + k1).
+///     weibull      1 - exp(-(load / a)^b): asperities whose turn-on pressures follow Weibull's distribution
+///     logarithmic  ln(1 + load / a)^b
+/// Preload by bending: c k / (k + k0), c sqrt(k), c tanh(k / k0) or c k^2 / (k^2 + k0^2),
+/// k = curvature.
+/// Gain by bending: 1 / (1 + (k / k1)^1.5), (1 + k / k1)^-q, 1 - b k / (k + k1) or
+/// 1 - b (1 - exp(-k / k1)).
+/// `Laws::kFirst` draws from the first three of each kind only.
 /// Level, shape, preload and gain vary at random from taxel to taxel.
+enum class Laws { kFirst, kAll };
+
 class Sheet {
  public:
-  Sheet(const Campaign& campaign, std::uint64_t seed);
+  Sheet(const Campaign& campaign, std::uint64_t seed, Laws laws = Laws::kFirst);
 
   /// Reading at zero conductance [share of full scale].
   double zero(std::size_t taxel) const { return taxels_[taxel].zero; }

@@ -1,22 +1,17 @@
 #!/usr/bin/python3
-"""Tests of scripts/blind_trials with the real generator and a command that gives the same answer to every case.
-
-trials_test.py GENERATOR, the program blind_case.
-"""
+"""Tests of scripts/blind_trials with a generator and a command that only pretend."""
 
 import json
 import os
 import pathlib
+import re
 import subprocess
-import sys
 import tempfile
 import unittest
 
 HERE = pathlib.Path(__file__).resolve().parent
 TRIALS = HERE.parent.parent / "scripts" / "blind_trials"
-GENERATOR = ""
-GRID = ["--size", "small", "--effects", "creep:log_time,seal_leak:orifice", "--protocols", "two_speeds", "--snr", "1",
-        "--nothing", "2", "--pairs", "1"]
+GRID = ["--effects", "creep:log_time,seal_leak", "--kpa", "", "--pairs", "1"]
 
 
 class Trials(unittest.TestCase):
@@ -27,83 +22,108 @@ class Trials(unittest.TestCase):
         self.log = pathlib.Path(self.folder.name, "calls")
 
     def run_trials(self, answer, *more, grid=GRID):
-        command = str(HERE / "fake_discrepancy") + " {bags} --output {output}"
-        return subprocess.run(
-            [str(TRIALS), "--output", str(self.output), "--generator", GENERATOR, "--command", command, *grid, *more],
-            capture_output=True, text=True, env=dict(os.environ, FAKE_ANSWER=answer, FAKE_LOG=str(self.log)))
+        """In an empty environment, as cron would."""
+        command = "%s {bags} --output {output}" % (HERE / "fake_discrepancy")
+        words = [str(TRIALS), "--output", str(self.output), "--generator", str(HERE / "fake_blind_case.py"), "--command", command]
+        return subprocess.run([*words, *grid, *more], capture_output=True, text=True,
+                              env={"FAKE_ANSWER": answer, "FAKE_LOG": str(self.log), "PYTHONDONTWRITEBYTECODE": "1"})
 
     def summary(self):
-        return json.loads((self.output / "summary.json").read_text())["summary"]
+        return json.loads((self.output / "summary.json").read_text())
 
     def figure(self, name):
-        return next(f["value"] for f in self.summary()["figures"] if f["figure"] == name)
+        value = next(f["value"] for f in self.summary()["figures"] if f["figure"] == name)
+        return value["k"], value["n"]
 
     def calls(self):
-        return self.log.read_text().splitlines()
+        return self.log.read_text().splitlines() if self.log.exists() else []
+
+    def names(self):
+        return sorted(path.parent.name for path in self.output.glob("cases/*/run.json"))
 
     def test_every_case_is_asked_once_and_scored(self):
         done = self.run_trials("creep")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(self.summary()["confusion"],
-                         {"creep": {"creep": 1}, "seal_leak": {"creep": 1}, "none": {"creep": 2}})
-        self.assertEqual(self.summary()["pairs"], {"creep + hysteresis": {"creep": 1}})
-        self.assertEqual(self.figure("false alarms with nothing hidden")[:2], [2, 2])
-        self.assertEqual(self.figure("wrong single name, any SNR")[:2], [1, 2])
-        self.assertIn("| creep | 100.0 % (1 of 1;", done.stdout)
+        self.assertEqual(self.summary()["outcomes"], {
+            "nothing": {"false_alarm": 3}, "pair": {"incomplete": 1}, "single": {"right": 1, "wrong_name": 1}}, self.names())
+        self.assertEqual(self.figure("nothing hidden, false alarms"), (3, 3))
+        self.assertIn("| creep | 1 of 1 |", done.stdout)
+        self.assertEqual((self.output / "cases.csv").read_text().count("\n"), 7)
+
+    def test_nothing_is_hidden_as_often_as_all_else_together(self):
+        self.run_trials("none", "--snr", "4,1", "--kpa", "10", "--seeds", "2", grid=["--effects", "creep"])
+        self.assertEqual(self.summary()["kinds"], {"single": 12, "nothing": 12})
+        self.assertIn("A.creep.two_terms.kpa10.0002", self.names())
+
+    def test_forms_of_the_other_set_are_not_used(self):
+        self.run_trials("none", "--set", "B", grid=["--kpa", "", "--nothing", "0"])
+        self.assertEqual(self.names(), ["B.creep.sealed.snr1.0001"])
 
     def test_the_command_sees_nothing_of_the_case_but_its_bags(self):
         self.run_trials("none")
         for call in self.calls():
             for word in ("creep", "seal_leak", "snr", "key"):
                 self.assertNotIn(word, call)
-        self.assertEqual(list(self.output.glob("work/*")), [])  # the bags were removed
+        self.assertEqual(list(self.output.glob("cases/*/bags")), [])  # the bags were removed
 
     def test_goes_on_where_it_stopped(self):
-        self.run_trials("none")
-        self.assertEqual(len(self.calls()), 5)
-        self.run_trials("none")
-        self.assertEqual(len(self.calls()), 5)
-        next((self.output / "cases").glob("creep.log_time.*/run.json")).unlink()  # as if the run had been stopped here
-        self.run_trials("none")
-        self.assertEqual(len(self.calls()), 6)
+        self.run_trials("none", grid=["--effects", "creep:log_time", "--kpa", "", "--nothing", "2"])
+        self.assertEqual(len(self.calls()), 3)
+        self.run_trials("none", grid=["--effects", "creep:log_time", "--kpa", "", "--nothing", "2"])
+        self.assertEqual(len(self.calls()), 3)
+        next(self.output.glob("cases/A.creep*/run.json")).unlink()  # as if the run had been stopped here
+        self.run_trials("none", grid=["--effects", "creep:log_time", "--kpa", "", "--nothing", "2"])
+        self.assertEqual(len(self.calls()), 4)
 
-    def test_a_command_that_fails_is_reported_and_tried_again_when_asked(self):
+    def test_stops_in_time_and_goes_on(self):
+        done = self.run_trials("none", "--minutes", "0.0001", "--jobs", "1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"[56] cases are left")
+        self.run_trials("none")
+        self.assertEqual(len(self.names()), 6)
+
+    def test_shards_share_the_campaign(self):
+        self.run_trials("none", "--shard", "1/2")
+        first = set(self.names())
+        self.run_trials("none", "--shard", "2/2")
+        self.assertEqual((len(first), len(self.names())), (3, 6))
+        self.assertEqual(self.summary()["cases"], 6)
+
+    def test_a_command_that_fails_is_counted_and_tried_again_when_asked(self):
         done = self.run_trials("crash")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("5 cases failed", done.stderr)
+        self.assertEqual(self.summary()["not_scored"], {"command failed": len(self.names())})
+        self.assertIn("it fell over", done.stderr)
         self.assertEqual(self.run_trials("none").returncode, 1)
         self.assertEqual(self.run_trials("none", "--retry-failed").returncode, 0)
-        self.assertEqual(self.figure("false alarms with nothing hidden")[:2], [0, 2])
+        self.assertEqual(self.figure("nothing hidden, false alarms")[0], 0)
 
-    def test_follows_the_recommended_experiment_with_the_same_sheet(self):
-        grid = ["--size", "small", "--effects", "creep:log_time", "--protocols", "paper", "--snr", "1",
-                "--nothing", "0", "--pairs", "0", "--follow-up"]
-        done = self.run_trials("ambiguous", grid=grid)
+    def test_what_the_generator_refuses_is_set_aside(self):
+        done = self.run_trials("none", grid=["--effects", "repositioning", "--nothing", "1"])
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(self.figure("ambiguous, then the recommended experiment: one right name")[:2], [1, 1])
-        self.assertEqual(self.figure("a frozen right prediction is confirmed")[:2], [1, 1])
-        self.assertIn("--confirm", self.calls()[1])
-        self.assertGreater(self.calls()[2].count(".bag"), self.calls()[0].count(".bag"))
+        self.assertIn("1 cases were refused", done.stderr)
+        self.assertEqual(self.summary()["cases"], 1)
 
-    def test_leaves_the_true_effect_out_of_the_library(self):
-        grid = ["--size", "small", "--effects", "creep:log_time", "--protocols", "paper", "--snr", "1",
-                "--nothing", "0", "--pairs", "0", "--leave-one-out", "1"]
-        self.run_trials("none", grid=grid)
-        self.assertEqual(sum("--without creep" in call for call in self.calls()), 1)
-        self.assertEqual(self.figure("true effect left out, answered right")[:2], [0, 1])
+    def test_makes_a_data_set_without_asking_anybody(self):
+        done = self.run_trials("none", "--make-only")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.calls(), [])
+        self.assertEqual(len(list(self.output.glob("cases/*/bags/*.bag"))), len(self.names()))
 
-    def test_what_cannot_show_is_set_aside_and_an_unknown_effect_refused(self):
-        grid = ["--size", "small", "--effects", "repositioning:tilt", "--protocols", "step_hold", "--snr", "1",
-                "--nothing", "0", "--pairs", "0"]
-        self.assertEqual(self.run_trials("none", grid=grid).returncode, 0)
-        run = json.loads(next((self.output / "cases").glob("*/run.json")).read_text())
-        self.assertEqual(run["status"], "refused")
-        self.assertIn("remount", run["reason"])
-        done = self.run_trials("none", grid=["--effects", "creeep"])
-        self.assertNotEqual(done.returncode, 0)
-        self.assertIn("creeep", done.stderr)
+    def test_refuses_what_it_does_not_know(self):
+        for words, said in [(["--effects", "creeep"], "creeep"), (["--snrs", "1"], "--snrs"), (["--shard", "3/2"], "3/2"),
+                            (["--snr", "loud"], "loud")]:
+            done = self.run_trials("none", grid=words)
+            self.assertEqual(done.returncode, 2, words)
+            self.assertIn(said, done.stderr)
+        self.assertIn("--shard I/N", self.run_trials("none", "--help").stdout)
+
+    def test_the_fixed_campaign_names_each_case_once(self):
+        names = [n for n in (HERE / "fixed_campaign.txt").read_text().split("\n") if n and not n.startswith("#")]
+        self.assertEqual(len(names), len(set(names)))
+        for name in names:
+            self.assertTrue(re.fullmatch(r"A\.(none|[a-z0-9_]+\.[a-z0-9_]+\.(snr|kpa)[0-9.]+)\.\d{4}", name), name)
 
 
 if __name__ == "__main__":
-    GENERATOR = sys.argv.pop(1)
     unittest.main()

@@ -70,6 +70,34 @@ TEST(HeldOut, WhatIsMissingIsSaid) {
   EXPECT_EQ(report.gap.missing.size(), 3u);
 }
 
+// Bags of 11 cycles on three surfaces: 2, 2 and 2 of them are held out, and each ends before the next cycle
+// begins.
+TEST(HeldOut, CyclesAreNamedByTheStampsOfTheirScans) {
+  const DiscrepancyProblem problem = planted::problem(planted::kTwoSpeeds, "");
+  const Measured measured = admit(problem);
+  const std::vector<HoldOutCycles> bags = holdOutCycles(measured);
+  ASSERT_EQ(bags.size(), 3u);
+  std::size_t scans = 0, cycles = 0, expected = 0;
+  for (std::size_t b = 0; b < bags.size(); ++b) {
+    const dataset::Recording& recording = problem.recordings[b];
+    EXPECT_EQ(bags[b].file, recording.name);
+    for (const auto& [first, last] : bags[b].cycles) {
+      ++cycles;
+      for (const double time : recording.time) {
+        const std::int64_t stamp = recording.start_ns + std::llround(time * 1e9);
+        scans += stamp >= first && stamp <= last;
+      }
+    }
+  }
+  for (const MeasuredCycle& cycle : measured.cycles) {
+    if (cycle.use != CycleUse::kShow) continue;
+    for (std::size_t m = cycle.first; m < cycle.last; ++m) expected += measured.scans[m];
+  }
+  EXPECT_EQ(cycles, 6u);
+  EXPECT_EQ(scans, expected);
+  EXPECT_GT(expected, 0u);
+}
+
 double costOf(const std::vector<GapInUse>& costs, const std::string& situation) {
   for (const GapInUse& cost : costs) {
     if (cost.situation == situation) return cost.before;

@@ -53,6 +53,9 @@ depends_on: [direction, pressure]
 not_identifiable: [{id: crosstalk, experiment: uneven_load}, {id: wear, experiment: many_cycles}]
 where: {taxels: [0, 3], conditions: [flat, cylinder_7cm], pressure: [50000, 400000], direction: both, time: all}
 gap: {before: 0.031, after: 0.008, floor: 0.006, closed: 0.92, closed_interval: [0.9, 0.94], unit: fraction of full scale, held_out_by: [cycles, condition]}
+hold_out:
+  - {file: "1_flat.bag", cycles: [[946684875.100000000, 946684950.000000000]]}
+  - {file: "2_bent.bag", cycles: [[946685000.000000001, 946685074.900000000], [946685150.000000000, 946685224.900000000]]}
 )";
   const std::string text = verdictText(exampleDiscrepancy());
   const std::size_t begin = text.find("verdict:"), end = text.find("next_experiment:");
@@ -73,6 +76,7 @@ TEST(VerdictText, HasNullForAbsentValues) {
   EXPECT_TRUE(yaml["gap"]["closed_interval"].IsNull());
   EXPECT_TRUE(yaml["effects"].IsSequence());
   EXPECT_EQ(yaml["effects"].size(), 0u);
+  EXPECT_EQ(yaml["hold_out"].size(), 0u);
 }
 
 TEST(VerdictText, QuotesNamesThatYamlWouldReadOtherwise) {
@@ -116,6 +120,10 @@ TEST_F(VerdictOnDisk, RefusalsNameTheFieldAndWhatWouldBeRight) {
       {"- id: hysteresis", "- id: histeresis", "effects[0].id", "histeresis"},
       {"[[hysteresis], ", "[[magic], ", "credible_set", "magic"},
       {"[[hysteresis], [hysteresis, creep]]", "hysteresis", "credible_set must be a list of lists"},
+      {"hold_out:", "held_out:", "held_out", "unknown here"},
+      {"cycles: [[946684875.100000000, 946684950.000000000]]", "cycles: 3", "hold_out[0].cycles", "stamps"},
+      {"[946684875.100000000, 946684950.000000000]", "[946684950.0, 946684875.1]", "hold_out[0].cycles",
+       "ends before"},
       {"show_opened: 3", "show_opened: -3", "inputs[1].show_opened", "0 or more"},
       {"sha256: \"bb", "sha256: \"b", "inputs[1].sha256", "64"},
   };

@@ -70,6 +70,9 @@ fsr::discrepancy::DiscrepancyReport exampleDiscrepancy() {
   report.where.conditions = {"flat", "cylinder_7cm"};
   report.where.pressure = {50e3, 400e3};
   report.gap = gap();
+  report.hold_out = {
+      {"1_flat.bag", {{946684875100000000, 946684950000000000}}},
+      {"2_bent.bag", {{946685000000000001, 946685074900000000}, {946685150000000000, 946685224900000000}}}};
   report.in_use = {{"ramp", 21e3, 5e3}, {"stance", 18e3, 4e3}, {"standing", 9e3, NAN}};
   report.next_experiment = {{"two_speeds",
                              "Run five cycles at 5 kPa/s and five at 40 kPa/s: a loop stays as wide, a short "

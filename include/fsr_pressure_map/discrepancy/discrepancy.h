@@ -151,6 +151,13 @@ struct InputUse {
   int hold_out_opened = 0;
 };
 
+/// The hold-out cycles of one bag: nothing was fitted to them, and the gap is measured on them.
+struct HoldOutCycles {
+  std::string file;  ///< base name of the bag
+  /// Stamps of the first and the last scan of each cycle, both included [ns since 1970].
+  std::vector<std::pair<std::int64_t, std::int64_t>> cycles;
+};
+
 /// One round of `repeat`.
 struct RepeatStep {
   std::string added;  ///< id, empty in the last round
@@ -177,6 +184,7 @@ struct DiscrepancyReport {
   std::vector<CovariateTest> covariates;
   WhereItShows where;
   Gap gap;
+  std::vector<HoldOutCycles> hold_out;  ///< in time order; bags without a hold-out cycle are left out
   std::vector<GapInUse> in_use;
   std::vector<NextExperiment> next_experiment;  ///< none or one
   std::vector<CandidateScore> candidates;       ///< best first

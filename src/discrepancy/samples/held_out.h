@@ -24,4 +24,7 @@ std::vector<Part> partsByProtocol(const Measured& measured);
 /// it.
 Measured withoutPart(const Measured& measured, const Part& part);
 
+/// The hold-out cycles of each recording, in time order.
+std::vector<HoldOutCycles> holdOutCycles(const Measured& measured);
+
 }  // namespace fsr::discrepancy

@@ -66,12 +66,44 @@ class ByWholeCycles : public BreakIn {
   }
 };
 
+// Bedding-in that goes on with the logarithm of the cycles, without an end.
+// Source: J. Diani, B. Fayolle, P. Gilormini, A review on the Mullins effect, Eur. Polym. J. 45 (2009) 601,
+// which reports the slow softening of filled rubber after the first cycles.
+class LogCycles : public BreakIn {
+ public:
+  explicit LogCycles(const HiddenSetup& setup) : BreakIn(setup) {
+    run(false,
+        [&](double cycles) { return 1 - std::log1p(cycles / (0.3 * settled_after_)) / std::log1p(100.0); });
+  }
+};
+
+// Softening of filled rubber by the largest load so far: nothing changes until a load exceeds all before it.
+// Source: L. Mullins, Softening of rubber by deformation, Rubber Chem. Technol. 42 (1969) 339; with the
+// exponential of R. W. Ogden, D. G. Roxburgh, Proc. R. Soc. Lond. A 455 (1999) 2861. A share of the softening
+// comes with each cycle at the largest load.
+class LargestLoad : public BreakIn {
+ public:
+  explicit LargestLoad(const HiddenSetup& setup) : BreakIn(setup) {
+    for (const Visit& visit : setup.campaign.visits) {
+      double soft = 0;
+      for (std::size_t scan = visit.first; scan < visit.last; ++scan) {
+        const double share = std::max(0.0, setup.campaign.pressure[scan] / kPeak);
+        const double way = std::abs(setup.campaign.rate[scan]) * setup.campaign.scan_period / (2 * kPeak);
+        soft += std::max(0.0, share - soft) * (1 - std::exp(-3 * way / settled_after_));
+        unsettled_[scan] = std::exp(-3 * soft * soft);
+      }
+    }
+  }
+};
+
 }  // namespace
 
 std::vector<HiddenForm> breakInForms() {
   return {{"break_in", "hyperbolic", {"cycle"}, makeHidden<Hyperbolic>},
           {"break_in", "stretched", {"cycle"}, makeHidden<Stretched>},
-          {"break_in", "whole_cycles", {"cycle"}, makeHidden<ByWholeCycles>}};
+          {"break_in", "whole_cycles", {"cycle"}, makeHidden<ByWholeCycles>},
+          {"break_in", "log_cycles", {"cycle"}, makeHidden<LogCycles>},
+          inSetB({"break_in", "largest_load", {"cycle"}, makeHidden<LargestLoad>})};
 }
 
 }  // namespace blind

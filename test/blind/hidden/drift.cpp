@@ -75,12 +75,46 @@ class Steps : public Drift {
   }
 };
 
+// Physical ageing after the sheet was made or warmed: the zero moves with the logarithm of time.
+// Source: L. C. E. Struik, Physical Aging in Amorphous Polymers and Other Materials, Elsevier, 1978.
+class Ageing : public Drift {
+ public:
+  explicit Ageing(const HiddenSetup& setup) : Drift(setup) {
+    const double age = random_.logUniform(60, 1200), sign = random_.sign();  // [s]
+    const double end = std::log1p(setup.campaign.time[setup.campaign.first_scans - 1] / age);
+    for (std::size_t scan = 0; scan < zero_.size(); ++scan) {
+      zero_[scan] = sign * 2 * size_ * std::log1p(setup.campaign.time[scan] / age) / end;
+    }
+    parameters_.push_back({"age", age, "s"});
+  }
+};
+
+// Flicker of the zero over minutes and hours, as a sum of three Ornstein-Uhlenbeck processes.
+// Source: R. F. Voss, J. Clarke, Flicker (1/f) noise: equilibrium temperature and resistance fluctuations,
+// Phys. Rev. B 13 (1976) 556.
+class Flicker : public Drift {
+ public:
+  explicit Flicker(const HiddenSetup& setup) : Drift(setup) {
+    for (const double time_constant : {200.0, 800.0, 3200.0}) {
+      double value = random_.normal(), before = 0;
+      for (std::size_t scan = 0; scan < zero_.size(); ++scan) {
+        const double keep = std::exp(-(setup.campaign.time[scan] - before) / time_constant);
+        before = setup.campaign.time[scan];
+        value = keep * value + std::sqrt(1 - keep * keep) * random_.normal();
+        zero_[scan] += 0.6 * size_ * value;
+      }
+    }
+  }
+};
+
 }  // namespace
 
 std::vector<HiddenForm> driftForms() {
   return {{"drift", "random_walk", {"clock_time"}, makeHidden<RandomWalk>},
           {"drift", "exponential", {"clock_time"}, makeHidden<Settling>},
-          {"drift", "steps", {"clock_time"}, makeHidden<Steps>}};
+          {"drift", "steps", {"clock_time"}, makeHidden<Steps>},
+          {"drift", "ageing", {"clock_time"}, makeHidden<Ageing>},
+          inSetB({"drift", "flicker", {"clock_time"}, makeHidden<Flicker>})};
 }
 
 }  // namespace blind

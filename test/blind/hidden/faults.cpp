@@ -42,13 +42,14 @@ class Fault : public Hidden {
   }
   // At the usual strength, spells last `seconds` on average and take `share` of the time in total. A stronger
   // fault has more and longer spells, which include those of a weaker fault.
-  void failNowAndThen(double share, double seconds) {
+  void failNowAndThen(double share, double seconds, bool random_lengths = false) {
     const auto scans = static_cast<double>(setup_.campaign.scans());
     const double root = std::sqrt(setup_.strength);
     const double usual = seconds / setup_.campaign.scan_period;  // [scans]
     const auto number = static_cast<std::size_t>(std::ceil(share * scans / usual * root));
     for (std::size_t i = 0; i < number; ++i) {
-      const double length = std::clamp(usual * root * random_.uniform(0.5, 1.5), 3.0, 0.2 * scans);
+      const double factor = random_lengths ? -std::log(random_.uniform()) : random_.uniform(0.5, 1.5);
+      const double length = std::clamp(usual * root * factor, 3.0, 0.2 * scans);
       const auto first = static_cast<std::size_t>(random_.uniform() * (scans - 0.2 * scans));
       addSpell(first, first + static_cast<std::size_t>(length));
     }
@@ -117,6 +118,36 @@ class AtALevel : public Stuck {
   }
 };
 
+// Silver grows between two lines and shorts the taxel: within a minute or so the reading moves to a level,
+// where it stays. Source: S. J. Krumbein, Metallic electromigration phenomena, IEEE Trans. Compon. Hybrids
+// Manuf. Technol. 11 (1988) 5.
+class Migrating : public Stuck {
+ public:
+  explicit Migrating(const HiddenSetup& setup)
+      : Stuck(setup), end_(random_.uniform(0.3, 0.95)), time_(random_.uniform(5, 40)) {
+    parameters_ = {{"level", end_, "share of full scale"}, {"time_constant", time_, "s"}};
+    failForGood();
+  }
+  void onReading(std::size_t taxel, Trace& reading) const override {
+    if (spells_.empty()) return;
+    const std::size_t start = spells_.front().first;
+    eachHitScan(taxel, [&](const Spell&, std::size_t scan) {
+      const double still = std::exp(-(setup_.campaign.time[scan] - setup_.campaign.time[start]) / time_);
+      reading[scan] = end_ + (reading[scan] - end_) * still;
+    });
+  }
+
+ private:
+  double end_, time_;
+};
+
+// The taxel's value is not refreshed during the bad stays of a two-state process.
+// Source: E. N. Gilbert, Capacity of a burst-noise channel, Bell Syst. Tech. J. 39 (1960) 1253.
+class BadStays : public Stuck {
+ public:
+  explicit BadStays(const HiddenSetup& setup) : Stuck(setup) { failNowAndThen(0.3, 25, true); }
+};
+
 // --- dead: no conductance -------------------------------------------------------------------------
 
 class Dead : public Fault {
@@ -156,6 +187,31 @@ class Fading : public Dead {
     return std::exp(-static_cast<double>(scan - spell.first) * setup_.campaign.scan_period / time_);
   }
   double time_;
+};
+
+// The contact corrodes by fretting: its resistance grows exponentially until nothing is left of the reading.
+// Source: M. Antler, Survey of contact fretting in electrical connectors, IEEE Trans. Compon. Hybrids Manuf.
+// Technol. 8 (1985) 87.
+class Fretting : public Dead {
+ public:
+  explicit Fretting(const HiddenSetup& setup) : Dead(setup), time_(random_.uniform(5, 30)) {
+    parameters_.push_back({"time_constant", time_, "s"});
+    failForGood();
+  }
+
+ private:
+  double left(const Spell&, std::size_t scan) const override {
+    const double elapsed = setup_.campaign.time[scan] - setup_.campaign.time[spells_.front().first];
+    return std::exp(-std::min(700.0, elapsed / time_));
+  }
+  double time_;
+};
+
+// Open during the bad stays of a two-state process.
+// Source: E. N. Gilbert, Capacity of a burst-noise channel, Bell Syst. Tech. J. 39 (1960) 1253.
+class OpenStays : public Dead {
+ public:
+  explicit OpenStays(const HiddenSetup& setup) : Dead(setup) { failNowAndThen(0.2, 15, true); }
 };
 
 // --- a row or a column ----------------------------------------------------------------------------
@@ -220,12 +276,48 @@ class Dropout : public LineFault {
   double disturbed(double reading, const Spell&, std::size_t) const override { return 0.05 * reading; }
 };
 
+// An intermittent short shifts the line by the same amount each time.
+// Source: S. Machlup, Noise in semiconductors: spectrum of a two-parameter random signal, J. Appl. Phys. 25
+// (1954) 341.
+template <bool kRow>
+class TwoLevels : public LineFault {
+ public:
+  explicit TwoLevels(const HiddenSetup& setup)
+      : LineFault(setup, kRow), height_(random_.sign() * random_.uniform(0.06, 0.15)) {
+    parameters_.push_back({"height", height_, "share of full scale"});
+    failNowAndThen(0.05, 5, true);
+  }
+
+ private:
+  double disturbed(double reading, const Spell&, std::size_t) const override {
+    return std::clamp(reading + height_, 0.0, 0.99);
+  }
+  double height_;
+};
+
+// A fretted plug: in each bad spell another resistance, log-normally distributed, in series with the line.
+// Source: M. Antler, Survey of contact fretting in electrical connectors, IEEE Trans. Compon. Hybrids Manuf.
+// Technol. 8 (1985) 87.
+template <bool kRow>
+class FrettedPlug : public LineFault {
+ public:
+  explicit FrettedPlug(const HiddenSetup& setup) : LineFault(setup, kRow) { failNowAndThen(0.08, 3, true); }
+
+ private:
+  double disturbed(double reading, const Spell& spell, std::size_t) const override {
+    Random draw(setup_.seed, "fretted", spell.first);
+    return reading / (1 + 0.5 * std::exp(1.2 * draw.normal()) * reading);
+  }
+};
+
 template <bool kRow>
 std::vector<HiddenForm> linesOf(const char* id) {
   const std::vector<std::string> covariates = {kRow ? "row" : "column", "clock_time"};
   return {{id, "bursts", covariates, makeHidden<Bursts<kRow>>},
           {id, "loose_plug", covariates, makeHidden<LoosePlug<kRow>>},
-          {id, "dropout", covariates, makeHidden<Dropout<kRow>>}};
+          {id, "dropout", covariates, makeHidden<Dropout<kRow>>},
+          {id, "two_levels", covariates, makeHidden<TwoLevels<kRow>>},
+          inSetB({id, "fretted_plug", covariates, makeHidden<FrettedPlug<kRow>>})};
 }
 
 }  // namespace
@@ -233,13 +325,17 @@ std::vector<HiddenForm> linesOf(const char* id) {
 std::vector<HiddenForm> stuckTaxelForms() {
   return {{"stuck_taxel", "frozen", {"taxel"}, makeHidden<Frozen>},
           {"stuck_taxel", "frozen_spells", {"taxel"}, makeHidden<FrozenSpells>},
-          {"stuck_taxel", "at_a_level", {"taxel"}, makeHidden<AtALevel>}};
+          {"stuck_taxel", "at_a_level", {"taxel"}, makeHidden<AtALevel>},
+          {"stuck_taxel", "migrating", {"taxel"}, makeHidden<Migrating>},
+          inSetB({"stuck_taxel", "bad_stays", {"taxel"}, makeHidden<BadStays>})};
 }
 
 std::vector<HiddenForm> deadTaxelForms() {
   return {{"dead_taxel", "open", {"taxel"}, makeHidden<Open>},
           {"dead_taxel", "open_spells", {"taxel"}, makeHidden<OpenSpells>},
-          {"dead_taxel", "fading", {"taxel"}, makeHidden<Fading>}};
+          {"dead_taxel", "fading", {"taxel"}, makeHidden<Fading>},
+          {"dead_taxel", "fretting", {"taxel"}, makeHidden<Fretting>},
+          inSetB({"dead_taxel", "bad_stays", {"taxel"}, makeHidden<OpenStays>})};
 }
 
 std::vector<HiddenForm> lineFaultForms() {

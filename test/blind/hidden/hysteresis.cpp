@@ -83,6 +83,56 @@ struct OneSidedState {
   }
 };
 
+// Bouc and Wen's hysteresis: dz/dx = 1 - |z|^n (0.5 + 0.5 sign(z dx)), with the load as x.
+// Source: Y. K. Wen, Method for random vibration of hysteretic systems, J. Eng. Mech. Div. ASCE 102 (1976)
+// 249.
+struct BoucWenState {
+  double length;    // load over which a branch closes [Pa]
+  double exponent;  // n
+  double z = 0;
+  double load = 0;
+  void step(double input, double) {
+    // Steps of at most a tenth of the length, so that the sum stays on the branch.
+    const double way = (input - load) / length;
+    const int pieces = 1 + static_cast<int>(std::abs(way) / 0.1);
+    for (int i = 0; i < pieces; ++i) {
+      const double dx = way / pieces;
+      z += dx * (1 - std::pow(std::abs(z), exponent) * (z * dx > 0 ? 1.0 : 0.0));
+      z = std::clamp(z, -1.0, 1.0);
+    }
+    load = input;
+  }
+  // Unloading reads higher; without load the loop is closed.
+  double output() const { return (1 - z) * std::pow(std::clamp(load / kPeak, 0.0, 1.2), 0.6); }
+};
+
+// Jiles and Atherton's equation: an anhysteretic curve, here Langevin's, that pinning keeps the output from.
+// Source: D. C. Jiles, D. L. Atherton, Theory of ferromagnetic hysteresis, J. Magn. Magn. Mater. 61
+// (1986) 48.
+struct JilesAthertonState {
+  double pinning;  // k, share of the peak
+  double shape;    // a, share of the peak
+  double output = 0;
+  double load = 0;  // share of the peak
+  void step(double input, double) {
+    const double next = std::max(input, 0.0) / kPeak;
+    const double way = next - load;
+    const int pieces = 1 + static_cast<int>(std::abs(way) / 0.01);
+    for (int i = 0; i < pieces; ++i) {
+      load += way / pieces;
+      const double off = anhysteretic(load) - output;
+      // Only what lies ahead moves the output.
+      if (off * way > 0) output += std::abs(way / pieces) / pinning * off;
+    }
+    load = next;
+  }
+  double anhysteretic(double at) const {
+    const double x = at / shape;
+    return x < 1e-3 ? x / 3 : 1 / std::tanh(x) - 1 / x;
+  }
+  double lag() const { return output - anhysteretic(load); }
+};
+
 class Loop : public Hidden {
  protected:
   Loop(const HiddenSetup& setup, double size)
@@ -150,6 +200,42 @@ class OneSided : public Loop {
   double length_;
 };
 
+class BoucWen : public Loop {
+ public:
+  explicit BoucWen(const HiddenSetup& setup)
+      : Loop(setup, Random(setup.seed, "bouc-wen").uniform(12e3, 22e3)),
+        length_(Random(setup.seed, "bouc-wen length").uniform(60e3, 160e3)),
+        exponent_(Random(setup.seed, "bouc-wen exponent").uniform(1, 2)) {
+    parameters_.push_back({"length", length_, "Pa"});
+    parameters_.push_back({"exponent", exponent_, "1"});
+  }
+  void onLoad(std::size_t taxel, Trace& load) const override {
+    addTo(load, taxel, BoucWenState{length_, exponent_},
+          [](const BoucWenState& state) { return state.output(); });
+  }
+
+ private:
+  double length_, exponent_;
+};
+
+class JilesAtherton : public Loop {
+ public:
+  explicit JilesAtherton(const HiddenSetup& setup)
+      : Loop(setup, Random(setup.seed, "jiles-atherton").uniform(60e3, 100e3)),
+        pinning_(Random(setup.seed, "pinning").uniform(0.12, 0.3)),
+        shape_(Random(setup.seed, "langevin").uniform(0.15, 0.4)) {
+    parameters_.push_back({"pinning", pinning_ * kPeak, "Pa"});
+    parameters_.push_back({"langevin_scale", shape_ * kPeak, "Pa"});
+  }
+  void onLoad(std::size_t taxel, Trace& load) const override {
+    addTo(load, taxel, JilesAthertonState{pinning_, shape_},
+          [](const JilesAthertonState& state) { return state.lag(); });
+  }
+
+ private:
+  double pinning_, shape_;
+};
+
 HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSetup&)) {
   HiddenForm form{"hysteresis", name, {"direction", "pressure"}, make};
   form.may_be_local = form.has_state = true;
@@ -160,7 +246,8 @@ HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSe
 
 std::vector<HiddenForm> hysteresisForms() {
   return {form("preisach", makeHidden<Preisach>), form("duhem", makeHidden<Duhem>),
-          form("one_sided", makeHidden<OneSided>)};
+          form("one_sided", makeHidden<OneSided>), form("bouc_wen", makeHidden<BoucWen>),
+          inSetB(form("jiles_atherton", makeHidden<JilesAtherton>))};
 }
 
 }  // namespace blind

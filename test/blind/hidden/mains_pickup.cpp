@@ -1,6 +1,7 @@
 // Mains hum on the wires. Sampled once a scan it appears as a slow beat; its phase shifts from taxel to taxel
 // in the order of the scan.
 
+#include <algorithm>
 #include <cmath>
 
 #include "blind/hidden/forms.h"
@@ -24,7 +25,8 @@ class Pickup : public Hidden {
   explicit Pickup(const HiddenSetup& setup)
       : setup_(setup), random_(setup.seed, "mains"), phase_(setup.campaign.scans()) {
     size_ = random_.uniform(0.008, 0.015) * setup.strength;
-    taxel_time_ = random_.uniform(0.2e-3, 1.1e-3);
+    const double most = 0.9 * setup.campaign.scan_period / static_cast<double>(setup.campaign.taxels());
+    taxel_time_ = std::min(random_.uniform(0.2e-3, 1.1e-3), most);
     mains_ = random_.chance(0.7) ? 50 : 60;
     for (std::size_t i = 0; i < setup.campaign.layout.size.rows; ++i)
       row_.push_back(random_.uniform(0.5, 1.5));
@@ -114,6 +116,54 @@ class Swelling : public Pickup {
   Trace swell_;
 };
 
+// Hum of a supply with a capacitor behind its rectifier: the fundamental with odd harmonics.
+// Source: IEC 61000-3-2:2018, which limits these harmonics; their shares here are a choice.
+class OddHarmonics : public Pickup {
+ public:
+  explicit OddHarmonics(const HiddenSetup& setup) : Pickup(setup) {
+    const double beat = random_.sign() * random_.logUniform(0.02, 0.3);  // [Hz]
+    integrate([&](std::size_t) { return beat; });
+    double walk = 0;
+    for (double& phase : phase_) {
+      walk = wander(walk, 0.5, 120);
+      phase += walk;
+    }
+    parameters_.push_back({"beat", beat, "Hz"});
+  }
+
+ private:
+  double wave(std::size_t, double phase) const override {
+    return std::sin(phase) + 0.8 * std::sin(3 * phase) + 0.45 * std::sin(5 * phase) +
+           0.2 * std::sin(7 * phase);
+  }
+};
+
+// A machine on the same line switches on and off: the hum's amplitude has two levels.
+// Source: S. Machlup, Noise in semiconductors: spectrum of a two-parameter random signal, J. Appl. Phys. 25
+// (1954) 341, for the process between the levels.
+class Switched : public Pickup {
+ public:
+  explicit Switched(const HiddenSetup& setup) : Pickup(setup), level_(setup.campaign.scans()) {
+    const double deviation = random_.uniform(0.01, 0.03);  // [Hz]
+    double off = 0;
+    integrate([&](std::size_t) {
+      off = wander(off, deviation, 60);
+      return off;
+    });
+    const double stay = random_.uniform(15, 90);  // [s]
+    bool on = random_.chance(0.5);
+    for (double& level : level_) {
+      if (random_.chance(1 - std::exp(-setup.campaign.scan_period / stay))) on = !on;
+      level = on ? 1.5 : 0.3;
+    }
+    parameters_.push_back({"stay", stay, "s"});
+  }
+
+ private:
+  double wave(std::size_t scan, double phase) const override { return level_[scan] * std::sin(phase); }
+  Trace level_;
+};
+
 HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSetup&)) {
   return {"mains_pickup", name, {"row", "clock_time"}, make};
 }
@@ -122,7 +172,8 @@ HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSe
 
 std::vector<HiddenForm> mainsPickupForms() {
   return {form("wandering_phase", makeHidden<WanderingPhase>),
-          form("wandering_grid", makeHidden<WanderingGrid>), form("swelling", makeHidden<Swelling>)};
+          form("wandering_grid", makeHidden<WanderingGrid>), form("swelling", makeHidden<Swelling>),
+          form("odd_harmonics", makeHidden<OddHarmonics>), inSetB(form("switched", makeHidden<Switched>))};
 }
 
 }  // namespace blind

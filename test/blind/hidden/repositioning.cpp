@@ -99,6 +99,55 @@ class Bubble : public Repositioning {
   }
 };
 
+// The gain differs by a smooth random field, a sum of cosine waves of random directions.
+// Source: M. Shinozuka, G. Deodatis, Simulation of stochastic processes by spectral representation, Appl.
+// Mech. Rev. 44 (1991) 191.
+class RandomField : public Repositioning {
+ public:
+  explicit RandomField(const HiddenSetup& setup) : Repositioning(setup) {
+    const double size = random_.uniform(0.02, 0.04) * setup.strength;
+    constexpr int kWaves = 12;
+    for (std::size_t v = 0; v < setup.campaign.visits.size(); ++v) {
+      field_.emplace_back(places_.size(), 1.0);
+      for (int wave = 0; wave < kWaves; ++wave) {
+        const double x = 1.8 * random_.normal(), y = 1.8 * random_.normal(),
+                     phase = random_.uniform(0, 2 * M_PI);
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+          field_.back()[i] +=
+              size * std::sqrt(2.0 / kWaves) * std::cos(x * places_[i].x + y * places_[i].y + phase);
+        }
+      }
+    }
+    parameters_ = {{"deviation", size, "share of the rise"}};
+  }
+  void onGain(std::size_t taxel, Trace& gain) const override {
+    eachScan(taxel, [&](std::size_t scan, double factor) { gain[scan] *= factor; });
+  }
+};
+
+// The sheet wrinkles along a line: a ridge of preload with a trough on either side.
+// Source: E. Cerda, L. Mahadevan, Geometry and physics of wrinkling, Phys. Rev. Lett. 90 (2003) 074302.
+class Wrinkle : public Repositioning {
+ public:
+  explicit Wrinkle(const HiddenSetup& setup) : Repositioning(setup) {
+    const double size = random_.uniform(12e3, 25e3) * setup.strength;  // [Pa]
+    const double width = random_.uniform(0.35, 0.7);
+    for (std::size_t v = 0; v < setup.campaign.visits.size(); ++v) {
+      const double angle = random_.uniform(0, M_PI), where = random_.uniform(-0.8, 0.8);
+      const double height = random_.uniform(0.5, 1.5);
+      field_.emplace_back();
+      for (const Place& place : places_) {
+        const double off = (place.x * std::cos(angle) + place.y * std::sin(angle) - where) / width;
+        field_.back().push_back(size * height * (1 - off * off) * std::exp(-off * off / 2));
+      }
+    }
+    parameters_ = {{"ridge", size, "Pa"}};
+  }
+  void onLoad(std::size_t taxel, Trace& load) const override {
+    eachScan(taxel, [&](std::size_t scan, double preload) { load[scan] += preload; });
+  }
+};
+
 HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSetup&)) {
   HiddenForm form{"repositioning", name, {"mount"}, make};
   form.needs_remounts = true;
@@ -109,7 +158,8 @@ HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSe
 
 std::vector<HiddenForm> repositioningForms() {
   return {form("shifted_map", makeHidden<ShiftedMap>), form("tilt", makeHidden<Tilt>),
-          form("bubble", makeHidden<Bubble>)};
+          form("bubble", makeHidden<Bubble>), form("random_field", makeHidden<RandomField>),
+          inSetB(form("wrinkle", makeHidden<Wrinkle>))};
 }
 
 }  // namespace blind

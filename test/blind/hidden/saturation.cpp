@@ -69,6 +69,38 @@ class RowClip : public Saturation {
   std::vector<double> row_knee_;
 };
 
+// The smooth knee of a solid-state amplifier: x / (1 + x^(2 p))^(1 / (2 p)).
+// Source: C. Rapp, Effects of HPA-nonlinearity on a 4-DPSK/OFDM-signal, 2nd European Conf. on Satellite
+// Communications (1991) 179.
+class Rapp : public Saturation {
+ public:
+  explicit Rapp(const HiddenSetup& setup)
+      : Saturation(setup), room_(random_.uniform(0.2, 0.35)), smooth_(random_.uniform(0.7, 2)) {
+    parameters_.push_back({"room", room_, "share of full scale"});
+    parameters_.push_back({"smoothness", smooth_, "1"});
+  }
+
+ private:
+  double lost(double over) const override {
+    const double x = over / room_;
+    return over - over / std::pow(1 + std::pow(x, 2 * smooth_), 1 / (2 * smooth_));
+  }
+  double room_, smooth_;
+};
+
+// A protection diode at the input: what is over the knee grows with its logarithm only.
+// Source: W. Shockley, The theory of p-n junctions in semiconductors, Bell Syst. Tech. J. 28 (1949) 435.
+class Diode : public Saturation {
+ public:
+  explicit Diode(const HiddenSetup& setup) : Saturation(setup), scale_(random_.uniform(0.08, 0.2)) {
+    parameters_.push_back({"scale", scale_, "share of full scale"});
+  }
+
+ private:
+  double lost(double over) const override { return over - scale_ * std::log1p(over / scale_); }
+  double scale_;
+};
+
 HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSetup&)) {
   HiddenForm form{"saturation", name, {"code"}, make};
   form.left_after = LeftAfter::kCurveShared;
@@ -79,7 +111,8 @@ HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSe
 
 std::vector<HiddenForm> saturationForms() {
   return {form("rail_sag", makeHidden<RailSag>), form("soft_rail", makeHidden<SoftRail>),
-          form("row_clip", makeHidden<RowClip>)};
+          form("row_clip", makeHidden<RowClip>), form("rapp", makeHidden<Rapp>),
+          inSetB(form("diode", makeHidden<Diode>))};
 }
 
 }  // namespace blind

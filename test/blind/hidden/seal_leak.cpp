@@ -10,8 +10,6 @@ namespace blind {
 
 namespace {
 
-constexpr double kAmbient = 101325;  // [Pa]
-
 // Leak through an orifice, subsonic: flow proportional to the root of the pressure difference.
 struct OrificeState {
   double rate;  // in peak pressures a second, at a difference of the peak [1/s]
@@ -26,10 +24,11 @@ struct OrificeState {
 
 // Leak along a narrow gap, laminar and compressible: flow proportional to the difference of the squares.
 struct LaminarState {
-  double rate;  // [1/s]
+  double rate;     // [1/s]
+  double ambient;  // [Pa]
   double cavity = 0;
   void step(double pressure, double seconds) {
-    const double outside = pressure + kAmbient, inside = cavity + kAmbient;
+    const double outside = pressure + ambient, inside = cavity + ambient;
     const double share = rate * seconds * (outside + inside) / kPeak;
     cavity += (pressure - cavity) * (1 - std::exp(-share));
   }
@@ -43,6 +42,39 @@ struct TwoChamberState {
     const double before = rim;
     rim += (pressure - rim) * (1 - std::exp(-seconds * to_rim));
     middle += (before - middle) * (1 - std::exp(-seconds * to_middle));
+  }
+};
+
+// A nozzle that is choked while the absolute pressure behind it is below 0.528 of that before it.
+// Source: ISO 6358-1:2013, sonic conductance with an elliptic law below the critical pressure ratio.
+struct ChokedState {
+  double rate;     // [1/s]
+  double ambient;  // [Pa]
+  double cavity = 0;
+  void step(double pressure, double seconds) {
+    constexpr double kCritical = 0.528;
+    const double before = std::max(pressure, cavity) + ambient, behind = std::min(pressure, cavity) + ambient;
+    const double over = std::max(0.0, (behind / before - kCritical) / (1 - kCritical));
+    const double flow = rate * before * std::sqrt(std::max(0.0, 1 - over * over)) * seconds;
+    const double ahead = pressure - cavity;
+    cavity += std::abs(flow) > std::abs(ahead) ? ahead : std::copysign(flow, ahead);
+  }
+};
+
+// Gas diffuses through a porous backing: the series of a slab of which one face follows the chamber.
+// Source: J. Crank, The Mathematics of Diffusion, 2nd edition, Oxford, 1975, chapter 4.
+struct PorousState {
+  double rate;  // of the slowest term [1/s]
+  double lag[4] = {0, 0, 0, 0};
+  void step(double pressure, double seconds) {
+    for (int k = 0; k < 4; ++k) {
+      const double odd = 2 * k + 1;
+      lag[k] += (pressure - lag[k]) * (1 - std::exp(-seconds * rate * odd * odd));
+    }
+  }
+  double cavity() const {
+    const double weights = 1 + 1 / 9.0 + 1 / 25.0 + 1 / 49.0;
+    return (lag[0] + lag[1] / 9 + lag[2] / 25 + lag[3] / 49) / weights;
   }
 };
 
@@ -78,7 +110,23 @@ class Orifice : public Leak {
 class Laminar : public Leak {
  public:
   explicit Laminar(const HiddenSetup& setup) : Leak(setup) {
-    fill(LaminarState{rate_}, [&](std::size_t scan, const LaminarState& s) { cavity_[scan] = s.cavity; });
+    fill(LaminarState{rate_, setup.campaign.ambient()},
+         [&](std::size_t scan, const LaminarState& s) { cavity_[scan] = s.cavity; });
+  }
+};
+
+class Choked : public Leak {
+ public:
+  explicit Choked(const HiddenSetup& setup) : Leak(setup) {
+    fill(ChokedState{rate_, setup.campaign.ambient()},
+         [&](std::size_t scan, const ChokedState& s) { cavity_[scan] = s.cavity; });
+  }
+};
+
+class Porous : public Leak {
+ public:
+  explicit Porous(const HiddenSetup& setup) : Leak(setup) {
+    fill(PorousState{rate_}, [&](std::size_t scan, const PorousState& s) { cavity_[scan] = s.cavity(); });
   }
 };
 
@@ -121,7 +169,8 @@ HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSe
 
 std::vector<HiddenForm> sealLeakForms() {
   return {form("orifice", makeHidden<Orifice>), form("laminar", makeHidden<Laminar>),
-          form("two_chamber", makeHidden<TwoChamber>)};
+          form("two_chamber", makeHidden<TwoChamber>), form("porous", makeHidden<Porous>),
+          inSetB(form("choked", makeHidden<Choked>))};
 }
 
 }  // namespace blind

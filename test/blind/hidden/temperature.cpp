@@ -89,12 +89,47 @@ class ZeroAndGain : public Thermal {
   double zero_;  // [share of full scale / K]
 };
 
+// Hopping between carbon particles: ln G = - (T0 / T)^(1/4), with T0 from the slope at the reference.
+// Source: N. F. Mott, Conduction in non-crystalline materials, Phil. Mag. 19 (1969) 835.
+class Hopping : public Thermal {
+ public:
+  explicit Hopping(const HiddenSetup& setup) : Thermal(setup) {}
+  void onGain(std::size_t taxel, Trace& gain) const override {
+    const double reference = 273.15 + kReference;
+    const double root = 4 * slope_ * scatter_[taxel] * reference;  // (T0 / reference)^(1/4), with its sign
+    for (std::size_t scan = 0; scan < gain.size(); ++scan) {
+      gain[scan] *= std::exp(root * (1 - std::pow(reference / (reference + warmer(scan)), 0.25)));
+    }
+  }
+};
+
+// Sheet and backing expand differently: warmth changes the preload, most where the sheet is bent.
+// Source: S. Timoshenko, Analysis of bi-metal thermostats, J. Opt. Soc. Am. 11 (1925) 233.
+class Mismatch : public Thermal {
+ public:
+  explicit Mismatch(const HiddenSetup& setup)
+      : Thermal(setup), pressure_(slope_ * random_.uniform(250e3, 400e3)) {
+    parameters_.push_back({"preload", pressure_, "Pa / K"});
+  }
+  void onLoad(std::size_t taxel, Trace& load) const override {
+    for (std::size_t scan = 0; scan < load.size(); ++scan) {
+      const double bent = 0.5 + setup_.campaign.curvature(scan) / 20;
+      load[scan] += pressure_ * bent * scatter_[taxel] * warmer(scan);
+    }
+  }
+
+ private:
+  double pressure_;  // [Pa / K]
+};
+
 }  // namespace
 
 std::vector<HiddenForm> temperatureForms() {
   return {{"temperature", "quadratic", {"temperature"}, makeHidden<Quadratic>},
           {"temperature", "lagged_power", {"temperature"}, makeHidden<LaggedPower>},
-          {"temperature", "zero_and_gain", {"temperature"}, makeHidden<ZeroAndGain>}};
+          {"temperature", "zero_and_gain", {"temperature"}, makeHidden<ZeroAndGain>},
+          {"temperature", "hopping", {"temperature"}, makeHidden<Hopping>},
+          inSetB({"temperature", "mismatch", {"temperature"}, makeHidden<Mismatch>})};
 }
 
 }  // namespace blind

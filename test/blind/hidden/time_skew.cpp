@@ -1,5 +1,6 @@
 // Two clocks stamp matrix and chamber pressure; one of them is late, equally for all taxels.
 
+#include <algorithm>
 #include <cmath>
 
 #include "blind/hidden/forms.h"
@@ -73,6 +74,37 @@ class Buffered : public TimeSkew {
   }
 };
 
+// A free-running clock that a time service sets back at intervals: the delay is a saw tooth.
+// Source: D. L. Mills, Internet time synchronization: the Network Time Protocol, IEEE Trans. Commun. 39
+// (1991) 1482.
+class SetBack : public TimeSkew {
+ public:
+  explicit SetBack(const HiddenSetup& setup) : TimeSkew(setup) {
+    const double interval = random_.uniform(16, 64), phase = random_.uniform();  // [s]
+    for (std::size_t scan = 0; scan < delay_.size(); ++scan) {
+      const double turns = setup.campaign.time[scan] / interval + phase;
+      delay_[scan] = mean_ * (0.6 + 0.8 * (turns - std::floor(turns)));
+    }
+    parameters_.push_back({"interval", interval, "s"});
+  }
+};
+
+// Frames wait in a queue: each waits for the work that those before it left.
+// Source: D. V. Lindley, The theory of queues with a single server, Proc. Camb. Phil. Soc. 48 (1952) 277.
+class Queue : public TimeSkew {
+ public:
+  explicit Queue(const HiddenSetup& setup) : TimeSkew(setup) {
+    double waiting = 0, mean = 0;
+    for (double& delay : delay_) {
+      const double service = -0.85 * std::log(random_.uniform());  // [periods]
+      waiting = std::min(40.0, std::max(0.0, waiting + service - 1));
+      delay = waiting;
+      mean += waiting / static_cast<double>(delay_.size());
+    }
+    for (double& delay : delay_) delay = mean_ * (0.7 + 0.3 * delay / std::max(mean, 1e-9));
+  }
+};
+
 HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSetup&)) {
   return {"time_skew", name, {"pressure_rate"}, make};
 }
@@ -81,7 +113,8 @@ HiddenForm form(const char* name, std::unique_ptr<Hidden> (*make)(const HiddenSe
 
 std::vector<HiddenForm> timeSkewForms() {
   return {form("two_clocks", makeHidden<TwoClocks>), form("by_mount", makeHidden<ByMount>),
-          form("buffered", makeHidden<Buffered>)};
+          form("buffered", makeHidden<Buffered>), form("set_back", makeHidden<SetBack>),
+          inSetB(form("queue", makeHidden<Queue>))};
 }
 
 }  // namespace blind

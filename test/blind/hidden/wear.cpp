@@ -88,13 +88,51 @@ class WornOff : public Wear {
   }
 };
 
+// Rubbed off in proportion to load and distance.
+// Source: J. F. Archard, Contact and rubbing of flat surfaces, J. Appl. Phys. 24 (1953) 981.
+class Rubbed : public Wear {
+ public:
+  explicit Rubbed(const HiddenSetup& setup) : Wear(setup) {
+    double done = 0;
+    for (std::size_t scan = 0; scan < lost_.size(); ++scan) {
+      const double share = std::max(0.0, setup.campaign.pressure[scan] / kPeak);
+      done += share * std::abs(setup.campaign.rate[scan]) * setup.campaign.scan_period / kPeak;
+      lost_[scan] = done;
+    }
+    endAtOne();
+  }
+};
+
+// Cracks that grow with a power of the load's range, the faster the longer they are.
+// Source: P. Paris, F. Erdogan, A critical analysis of crack propagation laws, J. Basic Eng. 85 (1963) 528.
+class Cracks : public Wear {
+ public:
+  explicit Cracks(const HiddenSetup& setup) : Wear(setup) {
+    const double power = random_.uniform(2, 3.5), growth = random_.uniform(1, 2.5);
+    double total = 0;
+    for (std::size_t scan = 0; scan < lost_.size(); ++scan) {
+      const double share = std::max(0.0, setup.campaign.pressure[scan] / kPeak);
+      total += std::pow(share, power - 1) * std::abs(setup.campaign.rate[scan]) * setup.campaign.scan_period /
+               kPeak;
+      lost_[scan] = total;
+    }
+    const double end = lost_[setup.campaign.first_scans - 1];
+    for (double& lost : lost_) lost = std::expm1(growth * lost / end);
+    parameters_.push_back({"power", power, "1"});
+    parameters_.push_back({"growth", growth, "1"});
+    endAtOne();
+  }
+};
+
 }  // namespace
 
 std::vector<HiddenForm> wearForms() {
   const std::vector<std::string> covariates = {"accumulated_pressure"};
   return {{"wear", "peaks", covariates, makeHidden<Peaks>},
           {"wear", "loaded_distance", covariates, makeHidden<LoadedDistance>},
-          {"wear", "worn_off", covariates, makeHidden<WornOff>}};
+          {"wear", "worn_off", covariates, makeHidden<WornOff>},
+          {"wear", "rubbed", covariates, makeHidden<Rubbed>},
+          inSetB({"wear", "cracks", covariates, makeHidden<Cracks>})};
 }
 
 }  // namespace blind
