@@ -216,8 +216,7 @@ void drawCycles(const Class& rules, double ease, Random& random, RigPlan& plan) 
   plan.valve_lag = random.uniform(0.03, 0.1) * ramp;
   plan.visits.clear();
   for (const std::size_t surface : drawOrder(rules, random, plan)) {
-    PlannedVisit visit{surface, path.visit(cycles, plan.reach[surface], plan), 0,
-                       random.logUniform(90, 1500)};
+    PlannedVisit visit{surface, path.visit(cycles, plan.reach[surface], plan), 0, random.logUniform(30, 400)};
     plan.cycles += visit.path.cycle_start.size();
     plan.visits.push_back(std::move(visit));
   }
