@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""count_tests.py JUNIT RESULTS: prints which tests were skipped and why, then "N passed, N failed" (end of scripts/test).
+"""Prints the last lines of scripts/test: which tests were skipped and why, then "N passed, N failed".
 
-Counts the cases of ctest. A rostest counts as the cases inside it, read from its own results under RESULTS/<name>, or as one
-failed case if it left no results. Exit status 1 if a case failed or none ran.
+Counts the cases of ctest. A rostest counts as the cases inside it, which it wrote to RESULTS/<name>; a rostest that wrote
+none counts as one failed case. Exit status 1 if a case failed or none ran.
 """
+import argparse
 import pathlib
 import re
 import sys
@@ -28,7 +29,11 @@ def skipped(results):
 
 
 def main():
-    junit, results = sys.argv[1], pathlib.Path(sys.argv[2])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("junit", metavar="JUNIT", help="file that ctest --output-junit wrote")
+    parser.add_argument("results", metavar="RESULTS", type=pathlib.Path, help="folder of the results of rostests")
+    arguments = parser.parse_args()
+    junit, results = arguments.junit, arguments.results
     passed = failed = 0
     for case in ElementTree.parse(junit).getroot().iter("testcase"):
         skip = case.find("skipped")

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""document_parameters.py [--check] PAGE.md: writes the parameter tables of a page (docs/nodes.md) from the launch files.
+"""Writes the parameter tables of a page (docs/nodes.md) from the launch files.
 
-A table stands between `<!-- parameters: launch/NAME.launch -->` and `<!-- end -->`. Each row is an <arg> with its default
-and doc. --check changes nothing; its exit status is 1 if a table is out of date.
+A table stands between `<!-- parameters: launch/NAME.launch -->` and `<!-- end -->`. Each row is an <arg> of the launch
+file with its default and doc.
 """
+import argparse
 import pathlib
 import re
 import sys
@@ -22,8 +23,11 @@ def table(launch):
 
 
 def main():
-    check = "--check" in sys.argv
-    page = pathlib.Path(sys.argv[-1])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="change nothing; exit status 1 if a table is out of date")
+    parser.add_argument("page", metavar="PAGE.md", type=pathlib.Path)
+    arguments = parser.parse_args()
+    check, page = arguments.check, arguments.page
     package = pathlib.Path(__file__).resolve().parent.parent
     old = page.read_text()
     new = BLOCK.sub(lambda match: match[1] + table(package / match[2]) + match[4], old)

@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""view_tables.py FONT.pcf.gz: writes src/view/colour_tables.cpp and src/view/font_table.cpp.
+"""Writes src/view/colour_tables.cpp and src/view/font_table.cpp anew.
 
 Colours: viridis (van der Walt, Smith; CC0) and cividis (Nunez, Anderton, Renslow, PLoS ONE 13(7) e0199239, 2018; CC0), as in
 python3-matplotlib. Font: misc-fixed 7x13 ("Public domain font. Share and enjoy."), e.g. from Debian's
 xfonts-base: /usr/share/fonts/X11/misc/7x13.pcf.gz. Needs python3-matplotlib and python3-pil.
 """
+import argparse
 import gzip
 import io
 import pathlib
-import sys
 
 import matplotlib
 from PIL import Image, PcfFontFile
@@ -36,10 +36,13 @@ def rows(font, code):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("font", metavar="FONT.pcf.gz")
+    font_file = parser.parse_args().font
     body = "\n".join(colours(name) for name in ("viridis", "cividis"))
     VIEW.joinpath("colour_tables.cpp").write_text(
         f'{HEAD}\n#include "tables.h"\n\nnamespace fsr::tables {{\n\n{body}\n}}  // namespace fsr::tables\n')
-    font = PcfFontFile.PcfFontFile(io.BytesIO(gzip.open(sys.argv[1]).read()))
+    font = PcfFontFile.PcfFontFile(io.BytesIO(gzip.open(font_file).read()))
     glyphs = [f"0x{row:02x}" for code in range(32, 127) for row in rows(font, code)]
     VIEW.joinpath("font_table.cpp").write_text(
         f'{HEAD}\n#include "tables.h"\n\nnamespace fsr::tables {{\n\n'

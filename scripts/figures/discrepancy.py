@@ -1,16 +1,16 @@
 #!/usr/bin/python3
-"""discrepancy.py DIR: draws the figures of a discrepancy run and writes its report.
+"""Draws the figures of a discrepancy run and writes its report.
 
 DIR holds results.json and figures/*.csv, which the tool `discrepancy` wrote. This script adds figures/*.png and report.html.
 All numbers come from the tool; the script computes none.
 """
 
+import argparse
 import csv
 import html
 import json
 import math
 import os
-import sys
 
 import figure_style as style
 import matplotlib.pyplot as plt
@@ -323,10 +323,10 @@ def sections(results, figures):
     return [(heading, pieces) for heading, pieces in parts if pieces]
 
 
-def main(words):
-    if len(words) != 2:
-        sys.exit("usage: discrepancy.py DIR")
-    folder = words[1]
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", metavar="DIR")
+    folder = parser.parse_args().folder
     with open(os.path.join(folder, "results.json"), encoding="utf-8") as file:
         results = json.load(file)
     figures = os.path.join(folder, "figures")
@@ -336,4 +336,4 @@ def main(words):
 
 
 if __name__ == "__main__":
-    main(sys.argv)
+    main()

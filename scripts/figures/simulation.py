@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""simulation.py DATA.json STEM [PANEL...]: draws what the effects of a simulated rig do.
+"""Draws what the effects of a simulated rig do.
 
-`simulate --plot` writes the data: readings in % of full scale, pressures in kPa. Draws STEM.png and STEM.pdf. With names of
-panels it draws only those, into a small STEM.png.
+DATA.json is what `simulate --plot` writes: readings in per cent of full scale, pressures in kPa. Writes STEM.png and
+STEM.pdf with all panels, or, where panels are named, a small STEM.png with these panels alone.
 """
+import argparse
 import io
 import json
 import os
@@ -117,11 +118,17 @@ def draw(data, stem, names=()):
 
 
 def main():
-    if len(sys.argv) < 3 or not set(sys.argv[3:]) <= set(PANELS | DETAILS):
-        sys.exit(__doc__)
-    with open(sys.argv[1], encoding="utf-8") as source:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("data", metavar="DATA.json")
+    parser.add_argument("stem", metavar="STEM")
+    parser.add_argument("panels", metavar="PANEL", nargs="*", help=", ".join(PANELS | DETAILS))
+    arguments = parser.parse_args()
+    unknown = set(arguments.panels) - set(PANELS | DETAILS)
+    if unknown:
+        parser.error("unknown panel: " + ", ".join(sorted(unknown)))
+    with open(arguments.data, encoding="utf-8") as source:
         data = json.load(source)
-    draw(data, sys.argv[2], sys.argv[3:])
+    draw(data, arguments.stem, arguments.panels)
 
 
 if __name__ == "__main__":

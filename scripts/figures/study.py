@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""study.py FOLDER: draws the figures of a study and writes its report. FOLDER holds results.json and tables/.
+"""Draws the figures of a study and writes its report. FOLDER holds results.json and tables/.
 
 Writes figures/*.png, *.pdf and *.csv, like Figs 5 to 10 of the paper (C. Ahmadizadeh, C. Menon, Sensors 2019, 19(24), 5519,
 https://doi.org/10.3390/s19245519), and report.html.
 """
 
+import argparse
 import csv
 import json
 import os
-import sys
 
 import figure_style as style
 
@@ -370,7 +370,10 @@ def write_report(folder, results, pictures):
     style.page(os.path.join(folder, "report.html"), "The paper's study, repeated", sections)
 
 
-def main(folder):
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", metavar="FOLDER")
+    folder = parser.parse_args().folder
     with open(os.path.join(folder, "results.json"), encoding="utf-8") as source:
         results = json.load(source)
     comparisons = {comparison["id"]: comparison for comparison in results["comparisons"]}
@@ -414,6 +417,4 @@ def main(folder):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit("usage: study.py FOLDER")
-    main(sys.argv[1])
+    main()

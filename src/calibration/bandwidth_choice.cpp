@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "compensation/training_statistics.h"
 #include "matrix/for_each_taxel.h"
 #include "regression/bandwidth_search.h"
 
@@ -20,7 +21,7 @@ std::vector<regression::CodeStatistics> sectionsOf(const std::vector<std::size_t
   return sections;
 }
 
-// Errors of all models of one taxel together.
+// Errors of all models of one taxel.
 regression::BandwidthErrors errorsOf(const regression::GrnnOptions& options,
                                      const compensation::SchemePlan& plan,
                                      const compensation::TrainingStatistics& statistics, std::size_t taxel) {
@@ -65,7 +66,7 @@ compensation::FoldRegressors chooseRegressor(const CalibrationOptions& options,
     errors[i] = std::make_unique<regression::BandwidthErrors>(
         errorsOf(options.regressor.grnn, plan, statistics, taxels[i]));
   });
-  for (std::size_t i = 1; i < errors.size(); ++i) errors.front()->add(*errors[i]);  // in this order always
+  for (std::size_t i = 1; i < errors.size(); ++i) errors.front()->add(*errors[i]);  // always in this order
   regressors.whole.grnn.bandwidth = errors.front()->best();
   regressors.without.assign(statistics.sections, regressors.whole);
   for (std::size_t section = 0; section < statistics.sections; ++section) {

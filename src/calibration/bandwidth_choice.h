@@ -9,17 +9,17 @@
 
 namespace fsr::calibration {
 
-/// Whether there is a bandwidth to choose.
+/// Whether these options ask for a bandwidth chosen from the data.
 bool choosesBandwidth(const CalibrationOptions& options);
 
-/// The regressor of a calibration. Where the bandwidth is to be chosen, all taxels and models share one, in
-/// deviations of the readings: that of the least squared errors on held-out sections, each model of the
-/// plan counting with the classes that it is tested on, summed over up to kTaxelsOfSearch taxels spread
-/// evenly over those with a model. The model without a section has a bandwidth chosen without it (nested
-/// cross-validation).
+/// The regressor of a calibration. If the bandwidth is to be chosen, all taxels and models share one, in
+/// standard deviations of the readings. It is the one with the least squared errors on held-out sections,
+/// summed over up to kTaxelsOfSearch taxels that are spread evenly over those with a model; each model of the
+/// plan is tested on the classes that it answers for. The bandwidth of the model without a section is chosen
+/// without that section (nested cross-validation).
 ///
-/// Of a GRNN that weighs pressure bins alike it is the bandwidth found with all readings alike. `no_model`
-/// has one value for each taxel, 1 = has none.
+/// For a GRNN with equal weights of pressure bins it is the bandwidth found with equal weights of all
+/// readings. `no_model` [taxels], 1 = has no model.
 compensation::FoldRegressors chooseRegressor(const CalibrationOptions& options,
                                              const compensation::SchemePlan& plan,
                                              const compensation::TrainingStatistics& statistics,

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <memory>
 #include <mutex>
 
 #include "calibration/bandwidth_choice.h"
@@ -8,6 +9,8 @@
 #include "calibration/taxel_training.h"
 #include "calibration/training_scans.h"
 #include "compensation/fit_scheme.h"
+#include "compensation/training_statistics.h"
+#include "dataset/measure_coverage.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "matrix/for_each_taxel.h"
@@ -16,7 +19,7 @@ namespace fsr::calibration {
 
 namespace {
 
-// The recordings as training sees them, and what becomes of them taxel by taxel.
+// Training of a calibration: the recordings in the form that training needs, and the work on each taxel.
 class Training {
  public:
   explicit Training(const CalibrationProblem& problem)
@@ -32,9 +35,8 @@ class Training {
 
   Calibration run(const CalibrationProgress& progress) {
     Calibration calibration = describe();
-    const std::size_t taxels = calibration.statistics.taxels;
-    matrix::forEachTaxel(taxels, problem_.options.threads,
-                         [&](std::size_t taxel) { sum(taxel, calibration); });
+    const std::size_t taxels = statistics_->taxels;
+    matrix::forEachTaxel(taxels, problem_.options.threads, [&](std::size_t taxel) { sum(taxel); });
     findTaxelsWithoutModel(plan_, problem_.recordings.front().name, calibration);
 
     const compensation::FoldRegressors regressors = choose(problem_.options, calibration, plan_);
@@ -55,9 +57,10 @@ class Training {
   }
 
  private:
-  // Everything but what is found taxel by taxel.
-  Calibration describe() const;
-  void sum(std::size_t taxel, Calibration& calibration) const;
+  // Everything except the results of each taxel.
+  Calibration describe();
+  std::shared_ptr<compensation::TrainingStatistics> emptyStatistics() const;
+  void sum(std::size_t taxel);
   void train(std::size_t taxel, const compensation::FoldRegressors& regressors, Calibration& calibration,
              HeldOutScoring& scoring) const;
 
@@ -66,9 +69,10 @@ class Training {
   std::vector<dataset::Sections> sections_;
   compensation::SchemePlan plan_;
   TrainingScans scans_;
+  std::shared_ptr<compensation::TrainingStatistics> statistics_;  // filled by sum()
 };
 
-Calibration Training::describe() const {
+Calibration Training::describe() {
   const std::vector<dataset::Recording>& recordings = problem_.recordings;
   const dataset::Recording& first = recordings.front();
   const std::size_t taxels = first.layout.size.taxels();
@@ -85,28 +89,32 @@ Calibration Training::describe() const {
   calibration.trained = findTrainedRanges(recordings, classes_, trained);
   calibration.coverage = dataset::measureCoverage(recordings, classes_, sections_);
   calibration.provenance = provenanceOf(problem_.recordings, problem_.options);
-  const std::size_t cells = taxels * classes_.classes.size() * problem_.options.folds;
-  calibration.statistics = {first.full_scale,
-                            taxels,
-                            problem_.options.folds,
-                            classes_.classes,
-                            std::vector<regression::CodeStatistics>(cells),
-                            {}};
-  for (const dataset::Recording& recording : recordings) {
-    const std::vector<dataset::RecordedCondition> own = dataset::conditionsOf(recording);
-    calibration.statistics.conditions.insert(calibration.statistics.conditions.end(), own.begin(), own.end());
-  }
+  statistics_ = emptyStatistics();
+  calibration.statistics = statistics_;
   prepareTables(plan_, calibration);
   calibration.warnings = warningsOf(recordings, sections_);
   return calibration;
 }
 
-void Training::sum(std::size_t taxel, Calibration& calibration) const {
-  const compensation::TrainingStatistics& statistics = calibration.statistics;
+std::shared_ptr<compensation::TrainingStatistics> Training::emptyStatistics() const {
+  auto statistics = std::make_shared<compensation::TrainingStatistics>();
+  statistics->full_scale = problem_.recordings.front().full_scale;
+  statistics->taxels = problem_.recordings.front().layout.size.taxels();
+  statistics->sections = problem_.options.folds;
+  statistics->classes = classes_.classes;
+  statistics->cells.resize(statistics->taxels * classes_.classes.size() * problem_.options.folds);
+  for (const dataset::Recording& recording : problem_.recordings) {
+    const std::vector<dataset::RecordedCondition> own = dataset::conditionsOf(recording);
+    statistics->conditions.insert(statistics->conditions.end(), own.begin(), own.end());
+  }
+  return statistics;
+}
+
+void Training::sum(std::size_t taxel) {
   std::vector<regression::CodeStatistics> cells =
-      statisticsOfTaxel(scans_, statistics.sections, statistics.full_scale, taxel);
+      statisticsOfTaxel(scans_, statistics_->sections, statistics_->full_scale, taxel);
   std::move(cells.begin(), cells.end(),
-            calibration.statistics.cells.begin() + static_cast<std::ptrdiff_t>(taxel * cells.size()));
+            statistics_->cells.begin() + static_cast<std::ptrdiff_t>(taxel * cells.size()));
 }
 
 void Training::train(std::size_t taxel, const compensation::FoldRegressors& regressors,
@@ -115,7 +123,7 @@ void Training::train(std::size_t taxel, const compensation::FoldRegressors& regr
     fillTables(plan_, taxel, {}, calibration);
     return;
   }
-  compensation::SectionedReadings readings = readingsOf(calibration.statistics, taxel);
+  compensation::SectionedReadings readings = readingsOf(*calibration.statistics, taxel);
   if (!regression::makeRegressor(regressors.whole)->mergeable()) {
     readings.samples = samplesOfTaxel(scans_, readings.sums.front().size(), readings.full_scale, taxel);
   }

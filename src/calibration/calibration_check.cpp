@@ -2,20 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <map>
-#include <sstream>
 
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr::calibration {
 
 namespace {
 
-constexpr std::uint64_t kLeastReadings = 100;  // of a taxel, before it can be conspicuous
+constexpr std::uint64_t kLeastReadings = 100;  // of a taxel, before it can be suspicious
 
-// Sums over readings of one surface, one taxel, or all.
+// Sums over the readings of one surface, of one taxel, or of all.
 struct Sums {
   std::uint64_t readings = 0;
   std::uint64_t within = 0;
@@ -50,18 +49,12 @@ struct Sums {
   }
 };
 
-std::string text(double value, int digits = 1) {
-  std::ostringstream out;
-  out << std::fixed << std::setprecision(digits) << value;
-  return out.str();
-}
-
 std::string kilopascals(double value) {
-  return text(value / 1000) + " kPa";
+  return settings::fixedText(value / 1000, 1) + " kPa";
 }
 
 std::string percent(double share) {
-  return text(100 * share) + " %";
+  return settings::fixedText(100 * share, 1) + " %";
 }
 
 std::string places(const std::vector<std::size_t>& taxels, const matrix::Layout& layout) {
@@ -77,7 +70,7 @@ std::string places(const std::vector<std::size_t>& taxels, const matrix::Layout&
 void requireFitting(const Calibration& calibration, const dataset::Recording& recording) {
   if (recording.pressure.empty()) {
     throw settings::InputError(recording.name +
-                               ": has no chamber_pressure, so that there is nothing to hold maps against; "
+                               ": has no chamber_pressure, so there is no reference for the maps; "
                                "without a chamber use check_bag --use socket");
   }
   const matrix::MatrixSize size = recording.layout.size;
@@ -133,8 +126,9 @@ class Checker {
     return place->second;
   }
 
-  // Without conductance a reading says "less than", saturated "more than": no errors. One below training
-  // is one: under a known pressure it tells of a sheet that reads less than it did.
+  // A reading without conductance is an upper limit and a saturated one a lower limit; neither has an error.
+  // A reading below those of training has one: at a known pressure it shows that the sheet reads less than it
+  // did.
   void add(const std::uint16_t* counts, double pressure, Sums& surface) {
     constexpr std::uint16_t kBeyond =
         map::taxel_flag::kReadingExtrapolated | map::taxel_flag::kCurvatureExtrapolated;
@@ -169,19 +163,19 @@ void judgeClass(const CheckedClass& checked, double range, const CalibrationChec
   const std::string where = checked.name.empty() ? "" : "on " + checked.name + " ";
   if (checked.readings == 0) return;
   if (checked.beyond_training > options.beyond_share) {
-    reasons.push_back(
-        where + percent(checked.beyond_training) +
-        " of the readings lie beyond what training saw (allowed: " + percent(options.beyond_share) + ")");
+    reasons.push_back(where + percent(checked.beyond_training) +
+                      " of the readings are outside the range of training (allowed: " +
+                      percent(options.beyond_share) + ")");
   }
   if (checked.rmse > options.rmse_ratio * checked.expected_rmse) {
-    reasons.push_back(where + "errors are " + text(checked.rmse / checked.expected_rmse, 2) +
-                      " times what they were (RMSE " + kilopascals(checked.rmse) + " where " +
+    reasons.push_back(where + "errors are " + settings::fixedText(checked.rmse / checked.expected_rmse, 2) +
+                      " times the expected ones (RMSE " + kilopascals(checked.rmse) + ", expected " +
                       kilopascals(checked.expected_rmse) +
-                      " was expected; allowed: " + text(options.rmse_ratio, 2) + " times)");
+                      "; allowed: " + settings::fixedText(options.rmse_ratio, 2) + " times)");
   }
   if (std::abs(checked.bias) > options.bias_share * range) {
-    reasons.push_back(where + "maps lie " + kilopascals(std::abs(checked.bias)) +
-                      (checked.bias > 0 ? " above" : " below") + " the chamber on average, " +
+    reasons.push_back(where + "maps are " + kilopascals(std::abs(checked.bias)) +
+                      (checked.bias > 0 ? " above" : " below") + " the chamber pressure on average, " +
                       percent(std::abs(checked.bias) / range) +
                       " of the range (allowed: " + percent(options.bias_share) + ")");
   }
@@ -207,12 +201,14 @@ CalibrationCheck checkCalibration(const Calibration& calibration,
   judgeClass(check.whole, range, options, check.reasons);
   for (const CheckedClass& checked : check.classes) judgeClass(checked, range, options, check.reasons);
   if (double(check.suspicious.size()) > options.taxel_share * double(layout.size.taxels())) {
-    check.reasons.push_back(std::to_string(check.suspicious.size()) + " taxels (row, column) err more than " +
-                            text(options.taxel_ratio) +
-                            " times what they did: " + places(check.suspicious, layout));
+    check.reasons.push_back(std::to_string(check.suspicious.size()) +
+                            " taxels (row, column) have errors more than " +
+                            settings::fixedText(options.taxel_ratio, 1) +
+                            " times the expected ones: " + places(check.suspicious, layout));
   } else if (!check.suspicious.empty()) {
-    check.remarks.push_back("taxels (row, column) that err more than " + text(options.taxel_ratio) +
-                            " times what they did: " + places(check.suspicious, layout));
+    check.remarks.push_back("taxels (row, column) with errors more than " +
+                            settings::fixedText(options.taxel_ratio, 1) +
+                            " times the expected ones: " + places(check.suspicious, layout));
   }
   if (!check.dead.empty()) check.reasons.push_back("taxels are dead: " + places(check.dead, layout));
   if (!check.stuck.empty()) check.reasons.push_back("taxels are stuck: " + places(check.stuck, layout));

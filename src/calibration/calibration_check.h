@@ -11,16 +11,16 @@
 
 namespace fsr::calibration {
 
-/// What a calibration is allowed to be off on new bags; every default stands here.
+/// Limits for the errors of a calibration on new bags, with all defaults.
 struct CalibrationCheckOptions {
-  double rmse_ratio = 1.3;     ///< of the RMSE here to the one that the calibration expects (ratio)
-  double bias_share = 0.03;    ///< mean error, of the trained range of pressure (ratio)
-  double beyond_share = 0.05;  ///< readings outside of training (ratio)
-  double taxel_ratio = 2.0;    ///< a taxel of this ratio of its own errors is conspicuous (ratio)
-  double taxel_share = 0.05;   ///< conspicuous taxels, of all (ratio)
+  double rmse_ratio = 1.3;     ///< RMSE on these bags / RMSE that the calibration expects (ratio)
+  double bias_share = 0.03;    ///< mean error / trained range of pressure (ratio)
+  double beyond_share = 0.05;  ///< share of readings outside the range of training (ratio)
+  double taxel_ratio = 2.0;    ///< a taxel is suspicious from this RMSE / expected RMSE on (ratio)
+  double taxel_share = 0.05;   ///< share of suspicious taxels (ratio)
 };
 
-/// How the readings of one curvature class, or of all, fared.
+/// Errors of the readings of one curvature class, or of all together.
 struct CheckedClass {
   std::string name;  ///< of the surface; empty = all together
   std::uint64_t readings = 0;
@@ -33,18 +33,18 @@ struct CheckedClass {
 
 struct CalibrationCheck {
   bool still_good = false;
-  std::vector<std::string> reasons;  ///< why not, worst first; empty where it is
-  std::vector<std::string> remarks;  ///< what else a user should know
+  std::vector<std::string> reasons;  ///< why it is not, worst first; empty if it is
+  std::vector<std::string> remarks;  ///< other information for the user
   CheckedClass whole;
   std::vector<CheckedClass> classes;     ///< of each surface of the bags, in their order
-  std::vector<std::size_t> suspicious;   ///< taxels that err far more than they did in training
+  std::vector<std::size_t> suspicious;   ///< taxels with much larger errors than in training
   std::vector<std::size_t> dead, stuck;  ///< taxels, as TaxelWatch finds them
 };
 
-/// Scores a stored calibration on new recordings with a pressure reference, as the calibration node would
-/// use it: does it still do what it did when it was made? The expected error is the deviation that the
-/// calibration itself states for each reading, so that a bag at other pressures is judged fairly. Throws
-/// InputError where the recordings have no reference or are of another matrix.
+/// Scores a stored calibration on new recordings with a pressure reference, through the same live path as the
+/// calibration node, and judges whether its errors are as small as in training. The expected error is the
+/// deviation that the calibration states for each reading, so that a bag at other pressures is judged fairly.
+/// Throws InputError if the recordings have no reference or are of another matrix.
 CalibrationCheck checkCalibration(const Calibration& calibration,
                                   const std::vector<dataset::Recording>& recordings,
                                   const CalibrationCheckOptions& options = {});

@@ -9,6 +9,8 @@
 #include <emmintrin.h>
 #endif
 
+#include "calibration/class_switch.h"
+#include "calibration/packed_tables.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "map/fill.h"
 
@@ -20,7 +22,7 @@ constexpr double kOnClass = 1e-6;  // [1/m]
 constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
 constexpr std::uint16_t kBelowTraining = map::taxel_flag::kReadingExtrapolated | map::taxel_flag::kBelowRange;
 
-// The flag, or 0.
+// The flag if the condition is true, else 0.
 inline std::uint16_t flagWhere(bool condition, std::uint16_t flag) {
   return static_cast<std::uint16_t>(-static_cast<int>(condition) & flag);
 }
@@ -30,8 +32,8 @@ inline void copyOne(const compensation::TableEntry& entry, float& pressure, floa
   deviation = entry.deviation;
 }
 
-// The entries of four taxels, pressures and deviations sorted apart: the loads go on side by side, which no
-// compiler finds.
+// Loads the entries of four taxels and separates pressures from deviations. The loads run in parallel;
+// compilers do not find this themselves.
 inline void copyFour(const compensation::TableEntry* const* table, const std::uint16_t* codes,
                      float* pressure, float* deviation) {
 #ifdef __SSE2__
@@ -49,7 +51,7 @@ inline void copyFour(const compensation::TableEntry* const* table, const std::ui
 #endif
 }
 
-// Of a code between two entries, on the line that joins them.
+// The entry of a code between two stored entries, by linear interpolation.
 inline compensation::TableEntry between(const compensation::TableEntry* table, std::uint16_t code,
                                         unsigned shift) {
   const compensation::TableEntry* const entry = table + (code >> shift);
@@ -75,7 +77,74 @@ void requireEach(const char* what, std::size_t values, matrix::MatrixSize size) 
 
 }  // namespace
 
-Calibrator::Calibrator(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
+class Calibrator::Impl {
+ public:
+  Impl(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
+       const CalibratorOptions& options);
+  Impl(const Impl&) = delete;  // table_ points into the object's own tables
+  Impl& operator=(const Impl&) = delete;
+
+  void setSurface(const matrix::Surface& surface, double time);
+  void setMask(const std::vector<std::uint8_t>& mask);
+  void setTare(const std::vector<float>& offset);
+  void setWrongSensor(bool wrong) { wrong_sensor_ = wrong; }
+  void calibrate(const matrix::ScanView& scan, double time, map::PressureMap& out) noexcept;
+
+  const matrix::Layout& layout() const { return layout_; }
+  std::size_t bytes() const { return tables_.bytes() + blended_.size() * sizeof(compensation::TableEntry); }
+  const health::TaxelWatch& watch() const { return watch_; }
+  const std::vector<ClassChoice>& choices() const { return switch_.choices(); }
+
+ private:
+  void selectTables(const matrix::Surface& surface);
+  void selectTable(std::size_t taxel, double curvature);
+  const compensation::TableEntry* blended(std::size_t taxel, double curvature);
+  void refreshConstantFlags() noexcept;
+  void noteTime(double time) noexcept;
+  void clip(const std::uint16_t* counts) noexcept;
+  void lookUp(map::PressureMap& out) const noexcept;
+  void flagCodes(map::PressureMap& out) const noexcept;
+  void removeBad(map::PressureMap& out) const noexcept;
+  map::MapState state(double time) const noexcept;
+
+  PackedTables tables_;
+  matrix::Layout layout_;
+  CalibratorOptions options_;
+  bool needs_curvature_;
+  compensation::CurvatureRule rule_;
+  ClassSwitch switch_;
+  health::TaxelWatch watch_;
+
+  bool surface_known_ = false;
+  double surface_time_ = 0;  // [s]
+  double last_time_ = 0;     // [s]
+  bool wrong_sensor_ = false;
+  std::vector<std::uint8_t> mask_;   // [taxels]
+  std::vector<std::uint8_t> model_;  // [taxels], 0 = the table in use is empty
+
+  // Tables computed for the present curvature, and the curvature that they are for. Allocated with the first
+  // one.
+  struct Blended {
+    double curvature;
+    std::size_t chosen;
+    bool finite;
+  };
+  std::vector<compensation::TableEntry> blended_;  // [taxels x stride]
+  std::vector<Blended> blended_for_;               // [taxels]
+  bool tared_ = false;
+
+  // What the loop over taxels reads, each [taxels], row-major.
+  std::vector<std::uint16_t> codes_;  // of the scan, limited to full scale
+  std::vector<const compensation::TableEntry*> table_;
+  std::vector<float> offset_;          // [Pa]
+  std::vector<std::uint16_t> lowest_;  // codes of training of the table in use
+  std::vector<std::uint16_t> highest_;
+  std::vector<std::uint16_t> constant_flags_;  // flags that do not depend on the code
+  std::vector<std::size_t> masked_;            // taxels without a reading, never filled
+  std::vector<std::size_t> failed_;            // dead or stuck taxels that are not masked
+};
+
+Calibrator::Impl::Impl(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
                        const CalibratorOptions& options)
     : tables_(tables),
       layout_(layout),
@@ -91,7 +160,7 @@ Calibrator::Calibrator(const compensation::CurvatureTables& tables, const matrix
       offset_(tables.size.taxels(), 0.0f),
       lowest_(tables.size.taxels()),
       highest_(tables.size.taxels()),
-      standing_(tables.size.taxels()) {
+      constant_flags_(tables.size.taxels()) {
   if (layout.size != tables.size)
     throw settings::InputError("calibration: its layout is not the size of its tables");
   masked_.reserve(tables.size.taxels());
@@ -99,7 +168,7 @@ Calibrator::Calibrator(const compensation::CurvatureTables& tables, const matrix
   selectTables({});
 }
 
-void Calibrator::setSurface(const matrix::Surface& surface, double time) {
+void Calibrator::Impl::setSurface(const matrix::Surface& surface, double time) {
   matrix::requireFit(surface, layout_.size);
   surface_known_ = surface.known();
   surface_time_ = time;
@@ -111,33 +180,33 @@ void Calibrator::setSurface(const matrix::Surface& surface, double time) {
   selectTables(surface);
 }
 
-void Calibrator::setMask(const std::vector<std::uint8_t>& mask) {
+void Calibrator::Impl::setMask(const std::vector<std::uint8_t>& mask) {
   requireEach("mask", mask.size(), layout_.size);
   std::fill(mask_.begin(), mask_.end(), std::uint8_t{0});
   std::copy(mask.begin(), mask.end(), mask_.begin());
-  refreshStanding();
+  refreshConstantFlags();
 }
 
-void Calibrator::setTare(const std::vector<float>& offset) {
+void Calibrator::Impl::setTare(const std::vector<float>& offset) {
   requireEach("tare", offset.size(), layout_.size);
   tared_ = !offset.empty();
   std::fill(offset_.begin(), offset_.end(), 0.0f);
   std::copy(offset.begin(), offset.end(), offset_.begin());
-  refreshStanding();
+  refreshConstantFlags();
 }
 
-// An unknown surface is taken for the class that the switch has fallen back to.
-void Calibrator::selectTables(const matrix::Surface& surface) {
+// For an unknown surface the curvature is that of the class that the switch has chosen.
+void Calibrator::Impl::selectTables(const matrix::Surface& surface) {
   for (std::size_t taxel = 0; taxel < table_.size(); ++taxel) {
     const std::size_t chosen = switch_.choices()[taxel].curvature_class;
     selectTable(taxel, surface.known() ? matrix::principalCurvature(surface.at({taxel}))
                                        : tables_.tables(taxel).curvature[chosen]);
   }
-  refreshStanding();
+  refreshConstantFlags();
 }
 
-void Calibrator::selectTable(std::size_t taxel, double curvature) {
-  const ClassSwitch::Choice& choice = switch_.choices()[taxel];
+void Calibrator::Impl::selectTable(std::size_t taxel, double curvature) {
+  const ClassChoice& choice = switch_.choices()[taxel];
   const std::size_t chosen = choice.curvature_class;
   const PackedTables::TrainedCodes trained = tables_.trained(taxel, chosen);
   const bool on_class = std::abs(curvature - tables_.tables(taxel).curvature[chosen]) <= kOnClass;
@@ -150,7 +219,7 @@ void Calibrator::selectTable(std::size_t taxel, double curvature) {
   model_[taxel] = trained.model && (!blend || blended_for_[taxel].finite);
 }
 
-const compensation::TableEntry* Calibrator::blended(std::size_t taxel, double curvature) {
+const compensation::TableEntry* Calibrator::Impl::blended(std::size_t taxel, double curvature) {
   const std::size_t stride = tables_.entries() + PackedTables::kPadding;
   if (blended_.empty()) {
     blended_.resize(table_.size() * stride);
@@ -163,26 +232,27 @@ const compensation::TableEntry* Calibrator::blended(std::size_t taxel, double cu
   compensation::blendTable(rule_,
                            rule_.blend == compensation::BlendRule::kKernel ? rule_.lengthScale(taxel) : 0,
                            tables_.tables(taxel), curvature, chosen, table);
-  // A rule that is off, or a class without a model, may blend to what is no pressure: then there is none.
+  // A faulty rule, or a class without a model, may give a value that is not a pressure. Then the taxel has no
+  // model.
   now = {curvature, chosen, allFinite(table, tables_.entries())};
   return table;
 }
 
-void Calibrator::refreshStanding() noexcept {
+void Calibrator::Impl::refreshConstantFlags() noexcept {
   masked_.clear();
   failed_.clear();
-  for (std::size_t taxel = 0; taxel < standing_.size(); ++taxel) {
+  for (std::size_t taxel = 0; taxel < constant_flags_.size(); ++taxel) {
     const bool masked = mask_[taxel] != 0 || model_[taxel] == 0;
     const std::uint16_t health = watch_.flags()[taxel];
     if (masked) masked_.push_back(taxel);
     if (!masked && health != 0) failed_.push_back(taxel);
-    standing_[taxel] = static_cast<std::uint16_t>(switch_.choices()[taxel].flags | health |
-                                                  (masked ? map::taxel_flag::kMasked : 0) |
-                                                  (tared_ ? map::taxel_flag::kTared : 0));
+    constant_flags_[taxel] = static_cast<std::uint16_t>(switch_.choices()[taxel].flags | health |
+                                                        (masked ? map::taxel_flag::kMasked : 0) |
+                                                        (tared_ ? map::taxel_flag::kTared : 0));
   }
 }
 
-void Calibrator::calibrate(const matrix::ScanView& scan, double time, map::PressureMap& out) noexcept {
+void Calibrator::Impl::calibrate(const matrix::ScanView& scan, double time, map::PressureMap& out) noexcept {
   const std::size_t taxels = layout_.size.taxels();
   if (scan.size != layout_.size || scan.full_scale != tables_.fullScale() || scan.count != taxels) {
     out.reset({matrix::honestSize(scan), layout_.pitch_x, layout_.pitch_y});
@@ -194,27 +264,27 @@ void Calibrator::calibrate(const matrix::ScanView& scan, double time, map::Press
   }
   out.layout = layout_;
   noteTime(time);
-  if (watch_.observe(scan.counts, time)) refreshStanding();
+  if (watch_.observe(scan.counts, time)) refreshConstantFlags();
   clip(scan.counts);
   lookUp(out);
   flagCodes(out);
-  strikeBad(out);
+  removeBad(out);
   out.state = state(time);
 }
 
-// After a jump back the last surface would lie in the future: it counts as fresh from here on.
-void Calibrator::noteTime(double time) noexcept {
+// After a jump back in time the last surface would be in the future; it counts as new from here on.
+void Calibrator::Impl::noteTime(double time) noexcept {
   if (time < last_time_) surface_time_ = std::min(surface_time_, time);
   last_time_ = time;
 }
 
-void Calibrator::clip(const std::uint16_t* counts) noexcept {
+void Calibrator::Impl::clip(const std::uint16_t* counts) noexcept {
   const std::uint16_t full_scale = tables_.fullScale();
   const std::size_t n = codes_.size();
   for (std::size_t i = 0; i < n; ++i) codes_[i] = std::min(counts[i], full_scale);
 }
 
-void Calibrator::lookUp(map::PressureMap& out) const noexcept {
+void Calibrator::Impl::lookUp(map::PressureMap& out) const noexcept {
   const std::uint16_t* codes = codes_.data();
   const compensation::TableEntry* const* table = table_.data();
   float* pressure = out.pressure.data();
@@ -233,26 +303,26 @@ void Calibrator::lookUp(map::PressureMap& out) const noexcept {
   for (std::size_t i = 0; i < n; ++i) pressure[i] -= offset_[i];
 }
 
-// Without branches and in 16 bits, so that the compiler takes eight taxels at a time.
-void Calibrator::flagCodes(map::PressureMap& out) const noexcept {
+// Without branches and in 16 bits, so that the compiler vectorises it for eight taxels at a time.
+void Calibrator::Impl::flagCodes(map::PressureMap& out) const noexcept {
   const std::uint16_t full_scale = tables_.fullScale();
   const std::uint16_t* codes = codes_.data();
   const std::uint16_t* lowest = lowest_.data();
   const std::uint16_t* highest = highest_.data();
-  const std::uint16_t* standing = standing_.data();
+  const std::uint16_t* constant = constant_flags_.data();
   std::uint16_t* flags = out.flags.data();
   const std::size_t n = layout_.size.taxels();
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint16_t code = codes[i];
     flags[i] =
-        static_cast<std::uint16_t>(standing[i] | flagWhere(code == full_scale, map::taxel_flag::kSaturated) |
+        static_cast<std::uint16_t>(constant[i] | flagWhere(code == full_scale, map::taxel_flag::kSaturated) |
                                    flagWhere(code < lowest[i], kBelowTraining) |
                                    flagWhere(code > highest[i], map::taxel_flag::kReadingExtrapolated) |
                                    flagWhere(code == 0, map::taxel_flag::kBelowRange));
   }
 }
 
-void Calibrator::strikeBad(map::PressureMap& out) const noexcept {
+void Calibrator::Impl::removeBad(map::PressureMap& out) const noexcept {
   if (masked_.empty() && failed_.empty()) return;
   for (const auto* taxels : {&masked_, &failed_}) {
     for (const std::size_t taxel : *taxels) {
@@ -263,12 +333,55 @@ void Calibrator::strikeBad(map::PressureMap& out) const noexcept {
   if (options_.fill_bad_taxels) map::fillFromNeighbours(out, failed_);
 }
 
-map::MapState Calibrator::state(double time) const noexcept {
+map::MapState Calibrator::Impl::state(double time) const noexcept {
   if (wrong_sensor_) return map::MapState::kWrongSensor;
   if (!needs_curvature_) return map::MapState::kOk;
   if (!surface_known_) return map::MapState::kCurvatureUnknown;
   const double timeout = options_.curvature_timeout;
   return timeout > 0 && time - surface_time_ > timeout ? map::MapState::kCurvatureStale : map::MapState::kOk;
+}
+
+Calibrator::Calibrator(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
+                       const CalibratorOptions& options)
+    : impl_(std::make_unique<Impl>(tables, layout, options)) {}
+
+Calibrator::~Calibrator() = default;
+Calibrator::Calibrator(Calibrator&& other) noexcept = default;
+
+void Calibrator::setSurface(const matrix::Surface& surface, double time) {
+  impl_->setSurface(surface, time);
+}
+
+void Calibrator::setMask(const std::vector<std::uint8_t>& mask) {
+  impl_->setMask(mask);
+}
+
+void Calibrator::setTare(const std::vector<float>& offset) {
+  impl_->setTare(offset);
+}
+
+void Calibrator::setWrongSensor(bool wrong) {
+  impl_->setWrongSensor(wrong);
+}
+
+void Calibrator::calibrate(const matrix::ScanView& scan, double time, map::PressureMap& out) noexcept {
+  impl_->calibrate(scan, time, out);
+}
+
+const matrix::Layout& Calibrator::layout() const {
+  return impl_->layout();
+}
+
+std::size_t Calibrator::bytes() const {
+  return impl_->bytes();
+}
+
+const health::TaxelWatch& Calibrator::watch() const {
+  return impl_->watch();
+}
+
+const std::vector<ClassChoice>& Calibrator::choices() const {
+  return impl_->choices();
 }
 
 }  // namespace fsr::calibration

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/calibration/class_switch.h"
+#include "calibration/class_switch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,7 +63,7 @@ double ClassSwitch::distance(std::size_t taxel, std::size_t curvature_class, dou
   return std::abs(curvature - classes_[curvature_class].at(taxel));
 }
 
-// A curvature within the tolerance of the range's end is the end's: it was seen.
+// A curvature outside the range, but within the tolerance, counts as seen in training.
 std::uint16_t ClassSwitch::flags(std::size_t taxel, std::size_t curvature_class, double curvature) const {
   if (curvature < low_ - tolerance_ || curvature > high_ + tolerance_) {
     return map::taxel_flag::kCurvatureExtrapolated;

@@ -12,8 +12,8 @@ namespace fsr::calibration {
 
 namespace {
 
-// Of a GRNN on curvature: its bandwidth in units of the training curvatures' deviation, unless it has a
-// scale of its own.
+// Length scale of a GRNN on curvature: its own, if it has one, else its bandwidth in units of the standard
+// deviation of the training curvatures.
 double lengthScale(const compensation::SchemePlan& plan, const regression::RegressorOptions& regressor,
                    const compensation::TrainingStatistics& statistics, std::size_t taxel) {
   if (plan.curvature_scale > 0) return plan.curvature_scale;
@@ -25,8 +25,9 @@ double lengthScale(const compensation::SchemePlan& plan, const regression::Regre
     for (std::size_t s = 0; s < statistics.sections; ++s)
       readings[k] += statistics.cell(taxel, k, s).samples();
   }
-  const compensation::ClassInputs inputs = compensation::classInputs(plan.scheme, curvature, {}, readings);
-  return inputs.scale.front() > 0 ? regression::sigmaOf(regressor.grnn) / inputs.scale.front() : INFINITY;
+  const regression::ClassInputs inputs = compensation::classInputs(plan.scheme, curvature, {}, readings);
+  const double sigma = regression::entryOf(regressor).second_input->sigma(regressor);
+  return inputs.scale.front() > 0 ? sigma / inputs.scale.front() : INFINITY;
 }
 
 std::vector<double> lengthScales(const compensation::SchemePlan& plan,
@@ -62,7 +63,7 @@ UnseenScore scoreOf(const std::vector<compensation::UnseenErrors>& taxels) {
 }  // namespace
 
 UnseenScore learnRule(const compensation::SchemePlan& plan, unsigned threads, Calibration& calibration) {
-  const compensation::TrainingStatistics& statistics = calibration.statistics;
+  const compensation::TrainingStatistics& statistics = *calibration.statistics;
   compensation::CurvatureTables& tables = calibration.tables;
   if (!compensation::usesCurvature(plan.scheme)) return {};
   tables.rule.blend = compensation::blendOf(plan.scheme, calibration.regressor);

@@ -5,9 +5,9 @@
 
 namespace fsr::calibration {
 
-/// Fills in the rule of calibration.tables, which is otherwise complete, as are statistics and regressor:
-/// length scale, law, and what a curvature that training has not seen is uncertain by. Returns the errors
-/// behind the last.
+/// Computes the rule of calibration.tables: length scale, law, and the uncertainty for a curvature that was
+/// not in training. Everything else in the tables, the statistics and the regressor must be complete. Returns
+/// the errors from which the uncertainty was found.
 UnseenScore learnRule(const compensation::SchemePlan& plan, unsigned threads, Calibration& calibration);
 
 }  // namespace fsr::calibration

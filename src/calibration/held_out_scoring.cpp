@@ -64,7 +64,7 @@ void HeldOutScoring::scoreTaxel(std::size_t taxel,
   taxels_[taxel] = std::move(scored);
 }
 
-// Entry `entry` of every taxel's scores, and the errors of `classes`.
+// Pools entry `entry` of the scores of all taxels and the errors of `classes`.
 Score HeldOutScoring::pool(const std::vector<std::size_t>& classes, std::size_t entry) const {
   Score score;
   std::vector<double> r2, rmse_percent;
@@ -76,7 +76,7 @@ Score HeldOutScoring::pool(const std::vector<std::size_t>& classes, std::size_t 
     r2.push_back(own.r2);
     rmse_percent.push_back(own.rmse_percent);
     within += own.within;
-    if (!(own.rmse_percent <= score.worst_rmse_percent)) {  // true for the NaN that it begins with
+    if (!(own.rmse_percent <= score.worst_rmse_percent)) {  // also true for the initial NaN
       score.worst_rmse_percent = own.rmse_percent;
       score.worst_taxel = taxel;
     }

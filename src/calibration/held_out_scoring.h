@@ -10,22 +10,22 @@
 
 namespace fsr::calibration {
 
-/// Scores the held-out readings of a calibration, taxel by taxel: each reading is predicted by the model
-/// that answers for its class, trained without the reading's section.
+/// Scores the held-out readings of a calibration, taxel by taxel: each reading is predicted by the model of
+/// its class that was trained without the section of the reading.
 class HeldOutScoring {
  public:
   /// `scans` and `plan` must outlive the object.
   HeldOutScoring(const TrainingScans& scans, const compensation::SchemePlan& plan, std::size_t sections,
                  std::size_t taxels);
 
-  /// `models` as fitTaxel() gives them, with held-out deviations. Different taxels may be scored at the
-  /// same time; a taxel that never is stays out of the scores.
+  /// `models` are those of crossValidateScheme() with held-out deviations. Different taxels may be scored at
+  /// the same time. A taxel that is never scored is not part of the scores.
   void scoreTaxel(std::size_t taxel, const std::vector<regression::CrossValidatedModel>& models);
 
   CalibrationScores summarise(const std::vector<dataset::CurvatureClass>& classes) const;
 
  private:
-  // What one taxel contributes to the score of one class, or of all together.
+  // Contribution of one taxel to the score of one class, or of all together.
   struct TaxelScore {
     double r2;
     double rmse_percent;

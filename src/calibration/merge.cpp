@@ -1,14 +1,18 @@
 #include "calibration/merge.h"
 
 #include <algorithm>
+#include <memory>
 #include <sstream>
 
 #include "calibration/bandwidth_choice.h"
 #include "calibration/sources.h"
 #include "calibration/taxel_training.h"
+#include "compensation/training_statistics.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "matrix/for_each_taxel.h"
 #include "regression/option_names.h"
+#include "regression/regressors.h"
+#include "settings/number_text.h"
 
 namespace fsr::calibration {
 
@@ -16,13 +20,19 @@ namespace {
 
 constexpr char kInstead[] = "; train on all bags instead";
 
-std::string bandwidthText(const Calibration& calibration) {
+// Options in RegressorOptions::more.
+std::string optionsText(const regression::RegressorOptions& options) {
   std::ostringstream text;
-  text << calibration.regressor.grnn.bandwidth;
-  return calibration.bandwidth_chosen ? "auto" : text.str();
+  for (const auto& [name, value] : options.more)
+    text << (text.tellp() > 0 ? ", " : "") << name << " = " << value;
+  return text.str().empty() ? "none" : text.str();
 }
 
-// What two parts must share, in words, with what each has.
+std::string bandwidthText(const Calibration& calibration) {
+  return calibration.bandwidth_chosen ? "auto" : settings::roundedText(calibration.regressor.grnn.bandwidth);
+}
+
+// Properties that must be equal in all parts: name and value.
 std::vector<std::pair<std::string, std::string>> traitsOf(const Calibration& calibration) {
   const regression::RegressorOptions& model = calibration.regressor;
   const bool grnn = model.name == "grnn";
@@ -33,6 +43,7 @@ std::vector<std::pair<std::string, std::string>> traitsOf(const Calibration& cal
           {"the bandwidth", grnn ? bandwidthText(calibration) : ""},
           {"the spread's meaning", grnn ? regression::spreadName(model.grnn.spread) : ""},
           {"the distance", grnn ? regression::distanceName(model.grnn.distance) : ""},
+          {"the list of further options", optionsText(model)},
           {"the number of sections", std::to_string(calibration.folds)}};
 }
 
@@ -63,19 +74,19 @@ void requireOtherBags(const MergePart& earlier, const MergePart& later) {
 
 void requireMergeable(const MergePart& part) {
   const Calibration& calibration = part.calibration;
-  if (calibration.statistics.cells.empty()) {
+  if (!calibration.statistics || calibration.statistics->cells.empty()) {
     throw settings::InputError(part.name + ": holds no statistics to merge" + kInstead);
   }
   if (regression::makeRegressor(calibration.regressor)->mergeable()) return;
   const bool grnn = calibration.regressor.name == "grnn";
   throw settings::InputError(part.name + ": the model " + calibration.regressor.name +
                              (grnn ? " with equal pressure bins" : "") +
-                             " needs the bags, the sums of a calibration file do not serve it" + kInstead);
+                             " needs the bags; the sums in a calibration file are not sufficient" + kInstead);
 }
 
-// The first files do not keep the conditions: their classes stand for them.
+// Files of the first version do not contain the conditions; their classes are used instead.
 std::vector<dataset::RecordedCondition> conditionsOf(const Calibration& calibration) {
-  if (!calibration.statistics.conditions.empty()) return calibration.statistics.conditions;
+  if (!calibration.statistics->conditions.empty()) return calibration.statistics->conditions;
   std::vector<dataset::RecordedCondition> conditions;
   for (const dataset::ConditionCoverage& coverage : calibration.coverage.conditions) {
     conditions.push_back({coverage.condition, coverage.scans});
@@ -106,7 +117,8 @@ class Merging {
   Calibration run(const MergeOptions& options);
 
  private:
-  // Which class of the whole each class of a part becomes; `first` = number of its first condition.
+  // The class of the merged calibration for each class of a part; `first` = index of the first condition of
+  // the part.
   std::vector<std::size_t> classesOf(const MergePart& part, std::size_t first) const;
   void mergeFacts(const Calibration& part, Calibration& whole) const;
   compensation::TrainingStatistics mergeStatistics() const;
@@ -121,7 +133,7 @@ class Merging {
 std::vector<std::size_t> Merging::classesOf(const MergePart& part, std::size_t first) const {
   const auto own = conditionsOf(part.calibration);
   const dataset::PooledConditions alone = dataset::poolConditions(own, pooling_);
-  const auto& classes = part.calibration.statistics.classes;
+  const auto& classes = part.calibration.statistics->classes;
   constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   std::vector<std::size_t> becomes(classes.size(), kNone);
   bool same = alone.classes.size() == classes.size();
@@ -165,7 +177,7 @@ void Merging::mergeFacts(const Calibration& part, Calibration& whole) const {
 }
 
 compensation::TrainingStatistics Merging::mergeStatistics() const {
-  const compensation::TrainingStatistics& first = parts_.front().calibration.statistics;
+  const compensation::TrainingStatistics& first = *parts_.front().calibration.statistics;
   const std::size_t taxels = first.taxels, sections = first.sections, classes = pooled_.classes.size();
   compensation::TrainingStatistics whole{first.full_scale,
                                          taxels,
@@ -174,7 +186,7 @@ compensation::TrainingStatistics Merging::mergeStatistics() const {
                                          std::vector<regression::CodeStatistics>(taxels * classes * sections),
                                          conditions_};
   for (std::size_t p = 0; p < parts_.size(); ++p) {
-    const compensation::TrainingStatistics& part = parts_[p].calibration.statistics;
+    const compensation::TrainingStatistics& part = *parts_[p].calibration.statistics;
     for (std::size_t taxel = 0; taxel < taxels; ++taxel) {
       for (std::size_t k = 0; k < part.classes.size(); ++k) {
         for (std::size_t s = 0; s < sections; ++s) {
@@ -209,7 +221,7 @@ Calibration Merging::run(const MergeOptions& options) {
     }
   }
   whole.coverage.thin = dataset::thinPlaces(whole.coverage.conditions, whole.folds);
-  whole.statistics = mergeStatistics();
+  whole.statistics = std::make_shared<const compensation::TrainingStatistics>(mergeStatistics());
   trainOnStatistics(training, parts_.front().name, whole);
   return whole;
 }

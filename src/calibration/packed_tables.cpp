@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/calibration/packed_tables.h"
+#include "calibration/packed_tables.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,14 +19,14 @@ void requireWhole(const compensation::CurvatureTables& tables) {
   }
 }
 
-// No sensor's, and far from where sums and differences of floats run over [Pa].
+// Larger than the pressure of any sensor, and far from an overflow of sums and differences of floats [Pa].
 constexpr float kBeyondAnyPressure = 1e12f;
 
 bool usable(float value) {
   return std::abs(value) < kBeyondAnyPressure;
 }
 
-// One usable value for each code or, for want of a model, NaN throughout.
+// Throws unless the table has one usable value for each code or, without a model, NaN throughout.
 void requireSound(const regression::CodeTable& table, std::size_t codes, std::size_t number) {
   const std::string which = "calibration: table " + std::to_string(number);
   if (table.pressure.size() != codes || table.deviation.size() != codes ||
@@ -45,7 +45,7 @@ void requireSound(const regression::CodeTable& table, std::size_t codes, std::si
   }
 }
 
-// Models numbered in the order of the classes.
+// The index of the table of each class, numbered in the order of the classes.
 std::vector<std::size_t> slotsOf(const compensation::CurvatureTables& tables) {
   const std::vector<std::size_t>& model = tables.rule.model_of_class;
   if (!model.empty() && model.size() != tables.classes.size()) {
@@ -98,7 +98,7 @@ void PackedTables::endAtFullScale(compensation::TableEntry* table) const {
   const compensation::TableEntry& before = table[entries() - 2];
   compensation::TableEntry& last = table[entries() - 1];
   const std::size_t step = std::size_t{1} << shift_, left = full_scale_ & (step - 1);
-  if (left == 0) return;  // nobody reads it
+  if (left == 0) return;  // the last entry is not used
   last.pressure = before.pressure +
                   (last.pressure - before.pressure) * static_cast<float>(step) / static_cast<float>(left);
 }

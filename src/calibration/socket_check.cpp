@@ -3,40 +3,27 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <iomanip>
-#include <sstream>
 
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "health/recording_health.h"
+#include "settings/number_text.h"
+#include "statistics/median.h"
 
 namespace fsr::calibration {
 
 namespace {
 
-constexpr double kAtTheEnds = 0.25;     // of the recording: rest is looked for in its first and last part
-constexpr double kShortestCell = 0.25;  // loads are followed by means over it: short beside a step [s],
-constexpr double kScansOfCell = 2.5;    // and long beside the time from scan to scan
-
-std::string text(double value, int digits = 1) {
-  std::ostringstream out;
-  out << std::fixed << std::setprecision(digits) << value;
-  return out.str();
-}
+constexpr double kAtTheEnds = 0.25;     // share of the recording: rest is searched in its first and last part
+constexpr double kShortestCell = 0.25;  // loads are averaged over this time: short compared with a step [s],
+constexpr double kScansOfCell = 2.5;    // and long compared with the time between scans
 
 std::string percent(double share) {
-  return text(100 * share) + " %";
+  return settings::fixedText(100 * share, 1) + " %";
 }
 
 std::string place(const matrix::Layout& layout, std::size_t taxel) {
   return "(" + std::to_string(layout.row({taxel})) + ", " + std::to_string(layout.column({taxel})) + ")";
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 class SocketChecker {
@@ -76,13 +63,13 @@ class SocketChecker {
     return used_.empty() ? 0 : sum / double(used_.size());
   }
 
-  // What the sheet reads when it is loaded: the median of the scans that read more than half of the most.
+  // The reading of the loaded sheet: the median of the scans with more than half of the largest reading.
   double usualLoad() const {
     const double most = *std::max_element(mean_.begin(), mean_.end());
     std::vector<double> loaded;
     std::copy_if(mean_.begin(), mean_.end(), std::back_inserter(loaded),
                  [&](double value) { return value >= 0.5 * most; });
-    return median(loaded);
+    return statistics::upperMedian(loaded);
   }
 
   // The lowest stretch of rest_time within [from, to] [s].
@@ -131,7 +118,7 @@ class SocketChecker {
       check_.changed += std::abs(check_.change[t]) > options_.rest_change;
       if (std::abs(check_.change[t]) > std::abs(check_.change[check_.worst])) check_.worst = t;
     }
-    check_.median_change = median(changes);
+    check_.median_change = statistics::upperMedian(changes);
   }
 
   void requireFit() const {
@@ -167,8 +154,8 @@ class SocketChecker {
         ++readings;
         constexpr std::uint16_t kAboveOrBelow =
             map::taxel_flag::kReadingExtrapolated | map::taxel_flag::kBelowRange;
-        beyond +=
-            (map.flags[t] & kAboveOrBelow) == map::taxel_flag::kReadingExtrapolated;  // below is at rest
+        beyond += (map.flags[t] & kAboveOrBelow) ==
+                  map::taxel_flag::kReadingExtrapolated;  // a taxel below is at rest
         bent += (map.flags[t] & map::taxel_flag::kCurvatureExtrapolated) != 0;
       }
       before.add(map, time);
@@ -189,7 +176,7 @@ class SocketChecker {
       const double change = check_.after->pressure[t] - check_.before->pressure[t];
       if (!std::isnan(change)) changes.push_back(change);
     }
-    check_.median_pressure_change = median(changes);
+    check_.median_pressure_change = statistics::upperMedian(changes);
   }
 
   /// Mean pressure of each taxel over a rest.
@@ -235,8 +222,8 @@ class SocketChecker {
     return sums;
   }
 
-  // The longest run in which a taxel stays loaded and ranges over no more than static_range of its largest
-  // reading: two ends that only move forward, extremes of what lies between kept in deques.
+  // The longest period in which a taxel stays loaded and its reading varies by no more than static_range of
+  // its largest reading. Both ends only move forward; deques hold the extremes between them.
   void followLoad(std::size_t taxel, double span) {
     const std::vector<double> load = byCell(taxel, span);
     std::deque<std::size_t> high, low;
@@ -271,8 +258,7 @@ class SocketChecker {
     if (!check_.after) reasons.push_back("no rest was recorded after: record until it is off again");
     if (double(check_.changed) > options_.changed_share * double(used_.size())) {
       reasons.push_back(std::to_string(check_.changed) +
-                        " taxels read another rest after than before, by more "
-                        "than " +
+                        " taxels changed between rest before and rest after by more than " +
                         percent(options_.rest_change) + " of full scale");
     }
     if (check_.saturated > options_.saturated_share) {
@@ -280,18 +266,19 @@ class SocketChecker {
                         percent(options_.saturated_share) + ")");
     }
     if (check_.beyond > options_.beyond_share) {
-      reasons.push_back(percent(check_.beyond) + " of the readings lie beyond those of training (allowed: " +
+      reasons.push_back(percent(check_.beyond) +
+                        " of the readings are outside the range of training (allowed: " +
                         percent(options_.beyond_share) + ")");
     }
     if (check_.bent_beyond > options_.beyond_share) {
       reasons.push_back(percent(check_.bent_beyond) +
-                        " of the readings lie on a curvature beyond those of "
-                        "training (allowed: " +
+                        " of the readings have a curvature outside the range of training (allowed: " +
                         percent(options_.beyond_share) + ")");
     }
     if (check_.longest.seconds > options_.static_load) {
-      reasons.push_back("taxel " + place(check_.layout, check_.longest.taxel) + " carried a still load for " +
-                        text(check_.longest.seconds, 0) + " s: by then creep counts");
+      reasons.push_back("taxel " + place(check_.layout, check_.longest.taxel) +
+                        " carried a constant load for " + settings::fixedText(check_.longest.seconds, 0) +
+                        " s, so creep may change its reading");
     }
     if (!check_.dead.empty()) reasons.push_back(std::to_string(check_.dead.size()) + " taxels are dead");
     if (!check_.stuck.empty()) reasons.push_back(std::to_string(check_.stuck.size()) + " taxels are stuck");
@@ -309,8 +296,7 @@ class SocketChecker {
 
 SocketCheck checkSocket(const dataset::Recording& recording, const DonDoff& events,
                         const Calibration* calibration, const SocketCheckOptions& options) {
-  if (recording.scans() == 0)
-    throw settings::InputError(recording.name + ": holds no scan that could be judged");
+  if (recording.scans() == 0) throw settings::InputError(recording.name + ": has no scan");
   return SocketChecker(recording, calibration, options).run(events);
 }
 

@@ -11,27 +11,29 @@
 
 namespace fsr::calibration {
 
-/// When a recording in a socket is to be looked at again; every default stands here.
+/// Limits beyond which a recording in a socket should be examined, with all defaults.
 struct SocketCheckOptions {
   double rest_time = 2.0;         ///< shortest rest before and after [s]
-  double rest_share = 0.25;       ///< a rest reads no more than this share of the usual load (ratio)
-  double rest_change = 0.02;      ///< of a taxel from rest before to rest after [share of full scale]
-  double changed_share = 0.05;    ///< taxels that may change by more (ratio)
+  double rest_share = 0.25;       ///< largest reading at rest, as a share of the usual load (ratio)
+  double rest_change = 0.02;      ///< change of a taxel from rest before to rest after [share of full scale]
+  double changed_share = 0.05;    ///< share of taxels that may change by more (ratio)
   double saturated_share = 0.01;  ///< readings at full scale (ratio)
   double beyond_share = 0.05;     ///< readings outside of training (ratio)
-  double contact_share = 0.10;    ///< from here on a taxel is loaded [share of full scale]
-  double static_range = 0.20;     ///< a load is static while its reading ranges over less, of itself (ratio)
-  double static_load = 300;       ///< longest static load before creep is to be thought of [s]
+  double contact_share = 0.10;    ///< a taxel is loaded from this reading on [share of full scale]
+  double static_range =
+      0.20;  ///< a load is static while its reading varies by less than this share of itself (ratio)
+  double static_load = 300;  ///< longest static load without a remark about creep [s]
 };
 
-/// A stretch of the recording without load, and what the taxels read in it.
+/// A part of the recording without load, with the readings of the taxels in it.
 struct SocketRest {
   double from = 0, to = 0;       ///< [s] since the first scan
   std::vector<double> readings;  ///< mean of each taxel [share of full scale], row-major
-  std::vector<double> pressure;  ///< likewise by the calibration [Pa]; empty = none given; NaN = no reading
+  std::vector<double>
+      pressure;  ///< likewise, converted by the calibration [Pa]; empty = no calibration; NaN = no reading
 };
 
-/// Longest time that one taxel carried a load that hardly changed.
+/// The longest time for which a taxel carried a nearly constant load.
 struct StaticLoad {
   double seconds = 0;
   double from = 0;  ///< [s] since the first scan
@@ -45,7 +47,7 @@ struct SocketCheck {
   std::vector<double> change;  ///< after - before [share of full scale], row-major; empty = unknown
   double median_change = std::numeric_limits<double>::quiet_NaN();  ///< [share of full scale]
   std::size_t worst = 0;                                            ///< taxel of the largest change
-  std::size_t changed = 0;  ///< taxels that changed by more than is allowed
+  std::size_t changed = 0;  ///< number of taxels that changed by more than is allowed
   /// Median over taxels of the change by the calibration [Pa].
   double median_pressure_change = std::numeric_limits<double>::quiet_NaN();
   double saturated = 0;                                           ///< readings at full scale (ratio)
@@ -53,17 +55,18 @@ struct SocketCheck {
   double bent_beyond = std::numeric_limits<double>::quiet_NaN();  ///< curvature outside of training (ratio)
   StaticLoad longest;
   std::vector<std::size_t> dead, stuck;
-  std::vector<std::string> reasons;  ///< why to look again, worst first
+  std::vector<std::string> reasons;  ///< why the recording should be examined, worst first
 };
 
-/// When the socket was put on and taken off [s] since the first scan, where events say so.
+/// When the socket was put on and taken off [s] since the first scan, if events say so.
 struct DonDoff {
   std::optional<double> don, doff;
 };
 
-/// Judges a recording that has no reference by what it says of itself: rest before and after, shares of
-/// readings that are no measurement, how long loads stood still. It says nothing of accuracy. `calibration`
-/// may be null: then what lies beyond training is not known. Throws InputError where it is of another matrix.
+/// Judges a recording without a reference by its own readings: rest before and after, share of readings that
+/// are not measurements, duration of constant loads. It does not judge accuracy. `calibration` may be null;
+/// then the share of readings outside the range of training is unknown. Throws InputError if the calibration
+/// is of another matrix.
 SocketCheck checkSocket(const dataset::Recording& recording, const DonDoff& events,
                         const Calibration* calibration, const SocketCheckOptions& options = {});
 

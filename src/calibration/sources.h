@@ -5,23 +5,23 @@
 #include <string>
 #include <vector>
 
+#include "dataset/sections.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/dataset/recording.h"
-#include "fsr_pressure_map/dataset/sections.h"
 
 namespace fsr::calibration {
 
-// What the recordings of one matrix say together.
+// Information that is combined from all recordings of one matrix.
 
 Provenance provenanceOf(const std::vector<dataset::Recording>& recordings, const CalibrationOptions& options);
 
-/// What the first recording leaves empty may stand in another.
+/// Fields that are empty in the first recording are taken from the next one that has them.
 dataset::SensorIdentity identityOf(const std::vector<dataset::Recording>& recordings);
 
-/// 1 = masked in any of them. One value for each of `taxels`.
+/// [taxels], 1 = masked in any recording.
 std::vector<std::uint8_t> unionOfMasks(const std::vector<dataset::Recording>& recordings, std::size_t taxels);
 
-/// Their warnings and those of their sections, each with the recording's name.
+/// The warnings of the recordings and of their sections, each with the name of the recording.
 std::vector<std::string> warningsOf(const std::vector<dataset::Recording>& recordings,
                                     const std::vector<dataset::Sections>& sections);
 

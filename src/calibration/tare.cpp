@@ -1,19 +1,16 @@
 #include "calibration/tare.h"
 
 #include <cmath>
-#include <sstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr::calibration {
 
 namespace {
 
 std::string kilopascal(double pressure) {
-  std::ostringstream out;
-  out.precision(3);
-  out << pressure / 1000 << " kPa";
-  return out.str();
+  return settings::roundedText(pressure / 1000, 3) + " kPa";
 }
 
 bool hasReading(const map::PressureMap& map, std::size_t taxel) {
@@ -72,7 +69,7 @@ std::vector<float> TareMeasurement::offset(const std::vector<float>& standing) c
     const double scatter = m.count > 1 ? std::sqrt(m.squares / (m.count - 1)) : 0.0;
     if (scatter > options_.scatter) {
       throw settings::InputError("the tare is refused: " + place(taxel) + " scatters by " +
-                                 kilopascal(scatter) + " as under a limb, but must keep still within " +
+                                 kilopascal(scatter) + " as on a limb, but must be within " +
                                  kilopascal(options_.scatter) + " (~tare_scatter)");
     }
     result[taxel] = static_cast<float>(offset);

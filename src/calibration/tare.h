@@ -10,8 +10,8 @@
 
 namespace fsr::calibration {
 
-/// What a calibration reads of an unloaded sheet: an offset of each taxel, taken off after the table. It
-/// holds for one calibration, surface and mount, and dies with any of them.
+/// The pressure that a calibration reads on an unloaded sheet: an offset for each taxel, subtracted after the
+/// table. It is valid for one calibration, surface and mount.
 struct Tare {
   std::string calibration;  ///< id of the calibration
   std::string surface;      ///< name of the surface; may be empty
@@ -22,35 +22,36 @@ struct Tare {
   std::vector<float> offset;  ///< [rows x columns], row-major [Pa]
 };
 
-/// A surface whose mean curvature differs by more is another one, whatever its name says [1/m].
+/// A surface whose mean curvature differs by more than this is another surface, whatever its name [1/m].
 constexpr double kTareCurvatureTolerance = 0.5;
 
-/// Whether a tare still holds.
+/// Whether a tare is valid.
 bool holds(const Tare& tare, const std::string& calibration, const matrix::Surface& surface);
 
-/// Mean principal curvature [1/m]; 0 where unknown.
+/// Mean principal curvature [1/m]; 0 if unknown.
 double meanCurvature(const matrix::Surface& surface);
 
-/// When a tare is refused.
+/// Limits of a tare.
 struct TareOptions {
-  double limit = 30e3;           ///< largest offset of a taxel: beyond, something presses [Pa]
-  double scatter = 3e3;          ///< largest standard deviation of a taxel: a limb never keeps still [Pa]
-  double window = 2.0;           ///< span of scans that is averaged [s]
-  std::size_t least_scans = 10;  ///< a window with fewer lasts on
+  double limit = 30e3;   ///< largest offset of a taxel: a larger one means that something presses on it [Pa]
+  double scatter = 3e3;  ///< largest standard deviation of a taxel: a limb is never still [Pa]
+  double window = 2.0;   ///< duration over which scans are averaged [s]
+  std::size_t least_scans = 10;  ///< a window with fewer scans is extended
 };
 
-/// Gathers maps of the sheet at rest and judges whether their mean may be taken off. The maps may carry
-/// a tare: what is measured is what has to be added to it.
+/// Collects maps of the sheet at rest and judges whether their mean may be subtracted. The maps may include a
+/// tare; then the result is to be added to it.
 class TareMeasurement {
  public:
   TareMeasurement(const matrix::Layout& layout, const TareOptions& options);
 
-  /// Takes a map; `time` is its stamp [s]. True once the window is full. Time that runs back starts anew.
+  /// Adds a map; `time` is its stamp [s]. True once the window is full. If time runs backwards, the window
+  /// starts again.
   bool add(const map::PressureMap& map, double time) noexcept;
 
-  /// `standing` (the tare that the maps carried, empty = none) plus the mean of each taxel [rows x
-  /// columns] [Pa]; taxels without a reading keep theirs. Throws InputError where the sum is beyond
-  /// TareOptions::limit or the readings scatter, naming the taxel, or where no taxel had a reading.
+  /// `standing` (the tare that the maps include, empty = none) plus the mean of each taxel [rows x columns]
+  /// [Pa]. Taxels without a reading keep their value of `standing`. Throws InputError that names the taxel if
+  /// the sum exceeds TareOptions::limit or the readings scatter too much, and if no taxel had a reading.
   std::vector<float> offset(const std::vector<float>& standing) const;
 
  private:
@@ -70,10 +71,10 @@ class TareMeasurement {
   double start_ = 0;  // [s]
 };
 
-/// A tare's file: YAML, written whole or not at all. Throws InputError.
+/// Writes a tare as YAML, so that the file is complete or unchanged. Throws InputError.
 void saveTare(const Tare& tare, const std::string& path);
 
-/// Reads it strictly. Throws InputError.
+/// Reads such a file. Throws InputError if a key is unknown, missing or out of range.
 Tare loadTare(const std::string& path);
 
 }  // namespace fsr::calibration

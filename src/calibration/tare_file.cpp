@@ -15,8 +15,8 @@
 #include <limits>
 
 #include "calibration/tare.h"
-#include "fsr_pressure_map/settings/settings.h"
 #include "settings/replace_file.h"
+#include "settings/settings.h"
 
 namespace fsr::calibration {
 

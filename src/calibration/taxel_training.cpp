@@ -6,9 +6,9 @@
 #include "calibration/bandwidth_choice.h"
 #include "calibration/curvature_rule_learning.h"
 #include "compensation/learn_scheme.h"
-#include "compensation/second_input.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "matrix/for_each_taxel.h"
+#include "regression/regressors.h"
 
 namespace fsr::calibration {
 
@@ -17,7 +17,7 @@ namespace {
 constexpr char kConstantTaxels[] =
     "these taxels (row * columns + column) read the same count throughout a condition and get no model: ";
 
-// A reading that never changes tells nothing.
+// Whether the reading changes. One that does not contains no information.
 bool varies(const compensation::TrainingStatistics& statistics, const compensation::SchemePlan::Model& model,
             std::size_t taxel) {
   TrainedInterval codes;
@@ -43,19 +43,19 @@ std::uint64_t scansOf(const compensation::TrainingStatistics& statistics,
   return scans;
 }
 
-// Where no taxel has a model: is it one of several surfaces that gives none?
+// Called if no taxel has a model. Throws if one of several surfaces is the reason.
 void refuseStillSurface(const compensation::SchemePlan& plan, const Calibration& calibration) {
   const std::size_t taxels = calibration.masked.size();
   std::vector<const compensation::SchemePlan::Model*> still;
   for (const compensation::SchemePlan::Model& model : plan.models) {
     bool any = false;
     for (std::size_t taxel = 0; taxel < taxels && !any; ++taxel) {
-      any = calibration.masked[taxel] == 0 && varies(calibration.statistics, model, taxel);
+      any = calibration.masked[taxel] == 0 && varies(*calibration.statistics, model, taxel);
     }
     if (!any) still.push_back(&model);
   }
   if (still.empty() || still.size() == plan.models.size()) return;
-  const std::uint64_t scans = scansOf(calibration.statistics, *still.front());
+  const std::uint64_t scans = scansOf(*calibration.statistics, *still.front());
   throw settings::InputError("\"" + still.front()->answers_for.surface +
                              "\": every taxel reads the same count throughout (" + std::to_string(scans) +
                              (scans == 1 ? " scan" : " scans") +
@@ -70,17 +70,18 @@ regression::CodeTable noModel(std::uint16_t full_scale, bool kernels) {
   return table;
 }
 
-// Where kernels are blended, the tables are those of the classes alone.
-void useKernels(const compensation::ClassReadings& readings, const regression::GrnnOptions& grnn,
+// If kernels are blended, the tables are those of the single classes.
+void useKernels(const regression::ClassReadings& readings, const regression::RegressorOptions& regressor,
                 regression::CodeTable* tables) {
-  const std::vector<regression::KernelMean> means = compensation::classKernels(readings, grnn);
+  const std::vector<regression::KernelMean> means =
+      regression::entryOf(regressor).second_input->kernels(readings, regressor);
   for (std::size_t k = 0; k < means.size(); ++k) {
     tables[k].pressure.assign(means[k].pressure.begin(), means[k].pressure.end());
     tables[k].log_weight.assign(means[k].log_weight.begin(), means[k].log_weight.end());
   }
 }
 
-// The model that schemes are learned with.
+// The model with which the parameters of schemes are found.
 regression::GrnnOptions plainKernel(const regression::GrnnOptions& options) {
   regression::GrnnOptions plain;
   plain.bandwidth = options.bandwidth;
@@ -94,7 +95,7 @@ void prepareTables(const compensation::SchemePlan& plan, Calibration& calibratio
   compensation::CurvatureTables& tables = calibration.tables;
   tables.scheme = plan.scheme;
   tables.size = calibration.layout.size;
-  tables.full_scale = calibration.statistics.full_scale;
+  tables.full_scale = calibration.statistics->full_scale;
   tables.classes = plan.classes;
   if (!compensation::usesCurvature(plan.scheme)) tables.classes = {plan.models.front().answers_for};
   tables.tables.resize(tables.size.taxels() * tables.classes.size());
@@ -107,7 +108,7 @@ void findTaxelsWithoutModel(const compensation::SchemePlan& plan, const std::str
   calibration.no_model = calibration.masked;
   std::string constant;
   for (std::size_t taxel = 0; taxel < calibration.no_model.size(); ++taxel) {
-    const auto varying = [&](const auto& model) { return varies(calibration.statistics, model, taxel); };
+    const auto varying = [&](const auto& model) { return varies(*calibration.statistics, model, taxel); };
     if (calibration.masked[taxel] != 0) continue;
     if (std::all_of(plan.models.begin(), plan.models.end(), varying)) continue;
     calibration.no_model[taxel] = 1;
@@ -140,9 +141,9 @@ compensation::SectionedReadings readingsOf(const compensation::TrainingStatistic
 compensation::FoldRegressors choose(const CalibrationOptions& options, Calibration& calibration,
                                     compensation::SchemePlan& plan) {
   const compensation::FoldRegressors regressors =
-      chooseRegressor(options, plan, calibration.statistics, calibration.no_model);
+      chooseRegressor(options, plan, *calibration.statistics, calibration.no_model);
   calibration.regressor = regressors.whole;
-  compensation::learnScheme(calibration.statistics, plainKernel(regressors.whole.grnn),
+  compensation::learnScheme(*calibration.statistics, plainKernel(regressors.whole.grnn),
                             taxelsOfSearch(calibration.no_model), options.threads, plan);
   return regressors;
 }
@@ -158,14 +159,14 @@ void fillTables(const compensation::SchemePlan& plan, std::size_t taxel,
                                : models[plan.model_of_class[k]].table;
   }
   if (kernels && !models.empty()) {
-    useKernels(compensation::allSections(readingsOf(calibration.statistics, taxel)),
-               calibration.regressor.grnn, tables);
+    useKernels(compensation::allSections(readingsOf(*calibration.statistics, taxel)), calibration.regressor,
+               tables);
   }
 }
 
 void trainOnStatistics(const CalibrationOptions& options, const std::string& origin,
                        Calibration& calibration) {
-  const compensation::TrainingStatistics& statistics = calibration.statistics;
+  const compensation::TrainingStatistics& statistics = *calibration.statistics;
   compensation::SchemePlan plan = compensation::planScheme(options.scheme, statistics.classes);
   for (const compensation::SchemePlan::Model& model : plan.models) {
     for (const std::size_t k : model.trained_on) {

@@ -9,35 +9,35 @@
 
 namespace fsr::calibration {
 
-// From sums to tables: the half of training that needs no bag, and that merging has in common with it.
+// From sums to tables: the part of training that needs no bags. Merging uses it too.
 
-/// Lays the tables out as the plan wants them, empty; layout, full scale and trained ranges stand in
-/// `calibration` already.
+/// Gives the tables the size that the plan needs, empty. Layout, full scale and trained ranges must be in
+/// `calibration`.
 void prepareTables(const compensation::SchemePlan& plan, Calibration& calibration);
 
-/// Sets no_model: masked, or constant throughout a condition that a model trains on, of which it warns.
-/// Throws InputError, as `origin`, where no taxel is left.
+/// Sets no_model for taxels that are masked, or that are constant throughout a condition that a model is
+/// trained on; the latter with a warning. Throws InputError that starts with `origin` if no taxel is left.
 void findTaxelsWithoutModel(const compensation::SchemePlan& plan, const std::string& origin,
                             Calibration& calibration);
 
 /// Whether a warning is one of findTaxelsWithoutModel().
 bool isConstantTaxelWarning(const std::string& warning);
 
-/// What is found from the data of the whole matrix before its taxels are trained: the regressor, put down in
-/// `calibration` too, and what the scheme takes from them, put down in `plan`.
+/// Finds what depends on the data of the whole matrix before its taxels are trained: the regressor, which is
+/// also stored in `calibration`, and the parameters of the scheme, which are stored in `plan`.
 compensation::FoldRegressors choose(const CalibrationOptions& options, Calibration& calibration,
                                     compensation::SchemePlan& plan);
 
-/// The sums of one taxel, by class and section.
+/// The sums of one taxel by class and section.
 compensation::SectionedReadings readingsOf(const compensation::TrainingStatistics& statistics,
                                            std::size_t taxel);
 
-/// Fills the tables of one taxel from models in the plan's order; from none where it has no model.
+/// Fills the tables of one taxel from models in the plan's order. No models: the taxel has none.
 void fillTables(const compensation::SchemePlan& plan, std::size_t taxel,
                 const std::vector<regression::CrossValidatedModel>& models, Calibration& calibration);
 
-/// All of it, for a mergeable regressor: what stands in `calibration` already is statistics, coverage,
-/// masked, layout and the trained ranges but curvature. `origin` begins sentences.
+/// The complete training of a mergeable regressor. `calibration` must have statistics, coverage, masked,
+/// layout, and the trained ranges except curvature. Error messages start with `origin`.
 void trainOnStatistics(const CalibrationOptions& options, const std::string& origin,
                        Calibration& calibration);
 

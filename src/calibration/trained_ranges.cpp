@@ -6,12 +6,12 @@ namespace fsr::calibration {
 
 namespace {
 
-// Over a shorter time noise would be taken for a rate; over a gap it would be hidden [s].
+// Over a shorter time, noise would count as a rate; over a longer one, a gap would hide it [s].
 constexpr double kRateSpan = 1.0;
 constexpr double kLongestRateSpan = 2.0;
 
-// The rate of the pressure from scan `i` over kRateSpan; `later` walks along. NaN where the condition
-// changes or the scans pause meanwhile.
+// The rate of the pressure from scan `i` over kRateSpan. `later` moves along with i. NaN if the condition
+// changes or the scans pause in between.
 double rateFrom(const dataset::Recording& recording, std::size_t i, std::size_t& later) {
   while (later < recording.scans() && recording.time[later] - recording.time[i] < kRateSpan) ++later;
   if (later == recording.scans() || recording.condition[later] != recording.condition[i]) return NAN;

@@ -4,24 +4,24 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsr_pressure_map/compensation/training_statistics.h"
+#include "compensation/training_statistics.h"
+#include "dataset/sections.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
-#include "fsr_pressure_map/dataset/sections.h"
-#include "fsr_pressure_map/regression/code_samples.h"
-#include "fsr_pressure_map/regression/code_statistics.h"
+#include "regression/code_samples.h"
+#include "regression/code_statistics.h"
 
 namespace fsr::calibration {
 
-/// One scan as training uses it.
+/// One scan of the training.
 struct TrainingScan {
-  const std::uint16_t* counts = nullptr;  ///< of all taxels, inside its recording
+  const std::uint16_t* counts = nullptr;  ///< of all taxels, in the memory of its recording
   regression::FixedPressure pressure = 0;
   std::uint32_t section = 0;
   statistics::LoadDirection direction = statistics::LoadDirection::kNone;
 };
 
-/// The scans with a pressure, by curvature class, section after section, within one in the order of the
+/// The scans that have a pressure, by curvature class and section; within a section in the order of the
 /// recordings and of time. They point into the recordings, which must outlive them.
 using TrainingScans = std::vector<std::vector<TrainingScan>>;
 
@@ -30,11 +30,11 @@ TrainingScans gatherScans(const std::vector<dataset::Recording>& recordings,
                           const dataset::ConditionClasses& classes,
                           const std::vector<dataset::Sections>& sections);
 
-/// The statistics of one taxel: one cell for each class and section, section after section.
+/// The statistics of one taxel, [classes x sections].
 std::vector<regression::CodeStatistics> statisticsOfTaxel(const TrainingScans& scans, std::size_t sections,
                                                           std::uint16_t full_scale, std::size_t taxel);
 
-/// Its readings one by one, [classes][sections].
+/// The readings of one taxel, one by one, [classes][sections].
 std::vector<std::vector<regression::CodeSamples>> samplesOfTaxel(const TrainingScans& scans,
                                                                  std::size_t sections,
                                                                  std::uint16_t full_scale, std::size_t taxel);

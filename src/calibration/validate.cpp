@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kFewestFolds = 2;
 constexpr std::size_t kMostFolds = 20;
-// Below this a chamber has not moved, it is the transducer's noise [Pa].
+// A smaller range is noise of the transducer, not a change of the chamber pressure [Pa].
 constexpr double kLeastPressureRange = 2e3;
 
 std::string scansOf(std::uint64_t number, const std::string& what) {
@@ -78,7 +78,7 @@ void requireSameMatrix(const dataset::Recording& first, const dataset::Recording
   }
 }
 
-// The same readings twice would count as two proofs of the same thing.
+// The same readings given twice would count as independent.
 void requireDifferentBags(const std::vector<dataset::Recording>& recordings) {
   for (auto later = recordings.begin(); later != recordings.end(); ++later) {
     const auto same = [&](const dataset::Recording& earlier) { return earlier.sha256 == later->sha256; };

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/compensation/blend_table.h"
+#include "compensation/blend_table.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@ namespace fsr::compensation {
 
 namespace {
 
-// Weights below exp(-40) of the largest do not count.
+// Weights below exp(-40) of the largest are ignored.
 constexpr float kNegligibleExponent = 40.0f;
 
 std::size_t nearestOf(double at, const std::vector<double>& curvature) {
@@ -17,14 +17,14 @@ std::size_t nearestOf(double at, const std::vector<double>& curvature) {
   double least = INFINITY;
   for (std::size_t k = 0; k < curvature.size(); ++k) {
     const double distance = std::abs(curvature[k] - at);
-    if (!(distance < least)) continue;  // NaN is never nearer
+    if (!(distance < least)) continue;  // also skips NaN
     least = distance;
     best = k;
   }
   return best;
 }
 
-// The nearest class on one side of `from`; `from` itself where there is none. `sign` +1 = above, -1 = below.
+// The nearest class on one side of `from`, or `from` if there is none. `sign` +1 = above, -1 = below.
 std::size_t nextOf(std::size_t from, double sign, const std::vector<double>& curvature) {
   std::size_t best = from;
   double least = INFINITY;
@@ -55,14 +55,14 @@ void interpolatedPressure(const EffectLaw& law, const TaxelTables& tables, const
   }
 }
 
-// Codes that are blended together, so many that their sums stay in the nearest cache.
+// Number of codes that are blended together, small enough for their sums to stay in the first-level cache.
 constexpr std::size_t kBlock = 256;
 
 struct KernelSums {
   std::array<float, kBlock> largest, sum, weight;
 };
 
-// Quotients of kernel sums kept as logarithms, the largest taken out of all.
+// Quotients of kernel sums that are stored as logarithms; the largest is subtracted from all.
 void kernelBlock(double precision, const TaxelTables& tables, double at, std::size_t begin,
                  std::size_t number, KernelSums& sums) {
   sums.largest.fill(-std::numeric_limits<float>::infinity());
@@ -85,7 +85,7 @@ void kernelBlock(double precision, const TaxelTables& tables, double at, std::si
     const TableEntry* const entry = tables.table[k] + begin;
     for (std::size_t i = 0; i < number; ++i) {
       const float below = sums.largest[i] - (log_weight[i] - away);
-      if (!(below < kNegligibleExponent)) continue;  // nor a class left out
+      if (!(below < kNegligibleExponent)) continue;  // also skips classes that are left out (NaN)
       const float share = std::exp(-below);
       sums.sum[i] += share * entry[i].pressure;
       sums.weight[i] += share;
@@ -103,7 +103,7 @@ void kernelPressure(double length_scale, const TaxelTables& tables, double at, T
   }
 }
 
-// What stands in a square: of the neighbours by their shares, and of not having seen this curvature.
+// Variances: that of the neighbours, interpolated, and that of a curvature without training data.
 void spreadDeviation(const UnseenDeviation& unseen, const TaxelTables& tables, const CurvaturePlace& place,
                      TableEntry* out) {
   const TableEntry* const below = tables.table[place.below];

@@ -18,7 +18,7 @@ std::vector<double> columnsOf(Scheme scheme, std::size_t curvature_class,
   return one_hot;
 }
 
-// 1 / sample deviation of a column, 0 where it never changes.
+// 1 / sample standard deviation of a column; 0 for a constant column.
 double scaleOf(const std::vector<std::vector<double>>& columns, std::size_t column,
                const std::vector<std::uint64_t>& readings) {
   double number = 0, mean = 0, squares = 0;
@@ -32,24 +32,16 @@ double scaleOf(const std::vector<std::vector<double>>& columns, std::size_t colu
     squares += static_cast<double>(readings[k]) * from_mean * from_mean;
   }
   const double deviation = std::sqrt(squares / (number - 1));
-  constexpr double kRounding = 1e-12;  // of the mean, by which equal values can differ from it
+  constexpr double kRounding = 1e-12;  // relative difference between equal values and their mean
   return deviation > kRounding * (1.0 + std::abs(mean)) ? 1.0 / deviation : 0.0;
 }
 
 }  // namespace
 
-double ClassInputs::squaredDistance(std::size_t a, std::size_t b) const {
-  double sum = 0;
-  for (std::size_t i = 0; i < scale.size(); ++i) {
-    const double difference = (columns[a][i] - columns[b][i]) * scale[i];
-    sum += difference * difference;
-  }
-  return sum;
-}
-
-ClassInputs classInputs(Scheme scheme, const std::vector<double>& curvature, const std::vector<bool>& bent,
-                        const std::vector<std::uint64_t>& readings) {
-  ClassInputs inputs;
+regression::ClassInputs classInputs(Scheme scheme, const std::vector<double>& curvature,
+                                    const std::vector<bool>& bent,
+                                    const std::vector<std::uint64_t>& readings) {
+  regression::ClassInputs inputs;
   for (std::size_t k = 0; k < curvature.size(); ++k) {
     inputs.columns.push_back(columnsOf(scheme, k, curvature, bent));
   }

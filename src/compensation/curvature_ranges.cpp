@@ -7,7 +7,7 @@ namespace fsr::compensation {
 
 namespace {
 
-// Squared errors of one model of the classes of `range` on the sections that it was trained without.
+// Squared errors of one model of the classes of `range`, each on the section that it was trained without.
 double rangeSquares(const TrainingStatistics& statistics, std::size_t taxel, const regression::Grnn& grnn,
                     const CurvatureRange& range) {
   regression::CodeHistogram training(statistics.full_scale);
@@ -30,7 +30,7 @@ double rangeSquares(const TrainingStatistics& statistics, std::size_t taxel, con
   return squares;
 }
 
-// Summed over taxels, of several ranges at once.
+// Errors of several ranges, summed over taxels.
 std::vector<double> squaresOf(const std::vector<CurvatureRange>& ranges, const TrainingStatistics& statistics,
                               const regression::Grnn& grnn, const std::vector<std::size_t>& taxels,
                               unsigned threads) {

@@ -7,13 +7,13 @@ namespace fsr::compensation {
 
 namespace {
 
-// Slope of the values over knots i, i + 1.
+// Slope between knots i and i + 1.
 double secant(const std::vector<double>& x, const std::vector<double>& y, std::size_t i) {
   return (y[i + 1] - y[i]) / (x[i + 1] - x[i]);
 }
 
-// Slope of the monotone cubic at a knot: the harmonic mean of the secants, weighted as by Fritsch and Butland
-// (1984); 0 where they differ in sign; at the ends the secant itself.
+// Slope of the monotone cubic at a knot: the harmonic mean of the secants, with the weights of Fritsch and
+// Butland (1984); 0 if they differ in sign; at the ends the secant.
 double slopeAt(const std::vector<double>& x, const std::vector<double>& y, std::size_t i) {
   if (i == 0) return secant(x, y, 0);
   if (i + 1 == x.size()) return secant(x, y, i - 1);

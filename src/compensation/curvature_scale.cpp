@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "compensation/held_out_squares.h"
-#include "compensation/kernel_blend.h"
 #include "matrix/for_each_taxel.h"
 #include "regression/grnn/weighted_codes.h"
+#include "regression/kernel_blend.h"
 
 namespace fsr::compensation {
 
@@ -29,7 +29,7 @@ std::vector<double> scaleGrid(const std::vector<dataset::CurvatureClass>& classe
   return grid;
 }
 
-// Errors of every scale on one taxel.
+// Errors of all scales on one taxel.
 class ScaleErrors {
  public:
   ScaleErrors(const TrainingStatistics& statistics, std::size_t taxel, const regression::GrnnOptions& grnn,
@@ -68,7 +68,7 @@ class ScaleErrors {
     return curvature_[k] > *low && curvature_[k] < *high;
   }
 
-  // Of each class, without a section; empty where a class would have no reading.
+  // Kernel means of each class, without a section; empty if a class would have no reading.
   std::vector<regression::KernelMean> kernels(std::size_t left_out) const {
     std::vector<regression::CodeHistogram> sums;
     regression::CodeHistogram all(statistics_.full_scale);
@@ -89,7 +89,7 @@ class ScaleErrors {
     return means;
   }
 
-  // Adds the squares of every scale on readings of class k; returns their number.
+  // Adds the squared errors of all scales on readings of class k. Returns the number of readings.
   double add(const std::vector<regression::KernelMean>& means, std::size_t k, std::size_t left_out,
              const regression::CodeStatistics& readings, std::vector<double>& squares) const {
     for (std::size_t i = 0; i < grid_.size(); ++i) {
@@ -98,7 +98,7 @@ class ScaleErrors {
         const double away = (curvature_[k] - curvature_[c]) / grid_[i];
         exponent.push_back(c == left_out ? INFINITY : 0.5 * away * away);
       }
-      squares[i] += squaredErrors(readings, blendKernels(means, exponent).pressure);
+      squares[i] += squaredErrors(readings, regression::blendKernels(means, exponent).pressure);
     }
     return static_cast<double>(readings.samples());
   }
@@ -115,7 +115,7 @@ class ScaleErrors {
 double learnScale(const TrainingStatistics& statistics, const regression::GrnnOptions& grnn,
                   const std::vector<std::size_t>& taxels, unsigned threads) {
   const std::vector<double> grid = scaleGrid(statistics.classes);
-  if (!(grid.back() > 0)) return 0.0;  // one curvature: nothing to scale
+  if (!(grid.back() > 0)) return 0.0;  // only one curvature
   std::vector<std::vector<double>> of_taxel(taxels.size());
   matrix::forEachTaxel(taxels.size(), threads, [&](std::size_t i) {
     of_taxel[i] = ScaleErrors(statistics, taxels[i], grnn, grid).measure();

@@ -30,7 +30,7 @@ void makeMonotone(std::vector<double>& values, std::size_t first, std::size_t la
   }
 }
 
-// Effects of opposite bends may both lower or both raise: each side has a trend of its own.
+// Opposite bends may both decrease or both increase the pressure, so each side has its own trend.
 void makeMonotoneToEitherSide(const std::vector<double>& curvature, std::vector<double>& values) {
   std::size_t flattest = 0;
   for (std::size_t i = 1; i < curvature.size(); ++i) {

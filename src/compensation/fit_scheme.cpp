@@ -1,21 +1,18 @@
 #include "compensation/fit_scheme.h"
 
 #include <cmath>
+#include <optional>
+#include <string>
 
-#include "compensation/second_input.h"
-#include "fsr_pressure_map/compensation/blend_table.h"
+#include "compensation/blend_table.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr::compensation {
 
 namespace {
 
-bool isPlainKernel(const regression::GrnnOptions& options) {
-  return options.distance == regression::KernelDistance::kSquared &&
-         options.weighting == regression::SampleWeighting::kEachSample;
-}
-
-regression::Fit fitClasses(const std::vector<std::size_t>& trained_on, const ClassReadings& readings,
+regression::Fit fitClasses(const std::vector<std::size_t>& trained_on,
+                           const regression::ClassReadings& readings,
                            const regression::Regressor& regressor) {
   if (regressor.mergeable()) {
     if (trained_on.size() == 1) {
@@ -32,12 +29,39 @@ regression::Fit fitClasses(const std::vector<std::size_t>& trained_on, const Cla
   return pooled.size() > 0 ? regressor.fitSamples(pooled) : regression::Fit{};
 }
 
-// Answers on each class.
-std::vector<regression::Fit> fitOnInput(const ClassInputs& inputs, const ClassReadings& readings,
-                                        const regression::RegressorOptions& regressor) {
-  if (regressor.name == "grnn") return fitGrnnOnInput(readings, inputs, regressor.grnn);
-  if (regressor.name == "forest") return fitForestOnInput(readings, inputs, regressor.forest);
-  return fitLinearOnInput(readings, inputs);
+// Whether a regressor with this second input can be combined with the scheme.
+bool canTake(Scheme scheme, const std::optional<regression::SecondInput>& input) {
+  if (!input) return false;
+  if (scheme == Scheme::kOneHot) return input->several_columns;
+  if (scheme == Scheme::kScaledCurvature) return input->between == regression::BetweenInputs::kKernel;
+  return true;
+}
+
+std::string inputText(Scheme scheme) {
+  if (scheme == Scheme::kOneHot) return "a second input of several columns";
+  if (scheme == Scheme::kScaledCurvature) return "a second input with a length scale of its own";
+  return "a second input";
+}
+
+BlendRule blendOf(const regression::RegressorEntry& entry) {
+  if (!entry.second_input) return BlendRule::kNearest;
+  switch (entry.second_input->between) {
+    case regression::BetweenInputs::kKernel:
+      return BlendRule::kKernel;
+    case regression::BetweenInputs::kStraight:
+      return BlendRule::kInterpolate;
+    case regression::BetweenInputs::kSteps:
+      break;
+  }
+  return BlendRule::kNearest;
+}
+
+std::string namesThatTake(Scheme scheme, const regression::RegressorTable& table) {
+  std::string names;
+  for (const regression::RegressorEntry& entry : table.entries) {
+    if (canTake(scheme, entry.second_input)) names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  return names.empty() ? "none" : names;
 }
 
 // Readings of all sections but `left_out`.
@@ -46,7 +70,7 @@ class Without {
   Without(const SectionedReadings& readings, bool by_samples)
       : readings_(readings),
         by_samples_(by_samples),
-        all_(by_samples ? ClassReadings{} : allSections(readings)) {}
+        all_(by_samples ? regression::ClassReadings{} : allSections(readings)) {}
 
   template <typename Use>
   void operator()(std::size_t left_out, Use use) {
@@ -62,8 +86,8 @@ class Without {
   }
 
  private:
-  ClassReadings samplesWithout(std::size_t left_out) const {
-    ClassReadings rest;
+  regression::ClassReadings samplesWithout(std::size_t left_out) const {
+    regression::ClassReadings rest;
     rest.full_scale = readings_.full_scale;
     for (const std::vector<regression::CodeSamples>& sections : readings_.samples) {
       rest.samples.emplace_back();
@@ -77,10 +101,10 @@ class Without {
 
   const SectionedReadings& readings_;
   bool by_samples_;
-  ClassReadings all_;
+  regression::ClassReadings all_;
 };
 
-// What a model is tested on, section by section.
+// The readings that a model is tested on, by section.
 std::vector<regression::CodeStatistics> testedSections(const std::vector<std::size_t>& classes,
                                                        const SectionedReadings& readings) {
   std::vector<regression::CodeStatistics> sections(readings.sums.front().size());
@@ -92,8 +116,8 @@ std::vector<regression::CodeStatistics> testedSections(const std::vector<std::si
 
 }  // namespace
 
-ClassReadings allSections(const SectionedReadings& readings) {
-  ClassReadings all;
+regression::ClassReadings allSections(const SectionedReadings& readings) {
+  regression::ClassReadings all;
   all.full_scale = readings.full_scale;
   for (const std::vector<regression::CodeStatistics>& sections : readings.sums) {
     all.sums.emplace_back(readings.full_scale);
@@ -102,8 +126,9 @@ ClassReadings allSections(const SectionedReadings& readings) {
   return all;
 }
 
-ClassInputs inputsOf(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings,
-                     const regression::RegressorOptions& regressor) {
+regression::ClassInputs inputsOf(const SchemePlan& plan, std::size_t taxel,
+                                 const regression::ClassReadings& readings,
+                                 const regression::RegressorOptions& regressor) {
   std::vector<double> curvature;
   std::vector<bool> bent;
   std::vector<std::uint64_t> number;
@@ -112,10 +137,11 @@ ClassInputs inputsOf(const SchemePlan& plan, std::size_t taxel, const ClassReadi
     bent.push_back(!dataset::isFlat(plan.classes[k]));
     number.push_back(readings.readings(k));
   }
-  ClassInputs inputs = classInputs(plan.scheme, curvature, bent, number);
-  // so that squared distances over 2 sigma^2 are those over 2 scale^2
+  regression::ClassInputs inputs = classInputs(plan.scheme, curvature, bent, number);
+  // gives exponents D^2 / 2 curvature_scale^2
   if (plan.curvature_scale > 0)
-    inputs.scale.front() = regression::sigmaOf(regressor.grnn) / plan.curvature_scale;
+    inputs.scale.front() =
+        regression::entryOf(regressor).second_input->sigma(regressor) / plan.curvature_scale;
   return inputs;
 }
 
@@ -128,15 +154,14 @@ BlendRule blendOf(Scheme scheme, const regression::RegressorOptions& regressor) 
       return BlendRule::kByName;
     case Scheme::kCurvatureInput:
     case Scheme::kScaledCurvature:
-      if (regressor.name == "grnn") return BlendRule::kKernel;
-      // a plane is straight between any two classes; a forest steps between them
-      return regressor.name == "linear" ? BlendRule::kInterpolate : BlendRule::kNearest;
+      return blendOf(regression::entryOf(regressor));
     default:
       return BlendRule::kNearest;
   }
 }
 
-std::vector<double> answerOn(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings,
+std::vector<double> answerOn(const SchemePlan& plan, std::size_t taxel,
+                             const regression::ClassReadings& readings,
                              const std::vector<regression::Fit>& fits, std::size_t k, const EffectLaw& law) {
   const std::vector<double>& own = fits[plan.model_of_class[k]].pressure;
   if (!usesCurvature(plan.scheme) || hasSecondInput(plan.scheme) || readings.readings(k) > 0) return own;
@@ -165,24 +190,21 @@ std::vector<double> answerOn(const SchemePlan& plan, std::size_t taxel, const Cl
 void requireSchemeFor(Scheme scheme, const regression::RegressorOptions& regressor) {
   regression::makeRegressor(regressor);
   if (!hasSecondInput(scheme)) return;
-  const auto refuse = [&](const std::string& right) {
-    throw settings::InputError("scheme " + schemeName(scheme) + " gives the model a second input, which " +
-                               right);
-  };
-  if (regressor.name == "monotone") refuse("monotone cannot take; choose linear, grnn or forest");
-  if (scheme == Scheme::kOneHot && regressor.name == "forest") {
-    refuse("a forest here takes as one column only; choose linear or grnn, or curvature_input");
+  const regression::RegressorEntry& entry = regression::entryOf(regressor);
+  const std::string needs = "scheme " + schemeName(scheme) + " needs a model that takes " +
+                            inputText(scheme) + ", and " + regressor.name;
+  if (!canTake(scheme, entry.second_input)) {
+    throw settings::InputError(
+        needs + " does not; models that do: " + namesThatTake(scheme, regression::tableOf(regressor)));
   }
-  if (scheme == Scheme::kScaledCurvature && regressor.name != "grnn") {
-    refuse("only a GRNN has a length scale for; choose grnn, or curvature_input");
-  }
-  if (regressor.name == "grnn" && !isPlainKernel(regressor.grnn)) {
-    refuse("a GRNN takes with the squared distance and samples of equal weight only");
+  const regression::SecondInput& input = *entry.second_input;
+  if (input.permitted != nullptr && !input.permitted(regressor)) {
+    throw settings::InputError(needs + " does so only with " + input.condition);
   }
 }
 
 std::vector<regression::Fit> fitScheme(const SchemePlan& plan, std::size_t taxel,
-                                       const ClassReadings& readings,
+                                       const regression::ClassReadings& readings,
                                        const regression::RegressorOptions& regressor) {
   std::vector<regression::Fit> fits;
   if (!hasSecondInput(plan.scheme)) {
@@ -196,8 +218,8 @@ std::vector<regression::Fit> fitScheme(const SchemePlan& plan, std::size_t taxel
   std::uint64_t number = 0;
   for (std::size_t k = 0; k < readings.classes(); ++k) number += readings.readings(k);
   if (number == 0) return std::vector<regression::Fit>(plan.models.size());
-  const std::vector<regression::Fit> on_class =
-      fitOnInput(inputsOf(plan, taxel, readings, regressor), readings, regressor);
+  const std::vector<regression::Fit> on_class = regression::entryOf(regressor).second_input->fit(
+      readings, inputsOf(plan, taxel, readings, regressor), regressor);
   for (std::size_t m = 0; m < plan.models.size(); ++m) fits.push_back(on_class[plan.testedOn(m).front()]);
   return fits;
 }
@@ -208,10 +230,12 @@ std::vector<regression::CrossValidatedModel> crossValidateScheme(
   const std::size_t sections = readings.sums.front().size();
   Without without(readings, !regression::makeRegressor(regressors.whole)->mergeable());
   std::vector<regression::Fit> whole;
-  without(sections, [&](const ClassReadings& all) { whole = fitScheme(plan, taxel, all, regressors.whole); });
+  without(sections, [&](const regression::ClassReadings& all) {
+    whole = fitScheme(plan, taxel, all, regressors.whole);
+  });
   std::vector<std::vector<std::vector<double>>> held_out(plan.models.size());  // [models][sections]
   for (std::size_t s = 0; s < sections; ++s) {
-    without(s, [&](const ClassReadings& rest) {
+    without(s, [&](const regression::ClassReadings& rest) {
       std::vector<regression::Fit> fits = fitScheme(plan, taxel, rest, regressors.at(s));
       for (std::size_t m = 0; m < fits.size(); ++m) held_out[m].push_back(std::move(fits[m].pressure));
     });

@@ -5,45 +5,48 @@
 #include <vector>
 
 #include "compensation/class_input.h"
-#include "compensation/class_readings.h"
 #include "compensation/scheme_plan.h"
 #include "fsr_pressure_map/compensation/curvature_rule.h"
-#include "fsr_pressure_map/regression/regressors.h"
+#include "regression/class_readings.h"
 #include "regression/cross_validation.h"
+#include "regression/regressors.h"
 
 namespace fsr::compensation {
 
-/// The models of a plan, trained on the readings of one taxel, in the plan's order. A reading of code c
-/// taken on class k has the answer
+/// The models of a plan, trained on the readings of one taxel, in the plan's order. The answer for a reading
+/// of code c taken on class k is
 ///
 ///     fits[plan.model_of_class[k]].pressure[c].
 ///
-/// A model of which no class has a reading comes back empty. With a second input, every input is standardised
-/// by its mean and deviation over all readings given; where they all are of one class, the second input
-/// has nothing to say and is left out.
+/// A model is empty if none of its classes has a reading. With a second input, all inputs are standardised by
+/// mean and standard deviation over all readings given. If all readings are of one class, the second input is
+/// constant and is left out.
 ///
-/// Throws InputError where the regressor has no such model: curvature_input and binary_input are for
-/// linear, grnn and forest, one_hot for linear and grnn, scaled_curvature for grnn, and only a GRNN of
-/// Gaussian kernel on samples that weigh alike takes a second input.
+/// Throws InputError as requireSchemeFor() does.
 std::vector<regression::Fit> fitScheme(const SchemePlan& plan, std::size_t taxel,
-                                       const ClassReadings& readings,
+                                       const regression::ClassReadings& readings,
                                        const regression::RegressorOptions& regressor);
 
 /// The inputs that the plan's scheme gives a model with a second input.
-ClassInputs inputsOf(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings,
-                     const regression::RegressorOptions& regressor);
+regression::ClassInputs inputsOf(const SchemePlan& plan, std::size_t taxel,
+                                 const regression::ClassReadings& readings,
+                                 const regression::RegressorOptions& regressor);
 
-/// Pressure of each code on class k [Pa], whether it had readings or not: of a class without any, by the
-/// scheme's rule from the classes that had some, as the live map would answer there (with `law` for
-/// curvature_map). `fits` as fitScheme() made them of `readings`. Empty where there are no readings at all.
-std::vector<double> answerOn(const SchemePlan& plan, std::size_t taxel, const ClassReadings& readings,
+/// Pressure of each code on class k [Pa]. For a class without readings it is computed from the other classes
+/// by the rule of the scheme, as the live map would do (with `law` for curvature_map). `fits` are those of
+/// fitScheme() for `readings`. Empty if there are no readings at all.
+std::vector<double> answerOn(const SchemePlan& plan, std::size_t taxel,
+                             const regression::ClassReadings& readings,
                              const std::vector<regression::Fit>& fits, std::size_t k,
                              const EffectLaw& law = {});
 
-/// How tables of a plan's classes become the table of any curvature.
+/// The rule that computes the table of any curvature from the tables of the classes.
 BlendRule blendOf(Scheme scheme, const regression::RegressorOptions& regressor);
 
-/// Whether fitScheme() takes the plan's scheme with this regressor; throws InputError where not.
+/// Throws InputError if the scheme cannot be combined with this regressor, with a list of the regressors that
+/// it can be combined with. What a regressor can do stands in its entry (regression/regressors.h):
+/// curvature_input and binary_input need a second input, one_hot one of several columns, and scaled_curvature
+/// a kernel.
 void requireSchemeFor(Scheme scheme, const regression::RegressorOptions& regressor);
 
 /// The readings of one taxel by class and section.
@@ -51,12 +54,13 @@ struct SectionedReadings {
   std::uint16_t full_scale = 0;
   std::vector<std::vector<regression::CodeStatistics>> sums;  ///< [classes][sections]
   std::vector<std::vector<regression::CodeSamples>>
-      samples;  ///< likewise; empty where the regressor needs none
+      samples;  ///< likewise; empty if the regressor needs sums only
 };
 
-ClassReadings allSections(const SectionedReadings& readings);
+regression::ClassReadings allSections(const SectionedReadings& readings);
 
-/// The regressor to train with: what is chosen from the data is chosen anew without the section held out.
+/// The regressor to train with. Options that are chosen from the data are chosen again without the held-out
+/// section.
 struct FoldRegressors {
   regression::RegressorOptions whole;
   std::vector<regression::RegressorOptions> without;  ///< [sections]; empty = `whole` throughout
@@ -66,8 +70,8 @@ struct FoldRegressors {
   }
 };
 
-/// Trains the plan's models on all sections and, once for each, without it. Deviations of a model come from
-/// the classes that it is tested on.
+/// Trains the models of the plan on all sections, and once without each section. The deviation of a model
+/// comes from the classes that it is tested on.
 std::vector<regression::CrossValidatedModel> crossValidateScheme(
     const SchemePlan& plan, std::size_t taxel, const SectionedReadings& readings,
     const FoldRegressors& regressors, regression::HeldOutDeviation held_out_deviation);

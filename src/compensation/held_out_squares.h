@@ -2,15 +2,14 @@
 
 #include <vector>
 
-#include "fsr_pressure_map/regression/code_statistics.h"
+#include "regression/code_statistics.h"
 
 namespace fsr::compensation {
 
-/// Sum of the squared errors of `pressure` [Pa, one for each code] on readings of which the sums are known
-/// [Pa^2].
+/// Sum of squared errors [Pa^2] of `pressure` [codes] [Pa] on readings whose sums are known.
 double squaredErrors(const regression::CodeStatistics& readings, const std::vector<double>& pressure);
 
-/// [taxels][values] summed over taxels, always in their order.
+/// Sum of [taxels][values] over taxels, always in the same order.
 std::vector<double> sumOverTaxels(const std::vector<std::vector<double>>& of_taxel);
 
 }  // namespace fsr::compensation

@@ -43,7 +43,7 @@ Indices flatClasses(Scheme scheme, const std::vector<dataset::CurvatureClass>& c
   return flat;
 }
 
-// One model answers everywhere.
+// Plans one model that answers everywhere.
 void planOneModel(const dataset::CurvatureClass& answers_for, Indices trained_on, SchemePlan& plan) {
   plan.models = {{answers_for, std::move(trained_on)}};
   plan.model_of_class.assign(plan.classes.size(), 0);

@@ -7,7 +7,7 @@ namespace fsr::compensation {
 
 namespace {
 
-// The tables of one taxel as blendTable() takes them.
+// The tables of one taxel in the form that blendTable() needs.
 struct Entries {
   std::vector<std::vector<TableEntry>> of_class;
   TaxelTables tables;

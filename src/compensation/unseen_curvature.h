@@ -3,23 +3,23 @@
 #include <array>
 #include <vector>
 
-#include "fsr_pressure_map/compensation/blend_table.h"
+#include "compensation/blend_table.h"
+#include "compensation/training_statistics.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
-#include "fsr_pressure_map/compensation/training_statistics.h"
 #include "fsr_pressure_map/statistics/pressure_bins.h"
 
 namespace fsr::compensation {
 
-/// Errors of one taxel on curvatures that it had not been trained on: each of its inner classes in turn is
-/// answered from the others.
+/// Errors of one taxel on curvatures that it was not trained on: each inner class in turn is predicted from
+/// the others.
 struct UnseenErrors {
   struct Bin {
     double readings = 0;
     double squares = 0;   ///< of the errors [Pa^2]
-    double stated = 0;    ///< of the class's own stated deviation, which it has anyway [Pa^2]
+    double stated = 0;    ///< sum of the squared deviations that the class states itself [Pa^2]
     double pressure = 0;  ///< sum of the answers [Pa]
   };
-  std::array<Bin, statistics::kPressureBins> bins;  ///< by answer
+  std::array<Bin, statistics::kPressureBins> bins;  ///< by predicted pressure
   double lowest = 0, highest = 0;                   ///< pressures of the readings, means of a code [Pa]
 
   double readings() const;
@@ -31,7 +31,8 @@ struct UnseenErrors {
 UnseenErrors leaveClassesOut(const CurvatureTables& tables, std::size_t taxel,
                              const TrainingStatistics& statistics, const std::vector<EffectLaw>& law_without);
 
-/// What the errors of all taxels say beyond the stated deviation. Empty where there is no inner class.
+/// The part of the errors of all taxels that the stated deviation does not explain. Empty if there is no
+/// inner class.
 UnseenDeviation unseenDeviation(const std::vector<UnseenErrors>& taxels);
 
 }  // namespace fsr::compensation

@@ -10,7 +10,7 @@ namespace fsr::dataset {
 
 namespace {
 
-// A condition on its way into a class.
+// A condition that is to be put into a class.
 struct Member {
   CurvatureClass condition;
   std::uint64_t scans = 0;
@@ -27,8 +27,8 @@ std::vector<double> principalCurvatures(const matrix::Surface& surface) {
   return curvature;
 }
 
-// By curvature; of one curvature the condition with most scans first. Nothing in the key depends on
-// the order of the recordings.
+// Sorts by curvature, and conditions of the same curvature by descending number of scans. The key does not
+// depend on the order of the recordings.
 bool precedes(const Member& a, const Member& b) {
   return std::tie(a.condition.curvature, b.scans, a.condition.surface) <
          std::tie(b.condition.curvature, a.scans, b.condition.surface);
@@ -43,7 +43,7 @@ bool agree(const CurvatureClass& a, const CurvatureClass& b, PooledBy by) {
   return true;
 }
 
-// The first of each group is its seed: the lowest curvature, which every member must agree with.
+// The first of each group has the lowest curvature; every member must agree with it.
 std::vector<std::vector<Member>> group(const std::vector<Member>& members, PooledBy by) {
   std::vector<std::vector<Member>> groups;
   for (const Member& member : members) {
@@ -74,7 +74,7 @@ PooledConditions poolConditions(const std::vector<RecordedCondition>& conditions
   std::stable_sort(members.begin(), members.end(), precedes);
   auto groups = group(members, by);
   const auto most_scans = [](const Member& a, const Member& b) { return a.scans < b.scans; };
-  for (auto& candidates : groups) {  // the member that names the class to the front
+  for (auto& candidates : groups) {  // first the member that gives the class its name
     std::iter_swap(candidates.begin(), std::max_element(candidates.begin(), candidates.end(), most_scans));
   }
   std::sort(groups.begin(), groups.end(),

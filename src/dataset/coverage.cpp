@@ -4,6 +4,8 @@
 #include <limits>
 #include <sstream>
 
+#include "dataset/measure_coverage.h"
+
 namespace fsr::dataset {
 
 namespace {
@@ -13,8 +15,8 @@ CoverageCell& cellOf(ConditionCoverage& coverage, double pressure, statistics::L
   return cells[statistics::pressureBin(pressure)];
 }
 
-// Adds one condition of one recording. Its cycles come in order, so that a cell has met a new one
-// where the number differs from the last that it met.
+// Adds one condition of one recording. Its cycles are in order, so a cell has a new cycle where the number
+// differs from the last one.
 void addCondition(const Recording& recording, const Sections& sections, std::size_t condition,
                   ConditionCoverage& coverage) {
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -48,7 +50,7 @@ void judgeCells(const ConditionCoverage& coverage, double highest, std::uint64_t
     for (std::size_t bin = 0; bin < statistics::kPressureBins && statistics::kPressureBinEdges[bin] < highest;
          ++bin) {
       const CoverageCell& cell = cells[bin];
-      // of a condition with few cycles another sentence speaks
+      // another sentence covers conditions with few cycles
       const bool few_cycles = cell.cycles < sections && coverage.cycles >= sections;
       if (cell.scans >= kThinScans && !few_cycles) continue;
       std::ostringstream sentence;

@@ -11,7 +11,7 @@ struct Turn {
   bool peak;  // else a valley
 };
 
-// Peaks and valleys, alternating, each followed by a way back of at least `least` [Pa].
+// Alternating peaks and valleys. After each the pressure returns by at least `least` [Pa].
 std::vector<Turn> turningPoints(const std::vector<double>& pressure, double least) {
   std::vector<Turn> turns;
   std::size_t low = 0, high = 0;  // extremes since the last turning point

@@ -7,10 +7,10 @@
 
 namespace fsr::dataset {
 
-/// How far the pressure must turn back before a peak or a valley counts.
+/// How far the pressure must return before a peak or a valley counts.
 struct CycleOptions {
-  double share_of_range = 0.05;  ///< of the largest - smallest pressure of the series
-  double least = 2e3;            ///< and at least this: noise is no cycle [Pa]
+  double share_of_range = 0.05;  ///< share of (largest - smallest pressure of the series)
+  double least = 2e3;            ///< and at least this, so that noise makes no cycle [Pa]
 };
 
 /// Fill and vent cycles of a chamber. A cycle runs from one valley to the next.
@@ -22,8 +22,8 @@ struct Cycles {
   std::size_t count() const { return first.size(); }
 };
 
-/// `pressure` [Pa] in time order, finite. A series that never changes, and an empty one, has no
-/// cycle; a single rise or fall is one.
+/// Finds the cycles of `pressure` [Pa], which must be finite and in the order of time. A series that is empty
+/// or never changes has no cycle. A single rise or fall is one cycle.
 Cycles findCycles(const std::vector<double>& pressure, const CycleOptions& options = {});
 
 }  // namespace fsr::dataset

@@ -4,7 +4,7 @@ namespace fsr::dataset {
 
 namespace {
 
-// A bag begins and ends between two chamber readings; only more than that is worth a sentence.
+// A bag begins and ends between two chamber readings, so a few such scans are normal.
 constexpr std::uint64_t kScansAtTheEnds = 10;
 
 std::string scans(std::uint64_t number) {
@@ -18,7 +18,7 @@ std::vector<std::string> describeLosses(const RecordingLosses& losses) {
   if (losses.counter_back > 0) {
     sentences.push_back("the board's counter ran backwards " + std::to_string(losses.counter_back) +
                         (losses.counter_back == 1 ? " time" : " times") +
-                        ": it started afresh, or stamps ran backwards and were sorted");
+                        ": the board started again, or stamps ran backwards and were sorted");
   }
   if (losses.sequence_gaps > 0) {
     sentences.push_back("the board's counter has " + std::to_string(losses.sequence_gaps) +
@@ -33,7 +33,7 @@ std::vector<std::string> describeLosses(const RecordingLosses& losses) {
   }
   if (losses.bad_reference > 0) {
     sentences.push_back("left out " + std::to_string(losses.bad_reference) +
-                        " chamber pressures that are no number");
+                        " chamber pressures that are not finite");
   }
   if (losses.unknown_surface > 0) {
     sentences.push_back("dropped " + scans(losses.unknown_surface) + " on a surface of unknown curvature");

@@ -14,8 +14,8 @@ std::int64_t nanoseconds(double seconds) {
   return std::llround(seconds * 1e9);
 }
 
-// A chamber is vented between cycles: gauge readings that never come this near to zero [Pa] were
-// made with the wrong ambient pressure.
+// A chamber is vented between cycles. Gauge readings that never come this close to zero [Pa] therefore
+// indicate a wrong ambient pressure.
 constexpr double kSuspectOffset = 50e3;
 
 void countGap(std::uint32_t before, std::uint32_t now, RecordingLosses& losses) {
@@ -29,7 +29,7 @@ void countGap(std::uint32_t before, std::uint32_t now, RecordingLosses& losses) 
   }
 }
 
-// Whether the scan lies on one known surface; counts what does not.
+// Whether the scan is on a known surface and not close to a change; counts the others.
 bool onOneSurface(const SurfaceTimeline& timeline, std::int64_t stamp_ns, const RecordingOptions& options,
                   RecordingLosses& losses) {
   if (timeline.nearChange(stamp_ns, nanoseconds(options.change_margin))) {
@@ -51,7 +51,7 @@ void warnOfOffset(Recording& recording) {
   recording.warnings.push_back(warning.str());
 }
 
-// Conditions that kept no scan disappear.
+// Removes conditions without scans.
 void dropUnusedConditions(const std::vector<matrix::Surface>& conditions, Recording& recording) {
   std::vector<std::size_t> place(conditions.size(), conditions.size());
   for (std::uint32_t& condition : recording.condition) {
@@ -133,7 +133,7 @@ const MatrixDescription* RecordingBuilder::description() const {
                                  std::to_string(full_scale_));
     }
     if (described.sensor.serial != first->second.sensor.serial) {
-      throw settings::InputError("matrix_info tells of the serial numbers \"" + first->second.sensor.serial +
+      throw settings::InputError("matrix_info has the serial numbers \"" + first->second.sensor.serial +
                                  "\" and \"" + described.sensor.serial +
                                  "\", but a recording is of one matrix");
     }
@@ -166,7 +166,7 @@ Recording RecordingBuilder::emptyRecording(const RecordingOptions& options) cons
 }
 
 Recording RecordingBuilder::build(const RecordingOptions& options) const {
-  if (scans_.empty()) throw settings::InputError("raw holds no scan");
+  if (scans_.empty()) throw settings::InputError("raw has no scan");
   for (const SurfaceTimeline::Event& event : surfaces_) matrix::requireFit(event.second, size_);
   Recording recording = emptyRecording(options);
   const SurfaceTimeline timeline(surfaces_, options.same_curvature);

@@ -13,40 +13,39 @@
 
 namespace fsr::dataset {
 
-/// What a matrix says of itself (MatrixInfo.msg).
+/// Description of a matrix (MatrixInfo.msg).
 struct MatrixDescription {
   SensorIdentity sensor;
   matrix::Layout layout;
   std::uint16_t full_scale = 0;
-  double ambient_pressure = 0;     ///< of the place; 0 = unknown [Pa]
+  double ambient_pressure = 0;     ///< where it was recorded; 0 = unknown [Pa]
   std::vector<std::uint8_t> mask;  ///< 1 = ignore this taxel; empty = none
 };
 
 struct RecordingOptions {
   std::string name;    ///< base name of the bag
   std::string sha256;  ///< of the bag's bytes
-  /// Ambient pressure [Pa]; without it the matrix's own description says, else kStandardAmbient and
-  /// a warning.
+  /// Ambient pressure [Pa]. Where it is not given, that of the matrix's description is used, else
+  /// kStandardAmbient with a warning.
   std::optional<double> ambient_pressure;
-  double change_margin = 1.0;          ///< scans this near to a change of surface are dropped [s]
-  double longest_reference_gap = 2.0;  ///< chamber readings farther apart bracket nothing [s]
-  /// Surfaces of one name and mount whose curvature differs by less than this at every taxel are
-  /// one condition: a measured curvature scatters [1/m].
+  double change_margin = 1.0;          ///< scans this close to a change of surface are dropped [s]
+  double longest_reference_gap = 2.0;  ///< between chamber readings farther apart nothing is interpolated [s]
+  /// Surfaces of the same name and mount whose curvatures differ by less than this at every taxel are one
+  /// condition, because a measured curvature scatters [1/m].
   double same_curvature = 0.1;
 };
 
 constexpr double kStandardAmbient = 101325.0;  // [Pa]
 
-/// Makes a Recording of raw events, the same one whatever the order of the calls: from a bag, from
-/// topics, live or replayed.
+/// Makes a Recording from raw events of a bag or of live topics. The order of the calls does not matter.
 ///
-/// The rule: events are sorted by their own stamps, of scans with one stamp one is kept, the chamber
-/// pressure is interpolated to the scans, gauge = absolute - ambient. A surface holds from its stamp
-/// to the next one's; scans before the first belong to it. Scans near a change of surface are
-/// dropped. Receive times play no part.
+/// Events are sorted by their own stamps. Of scans with the same stamp one is kept. The chamber pressure is
+/// interpolated to the scans; gauge = absolute - ambient. A surface is valid from its stamp to the next
+/// surface's, the first one also before its stamp. Scans close to a change of surface are dropped. Receive
+/// times are not used.
 class RecordingBuilder {
  public:
-  /// How many events came in.
+  /// Numbers of events that were added.
   struct Events {
     std::uint64_t scans = 0;
     std::uint64_t chamber_pressures = 0;
@@ -55,7 +54,7 @@ class RecordingBuilder {
     std::uint64_t descriptions = 0;
   };
 
-  /// Throws InputError where the scan is malformed or of another matrix than those before.
+  /// Throws InputError where the scan is malformed or from another matrix than the scans before it.
   void addScan(std::int64_t stamp_ns, std::uint32_t sequence, const matrix::ScanView& scan);
   void addChamberPressure(std::int64_t stamp_ns, double absolute_pressure);  // [Pa]
   void addSurface(std::int64_t stamp_ns, const matrix::Surface& surface);
@@ -65,9 +64,9 @@ class RecordingBuilder {
   const Events& events() const { return events_; }
   void clear() { *this = RecordingBuilder(); }
 
-  /// Throws InputError where there is no scan, or where descriptions, surfaces and scans do not
-  /// belong to one matrix. A recording without chamber pressure or surface is a recording: whoever
-  /// needs them asks for them.
+  /// Throws InputError where there is no scan, or where descriptions, surfaces and scans do not belong to the
+  /// same matrix. A recording without chamber pressure or surfaces is accepted; functions that need them
+  /// check.
   Recording build(const RecordingOptions& options) const;
 
  private:
@@ -79,7 +78,8 @@ class RecordingBuilder {
   using DescriptionEvent = std::pair<std::int64_t, MatrixDescription>;
 
   std::vector<ScanEvent> sortedScans(RecordingLosses& losses) const;
-  // The earliest of the descriptions, which all fit the scans and each other; none = none came.
+  // The earliest description; null where there is none. Throws InputError where descriptions and scans
+  // differ.
   const MatrixDescription* description() const;
   Recording emptyRecording(const RecordingOptions& options) const;
   double ambient(const RecordingOptions& options, std::vector<std::string>& warnings) const;
@@ -87,7 +87,7 @@ class RecordingBuilder {
   matrix::MatrixSize size_;
   std::uint16_t full_scale_ = 0;
   std::vector<ScanEvent> scans_;
-  std::vector<std::uint16_t> counts_;  // of all scans, as they came
+  std::vector<std::uint16_t> counts_;  // of all scans, in the order of the calls
   TimeSeries chamber_pressure_;
   TimeSeries temperature_;
   std::vector<SurfaceTimeline::Event> surfaces_;

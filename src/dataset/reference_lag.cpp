@@ -5,21 +5,17 @@
 #include <vector>
 
 #include "dataset/cycles.h"
+#include "statistics/median.h"
 
 namespace fsr::dataset {
 
 namespace {
 
 constexpr std::size_t kLeastScans = 50;
-constexpr double kShortestStep = 0.05;  // [s]: faster scans are pooled, corners of a chamber are slower
-constexpr double kLongestSpan = 2.0;    // over which a rate of change is taken [s],
-constexpr double kSpanOfCycle = 0.05;   // and how much of a cycle at most (ratio)
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+constexpr double kShortestStep =
+    0.05;  // [s]: faster scans are averaged; the pressure of a chamber turns more slowly
+constexpr double kLongestSpan = 2.0;   // over which a rate of change is taken [s],
+constexpr double kSpanOfCycle = 0.05;  // and how much of a cycle at most (ratio)
 
 std::vector<double> medianReadings(const Recording& recording) {
   std::vector<double> result, values;
@@ -29,7 +25,7 @@ std::vector<double> medianReadings(const Recording& recording) {
     for (std::size_t t = 0; t < taxels; ++t) {
       if (recording.mask.empty() || recording.mask[t] == 0) values.push_back(recording.scan(i)[t]);
     }
-    result.push_back(values.empty() ? 0 : median(values));
+    result.push_back(values.empty() ? 0 : statistics::upperMedian(values));
   }
   return result;
 }
@@ -37,10 +33,10 @@ std::vector<double> medianReadings(const Recording& recording) {
 double usualStep(const std::vector<double>& time) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
-  return std::max(median(steps), kShortestStep);
+  return std::max(statistics::upperMedian(steps), kShortestStep);
 }
 
-// Means over each step, on an even grid; a step without scans lies on the line between its neighbours.
+// Means over each step of an even grid. A step without scans is interpolated between its neighbours.
 std::vector<double> evenly(const std::vector<double>& time, const std::vector<double>& values, double step) {
   const auto cells = static_cast<std::size_t>((time.back() - time.front()) / step) + 1;
   std::vector<double> sums(cells, 0.0), counts(cells, 0.0);
@@ -68,7 +64,8 @@ std::vector<double> rates(const std::vector<double>& values, std::size_t span) {
   return result;
 }
 
-// Wide enough for the noise of single readings, narrow beside a cycle: half of it [steps].
+// Half of the span over which rates are taken [steps]: long beside the noise of single readings, short beside
+// a cycle.
 std::size_t halfSpan(const Recording& recording, double step) {
   const auto cycles = static_cast<double>(std::max<std::size_t>(1, findCycles(recording.pressure).count()));
   const double cycle = (recording.time.back() - recording.time.front()) / cycles;
@@ -76,7 +73,7 @@ std::size_t halfSpan(const Recording& recording, double step) {
       std::max(1.0, std::round(std::min(kLongestSpan, kSpanOfCycle * cycle) / 2 / step)));
 }
 
-// Of a[i + shift] with b[i], over where both are.
+// Correlation of a[i + shift] with b[i], over all i where both exist.
 double correlation(const std::vector<double>& a, const std::vector<double>& b, std::ptrdiff_t shift) {
   const auto size = static_cast<std::ptrdiff_t>(b.size());
   double aa = 0, bb = 0, ab = 0;

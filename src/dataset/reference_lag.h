@@ -7,20 +7,21 @@
 namespace fsr::dataset {
 
 struct ReferenceLagOptions {
-  double longest = 5.0;            ///< lag that is looked for, either way [s]
-  double least_correlation = 0.5;  ///< below it the matrix does not follow the chamber, or nothing moved
+  double longest = 5.0;            ///< largest lag to search for, in both directions [s]
+  double least_correlation = 0.5;  ///< with less the matrix does not follow the chamber, or nothing changed
 };
 
-/// How the matrix follows the chamber in time.
+/// Time lag between the matrix and the chamber pressure.
 struct ReferenceLag {
-  double seconds = 0;  ///< positive: the matrix answers later than its chamber_pressure says [s]
+  double seconds = 0;  ///< positive: the matrix follows chamber_pressure later [s]
   double correlation = 0;
 };
 
-/// Where the rate of change of the sheet's median reading fits that of the chamber pressure best. None where
-/// there is no reference, fewer than 50 scans, or no lag fits. Stamps of two clocks show here; so does, up to
-/// some tenths of a second, the hysteresis of a sheet that turns later than its load: rates are compared and
-/// not values, because a loop leaves corners where they are. Gaps are bridged by straight lines.
+/// The lag at which the rate of change of the sheet's median reading correlates best with that of the chamber
+/// pressure. None where there is no reference, fewer than 50 scans, or no lag with enough correlation. A lag
+/// shows stamps of two different clocks. Hysteresis also causes a lag of up to some tenths of a second,
+/// because the sheet turns later than its load. Rates are compared instead of values, because hysteresis does
+/// not move the corners of a curve. Gaps are bridged by straight lines.
 std::optional<ReferenceLag> referenceLag(const Recording& recording, const ReferenceLagOptions& options = {});
 
 }  // namespace fsr::dataset

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/dataset/sections.h"
+#include "dataset/sections.h"
 
 #include <algorithm>
 #include <cmath>

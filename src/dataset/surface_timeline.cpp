@@ -22,7 +22,7 @@ bool sameSurface(const matrix::Surface& a, const matrix::Surface& b, double tole
   return true;
 }
 
-// A total order, so that two surfaces of one stamp come in the same order whoever came first.
+// A total order, so that the order of the calls does not matter for two surfaces with the same stamp.
 bool precedes(const SurfaceTimeline::Event& a, const SurfaceTimeline::Event& b) {
   const auto key = [](const SurfaceTimeline::Event& event) {
     return std::tie(event.first, event.second.name, event.second.mount);
@@ -68,7 +68,7 @@ std::size_t SurfaceTimeline::at(std::int64_t stamp_ns) const {
 }
 
 bool SurfaceTimeline::nearChange(std::int64_t stamp_ns, std::int64_t margin_ns) const {
-  const auto first_change = from_.begin() + 1;  // before it the first surface began, nothing changed
+  const auto first_change = from_.begin() + 1;  // the begin of the first surface is no change
   const auto next = std::max(after(stamp_ns), first_change);
   const bool soon = next != from_.end() && next->first - stamp_ns <= margin_ns;
   const bool just = next != first_change && stamp_ns - (next - 1)->first <= margin_ns;

@@ -9,24 +9,24 @@
 
 namespace fsr::dataset {
 
-/// What the matrix lay on, and when that changed. A surface holds from its stamp to the next one's;
-/// the first holds before its stamp too, because it is repeated each second. The result does not
-/// depend on the order of the events.
+/// The surfaces of a matrix over time. A surface is valid from its stamp to the next one's. The first is
+/// valid before its stamp too, because surfaces are repeated each second. The result does not depend on the
+/// order of the events.
 class SurfaceTimeline {
  public:
   using Event = std::pair<std::int64_t, matrix::Surface>;  ///< stamp [ns]
 
-  /// Surfaces of one name and mount whose curvature differs by less than `tolerance` [1/m] at every
-  /// taxel are one condition. Where no curvature is known at all there is one condition, of unknown
-  /// curvature, and no change.
+  /// Surfaces of the same name and mount whose curvatures differ by less than `tolerance` [1/m] at every
+  /// taxel are one condition. Where no curvature is known, there is one condition of unknown curvature and no
+  /// change.
   SurfaceTimeline(std::vector<Event> events, double tolerance);
 
-  /// By first appearance.
+  /// In the order of their first appearance.
   const std::vector<matrix::Surface>& conditions() const { return conditions_; }
   bool anyKnown() const { return conditions_.size() > 1 || conditions_.front().known(); }
-  /// Index of the condition that holds at a stamp.
+  /// Index of the condition that is valid at a stamp.
   std::size_t at(std::int64_t stamp_ns) const;
-  /// Whether the surface changes within `margin_ns` before or after.
+  /// Whether the surface changes within `margin_ns` [ns] before or after the stamp.
   bool nearChange(std::int64_t stamp_ns, std::int64_t margin_ns) const;
 
  private:

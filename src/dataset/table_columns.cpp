@@ -17,7 +17,7 @@ const std::map<std::string, ColumnRole> kRoles = {{"time", ColumnRole::kTime},
                                                   {"surface", ColumnRole::kSurface},
                                                   {"mount", ColumnRole::kMount}};
 
-// Units of a role, the first one where none is given: SI value = factor * (value + offset).
+// Units of a role; the first is the default. SI value = factor * (value + offset).
 const std::vector<std::pair<std::string, TableUnit>>& unitsOf(ColumnRole role) {
   static const std::map<ColumnRole, std::vector<std::pair<std::string, TableUnit>>> units = {
       {ColumnRole::kTime, {{"s", {1}}, {"ms", {1e-3}}, {"us", {1e-6}}, {"min", {60}}}},
@@ -59,7 +59,7 @@ std::string listed(const Entries& entries) {
   return text;
 }
 
-// "2500Pa": a factor of one's own. 0 where it is none.
+// "2500Pa": a factor that the user gives. 0 where the text is not such a factor.
 double ownFactor(const std::string& unit) {
   char* end = nullptr;
   const double factor = std::strtod(unit.c_str(), &end);
@@ -78,7 +78,7 @@ TableColumn parseOne(const std::string& item) {
   TableColumn column{role->second, rest.substr(0, colon), ""};
   if (colon != std::string::npos) column.unit = rest.substr(colon + 1);
   if (column.column.empty())
-    throw settings::InputError("--columns holds \"" + item + "\", which names no column");
+    throw settings::InputError("--columns holds \"" + item + "\", which has no column");
   unitOf(column);
   return column;
 }

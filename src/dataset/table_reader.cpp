@@ -15,7 +15,7 @@ namespace fsr::dataset {
 
 namespace {
 
-constexpr std::size_t kLongestLine = 1 << 20;  // [bytes]: longer is no table
+constexpr std::size_t kLongestLine = 1 << 20;  // [bytes]: a file with longer lines is not a table
 
 std::string trimmed(const std::string& text) {
   const char* const blank = " \t\r\"";
@@ -23,7 +23,7 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blank) - first + 1);
 }
 
-// The whole text as a number; `ok` false where it is none.
+// The whole text as a number; `ok` is false where it is not one.
 double parsed(std::string text, bool decimal_comma, bool& ok) {
   if (decimal_comma) std::replace(text.begin(), text.end(), ',', '.');
   std::string lower = text;
@@ -40,7 +40,7 @@ double parsed(std::string text, bool decimal_comma, bool& ok) {
   return value;
 }
 
-// Tab and semicolon cannot be part of a number; a comma can, where it is the decimal one.
+// Tab and semicolon cannot be part of a number. A comma can, as a decimal comma.
 char separatorOf(const std::string& line, bool decimal_comma) {
   for (const char candidate : {'\t', ';', ','}) {
     if (candidate == ',' && decimal_comma) continue;
@@ -82,15 +82,15 @@ struct TableReader::Source {
     while (gzgets(file, part.data(), static_cast<int>(part.size())) != nullptr) {
       text += part.data();
       if (text.size() > kLongestLine)
-        throw settings::InputError(path + ": a line has no end; this is no table of text");
-      if (text.empty()) throw settings::InputError(path + ": holds a byte of 0; this is no table of text");
+        throw settings::InputError(path + ": a line is too long; this is not a text table");
+      if (text.empty()) throw settings::InputError(path + ": has a zero byte; this is not a text table");
       if (text.back() == '\n') break;
     }
     int error = Z_OK;
     const char* const why = gzerror(file, &error);
     if (error != Z_OK && error != Z_STREAM_END) {
-      throw settings::InputError(path + ", after line " + std::to_string(line) + ": cannot be read on (" +
-                                 why + ")");
+      throw settings::InputError(path + ", after line " + std::to_string(line) +
+                                 ": cannot be read further (" + why + ")");
     }
     if (text.empty()) return false;
     ++line;
@@ -113,14 +113,14 @@ bool TableReader::readCells() {
     if (source_->line <= format_.skip_lines || content.empty() || content[0] == '#') continue;
     if (format_.separator == 0) format_.separator = separatorOf(line, format_.decimal_comma);
     cells_ = split(line, format_.separator);
-    if (!cells_.empty()) return true;  // else a line of white space of other kinds
+    if (!cells_.empty()) return true;  // otherwise the line is white space
   }
   return false;
 }
 
 void TableReader::begin() {
   if (!readCells())
-    throw settings::InputError(path_ + ": holds no row; a table of text with one row a reading is needed");
+    throw settings::InputError(path_ + ": has no row; a text table with one row for each reading is needed");
   columns_ = cells_.size();
   bool is_number = false;
   parsed(cells_[0], format_.decimal_comma, is_number);

@@ -9,41 +9,42 @@
 
 namespace fsr::dataset {
 
-/// How a table is written down.
+/// Format of a table.
 struct TableFormat {
-  /// Between the cells: ',', ';', a tab, or ' ' for white space of any length; 0 = told from the first row.
+  /// Between the cells: ',', ';', a tab, or ' ' for white space of any length; 0 = detected from the first
+  /// row.
   char separator = 0;
   enum class Header {
     kTold,
     kYes,
     kNo
-  } header = Header::kTold;    ///< told: a first row that is no number is one
+  } header = Header::kTold;    ///< kTold: a first row that is not a number is a header
   bool decimal_comma = false;  ///< 3,14 instead of 3.14
   std::size_t skip_lines = 0;  ///< before the table begins
 };
 
-/// A table of text, row by row, plain or gzipped. Empty lines and lines that begin with # are left out;
-/// quotes around a cell, and a carriage return at the end, are taken off. Every complaint names file,
-/// line and column.
+/// Reads a text table row by row, plain or gzipped. Empty lines and lines that begin with # are skipped.
+/// Quotes around a cell and a carriage return at the end of a line are removed. Every error names file, line
+/// and column.
 class TableReader {
  public:
-  /// Throws InputError where the file cannot be read or holds no row.
+  /// Throws InputError where the file cannot be read or has no row.
   explicit TableReader(const std::string& path, const TableFormat& format = {});
   ~TableReader();
 
   /// Names of the columns; empty where the table has no header.
   const std::vector<std::string>& names() const { return names_; }
   std::size_t columns() const { return columns_; }
-  /// The column of this name or of this number, counted from 1. Throws InputError.
+  /// The column with this name, or this number counted from 1. Throws InputError.
   std::size_t find(const std::string& column) const;
 
-  /// Goes on to the next row; false at the end. Throws InputError where a row has more or fewer cells
-  /// than the first.
+  /// Reads the next row; false at the end. Throws InputError where a row has more or fewer cells than the
+  /// first.
   bool next();
   const std::string& text(std::size_t column) const { return cells_[column]; }
-  /// A cell that is not a finite number raises InputError.
+  /// Throws InputError where the cell is not a finite number.
   double number(std::size_t column) const;
-  /// Likewise, but infinity passes.
+  /// The same, but infinity is accepted.
   double numberOrInfinity(std::size_t column) const;
   std::size_t line() const;
 
@@ -62,7 +63,7 @@ class TableReader {
   std::vector<std::string> names_;
   std::vector<std::string> cells_;
   std::size_t columns_ = 0;
-  bool first_is_pending_ = false;  // the first row of numbers was read to tell the format
+  bool first_is_pending_ = false;  // the first row of numbers was read to detect the format
 };
 
 }  // namespace fsr::dataset

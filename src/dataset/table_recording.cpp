@@ -12,10 +12,10 @@ namespace fsr::dataset {
 
 namespace {
 
-constexpr double kLargestValue = 1e15;  // of no sensor, in any unit
-constexpr double kLatestTime = 4e9;     // [s]: what nanoseconds in 64 bits hold, with the year 2000 before it
+constexpr double kLargestValue = 1e15;  // larger than any sensor's, in any unit
+constexpr double kLatestTime = 4e9;     // [s]: fits 64 bits of nanoseconds, added to the year 2000
 
-// A column of the plan, found in the table.
+// A column of the plan and its index in the table.
 struct Source {
   std::size_t column;
   TableUnit unit;
@@ -176,14 +176,14 @@ void Reader::convert(const ReadingScale& scale, Recording& recording) const {
   }
 }
 
-// One row on; false at the end.
+// Reads the next row; false at the end.
 bool Reader::nextRow(TableRecording& result) {
   const std::size_t before = table_.line();
   try {
     if (!table_.next()) return false;
     append(readRow(), result.recording);
   } catch (const settings::InputError&) {
-    const bool moved_on = table_.line() > before;  // else the file itself cannot be read
+    const bool moved_on = table_.line() > before;  // otherwise the file itself cannot be read
     if (!plan_.skip_bad_rows || !moved_on) throw;
     ++result.skipped;
   }

@@ -11,13 +11,13 @@
 
 namespace fsr::dataset {
 
-/// What a column of a table means.
+/// Meaning of a column of a table.
 enum class ColumnRole { kTime, kReading, kReference, kCurvature, kTemperature, kSurface, kMount };
 
 struct TableColumn {
   ColumnRole role = ColumnRole::kTime;
-  std::string column;  ///< name, or number counted from 1
-  std::string unit;    ///< empty = the first of the list below
+  std::string column;  ///< name of that surface, or its number counted from 1
+  std::string unit;    ///< empty = the first in the list of parseColumns()
 };
 
 /// Reads "time=1:ms,reading=force_V:V,reference=pressure_bar:bar": ROLE=COLUMN[:UNIT], separated by
@@ -32,12 +32,12 @@ struct TableColumn {
 ///     mount        its number
 std::vector<TableColumn> parseColumns(const std::string& text);
 
-/// How readings become counts: counts = 65535 (reading - low) / (high - low). Counts stay as they are. A
-/// reading that falls with the pressure has its low above its high.
+/// Conversion of readings to counts: counts = 65535 (reading - low) / (high - low). Counts are not converted.
+/// For readings that fall with increasing pressure, low is above high.
 struct ReadingScale {
   double low = 0;
   double high = 0;
-  std::string unit;  ///< counts, V or S; resistances become conductances
+  std::string unit;  ///< counts, V or S; resistances are converted to conductances
   std::uint16_t full_scale = 65535;
 
   std::string text() const;  ///< e.g. "65535 counts = 5 V"
@@ -49,25 +49,25 @@ struct TablePlan {
   matrix::MatrixSize matrix;  ///< 0 x 0 = one row of all readings
   double pitch = 0.010;       ///< [m]
   std::optional<std::pair<double, double>>
-      range;  ///< of the readings, in V or S; none = 0 to a round number above the largest
+      range;  ///< range of the readings [V or S]; none = 0 to a round number above the largest
   std::optional<std::uint16_t>
-      full_scale;      ///< of readings that are counts; none = 4095, or 65535 where some are larger
-  double area = 1e-4;  ///< that a force acts on [m^2]
-  std::optional<double> ambient_pressure;      ///< given = the reference is absolute [Pa]
-  std::optional<double> curvature;             ///< of a surface that no column tells of [1/m]
+      full_scale;      ///< of readings in counts; none = 4095, or 65535 where a reading is larger
+  double area = 1e-4;  ///< on which a force acts [m^2]
+  std::optional<double> ambient_pressure;      ///< if given, the reference is absolute [Pa]
+  std::optional<double> curvature;             ///< of the surface, where no column contains it [1/m]
   std::string surface;                         ///< its name
   std::int64_t start_ns = 946684800000000000;  ///< stamp of time 0: 2000-01-01 [ns]
-  bool skip_bad_rows = false;                  ///< leave out rows that would be refused
+  bool skip_bad_rows = false;                  ///< skip rows that would be refused
 };
 
 struct TableRecording {
   Recording recording;
   ReadingScale scale;
-  std::uint64_t skipped = 0;  ///< rows left out
+  std::uint64_t skipped = 0;  ///< skipped rows
 };
 
-/// Throws InputError, with file, line and column, where a cell is no number or the time does not move on,
-/// and where the plan does not fit the table.
+/// Reads a table as a recording. Throws InputError, with file, line and column, where a cell is not a number
+/// or the time does not increase, and where the plan does not fit the table.
 TableRecording readTable(const std::string& path, const TablePlan& plan);
 
 }  // namespace fsr::dataset

@@ -6,11 +6,11 @@
 
 namespace fsr::dataset {
 
-/// How the numbers of a column become SI: factor * (value + offset), or 1 over that.
+/// Conversion of a column to SI: factor * (value + offset), or the inverse of that.
 struct TableUnit {
   double factor = 1;
   double offset = 0;
-  std::string quantity = {};  ///< where a role may be several: counts, V, S; N of a reference
+  std::string quantity = {};  ///< for roles with several quantities: counts, V, S; N of a reference
   bool inverse = false;       ///< resistance -> conductance
 };
 

@@ -4,15 +4,16 @@
 
 #include "discrepancy/decide/covariate_tests.h"
 #include "discrepancy/decide/decision.h"
-#include "discrepancy/decide/findings.h"
+#include "discrepancy/decide/detections.h"
 #include "discrepancy/decide/refine.h"
 #include "discrepancy/fit/base_fit.h"
 #include "discrepancy/fit/odd_taxels.h"
 #include "discrepancy/fit/taxel_curves_fit.h"
 #include "discrepancy/prove/costs_in_use.h"
 #include "discrepancy/prove/next_experiment.h"
-#include "discrepancy/prove/proof.h"
+#include "discrepancy/prove/report_gap.h"
 #include "discrepancy/prove/wording.h"
+#include "discrepancy/thresholds.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
 
@@ -41,6 +42,7 @@ class Investigation {
   void tell(const char* step, double share) const {
     if (progress_) progress_(step, share);
   }
+  bool sought(simulation::Detector detector) const { return sought(simulation::foundBy(detector).id); }
   bool sought(const std::string& id) const { return inLibrary(id) && !current_.effect(id); }
   bool inLibrary(const std::string& id) const {
     const auto& out = problem_.options.leave_out;
@@ -59,11 +61,11 @@ class Investigation {
   void lookAtTaxels();
   void put();
   void startAgain();
-  void putFindings();
+  void putDetections();
   void show();
   void listNotIdentifiable();
   void answerQuestions();
-  void foresee();
+  void plan();
   void doubtSilence();
   double squareOfReadings() const {
     return spreadOf(measured_, *taxels_, Trace::Zero(common_.all.size())).square;
@@ -75,13 +77,13 @@ class Investigation {
   CommonTraces common_;
   std::unique_ptr<StaticFit> fit_;
   std::unique_ptr<TaxelFit> taxels_;
-  std::unique_ptr<Competition> competition_;
+  std::unique_ptr<Candidates> candidates_;
   Decision decision_;
   Mains mains_;
   StaticMisfit misfit_;
   bool unknown_statics_ = false;
   OddTaxels odd_;
-  std::vector<Finding> findings_, later_;
+  std::vector<Detection> detections_, later_;
   simulation::SimulationSettings current_;  // with all that was taken out
   bool quiet_ = false;
   bool by_terms_ = false;  // what is shown are fitted terms, not the effects in the simulation
@@ -93,13 +95,13 @@ void Investigation::detectFaults() {
   Faults faults = findFaults(measured_);
   for (const Fault& fault : faults.faults) {
     if (!sought(fault.id)) continue;
-    findings_.push_back(findingOf(fault, faults.readings, 0));
+    detections_.push_back(detectionOf(fault, faults.readings, 0));
     for (const std::size_t t : fault.taxels) measured_.used[t] = 0;
   }
   // What one fault adds to the gap is counted once.
-  for (std::size_t f = 1; f < findings_.size(); ++f) findings_[f].before_more = 0;
+  for (std::size_t f = 1; f < detections_.size(); ++f) detections_[f].before_more = 0;
   const std::size_t usable = measured_.usedTaxels(), all = measured_.taxels();
-  if (2 * usable >= all && usable > 0) return;
+  if (thresholds::enoughUsable(usable, all) && usable > 0) return;
   throw settings::InputError(
       problem_.recordings[0].name + ": " + std::to_string(all - usable) + " of " + std::to_string(all) +
       " taxels are masked, dead, stuck or on a failing line, but at least half must be usable");
@@ -174,9 +176,9 @@ void Investigation::repeat() {
 // Effects of a later round stand beside those of the first.
 void Investigation::moreEffects() {
   for (std::size_t e = 0; e < decision_.refined.effects.size(); ++e) {
-    const simulation::EffectInfo& info = simulation::findEffect(decision_.refined.effects[e].id)->info;
+    const simulation::EffectInfo& info = measured_.info(decision_.refined.effects[e].id);
     later_.push_back({{info.id, info.summary, decision_.refined.parameters[e], decision_.z,
-                       std::min(1.0, decision_.share / decision_.ceiling)},
+                       std::min(1.0, decision_.share / decision_.explainable)},
                       {decision_.refined.effects[e]},
                       {},
                       {},
@@ -189,19 +191,19 @@ void Investigation::moreEffects() {
 }
 
 void Investigation::takeOutMains() {
-  if (!sought("mains_pickup")) return;
+  if (!sought(simulation::Detector::kMains)) return;
   mains_ = findMains(measured_, *taxels_);
   if (!mains_.found) return;
-  findings_.push_back(findingOf(mains_, squareOfReadings(), measured_));
+  detections_.push_back(detectionOf(mains_, squareOfReadings(), measured_));
   takeOut(mains_, *fit_, common_);
 }
 
 // Where the same surface reads otherwise after each remounting, every mount has curves of its own.
 void Investigation::lookAtMounts() {
-  if (!sought("repositioning")) return;
+  if (!sought(simulation::Detector::kMounts)) return;
   const Repositioning mounts = findRepositioning(measured_, *fit_, *taxels_, Trace(), Eigen::MatrixXd());
   if (!mounts.found) return;
-  findings_.push_back(findingOf(mounts, squareOfReadings()));
+  detections_.push_back(detectionOf(mounts, squareOfReadings()));
   fit_ = std::make_unique<StaticFit>(measured_, CurvePer::kVisit, common_.all);
   taxels_ = std::make_unique<TaxelFit>(measured_, *fit_);
 }
@@ -209,32 +211,32 @@ void Investigation::lookAtMounts() {
 void Investigation::compete() {
   tell("signatures", 0.2);
   const auto& options = problem_.options;
-  competition_ = std::make_unique<Competition>(
+  candidates_ = std::make_unique<Candidates>(
       measured_, common_, *fit_, signatures(measured_, *fit_, current_, options.leave_out, options.threads),
       options.threads);
   tell("naming", 0.6);
-  decision_ = decide(measured_, common_, *fit_, *taxels_, *competition_, current_);
+  decision_ = decide(measured_, common_, *fit_, *taxels_, *candidates_, current_);
 }
 
 void Investigation::lookAtStaticCurves() {
   misfit_ = findStaticMisfit(measured_, *fit_, common_.all, squareOfReadings());
   const bool else_found =
-      !findings_.empty() || decision_.verdict != Verdict::kNone || !measured_.gain.empty();
+      !detections_.empty() || decision_.verdict != Verdict::kNone || !measured_.gain.empty();
   if (!isMisfit(misfit_, else_found)) return;
   if (isSaturation(misfit_, measured_)) {
-    const Finding saturation = saturationOf(misfit_, measured_, *fit_, report_.base);
+    const Detection saturation = saturationOf(misfit_, measured_, *fit_, report_.base);
     const double level = saturation.enable.front().values.at("level") / measured_.full_scale;
     if (level > kFarLevel * fit_->curve().maxCoeff()) return;
-    if (sought("saturation")) findings_.push_back(saturation);
-    unknown_statics_ = !sought("saturation");
+    if (sought(simulation::Detector::kSaturation)) detections_.push_back(saturation);
+    unknown_statics_ = !sought(simulation::Detector::kSaturation);
   } else {
-    unknown_statics_ = decision_.verdict == Verdict::kNone && findings_.empty();
+    unknown_statics_ = decision_.verdict == Verdict::kNone && detections_.empty();
   }
 }
 
 // Where neither all taxels together nor a detector has anything to say, single taxels or lines may.
 void Investigation::lookAtTaxels() {
-  const bool else_found = unknown_statics_ || !findings_.empty() || decision_.verdict != Verdict::kNone;
+  const bool else_found = unknown_statics_ || !detections_.empty() || decision_.verdict != Verdict::kNone;
   if (!else_found) odd_ = findOddTaxels(measured_, *taxels_);
 }
 
@@ -251,20 +253,20 @@ void Investigation::put() {
   report_.added = report_.base;
   left_ = Trace::Zero(common_.all.size());
   by_terms_ = decision_.verdict == Verdict::kUnknown;
-  if (by_terms_) left_ = fit_->residual(competition_->explained(decision_.explanation));
+  if (by_terms_) left_ = fit_->residual(candidates_->explained(decision_.explanation));
   if (decision_.credible.empty()) return;
   const Refined& refined = decision_.refined;
   for (std::size_t e = 0; e < refined.effects.size(); ++e) {
     report_.added = withEffect(report_.added, refined.effects[e]);
-    const simulation::EffectInfo& info = simulation::findEffect(refined.effects[e].id)->info;
+    const simulation::EffectInfo& info = measured_.info(refined.effects[e].id);
     report_.effects.push_back({info.id, info.summary, refined.parameters[e], decision_.z,
-                               std::min(1.0, decision_.share / decision_.ceiling)});
+                               std::min(1.0, decision_.share / decision_.explainable)});
   }
   left_ = refined.trace;
   if (refined.share >= kFormHolds * decision_.share) return;
   // The gap is that of the mixture of forms that was found; the simulation holds the nearest single form.
   by_terms_ = true;
-  left_ = fit_->grown(competition_->explained(decision_.explanation));
+  left_ = fit_->withoutGainWeights(candidates_->explained(decision_.explanation));
   report_.limitations.push_back(
       "The form in the simulation closes less of the gap than the mixture of forms that was found.");
 }
@@ -280,7 +282,7 @@ void Investigation::startAgain() {
 }
 
 // What detectors found stands beside every explanation of the common trace.
-void Investigation::putFindings() {
+void Investigation::putDetections() {
   if (unknown_statics_) {
     report_.verdict = Verdict::kUnknown;
     report_.depends_on = {simulation::name(simulation::Covariate::kPressure),
@@ -293,22 +295,22 @@ void Investigation::putFindings() {
     report_.depends_on = {simulation::name(odd_.by)};
     report_.where.taxels = odd_.taxels;
   }
-  if (findings_.empty()) return;
+  if (detections_.empty()) return;
   if (report_.verdict == Verdict::kUnknown) {
-    report_.limitations.push_back("Beside what is unknown there is " + findings_.front().effect.id + ".");
+    report_.limitations.push_back("Beside what is unknown there is " + detections_.front().effect.id + ".");
     return;
   }
   if (report_.verdict == Verdict::kNone) {
     report_.verdict = Verdict::kNamed;
     report_.credible_set = {{}};
-    report_.where = findings_.front().where;
+    report_.where = detections_.front().where;
   }
-  for (const Finding& finding : findings_) {
-    for (Ids& ids : report_.credible_set) ids.push_back(finding.effect.id);
-    report_.effects.push_back(finding.effect);
-    for (const simulation::EnabledEffect& effect : finding.enable)
+  for (const Detection& detection : detections_) {
+    for (Ids& ids : report_.credible_set) ids.push_back(detection.effect.id);
+    report_.effects.push_back(detection.effect);
+    for (const simulation::EnabledEffect& effect : detection.enable)
       report_.added = withEffect(report_.added, effect);
-    for (const std::string& covariate : finding.depends_on) {
+    for (const std::string& covariate : detection.depends_on) {
       auto& told = report_.depends_on;
       if (!std::count(told.begin(), told.end(), covariate)) told.push_back(covariate);
     }
@@ -318,21 +320,21 @@ void Investigation::putFindings() {
 void Investigation::show() {
   tell("showing", 0.9);
   std::vector<simulation::EnabledEffect> beside;
-  for (const Finding& more : later_) beside.insert(beside.end(), more.enable.begin(), more.enable.end());
+  for (const Detection& more : later_) beside.insert(beside.end(), more.enable.begin(), more.enable.end());
   const double static_square = unknown_statics_ ? misfit_.rms * misfit_.rms : 0;
   const auto& options = problem_.options;
-  prove({measured_, common_, *fit_, *taxels_, *competition_, decision_, findings_, beside, left_, by_terms_,
-         static_square, options.threads, options.seed},
-        report_);
+  reportGap({measured_, common_, *fit_, *taxels_, *candidates_, decision_, detections_, beside, left_,
+             by_terms_, static_square, options.threads, options.seed},
+            report_);
 }
 
 void Investigation::listNotIdentifiable() {
-  for (const simulation::EffectEntry& entry : simulation::effectLibrary()) {
+  for (const simulation::EffectEntry& entry : measured_.effects().entries()) {
     const simulation::EffectInfo& info = entry.info;
     if (!inLibrary(info.id) || info.kind == simulation::EffectKind::kBase) continue;
     double left = 0;
     bool tried = false;
-    for (const Signature& s : competition_->signatures()) {
+    for (const Signature& s : candidates_->signatures()) {
       if (s.id != info.id) continue;
       tried = true;
       left = std::max(left, s.left);
@@ -343,8 +345,9 @@ void Investigation::listNotIdentifiable() {
     if (tried && isStatic(info)) reason = "Under a uniform pressure the static curves take all of it.";
     if (tried && !isStatic(info) && left < kNotIdentifiable)
       reason = "The static curves leave hardly anything of it under this protocol.";
-    if (info.id == "repositioning" && !remounted) reason = "No surface was mounted twice.";
-    if (info.id == "scan_skew") reason = "It is not looked for in this version.";
+    if (info.detector == simulation::Detector::kMounts && !remounted)
+      reason = "No surface was mounted twice.";
+    if (!info.looked_for) reason = "It is not looked for in this version.";
     if (reason.empty()) {
       report_.tested.push_back(info.id);
     } else {
@@ -370,12 +373,12 @@ void Investigation::answerQuestions() {
 }
 
 // The next experiment, and what it will show.
-void Investigation::foresee() {
+void Investigation::plan() {
   if (decision_.credible.empty()) return;
   std::vector<std::vector<simulation::EnabledEffect>> explanations = {decision_.refined.effects};
   for (const Refined& rival : decision_.rivals) explanations.push_back(rival.effects);
   report_.next_experiment =
-      nextExperiment(report_.base, explanations, evidenceIn(measured_), report_.gap.floor);
+      nextExperiment(report_.base, explanations, availableEvidence(measured_), report_.gap.floor);
   Prediction& prediction = report_.prediction;
   prediction.effects = explanations.front();
   prediction.rivals.assign(explanations.begin() + 1, explanations.end());
@@ -410,20 +413,20 @@ DiscrepancyReport Investigation::run() {
   sizeTogether();
   tell("covariates", 0.75);
   report_.covariates =
-      CovariateTests{measured_, common_, *fit_, *taxels_, *competition_, problem_.options.seed}.run();
+      CovariateTests{measured_, common_, *fit_, *taxels_, *candidates_, problem_.options.seed}.run();
   lookAtStaticCurves();
   lookAtTaxels();
   put();
   if (problem_.options.repeat) {
     repeat();
-    findings_.insert(findings_.begin(), later_.begin(), later_.end());
+    detections_.insert(detections_.begin(), later_.begin(), later_.end());
     startAgain();
   }
-  putFindings();
+  putDetections();
   show();
   listNotIdentifiable();
   answerQuestions();
-  foresee();
+  plan();
   if (!decision_.credible.empty() && !by_terms_) {
     report_.in_use = costsInUse(measured_, report_.base, report_.added, report_.gap.closed_interval.low);
   }

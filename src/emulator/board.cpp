@@ -32,7 +32,7 @@ Board::Board(const simulation::SimulationSettings& simulation, const BoardClock&
   sources_[kTemperature].period = 1;
   sources_[kTransducer].period = period(simulation.board.transducer_rate);
   sources_[kScan].period = period(simulation.board.scan_rate);
-  // A scan tells of its middle and is sent at its end.
+  // The stamp of a scan is its middle; it is sent at its end.
   sources_[kScan].delay = simulation.board.scan_duration / 2;
 }
 
@@ -98,7 +98,7 @@ std::size_t Board::encodeIdentity(std::uint32_t sequence, std::uint32_t device_t
 void Board::reset(double time) {
   switched_on_ = time;
   for (Source& source : sources_) source.sequence = 0;
-  sources_[kIdentity].start = time;  // it names itself as soon as it is on
+  sources_[kIdentity].start = time;  // it sends its identity as soon as it is on
   sources_[kIdentity].number = 0;
 }
 

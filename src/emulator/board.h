@@ -9,50 +9,50 @@
 
 namespace fsr::emulator {
 
-/// How the board's clock runs.
+/// The board's clock.
 struct BoardClock {
-  std::uint32_t offset = 0;  ///< what it shows when the board starts [us]
-  double drift = 0;          ///< how much too fast it runs [parts per million]
+  std::uint32_t offset = 0;  ///< its value when the board starts [us]
+  double drift = 0;          ///< rate error, positive = too fast [parts per million]
 };
 
-/// The board: it scans the matrix, samples transducer and temperature, and packs all that for the wire.
-/// It knows rig time only, does no input or output, and is not thread-safe.
+/// The board: it scans the matrix, samples transducer and temperature, and makes packets of the wire format.
+/// It uses rig time only, does no input or output, and is not thread-safe.
 class Board {
  public:
   /// Gauge pressure of the chamber [Pa] at a rig time [s].
   using Pressure = simulation::PressureCourse;
 
-  /// Switched on at rig time 0. Throws InputError.
+  /// A board that is switched on at rig time 0. Throws InputError.
   Board(const simulation::SimulationSettings& simulation, const BoardClock& clock);
 
-  /// When the next packet leaves the board [s rig time].
+  /// Time at which the board sends the next packet [s rig time].
   double nextDue() const;
 
-  /// Makes that packet; valid until the next call.
+  /// Makes that packet. The reference is valid until the next call.
   std::vector<std::uint8_t>& next(const Pressure& pressure);
 
-  /// Lays the matrix on a surface. Throws InputError.
+  /// Mounts the matrix on a surface. Throws InputError.
   void mount(const matrix::Surface& surface) { rig_.mount(surface); }
 
-  /// Switches it off and on: clock and counters start again.
+  /// Switches the board off and on at `time`: clock and counters restart.
   void reset(double time);
 
-  /// Its clock steps by `seconds`, forward or back, as by an upset of its crystal.
+  /// Makes the board's clock jump by `seconds`, forwards or backwards, like a fault of its crystal.
   void jumpClock(double seconds);
 
-  /// What the board's clock shows at a rig time [us]; on the wire it wraps at 2^32.
+  /// Value of the board's clock at a rig time [us]. In packets it wraps at 2^32.
   std::uint64_t deviceTime(double time) const;
-  /// The other way round, since the last reset.
+  /// The inverse, since the last reset.
   double rigTime(std::uint64_t device_time) const;
 
   std::uint64_t scans() const { return rig_.scans(); }
 
-  /// What the link must carry [bits a second of rig time].
+  /// Bit rate that the link must carry [bits per second of rig time].
   double bitsPerSecond() const;
 
  private:
   enum Kind { kIdentity, kTemperature, kTransducer, kScan, kKinds };
-  /// What one kind of packet tells is sampled at `start` + `number` * `period` and sent `delay` later.
+  /// Packets of one kind are sampled at `start` + `number` * `period` and sent `delay` later.
   struct Source {
     double start = 0;          // [s rig time]
     double period = 0;         // [s], 0 = never

@@ -7,8 +7,8 @@ namespace {
 using WallClock = std::chrono::steady_clock;
 using Outcome = PseudoTerminal::Outcome;
 
-constexpr std::uint32_t kUsualBaud = 115200;         // a port must show some speed
-constexpr std::chrono::milliseconds kPatience{500};  // with a reader that is behind
+constexpr std::uint32_t kUsualBaud = 115200;         // speed of a port without a UART
+constexpr std::chrono::milliseconds kPatience{500};  // longest wait for a slow reader
 
 }  // namespace
 
@@ -40,7 +40,7 @@ WallClock::duration BoardLink::send(std::vector<std::uint8_t>& packet, double ti
   const std::uint32_t baud = damage_.baud != 0 ? damage_.baud : baud_;
   if (baud != 0) packet = heardByUart(packet, baud, port_->readerBaud());
   line_.pass(damage_, packet);
-  if (packet.empty()) {  // nothing of it was left
+  if (packet.empty()) {  // the line lost all of it
     ++counts_.sent;
     return {};
   }

@@ -12,29 +12,30 @@
 
 namespace fsr::emulator {
 
-/// What happened to the packets.
+/// Numbers of packets by outcome.
 struct LinkCounts {
-  std::uint64_t sent = 0;     ///< that reached the port, damaged or not
-  std::uint64_t unheard = 0;  ///< nobody had the port open, it was unplugged, or the line was silent
-  std::uint64_t dropped = 0;  ///< the reader was too slow
+  std::uint64_t sent = 0;  ///< packets that reached the port, damaged or not
+  std::uint64_t unheard =
+      0;  ///< packets lost because the port was not open or unplugged, or the line was silent
+  std::uint64_t dropped = 0;  ///< packets lost because the reader was too slow
   LineDamageCounts damage;
 };
 
-/// From the board's pin to the computer's port: the cable with all that can go wrong on it.
+/// The line from the board's pin to the computer's port, with its faults.
 class BoardLink {
  public:
-  /// `link`: where a link to the port is put, empty = none. `baud`: of the board's UART [1/s], 0 = native
-  /// USB. Throws InputError.
+  /// `link`: path of a symbolic link to the port, empty = none. `baud`: rate of the board's UART [1/s], 0 =
+  /// native USB. Throws InputError.
   BoardLink(const std::string& link, std::uint32_t baud, std::uint64_t seed);
 
-  /// Damage from `time` [s rig time] on. Throws InputError.
+  /// Sets the damage from `time` [s rig time] on. Throws InputError.
   void setDamage(const LineDamage& damage, double time);
 
-  /// Sends a packet, changing it where it is damaged. `patient`: waits for a slow reader, up to half a
-  /// second, instead of dropping at once. Returns how long it waited.
+  /// Sends a packet and changes it where it is damaged. `patient`: wait for a slow reader, up to half a
+  /// second, instead of dropping the packet at once. Returns the time waited.
   std::chrono::steady_clock::duration send(std::vector<std::uint8_t>& packet, double time, bool patient);
 
-  /// What to open; empty while a port without a link is unplugged.
+  /// Path to open; empty while a port without a link is unplugged.
   std::string port() const { return port_ ? port_->path() : link_; }
   bool hasReader() { return port_ && port_->hasReader(); }
   LinkCounts counts() const;
@@ -45,7 +46,7 @@ class BoardLink {
 
   std::string link_;
   std::uint32_t baud_;
-  bool reader_keeps_up_ = true;  // worth waiting for
+  bool reader_keeps_up_ = true;  // otherwise it is not waited for
   LossyLine line_;
   LineDamage damage_;
   double silent_until_ = -std::numeric_limits<double>::infinity();  // [s rig time]

@@ -5,8 +5,8 @@
 
 namespace fsr::emulator {
 
-// Returns when the chamber is at rest. A run that was asked for but has not begun, because the chamber
-// is still venting, never begins.
+// Vents the chamber and returns the time at which it is at rest. A run that was commanded but has not begun,
+// because the chamber is still venting, never begins.
 double Chamber::vent(double time) {
   while (!sections_.empty() && sections_.back().start > time) sections_.pop_back();
   const simulation::PressureProfile venting = simulation::ventingProfile(protocol_, gaugePressure(time));

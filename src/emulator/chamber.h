@@ -3,14 +3,15 @@
 #include <vector>
 
 #include "fsr_pressure_map/simulation/chamber_protocol.h"
+#include "simulation/pressure_profile.h"
 
 namespace fsr::emulator {
 
-/// The pressure chamber as it is operated: at rest at first, then whatever runs and stops were asked
-/// for. All times are rig time [s]; a command acts from its time on and never changes the past.
+/// The pressure chamber: at rest at first, then with the runs and stops that were commanded. All times are
+/// rig time [s]. A command acts from its time on and never changes the past.
 class Chamber {
  public:
-  /// Starts a fresh run of cycles, after venting where the chamber is under pressure.
+  /// Starts a new run of cycles. A chamber under pressure is vented first.
   void startCycles(double time, const simulation::ChamberProtocol& protocol);
 
   /// Vents to rest at the rate of the last run.
@@ -19,7 +20,7 @@ class Chamber {
   /// Gauge pressure at any time so far [Pa].
   double gaugePressure(double time) const;
 
-  /// When the last run's cycles are done; infinite where they never end or were stopped.
+  /// End of the last run's cycles; infinite where they never end or were stopped.
   double cyclesEnd() const { return cycles_end_; }
 
  private:

@@ -12,12 +12,12 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr int kPacketsATurn = 64;            // then others may have the mutex
-constexpr milliseconds kTick{4};             // between two looks at the clock
-constexpr milliseconds kLag{50};             // that scaled rig time may have before it waits
-constexpr milliseconds kHiccup{5};           // of the scheduler; a thread that comes later is behind
-constexpr milliseconds kDraining{500};       // that a port full of what was overdue may take
-constexpr milliseconds kMostPatience{2000};  // with the reader, until the emulator has caught up
+constexpr int kPacketsATurn = 64;            // then other threads get the mutex
+constexpr milliseconds kTick{4};             // interval at which the clock is read
+constexpr milliseconds kLag{50};             // largest lag of scaled rig time before it waits
+constexpr milliseconds kHiccup{5};           // delay of the scheduler that is not counted as late
+constexpr milliseconds kDraining{500};       // time to empty a port full of overdue packets
+constexpr milliseconds kMostPatience{2000};  // longest wait for the reader until the emulator has caught up
 
 const EmulatorOptions& checked(const EmulatorOptions& options) {
   const settings::Range scale{0.01, 1000, ""};
@@ -35,7 +35,7 @@ void refuseOverload(const Board& board, const EmulatorOptions& options) {
   if (options.baud == 0 || board.bitsPerSecond() <= options.baud) return;
   std::ostringstream sentence;
   sentence << options.simulation.origin << ": board.scan_rate is " << options.simulation.board.scan_rate
-           << " Hz, but a link of " << options.baud << " baud does not carry it: it needs "
+           << " Hz, but a link of " << options.baud << " baud cannot carry it: it needs "
            << std::ceil(board.bitsPerSecond()) << " baud";
   throw settings::InputError(sentence.str());
 }
@@ -55,7 +55,7 @@ std::string stateName(RigStatus::State state) {
   }
 }
 
-/// The mutex, for a caller: the emulator's thread lets it go between packets when one waits.
+/// Locks the mutex for a caller. The emulator's thread releases it between packets when a caller waits.
 class Emulator::Turn {
  public:
   explicit Turn(const Emulator& emulator) : emulator_(emulator) {
@@ -113,8 +113,8 @@ void Emulator::run() {
   }
 }
 
-// Sends what is due. Afterwards time_ is now, or the time of the first packet that is still to be sent:
-// what acts from time_ on is seen by all packets to come and by none that was sent.
+// Sends the packets that are due. Afterwards time_ is now, or the time of the first packet that is still to
+// be sent. So a command from time_ on acts on all later packets and on none that was sent.
 void Emulator::catchUp() {
   const double now = schedule_.now();
   for (int i = 0; i < kPacketsATurn && board_.nextDue() <= now; ++i) sendNext();
@@ -126,7 +126,7 @@ void Emulator::catchUp() {
   if (lag > kLag) schedule_.hold(lag);
 }
 
-// Whether the thread was kept from running, by the scheduler or a callback: no board is.
+// Notes whether the scheduler or a callback delayed the thread. A board is never delayed.
 void Emulator::noteLateness() {
   const auto now = RigSchedule::WallClock::now();
   if (now - expected_ > kHiccup) {
@@ -137,7 +137,7 @@ void Emulator::noteLateness() {
   expected_ = now;
 }
 
-// When it has caught up, the port is still full of what came at once: that is its fault too.
+// Also waits while the port is still full of the packets that were sent late all at once.
 void Emulator::forgiveLateness() {
   const auto now = RigSchedule::WallClock::now();
   if (board_.nextDue() <= schedule_.now()) {
@@ -158,7 +158,7 @@ void Emulator::sendNext() {
   if (options_.on_packet) options_.on_packet(packet);
   noteLateness();
   const auto waited = link_.send(packet, time_, patient());
-  expected_ += waited;  // that was the reader's fault
+  expected_ += waited;  // the reader caused this delay
   waited_ += waited;
   if (!schedule_.realTime()) schedule_.hold(waited);
 }
@@ -225,7 +225,7 @@ void Emulator::jumpClock(double seconds) {
   board_.jumpClock(seconds);
 }
 
-// --- questions, from any thread ----------------------------------------------------------------------
+// --- queries, from any thread ----------------------------------------------------------------------
 
 std::string Emulator::port() const {
   const Turn turn(*this);

@@ -20,7 +20,7 @@ void require(const char* field, double value, const settings::Range& range) {
   throw settings::InputError(sentence.str());
 }
 
-/// Levels of the line, one a sender's bit; high when idle.
+/// Levels of the line, one for each bit of the sender; high when idle.
 class Waveform {
  public:
   explicit Waveform(const std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
@@ -31,7 +31,7 @@ class Waveform {
     if (place == 0) return false;
     return place == kFrame - 1 || ((bytes_[bit / kFrame] >> (place - 1)) & 1) != 0;
   }
-  /// First bit from `bit` on that is low after a high one; bits() where there is none.
+  /// The first bit from `bit` on that is low and follows a high one; bits() where there is none.
   std::size_t fallingEdge(std::size_t bit) const {
     while (bit < bits() && (high(bit) || (bit > 0 && !high(bit - 1)))) ++bit;
     return bit;
@@ -106,7 +106,7 @@ std::vector<std::uint8_t> heardByUart(const std::vector<std::uint8_t>& bytes, st
       return static_cast<std::size_t>(static_cast<double>(edge) +
                                       (static_cast<double>(bit) + 0.5) * bit_length);
     };
-    // A start bit that is over by its middle is taken for a spike.
+    // A start bit that is no longer low in its middle is treated as a spike.
     if (line.high(sampled(0))) {
       edge = line.fallingEdge(edge + 1);
       continue;
@@ -115,7 +115,7 @@ std::vector<std::uint8_t> heardByUart(const std::vector<std::uint8_t>& bytes, st
     for (std::size_t bit = 0; bit < 8; ++bit) byte |= line.high(sampled(bit + 1)) ? 1u << bit : 0u;
     heard.push_back(static_cast<std::uint8_t>(byte));
     edge = line.fallingEdge(
-        std::max(sampled(kFrame - 1), edge + 1));  // a fast receiver's frame ends within this bit
+        std::max(sampled(kFrame - 1), edge + 1));  // the frame of a fast receiver ends within this bit
   }
   return heard;
 }

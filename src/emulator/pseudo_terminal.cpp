@@ -14,7 +14,7 @@
 
 namespace fsr::emulator {
 
-// In terminal_speed.cpp.
+// Defined in terminal_speed.cpp.
 void setTerminalSpeed(int descriptor, std::uint32_t baud);
 std::uint32_t terminalSpeed(int descriptor);
 
@@ -41,9 +41,9 @@ std::string unlockSlave(int master) {
   return name;
 }
 
-// Raw before any reader comes: else what is sent would be echoed back and its bytes translated. The
-// settings stay when the port is closed again, and its closing makes the kernel report whether a reader
-// is there.
+// Sets raw mode before a reader opens the port, because the terminal would otherwise echo and translate
+// bytes. The settings remain when the port is closed again, and closing it makes the kernel report whether a
+// reader has it open.
 void makeRaw(const std::string& slave, std::uint32_t baud) {
   const int descriptor = open(slave.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (descriptor < 0) fail(slave + " cannot be opened");
@@ -55,7 +55,7 @@ void makeRaw(const std::string& slave, std::uint32_t baud) {
   close(descriptor);
 }
 
-// Through another name and a rename, so that nobody ever finds the link missing or dangling.
+// Creates the link under another name and renames it, so that it is never missing or dangling.
 void makeLink(const std::string& link, const std::string& target) {
   std::error_code error;
   const fs::file_status there = fs::symlink_status(link, error);
@@ -86,7 +86,7 @@ PseudoTerminal::PseudoTerminal(const std::string& link, std::uint32_t baud)
 
 PseudoTerminal::~PseudoTerminal() {
   std::error_code ignored;
-  // Only if it is still ours: another emulator may have taken the name over.
+  // Only if it still points to this port: another emulator may use the name now.
   if (!link_.empty() && fs::read_symlink(link_, ignored) == slave_) fs::remove(link_, ignored);
   close(master_);
 }
@@ -96,7 +96,7 @@ PseudoTerminal::Outcome PseudoTerminal::write(const std::uint8_t* packet, std::s
   if (!flushRest()) return Outcome::kFull;
   const ssize_t written = ::write(master_, packet, size);
   if (written <= 0) return Outcome::kFull;
-  rest_.assign(packet + written, packet + size);  // a packet that was begun is finished before the next
+  rest_.assign(packet + written, packet + size);  // the rest is sent before the next packet
   return Outcome::kSent;
 }
 
@@ -122,7 +122,7 @@ bool PseudoTerminal::hasReader() {
   return has_reader;
 }
 
-// The board takes no commands; without this a talkative reader would fill the line and block.
+// The board takes no commands. Without this, a reader that writes would fill the line and block.
 void PseudoTerminal::discardInput() {
   char bytes[256];
   while (::read(master_, bytes, sizeof(bytes)) == static_cast<ssize_t>(sizeof(bytes))) {

@@ -4,13 +4,13 @@
 
 namespace fsr::emulator {
 
-/// Rig time [s] as wall time since the start times a scale, on the monotonic clock: an absolute schedule,
-/// that does not drift however late a thread wakes.
+/// Rig time [s]: wall time of the monotonic clock since the start, times a scale. This is an absolute
+/// schedule: it does not drift where a thread wakes late.
 class RigSchedule {
  public:
   using WallClock = std::chrono::steady_clock;
 
-  /// Rig time 0 is now. `scale`: seconds of rig time in a second.
+  /// Rig time 0 is now. `scale`: seconds of rig time per second.
   explicit RigSchedule(double scale) : scale_(scale), origin_(WallClock::now()) {}
 
   double now() const { return std::chrono::duration<double>(WallClock::now() - origin_).count() * scale_; }
@@ -22,7 +22,7 @@ class RigSchedule {
 
   bool realTime() const { return scale_ == 1; }
 
-  /// Rig time stood still for this long.
+  /// Stops rig time for this duration.
   void hold(WallClock::duration duration) { origin_ += duration; }
 
  private:

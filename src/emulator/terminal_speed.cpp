@@ -1,5 +1,5 @@
-// Apart from pseudo_terminal.cpp because the kernel's termios, which knows every rate and not only those
-// with a name, and the C library's cannot meet in one file.
+// Separate from pseudo_terminal.cpp, because the kernel's termios, which supports every rate and not only the
+// named ones, and the C library's cannot be in the same file.
 #include <asm/termbits.h>
 #include <sys/ioctl.h>
 

@@ -9,11 +9,11 @@ namespace fsr::exports {
 
 namespace {
 
-constexpr std::size_t kSignature = 8;     // length [bytes], as all that follow
-constexpr std::size_t kHeader = 12 + 13;  // IHDR with length, type and checksum
-constexpr double kLongest = 65.0;         // that a picture can be shown [s]
+constexpr std::size_t kSignature = 8;     // length of the signature [bytes]
+constexpr std::size_t kHeader = 12 + 13;  // IHDR with length, type and checksum [bytes]
+constexpr double kLongest = 65.0;         // longest time that a picture can be shown [s]
 
-// Most significant byte first, as PNG has it.
+// Most significant byte first, as PNG requires.
 std::string number(std::uint32_t value) {
   return {static_cast<char>(value >> 24), static_cast<char>(value >> 16), static_cast<char>(value >> 8),
           static_cast<char>(value)};
@@ -46,7 +46,7 @@ void forEachChunk(const std::string& png, Take take) {
   }
 }
 
-// Number of pictures, and how often they are played.
+// Chunk with the number of pictures; they are played once.
 std::string control(std::uint32_t pictures) {
   return chunk("acTL", number(pictures) + number(1));
 }
@@ -71,7 +71,7 @@ void AnimatedPng::writeHead(const std::string& png) {
   control_at_ = head.size();
 }
 
-// The first picture is that of readers which know no animation, in IDAT; the others are in fdAT.
+// The first picture is in IDAT, where viewers without animation find it; the others are in fdAT.
 void AnimatedPng::writeHeld(double seconds) {
   const auto shown = static_cast<std::uint32_t>(std::lround(1000 * std::clamp(seconds, 0.001, kLongest)));
   writeChunk("fcTL", number(sequence_++) + number(width_) + number(height_) + number(0) + number(0) +

@@ -10,8 +10,8 @@
 
 namespace fsr::exports {
 
-/// A movie as an animated PNG (APNG, PNG specification third edition): browsers play it, other viewers show
-/// its first picture, and nothing but zlib is needed to make it. It runs in the recording's own time, once.
+/// A movie as an animated PNG (APNG, PNG specification, third edition). Browsers play it; other viewers show
+/// the first picture. It needs no other program. It runs once, in real time.
 class AnimatedPng : public PictureSink {
  public:
   AnimatedPng(const std::string& path, const PictureOptions& options) : PictureSink(options), file_(path) {}
@@ -26,10 +26,10 @@ class AnimatedPng : public PictureSink {
 
   settings::FreshFile file_;
   std::uint32_t width_ = 0, height_ = 0;                      // [pixels]
-  std::optional<std::pair<std::int64_t, std::string>> held_;  // until it is known how long it is shown
+  std::optional<std::pair<std::int64_t, std::string>> held_;  // last picture, until its duration is known
   std::uint32_t pictures_ = 0;
-  std::uint32_t sequence_ = 0;  // of the chunks that belong to the animation
-  std::size_t control_at_ = 0;  // where the number of pictures stands
+  std::uint32_t sequence_ = 0;  // number of the next chunk of the animation
+  std::size_t control_at_ = 0;  // offset of the number of pictures [bytes]
 };
 
 }  // namespace fsr::exports

@@ -11,34 +11,35 @@
 
 namespace fsr::exports {
 
-// A bag as one HDF5 file that every program reads and that turns back into the bag, behind a user block of
-// 512 bytes, one line of text, as calibration files have it:
+// A bag as one HDF5 file, from which the bag can be restored. As in calibration files, a user block of 512
+// bytes with one line of text comes first:
 //
 //     fsr_pressure_map archive schema=1 sha256=<64 hex digits of all that follows byte 512>
 //
 //     /fsr/raw, /fsr/pressure_map ...  a group for each topic: a dataset for each field (message_table.h)
-//     /scans                           the sensor's scans joined with what else is known of them
-//     (scan_table.h) /archive/message                 time [messages] received [ns], connection [messages]
-//     /archive/connection              topic, type, md5sum, definition, header, group, form, messages, sha256
-//                                      (of the topic's messages, one after the other)
+//     /scans                           the scans, joined with the other values of their time (scan_table.h)
+//     /archive/message                 time [messages] received [ns], connection [messages]
+//     /archive/connection              topic, type, md5sum, definition, header, group, form, messages,
+//                                      sha256 (of the connection's messages, each with its length)
 //     /archive                         attributes bag, sha256 (of the bag's bytes), tool_version, schema, use
 //
-// Topics that do not fit into columns (see MessageSurvey::plain()) are kept as `bytes` [all messages' bytes]
-// and `bytes.count` [messages]: nothing is lost. docs/exports.md tells readers of the files more.
+// Topics that do not fit into columns (see MessageSurvey::plain()) are kept as `bytes` [bytes of all
+// messages] and `bytes.count` [messages], so nothing is lost. docs/exports.md describes the file for its
+// readers.
 
-/// A publisher's connection, as a bag knows it.
+/// A publisher's connection, as in a bag.
 struct ArchivedConnection {
   std::string topic, type, md5sum, definition;
-  std::map<std::string, std::string> header;  ///< all of it: callerid, latching ...
+  std::map<std::string, std::string> header;  ///< all entries: callerid, latching ...
 };
 
 struct ArchiveSource {
   std::string bag;     ///< base name
-  std::string sha256;  ///< of its bytes
+  std::string sha256;  ///< of the bag's bytes
 };
 
-/// Writes an archive in two passes over the messages: first look() at every one, then, in the same order,
-/// add() each. Throws InputError where the file cannot be written; without finish() nothing remains.
+/// Writes an archive in two passes over the messages: first look() for each message, then, in the same order,
+/// add() for each. Throws InputError if the file cannot be written. Without finish() no file remains.
 class ArchiveWriter {
  public:
   ArchiveWriter(const std::string& path, const ArchiveSource& source,
@@ -47,7 +48,7 @@ class ArchiveWriter {
 
   void look(std::size_t connection, std::string_view message);
   void add(std::size_t connection, std::int64_t received_ns, std::string_view message);
-  /// Takes the scans of the group /scans, after the last add(); not needed for the way back.
+  /// Takes the scans for the group /scans, after the last add(). They are not needed to restore the bag.
   ScanSink& scans();
   void finish();
 
@@ -63,8 +64,8 @@ struct ArchivedMessage {
   std::string bytes;
 };
 
-/// Reads an archive back. The file's hash is verified before HDF5 sees a byte, that of each connection's
-/// messages at the end. Throws InputError that names the file and what is wrong with it.
+/// Reads an archive back. The file's hash is verified before HDF5 reads the file, the hash of each
+/// connection's messages after the last message. Throws InputError that names the file and the defect.
 class ArchiveReader {
  public:
   explicit ArchiveReader(const std::string& path);
@@ -72,7 +73,7 @@ class ArchiveReader {
 
   const ArchiveSource& source() const;
   const std::vector<ArchivedConnection>& connections() const;
-  /// False behind the last message; then every message was what it was in the bag.
+  /// Reads the next message. Returns false after the last one; then all messages are those of the bag.
   bool next(ArchivedMessage& message);
 
  private:

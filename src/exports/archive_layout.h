@@ -1,6 +1,6 @@
 #pragma once
 
-// What writer and reader of an archive share.
+// Definitions that writer and reader of an archive share.
 
 #include <cerrno>
 #include <cstdint>
@@ -15,12 +15,12 @@ constexpr std::uint64_t kSchema = 1;
 constexpr char kColumns[] = "columns";
 constexpr char kBytes[] = "bytes";
 
-/// The line that the user block begins with.
+/// First line of the user block.
 inline std::string firstLine(const std::string& sha256) {
   return std::string(kFormat) + " schema=" + std::to_string(kSchema) + " sha256=" + sha256 + "\n";
 }
 
-// HDF5 does not say why it could not write; errno does.
+// Runs `act`. If HDF5 cannot write, throws an InputError with the reason in errno, since HDF5 gives none.
 template <typename Act>
 void attempt(const std::string& path, Act act) {
   errno = 0;

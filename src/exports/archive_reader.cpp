@@ -17,7 +17,7 @@ using hdf5::Handle;
 
 namespace {
 
-// Refuses what is no archive, before HDF5 looks at it.
+// Refuses a file that is not an archive, before HDF5 reads it.
 void verify(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) throw settings::InputError("there is no such file");
@@ -26,7 +26,7 @@ void verify(const std::string& path) {
   file.read(block.data(), static_cast<std::streamsize>(block.size()));
   const std::string start = std::string(archive::kFormat) + " schema=";
   if (block.compare(0, start.size(), start) != 0) {
-    throw settings::InputError("is no archive; give one that export --to hdf5 has written");
+    throw settings::InputError("is not an archive; give one that export --to hdf5 has written");
   }
   if (std::strtoull(block.c_str() + start.size(), nullptr, 10) > archive::kSchema) {
     throw settings::InputError("was written by a later version; update the package");
@@ -34,8 +34,7 @@ void verify(const std::string& path) {
   const std::string line = archive::firstLine(settings::sha256OfFile(path, hdf5::kUserBlock));
   if (block.compare(0, line.size(), line) != 0) {
     throw settings::InputError(
-        "is damaged or cut short: its bytes do not have the SHA-256 that its first line names; copy the file "
-        "again");
+        "is damaged or cut short: its SHA-256 is not the one in its first line; copy the file again");
   }
 }
 
@@ -138,7 +137,7 @@ struct ArchiveReader::Content {
     std::memcpy(&message.received_ns, time->next(), sizeof(message.received_ns));
     std::memcpy(&row, sender->next(), sizeof(row));
     if (row >= connections.size())
-      throw settings::InputError("its /archive/message/connection leads nowhere");
+      throw settings::InputError("its /archive/message/connection has a row that does not exist");
     message.connection = row;
     message.bytes.clear();
     Topic& topic = *topic_of[row];
@@ -156,7 +155,7 @@ struct ArchiveReader::Content {
   void verifyMessages() {
     for (std::size_t i = 0; i < expected.size(); ++i) {
       if (digests[i].hexadecimal() == expected[i]) continue;
-      throw settings::InputError("the messages of " + connections[i].topic + " are not those of the bag");
+      throw settings::InputError("the messages of " + connections[i].topic + " differ from those of the bag");
     }
   }
 
@@ -167,7 +166,7 @@ struct ArchiveReader::Content {
   std::optional<ColumnReader> time, sender;
   std::vector<ArchivedConnection> connections;
   std::map<std::string, std::unique_ptr<Topic>> topics;  // by group
-  std::vector<Topic*> topic_of;                          // each connection's
+  std::vector<Topic*> topic_of;                          // [connections]
   std::vector<settings::Sha256> digests;
   std::vector<std::string> expected;
   std::size_t left = 0;

@@ -37,7 +37,7 @@ void makeGroup(hid_t file, const std::string& path) {
   const Handle made(H5Gcreate2(file, path.c_str(), creation, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path);
 }
 
-// Whether a topic's name can be a group's: as ROS names are, and not where the archive keeps its own.
+// Whether a topic's name can be the name of a group: a valid ROS name that is not below /archive or /scans.
 bool isGroupName(const std::string& topic) {
   const auto fits = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '/';
@@ -47,7 +47,7 @@ bool isGroupName(const std::string& topic) {
          topic.rfind("/scans", 0) != 0 && std::all_of(topic.begin(), topic.end(), fits);
 }
 
-// "length name=value" one after the other, as bags store it.
+// Entries "length name=value", as in bags.
 std::string headerBytes(const std::map<std::string, std::string>& header) {
   std::string bytes;
   for (const auto& [name, value] : header) {
@@ -66,13 +66,12 @@ std::optional<MessageType> typeOf(const ArchivedConnection& connection) {
   }
 }
 
-// A topic's messages as bytes.
+// The messages of a topic, as bytes.
 class ByteTable {
  public:
   ByteTable(hid_t file, const std::string& group)
       : bytes_(file, plan(group + "/bytes", H5T_NATIVE_UINT8, "serialised messages, one after the other")),
-        count_(file,
-               plan(group + "/bytes.count", H5T_NATIVE_UINT32, "how many bytes belong to each message")) {}
+        count_(file, plan(group + "/bytes.count", H5T_NATIVE_UINT32, "number of bytes of each message")) {}
   void add(std::string_view message) {
     const auto size = static_cast<std::uint32_t>(message.size());
     count_.append(&size, 1);
@@ -94,9 +93,9 @@ class ByteTable {
   ColumnWriter bytes_, count_;
 };
 
-// Messages of one topic and type, of all its publishers.
+// The messages of one topic and type, of all publishers.
 struct Topic {
-  ArchivedConnection name;  // of the first of them
+  ArchivedConnection name;  // of the first publisher
   std::string group;
   std::optional<MessageType> type;
   std::optional<MessageSurvey> survey;
@@ -131,7 +130,7 @@ struct ArchiveWriter::Content {
     return topics.size() - 1;
   }
 
-  // Its own name, unless another topic's datasets could be in the way.
+  // The topic's own name, unless datasets of another topic could have the same path.
   std::string groupOf(const Topic& topic, std::size_t number) {
     const std::string& name = topic.name.topic;
     const auto under = [&](const auto& other) { return other->name.topic.rfind(name + '/', 0) == 0; };
@@ -161,7 +160,7 @@ struct ArchiveWriter::Content {
     plan.path = "/archive/message/time";
     plan.type = H5T_NATIVE_INT64;
     plan.unit = "ns";
-    plan.meaning = "when each message was received, since 1970, UTC; in the bag's order";
+    plan.meaning = "time of reception of each message, since 1970, UTC; in the bag's order";
     time.emplace(*file, plan);
     plan.path = "/archive/message/connection";
     plan.type = H5T_NATIVE_UINT32;
@@ -250,8 +249,7 @@ struct ArchiveWriter::Content {
   }
 
   void sign() {
-    const std::string line =
-        archive::firstLine(settings::sha256OfFile(fresh.name(), hdf5::kUserBlock));
+    const std::string line = archive::firstLine(settings::sha256OfFile(fresh.name(), hdf5::kUserBlock));
     std::fstream block(fresh.name(), std::ios::in | std::ios::out | std::ios::binary);
     if (!block.write(line.data(), static_cast<std::streamsize>(line.size())).flush()) {
       throw settings::cannotWrite(path, errno != 0 ? errno : EIO);
@@ -263,14 +261,14 @@ struct ArchiveWriter::Content {
   std::vector<ArchivedConnection> connections;
   std::lock_guard<std::mutex> lock;
   settings::FreshPath fresh;
-  std::vector<std::size_t> topic_of;  // each connection's
+  std::vector<std::size_t> topic_of;  // [connections]
   std::vector<std::unique_ptr<Topic>> topics;
   std::set<std::string> groups;
   std::optional<Handle> file;
   std::optional<ColumnWriter> time, sender;
   std::unique_ptr<ScanTable> scans;
-  std::vector<std::uint64_t> messages;    // of each connection
-  std::vector<settings::Sha256> digests;  // likewise
+  std::vector<std::uint64_t> messages;    // [connections]
+  std::vector<settings::Sha256> digests;  // [connections]
 };
 
 ArchiveWriter::ArchiveWriter(const std::string& path, const ArchiveSource& source,

@@ -14,7 +14,7 @@ std::string quoted(const std::string& text) {
   std::string safe = "\"";
   for (const char c : text) {
     if (c == '"') safe += '"';
-    safe += c == '\n' || c == '\r' ? ' ' : c;  // a table's row is a line, for readers that know no better
+    safe += c == '\n' || c == '\r' ? ' ' : c;  // simple readers take each line for a row
   }
   return safe + '"';
 }
@@ -24,7 +24,7 @@ std::string known(const std::optional<Value>& value) {
   return value ? std::to_string(*value) : kAbsent;
 }
 
-// What is the same for all taxels of a scan, before and behind what is not.
+// The first columns of a row, which are the same for all taxels of a scan. tail() has the later ones.
 std::string head(const ScanRecord& scan, const std::string& bag) {
   const bool mounted = scan.surface != nullptr && scan.surface->mount != 0;
   return bag + ',' + quoted(scan.session) + ',' + (scan.surface ? quoted(scan.surface->name) : kAbsent) +

@@ -7,10 +7,10 @@
 
 namespace fsr::exports {
 
-/// A tidy long table: one row for each taxel and scan, of one recording after the other. The columns, with
-/// their units, stand in kCsvHeader; docs/exports.md describes each. What is not known is NA; numbers read
-/// back as exactly those that were recorded; texts with a comma or quote are quoted. R reads it with
-/// read.csv(), Octave and MATLAB with textscan(). A path that ends with .gz is written compressed.
+/// A tidy long table with one row for each taxel and scan; several recordings follow each other. kCsvHeader
+/// has the columns with their units; docs/exports.md describes each. Unknown values are NA. Numbers read back
+/// as exactly the recorded ones. Texts with a comma or quotation mark are quoted. R reads the table with
+/// read.csv(), Octave and MATLAB with textscan(). If the path ends with .gz, the file is compressed.
 class CsvTable : public ScanSink {
  public:
   explicit CsvTable(const std::string& path);
@@ -22,10 +22,10 @@ class CsvTable : public ScanSink {
  private:
   settings::FreshFile file_;
   std::string bag_;
-  std::string row_;  // kept for its memory
+  std::string row_;  // a member so that its memory is used again
 };
 
-/// The last column is never NA: Octave's textscan() would read a NA at the very end of a file as 0.
+/// The last column is never NA, since Octave's textscan() would read NA at the end of a file as 0.
 constexpr char kCsvHeader[] =
     "bag,session,surface,mount,cycle,event,time_s,sequence,row,column,counts,pressure_Pa,deviation_Pa,flags,"
     "state,chamber_pressure_gauge_Pa,temperature_degC,curvature_per_m,stamp_s";

@@ -5,7 +5,7 @@
 
 namespace fsr::exports {
 
-/// The shortest text that reads back as the same number, whatever the locale; "NA" for NaN.
+/// The shortest text that reads back as the same number, in any locale; "NA" for NaN.
 std::string exactText(float value);
 std::string exactText(double value);
 

@@ -6,7 +6,7 @@ namespace fsr::exports {
 
 namespace {
 
-// Of fields whose comment names no unit in brackets, by type and field, or by field alone.
+// Units of fields whose comment has no unit in brackets, by "type field".
 const std::map<std::string, std::string>& knownUnits() {
   static const std::map<std::string, std::string> kUnits = {
       {"sensor_msgs/FluidPressure fluid_pressure", "Pa"},
@@ -44,7 +44,7 @@ std::pair<std::string, std::string> unitAndMeaning(const std::string& type, cons
   }
   if (field.scalar == Scalar::kDuration && !field.nested) return {"ns", field.comment};
   const auto known = knownUnits().find(type + ' ' + field.name);
-  // A pattern such as [A-Z]{1,3}[0-9]{2,4} is no unit.
+  // Brackets in the comment of a text field are a pattern such as [A-Z]{1,3}[0-9]{2,4}, not a unit.
   const bool text = !field.nested && field.scalar == Scalar::kString;
   if (known != knownUnits().end()) return {known->second, field.comment};
   return {text ? "" : bracketed(field.comment), field.comment};

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr::exports {
 
@@ -13,16 +13,14 @@ namespace {
 
 constexpr int kMargins = 24;  // left and right of a line [pixels]
 
-// The next number of two digits, 301234 -> 310000.
+// Rounds up to two significant digits: 301234 -> 310000.
 double roundedUp(double value) {
   const double step = std::pow(10, std::floor(std::log10(value)) - 1);
   return std::ceil(value / step - 1e-9) * step;
 }
 
 std::string timeText(std::int64_t since_ns) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), "t = %.2f s", 1e-9 * static_cast<double>(since_ns));
-  return text.data();
+  return "t = " + settings::fixedText(1e-9 * static_cast<double>(since_ns), 2) + " s";
 }
 
 double peakOf(const map::PressureMap& map) {
@@ -33,7 +31,7 @@ double peakOf(const map::PressureMap& map) {
 
 std::string surfaceText(const matrix::Surface* surface) {
   if (surface == nullptr) return "surface unknown";
-  std::string text = surface->name.empty() ? "surface without a name" : surface->name;
+  std::string text = surface->name.empty() ? "surface without name" : surface->name;
   if (surface->mount != 0) text += ", mount " + std::to_string(surface->mount);
   return text;
 }
@@ -51,7 +49,7 @@ void PictureSink::begin(const ExportSubject& subject) {
   } else if (subject.trained_high > 0) {
     scale.high = roundedUp(subject.trained_high);
   }
-  // A deviation of more than a tenth of the range is none to measure with.
+  // Deviations are much smaller than pressures: a tenth of the range shows them.
   if (!options_.range && options_.style.layer == view::MapLayer::kDeviation) scale.high *= 0.1;
   painter_.setScale(scale);
   name_ = subject.name;
@@ -71,9 +69,10 @@ void PictureSink::add(const ScanRecord& scan) {
     width_ = painter_.draw(*scan.map).width();
   }
   if (scan.layout.size != size_) {
-    throw settings::InputError(name_ + ": the matrix changes from " + matrix::sizeText(size_) + " to " +
-                               matrix::sizeText(scan.layout.size) +
-                               " taxels, but pictures are of one size; cut with --until");
+    throw settings::InputError(
+        name_ + ": the matrix changes from " + matrix::sizeText(size_) + " to " +
+        matrix::sizeText(scan.layout.size) +
+        " taxels, but all pictures have one size; end the export before the change with --until");
   }
   const view::PressureUnit unit = painter_.style().scale.unit;
   const std::vector<std::string> lines = {

@@ -9,29 +9,29 @@
 
 namespace fsr::exports {
 
-/// How maps are drawn for export; every default stands here.
+/// Options of exported pictures, with all defaults.
 struct PictureOptions {
-  view::HeatMapStyle style;  ///< of which the range is `range`'s
-  /// Ends of the colours [Pa]; none = 0 to what the calibration was trained on, else to 600 kPa; a tenth of
-  /// that for the deviation.
+  view::HeatMapStyle style;  ///< its scale's range is replaced by `range`
+  /// Ends of the colours [Pa]. None = from 0 to the highest pressure that the calibration was trained on, or
+  /// to 600 kPa if it is unknown; a tenth of that for the deviation.
   std::optional<std::pair<double, double>> range;
-  double rate = 10;  ///< pictures a second of the recording [Hz]
+  double rate = 10;  ///< pictures per second of the recording [Hz]
 };
 
-/// Draws each scan's map as a heat map with recording, surface, time, chamber pressure and peak written
-/// above. All pictures of a recording are of one size. Scans without a map are left out.
+/// Draws each scan's map as a heat map with recording, surface, time, chamber pressure and peak above it. All
+/// pictures of a recording have the same size. Scans without a map are left out.
 class PictureSink : public ScanSink {
  public:
   explicit PictureSink(const PictureOptions& options) : options_(options), painter_(options.style) {}
 
-  /// Throws InputError where the recording has no maps.
+  /// Throws InputError if the recording has no maps.
   void begin(const ExportSubject& subject) override;
-  /// Throws InputError where the matrix has changed its size.
+  /// Throws InputError if the size of the matrix has changed.
   void add(const ScanRecord& scan) override;
 
  protected:
   const PictureOptions& options() const { return options_; }
-  /// `since_ns` as the scan's.
+  /// Takes the next picture; `since_ns` as in ScanRecord.
   virtual void picture(std::int64_t since_ns, const view::Image& image) = 0;
 
  private:

@@ -36,7 +36,7 @@ void timeBytes(Scalar scalar, std::int64_t nanoseconds, char* bytes) {
   const std::int64_t rest = (nanoseconds % kSecond + kSecond) % kSecond;
   const std::int64_t seconds = (nanoseconds - rest) / kSecond;
   const auto low = static_cast<std::uint32_t>(rest);
-  // A duration's seconds have the same bytes as the unsigned ones of a time.
+  // The seconds of a duration are signed, but have the same bytes as unsigned ones.
   const auto high =
       scalar == Scalar::kTime ? static_cast<std::uint32_t>(seconds) : std::uint32_t(std::int32_t(seconds));
   std::memcpy(bytes, &high, sizeof(high));

@@ -10,22 +10,23 @@
 
 namespace fsr::exports {
 
-/// What all messages of one topic have in common, so that a table can be laid out for them: looked at in a
-/// first pass over the bag.
+/// Properties of all messages of one topic, found in a first pass over the bag. They determine the layout of
+/// the topic's datasets.
 class MessageSurvey {
  public:
   explicit MessageSurvey(const MessageType& type);
 
   void look(std::string_view bytes);
 
-  /// Whether columns would give every message back byte for byte. They would not where a message is none of
-  /// the type, a text holds a zero byte or is longer than kLongestText, or a time is not in its usual form.
+  /// Whether every message can be restored from columns byte for byte. This is not the case if a message is
+  /// not of the type, if a text contains a zero byte or is longer than kLongestText, or if a time is not in
+  /// its usual form.
   bool plain() const { return plain_; }
-  /// How long the array is in all messages; none where that differs, or where it lies in an array itself.
+  /// Length of the array in all messages; none if it differs, or if the array is in an array itself.
   std::optional<std::size_t> lengthOf(const MessageField& field) const;
-  /// Of the longest text in the field [bytes].
+  /// Length of the longest text in the field [bytes].
   std::size_t longestText(const MessageField& field) const { return seen_[field.id].longest; }
-  /// Value that a field of the top has in all messages; none where it differs or is no integer of 2 bytes.
+  /// Value of a uint16 field of the top level that is the same in all messages; else none.
   std::optional<std::size_t> constant(const std::string& field) const;
 
   static constexpr std::size_t kLongestText = 4096;  // [bytes]
@@ -43,8 +44,8 @@ class MessageSurvey {
   bool plain_ = true;
 };
 
-/// Nanoseconds of a serialised time or duration, and back. `usual` is false where the nanoseconds are not 0
-/// to 999999999, so that the way back would lead elsewhere.
+/// Converts a serialised time or duration to nanoseconds, and back. `usual` is false if its nanoseconds are
+/// not 0 to 999999999: then the conversion back gives other bytes.
 std::int64_t nanosecondsOf(Scalar scalar, const char* bytes, bool& usual);
 void timeBytes(Scalar scalar, std::int64_t nanoseconds, char* bytes);
 

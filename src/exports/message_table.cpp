@@ -21,7 +21,7 @@ bool isTime(Scalar scalar) {
   return scalar == Scalar::kTime || scalar == Scalar::kDuration;
 }
 
-// 0 for texts.
+// Type of the dataset; 0 for texts.
 hid_t storedType(Scalar scalar) {
   switch (scalar) {
     case Scalar::kBool:
@@ -46,11 +46,11 @@ hid_t storedType(Scalar scalar) {
     case Scalar::kString:
       return 0;
     default:
-      return H5T_NATIVE_INT64;  // and times
+      return H5T_NATIVE_INT64;  // also times and durations
   }
 }
 
-// Whether the array has one dataset row a message. Texts stand one after the other always.
+// Whether the array has one dataset row for each message. Arrays of texts never have.
 bool isUniform(const MessageField& field, const MessageSurvey& survey) {
   return !field.nested && field.scalar != Scalar::kString && field.count == Count::kAny &&
          survey.lengthOf(field).has_value();
@@ -77,7 +77,7 @@ void MessageTableWriter::lay(hid_t file, const std::string& group, const std::ve
       ColumnPlan counts;
       counts.path = plan.path + kCount;
       counts.type = H5T_NATIVE_UINT32;
-      counts.meaning = "how many entries of " + field.name + " belong to each entry of this one's owner";
+      counts.meaning = "number of entries of " + field.name + " that belong to each message or array element";
       counts_[field.id] = std::make_unique<ColumnWriter>(file, counts);
     }
     if (field.nested) {
@@ -102,11 +102,11 @@ void MessageTableWriter::layValues(hid_t file, ColumnPlan plan, const MessageFie
     if (length == rows * columns && length > 0) plan.shape = {rows, columns};
     uniform_.insert(field.id);
   }
-  if (!plan.shape.empty() && plan.shape.front() == 0) return;  // nothing, in every message
+  if (!plan.shape.empty() && plan.shape.front() == 0) return;  // the array is empty in every message
   values_[field.id] = std::make_unique<ColumnWriter>(file, plan);
 }
 
-// Puts what a message is made of into the columns.
+// Appends the values of a message to the columns.
 struct TableFiller {
   MessageTableWriter& table;
 
@@ -194,7 +194,7 @@ void MessageTableReader::putValues(const MessageField& field, std::size_t count,
   if (count == 0) return;
   const auto found = values_.find(field.id);
   if (found == values_.end())
-    throw settings::InputError("its table of " + type_.name + " lacks " + field.name);
+    throw settings::InputError("its table of " + type_.name + " has no " + field.name);
   ColumnReader& column = *found->second;
   if (field.scalar == Scalar::kString) {
     for (; count > 0; --count) {
@@ -205,7 +205,7 @@ void MessageTableReader::putValues(const MessageField& field, std::size_t count,
     return;
   }
   if (count % column.width() != 0)
-    throw settings::InputError("its " + field.name + " is not as wide as it says");
+    throw settings::InputError("its " + field.name + " has another number of values than it states");
   const char* values = column.next(count / column.width());
   if (!isTime(field.scalar)) {
     bytes.append(values, count * sizeOf(field.scalar));

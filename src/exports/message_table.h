@@ -20,18 +20,17 @@ namespace fsr::exports {
 
 /// The messages of one topic as datasets, one for each field, in a group of the file:
 ///
-///   a value             `stamp`  [messages]; texts of fixed length; times as int64 nanoseconds
-///   an array            `values` [messages x n]; [messages x rows x columns] where the message has those
-///   fields
-///                       and the array has as many values
-///   one whose length    `values` [all values, one message's after the other's], `values.count` [messages]
+///   single value        `stamp`  [messages]; texts of fixed length; times as int64 nanoseconds
+///   array               `values` [messages x n]; [messages x rows x columns] if the message has fields of
+///                       these names and the array has as many values
+///   array whose length  `values` [values of all messages], `values.count` [messages]
 ///   differs
-///   messages in arrays  their fields as above with an entry for each of them, and `array.count`
+///   array of messages   their fields as above, with an entry for each element, and `array.count`
 ///
-/// The attributes `unit` and `meaning` are taken from the definition's comments.
+/// The attributes `unit` and `meaning` come from the comments of the message definition.
 class MessageTableWriter {
  public:
-  /// `survey` has seen every message that will be added and is plain.
+  /// `survey` must be plain and must have seen every message that will be added.
   MessageTableWriter(hid_t file, const std::string& group, const MessageType& type,
                      const MessageSurvey& survey);
   void add(std::string_view message);
@@ -46,15 +45,15 @@ class MessageTableWriter {
   const MessageType& type_;
   std::map<std::size_t, std::unique_ptr<hdf5::ColumnWriter>> values_;  // by MessageField::id
   std::map<std::size_t, std::unique_ptr<hdf5::ColumnWriter>> counts_;
-  std::set<std::size_t> uniform_;  // arrays that have one dataset row a message
+  std::set<std::size_t> uniform_;  // arrays with one dataset row for each message
 };
 
-/// Gives the messages back, in the order in which they were added, byte for byte.
+/// Restores the messages in the order in which they were added, byte for byte.
 class MessageTableReader {
  public:
-  /// Throws InputError where a dataset is missing or of another kind.
+  /// Throws InputError if a dataset is missing or of another kind.
   MessageTableReader(hid_t file, const std::string& group, const MessageType& type);
-  /// Appends the next message's bytes; throws InputError behind the last.
+  /// Appends the bytes of the next message. Throws InputError if there is none.
   void next(std::string& bytes);
 
  private:
@@ -67,8 +66,8 @@ class MessageTableReader {
   std::map<std::size_t, std::unique_ptr<hdf5::ColumnReader>> counts_;
 };
 
-/// Unit and meaning of a field of a message type: its comment, "[Pa], row-major", else what is known of the
-/// types that come without. First the unit.
+/// Unit and meaning of a field. The meaning is its comment in the message definition; the unit is the part in
+/// brackets, as in "[Pa], row-major", or comes from a table of fields without one.
 std::pair<std::string, std::string> unitAndMeaning(const std::string& type, const MessageField& field);
 
 }  // namespace fsr::exports

@@ -11,7 +11,7 @@ namespace fsr::exports {
 
 namespace {
 
-constexpr int kDeepest = 16;  // messages in messages; more is a type that contains itself
+constexpr int kDeepest = 16;  // levels of messages in messages; a type with more contains itself
 
 const std::map<std::string, Scalar>& scalars() {
   static const std::map<std::string, Scalar> kScalars = {
@@ -29,7 +29,7 @@ std::string trimmed(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-// The texts of a definition by type; the first is the message's own.
+// The texts of a definition by type, including that of the message itself.
 std::map<std::string, std::string> textsOf(const std::string& name, const std::string& definition) {
   std::map<std::string, std::string> texts;
   std::istringstream lines(definition);
@@ -69,7 +69,7 @@ class Parser {
     return fields;
   }
 
-  // None for a constant, a comment, an empty line.
+  // None for a constant, a comment or an empty line.
   std::optional<MessageField> parse(const std::string& line, const std::string& owner,
                                     const std::string& prefix, bool repeated, int depth) {
     const std::size_t hash = line.find('#');
@@ -77,7 +77,7 @@ class Parser {
     std::string type, name;
     if (line.substr(0, hash).find('=') != std::string::npos || !(words >> type)) return {};
     if (!(words >> name))
-      throw settings::InputError("the definition of " + owner + " has a line \"" + line + "\"");
+      throw settings::InputError("the definition of " + owner + " has an invalid line: \"" + line + "\"");
     MessageField field;
     field.name = prefix + name;
     if (hash != std::string::npos) field.comment = trimmed(line.substr(hash + 1));

@@ -9,7 +9,7 @@
 
 namespace fsr::exports {
 
-/// What a field of a ROS message is made of at last.
+/// Type of a field of a ROS message that is not itself a message.
 enum class Scalar {
   kBool,
   kInt8,
@@ -27,46 +27,48 @@ enum class Scalar {
   kDuration,  ///< int32 seconds, int32 nanoseconds
 };
 
-/// Bytes of one value as serialised; 0 for texts.
+/// Size of one serialised value [bytes]; 0 for texts.
 std::size_t sizeOf(Scalar scalar);
 
-/// A field of a message, with its fields where it is a message itself.
+/// A field of a message. It has fields itself if it is a message.
 struct MessageField {
   enum class Count { kOne, kFixed, kAny };
 
-  std::string name;  ///< from the message's top, "header.stamp"
+  std::string name;  ///< path from the top of the message, e.g. "header.stamp"
   std::string comment;
   Count count = Count::kOne;
-  std::size_t fixed = 1;  ///< how many, for kFixed
+  std::size_t fixed = 1;  ///< number of values for kFixed
   Scalar scalar = Scalar::kUint8;
-  bool nested = false;  ///< a message: `fields` counts, `scalar` does not
+  bool nested = false;  ///< whether it is a message: then `fields` is used, else `scalar`
   std::vector<MessageField> fields;
-  bool repeated = false;  ///< lies in an array of messages
+  bool repeated = false;  ///< whether it is inside an array of messages
   std::size_t id = 0;     ///< number among all fields of the message
 };
 
-/// The structure of a ROS message as bags carry it along: enough to take serialised messages of any type
-/// apart and to put them together again.
+/// The structure of a ROS message type, from the definition in a bag. It is enough to read and write
+/// serialised messages of any type.
 struct MessageType {
   std::string name;  ///< e.g. sensor_msgs/Temperature
   std::vector<MessageField> fields;
-  std::size_t count = 0;  ///< of all fields, at every depth
+  std::size_t count = 0;  ///< number of all fields, at every depth
 };
 
-/// `definition` as in a bag's connection: the message's own text, then those of the types it uses, between
-/// lines of "=" and "MSG: name". Throws InputError where a type is missing or a line is none.
+/// Parses a definition as in a bag's connection: the text of the message, then the texts of the types that it
+/// uses, separated by a line of "=" and a line "MSG: name". Throws InputError if a type is missing or a line
+/// is invalid.
 MessageType parseMessageType(const std::string& name, const std::string& definition);
 
-/// Takes a serialised message apart. The visitor is told, in the order of the bytes:
-///   count(field, n)          the length of an array that has one
-///   values(field, bytes, n)  n values of a number, time or duration (all at once)
+/// Reads a serialised message. Calls the visitor in the order of the bytes:
+///   count(field, n)          the length of an array of variable length
+///   values(field, bytes, n)  n values of a number, time or duration
 ///   text(field, string_view)
-/// False where the bytes do not have the type's structure from first to last; nothing outside is read.
+/// Returns false if the bytes do not have the structure of the type from first to last. Reads no byte
+/// outside.
 template <typename Visitor>
 bool visitMessage(const MessageType& type, std::string_view bytes, Visitor& visitor);
 
-/// Whether the bytes are a whole message of the type: lengths are checked before anybody makes room for what
-/// they claim.
+/// Whether the bytes are exactly one message of the type. To be checked before memory is allocated by the
+/// lengths that a message states.
 bool isMessageOf(const MessageType& type, std::string_view bytes);
 
 namespace message_detail {
@@ -110,7 +112,7 @@ bool visitFields(const std::vector<MessageField>& fields, std::string_view& byte
       if (!visitScalars(field, count, bytes, visitor)) return false;
       continue;
     }
-    if (field.fields.empty()) continue;  // an empty message has no bytes, however often it is there
+    if (field.fields.empty()) continue;  // an empty message has no bytes
     for (; count > 0; --count) {
       if (!visitFields(field.fields, bytes, visitor)) return false;
     }

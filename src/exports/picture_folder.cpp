@@ -13,10 +13,10 @@ namespace fsr::exports {
 
 namespace {
 
-// Checked before FreshPath, which would only say that it is a directory.
+// Refuses an existing path. Checked before FreshPath is made, whose message is less clear.
 std::string newFolder(const std::string& path) {
   if (std::filesystem::exists(path)) {
-    throw settings::InputError(path + ": is there already; give the name of a new folder with --output");
+    throw settings::InputError(path + ": exists already; give the name of a new folder with --output");
   }
   return path;
 }

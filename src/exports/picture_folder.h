@@ -7,10 +7,11 @@
 
 namespace fsr::exports {
 
-/// PNG files map_000001.png, map_000002.png ... in a new folder, which appears whole or not at all.
+/// PNG files map_000001.png, map_000002.png ... in a new folder. The folder appears when all files are
+/// complete.
 class PictureFolder : public PictureSink {
  public:
-  /// Throws InputError where there is something of that name already.
+  /// Throws InputError if a file or folder of that name exists.
   PictureFolder(const std::string& path, const PictureOptions& options);
 
   void finish() override;

@@ -13,7 +13,7 @@
 
 namespace fsr::exports {
 
-/// One scan with everything that its recording knows of that moment.
+/// One scan with all values of its recording at that time.
 struct ScanRecord {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -25,16 +25,16 @@ struct ScanRecord {
   std::vector<std::uint16_t> counts;               ///< [rows x columns], row-major; empty = not recorded
   std::optional<map::PressureMap> map;             ///< none = neither recorded nor computed
   double chamber_pressure = kUnknown;              ///< gauge, interpolated to the scan [Pa]
-  double temperature = kUnknown;                   ///< likewise [degree Celsius]
-  std::shared_ptr<const matrix::Surface> surface;  ///< that held then; none = never told
-  std::string session;                             ///< empty = never told
-  std::optional<std::size_t> cycle;                ///< of the chamber's pressure, from 1
+  double temperature = kUnknown;                   ///< interpolated to the scan [degree Celsius]
+  std::shared_ptr<const matrix::Surface> surface;  ///< surface at the time of the scan; none = unknown
+  std::string session;                             ///< empty = unknown
+  std::optional<std::size_t> cycle;                ///< cycle of the chamber's pressure, from 1
   std::optional<std::uint64_t> raw_row;  ///< number of the scan's message among those of its topic in the bag
-  std::optional<std::uint64_t> map_row;  ///< likewise of the map's; none = computed, or there is none
-  std::string event;                     ///< the last one so far, "kind" or "kind:label"; empty = none
+  std::optional<std::uint64_t> map_row;  ///< number of the map's message; none = computed, or no map
+  std::string event;                     ///< last event before the scan, "kind" or "kind:label"; empty = none
 };
 
-/// What stands still while a recording is exported.
+/// Properties of a recording that do not change during its export.
 struct ExportSubject {
   std::string name;         ///< base name of the bag
   bool maps = false;        ///< whether scans come with pressure maps
@@ -42,25 +42,25 @@ struct ExportSubject {
   std::string model;        ///< of the sensor sheet; empty = unknown
   std::string calibration;  ///< id; empty = none
   std::string scheme;
-  double trained_low = ScanRecord::kUnknown;   ///< gauge pressures that the calibration was trained on [Pa]
-  double trained_high = ScanRecord::kUnknown;  ///< [Pa]
+  double trained_low = ScanRecord::kUnknown;   ///< lowest gauge pressure of the training [Pa]
+  double trained_high = ScanRecord::kUnknown;  ///< highest gauge pressure of the training [Pa]
 };
 
-/// Takes a recording's scans in the order of their stamps. Each throws InputError where the output cannot be
-/// written; without finish() nothing of it remains.
+/// Writes the scans of recordings, in the order of their stamps. Each function throws InputError if the
+/// output cannot be written. Without finish() no output remains.
 class ScanSink {
  public:
   virtual ~ScanSink() = default;
-  /// Before the first scan of each recording.
+  /// Called before the first scan of each recording.
   virtual void begin(const ExportSubject& subject) = 0;
   virtual void add(const ScanRecord& scan) = 0;
   virtual void finish() = 0;
 };
 
-/// Flags as the README names them, "SATURATED|TARED"; "none" where there are none.
+/// The names of the flags as in PressureMap.msg, e.g. "SATURATED|TARED"; "none" if no flag is set.
 std::string flagWords(std::uint16_t flags);
 
-/// "OK", "CURVATURE_UNKNOWN" ...
+/// The name of a state as in PressureMap.msg: "OK", "CURVATURE_UNKNOWN" ...
 std::string stateWord(map::MapState state);
 
 }  // namespace fsr::exports

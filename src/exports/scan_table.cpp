@@ -29,13 +29,13 @@ std::int64_t rowOr(const std::optional<std::uint64_t>& row) {
 
 ScanTable::ScanTable(hid_t file, const std::string& path) : file_(file), path_(path) {
   archive::attempt(path_, [&] {
-    lay("stamp", H5T_NATIVE_INT64, "ns", "of the scan, since 1970, UTC");
+    lay("stamp", H5T_NATIVE_INT64, "ns", "time of the scan, since 1970, UTC");
     lay("time", H5T_NATIVE_DOUBLE, "s", "since the first scan");
     lay("raw", H5T_NATIVE_INT64, "", "row of the scan in the datasets of the topic raw; -1 = not recorded");
     lay("pressure_map", H5T_NATIVE_INT64, "", "row of its map in the datasets of pressure_map; -1 = none");
     lay("chamber_pressure", H5T_NATIVE_DOUBLE, "Pa", "gauge, interpolated to the scan; NaN = unknown");
-    lay("temperature", H5T_NATIVE_DOUBLE, "degree Celsius", "likewise");
-    lay("cycle", H5T_NATIVE_UINT32, "", "of the chamber's pressure, from 1; 0 = unknown");
+    lay("temperature", H5T_NATIVE_DOUBLE, "degree Celsius", "interpolated to the scan; NaN = unknown");
+    lay("cycle", H5T_NATIVE_UINT32, "", "cycle of the chamber's pressure, from 1; 0 = unknown");
     lay("mount", H5T_NATIVE_UINT32, "", "number of the mount; 0 = unknown");
     for (const char* name : {"surface", "session", "event"}) {
       const std::string meaning = std::string("row of /scans/") + name + "_names";

@@ -15,16 +15,17 @@
 
 namespace fsr::exports {
 
-/// Scans as datasets of the group /scans, one entry for each scan, in the order of their stamps:
+/// Scans as datasets of the group /scans, with one entry for each scan, in the order of their stamps:
 ///
-///   stamp [ns], time [s]                     since 1970, UTC; since the first scan
-///   raw, pressure_map                        rows of the scan and of its map in their topics' datasets; -1 =
-///   none chamber_pressure [Pa], temperature       gauge, interpolated to the scan; NaN = unknown cycle,
-///   mount                             0 = unknown surface, session, event                  rows of
-///   surface_names, session_names, event_names; "" = unknown
+///   stamp [ns], time [s]           since 1970, UTC; since the first scan
+///   raw, pressure_map              rows of scan and map in the datasets of their topics; -1 = none
+///   chamber_pressure [Pa]          gauge, interpolated to the scan; NaN = unknown
+///   temperature [degree Celsius]   interpolated to the scan; NaN = unknown
+///   cycle, mount                   0 = unknown
+///   surface, session, event        rows of surface_names, session_names, event_names; "" = unknown
 class ScanTable : public ScanSink {
  public:
-  /// `path` of the file, for complaints.
+  /// `path` is the file's path for messages.
   ScanTable(hid_t file, const std::string& path);
 
   void begin(const ExportSubject& /*subject*/) override {}
@@ -32,7 +33,7 @@ class ScanTable : public ScanSink {
   void finish() override;
 
  private:
-  // Texts that come again and again: each is kept once.
+  // Texts that repeat: each is stored once, and the scans have its row.
   struct Labels {
     std::map<std::string, std::uint32_t> row;
     std::vector<std::string> names;

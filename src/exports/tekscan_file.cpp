@@ -2,11 +2,11 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 
 #include "exports/exact_text.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr::exports {
 
@@ -14,20 +14,14 @@ namespace {
 
 constexpr char kEnd[] = "\r\n";
 constexpr char kNoSensel[] = "B";
-constexpr std::size_t kRoom = 12;  // for a number that only the end knows [characters]
-
-std::string formatted(const char* format, double value) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
+constexpr std::size_t kRoom = 12;  // space for a number that is known only at the end [characters]
 
 std::string padded(std::string text) {
   text.resize(std::max(text.size(), kRoom), ' ');
   return text;
 }
 
-// Month/day/year and time of day, UTC.
+// Month/day/year and time of day with milliseconds, UTC.
 std::string date(std::int64_t stamp_ns) {
   const std::time_t seconds = stamp_ns / 1000000000;
   std::tm parts{};
@@ -37,9 +31,9 @@ std::string date(std::int64_t stamp_ns) {
   return std::string(text.data()) + secondsText(stamp_ns % 1000000000).substr(1, 4);
 }
 
-// Nine digits give back each float32 of the map [kPa].
+// Pressure [kPa]. Nine digits restore each float32 of the map.
 std::string pressureValue(float pressure) {
-  return std::isnan(pressure) ? kNoSensel : formatted("%.9g", double(pressure) * 1e-3);
+  return std::isnan(pressure) ? kNoSensel : settings::roundedText(double(pressure) * 1e-3, 9);
 }
 
 std::string value(const ScanRecord& scan, bool maps, std::size_t taxel) {
@@ -63,9 +57,9 @@ std::string TekscanFile::header(const ScanRecord& first) {
   line("SENSOR_TYPE", subject_.model.empty() ? subject_.sensor : subject_.model, text);
   line("ROWS", std::to_string(layout_.size.rows), text);
   line("COLS", std::to_string(layout_.size.columns), text);
-  line("ROW_SPACING", formatted("%.6g mm", layout_.pitch_y * 1e3), text);
-  line("COL_SPACING", formatted("%.6g mm", layout_.pitch_x * 1e3), text);
-  line("SENSEL_AREA", formatted("%.6g mm2", area), text);
+  line("ROW_SPACING", settings::roundedText(layout_.pitch_y * 1e3, 6) + " mm", text);
+  line("COL_SPACING", settings::roundedText(layout_.pitch_x * 1e3, 6) + " mm", text);
+  line("SENSEL_AREA", settings::roundedText(area, 6) + " mm2", text);
   line("NOISE_THRESHOLD", "0", text);
   text += "SECONDS_PER_FRAME ";
   period_at_ = text.size();
@@ -76,9 +70,9 @@ std::string TekscanFile::header(const ScanRecord& first) {
   if (!maps) {
     line("SATURATION_PRESSURE", std::to_string(first.full_scale) + " RAW", text);
   } else if (!std::isnan(subject_.trained_high)) {
-    line("SATURATION_PRESSURE", formatted("%.9g kPa", subject_.trained_high * 1e-3), text);
-    line("CALIBRATION_POINT_1", formatted("%.9g kPa", subject_.trained_low * 1e-3), text);
-    line("CALIBRATION_POINT_2", formatted("%.9g kPa", subject_.trained_high * 1e-3), text);
+    line("SATURATION_PRESSURE", settings::roundedText(subject_.trained_high * 1e-3, 9) + " kPa", text);
+    line("CALIBRATION_POINT_1", settings::roundedText(subject_.trained_low * 1e-3, 9) + " kPa", text);
+    line("CALIBRATION_POINT_2", settings::roundedText(subject_.trained_high * 1e-3, 9) + " kPa", text);
   }
   if (maps) line("CALIBRATION_INFO", subject_.calibration + ' ' + subject_.scheme, text);
   line("UNITS", maps ? "kPa" : "RAW", text);
@@ -100,9 +94,10 @@ void TekscanFile::add(const ScanRecord& scan) {
     file_.write(header(scan));
   }
   if (scan.layout.size != layout_.size) {
-    throw settings::InputError(subject_.name + ": the matrix changes from " + matrix::sizeText(layout_.size) +
-                               " to " + matrix::sizeText(scan.layout.size) +
-                               " taxels, but a Tekscan file has one size; cut with --until");
+    throw settings::InputError(
+        subject_.name + ": the matrix changes from " + matrix::sizeText(layout_.size) + " to " +
+        matrix::sizeText(scan.layout.size) +
+        " taxels, but a Tekscan file has one size; end the export before the change with --until");
   }
   times_.push_back(scan.since_ns);
   std::string text = "Frame " + std::to_string(times_.size()) + kEnd;
@@ -116,7 +111,8 @@ void TekscanFile::add(const ScanRecord& scan) {
 void TekscanFile::finish() {
   const std::size_t frames = times_.size();
   if (frames == 0)
-    throw settings::InputError(path_ + ": there is no scan to write; widen --from and --until");
+    throw settings::InputError(path_ +
+                               ": there is no scan between --from and --until; choose a longer interval");
   const double span = 1e-9 * static_cast<double>(times_.back() - times_.front());
   std::string text = std::string("@@") + kEnd;
   for (std::size_t i = 0; i < frames; ++i) {
@@ -124,7 +120,7 @@ void TekscanFile::finish() {
   }
   file_.write(text);
   const double period = frames > 1 ? span / static_cast<double>(frames - 1) : 0;
-  file_.patch(period_at_, padded(formatted("%.9f", period)));
+  file_.patch(period_at_, padded(settings::fixedText(period, 9)));
   file_.patch(end_frame_at_, padded(std::to_string(frames)));
   file_.finish();
 }

@@ -9,13 +9,13 @@
 
 namespace fsr::exports {
 
-/// Frames as Tekscan's I-Scan and F-Scan save them as ASCII (*.asf): a header of "KEY value" lines up to
-/// ASCII_DATA @@, then for each frame a line "Frame N" and one line for each row with values between commas,
-/// `B` where there is no sensel or no reading, "@@" at the end; lines end with CR LF. Maps are in kPa (UNITS
-/// kPa), recordings without maps in counts (UNITS RAW).
+/// Frames in the ASCII format of Tekscan's I-Scan and F-Scan (*.asf). A header of "KEY value" lines ends with
+/// ASCII_DATA @@. Each frame has a line "Frame N" and one line for each row, with values separated by commas;
+/// `B` means no sensel or no reading. The line "@@" ends the frames. Lines end with CR LF. Maps are in kPa
+/// (UNITS kPa), recordings without maps in counts (UNITS RAW).
 ///
-/// That format counts on evenly spaced frames; when each was really read stands behind the closing "@@", in
-/// lines "FRAME_TIME N seconds", where its readers do not look.
+/// The format assumes evenly spaced frames. The true time of each frame is in lines "FRAME_TIME N seconds"
+/// after the final "@@", which readers of the format ignore.
 class TekscanFile : public ScanSink {
  public:
   explicit TekscanFile(const std::string& path) : path_(path), file_(path) {}
@@ -33,7 +33,7 @@ class TekscanFile : public ScanSink {
   ExportSubject subject_;
   matrix::Layout layout_;
   std::vector<std::int64_t> times_;  // of the frames, since the recording's first scan [ns]
-  // Where the header says what only the end knows [bytes].
+  // Offsets in the header of numbers that are known only at the end [bytes].
   std::size_t end_frame_at_ = 0;
   std::size_t period_at_ = 0;
 };

@@ -23,7 +23,7 @@ namespace fsr::exports {
 
 namespace {
 
-// ffmpeg's name of the format, by ending.
+// ffmpeg's names of the formats, by file name ending.
 const std::map<std::string, std::string>& formats() {
   static const std::map<std::string, std::string> kFormats = {
       {".mp4", "mp4"}, {".webm", "webm"}, {".mkv", "matroska"}, {".avi", "avi"}, {".gif", "gif"}};
@@ -45,7 +45,7 @@ std::vector<std::string> arguments(const std::string& format, const std::string&
   std::vector<std::string> words = {"ffmpeg", "-nostdin",   "-loglevel",     "error", "-y",
                                     "-f",     "rawvideo",   "-pixel_format", "rgb24", "-video_size",
                                     size,     "-framerate", exactText(rate), "-i",    "pipe:0"};
-  // Many players want sides that are even and this order of colours.
+  // Many players require even sides and this pixel format.
   if (format != "gif") {
     words.insert(words.end(), {"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"});
   }
@@ -92,7 +92,7 @@ class VideoFile::Encoder {
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
 
-  // False where ffmpeg has gone.
+  // False if ffmpeg has ended.
   bool write(const std::vector<std::uint8_t>& bytes) {
     for (std::size_t done = 0; done < bytes.size();) {
       const ssize_t now = ::write(input_, bytes.data() + done, bytes.size() - done);
@@ -103,7 +103,7 @@ class VideoFile::Encoder {
     return true;
   }
 
-  // Lets it come to its end: empty, or why it failed.
+  // Waits until ffmpeg has ended. Returns "" or the reason of its failure.
   std::string wait() {
     if (process_ <= 0) return complaint_;
     ::close(input_);
@@ -130,7 +130,7 @@ class VideoFile::Encoder {
                         : std::string("ffmpeg does not start: ") + std::strerror(error));
   }
 
-  void (*old_handler_)(int);  // of writing to a program that has ended
+  void (*old_handler_)(int);  // of SIGPIPE: writing to a program that has ended
   pid_t process_ = -1;
   int input_ = -1;
   int messages_ = -1;
@@ -144,7 +144,7 @@ VideoFile::VideoFile(const std::string& path, const PictureOptions& options)
 
 VideoFile::~VideoFile() = default;
 
-// Frames come evenly: a picture is shown until the next one's time.
+// A movie has evenly spaced frames: the last picture is repeated until the time of the next one.
 void VideoFile::picture(std::int64_t since_ns, const view::Image& image) {
   if (!encoder_) {
     encoder_ = std::make_unique<Encoder>(arguments(formatOf(path_), fresh_.name(), image, options().rate));

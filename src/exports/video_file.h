@@ -10,15 +10,15 @@
 
 namespace fsr::exports {
 
-/// A movie that ffmpeg encodes, by the ending of its name: .mp4, .webm, .mkv, .avi or .gif. It runs in the
-/// recording's own time. ffmpeg is started without a shell and fed through a pipe.
+/// A movie that ffmpeg encodes in real time. The format follows from the name's ending: .mp4, .webm, .mkv,
+/// .avi or .gif. ffmpeg is started without a shell and reads the pictures from a pipe.
 class VideoFile : public PictureSink {
  public:
   /// Throws InputError for another ending.
   VideoFile(const std::string& path, const PictureOptions& options);
   ~VideoFile() override;
 
-  /// Throws InputError, with the last line that ffmpeg said, where it failed, and where it is not installed.
+  /// Throws InputError if ffmpeg is not installed, or if it fails: then with the last line of its messages.
   void finish() override;
 
  private:

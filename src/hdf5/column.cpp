@@ -7,8 +7,8 @@ namespace fsr::hdf5 {
 
 namespace {
 
-constexpr std::size_t kChunk = 1 << 16;         // [bytes]; a column holds back as much
-constexpr std::size_t kLargestEntry = 1 << 28;  // that is read [bytes]; a claim alone must make no room
+constexpr std::size_t kChunk = 1 << 16;         // [bytes]; a column buffers as much
+constexpr std::size_t kLargestEntry = 1 << 28;  // that is read [bytes]; a damaged file may claim more
 constexpr unsigned kDeflate = 4;                // level
 
 std::vector<hsize_t> dimensions(std::size_t entries, const std::vector<std::size_t>& shape) {
@@ -17,7 +17,7 @@ std::vector<hsize_t> dimensions(std::size_t entries, const std::vector<std::size
   return all;
 }
 
-// Columns are written and read chunk by chunk: HDF5's own megabyte of cache for each would be for nothing.
+// Columns are written and read chunk by chunk, so HDF5's own cache of a megabyte each is not needed.
 hid_t accessPlan() {
   const hid_t plan = H5Pcreate(H5P_DATASET_ACCESS);
   H5Pset_chunk_cache(plan, 7, 4 * kChunk, 1.0);
@@ -31,7 +31,7 @@ hid_t makeDataset(hid_t file, const ColumnPlan& plan, hid_t type, std::size_t ch
   const int rank = static_cast<int>(none.size());
   const Handle space(H5Screate_simple(rank, none.data(), any.data()), H5Sclose, plan.path);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, plan.path);
-  require(H5Pset_obj_track_times(creation, false), plan.path);  // the same content, the same bytes
+  require(H5Pset_obj_track_times(creation, false), plan.path);  // so that equal content gives equal bytes
   require(H5Pset_chunk(creation, rank, chunk.data()), plan.path);
   require(H5Pset_shuffle(creation), plan.path);
   require(H5Pset_deflate(creation, kDeflate), plan.path);
@@ -48,7 +48,7 @@ std::size_t chunkEntries(std::size_t entry_size) {
   return std::max<std::size_t>(1, kChunk / entry_size);
 }
 
-// The file's own type for texts, the asked for one for numbers.
+// The file's own type for texts, the requested type for numbers.
 hid_t readType(hid_t dataset, hid_t wanted) {
   if (wanted != 0) return H5Tcopy(wanted);
   const hid_t type = H5Dget_type(dataset);
@@ -125,7 +125,7 @@ void ColumnWriter::appendText(std::string_view text) {
   if (waiting_.size() == chunk_entries_ * entry_size_) flush();
 }
 
-// Whole chunks only, but for the last: none is compressed twice.
+// Writes whole chunks only, except the last, so that none is compressed twice.
 void ColumnWriter::flush() {
   const std::size_t entries = waiting_.size() / entry_size_;
   if (entries == 0) return;

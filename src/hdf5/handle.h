@@ -1,7 +1,7 @@
 #pragma once
 
-// What files that speak to HDF5 share; sources include it, other headers do not, so that nobody else needs
-// HDF5's own header.
+// Shared code of the sources that call HDF5. No other header includes this one, so that nothing else depends
+// on HDF5's own header.
 
 #include <hdf5.h>
 
@@ -22,9 +22,9 @@ inline std::mutex& hdf5Mutex() {
   return mutex;
 }
 
-// To be called before anything else of HDF5. Errors become exceptions, not text on stderr. And nothing is
-// left to HDF5 at exit: it would flush once more a file that a full disk left half-written, and crash
-// (HDF5 1.10).
+// Call it before any other function of HDF5. It makes errors silent, since this package throws exceptions for
+// them. It also disables HDF5's work at exit: HDF5 1.10 would flush a file that a full disk left
+// half-written, and crash.
 inline void openLibrary() {
   static const herr_t nothing_at_exit = H5dont_atexit();
   static_cast<void>(nothing_at_exit);

@@ -24,7 +24,7 @@ hid_t openFile(const std::string& path) {
 
 Reader::Reader(const std::string& path)
     : lock_(hdf5Mutex()), file_(openFile(path)), size_(std::filesystem::file_size(path)) {
-  if (file_ < 0) throw settings::InputError("what follows its first 512 bytes is no HDF5 file");
+  if (file_ < 0) throw settings::InputError("what follows its first 512 bytes is not an HDF5 file");
 }
 
 Reader::~Reader() {
@@ -89,7 +89,7 @@ std::vector<std::size_t> Reader::shape(const std::string& path) const {
   return {size.begin(), size.end()};
 }
 
-// Shapes are claims; nothing is compressed, so that values need at least a byte each in the file.
+// A file may claim any shape. Nothing is compressed, so each value takes at least a byte of the file.
 void Reader::requireRoom(const std::string& path, const std::vector<std::size_t>& shape,
                          std::size_t bytes) const {
   std::size_t left = size_ / std::max<std::size_t>(bytes, 1);

@@ -8,9 +8,9 @@
 
 namespace fsr::hdf5 {
 
-/// Reads what Writer writes, piece by piece from the file. Every function throws InputError that
-/// names the object where it is missing or of another shape, or claims more values than the file has bytes:
-/// what is read takes at most eight times the file's size.
+/// Reads files of Writer, piece by piece. Every function throws InputError, which names the object, where it
+/// is missing, has another shape, or claims more values than the file has bytes. So the values read take at
+/// most eight times the file's size.
 class Reader {
  public:
   explicit Reader(const std::string& path);
@@ -18,13 +18,13 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  /// Whether there is a group or dataset of this path, whose parent must be there.
+  /// Whether there is a group or dataset at this path. Its parent must exist.
   bool has(const std::string& path) const;
   std::string text(const std::string& path, const std::string& attribute) const;
   std::vector<double> numbers(const std::string& path, const std::string& attribute, std::size_t size) const;
   std::uint64_t integer(const std::string& path, const std::string& attribute) const;
   std::vector<std::size_t> shape(const std::string& path) const;
-  /// `shape` is what the dataset must have.
+  /// `shape`: the shape that the dataset must have.
   template <typename T>
   std::vector<T> dataset(const std::string& path, const std::vector<std::size_t>& shape) const;
   std::vector<std::string> texts(const std::string& path) const;

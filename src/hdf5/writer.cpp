@@ -15,7 +15,7 @@ inline std::vector<hsize_t> dimensions(const std::vector<std::size_t>& shape) {
   return {shape.begin(), shape.end()};
 }
 
-// Fixed length, padded with zeros: every reader of HDF5 knows it.
+// Fixed length, padded with zeros, which every reader of HDF5 supports.
 hid_t textType(std::size_t length) {
   const hid_t type = H5Tcopy(H5T_C_S1);
   H5Tset_size(type, std::max<std::size_t>(length, 1));
@@ -37,7 +37,7 @@ void writeDataset(hid_t file, const std::string& path, hid_t type, const std::ve
   const std::vector<hsize_t> size = dimensions(shape);
   const Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose, path);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path);
-  require(H5Pset_obj_track_times(creation, false), path);  // the same content, the same bytes
+  require(H5Pset_obj_track_times(creation, false), path);  // so that equal content gives equal bytes
   const Handle dataset(H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
                        H5Dclose, path);
   if (elements(shape) > 0) require(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);

@@ -17,7 +17,7 @@ void addOnce(std::vector<std::size_t>& list, std::size_t value) {
   if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
 }
 
-// Lines are told by their taxels: one that is flagged from end to end.
+// A line fault is a line whose taxels are all flagged.
 void noteLines(const dataset::Recording& recording, const std::vector<std::uint16_t>& flags,
                RecordingHealth& health) {
   const matrix::MatrixSize size = recording.layout.size;

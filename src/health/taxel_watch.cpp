@@ -43,7 +43,7 @@ bool TaxelWatch::observe(const std::uint16_t* counts, double time) noexcept {
   }
   widen(counts);
   ++scans_;
-  // One row a scan: the worst scan costs hardly more than the others.
+  // One row per scan, so that no scan costs much more than the others.
   if (next_row_ == size_.rows) return false;
   const bool changed = judgeRow(next_row_++);
   return (next_row_ == size_.rows && judgeLines()) || changed;
@@ -126,7 +126,7 @@ bool TaxelWatch::flagLine(const Line& line) noexcept {
   return true;
 }
 
-// kDead or kStuck where it holds for the whole line, else 0.
+// kDead or kStuck where the whole line is dead or stuck, else 0.
 std::uint16_t TaxelWatch::lineVerdict(const Line& line) const noexcept {
   std::uint16_t common = kVerdict;
   for (std::size_t i = 0; i < line.count; ++i) common &= flags_[line.first + i * line.step];

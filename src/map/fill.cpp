@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint16_t kNoSource =
     taxel_flag::kDead | taxel_flag::kStuck | taxel_flag::kMasked | taxel_flag::kFilled;
 
-/// Weighted sums over the good neighbours.
+/// Weighted sums over the valid neighbours.
 struct Sums {
   double weight = 0;
   double pressure = 0;  // [Pa]

@@ -20,7 +20,7 @@ void requireOneSize(const PressureMap& map, const Region& region, const std::vec
                              matrix::sizeText(map.layout.size));
 }
 
-/// Area-weighted sums over the contact.
+/// Area-weighted sums over the contact area.
 struct ContactSums {
   double area = 0;      // [m^2]
   double force = 0;     // [N]
@@ -69,7 +69,7 @@ RegionStatistics regionStatistics(const PressureMap& map, const Region& region,
       continue;
     }
     if ((map.flags[i] & taxel_flag::kSaturated) != 0) ++result.saturated;
-    if (!(pressure <= result.peak)) {  // the first reading, too
+    if (!(pressure <= result.peak)) {  // true for the first reading, when peak is NaN
       result.peak = pressure;
       result.peak_taxel = {i};
     }

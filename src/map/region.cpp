@@ -4,7 +4,7 @@
 #include <set>
 #include <sstream>
 
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
 
 namespace fsr::map {
 
@@ -23,7 +23,7 @@ AlarmOptions readAlarm(const settings::Settings& owner) {
   return alarm;
 }
 
-// First and last index of `key`, or all of them where it is left out.
+// First and last index of `key`; the whole range where the key is missing.
 std::pair<int, int> readSpan(const settings::Settings& settings, const std::string& key, int count) {
   if (!settings.has(key)) return {0, count - 1};
   const std::vector<double> span = settings.numbers(key, {0, double(count - 1)});

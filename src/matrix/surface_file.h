@@ -3,11 +3,11 @@
 #include <string>
 
 #include "fsr_pressure_map/matrix/curvature.h"
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
 
 namespace fsr::matrix {
 
-/// Tightest bend that a surface may have: 10 mm radius.
+/// Largest curvature of a surface: a radius of 10 mm.
 constexpr double kMaxCurvature = 100.0;  // [1/m]
 
 /// Reads a surface file (config/surfaces/*.yaml). Forms:
@@ -18,11 +18,11 @@ constexpr double kMaxCurvature = 100.0;  // [1/m]
 ///       axis: y         # x or y       y: -3.0                      y: [...]   # optional
 ///       side: outside   # or inside    xy: 0.0                      xy: [...]  # optional
 ///
-/// or `flat: true`. A cylinder with its axis along y bends the rows (curvature x); `inside` makes it
-/// negative. `deviation` [1/m] is optional. `size` checks the number of values in a `taxels` form.
-/// Throws InputError; readSurface() leaves keys of its caller's alone, readSurfaceFile() refuses them.
+/// or `flat: true`. A cylinder with its axis along y bends the rows (curvature x); `inside` makes the
+/// curvature negative. `deviation` [1/m] is optional. `size`: the number of values that a `taxels` form must
+/// have. Throws InputError. readSurface() ignores other keys of the caller, readSurfaceFile() refuses them.
 Surface readSurface(const settings::Settings& settings, MatrixSize size);
-/// Whether the settings hold a form, and not a name alone.
+/// Whether the settings contain one of these forms and not only a name.
 bool hasSurfaceForm(const settings::Settings& settings);
 Surface readSurfaceFile(const std::string& path, MatrixSize size);
 

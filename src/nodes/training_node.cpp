@@ -7,6 +7,6 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "training");
   return fsr_ros::runNode([] {
     const fsr_ros::TrainingServer server(ros::NodeHandle{}, ros::NodeHandle{"~"});
-    ros::MultiThreadedSpinner(2).spin();  // gathering goes on while ~train works
+    ros::MultiThreadedSpinner(2).spin();  // messages are collected while ~train runs
   });
 }

@@ -10,7 +10,7 @@ void BoardGate::doubt() {
   until_ = 0;
 }
 
-// A host's time that went back is as good as patience at its end: nothing may wait for ever.
+// Where the host's time went backwards, the wait ends too: no scan may be held for ever.
 BoardGate::Verdict BoardGate::scan(std::int64_t time) {
   if (until_ != 0) {
     if (time < until_ && time >= until_ - settling_) return Verdict::kHold;

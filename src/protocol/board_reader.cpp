@@ -9,16 +9,16 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-// How long a read waits at most, and with it the destructor.
+// Longest wait of a read, and so of the destructor.
 constexpr std::chrono::milliseconds kReadTimeout(100);
 constexpr std::size_t kBufferSize = 16384;  // [bytes]: more than a pseudo-terminal or USB driver holds back
 
-// The kernel keeps 64 KB for a port, 0.2 s of 16 x 10 taxels at 1 kHz; what comes while nobody reads is lost.
-// So the reading thread goes before others where the system lets it (as root, or with RLIMIT_NICE; -20 to
-// 19).
+// The kernel keeps 64 KB for a port, which is 0.2 s of 16 x 10 taxels at 1 kHz; what comes while nobody reads
+// is lost. So the reading thread takes a higher priority (-20 to 19) where the system permits it: as root, or
+// with RLIMIT_NICE.
 constexpr int kNiceness = -10;
 
-void goBeforeOthers() {
+void raisePriority() {
   ::setpriority(PRIO_PROCESS, 0, kNiceness);  // on Linux: of the calling thread
 }
 
@@ -32,7 +32,8 @@ BoardReader::BoardReader(Open open, LinkHandler& handler, const Options& options
     : open_(std::move(open)),
       handler_(handler),
       options_(options),
-      decoder_(handler),
+      guard_(handler),
+      decoder_(options.make_decoder(guard_)),
       capture_(captureTo(options.capture_file)),
       buffer_(kBufferSize),
       last_byte_(SteadyClock::now()),
@@ -64,7 +65,7 @@ LinkReport BoardReader::report() const {
 }
 
 void BoardReader::run() {
-  goBeforeOthers();
+  raisePriority();
   while (true) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -80,11 +81,12 @@ void BoardReader::run() {
   }
 }
 
-// One connection, from opening to whatever ends it, and the pause behind it.
+// One connection, from opening to its end, and the pause behind it. What the handler throws does not come
+// here: guard_ catches it.
 void BoardReader::connect() {
   try {
     const std::unique_ptr<ByteSource> source = open_();
-    handler_.onOpen(source->baud());
+    guard_.run("preparing for a new connection", [&] { handler_.onOpen(source->baud()); });
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       ++report_.connections;
@@ -92,12 +94,12 @@ void BoardReader::connect() {
     }
     keeping([&] { capture_->noteBaud(source->baud()); });
     readAll(*source);
-    decoder_.finish();
+    finishStream();
     if (!source->ended()) return;
     change(LinkPhase::kEnded, source->remark());
     pause(std::nullopt);
   } catch (const std::exception& error) {
-    decoder_.finish();
+    finishStream();
     change(LinkPhase::kWaiting, error.what());
     pause(options_.reconnect_delay);
   }
@@ -116,16 +118,28 @@ void BoardReader::take(const std::uint8_t* bytes, const Chunk& chunk) {
   change(time_runs ? LinkPhase::kReading : LinkPhase::kNoTime, "");
   if (time_runs) {
     keeping([&] { capture_->write(bytes, chunk.size, chunk.receive_time); });
-    handler_.onBytes(chunk.receive_time);
-    decoder_.feed(bytes, chunk.size);
+    decode(bytes, chunk);
   }
-  const std::lock_guard<std::mutex> lock(mutex_);
-  report_.counts = decoder_.counts();
-  if (time_runs && capture_) report_.captured_bytes += chunk.size;
-  last_byte_ = SteadyClock::now();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    report_.counts = decoder_->counts();
+    if (time_runs && capture_) report_.captured_bytes += chunk.size;
+    last_byte_ = SteadyClock::now();
+  }
+  reportFaults();
 }
 
-// Reading matters more than keeping: a full disk ends the capture, not the link.
+void BoardReader::decode(const std::uint8_t* bytes, const Chunk& chunk) {
+  guard_.run("noting the arrival of bytes", [&] { handler_.onBytes(chunk.receive_time); });
+  guard_.run("decoding", [&] { decoder_->feed(bytes, chunk.size); });
+}
+
+void BoardReader::finishStream() {
+  guard_.run("decoding", [&] { decoder_->finish(); });
+  reportFaults();
+}
+
+// A full disk ends the capture, not the link.
 void BoardReader::keeping(const std::function<void()>& write) {
   if (!capture_) return;
   try {
@@ -144,7 +158,25 @@ void BoardReader::change(LinkPhase phase, const std::string& reason) {
     report_.phase = phase;
     report_.reason = reason;
   }
-  handler_.onChange(report());
+  tellChange();
+}
+
+void BoardReader::tellChange() {
+  guard_.run("reporting the state of the link", [&] { handler_.onChange(report()); });
+  reportFaults();
+}
+
+// The handler is told of its first fault only: a handler that fails on every scan would fill the log.
+void BoardReader::reportFaults() {
+  if (reported_faults_ == guard_.faults()) return;
+  const bool first = reported_faults_ == 0;
+  reported_faults_ = guard_.faults();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    report_.handler_faults = guard_.faults();
+    report_.handler_complaint = guard_.complaint();
+  }
+  if (first) tellChange();
 }
 
 bool BoardReader::wanted() const {
@@ -152,7 +184,7 @@ bool BoardReader::wanted() const {
   return enabled_ && !stopping_;
 }
 
-// Until the link is wanted otherwise, at most for `longest` where that is given.
+// Until the link is enabled, disabled or destroyed, at most for `longest` where that is given.
 void BoardReader::pause(std::optional<std::chrono::milliseconds> longest) {
   std::unique_lock<std::mutex> lock(mutex_);
   const auto woken = [this] { return stopping_ || toggled_; };

@@ -10,14 +10,14 @@
 
 namespace fsr::protocol {
 
-/// A capture keeps the raw bytes of a link with the times at which they came, so that a replay goes
-/// through the same decoder and the same clock filter as the live bytes did. The file, little endian:
+/// A capture file stores the raw bytes of a link with their receive times. A replay goes through the same
+/// decoder and the same clock filter as the live bytes did. The file, little endian:
 ///
 ///     offset  bytes
 ///          0      8  "FSRCAP01"
 ///          8      4  baud of the line [1/s]; 0 = none
 ///         12      4  reserved, 0
-///     then, once for each chunk of bytes that came together:
+///     then for each chunk of bytes that were received together:
 ///          0      8  receive time, signed [ns]
 ///          8      4  number n of bytes, 1 to 65,536
 ///         12      n  the bytes
@@ -28,17 +28,17 @@ constexpr std::size_t kChunkHeader = 12;
 constexpr std::size_t kMaxChunk = 65536;
 }  // namespace capture
 
-/// Writes a capture. Each chunk reaches the system with one call, so that a killed process leaves at
-/// most its last chunk cut short.
+/// Writes a capture. Each chunk is written with one system call, so that a killed process leaves at most its
+/// last chunk incomplete.
 class CaptureWriter {
  public:
-  /// Throws InputError where the file cannot be made or is there already: nothing is overwritten.
+  /// Throws InputError where the file cannot be created or exists already.
   explicit CaptureWriter(const std::string& path);
   ~CaptureWriter();
   CaptureWriter(const CaptureWriter&) = delete;
   CaptureWriter& operator=(const CaptureWriter&) = delete;
 
-  /// Notes the baud of the line [1/s] in the file's header. Throws LinkError.
+  /// Writes the baud of the line [1/s] to the file's header. Throws LinkError.
   void noteBaud(std::uint32_t baud);
 
   /// `size` is 1 to kMaxChunk [bytes], `receive_time` [ns]. Throws LinkError, e.g. where the disk is full.
@@ -51,17 +51,17 @@ class CaptureWriter {
   int descriptor_ = -1;
 };
 
-/// Reads a capture back, as fast as it is asked for, with the times of the file.
+/// Reads a capture without waiting, with the receive times of the file.
 class CaptureReader : public ByteSource {
  public:
-  /// Throws InputError where there is no such file or it is no capture.
+  /// Throws InputError where the file cannot be read or is no capture.
   explicit CaptureReader(const std::string& path);
 
   Chunk read(std::uint8_t* buffer, std::size_t capacity, std::chrono::milliseconds timeout) override;
   std::uint32_t baud() const override { return baud_; }
   bool ended() const override { return ended_; }
 
-  /// Where and how the file is cut short or damaged; what stands before that was delivered.
+  /// Where and how the file is incomplete or damaged. Everything before that place was delivered.
   std::string remark() const override { return damage_; }
 
  private:
@@ -69,7 +69,7 @@ class CaptureReader : public ByteSource {
 
   std::string path_;
   std::ifstream file_;
-  std::uint64_t offset_ = 0;  // of what is read next [bytes]
+  std::uint64_t offset_ = 0;  // in the file [bytes]
   std::uint32_t baud_ = 0;
   std::vector<std::uint8_t> chunk_;
   std::size_t delivered_ = 0;  // of chunk_
@@ -78,8 +78,8 @@ class CaptureReader : public ByteSource {
   std::string damage_;
 };
 
-/// Gives the bytes of another source out in step with a clock: as far apart as their receive times,
-/// which are shifted so that the first bytes come now.
+/// Delivers the bytes of another source at the pace of a clock, with the same intervals as their receive
+/// times. The receive times are shifted so that the first bytes come now.
 class PacedSource : public ByteSource {
  public:
   PacedSource(std::unique_ptr<ByteSource> source, HostClock now);

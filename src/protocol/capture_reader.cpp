@@ -17,7 +17,7 @@ std::uint64_t get(const std::uint8_t* at, int bytes) {
   return value;
 }
 
-// How many of `size` bytes were there.
+// Returns the number of bytes read, up to `size`.
 std::size_t readUpTo(std::ifstream& file, std::uint8_t* bytes, std::size_t size) {
   file.read(reinterpret_cast<char*>(bytes), static_cast<std::streamsize>(size));
   return static_cast<std::size_t>(file.gcount());
@@ -46,7 +46,7 @@ Chunk CaptureReader::read(std::uint8_t* buffer, std::size_t capacity, std::chron
   return {size, receive_time_};
 }
 
-// False at the end of the file or of what is whole of it.
+// False at the end of the file, or at the place where it is damaged.
 bool CaptureReader::nextChunk() {
   delivered_ = 0;
   chunk_.clear();
@@ -87,7 +87,7 @@ Chunk PacedSource::read(std::uint8_t* buffer, std::size_t capacity, std::chrono:
   return {size, held_.receive_time};
 }
 
-// Sleeps in short steps, since the clock may run faster than the host's own.
+// Sleeps in short steps, because the clock may run faster than the host's.
 bool PacedSource::due(std::chrono::milliseconds timeout) const {
   constexpr std::chrono::nanoseconds kStep = std::chrono::milliseconds(5);
   const auto give_up = std::chrono::steady_clock::now() + timeout;

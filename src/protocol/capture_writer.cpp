@@ -55,9 +55,9 @@ void CaptureWriter::write(const std::uint8_t* bytes, std::size_t size, std::int6
 
 void CaptureWriter::check(std::int64_t written, std::size_t size) const {
   if (written == static_cast<std::int64_t>(size)) return;
-  if (written >= 0) errno = ENOSPC;  // only a part went in
+  if (written >= 0) errno = ENOSPC;  // only a part was written
   throw LinkError("capture " + path_ + " cannot be continued (" + std::strerror(errno) +
-                  "): what it holds so far is good");
+                  "): what was written so far can be used");
 }
 
 }  // namespace fsr::protocol

@@ -13,14 +13,14 @@ void DelayEnvelope::clear() {
 
 void DelayEnvelope::add(double x, double y) {
   const Arrival arrival = {x, y};
-  if (used_ > 0 && x < slot_end_ - slot_) return;  // keeps the slots in order of time
+  if (used_ > 0 && x < slot_end_ - slot_) return;  // older than the newest slot
   if (used_ == 0 || x >= slot_end_) {
     openSlot(x);
     lowest_[used_++] = arrival;
   } else if (height(arrival) < height(lowest_[used_ - 1])) {
     lowest_[used_ - 1] = arrival;
   } else {
-    return;  // nothing new below
+    return;  // the slot has a lower arrival
   }
   fit();
 }

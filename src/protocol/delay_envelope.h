@@ -5,25 +5,25 @@
 
 namespace fsr::protocol {
 
-/// host time - device time as a straight line of device time, found from arrivals that were delayed by
-/// an unknown amount, never by less than nothing: the line that no arrival undercuts and that touches
-/// the lower convex hull of the arrivals where the window's middle lies (Moon, Skelton and Towsley,
-/// "Estimation and removal of clock skew from network delay measurements", INFOCOM 1999; of all lines
-/// below the points that one is the nearest to them on the whole). An average would follow the load of
-/// the USB bus; the envelope follows the few arrivals that were not held up.
+/// (Host time - device time) as a linear function of device time, estimated from arrivals with unknown delays
+/// of zero or more. No arrival lies below the line, and the line touches the lower convex hull of the
+/// arrivals in the middle of the window. Of all lines below the points this one has the smallest sum of
+/// distances to them (Moon, Skelton and Towsley, "Estimation and removal of clock skew from network delay
+/// measurements", INFOCOM 1999). An average would depend on the load of the USB bus; the envelope depends on
+/// the few arrivals that were not delayed.
 ///
-/// The window holds the lowest arrival of each of 64 slots. A slot starts short, so that the line is
-/// good within a second, and doubles up to `max_slot` as the run goes on. Bounded memory, no allocation.
+/// The window contains the lowest arrival of each of 64 slots. A slot is short at first, so that the line is
+/// good within a second, and doubles up to `max_slot`. Memory is bounded and nothing is allocated.
 class DelayEnvelope {
  public:
-  /// `max_slot` [s]: the window is 64 times this. `max_drift`: largest difference of the clocks' rates
-  /// that is believed (ratio).
+  /// `max_slot` [s]: the window is 64 times as long. `max_drift`: largest accepted difference of the clocks'
+  /// rates (ratio).
   DelayEnvelope(double max_slot, double max_drift) : max_slot_(max_slot), max_drift_(max_drift) {}
 
   void clear();
 
-  /// An arrival at device time `x` [s] whose host time is `y` [s] later. One that is older than the
-  /// newest slot is left aside.
+  /// Adds an arrival at device time `x` [s] whose host time is `y` [s] later. One that is older than the
+  /// newest slot is ignored.
   void add(double x, double y);
 
   bool empty() const { return used_ == 0; }

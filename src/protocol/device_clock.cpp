@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kSecond = 1e9;  // [ns]
 
-// Difference of two counters that may lie either way round.
+// Signed difference of two counters.
 std::int64_t difference(std::uint64_t a, std::uint64_t b) {
   return static_cast<std::int64_t>(a - b);
 }
@@ -47,7 +47,7 @@ void DeviceClock::learn(double x, double y) {
 std::int64_t DeviceClock::hostTime(std::uint64_t device_time) const {
   const double x = secondsSinceStart(device_time);
   const double delay = options_.host_ticks ? trimmed_.value() : envelope_.at(x);
-  // The large parts are added as integers: a double holds 1e9 s to a tenth of a microsecond only.
+  // The large parts are added as integers, because a double resolves 1e9 s to a tenth of a microsecond only.
   return start_host_ + difference(device_time, start_device_) * 1000 + std::llround(delay * kSecond);
 }
 
@@ -66,7 +66,7 @@ std::uint64_t DeviceClock::widen(std::uint32_t device_time) const {
   return wide >= 0 ? static_cast<std::uint64_t>(wide) : device_time;
 }
 
-// How much later than the estimate allows at best [s].
+// How much later the packet is than the estimate for an undelayed one [s].
 double DeviceClock::lateness(std::uint64_t device_time, std::int64_t arrival) const {
   return static_cast<double>(arrival - hostTime(device_time)) / kSecond;
 }
@@ -93,10 +93,10 @@ void DeviceClock::start(std::uint64_t device_time, std::int64_t arrival) {
 
 std::int64_t StampSequence::next(std::int64_t host_time, std::uint64_t device_time) {
   constexpr std::int64_t kTimeWentBack = 1'000'000'000;  // [ns]
-  constexpr std::int64_t kLeastStep = 1'000;             // [ns]: what every reader of a bag can tell apart
+  constexpr std::int64_t kLeastStep = 1'000;             // [ns]: every reader of a bag can resolve it
   if (started_ && host_time > stamp_ - kTimeWentBack) {
     const std::int64_t elapsed = difference(device_time, device_time_) * 1000;
-    // A pause or a reset of the board is no spacing to keep.
+    // After a pause or a reset of the board the spacing is not kept.
     const std::int64_t spacing = elapsed > 0 && elapsed < kTimeWentBack ? elapsed / 2 : 0;
     host_time = std::max(host_time, stamp_ + std::max(spacing, kLeastStep));
   }

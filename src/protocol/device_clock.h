@@ -7,45 +7,47 @@
 
 namespace fsr::protocol {
 
-/// Every default of the clock.
+/// Options of the clock.
 struct DeviceClockOptions {
-  bool host_ticks = false;    ///< host times come from a simulated clock that ticks: see TrimmedDelay
-  double max_slot = 2;        ///< the estimate looks back over 64 of these [s]
-  double max_drift = 0.02;    ///< of the board's oscillator: RC 2 %, ceramic 0.5 %, quartz 0.01 % (ratio)
-  double early_limit = 0.5;   ///< a packet earlier than possible by more than this: a clock jumped [s]
-  double late_limit = 1.0;    ///< a packet later than this is late for a reason other than jitter [s]
-  double late_patience = 5;   ///< when all packets have been that late for this long, a clock jumped [s]
-  double backward_limit = 1;  ///< device time may step back by this between packets of two types [s]
+  bool host_ticks =
+      false;            ///< host times come from a simulated clock that advances in ticks, see TrimmedDelay
+  double max_slot = 2;  ///< the estimate uses the last 64 of these [s]
+  double max_drift = 0.02;  ///< largest of a board's oscillator: RC 2 %, ceramic 0.5 %, quartz 0.01 % (ratio)
+  double early_limit =
+      0.5;  ///< a packet that is earlier than possible by more than this shows that a clock jumped [s]
+  double late_limit = 1.0;    ///< a packet that is later than this is late for another reason than jitter [s]
+  double late_patience = 5;   ///< if all packets are that late for this long, a clock jumped [s]
+  double backward_limit = 1;  ///< device time may be this much smaller in a packet of another type [s]
 };
 
-/// Maps a board's clock to the host's: widens the board's 32 bits of microseconds to 64, and estimates
-/// the offset and the slow drift between the clocks from the arrivals of the packets.
+/// Converts the board's clock to the host's. It extends the board's 32 bits of microseconds to 64, and
+/// estimates the offset and the slow drift between the clocks from the arrivals of the packets.
 ///
-/// What delays a packet (USB frames, buffers, the scheduler) only ever delays it, so the estimate is the
-/// lower envelope of the arrivals, see DelayEnvelope. The delay that is known, e.g. the bytes' own time on
-/// the line, is taken off before. What remains is the smallest delay that the link ever has, below a
-/// millisecond on USB, as a constant that no observer at this end can see.
+/// USB frames, buffers and the scheduler can delay a packet but never make it early. So the estimate is the
+/// lower envelope of the arrivals, see DelayEnvelope. The known part of the delay, e.g. the bytes' own time
+/// on the line, is subtracted first. The smallest delay of the link, below a millisecond on USB, remains as a
+/// constant error, which the host cannot observe.
 ///
-/// Under a simulated clock that ticks, arrivals look up to a tick too early: host times are then early by
-/// about half a tick, all alike, and as evenly spaced as the board made them.
+/// Under a simulated clock that advances in ticks, arrivals seem up to a tick too early. Host times are then
+/// early by about half a tick, all by the same amount, and have the even spacing of the board.
 class DeviceClock {
  public:
   explicit DeviceClock(const DeviceClockOptions& options = {});
 
-  /// Takes in a packet that the board stamped `device_time` [us, 32 bit] and that was here at `receive_time`
-  /// [host, ns]; `known_delay` [ns] of what lies between is known. Returns the device time in 64 bits [us].
-  /// A reset of the board or a jump of either clock starts the estimate anew.
+  /// Adds a packet that the board stamped `device_time` [us, 32 bit] and that arrived at `receive_time`
+  /// [host, ns]. `known_delay`: known part of its delay [ns]. Returns the device time in 64 bits [us]. A
+  /// reset of the board or a jump of either clock restarts the estimate.
   std::uint64_t observe(std::uint32_t device_time, std::int64_t receive_time, std::int64_t known_delay);
 
   bool started() const { return started_; }
 
-  /// The 64-bit device time [us] next to the newest one observed; takes nothing in.
+  /// The 64-bit device time [us] that is closest to the newest one observed. Does not change the estimate.
   std::uint64_t widen(std::uint32_t device_time) const;
 
-  /// Host time [ns] of a device time [us, 64 bit]; needs one observe().
+  /// Host time [ns] of a device time [us, 64 bit]. Needs one observe() before.
   std::int64_t hostTime(std::uint64_t device_time) const;
 
-  /// A new connection: the next packet starts the estimate, and no jump is counted.
+  /// Call it at a new connection: the next packet restarts the estimate, and no jump is counted.
   void forget();
 
   std::uint64_t jumps() const { return jumps_; }
@@ -60,24 +62,23 @@ class DeviceClock {
   void learn(double x, double y);
 
   DeviceClockOptions options_;
-  DelayEnvelope envelope_;  // one of the two is in use
+  DelayEnvelope envelope_;  // one of the two is used
   TrimmedDelay trimmed_;
   bool started_ = false;
   std::uint64_t newest_ = 0;        // device time [us]
   std::uint64_t start_device_ = 0;  // origin of the envelope's x [us]
-  std::int64_t start_host_ = 0;     // host time of that origin, give or take a delay [ns]
+  std::int64_t start_host_ = 0;     // approximate host time of that origin [ns]
   std::int64_t late_since_ = 0;     // arrival of the first of a run of late packets [ns]
   bool late_ = false;
   std::uint64_t jumps_ = 0;
 };
 
-/// Makes the stamps of one topic strictly increasing: where a better estimate of the clock would set
-/// the stamps back, they catch up by running at half the device's speed instead.
+/// Makes the stamps of one topic strictly increasing. Where a better estimate of the clock would make a stamp
+/// earlier than the last one, the stamps advance at half the device's speed until they fit.
 class StampSequence {
  public:
-  /// The stamp [ns] for a packet that maps to `host_time` [ns] and was made at `device_time` [us, 64 bit].
-  /// Goes back only where the host's time itself went back by more than a second (set clock, restarted
-  /// simulation).
+  /// The stamp [ns] of a packet with `host_time` [ns] and `device_time` [us, 64 bit]. It decreases only where
+  /// the host's time itself went backwards by more than a second (clock set, simulation restarted).
   std::int64_t next(std::int64_t host_time, std::uint64_t device_time);
 
  private:

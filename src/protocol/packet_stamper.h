@@ -4,42 +4,41 @@
 #include <cstdint>
 
 #include "fsr_pressure_map/protocol/packet.h"
-#include "fsr_pressure_map/protocol/wire.h"
 #include "protocol/device_clock.h"
 
 namespace fsr::protocol {
 
-/// When a packet's content was true.
+/// Time of a packet's content.
 struct PacketTime {
   std::int64_t stamp = 0;         ///< host time [ns], strictly increasing for each type of packet
   std::uint64_t device_time = 0;  ///< the board's clock at the stamp [us]
 };
 
-/// Stamps packets: knows the line's speed and the arrival of the bytes at hand, keeps the board's clock.
+/// Computes the stamps of packets from the line's speed, the arrival of the bytes and the board's clock.
 class PacketStamper {
  public:
   explicit PacketStamper(const DeviceClockOptions& options = {}) : clock_(options) {}
 
-  /// A new connection over a line of `baud` [1/s]; 0 = bytes take no time.
+  /// Starts a new connection over a line of `baud` [1/s]; 0 = the time of the bytes is negligible.
   void startLine(std::uint32_t baud);
-  /// The packets that follow were complete at `receive_time` [host, ns].
+  /// Sets the arrival of the packets that follow, `receive_time` [host, ns].
   void setArrival(std::int64_t receive_time) { receive_time_ = receive_time; }
 
-  /// `duration` of the scan [us]. A board sends a scan after its last taxel at the earliest, so half of it
-  /// lies between the middle of the scan and the arrival, beside the bytes' own time on the line.
+  /// `duration` of the scan [us]. A board sends a scan after its last taxel at the earliest. So half of the
+  /// duration lies between the middle of the scan and its arrival, in addition to the time on the line.
   PacketTime scan(const PacketHeader& header, std::uint32_t duration);
   PacketTime transducer(const PacketHeader& header);
-  /// Teaches the clock nothing: a temperature may be sent long after it was taken.
+  /// Does not update the clock, because a temperature may be sent long after it was measured.
   PacketTime temperature(const PacketHeader& header);
 
   const DeviceClock& clock() const { return clock_; }
 
  private:
   std::int64_t timeOnTheLine(std::size_t bytes) const;
-  PacketTime finish(unsigned type, std::uint64_t device_time);
+  PacketTime finish(PacketType type, std::uint64_t device_time);
 
   DeviceClock clock_;
-  std::array<StampSequence, 3> sequences_;  // by type, from FSR_WIRE_SCAN on
+  std::array<StampSequence, 3> sequences_;  // by PacketType
   std::uint32_t baud_ = 0;
   std::int64_t receive_time_ = 0;
 };

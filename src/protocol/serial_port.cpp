@@ -14,7 +14,7 @@
 
 namespace fsr::protocol {
 
-// Any rate, in serial_speed.cpp. False with errno set on failure.
+// Sets any rate; in serial_speed.cpp. False, with errno set, on failure.
 bool setUnnamedSpeed(int descriptor, std::uint32_t baud);
 
 namespace {
@@ -23,13 +23,13 @@ std::string reason(int error) {
   return std::strerror(error);
 }
 
-// The slave side of a pseudo-terminal, reached by whatever link.
+// Whether this is the slave side of a pseudo-terminal, also where it was opened through a link.
 bool isPseudoTerminal(int descriptor) {
   char name[64] = "";
   return ttyname_r(descriptor, name, sizeof(name)) == 0 && std::strncmp(name, "/dev/pts/", 9) == 0;
 }
 
-// TIOCEXCL keeps other users out, the lock also other programs of the superuser that ask for it.
+// TIOCEXCL excludes other users; the lock also excludes programs of the superuser that use it.
 bool claim(int descriptor) {
   return flock(descriptor, LOCK_EX | LOCK_NB) == 0 && ioctl(descriptor, TIOCEXCL) == 0;
 }
@@ -46,7 +46,7 @@ bool makeRaw(int descriptor) {
   return tcsetattr(descriptor, TCSANOW, &settings) == 0;
 }
 
-// By name where the rate has one, because every program then reads the same rate back.
+// Uses the named rate where there is one, so that every program reads the same rate back.
 bool setSpeed(int descriptor, std::uint32_t baud) {
   termios settings{};
   if (tcgetattr(descriptor, &settings) != 0) return false;
@@ -76,13 +76,13 @@ SerialPort::~SerialPort() {
 void SerialPort::configure(std::uint32_t baud) {
   if (isatty(descriptor_) == 0) throw LinkError(explainOpenError(path_, ENOTTY));
   if (!claim(descriptor_)) throw LinkError(explainOpenError(path_, EBUSY));
-  if (!makeRaw(descriptor_)) fail("does not take raw mode");
+  if (!makeRaw(descriptor_)) fail("does not accept raw mode");
   if (baud != 0 && !setSpeed(descriptor_, baud)) {
-    fail("does not take " + std::to_string(baud) + " baud: set serial_baud to the board's own rate");
+    fail("does not accept " + std::to_string(baud) + " baud: set serial_baud to the board's own rate");
   }
   if (!isPseudoTerminal(descriptor_)) baud_ = baud;
   tcflush(descriptor_,
-          TCIFLUSH);  // bytes that waited here since before the port was opened have no honest time
+          TCIFLUSH);  // the arrival of bytes from before the port was opened is unknown
 }
 
 void SerialPort::fail(const std::string& what) const {
@@ -97,7 +97,7 @@ Chunk SerialPort::read(std::uint8_t* buffer, std::size_t capacity, std::chrono::
   const ssize_t size = ::read(descriptor_, buffer, capacity);
   if (size > 0) return {static_cast<std::size_t>(size), now_()};
   if (size < 0 && (errno == EAGAIN || errno == EINTR)) return {};
-  if (size == 0) errno = EIO;  // ready, yet empty: the other end is gone
+  if (size == 0) errno = EIO;  // ready but empty: the other end is gone
   fail("was unplugged or switched off");
 }
 

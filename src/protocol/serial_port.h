@@ -8,20 +8,19 @@
 
 namespace fsr::protocol {
 
-/// A serial port in raw mode (8 data bits, no parity, 1 stop bit, no flow control), opened for this
-/// process alone.
+/// A serial port in raw mode (8 data bits, no parity, 1 stop bit, no flow control), opened exclusively.
 class SerialPort : public ByteSource {
  public:
-  /// `baud` [1/s] may be any rate that the hardware can make; 0 leaves the port's speed alone, for boards
-  /// with native USB, whose bytes travel at USB's own speed. Throws LinkError with a sentence that says
-  /// what to do: which ports are there, whose group the user must join, which program holds the port.
+  /// `baud` [1/s] may be any rate that the hardware supports. 0 leaves the port's speed unchanged, for boards
+  /// with native USB, which has its own speed. Throws LinkError with a sentence that says what to do: which
+  /// ports exist, which group the user must join, or that another program has the port open.
   SerialPort(const std::string& path, std::uint32_t baud, HostClock now);
   ~SerialPort() override;
   SerialPort(const SerialPort&) = delete;
   SerialPort& operator=(const SerialPort&) = delete;
 
   Chunk read(std::uint8_t* buffer, std::size_t capacity, std::chrono::milliseconds timeout) override;
-  /// As given; 0 for a pseudo-terminal, which has a speed in name only.
+  /// As given to the constructor; 0 for a pseudo-terminal, whose speed has no meaning.
   std::uint32_t baud() const override { return baud_; }
 
  private:

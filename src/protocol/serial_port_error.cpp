@@ -19,7 +19,7 @@ bool startsWith(const std::string& text, const std::string& start) {
 
 void addEntries(std::vector<std::string>& found, const fs::path& folder, const std::string& start) {
   std::vector<std::string> entries;
-  std::error_code ignored;  // a folder that is not there has no entries
+  std::error_code ignored;  // a missing folder has no entries
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     if (startsWith(entry.path().filename().string(), start)) entries.push_back(entry.path().string());
   }
@@ -49,7 +49,7 @@ std::string groupOf(const std::string& path) {
 }
 
 std::string forbidden(const std::string& path) {
-  // A port of group root is one that udev has not given to the serial users, e.g. inside a container.
+  // A port of group root was not assigned to the serial users by udev, e.g. inside a container.
   const std::string group = groupOf(path) == "root" ? "dialout" : groupOf(path);
   return "this user may not open " + path + ": add it to group " + group + " with 'sudo usermod -aG " +
          group + " $USER', then log out and in again";

@@ -1,4 +1,4 @@
-// Apart from serial_port.cpp because the kernel's termios and the C library's cannot meet in one file.
+// Separate from serial_port.cpp, because the kernel's termios and the C library's cannot be in the same file.
 #include <asm/termbits.h>
 #include <sys/ioctl.h>
 
@@ -7,7 +7,7 @@
 
 namespace fsr::protocol {
 
-// BOTHER takes any rate; the kernel writes back the one that the hardware really made.
+// BOTHER accepts any rate; the kernel returns the rate that the hardware really uses.
 bool setUnnamedSpeed(int descriptor, std::uint32_t baud) {
   termios2 settings{};
   if (ioctl(descriptor, TCGETS2, &settings) != 0) return false;

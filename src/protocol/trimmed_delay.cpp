@@ -15,7 +15,7 @@ void TrimmedDelay::add(double x, double y) {
   delays_[next_] = y;
   next_ = (next_ + 1) % kArrivals;
   used_ = std::min(used_ + 1, kArrivals);
-  // Each tenth of news is worth the sorting.
+  // Sorts again when a tenth of the arrivals are new.
   if (++fresh_ * 10 < used_) return;
   fresh_ = 0;
   average();

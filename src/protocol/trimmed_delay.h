@@ -5,15 +5,15 @@
 
 namespace fsr::protocol {
 
-/// host time - device time as a constant, found from arrivals whose host time scatters both ways: under a
-/// simulated clock that ticks, whose ticks travel as messages of their own, a packet may look late or early.
-/// The mean of the middle eight tenths of the last 4096 arrivals, 0.1 s of device time apart at least: a
-/// median would jump between the two values that a coarse clock gives. The two clocks are taken to be one, so
-/// there is no drift to find.
+/// (Host time - device time) as a constant, estimated from arrivals whose host time scatters in both
+/// directions. This is so under a simulated clock: its ticks are messages of their own, so a packet may seem
+/// late or early. The estimate is the mean of the middle eight tenths of the last 4096 arrivals that are at
+/// least 0.1 s of device time apart. A median would jump between the two values that a coarse clock gives.
+/// Both clocks are assumed to be the same one, so no drift is estimated.
 class TrimmedDelay {
  public:
   void clear();
-  /// An arrival at device time `x` [s] whose host time is `y` [s] later.
+  /// Adds an arrival at device time `x` [s] whose host time is `y` [s] later.
   void add(double x, double y);
   /// The delay [s]. Needs one arrival.
   double value() const { return value_; }
@@ -25,8 +25,8 @@ class TrimmedDelay {
 
   void average();
 
-  std::array<double, kArrivals> delays_{};  // [s], a ring
-  std::array<double, kArrivals> sorted_{};  // room to work in
+  std::array<double, kArrivals> delays_{};  // [s], a ring buffer
+  std::array<double, kArrivals> sorted_{};  // work space
   std::size_t used_ = 0;
   std::size_t next_ = 0;
   std::size_t fresh_ = 0;  // arrivals since the last average

@@ -117,7 +117,7 @@ uint16_t fsr_wire_crc16(const uint8_t* bytes, size_t size) {
   return crc;
 }
 
-/* Half a byte at a step: 64 bytes of table where the usual one takes 1,024 of a controller's flash. */
+/* Half a byte per step: the table takes 64 bytes of flash instead of the usual 1,024. */
 uint32_t fsr_wire_crc32(const uint8_t* bytes, size_t size) {
   static const uint32_t table[16] = {
       0x00000000u, 0x1DB71064u, 0x3B6E20C8u, 0x26D930ACu, 0x76DC4190u, 0x6B6B51F4u, 0x4DB26158u, 0x5005713Cu,

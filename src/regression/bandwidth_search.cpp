@@ -7,8 +7,8 @@ namespace fsr::regression {
 
 namespace {
 
-// A section as errors need it: mean pressure of each code, and the scatter about the means, which no
-// answer can lower.
+// Sums of a section for the errors: mean pressure of each code, and the sum of squares about these means,
+// which no answer can reduce.
 struct TestedSection {
   std::vector<std::uint16_t> code;
   std::vector<double> count, mean;  // mean [Pa]

@@ -4,35 +4,36 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsr_pressure_map/regression/code_statistics.h"
-#include "fsr_pressure_map/regression/grnn.h"
+#include "regression/code_statistics.h"
 #include "regression/cross_validation.h"
+#include "regression/grnn/grnn.h"
 
 namespace fsr::regression {
 
 /// Bandwidths to choose from: powers of two, 2^-10 to 2^1.
 std::vector<double> bandwidthGrid();
 
-/// Squared held-out errors of GRNNs of several bandwidths, for choosing one. The choice for a held-out
-/// section must not have seen that section either: for it the errors of models count that were trained
-/// without two sections, on the one of them that is not held out (nested cross-validation).
+/// Squared held-out errors of GRNNs of several bandwidths, from which one is chosen. The choice for a
+/// held-out section must not use that section. It uses models that were trained without two sections, and
+/// their errors on the one of the two that is not held out (nested cross-validation).
 class BandwidthErrors {
  public:
   static constexpr std::size_t kNoneLeftOut = static_cast<std::size_t>(-1);
 
-  /// Trains K (K + 1) / 2 models of each bandwidth for K sections. `options` gives all but the bandwidth.
-  /// Throws InputError where the options are not mergeable, or a bandwidth cannot be.
+  /// Trains K (K + 1) / 2 models of each bandwidth for K sections. `options` gives everything but the
+  /// bandwidth. Throws InputError if the options are not mergeable or a bandwidth is not permitted.
   BandwidthErrors(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
                   const GrnnOptions& options, const std::vector<double>& grid);
 
-  /// Adds the errors of another model, e.g. of another taxel, for a choice that both share. Grid and
-  /// number of sections must be the same.
+  /// Adds the errors of another model, e.g. of another taxel, for a common choice. Grid and number of
+  /// sections must be the same.
   void add(const BandwidthErrors& other);
 
-  /// Sum of squared errors over all sections but `left_out` [Pa^2], none of the models trained on it.
+  /// Sum of squared errors over all sections but `left_out` [Pa^2]. None of the models was trained on
+  /// `left_out`.
   double squares(std::size_t bandwidth, std::size_t left_out = kNoneLeftOut) const;
 
-  /// Bandwidth of the least squares, the largest of equally good ones; kPaperBandwidth where there is
+  /// Bandwidth with the smallest sum of squares, the largest of equal ones; kPaperBandwidth if there is
   /// nothing to hold out.
   double best(std::size_t left_out = kNoneLeftOut) const;
 
@@ -44,7 +45,8 @@ class BandwidthErrors {
 
   std::vector<double> grid_;
   std::size_t sections_;
-  std::vector<double> squares_;  // [bandwidths x tested x left out], left out = tested: only the one
+  std::vector<double>
+      squares_;  // [bandwidths x tested x left out]; left out = tested: only that section is left out
 };
 
 /// A GRNN whose bandwidth was chosen by nested cross-validation.
@@ -54,7 +56,7 @@ struct TunedModel {
   std::vector<double> section_bandwidth;  ///< of the model trained without each section
 };
 
-/// crossValidate() with the bandwidths that `errors` chooses; `errors` may hold those of other taxels too.
+/// crossValidate() with the bandwidths that `errors` chooses. `errors` may include those of other taxels.
 TunedModel crossValidateTuned(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
                               GrnnOptions options, const BandwidthErrors& errors,
                               HeldOutDeviation held_out_deviation);

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/code_samples.h"
+#include "regression/code_samples.h"
 
 #include <algorithm>
 #include <string>

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/code_statistics.h"
+#include "regression/code_statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ namespace {
                              std::to_string(full_scale));
 }
 
-// Adds b's sums to a's; exact, or refused.
+// Adds b to a. Throws if a sum would overflow.
 void addSums(CodeSums& a, const CodeSums& b) {
   if (__builtin_add_overflow(a.count, b.count, &a.count) || __builtin_add_overflow(a.sum, b.sum, &a.sum) ||
       __builtin_add_overflow(a.sum_of_squares, b.sum_of_squares, &a.sum_of_squares)) {

@@ -3,17 +3,17 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsr_pressure_map/regression/code_statistics.h"
 #include "fsr_pressure_map/regression/code_table.h"
-#include "fsr_pressure_map/regression/regressor.h"
+#include "regression/code_statistics.h"
+#include "regression/regressor.h"
 
 namespace fsr::regression {
 
-/// A model trained without one section, and what the other sections' held-out errors say of it.
+/// A model trained without one section.
 struct HeldOutModel {
-  std::vector<double> pressure;  ///< of each code [Pa]; empty = nothing was left to train on
+  std::vector<double> pressure;  ///< of each code [Pa]; empty = no readings were left to train on
   std::vector<float>
-      deviation;  ///< of each code [Pa], from the other sections' errors; empty = not asked for
+      deviation;  ///< of each code [Pa], from the errors on the other sections; empty = not asked for
 };
 
 /// One model of one taxel with its held-out deviation.
@@ -22,12 +22,11 @@ struct CrossValidatedModel {
   std::vector<HeldOutModel> held_out;  ///< one for each section
 };
 
-/// Whether each held-out model shall state a deviation of its own (scores need it).
+/// Whether each held-out model gets a deviation of its own, which scores need.
 enum class HeldOutDeviation { kNo, kYes };
 
-/// Trains on all sections, and once without each. `sections` holds at least one reading in all; where
-/// only one of them has any, nothing can be held out and the deviation is that of the training
-/// readings themselves.
+/// Trains on all sections, and once without each. `sections` has at least one reading in all. If only one
+/// section has readings, nothing can be held out, and the deviation is that of the training readings.
 CrossValidatedModel crossValidate(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
                                   const Regressor& regressor, HeldOutDeviation held_out_deviation);
 
@@ -35,8 +34,8 @@ CrossValidatedModel crossValidate(const std::vector<CodeStatistics>& sections, s
 CrossValidatedModel crossValidateSamples(const std::vector<CodeSamples>& sections, const Regressor& regressor,
                                          HeldOutDeviation held_out_deviation);
 
-/// What crossValidate() makes of models that the caller has trained: `whole` on all sections,
-/// `held_out` [one for each section] without that section, empty where nothing was left to train on.
+/// Assembles the result of crossValidate() from models that the caller has trained: `whole` on all sections,
+/// `held_out` [sections] without that section, empty if no readings were left.
 CrossValidatedModel assembleModel(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
                                   const Fit& whole, std::vector<std::vector<double>> held_out,
                                   HeldOutDeviation held_out_deviation);

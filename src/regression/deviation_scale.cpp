@@ -8,9 +8,9 @@ namespace fsr::regression {
 
 namespace {
 
-// A quantile of fewer readings, one like the next in time, says little.
+// A quantile of fewer readings is unreliable, because readings that follow each other are alike.
 constexpr double kLeastReadingsOfGroup = 500.0;
-// Readings of all groups that weigh as much as this many of the group's own.
+// The factor of all groups counts like this many readings of the group.
 constexpr double kPriorReadings = 100.0;
 constexpr double kLargestRatio = 4.0;
 
@@ -62,7 +62,7 @@ std::vector<double> DeviationScale::factors() const {
     const double own = quantile(ratios_[group]);
     const double factor =
         (readings_[group] * own + kPriorReadings * of_all) / (readings_[group] + kPriorReadings);
-    if (code == 0) left_factor = factor;  // below the first centre its factor holds
+    if (code == 0) left_factor = factor;  // constant below the first centre
     for (; code < factors.size() && static_cast<double>(code) <= centre_[group]; ++code) {
       const double width = centre_[group] - left_centre;
       const double share = width > 0 ? (static_cast<double>(code) - left_centre) / width : 1.0;

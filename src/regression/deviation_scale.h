@@ -7,23 +7,23 @@
 
 namespace fsr::regression {
 
-/// The part of the readings that shall lie within one deviation: that of a normal distribution.
+/// Share of the readings within one deviation, as for a normal distribution.
 constexpr double kShareWithinOneDeviation = 0.6827;
 
-/// Finds by how much root mean squared errors must be scaled so that kShareWithinOneDeviation of the
-/// errors lie within one: for normal errors by 1, for those of a hysteresis loop or of a long rest by
-/// something else. The factor is found in up to 16 groups of neighbouring codes, so that the share holds
-/// at rest as well as at full load; in a small group it is drawn towards the factor of all readings.
+/// Scales root mean squared errors so that kShareWithinOneDeviation of the errors are within one deviation.
+/// For normally distributed errors the factor is 1; for errors from hysteresis or from a long rest it is not.
+/// The factor is found in up to 16 groups of neighbouring codes, so that the share is right at rest as well
+/// as at full load. In a small group the factor is shrunk towards that of all readings.
 class DeviationScale {
  public:
-  /// `readings` = number of readings at each code.
+  /// `readings` [codes]: number of readings at each code.
   explicit DeviationScale(const std::vector<double>& readings);
 
-  /// `weight` readings at `code` have an error of `ratio` root mean squares, either sign.
+  /// `weight` readings at `code` have an error of `ratio` root mean squares, of either sign.
   void add(std::uint16_t code, double ratio, double weight);
 
-  /// The factor at each code: at a group's centre that of the group, between centres interpolated.
-  /// 1 everywhere where nothing was added.
+  /// The factor at each code: at the centre of a group that of the group, interpolated between centres. 1
+  /// everywhere if nothing was added.
   std::vector<double> factors() const;
 
  private:

@@ -10,17 +10,17 @@ namespace fsr::regression {
 
 namespace {
 
-// A code's own errors weigh as much as its neighbourhood's where it has this many readings, and the
-// neighbourhood's as much as those of all codes.
+// With this many readings of a code its own errors and those of its neighbourhood have equal weight; likewise
+// the neighbourhood and all codes.
 constexpr double kPriorReadings = 30.0;
-// Half width of a neighbourhood, as a share of the codes that occur: narrow beside the bends of a
-// sensor's curve, wide enough to hold a hundred readings of a recording of ten minutes at 10 Hz.
+// Half width of a neighbourhood, as a share of the codes that occur: narrow compared with the bends of a
+// sensor's curve, wide enough to contain a hundred readings of a recording of ten minutes at 10 Hz.
 constexpr double kNeighbourhood = 1.0 / 64.0;
 constexpr double kLeastDeviation = 1.0;  // [Pa]
 
-// Readings of one code in one section are known by number, mean and spread. They stand for these points,
-// in units of the spread: two readings lie at mean +- spread, more are taken for normal (the quantiles of
-// 1/12, 3/12 ... 11/12, stretched to unit variance).
+// Readings of one code in one section are known by number, mean and standard deviation. They are represented
+// by these points, in units of the standard deviation: two readings are at mean +- deviation, more are
+// assumed to be normally distributed (the quantiles of 1/12, 3/12 ... 11/12, scaled to unit variance).
 const std::vector<double> kOne = {0.0};
 const std::vector<double> kTwo = {-1.0, 1.0};
 const std::vector<double> kMore = {-1.54242, -0.75224, -0.23469, 0.23469, 0.75224, 1.54242};
@@ -34,7 +34,7 @@ inline FixedPressure nearestFixed(double pressure) {
   return static_cast<FixedPressure>(units < 0 ? units - 0.5 : units + 0.5);
 }
 
-// Sums over a box of 2 half + 1 values, cut at the ends.
+// Sums over a window of 2 half + 1 values, cut off at the ends.
 std::vector<double> boxSums(const std::vector<double>& values, std::size_t half) {
   std::vector<double> prefix(values.size() + 1, 0.0);
   for (std::size_t i = 0; i < values.size(); ++i) prefix[i + 1] = prefix[i] + values[i];
@@ -97,7 +97,7 @@ std::vector<double> HeldOutErrors::rootMeanSquare(const Sums& sums, std::size_t 
   const std::vector<double> near_squares = boxSums(sums.squares, window);
   std::vector<double> root(codes_);
   for (std::size_t code = 0; code < codes_; ++code) {
-    // a difference of prefix sums can come out a rounding below zero
+    // rounding can make a difference of prefix sums negative
     const double near =
         (std::max(0.0, near_squares[code]) + kPriorReadings * pooled) / (near_count[code] + kPriorReadings);
     root[code] = (sums.squares[code] + kPriorReadings * near) / (sums.count[code] + kPriorReadings);
@@ -106,7 +106,7 @@ std::vector<double> HeldOutErrors::rootMeanSquare(const Sums& sums, std::size_t 
   return root;
 }
 
-// The factor on `root` at each code.
+// The factor of `root` at each code.
 std::vector<double> HeldOutErrors::scale(const Sums& sums, const std::vector<double>& root,
                                          std::size_t left_out) const {
   DeviationScale scale(sums.count);
@@ -127,7 +127,7 @@ std::vector<float> HeldOutErrors::deviation(const std::vector<double>& pressure,
     lowest = std::min<std::size_t>(lowest, errors.code);
     highest = std::max<std::size_t>(highest, errors.code);
   });
-  lowest = std::min(lowest, highest);  // where there was no error at all
+  lowest = std::min(lowest, highest);  // if there was no error at all
   const auto window = std::max<std::size_t>(
       1, static_cast<std::size_t>(kNeighbourhood * static_cast<double>(highest - lowest)));
   const Sums of_codes = sums(left_out);

@@ -4,38 +4,37 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsr_pressure_map/regression/code_statistics.h"
+#include "regression/code_statistics.h"
 
 namespace fsr::regression {
 
-/// Held-out errors of one model by code, and the deviation table that they make.
+/// Held-out errors of one model by code, and the table of deviations that follows from them.
 class HeldOutErrors {
  public:
   explicit HeldOutErrors(std::uint16_t full_scale) : codes_(full_scale + 1u) {}
 
-  /// Errors of `pressure` [Pa, one for each code] on the readings of the next section, none of which
-  /// the model behind `pressure` has seen.
+  /// Adds the errors of `pressure` [codes] [Pa] on the readings of the next section. The model behind
+  /// `pressure` must not have been trained on that section.
   void addSection(const CodeStatistics& held_out, const std::vector<double>& pressure);
 
-  /// No section had a reading.
+  /// Whether no section had a reading.
   bool empty() const;
 
   /// All sections.
   static constexpr std::size_t kNoneLeftOut = static_cast<std::size_t>(-1);
 
-  /// One standard deviation of a held-out reading at each code [Pa], > 0: the root of the code's
-  /// mean squared error, drawn towards that of its neighbourhood where the code is rare and, where
-  /// the neighbourhood is rare, towards that of all codes; scaled along the codes so that 68 % of the
-  /// errors lie within one (see DeviationScale); never below the pressure step of one count there, nor
-  /// below 1 Pa.
+  /// One standard deviation of a held-out reading at each code [Pa], > 0. It is the root mean squared error
+  /// of the code, shrunk towards that of neighbouring codes where the code is rare, and towards that of all
+  /// codes where the neighbourhood is rare. It is scaled so that 68 % of the errors are within one deviation
+  /// (see DeviationScale), and it is at least the pressure step of one count at that code and at least 1 Pa.
   ///
-  /// `pressure` is the model's answer at each code, whose slope gives the step. The errors of section
-  /// `left_out` do not enter.
+  /// `pressure` [codes] is the model's answer; its slope gives the step. The errors of section `left_out` are
+  /// not used.
   std::vector<float> deviation(const std::vector<double>& pressure,
                                std::size_t left_out = kNoneLeftOut) const;
 
  private:
-  // The errors of one code in one section: their number, mean and spread about the mean [Pa].
+  // Errors of one code in one section: number, mean and standard deviation [Pa].
   struct Errors {
     std::uint16_t code;
     double count;

@@ -3,6 +3,8 @@
 #include <numeric>
 
 #include "regression/grnn/weighted_codes.h"
+#include "regression/regressors.h"
+#include "regression/second_input.h"
 
 namespace fsr::regression {
 
@@ -15,7 +17,7 @@ struct Line {
   double scatter = 0;        // sum of (code - mean code)^2
 };
 
-// Sums about the means, so that a narrow range of large codes loses no digits.
+// Sums about the means, so that a narrow range of large codes loses no precision.
 Line leastSquares(const WeightedCodes& samples) {
   Line line;
   for (std::size_t i = 0; i < samples.code.size(); ++i) {
@@ -45,6 +47,23 @@ Fit LinearRegression::fit(const CodeHistogram& training) const {
     fit.support[code] = 1.0 / (1.0 / samples.samples + from_mean * from_mean / line.scatter);
   }
   return fit;
+}
+
+RegressorEntry linearEntry() {
+  RegressorEntry entry;
+  entry.name = "linear";
+  entry.summary = "straight line by least squares";
+  entry.make = [](const RegressorOptions&) -> std::unique_ptr<Regressor> {
+    return std::make_unique<LinearRegression>();
+  };
+  SecondInput input;
+  input.fit = [](const ClassReadings& readings, const ClassInputs& inputs, const RegressorOptions&) {
+    return fitLinearOnInput(readings, inputs);
+  };
+  input.between = BetweenInputs::kStraight;
+  input.several_columns = true;
+  entry.second_input = input;
+  return entry;
 }
 
 }  // namespace fsr::regression

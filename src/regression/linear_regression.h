@@ -1,20 +1,21 @@
 #pragma once
 
-#include "fsr_pressure_map/regression/regressor.h"
+#include "regression/regressor.h"
 
 namespace fsr::regression {
 
-/// Ordinary least squares of pressure on the reading, the paper's simplest model:
+/// Ordinary least squares of pressure on the reading, the paper's simplest model (Ahmadizadeh and Menon 2019,
+/// doi:10.3390/s19245519):
 ///
 ///     f(c) = mean P + b (c - mean c),   b = sum (c_i - mean c) P_i / sum (c_i - mean c)^2.
 ///
-/// The line goes on beyond the codes of training, below zero pressure too: clipping it would hide that
-/// a sensor's curve is not straight. Sums of each code suffice, so it merges exactly.
+/// The line is not limited to the codes of training nor to positive pressure: clipping it would hide that the
+/// curve of a sensor is not straight. The sums of each code are sufficient, so merging is exact.
 ///
-/// Readings that never differ leave no slope to find: the answer is their mean pressure everywhere.
+/// If all readings are equal, there is no slope, and the answer is their mean pressure everywhere.
 ///
-/// `support` is 1 / leverage: the number of samples whose mean would have the variance that the line has
-/// at that code, N at the mean reading and less towards either side.
+/// `support` is 1 / leverage: the number of samples whose mean would have the variance of the line at that
+/// code. It is N at the mean reading and decreases to both sides.
 class LinearRegression : public Regressor {
  public:
   std::string name() const override { return "linear"; }

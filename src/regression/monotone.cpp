@@ -5,15 +5,17 @@
 
 #include "regression/isotonic.h"
 #include "regression/pressure_grid.h"
+#include "regression/regressors.h"
 
 namespace fsr::regression {
 
 namespace {
 
-constexpr double kOuterShare = 1.0 / 16.0;  // of the readings' range, whose slope goes on beyond the knots
-constexpr double kPriorReadings = 30.0;     // with which a knot's scatter is drawn towards that of all
+constexpr double kOuterShare =
+    1.0 / 16.0;  // share of the range of readings that gives the slope beyond the knots
+constexpr double kPriorReadings = 30.0;  // weight of the scatter of all knots in that of one
 
-// Means over the bins of pressure that hold readings, by ascending pressure; from exact integer sums.
+// Means over the occupied bins of pressure, by ascending pressure, from exact integer sums.
 struct BinMeans {
   std::vector<double> pressure;  // [Pa]
   std::vector<double> reading;   // [counts]
@@ -41,7 +43,7 @@ BinMeans binMeans(const CodeSamples& training) {
   return means;
 }
 
-// Sign of the covariance of reading and pressure over the bins, each counting for its readings.
+// Sign of the covariance of reading and pressure over the bins, weighted by the number of readings.
 bool falls(const BinMeans& means) {
   double all = 0, mean_pressure = 0, mean_reading = 0, covariance = 0;
   for (std::size_t i = 0; i < means.readings.size(); ++i) {
@@ -58,8 +60,8 @@ bool falls(const BinMeans& means) {
 
 }  // namespace
 
-// Where a reading lies among the knots: between `below` and the next one, at `share` of the way; or
-// beyond the outer ones, at 0.
+// Position of a reading among the knots: between `below` and the next knot, at `share` of the distance; or
+// beyond an outer knot, with share 0.
 struct MonotoneCurve::Place {
   std::size_t below;
   double share;
@@ -69,7 +71,7 @@ struct MonotoneCurve::Place {
 MonotoneCurve::MonotoneCurve(const CodeSamples& training) {
   validate(training);
   BinMeans means = binMeans(training);
-  if (falls(means)) {  // then from the highest pressure down, so that readings rise
+  if (falls(means)) {  // in the order of falling pressure, so that readings rise
     std::reverse(means.pressure.begin(), means.pressure.end());
     std::reverse(means.reading.begin(), means.reading.end());
     std::reverse(means.readings.begin(), means.readings.end());
@@ -91,7 +93,8 @@ MonotoneCurve::MonotoneCurve(const CodeSamples& training) {
   measureScatter(training);
 }
 
-// From the outermost knot to the first one a sixteenth of the readings' range inside.
+// Slope from the outermost knot to the first one that is at least a sixteenth of the range of readings
+// inside.
 double MonotoneCurve::outerSlope(bool low_end) const {
   if (reading_.size() < 2) return 0.0;
   const double inside = kOuterShare * (reading_.back() - reading_.front());
@@ -119,7 +122,7 @@ double MonotoneCurve::pressureAt(double reading) const {
   return std::clamp(pressure, lowest_, highest_);
 }
 
-// The curve forwards, level beyond the outer knots.
+// The reading at a pressure, constant beyond the outer knots.
 double MonotoneCurve::readingAt(double pressure) const {
   const bool falling = pressure_.front() > pressure_.back();
   const auto before = [falling](double a, double b) { return falling ? a > b : a < b; };
@@ -131,7 +134,7 @@ double MonotoneCurve::readingAt(double pressure) const {
   return reading_[above - 1] + share * (reading_[above] - reading_[above - 1]);
 }
 
-// The deviation of each knot's readings from the curve.
+// Standard deviation of the readings of each knot from the curve.
 void MonotoneCurve::measureScatter(const CodeSamples& training) {
   std::vector<double> squares(reading_.size(), 0.0), number(reading_.size(), 0.0);
   double all = 0;
@@ -181,6 +184,16 @@ Fit Monotone::fitSamples(const CodeSamples& training) const {
     fit.support[code] = curve.supportAt(static_cast<double>(code));
   }
   return fit;
+}
+
+RegressorEntry monotoneEntry() {
+  RegressorEntry entry;
+  entry.name = "monotone";
+  entry.summary = "inverse of a monotone curve of reading over pressure";
+  entry.make = [](const RegressorOptions&) -> std::unique_ptr<Regressor> {
+    return std::make_unique<Monotone>();
+  };
+  return entry;
 }
 
 }  // namespace fsr::regression

@@ -2,40 +2,40 @@
 
 #include <vector>
 
-#include "fsr_pressure_map/regression/regressor.h"
+#include "regression/regressor.h"
 
 namespace fsr::regression {
 
-/// A sensor's curve, reading over pressure, which never turns back.
+/// A sensor's curve, reading over pressure, as a strictly monotone function.
 ///
-/// The other regressors answer with the mean pressure of the training scans that gave a reading. Where
-/// readings scatter, that mean leans towards pressures which the chamber held long: a prior from its time
-/// profile, which no other use shares. The reading at a known pressure carries no such prior. So:
+/// The other regressors answer with the mean pressure of the training scans that have a reading. Where
+/// readings scatter, that mean is biased towards pressures that the chamber held long, i.e. by the time
+/// profile of the training. The mean reading at a known pressure has no such bias. Therefore:
 ///
 /// 1. readings are averaged in bins of the known pressure (see pressure_grid.h, up to kCurveBins);
-/// 2. the means are made monotone by isotonic regression, each weighing as its number of readings;
-/// 3. each pooled block is a knot at its mean pressure and mean reading, and straight lines join the
-///    knots: strictly monotone, so that the inverse exists everywhere between them;
-/// 4. beyond the outer knots the curve goes on with the slope of the outermost sixteenth of the readings,
-///    as far as the pressures of training reach, and stays there.
+/// 2. the means are made monotone by isotonic regression, weighted by the number of readings;
+/// 3. each pooled block is a knot at its mean pressure and mean reading; straight lines join the knots, so
+///    the curve is strictly monotone and has an inverse between the outer knots;
+/// 4. beyond the outer knots the curve continues with the slope of the outermost sixteenth of the readings up
+///    to the range of training pressures, and is constant there.
 ///
-/// Readings that rise and readings that fall with pressure are both welcome; the sign of their covariance
-/// decides. Where all readings or all pressures agree there is one knot, and its pressure is the answer.
+/// Readings may increase or decrease with pressure; the sign of their covariance decides. If all readings or
+/// all pressures are equal, there is one knot, and its pressure is the answer.
 class MonotoneCurve {
  public:
-  /// `training` holds at least one sample. Throws InputError as validate(CodeSamples) does.
+  /// `training` has at least one sample. Throws InputError as validate(CodeSamples) does.
   explicit MonotoneCurve(const CodeSamples& training);
 
-  /// Pressure of a reading [Pa], within the pressures of training.
+  /// Pressure of a reading [Pa], within the training pressures.
   double pressureAt(double reading) const;
 
-  /// Deviation of that pressure [Pa] by propagation: the readings' scatter about the curve at that
-  /// pressure [counts], times the curve's slope over one scatter to either side [Pa a count]. The scatter
-  /// of a knot is drawn towards that of all as if it had thirty readings more.
+  /// Standard deviation of that pressure [Pa] by propagation of errors: the scatter of the readings about the
+  /// curve at that pressure [counts], times the slope of the curve over one scatter to either side [Pa a
+  /// count]. The scatter of a knot is shrunk towards that of all knots with the weight of thirty readings.
   double deviationAt(double reading) const;
 
-  /// Number of readings behind the answer: 1 / (variance of the interpolated mean), in units of the
-  /// variance of one reading.
+  /// Effective number of readings: 1 / (variance of the interpolated mean), in units of the variance of one
+  /// reading.
   double supportAt(double reading) const;
 
   /// Knots by ascending reading.
@@ -57,7 +57,7 @@ class MonotoneCurve {
 
 constexpr std::size_t kCurveBins = 128;
 
-/// The inverted curve as a regressor. It needs each reading's pressure: not mergeable.
+/// The inverted curve as a regressor. It needs the pressure of each reading, so it is not mergeable.
 class Monotone : public Regressor {
  public:
   std::string name() const override { return "monotone"; }

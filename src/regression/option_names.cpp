@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "regression/grnn/grnn.h"
 
 namespace fsr::regression {
 

@@ -4,13 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/regression/forest.h"
-#include "fsr_pressure_map/regression/grnn.h"
+#include "fsr_pressure_map/regression/regressor_options.h"
 
 namespace fsr::regression {
 
-// The readable words of the regressors' options, as files, parameters and command lines use them. Every
-// ...FromName() throws InputError that lists the words.
+// The names of the regressors' options in files, parameters and command lines. Every ...FromName() throws
+// InputError that lists the names.
 
 /// "sigma", "matlab".
 std::vector<std::string> spreadNames();
@@ -32,7 +31,7 @@ std::vector<std::string> leafRuleNames();
 std::string leafRuleName(LeafCount count);
 LeafCount leafRuleFromName(const std::string& name);
 
-/// A bandwidth, or none for "auto". Throws InputError where `text` is neither.
+/// A bandwidth, or none for "auto". Throws InputError if `text` is neither.
 std::optional<double> bandwidthFromText(const std::string& text);
 
 }  // namespace fsr::regression

@@ -13,7 +13,7 @@ FixedPressure floorTo(FixedPressure pressure, FixedPressure width) {
   return pressure - (rest < 0 ? rest + width : rest);
 }
 
-// Weight of a sample of each bin.
+// Weight of a sample in each bin.
 std::vector<double> binWeights(const CodeSamples& training, const PressureGrid& grid) {
   std::vector<double> count(grid.bins, 0.0);
   for (const FixedPressure pressure : training.pressure) ++count[grid.bin(pressure)];
@@ -24,7 +24,7 @@ std::vector<double> binWeights(const CodeSamples& training, const PressureGrid& 
   return count;
 }
 
-// By code and pressure: then sums do not depend on the order of the samples.
+// Sorted by code and pressure, so that sums do not depend on the order of the samples.
 std::vector<std::pair<std::uint16_t, FixedPressure>> sorted(const CodeSamples& training) {
   std::vector<std::pair<std::uint16_t, FixedPressure>> samples;
   samples.reserve(training.size());

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/regressor.h"
+#include "regression/regressor.h"
 
 #include "fsr_pressure_map/settings/input_error.h"
 
@@ -10,9 +10,8 @@ Fit Regressor::fitSamples(const CodeSamples& training) const {
 }
 
 void Regressor::refuseSums() const {
-  throw settings::InputError(
-      "model " + name() +
-      " needs the bags themselves: the sums that a calibration file keeps do not suffice");
+  throw settings::InputError("model " + name() +
+                             " needs the bags; the sums in a calibration file are not sufficient");
 }
 
 }  // namespace fsr::regression

@@ -6,23 +6,17 @@
 #include <sstream>
 
 #include "report/calibration_report.h"
+#include "settings/number_text.h"
 
 namespace fsr::report {
 
 namespace {
 
-std::string number(double value, int digits) {
-  if (std::isnan(value)) return "-";
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
-}
-
 std::string percent(double share, int digits = 1) {
-  return std::isnan(share) ? "not known" : number(100 * share, digits) + " %";
+  return std::isnan(share) ? "not known" : settings::cellText(100 * share, digits) + " %";
 }
 
-// "(row, column)" of at most eight of them.
+// "(row, column)" of the first eight taxels.
 std::string places(const std::vector<std::size_t>& taxels, const matrix::Layout& layout) {
   constexpr std::size_t kListed = 8;
   std::string list;
@@ -40,15 +34,15 @@ std::string numbers(const std::vector<std::size_t>& values) {
 }
 
 std::string lagText(const discrepancy::AdmittedRecording& recording) {
-  return recording.lag ? number(recording.lag->seconds, 2) : "-";
+  return recording.lag ? settings::cellText(recording.lag->seconds, 2) : "-";
 }
 
 void addRow(const discrepancy::AdmittedRecording& row, int width, std::ostringstream& out) {
   out << std::left << std::setw(width) << row.name << std::right << std::setw(8) << row.scans << std::setw(10)
-      << number(row.seconds, 1) << std::setw(10) << row.surfaces << std::setw(7) << row.losses.lost_scans
-      << std::setw(7) << row.losses.sequence_gaps << std::setw(9) << lagText(row) << std::setw(13)
-      << number(100 * row.health.saturated, 2) << std::setw(6) << row.health.dead.size() << std::setw(7)
-      << row.health.stuck.size() << '\n';
+      << settings::cellText(row.seconds, 1) << std::setw(10) << row.surfaces << std::setw(7)
+      << row.losses.lost_scans << std::setw(7) << row.losses.sequence_gaps << std::setw(9) << lagText(row)
+      << std::setw(13) << settings::cellText(100 * row.health.saturated, 2) << std::setw(6)
+      << row.health.dead.size() << std::setw(7) << row.health.stuck.size() << '\n';
 }
 
 void addTable(const discrepancy::Admission& admission, std::ostringstream& out) {
@@ -70,25 +64,25 @@ void addHealth(const discrepancy::AdmittedRecording& row, const matrix::Layout& 
     out << row.name << ": dead (row, column): " << places(health.dead, layout) << '\n';
   if (!health.stuck.empty())
     out << row.name << ": stuck (row, column): " << places(health.stuck, layout) << '\n';
-  if (!health.rows.empty()) out << row.name << ": rows that fail: " << numbers(health.rows) << '\n';
-  if (!health.columns.empty()) out << row.name << ": columns that fail: " << numbers(health.columns) << '\n';
+  if (!health.rows.empty()) out << row.name << ": failed rows: " << numbers(health.rows) << '\n';
+  if (!health.columns.empty()) out << row.name << ": failed columns: " << numbers(health.columns) << '\n';
   if (health.saturated_taxels == 0) return;
-  out << row.name << ": " << health.saturated_taxels << " taxels are clipped at full scale";
+  out << row.name << ": " << health.saturated_taxels << " taxels reach full scale";
   if (!std::isnan(health.saturated_from)) {
-    out << ", from " << number(health.saturated_from / 1000, 0) << " kPa on";
+    out << ", at " << settings::cellText(health.saturated_from / 1000, 0) << " kPa or more";
   }
   out << '\n';
 }
 
 std::string faultText(const discrepancy::Fault& fault, const matrix::Layout& layout) {
-  const bool line = fault.id == "row_fault" || fault.id == "column_fault";
+  const bool line = fault.isLine();
   const std::string where =
       line ? " " + std::to_string(fault.line) : " (row, column): " + places(fault.taxels, layout);
   return fault.id + where + ", " + percent(fault.share, 2) + " of the scans, longest " +
-         number(fault.longest, 1) + " s";
+         settings::cellText(fault.longest, 1) + " s";
 }
 
-// ", because A; and 2 more": the line is to be read at a glance, all of them stand above it.
+// ", because A; and 2 more". The lines above list all reasons.
 std::string because(const std::vector<std::string>& reasons) {
   if (reasons.empty()) return "";
   const std::string more = reasons.size() == 1 ? "" : "; and " + std::to_string(reasons.size() - 1) + " more";
@@ -105,19 +99,19 @@ void addRests(const calibration::SocketCheck& check, std::ostringstream& out) {
   for (const auto& [name, rest] : {std::pair{"before", &check.before}, std::pair{"after", &check.after}}) {
     out << "Rest " << name << ": ";
     if (*rest) {
-      out << number((*rest)->from, 1) << " to " << number((*rest)->to, 1) << " s\n";
+      out << settings::cellText((*rest)->from, 1) << " to " << settings::cellText((*rest)->to, 1) << " s\n";
     } else {
       out << "none recorded\n";
     }
   }
   if (check.change.empty()) return;
   const double worst = check.change[check.worst];
-  out << "Rest after less rest before: median " << percent(check.median_change, 2) << " of full scale";
+  out << "Change of the readings at rest: median " << percent(check.median_change, 2) << " of full scale";
   if (!std::isnan(check.median_pressure_change)) {
-    out << " (" << number(check.median_pressure_change / 1000, 1) << " kPa)";
+    out << " (" << settings::cellText(check.median_pressure_change / 1000, 1) << " kPa)";
   }
-  out << ", most " << percent(worst, 2) << " at (row, column) " << places({check.worst}, check.layout) << "; "
-      << check.changed << " taxels beyond the limit\n";
+  out << ", largest " << percent(worst, 2) << " at (row, column) " << places({check.worst}, check.layout)
+      << "; " << check.changed << (check.changed == 1 ? " taxel" : " taxels") << " beyond the limit\n";
 }
 
 }  // namespace
@@ -128,7 +122,7 @@ std::string admissionText(const discrepancy::Admission& admission) {
   for (const discrepancy::AdmittedRecording& row : admission.recordings)
     addHealth(row, admission.layout, out);
   for (const discrepancy::Fault& fault : admission.faults) {
-    out << "Spells of failure: " << faultText(fault, admission.layout) << '\n';
+    out << "Intermittent fault: " << faultText(fault, admission.layout) << '\n';
   }
   if (!admission.coverage.conditions.empty()) out << '\n' << coverageText(admission.coverage);
   out << '\n';
@@ -145,12 +139,12 @@ std::string socketText(const calibration::SocketCheck& check) {
   out << check.name << '\n';
   addRests(check, out);
   out << "At full scale: " << percent(check.saturated, 2) << " of the readings\n"
-      << "Beyond the readings of training: " << percent(check.beyond, 2)
-      << "; beyond its curvatures: " << percent(check.bent_beyond, 2)
+      << "Outside the readings of training: " << percent(check.beyond, 2)
+      << "; outside its curvatures: " << percent(check.bent_beyond, 2)
       << (std::isnan(check.beyond) ? " (give --calibration)" : "") << '\n'
-      << "Longest static load: " << number(check.longest.seconds, 0) << " s";
+      << "Longest static load: " << settings::cellText(check.longest.seconds, 0) << " s";
   if (check.longest.seconds > 0) {
-    out << ", from " << number(check.longest.from, 0) << " s on, at (row, column) "
+    out << ", from second " << settings::cellText(check.longest.from, 0) << ", at (row, column) "
         << places({check.longest.taxel}, check.layout);
   }
   out << "\nDead (row, column): " << (check.dead.empty() ? "none" : places(check.dead, check.layout))

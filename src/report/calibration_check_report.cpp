@@ -24,7 +24,7 @@ std::string checkText(const calibration::CalibrationCheck& check) {
   std::ostringstream out;
   out << std::left << std::setw(static_cast<int>(width)) << "surface" << std::right << std::setw(12)
       << "readings" << std::setw(14) << "expected" << std::setw(11) << "RMSE" << std::setw(11) << "bias"
-      << std::setw(14) << "within" << std::setw(12) << "beyond" << '\n'
+      << std::setw(14) << "within" << std::setw(12) << "outside" << '\n'
       << std::setw(static_cast<int>(width) + 26) << "RMSE [kPa]" << std::setw(11) << "[kPa]" << std::setw(11)
       << "[kPa]" << std::setw(14) << "1 deviation %" << std::setw(12) << "training %" << '\n';
   for (const calibration::CheckedClass& row : check.classes) addRow(row, width, out);

@@ -6,8 +6,8 @@
 
 namespace fsr::report {
 
-/// The check as a table, its reasons and remarks, and the answer as the last line: "Still good." or
-/// "Recalibrate, because ...".
+/// A table of the check, its remarks, and the verdict in the last lines: "Still good." or "Recalibrate,
+/// because" with the reasons.
 std::string checkText(const calibration::CalibrationCheck& check);
 
 }  // namespace fsr::report

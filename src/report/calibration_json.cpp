@@ -6,9 +6,9 @@ namespace fsr::report {
 
 namespace {
 
-using report::json;  // the overloads for what several results have in common
+using report::json;  // the overloads of result_json.h
 
-using report::json;  // the overloads for what several results have in common
+using report::json;  // the overloads of result_json.h
 
 Json json(const calibration::TrainedInterval& interval) {
   return Json::array({interval.low, interval.high});
@@ -66,7 +66,7 @@ Json json(const dataset::Coverage& coverage) {
   return {{"conditions", conditions}, {"thin", coverage.thin}};
 }
 
-// Only what the model looks at.
+// The options that the model uses.
 Json model(const calibration::Calibration& calibration) {
   const regression::RegressorOptions& options = calibration.regressor;
   Json model = {{"name", options.name}};

@@ -5,6 +5,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "settings/number_text.h"
+
 namespace fsr::report {
 
 namespace {
@@ -13,27 +15,21 @@ constexpr int kNameWidth = 18;
 constexpr int kCellWidth = 14;
 constexpr double kKilopascal = 1e3;  // [Pa]
 
-std::string number(double value, int digits) {
-  if (std::isnan(value)) return "-";
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
-}
-
 std::string kilopascal(double pressure) {
-  return number(pressure / kKilopascal, 1);
+  return settings::cellText(pressure / kKilopascal, 1);
 }
 
 std::string spread(const statistics::Spread& value, int digits) {
-  return std::isnan(value.deviation) ? number(value.mean, digits)
-                                     : number(value.mean, digits) + " +- " + number(value.deviation, digits);
+  return std::isnan(value.deviation)
+             ? settings::cellText(value.mean, digits)
+             : settings::cellText(value.mean, digits) + " +- " + settings::cellText(value.deviation, digits);
 }
 
-// "14.3" for all taxels, "9.0..14.3" where they differ.
+// "14.3" if all taxels have the same curvature, else "9.0..14.3".
 std::string curvature(const dataset::CurvatureClass& condition, double unit, int digits) {
   const auto [low, high] = std::minmax_element(condition.curvature.begin(), condition.curvature.end());
-  const std::string first = number(*low / unit, digits);
-  return *low == *high ? first : first + ".." + number(*high / unit, digits);
+  const std::string first = settings::cellText(*low / unit, digits);
+  return *low == *high ? first : first + ".." + settings::cellText(*high / unit, digits);
 }
 
 void nameCell(std::ostream& out, const std::string& name) {
@@ -71,8 +67,9 @@ void scoreRow(std::ostream& out, const std::string& name, const calibration::Sco
   cell(out, kilopascal(errors.bias), 8);
   cell(out, kilopascal(errors.limit_low) + ".." + kilopascal(errors.limit_high), 16);
   cell(out, kilopascal(errors.p95_absolute), 8);
-  cell(out, number(score.worst_rmse_percent, 2) + " (" + std::to_string(score.worst_taxel) + ")", 14);
-  cell(out, number(100 * score.within_one_deviation, 1) + " %", 13);
+  cell(out, settings::cellText(score.worst_rmse_percent, 2) + " (" + std::to_string(score.worst_taxel) + ")",
+       14);
+  cell(out, settings::cellText(100 * score.within_one_deviation, 1) + " %", 13);
   out << '\n';
 }
 
@@ -96,7 +93,7 @@ void forEachRow(const calibration::CalibrationScores& scores, Row row) {
 
 std::string coverageText(const dataset::Coverage& coverage) {
   std::ostringstream out;
-  out << "Coverage: scans while loading/unloading, by gauge pressure\n";
+  out << "Coverage: number of scans during loading/unloading, by gauge pressure\n";
   nameCell(out, "surface");
   cell(out, "1/m", 12);
   cell(out, "1/cm", 12);
@@ -104,15 +101,15 @@ std::string coverageText(const dataset::Coverage& coverage) {
   cell(out, "cycles", 7);
   binHeads(out);
   for (const dataset::ConditionCoverage& row : coverage.conditions) coverageRow(out, row);
-  out << (coverage.thin.empty() ? "Nothing is thin.\n" : "Thin:\n");
+  out << (coverage.thin.empty() ? "Coverage is complete.\n" : "Few or no data:\n");
   for (const std::string& sentence : coverage.thin) out << "  " << sentence << '\n';
   return out.str();
 }
 
 std::string scoresText(const calibration::CalibrationScores& scores) {
-  if (scores.conditions.empty()) return "Scores were not asked for.\n";
+  if (scores.conditions.empty()) return "Scores were not computed.\n";
   std::ostringstream out;
-  out << "Held-out readings, each predicted without its section; R2 and RMSE%: mean +- deviation over "
+  out << "Held-out readings, predicted without their section; R2 and RMSE%: mean +- standard deviation over "
          "taxels\n";
   nameCell(out, "surface");
   cell(out, "R2", 20);
@@ -134,18 +131,18 @@ std::string scoresText(const calibration::CalibrationScores& scores) {
   out << '\n';
   forEachRow(scores,
              [&](const std::string& name, const calibration::Score& score) { scoreRow(out, name, score); });
-  out << "RMSE [kPa] while loading/unloading\n";
+  out << "RMSE [kPa] during loading/unloading\n";
   nameCell(out, "surface");
   binHeads(out);
   forEachRow(scores,
              [&](const std::string& name, const calibration::Score& score) { binRow(out, name, score); });
   const auto untrained = [](const calibration::ConditionScore& condition) { return !condition.trained; };
   if (scores.unseen.readings > 0) {
-    out << "A curvature that training had not seen (inner surfaces, each in turn): RMSE "
+    out << "Curvature not used for training (each inner surface left out in turn): RMSE "
         << kilopascal(scores.unseen.rmse) << " kPa, " << spread(scores.unseen.rmse_percent, 2) << " %\n";
   }
   if (std::any_of(scores.conditions.begin(), scores.conditions.end(), untrained)) {
-    out << "* the model that answers has not been trained on this surface\n";
+    out << "* the model used for this surface was not trained on it\n";
   }
   return out.str();
 }

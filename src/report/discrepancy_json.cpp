@@ -22,7 +22,7 @@ Json json(const discrepancy::FoundEffect& effect) {
           {"summary", effect.summary},
           {"parameters", parameters},
           {"z", effect.z},
-          {"share_of_ceiling", effect.share_of_ceiling}};
+          {"share_of_ceiling", effect.share_of_explainable}};
 }
 
 Json json(const discrepancy::NotIdentifiable& effect) {
@@ -83,7 +83,7 @@ Json json(const discrepancy::CandidateScore& candidate) {
   return {{"ids", candidate.ids},
           {"outcome", candidate.outcome},
           {"share_of_error", candidate.share_of_error},
-          {"share_of_ceiling", candidate.share_of_ceiling},
+          {"share_of_ceiling", candidate.share_of_explainable},
           {"z", candidate.z}};
 }
 
@@ -103,7 +103,7 @@ Json json(const discrepancy::InputUse& input) {
   return {{"file", input.file},
           {"sha256", input.sha256},
           {"scans", input.scans},
-          {"show_opened", input.show_opened}};
+          {"show_opened", input.hold_out_opened}};
 }
 
 Json json(const discrepancy::RepeatStep& step) {

@@ -8,24 +8,24 @@
 
 namespace fsr::report {
 
-// A discrepancy report for people and for programs. Nothing is computed here: every number stands in the
+// A discrepancy report as text, JSON and tables. Nothing is computed here: every number is in the
 // DiscrepancyReport.
 
-/// What the terminal shows: the verdict, what is not excluded, what is not testable, the gap, the next
-/// experiment.
+/// Text for the terminal: verdict, explanations that are not excluded, effects that are not testable, gap,
+/// next experiment.
 std::string discrepancyText(const discrepancy::DiscrepancyReport& report);
 
-/// results.json: everything but the settings, indented. Numbers are SI; null = no value.
+/// results.json: the whole report but the simulation's settings, indented. Numbers are SI; null = no value.
 std::string discrepancyJson(const discrepancy::DiscrepancyReport& report);
 
-/// Intervals and provenance of the values that were fitted, for simulationText().
+/// Remarks on the fitted values for simulationText(): "fitted", with the interval.
 simulation::ValueRemarks fitRemarks(const discrepancy::DiscrepancyReport& report);
 
-/// What the figures are drawn from, by file name: residual_COVARIATE.csv, gap.csv, candidates.csv.
-/// Headings say the unit.
+/// Data of the figures by file name: residual_COVARIATE.csv, gap.csv, candidates.csv. Headings include the
+/// unit.
 std::map<std::string, std::string> discrepancyTables(const discrepancy::DiscrepancyReport& report);
 
-/// Of --confirm, for the terminal and as confirmation.yaml.
+/// Result of --confirm, for the terminal and as confirmation.yaml.
 std::string confirmationText(const discrepancy::Confirmation& confirmation);
 std::string confirmationYaml(const discrepancy::Confirmation& confirmation,
                              const std::string& prediction_hash,

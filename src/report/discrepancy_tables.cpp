@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kPercent = 100;
 
-// Empty where there is no value, as spreadsheets read it.
+// A number, or nothing if there is no value: spreadsheets read this as an empty cell.
 std::string cell(double value) {
   return std::isfinite(value) ? settings::numberText(value) : "";
 }
@@ -50,7 +50,7 @@ std::string candidatesTable(const std::vector<discrepancy::CandidateScore>& cand
     std::string ids;
     for (const std::string& id : candidate.ids) ids += (ids.empty() ? "" : " + ") + id;
     text += ids + "," + candidate.outcome + "," + cell(kPercent * candidate.share_of_error) + "," +
-            cell(kPercent * candidate.share_of_ceiling) + "," + cell(candidate.z) + "\n";
+            cell(kPercent * candidate.share_of_explainable) + "," + cell(candidate.z) + "\n";
   }
   return text;
 }

@@ -1,10 +1,9 @@
 #include <cmath>
-#include <iomanip>
 #include <map>
-#include <sstream>
 
 #include "report/discrepancy_report.h"
 #include "report/flow_yaml.h"
+#include "settings/number_text.h"
 
 namespace fsr::report {
 
@@ -14,10 +13,7 @@ constexpr double kKilopascal = 1e3;  // [Pa]
 constexpr double kPercent = 100;
 
 std::string number(double value, int digits) {
-  if (!std::isfinite(value)) return "-";
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
+  return std::isfinite(value) ? settings::fixedText(value, digits) : "-";
 }
 
 std::string joined(const std::vector<std::string>& items, const std::string& between = ", ") {
@@ -33,8 +29,8 @@ std::string gapPart(double value, double pressure) {
 }
 
 std::string gapLine(const discrepancy::Gap& gap) {
-  std::string text = "Gap, rms on data that took no part: " + gapPart(gap.before, gap.before_pressure) +
-                     " before, " + gapPart(gap.after, gap.after_pressure) + " after, floor " +
+  std::string text = "Gap, rms on hold-out data: " + gapPart(gap.before, gap.before_pressure) + " before, " +
+                     gapPart(gap.after, gap.after_pressure) + " after, floor " +
                      gapPart(gap.floor, gap.floor_pressure);
   if (std::isfinite(gap.closed)) {
     text += "; closed " + number(kPercent * gap.closed, 0) + " %";
@@ -43,16 +39,17 @@ std::string gapLine(const discrepancy::Gap& gap) {
               number(kPercent * gap.closed_interval.high, 0) + " %)";
     }
   }
-  return text + ".\n" + (gap.held_out_by.empty() ? "" : "Held out: " + joined(gap.held_out_by) + ".\n");
+  return text + ".\n" + (gap.held_out_by.empty() ? "" : "Held out by: " + joined(gap.held_out_by) + ".\n");
 }
 
-// "Sized without it, closed on each condition: 93 % (flat 95 %, cylinder_5cm 90 %)."
+// "Gap closed on each condition with sizes fitted to the others: 93 % (flat 95 %, cylinder_5cm 90 %)."
 std::string foretoldLine(const discrepancy::HeldOutGap& held) {
   std::vector<std::string> parts;
   for (const auto& [part, closed] : held.parts)
     parts.push_back(part + " " + number(kPercent * closed, 0) + " %");
-  return "Closed on each " + held.by + " by what the others foretell: " + number(kPercent * held.closed, 0) +
-         " % (" + joined(parts) + ").\n";
+  return "Gap closed on each " + held.by +
+         " with sizes fitted to the others: " + number(kPercent * held.closed, 0) + " % (" + joined(parts) +
+         ").\n";
 }
 
 std::string useLine(const std::vector<discrepancy::GapInUse>& costs) {
@@ -66,7 +63,7 @@ std::string useLine(const std::vector<discrepancy::GapInUse>& costs) {
         (found == kSituations.end() ? cost.situation : found->second) +
         (std::isfinite(cost.after) ? " (" + number(cost.after / kKilopascal, 1) + " with it)" : ""));
   }
-  return parts.empty() ? "" : "Largest error of who leaves it out: " + joined(parts) + ".\n";
+  return parts.empty() ? "" : "Largest error if it is left out: " + joined(parts) + ".\n";
 }
 
 std::string notExcluded(const discrepancy::DiscrepancyReport& report) {
@@ -86,9 +83,9 @@ std::string notTestable(const discrepancy::DiscrepancyReport& report) {
 
 std::string opened(const std::vector<discrepancy::InputUse>& inputs) {
   int most = 0;
-  for (const discrepancy::InputUse& input : inputs) most = std::max(most, input.show_opened);
-  return most > 1 ? "The held-out part of a bag was looked at " + std::to_string(most) +
-                        " times by now: the gap is the less a proof.\n"
+  for (const discrepancy::InputUse& input : inputs) most = std::max(most, input.hold_out_opened);
+  return most > 1 ? "The hold-out part of a bag was used " + std::to_string(most) +
+                        " times by now, so the gap is a weaker proof.\n"
                   : "";
 }
 
@@ -127,10 +124,10 @@ simulation::ValueRemarks fitRemarks(const discrepancy::DiscrepancyReport& report
 std::string confirmationText(const discrepancy::Confirmation& confirmation) {
   std::string text =
       std::string(confirmation.passed ? "Confirmed" : "Not confirmed") + ": " + confirmation.sentence;
-  text += "\nSize " + number(confirmation.size, 2) + " of what was predicted (" +
+  text += "\nSize relative to the prediction: " + number(confirmation.size, 2) + " (" +
           number(confirmation.interval.low, 2) + " to " + number(confirmation.interval.high, 2) +
-          "); the prediction, nothing fitted, explains " + number(kPercent * confirmation.share_of_error, 0) +
-          " % of the squared error.\n";
+          "). Without any fitting, the prediction explains " +
+          number(kPercent * confirmation.share_of_error, 0) + " % of the squared error.\n";
   if (!confirmation.best_rival.empty()) text += "A rival explains more: " + confirmation.best_rival + ".\n";
   return text;
 }

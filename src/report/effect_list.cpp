@@ -66,7 +66,7 @@ std::string effectListText() {
     (listedOnly(entry) ? listed : simulated) += effectText(entry.info);
   }
   return "Effects that can be simulated, in the order in which they act:\n\n" + simulated +
-         "Effects that a gas chamber cannot show, listed with the experiment that would:\n\n" + listed;
+         "Effects that a gas chamber cannot show, with the experiment that would show them:\n\n" + listed;
 }
 
 }  // namespace fsr::report

@@ -6,11 +6,11 @@
 
 namespace fsr::report {
 
-/// Every effect of the library as text for a terminal: what it does, equation, source, parameters with
-/// unit, usual and neutral value and ranges, and what whoever looks for it must know.
+/// All effects of the library as text for a terminal. Each has its summary, equation, source, parameters with
+/// unit, usual and neutral value and ranges, and what is needed to find it in recordings.
 std::string effectListText();
 
-/// One of them.
+/// The same for one effect.
 std::string effectText(const simulation::EffectInfo& info);
 
 }  // namespace fsr::report

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
+#include "settings/number_text.h"
 #include "settings/yaml_text.h"
 
 namespace fsr::report::flow_yaml {
@@ -31,20 +30,15 @@ bool isPlain(const std::string& value) {
 
 std::string number(double value) {
   if (!std::isfinite(value)) return "null";
-  std::ostringstream text;
-  text.precision(kDigits);
-  text << value;
-  const std::string shortest = text.str();
+  const std::string shortest = settings::roundedText(value, kDigits);
   const std::size_t exponent = shortest.find('e');
   if (exponent == std::string::npos) return shortest;
-  if (std::abs(value) < 1) {  // YAML 1.1 knows no 1e-06: a number with an exponent has a point
+  if (std::abs(value) < 1) {  // YAML 1.1 reads 1e-06 as a text: a number with an exponent needs a point
     return shortest.find('.') != std::string::npos
                ? shortest
                : shortest.substr(0, exponent) + ".0" + shortest.substr(exponent);
   }
-  std::ostringstream whole;
-  whole << std::fixed << std::setprecision(0) << std::stod(shortest);
-  return whole.str();
+  return settings::fixedText(std::stod(shortest), 0);
 }
 
 std::string text(const std::string& value) {

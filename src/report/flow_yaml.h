@@ -6,11 +6,11 @@
 
 namespace fsr::report::flow_yaml {
 
-// YAML in flow style, as text: {a: 1, b: [2, 3]}.
+// Text of YAML in flow style: {a: 1, b: [2, 3]}.
 
-/// Five digits; null where it is no finite number.
+/// A number with five digits; null if it is not finite.
 std::string number(double value);
-/// In double quotes where YAML would read it as something else than this text.
+/// A text; in double quotes if YAML would read it as something else.
 std::string text(const std::string& value);
 std::string list(const std::vector<std::string>& items);
 /// [low, high], or null.

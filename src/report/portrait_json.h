@@ -6,7 +6,7 @@
 
 namespace fsr::report {
 
-/// A portrait as JSON, for scripts/plot_simulation.py: pressures in kPa, readings in per cent of full scale.
+/// A portrait of a simulation as JSON for the figures: pressures in kPa, readings in per cent of full scale.
 std::string portraitJson(const simulation::Portrait& portrait);
 
 }  // namespace fsr::report

@@ -1,6 +1,6 @@
 #include "report/prediction_file.h"
 
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
 #include "settings/yaml_text.h"
 #include "simulation/effects/effect_library.h"
 
@@ -8,7 +8,7 @@ namespace fsr::report {
 
 namespace {
 
-const settings::Range kAnyNumber;  // .inf among them: a drift that never ends
+const settings::Range kAnyNumber;  // includes .inf, e.g. the time constant of a drift that never ends
 
 std::string effectsText(const std::vector<simulation::EnabledEffect>& effects) {
   std::string text;
@@ -26,7 +26,7 @@ std::vector<simulation::EnabledEffect> readEffects(const settings::Settings& sec
   std::vector<simulation::EnabledEffect> effects;
   for (const std::string& id : section.keys()) {
     if (simulation::findEffect(id) == nullptr)
-      throw section.error(id, "no effect of the library is called so");
+      throw section.error(id, "the library has no effect of this name");
     const settings::Settings values = section.section(id);
     simulation::EnabledEffect effect{id, {}};
     for (const std::string& name : values.keys()) effect.values[name] = values.number(name, kAnyNumber);
@@ -41,7 +41,8 @@ std::string predictionText(const FrozenPrediction& frozen) {
   const discrepancy::Prediction& prediction = frozen.prediction;
   std::string rivals;
   for (const auto& rival : prediction.rivals) rivals += "\n  - " + effectsText(rival);
-  return "# Frozen with the verdict beside it. An edited file no longer has the hash below.\n"
+  return "# Frozen together with the verdict beside it. If this file is edited, the hash below no longer "
+         "fits.\n"
          "verdict_sha256: \"" +
          frozen.verdict_sha256 + "\"\neffects: " + effectsText(prediction.effects) +
          "\nrivals:" + (rivals.empty() ? " []" : rivals) + "\nsize: [" +

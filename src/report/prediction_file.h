@@ -6,13 +6,13 @@
 
 namespace fsr::report {
 
-/// A prediction as it was frozen with its verdict, before anybody saw the recordings that test it.
+/// A prediction that was frozen with its verdict, before the recordings that test it were made.
 struct FrozenPrediction {
   discrepancy::Prediction prediction;
   std::string verdict_sha256;  ///< of verdict.yaml's bytes
 };
 
-/// As prediction.yaml keeps it, every number exactly:
+/// The text of prediction.yaml, with all digits of every number:
 ///
 ///     verdict_sha256: ...
 ///     effects: {hysteresis: {loop_width: 0.062, ...}}
@@ -21,7 +21,8 @@ struct FrozenPrediction {
 ///     hash: ...              # of effects, rivals, size and the simulation that they complete
 std::string predictionText(const FrozenPrediction& frozen);
 
-/// Reads it strictly. Throws InputError that names file, field, value and what would be right.
+/// Reads prediction.yaml. Unknown keys are errors. Throws InputError that names file, field, value and what
+/// would be right.
 FrozenPrediction readPrediction(const std::string& path);
 
 }  // namespace fsr::report

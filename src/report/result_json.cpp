@@ -16,9 +16,9 @@ Json json(const statistics::ErrorSummary& errors) {
 
 namespace {
 
-using report::json;  // the overloads for what several results have in common
+using report::json;  // the overloads of result_json.h
 
-using report::json;  // the overloads for what several results have in common
+using report::json;  // the overloads of result_json.h
 
 Json json(const statistics::BinnedErrors::Directions& errors) {
   return {

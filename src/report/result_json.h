@@ -7,18 +7,18 @@
 
 namespace fsr::report {
 
-// What several results have in common, as JSON. Numbers are SI; NaN is written as null.
+// JSON of types that several results use. Numbers are SI; NaN is written as null.
 
 using Json = nlohmann::ordered_json;
 
 Json json(const statistics::Spread& spread);
 Json json(const statistics::ErrorSummary& errors);
-/// "whole" and each pressure bin, in both directions.
+/// Errors of all readings ("whole") and of each pressure bin, for both directions.
 Json json(const statistics::BinnedErrors& errors);
 Json json(const dataset::SensorIdentity& sensor);
 Json json(const calibration::Provenance& provenance);
 
-/// Indented, one line feed at the end; text that is no UTF-8 is mended.
+/// Indented text with one line feed at the end. Invalid UTF-8 is replaced.
 std::string dump(const Json& document);
 
 }  // namespace fsr::report

@@ -8,9 +8,9 @@ namespace fsr::report {
 
 namespace {
 
-using report::json;  // the overloads for what several results have in common
+using report::json;  // the overloads of result_json.h
 
-using report::json;  // the overloads for what several results have in common
+using report::json;  // the overloads of result_json.h
 
 Json json(const statistics::TestResult& test) {
   return {{"test", test.test},

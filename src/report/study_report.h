@@ -7,17 +7,16 @@
 
 namespace fsr::report {
 
-// A study's result for people and for programs. Nothing is computed here: every number stands in the
-// StudyResult.
+// A study's result as text, JSON and tables. Nothing is computed here: every number is in the StudyResult.
 
-/// Tables for the terminal, the paper's numbers beside ours.
+/// Tables for the terminal, with the paper's numbers beside those of the study.
 std::string studyText(const study::StudyResult& result);
 
-/// Everything but the readings behind the figures, indented. Numbers are SI; null = no value.
+/// The whole result but the readings of the figures, as indented JSON. Numbers are SI; null = no value.
 std::string studyJson(const study::StudyResult& result);
 
 /// CSV files by name: scores, taxel_scores, errors_by_bin, tests, differences, bandwidths, response,
-/// prediction. Headings say their units.
+/// prediction. Headings include the unit.
 std::map<std::string, std::string> studyTables(const study::StudyResult& result);
 
 }  // namespace fsr::report

@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "report/study_report.h"
+#include "settings/number_text.h"
 #include "study/paper_numbers.h"
 
 namespace fsr::report {
@@ -10,7 +11,7 @@ namespace {
 
 constexpr double kKilopascal = 1e3;  // [Pa]
 
-// One CSV file. Numbers keep nine digits; NaN is left empty.
+// One CSV file. Numbers have nine digits; NaN is an empty cell.
 class Table {
  public:
   explicit Table(const std::string& headings) {
@@ -46,7 +47,7 @@ class Table {
   bool first_ = true;
 };
 
-// Visits (comparison or split, score) of all.
+// Calls visit(id of the comparison or split, score) for all scores.
 template <typename Visit>
 void forEachScore(const study::StudyResult& result, Visit visit) {
   for (const study::StudyComparison& comparison : result.comparisons) {
@@ -71,11 +72,9 @@ void addErrors(Table& table, const statistics::ErrorSummary& errors) {
 std::string scoresTable(const study::StudyResult& result) {
   Table table(
       "part,method,label,model,scored,R2,R2 deviation,RMSE [%],RMSE deviation [%],paper R2,paper R2 "
-      "deviation,"
-      "paper RMSE [%],paper RMSE deviation [%],readings,bias [kPa],RMSE [kPa],limit low [kPa],limit high "
-      "[kPa],"
-      "p95 [kPa],first cycle RMSE [kPa],later cycles RMSE [kPa],worst taxel,worst taxel RMSE [%],"
-      "RMSE low [kPa],RMSE high [kPa],unit,units");
+      "deviation,paper RMSE [%],paper RMSE deviation [%],readings,bias [kPa],RMSE [kPa],limit low "
+      "[kPa],limit high [kPa],p95 [kPa],first cycle RMSE [kPa],later cycles RMSE [kPa],worst taxel,worst "
+      "taxel RMSE [%],RMSE low [kPa],RMSE high [kPa],unit,units");
   forEachScore(result, [&](const std::string& part, const study::StudyScore& score) {
     const study::PaperScore paper = study::paperScore(score.id).value_or(study::PaperScore{});
     table.row() << part << score.id << score.label << score.model << score.scored << score.r2_spread.mean
@@ -104,8 +103,7 @@ std::string taxelTable(const study::StudyResult& result) {
 std::string binTable(const study::StudyResult& result) {
   Table table(
       "part,method,pressure [kPa],direction,readings,bias [kPa],RMSE [kPa],limit low [kPa],limit high "
-      "[kPa],p95 "
-      "[kPa]");
+      "[kPa],p95 [kPa]");
   forEachScore(result, [&](const std::string& part, const study::StudyScore& score) {
     for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin) {
       const statistics::BinnedErrors::Directions& errors = score.errors.bins[bin];
@@ -123,9 +121,7 @@ std::string binTable(const study::StudyResult& result) {
 void addTest(Table& table, const statistics::TestResult& test) {
   std::string freedom;
   for (const double degrees : test.degrees_of_freedom) {
-    std::ostringstream text;
-    text << degrees;
-    freedom += (freedom.empty() ? "" : " ") + text.str();
+    freedom += (freedom.empty() ? "" : " ") + settings::roundedText(degrees);
   }
   table << test.test << test.symbol << test.statistic << freedom << test.p << static_cast<double>(test.n);
 }

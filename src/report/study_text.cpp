@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "report/study_report.h"
+#include "settings/number_text.h"
 #include "study/paper_numbers.h"
 
 namespace fsr::report {
@@ -13,11 +14,9 @@ constexpr int kNameWidth = 20;
 constexpr double kKilopascal = 1e3;  // [Pa]
 
 std::string number(double value, int digits) {
-  if (std::isnan(value)) return "-";
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  const bool nothing = text.str().find_first_not_of("-0.") == std::string::npos;
-  return nothing && text.str().front() == '-' ? text.str().substr(1) : text.str();
+  const std::string text = settings::cellText(value, digits);
+  const bool negative_zero = text.find_first_not_of("-0.") == std::string::npos && text != "-";
+  return negative_zero && text.front() == '-' ? text.substr(1) : text;
 }
 
 std::string spread(const statistics::Spread& value, int digits, int deviation_digits) {
@@ -77,13 +76,13 @@ void comparisonText(std::ostream& out, const study::StudyComparison& comparison)
   out << "  RMSE%: " << testText(comparison.rmse_percent.test, comparison.rmse_percent.p) << '\n';
   for (const std::string& sentence : study::paperStatements(comparison.id))
     out << "  The paper: " << sentence << '\n';
-  out << "Difference of RMSE%, whole units resampled:\n";
+  out << "Difference of RMSE%, by bootstrap over whole units:\n";
   for (const study::StudyDifference& difference : comparison.differences) {
     const statistics::BootstrapResult& interval = difference.rmse_percent;
     out << "  " << std::left << std::setw(2 * kNameWidth) << difference.first + " - " + difference.second
         << std::right;
     if (interval.method == statistics::IntervalMethod::kNone) {
-      out << number(interval.estimate, 2) << ", holds for these recordings only\n";
+      out << number(interval.estimate, 2) << ", valid for these recordings only\n";
       continue;
     }
     out << number(interval.estimate, 2) << "  95 % interval " << number(interval.low, 2) << " to "
@@ -117,7 +116,7 @@ std::string studyText(const study::StudyResult& result) {
   for (const std::string& warning : result.warnings) out << "Warning: " << warning << '\n';
   for (const study::StudyComparison& comparison : result.comparisons) comparisonText(out, comparison);
   if (!result.plan.beyond_the_paper) return out.str() + '\n' + sentences(result.holds_for);
-  out << "\nOn all scans, bandwidth chosen by nested cross-validation: RMSE with 95 % interval\n";
+  out << "\nAll scans, bandwidth chosen by nested cross-validation: RMSE with 95 % interval\n";
   for (const study::SplitResult& split : result.splits) splitText(out, split);
   out << '\n' << result.headline.text << '\n';
   return out.str() + sentences(result.holds_for);

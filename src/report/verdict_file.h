@@ -7,14 +7,14 @@
 
 namespace fsr::report {
 
-/// The verdict as verdict.yaml says it, for people and for programs; null = absent:
+/// The text of verdict.yaml; null = absent:
 ///
 ///     verdict: named                # none, unknown, ambiguous, wrong_form, named, not_identifiable
 ///     effects:
 ///       - id: hysteresis
 ///         parameters: [{name: loop_width, value: 0.062, unit: ..., interval: [0.058, 0.067]}]
 ///         evidence: {z: 14.1, share_of_ceiling: 0.93}
-///     credible_set: [[hysteresis]]  # every explanation not excluded, best first
+///     credible_set: [[hysteresis]]  # all explanations that are not excluded, best first
 ///     depends_on: [direction, pressure]
 ///     not_identifiable: [{id: crosstalk, experiment: uneven_load}]
 ///     where: {taxels: all, conditions: all, pressure: [0, 620000], direction: both, time: all}
@@ -24,10 +24,10 @@ namespace fsr::report {
 ///     version: 0.1.0
 ///     inputs: [{file: 1_flat.bag, sha256: ..., show_opened: 1}]
 ///
-/// Numbers have five digits; results.json has all of them.
+/// Numbers have five digits; results.json has all digits.
 std::string verdictText(const discrepancy::DiscrepancyReport& report);
 
-/// What a verdict.yaml says, as far as somebody needs it who holds new recordings against it.
+/// The part of a verdict.yaml that is needed to compare new recordings with it.
 struct VerdictFile {
   std::string verdict;
   std::vector<std::string> effects;  ///< ids
@@ -37,8 +37,8 @@ struct VerdictFile {
   std::string version;
 };
 
-/// Reads a verdict.yaml strictly: unknown and missing keys, other kinds of value and ids that the library
-/// does not hold raise InputError, one sentence that names file, field and what would be right.
+/// Reads a verdict.yaml. Unknown and missing keys, values of another kind, and ids that are not in the
+/// library raise InputError: one sentence that names file, field and what would be right.
 VerdictFile readVerdict(const std::string& path);
 
 }  // namespace fsr::report

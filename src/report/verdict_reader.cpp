@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kSha256Digits = 64;
 
-// One mapping of the file, all of whose keys must be there and no others.
+// A mapping of the file. It must have all of the given keys and no others.
 class Mapping {
  public:
   Mapping(const std::string& file, const YAML::Node& node, const std::string& field,
@@ -75,7 +75,7 @@ YAML::Node load(const std::string& path) {
     throw settings::InputError(path +
                                ": cannot be opened; give the verdict.yaml of an earlier discrepancy run");
   } catch (const YAML::Exception& error) {
-    throw settings::InputError(path + ": is no YAML (" + error.what() + ")");
+    throw settings::InputError(path + ": is not valid YAML (" + error.what() + ")");
   }
 }
 
@@ -93,7 +93,7 @@ void requireVerdict(const Mapping& file, const std::string& verdict) {
 
 void requireEffect(const Mapping& file, const std::string& key, const std::string& id) {
   if (simulation::findEffect(id) == nullptr)
-    file.fail(key, "is \"" + id + "\", but no effect of the library is called so");
+    file.fail(key, "is \"" + id + "\", but the library has no effect of this name");
 }
 
 std::vector<std::string> readEffects(const Mapping& file) {
@@ -113,8 +113,8 @@ std::vector<discrepancy::InputUse> readInputs(const Mapping& file) {
     use.file = input.as<std::string>("file", "text");
     use.sha256 = input.as<std::string>("sha256", "text");
     if (use.sha256.size() != kSha256Digits) input.fail("sha256", "must have 64 hexadecimal digits");
-    use.show_opened = input.as<int>("show_opened", "a whole number");
-    if (use.show_opened < 0) input.fail("show_opened", "must be 0 or more");
+    use.hold_out_opened = input.as<int>("show_opened", "a whole number");
+    if (use.hold_out_opened < 0) input.fail("show_opened", "must be 0 or more");
     inputs.push_back(use);
   }
   return inputs;

@@ -20,8 +20,8 @@ std::string effectText(const discrepancy::FoundEffect& effect) {
     parameters.push_back(parameterText(parameter));
   return "  - id: " + yaml::text(effect.id) + "\n    parameters: " + yaml::list(parameters) +
          "\n    evidence: " +
-         yaml::map(
-             {{"z", yaml::number(effect.z)}, {"share_of_ceiling", yaml::number(effect.share_of_ceiling)}}) +
+         yaml::map({{"z", yaml::number(effect.z)},
+                    {"share_of_ceiling", yaml::number(effect.share_of_explainable)}}) +
          "\n";
 }
 
@@ -90,7 +90,7 @@ std::string inputsText(const std::vector<discrepancy::InputUse>& inputs) {
     text += "  - " +
             yaml::map({{"file", yaml::text(input.file)},
                        {"sha256", "\"" + input.sha256 + "\""},
-                       {"show_opened", std::to_string(input.show_opened)}}) +
+                       {"show_opened", std::to_string(input.hold_out_opened)}}) +
             "\n";
   }
   return text;

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/rheology/exponential_memory.h"
+#include "rheology/exponential_memory.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -13,8 +13,8 @@ ExponentialMemory::ExponentialMemory(double time_constant) : time_constant_(time
 
 ExponentialMemory::Step ExponentialMemory::over(double duration) const {
   if (duration <= 0) return {};
-  // m(t) of a ramp with slope s: x(t) - s tau + (m0 - x0 + s tau) exp(-t / tau). The same, written
-  // without the difference of large numbers that a short step would leave:
+  // For a ramp with slope s, m(t) = x(t) - s tau + (m0 - x0 + s tau) exp(-t / tau). The form below is the
+  // same without the difference of large numbers that a short step would cause:
   const double ratio = duration / time_constant_;
   const double gone = -std::expm1(-ratio);  // 1 - exp(-ratio)
   return {gone, 1 - gone / ratio};

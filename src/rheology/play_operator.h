@@ -5,9 +5,9 @@
 
 namespace fsr::rheology {
 
-/// Play (backlash) operator: the output follows the input at a distance of at most `radius`, and
-/// stands still while the input moves inside that gap. Rate-independent: only the turning points of
-/// the input count, never the time between them.
+/// Play (backlash) operator: the output follows the input at a distance of at most `radius` and does not
+/// change while the input moves within that distance. It is rate-independent: only the turning points of the
+/// input matter, not the time between them.
 inline double playStep(double input, double radius, double output) {
   if (output < input - radius) return input - radius;
   if (output > input + radius) return input + radius;
@@ -17,9 +17,9 @@ inline double playStep(double input, double radius, double output) {
 /// Prandtl-Ishlinskii operator: sum_i weight_i play_{radius_i}(input).
 /// Source: M. Brokate and J. Sprekels, Hysteresis and Phase Transitions, Springer 1996, ch. 2.
 ///
-/// The operator itself never changes; the state, one play output each, belongs to the caller, who can
-/// keep one for each taxel, save it and reset it. It wipes out: an excursion beyond an earlier turning
-/// point erases all memory of that turning point.
+/// The operator is constant. The state, one output for each play, is stored by the caller, e.g. one for each
+/// taxel, and can be saved and reset. The operator has the wiping-out property: an excursion beyond an
+/// earlier turning point erases all memory of that turning point.
 class PrandtlIshlinskii {
  public:
   /// `radii` in the unit of the input, 0 or more; `weights` pure numbers, one for each radius.
@@ -29,14 +29,13 @@ class PrandtlIshlinskii {
   /// Number of values of a state.
   std::size_t stateSize() const { return radii_.size(); }
 
-  /// The state after resting at `input` for ever, all memory gone. Where the history starts from an
-  /// unloaded body, reset at 0.
+  /// Sets the state without memory at `input`. A history that starts from an unloaded body starts at 0.
   void reset(double input, double* state) const;
 
-  /// Moves on to `input` and returns the output. `state` holds stateSize() values.
+  /// Changes the state for the new `input` and returns the output. `state` has stateSize() values.
   double step(double input, double* state) const;
 
-  /// Vertical distance of the two branches of a loop so wide that every play has been turned round:
+  /// Vertical distance between the two branches of a loop that is wide enough to turn every play around:
   /// 2 sum_i weight_i radius_i.
   double fullLoopWidth() const;
   /// Area of the loop between two turning points: sum_i 2 weight_i radius_i max(b - a - 2 radius_i, 0).

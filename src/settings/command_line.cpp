@@ -35,7 +35,7 @@ double parsed(const std::string& text) {
 
 CommandLine::CommandLine(const std::string& tool, const std::string& usage, const std::string& purpose)
     : tool_(tool), usage_(usage), purpose_(purpose) {
-  flag("help", "print this and stop");
+  flag("help", "print this help and exit");
 }
 
 CommandLine& CommandLine::option(const std::string& name, const std::string& placeholder,
@@ -52,7 +52,7 @@ CommandLine& CommandLine::flag(const std::string& name, const std::string& help)
 void CommandLine::take(const std::string& name, const std::string* value) {
   const auto found = declared_.find(name);
   if (found == declared_.end()) {
-    throw InputError("--" + name + " is no option of " + tool_ + "; see " + tool_ + " --help");
+    throw InputError("--" + name + " is not an option of " + tool_ + "; see " + tool_ + " --help");
   }
   if (values_.count(name) != 0) throw InputError("--" + name + " is given twice; keep one");
   const bool is_flag = found->second.placeholder.empty();
@@ -134,11 +134,11 @@ std::int64_t CommandLine::integer(const std::string& name, std::int64_t fallback
 
 namespace {
 
-// Vectors of tens of kilobytes come and go by the thousand in a tool: handing each back to the system and
-// having its pages cleared again takes a sixth of the time of training.
+// A tool allocates and frees thousands of vectors of tens of kilobytes. Returning each to the system, which
+// clears its pages again, takes a sixth of the time of training.
 void keepFreedMemory() {
 #ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // [bytes], the most that glibc takes
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // [bytes], the largest value that glibc accepts
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
 #endif
 }

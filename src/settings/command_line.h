@@ -11,26 +11,26 @@
 
 namespace fsr::settings {
 
-/// The options of a tool: `tool FILE... --option VALUE --flag`. Options are declared first, so that help
-/// and refusals know them all; `--option=VALUE` and options before, between and after the files are fine,
-/// `--` ends the options. What is wrong raises InputError that names option, value and what would be
-/// right.
+/// The options of a tool: `tool FILE... --option VALUE --flag`. Options are declared first, so that the help
+/// and error messages know all of them. `--option=VALUE` is accepted too, as are options before, between and
+/// after the files. `--` ends the options. Errors throw InputError, which names the option, the value and
+/// what would be right.
 class CommandLine {
  public:
-  /// `usage` is what follows the tool's name in its help, e.g. "BAG... --output FILE".
+  /// `usage`: text behind the tool's name in its help, e.g. "BAG... --output FILE".
   CommandLine(const std::string& tool, const std::string& usage, const std::string& purpose);
 
   CommandLine& option(const std::string& name, const std::string& placeholder, const std::string& help);
   CommandLine& flag(const std::string& name, const std::string& help);
 
-  /// False where help was asked for: then `help()` is what to print.
+  /// False where the user asked for help; then print `help()`.
   bool parse(int argc, const char* const* argv);
   std::string help() const;
 
   const std::vector<std::string>& files() const { return files_; }
   bool has(const std::string& name) const;
   std::string text(const std::string& name, const std::string& fallback) const;
-  /// Refuses a command line without it.
+  /// Throws InputError where the option is missing.
   std::string requiredText(const std::string& name) const;
   double number(const std::string& name, double fallback, const Range& range) const;
   std::int64_t integer(const std::string& name, std::int64_t fallback, const Range& range) const;
@@ -49,8 +49,8 @@ class CommandLine {
   std::vector<std::string> files_;
 };
 
-/// What a tool's main returns: run()'s status, or 2 after one sentence on the terminal where an
-/// InputError stops it.
+/// Returns the exit status of a tool: that of run(), or 2 where it throws InputError, whose sentence is
+/// printed.
 int runTool(const std::string& tool, const std::function<int()>& run);
 
 }  // namespace fsr::settings

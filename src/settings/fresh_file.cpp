@@ -42,7 +42,7 @@ void FreshPath::finish() {
   done_ = true;
 }
 
-// zlib writes plain files too ("T"): one way for both.
+// zlib writes plain files too ("T"), so both use the same code.
 struct FreshFile::Stream {
   explicit Stream(int descriptor, bool compressed)
       : file(descriptor), gz(::gzdopen(descriptor, compressed ? "wb6" : "wbT")) {

@@ -7,19 +7,19 @@
 
 namespace fsr::settings {
 
-/// A temporary name beside `path`, for a file or folder that somebody else fills: at `path` there is the old
-/// one or the whole new one, whatever stops the program. Throws InputError, in the words of replaceFile().
+/// A temporary name beside `path`, for a file or folder that the caller fills. At `path` there is either the
+/// old or the complete new one, even where the program is killed. Throws InputError like replaceFile().
 class FreshPath {
  public:
-  /// Refuses, as requireReplaceable() does, where nothing could be written.
+  /// Throws InputError, like requireReplaceable(), where nothing could be written.
   explicit FreshPath(const std::string& path);
-  /// Without finish() nothing remains.
+  /// Removes the temporary file or folder unless finish() was called.
   ~FreshPath();
   FreshPath(const FreshPath&) = delete;
   FreshPath& operator=(const FreshPath&) = delete;
 
   const std::string& name() const { return fresh_; }
-  /// Syncs what is there to the disk and gives it its name.
+  /// Writes the content to the disk and renames it to `path`.
   void finish();
 
  private:
@@ -28,8 +28,8 @@ class FreshPath {
   bool done_ = false;
 };
 
-/// A file that is written piece by piece and appears whole or not at all. A path that ends with .gz is
-/// written compressed. Throws InputError likewise: also where the disk is full.
+/// A file that is written piece by piece and appears complete or not at all. A path that ends with .gz is
+/// compressed. Throws InputError like replaceFile(), also where the disk is full.
 class FreshFile {
  public:
   explicit FreshFile(const std::string& path);
@@ -37,7 +37,7 @@ class FreshFile {
 
   void write(const char* bytes, std::size_t size);
   void write(const std::string& text) { write(text.data(), text.size()); }
-  /// Replaces what was written at `offset` [bytes]; not for .gz.
+  /// Overwrites the bytes at `offset` [bytes]; not possible for .gz.
   void patch(std::size_t offset, const std::string& text);
   void finish();
 

@@ -23,7 +23,7 @@ bool writeAll(int file, const std::string& content) {
   return ::fsync(file) == 0;
 }
 
-// 0, or what went wrong.
+// Returns 0 or an errno.
 int writeFresh(const std::string& path, const std::string& content) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (file < 0) return errno;

@@ -6,16 +6,16 @@
 
 namespace fsr::settings {
 
-/// Writes `content` to a temporary name beside `path`, syncs it to the disk, then renames: at `path`
-/// there is the old file or the whole new one, whatever stops the program. Throws InputError that names
-/// the path and the cause; the temporary file is gone then.
+/// Writes `content` to a temporary file beside `path`, syncs it to the disk and renames it. At `path` there
+/// is either the old or the complete new file, even where the program is killed. Throws InputError, which
+/// names the path and the cause, and removes the temporary file.
 void replaceFile(const std::string& path, const std::string& content);
 
-/// Throws InputError, in the same words, where replaceFile() would fail for want of a directory or of
-/// permission: to be asked before long work, not after it.
+/// Throws the InputError of replaceFile() where the directory or the permission to write is missing. Call it
+/// before a long computation.
 void requireReplaceable(const std::string& path);
 
-/// What they throw; `error` is an errno.
+/// The InputError that both throw; `error` is an errno.
 InputError cannotWrite(const std::string& path, int error);
 
 }  // namespace fsr::settings

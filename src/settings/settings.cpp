@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
 
 #include <yaml-cpp/yaml.h>
 
@@ -16,7 +16,7 @@ struct Settings::Node {
   std::string origin;  // the file
   std::string path;    // dotted path of this mapping inside it, "" at the top
   mutable std::set<std::string> known;
-  mutable std::vector<std::shared_ptr<Node>> opened;  // sections handed out, checked with this one
+  mutable std::vector<std::shared_ptr<Node>> opened;  // sections that were read from this one
 
   std::string field(const std::string& key) const { return path.empty() ? key : path + "." + key; }
 };
@@ -39,8 +39,8 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-// yaml-cpp keeps the last of two equal keys in silence; a setting given twice is a mistake to name. And YAML
-// lets lists and mappings be keys.
+// yaml-cpp silently keeps the last of two equal keys; here a duplicate key is an error. So is a key that is a
+// list or a mapping, which YAML permits.
 void refuseBadKeys(const YAML::Node& mapping, const std::string& origin, const std::string& path) {
   std::set<std::string> seen;
   for (const auto& entry : mapping) {

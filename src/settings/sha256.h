@@ -6,7 +6,7 @@
 
 namespace fsr::settings {
 
-/// SHA-256 of bytes that come bit by bit.
+/// SHA-256 of bytes that are added piece by piece.
 class Sha256 {
  public:
   Sha256();
@@ -14,7 +14,7 @@ class Sha256 {
   Sha256(Sha256&&) noexcept;
 
   void add(const void* bytes, std::size_t size);
-  /// Of all that was added, 64 hexadecimal digits in lower case; the last call.
+  /// The sum of all bytes added: 64 hexadecimal digits in lower case. No call may follow.
   std::string hexadecimal();
 
  private:
@@ -26,7 +26,7 @@ class Sha256 {
 std::string sha256(const void* bytes, std::size_t size);
 
 /// SHA-256 of a file's bytes. Throws InputError where it cannot be read.
-/// `skip`: bytes at its beginning that are left out.
+/// `skip`: number of bytes at its beginning to leave out.
 std::string sha256OfFile(const std::string& path, std::size_t skip = 0);
 
 }  // namespace fsr::settings

@@ -4,11 +4,11 @@
 
 namespace fsr::settings {
 
-/// The shortest decimal text that a YAML or JSON reader turns back into the same number; `.inf` and `.nan`
-/// as YAML spells them.
+/// The shortest decimal text that a YAML or JSON reader converts back to the same number; `.inf` and `.nan`
+/// as in YAML.
 std::string numberText(double value);
 
-/// Any text in double quotes, as YAML escapes it.
+/// A text in double quotes, escaped for YAML.
 std::string quotedText(const std::string& text);
 
 }  // namespace fsr::settings

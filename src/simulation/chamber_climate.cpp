@@ -1,8 +1,6 @@
 #include "fsr_pressure_map/simulation/chamber_climate.h"
 
-#include <algorithm>
-
-#include "fsr_pressure_map/simulation/effect.h"
+#include "simulation/read_settings.h"
 
 namespace fsr::simulation {
 
@@ -22,10 +20,6 @@ std::vector<TemperaturePoint> readRoom(const settings::Settings& settings) {
   return room;
 }
 
-// A gas's state: whether it was asked before, when [s], the pressure then [Pa], and the pressure to whose
-// heat it has lost its own [Pa].
-enum { kStarted, kTime, kPressure, kSlow, kGasState };
-
 }  // namespace
 
 ChamberClimate readChamberClimate(const settings::Settings& settings) {
@@ -34,30 +28,6 @@ ChamberClimate readChamberClimate(const settings::Settings& settings) {
   climate.heating = settings.number("heating", {0, 1e-3, "K/Pa"}, climate.heating);
   climate.cooling = settings.number("cooling", {0.1, 1e5, "s"}, climate.cooling);
   return climate;
-}
-
-ChamberGas::ChamberGas(const ChamberClimate& climate)
-    : climate_(climate), cooling_(climate.cooling), state_(kGasState) {}
-
-double ChamberGas::room(double time) const {
-  const auto& points = climate_.room;
-  if (points.empty()) return kRoomTemperature;
-  const auto next = std::find_if(points.begin(), points.end(),
-                                 [time](const TemperaturePoint& point) { return point.time > time; });
-  if (next == points.begin()) return points.front().temperature;
-  if (next == points.end()) return points.back().temperature;
-  const auto from = next - 1;
-  const double share = (time - from->time) / (next->time - from->time);
-  return from->temperature + share * (next->temperature - from->temperature);
-}
-
-double ChamberGas::temperature(double time, double pressure) {
-  // dT/dt = c dP/dt - T / tau above the room: what the pressure has over its own slow mean.
-  const double slow = state_[kStarted] == 0
-                          ? 0
-                          : cooling_.step(state_[kPressure], pressure, time - state_[kTime], state_[kSlow]);
-  state_ = {1, time, pressure, slow};
-  return room(time) + climate_.heating * (pressure - slow);
 }
 
 }  // namespace fsr::simulation

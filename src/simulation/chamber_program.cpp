@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "settings/yaml_text.h"
+#include "simulation/pressure_profile.h"
+#include "simulation/read_settings.h"
 
 namespace fsr::simulation {
 
@@ -66,9 +68,9 @@ class Builder {
     stay(hold.duration);
   }
   void operator()(const LoopsPart& loops) {
-    const double way = (loops.high - loops.low) / loops.rate;  // [s]
+    const double ramp = (loops.high - loops.low) / loops.rate;  // [s]
     rampTo(loops.low, loops.rate);
-    profile_.append({{0, loops.low}, {way, loops.high}, {2 * way, loops.low}}, loops.loops);
+    profile_.append({{0, loops.low}, {ramp, loops.high}, {2 * ramp, loops.low}}, loops.loops);
   }
   void operator()(const RestPart& rest) {
     rampTo(0, rest.rate);

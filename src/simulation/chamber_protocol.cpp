@@ -3,6 +3,8 @@
 #include <sstream>
 
 #include "settings/yaml_text.h"
+#include "simulation/pressure_profile.h"
+#include "simulation/read_settings.h"
 
 namespace fsr::simulation {
 

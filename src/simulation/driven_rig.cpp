@@ -2,12 +2,15 @@
 
 #include <algorithm>
 
+#include "simulation/effect.h"
+#include "simulation/effects/enabled_effects.h"
+
 namespace fsr::simulation {
 
 namespace {
 
-/// A recording's pressure, straight between its scans and held outside. Asked about times that run on, it
-/// finds them near the last one.
+/// The pressure of a recording, linear between its scans and constant outside. The search starts at the last
+/// time.
 class RecordedCourse {
  public:
   RecordedCourse(const dataset::Recording& recording, double start) : recording_(recording), start_(start) {}
@@ -36,7 +39,7 @@ SimulationSettings fitted(const SimulationSettings& settings, const dataset::Rec
   SimulationSettings result = settings;
   result.layout = recording.layout;
   for (EnabledEffect& effect : result.effects) {
-    if (effect.id == "converter") effect.values["full_scale"] = recording.full_scale;
+    if (effect.id == converterOf(settings).id) effect.values["full_scale"] = recording.full_scale;
   }
   return result;
 }
@@ -68,7 +71,7 @@ void DrivenRig::lie(const matrix::Surface& surface) {
   chain_.mount(surface.known() ? surface
                                : matrix::Surface{surface.name, surface.mount, {matrix::Curvature{}}, {}});
   surface_ = surface;
-  // Where it lay there already, it was not mounted anew.
+  // The sheet lay there already and was not mounted again.
   if (resumed_ && surface.mount == resumed_->mount && surface.name == resumed_->surface) {
     chain_.restore(resumed_->sheet);
   }
@@ -107,13 +110,13 @@ void DrivenRig::run(const dataset::Recording& recording,
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     const matrix::Surface& surface = recording.conditions.at(recording.condition[i]);
     lie(surface);
-    RigMoment moment;
-    moment.time = start + recording.time[i];
-    moment.pressure = reference_.truePressure(recording.pressure[i]);
-    moment.scan = scans_++;
-    if (!recording.temperature.empty()) moment.temperature = recording.temperature[i];
-    moment.course = &course;
-    chain_.read(moment);
+    RigSample sample;
+    sample.time = start + recording.time[i];
+    sample.pressure = reference_.truePressure(recording.pressure[i]);
+    sample.scan = scans_++;
+    if (!recording.temperature.empty()) sample.temperature = recording.temperature[i];
+    sample.course = &course;
+    chain_.read(sample);
     listener(i, chain_);
   }
   end_ = start + recording.time.back();

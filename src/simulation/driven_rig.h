@@ -16,24 +16,24 @@ namespace fsr::simulation {
 /// that made it.
 SimulationSettings fitted(const SimulationSettings& settings, const dataset::Recording& recording);
 
-/// A simulated matrix that goes through what a real one went through: recorded pressure, surfaces and
-/// temperature. The reference is what was recorded; where the settings hold an error of the reference, the
-/// matrix feels the true pressure behind it.
+/// A simulated matrix under the recorded pressure, surfaces and temperature of a real one. The recorded
+/// pressure is the reference. Where the settings contain an error of the reference, the matrix gets the true
+/// pressure.
 class DrivenRig {
  public:
   /// Throws InputError.
   explicit DrivenRig(const SimulationSettings& settings);
 
-  /// Goes through all scans of a recording; `listener` may ask the chain for its counts, readings and
-  /// signals after each. Recordings must come in time order; the sheet remembers what it went through, the
-  /// pressure being straight in between, and is mounted anew where surface or mount change. Throws
-  /// InputError where the recording has no chamber pressure, another matrix, or begins before the last one
-  /// ended.
+  /// Simulates all scans of a recording. `listener` is called after each scan and may read counts, readings
+  /// and signals of the chain. Recordings must come in time order. The sheet keeps its state between them,
+  /// and the pressure is linear in between. The sheet is mounted again where surface or mount change. Throws
+  /// InputError where the recording has no chamber pressure, is of another matrix, or begins before the last
+  /// one ended.
   void run(const dataset::Recording& recording,
            const std::function<void(std::size_t scan, const SensorChain& chain)>& listener);
 
-  /// Goes on from where another run was left; in its rig time the recordings must come after it. Throws
-  /// InputError where the state belongs to another rig.
+  /// Continues after another run. In its rig time the recordings must come after it. Throws InputError where
+  /// the state belongs to another rig.
   void resume(const RigState& state);
   RigState state() const;
 

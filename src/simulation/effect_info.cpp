@@ -41,6 +41,18 @@ EffectParameter EffectParameter::trying(std::vector<double> values) const {
   return changed;
 }
 
+EffectParameter EffectParameter::inBaseFit(int place) const {
+  EffectParameter changed = *this;
+  changed.place_in_base_fit = place;
+  return changed;
+}
+
+EffectParameter EffectParameter::fromTaxelDeviation() const {
+  EffectParameter changed = *this;
+  changed.from_taxel_deviation = true;
+  return changed;
+}
+
 EffectParameter strength(std::string name, std::string meaning, const settings::Range& permitted,
                          double usual) {
   return make(std::move(name), std::move(meaning), ParameterRole::kStrength, permitted, usual);
@@ -68,6 +80,10 @@ std::vector<EffectParameter> strengths(const EffectInfo& info) {
     if (candidate.role == ParameterRole::kStrength) result.push_back(candidate);
   }
   return result;
+}
+
+bool dependsOn(const EffectInfo& info, Covariate covariate) {
+  return std::count(info.depends_on.begin(), info.depends_on.end(), covariate) > 0;
 }
 
 std::string name(ChainStage stage) {
@@ -99,7 +115,7 @@ std::string name(Covariate covariate) {
 
 std::string name(Evidence evidence) {
   return nameOf(evidence, {"thermometer", "mount_labels", "two_ramp_rates", "uneven_load", "second_reference",
-                           "vented_sheet", "many_cycles"});
+                           "vented_sheet", "many_cycles", "remounts", "uneven_pace"});
 }
 
 std::string name(Experiment experiment) {

@@ -1,4 +1,5 @@
 #include "fsr_pressure_map/simulation/load_pattern.h"
+#include "simulation/read_settings.h"
 
 #include <cmath>
 

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/chamber_climate.h"
+#include "simulation/effect.h"
 #include "simulation/effects/effect_library.h"
+#include "simulation/effects/enabled_effects.h"
+#include "simulation/pressure_profile.h"
 #include "simulation/reference_channel.h"
 #include "simulation/sensor_chain.h"
 
@@ -31,7 +35,7 @@ struct Trial {
 
 /// Readings of all scans in shares of full scale, [scans x taxels].
 std::vector<double> run(const SimulationSettings& noisy, const Trial& trial) {
-  const SimulationSettings settings = withoutEffect(noisy, "white_noise");
+  const SimulationSettings settings = withoutNoise(noisy);
   SensorChain chain(settings);
   const ReferenceChannel reference(settings);
   const PressureCourse course = [&](double time) { return reference.truePressure(trial.profile.at(time)); };
@@ -133,9 +137,8 @@ std::vector<double> largest(const std::vector<double>& change, std::size_t taxel
   return scanAt(change, best, taxels);
 }
 
-bool isCore(const EnabledEffect& effect) {
-  return findEffect(effect.id)->info.kind == EffectKind::kBase || effect.id == "bending_preload" ||
-         effect.id == "bending_gain";
+bool isCore(const EffectInfo& info) {
+  return info.kind == EffectKind::kBase || info.with_bending;
 }
 
 template <typename Unwanted>
@@ -148,7 +151,7 @@ SimulationSettings withoutThose(SimulationSettings settings, Unwanted unwanted) 
 }  // namespace
 
 SimulationSettings withEffect(const SimulationSettings& settings, const std::string& id) {
-  const EffectEntry* entry = findEffect(id);
+  const EffectEntry* entry = libraryOf(settings).find(id);
   if (!entry || !entry->make)
     throw settings::InputError(id + ": no effect that can be simulated has that name");
   SimulationSettings result = settings;
@@ -166,7 +169,8 @@ SimulationSettings withoutEffect(const SimulationSettings& settings, const std::
 }
 
 SimulationSettings coreOf(const SimulationSettings& settings) {
-  return withoutThose(settings, [](const EnabledEffect& effect) { return !isCore(effect); });
+  return withoutThose(
+      settings, [&](const EnabledEffect& effect) { return !isCore(libraryOf(settings).info(effect.id)); });
 }
 
 Portrait portray(const SimulationSettings& with, const SimulationSettings& without) {

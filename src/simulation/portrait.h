@@ -14,8 +14,8 @@ struct PortraitLine {
   std::vector<double> y;
 };
 
-/// What a person should look at to see what the effects of a rig do: the same four experiments with them
-/// and without. Readings are unrounded, without white noise, in shares of full scale.
+/// Data of a figure that shows the effects of a rig: the same four experiments with them and without.
+/// Readings are unrounded, without noise, in shares of full scale.
 struct Portrait {
   std::string title;
   /// Reading by recorded pressure [Pa], first loading, flat and bent; all else is bent.
@@ -33,7 +33,7 @@ struct Portrait {
 /// InputError where there is no such effect.
 SimulationSettings withEffect(const SimulationSettings& settings, const std::string& id);
 SimulationSettings withoutEffect(const SimulationSettings& settings, const std::string& id);
-/// The settings with what every bent matrix has, and nothing else: the kinds of core.yaml.
+/// The settings with those effects only that the simplest simulation of a bent sensor has, as in core.yaml.
 SimulationSettings coreOf(const SimulationSettings& settings);
 
 /// Both must be of one matrix. Throws InputError.

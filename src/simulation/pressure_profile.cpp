@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/simulation/pressure_profile.h"
+#include "simulation/pressure_profile.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@ namespace fsr::simulation {
 
 ReferenceChannel::ReferenceChannel(const SimulationSettings& settings) : transducer_(settings.transducer) {
   for (const EnabledEffect& enabled : settings.effects) {
-    const EffectEntry* entry = findEffect(enabled.id);
+    const EffectEntry* entry = libraryOf(settings).find(enabled.id);
     if (entry->info.stage != ChainStage::kReference) continue;
     effects_.push_back(entry->make(enabled.values, {settings.layout, settings.seed}));
   }

@@ -4,13 +4,13 @@
 #include <memory>
 #include <vector>
 
-#include "fsr_pressure_map/simulation/effect.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
+#include "simulation/effect.h"
 
 namespace fsr::simulation {
 
-/// The chamber's own gauge beside the sensor chain: gauge pressure in, through the effects of the stage
-/// kReference and the transducer's converter, what a recording says out.
+/// The chamber's pressure transducer. Input: the gauge pressure of the chamber. Output: the pressure that a
+/// recording contains, after the effects of the stage kReference and the transducer's converter.
 class ReferenceChannel {
  public:
   /// Throws InputError.
@@ -18,7 +18,7 @@ class ReferenceChannel {
 
   /// What the transducer shows before its converter [Pa].
   double indicated(double pressure) const;
-  /// The other way round: the chamber's pressure when the transducer shows that [Pa].
+  /// Inverse of indicated(): the chamber's pressure when the transducer shows `indicated` [Pa].
   double truePressure(double indicated) const;
 
   /// What its converter makes of the chamber's pressure [Pa].

@@ -6,13 +6,13 @@ Rig::Rig(const SimulationSettings& settings)
     : chain_(settings), reference_(settings), gas_(settings.climate) {}
 
 const std::vector<std::uint16_t>& Rig::scan(double time, const PressureCourse& pressure) {
-  RigMoment moment;
-  moment.time = time;
-  moment.pressure = pressure(time);
-  moment.scan = scans_++;
-  moment.temperature = gas_.temperature(time, moment.pressure);
-  moment.course = &pressure;
-  return chain_.read(moment);
+  RigSample sample;
+  sample.time = time;
+  sample.pressure = pressure(time);
+  sample.scan = scans_++;
+  sample.temperature = gas_.temperature(time, sample.pressure);
+  sample.course = &pressure;
+  return chain_.read(sample);
 }
 
 std::int32_t Rig::transducer(double time, const PressureCourse& pressure) const {

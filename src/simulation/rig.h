@@ -4,14 +4,16 @@
 #include <vector>
 
 #include "fsr_pressure_map/simulation/chamber_climate.h"
+#include "simulation/chamber_gas.h"
+#include "simulation/effect.h"
 #include "simulation/reference_channel.h"
 #include "simulation/rig_state.h"
 #include "simulation/sensor_chain.h"
 
 namespace fsr::simulation {
 
-/// Matrix, transducer and thermometer in one chamber. Times are rig time [s] and must ascend for each
-/// of the three; the course of the pressure is asked about the time itself and the scan round it.
+/// Matrix, transducer and thermometer in one chamber. Times are rig time [s] and must ascend for each of the
+/// three. The pressure is evaluated at the time itself and during the scan round it.
 class Rig {
  public:
   /// Throws InputError.
@@ -24,13 +26,13 @@ class Rig {
 
   /// Counts of a scan whose middle is at `time`, [rows x columns], row-major; valid until the next call.
   const std::vector<std::uint16_t>& scan(double time, const PressureCourse& pressure);
-  /// What the converter behind the transducer reads.
+  /// Counts of the transducer's converter.
   std::int32_t transducer(double time, const PressureCourse& pressure) const;
-  /// What the thermometer reads [degree Celsius].
+  /// Reading of the thermometer [degree Celsius].
   double temperature(double time, const PressureCourse& pressure);
 
   std::uint64_t scans() const { return scans_; }
-  /// Fills in and takes back what sheet and gas remember, and the number of scans.
+  /// Save and restore the state of sheet and gas, and the number of scans.
   void save(RigState& state) const;
   /// Throws InputError where the state belongs to another rig.
   void restore(const RigState& state);

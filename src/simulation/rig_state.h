@@ -4,25 +4,26 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
+#include "simulation/chamber_gas.h"
 #include "simulation/sensor_chain.h"
 
 namespace fsr::simulation {
 
-/// All that a simulated rig remembers from one run to the next.
+/// The state of a simulated rig between two runs.
 struct RigState {
   std::int64_t origin_ns = 0;  ///< date of rig time 0 [ns since 1970]
   double time = 0;             ///< rig time at which it was left [s]
-  std::uint64_t scans = 0;     ///< taken so far: numbers the noise
+  std::uint64_t scans = 0;     ///< number of scans so far; selects the noise
   std::uint32_t mount = 0;     ///< number of the last mount
-  std::string surface;         ///< on which the sheet then lay
+  std::string surface;         ///< of that mount
   std::vector<double> gas;     ///< ChamberGas::state(); empty = at rest
   ChainState sheet;
 };
 
 /// The state as a YAML file; readRigState() reads back the same, bit for bit.
 std::string stateText(const RigState& state);
-/// Throws InputError; whether the state fits a rig is seen when it is restored.
+/// Throws InputError. Whether the state fits a rig is checked when it is restored.
 RigState readRigState(const settings::Settings& settings);
 
 }  // namespace fsr::simulation

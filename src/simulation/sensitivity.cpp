@@ -3,19 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
+#include "simulation/effects/enabled_effects.h"
 
 namespace fsr::simulation {
 
 namespace {
 
-// Steps as shares of the usual strength. The error of a forward difference grows with the step, that of a
-// central one with its square, that of rounding (1e-16 of the reading) falls with it.
+// Steps as shares of the usual strength. The error of a forward difference is proportional to the step, that
+// of a central one to its square. The rounding error (1e-16 of the reading) is inversely proportional to the
+// step.
 constexpr double kForwardStep = 1e-6;
 constexpr double kCentralStep = 1e-4;
 
-const EffectInfo& knownEffect(const std::string& id, const std::string& strength) {
-  const EffectEntry* entry = findEffect(id);
+const EffectInfo& knownEffect(const EffectLibrary& library, const std::string& id,
+                              const std::string& strength) {
+  const EffectEntry* entry = library.find(id);
   if (!entry || !entry->make) throw settings::InputError("no effect that can be simulated is called " + id);
   for (const EffectParameter& parameter : strengths(entry->info)) {
     if (parameter.name == strength) return entry->info;
@@ -40,8 +44,9 @@ double scaleOf(const EffectParameter& strength) {
 }
 
 SimulationSettings with(SimulationSettings settings, const std::string& id, const EffectValues& values) {
-  const auto unwanted = [&](const EnabledEffect& e) { return e.id == id || e.id == "white_noise"; };
+  settings = withoutNoise(settings);
   auto& effects = settings.effects;
+  const auto unwanted = [&](const EnabledEffect& e) { return e.id == id; };
   effects.erase(std::remove_if(effects.begin(), effects.end(), unwanted), effects.end());
   effects.push_back({id, values});
   return settings;
@@ -58,18 +63,18 @@ Sensitivity::Side::Side(const SimulationSettings& settings) : chain(settings), r
   course = [this](double time) { return reference.truePressure((*recorded)(time)); };
 }
 
-const TaxelSignals& Sensitivity::Side::read(const RigMoment& moment) {
-  RigMoment true_moment = moment;
-  true_moment.pressure = reference.truePressure(moment.pressure);
-  recorded = moment.course;
-  true_moment.course = recorded ? &course : nullptr;
-  chain.read(true_moment);
+const TaxelSignals& Sensitivity::Side::read(const RigSample& sample) {
+  RigSample true_sample = sample;
+  true_sample.pressure = reference.truePressure(sample.pressure);
+  recorded = sample.course;
+  true_sample.course = recorded ? &course : nullptr;
+  chain.read(true_sample);
   return chain.signals();
 }
 
 Sensitivity::Sensitivity(const SimulationSettings& settings, const std::string& effect,
                          const std::string& strength, const EffectValues& values, double step) {
-  const EffectInfo& info = knownEffect(effect, strength);
+  const EffectInfo& info = knownEffect(libraryOf(settings), effect, strength);
   const EffectParameter& varied = parameter(info, strength);
   EffectValues at = valuesAt(settings, info, values);
   const double centre = at.at(strength);
@@ -90,9 +95,9 @@ void Sensitivity::mount(const matrix::Surface& surface, const LoadPattern& patte
   upper_->chain.mount(surface, pattern);
 }
 
-const TaxelSignals& Sensitivity::read(const RigMoment& moment) {
-  const TaxelSignals& low = lower_->read(moment);
-  const TaxelSignals& high = upper_->read(moment);
+const TaxelSignals& Sensitivity::read(const RigSample& sample) {
+  const TaxelSignals& low = lower_->read(sample);
+  const TaxelSignals& high = upper_->read(sample);
   derivative_.skew = (high.skew - low.skew) / step_;
   difference(high.offset, low.offset, step_, derivative_.offset);
   difference(high.load, low.load, step_, derivative_.load);

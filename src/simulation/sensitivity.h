@@ -3,20 +3,20 @@
 #include <memory>
 #include <string>
 
+#include "simulation/effect.h"
 #include "simulation/reference_channel.h"
 #include "simulation/sensor_chain.h"
 
 namespace fsr::simulation {
 
-/// How much the unrounded, noise-free reading changes with one strength of one effect: what that effect
-/// would add to the readings of a rig, per unit of its strength, if there were a little of it.
+/// Derivative of the unrounded, noise-free reading with respect to one strength of one effect.
 ///
-/// It is a difference of two chains inside the simulator, without white_noise, that differ in the strength
-/// alone: central, or, where the strength may not go below its value (one-sided effects have a kink at
-/// neutral), forward. Effects are linear in their strength where they act, so that the difference is exact
-/// there; what follows, above all the static curve, leaves a relative error below 1e-5. Where a taxel
-/// bears no load at all, a static curve with an exponent below 1 rises without limit and has no derivative;
-/// there the difference depends on the step.
+/// It is a finite difference between two chains without noise that differ in the strength only. The
+/// difference is central, or forward where the strength may not go below its value (one-sided effects have a
+/// kink at neutral). Effects are linear in their strength where they act, so that the difference is exact
+/// there. The following stages, above all the static curve, leave a relative error below 1e-5. Where a taxel
+/// has no load at all, a static curve with an exponent below 1 has an infinite slope; there the difference
+/// depends on the step.
 class Sensitivity {
  public:
   /// Where `effect` is enabled in `settings`, the derivative is taken at those values; else with all its
@@ -30,9 +30,9 @@ class Sensitivity {
   void mount(const matrix::Surface& surface, const LoadPattern& pattern = {});
 
   /// Derivatives of all signals of one scan [per unit of the strength], valid until the next call. The
-  /// pressure of `moment` and its course are what the reference channel shows: an error of the reference
+  /// pressure of `sample` and its course are what the reference channel shows: an error of the reference
   /// is an error of the readings at the pressure that was recorded.
-  const TaxelSignals& read(const RigMoment& moment);
+  const TaxelSignals& read(const RigSample& sample);
 
  private:
   struct Side {
@@ -42,7 +42,7 @@ class Sensitivity {
     PressureCourse course;  // of the true pressure behind the recorded one
 
     explicit Side(const SimulationSettings& settings);
-    const TaxelSignals& read(const RigMoment& moment);
+    const TaxelSignals& read(const RigSample& sample);
   };
   std::unique_ptr<Side> lower_, upper_;
   double step_ = 0;  // of the strength, from the lower to the upper

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::simulation {
@@ -41,7 +42,7 @@ std::vector<std::uint8_t> actingOn(const EnabledEffect& effect, std::size_t taxe
   return acts;
 }
 
-// Back to what it was, for taxels on which an effect does not act.
+// Restores the signals of the taxels on which the effect does not act.
 void keepOthers(const std::vector<std::uint8_t>& acts, const std::vector<double>& before,
                 std::vector<double>& now) {
   for (std::size_t i = 0; i < now.size(); ++i) {
@@ -49,11 +50,11 @@ void keepOthers(const std::vector<std::uint8_t>& acts, const std::vector<double>
   }
 }
 
-double pressureAt(const RigMoment& moment, double time) {
-  if (moment.course == nullptr) {
+double pressureAt(const RigSample& sample, double time) {
+  if (sample.course == nullptr) {
     throw std::invalid_argument("time_skew and scan_skew need the course of the pressure");
   }
-  return (*moment.course)(time);
+  return (*sample.course)(time);
 }
 
 }  // namespace
@@ -67,7 +68,7 @@ SensorChain::SensorChain(const SimulationSettings& settings)
     throw settings::InputError(settings.taxel_curves_file + ": is of " + std::to_string(curves_->taxels) +
                                " taxels, but the matrix has " + std::to_string(layout_.size.taxels()));
   }
-  std::vector<EffectEntry> order = effectLibrary();
+  std::vector<EffectEntry> order = libraryOf(settings).entries();
   std::stable_sort(order.begin(), order.end(), earlier);
   for (const EffectEntry& entry : order) {
     const EnabledEffect* enabled = settings.effect(entry.info.id);
@@ -94,18 +95,18 @@ void SensorChain::mount(const matrix::Surface& surface, const LoadPattern& patte
   if (curves_) on_surface_ = &curves_->nearest(mounting.curvature.front());
 }
 
-RigMoment SensorChain::clocked(const RigMoment& moment) {
-  RigMoment with_clock = moment;
+RigSample SensorChain::clocked(const RigSample& sample) {
+  RigSample with_clock = sample;
   with_clock.first = clock_[kStarted] == 0;
-  with_clock.elapsed = with_clock.first ? 0 : std::max(moment.time - clock_[kLastTime], 0.0);
-  clock_ = {1, moment.time};
+  with_clock.elapsed = with_clock.first ? 0 : std::max(sample.time - clock_[kLastTime], 0.0);
+  clock_ = {1, sample.time};
   return with_clock;
 }
 
-void SensorChain::load(const RigMoment& moment) {
+void SensorChain::load(const RigSample& sample) {
   for (std::size_t i = 0; i < share_.size(); ++i) {
     const double offset = signals_.offset[i];
-    const double pressure = offset == 0 ? moment.pressure : pressureAt(moment, moment.time + offset);
+    const double pressure = offset == 0 ? sample.pressure : pressureAt(sample, sample.time + offset);
     signals_.load[i] = share_[i] * pressure;
   }
 }
@@ -116,11 +117,11 @@ void SensorChain::addCurves(double pressure) {
   }
 }
 
-// Where an effect does not act it goes on remembering what the sheet went through.
-void SensorChain::apply(Link& link, const RigMoment& moment) {
-  if (!link.confined()) return link.effect->apply(moment, signals_);
+// An effect updates its state also where it does not act.
+void SensorChain::apply(Link& link, const RigSample& sample) {
+  if (!link.confined()) return link.effect->apply(sample, signals_);
   before_ = signals_;
-  link.effect->apply(moment, signals_);
+  link.effect->apply(sample, signals_);
   if (!link.here) {
     signals_ = before_;
     return;
@@ -132,20 +133,20 @@ void SensorChain::apply(Link& link, const RigMoment& moment) {
   keepOthers(link.acts, before_.reading, signals_.reading);
 }
 
-const std::vector<std::uint16_t>& SensorChain::read(const RigMoment& stamped) {
-  RigMoment moment = clocked(stamped);
+const std::vector<std::uint16_t>& SensorChain::read(const RigSample& stamped) {
+  RigSample sample = clocked(stamped);
   signals_.skew = 0;
   std::fill(signals_.offset.begin(), signals_.offset.end(), 0.0);
   std::fill(signals_.gain.begin(), signals_.gain.end(), 1.0);
   auto link = links_.begin();
-  for (; link->stage == ChainStage::kTiming; ++link) apply(*link, moment);
+  for (; link->stage == ChainStage::kTiming; ++link) apply(*link, sample);
   if (signals_.skew != 0) {
-    moment.time -= signals_.skew;
-    moment.pressure = pressureAt(moment, moment.time);
+    sample.time -= signals_.skew;
+    sample.pressure = pressureAt(sample, sample.time);
   }
-  load(moment);
-  for (; link != links_.end(); ++link) apply(*link, moment);
-  if (on_surface_ != nullptr) addCurves(moment.pressure);
+  load(sample);
+  for (; link != links_.end(); ++link) apply(*link, sample);
+  if (on_surface_ != nullptr) addCurves(sample.pressure);
   const double full_scale = full_scale_;
   for (std::size_t i = 0; i < counts_.size(); ++i) {
     counts_[i] = static_cast<std::uint16_t>(std::lround(std::clamp(signals_.reading[i], 0.0, full_scale)));

@@ -9,35 +9,36 @@
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "fsr_pressure_map/simulation/load_pattern.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
+#include "simulation/effect.h"
+#include "simulation/taxel_curves.h"
 
 namespace fsr::simulation {
 
 /// Memory of all effects of a chain, by effect id, and of its own clock.
 using ChainState = std::map<std::string, std::vector<double>>;
 
-/// The sensor matrix in its chamber: gauge pressure in, converter counts out, through the effects that
-/// the settings enable, in the order of ChainStage. Cost is linear in scans and taxels; reading
-/// allocates nothing. The same settings and the same moments give the same counts.
+/// The sensor matrix in its chamber. Input: gauge pressure. Output: counts of the converter. In between act
+/// the effects that the settings enable, in the order of ChainStage. Cost is linear in scans and taxels.
+/// Reading allocates nothing. Equal settings and equal samples give equal counts.
 class SensorChain {
  public:
-  /// Lies on the flat at first, never loaded. Throws InputError.
+  /// At first the sheet lies on the flat and was never loaded. Throws InputError.
   explicit SensorChain(const SimulationSettings& settings);
 
-  /// Lays the matrix on a surface and says what part of it is loaded; the sheet remembers what it went
-  /// through before. Throws InputError where the number of curvatures is neither 1 nor that of the
-  /// taxels, or none is known.
+  /// Lays the matrix on a surface; `pattern` is the loaded part of it. The sheet keeps its state. Throws
+  /// InputError where no curvature is known, or where their number is neither 1 nor the number of taxels.
   void mount(const matrix::Surface& surface, const LoadPattern& pattern = {});
 
-  /// Counts of one scan, [rows x columns], row-major; valid until the next call. Moments must come in
-  /// time order. Throws std::invalid_argument where an effect of timing is on and the moment has no
+  /// Counts of one scan, [rows x columns], row-major; valid until the next call. Samples must come in
+  /// time order. Throws std::invalid_argument where an effect of timing is on and the sample has no
   /// course of pressure.
-  const std::vector<std::uint16_t>& read(const RigMoment& moment);
+  const std::vector<std::uint16_t>& read(const RigSample& sample);
 
   /// The last scan.
   const std::vector<std::uint16_t>& counts() const { return counts_; }
   /// The last scan before it was rounded and clipped [counts], [rows x columns], row-major.
   const std::vector<double>& reading() const { return signals_.reading; }
-  /// All signals of the last scan: load and gain are what the static curve saw.
+  /// All signals of the last scan. Load and gain are the inputs of the static curve.
   const TaxelSignals& signals() const { return signals_; }
 
   std::uint16_t fullScale() const { return full_scale_; }
@@ -45,7 +46,7 @@ class SensorChain {
   ChainState state() const;
   /// Throws InputError where the state belongs to another chain.
   void restore(const ChainState& state);
-  /// A sheet that was never loaded.
+  /// Resets the sheet to one that was never loaded.
   void reset();
 
  private:
@@ -58,9 +59,9 @@ class SensorChain {
     bool here = true;                   // on the surface where the matrix lies
     bool confined() const { return !here || !acts.empty(); }
   };
-  void apply(Link& link, const RigMoment& moment);
-  RigMoment clocked(const RigMoment& moment);
-  void load(const RigMoment& moment);
+  void apply(Link& link, const RigSample& sample);
+  RigSample clocked(const RigSample& sample);
+  void load(const RigSample& sample);
   void addCurves(double pressure);
 
   matrix::Layout layout_;

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "dataset/recording_builder.h"
+#include "simulation/effect.h"
+#include "simulation/pressure_profile.h"
 
 namespace fsr::simulation {
 

@@ -4,28 +4,28 @@
 #include <functional>
 #include <vector>
 
-#include "fsr_pressure_map/dataset/recording.h"
+#include "fsr_pressure_map/simulation/simulate.h"
 #include "simulation/rig.h"
 
 namespace fsr::simulation {
 
-/// Who listens to a simulated rig; rig time [s]. Calls come in time order.
+/// Callbacks for the data of a simulated rig. Times are rig time [s]. Calls come in time order.
 struct RigListener {
   std::function<void(double time, const std::vector<std::uint16_t>& counts)> scan;
   std::function<void(double time, std::int32_t counts)> transducer;
   std::function<void(double time, double temperature)> temperature;  ///< [degree Celsius]
 };
 
-/// What a rig is put through, station after station: the sheet goes from one surface to the next and
-/// remembers what it went through.
+/// Runs the stations of a simulation one after the other. The sheet keeps its state from one station to the
+/// next.
 class Session {
  public:
   /// Throws InputError where a station's program never ends.
   explicit Session(const SimulationSettings& settings);
 
-  /// Goes on from where another session or a driven rig was left: its date holds instead of the settings',
-  /// the first station has its pause before it too, and mounts are numbered on. Throws InputError where the
-  /// state belongs to another rig.
+  /// Continues after another session or a driven rig. The date of the state replaces that of the settings,
+  /// the first station also has its pause, and the numbers of the mounts continue. Throws InputError where
+  /// the state belongs to another rig.
   void resume(const RigState& state);
   RigState state() const;
 
@@ -36,8 +36,8 @@ class Session {
   /// Rig time at which the next station begins [s].
   double begin() const;
 
-  /// Goes through the next station: pause, mount, program. Scans and transducer have the board's rates,
-  /// the thermometer one reading a second, all from the station's begin.
+  /// Runs the next station: pause, mount, program. Scans and transducer have the rates of the board, and the
+  /// thermometer gives one reading a second. All start at the begin of the station.
   void runNext(const RigListener& listener);
 
  private:
@@ -49,10 +49,7 @@ class Session {
   double time_ = 0;  // when the last station ended [s]
 };
 
-/// A whole session as recordings, one for each station, as a bag of it would be read.
-std::vector<dataset::Recording> simulateSession(const SimulationSettings& settings);
-
-/// How a recording names the simulated sensor.
+/// The identity of the simulated sensor in a recording.
 dataset::SensorIdentity identity(const SimulationSettings& settings);
 
 /// "1_flat", "2_cylinder_5cm": name of a station's bag, without its ending.

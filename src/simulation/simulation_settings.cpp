@@ -7,6 +7,9 @@
 #include "fsr_pressure_map/simulation/chamber_program.h"
 #include "matrix/surface_file.h"
 #include "simulation/effects/effect_library.h"
+#include "simulation/effects/enabled_effects.h"
+#include "simulation/read_settings.h"
+#include "simulation/taxel_curves.h"
 
 namespace fsr::simulation {
 
@@ -94,21 +97,22 @@ EnabledEffect readEffect(const settings::Settings& settings, const EffectInfo& i
   return effect;
 }
 
-void refuseOtherEffects(const settings::Settings& effects) {
+void refuseOtherEffects(const settings::Settings& effects, const EffectLibrary& library) {
   for (const std::string& id : effects.keys()) {
-    const EffectEntry* entry = findEffect(id);
+    const EffectEntry* entry = library.find(id);
     if (entry && entry->make) continue;
     if (entry) throw effects.error(id, "it is only listed: a gas chamber cannot show it");
     std::string known;
-    for (const std::string& other : effectIds()) known += (known.empty() ? "" : ", ") + other;
+    for (const std::string& other : library.ids()) known += (known.empty() ? "" : ", ") + other;
     throw effects.error(id, "no effect has that name; the effects are " + known);
   }
 }
 
-std::vector<EnabledEffect> readEffects(const settings::Settings& effects, matrix::MatrixSize size) {
-  refuseOtherEffects(effects);
+std::vector<EnabledEffect> readEffects(const settings::Settings& effects, const EffectLibrary& library,
+                                       matrix::MatrixSize size) {
+  refuseOtherEffects(effects, library);
   std::vector<EnabledEffect> enabled;
-  for (const EffectEntry& entry : effectLibrary()) {
+  for (const EffectEntry& entry : library.entries()) {
     if (effects.has(entry.info.id)) {
       enabled.push_back(readEffect(effects.section(entry.info.id), entry.info, size));
     } else if (entry.info.required) {
@@ -141,11 +145,13 @@ const EnabledEffect* SimulationSettings::effect(const std::string& id) const {
 }
 
 std::uint16_t SimulationSettings::fullScale() const {
-  return static_cast<std::uint16_t>(effect("converter")->values.at("full_scale"));
+  return static_cast<std::uint16_t>(converterOf(*this).values.at("full_scale"));
 }
 
-SimulationSettings readSimulation(const settings::Settings& settings) {
+SimulationSettings readSimulation(const settings::Settings& settings,
+                                  std::shared_ptr<const EffectLibrary> library) {
   SimulationSettings simulation;
+  simulation.library = std::move(library);
   simulation.origin = settings.origin();
   simulation.name = settings.text("simulation");
   simulation.seed = static_cast<std::uint64_t>(settings.integer("seed", {0, 9e15, ""}, 1));
@@ -156,7 +162,8 @@ SimulationSettings readSimulation(const settings::Settings& settings) {
   simulation.start = settings.number("start", {1, 4e9, "s since 1970"}, simulation.start);
   if (settings.has("climate")) simulation.climate = readChamberClimate(settings.section("climate"));
   if (settings.has("transducer")) simulation.transducer = readTransducer(settings.section("transducer"));
-  simulation.effects = readEffects(settings.section("effects"), simulation.layout.size);
+  simulation.effects =
+      readEffects(settings.section("effects"), libraryOf(simulation), simulation.layout.size);
   if (settings.has("taxel_curves")) readCurves(settings, simulation);
   settings.refuseUnknown();
   return simulation;

@@ -5,6 +5,7 @@
 
 #include "settings/yaml_text.h"
 #include "simulation/effects/effect_library.h"
+#include "simulation/read_settings.h"
 
 namespace fsr::simulation {
 
@@ -78,9 +79,9 @@ std::string text(const ChamberClimate& climate) {
          "\n  cooling: " + settings::numberText(climate.cooling) + "\n";
 }
 
-std::string text(const EnabledEffect& effect, const ValueRemarks& remarks) {
+std::string text(const EnabledEffect& effect, const EffectInfo& info, const ValueRemarks& remarks) {
   std::string result = "  " + effect.id + ":\n";
-  for (const EffectParameter& parameter : findEffect(effect.id)->info.parameters) {
+  for (const EffectParameter& parameter : info.parameters) {
     const std::string& unit = parameter.permitted.unit;
     result += "    " + parameter.name + ": " + settings::numberText(effect.values.at(parameter.name)) +
               "  # " + (unit.empty() ? "" : "[" + unit + "] ") + parameter.meaning;
@@ -115,7 +116,9 @@ std::string simulationText(const SimulationSettings& settings, const std::string
   result += text(settings.climate) + "transducer: {low: " + settings::numberText(transducer.low) +
             ", high: " + settings::numberText(transducer.high) +
             ", full_counts: " + std::to_string(transducer.full_counts) + "}\neffects:\n";
-  for (const EnabledEffect& effect : settings.effects) result += text(effect, remarks);
+  for (const EnabledEffect& effect : settings.effects) {
+    result += text(effect, libraryOf(settings).info(effect.id), remarks);
+  }
   if (!settings.taxel_curves_file.empty()) {
     result += "taxel_curves: " + settings::quotedText(settings.taxel_curves_file) + "\n";
   }

@@ -10,9 +10,9 @@ namespace fsr::simulation {
 /// Remarks on single values, by "effect.parameter": an interval, where a fitted value comes from.
 using ValueRemarks = std::map<std::string, std::string>;
 
-/// The settings as a YAML file that readSimulation() reads back into the same: every value spelt out, those
-/// of the effects with unit and meaning. `head` becomes the comment at its begin, each of `remarks` one
-/// behind its value.
+/// The settings as a YAML file, from which readSimulation() reads the same settings. Every value is written
+/// out, those of effects with unit and meaning. `head` becomes a comment at the begin of the file, and each
+/// of `remarks` a comment behind its value.
 std::string simulationText(const SimulationSettings& settings, const std::string& head = "",
                            const ValueRemarks& remarks = {});
 

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/simulation/taxel_curves.h"
+#include "simulation/taxel_curves.h"
 
 #include <algorithm>
 #include <cmath>

@@ -36,7 +36,7 @@ double acceleration(const std::vector<double>& jackknife) {
   return squares > 0 ? cubes / (6 * std::pow(squares, 1.5)) : 0;
 }
 
-/// Davison and Hinkley's quantile: between order statistics straight in the normal deviate.
+/// Davison and Hinkley's quantile: linear in the normal deviate between order statistics.
 double normalScaleQuantile(const std::vector<double>& sorted, double p) {
   const double places = static_cast<double>(sorted.size()) + 1, position = places * p;
   if (position <= 1) return sorted.front();
@@ -55,7 +55,7 @@ Interval bcaInterval(double estimate, std::vector<double> replicates, const std:
   const double z0 = biasCorrection(estimate, replicates), a = acceleration(jackknife);
   const auto limit = [&](double z) {
     const double shifted = z0 + z, divisor = 1 - a * shifted;
-    // Beyond the pole the correction has no meaning; |a| <= 1 / 6, so only a huge z0 gets there.
+    // Beyond the pole the correction has no meaning. As |a| <= 1 / 6, only a very large z0 reaches it.
     if (divisor <= 0) return shifted < 0 ? replicates.front() : replicates.back();
     return normalScaleQuantile(replicates, phi(z0 + shifted / divisor));
   };

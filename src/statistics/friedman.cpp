@@ -41,7 +41,7 @@ TestResult friedman(const RepeatedMeasures& measures) {
   result.symbol = "chi2";
   result.degrees_of_freedom = {k - 1};
   result.n = measures.units();
-  // Halves and whole numbers throughout: zero is zero.
+  // All terms are multiples of one half, so the comparison with zero is exact.
   result.statistic = scale == 0 ? 0 : 12 * square / scale;
   result.p = boost::math::cdf(boost::math::complement(boost::math::chi_squared(k - 1), result.statistic));
   result.method = scale == 0 ? PMethod::kNothingToTest : PMethod::kChiSquaredApproximation;

@@ -4,23 +4,23 @@
 
 namespace fsr::statistics {
 
-// Corrections for m tests asked of the same data: the adjusted p value is compared with the level
-// (0.05) that the whole family may err with. Both hold whatever the dependence between the tests.
-// The adjusted values come in the order of the given ones. An empty list gives an empty list.
-// InputError: a p value that is NaN or outside [0, 1].
+// Corrections for m tests on the same data. The adjusted p value is compared with the level (0.05) of the
+// whole family of tests. They are valid for any dependence between the tests. The adjusted values are in the
+// order of the given ones. An empty list gives an empty list. InputError: a p value that is NaN or outside
+// [0, 1].
 
-/// min(1, m p), the paper's. Source: O. Dunn, J. Am. Stat. Assoc. 56 (1961) 52-64.
-/// As R's p.adjust(p, "bonferroni") and SPSS.
+/// min(1, m p), the correction that the paper uses. Source: O. Dunn, J. Am. Stat. Assoc. 56 (1961) 52-64.
+/// R's p.adjust(p, "bonferroni") and SPSS give the same result.
 std::vector<double> bonferroni(const std::vector<double>& p);
 
-/// The i-th smallest p times m + 1 - i, made monotone, at most 1: never larger than Bonferroni's, and
-/// as safe; what one would use today. Source: S. Holm, Scand. J. Statistics 6 (1979) 65-70.
-/// As R's p.adjust(p, "holm").
+/// The i-th smallest p times m + 1 - i, made monotone, at most 1. It is never larger than Bonferroni's with
+/// the same guarantee, and therefore preferred today. Source: S. Holm, Scand. J. Statistics 6 (1979) 65-70.
+/// R's p.adjust(p, "holm") gives the same result.
 std::vector<double> holm(const std::vector<double>& p);
 
-/// The i-th smallest p times m (1 + 1/2 + ... + 1/m) / i, made monotone, at most 1: bounds the share of false
-/// ones among what is found. Source: Y. Benjamini, D. Yekutieli, Ann. Statistics 29 (2001) 1165-1188.
-/// As R's p.adjust(p, "BY").
+/// The i-th smallest p times m (1 + 1/2 + ... + 1/m) / i, made monotone, at most 1. It bounds the false
+/// discovery rate. Source: Y. Benjamini, D. Yekutieli, Ann. Statistics 29 (2001) 1165-1188. R's p.adjust(p,
+/// "BY") gives the same result.
 std::vector<double> benjaminiYekutieli(const std::vector<double>& p);
 
 }  // namespace fsr::statistics

@@ -40,7 +40,7 @@ PairedT pairedT(const std::vector<double>& first, const std::vector<double>& sec
     if (result.mean_difference == 0) return result;
     throw settings::InputError(std::string(kName) + ": all differences are " +
                                std::to_string(result.mean_difference) +
-                               "; it needs differences that scatter");
+                               "; it needs differences that are not all equal");
   }
   const double error = std::sqrt(squaredDeviations(differences) / (n - 1) / n);
   const boost::math::students_t distribution(n - 1);

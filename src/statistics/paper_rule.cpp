@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kFewestForSymmetry = 5;
 constexpr std::size_t kMostForNormality = 5000;
 
-/// One walk down the rule; every question leaves its decision.
+/// Applies the rule and notes each decision.
 class Walk {
  public:
   Walk(const RepeatedMeasures& measures, const PaperRuleOptions& options)
@@ -76,7 +76,7 @@ class Walk {
   }
 
   bool isNormal() {
-    bool normal = true;  // every sample is asked, so that the report can show all
+    bool normal = true;  // every sample is tested, so that the report can show all
     if (options_.normality == NormalityOf::kDifferences) {
       forEachPair(
           [&](std::size_t i, std::size_t j) { normal &= isNormal(pairName(i, j), differences(i, j)); });

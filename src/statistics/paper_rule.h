@@ -9,8 +9,8 @@
 
 namespace fsr::statistics {
 
-/// Whose normality decides. The paper writes "normality of data"; what the t test needs is that of the
-/// differences.
+/// The data whose normality decides. Ahmadizadeh and Menon 2019 (doi:10.3390/s19245519), "the paper", write
+/// "normality of data"; the t test needs normal differences.
 enum class NormalityOf { kEachTreatment, kDifferences };
 
 struct PaperRuleOptions {
@@ -18,14 +18,14 @@ struct PaperRuleOptions {
   NormalityOf normality = NormalityOf::kEachTreatment;
 };
 
-/// One step on the way: what was tested, and what followed from it.
+/// One step of the rule: what was tested and what followed.
 struct Decision {
   std::string subject;     ///< "baseline", "method 1 - method 2", "all treatments"
   TestResult test;         ///< empty name where the step needed no test
   std::string conclusion;  ///< "normal", "not symmetric: paired sign test", ...
 };
 
-/// Two treatments (indices into RepeatedMeasures) against each other.
+/// Comparison of two treatments (indices into RepeatedMeasures).
 struct PairComparison {
   std::size_t first = 0;
   std::size_t second = 0;
@@ -35,14 +35,14 @@ struct PairComparison {
 };
 
 struct PaperRuleResult {
-  std::vector<Decision> decisions;    ///< in the order they were taken
+  std::vector<Decision> decisions;    ///< in order
   TestResult test;                    ///< of all treatments together
-  double p = 1;                       ///< its p, corrected for want of sphericity where that was found
+  double p = 1;                       ///< p of that test, corrected where sphericity is violated
   bool differ = false;                ///< p < level
-  std::vector<PairComparison> pairs;  ///< of three or more treatments that differ: each pair
+  std::vector<PairComparison> pairs;  ///< all pairs of three or more treatments that differ
 };
 
-/// The paper's rule which test applies, and that test:
+/// The paper's rule for choosing a test, and the result of that test:
 ///
 ///   Shapiro-Wilk, every treatment normal?
 ///     yes, two:   paired t test
@@ -50,14 +50,14 @@ struct PaperRuleResult {
 ///     no, two:    differences symmetric? Wilcoxon signed-rank : paired sign test
 ///     no, more:   Friedman, then for each pair as for two, with Bonferroni
 ///
-/// What it leaves open is decided so: symmetry by the triples test; Greenhouse-Geisser's p where
-/// Mauchly's test rejects sphericity or cannot be had; pairs only where all together differ; every test
-/// two-sided at `level`. A step that a test cannot take falls to the side that asks less of the data:
-/// a treatment without scatter, or of more than 5000 units, is not normal, differences all the same
-/// cannot go into a t test, fewer than five differences are not taken as symmetric.
+/// The paper leaves some choices open. Here symmetry is judged by the triples test. Greenhouse-Geisser's p is
+/// used where Mauchly's test rejects sphericity or has no result. Pairs are compared only where all
+/// treatments together differ. Every test is two-sided at `level`. Where a test cannot be applied, the step
+/// that assumes less is taken: a treatment without scatter, or with more than 5000 units, is not normal;
+/// differences that are all equal do not enter a t test; fewer than five differences are not symmetric.
 ///
-/// To be printed under "as published, taxels treated as independent": they are not, and p values of
-/// 70 taxels of one sheet say nothing about another sheet (see bootstrap.h).
+/// Reports print the result under "as published, taxels treated as independent". They are not independent,
+/// and p values of 70 taxels of one sheet say nothing about another sheet (see bootstrap.h).
 ///
 /// InputError: fewer than 2 treatments or 3 units, lengths differ, a value not finite, level outside (0, 1).
 PaperRuleResult paperRule(const RepeatedMeasures& measures, const PaperRuleOptions& options = {});

@@ -13,11 +13,10 @@ inline std::uint64_t splitMix(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
-/// Random numbers by position: the n-th number of a stream is a function of the stream's key and n
-/// alone. So a simulation, a fold or a bootstrap gives the same numbers in whatever order, and on
-/// however many threads, its parts ask for them, and has no generator state to save. Numbers are those
-/// of SplitMix64.
-/// Source: G. Steele, D. Lea, C. Flood, Fast splittable pseudorandom number generators, OOPSLA 2014.
+/// Random numbers by position: the n-th number of a stream is a function of the stream's key and n only. So
+/// the numbers of a simulation, a fold or a bootstrap do not depend on the order of the calls or on the
+/// number of threads, and there is no generator state to save. Numbers are those of SplitMix64. Source: G.
+/// Steele, D. Lea, C. Flood, Fast splittable pseudorandom number generators, OOPSLA 2014.
 class RandomStream {
  public:
   explicit RandomStream(std::uint64_t key = 0) : key_(key) {}
@@ -34,8 +33,8 @@ class RandomStream {
   std::uint64_t key_;
 };
 
-/// The stream of one purpose (`name`, e.g. "white_noise") and one member of it (e.g. a taxel), derived
-/// from the seed of the whole run. Different purposes and members are independent.
+/// The stream for a purpose (`name`, e.g. "white_noise") and one of its members (e.g. a taxel), derived from
+/// the seed of the whole run. Streams of different purposes and members are independent.
 RandomStream randomStream(std::uint64_t seed, std::string_view name, std::uint64_t member = 0);
 
 /// Quantile of the standard normal distribution, `probability` in (0, 1); relative error about 1e-16.

@@ -33,7 +33,8 @@ Eigen::MatrixXd contrastScores(const RepeatedMeasures& measures) {
   Eigen::MatrixXd x(n, k);
   for (Eigen::Index j = 0; j < k; ++j)
     x.col(j) = Eigen::Map<const Eigen::VectorXd>(measures.values[j].data(), n);
-  x.colwise() -= x.rowwise().mean().eval();  // units differ by far more than treatments: keep the digits
+  x.colwise() -=
+      x.rowwise().mean().eval();  // units differ much more than treatments; this keeps the precision
   return x * contrasts(k).transpose();
 }
 
@@ -86,7 +87,7 @@ SphericityCorrection corrected(const TestResult& f, double epsilon) {
           upperTail(f.statistic, factor * f.degrees_of_freedom[0], factor * f.degrees_of_freedom[1])};
 }
 
-/// F = 0, p = 1, spherical: what stands where nothing varies.
+/// The result where nothing varies: F = 0, p = 1, spherical.
 RepeatedMeasuresAnova flat(std::size_t n, std::size_t k) {
   const auto q = static_cast<double>(k - 1);
   RepeatedMeasuresAnova result;
@@ -126,7 +127,7 @@ RepeatedMeasuresAnova repeatedMeasuresAnova(const RepeatedMeasures& measures) {
     if (mean.norm() <= std::sqrt(q) * rounding) return result;
     throw settings::InputError(
         std::string(kName) +
-        ": the treatments differ by the same on every unit; it needs differences that scatter");
+        ": the treatments differ by the same on every unit; it needs differences that are not all equal");
   }
   const Eigen::VectorXd lambda =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(covariance, Eigen::EigenvaluesOnly).eigenvalues();

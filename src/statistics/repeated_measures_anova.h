@@ -7,7 +7,7 @@
 
 namespace fsr::statistics {
 
-/// F's p with both degrees of freedom multiplied by epsilon.
+/// The p of F with both degrees of freedom multiplied by epsilon.
 struct SphericityCorrection {
   double epsilon = 1;
   double p = std::numeric_limits<double>::quiet_NaN();
@@ -15,7 +15,7 @@ struct SphericityCorrection {
 
 struct RepeatedMeasuresAnova {
   TestResult test;     ///< F, uncorrected
-  TestResult mauchly;  ///< W; p NaN where it cannot be had (see below)
+  TestResult mauchly;  ///< W; p is NaN where it has no value (see below)
   SphericityCorrection greenhouse_geisser;
   SphericityCorrection huynh_feldt;  ///< epsilon as computed; p with min(epsilon, 1)
 };
@@ -24,7 +24,8 @@ struct RepeatedMeasuresAnova {
 ///
 ///   F = (SS_treatments / (k-1)) / (SS_residual / ((k-1)(n-1))),  residual: x_ij - mean_i - mean_j + mean.
 ///
-/// F has its distribution where the differences of all pairs of treatments vary alike (sphericity). With
+/// F has the F distribution where the differences of all pairs of treatments have the same variance
+/// (sphericity). With
 /// lambda the k-1 eigenvalues of the covariance of orthonormal contrasts between treatments:
 ///
 /// - Mauchly:             W = prod lambda / mean(lambda)^(k-1), p by Box's two-term chi-squared series
@@ -35,15 +36,15 @@ struct RepeatedMeasuresAnova {
 /// Statistical Analysis, 1958, sec. 10.7; S. Greenhouse, S. Geisser, Psychometrika 24 (1959) 95-112;
 /// H. Huynh, L. Feldt, J. Educational Statistics 1 (1976) 69-82.
 ///
-/// F, epsilons and their p values are those of R's anova(lm(x ~ 1), X = ~1, test = "Spherical") and of
-/// SPSS (which prints min(epsilon', 1)). Mauchly's p differs from R's mauchly.test(lm(x ~ 1), X = ~1) in
-/// the second term of the series, by 1e-5 or so: R puts k where the formula has the number of contrasts,
-/// k - 1. Given the contrasts themselves, R agrees with us (the tests show both lines).
+/// F, the epsilons and their p values are those of R's anova(lm(x ~ 1), X = ~1, test = "Spherical") and of
+/// SPSS (which prints min(epsilon', 1)). Mauchly's p differs from R's mauchly.test(lm(x ~ 1), X = ~1) by
+/// about 1e-5, in the second term of the series: R uses k where the formula has the number of contrasts, k
+/// - 1. Where R is given the contrasts, it agrees with this function (the tests show both lines).
 ///
 /// Two treatments: F = t^2, sphericity holds: W = 1, epsilons 1, Mauchly p = 1.
-/// n < k, or contrasts that depend on each other: W = 0, Mauchly p NaN; correct without asking it.
+/// n < k, or linearly dependent contrasts: W = 0, Mauchly p NaN; use the correction in any case.
 /// Huynh-Feldt where its denominator is not positive (n = 2): epsilon' = 1.
-/// No residual: p = 1, nothing to test, where the treatments do not differ either, else InputError.
+/// No residual: p = 1, nothing to test, if the treatments do not differ either, else InputError.
 /// InputError: fewer than 2 treatments or 2 units, lengths differ, a value not finite.
 RepeatedMeasuresAnova repeatedMeasuresAnova(const RepeatedMeasures& measures);
 

@@ -7,7 +7,7 @@
 namespace fsr::statistics {
 
 /// Several treatments (algorithms, methods) measured on the same units (taxels, cycles):
-/// values[treatment][unit], any unit of measure, the same in all.
+/// values[treatment][unit], all in the same unit of measure.
 struct RepeatedMeasures {
   std::vector<std::string> treatments;
   std::vector<std::vector<double>> values;
@@ -15,13 +15,13 @@ struct RepeatedMeasures {
   std::size_t units() const { return values.empty() ? 0 : values.front().size(); }
 };
 
-/// Throws InputError unless every value is finite and there are at least `fewest` of them. R drops
-/// missing values in silence; here the caller decides which unit to leave out, and says so. `test`
-/// names the asker in the sentence.
+/// Throws InputError unless every value is finite and there are at least `fewest` of them. R silently drops
+/// missing values; here the caller decides which units to leave out. `test`: name of the test for the
+/// message.
 void requireSample(const std::vector<double>& values, std::size_t fewest, const std::string& test);
 
-/// Throws InputError unless there are at least `fewest_treatments`, one name each, every one finite on
-/// the same units, at least `fewest_units` of them.
+/// Throws InputError unless there are at least `fewest_treatments` treatments with a name each and finite
+/// values on the same units, at least `fewest_units` of them.
 void requireMeasures(const RepeatedMeasures& measures, std::size_t fewest_treatments,
                      std::size_t fewest_units, const std::string& test);
 
@@ -35,8 +35,8 @@ double meanOf(const std::vector<double>& values);
 /// Sum of squared deviations from the mean.
 double squaredDeviations(const std::vector<double>& values);
 
-/// Whether `values` scatter no more than rounding does (range within 10 machine epsilons of the largest
-/// magnitude): a sample on which nothing divided by a deviation has a meaning.
+/// Whether `values` differ by rounding errors only (range within 10 machine epsilons of the largest
+/// magnitude). For such a sample no statistic that is divided by a deviation has a meaning.
 bool isConstant(const std::vector<double>& values);
 
 }  // namespace fsr::statistics

@@ -34,7 +34,7 @@ std::vector<double> upperWeights(std::size_t n) {
     m[i] = -boost::math::quantile(normal, (static_cast<double>(i) + 0.625) / (static_cast<double>(n) + 0.25));
     square += 2 * m[i] * m[i];
   }
-  // The outermost one or two weights come from polynomials, the rest share what they leave.
+  // The outermost one or two weights come from polynomials. The others are scaled to the rest of the norm.
   const double x = 1 / std::sqrt(static_cast<double>(n)), norm = std::sqrt(square);
   std::vector<double> outer = {m[0] / norm +
                                polynomial({0, 0.221157, -0.147981, -2.07119, 4.434685, -2.706056}, x)};
@@ -51,7 +51,7 @@ std::vector<double> upperWeights(std::size_t n) {
   return m;
 }
 
-/// 1 - W without the cancellation that W close to 1 would bring. `sorted` about zero.
+/// 1 - W, without cancellation where W is close to 1. `sorted`: sorted values about zero.
 double oneMinusW(const std::vector<double>& sorted) {
   const std::size_t n = sorted.size();
   const std::vector<double> upper = upperWeights(n);
@@ -75,7 +75,7 @@ double pOf(double one_minus_w, std::size_t size) {
   double y = std::log(one_minus_w), mean = 0, deviation = 0;
   if (size <= 11) {
     const double gamma = polynomial({-2.273, 0.459}, n);
-    if (y >= gamma) return 0;  // beyond the largest 1 - W that the approximation knows
+    if (y >= gamma) return 0;  // beyond the range of the approximation
     y = -std::log(gamma - y);
     mean = polynomial({0.544, -0.39978, 0.025054, -6.714e-4}, n);
     deviation = std::exp(polynomial({1.3822, -0.77857, 0.062767, -0.0020322}, n));
@@ -86,7 +86,7 @@ double pOf(double one_minus_w, std::size_t size) {
   return boost::math::cdf(boost::math::complement(boost::math::normal(mean, deviation), y));
 }
 
-/// Sorted, about the median and of range 1: W depends on neither, rounding does.
+/// Sorted values minus the median, divided by their range. W does not depend on either, rounding does.
 std::vector<double> standardised(std::vector<double> sample) {
   std::sort(sample.begin(), sample.end());
   const double middle = sample[sample.size() / 2], range = sample.back() - sample.front();
@@ -100,10 +100,11 @@ TestResult shapiroWilk(const std::vector<double>& sample) {
   requireSample(sample, kFewest, kName);
   if (sample.size() > kMost) {
     throw settings::InputError(std::string(kName) + ": " + std::to_string(sample.size()) +
-                               " values given where its approximation holds for at most 5000");
+                               " values given, but its approximation holds for at most 5000");
   }
   if (isConstant(sample))
-    throw settings::InputError(std::string(kName) + ": all values are equal; it needs some scatter");
+    throw settings::InputError(std::string(kName) +
+                               ": all values are equal; it needs values that are not all equal");
 
   const double one_minus_w = std::max(0.0, oneMinusW(standardised(sample)));
   TestResult result;

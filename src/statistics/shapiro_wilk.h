@@ -6,19 +6,19 @@
 
 namespace fsr::statistics {
 
-/// Is a sample from a normal distribution? The paper asks this before every other test.
+/// Shapiro-Wilk test: is a sample from a normal distribution? The paper applies it before every other test.
 ///
 ///   W = (sum_i a_i x_(i))^2 / sum_i (x_i - mean)^2,   x_(1) <= ... <= x_(n)
 ///
 /// with a the normalised expected order statistics of a normal sample; W = 1 is a straight line in the
-/// normal plot. a and the distribution of ln(1 - W) are Royston's polynomials in n, for 3 to 5000
+/// normal probability plot. a and the distribution of ln(1 - W) are Royston's polynomials in n, for 3 to 5000
 /// values; for n = 3 the distribution is exact.
 /// Source: P. Royston, Algorithm AS R94, Applied Statistics 44 (1995) 547-551. R's shapiro.test,
 /// SciPy's shapiro and SPSS follow the same paper.
 ///
-/// With some 50 values or more it finds deviations from normality that do no harm to a t test, with ten it
-/// finds none but gross ones: it chooses a test here because the paper did, not because that is wise.
-/// Many equal values (a coarse converter) make W small.
+/// With about 50 values or more it rejects deviations from normality that do not affect a t test. With ten it
+/// rejects only large ones. It is used here to choose a test because the paper did so; this is no good reason
+/// in itself. Many equal values (a coarse converter) make W small.
 ///
 /// InputError: fewer than 3 or more than 5000 values, one not finite, all equal.
 TestResult shapiroWilk(const std::vector<double>& sample);

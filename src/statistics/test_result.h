@@ -7,10 +7,10 @@
 
 namespace fsr::statistics {
 
-/// Where a p value comes from.
+/// How a p value was computed.
 enum class PMethod {
-  kExact,                    ///< every outcome counted
-  kParametric,               ///< the statistic's own distribution where the data are normal (t, F)
+  kExact,                    ///< all outcomes were counted
+  kParametric,               ///< the statistic's distribution for normal data (t, F)
   kNormalApproximation,      ///< holds for many units
   kChiSquaredApproximation,  ///< holds for many units
   kNothingToTest,            ///< the data do not vary: p = 1 by definition
@@ -19,16 +19,16 @@ enum class PMethod {
 /// "exact", "parametric", "normal approximation", "chi-squared approximation", "nothing to test".
 std::string pMethodName(PMethod method);
 
-/// What every test of this room answers. All p values are two-sided. A p is worth no more than the
-/// independence of its units: taxels of one sheet are not independent (see bootstrap.h).
+/// Result of a test. All p values are two-sided and assume independent units. Taxels of one sheet are not
+/// independent (see bootstrap.h).
 struct TestResult {
   std::string test;    ///< "Wilcoxon signed-rank"
   std::string symbol;  ///< of the statistic, as papers print it: "W", "t", "F", "chi2", "V", ...
   double statistic = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> degrees_of_freedom;  ///< none, one (t, chi2) or two (F)
   double p = std::numeric_limits<double>::quiet_NaN();
-  std::size_t n = 0;        ///< units given
-  std::size_t dropped = 0;  ///< units of these that carry nothing (differences of zero)
+  std::size_t n = 0;        ///< number of units
+  std::size_t dropped = 0;  ///< units without information (differences of zero)
   PMethod method = PMethod::kExact;
 };
 

@@ -21,9 +21,9 @@ double countBelow(Iterator begin, Iterator end, double limit) {
   return static_cast<double>(std::lower_bound(begin, end, limit) - begin);
 }
 
-/// B_ij of two values x_i <= x_j of the sorted sample. A third between them makes a triple lean right
-/// below their middle; one beyond them, where it lies farther from its neighbour than they from each
-/// other (above) or nearer (below).
+/// B_ij of two values x_i <= x_j of the sorted sample. A third value between them gives a right triple where
+/// it is below their middle. A third value above them gives a right triple where its distance to x_j is
+/// larger than x_j - x_i; one below them, where its distance to x_i is smaller than that.
 double leaningOfPair(const std::vector<double>& sorted, std::size_t i, std::size_t j) {
   const Iterator x = sorted.begin(), end = sorted.end();
   const double middle = 0.5 * (sorted[i] + sorted[j]);

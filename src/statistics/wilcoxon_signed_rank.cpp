@@ -34,8 +34,8 @@ SignedRanks signedRanks(const std::vector<double>& differences) {
   return result;
 }
 
-/// P(sum of the ranks with a positive sign = s / 2) for every s, all signs equally likely. Ranks are
-/// whole or half numbers, hence the doubling.
+/// P(sum of the ranks with a positive sign = s / 2) for every s, where all signs are equally likely. Ranks
+/// are multiples of one half, hence the factor 2.
 std::vector<double> distributionOfTwiceV(const std::vector<double>& ranks) {
   std::vector<double> probability = {1};
   for (const double rank : ranks) {
@@ -53,7 +53,8 @@ std::vector<double> distributionOfTwiceV(const std::vector<double>& ranks) {
 double exactP(const SignedRanks& ranks) {
   const std::vector<double> probability = distributionOfTwiceV(ranks.ranks);
   const auto twice_v = static_cast<std::size_t>(std::lround(2 * ranks.positive));
-  const std::size_t tail = std::min(twice_v, probability.size() - 1 - twice_v);  // it is symmetric
+  const std::size_t tail =
+      std::min(twice_v, probability.size() - 1 - twice_v);  // the distribution is symmetric
   return std::min(1.0, 2 * std::accumulate(probability.begin(), probability.begin() + tail + 1, 0.0));
 }
 
@@ -68,8 +69,8 @@ double normalP(const SignedRanks& ranks) {
 bool goesExact(WilcoxonMethod method, std::size_t n) {
   if (method != WilcoxonMethod::kExact) return method == WilcoxonMethod::kAuto && n < kWilcoxonExactBelow;
   if (n <= kMostExact) return true;
-  throw settings::InputError(std::string(kName) + ": exact p asked for " + std::to_string(n) +
-                             " differences; it is counted for at most " + std::to_string(kMostExact));
+  throw settings::InputError(std::string(kName) + ": exact p requested for " + std::to_string(n) +
+                             " differences; it is computed for at most " + std::to_string(kMostExact));
 }
 
 }  // namespace

@@ -8,8 +8,8 @@ namespace fsr::study {
 
 namespace {
 
-// Readings of one class that are held out together: mean pressure and number of each code, and the
-// scatter about the means, which no table can change.
+// Held-out readings of one class: number and mean pressure of each code, and the scatter about these means,
+// which is the same for all tables.
 struct TestedClass {
   std::vector<std::uint16_t> code;
   std::vector<double> count, mean;  // mean [Pa]
@@ -49,7 +49,7 @@ std::vector<TestedClass> testedClasses(const TestPart& part, const Fold& fold,
   return tested;
 }
 
-// Range of pressure of a part's readings, the same for all taxels [Pa].
+// Range of pressure of a part's readings [Pa]. It is the same for all taxels.
 double rangeOf(const StudyData& data, const Grouping& grouping, const Fold& fold, const TestPart& part,
                ScoreRange rule) {
   if (rule == ScoreRange::kAll) return data.highest - data.lowest;
@@ -66,12 +66,12 @@ double rangeOf(const StudyData& data, const Grouping& grouping, const Fold& fold
   return high - low;
 }
 
-// 100 RMSE of a part [Pa], the answers being those for its classes.
+// 100 times the RMSE of a part [Pa]. `table` points to the tables of the part's classes.
 double percentOf(const std::vector<TestedClass>& tested,
-                 std::vector<std::vector<double>>::const_iterator answer) {
+                 std::vector<std::vector<double>>::const_iterator table) {
   double squares = 0, number = 0;
   for (std::size_t k = 0; k < tested.size(); ++k) {
-    squares += tested[k].squares(*answer++);
+    squares += tested[k].squares(*table++);
     number += tested[k].readings;
   }
   return 100.0 * std::sqrt(squares / number);
@@ -80,30 +80,30 @@ double percentOf(const std::vector<TestedClass>& tested,
 }  // namespace
 
 std::vector<double> bandwidthScores(const StudyData& data, const StudyMethod& method,
-                                    const Examination& examination, const StudyPlan& plan) {
-  const std::vector<Fold>& folds = examination.folds;
-  const std::vector<TestPart> parts = testParts(method, examination);
+                                    const Validation& validation, const StudyPlan& plan) {
+  const std::vector<Fold>& folds = validation.folds;
+  const std::vector<TestPart> parts = testParts(method, validation);
   std::vector<double> range;
   for (const TestPart& part : parts) {
-    range.push_back(rangeOf(data, examination.grouping, folds[part.fold], part, plan.range));
+    range.push_back(rangeOf(data, validation.grouping, folds[part.fold], part, plan.range));
   }
   std::vector<std::vector<double>> of_taxel(data.taxels.size());
   matrix::forEachTaxel(data.taxels.size(), plan.threads, [&](std::size_t t) {
-    const TaxelReadings readings(data, examination.grouping, data.taxels[t]);
+    const TaxelReadings readings(data, validation.grouping, data.taxels[t]);
     std::vector<double> sums(plan.bandwidths.size(), 0.0);
     for (const FoldParts& of_fold : partsByFold(parts)) {
-      const compensation::ClassReadings training = readings.training(folds[of_fold.fold].train, false);
+      const regression::ClassReadings training = readings.training(folds[of_fold.fold].train, false);
       std::vector<std::vector<TestedClass>> tested;
       for (std::size_t p = of_fold.first; p < of_fold.end; ++p) {
         tested.push_back(testedClasses(parts[p], folds[of_fold.fold], readings));
       }
       for (std::size_t b = 0; b < sums.size(); ++b) {
         const FoldModel model = plainModel(method, grnnOf(plan.grnn, plan.bandwidths[b]));
-        const auto answers = answersOf(model, data.taxels[t], training, of_fold.asked);
-        auto answer = answers.begin();  // in the order of parts and their classes
+        const auto tables = tablesFor(model, data.taxels[t], training, of_fold.classes);
+        auto table = tables.begin();  // in the order of parts and their classes
         for (std::size_t p = of_fold.first; p < of_fold.end; ++p) {
-          sums[b] += percentOf(tested[p - of_fold.first], answer) / range[p];
-          answer += static_cast<std::ptrdiff_t>(parts[p].tested.size());
+          sums[b] += percentOf(tested[p - of_fold.first], table) / range[p];
+          table += static_cast<std::ptrdiff_t>(parts[p].tested.size());
         }
       }
     }

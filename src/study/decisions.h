@@ -8,19 +8,21 @@
 
 namespace fsr::study {
 
-/// Where the paper leaves something open or errs, and what the study does about it.
+/// A point that the paper (Ahmadizadeh and Menon 2019, doi:10.3390/s19245519) leaves open or states wrongly,
+/// and the study's decision.
 struct StudyDecision {
   std::string subject;
-  std::string paper;  ///< what stands there
-  std::string study;  ///< what was done
+  std::string paper;  ///< what the paper says
+  std::string study;  ///< what the study does
 };
 
 std::vector<StudyDecision> studyDecisions(const StudyPlan& plan, const StudyData& data);
 
-/// Numbers of the paper that no rig can match, and why.
+/// Numbers of the paper that no rig can match, and the reasons. One sentence or paragraph each.
 std::vector<std::string> unmatchable();
 
-/// What the numbers do not say: of simulated data, of one mount, of one sheet.
-std::vector<std::string> whatItHoldsFor(const StudyData& data, const std::string& simulation);
+/// Limits of the results: simulated data, one mount for each surface, one sheet. One sentence or paragraph
+/// each.
+std::vector<std::string> limitations(const StudyData& data, const std::string& simulation);
 
 }  // namespace fsr::study

@@ -8,7 +8,7 @@ namespace fsr::study {
 
 namespace {
 
-// The first `kept` places of a random order of 0 .. scans - 1 (Fisher and Yates), ascending.
+// Draws `kept` of the indices 0 to scans - 1 without replacement (Fisher and Yates); ascending.
 std::vector<std::uint32_t> drawn(std::size_t scans, std::size_t kept,
                                  const statistics::RandomStream& stream) {
   std::vector<std::uint32_t> places(scans);

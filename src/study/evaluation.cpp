@@ -16,7 +16,7 @@ bool holds(const Grouping& grouping, const std::vector<Cell>& cells, std::size_t
   });
 }
 
-// Whether the fold trains any of the method's models.
+// Whether the fold has training data for any of the method's models.
 bool trains(const StudyMethod& method, const Grouping& grouping, const Fold& fold) {
   for (const compensation::SchemePlan::Model& model : method.plan.models) {
     for (const std::size_t c : model.trained_on) {
@@ -44,7 +44,7 @@ std::vector<TestPart> partsOfFold(const StudyMethod& method, const Grouping& gro
   return parts;
 }
 
-// Visits (class, scan) of the held-out scans of a part.
+// Calls visit(class, scan) for each held-out scan of a part.
 template <typename Visit>
 void forEachTested(const StudyData& data, const Grouping& grouping, const Fold& fold, const TestPart& part,
                    Visit visit) {
@@ -56,7 +56,7 @@ void forEachTested(const StudyData& data, const Grouping& grouping, const Fold& 
   }
 }
 
-// Scores of one taxel, part by part.
+// Collects the scores of one taxel. Between begin() and end() come the readings of one part.
 class TaxelScoring {
  public:
   TaxelScoring(const StudyData& data, const StudyPlan& plan) : data_(data), plan_(plan) {}
@@ -92,11 +92,10 @@ class TaxelScoring {
 
 }  // namespace
 
-std::vector<TestPart> testParts(const StudyMethod& method, const Examination& examination) {
+std::vector<TestPart> testParts(const StudyMethod& method, const Validation& validation) {
   std::vector<TestPart> parts;
-  for (std::size_t k = 0; k < examination.folds.size(); ++k) {
-    const auto of_fold =
-        partsOfFold(method, examination.grouping, examination.folds[k], k, examination.scoring);
+  for (std::size_t k = 0; k < validation.folds.size(); ++k) {
+    const auto of_fold = partsOfFold(method, validation.grouping, validation.folds[k], k, validation.scoring);
     parts.insert(parts.end(), of_fold.begin(), of_fold.end());
   }
   return parts;
@@ -108,23 +107,24 @@ std::vector<FoldParts> partsByFold(const std::vector<TestPart>& parts) {
     if (folds.empty() || folds.back().fold != parts[p].fold) folds.push_back({parts[p].fold, p, p, {}});
     FoldParts& fold = folds.back();
     fold.end = p + 1;
-    fold.asked.insert(fold.asked.end(), parts[p].tested.begin(), parts[p].tested.end());
+    fold.classes.insert(fold.classes.end(), parts[p].tested.begin(), parts[p].tested.end());
   }
   return folds;
 }
 
 std::size_t FoldParts::placeOf(std::size_t curvature_class) const {
-  return static_cast<std::size_t>(std::find(asked.begin(), asked.end(), curvature_class) - asked.begin());
+  const auto place = std::find(classes.begin(), classes.end(), curvature_class);
+  return static_cast<std::size_t>(place - classes.begin());
 }
 
-Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Examination& examination,
+Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Validation& validation,
                     const std::vector<FoldModel>& models, const StudyPlan& plan,
                     const std::function<void()>& done) {
-  const Grouping& grouping = examination.grouping;
-  const std::vector<Fold>& folds = examination.folds;
+  const Grouping& grouping = validation.grouping;
+  const std::vector<Fold>& folds = validation.folds;
   Evaluation result;
-  result.parts = testParts(method, examination);
-  result.models = examination.scoring == Scoring::kPooled ? 1 : method.models();
+  result.parts = testParts(method, validation);
+  result.models = validation.scoring == Scoring::kPooled ? 1 : method.models();
   for (const TestPart& part : result.parts) {
     result.begin.push_back(result.scans.size());
     forEachTested(data, grouping, folds[part.fold], part,
@@ -141,13 +141,13 @@ Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Exam
     TaxelScoring scoring(data, plan);
     scoring.errors.reserve(result.scans.size());
     for (const FoldParts& fold : partsByFold(result.parts)) {
-      const auto answers = answersOf(models[models.size() == 1 ? 0 : fold.fold], taxel,
-                                     readings.training(folds[fold.fold].train, by_samples), fold.asked);
+      const auto tables = tablesFor(models[models.size() == 1 ? 0 : fold.fold], taxel,
+                                    readings.training(folds[fold.fold].train, by_samples), fold.classes);
       for (std::size_t p = fold.first; p < fold.end; ++p) {
         scoring.begin();
         forEachTested(
             data, grouping, folds[fold.fold], result.parts[p], [&](std::size_t c, const StudyScan& scan) {
-              scoring.add(answers[fold.placeOf(c)][scan.counts[taxel]], regression::fromFixed(scan.pressure));
+              scoring.add(tables[fold.placeOf(c)][scan.counts[taxel]], regression::fromFixed(scan.pressure));
             });
         scoring.end();
       }

@@ -10,67 +10,68 @@
 
 namespace fsr::study {
 
-/// How the readings of a method's several models are scored.
+/// How a method of several models is scored.
 enum class Scoring {
-  kByModel,  ///< the mean of the models' scores: the paper's tables
-  kPooled,   ///< all readings together: methods are compared on the same readings
+  kByModel,  ///< mean of the scores of its models, as in the paper's tables
+  kPooled,   ///< one score of all readings, so that methods are compared on the same readings
 };
 
 /// Held-out readings that are scored together.
 struct TestPart {
   std::size_t fold = 0;
-  std::size_t model = 0;            ///< 0 where they are pooled
-  std::vector<std::size_t> tested;  ///< classes
+  std::size_t model = 0;            ///< 0 if readings are pooled
+  std::vector<std::size_t> tested;  ///< curvature classes
 };
 
-/// What to hold out and how to score it.
-struct Examination {
-  const Grouping& grouping;  ///< which scans a method uses, in training and in scoring alike
+/// The data to hold out and the way to score them.
+struct Validation {
+  const Grouping& grouping;  ///< the scans that the method uses, for training and for scoring
   const std::vector<Fold>& folds;
   Scoring scoring = Scoring::kByModel;
 };
 
-/// In the order of folds and models. A fold that leaves a method nothing to train on has no part.
-std::vector<TestPart> testParts(const StudyMethod& method, const Examination& examination);
+/// The parts, in the order of folds and models. A fold without training data for the method has no part.
+std::vector<TestPart> testParts(const StudyMethod& method, const Validation& validation);
 
-/// Parts of one fold: first .. end - 1, and the classes that they ask about.
+/// The parts of one fold, first to end - 1, and the classes that they test.
 struct FoldParts {
   std::size_t fold = 0;
   std::size_t first = 0;
   std::size_t end = 0;
-  std::vector<std::size_t> asked;
+  std::vector<std::size_t> classes;
 
-  std::size_t placeOf(std::size_t curvature_class) const;  ///< in `asked`
+  std::size_t placeOf(std::size_t curvature_class) const;  ///< index in `classes`
 };
 std::vector<FoldParts> partsByFold(const std::vector<TestPart>& parts);
 
 /// A method's held-out errors.
 struct Evaluation {
   std::vector<TestPart> parts;
-  /// The scans that were scored, part after part, and where each part begins; one more than parts.
+  /// The scored scans, ordered by part. Part p has the scans begin[p] to begin[p + 1] - 1.
   std::vector<const StudyScan*> scans;
   std::vector<std::size_t> begin;
   std::size_t models = 0;
-  /// Predicted - reference [Pa] of each of `scans`, for each taxel that takes part.
+  /// Predicted - reference pressure [studied taxels][scans] [Pa].
   std::vector<std::vector<float>> errors;
-  /// Of each taxel that takes part: the mean of the scores of all parts.
+  /// For each studied taxel: the mean of the scores of all parts.
   std::vector<double> r2;
   std::vector<double> rmse_percent;
 };
 
-/// `models` has one for each fold, or one for all. `done` is called after each taxel, from any thread.
-Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Examination& examination,
+/// Trains and scores a method. `models` has one entry for each fold, or one for all folds. `done` is called
+/// after each taxel, from any thread.
+Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Validation& validation,
                     const std::vector<FoldModel>& models, const StudyPlan& plan,
                     const std::function<void()>& done);
 
-/// RMSE% as evaluate() would give it, mean over taxels, for each of plan.bandwidths.
+/// RMSE% as by evaluate(), mean over taxels, for each of plan.bandwidths.
 std::vector<double> bandwidthScores(const StudyData& data, const StudyMethod& method,
-                                    const Examination& examination, const StudyPlan& plan);
+                                    const Validation& validation, const StudyPlan& plan);
 
-/// For each fold the bandwidth of least held-out squared error within the fold's training cells, over about
-/// plan.bandwidth_taxels taxels together: nested cross-validation, the groups of the training cells held out
-/// in two halves.
+/// Chooses a bandwidth for each fold by nested cross-validation within the fold's training cells: their
+/// groups are held out in two halves. The bandwidth with the smallest squared error over about
+/// plan.bandwidth_taxels taxels is chosen.
 std::vector<double> chooseBandwidths(const StudyData& data, const StudyMethod& method,
-                                     const Examination& examination, const StudyPlan& plan);
+                                     const Validation& validation, const StudyPlan& plan);
 
 }  // namespace fsr::study

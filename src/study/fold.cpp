@@ -7,7 +7,7 @@ namespace fsr::study {
 
 namespace {
 
-// The cells that hold scans.
+// The cells that contain scans.
 std::vector<Cell> occupied(const Grouping& grouping) {
   std::vector<Cell> cells;
   for (std::size_t c = 0; c < grouping.scans.size(); ++c) {
@@ -37,8 +37,8 @@ bool everyClassMountedTwice(const Grouping& mounts) {
 Split leaveSectionOut(const StudyData& data) {
   Split split{"five_sections",
               std::to_string(data.sections) +
-                  " sections of each condition, contiguous in time and cut between cycles; each is predicted "
-                  "by the others, earlier and later ones",
+                  " sections of each condition, contiguous in time and divided between cycles; each section "
+                  "is predicted by the earlier and later ones",
               bySection(data),
               {}};
   const std::vector<Cell> cells = occupied(split.grouping);
@@ -63,7 +63,7 @@ Split pastToFuture(const StudyData& data) {
 
 Split leaveCurvatureOut(const StudyData& data) {
   Split split{"leave_curvature_out",
-              "each curvature is predicted by models that have seen only the others",
+              "each curvature is predicted by models trained on the other curvatures",
               bySection(data),
               {}};
   if (data.classes.size() < 3) return split;
@@ -100,8 +100,8 @@ TaxelReadings::TaxelReadings(const StudyData& data, const Grouping& grouping, st
   }
 }
 
-compensation::ClassReadings TaxelReadings::training(const std::vector<Cell>& cells, bool by_samples) const {
-  compensation::ClassReadings readings;
+regression::ClassReadings TaxelReadings::training(const std::vector<Cell>& cells, bool by_samples) const {
+  regression::ClassReadings readings;
   readings.full_scale = data_.full_scale;
   if (!by_samples) {
     readings.sums.assign(data_.classes.size(), regression::CodeHistogram(data_.full_scale));

@@ -5,19 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "compensation/class_readings.h"
-#include "fsr_pressure_map/regression/code_statistics.h"
+#include "regression/class_readings.h"
+#include "regression/code_statistics.h"
 #include "study/study_data.h"
 
 namespace fsr::study {
 
-/// The scans of one class that are held out, or trained on, together.
+/// The scans of one class and group. They are held out, or used for training, together.
 struct Cell {
   std::size_t curvature_class = 0;
   std::size_t group = 0;
 };
 
-/// What one repetition of a validation trains on, and what it is scored on.
+/// One repetition of a cross-validation: training cells and test cells.
 struct Fold {
   std::string name;
   std::vector<Cell> train;
@@ -27,22 +27,22 @@ struct Fold {
 /// One way to hold data out.
 struct Split {
   std::string id;           ///< five_sections, past_to_future, leave_curvature_out, leave_mount_out, ...
-  std::string description;  ///< a sentence
+  std::string description;  ///< a clause, e.g. "each mount is predicted by the other mounts of the matrix"
   Grouping grouping;        ///< of all scans
   std::vector<Fold> folds;
 };
 
-/// Section k of every class, for each k: the paper's.
+/// Fold k holds out section k of every class. This is the paper's cross-validation.
 Split leaveSectionOut(const StudyData& data);
-/// The first three fifths of each class predict the rest.
+/// The first three fifths of the sections of each class predict the rest. One fold.
 Split pastToFuture(const StudyData& data);
-/// Every class predicted by the others; no folds where there are fewer than three.
+/// Each class is predicted by the other classes. No folds if there are fewer than three classes.
 Split leaveCurvatureOut(const StudyData& data);
-/// Every mount predicted by the other mounts; no folds unless each class was mounted more than once, since
-/// else it is leaveCurvatureOut().
+/// Each mount is predicted by the other mounts. No folds unless each class was mounted more than once;
+/// otherwise it would equal leaveCurvatureOut().
 Split leaveMountOut(const StudyData& data);
 
-/// The readings of one taxel.
+/// The readings of one taxel, summed in cells.
 class TaxelReadings {
  public:
   TaxelReadings(const StudyData& data, const Grouping& grouping, std::size_t taxel);
@@ -50,8 +50,8 @@ class TaxelReadings {
   const regression::CodeStatistics& cell(const Cell& cell) const {
     return cells_[cell.curvature_class * grouping_.groups + cell.group];
   }
-  /// What the cells hold together, by class; single readings too where `by_samples`.
-  compensation::ClassReadings training(const std::vector<Cell>& cells, bool by_samples) const;
+  /// The readings of the given cells by class: as sums of each code, or as single readings if `by_samples`.
+  regression::ClassReadings training(const std::vector<Cell>& cells, bool by_samples) const;
 
  private:
   const StudyData& data_;

@@ -11,8 +11,8 @@ namespace fsr::study {
 
 namespace {
 
-// Classes of which the fold has training readings, ascending. What a scheme learns must not hear of the
-// others: a class without readings cannot be held out.
+// Classes of which the fold has training readings, ascending. A scheme must not learn from other classes,
+// since these are held out.
 std::vector<std::size_t> trainedClasses(const Grouping& grouping, const Fold& fold) {
   std::vector<std::size_t> trained;
   for (const Cell& cell : fold.train) {
@@ -30,7 +30,8 @@ std::vector<dataset::CurvatureClass> conditionsOf(const StudyData& data,
   return conditions;
 }
 
-// The fold's training cells of some taxels, numbered from 0, as schemes learn from them.
+// Statistics of the fold's training cells for some taxels, which are numbered from 0, in the form that
+// schemes learn from.
 compensation::TrainingStatistics statisticsOf(const StudyData& data, const Grouping& grouping,
                                               const Fold& fold, const std::vector<std::size_t>& classes,
                                               const std::vector<std::size_t>& taxels) {
@@ -52,7 +53,8 @@ compensation::TrainingStatistics statisticsOf(const StudyData& data, const Group
   return statistics;
 }
 
-// The ranges that were learned, in numbers of all classes; a class without readings stays alone.
+// Applies learned ranges to a plan of all classes. A class without training readings becomes a range of its
+// own.
 void takeRanges(const compensation::SchemePlan& learned, const std::vector<std::size_t>& trained,
                 compensation::SchemePlan& plan) {
   std::vector<std::vector<std::size_t>> ranges;
@@ -86,7 +88,7 @@ compensation::EffectLaw lawOf(const StudyData& data, const Grouping& grouping, c
   std::vector<compensation::TaxelEffect> effects(data.taxels.size());
   matrix::forEachTaxel(data.taxels.size(), threads, [&](std::size_t t) {
     const TaxelReadings readings(data, grouping, data.taxels[t]);
-    const compensation::ClassReadings training = readings.training(fold.train, false);
+    const regression::ClassReadings training = readings.training(fold.train, false);
     const std::vector<regression::Fit> fits =
         compensation::fitScheme(model.plan, data.taxels[t], training, model.regressor);
     std::vector<regression::CodeTable> tables;
@@ -121,7 +123,7 @@ FoldModel learnedModel(const StudyData& data, const StudyMethod& method, const G
   }
   if (scheme != compensation::Scheme::kScaledCurvature && scheme != compensation::Scheme::kCurvatureRanges)
     return model;
-  const std::vector<std::size_t> taxels = someTaxels(data, plan);
+  const std::vector<std::size_t> taxels = taxelSample(data, plan);
   const compensation::TrainingStatistics statistics = statisticsOf(data, grouping, fold, trained, taxels);
   std::vector<std::size_t> all(taxels.size());
   for (std::size_t t = 0; t < all.size(); ++t) all[t] = t;
@@ -132,23 +134,23 @@ FoldModel learnedModel(const StudyData& data, const StudyMethod& method, const G
   return model;
 }
 
-std::vector<std::vector<double>> answersOf(const FoldModel& model, std::size_t taxel,
-                                           const compensation::ClassReadings& training,
-                                           const std::vector<std::size_t>& asked) {
+std::vector<std::vector<double>> tablesFor(const FoldModel& model, std::size_t taxel,
+                                           const regression::ClassReadings& training,
+                                           const std::vector<std::size_t>& classes) {
   const std::vector<regression::Fit> fits =
       compensation::fitScheme(model.plan, taxel, training, model.regressor);
-  std::vector<std::vector<double>> answers;
-  for (const std::size_t c : asked) {
-    answers.push_back(compensation::answerOn(model.plan, taxel, training, fits, c, model.law));
+  std::vector<std::vector<double>> tables;
+  for (const std::size_t c : classes) {
+    tables.push_back(compensation::answerOn(model.plan, taxel, training, fits, c, model.law));
   }
-  return answers;
+  return tables;
 }
 
-std::vector<std::size_t> someTaxels(const StudyData& data, const StudyPlan& plan) {
+std::vector<std::size_t> taxelSample(const StudyData& data, const StudyPlan& plan) {
   const std::size_t step = std::max<std::size_t>(1, data.taxels.size() / plan.bandwidth_taxels);
-  std::vector<std::size_t> some;
-  for (std::size_t t = 0; t < data.taxels.size(); t += step) some.push_back(data.taxels[t]);
-  return some;
+  std::vector<std::size_t> sample;
+  for (std::size_t t = 0; t < data.taxels.size(); t += step) sample.push_back(data.taxels[t]);
+  return sample;
 }
 
 }  // namespace fsr::study

@@ -27,7 +27,7 @@ std::vector<StudyMethod> methodsOf(const StudyContext& study) {
   std::vector<StudyMethod> methods;
   const std::vector<StudyMethod> further = furtherMethods(study.data);
   for (const StudyMethod& method : study.methods) {
-    // The figure of predictions needs these two.
+    // The figure of predictions shows these two methods.
     const bool drawn = method.id == "baseline" || method.id == "per_curvature";
     if (study.plan.beyond_the_paper || drawn) methods.push_back(method);
   }
@@ -39,32 +39,32 @@ std::vector<StudyMethod> methodsOf(const StudyContext& study) {
   return methods;
 }
 
-// Schemes beyond the paper take the bandwidths of one model a curvature.
+// Schemes beyond the paper use the bandwidths that were chosen for per_curvature.
 std::vector<double> bandwidthsFor(const StudyContext& study, const StudyMethod& method,
-                                  const Examination& examination, const SplitResult& before) {
+                                  const Validation& validation, const SplitResult& before) {
   for (const StudyScore& score : before.scores) {
     if (isFurther(method) && score.id == compensation::schemeName(compensation::Scheme::kPerCurvature))
       return score.bandwidth;
   }
-  return chooseBandwidths(study.data, method, examination, study.plan);
+  return chooseBandwidths(study.data, method, validation, study.plan);
 }
 
 SplitResult holdOutOne(const StudyContext& study, const Split& split, HeldOut& result) {
   SplitResult held_out{split.id, split.description, {}, {}};
   for (const Fold& fold : split.folds) held_out.folds.push_back(fold.name);
-  const Examination examination{split.grouping, split.folds, Scoring::kPooled};
+  const Validation validation{split.grouping, split.folds, Scoring::kPooled};
   const std::vector<StudyMethod> methods = methodsOf(study);
   std::vector<Evaluation> kept;
   for (const StudyMethod& method : methods) {
     const std::string stage = split.id + ", " + method.id;
     study.say(stage, 0, study.data.taxels.size());
-    const std::vector<double> bandwidth = bandwidthsFor(study, method, examination, held_out);
+    const std::vector<double> bandwidth = bandwidthsFor(study, method, validation, held_out);
     std::vector<FoldModel> models;
     for (std::size_t k = 0; k < split.folds.size(); ++k) {
       models.push_back(
           learnedModel(study.data, method, split.grouping, split.folds[k], bandwidth[k], study.plan));
     }
-    Evaluation evaluation = study.evaluateMethod(method, examination, models, stage);
+    Evaluation evaluation = study.evaluateMethod(method, validation, models, stage);
     StudyScore score = scoreOf(study.data, method, evaluation);
     score.rmse_interval = rmseInterval(CycleSums(study.data, evaluation), study.data, study.plan);
     score.bandwidth = bandwidth;
@@ -105,13 +105,13 @@ StudyHeadline headlineOf(const std::vector<SplitResult>& splits) {
   StudyHeadline headline{split.id, score.id, rmse(score), score.rmse_interval, ""};
   std::ostringstream text;
   text.precision(3);
-  text << "Where " << split.description << ", " << score.id << " errs least of " << split.scores.size()
-       << " methods: RMSE " << headline.rmse / 1e3 << " kPa";
+  text << "Hardest of " << splits.size() << " splits: " << split.description << ". Best of "
+       << split.scores.size() << " methods there: " << score.id << ", RMSE " << headline.rmse / 1e3 << " kPa";
   if (headline.interval.method != statistics::IntervalMethod::kNone) {
     text << " (95 % interval " << headline.interval.low / 1e3 << " to " << headline.interval.high / 1e3
          << " kPa over " << headline.interval.units << " " << headline.interval.level << "s)";
   }
-  text << ". Of " << splits.size() << " ways to hold data out this is the hardest.";
+  text << ".";
   headline.text = text.str();
   return headline;
 }

@@ -26,12 +26,12 @@ std::vector<std::string> paperStatements(const std::string& comparison) {
   static const std::map<std::string, std::vector<std::string>> kStatements = {
       {"algorithms",
        {"Friedman: chi2(2) = 107.31 (R2), 109.83 (RMSE%), p < 0.001.",
-        "Linear regression is worse by both measures; GRNN and forest differ in R2, not in RMSE%."}},
-      {"flat_against_all", {"Student's paired t test: differ by both measures."}},
+        "Linear regression is worse by both measures. GRNN and forest differ in R2, but not in RMSE%."}},
+      {"flat_against_all", {"Student's paired t test: they differ by both measures."}},
       {"methods",
        {"Friedman: chi2(4) = 270.09 (R2), 246.83 (RMSE%), p < 0.001.",
-        "All pairs differ by both measures; method 1 is best, method 3 beats method 4 in RMSE% and loses in "
-        "R2."}},
+        "All pairs differ by both measures. Method 1 is best. Method 3 is better than method 4 in RMSE% and "
+        "worse in R2."}},
       {"one_hot", {"Student's paired t test: no significant difference by either measure."}},
   };
   const auto found = kStatements.find(comparison);

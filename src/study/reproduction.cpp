@@ -8,7 +8,7 @@ namespace fsr::study {
 
 namespace {
 
-// A method with its errors summed for resampling.
+// A method's score, with its squared errors by cycle for the bootstrap.
 struct Scored {
   StudyScore score;
   CycleSums sums;

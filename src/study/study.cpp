@@ -10,8 +10,9 @@ namespace fsr::study {
 
 namespace {
 
-// The literal distance has no form with a second input.
-void leaveOutWhatTheKernelCannot(const StudyPlan& plan, std::vector<StudyMethod>& methods, StudyData& data) {
+// Removes methods with a second input if the kernel uses the literal distance, which is defined for one input
+// only.
+void leaveOutSecondInputs(const StudyPlan& plan, std::vector<StudyMethod>& methods, StudyData& data) {
   if (plan.grnn.distance == regression::KernelDistance::kSquared) return;
   const auto second = [](const StudyMethod& method) {
     return compensation::hasSecondInput(method.plan.scheme);
@@ -47,19 +48,19 @@ StudyResult describe(const StudyProblem& problem, const StudyData& data) {
   result.taxels = data.taxels;
   result.decisions = studyDecisions(problem.plan, data);
   result.unmatchable = unmatchable();
-  result.holds_for = whatItHoldsFor(data, problem.simulation);
+  result.holds_for = limitations(data, problem.simulation);
   result.warnings = data.warnings;
   return result;
 }
 
 }  // namespace
 
-Evaluation StudyContext::evaluateMethod(const StudyMethod& method, const Examination& examination,
+Evaluation StudyContext::evaluateMethod(const StudyMethod& method, const Validation& validation,
                                         const std::vector<FoldModel>& models,
                                         const std::string& stage) const {
   std::mutex reporting;
   std::size_t done = 0;
-  return evaluate(data, method, examination, models, plan, [&] {
+  return evaluate(data, method, validation, models, plan, [&] {
     const std::lock_guard<std::mutex> lock(reporting);
     say(stage, ++done, data.taxels.size());
   });
@@ -69,7 +70,7 @@ StudyResult study(const StudyProblem& problem, const StudyProgress& progress) {
   validate(problem.plan, "study " + problem.plan.name);
   StudyData data = gatherStudyData(problem.recordings, problem.plan.sections);
   std::vector<StudyMethod> methods = paperMethods(data, problem.plan.binary_share);
-  leaveOutWhatTheKernelCannot(problem.plan, methods, data);
+  leaveOutSecondInputs(problem.plan, methods, data);
   const StudyContext context{problem.plan, data, methods, progress};
   StudyResult result = describe(problem, data);
   result.comparisons = reproduce(context);

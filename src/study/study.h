@@ -21,52 +21,52 @@ struct StudyProblem {
   std::string simulation;  ///< name of the simulated rig that made the recordings; empty = real bags
 };
 
-/// One method's held-out errors.
+/// Held-out errors of one method.
 struct StudyScore {
-  std::string id;      ///< readable: baseline, per_curvature, ...
-  std::string label;   ///< the paper's: "Method 1"
+  std::string id;      ///< baseline, per_curvature, ...
+  std::string label;   ///< name in the paper, e.g. "Method 1"
   std::string model;   ///< linear, grnn, forest
-  std::string scored;  ///< whether models' scores were averaged or readings pooled, a phrase
+  std::string scored;  ///< a phrase: whether the models' scores were averaged or their readings pooled
   std::size_t scans = 0;
-  std::vector<double> r2;            ///< of each taxel that takes part
+  std::vector<double> r2;            ///< of each studied taxel
   std::vector<double> rmse_percent;  ///< likewise
   statistics::Spread r2_spread;
   statistics::Spread rmse_percent_spread;
   statistics::BinnedErrors errors;  ///< of all taxels [Pa]
   statistics::ErrorSummary first_cycle;
   statistics::ErrorSummary later_cycles;
-  std::size_t worst_taxel = 0;  ///< the one of the largest RMSE%
+  std::size_t worst_taxel = 0;  ///< taxel with the largest RMSE%
   double worst_rmse_percent = 0;
-  statistics::BootstrapResult rmse_percent_interval;  ///< of the mean over taxels, readings of a model pooled
+  statistics::BootstrapResult rmse_percent_interval;  ///< of the mean over taxels; readings of a model pooled
   statistics::BootstrapResult rmse_interval;          ///< of the RMSE of all readings [Pa]
   std::vector<double> bandwidth;                      ///< of each fold
 };
 
-/// RMSE% of `first` less that of `second`, with its interval, by resampling whole units.
+/// RMSE% of `first` minus RMSE% of `second`, with its bootstrap interval over whole cycles or mounts.
 struct StudyDifference {
   std::string first;
   std::string second;
   statistics::BootstrapResult rmse_percent;
 };
 
-/// One question of the paper.
+/// One comparison of the paper.
 struct StudyComparison {
   std::string id;  ///< algorithms, flat_against_all, methods, one_hot
   std::string title;
   std::vector<StudyScore> scores;
-  statistics::PaperRuleResult r2;  ///< as published, taxels treated as independent
+  statistics::PaperRuleResult r2;  ///< tests as published: taxels treated as independent
   statistics::PaperRuleResult rmse_percent;
-  std::vector<StudyDifference> differences;  ///< beside it: of each pair
+  std::vector<StudyDifference> differences;  ///< of each pair, by bootstrap
 };
 
-/// RMSE% over the grid of bandwidths, the data being the paper's.
+/// RMSE% over the grid of bandwidths, with the paper's down-sampling.
 struct BandwidthCurve {
   std::string id;
   std::string label;
   std::vector<double> rmse_percent;  ///< mean over taxels, for each of StudyPlan::bandwidths
 };
 
-/// The methods on all scans, bandwidth chosen by nested cross-validation, held out in one way.
+/// Results of one split: all methods on all scans, with bandwidths chosen by nested cross-validation.
 struct SplitResult {
   std::string id;
   std::string description;
@@ -74,8 +74,8 @@ struct SplitResult {
   std::vector<StudyScore> scores;
 };
 
-/// The number to quote: the best method where the data are held out as hard as they permit, in the split
-/// where the best method errs most.
+/// The result to quote: the best method in the hardest split, i.e. the split where the best method has the
+/// largest error.
 struct StudyHeadline {
   std::string split;
   std::string method;
@@ -84,7 +84,7 @@ struct StudyHeadline {
   std::string text;
 };
 
-/// What figures of one taxel show.
+/// Data for the figures of one taxel.
 struct TaxelResponse {
   std::size_t taxel = 0;
   struct Curve {
@@ -94,14 +94,14 @@ struct TaxelResponse {
     std::vector<double> pressure;  ///< [Pa]
     std::vector<double> counts;
   };
-  std::vector<Curve> curves;  ///< of each class, the middle section
+  std::vector<Curve> curves;  ///< the middle section of each class
   struct Prediction {
     std::string surface;
     double curvature = 0;                   ///< [1/m]
     std::vector<double> time;               ///< [s]
     std::vector<double> reference;          ///< [Pa]
-    std::vector<double> without_curvature;  ///< baseline [Pa], held out
-    std::vector<double> with_curvature;     ///< method 1 [Pa], held out
+    std::vector<double> without_curvature;  ///< held-out prediction of the baseline [Pa]
+    std::vector<double> with_curvature;     ///< held-out prediction of method 1 [Pa]
   } prediction;
 };
 
@@ -122,7 +122,7 @@ struct StudyResult {
   std::size_t scans = 0;
   std::size_t cycles = 0;
   std::size_t mounts = 0;
-  std::vector<std::size_t> taxels;  ///< that take part
+  std::vector<std::size_t> taxels;  ///< the studied taxels: not masked, and varying on every class
   std::vector<StudyComparison> comparisons;
   std::vector<BandwidthCurve> bandwidths;
   std::vector<SplitResult> splits;  ///< easiest first
@@ -130,15 +130,15 @@ struct StudyResult {
   TaxelResponse response;
   std::vector<StudyDecision> decisions;
   std::vector<std::string> unmatchable;
-  std::vector<std::string> holds_for;  ///< sentences on what the numbers do not say
+  std::vector<std::string> holds_for;  ///< sentences on the limits of the results
   std::vector<std::string> warnings;
 };
 
-/// `stage` in words; done of total. Called from one thread at a time.
+/// Called from one thread at a time. `stage` is a phrase; `done` of `total` steps of it are done.
 using StudyProgress = std::function<void(const std::string& stage, std::size_t done, std::size_t total)>;
 
-/// Throws InputError: one sentence that names the first thing in the way. The same numbers on any number of
-/// threads.
+/// Compares the paper's methods and further schemes by cross-validation. The numbers do not depend on the
+/// number of threads. Throws InputError with one sentence if the input is unusable.
 StudyResult study(const StudyProblem& problem, const StudyProgress& progress = {});
 
 }  // namespace fsr::study

@@ -8,7 +8,7 @@
 
 namespace fsr::study {
 
-/// What all parts of a study work on.
+/// Input of all parts of a study.
 struct StudyContext {
   const StudyPlan& plan;
   const StudyData& data;
@@ -18,25 +18,26 @@ struct StudyContext {
   void say(const std::string& stage, std::size_t done, std::size_t total) const {
     if (progress) progress(stage, done, total);
   }
-  /// evaluate(), telling the progress.
-  Evaluation evaluateMethod(const StudyMethod& method, const Examination& examination,
+  /// evaluate() with progress reports.
+  Evaluation evaluateMethod(const StudyMethod& method, const Validation& validation,
                             const std::vector<FoldModel>& models, const std::string& stage) const;
 };
 
-/// The paper's questions.
+/// The paper's comparisons.
 std::vector<StudyComparison> reproduce(const StudyContext& study);
 
-/// One-hot is left out: it is as curvature_input, but for widths of no use.
+/// RMSE% over the grid of bandwidths, for each method but one-hot: at useful bandwidths it equals
+/// curvature_input.
 std::vector<BandwidthCurve> gridOfBandwidths(const StudyContext& study);
 
-/// The methods on all scans, split by split, easiest first, and what the figures show of one taxel.
+/// All methods on all scans for each split, easiest first, and the data for the figures of one taxel.
 struct HeldOut {
   std::vector<SplitResult> splits;
   TaxelResponse response;
 };
 HeldOut holdOut(const StudyContext& study);
 
-/// Of the hardest split: the one where the best method errs most.
+/// The best method in the hardest split, where the best method has the largest error.
 StudyHeadline headlineOf(const std::vector<SplitResult>& splits);
 
 }  // namespace fsr::study

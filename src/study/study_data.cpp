@@ -13,9 +13,9 @@ namespace fsr::study {
 
 namespace {
 
-constexpr std::size_t kFewestTaxels = 3;  // Shapiro and Wilk's test
+constexpr std::size_t kFewestTaxels = 3;  // required by Shapiro and Wilk's test
 
-// A calibration asks the same of its recordings.
+// The requirements on the recordings are those of a calibration.
 void requireUsable(const std::vector<dataset::Recording>& recordings, std::size_t sections) {
   calibration::CalibrationProblem problem{recordings, {}};
   problem.options.scheme = compensation::Scheme::kBaseline;
@@ -23,8 +23,8 @@ void requireUsable(const std::vector<dataset::Recording>& recordings, std::size_
   calibration::validate(problem);
 }
 
-// Numbers mounts in order of appearance: a mount is a surface with a mount number, whatever the recording. A
-// number of 0 is unknown: then each condition of each recording is taken for one.
+// Numbers the mounts in order of appearance. A mount is identified by its surface and mount number in all
+// recordings. Mount number 0 is unknown: then each condition of each recording counts as a mount.
 class MountNumbers {
  public:
   std::uint32_t of(std::size_t recording, std::size_t condition, const matrix::Surface& surface) {
@@ -50,8 +50,8 @@ void chooseTaxels(const std::vector<dataset::Recording>& recordings, StudyData& 
   std::string constant;
   for (std::size_t taxel = 0; taxel < data.matrix_taxels; ++taxel) {
     if (masked[taxel] != 0) continue;
-    const auto lives = [&](const auto& scans) { return varies(scans, taxel); };
-    if (std::all_of(data.scans.begin(), data.scans.end(), lives)) {
+    const auto changes = [&](const auto& scans) { return varies(scans, taxel); };
+    if (std::all_of(data.scans.begin(), data.scans.end(), changes)) {
       data.taxels.push_back(taxel);
     } else {
       constant += (constant.empty() ? "" : ", ") + std::to_string(taxel);
@@ -62,21 +62,20 @@ void chooseTaxels(const std::vector<dataset::Recording>& recordings, StudyData& 
       if (data.scans[c].size() > 1) continue;
       throw settings::InputError(
           "\"" + data.classes[c].surface + "\" has " + std::to_string(data.scans[c].size()) +
-          " scan to study, but must have several in each section; record it again, or leave it out");
+          " scan, but the study needs several in each section; record it again or leave it out");
     }
     throw settings::InputError(
         recordings.front().name +
-        ": every taxel is masked or reads the same count throughout a condition; is the matrix "
-        "connected?");
+        ": every taxel is masked or reads the same count during a whole condition; is the matrix connected?");
   }
   if (data.taxels.size() < kFewestTaxels) {
     throw settings::InputError(recordings.front().name + ": the matrix has " +
                                std::to_string(data.taxels.size()) +
-                               (data.taxels.size() == 1 ? " living taxel" : " living taxels") +
-                               ", but the study's tests need at least 3 taxels");
+                               (data.taxels.size() == 1 ? " taxel that changes" : " taxels that change") +
+                               ", but the statistical tests need at least 3 taxels");
   }
   if (!constant.empty()) {
-    data.warnings.push_back("taxels that read the same count throughout a condition are left out: " +
+    data.warnings.push_back("taxels that read the same count during a whole condition are left out: " +
                             constant);
   }
 }
@@ -141,7 +140,7 @@ std::size_t StudyData::flatClass() const {
   const auto flat = std::find_if(classes.begin(), classes.end(), dataset::isFlat);
   if (flat == classes.end()) {
     throw settings::InputError(
-        "the study compares with the flat surface, but no recording is of one; add it");
+        "the study compares with the flat surface, but there is no recording of a flat surface; add one");
   }
   return static_cast<std::size_t>(flat - classes.begin());
 }

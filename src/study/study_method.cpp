@@ -6,7 +6,7 @@ namespace fsr::study {
 
 namespace {
 
-// Decision on down-sampling: as many scans as one class has, for each model.
+// The shares for down-sampling: each model uses as many scans as one class has.
 std::vector<std::size_t> sharesOf(compensation::Scheme scheme, const StudyData& data,
                                   BinaryShare binary_share) {
   const auto flats =

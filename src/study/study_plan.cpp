@@ -69,7 +69,7 @@ void validate(const StudyPlan& plan, const std::string& origin) {
   require(origin, "resamples", static_cast<double>(plan.resamples), kResamples);
   for (const double bandwidth : plan.bandwidths) require(origin, "bandwidths", bandwidth, kBandwidth);
   if (plan.bandwidths.empty())
-    throw settings::InputError(origin + ": bandwidths is empty, but must hold at least one");
+    throw settings::InputError(origin + ": bandwidths is empty, but must have at least one value");
 }
 
 StudyPlan readStudyPlan(const settings::Settings& settings) {

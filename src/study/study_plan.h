@@ -5,19 +5,19 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/regression/forest.h"
-#include "fsr_pressure_map/regression/grnn.h"
-#include "fsr_pressure_map/settings/settings.h"
 #include "regression/bandwidth_search.h"
+#include "regression/forest/forest.h"
+#include "regression/grnn/grnn.h"
+#include "settings/settings.h"
 #include "statistics/paper_rule.h"
 
 namespace fsr::study {
 
-/// Which scans stay where a method takes one of n. The paper does not say.
+/// Which scans are kept if a method uses one of n. The paper does not say.
 enum class DownSampling {
   kRandom,      ///< drawn without replacement
   kEveryNth,    ///< the first of every n
-  kContiguous,  ///< one run of neighbours, at a place drawn at random
+  kContiguous,  ///< one contiguous run, at a random position
 };
 
 /// "random", "every_nth", "contiguous".
@@ -25,47 +25,47 @@ std::string downSamplingName(DownSampling down_sampling);
 
 /// Range of pressure that RMSE% refers to. The paper does not say.
 enum class ScoreRange {
-  kHeldOut,  ///< of the readings that are scored
-  kAll,      ///< of all scans
+  kHeldOut,  ///< range of the held-out readings
+  kAll,      ///< range of all scans
 };
 
-/// What method 4 takes of the data; "similar to method 3" leaves it open.
+/// Share of the data that method 4 uses. The paper says "similar to method 3", which leaves it open.
 enum class BinaryShare {
-  kFullFlat,     ///< the whole flat condition, one in five of the curved ones
-  kHalfAndHalf,  ///< half of each, as many as one condition has
+  kFullFlat,     ///< all of the flat condition, one in five scans of the curved ones
+  kHalfAndHalf,  ///< half of these shares: together as many scans as one condition has
 };
 
-/// Everything that the study decides where the paper leaves a choice, and how much it computes.
+/// Options of a study: the choices that the paper leaves open, and the amount of computation.
 struct StudyPlan {
   std::string name = "paper";
   std::size_t sections = 5;  ///< of each condition, held out in turn
   DownSampling down_sampling = DownSampling::kRandom;
   BinaryShare binary_share = BinaryShare::kFullFlat;
   ScoreRange range = ScoreRange::kHeldOut;
-  regression::GrnnOptions grnn;      ///< of the reproduction; its bandwidth is the paper's 2^-7
-  regression::ForestOptions forest;  ///< its seed is derived from the study's
+  regression::GrnnOptions grnn;      ///< for the reproduction; the default bandwidth is the paper's 2^-7
+  regression::ForestOptions forest;  ///< its seed is derived from the study's seed
   statistics::PaperRuleOptions tests;
-  /// Bandwidths of the grid, and of the choice by nested cross-validation.
+  /// Bandwidths of the grid and of nested cross-validation.
   std::vector<double> bandwidths = regression::bandwidthGrid();
-  /// What a whole method learns (bandwidth, length scale, ranges) is learned on every n-th taxel, n such that
-  /// about so many are seen, and holds for all.
+  /// Approximate number of taxels, equally spaced, on which bandwidth, length scale and curvature ranges are
+  /// learned. They are used for all taxels.
   std::size_t bandwidth_taxels = 10;
   std::size_t resamples = 1999;  ///< of the bootstrap
-  /// Whether to go beyond the paper: all scans, bandwidths by nested cross-validation, harder splits, further
-  /// schemes. Without it there is no headline, and figures of single predictions show five sections.
+  /// Whether to go beyond the paper: all scans, bandwidths by nested cross-validation, harder splits and
+  /// further schemes. Without it there is no headline.
   bool beyond_the_paper = true;
-  /// Taxel that the figures of single responses show; beyond the matrix: the one of median RMSE% in
+  /// Taxel of the figures of single responses. If it is outside the matrix: the taxel of median RMSE% in
   /// method 1.
   std::size_t figure_taxel = static_cast<std::size_t>(-1);
   std::uint64_t seed = 1;
-  unsigned threads = 0;  ///< 0 = one for each core; changes no number
+  unsigned threads = 0;  ///< 0 = one for each core; the numbers do not depend on it
   std::string date;      ///< ISO 8601, UTC; empty = now
 };
 
-/// Throws InputError that names what is out of range; `origin` stands where messages name the file.
+/// Throws InputError that names the field out of range. `origin` is the file name for messages.
 void validate(const StudyPlan& plan, const std::string& origin);
 
-/// Reads config/study/*.yaml strictly. Form, all but `study` may be left out:
+/// Reads a file of config/study. Unknown keys are errors. All keys but `study` are optional:
 ///
 ///     study: paper
 ///     sections: 5

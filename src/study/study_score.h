@@ -5,15 +5,15 @@
 
 namespace fsr::study {
 
-/// What is said of a method's held-out errors.
+/// Summarises a method's held-out errors.
 StudyScore scoreOf(const StudyData& data, const StudyMethod& method, const Evaluation& evaluation);
 
-/// Readings and held-out predictions of one taxel, for figures. The two evaluations are of all scans, five
+/// Readings and held-out predictions of one taxel, for figures. The two evaluations use all scans and five
 /// sections.
 TaxelResponse taxelResponse(const StudyData& data, std::size_t taxel_place, const Evaluation& baseline,
                             const Evaluation& per_curvature);
 
-/// Place (in StudyData::taxels) of the taxel that the figures show.
+/// Index in StudyData::taxels of the taxel that the figures show.
 std::size_t figureTaxel(const StudyData& data, const StudyPlan& plan,
                         const std::vector<double>& rmse_percent);
 

@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "statistics/median.h"
 #include "study/study_score.h"
 
 namespace fsr::study {
 
 namespace {
 
-// The gentlest bend, as in the paper's figures; the flat where nothing is bent.
+// The bent class of smallest curvature, as in the paper's figures; the flat class if there is no bent one.
 std::size_t gentlestBend(const StudyData& data) {
   std::size_t chosen = 0;
   double gentlest = INFINITY;
@@ -31,7 +32,7 @@ TaxelResponse::Curve curveOf(const StudyData& data, std::size_t c, std::size_t t
   return curve;
 }
 
-// Held-out predictions on one class in one section, in time order.
+// Held-out predictions for one section of one class, in time order [Pa].
 std::vector<double> predictions(const StudyData& data, const Evaluation& evaluation, std::size_t c,
                                 std::uint32_t section, std::size_t place) {
   const StudyScan* const begin = data.scans[c].data();
@@ -70,10 +71,8 @@ std::size_t figureTaxel(const StudyData& data, const StudyPlan& plan,
                         const std::vector<double>& rmse_percent) {
   const auto asked = std::find(data.taxels.begin(), data.taxels.end(), plan.figure_taxel);
   if (asked != data.taxels.end()) return static_cast<std::size_t>(asked - data.taxels.begin());
-  std::vector<double> sorted = rmse_percent;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return static_cast<std::size_t>(std::find(rmse_percent.begin(), rmse_percent.end(), *middle) -
+  const double middle = statistics::upperMedian(rmse_percent);
+  return static_cast<std::size_t>(std::find(rmse_percent.begin(), rmse_percent.end(), middle) -
                                   rmse_percent.begin());
 }
 

@@ -19,7 +19,7 @@ std::vector<std::size_t> mountOfCycle(const StudyData& data) {
   return mounts;
 }
 
-// Highest level first; mounts where the surfaces were mounted more than once each.
+// The levels of resampling, highest first. Mounts are a level if each surface was mounted more than once.
 std::vector<statistics::ResamplingLevel> levelsOf(const StudyData& data,
                                                   const std::vector<std::size_t>& cycles) {
   const statistics::ResamplingLevel by_cycle{"cycle", cycles};

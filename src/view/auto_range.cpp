@@ -7,9 +7,9 @@ namespace fsr::view {
 
 namespace {
 
-constexpr double kStepDownBelow = 0.8;  // of the next lower end
+constexpr double kStepDownBelow = 0.8;  // share of the next lower end
 
-// Exponent and digit of a round value's place in 1, 2, 5, 10, 20, 50, ...
+// The value at `place` of the sequence ..., 1, 2, 5, 10, 20, 50, ...; place 0 is 1.
 double roundValue(int place) {
   static const double digits[] = {1, 2, 5};
   const int power = static_cast<int>(std::floor(place / 3.0));

@@ -2,16 +2,16 @@
 
 namespace fsr::view {
 
-/// Upper end of a scale that follows the data without flicker: it stands on a few round values (1, 2, 5
-/// times a power of ten), grows at once when a peak passes it, and steps down only after the peaks have
-/// stayed below 80 % of the next lower value for `patience`.
+/// Upper end of a scale that follows the data without flicker. It takes round values only (1, 2 or 5 times a
+/// power of ten). It rises at once when a peak exceeds it. It falls to the next lower value only after all
+/// peaks stayed below 80 % of that value for `patience`.
 class AutoRange {
  public:
-  /// `least`: the smallest end that is ever used [Pa]; `patience` [s].
+  /// `least`: smallest upper end [Pa]; `patience` [s].
   explicit AutoRange(double least = 10e3, double patience = 5.0);
 
-  /// Takes the peak of one map [Pa] (NaN is left out) at `time` [s]; returns the scale's upper end [Pa].
-  /// Time that runs back (a looped bag) starts the patience anew.
+  /// Adds the peak of one map [Pa] at `time` [s] and returns the scale's upper end [Pa]. A NaN peak is
+  /// ignored. If the time jumps back (a looped bag), the wait for the next step down starts again.
   double update(double time, double peak);
 
  private:

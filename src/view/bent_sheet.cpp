@@ -1,4 +1,4 @@
-#include "view/bent_sheet.h"
+#include "fsr_pressure_map/view/bent_sheet.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -11,7 +11,8 @@ namespace {
 using Vector = Eigen::Vector3d;
 using Matrix = Eigen::Matrix3d;
 
-/// Frame on the sheet: columns of `axes` are along the row, along the column, normal.
+// Frame on the sheet. The columns of `axes` are the directions along the row, along the column, and the
+// normal.
 struct Frame {
   Vector position = Vector::Zero();
   Matrix axes = Matrix::Identity();
@@ -23,11 +24,11 @@ Matrix crossMatrix(const Vector& v) {
   return result;
 }
 
-// Exponential of a screw motion, Murray, Li, Sastry: A Mathematical Introduction to Robotic
-// Manipulation (1994), eq. 2.36: rotation by `turn` [rad] in the frame's own axes while the point moves
-// along `path` [m].
+// Moves a frame by a screw motion: a rotation by `turn` [rad] in the frame's own axes while the point moves
+// along `path` [m]. Exponential of Murray, Li, Sastry: A Mathematical Introduction to Robotic Manipulation
+// (1994), eq. 2.36.
 Frame screw(const Frame& from, const Vector& turn, const Vector& path) {
-  constexpr double kSeriesBelow = 1e-3;  // [rad]; the next terms are below 1e-15 there
+  constexpr double kSeriesBelow = 1e-3;  // [rad]; below it, the neglected terms are under 1e-15
   const double angle = turn.norm();
   const bool small = angle < kSeriesBelow;
   const double squared = angle * angle;
@@ -52,12 +53,12 @@ matrix::Curvature mean(const matrix::Curvature& a, const matrix::Curvature& b) {
   return {0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.xy + b.xy)};
 }
 
-/// Frames of `count` points in a line, a pitch apart, walked outwards from the line's middle:
-/// `curvature(i)` at point i, `step(frame, curvature, length)` moves on.
+// Frames of `count` points in a line, a pitch apart, computed from the line's middle outwards. `curvature(i)`
+// is the curvature at point i, `step(frame, curvature, length)` moves a frame by one step.
 template <typename CurvatureAt, typename Step>
 std::vector<Frame> walk(const Frame& middle, int count, double pitch, CurvatureAt curvature, Step step) {
   std::vector<Frame> frames(std::size_t(count), middle);
-  const int low = (count - 1) / 2;  // the middle point, or the two beside the middle
+  const int low = (count - 1) / 2;  // low = high: the middle point; else the two points beside the middle
   const int high = count / 2;
   if (low != high) {
     const matrix::Curvature between = mean(curvature(low), curvature(high));

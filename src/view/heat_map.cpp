@@ -10,14 +10,14 @@ namespace fsr::view {
 
 namespace {
 
-constexpr int kMargin = 12;      // [pixels], as all that follow
+constexpr int kMargin = 12;      // [pixels], as are the following lengths
 constexpr int kLineHeight = 16;  // of text
 constexpr int kBarWidth = 18;
 constexpr int kBarGap = 16;
 constexpr int kTickLength = 4;
-constexpr int kLabelWidth = 6 * 7;  // "-1234.5"
+constexpr int kLabelWidth = 6 * 7;  // of a label such as "-123.5": 6 characters of 7 pixels
 constexpr int kKeySquare = 13;
-constexpr int kMinLongerSide = 160;  // the legend beside it needs as much
+constexpr int kMinLongerSide = 160;  // height that the colour bar needs
 constexpr Colour kPaper{32, 32, 32};
 constexpr Colour kInk{240, 240, 240};
 
@@ -31,11 +31,11 @@ Colour colourOf(const PressureScale& scale, double value) {
 
 }  // namespace
 
-/// Where things stand in the picture [pixels].
+// Positions and lengths of the parts of the picture [pixels].
 struct HeatMap::Frame {
   matrix::Layout layout;
   Pixel corner;       // top left of the matrix
-  double pixels = 1;  // a metre of the sheet
+  double pixels = 1;  // scale [pixels/m]
   int matrix_width = 0;
   int matrix_height = 0;
   int width = 0;

@@ -12,12 +12,12 @@ namespace {
 
 constexpr Colour kPaper{32, 32, 32};
 constexpr Colour kInk{240, 240, 240};
-constexpr int kMargin = 10;      // [pixels], as all that follow
+constexpr int kMargin = 10;      // [pixels], as are the following lengths
 constexpr int kLineHeight = 16;  // of text
 constexpr int kWidth = 206;
 constexpr int kBarWidth = 22;
 constexpr int kBarHeight = 190;
-constexpr int kKeyLeft = 94;  // beside the bar's labels
+constexpr int kKeyLeft = 94;  // right of the bar's labels
 constexpr int kTickLength = 4;
 constexpr int kKeySquare = 13;
 constexpr int kMostTicks = 7;

@@ -8,25 +8,26 @@
 
 namespace fsr::view {
 
-/// What a bent mesh cannot say of itself.
+/// Content of a legend beside a bent mesh.
 struct Legend {
   PressureScale scale;
-  std::string title = "gauge pressure";  ///< of the colour bar; its unit follows in brackets
-  std::vector<std::string> lines;        ///< of text, on top, cut where they are too long
-  bool marks = true;                     ///< with the key of the marks (taxel_look.h)
+  std::string title = "gauge pressure";  ///< of the colour bar; the unit is added in brackets
+  std::vector<std::string> lines;        ///< text above the colour bar; long lines are cut off
+  bool marks = true;                     ///< whether the key of the marks (taxel_look.h) is drawn
 };
 
 bool operator==(const Legend& a, const Legend& b);
 
-/// Colour bar with unit and range, key of the marks, lines of text; one size for a number of lines.
+/// Draws lines of text, a colour bar with unit and range, and the key of the marks. The size of the picture
+/// depends only on the number of lines.
 Image drawLegend(const Legend& legend);
 
-/// Draws a colour bar with its ticks; the bar fills `width` x `height` pixels from `corner`, labels stand to
-/// the right of it.
+/// Draws a colour bar with its ticks. The bar fills `width` x `height` pixels from `corner`; the labels are
+/// to the right of it.
 void drawColourBar(const PressureScale& scale, Pixel corner, int width, int height, Colour ink, Image& image);
 
-/// Draws the key of the marks from `corner`: `in_a_row` looks beside each other, `width` pixels apart, rows
-/// kKeyRowHeight apart.
+/// Draws the key of the marks from `corner`: `in_a_row` marks beside each other, `width` pixels apart; rows
+/// are kKeyRowHeight apart.
 constexpr int kKeyRowHeight = 16;  // [pixels]
 void drawKey(Pixel corner, int in_a_row, int width, Colour ink, Image& image);
 

@@ -31,7 +31,7 @@ double SmoothLayer::at(const Place& r, const Place& c) const {
 
 void SmoothLayer::alongRow(const Place& row, const std::vector<Place>& columns,
                            std::vector<double>& result) const {
-  std::vector<double> between(std::size_t{size_.columns});  // the rows' mean at each column's centre
+  std::vector<double> between(std::size_t{size_.columns});  // interpolated between the two rows
   for (int c = 0; c < size_.columns; ++c) {
     between[std::size_t(c)] = value(row.low, c) * (1 - row.part) + value(row.high, c) * row.part;
   }
@@ -43,7 +43,7 @@ void SmoothLayer::alongRow(const Place& row, const std::vector<Place>& columns,
   }
 }
 
-// Where a taxel has no value: the others alone, unless the nearest is the one.
+// Interpolation if some of the four taxels have no value: NaN if the nearest has none, else from the others.
 double SmoothLayer::patched(const Place& r, const Place& c) const {
   if (std::isnan(value(r.part < 0.5 ? r.low : r.high, c.part < 0.5 ? c.low : c.high))) {
     return std::numeric_limits<double>::quiet_NaN();

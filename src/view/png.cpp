@@ -14,7 +14,7 @@ std::string pngOf(const Image& image) {
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
   std::string bytes(size, '\0');
   if (png_image_write_to_memory(&header, bytes.data(), &size, 0, image.bytes().data(), 0, nullptr) == 0) {
-    throw settings::InputError(std::string("a picture cannot become a PNG file: ") + header.message);
+    throw settings::InputError(std::string("the picture cannot be encoded as PNG: ") + header.message);
   }
   bytes.resize(size);
   return bytes;

@@ -2,21 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr::view {
 
 namespace {
 
 std::string number(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value == 0 ? 0.0 : value);  // never "-0"
-  return text;
+  return settings::fixedText(value == 0 ? 0.0 : value, decimals);  // avoids "-0"
 }
 
-// Smallest of 1, 2, 5 x 10^n that is no smaller than `least`.
+// Smallest value of 1, 2 or 5 x 10^n that is not below `least`.
 double roundStep(double least) {
   const double power = std::pow(10.0, std::floor(std::log10(least)));
   for (const double digit : {1.0, 2.0, 5.0}) {
@@ -64,7 +62,8 @@ double pascals(PressureUnit unit) {
 void requireSound(const PressureScale& scale) {
   if (std::isfinite(scale.low) && std::isfinite(scale.high) && scale.low < scale.high) return;
   throw settings::InputError("the scale runs from " + pressureText(scale.low, scale.unit) + " to " +
-                             pressureText(scale.high, scale.unit) + ", but its end must be above its start");
+                             pressureText(scale.high, scale.unit) +
+                             ", but its upper end must be above its lower end");
 }
 
 std::string pressureText(double pressure, PressureUnit unit) {

@@ -7,9 +7,10 @@ namespace fsr::view {
 
 namespace {
 
-constexpr int kAreaFineness = 8;  // chords of 1/8 pitch: (k s)^2 / 24 = 2.6e-5 at 20/m and 1.25 mm
+// Chords of 1/8 pitch: the relative error of their length is (k s)^2 / 24 = 2.6e-5 at 20/m and 1.25 mm.
+constexpr int kAreaFineness = 8;
 
-// Bilinear mean of the taxels round a point of taxel coordinates; ends beyond the outer centres.
+// Curvature at a point in taxel coordinates, interpolated bilinearly; constant beyond the outer centres.
 matrix::Curvature blend(const matrix::Surface& surface, const matrix::Layout& layout, double row,
                         double column) {
   const double r = std::clamp(row, 0.0, layout.size.rows - 1.0);
@@ -29,7 +30,7 @@ matrix::Curvature blend(const matrix::Surface& surface, const matrix::Layout& la
   return result;
 }
 
-// The surface under the vertices of a mesh.
+// The surface at the vertices of a mesh.
 matrix::Surface refined(const matrix::Surface& surface, const matrix::Layout& layout,
                         const matrix::Layout& mesh, int fineness) {
   if (surface.curvature.size() <= 1) return {surface.name, surface.mount, surface.curvature, {}};
@@ -64,7 +65,7 @@ SheetMesh::SheetMesh(const matrix::Layout& layout, const matrix::Surface& surfac
   forEachCorner([this](int row, int column) { corners_.push_back(vertices_[vertex(row, column)].position); });
 }
 
-// Calls visit(row, column) with the mesh vertex of each corner, in the order of corners().
+// Calls visit(row, column) with the row and column of each corner's vertex, in the order of corners().
 template <typename Visit>
 void SheetMesh::forEachCorner(Visit visit) const {
   for (std::size_t taxel = 0; taxel < layout_.size.taxels(); ++taxel) {

@@ -4,34 +4,35 @@
 
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "fsr_pressure_map/matrix/layout.h"
+#include "fsr_pressure_map/view/bent_sheet.h"
 #include "fsr_pressure_map/view/map_layer.h"
-#include "view/bent_sheet.h"
 #include "view/taxel_look.h"
 
 namespace fsr::view {
 
-/// The whole bent sheet, to its edges half a pitch beyond the outer taxels' centres, as triangles:
-/// `fineness` x `fineness` small squares for each taxel, two triangles each. Bent as bendSheet() does; where
-/// curvature differs from taxel to taxel it runs over between their centres.
+/// The bent sheet as triangles. Its edges are half a pitch beyond the centres of the outer taxels. Each taxel
+/// has `fineness` x `fineness` small squares of two triangles. The sheet is bent by bendSheet(); curvature
+/// that differs between taxels is interpolated between their centres.
 class SheetMesh {
  public:
-  /// `fineness` 1 to 16. Throws InputError where the surface does not fit the matrix.
+  /// `fineness` is 1 to 16. Throws InputError if the surface does not fit the matrix.
   SheetMesh(const matrix::Layout& layout, const matrix::Surface& surface, int fineness);
 
   const matrix::Layout& layout() const { return layout_; }
-  /// Corners of the triangles, three each, counter-clockwise seen from the loaded face; taxel after taxel,
-  /// `cornersOfTaxel()` of them each.
+  /// Corners of the triangles, three for each triangle, counter-clockwise seen from the loaded face. They are
+  /// ordered by taxel, cornersOfTaxel() for each.
   const std::vector<Vector3>& corners() const { return corners_; }
   std::size_t cornersOfTaxel() const { return std::size_t(6) * fineness_ * fineness_; }
 
-  /// Colours of corners(): one for each taxel, or running over from taxel to taxel; no reading is grey.
-  /// `values` [rows x columns], row-major, in what the scale measures, NaN = no reading.
+  /// Colours of corners(): one colour for each taxel (colourCells), or interpolated between taxels
+  /// (colourSmoothly). Taxels without a reading are grey. `values` [rows x columns], row-major, in the unit
+  /// of the scale, NaN = no reading.
   void colourCells(const std::vector<float>& values, const PressureScale& scale,
                    std::vector<Colour>& colours) const;
   void colourSmoothly(const std::vector<float>& values, const PressureScale& scale,
                       std::vector<Colour>& colours) const;
 
-  /// The point of the sheet at taxel coordinates (0, 0 = centre of taxel 0, 0), `lift` [m] above its face.
+  /// The point at taxel coordinates (0, 0 = centre of taxel 0, 0), `lift` [m] above the loaded face.
   Vector3 point(double row, double column, double lift = 0) const;
 
   /// Area of each taxel on the bent sheet [rows x columns], row-major [m^2].
@@ -49,10 +50,5 @@ class SheetMesh {
   std::vector<TaxelPose> vertices_;  // [rows * fineness + 1, columns * fineness + 1]
   std::vector<Vector3> corners_;
 };
-
-/// Area of each taxel on the bent sheet [rows x columns], row-major [m^2]: that of the flat sheet wherever
-/// the surface bends one way only (a cylinder, a cone). Its error is below 1e-4 for a radius of 5 cm and a
-/// pitch of 1 cm.
-std::vector<double> taxelAreas(const matrix::Layout& layout, const matrix::Surface& surface);
 
 }  // namespace fsr::view

@@ -17,7 +17,8 @@ constexpr std::uint16_t kBeyondTraining = map::taxel_flag::kReadingExtrapolated 
 TaxelLook lookOf(float pressure, std::uint16_t flags) {
   if (std::isnan(pressure) || (flags & kBad) != 0) return TaxelLook::kNoReading;
   if ((flags & map::taxel_flag::kSaturated) != 0) return TaxelLook::kSaturated;
-  // Below training's lowest code is beyond training too, but says more: the pressure is small.
+  // A code below the lowest of training is extrapolated, too, but kBelowRange says more: the pressure is
+  // small.
   if ((flags & map::taxel_flag::kBelowRange) != 0 && (flags & map::taxel_flag::kCurvatureExtrapolated) == 0) {
     return TaxelLook::kBelowRange;
   }
@@ -71,7 +72,7 @@ const std::vector<Stroke>& mark(TaxelLook look) {
 }
 
 Colour markColour(Colour under) {
-  // Luma of Rec. ITU-R BT.601.
+  // Luma as in Rec. ITU-R BT.601.
   const double luma = 0.299 * under.red + 0.587 * under.green + 0.114 * under.blue;
   return luma < 128.5 ? Colour{255, 255, 255} : Colour{0, 0, 0};
 }

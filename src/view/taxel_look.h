@@ -10,37 +10,38 @@
 
 namespace fsr::view {
 
-/// How much a taxel's colour may be believed. Told by shape, not by hue: each look but the first has a
-/// mark of its own, which pictures and meshes draw alike.
+/// How reliable a taxel's colour is. All but kGood have a mark, which is the same in pictures and meshes and
+/// does not depend on colour.
 enum class TaxelLook {
   kGood,
-  kBelowRange,    ///< "less than": under the turn-on pressure
-  kExtrapolated,  ///< reading, curvature or temperature beyond those of training
-  kSaturated,     ///< "at least": the converter is at its end
+  kBelowRange,    ///< "less than": below the turn-on pressure
+  kExtrapolated,  ///< reading, curvature or temperature outside the range of training
+  kSaturated,     ///< "at least": the converter is at full scale
   kNoReading,     ///< dead, stuck, masked or uncalibrated
 };
 
-/// The worst that holds: no reading, saturated, extrapolated, below range, good. A taxel that was filled from
-/// its neighbours has a colour, and the mark of one without a reading.
+/// The first that applies: no reading, saturated, below range (if the curvature is not extrapolated),
+/// extrapolated, good. A taxel that was filled from its neighbours has a colour and the mark for no reading.
 TaxelLook lookOf(float pressure, std::uint16_t flags);
 
-/// All looks that have a mark, and what a legend calls them.
+/// All looks that have a mark, and their names in legends.
 const std::vector<TaxelLook>& markedLooks();
 std::string name(TaxelLook look);
 
-/// A straight line within a taxel's square; -0.5 .. 0.5 along the row (x) and the column (y).
+/// A straight line within a taxel's square: coordinates from -0.5 to 0.5 along the row (x) and the column
+/// (y).
 struct Stroke {
   matrix::Position from;
   matrix::Position to;
 };
 
-/// The look's mark: cross = no reading, open square = saturated, two diagonals = extrapolated, a dash =
-/// below range; none = good.
+/// The mark of a look: cross = no reading, open square = saturated, two diagonals = extrapolated, dash =
+/// below range, nothing = good.
 const std::vector<Stroke>& mark(TaxelLook look);
 
-/// Colour of a taxel without a pressure: a grey that no colour map has.
+/// Colour of a taxel without a pressure: a grey that is in no colour map.
 constexpr Colour kNoReadingColour{128, 128, 128};
-/// Colour of marks on a square of colour `under`: white or black, whichever stands out.
+/// Colour of marks on a square of colour `under`: white or black, by contrast.
 Colour markColour(Colour under);
 
 }  // namespace fsr::view

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "emulator/line_damage.h"
-#include "fsr_pressure_map/protocol/decoder.h"
+#include "protocol/wire_decoder.h"
 
 namespace {
 
@@ -52,7 +52,7 @@ void scansAgainstBitErrors(benchmark::State& state) {
   damage.flipped_bits = std::pow(10.0, -static_cast<double>(state.range(0)) / 2);
   fsr::emulator::LossyLine line(1);
   Receiver receiver;
-  fsr::protocol::Decoder decoder(receiver);
+  fsr::protocol::WireDecoder decoder(receiver);
   std::uint32_t sent = 0;
   const std::size_t size = packet(0).size();
   for (auto _ : state) {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fsr_pressure_map/regression/code_samples.h"
+#include "regression/code_samples.h"
 
 namespace benchmark_data {
 

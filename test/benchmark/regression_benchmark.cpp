@@ -10,9 +10,9 @@
 #include "benchmark/dense_grnn.h"
 #include "benchmark/grnn_study.h"
 #include "benchmark/rig_readings.h"
-#include "fsr_pressure_map/regression/forest.h"
-#include "fsr_pressure_map/regression/grnn.h"
 #include "regression/bandwidth_search.h"
+#include "regression/forest/forest.h"
+#include "regression/grnn/grnn.h"
 #include "regression/linear_regression.h"
 #include "regression/monotone.h"
 

@@ -6,6 +6,8 @@
 #include "emulator/board.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/portrait.h"
+#include "simulation/pressure_profile.h"
+#include "simulation/read_settings.h"
 #include "simulation/sensitivity.h"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
 
 namespace blind {
 

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "blind/small_case.h"
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
 
 namespace blind {
 namespace {

@@ -1,5 +1,4 @@
-// What training makes of bad input: a calibration that says what is missing, or one sentence. Every row
-// holds for every model.
+// Training on bad input: a calibration with warnings, or one sentence. Every row is valid for every model.
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "regression/regressors.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr::calibration {
@@ -33,7 +33,7 @@ Bags oneBag(const std::function<void(dataset::Recording&)>& spoil) {
   return {recording};
 }
 
-// The scans of each condition beyond the first `number` leave.
+// Removes the scans of each condition after the first `number`.
 void keepOfEach(dataset::Recording& recording, std::size_t number) {
   dataset::Recording kept = recording;
   kept.time.clear();
@@ -74,7 +74,7 @@ struct Case {
   std::string what;
   std::function<Bags()> bags;
   compensation::Scheme scheme;
-  std::string outcome;  // "trained", with the warnings; or the sentence
+  std::string outcome;  // "trained" with the warnings, or the error message
 };
 
 std::string fewCycles(const std::string& surface, const std::string& number) {

@@ -45,7 +45,7 @@ Reading read(Calibrator& calibrator, std::uint16_t code = 500) {
   return {map.pressure[kTaxel], map.deviation[kTaxel], map.flags[kTaxel]};
 }
 
-TEST(BlendedTables, InterpolationGivesEveryCurvatureATableOfItsOwn) {
+TEST(BlendedTables, InterpolationGivesEveryCurvatureItsOwnTable) {
   Calibrator calibrator(tablesWith(compensation::BlendRule::kInterpolate), {kSize});
   for (const double curvature : {0.0, 2.0, 5.0, 10.0, 18.0, 20.0}) {
     calibrator.setSurface(bent(curvature), 0);
@@ -68,10 +68,11 @@ TEST(BlendedTables, EachTaxelIsBlendedForItsOwnCurvature) {
   calibrator.calibrate({kSize, kFullScale, counts.data(), 12}, 0, map);
   EXPECT_NEAR(map.pressure[3], knownPressure(3, 0, 500) + 3, 0.01);
   EXPECT_NEAR(map.pressure[11], knownPressure(11, 0, 500) + 11, 0.01);
-  EXPECT_NEAR(map.pressure[kTaxel], knownPressure(kTaxel, 1, 500) + 10 * 3.0 / 16, 0.01);  // 7 of 4 to 20 1/m
+  EXPECT_NEAR(map.pressure[kTaxel], knownPressure(kTaxel, 1, 500) + 10 * 3.0 / 16,
+              0.01);  // 7 between 4 and 20 1/m
 }
 
-TEST(BlendedTables, InterpolationStillSaysWhatLiesBetweenOrBeyondTheClasses) {
+TEST(BlendedTables, InterpolationFlagsCurvaturesBetweenAndBeyondTheClasses) {
   Calibrator calibrator(tablesWith(compensation::BlendRule::kInterpolate), {kSize});
   calibrator.setSurface(bent(10.4), 0);
   EXPECT_EQ(read(calibrator).flags, 0);
@@ -82,7 +83,7 @@ TEST(BlendedTables, InterpolationStillSaysWhatLiesBetweenOrBeyondTheClasses) {
   EXPECT_EQ(read(calibrator).pressure, knownPressure(kTaxel, 0, 500));
 }
 
-TEST(BlendedTables, AnUnknownSurfaceIsTakenForTheFlattest) {
+TEST(BlendedTables, AnUnknownSurfaceUsesTheFlattestClass) {
   for (const compensation::BlendRule blend :
        {compensation::BlendRule::kNearest, compensation::BlendRule::kInterpolate}) {
     Calibrator calibrator(tablesWith(blend), {kSize});
@@ -92,7 +93,7 @@ TEST(BlendedTables, AnUnknownSurfaceIsTakenForTheFlattest) {
   }
 }
 
-TEST(BlendedTables, KernelsAreBlendedOnAClassToo) {
+TEST(BlendedTables, KernelsAreBlendedOnAClass) {
   Calibrator calibrator(tablesWith(compensation::BlendRule::kKernel), {kSize});
   calibrator.setSurface(bent(0), 0);
   const double ten = std::exp(-100.0 / 32), twenty = std::exp(-400.0 / 32);  // weights of the classes
@@ -100,13 +101,13 @@ TEST(BlendedTables, KernelsAreBlendedOnAClassToo) {
   EXPECT_NEAR(read(calibrator).pressure, expected, 0.01);
 }
 
-TEST(BlendedTables, KernelsNeedTheirWeights) {
+TEST(BlendedTables, KernelsWithoutWeightsAreRefused) {
   compensation::CurvatureTables tables = tablesWith(compensation::BlendRule::kKernel);
   tables.tables[2].log_weight.clear();
   EXPECT_THROW(Calibrator(tables, {kSize}), settings::InputError);
 }
 
-TEST(BlendedTables, ByNameASurfaceTakesTheTableOfItsName) {
+TEST(BlendedTables, ByNameASurfaceUsesTheTableOfItsName) {
   Calibrator calibrator(tablesWith(compensation::BlendRule::kByName), {kSize});
   calibrator.setSurface(bent(0.3, "surface_2"), 0);
   EXPECT_EQ(read(calibrator).pressure, knownPressure(kTaxel, 2, 500));
@@ -116,7 +117,7 @@ TEST(BlendedTables, ByNameASurfaceTakesTheTableOfItsName) {
   EXPECT_EQ(read(calibrator).flags, flag::kBetweenClasses);
 }
 
-TEST(BlendedTables, TheNearestClassIsLessSureOffItsCurvature) {
+TEST(BlendedTables, TheDeviationIsLargerOffTheCurvatureOfTheClass) {
   Calibrator calibrator(tablesWith(compensation::BlendRule::kNearest), {kSize});
   calibrator.setSurface(bent(9.7), 0);  // within the tolerance
   EXPECT_EQ(read(calibrator).deviation, knownDeviation(kTaxel, 1, 500));
@@ -140,7 +141,7 @@ TEST(BlendedTables, ASmallStepOfCurvatureKeepsTheTable) {
   EXPECT_NEAR(read(calibrator).pressure, knownPressure(kTaxel, 0, 500) + 5.11, 0.01);
 }
 
-TEST(BlendedTables, SurvivesAMove) {
+TEST(BlendedTables, WorkAfterAMove) {
   Calibrator first(tablesWith(compensation::BlendRule::kInterpolate), {kSize});
   first.setSurface(bent(5), 0);
   Calibrator second(std::move(first));
@@ -148,7 +149,7 @@ TEST(BlendedTables, SurvivesAMove) {
   EXPECT_NEAR(read(second).pressure, knownPressure(kTaxel, 0, 500) + 15, 0.01);
 }
 
-TEST(BlendedTables, AScanAllocatesNothingWhateverTheRule) {
+TEST(BlendedTables, AScanAllocatesNothingWithAnyRule) {
   for (const compensation::BlendRule blend :
        {compensation::BlendRule::kNearest, compensation::BlendRule::kKernel,
         compensation::BlendRule::kInterpolate}) {

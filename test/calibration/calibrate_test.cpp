@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compensation/training_statistics.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "regression/regressors.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr::calibration {
@@ -38,7 +40,7 @@ void expectSameTables(const Calibration& a, const Calibration& b) {
     EXPECT_EQ(a.tables.tables[i].deviation, b.tables.tables[i].deviation);
     EXPECT_EQ(a.tables.tables[i].support, b.tables.tables[i].support);
   }
-  EXPECT_EQ(a.statistics.cells, b.statistics.cells);
+  EXPECT_EQ(a.statistics->cells, b.statistics->cells);
 }
 
 TEST(Calibrate, RecoversTheCurveOfEachTaxelAndSurface) {
@@ -51,14 +53,14 @@ TEST(Calibrate, RecoversTheCurveOfEachTaxelAndSurface) {
       for (const double pressure : {100e3, 250e3, 500e3}) {
         const auto code =
             static_cast<std::size_t>(std::lround(syntheticReading(rig, taxel, curvature, pressure)));
-        // 10 counts of noise are some 4 kPa
+        // 10 counts of noise are about 4 kPa
         EXPECT_NEAR(calibration.tables.table(taxel, c).pressure[code], pressure, 6e3);
       }
     }
   }
 }
 
-TEST(Calibrate, PerCurvatureBeatsTheOthersOnABend) {
+TEST(Calibrate, PerCurvatureIsBestOnABentSurface) {
   const dataset::Recording recording = syntheticRecording(threeSurfaces());
   const auto rmse = [&](compensation::Scheme scheme, std::size_t condition) {
     return train({recording}, scheme).scores.conditions.at(condition).score.errors.whole.all.rmse;
@@ -72,7 +74,7 @@ TEST(Calibrate, PerCurvatureBeatsTheOthersOnABend) {
   EXPECT_DOUBLE_EQ(rmse(compensation::Scheme::kPerCurvature, 0), rmse(compensation::Scheme::kFlatOnly, 0));
 }
 
-// One taxel, one surface, five cycles of 40 scans; nothing random, so that numpy can make it too.
+// One taxel, one surface, five cycles of 40 scans, without random numbers, so that numpy can reproduce it.
 dataset::Recording plainRecording() {
   SyntheticRig rig;
   rig.size = {1, 1};
@@ -96,7 +98,7 @@ TEST(Calibrate, ScoresAgreeWithNumpy) {
   //   1 - (e**2).sum()/((P[te] - P[te].mean())**2).sum(), 100*np.sqrt((e**2).mean())/np.ptp(P[te])
   const Calibration calibration = train({plainRecording()}, compensation::Scheme::kPerCurvature);
   const Score& score = calibration.scores.conditions.at(0).score;
-  constexpr double kFloats = 1e-6;  // errors are kept as float
+  constexpr double kFloats = 1e-6;  // errors are stored as float
   EXPECT_EQ(score.readings, 200u);
   EXPECT_NEAR(score.r2.mean, 0.9996377810800968, 1e-12);
   EXPECT_NEAR(score.rmse_percent.mean, 0.546316463181373, 1e-10);
@@ -119,7 +121,7 @@ TEST(Calibrate, ChoosesTheSameBandwidthOnAnyNumberOfThreads) {
   expectSameTables(one, four);
 }
 
-TEST(Calibrate, GivesTheSameNumbersOnAnyNumberOfThreads) {
+TEST(Calibrate, GivesTheSameResultOnAnyNumberOfThreads) {
   const dataset::Recording recording = syntheticRecording(threeSurfaces());
   const Calibration one = train({recording}, compensation::Scheme::kPerCurvature, 1);
   const Calibration four = train({recording}, compensation::Scheme::kPerCurvature, 4);
@@ -151,7 +153,7 @@ TEST(Calibrate, TheStatedDeviationHoldsForHeldOutReadings) {
   }
 }
 
-TEST(Calibrate, FlatOnlyKnowsOnlyTheFlatSurface) {
+TEST(Calibrate, FlatOnlyIsTrainedOnTheFlatSurfaceOnly) {
   const dataset::Recording recording = syntheticRecording(threeSurfaces());
   const Calibration flat = train({recording}, compensation::Scheme::kFlatOnly);
   const Calibration each = train({recording}, compensation::Scheme::kPerCurvature);
@@ -163,7 +165,7 @@ TEST(Calibrate, FlatOnlyKnowsOnlyTheFlatSurface) {
   ASSERT_EQ(flat.scores.conditions.size(), 3u);
   EXPECT_TRUE(flat.scores.conditions[0].trained);
   EXPECT_FALSE(flat.scores.conditions[2].trained);
-  EXPECT_EQ(flat.statistics.classes.size(), 3u);  // the file keeps what the bags held
+  EXPECT_EQ(flat.statistics->classes.size(), 3u);  // the file contains the classes of all bags
 }
 
 TEST(Calibrate, WithoutScoresTheTablesAreTheSame) {
@@ -188,7 +190,7 @@ TEST(Calibrate, EveryRegressorRecoversTheCurves) {
     regressor.name = name;
     const Calibration calibration = trainWith(regressor);
     EXPECT_EQ(calibration.regressor.name, name);
-    const double bound = name == "linear" ? 0.15 : 0.02;  // the curve is a root
+    const double bound = name == "linear" ? 0.15 : 0.02;  // the curve is a square root
     EXPECT_LT(calibration.scores.whole.errors.whole.all.rmse, bound * 600e3) << name;
     for (const regression::CodeTable& table : calibration.tables.tables) {
       for (const float deviation : table.deviation) ASSERT_GT(deviation, 0.0f) << name;
@@ -196,7 +198,7 @@ TEST(Calibrate, EveryRegressorRecoversTheCurves) {
   }
 }
 
-TEST(Calibrate, AChosenBandwidthBeatsThePapersOnHeldOutReadings) {
+TEST(Calibrate, AChosenBandwidthIsBetterThanThePapersOnHeldOutReadings) {
   const Calibration chosen = trainWith({}, true);
   const Calibration paper = trainWith({}, false);
   EXPECT_TRUE(chosen.bandwidth_chosen);
@@ -206,7 +208,7 @@ TEST(Calibrate, AChosenBandwidthBeatsThePapersOnHeldOutReadings) {
   EXPECT_LT(chosen.scores.whole.rmse_percent.mean, paper.scores.whole.rmse_percent.mean);
 }
 
-TEST(Calibrate, TheSeedIsThatOfTheForest) {
+TEST(Calibrate, TheSeedIsUsedForTheForest) {
   CalibrationProblem problem{{plainRecording()}, {}};
   problem.options.regressor.name = "forest";
   const Calibration one = calibrate(problem);
@@ -215,7 +217,7 @@ TEST(Calibrate, TheSeedIsThatOfTheForest) {
   EXPECT_NE(one.tables.tables[0].pressure, calibrate(problem).tables.tables[0].pressure);
 }
 
-TEST(Calibrate, SaysWhereItComesFrom) {
+TEST(Calibrate, StoresItsProvenance) {
   SyntheticRig rig = threeSurfaces();
   dataset::Recording recording = syntheticRecording(rig);
   for (std::size_t i = 0; i < recording.scans(); ++i) {
@@ -274,7 +276,7 @@ TEST(Calibrate, ShortRecordingsAreCalibratedWithAWarning) {
   EXPECT_EQ(calibration.warnings.size(), 1u);
 }
 
-TEST(Calibrate, ScansWithoutAPressureAreLeftOut) {
+TEST(Calibrate, ScansWithoutAPressureAreNotUsed) {
   const dataset::Recording whole = syntheticRecording(threeSurfaces());
   dataset::Recording holed = whole;
   holed.pressure[1] = std::nan("");
@@ -301,7 +303,7 @@ std::string complaint(const CalibrationProblem& problem) {
   return "accepted";
 }
 
-TEST(Calibrate, WhatCannotBeTrainedOnIsRefusedInOneSentence) {
+TEST(Calibrate, UnusableRecordingsAreRefusedInOneSentence) {
   const dataset::Recording good = syntheticRecording({});
   dataset::Recording bad = good;
   bad.name = "bad.bag";
@@ -360,7 +362,7 @@ TEST(Calibrate, OptionsOutOfRangeAreRefused) {
             "bandwidth is 0, but must be 1e-06 to 1000 standard deviations of the readings");
 }
 
-TEST(Calibrate, AMatrixThatReadsNothingIsRefused) {
+TEST(Calibrate, AMatrixWithoutReadingsIsRefused) {
   dataset::Recording recording = syntheticRecording({});
   for (std::size_t taxel = 0; taxel < 6; ++taxel) holdConstant(recording, taxel);
   EXPECT_EQ(

@@ -32,7 +32,7 @@ const fsr::calibration::Calibration& calibration() {
   return instance;
 }
 
-// A new bag of the same sheet whose counts `change` has been at.
+// A new bag of the same sheet with counts changed by `change`.
 template <typename Change>
 CalibrationCheck checkWith(Change change, unsigned seed = 2) {
   Recording recording = syntheticRecording(rig(seed));
@@ -51,7 +51,7 @@ bool says(const CalibrationCheck& check, const std::string& part) {
   return false;
 }
 
-TEST(CalibrationCheck, TheSameSheetIsStillGood) {
+TEST(CalibrationCheck, AcceptsTheSameSheet) {
   for (unsigned seed = 2; seed < 12; ++seed) {
     const CalibrationCheck check =
         checkWith([](double count, std::size_t, std::size_t) { return count; }, seed);
@@ -63,30 +63,30 @@ TEST(CalibrationCheck, TheSameSheetIsStillGood) {
   }
 }
 
-TEST(CalibrationCheck, AWornSheetAsksForRecalibration) {
+TEST(CalibrationCheck, RejectsAWornSheet) {
   const CalibrationCheck check =
       checkWith([](double count, std::size_t, std::size_t) { return 0.85 * count; });
   EXPECT_FALSE(check.still_good);
-  EXPECT_TRUE(says(check, "below the chamber on average"));
-  EXPECT_TRUE(says(check, "times what they were"));
+  EXPECT_TRUE(says(check, "below the chamber pressure on average"));
+  EXPECT_TRUE(says(check, "times the expected ones"));
 }
 
-TEST(CalibrationCheck, ASheetThatOnlyScattersMoreIsFoundByItsRmse) {
+TEST(CalibrationCheck, FindsALargerScatterByTheRmse) {
   const CalibrationCheck check = checkWith([](double count, std::size_t taxel, std::size_t scan) {
     return count + 200 * std::sin(double(taxel * 977 + scan * 331));
   });
   EXPECT_FALSE(check.still_good);
-  EXPECT_TRUE(says(check, "times what they were"));
+  EXPECT_TRUE(says(check, "times the expected ones"));
 }
 
-TEST(CalibrationCheck, ADeadTaxelIsNamed) {
+TEST(CalibrationCheck, NamesADeadTaxel) {
   const CalibrationCheck check =
       checkWith([](double count, std::size_t taxel, std::size_t) { return taxel == 4 ? 0 : count; });
   EXPECT_FALSE(check.still_good);
   EXPECT_TRUE(says(check, "taxels are dead: (1, 1)")) << check.reasons.front();
 }
 
-TEST(CalibrationCheck, ReadingsBeyondTrainingAreCounted) {
+TEST(CalibrationCheck, CountsReadingsOutsideTheRangeOfTraining) {
   SyntheticRig small = rig(1);
   small.peak = 200e3;
   fsr::calibration::CalibrationProblem problem;
@@ -95,10 +95,10 @@ TEST(CalibrationCheck, ReadingsBeyondTrainingAreCounted) {
   problem.options.choose_bandwidth = false;
   const CalibrationCheck check =
       checkCalibration(fsr::calibration::calibrate(problem), {syntheticRecording(rig(2))});
-  EXPECT_TRUE(says(check, "of the readings lie beyond what training saw"));
+  EXPECT_TRUE(says(check, "of the readings are outside the range of training"));
 }
 
-TEST(CalibrationCheck, AnotherSensorIsNamedAndAnotherMatrixRefused) {
+TEST(CalibrationCheck, NamesAnotherSensorAndRefusesAnotherMatrix) {
   Recording other = syntheticRecording(rig(2));
   other.sensor.serial = "FSR-0002";
   fsr::calibration::Calibration ours = calibration();

@@ -1,4 +1,5 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
+#include "compensation/training_statistics.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -83,7 +84,7 @@ void expectSameScore(const Score& a, const Score& b) {
   }
 }
 
-TEST_F(CalibrationFile, GivesBackTheTablesBitForBit) {
+TEST_F(CalibrationFile, RestoresTheTablesBitForBit) {
   const Calibration saved = small();
   const std::string id = saveCalibration(saved, path_);
   const Calibration loaded = loadCalibration(path_);
@@ -108,7 +109,7 @@ TEST_F(CalibrationFile, GivesBackTheTablesBitForBit) {
   EXPECT_EQ(loaded.no_model, (std::vector<std::uint8_t>{0, 0, 1, 0}));
 }
 
-TEST_F(CalibrationFile, GivesBackHowTheModelWasSet) {
+TEST_F(CalibrationFile, RestoresTheOptionsOfTheModel) {
   Calibration saved = small();
   saved.bandwidth_chosen = true;
   saved.regressor.grnn = {0.5, regression::SpreadMeaning::kHalf, regression::KernelDistance::kLiteral,
@@ -129,7 +130,7 @@ TEST_F(CalibrationFile, GivesBackHowTheModelWasSet) {
   EXPECT_EQ(loaded.regressor.forest.leaf_count, regression::LeafCount::kDistinct);
 }
 
-TEST_F(CalibrationFile, GivesBackWhereTheNumbersComeFrom) {
+TEST_F(CalibrationFile, RestoresTheProvenance) {
   const Calibration saved = small();
   saveCalibration(saved, path_);
   const Calibration loaded = loadCalibration(path_);
@@ -154,21 +155,21 @@ TEST_F(CalibrationFile, GivesBackWhereTheNumbersComeFrom) {
   EXPECT_EQ(loaded.coverage.conditions[1].pressure_high, 600e3);
 }
 
-TEST_F(CalibrationFile, GivesBackScoresAndStatistics) {
+TEST_F(CalibrationFile, RestoresScoresAndStatistics) {
   const Calibration saved = small();
   saveCalibration(saved, path_);
   const Calibration loaded = loadCalibration(path_, CalibrationParts::kAll);
-  EXPECT_EQ(loaded.statistics.cells, saved.statistics.cells);
-  EXPECT_EQ(loaded.statistics.sections, 5u);
-  EXPECT_EQ(loaded.statistics.taxels, 4u);
+  EXPECT_EQ(loaded.statistics->cells, saved.statistics->cells);
+  EXPECT_EQ(loaded.statistics->sections, 5u);
+  EXPECT_EQ(loaded.statistics->taxels, 4u);
   ASSERT_EQ(loaded.scores.conditions.size(), 2u);
   EXPECT_TRUE(loaded.scores.conditions[1].trained);
   expectSameScore(loaded.scores.conditions[1].score, saved.scores.conditions[1].score);
   expectSameScore(loaded.scores.whole, saved.scores.whole);
-  EXPECT_TRUE(loadCalibration(path_).statistics.cells.empty());
+  EXPECT_EQ(loadCalibration(path_).statistics, nullptr);
 }
 
-TEST_F(CalibrationFile, TheSameCalibrationMakesTheSameBytes) {
+TEST_F(CalibrationFile, OfTheSameCalibrationHasTheSameBytes) {
   const Calibration calibration = small();
   saveCalibration(calibration, path_);
   const std::string first = bytes();
@@ -182,9 +183,10 @@ std::vector<int> allChanges() {
   return changes;
 }
 
-bool isRefusedUnread(const std::string& complaint) {
-  for (const char* const why : {": is damaged or cut short: its bytes do not have the SHA-256",
-                                ": is no calibration file;", ": has schema "}) {
+bool isRefusedAsDamaged(const std::string& complaint) {
+  for (const char* const why :
+       {": is damaged or cut short: its bytes do not have the SHA-256", ": is no calibration file;",
+        ": has schema ", ": is damaged: its first line names schema "}) {
     if (complaint.find(why) != std::string::npos) return true;
   }
   return false;
@@ -199,9 +201,9 @@ TEST_F(CalibrationFile, BeginsWithOneLineOfText) {
   EXPECT_EQ(content.substr(513, 3), "HDF");
 }
 
-// Each byte in turn is another: every other one in the line of text, and behind it the complement and a bit
-// more or less. No complaint is one of HDF5's, so it was never asked.
-TEST_F(CalibrationFile, AnyByteChangedIsRefusedBeforeHdf5SeesIt) {
+// Changes one byte after the other: every second one in the line of text, and after it the complement and
+// single bits. No error message is from HDF5: it reads a file only after its content agrees with the hash.
+TEST_F(CalibrationFile, AnyChangedByteIsRefused) {
   SyntheticRig rig;
   rig.size = {1, 1};
   rig.full_scale = 63;
@@ -221,7 +223,7 @@ TEST_F(CalibrationFile, AnyByteChangedIsRefusedBeforeHdf5SeesIt) {
   for (std::size_t at = 0; at < whole.size(); ++at) {
     for (const int change : at < line ? allChanges() : std::vector<int>{0xFF, 1 << (at % 8)}) {
       put(at, static_cast<char>(whole[at] ^ change));
-      ASSERT_TRUE(isRefusedUnread(complaint())) << "byte " << at << " ^ " << change << ": " << complaint();
+      ASSERT_TRUE(isRefusedAsDamaged(complaint())) << "byte " << at << " ^ " << change << ": " << complaint();
     }
     put(at, whole[at]);
   }
@@ -254,29 +256,44 @@ TEST_F(CalibrationFile, AForeignFileIsRefused) {
   saveCalibration(small(), path_);
   write(bytes().substr(512));  // HDF5 without our first line
   EXPECT_EQ(complaint(), foreign);
-  std::filesystem::resize_file(path_, std::uintmax_t{1} << 36);  // takes no room on the disk, nor in memory
+  std::filesystem::resize_file(path_, std::uintmax_t{1} << 36);  // needs no space on the disk or in memory
   EXPECT_EQ(complaint(), foreign);
   EXPECT_THROW(loadCalibration(testing::TempDir()), settings::InputError);
   std::remove(path_.c_str());
   EXPECT_EQ(complaint(), path_ + ": cannot be opened (No such file or directory)");
 }
 
-TEST_F(CalibrationFile, ALaterSchemaAsksForAnUpdate) {
+TEST_F(CalibrationFile, AnUnknownSchemaIsRefusedByNumber) {
   saveCalibration(small(), path_);
   std::string content = bytes();
   content.replace(content.find("schema=2"), 8, "schema=7");
   write(content);
   EXPECT_EQ(complaint(), path_ + ": has schema 7, but this version reads up to 2; update the package");
+  content.replace(content.find("schema=7"), 8, "schema=0");
+  write(content);
+  EXPECT_EQ(complaint(), path_ + ": has schema 0, but this version reads 1 to 2; train again");
 }
 
-TEST_F(CalibrationFile, WhatCannotBeWrittenLeavesTheOldFile) {
+// The hash covers the content, not the first line.
+TEST_F(CalibrationFile, AChangedSchemaIsRefused) {
+  saveCalibration(small(), path_);
+  std::string content = bytes();
+  content.replace(content.find("schema=2"), 8, "schema=1");
+  write(content);
+  EXPECT_EQ(complaint(),
+            path_ +
+                ": is damaged: its first line names schema 1, but its content is of another; copy "
+                "the file again or train again");
+}
+
+TEST_F(CalibrationFile, AFailedWriteKeepsTheOldFile) {
   write("old");
   const std::string directory = testing::TempDir() + "no_such_directory/";
   EXPECT_THROW(saveCalibration(small(), directory + "calibration.h5"), settings::InputError);
   EXPECT_EQ(bytes(), "old");
 }
 
-// h5py prints what it finds; the printed text is compared with what was saved.
+// The text that h5py prints is compared with what was saved.
 TEST_F(CalibrationFile, OpensInPythonWithUnits) {
   const Calibration saved = small();
   saveCalibration(saved, path_);

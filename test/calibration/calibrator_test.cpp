@@ -47,7 +47,7 @@ class CalibratorTest : public testing::Test {
   map::PressureMap map;
 };
 
-TEST_F(CalibratorTest, GivesTheTablesValuesExactly) {
+TEST_F(CalibratorTest, GivesTheValuesOfTheTablesExactly) {
   calibrator.setSurface(bent(10), 0);
   for (std::size_t taxel = 0; taxel < counts.size(); ++taxel) counts[taxel] = std::uint16_t(100 + 50 * taxel);
   run();
@@ -61,7 +61,7 @@ TEST_F(CalibratorTest, GivesTheTablesValuesExactly) {
   }
 }
 
-TEST(Calibrator, GivesTheTablesValuesOfAnyNumberOfTaxels) {
+TEST(Calibrator, GivesTheValuesOfTheTablesForAnyNumberOfTaxels) {
   for (std::uint16_t columns = 1; columns <= 9; ++columns) {
     const matrix::MatrixSize size{1, columns};
     Calibrator calibrator(smallTables(size, {0.0}), {size});
@@ -77,7 +77,7 @@ TEST(Calibrator, GivesTheTablesValuesOfAnyNumberOfTaxels) {
   }
 }
 
-TEST_F(CalibratorTest, FlagsWhatTheCodeSays) {
+TEST_F(CalibratorTest, FlagsCodesOutsideTheRangeOfTraining) {
   calibrator.setSurface(bent(0), 0);
   counts = {0, 19, 20, 500, 928, 929, 1022, 1023, 2000, 500, 500, 500};
   run();
@@ -88,7 +88,7 @@ TEST_F(CalibratorTest, FlagsWhatTheCodeSays) {
   EXPECT_EQ(flagsOf(5), flag::kReadingExtrapolated);
   EXPECT_EQ(flagsOf(6), flag::kReadingExtrapolated);
   EXPECT_EQ(flagsOf(7), flag::kReadingExtrapolated | flag::kSaturated);
-  EXPECT_EQ(flagsOf(8), flag::kReadingExtrapolated | flag::kSaturated);  // a code that cannot be
+  EXPECT_EQ(flagsOf(8), flag::kReadingExtrapolated | flag::kSaturated);  // a code above full scale
   EXPECT_EQ(map.pressure[8], knownPressure(8, 0, kFullScale));
 }
 
@@ -104,12 +104,12 @@ TEST_F(CalibratorTest, ChoosesTheNearestClassForEachTaxel) {
   EXPECT_EQ(flagsOf(9), flag::kBetweenClasses);
 }
 
-TEST_F(CalibratorTest, FlagsASignOrSizeThatTrainingNeverSaw) {
+TEST_F(CalibratorTest, FlagsACurvatureOutsideTheRangeOfTraining) {
   calibrator.setSurface(bentEach({-20, -0.6, -0.4, 20.4, 20.6, 50, 0, 0, 0, 0, 0, 0}), 0);
   run();
   for (const std::size_t taxel : {0, 1, 4, 5}) EXPECT_EQ(flagsOf(taxel), flag::kCurvatureExtrapolated);
   for (const std::size_t taxel : {2, 3, 6}) EXPECT_EQ(flagsOf(taxel), 0);
-  EXPECT_EQ(map.pressure[0], knownPressure(0, 0, 500));  // the nearest class, not the mirrored one
+  EXPECT_EQ(map.pressure[0], knownPressure(0, 0, 500));  // the nearest class, not the one of opposite sign
 }
 
 TEST_F(CalibratorTest, UsesThePrincipalCurvatureOfTwoPlanes) {
@@ -136,7 +136,7 @@ TEST_F(CalibratorTest, ForgetsHysteresisOnAnotherSurfaceOrMount) {
   EXPECT_EQ(calibrator.choices()[0].curvature_class, 0);
 }
 
-TEST_F(CalibratorTest, FallsBackToTheFlattestClassWhereCurvatureIsUnknown) {
+TEST_F(CalibratorTest, UsesTheFlattestClassIfCurvatureIsUnknown) {
   EXPECT_EQ(run().state, map::MapState::kCurvatureUnknown);
   EXPECT_EQ(map.pressure[3], knownPressure(3, 0, 500));
   calibrator.setSurface(bent(20), 0);
@@ -154,29 +154,29 @@ TEST_F(CalibratorTest, RefusesASurfaceMaskOrTareOfAnotherMatrix) {
   EXPECT_EQ(flagsOf(0), 0);
 }
 
-TEST_F(CalibratorTest, SaysWhenTheScanIsOfAnotherSize) {
+TEST_F(CalibratorTest, ReportsAScanOfAnotherSize) {
   const std::vector<std::uint16_t> many(16, 500);
   calibrator.calibrate({{4, 4}, kFullScale, many.data(), many.size()}, 0, map);
   EXPECT_EQ(map.state, map::MapState::kSizeMismatch);
   ASSERT_EQ(map.pressure.size(), 16u);
   for (const float pressure : map.pressure) EXPECT_TRUE(std::isnan(pressure));
-  EXPECT_EQ(run().state, map::MapState::kCurvatureUnknown);  // and goes on with the next good one
+  EXPECT_EQ(run().state, map::MapState::kCurvatureUnknown);  // and continues with the next good scan
   EXPECT_EQ(map.pressure.size(), 12u);
 }
 
-TEST_F(CalibratorTest, SaysWhenTheFullScaleIsAnother) {
+TEST_F(CalibratorTest, ReportsAnotherFullScale) {
   calibrator.calibrate({kSize, 4095, counts.data(), counts.size()}, 0, map);
   EXPECT_EQ(map.state, map::MapState::kSizeMismatch);
   EXPECT_TRUE(std::isnan(map.pressure[0]));
 }
 
-TEST_F(CalibratorTest, TakesNoMemoryFromAScanThatContradictsItself) {
+TEST_F(CalibratorTest, AllocatesNothingForAnInconsistentScan) {
   calibrator.calibrate({{64, 64}, kFullScale, counts.data(), counts.size()}, 0, map);
   EXPECT_EQ(map.state, map::MapState::kSizeMismatch);
   EXPECT_TRUE(map.pressure.empty());
 }
 
-TEST_F(CalibratorTest, SaysWhenTheBoardIsAnother) {
+TEST_F(CalibratorTest, ReportsAnotherBoard) {
   calibrator.setSurface(bent(10), 0);
   calibrator.setWrongSensor(true);
   EXPECT_EQ(run().state, map::MapState::kWrongSensor);
@@ -196,7 +196,7 @@ TEST_F(CalibratorTest, AMaskedTaxelHasNoReading) {
   EXPECT_FALSE(std::isnan(run().pressure[5]));
 }
 
-TEST_F(CalibratorTest, TakesATareOffAndFlagsIt) {
+TEST_F(CalibratorTest, SubtractsATareAndFlagsIt) {
   calibrator.setTare(std::vector<float>(12, 250.0f));
   run();
   EXPECT_EQ(map.pressure[7], knownPressure(7, 0, 500) - 250.0f);
@@ -215,7 +215,7 @@ class BadTaxels : public CalibratorTest {
     options.fill_bad_taxels = fill;
     return options;
   }
-  /// Half a minute at 10 Hz in which all but taxel 5 move.
+  /// Half a minute at 10 Hz in which all taxels but taxel 5 change.
   void keepTaxel5At(std::uint16_t code) {
     for (int i = 0; i < 300; ++i) {
       counts.assign(counts.size(), std::uint16_t(400 + 300 * std::sin(i * 0.1)));
@@ -243,7 +243,7 @@ class FilledTaxels : public BadTaxels {
   FilledTaxels() : BadTaxels(true) {}
 };
 
-TEST_F(FilledTaxels, AStuckTaxelTakesTheMeanOfItsNeighbours) {
+TEST_F(FilledTaxels, AStuckTaxelGetsTheMeanOfItsNeighbours) {
   keepTaxel5At(123);
   EXPECT_EQ(flagsOf(5), flag::kStuck | flag::kFilled);
   EXPECT_NEAR(map.pressure[5], knownPressure(5, 0, counts[0]), 0.05);  // tables differ by taxel / 128 Pa
@@ -278,11 +278,11 @@ TEST_F(CurvatureTimeout, AnOldSurfaceIsStaleButStillUsed) {
   EXPECT_EQ(run(103.2).state, map::MapState::kOk);
 }
 
-TEST_F(CurvatureTimeout, TimeThatRunsBackStartsTheAgeAnew) {
+TEST_F(CurvatureTimeout, TheAgeStartsAgainIfTimeRunsBackwards) {
   calibrator.setSurface(bent(20), 100.0);
   run(100.0);
   EXPECT_EQ(run(50.0).state, map::MapState::kOk);
-  EXPECT_EQ(run(53.1).state, map::MapState::kCurvatureStale);  // the looped bag brought no surface
+  EXPECT_EQ(run(53.1).state, map::MapState::kCurvatureStale);  // the looped bag has no surface
 }
 
 TEST_F(CalibratorTest, NoTimeoutMeansNeverStale) {
@@ -290,7 +290,7 @@ TEST_F(CalibratorTest, NoTimeoutMeansNeverStale) {
   EXPECT_EQ(run(1e6).state, map::MapState::kOk);
 }
 
-TEST(Calibrator, ABaselineAsksForNoCurvature) {
+TEST(Calibrator, ABaselineNeedsNoCurvature) {
   compensation::CurvatureTables tables = smallTables(kSize, {0.0});
   tables.scheme = compensation::Scheme::kBaseline;
   tables.curvature_high = 20.0;
@@ -301,7 +301,7 @@ TEST(Calibrator, ABaselineAsksForNoCurvature) {
   EXPECT_EQ(map.state, map::MapState::kOk);
   calibrator.setSurface(bent(12.5), 0);
   calibrator.calibrate({kSize, kFullScale, counts.data(), 12}, 0, map);
-  EXPECT_EQ(map.flags[0], 0);  // there are no classes to lie between
+  EXPECT_EQ(map.flags[0], 0);  // there are no classes
 }
 
 TEST(Calibrator, AClassMayHaveACurvatureForEachTaxel) {
@@ -330,7 +330,7 @@ TEST(Calibrator, ATaxelWithoutAModelIsMasked) {
 
 const std::vector<double> kPapersCurvatures = {0, 7.69, 9.09, 11.1, 14.3, 20};
 
-TEST(Calibrator, AFineConverterIsReadBetweenItsEntries) {
+TEST(Calibrator, AFineConverterIsInterpolatedBetweenEntries) {
   constexpr std::uint16_t kFine = 65535;
   constexpr matrix::MatrixSize kPair{1, 2};
   compensation::CurvatureTables tables = smallTables(kPair, {0.0}, kFine);
@@ -365,7 +365,7 @@ TEST(Calibrator, TakesLittleMemory) {
   EXPECT_LT(bytesOf(65535, 160), 200e6);
 }
 
-TEST(Calibrator, RefusesTablesThatAreNotWhole) {
+TEST(Calibrator, RefusesIncompleteTables) {
   compensation::CurvatureTables missing = smallTables(kSize, {0.0});
   missing.tables.pop_back();
   EXPECT_THROW(Calibrator(missing, {kSize}), settings::InputError);
@@ -383,7 +383,7 @@ TEST(Calibrator, RefusesTablesThatAreNotWhole) {
 
 TEST_F(FilledTaxels, AScanAllocatesNothing) {
   calibrator.setSurface(bent(10), 0);
-  run();  // the map grows to its size once
+  run();  // the map gets its size
   const test_support::AllocationGuard guard;
   keepTaxel5At(123);
   EXPECT_EQ(flagsOf(5), flag::kStuck | flag::kFilled);

@@ -1,4 +1,4 @@
-// What a full disk or a kill leaves of a calibration and a tare that are being replaced: the old one, whole.
+// A full disk or a kill while a calibration or a tare is replaced: the old file stays complete.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -33,10 +33,10 @@ void fill(const std::string& path) {
   }
 }
 
-TEST(FullDisk, LeavesTheOldCalibrationWhole) {
+TEST(FullDisk, KeepsTheOldCalibration) {
   const test_support::SmallDisk disk("1m");
   if (!disk.ready()) GTEST_SKIP() << "a small file system can be mounted by root alone";
-  const test_support::LeaksOfOthers of_hdf5;  // a buffer of 1 KB is lost where it cannot close a dataset
+  const test_support::LeaksOfOthers of_hdf5;  // HDF5 leaks a buffer of 1 KB if it cannot close a dataset
   const std::string path = disk.path("calibration.h5");
   const std::string id = saveCalibration(smallCalibration({3, 4}, {0.0}), path);
   const std::size_t open_files = filesIn("/proc/self/fd");
@@ -52,7 +52,7 @@ TEST(FullDisk, LeavesTheOldCalibrationWhole) {
   EXPECT_EQ(filesIn("/proc/self/fd"), open_files) << "a file that is open takes up the disk, name or not";
 }
 
-TEST(FullDisk, LeavesTheOldTareWhole) {
+TEST(FullDisk, KeepsTheOldTare) {
   const test_support::SmallDisk disk("64k");
   if (!disk.ready()) GTEST_SKIP() << "a small file system can be mounted by root alone";
   const std::string path = disk.path("tare.yaml");
@@ -69,8 +69,8 @@ TEST(FullDisk, LeavesTheOldTareWhole) {
   EXPECT_EQ(filesIn(disk.path("")), 2u);
 }
 
-// A writer that never stops, killed at any moment.
-TEST(Kill, LeavesAWholeCalibrationWheneverItComes) {
+// A writer in a loop, killed at random times.
+TEST(Kill, LeavesACompleteCalibrationAtAnyTime) {
   const test_support::TemporaryFolder folder;
   const std::string path = folder.path("calibration.h5");
   const std::string first = saveCalibration(smallCalibration({3, 4}, {0.0}), path);

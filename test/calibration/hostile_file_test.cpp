@@ -1,5 +1,5 @@
-// A hash is no signature: a file with a right one may still hold anything. What does not fit is refused in a
-// sentence; what fits gives no pressure without meaning.
+// A hash is not a signature: a file with a correct hash may contain anything. Content that does not fit is
+// refused with a sentence; content that fits gives no pressure without meaning.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,6 +10,7 @@
 #include <fstream>
 #include <functional>
 
+#include "compensation/training_statistics.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -25,7 +26,7 @@ class HostileFile : public testing::Test {
  protected:
   ~HostileFile() override { std::remove(path_.c_str()); }
 
-  // The sentence after the path, or "accepted".
+  // The error message after the path, or "accepted".
   std::string complaint() const {
     try {
       loadCalibration(path_, CalibrationParts::kAll);
@@ -47,7 +48,7 @@ class HostileFile : public testing::Test {
     return calibration;
   }
 
-  // Python changes `f`, the file, and seals it anew; false where there is no h5py.
+  // Changes `f`, the file, with Python and corrects the hash; false if h5py is not installed.
   bool change(const std::string& statements) const {
     saveCalibration(sound(), path_);
     std::ofstream(path_ + ".py") << "import h5py, hashlib, numpy, sys\n"
@@ -63,7 +64,7 @@ class HostileFile : public testing::Test {
   const std::string path_ = testing::TempDir() + "hostile_" + std::to_string(::getpid()) + ".h5";
 };
 
-TEST_F(HostileFile, WhatDoesNotFitIsRefused) {
+TEST_F(HostileFile, ContentThatDoesNotFitIsRefused) {
   EXPECT_EQ(complaintAbout([](Calibration&) {}), "accepted");
   EXPECT_EQ(complaintAbout([](Calibration& c) {
               c.tables.classes[1].curvature = {1, 2, 3};
@@ -84,27 +85,29 @@ TEST_F(HostileFile, WhatDoesNotFitIsRefused) {
             }),
             "its knots of /rule/unseen do not ascend");
   EXPECT_EQ(complaintAbout([](Calibration& c) {
-              c.statistics.classes = c.tables.classes;
-              c.statistics.taxels = ~std::size_t{0};
-              c.statistics.sections = 1;
+              compensation::TrainingStatistics statistics;
+              statistics.classes = c.tables.classes;
+              statistics.taxels = ~std::size_t{0};
+              statistics.sections = 1;
+              c.statistics = std::make_shared<const compensation::TrainingStatistics>(statistics);
             }),
             "its /statistics taxels or sections do not fit the matrix");
 }
 
-TEST_F(HostileFile, AClaimOfMoreThanTheFileHoldsTakesNoMemory) {
+TEST_F(HostileFile, AnOversizedShapeAllocatesNothing) {
   if (!change(
           "del f['layout/masked']; f.create_dataset('layout/masked', (2**40, 2**20), 'u1', chunks=(1, 1))"))
     GTEST_SKIP() << "python3-h5py is not installed";
   EXPECT_EQ(complaint(), "its /layout/masked claims more values than the file has bytes");
 }
 
-TEST_F(HostileFile, AListWhereATextBelongsIsRefused) {
+TEST_F(HostileFile, AListInsteadOfATextIsRefused) {
   if (!change("f.attrs['model'] = numpy.array([b'grnn'] * 1000)"))
     GTEST_SKIP() << "python3-h5py is not installed";
   EXPECT_EQ(complaint(), "its HDF5 part holds / model, but not as one text");
 }
 
-// Flags of taxel 0 between the classes, where its pressure is no number; 0 where it is one.
+// Flags of taxel 0 between the classes if its pressure is NaN; 0 if it is a number.
 std::uint16_t flagsOf(const Calibration& calibration) {
   Calibrator calibrator(calibration.tables, calibration.layout);
   calibrator.setSurface({"between", 1, {{5, 0, 0}}, {}}, 0);
@@ -115,7 +118,7 @@ std::uint16_t flagsOf(const Calibration& calibration) {
   return std::isnan(map.pressure[0]) ? map.flags[0] : std::uint16_t{0};
 }
 
-TEST_F(HostileFile, WhatBlendsToNoPressureIsMasked) {
+TEST_F(HostileFile, ATableThatIsNotAPressureIsMasked) {
   EXPECT_EQ(flagsOf(sound()), 0);
   Calibration steep = sound();
   steep.tables.rule.law = {{0, 5, 10}, {1, 1e300, 1}, {0, 0, 0}};
@@ -127,7 +130,7 @@ TEST_F(HostileFile, WhatBlendsToNoPressureIsMasked) {
   EXPECT_TRUE(flagsOf(halved) & map::taxel_flag::kMasked);
 }
 
-TEST_F(HostileFile, PressuresOfNoSensorAreRefused) {
+TEST_F(HostileFile, PressuresOutOfRangeAreRefused) {
   Calibration huge = sound();
   huge.tables.tables[2].pressure[7] = 3e38F;
   EXPECT_THROW(Calibrator(huge.tables, huge.layout), settings::InputError);

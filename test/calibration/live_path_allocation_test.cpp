@@ -1,12 +1,12 @@
-// From the bytes of the line to the calibrated map nothing is allocated once it runs: the way of every scan
-// through driver and calibration node, their ROS messages apart.
+// From the bytes of the line to the calibrated map nothing is allocated in operation: the path of every scan
+// through driver and calibration node, except for their ROS messages.
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "fsr_pressure_map/calibration/calibrator.h"
-#include "fsr_pressure_map/protocol/decoder.h"
+#include "protocol/wire_decoder.h"
 #include "protocol/board_gate.h"
 #include "protocol/packet_stamper.h"
 #include "support/allocation_guard.h"
@@ -74,7 +74,7 @@ class LivePath : public protocol::PacketHandler {
   std::int64_t arrival_ = 0;  // [ns]
 };
 
-// What a board sends in the millisecond `i`; now and then damaged, or of a smaller matrix, or after a jump of
+// The bytes that a board sends in millisecond `i`; sometimes damaged, of a smaller matrix, or after a jump of
 // its clock.
 class Line {
  public:
@@ -105,7 +105,7 @@ class AllocatesNothing : public testing::TestWithParam<compensation::BlendRule> 
 TEST_P(AllocatesNothing, FromBytesToMaps) {
   constexpr std::uint32_t kStart = 2000, kScans = 60'000;  // a minute at 1 kHz
   LivePath path(GetParam());
-  protocol::Decoder decoder(path);
+  protocol::WireDecoder decoder(path);
   Line line;
   path.bend(5.0);
   std::size_t allocated = 0;

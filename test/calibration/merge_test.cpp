@@ -14,7 +14,7 @@ namespace {
 using test_support::syntheticRecording;
 using test_support::SyntheticRig;
 
-// A bag that differs from the others in everything that merging must put together.
+// Bags that differ in everything that merging must combine.
 dataset::Recording bag(const std::string& name, unsigned seed,
                        const std::vector<test_support::SyntheticSurface>& surfaces, double peak = 600e3) {
   SyntheticRig rig;
@@ -72,14 +72,14 @@ class Merge : public testing::TestWithParam<Setting> {
   std::string path(const std::string& name) const {
     return (std::filesystem::path(testing::TempDir()) / ("merge_" + GetParam().name + name)).string();
   }
-  // Through a file, as a user merges.
+  // Through files, as in use.
   MergePart part(const std::string& name, const std::vector<dataset::Recording>& recordings) const {
     saveCalibration(train(recordings, GetParam()), path(name));
     return {name, loadCalibration(path(name), CalibrationParts::kAll)};
   }
 };
 
-TEST_P(Merge, MakesTheFileThatTrainingOnAllBagsMakes) {
+TEST_P(Merge, GivesTheFileOfTrainingOnAllBags) {
   const auto bags = threeBags();
   const MergeOptions options{2, "2024-05-06T07:08:09Z"};
   const Calibration merged =
@@ -87,11 +87,11 @@ TEST_P(Merge, MakesTheFileThatTrainingOnAllBagsMakes) {
   const Calibration at_once = train(bags, GetParam());
   EXPECT_EQ(merged.warnings, at_once.warnings);
   EXPECT_EQ(merged.regressor.grnn.bandwidth, at_once.regressor.grnn.bandwidth);
-  // The id is the hash of all that the file holds.
+  // The id is the hash of the content of the file.
   EXPECT_EQ(saveCalibration(merged, path("merged.h5")), saveCalibration(at_once, path("at_once.h5")));
 }
 
-TEST_P(Merge, OfMergedFilesIsTheSameAgain) {
+TEST_P(Merge, OfMergedFilesGivesTheSameFile) {
   const auto bags = threeBags();
   const MergeOptions options{1, "2024-05-06T07:08:09Z"};
   const MergePart a = part("a.h5", {bags[0]}), b = part("b.h5", {bags[1]}), c = part("c.h5", {bags[2]});
@@ -121,7 +121,7 @@ std::string complaint(const std::vector<MergePart>& parts) {
   return "merged";
 }
 
-TEST(MergeRefuses, WhatWasNotTrainedAlike) {
+TEST(MergeRefuses, CalibrationsThatWereTrainedDifferently) {
   const Setting grnn = setting("grnn", compensation::Scheme::kBaseline, "grnn");
   const auto bags = threeBags();
   const MergePart first{"a.h5", train({bags[1]}, grnn)};
@@ -154,25 +154,25 @@ TEST(MergeRefuses, WhatWasNotTrainedAlike) {
   EXPECT_EQ(refusal(other), "b.h5: the serial number is \"0002\", but that of a.h5 is \"0001\"" + rest);
 }
 
-TEST(MergeRefuses, WhatNeedsTheBags) {
+TEST(MergeRefuses, ModelsThatNeedTheBags) {
   const auto bags = threeBags();
   for (const std::string model : {"forest", "monotone"}) {
     const Setting set = setting("", compensation::Scheme::kBaseline, model);
     EXPECT_EQ(
         complaint({{"a.h5", train({bags[0]}, set)}, {"c.h5", train({bags[2]}, set)}}),
         "a.h5: the model " + model +
-            " needs the bags, the sums of a calibration file do not serve it; train on all bags instead");
+            " needs the bags; the sums in a calibration file are not sufficient; train on all bags instead");
   }
   const Setting grnn = setting("", compensation::Scheme::kBaseline, "grnn");
   Calibration bare = train({bags[0]}, grnn);
-  bare.statistics = {};
+  bare.statistics = nullptr;
   EXPECT_EQ(complaint({{"a.h5", bare}, {"c.h5", train({bags[2]}, grnn)}}),
             "a.h5: holds no statistics to merge; train on all bags instead");
 }
 
 TEST(MergeRefuses, CurvaturesThatWouldFormOtherClasses) {
   const Setting grnn = setting("", compensation::Scheme::kPerCurvature, "grnn");
-  // 10.2 and 10.4 are one class, but next to 10.0 only 10.2 is near enough.
+  // 10.2 and 10.4 form one class, but together with 10.0 only 10.2 is near enough.
   const Calibration pair = train({bag("pair.bag", 1, {{"one", 10.2}, {"two", 10.4}})}, grnn);
   const Calibration lower = train({bag("lower.bag", 2, {{"three", 10.0}})}, grnn);
   ASSERT_EQ(pair.tables.classes.size(), 1u);
@@ -182,7 +182,7 @@ TEST(MergeRefuses, CurvaturesThatWouldFormOtherClasses) {
       "bags instead");
 }
 
-TEST(MergeRefuses, NothingOfTheFirstFiles) {
+TEST(MergeAccepts, FilesOfSchemaOne) {
   const std::string path = FSR_SOURCE_DIR "/test/data/calibrations/schema_1.h5";
   const Calibration old = loadCalibration(path, CalibrationParts::kAll);
   Calibration twin = old;

@@ -1,12 +1,13 @@
-// Every scheme from recordings through the file to the live map, on surfaces of training and on two that
-// none has seen.
+// Every scheme from recordings through the file to the live map, on trained surfaces and on two others.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 #include <map>
 
+#include "calibration/packed_tables.h"
 #include "compensation/fit_scheme.h"
+#include "compensation/training_statistics.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
@@ -23,7 +24,7 @@ namespace flag = map::taxel_flag;
 const std::vector<double> kTrained = {0, 7.7, 9, 11, 14, 20};  // [1/m]
 const std::vector<double> kUnseen = {1 / 0.08, 1 / 0.06};
 
-// Most of what bending does is done by 10 1/m.
+// Most of the effect of bending is reached at 10 1/m.
 double saturating(double curvature) {
   return 15 * (1 - std::exp(-curvature / 6));
 }
@@ -72,7 +73,7 @@ Live live(Calibrator& calibrator, double curvature, const std::string& name = "n
   for (double pressure = 20e3; pressure <= 580e3; pressure += 1.37e3) {
     std::vector<std::uint16_t> counts;
     for (std::size_t taxel = 0; taxel < 3; ++taxel) {
-      const double noise = 3.0 * std::sin(pressure);  // within that of training
+      const double noise = 3.0 * std::sin(pressure);  // within the noise of the training
       counts.push_back(
           static_cast<std::uint16_t>(std::lround(syntheticReading(rig, taxel, curvature, pressure) + noise)));
     }
@@ -102,33 +103,33 @@ double seen(compensation::Scheme scheme) {
   return std::sqrt(squares / static_cast<double>(kTrained.size()));
 }
 
-TEST(Schemes, BetweenTheClassesInterpolationBeatsTheNearest) {
+TEST(Schemes, InterpolationIsBetterThanTheNearestClassBetweenClasses) {
   const double nearest = unseen(compensation::Scheme::kPerCurvature);
   EXPECT_LT(unseen(compensation::Scheme::kInterpolated), 0.6 * nearest);
   EXPECT_LT(unseen(compensation::Scheme::kCurvatureMap), 0.6 * nearest);
   EXPECT_LT(unseen(compensation::Scheme::kScaledCurvature), 0.9 * nearest);
 }
 
-TEST(Schemes, OnTheClassesNothingIsLost) {
+TEST(Schemes, OnAClassAllSchemesAreAsGoodAsItsOwnModel) {
   const double nearest = seen(compensation::Scheme::kPerCurvature);
   EXPECT_NEAR(seen(compensation::Scheme::kInterpolated), nearest, 1.0);
   EXPECT_NEAR(seen(compensation::Scheme::kCurvatureMap), nearest, 1.0);
   EXPECT_LT(seen(compensation::Scheme::kScaledCurvature),
-            1.2 * nearest);  // its neighbours weigh in on a class too
+            1.2 * nearest);  // its neighbours have weight on a class too
   EXPECT_LT(seen(compensation::Scheme::kCurvatureInput), 1.05 * nearest);
   EXPECT_LT(seen(compensation::Scheme::kOneHot), 1.05 * nearest);
 }
 
-TEST(Schemes, WhatDoesNotKnowTheCurvatureIsWorse) {
+TEST(Schemes, SchemesWithoutCurvatureAreWorse) {
   const double nearest = seen(compensation::Scheme::kPerCurvature);
   EXPECT_GT(seen(compensation::Scheme::kBaseline), 2 * nearest);
   EXPECT_GT(seen(compensation::Scheme::kFlatOnly), 2 * nearest);
   EXPECT_GT(seen(compensation::Scheme::kFlatOrCurved), 1.2 * nearest);
 }
 
-TEST(Schemes, TheLawFollowsTheBendOfTheCurve) {
-  // A gap that straight lines cut across: between flat and 9 1/m most of the effect comes with the first
-  // bend.
+TEST(Schemes, TheLawFollowsACurvedEffect) {
+  // A case where linear interpolation fails: most of the effect between flat and 9 1/m comes with a small
+  // curvature.
   const auto error = [&](compensation::Scheme scheme) {
     Calibrator calibrator(train(scheme).tables, {{1, 3}});
     return live(calibrator, 4.0).rmse;
@@ -148,7 +149,7 @@ TEST(Schemes, TheStatedDeviationHoldsOnUnseenCurvatures) {
   }
 }
 
-TEST(Schemes, TrainingSaysWhatANewCurvatureMayExpect) {
+TEST(Schemes, TrainingPredictsTheErrorOnANewCurvature) {
   const UnseenScore nearest = train(compensation::Scheme::kPerCurvature).scores.unseen;
   const UnseenScore interpolated = train(compensation::Scheme::kInterpolated).scores.unseen;
   EXPECT_EQ(nearest.readings, 4u * 500 * 3);  // four inner surfaces
@@ -157,7 +158,7 @@ TEST(Schemes, TrainingSaysWhatANewCurvatureMayExpect) {
   EXPECT_EQ(train(compensation::Scheme::kBaseline).scores.unseen.readings, 0u);
 }
 
-TEST(Schemes, RangesMergeWhatBendsAlike) {
+TEST(Schemes, RangesMergeClassesWithEqualEffect) {
   SyntheticRig rig = paperLikeRig();
   rig.felt_curvature = [](double curvature) { return curvature < 5 ? 0.0 : curvature < 12 ? 9.0 : 18.0; };
   CalibrationProblem problem{{syntheticRecording(rig)}, {}};
@@ -175,15 +176,15 @@ TEST(Schemes, RangesMergeWhatBendsAlike) {
   EXPECT_TRUE(same(4, 5));
 }
 
-TEST(Schemes, RangesKeepApartWhatDoesNot) {
+TEST(Schemes, RangesSeparateClassesWithDifferentEffect) {
   const Calibration ranges = train(compensation::Scheme::kCurvatureRanges),
                     each = train(compensation::Scheme::kPerCurvature);
   EXPECT_EQ(ranges.tables.table(0, 0).pressure, each.tables.table(0, 0).pressure);
 }
 
-TEST(Schemes, PerSurfaceGoesByTheName) {
+TEST(Schemes, PerSurfaceUsesTheName) {
   SyntheticRig rig = paperLikeRig();
-  rig.surfaces = {{"left_mould", 10.0}, {"right_mould", 10.1}};  // one class by curvature
+  rig.surfaces = {{"left_mould", 10.0}, {"right_mould", 10.1}};  // one class if pooled by curvature
   CalibrationProblem problem{{syntheticRecording(rig)}, {}};
   problem.options.scheme = compensation::Scheme::kPerSurface;
   const Calibration calibration = calibrate(problem);
@@ -193,7 +194,7 @@ TEST(Schemes, PerSurfaceGoesByTheName) {
   EXPECT_EQ(live(calibrator, 10.1, "a_third").flags, flag::kBetweenClasses);
 }
 
-TEST(Schemes, EveryOneGoesThroughItsFileToTheLiveMap) {
+TEST(Schemes, EverySchemeIsSavedLoadedAndUsedLive) {
   const std::string path = testing::TempDir() + "schemes.h5";
   for (const std::string& name : compensation::schemeNames()) {
     const Calibration calibration = train(compensation::schemeFromName(name));
@@ -212,7 +213,7 @@ TEST(Schemes, EveryOneGoesThroughItsFileToTheLiveMap) {
   std::filesystem::remove(path);
 }
 
-TEST(Schemes, WhatIsLearnedDoesNotDependOnThreads) {
+TEST(Schemes, ParametersDoNotDependOnThreads) {
   for (const compensation::Scheme scheme :
        {compensation::Scheme::kScaledCurvature, compensation::Scheme::kCurvatureRanges,
         compensation::Scheme::kCurvatureMap}) {
@@ -230,19 +231,20 @@ TEST(Schemes, WhatIsLearnedDoesNotDependOnThreads) {
   }
 }
 
-// Logarithms of some -600 in floats: shares to 6e-5, of classes that differ by 100 kPa at most [Pa].
+// Logarithms of about -600 as floats: shares are right to 6e-5, of classes that differ by 100 kPa at most
+// [Pa].
 constexpr double kFloatLogarithms = 6.0;
 
-// The live blend of kernels in floats against the model with two inputs in doubles.
-TEST(Schemes, OnAClassTheLiveMapIsTheOfflineModel) {
+// The live blend of kernels in float, compared with the model of two inputs in double.
+TEST(Schemes, OnAClassTheLiveMapEqualsTheOfflineModel) {
   for (const compensation::Scheme scheme :
        {compensation::Scheme::kCurvatureInput, compensation::Scheme::kScaledCurvature}) {
     const Calibration& calibration = train(scheme);
-    const compensation::TrainingStatistics& statistics = calibration.statistics;
+    const compensation::TrainingStatistics& statistics = *calibration.statistics;
     compensation::SchemePlan plan = compensation::planScheme(scheme, statistics.classes);
     if (scheme == compensation::Scheme::kScaledCurvature)
       plan.curvature_scale = calibration.tables.rule.length_scale.at(0);
-    compensation::ClassReadings readings;
+    regression::ClassReadings readings;
     readings.full_scale = statistics.full_scale;
     for (std::size_t k = 0; k < kTrained.size(); ++k) {
       readings.sums.emplace_back(statistics.full_scale);
@@ -265,7 +267,7 @@ TEST(Schemes, OnAClassTheLiveMapIsTheOfflineModel) {
   }
 }
 
-TEST(Schemes, ClassesOfOneModelShareItsTable) {
+TEST(Schemes, ClassesOfOneModelShareATable) {
   const Calibration& calibration = train(compensation::Scheme::kFlatOrCurved);
   EXPECT_EQ(calibration.tables.rule.model_of_class, (std::vector<std::size_t>{0, 1, 1, 1, 1, 1}));
   const PackedTables packed(calibration.tables);

@@ -45,7 +45,7 @@ SocketCheck check(const dataset::Recording& recording) {
   return checkSocket(recording, {}, nullptr);
 }
 
-TEST(SocketCheck, FindsNothingWrongAndClaimsNoAccuracy) {
+TEST(SocketCheck, AcceptsAGoodRecordingAndClaimsNoAccuracy) {
   const SocketCheck result = check(worn());
   EXPECT_TRUE(result.reasons.empty()) << result.reasons.front();
   ASSERT_TRUE(result.before && result.after);
@@ -59,10 +59,10 @@ TEST(SocketCheck, ComparesRestAfterWithRestBefore) {
   EXPECT_NEAR(result.median_change, 0.03, 1e-3);
   EXPECT_EQ(result.changed, kTaxels);
   ASSERT_EQ(result.reasons.size(), 1u);
-  EXPECT_NE(result.reasons.front().find("another rest"), std::string::npos);
+  EXPECT_NE(result.reasons.front().find("changed between rest before and rest after"), std::string::npos);
 }
 
-TEST(SocketCheck, SaysWhereNoRestWasRecorded) {
+TEST(SocketCheck, ReportsAMissingRest) {
   dataset::Recording recording = worn();
   for (std::size_t t = 0; t < kTaxels; ++t) set(recording, t, 60, 80, 900);
   const SocketCheck result = check(recording);
@@ -71,7 +71,7 @@ TEST(SocketCheck, SaysWhereNoRestWasRecorded) {
   EXPECT_NE(result.reasons.front().find("no rest was recorded after"), std::string::npos);
 }
 
-TEST(SocketCheck, BelievesTheEventsOfPuttingOnAndOff) {
+TEST(SocketCheck, UsesTheEventsOfPuttingOnAndOff) {
   dataset::Recording recording = worn();
   DonDoff events;
   events.don = 4.0;
@@ -83,7 +83,7 @@ TEST(SocketCheck, BelievesTheEventsOfPuttingOnAndOff) {
 
 TEST(SocketCheck, FindsTheLongestStaticLoad) {
   dataset::Recording recording = worn();
-  set(recording, 5, 20, 55, 1500);  // the others go up and down with each step
+  set(recording, 5, 20, 55, 1500);  // the others change with each step
   const SocketCheck result = check(recording);
   EXPECT_EQ(result.longest.taxel, 5u);
   EXPECT_NEAR(result.longest.seconds, 35, 1.01);
@@ -93,7 +93,7 @@ TEST(SocketCheck, FindsTheLongestStaticLoad) {
   EXPECT_EQ(checkSocket(recording, {}, nullptr, options).reasons.size(), 1u);
 }
 
-TEST(SocketCheck, CountsFullScale) {
+TEST(SocketCheck, CountsReadingsAtFullScale) {
   dataset::Recording recording = worn();
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     if (recording.time[i] < 20 || recording.time[i] >= 40) continue;
@@ -104,7 +104,7 @@ TEST(SocketCheck, CountsFullScale) {
   EXPECT_NE(result.reasons.front().find("full scale"), std::string::npos);
 }
 
-TEST(SocketCheck, CountsWhatLiesBeyondTraining) {
+TEST(SocketCheck, CountsReadingsOutsideTheRangeOfTraining) {
   Calibration calibration;
   calibration.layout.size = {3, 4};
   calibration.tables = test_support::smallTables({3, 4}, {0.0, 10.0}, 4095);

@@ -55,7 +55,7 @@ Tare someTare() {
   return tare;
 }
 
-TEST(TareMeasurement, FillsItsWindowThenGivesTheMean) {
+TEST(TareMeasurement, GivesTheMeanOfAFullWindow) {
   TareMeasurement measurement(kLayout, {});
   int scans = 0;
   while (!measurement.add(restingMap(scans % 2 == 0 ? 900.0f : 1100.0f), scans * 0.125)) ++scans;
@@ -63,7 +63,7 @@ TEST(TareMeasurement, FillsItsWindowThenGivesTheMean) {
   EXPECT_FLOAT_EQ(measurement.offset({})[0], (9 * 900.0f + 8 * 1100.0f) / 17);
 }
 
-TEST(TareMeasurement, AddsToTheTareThatStood) {
+TEST(TareMeasurement, AddsToThePresentTare) {
   const auto measurement = measured([](int) { return -500.0f; });
   const std::vector<float> offset = measurement.offset({0, 10, 20, 30, 40, 50});
   EXPECT_FLOAT_EQ(offset[1], 1010.0f);
@@ -77,30 +77,30 @@ TEST(TareMeasurement, RefusesALoadAboveTheLimit) {
             "kPa (~tare_limit)");
 }
 
-TEST(TareMeasurement, RefusesToCreepPastTheLimitTareByTare) {
+TEST(TareMeasurement, RefusesToExceedTheLimitInSeveralTares) {
   const auto measurement = measured([](int) { return 20e3f; });
   EXPECT_NE(refusalOf([&] { measurement.offset(std::vector<float>(6, 20e3f)); }), "accepted");
 }
 
-TEST(TareMeasurement, RefusesAPulseAsUnderALimb) {
+TEST(TareMeasurement, RefusesAPulsatingLoad) {
   const auto measurement = measured([](int i) { return 8e3f + 6e3f * std::sin(0.8f * float(i)); });
   EXPECT_NE(refusalOf([&] { measurement.offset({}); }).find("column 1 scatters by 4."), std::string::npos);
 }
 
-TEST(TareMeasurement, LeavesTaxelsWithoutAReadingAlone) {
+TEST(TareMeasurement, KeepsTheTareOfTaxelsWithoutAReading) {
   const auto measurement = measured([](int) { return NAN; });
   const std::vector<float> offset = measurement.offset({});
   EXPECT_EQ(offset[4], 0.0f);
   EXPECT_EQ(offset[0], 1000.0f);
 }
 
-TEST(TareMeasurement, RefusesWhereNothingReads) {
+TEST(TareMeasurement, RefusesASheetWithoutReadings) {
   TareMeasurement measurement(kLayout, {});
   for (int i = 0; i < 30; ++i) measurement.add(restingMap(NAN), i * 0.1);
   EXPECT_NE(refusalOf([&] { measurement.offset({}); }), "accepted");
 }
 
-TEST(TareMeasurement, StartsAnewWhenTimeRunsBack) {
+TEST(TareMeasurement, StartsAgainIfTimeRunsBackwards) {
   TareMeasurement measurement(kLayout, {});
   for (int i = 0; i < 15; ++i) measurement.add(restingMap(9000.0f), 100 + i * 0.1);
   bool full = false;
@@ -117,7 +117,7 @@ TEST(TareMeasurement, AllocatesNothingForAMap) {
   EXPECT_EQ(guard.allocations(), 0u);
 }
 
-TEST(Tare, HoldsForOneCalibrationSurfaceAndMount) {
+TEST(Tare, IsValidForOneCalibrationSurfaceAndMount) {
   const Tare tare = someTare();
   const matrix::Surface same{tare.surface, 2, {{14.3, 0, 0}}, {}};
   EXPECT_TRUE(holds(tare, "3f2a", same));
@@ -153,7 +153,7 @@ class TareFile : public testing::Test {
   std::string path;
 };
 
-TEST_F(TareFile, GivesBackWhatWasSaved) {
+TEST_F(TareFile, RestoresASavedTare) {
   const Tare tare = someTare();
   saveTare(tare, path);
   const Tare read = loadTare(path);
@@ -166,7 +166,7 @@ TEST_F(TareFile, GivesBackWhatWasSaved) {
   EXPECT_EQ(read.offset, tare.offset);
 }
 
-TEST_F(TareFile, RefusesWhatItDoesNotKnow) {
+TEST_F(TareFile, RefusesUnknownContent) {
   for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{{"tare 1", "tare 9"},
                                                                                  {"mount: 2", "mount: -1"},
                                                                                  {"rows: 2", "rows: 3"},

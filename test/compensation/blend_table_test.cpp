@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/compensation/blend_table.h"
+#include "compensation/blend_table.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kCodes = 600;  // more than one block
 
-// One taxel on classes of 0, 10 and 20 1/m, straight tables of 100 Pa a count times a gain, plus a preload.
+// One taxel on classes of 0, 10 and 20 1/m: linear tables of 100 Pa a count times a gain, plus a preload.
 class BlendTable : public testing::Test {
  protected:
   BlendTable() {
@@ -49,29 +49,29 @@ TEST_F(BlendTable, InterpolatesBetweenTheNeighboursTables) {
   EXPECT_EQ(at(10)[500].pressure, entries[1][500].pressure);
 }
 
-TEST_F(BlendTable, StaysWithTheOuterClassBeyondIt) {
+TEST_F(BlendTable, UsesTheOuterClassBeyondIt) {
   rule.blend = BlendRule::kInterpolate;
   EXPECT_EQ(at(23)[500].pressure, entries[2][500].pressure);
   EXPECT_EQ(at(-2)[500].pressure, entries[0][500].pressure);
 }
 
-TEST_F(BlendTable, TakesTheChosenClassWhereTheNearestAnswers) {
-  EXPECT_EQ(at(4.9, 1)[500].pressure, entries[1][500].pressure);  // as hysteresis may want it
+TEST_F(BlendTable, UsesTheChosenClassWithTheNearestRule) {
+  EXPECT_EQ(at(4.9, 1)[500].pressure, entries[1][500].pressure);  // as with hysteresis
 }
 
-TEST_F(BlendTable, PutsTheBendOfTheLawBack) {
-  // a law that reaches its knots as the classes do, and is not straight between them
+TEST_F(BlendTable, FollowsTheLawBetweenTheClasses) {
+  // a law that agrees with the classes at its knots and is not linear between them
   rule.blend = BlendRule::kInterpolate;
   rule.law = {{0, 10, 20}, {1.0, 1.2, 1.3}, {0, -4e3, -6e3}};
   const EffectLaw::Effect law = rule.law.at(4);
-  EXPECT_GT(law.gain, 1.08);  // the straight line's
+  EXPECT_GT(law.gain, 1.08);  // that of the straight line
   for (const std::size_t code : {0, 100, 500}) {
     EXPECT_NEAR(at(4)[code].pressure, law.gain * 100.0 * static_cast<double>(code) + law.offset, 0.01);
   }
   EXPECT_EQ(at(20)[500].pressure, entries[2][500].pressure);
 }
 
-TEST_F(BlendTable, WeighsKernelsByReadingAndCurvature) {
+TEST_F(BlendTable, WeightsKernelsByReadingAndCurvature) {
   // by hand: weights exp(log_weight - (at - curvature)^2 / 2 5^2)
   rule.blend = BlendRule::kKernel;
   for (const std::size_t code : {5, 300, 599}) {
@@ -86,13 +86,13 @@ TEST_F(BlendTable, WeighsKernelsByReadingAndCurvature) {
   }
 }
 
-TEST_F(BlendTable, KernelsThatUnderflowLeaveTheNearestSample) {
+TEST_F(BlendTable, UsesTheNearestSampleWhereKernelsUnderflow) {
   rule.blend = BlendRule::kKernel;
   for (std::size_t k = 0; k < 3; ++k) log_weight[k].assign(kCodes, k == 2 ? -1e6f : -2e6f);
   EXPECT_EQ(at(1)[500].pressure, entries[2][500].pressure);
 }
 
-TEST_F(BlendTable, AClassOfNoCurvatureIsLeftOut) {
+TEST_F(BlendTable, IgnoresAClassWithoutCurvature) {
   tables.curvature[1] = NAN;
   rule.blend = BlendRule::kInterpolate;
   EXPECT_FLOAT_EQ(at(10)[500].pressure, 0.5f * (entries[0][500].pressure + entries[2][500].pressure));
@@ -102,18 +102,18 @@ TEST_F(BlendTable, AClassOfNoCurvatureIsLeftOut) {
   EXPECT_GT(at(10)[500].pressure, entries[0][500].pressure);
 }
 
-TEST_F(BlendTable, TheDeviationGrowsBetweenClasses) {
+TEST_F(BlendTable, TheDeviationIsLargerBetweenClasses) {
   const double half = 0.5 * (entries[1][500].pressure - entries[0][500].pressure);
   EXPECT_EQ(at(10, 1)[500].deviation, deviation[1]);
   EXPECT_FLOAT_EQ(at(5)[500].deviation,
                   static_cast<float>(std::sqrt(0.5 * 300 * 300 + 0.5 * 400 * 400 + half * half)));
   rule.unseen = {{0, 50e3}, {1e3, 5e3}};
-  EXPECT_FLOAT_EQ(at(5)[250].deviation,  // at 25 kPa, which is midway between the knots
+  EXPECT_FLOAT_EQ(at(5)[250].deviation,  // at 25 kPa, midway between the knots
                   static_cast<float>(std::sqrt(0.5 * 300 * 300 + 0.5 * 400 * 400 + 3e3 * 3e3)));
   EXPECT_LT(at(1)[500].deviation, at(3)[500].deviation);
 }
 
-TEST_F(BlendTable, TheDeviationGrowsBeyondTheClasses) {
+TEST_F(BlendTable, TheDeviationIncreasesBeyondTheClasses) {
   const double last = entries[2][500].pressure - entries[1][500].pressure;
   rule.unseen = {{0}, {0}};
   EXPECT_EQ(at(20, 2)[500].deviation, deviation[2]);
@@ -121,7 +121,7 @@ TEST_F(BlendTable, TheDeviationGrowsBeyondTheClasses) {
   EXPECT_GT(at(-5)[500].deviation, at(-2)[500].deviation);
 }
 
-TEST_F(BlendTable, ATaxelWithoutAModelStaysWithoutOne) {
+TEST_F(BlendTable, ATaxelWithoutAModelHasNone) {
   entries[0].assign(kCodes, {NAN, NAN});
   rule.blend = BlendRule::kInterpolate;
   EXPECT_TRUE(std::isnan(at(5)[7].pressure));

@@ -21,7 +21,7 @@ regression::CodeTable tableOf(double gain, double offset) {
   return table;
 }
 
-TEST(EffectLaw, FindsWhatBendingDoesToATaxel) {
+TEST(EffectLaw, FindsTheEffectOfBendingOnATaxel) {
   const std::vector<regression::CodeTable> tables = {tableOf(0.8, 3e3), tableOf(1.0, 0),
                                                      tableOf(1.2, -3e3)};  // mean: 1, 0
   const TaxelEffect effect = effectOf(tables.data(), 3);
@@ -31,19 +31,19 @@ TEST(EffectLaw, FindsWhatBendingDoesToATaxel) {
   }
 }
 
-TEST(EffectLaw, ATaxelWithoutAModelSaysNothing) {
+TEST(EffectLaw, ATaxelWithoutAModelHasNoEffect) {
   std::vector<regression::CodeTable> tables = {tableOf(1, 0), tableOf(1, 0)};
   tables[1].pressure.assign(kCodes, NAN);
   EXPECT_TRUE(effectOf(tables.data(), 2).gain.empty());
   std::vector<regression::CodeTable> apart = {tableOf(1, 0), tableOf(1, 0)};
-  apart[0].highest = 40;  // no code in common
+  apart[0].highest = 40;  // no common code
   EXPECT_TRUE(effectOf(apart.data(), 2).gain.empty());
 }
 
 const std::vector<dataset::CurvatureClass> kClasses = {
     {"socket", {-10.0}}, {"flat", {0.0}}, {"a", {7.0}}, {"b", {10.0}}, {"c", {20.0}}};
 
-TEST(EffectLaw, IsTheMeanOfTheTaxelsMadeMonotoneToEitherSide) {
+TEST(EffectLaw, IsTheMeanOfTheTaxelsMadeMonotoneOnEitherSide) {
   const std::vector<TaxelEffect> taxels = {{{1.2, 1.0, 1.1, 1.4, 1.3}, {0, 0, -1, -2, -3}},
                                            {{1.2, 1.0, 1.3, 1.4, 1.3}, {0, 0, -3, -2, -5}},
                                            {{}, {}}};

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "regression/forest/forest.h"
+#include "regression/grnn/grnn.h"
 #include "regression/grnn/weighted_codes.h"
 
 namespace fsr::compensation {
@@ -14,7 +16,8 @@ constexpr std::uint16_t kFullScale = 1023;
 const std::vector<dataset::CurvatureClass> kClasses = {
     {"flat", {0.0}}, {"radius_10cm", {10.0}}, {"radius_5cm", {20.0}}};
 
-// Readings that numpy can make too:
+// Readings that numpy can reproduce:
+//
 //   n = [60, 80, 100]; k = [0., 10., 20.]; q = np.repeat([0, 1, 2], n)
 //   i = np.concatenate([np.arange(m) for m in n])
 //   c = np.concatenate([(37*np.arange(m)**2 + 11*np.arange(m)*(j + 1)) % 900 + 100 for j, m in enumerate(n)])
@@ -32,8 +35,8 @@ regression::CodeSamples samplesOf(std::size_t curvature_class, int keep_each = 1
   return samples;
 }
 
-ClassReadings threeClasses(int keep_each = 1) {
-  ClassReadings readings;
+regression::ClassReadings threeClasses(int keep_each = 1) {
+  regression::ClassReadings readings;
   readings.full_scale = kFullScale;
   for (std::size_t k = 0; k < kClasses.size(); ++k) {
     readings.samples.push_back(samplesOf(k, keep_each));
@@ -108,17 +111,17 @@ TEST(FitScheme, LeastSquaresOnTwoInputsAgreeWithNumpy) {
   }
 }
 
-// What the paper calls method 2 cannot use the curvature at its bandwidth: standardised, the curvatures lie
-// so many bandwidths apart that no reading of another class has any weight.
-TEST(FitScheme, CurvatureAsInputIsOneModelACurvatureAtThePapersBandwidth) {
-  const ClassReadings readings = threeClasses();
+// Method 2 of the paper cannot use the curvature at the paper's bandwidth: the standardised curvatures are so
+// many bandwidths apart that readings of other classes have no weight.
+TEST(FitScheme, CurvatureInputIsPerCurvatureAtThePapersBandwidth) {
+  const regression::ClassReadings readings = threeClasses();
   regression::CodeHistogram all(kFullScale);
   for (const regression::CodeHistogram& sums : readings.sums) all.add(sums);
   for (const Scheme scheme : {Scheme::kCurvatureInput, Scheme::kOneHot}) {
     const std::vector<regression::Fit> with_input =
         fitScheme(planScheme(scheme, kClasses), 0, readings, grnn(regression::kPaperBandwidth));
     for (std::size_t k = 0; k < kClasses.size(); ++k) {
-      // the class's own model, its bandwidth in the units of all readings
+      // the model of the class, with the bandwidth in units of all readings
       const double unit = regression::readingDeviation(all) / regression::readingDeviation(readings.sums[k]);
       const regression::Fit alone =
           regression::Grnn(regression::kPaperBandwidth * unit).fit(readings.sums[k]);
@@ -130,7 +133,7 @@ TEST(FitScheme, CurvatureAsInputIsOneModelACurvatureAtThePapersBandwidth) {
 }
 
 TEST(FitScheme, BinaryInputIsFlatOrCurvedAtThePapersBandwidth) {
-  const ClassReadings readings = threeClasses();
+  const regression::ClassReadings readings = threeClasses();
   regression::CodeHistogram all(kFullScale), bent(kFullScale);
   for (const regression::CodeHistogram& sums : readings.sums) all.add(sums);
   for (const std::size_t k : {1, 2}) bent.add(readings.sums[k]);
@@ -144,11 +147,11 @@ TEST(FitScheme, BinaryInputIsFlatOrCurvedAtThePapersBandwidth) {
   }
 }
 
-TEST(FitScheme, AForestTakesTheCurvatureInWithoutChangingUnits) {
+TEST(FitScheme, AForestDoesNotDependOnTheUnitOfCurvature) {
   regression::RegressorOptions forest;
   forest.name = "forest";
   forest.forest.trees = 20;
-  const ClassReadings readings = threeClasses();
+  const regression::ClassReadings readings = threeClasses();
   const auto fits = fitScheme(planScheme(Scheme::kCurvatureInput, kClasses), 0, readings, forest);
   regression::CodeSamples all;
   all.full_scale = kFullScale;
@@ -163,8 +166,8 @@ TEST(FitScheme, AForestTakesTheCurvatureInWithoutChangingUnits) {
   }
 }
 
-TEST(FitScheme, AClassWithoutReadingsIsAnsweredByItsNeighboursWhereCurvatureIsAnInput) {
-  ClassReadings readings = threeClasses();
+TEST(FitScheme, AClassWithoutReadingsIsPredictedFromItsNeighboursWithCurvatureAsInput) {
+  regression::ClassReadings readings = threeClasses();
   readings.sums[1] = regression::CodeHistogram(kFullScale);
   readings.samples.clear();
   const auto input = fitScheme(planScheme(Scheme::kCurvatureInput, kClasses), 0, readings, grnn(1.0));
@@ -179,8 +182,8 @@ TEST(FitScheme, AClassWithoutReadingsIsAnsweredByItsNeighboursWhereCurvatureIsAn
   }
 }
 
-TEST(FitScheme, AClassWithoutReadingsIsAnsweredByTheSchemesRule) {
-  ClassReadings readings = threeClasses();
+TEST(FitScheme, AClassWithoutReadingsIsPredictedByTheSchemesRule) {
+  regression::ClassReadings readings = threeClasses();
   readings.samples.clear();
   readings.sums[1] = regression::CodeHistogram(kFullScale);
   const auto answer = [&](Scheme scheme, const EffectLaw& law = {}) {
@@ -189,17 +192,17 @@ TEST(FitScheme, AClassWithoutReadingsIsAnsweredByTheSchemesRule) {
   };
   const auto alone = fitScheme(planScheme(Scheme::kPerCurvature, kClasses), 0, readings, grnn(0.1));
   const std::vector<double>&flat = alone[0].pressure, &bent = alone[2].pressure;
-  EXPECT_EQ(answer(Scheme::kPerCurvature), flat);  // midway, and the first of two as near
+  EXPECT_EQ(answer(Scheme::kPerCurvature), flat);  // midway: the first of two equally near classes
   EXPECT_EQ(answer(Scheme::kFlatOrCurved), flat);
   EXPECT_NEAR(answer(Scheme::kInterpolated)[500], 0.5 * (flat[500] + bent[500]), 1e-6);
   EXPECT_EQ(answer(Scheme::kBaseline),
             fitScheme(planScheme(Scheme::kBaseline, kClasses), 0, readings, grnn(0.1))[0].pressure);
-  const EffectLaw law{{0, 10, 20}, {1.0, 0.8, 0.8}, {0, 0, 0}};  // all of the effect by 10 1/m
+  const EffectLaw law{{0, 10, 20}, {1.0, 0.8, 0.8}, {0, 0, 0}};  // the full effect from 10 1/m on
   EXPECT_NEAR(answer(Scheme::kCurvatureMap, law)[500], 0.8 / 0.9 * 0.5 * (flat[500] + bent[500]), 1e-6);
 }
 
-TEST(FitScheme, OneClassHasNothingToLearnFromItsCurvature) {
-  ClassReadings readings = threeClasses();
+TEST(FitScheme, ASingleClassIsFittedWithoutItsCurvature) {
+  regression::ClassReadings readings = threeClasses();
   readings.sums.erase(readings.sums.begin() + 1, readings.sums.end());
   readings.samples.clear();
   const auto input = fitScheme(planScheme(Scheme::kCurvatureInput, {kClasses[0]}), 0, readings, grnn(0.1));
@@ -209,10 +212,10 @@ TEST(FitScheme, OneClassHasNothingToLearnFromItsCurvature) {
   }
 }
 
-TEST(FitScheme, HeldOutModelsAreThoseOfTheOtherSections) {
+TEST(FitScheme, HeldOutModelsAreTrainedOnTheOtherSections) {
   SectionedReadings readings;
   readings.full_scale = kFullScale;
-  ClassReadings without_first;
+  regression::ClassReadings without_first;
   without_first.full_scale = kFullScale;
   for (std::size_t k = 0; k < kClasses.size(); ++k) {
     readings.sums.push_back({regression::statisticsOf(samplesOf(k)),
@@ -241,28 +244,28 @@ std::string refusal(Scheme scheme, const regression::RegressorOptions& regressor
   return "accepted";
 }
 
-TEST(FitScheme, SaysWhichRegressorTakesASecondInput) {
+TEST(FitScheme, RefusesARegressorWithoutTheSecondInputByName) {
   regression::RegressorOptions options;
   options.name = "monotone";
   EXPECT_EQ(refusal(Scheme::kPerCurvature, options), "accepted");
-  EXPECT_EQ(
-      refusal(Scheme::kCurvatureInput, options),
-      "scheme curvature_input gives the model a second input, which monotone cannot take; choose linear, "
-      "grnn or forest");
+  EXPECT_EQ(refusal(Scheme::kCurvatureInput, options),
+            "scheme curvature_input needs a model that takes a second input, and monotone does not; models "
+            "that do: "
+            "linear, grnn, forest");
   options.name = "forest";
   EXPECT_EQ(refusal(Scheme::kOneHot, options),
-            "scheme one_hot gives the model a second input, which a forest here takes as one column only; "
-            "choose linear or grnn, or curvature_input");
+            "scheme one_hot needs a model that takes a second input of several columns, and forest does not; "
+            "models that do: linear, grnn");
   EXPECT_EQ(
       refusal(Scheme::kScaledCurvature, options),
-      "scheme scaled_curvature gives the model a second input, which only a GRNN has a length scale for; "
-      "choose grnn, or curvature_input");
+      "scheme scaled_curvature needs a model that takes a second input with a length scale of its own, and "
+      "forest does not; models that do: grnn");
   options.name = "grnn";
   options.grnn.distance = regression::KernelDistance::kLiteral;
   EXPECT_EQ(
       refusal(Scheme::kBinaryInput, options),
-      "scheme binary_input gives the model a second input, which a GRNN takes with the squared distance "
-      "and samples of equal weight only");
+      "scheme binary_input needs a model that takes a second input, and grnn does so only with the squared "
+      "distance and samples of equal weight");
 }
 
 }  // namespace

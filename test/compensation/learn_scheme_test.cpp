@@ -13,7 +13,8 @@ constexpr std::size_t kSections = 3;
 const std::vector<dataset::CurvatureClass> kClasses = {
     {"flat", {0.0}}, {"r20", {5.0}}, {"r10", {10.0}}, {"r7", {15.0}}, {"r5", {20.0}}};
 
-// One taxel; a reading of code c has 500 Pa x c x (1 + effect of its class), and 10 kPa of noise.
+// One taxel. A reading of code c has the pressure 500 Pa x c x (1 + effect of its class), with 10 kPa of
+// noise.
 TrainingStatistics statisticsOf(const std::vector<double>& effect) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0.0, 10e3);  // [Pa]
@@ -38,19 +39,19 @@ SchemePlan learn(Scheme scheme, const std::vector<double>& effect) {
   return plan;
 }
 
-TEST(LearnScheme, WhereBendingDoesNothingAllCurvaturesAreOne) {
+TEST(LearnScheme, WithoutAnEffectOfBendingAllCurvaturesShareOneModel) {
   const std::vector<double> nothing(5, 0.0);
   EXPECT_GE(learn(Scheme::kScaledCurvature, nothing).curvature_scale, 20.0);
   EXPECT_EQ(learn(Scheme::kCurvatureRanges, nothing).models.size(), 1u);
 }
 
-TEST(LearnScheme, WhereBendingActsTheScaleReachesToTheNeighbours) {
+TEST(LearnScheme, WithAnEffectOfBendingTheScaleReachesToTheNeighbours) {
   const double scale = learn(Scheme::kScaledCurvature, {0.0, 0.1, 0.2, 0.3, 0.4}).curvature_scale;
-  EXPECT_GT(scale, 0.8);  // shorter, the nearest class alone would answer between two
+  EXPECT_GT(scale, 0.8);  // with a shorter scale only the nearest class would count between two
   EXPECT_LT(scale, 5.0);  // the distance of two classes
 }
 
-TEST(LearnScheme, OnlyNeighboursThatBendAlikeShareARange) {
+TEST(LearnScheme, OnlyNeighboursWithEqualEffectShareARange) {
   const SchemePlan plan = learn(Scheme::kCurvatureRanges, {0.0, 0.3, 0.3, 0.0, 0.0});
   EXPECT_EQ(plan.model_of_class, (std::vector<std::size_t>{0, 1, 1, 2, 2}));
   EXPECT_EQ(plan.models[1].answers_for.surface, "r20 to r10");

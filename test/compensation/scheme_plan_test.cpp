@@ -20,7 +20,7 @@ TEST(SchemePlan, PerCurvatureHasAModelForEachClass) {
   EXPECT_EQ(plan.model_of_class, (Indices{0, 1, 2, 3}));
 }
 
-TEST(SchemePlan, BaselineHasOneModelOfEverything) {
+TEST(SchemePlan, BaselineHasOneModelForAllClasses) {
   const SchemePlan plan = planScheme(Scheme::kBaseline, kClasses);
   ASSERT_EQ(plan.models.size(), 1u);
   EXPECT_EQ(plan.models[0].trained_on, (Indices{0, 1, 2, 3}));
@@ -47,7 +47,7 @@ TEST(SchemePlan, FlatOnlyNeedsAFlatClass) {
   }
 }
 
-TEST(SchemePlan, FlatOrCurvedHasTwoModelsEachOfItsOwn) {
+TEST(SchemePlan, FlatOrCurvedHasTwoModels) {
   const SchemePlan plan = planScheme(Scheme::kFlatOrCurved, kClasses);
   ASSERT_EQ(plan.models.size(), 2u);
   EXPECT_EQ(plan.models[0].trained_on, Indices{1});
@@ -55,7 +55,7 @@ TEST(SchemePlan, FlatOrCurvedHasTwoModelsEachOfItsOwn) {
   EXPECT_EQ(plan.model_of_class, (Indices{1, 0, 1, 1}));
 }
 
-TEST(SchemePlan, ASecondInputTrainsEveryModelOnEverything) {
+TEST(SchemePlan, WithASecondInputEveryModelIsTrainedOnAllClasses) {
   const SchemePlan binary = planScheme(Scheme::kBinaryInput, kClasses);
   ASSERT_EQ(binary.models.size(), 2u);
   EXPECT_EQ(binary.models[1].trained_on, (Indices{0, 1, 2, 3}));
@@ -65,7 +65,7 @@ TEST(SchemePlan, ASecondInputTrainsEveryModelOnEverything) {
   EXPECT_EQ(input.testedOn(2), Indices{2});
 }
 
-TEST(SchemePlan, FlatOrCurvedNeedsBoth) {
+TEST(SchemePlan, FlatOrCurvedNeedsFlatAndBentClasses) {
   try {
     planScheme(Scheme::kFlatOrCurved, {kClasses[1]});
     FAIL() << "accepted";

@@ -21,7 +21,7 @@ Recording bag(const std::string& name, const std::vector<SyntheticSurface>& surf
   return syntheticRecording(rig);
 }
 
-TEST(ConditionClasses, PoolConditionsOfOneCurvatureFromSeveralBags) {
+TEST(ConditionClasses, PoolConditionsOfTheSameCurvatureFromSeveralBags) {
   const std::vector<Recording> recordings = {bag("a", {{"cylinder_7cm", 14.3}, {"flat", 0.0}}),
                                              bag("b", {{"cylinder_5cm", 20.0}}),
                                              bag("c", {{"seven", 14.286}, {"also_flat", 0.1}}, 6)};
@@ -46,7 +46,7 @@ TEST(ConditionClasses, DoNotDependOnTheOrderOfTheBags) {
   }
 }
 
-TEST(ConditionClasses, KeepTheInsideOfASocketFromTheOutsideOfALimb) {
+TEST(ConditionClasses, SeparateTheInsideOfASocketFromTheOutsideOfALimb) {
   EXPECT_EQ(poolConditions({bag("a", {{"out", 14.3}, {"in", -14.3}})}).classes.size(), 2u);
 }
 
@@ -55,7 +55,7 @@ TEST(ConditionClasses, AreFlatOnlyWhereEveryTaxelIs) {
   EXPECT_FALSE(isFlat({"edge", {0.0, 0.0, 3.0}}));
 }
 
-TEST(ConditionClasses, NeedACurvature) {
+TEST(ConditionClasses, RefuseAnUnknownCurvature) {
   Recording recording = bag("a.bag", {{"flat", 0.0}});
   recording.conditions.front().curvature.clear();
   try {
@@ -82,7 +82,7 @@ TEST(Coverage, CountsScansAndCyclesByBinAndDirection) {
   EXPECT_EQ(coverage.conditions[1].cycles, 5u);
 }
 
-TEST(Coverage, SaysWhatIsThinWorstFirst) {
+TEST(Coverage, ListsThinCellsWorstFirst) {
   SyntheticRig low;
   low.name = "b";
   low.surfaces = {{"bent", 10.0}};
@@ -94,14 +94,14 @@ TEST(Coverage, SaysWhatIsThinWorstFirst) {
   EXPECT_EQ(coverage.thin[1], "bent, 400+ kPa loading: no scan");
 }
 
-TEST(Coverage, SaysHowFarTheChamberWent) {
+TEST(Coverage, ReportsTheRangeOfPressure) {
   SyntheticRig low;
   low.peak = 150e3;
   low.cycles = 20;
   EXPECT_EQ(coverageOf({syntheticRecording(low)}, 5).thin.at(0), "no surface was loaded above 150 kPa");
 }
 
-TEST(Coverage, SaysWhereCyclesAreFew) {
+TEST(Coverage, ReportsConditionsWithFewCycles) {
   const Coverage coverage = coverageOf({bag("a", {{"flat", 0.0}}, 2)}, 5);
   EXPECT_EQ(coverage.thin.back(), "flat: 2 cycles, fewer than the 5 sections");
 }

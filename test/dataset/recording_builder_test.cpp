@@ -95,7 +95,7 @@ TEST(RecordingBuilder, InterpolatesTheReferenceToTheScans) {
 
 TEST(RecordingBuilder, TheOrderOfTheEventsDoesNotMatter) {
   std::vector<Event> events = session();
-  for (std::uint32_t i = 0; i < 10; ++i) events.push_back(scan(ms(100 * i), 50 + i, 4000));  // doubles
+  for (std::uint32_t i = 0; i < 10; ++i) events.push_back(scan(ms(100 * i), 50 + i, 4000));  // duplicates
   events.push_back(chamber(ms(500), 120e3));
   events.push_back(surface(ms(0), "also_flat", 0.0));
   events.push_back([](RecordingBuilder& builder) { builder.addTemperature(ms(400), 21.0); });
@@ -128,14 +128,14 @@ TEST(RecordingBuilder, ScansBeforeTheFirstSurfaceBelongToIt) {
   EXPECT_EQ(recording.conditions.at(recording.condition[0]).name, "flat");
 }
 
-TEST(RecordingBuilder, AMeasuredCurvatureThatScattersIsOneCondition) {
+TEST(RecordingBuilder, TreatsAScatteringMeasuredCurvatureAsOneCondition) {
   const Recording recording = build({scan(ms(0), 1, 5), scan(ms(5000), 2, 5), surface(ms(0), "limb", 12.00),
                                      surface(ms(1000), "limb", 12.04), surface(ms(2000), "limb", 11.97)});
   EXPECT_EQ(recording.conditions.size(), 1u);
   EXPECT_EQ(recording.scans(), 2u);
 }
 
-TEST(RecordingBuilder, ARemountIsAChangeThoughTheCurvatureStays) {
+TEST(RecordingBuilder, TreatsARemountAsAChangeAlsoAtTheSameCurvature) {
   const auto mounted = [](std::int64_t stamp, std::uint32_t mount) {
     return [=](RecordingBuilder& builder) {
       builder.addSurface(stamp, {"flat", mount, {matrix::Curvature{}}, {}});
@@ -150,13 +150,13 @@ TEST(RecordingBuilder, ARemountIsAChangeThoughTheCurvatureStays) {
 TEST(RecordingBuilder, CountsGapsOfTheBoardsCounter) {
   const Recording recording =
       build({scan(ms(0), 4294967294u, 5), scan(ms(100), 4294967295u, 5), scan(ms(200), 0, 5),  // wraps round
-             scan(ms(300), 4, 5), scan(ms(400), 5, 5), scan(ms(500), 2, 5)});  // starts afresh
+             scan(ms(300), 4, 5), scan(ms(400), 5, 5), scan(ms(500), 2, 5)});  // the board restarts
   EXPECT_EQ(recording.losses.sequence_gaps, 2u);
   EXPECT_EQ(recording.losses.lost_scans, 3u);
   EXPECT_EQ(recording.warnings.back(), "the board's counter has 2 gaps, 3 scans lost");
 }
 
-TEST(RecordingBuilder, ScansThatNoReferenceBracketsAreDropped) {
+TEST(RecordingBuilder, DropsScansWithoutAReferenceBeforeAndAfter) {
   const Recording recording =
       build({scan(ms(0), 1, 5), scan(ms(1000), 2, 5), scan(ms(3000), 3, 5), scan(ms(9000), 4, 5),
              chamber(ms(500), 100e3), chamber(ms(1500), 101e3), chamber(ms(4000), 102e3)},
@@ -166,7 +166,7 @@ TEST(RecordingBuilder, ScansThatNoReferenceBracketsAreDropped) {
   EXPECT_EQ(recording.losses.no_reference, 3u);
 }
 
-TEST(Recording, TellsOfGapsButNotOfTheScansAtABagsEnds) {
+TEST(Recording, ReportsGapsButNotTheScansAtABagsEnds) {
   RecordingLosses losses;
   losses.no_reference = 2;
   EXPECT_TRUE(describeLosses(losses).empty());
@@ -177,7 +177,7 @@ TEST(Recording, TellsOfGapsButNotOfTheScansAtABagsEnds) {
                                       "dropped 200 scans in gaps of chamber_pressure"}));
 }
 
-TEST(RecordingBuilder, AChamberPressureThatIsNoNumberIsLeftOut) {
+TEST(RecordingBuilder, IgnoresAChamberPressureThatIsNotFinite) {
   const Recording recording = build(
       {scan(ms(100), 1, 5), chamber(ms(0), 100e3), chamber(ms(100), std::nan("")), chamber(ms(200), 102e3)},
       withAmbient(100e3));
@@ -185,7 +185,7 @@ TEST(RecordingBuilder, AChamberPressureThatIsNoNumberIsLeftOut) {
   EXPECT_EQ(recording.losses.bad_reference, 1u);
 }
 
-TEST(RecordingBuilder, AmbientComesFromTheOptionThenTheMatrixThenTheStandard) {
+TEST(RecordingBuilder, TakesAmbientPressureFromTheOptionThenTheMatrixThenTheStandard) {
   std::vector<Event> events = {scan(ms(0), 1, 5), chamber(ms(0), 150e3)};
   const Recording assumed = build(events);
   EXPECT_EQ(assumed.pressure.at(0), 150e3 - 101325.0);
@@ -197,7 +197,7 @@ TEST(RecordingBuilder, AmbientComesFromTheOptionThenTheMatrixThenTheStandard) {
   EXPECT_EQ(build(events, withAmbient(120e3)).pressure.at(0), 30e3);
 }
 
-TEST(RecordingBuilder, GaugeReadingsInTheChamberTopicAreNoticed) {
+TEST(RecordingBuilder, WarnsOfGaugeReadingsInTheChamberTopic) {
   const Recording recording = build({description(100e3), scan(ms(0), 1, 5), chamber(ms(0), 0.0)});
   ASSERT_EQ(recording.warnings.size(), 1u);
   EXPECT_EQ(recording.warnings.front(),
@@ -205,7 +205,7 @@ TEST(RecordingBuilder, GaugeReadingsInTheChamberTopicAreNoticed) {
             "check --ambient");
 }
 
-TEST(RecordingBuilder, ABareRecordingHasNoReferenceAndAnUnknownSurface) {
+TEST(RecordingBuilder, BuildsARecordingWithoutReferenceAndSurface) {
   const Recording recording = build({scan(ms(0), 1, 5), scan(ms(100), 2, 6)});
   EXPECT_EQ(recording.scans(), 2u);
   EXPECT_TRUE(recording.pressure.empty());
@@ -223,7 +223,7 @@ TEST(RecordingBuilder, ScansOnAnUnknownSurfaceAreDroppedWhereOthersAreKnown) {
   EXPECT_EQ(recording.conditions.size(), 1u);
 }
 
-TEST(RecordingBuilder, TemperatureHoldsItsEndsAndIsInterpolatedBetween) {
+TEST(RecordingBuilder, InterpolatesTheTemperatureAndHoldsItAtTheEnds) {
   const auto warm = [](std::int64_t stamp, double celsius) {
     return [=](RecordingBuilder& builder) { builder.addTemperature(stamp, celsius); };
   };
@@ -242,7 +242,7 @@ std::string complaint(const std::vector<Event>& events) {
   return "accepted";
 }
 
-TEST(RecordingBuilder, WhatIsOfTwoMatricesIsRefused) {
+TEST(RecordingBuilder, RefusesEventsOfTwoMatrices) {
   const auto other = [](RecordingBuilder& builder) {
     builder.addScan(ms(1), 1, matrix::view(matrix::Scan{{2, 2}, 4095, {1, 2, 3, 4}}));
   };
@@ -252,9 +252,8 @@ TEST(RecordingBuilder, WhatIsOfTwoMatricesIsRefused) {
   EXPECT_EQ(complaint({scan(ms(0), 1, 5), description(0, "0001", {7, 10})}),
             "matrix_info describes 7 x 10 taxels with full_scale 4095, but the scans in raw have 1 x 2 with "
             "4095");
-  EXPECT_EQ(
-      complaint({scan(ms(0), 1, 5), description(0, "0001"), description(0, "0002")}),
-      "matrix_info tells of the serial numbers \"0001\" and \"0002\", but a recording is of one matrix");
+  EXPECT_EQ(complaint({scan(ms(0), 1, 5), description(0, "0001"), description(0, "0002")}),
+            "matrix_info has the serial numbers \"0001\" and \"0002\", but a recording is of one matrix");
 }
 
 TEST(RecordingBuilder, MalformedEventsAreRefused) {
@@ -266,7 +265,7 @@ TEST(RecordingBuilder, MalformedEventsAreRefused) {
             "a scan holds a count of 1024, but its full_scale is 1023");
   EXPECT_EQ(complaint({malformed({{0, 0}, 1023, {}})}),
             "a scan has 0 x 0 taxels, but must have 1 to 64 rows and columns");
-  EXPECT_EQ(complaint({}), "raw holds no scan");
+  EXPECT_EQ(complaint({}), "raw has no scan");
   const auto wide = [](RecordingBuilder& builder) {
     builder.addSurface(ms(0), {"limb", 1, std::vector<matrix::Curvature>(3), {}});
   };

@@ -7,7 +7,7 @@
 namespace fsr::dataset {
 namespace {
 
-constexpr double kTolerance = 0.03;  // of a lag on a sheet without a loop, a third of a scan [s]
+constexpr double kTolerance = 0.03;  // of a lag on a sheet without hysteresis: a third of a scan [s]
 
 Recording recorded(double loop = 0) {
   test_support::SyntheticRig rig;
@@ -15,7 +15,7 @@ Recording recorded(double loop = 0) {
   return test_support::syntheticRecording(rig);
 }
 
-// The reference of `scans` later: the matrix answers later than it says.
+// Shifts the reference by `scans`, so that the matrix follows later than the reference.
 Recording late(std::ptrdiff_t scans) {
   Recording recording = recorded();
   const std::vector<double> pressure = recording.pressure;
@@ -27,14 +27,14 @@ Recording late(std::ptrdiff_t scans) {
   return recording;
 }
 
-TEST(ReferenceLag, IsNothingWhereStampsAreRight) {
+TEST(ReferenceLag, IsZeroWhereStampsAreRight) {
   const auto lag = referenceLag(recorded());
   ASSERT_TRUE(lag);
   EXPECT_NEAR(lag->seconds, 0, kTolerance);
   EXPECT_GT(lag->correlation, 0.8);
 }
 
-TEST(ReferenceLag, IsFoundEitherWay) {
+TEST(ReferenceLag, IsFoundInBothDirections) {
   for (const int scans : {-30, -7, 4, 25}) {
     const auto lag = referenceLag(late(scans));
     ASSERT_TRUE(lag) << scans;
@@ -42,7 +42,7 @@ TEST(ReferenceLag, IsFoundEitherWay) {
   }
 }
 
-TEST(ReferenceLag, TakesALoopForNoLag) {
+TEST(ReferenceLag, IsSmallForAHysteresisLoop) {
   const auto lag = referenceLag(recorded(200));  // 5 % of full scale
   ASSERT_TRUE(lag);
   EXPECT_NEAR(lag->seconds, 0, 0.3);

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/dataset/sections.h"
+#include "dataset/sections.h"
 
 #include <gtest/gtest.h>
 
@@ -33,16 +33,16 @@ TEST(Cycles, AreCutAtTheValleys) {
   EXPECT_EQ(cycles.direction[101], statistics::LoadDirection::kLoading);
 }
 
-TEST(Cycles, NoiseAndStepsOnTheWayAreNone) {
+TEST(Cycles, IgnoreNoiseAndStepsWithinACycle) {
   std::mt19937 random(3);
   std::vector<double> pressure = triangles(4, 400, 600e3);
   for (double& value : pressure) {
-    value = std::floor(value / 60e3) * 60e3 + static_cast<double>(random() % 10000);  // stairs, 10 kPa noise
+    value = std::floor(value / 60e3) * 60e3 + static_cast<double>(random() % 10000);  // steps, 10 kPa noise
   }
   EXPECT_EQ(findCycles(pressure).count(), 4u);
 }
 
-TEST(Cycles, OfGrowingPeaksEachCounts) {
+TEST(Cycles, CountEachOfIncreasingPeaks) {
   std::vector<double> pressure;
   for (const double peak : {60e3, 150e3, 300e3, 600e3}) {
     const auto one = triangles(1, 100, peak);
@@ -51,7 +51,7 @@ TEST(Cycles, OfGrowingPeaksEachCounts) {
   EXPECT_EQ(findCycles(pressure).count(), 4u);
 }
 
-TEST(Cycles, OfAPressureThatNeverChangesThereAreNone) {
+TEST(Cycles, AreNoneForAConstantPressure) {
   std::vector<double> pressure(100, 5e3);
   pressure[50] += 1e3;  // noise
   const Cycles cycles = findCycles(pressure);
@@ -61,7 +61,7 @@ TEST(Cycles, OfAPressureThatNeverChangesThereAreNone) {
   EXPECT_EQ(findCycles({1.0}).count(), 0u);
 }
 
-TEST(Cycles, ASingleRiseOrFallIsOne) {
+TEST(Cycles, IncludeASingleRiseOrFall) {
   const Cycles rise = findCycles({0, 100e3, 200e3, 300e3});
   EXPECT_EQ(rise.count(), 1u);
   EXPECT_EQ(rise.direction.at(3), statistics::LoadDirection::kLoading);
@@ -96,7 +96,7 @@ TEST(Sections, AreContiguousInEachConditionAndNeverSplitACycle) {
   EXPECT_TRUE(sections.warnings.empty());
 }
 
-TEST(Sections, FewerCyclesThanSectionsAreCutByTimeAndSaidSo) {
+TEST(Sections, DivideByTimeWithAWarningWhereCyclesAreFew) {
   SyntheticRig rig;
   rig.cycles = 3;
   const Recording recording = syntheticRecording(rig);
@@ -109,7 +109,7 @@ TEST(Sections, FewerCyclesThanSectionsAreCutByTimeAndSaidSo) {
       "cycle then stands on both sides of a split, and the scores flatter");
 }
 
-TEST(Sections, OfAConstantPressureAreCutByTimeAndSaidSo) {
+TEST(Sections, DivideAConstantPressureByTimeWithAWarning) {
   Recording recording = syntheticRecording({});
   for (double& pressure : recording.pressure) pressure = 3e3;
   const Sections sections = divideIntoSections(recording, 5);
@@ -119,7 +119,7 @@ TEST(Sections, OfAConstantPressureAreCutByTimeAndSaidSo) {
       "synthetic.bag, \"flat\": the chamber pressure never changes, so that there is nothing to learn from");
 }
 
-TEST(Sections, AScanWithoutPressureIsInNone) {
+TEST(Sections, ExcludeAScanWithoutPressure) {
   Recording recording = syntheticRecording({});
   recording.pressure[42] = std::nan("");
   const Sections sections = divideIntoSections(recording, 5);
@@ -127,7 +127,7 @@ TEST(Sections, AScanWithoutPressureIsInNone) {
   EXPECT_NE(sections.section[43], kNoSection);
 }
 
-TEST(Sections, FewerScansThanSectionsLeaveSomeEmpty) {
+TEST(Sections, AreEmptyWhereScansAreFewer) {
   SyntheticRig rig;
   rig.cycles = 1;
   rig.scans_per_cycle = 2;

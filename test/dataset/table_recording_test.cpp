@@ -66,7 +66,7 @@ TEST_F(Table, BecomesARecordingInSiUnits) {
   EXPECT_EQ(recording.conditions[0].curvature[0].x, 12.5);
 }
 
-TEST_F(Table, IsTheSameHoweverItIsWrittenDown) {
+TEST_F(Table, IsTheSameInEveryFormat) {
   const TableRecording plain = read(kPlain, "time=1,reading=3:V,reference=2:kPa");
   const std::vector<std::string> others = {
       "0 10 1.0 2.0\r\n0.5 20 1.5 3.0\r\n1 30 2.5 4.0\r\n",
@@ -93,7 +93,7 @@ TEST_F(Table, MayBeGzipped) {
   TablePlan plan;
   plan.columns = parseColumns("time=t,reading=left:V");
   EXPECT_EQ(readTable(path_, plan).recording.counts, plain.recording.counts);
-  fs::resize_file(path_, fs::file_size(path_) - 12);  // cut short
+  fs::resize_file(path_, fs::file_size(path_) - 12);  // truncated
   EXPECT_THROW(readTable(path_, plan), settings::InputError);
 }
 
@@ -111,7 +111,7 @@ TEST_F(Table, ConvertsEveryUnit) {
               1e-9);
 }
 
-TEST_F(Table, TurnsResistancesIntoConductances) {
+TEST_F(Table, ConvertsResistancesToConductances) {
   // 1 kohm = 1 mS, 500 ohm = 2 mS; no contact = no conductance
   const TableRecording table = read("0,1\n1,0.5\n2,inf\n", "time=1,reading=2:kohm");
   EXPECT_EQ(table.scale.unit, "S");
@@ -120,7 +120,7 @@ TEST_F(Table, TurnsResistancesIntoConductances) {
   expectComplaint("0,1\n1,0\n", "time=1,reading=2:ohm", {"line 2, column 2", "more than 0"});
 }
 
-TEST_F(Table, LeavesCountsAsTheyAre) {
+TEST_F(Table, KeepsCountsUnchanged) {
   EXPECT_EQ(read("0,7\n1,4095\n", "time=1,reading=2:counts").recording.full_scale, 4095);
   const TableRecording wide = read("0,7\n1,5000\n", "time=1,reading=2:counts");
   EXPECT_EQ(wide.recording.full_scale, 65535);
@@ -130,7 +130,7 @@ TEST_F(Table, LeavesCountsAsTheyAre) {
   expectComplaint("0,7\n1,2000\n", "time=1,reading=2", {"line 2", "2000", "--full-scale"}, plan);
 }
 
-TEST_F(Table, TakesAnAbsoluteReferenceByTheAmbientPressure) {
+TEST_F(Table, ConvertsAnAbsoluteReferenceByTheAmbientPressure) {
   TablePlan plan;
   plan.ambient_pressure = 100e3;
   EXPECT_EQ(read("0,150,1\n1,160,1\n", "time=1,reference=2:kPa,reading=3:V", plan).recording.pressure,
@@ -153,7 +153,7 @@ TEST_F(Table, CountsItsTimeFromTheFirstRow) {
   EXPECT_EQ(recording.time, (std::vector<double>{0, 1}));
 }
 
-TEST_F(Table, RefusesCellsThatAreNoNumbersByLineAndColumn) {
+TEST_F(Table, NamesLineAndColumnOfACellThatIsNotANumber) {
   const std::string head = "t,x\n0,1\n1,2\n";
   expectComplaint(head + "2,nan\n", "time=t,reading=x:V", {path_, "line 4, column x", "nan"});
   expectComplaint(head + "2,\n", "time=t,reading=x:V", {"line 4, column x", "empty"});
@@ -162,12 +162,12 @@ TEST_F(Table, RefusesCellsThatAreNoNumbersByLineAndColumn) {
   expectComplaint(head + "2\n", "time=t,reading=x:V", {"line 4", "1 columns"});
 }
 
-TEST_F(Table, RefusesATimeThatDoesNotMoveOn) {
+TEST_F(Table, RefusesATimeThatDoesNotIncrease) {
   expectComplaint("0,1\n1,1\n0.5,1\n", "time=1,reading=2:V", {"line 3, column 1", "0.5", "move on"});
   expectComplaint("0,1\n1,1\n1,1\n", "time=1,reading=2:V", {"line 3, column 1", "move on"});
 }
 
-TEST_F(Table, LeavesOutWhatItWouldRefuseWhereThatIsWanted) {
+TEST_F(Table, SkipsBadRowsOnRequest) {
   TablePlan plan;
   plan.skip_bad_rows = true;
   const TableRecording table = read("0,1\n1,nan\n2,1\n1.5,1\n3\n4,1\n", "time=1,reading=2:V", plan);
@@ -183,7 +183,7 @@ TEST_F(Table, RefusesReadingsOutsideTheRange) {
   const TableRecording table = read(kPlain, "time=t,reading=right:V", plan);
   EXPECT_EQ(table.scale.text(), "0 counts = -5 V, 65535 counts = 5 V");
   EXPECT_EQ(table.recording.counts[0], 45875);  // 7/10 of 65535
-  plan.range = {{5, -5}};                       // falls with the pressure
+  plan.range = {{5, -5}};                       // decreases with the pressure
   EXPECT_EQ(read(kPlain, "time=t,reading=right:V", plan).recording.counts[0], 19661);  // 3/10
 }
 
@@ -194,14 +194,14 @@ TEST_F(Table, RefusesAPlanThatDoesNotFit) {
   TablePlan plan;
   plan.matrix = {2, 2};
   expectComplaint(kPlain, "time=t,reading=left:V", {"2 x 2"}, plan);
-  expectComplaint("", "time=1,reading=2", {"holds no row"});
+  expectComplaint("", "time=1,reading=2", {"has no row"});
   expectComplaint("t,x\n0,1\n", "time=t,reading=x", {"fewer than two"});
   TablePlan none;
   none.columns = parseColumns("time=1,reading=2");
   EXPECT_THROW(readTable("/no/such/table.csv", none), settings::InputError);
 }
 
-TEST(TableColumns, AreRefusedWithWhatWouldBeRight) {
+TEST(TableColumns, AreRefusedWithTheListOfPermittedValues) {
   const auto complaint = [](const std::string& text) -> std::string {
     try {
       parseColumns(text);
@@ -215,12 +215,12 @@ TEST(TableColumns, AreRefusedWithWhatWouldBeRight) {
   EXPECT_NE(complaint("time=1,time=2,reading=3").find("time twice"), std::string::npos);
   EXPECT_NE(complaint("reading=2").find("no time"), std::string::npos);
   EXPECT_NE(complaint("time=1").find("no reading"), std::string::npos);
-  EXPECT_NE(complaint("time=1,reading=").find("names no column"), std::string::npos);
+  EXPECT_NE(complaint("time=1,reading=").find("has no column"), std::string::npos);
   EXPECT_NE(complaint("time=1,reading=2,reference=3:-5Pa").find("-5Pa"), std::string::npos);
   EXPECT_EQ(parseColumns("time=1:ms,reading=a:b:V")[1].column, "a:b");  // a name with a colon, unit given
 }
 
-TEST_F(Table, RefusesWhatLeavesTheRangeOfItsUnit) {
+TEST_F(Table, RefusesValuesOutsideTheRangeOfTheirUnit) {
   expectComplaint("0,1,1e-320\n1,2,5\n", "time=1,reference=2,reading=3:ohm",
                   {"line 1, column 3: is 1e-320, but in SI units must be 1e+15 at most"});
   expectComplaint("0,1e308,1\n1,2,5\n", "time=1,reference=2:psi,reading=3:V", {"column 2: is 1e308, but"});
@@ -229,12 +229,12 @@ TEST_F(Table, RefusesWhatLeavesTheRangeOfItsUnit) {
                   {"column 4: must be a whole number, 0 to 4294967295"});
 }
 
-TEST_F(Table, ALineOfOtherWhiteSpaceIsNoRow) {
-  expectComplaint("\v\n", "time=1,reading=2:V", {"holds no row"});
+TEST_F(Table, SkipsALineOfOtherWhiteSpace) {
+  expectComplaint("\v\n", "time=1,reading=2:V", {"has no row"});
 }
 
-TEST_F(Table, ALineThatBeginsWithAByteOfZeroIsRefused) {
-  expectComplaint(std::string("\0,1\n", 4), "time=1,reading=2:V", {"holds a byte of 0"});
+TEST_F(Table, RefusesALineThatBeginsWithAZeroByte) {
+  expectComplaint(std::string("\0,1\n", 4), "time=1,reading=2:V", {"has a zero byte"});
 }
 
 }  // namespace

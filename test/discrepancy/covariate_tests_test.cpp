@@ -20,8 +20,8 @@ std::vector<CovariateTest> testsOf(const DiscrepancyProblem& problem, std::uint6
   const CommonTraces common = commonTraces(measured);
   const StaticFit fit(measured, CurvePer::kClass, common.all);
   const TaxelFit taxels(measured, fit);
-  const Competition competition(measured, common, fit, {}, 1);
-  return CovariateTests{measured, common, fit, taxels, competition, 1, draws}.run();
+  const Candidates candidates(measured, common, fit, {}, 1);
+  return CovariateTests{measured, common, fit, taxels, candidates, 1, draws}.run();
 }
 
 std::vector<CovariateTest> planted(const std::string& rig, const std::string& more) {
@@ -41,7 +41,7 @@ void makeNoise(DiscrepancyProblem& problem, std::uint64_t night) {
   const Measured measured = admit(problem);
   const statistics::RandomStream noise = statistics::randomStream(night, "night"),
                                  gains = statistics::randomStream(night, "gain");
-  for (std::size_t m = 0; m < measured.moments(); ++m) {
+  for (std::size_t m = 0; m < measured.samples(); ++m) {
     ASSERT_EQ(measured.scans[m], 1u);
     const double share = measured.pressure[m] / 620e3;
     const double gain = 1 + 0.004 * gains.normal(measured.cycle[m]);

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "simulation/read_settings.h"
 #include "simulation/session.h"
 
 namespace {

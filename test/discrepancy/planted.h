@@ -7,6 +7,7 @@
 
 #include "discrepancy/samples/measured.h"
 #include "simulation/driven_rig.h"
+#include "simulation/read_settings.h"
 #include "simulation/session.h"
 
 namespace fsr::discrepancy::planted {
@@ -106,7 +107,7 @@ DiscrepancyProblem problemFeeling(const std::string& text, More more) {
   DiscrepancyProblem problem = planted::problem(text, "");
   const Measured measured = admit(problem);
   std::vector<dataset::Recording> felt = problem.recordings;
-  for (std::size_t m = 0; m < measured.moments(); ++m) {
+  for (std::size_t m = 0; m < measured.samples(); ++m) {
     const double share = std::clamp(measured.pressure[m] / 620e3, 0.0, 1.0);
     dataset::Recording& recording = felt[measured.visits[measured.visit[m]].recording];
     recording.pressure[measured.first_scan[m]] += more(share, measured.direction[m]);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "discrepancy/fit/taxel_curves_fit.h"
+#include "simulation/read_settings.h"
 #include "simulation/session.h"
 
 namespace fsr::discrepancy {

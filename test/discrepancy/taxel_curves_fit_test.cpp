@@ -55,7 +55,7 @@ TEST(TaxelCurvesFit, AreNotFittedToWhatIsShown) {
     for (const MeasuredCycle& cycle : first.cycles) {
       const bool inside = time >= first.time[cycle.first] &&
                           (cycle.last >= first.time.size() || time < first.time[cycle.last]);
-      if (cycle.use == CycleUse::kShow && inside) problem.recordings[0].counts[i * 6] = 4000;
+      if (cycle.use == CycleUse::kHoldOut && inside) problem.recordings[0].counts[i * 6] = 4000;
     }
   }
   const Measured spoilt = admit(problem);

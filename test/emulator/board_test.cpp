@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "fsr_pressure_map/protocol/decoder.h"
+#include "protocol/wire_decoder.h"
+#include "simulation/read_settings.h"
 #include "support/packet_recorder.h"
 
 namespace {
@@ -18,7 +19,7 @@ fsr::simulation::SimulationSettings smallRig(const std::string& board) {
 
 std::vector<std::string> packetsUntil(Board& board, double end) {
   test_support::PacketRecorder recorder;
-  fsr::protocol::Decoder decoder(recorder);
+  fsr::protocol::WireDecoder decoder(recorder);
   while (board.nextDue() <= end) {
     const auto& packet = board.next([](double) { return 0.0; });
     decoder.feed(packet.data(), packet.size());
@@ -42,13 +43,13 @@ TEST(Board, SendsEachKindAtItsOwnRate) {
   EXPECT_EQ(packetsUntil(board, 0.99), expected);
 }
 
-TEST(Board, TellsOfTheMiddleOfAScanAndSendsItAtTheEnd) {
+TEST(Board, StampsAScanWithItsMiddleAndSendsItAtTheEnd) {
   Board board(smallRig("{scan_rate: 10, scan_duration: 0.08, transducer_rate: 0}"), {});
   EXPECT_EQ(packetsUntil(board, 0.039).size(), 2u);  // identity and temperature
   EXPECT_EQ(packetsUntil(board, 0.041).front(), "scan #0 @0 1x2 full 4095 took 80000 counts 0 0");
 }
 
-TEST(Board, ItsClockHasAnOffsetADriftAndWrapsOnTheWire) {
+TEST(Board, HasAClockWithOffsetAndDriftThatWrapsInPackets) {
   Board board(smallRig("{scan_rate: 1, transducer_rate: 0}"), {4294000000u, 100});
   EXPECT_EQ(board.deviceTime(10), 4294000000u + std::uint64_t{10001000});
   EXPECT_NEAR(board.rigTime(board.deviceTime(10)), 10, 1e-6);
@@ -67,7 +68,7 @@ TEST(Board, StartsAgainWhenReset) {
   EXPECT_NEAR(board.rigTime(200000), 10.5, 1e-9);
 }
 
-TEST(Board, KnowsWhatItsLinkMustCarry) {
+TEST(Board, ComputesTheBitRateOfItsLink) {
   // 10 bits a byte; a scan of 7 x 10 is 168 bytes, a transducer or temperature packet 24, identity 76.
   const auto demo = fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/demo.yaml");
   EXPECT_NEAR(Board(demo, {}).bitsPerSecond(), 10 * (10 * 168 + 10 * 24 + 24 + 76), 1e-9);

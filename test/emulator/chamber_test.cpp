@@ -12,7 +12,7 @@ using fsr::simulation::ChamberProtocol;
 // 10 s rest, 40 s up to 400 kPa, 5 s dwell, 20 s down: 75 s a cycle.
 const ChamberProtocol kSlow{400e3, 10e3, 20e3, 5, 10, 2};
 
-TEST(Chamber, RestsUntilItIsStarted) {
+TEST(Chamber, IsAtRestUntilItIsStarted) {
   EXPECT_EQ(Chamber().gaugePressure(1e6), 0);
 }
 
@@ -36,7 +36,7 @@ TEST(Chamber, VentsWhenStoppedAndNeverChangesThePast) {
   EXPECT_TRUE(std::isinf(chamber.cyclesEnd()));
 }
 
-TEST(Chamber, VentsBeforeAFreshRun) {
+TEST(Chamber, VentsBeforeANewRun) {
   Chamber chamber;
   chamber.startCycles(0, kSlow);
   chamber.startCycles(30, kSlow);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "simulation/pressure_profile.h"
 #include "support/board_listener.h"
 #include "support/pty.h"
 
@@ -20,9 +21,9 @@ using fsr::matrix::Curvature;
 using fsr::matrix::Surface;
 using test_support::BoardListener;
 
-constexpr auto kLong = 30s;  // for what must happen; nothing waits for it to pass
+constexpr auto kLong = 30s;  // limit for events that must happen; no test waits that long
 
-/// The bench rig, two hundred times as fast as life.
+/// The bench rig at two hundred times real time.
 EmulatorOptions bench() {
   EmulatorOptions options;
   options.simulation = fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/bench.yaml");
@@ -30,8 +31,8 @@ EmulatorOptions bench() {
   return options;
 }
 
-/// Reads until a scan of this rig time or later [s]. What was sent before a command may wait in the port,
-/// hundreds of scans of it on a busy machine: only the stamp tells what came after.
+/// Reads until a scan of this rig time or later [s]. Scans from before a command may still be in the port,
+/// hundreds of them on a busy machine. Only the stamp shows which scans came after it.
 bool hears(BoardListener& listener, const Emulator& rig, double time) {
   return listener.until(
       [&] { return !listener.scans.empty() && rig.rigTime(listener.scans.back().device_time) >= time; });
@@ -41,7 +42,7 @@ Surface cylinder() {
   return {"cylinder_7cm", 2, {Curvature{1 / 0.07, 0, 0}}, {}};
 }
 
-/// Counts that the chain makes of the pressures that scan 0, 1, 2 ... saw on these surfaces.
+/// Counts of the sensor chain for the pressures of scans 0, 1, 2 ... on these surfaces.
 class Replay {
  public:
   explicit Replay(const fsr::simulation::SimulationSettings& settings) : chain_(settings) {}
@@ -55,7 +56,7 @@ class Replay {
   std::uint64_t number_ = 0;
 };
 
-TEST(Emulator, ItsBytesDecodeWithoutDamage) {
+TEST(Emulator, SendsBytesThatDecodeWithoutDamage) {
   Emulator rig(bench());
   BoardListener listener(rig.port());
   ASSERT_TRUE(listener.untilScans(100));
@@ -64,10 +65,10 @@ TEST(Emulator, ItsBytesDecodeWithoutDamage) {
   EXPECT_FALSE(listener.temperature.empty());
   EXPECT_EQ(listener.temperature.front().value, 23000);
   EXPECT_EQ(listener.counts().skipped_bytes, 0u);
-  EXPECT_EQ(listener.counts().of(FSR_WIRE_SCAN).lost, 0u);
+  EXPECT_EQ(listener.counts().of(fsr::protocol::PacketType::kScan).lost, 0u);
 }
 
-TEST(Emulator, TransducerTellsThePressureOfTheProtocolAtItsStamp) {
+TEST(Emulator, SendsTransducerReadingsOfThePressureAtTheirStamps) {
   EmulatorOptions options = bench();
   options.autostart = true;
   Emulator rig(options);
@@ -85,7 +86,7 @@ TEST(Emulator, TransducerTellsThePressureOfTheProtocolAtItsStamp) {
   EXPECT_NEAR(highest, 300e3, 3000);
 }
 
-TEST(Emulator, CountsAreTheChainsForPressureAndSurfaceAtTheStamp) {
+TEST(Emulator, SendsTheCountsOfTheSensorChainForPressureAndSurfaceAtTheStamp) {
   EmulatorOptions options = bench();
   options.autostart = true;
   Emulator rig(options);
@@ -94,8 +95,8 @@ TEST(Emulator, CountsAreTheChainsForPressureAndSurfaceAtTheStamp) {
   ASSERT_TRUE(listener.untilScans(60));
   rig.setSurface(cylinder());
   ASSERT_TRUE(hears(listener, rig, rig.rigTime() + 120 / options.simulation.board.scan_rate));
-  // The listener may have come after the first scans: the chain sees all of them, the test compares the
-  // ones that were heard.
+  // The listener may have missed the first scans. The chain computes all of them; the test compares those
+  // that were received.
   Replay replay(options.simulation);
   std::size_t heard = 0, bent = 0;
   for (std::uint32_t number = 0; heard < listener.scans.size(); ++number) {
@@ -124,7 +125,7 @@ TEST(Emulator, KeepsTheSpacingOfRigTimeAtAnyTimeScale) {
   EXPECT_GE(wall.count(), 100 * 0.05 / 20) << "rig time may wait, but never runs ahead of its schedule";
 }
 
-TEST(Emulator, TellsRigTimeBeforeEachScanAndInOrder) {
+TEST(Emulator, ReportsRigTimeBeforeEachScanAndInOrder) {
   EmulatorOptions options = bench();
   std::mutex mutex;
   std::vector<double> times;
@@ -147,7 +148,7 @@ TEST(Emulator, TellsRigTimeBeforeEachScanAndInOrder) {
   }
 }
 
-TEST(Emulator, SaysWhenARunIsDoneAndStartsAFreshOne) {
+TEST(Emulator, ReportsTheEndOfARunAndStartsANewOne) {
   Emulator rig(bench());
   EXPECT_EQ(rig.status().state, RigStatus::State::kIdle);
   EXPECT_EQ(rig.startCycles(), 1u);
@@ -169,7 +170,7 @@ TEST(Emulator, VentsWhenStopped) {
   EXPECT_EQ(rig.gaugePressure(rig.rigTime()), 0);
 }
 
-TEST(EmulatorDamage, LostBytesCostPacketsAndNoMore) {
+TEST(EmulatorDamage, LostBytesCostOnlyThePacketsThatTheyHit) {
   Emulator rig(bench());
   BoardListener listener(rig.port());
   LineDamage damage;
@@ -178,12 +179,12 @@ TEST(EmulatorDamage, LostBytesCostPacketsAndNoMore) {
   ASSERT_TRUE(hears(listener, rig, rig.rigTime() + 10));
   const auto& counts = listener.counts();
   EXPECT_GT(rig.counts().damage.lost_bytes, 0u);
-  EXPECT_GT(counts.of(FSR_WIRE_SCAN).lost, 0u);
+  EXPECT_GT(counts.of(fsr::protocol::PacketType::kScan).lost, 0u);
   rig.setDamage({});
   ASSERT_TRUE(hears(listener, rig, rig.rigTime()));
-  const auto lost = counts.of(FSR_WIRE_SCAN).lost;
+  const auto lost = counts.of(fsr::protocol::PacketType::kScan).lost;
   ASSERT_TRUE(listener.untilScans(100));
-  EXPECT_EQ(counts.of(FSR_WIRE_SCAN).lost, lost) << "healed";
+  EXPECT_EQ(counts.of(fsr::protocol::PacketType::kScan).lost, lost) << "no loss after the damage ended";
 }
 
 TEST(EmulatorDamage, FlippedBitsFailTheChecks) {
@@ -204,11 +205,12 @@ TEST(EmulatorDamage, APauseIsAGapOfItsLength) {
   LineDamage damage;
   damage.pause = 3;
   rig.setDamage(damage);
-  ASSERT_TRUE(listener.until([&] { return listener.counts().of(FSR_WIRE_SCAN).gaps > 0; }));
-  EXPECT_NEAR(static_cast<double>(listener.counts().of(FSR_WIRE_SCAN).lost), 3 * 20, 1);
+  ASSERT_TRUE(
+      listener.until([&] { return listener.counts().of(fsr::protocol::PacketType::kScan).gaps > 0; }));
+  EXPECT_NEAR(static_cast<double>(listener.counts().of(fsr::protocol::PacketType::kScan).lost), 3 * 20, 1);
 }
 
-TEST(EmulatorDamage, UnpluggedThePortIsGoneAndComesBackUnderItsName) {
+TEST(EmulatorDamage, UnpluggingRemovesThePortAndPluggingInRestoresItsName) {
   const test_support::TemporaryFolder folder;
   EmulatorOptions options = bench();
   options.link = folder.path("board");
@@ -228,7 +230,7 @@ TEST(EmulatorDamage, UnpluggedThePortIsGoneAndComesBackUnderItsName) {
   EXPECT_TRUE(listener.untilScans(10));
 }
 
-TEST(EmulatorDamage, AReaderAtAnotherSpeedHearsNothingSound) {
+TEST(EmulatorDamage, AReaderAtAnotherSpeedReceivesNoValidPacket) {
   EmulatorOptions options = bench();
   options.baud = 230400;
   Emulator rig(options);
@@ -251,7 +253,7 @@ TEST(EmulatorDamage, AResetRestartsClockAndCounters) {
   BoardListener listener(rig.port());
   ASSERT_TRUE(listener.until([&] { return !listener.scans.empty() && listener.scans.back().sequence > 40; }));
   rig.resetBoard();
-  // One read may bring what was sent long before the reset and long after.
+  // One read may return bytes from long before the reset and from long after it.
   const auto restart = [&] {
     return std::adjacent_find(listener.scans.begin(), listener.scans.end(),
                               [](const auto& a, const auto& b) { return b.sequence < a.sequence; });
@@ -260,7 +262,7 @@ TEST(EmulatorDamage, AResetRestartsClockAndCounters) {
   const auto first = std::next(restart());
   EXPECT_LT(first->device_time, restart()->device_time);
   EXPECT_LE(first->device_time, 100000u * (first->sequence + 1));
-  EXPECT_EQ(listener.counts().of(FSR_WIRE_SCAN).restarts, 1u);
+  EXPECT_EQ(listener.counts().of(fsr::protocol::PacketType::kScan).restarts, 1u);
 }
 
 TEST(EmulatorLine, ASlowReaderLosesWholePacketsAndNeverBlocksTheBoard) {
@@ -270,30 +272,31 @@ TEST(EmulatorLine, ASlowReaderLosesWholePacketsAndNeverBlocksTheBoard) {
   options.simulation.board.scan_rate = 1000;
   Emulator rig(options);
   BoardListener listener(rig.port());
-  // Nobody reads, though the port is open: time goes on all the same.
+  // The port is open but not read. Rig time continues.
   ASSERT_TRUE(rig.waitForReader(kLong));
   while (rig.counts().dropped < 10) ASSERT_TRUE(rig.waitForRigTime(rig.rigTime() + 0.02, kLong));
   ASSERT_TRUE(listener.untilScans(50));
-  EXPECT_GT(listener.counts().of(FSR_WIRE_SCAN).lost, 0u);
+  EXPECT_GT(listener.counts().of(fsr::protocol::PacketType::kScan).lost, 0u);
   EXPECT_EQ(listener.counts().skipped_bytes, 0u) << "no packet in pieces";
 }
 
-// On a busy computer the emulator's thread comes late; a board does not, and its packets are not lost for
-// that.
-TEST(EmulatorLine, ItsOwnLatenessLosesNothing) {
+// On a busy computer the emulator's thread may run late. A board does not, so no packet may be lost because
+// of this.
+TEST(EmulatorLine, ADelayOfTheEmulatorLosesNothing) {
   EmulatorOptions options = bench();
   options.time_scale = 1;
   options.simulation.layout.size = {32, 32};
-  options.simulation.board.scan_rate = 100;  // the port holds 0.3 s of it
+  options.simulation.board.scan_rate = 100;  // the port buffers 0.3 s of scans
   int packets = 0;
   options.on_packet = [&packets](const std::vector<std::uint8_t>&) {
     if (++packets == 10) std::this_thread::sleep_for(std::chrono::milliseconds(1200));
   };
   Emulator rig(options);
   BoardListener listener(rig.port());
-  // Until it has caught up it waits for the reader too, however slow that is on a busy machine; not later.
+  // Until the emulator has caught up, it also waits for a reader that is slow on a busy machine, but not
+  // later.
   ASSERT_TRUE(listener.untilScans(110));
-  EXPECT_EQ(listener.counts().of(FSR_WIRE_SCAN).lost, 0u);
+  EXPECT_EQ(listener.counts().of(fsr::protocol::PacketType::kScan).lost, 0u);
 }
 
 TEST(EmulatorLine, ScaledRigTimeWaitsForASlowReaderButNotForEver) {
@@ -303,12 +306,12 @@ TEST(EmulatorLine, ScaledRigTimeWaitsForASlowReaderButNotForEver) {
   BoardListener listener(rig.port());
   ASSERT_TRUE(rig.waitForReader(kLong));
   ASSERT_TRUE(listener.untilScans(2000));
-  EXPECT_EQ(listener.counts().of(FSR_WIRE_SCAN).lost, 0u);
+  EXPECT_EQ(listener.counts().of(fsr::protocol::PacketType::kScan).lost, 0u);
   const double then = rig.rigTime();
-  EXPECT_TRUE(rig.waitForRigTime(then + 500, kLong)) << "though nobody reads any more";
+  EXPECT_TRUE(rig.waitForRigTime(then + 500, kLong)) << "although the port is not read any more";
 }
 
-TEST(EmulatorLine, AListenerFindsNothingFromBeforeItCame) {
+TEST(EmulatorLine, AReaderReceivesNothingFromBeforeItOpenedThePort) {
   Emulator rig(bench());
   {
     BoardListener earlier(rig.port());
@@ -321,7 +324,7 @@ TEST(EmulatorLine, AListenerFindsNothingFromBeforeItCame) {
   EXPECT_GT(rig.rigTime(listener.scans[0].device_time), opened - 0.1);
 }
 
-TEST(Emulator, RefusesWhatCannotBe) {
+TEST(Emulator, RefusesImpossibleOptions) {
   EmulatorOptions options = bench();
   options.time_scale = 0;
   EXPECT_THROW(Emulator{options}, fsr::settings::InputError);
@@ -337,7 +340,7 @@ TEST(Emulator, RefusesWhatCannotBe) {
   const test_support::TemporaryFolder folder;
   options = bench();
   options.link = folder.path("board");
-  std::ofstream(options.link) << "a file that nobody may lose";
+  std::ofstream(options.link) << "a file that must not be overwritten";
   EXPECT_THROW(Emulator{options}, fsr::settings::InputError);
   EXPECT_TRUE(std::filesystem::is_regular_file(options.link));
 }

@@ -13,15 +13,16 @@ using fsr::emulator::LineDamage;
 using fsr::emulator::LossyLine;
 using Bytes = std::vector<std::uint8_t>;
 
-TEST(HeardByUart, IsTrueAtTheRightSpeedAndWithinItsTolerance) {
+TEST(HeardByUart, IsWhatWasSentAtTheRightSpeedAndWithinItsTolerance) {
   const Bytes sent = {0x00, 0xFF, 0xA5, 0x5A, 0x12};
   EXPECT_EQ(heardByUart(sent, 115200, 115200), sent);
   EXPECT_EQ(heardByUart(sent, 115200, 117500), sent);  // 2 %
   EXPECT_EQ(heardByUart(sent, 117500, 115200), sent);
 }
 
-// By hand: at twice the speed every bit is seen twice. 0xFF is low for the start bit only: start bit and
-// bit 0 are low, the rest high. 0x00 is low for nine bits, more than one frame, and has no second edge.
+// By hand: at twice the speed every bit is sampled twice. 0xFF is low for the start bit only, so start bit
+// and bit 0 are low, the rest is high. 0x00 is low for nine bits, more than one frame, and has no second
+// edge.
 TEST(HeardByUart, SeesEachBitTwiceAtTwiceTheSpeed) {
   EXPECT_EQ(heardByUart({0xFF}, 57600, 115200), Bytes{0xFE});
   EXPECT_EQ(heardByUart({0x00}, 57600, 115200), Bytes{0x00});
@@ -31,14 +32,15 @@ TEST(HeardByUart, SeesEachBitTwiceAtTwiceTheSpeed) {
 }
 
 // By hand: at half the speed the samples fall on the boundaries 1, 3, 5 ... of the sender's bits. The start
-// bit of 0xFF is over by then: a spike. 0x00 is low until 9: bits 0 to 2 (at 3, 5, 7) are low, then high.
+// bit of 0xFF has ended by then and is ignored as a spike. 0x00 is low until 9: bits 0 to 2 (at 3, 5, 7) are
+// low, then high.
 TEST(HeardByUart, SkipsEveryOtherBitAtHalfTheSpeed) {
   EXPECT_EQ(heardByUart({0xFF}, 115200, 57600), Bytes{});
   EXPECT_EQ(heardByUart({0x00}, 115200, 57600), Bytes{0xF8});
 }
 
-// A receiver sixteen times as fast is done with its frame within the start bit: all it ever sees is low.
-TEST(HeardByUart, AFarFasterReceiverHearsZerosAndComesToAnEnd) {
+// A receiver that is sixteen times as fast completes its frame within the start bit, so every sample is low.
+TEST(HeardByUart, OfAMuchFasterReceiverAreZeros) {
   EXPECT_EQ(heardByUart({0xFF}, 57600, 921600), Bytes{0x00});
   EXPECT_EQ(heardByUart({0x00, 0xFF}, 57600, 921600), (Bytes{0x00, 0x00}));
 }
@@ -67,7 +69,7 @@ TEST(LossyLine, LosesAndDoublesWholePacketsAndAddsNoise) {
   EXPECT_EQ(line.counts().noise_bytes, 6u);
 }
 
-TEST(LossyLine, LosesAndFlipsAtTheRateAskedFor) {
+TEST(LossyLine, LosesAndFlipsAtTheGivenRates) {
   LossyLine line(3);
   LineDamage damage;
   damage.lost_bytes = 0.01;
@@ -84,14 +86,14 @@ TEST(LossyLine, LosesAndFlipsAtTheRateAskedFor) {
   EXPECT_EQ(line.counts().flipped_bits, flipped);
 }
 
-TEST(LossyLine, IsTransparentWhenHealthy) {
+TEST(LossyLine, ChangesNothingWithoutDamage) {
   LossyLine line(3);
   Bytes bytes = {1, 2, 3};
   line.pass({}, bytes);
   EXPECT_EQ(bytes, (Bytes{1, 2, 3}));
 }
 
-TEST(LineDamage, RefusesWhatIsNoProbability) {
+TEST(LineDamage, RefusesValuesThatAreNotProbabilities) {
   LineDamage damage;
   damage.lost_bytes = 1.5;
   EXPECT_THROW(validate(damage), fsr::settings::InputError);

@@ -15,12 +15,12 @@ namespace {
 using fsr::emulator::PseudoTerminal;
 using Outcome = PseudoTerminal::Outcome;
 
-/// A program that opens the port and sets nothing at all.
+/// A program that opens the port and changes no setting.
 class PlainReader {
  public:
   explicit PlainReader(const std::string& port) : descriptor_(open(port.c_str(), O_RDWR | O_NOCTTY)) {}
   ~PlainReader() { close(descriptor_); }
-  /// What there is within a tenth of a second, "" where nothing comes.
+  /// The bytes that arrive within a tenth of a second, "" where none do.
   std::string read() {
     pollfd event = {descriptor_, POLLIN, 0};
     if (poll(&event, 1, 100) <= 0) return "";
@@ -37,15 +37,16 @@ Outcome write(PseudoTerminal& port, const std::string& text) {
   return port.write(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
 }
 
-TEST(PseudoTerminal, PassesEveryByteUntouchedToAReaderThatSetsNothing) {
+TEST(PseudoTerminal, PassesEveryByteUnchangedToAReaderThatSetsNothing) {
   PseudoTerminal port("", 115200);
   PlainReader reader(port.path());
-  const std::string bytes("\x03\x04\r\n\x11\x13\x1a\xff\0x", 10);  // all that a terminal would act on
+  const std::string bytes("\x03\x04\r\n\x11\x13\x1a\xff\0x",
+                          10);  // all bytes that a terminal would interpret
   EXPECT_EQ(write(port, bytes), Outcome::kSent);
   EXPECT_EQ(reader.read(), bytes);
 }
 
-TEST(PseudoTerminal, KnowsWhetherSomebodyListens) {
+TEST(PseudoTerminal, KnowsWhetherAReaderHasItOpen) {
   PseudoTerminal port("", 115200);
   EXPECT_FALSE(port.hasReader());
   EXPECT_EQ(write(port, "x"), Outcome::kUnheard);
@@ -56,7 +57,7 @@ TEST(PseudoTerminal, KnowsWhetherSomebodyListens) {
   EXPECT_FALSE(port.hasReader());
 }
 
-TEST(PseudoTerminal, ForgetsWhatTheLastReaderLeftUnread) {
+TEST(PseudoTerminal, DropsWhatTheLastReaderDidNotRead) {
   PseudoTerminal port("", 115200);
   {
     PlainReader careless(port.path());
@@ -68,7 +69,7 @@ TEST(PseudoTerminal, ForgetsWhatTheLastReaderLeftUnread) {
   EXPECT_EQ(next.read(), "fresh");
 }
 
-TEST(PseudoTerminal, DropsWholePacketsWhereTheReaderIsBehind) {
+TEST(PseudoTerminal, DropsWholePacketsWhereTheReaderIsTooSlow) {
   PseudoTerminal port("", 115200);
   PlainReader reader(port.path());
   const std::string packet = std::string(999, 'x') + "\n";
@@ -84,16 +85,16 @@ TEST(PseudoTerminal, DropsWholePacketsWhereTheReaderIsBehind) {
   EXPECT_TRUE(port.waitForRoom(std::chrono::milliseconds(1000)));
   EXPECT_EQ(write(port, "last"), Outcome::kSent);
   for (std::string bytes = reader.read(); !bytes.empty(); bytes = reader.read()) read += bytes.size();
-  EXPECT_EQ(read, 1000u * static_cast<std::size_t>(sent) + 4u) << "all that was sent came, and whole";
+  EXPECT_EQ(read, 1000u * static_cast<std::size_t>(sent) + 4u) << "all packets sent were received completely";
 }
 
-TEST(PseudoTerminal, ItsLinkLivesAndDiesWithIt) {
+TEST(PseudoTerminal, CreatesItsLinkAndRemovesItAtTheEnd) {
   const test_support::TemporaryFolder folder;
   const std::string link = folder.path("board");
   {
     PseudoTerminal first(link, 115200);
     EXPECT_EQ(first.path(), link);
-    PseudoTerminal second(link, 115200);  // takes the name over
+    PseudoTerminal second(link, 115200);  // replaces the link
     PlainReader reader(link);
     EXPECT_TRUE(second.hasReader());
     EXPECT_FALSE(first.hasReader());
@@ -101,7 +102,7 @@ TEST(PseudoTerminal, ItsLinkLivesAndDiesWithIt) {
   EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(link)));
 }
 
-TEST(PseudoTerminal, ShowsTheSpeedThatItsReaderSees) {
+TEST(PseudoTerminal, ReportsTheSpeedThatItsReaderSets) {
   PseudoTerminal port("", 250000);
   EXPECT_EQ(port.readerBaud(), 250000u);
 }

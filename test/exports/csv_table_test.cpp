@@ -52,7 +52,7 @@ TEST_F(CsvTable, HasARowForEachTaxelAndScan) {
   EXPECT_EQ(rows[5], head + "1,1,17,NA,NA,DEAD" + tail);
 }
 
-TEST_F(CsvTable, SaysNaForWhatIsNotKnown) {
+TEST_F(CsvTable, WritesNaForUnknownValues) {
   write({bareScan()});
   EXPECT_EQ(lines().at(1),
             "2_cylinder.bag,NA,NA,NA,NA,NA,0.150000001,NA,0,0,9,NA,NA,NA,NA,NA,NA,NA,1700000000.223456789");
@@ -82,7 +82,7 @@ TEST_F(CsvTable, RReadsBackTheExactNumbers) {
   EXPECT_EQ(word, " note:wet, \"warm\" TARED|BELOW_RANGE 7 integer 4095 NA");
 }
 
-// The reading line is that of docs/exports.md.
+// The command is that of docs/exports.md.
 TEST_F(CsvTable, OctaveReadsBackTheExactNumbers) {
   if (!test_support::hasProgram("octave-cli")) {
     GTEST_SKIP() << "octave-cli is not installed (Debian package octave): Octave was NOT tried";
@@ -100,13 +100,13 @@ TEST_F(CsvTable, OctaveReadsBackTheExactNumbers) {
             "0.050000001");
 }
 
-TEST_F(CsvTable, IsCompressedWhereItsNameSaysSo) {
+TEST_F(CsvTable, IsCompressedIfItsNameEndsWithGz) {
   path_ += ".gz";
   write({bareScan()});
   EXPECT_EQ(outputOf("zcat " + path_ + " | wc -l").text, "7\n");
 }
 
-TEST_F(CsvTable, LeavesNothingBehindWhereItIsNotFinishedOrTheDiskIsFull) {
+TEST_F(CsvTable, LeavesNoFileIfItIsNotFinishedOrTheDiskIsFull) {
   std::ofstream(path_) << "old";
   {
     fsr::exports::CsvTable table(path_);

@@ -70,7 +70,7 @@ TEST(MapPictures, ShowTheMapsColoursOnTheRangeOfTheCalibration) {
               fsr::view::colourAt(fsr::view::ColourMap::kViridis, 1));
 }
 
-TEST(MapPictures, TellTimeAndChamberPressure) {
+TEST(MapPictures, ShowTimeAndChamberPressure) {
   fsr::exports::ScanRecord first = evenScan(1e5f, 1), later = first, higher = first;
   later.since_ns += 1000000000;
   higher.chamber_pressure = 200e3;
@@ -80,27 +80,27 @@ TEST(MapPictures, TellTimeAndChamberPressure) {
   EXPECT_EQ(pictures[0].bytes(), pictures[3].bytes());
 }
 
-TEST(MapPictures, AreOfOneSizeHoweverLongTheNames) {
+TEST(MapPictures, HaveOneSizeForNamesOfAnyLength) {
   fsr::exports::ScanRecord scan = evenScan(1e5f, 0);
   fsr::matrix::Surface surface = *scan.surface;
   surface.name.assign(500, 'x');
   scan.surface = std::make_shared<fsr::matrix::Surface>(surface);
   const auto pictures = drawn({evenScan(1e5f, 0), scan});
   EXPECT_EQ(pictures[0].width(), pictures[1].width());
-  // Nothing is written over the edge: the last column of pixels is paper.
+  // No text reaches the edge: the last column of pixels has the background colour.
   for (int y = 0; y < pictures[1].height(); ++y) {
     ASSERT_TRUE(pictures[1].at({pictures[1].width() - 2, y}) == pictures[1].at({0, 0})) << y;
   }
 }
 
-TEST(MapPictures, AreRefusedWhereThereAreNoMaps) {
+TEST(MapPictures, AreRefusedForARecordingWithoutMaps) {
   Album album{fsr::exports::PictureOptions{}};
   fsr::exports::ExportSubject subject = export_test::exampleSubject();
   subject.maps = false;
   EXPECT_THROW(album.begin(subject), fsr::settings::InputError);
 }
 
-TEST(PictureFolder, HoldsAPngForEachMapAndNeverTouchesAnOldFolder) {
+TEST(PictureFolder, HasAPngForEachMapAndRefusesAnExistingFolder) {
   const test_support::TemporaryFolder folder;
   fsr::exports::PictureFolder pictures(folder.path("maps"), {});
   write(pictures, {evenScan(1e5f, 0), export_test::bareScan(), evenScan(2e5f, 1)});
@@ -111,7 +111,7 @@ TEST(PictureFolder, HoldsAPngForEachMapAndNeverTouchesAnOldFolder) {
   EXPECT_TRUE(fs::exists(folder.path("maps/map_000001.png")));
 }
 
-// Chunks, checksums and sequence numbers as the PNG specification, third edition, wants them.
+// Checks chunks, checksums and sequence numbers by the PNG specification, third edition.
 constexpr char kReadApng[] = R"(
 import struct, sys, zlib
 data, at, delays, sequence, pictures = open(sys.argv[1], 'rb').read(), 8, [], [], []
@@ -133,7 +133,7 @@ assert kind == b'IEND' and sequence == list(range(len(sequence)))
 print(frames, delays, all(len(zlib.decompress(p)) == height * (3 * width + 1) for p in pictures))
 )";
 
-TEST(AnimatedPng, RunsInTheRecordingsOwnTime) {
+TEST(AnimatedPng, RunsInRealTime) {
   const test_support::TemporaryFolder folder;
   fsr::exports::AnimatedPng movie(folder.path("maps.png"), {});
   write(movie, {evenScan(1e5f, 0), evenScan(2e5f, 0.1), evenScan(3e5f, 1.6)});
@@ -142,7 +142,7 @@ TEST(AnimatedPng, RunsInTheRecordingsOwnTime) {
   EXPECT_EQ(python.text, "3 [0.1, 1.5, 0.1] True\n");
 }
 
-TEST(VideoFile, RunsInTheRecordingsOwnTime) {
+TEST(VideoFile, RunsInRealTime) {
   if (!test_support::hasProgram("ffmpeg")) {
     GTEST_SKIP() << "ffmpeg is not installed (Debian package ffmpeg): no movie was encoded";
   }
@@ -155,7 +155,7 @@ TEST(VideoFile, RunsInTheRecordingsOwnTime) {
   EXPECT_EQ(probe.text, "10/1,17\n");
 }
 
-TEST(VideoFile, SaysWhichPackageIsMissing) {
+TEST(VideoFile, NamesTheMissingPackage) {
   const test_support::TemporaryFolder folder;
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", folder.path().c_str(), 1);
@@ -172,7 +172,7 @@ TEST(VideoFile, SaysWhichPackageIsMissing) {
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
-TEST(VideoFile, TellsWhatFfmpegComplainsOfAndLeavesNothing) {
+TEST(VideoFile, ReportsTheFailureOfFfmpegAndLeavesNoFile) {
   const test_support::TemporaryFolder folder;
   fs::create_directory(folder.path("bin"));
   std::ofstream(folder.path("bin/ffmpeg"))

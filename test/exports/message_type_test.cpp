@@ -6,7 +6,7 @@
 
 namespace {
 
-// One of everything: constants, comments, arrays, messages in arrays of messages.
+// A definition with constants, comments, arrays and messages in arrays of messages.
 const char* const kDefinition = R"(# A test.
 uint8 OK=0
 string NAME=a#b
@@ -58,7 +58,7 @@ struct Told {
   }
 };
 
-TEST(MessageType, TakesAMessageApartAsItsDefinitionSays) {
+TEST(MessageType, ReadsAMessageByItsDefinition) {
   Told told;
   ASSERT_TRUE(fsr::exports::visitMessage(type(), message(), told));
   EXPECT_EQ(told.all,
@@ -66,7 +66,7 @@ TEST(MessageType, TakesAMessageApartAsItsDefinitionSays) {
             "pairs.key=a pairs.words#1 pairs.words=x pairs.key=b pairs.words#0 last*1 ");
 }
 
-TEST(MessageType, KnowsCommentsAndWhatIsRepeated) {
+TEST(MessageType, HasCommentsAndKnowsRepeatedFields) {
   const fsr::exports::MessageType everything = type();
   EXPECT_EQ(everything.fields.at(1).comment, "[Pa], row-major");
   EXPECT_FALSE(everything.fields.at(1).repeated);
@@ -83,7 +83,7 @@ TEST(MessageType, RefusesEveryTruncationAndEveryExcess) {
   EXPECT_FALSE(fsr::exports::isMessageOf(type(), whole + '\0'));
 }
 
-TEST(MessageType, RefusesAnArrayThatClaimsMoreThanThereIs) {
+TEST(MessageType, RefusesAnArrayThatStatesMoreValuesThanThereAre) {
   std::string lying = message();
   const std::size_t at = number(1).size() * 4 + 5;  // the length of `values`
   lying.replace(at, 4, number(0xffffffff));

@@ -40,7 +40,7 @@ inline fsr::exports::ScanRecord exampleScan() {
   return scan;
 }
 
-/// The same without anything but counts.
+/// A scan with counts only.
 inline fsr::exports::ScanRecord bareScan() {
   fsr::exports::ScanRecord scan;
   scan.stamp_ns = 1700000000223456789;

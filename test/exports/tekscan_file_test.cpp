@@ -32,7 +32,7 @@ class TekscanFile : public testing::Test {
   std::string path_ = folder_.path("frames.asf");
 };
 
-TEST_F(TekscanFile, HasTheHeaderThatItsReadersLookFor) {
+TEST_F(TekscanFile, HasTheHeaderThatItsReadersNeed) {
   fsr::exports::ScanRecord later = exampleScan();
   later.since_ns += 100000000;
   const std::string text = write({exampleScan(), later}, true);
@@ -54,14 +54,15 @@ TEST_F(TekscanFile, WritesFramesInKilopascalWithBForNoReading) {
       << text;
 }
 
-TEST_F(TekscanFile, WritesCountsWhereThereAreNoMaps) {
+TEST_F(TekscanFile, WritesCountsIfThereAreNoMaps) {
   const std::string text = write({bareScan()}, false);
   EXPECT_NE(text.find("UNITS RAW\r\n"), std::string::npos);
   EXPECT_NE(text.find("SATURATION_PRESSURE 4095 RAW\r\n"), std::string::npos);
   EXPECT_NE(text.find("Frame 1\r\n9,8,7\r\n6,5,4\r\n"), std::string::npos);
 }
 
-// As readers of such files do it: header up to ASCII_DATA, then rows behind each line that starts with Frame.
+// Reads the file as readers of the format do: header up to ASCII_DATA, then rows after each line that starts
+// with Frame.
 TEST_F(TekscanFile, IsReadByAReaderOfTekscanFiles) {
   write({exampleScan(), exampleScan()}, true);
   std::ofstream(folder_.path("read.py")) << R"(

@@ -45,7 +45,7 @@ class LinkFaults : public testing::Test {
     return 1'000'000'000'000'000'000 + std::chrono::nanoseconds(time).count();
   }
   fsr::protocol::DecoderCounts counts() const { return reader_->report().counts; }
-  fsr::protocol::SequenceCounts scanCounts() const { return counts().of(FSR_WIRE_SCAN); }
+  fsr::protocol::SequenceCounts scanCounts() const { return counts().of(fsr::protocol::PacketType::kScan); }
   fsr::emulator::Emulator& board() { return *board_->operator->(); }
   void damage(const LineDamage& damage) { board().setDamage(damage); }
   test_support::TemporaryFolder folder_;
@@ -71,7 +71,7 @@ TEST_F(LinkFaults, CableOutAndInFiftyTimes) {
   EXPECT_EQ(scanCounts().restarts, 0u);
 }
 
-TEST_F(LinkFaults, AResetBoardGoesOnWithItsClockAndCountersFromZero) {
+TEST_F(LinkFaults, AResetBoardContinuesWithClockAndCountersFromZero) {
   ASSERT_TRUE(listener_.knows("A"));
   ASSERT_TRUE(board().waitForRigTime(1.5, kFaultPatience));  // a smaller step back does not count as a reset
   ASSERT_TRUE(listener_.hears(10));
@@ -92,7 +92,7 @@ TEST_F(LinkFaults, AnotherBoardOnThePortNeverPassesForTheFirst) {
   }
 }
 
-TEST_F(LinkFaults, AWrongBaudRateGivesNothingAndIsSurvived) {
+TEST_F(LinkFaults, AWrongBaudRateGivesNoScanAndTheLinkContinues) {
   reader_.reset();
   start("A", 921600);
   ASSERT_TRUE(listener_.hears(20));
@@ -106,7 +106,7 @@ TEST_F(LinkFaults, AWrongBaudRateGivesNothingAndIsSurvived) {
   ASSERT_TRUE(listener_.hears(50));
 }
 
-TEST_F(LinkFaults, AStreamOfNoiseGivesNothingAndIsSurvived) {
+TEST_F(LinkFaults, AStreamOfNoiseGivesNoScanAndTheLinkContinues) {
   ASSERT_TRUE(listener_.hears(20));
   LineDamage noise;
   noise.lost_packets = 1;
@@ -135,7 +135,7 @@ TEST_F(LinkFaults, NoiseBetweenPacketsCostsNoPacket) {
   EXPECT_GT(counts().skipped_bytes, 1000u);
 }
 
-TEST_F(LinkFaults, FlippedBitsAndLostBytesCostThePacketsThatTheyHit) {
+TEST_F(LinkFaults, FlippedBitsAndLostBytesCostOnlyTheDamagedPackets) {
   ASSERT_TRUE(listener_.hears(20));
   LineDamage bad_line;
   bad_line.flipped_bits = 1e-3;

@@ -34,7 +34,7 @@ struct Rig {
                                     {std::chrono::milliseconds(1000), ""}};
 
   fsr::emulator::Emulator& rig() { return *board->operator->(); }
-  std::uint64_t lost() const { return reader.report().counts.of(FSR_WIRE_SCAN).lost; }
+  std::uint64_t lost() const { return reader.report().counts.of(fsr::protocol::PacketType::kScan).lost; }
 };
 
 void wait(double seconds) {

@@ -44,8 +44,8 @@ const std::vector<std::string>& soundFiles() {
 }
 
 void seal(std::string& file) {
-  const std::string hash = fsr::settings::sha256(file.data() + fsr::calibration::kUserBlock,
-                                                 file.size() - fsr::calibration::kUserBlock);
+  const std::string hash =
+      fsr::settings::sha256(file.data() + fsr::hdf5::kUserBlock, file.size() - fsr::hdf5::kUserBlock);
   const std::string line =
       "fsr_pressure_map calibration schema=" + std::to_string(fsr::calibration::kCalibrationSchema) +
       " sha256=" + hash + "\n";
@@ -79,7 +79,7 @@ void use(const fsr::calibration::Calibration& calibration) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   fuzz::Numbers numbers(bytes, size);
   std::string file = soundFiles()[numbers.next<std::uint8_t>() % soundFiles().size()];
-  file = std::string(fsr::calibration::kUserBlock, '\0') + fuzz::damaged(file, numbers);
+  file = std::string(fsr::hdf5::kUserBlock, '\0') + fuzz::damaged(file, numbers);
   seal(file);
   const fuzz::MemoryFile written(reinterpret_cast<const std::uint8_t*>(file.data()), file.size());
   try {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/calibration/calibrator.h"
-#include "fsr_pressure_map/protocol/decoder.h"
+#include "protocol/wire_decoder.h"
 #include "fuzz/fuzz_file.h"
 #include "protocol/packet_stamper.h"
 #include "support/packet_recorder.h"
@@ -42,7 +42,7 @@ class Checker : public test_support::PacketRecorder {
 
 std::vector<std::string> packets(const std::uint8_t* bytes, std::size_t size, std::size_t step) {
   Checker checker;
-  const auto decoder = std::make_unique<fsr::protocol::Decoder>(checker);
+  const auto decoder = std::make_unique<fsr::protocol::WireDecoder>(checker);
   for (std::size_t i = 0; i < size; i += step) decoder->feed(bytes + i, std::min(step, size - i));
   decoder->finish();
   fuzz::require(decoder->counts().bytes == size && decoder->counts().skipped_bytes <= size);

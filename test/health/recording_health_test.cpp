@@ -38,7 +38,7 @@ TEST(RecordingHealth, NamesDeadAndStuckTaxelsAndLines) {
   EXPECT_TRUE(recordingHealth(broken).columns.empty());
 }
 
-TEST(RecordingHealth, SaysFromWhichPressureReadingsAreClipped) {
+TEST(RecordingHealth, ReportsThePressureFromWhichReadingsAreClipped) {
   dataset::Recording recording = recorded();
   std::size_t clipped = 0;
   for (std::size_t i = 0; i < recording.scans(); ++i) {
@@ -52,7 +52,7 @@ TEST(RecordingHealth, SaysFromWhichPressureReadingsAreClipped) {
   EXPECT_NEAR(health.saturated_from, 450e3, 15e3);
 }
 
-TEST(RecordingHealth, LeavesMaskedTaxelsOut) {
+TEST(RecordingHealth, IgnoresMaskedTaxels) {
   dataset::Recording recording = recorded();
   keep(recording, 7, 0);
   keep(recording, 8, recording.full_scale);

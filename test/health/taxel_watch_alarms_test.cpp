@@ -1,5 +1,5 @@
-// How often TaxelWatch speaks about a healthy sheet: the stated false-alarm rate, on simulated sheets that
-// scatter, lag, creep and make noise, cycled between rest and full pressure on the flat and on a bend.
+// False-alarm rate of TaxelWatch on simulated healthy sheets with scatter, lag, creep and noise, cycled
+// between rest and full pressure, flat and bent.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,11 +11,11 @@
 namespace {
 
 constexpr double kRate = 10;       // [Hz]
-constexpr double kCycle = 47;      // [s]: no multiple of the window
+constexpr double kCycle = 47;      // [s]: not a multiple of the window
 constexpr double kPeak = 600e3;    // [Pa]
 constexpr double kDuration = 600;  // of each sheet: 60 windows [s]
 
-// Verdicts on a sheet that has nothing.
+// Number of verdicts on a sheet without a fault.
 std::size_t alarms(const std::string& file, std::uint64_t seed, const fsr::matrix::Surface& surface) {
   fsr::simulation::SimulationSettings settings =
       fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/" + file);
@@ -46,14 +46,15 @@ TEST(TaxelWatchAlarms, NoHealthyTaxelIsFlaggedInAHundredThousandWindows) {
 }
 
 // Point loads that saturate one taxel of a sheet at rest: 40 places x 250 windows, presses from 2 s to an
-// hour. None flagged: below 3 / 10,000 windows = 3.0e-4 with 95 % confidence.
-TEST(TaxelWatchAlarms, NoPointLoadIsTakenForAShort) {
+// hour. None flagged: the rate is below 3 / 10,000 windows = 3.0e-4 with 95 % confidence.
+TEST(TaxelWatchAlarms, NoPointLoadIsCalledAShort) {
   constexpr fsr::matrix::MatrixSize kSize{7, 10};
   std::size_t found = 0;
   for (std::size_t place = 0; place < 40; ++place) {
     fsr::health::TaxelWatch watch(kSize, 4095);
     const std::size_t taxel = (place * 29) % kSize.taxels();
-    const double press = std::min(3600.0, 2.0 * std::pow(1.22, double(place)));  // and as long a pause [s]
+    const double press =
+        std::min(3600.0, 2.0 * std::pow(1.22, double(place)));  // followed by an equally long pause [s]
     for (double time = 0; time < 2500; time += 0.2) {
       std::vector<std::uint16_t> counts(kSize.taxels(), static_cast<std::uint16_t>(3 + int(5 * time) % 3));
       if (std::fmod(time, 2 * press) < press) counts[taxel] = 4095;
@@ -64,7 +65,7 @@ TEST(TaxelWatchAlarms, NoPointLoadIsTakenForAShort) {
   EXPECT_EQ(found, 0u);
 }
 
-// The other side of the rates: what is broken, one fault a sheet, is found within a cycle and a half of load.
+// The opposite: a fault, one per sheet, is found within one and a half load cycles.
 TEST(TaxelWatchAlarms, EachOfAHundredFaultsIsFoundWithinSeventySeconds) {
   for (std::uint64_t seed = 1; seed <= 25; ++seed) {
     for (const int fault : {0, 1, 2, 3}) {  // dead taxel, stuck taxel, short, broken row

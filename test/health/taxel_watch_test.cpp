@@ -15,7 +15,7 @@ constexpr std::uint16_t kFullScale = 4095;
 constexpr double kRate = 10.0;  // scans a second
 constexpr std::size_t kTaxels = 70;
 
-/// A sheet under uniform load that follows `level` [codes]; single taxels can be overruled.
+/// A sheet under uniform load that follows `level` [codes]. Single taxels can be set to other codes.
 class Sheet {
  public:
   explicit Sheet(const TaxelWatchOptions& options = {}) : watch(kSize, kFullScale, options) {}
@@ -50,7 +50,7 @@ double noLoad(double) {
   return 0.0;
 }
 
-constexpr double kTwoWindows = 25.0;  // [s], whatever the phase of the first
+constexpr double kTwoWindows = 25.0;  // [s], at any phase of the first
 constexpr double kCycle = 60.0;       // [s], more than one load cycle and a window
 
 int flagged(const TaxelWatch& watch) {
@@ -67,7 +67,7 @@ TEST(TaxelWatch, FindsATaxelThatReadsNothingUnderLoad) {
   EXPECT_EQ(flagged(sheet.watch), 1);
 }
 
-TEST(TaxelWatch, FindsADeadTaxelUnderConstantLoadToo) {
+TEST(TaxelWatch, FindsADeadTaxelUnderConstantLoad) {
   Sheet sheet;
   sheet.overruled = {{0, 3}};  // a corner, with noise of an open circuit
   sheet.run(kTwoWindows, constantLoad);
@@ -93,7 +93,7 @@ TEST(TaxelWatch, FindsATaxelThatDoesNotFollowItsNeighbours) {
   EXPECT_EQ(flagged(sheet.watch), 1);
 }
 
-TEST(TaxelWatch, CountsATaxelBackToLife) {
+TEST(TaxelWatch, CountsATaxelThatBecomesAliveAgain) {
   Sheet sheet;
   sheet.overruled = {{47, 812}, {33, 0}};
   sheet.run(kCycle, cycles);
@@ -104,7 +104,7 @@ TEST(TaxelWatch, CountsATaxelBackToLife) {
   EXPECT_EQ(sheet.watch.revivals(), 2u);
 }
 
-TEST(TaxelWatch, RaisesNothingOverHoursOfHealthyWork) {
+TEST(TaxelWatch, RaisesNothingInHoursOfNormalUse) {
   Sheet sheet;
   for (int i = 0; i < 60; ++i) {
     sheet.run(kCycle, cycles);
@@ -112,24 +112,24 @@ TEST(TaxelWatch, RaisesNothingOverHoursOfHealthyWork) {
     sheet.run(kCycle, constantLoad);
     ASSERT_EQ(flagged(sheet.watch), 0) << "after round " << i;
   }
-  EXPECT_EQ(sheet.watch.revivals(), 0u);  // nor was anybody flagged on the way
+  EXPECT_EQ(sheet.watch.revivals(), 0u);  // nor was a taxel flagged in between
 }
 
-TEST(TaxelWatch, TakesASmallLoadedPatchForWhatItIs) {
-  Sheet sheet;  // four taxels loaded, all others at rest: nobody has loaded neighbours for a majority
+TEST(TaxelWatch, RaisesNothingForASmallLoadedPatch) {
+  Sheet sheet;  // four taxels loaded, all others at rest: no taxel has a majority of loaded neighbours
   sheet.overruled = {{33, 3000}, {34, 3000}, {43, 3000}, {44, 3000}};
   sheet.run(kTwoWindows, noLoad);
   EXPECT_EQ(flagged(sheet.watch), 0);
 }
 
-TEST(TaxelWatch, LeavesATaxelThatSaturatesUnderLoadToItsOwnFlag) {
+TEST(TaxelWatch, DoesNotCallATaxelThatSaturatesUnderLoadStuck) {
   Sheet sheet;
   sheet.overruled = {{47, kFullScale}};
   sheet.run(kTwoWindows, constantLoad);
   EXPECT_EQ(flagged(sheet.watch), 0);
 }
 
-// What a row's or column's taxels all do, its wire does.
+// A fault that all taxels of a row or column show is a fault of its wire.
 TEST(TaxelWatch, FindsABrokenRowAsALineFault) {
   Sheet sheet;
   for (std::size_t column = 0; column < 10; ++column) sheet.overruled.push_back({30 + column, 0});
@@ -140,7 +140,7 @@ TEST(TaxelWatch, FindsABrokenRowAsALineFault) {
   }
   sheet.overruled.clear();
   sheet.run(kCycle, cycles);
-  EXPECT_EQ(flagged(sheet.watch), 0) << "mended";
+  EXPECT_EQ(flagged(sheet.watch), 0) << "repaired";
 }
 
 TEST(TaxelWatch, FindsAShortedTaxelWhenLoadComesOrGoes) {
@@ -153,14 +153,14 @@ TEST(TaxelWatch, FindsAShortedTaxelWhenLoadComesOrGoes) {
   EXPECT_EQ(flagged(sheet.watch), 1);
 }
 
-TEST(TaxelWatch, LeavesAProminenceAmongLoadedNeighboursToItsOwnFlag) {
-  Sheet sheet;  // somebody stands and shifts his weight: 15 to 60 % of full scale round the place
+TEST(TaxelWatch, DoesNotCallAProminenceAmongLoadedNeighboursStuck) {
+  Sheet sheet;  // a standing person shifts their weight: 15 to 60 % of full scale around the place
   sheet.overruled = {{47, kFullScale}};
   sheet.run(600, [](double time) { return 1535 + 920 * std::sin(time / 3); });
   EXPECT_EQ(flagged(sheet.watch), 0);
 }
 
-TEST(TaxelWatch, TakesATaxelThatLeavesFullScaleBetweenForWhole) {
+TEST(TaxelWatch, RaisesNothingForATaxelThatLeavesFullScaleInBetween) {
   Sheet sheet;
   sheet.overruled = {{47, kFullScale}};
   sheet.run(kTwoWindows, constantLoad);
@@ -182,7 +182,7 @@ TEST(TaxelWatch, FindsAShortedColumnAtRest) {
   EXPECT_EQ(flagged(sheet.watch), 7);
 }
 
-TEST(TaxelWatch, TellsOfAChangeOfALineOnce) {
+TEST(TaxelWatch, ReportsAChangeOfALineOnce) {
   Sheet sheet;
   for (std::size_t column = 0; column < 10; ++column) sheet.overruled.push_back({column, 0});
   sheet.run(100.0, constantLoad);
@@ -192,10 +192,10 @@ TEST(TaxelWatch, TellsOfAChangeOfALineOnce) {
     for (std::size_t column = 0; column < 10; ++column) counts[column] = 0;
     changes += sheet.watch.observe(counts.data(), sheet.time += 0.1);
   }
-  EXPECT_LE(changes, 5) << "once a window at most";
+  EXPECT_LE(changes, 5) << "at most once a window";
 }
 
-TEST(TaxelWatch, KeepsAVerdictWhileNothingSpeaksAgainstIt) {
+TEST(TaxelWatch, KeepsAVerdictWithoutEvidenceAgainstIt) {
   Sheet sheet;
   sheet.overruled = {{33, 0}};
   sheet.run(kCycle, cycles);
@@ -203,13 +203,13 @@ TEST(TaxelWatch, KeepsAVerdictWhileNothingSpeaksAgainstIt) {
   EXPECT_EQ(sheet.watch.flags()[33], map::taxel_flag::kDead);
 }
 
-TEST(TaxelWatch, StartsItsWindowAnewWhenTimeRunsBack) {
+TEST(TaxelWatch, RestartsItsWindowWhenTimeRunsBackwards) {
   Sheet sheet;
   sheet.overruled = {{33, 0}};
   sheet.run(9.0, constantLoad);
   sheet.time -= 500.0;
   sheet.run(9.5, constantLoad);
-  EXPECT_EQ(flagged(sheet.watch), 0);  // neither part fills a window
+  EXPECT_EQ(flagged(sheet.watch), 0);  // both parts are shorter than a window
   sheet.run(10.0, constantLoad);
   EXPECT_EQ(flagged(sheet.watch), 1);
 }
@@ -223,7 +223,7 @@ TEST(TaxelWatch, NeedsEnoughScansForAVerdict) {
   EXPECT_EQ(flagged(sheet.watch), 0);
 }
 
-TEST(TaxelWatch, SaysNothingAboutATaxelWithoutNeighbours) {
+TEST(TaxelWatch, GivesNoVerdictForATaxelWithoutNeighbours) {
   TaxelWatch watch({1, 1}, kFullScale);
   const std::uint16_t stuck = 500;
   for (int i = 0; i < 500; ++i) EXPECT_FALSE(watch.observe(&stuck, i * 0.1));

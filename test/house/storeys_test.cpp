@@ -1,5 +1,5 @@
-// Walks every #include of the package and fails on an arrow that runs up, or sideways between rooms
-// of one storey: the picture of the house in the README stays true.
+// Checks every #include of the package: a room may use rooms on lower storeys only. The storeys are those of
+// docs/how_it_is_built.md.
 
 #include <gtest/gtest.h>
 
@@ -93,7 +93,7 @@ TEST(House, EveryFolderIsARoomWithAStorey) {
   for (const fs::path& file : sourceFiles()) EXPECT_EQ(kStorey.count(roomOf(file)), 1u) << file;
 }
 
-TEST(House, NoArrowRunsUpOrAcrossAStorey) {
+TEST(House, NoRoomUsesItsOwnStoreyOrAHigherOne) {
   int arrows = 0;
   for (const Include& include : allIncludes()) {
     const std::string target = targetRoom(include.target);
@@ -102,11 +102,11 @@ TEST(House, NoArrowRunsUpOrAcrossAStorey) {
     EXPECT_LT(kStorey.at(target), kStorey.at(include.room)) << include.file << " includes " << include.target;
     ++arrows;
   }
-  EXPECT_GT(arrows, 5);  // the walk really found the house
+  EXPECT_GT(arrows, 5);  // includes were found
 }
 
-// A room is tested with what it is built on: its tests build and run where the storeys above are left out.
-TEST(House, TestsOfARoomSeeNoHigherRoom) {
+// Tests of a room may use the room itself and lower storeys, so that they build without the storeys above.
+TEST(House, TestsOfARoomUseNoHigherRoom) {
   int arrows = 0;
   for (const auto& entry : fs::recursive_directory_iterator(kSource / "test")) {
     const std::string room = *std::next(fs::relative(entry.path(), kSource).begin());
@@ -121,14 +121,14 @@ TEST(House, TestsOfARoomSeeNoHigherRoom) {
   EXPECT_GT(arrows, 100);
 }
 
-// Folders of a room, each of which uses those before it only. What lies in the room's own folder may use all
-// of them.
+// Folders of a room. Each may use only those before it. Files directly in the room's folder may use all of
+// them.
 const std::map<std::string, std::vector<std::string>> kCorridors = {
     {"ros", {"messages", "bags", "live", "tools"}},
     {"discrepancy", {"samples", "fit", "decide", "prove"}},
 };
 
-TEST(House, NoArrowRunsUpACorridor) {
+TEST(House, NoFolderOfARoomUsesALaterOne) {
   int arrows = 0;
   for (const auto& [room, corridors] : kCorridors) {
     const auto number = [&, &names = corridors](const std::string& corridor) {
@@ -155,21 +155,21 @@ TEST(House, NoRoomIsTooLarge) {
   for (const auto& [folder, count] : files) EXPECT_LE(count, 44) << folder;
 }
 
-TEST(House, OnlyTheShellSeesRos) {
+TEST(House, OnlyTheRoomsOfRosIncludeRos) {
   for (const Include& include : allIncludes()) {
     if (kStorey.at(include.room) >= kStorey.at("ros")) continue;
     EXPECT_FALSE(isRosHeader(include.target)) << include.file << " includes " << include.target;
   }
 }
 
-TEST(House, TheCureNeverSeesTheSimulator) {
+TEST(House, CalibrationNeverUsesTheSimulation) {
   for (const Include& include : allIncludes()) {
     if (include.room != "compensation" && include.room != "calibration") continue;
     EXPECT_NE(targetRoom(include.target), "simulation") << include.file;
   }
 }
 
-// Files that `file` sees, itself included, as far as they are the package's or the tests' own.
+// Files of the package and its tests that `file` includes directly or indirectly, with the file itself.
 void see(const fs::path& file, std::set<fs::path>& seen) {
   if (!fs::exists(file) || !seen.insert(file).second) return;
   for (const std::string& target : includesOf(file)) {
@@ -177,13 +177,14 @@ void see(const fs::path& file, std::set<fs::path>& seen) {
   }
 }
 
-// Data made by the package's own formulas would flatter a search that knows them.
-TEST(House, BlindDataKnowNoFormulaOfThePackage) {
+// Data made with the package's own formulas would make its search look too good.
+TEST(House, BlindDataUseNoFormulaOfThePackage) {
   std::set<fs::path> seen;
   for (const auto& entry : fs::recursive_directory_iterator(kSource / "test/blind")) {
     if (entry.is_regular_file()) see(entry.path(), seen);
   }
-  EXPECT_EQ(seen.count(kSource / "include/fsr_pressure_map/dataset/recording.h"), 1u);  // the walk goes in
+  EXPECT_EQ(seen.count(kSource / "include/fsr_pressure_map/dataset/recording.h"),
+            1u);  // indirect includes are found
   for (const fs::path& file : seen) {
     if (fs::relative(file, kSource / "test").begin()->string() != "..") continue;
     for (const char* room : {"simulation", "discrepancy", "rheology", "emulator"}) {

@@ -16,14 +16,14 @@ AlarmEvidence sure(double pressure) {
   return {pressure, true, NAN};
 }
 
-TEST(Alarm, RisesOnlyAfterTheDwellTime) {
+TEST(Alarm, IsRaisedOnlyAfterTheDwellTime) {
   Alarm alarm(kOptions);
   EXPECT_EQ(alarm.update(0, sure(120e3)), AlarmState::kOk);
   EXPECT_EQ(alarm.update(1.9, sure(120e3)), AlarmState::kOk);
   EXPECT_EQ(alarm.update(2.0, sure(120e3)), AlarmState::kAlarm);
 }
 
-TEST(Alarm, CountsTheDwellTimeAnewAfterADip) {
+TEST(Alarm, RestartsTheDwellTimeAfterADip) {
   Alarm alarm(kOptions);
   alarm.update(0, sure(120e3));
   alarm.update(1.9, sure(99e3));
@@ -32,7 +32,7 @@ TEST(Alarm, CountsTheDwellTimeAnewAfterADip) {
   EXPECT_EQ(alarm.update(4.0, sure(120e3)), AlarmState::kAlarm);
 }
 
-TEST(Alarm, FallsOnlyBelowTheHysteresis) {
+TEST(Alarm, EndsOnlyBelowTheHysteresis) {
   Alarm alarm(kOptions);
   alarm.update(0, sure(100e3));
   EXPECT_EQ(alarm.update(2, sure(100e3)), AlarmState::kAlarm);
@@ -48,21 +48,22 @@ TEST(Alarm, IsUnknownAndNeverOkWhereTheMapCannotAnswer) {
   EXPECT_EQ(alarm.stale(), AlarmState::kUnknown);
 }
 
-TEST(Alarm, WhatIsSurelyAboveAlarmsWhateverTheRestSays) {
+TEST(Alarm, IsRaisedByACertainPressureWhateverTheOtherTaxelsShow) {
   Alarm alarm(kOptions);
   alarm.update(0, {120e3, false, NAN});
   EXPECT_EQ(alarm.update(2, {120e3, false, NAN}), AlarmState::kAlarm);
-  EXPECT_EQ(alarm.update(3, {20e3, false, NAN}), AlarmState::kUnknown);  // it may be above elsewhere
+  EXPECT_EQ(alarm.update(3, {20e3, false, NAN}),
+            AlarmState::kUnknown);  // the pressure elsewhere may be above
 }
 
-TEST(Alarm, StartsTheDwellAnewWhenTimeRunsBack) {
+TEST(Alarm, RestartsTheDwellTimeWhenTimeRunsBackwards) {
   Alarm alarm(kOptions);
   alarm.update(100, sure(120e3));
   EXPECT_EQ(alarm.update(1, sure(120e3)), AlarmState::kOk);
   EXPECT_EQ(alarm.update(3, sure(120e3)), AlarmState::kAlarm);
 }
 
-TEST(Alarm, WithoutAThresholdStillSaysWhetherTheMapCanAnswer) {
+TEST(Alarm, WithoutAThresholdStillShowsWhetherTheMapCanAnswer) {
   Alarm alarm;
   EXPECT_EQ(alarm.update(0, sure(500e3)), AlarmState::kOk);
   EXPECT_EQ(alarm.update(1, {500e3, false, NAN}), AlarmState::kUnknown);
@@ -76,7 +77,7 @@ PressureMap soundMap() {
   return map;
 }
 
-TEST(AlarmEvidence, OfASoundMapIsItsPeak) {
+TEST(AlarmEvidence, OfAValidMapIsItsPeak) {
   const AlarmEvidence e = evidence(soundMap(), {});
   EXPECT_DOUBLE_EQ(e.sure, 30e3);
   EXPECT_TRUE(e.whole);
@@ -106,7 +107,7 @@ TEST(AlarmEvidence, IsNotWholeWithAFlagThatHidesPressure) {
   }
 }
 
-TEST(AlarmEvidence, AReadingBelowTrainingIsLessThanWhatItReads) {
+TEST(AlarmEvidence, OfAReadingBelowTrainingIsLessThanThatReading) {
   PressureMap map = soundMap();
   map.flags[2] = taxel_flag::kBelowRange | taxel_flag::kReadingExtrapolated;
   const AlarmEvidence e = evidence(map, {});
@@ -119,17 +120,17 @@ TEST(Alarm, IsUnknownWhereLessThanMayStillBeAboveTheThreshold) {
   Alarm alarm(kOptions);
   EXPECT_EQ(alarm.update(0, {20e3, true, 99e3}), AlarmState::kOk);
   EXPECT_EQ(alarm.update(1, {20e3, true, 100e3}), AlarmState::kUnknown);
-  EXPECT_EQ(alarm.update(9, {20e3, true, 100e3}), AlarmState::kUnknown);  // and never an alarm
+  EXPECT_EQ(alarm.update(9, {20e3, true, 100e3}), AlarmState::kUnknown);  // but no alarm
 }
 
-TEST(Alarm, FallsWhereEveryTaxelIsBelowItsRange) {
+TEST(Alarm, EndsWhereEveryTaxelIsBelowItsRange) {
   Alarm alarm({100e3, 0, 10e3});
   EXPECT_EQ(alarm.update(0, sure(120e3)), AlarmState::kAlarm);
   EXPECT_EQ(alarm.update(1, {NAN, true, 95e3}), AlarmState::kAlarm);
   EXPECT_EQ(alarm.update(2, {NAN, true, 1e3}), AlarmState::kOk);
 }
 
-TEST(AlarmEvidence, AMaskedTaxelAndOneOutsideTheRegionAreNobodysQuestion) {
+TEST(AlarmEvidence, IgnoresMaskedTaxelsAndThoseOutsideTheRegion) {
   PressureMap map = soundMap();
   map.pressure[2] = NAN;
   map.flags[2] = taxel_flag::kMasked;

@@ -23,7 +23,7 @@ TEST(Fill, WeightsNeighboursByOneOverSquaredDistance) {
   EXPECT_EQ(map.flags[4], taxel_flag::kDead | taxel_flag::kFilled);
 }
 
-TEST(Fill, JoinsTheNeighboursDeviationAndTheirScatter) {
+TEST(Fill, CombinesTheNeighboursDeviationAndTheirScatter) {
   PressureMap map = mapOf({1, 3}, {100, NAN, 300}, 30.0f);
   map.flags[1] = taxel_flag::kStuck;
   fillFromNeighbours(map, {1});
@@ -31,7 +31,7 @@ TEST(Fill, JoinsTheNeighboursDeviationAndTheirScatter) {
   EXPECT_FLOAT_EQ(map.deviation[1], std::sqrt(30.0f * 30.0f + 100.0f * 100.0f));
 }
 
-TEST(Fill, TakesNothingFromBadOrFilledNeighbours) {
+TEST(Fill, IgnoresBadAndFilledNeighbours) {
   PressureMap map = mapOf({1, 4}, {NAN, NAN, NAN, 40}, 1.0f);
   map.flags[0] = taxel_flag::kDead;
   map.flags[1] = taxel_flag::kMasked;

@@ -32,7 +32,7 @@ RegionStatistics whole(const PressureMap& map) {
   return regionStatistics(map, {}, flatAreas(), kThreshold);
 }
 
-TEST(MapStatistics, AreThoseWorkedByHand) {
+TEST(MapStatistics, AgreeWithACalculationByHand) {
   const RegionStatistics s = whole(handMap());
   EXPECT_DOUBLE_EQ(s.peak, 100e3);
   EXPECT_EQ(s.peak_taxel.value, 5u);
@@ -58,16 +58,16 @@ TEST(MapStatistics, WeighTaxelsByTheAreaOfTheBentSheet) {
   EXPECT_NEAR(s.mean, 30.0 / 7e-4, 1e-6);
 }
 
-TEST(MapStatistics, SeeOnlyTheRegionsTaxels) {
+TEST(MapStatistics, UseOnlyTheTaxelsOfTheRegion) {
   Region left{"left", {1, 0, 0, 1, 0, 0}, {}};
   const RegionStatistics s = regionStatistics(handMap(), left, flatAreas(), kThreshold);
   EXPECT_EQ(s.region, "left");
   EXPECT_DOUBLE_EQ(s.peak, 20e3);
-  EXPECT_NEAR(s.force, 4.0, 1e-12);  // 5 kPa is no contact
+  EXPECT_NEAR(s.force, 4.0, 1e-12);  // 5 kPa is below the contact threshold
   EXPECT_NEAR(s.total_area, 4e-4, 1e-15);
 }
 
-TEST(MapStatistics, LeaveMaskedTaxelsOutAndCountSaturatedOnes) {
+TEST(MapStatistics, IgnoreMaskedTaxelsAndCountSaturatedOnes) {
   PressureMap map = handMap();
   map.flags[2] = taxel_flag::kMasked;
   map.flags[5] = taxel_flag::kSaturated;
@@ -77,13 +77,13 @@ TEST(MapStatistics, LeaveMaskedTaxelsOutAndCountSaturatedOnes) {
   EXPECT_NEAR(s.total_area, 10e-4, 1e-15);
 }
 
-TEST(MapStatistics, ATaxelUnderItsTurnOnIsNoContact) {
+TEST(MapStatistics, ExcludeATaxelBelowItsTurnOnFromTheContact) {
   PressureMap map = handMap();
   map.flags[0] = taxel_flag::kBelowRange;
   EXPECT_NEAR(whole(map).force, 36.0, 1e-9);
 }
 
-TEST(MapStatistics, WithoutAReadingThereIsNoNumber) {
+TEST(MapStatistics, AreNanWithoutAReading) {
   PressureMap map = handMap();
   map.pressure.assign(6, kNaN);
   const RegionStatistics s = whole(map);
@@ -94,7 +94,7 @@ TEST(MapStatistics, WithoutAReadingThereIsNoNumber) {
   EXPECT_EQ(s.bad, 6u);
 }
 
-TEST(MapStatistics, WithoutContactTheForceIsZeroAndThereIsNoMean) {
+TEST(MapStatistics, HaveZeroForceAndNoMeanWithoutContact) {
   PressureMap map = handMap();
   map.pressure.assign(6, 1e3f);
   const RegionStatistics s = whole(map);
@@ -109,7 +109,7 @@ TEST(MapStatistics, RefuseAMaskOfAnotherMatrix) {
 }
 
 // Taxel 0 at 10, 20, 40 kPa after 0, 1, 1.5 s: 15 + 15 = 30 kPa s; taxel 1 always at 16 kPa: 24 kPa s.
-TEST(PressureIntegral, IsThatOfTheTaxelThatGatheredMost) {
+TEST(PressureIntegral, IsTheLargestOfTheTaxels) {
   PressureIntegral integral(1.0);
   PressureMap map;
   map.reset({{1, 2}, 0.01, 0.01});
@@ -123,7 +123,7 @@ TEST(PressureIntegral, IsThatOfTheTaxelThatGatheredMost) {
   EXPECT_NEAR(integral.duration(), 1.5, 1e-12);
 }
 
-TEST(PressureIntegral, BridgesNoGapAndStartsAnewWhenTimeRunsBack) {
+TEST(PressureIntegral, SkipsGapsAndRestartsWhenTimeRunsBackwards) {
   PressureIntegral integral(1.0);
   PressureMap map;
   map.reset({{1, 1}, 0.01, 0.01});
@@ -162,7 +162,7 @@ TEST(SumOfSheets, AddsAreasAndForces) {
   EXPECT_EQ(sum.alarm, AlarmState::kUnknown);  // of the first sheet
 }
 
-TEST(MapStatistics, OverTimeKnowRegionsIntegralsAndAlarms) {
+TEST(MapStatistics, UpdateRegionsIntegralsAndAlarmsOverTime) {
   MapStatistics statistics({{"", {}, {90e3, 0.5, 0}}, {"left", {1, 0, 0, 1, 0, 0}, {}}}, kThreshold);
   PressureMap map = handMap();
   map.flags[2] = taxel_flag::kMasked;

@@ -22,7 +22,7 @@ std::string refusal(const std::string& yaml) {
   return "";
 }
 
-TEST(Regions, AreRectanglesOrPictures) {
+TEST(Regions, AreRectanglesOrMasks) {
   const auto regions = read(
       "regions:\n"
       "  - {name: right, columns: [1, 2]}\n"
@@ -43,20 +43,20 @@ TEST(Regions, AreRectanglesOrPictures) {
   EXPECT_FALSE(regions[1].alarm.used());
 }
 
-TEST(Regions, TheWholeMatrixMayAlarmToo) {
+TEST(Regions, IncludeAnAlarmOfTheWholeMatrix) {
   const auto regions = read("alarm: {threshold: 250e3, hysteresis: 20e3}\n");
   ASSERT_EQ(regions.size(), 1u);
   EXPECT_EQ(regions[0].alarm.threshold, 250e3);
   EXPECT_EQ(regions[0].alarm.hysteresis, 20e3);
 }
 
-TEST(Regions, TheShippedExampleReads) {
+TEST(Regions, ReadTheShippedExample) {
   const auto regions = readRegionFile(FSR_SOURCE_DIR "/config/regions/example.yaml", {7, 10});
   ASSERT_EQ(regions.size(), 3u);
   EXPECT_TRUE(regions[1].has(6) && regions[2].has(30) && !regions[2].has(0));
 }
 
-TEST(Regions, RefuseWhatDoesNotFitTheMatrix) {
+TEST(Regions, RefuseRegionsOutsideTheMatrix) {
   EXPECT_NE(refusal("regions: [{name: a, rows: [0, 2]}]"), "");
   EXPECT_NE(refusal("regions: [{name: a, rows: [1, 0]}]").find("two whole numbers"), std::string::npos);
   EXPECT_NE(refusal("regions: [{name: a, mask: \"11\\n11\"}]").find("2 x 3"), std::string::npos);
@@ -65,7 +65,7 @@ TEST(Regions, RefuseWhatDoesNotFitTheMatrix) {
   EXPECT_NE(refusal("regions: [{name: a, mask: \"111\\n1x1\"}]"), "");
 }
 
-TEST(Regions, RefuseMisspeltKeysAndDoubleNames) {
+TEST(Regions, RefuseMisspeltKeysAndDuplicateNames) {
   EXPECT_NE(refusal("regions: [{name: a, rows: [0, 1], colums: [0, 1]}]").find("colums"), std::string::npos);
   EXPECT_NE(refusal("regions: [{name: a, rows: [0, 1]}, {name: a, rows: [0, 0]}]").find("twice"),
             std::string::npos);

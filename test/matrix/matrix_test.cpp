@@ -21,7 +21,7 @@ TEST(Layout, PutsTheOriginAtTheCentreWithColumnsAlongX) {
   EXPECT_DOUBLE_EQ(layout.position(layout.index(6, 0)).y, 0.036);
 }
 
-TEST(Layout, CountsTaxelsRowByRow) {
+TEST(Layout, NumbersTaxelsRowByRow) {
   const Layout layout{kPaper};
   EXPECT_EQ(layout.index(2, 3).value, 23u);
   EXPECT_EQ(layout.row({23}), 2);
@@ -40,7 +40,7 @@ TEST(Curvature, PrincipalAgreesWithAnEigenSolver) {
   EXPECT_NEAR(principalCurvature({4, -7, 2.5}), -7.541522985, 1e-8);
 }
 
-TEST(Curvature, ASurfaceOfAnotherMatrixDoesNotFit) {
+TEST(Curvature, RefusesASurfaceOfAnotherMatrix) {
   Surface surface;
   EXPECT_NO_THROW(requireFit(surface, kPaper));
   surface.curvature.resize(70);
@@ -61,7 +61,7 @@ TEST(SurfaceFile, ACylinderWithItsAxisAlongYBendsTheRows) {
   EXPECT_DOUBLE_EQ(readSurface(inside, kPaper).curvature[0].y, -20.0);
 }
 
-TEST(SurfaceFile, ReadsAValueForEachTaxel) {
+TEST(SurfaceFile, ReadsOneValueForEachTaxel) {
   const auto settings =
       settings::Settings::fromText("surface: limb\ntaxels: {x: [1, 2, 3, 4], xy: [0, 0, 0, 1]}", "limb.yaml");
   const Surface surface = readSurface(settings, {2, 2});
@@ -80,7 +80,7 @@ TEST(SurfaceFile, RefusesTheWrongNumberOfTaxels) {
   }
 }
 
-TEST(SurfaceFile, RefusesTwoFormsAndATightBend) {
+TEST(SurfaceFile, RefusesTwoFormsAndTooLargeACurvature) {
   EXPECT_THROW(
       readSurface(settings::Settings::fromText("surface: c\nflat: true\ntwo_planes: {x: 1, y: 2}", "c"),
                   kPaper),

@@ -3,13 +3,13 @@
 #include <array>
 #include <vector>
 
-#include "fsr_pressure_map/protocol/decoder.h"
 #include "protocol/device_clock.h"
+#include "protocol/wire_decoder.h"
 #include "support/allocation_guard.h"
 
 namespace {
 
-// Does with a packet what the driver does, ROS messages apart.
+// Processes a packet like the driver, without ROS messages.
 class StampingHandler : public fsr::protocol::PacketHandler {
  public:
   std::int64_t sum = 0;
@@ -41,11 +41,10 @@ TEST(Protocol, AllocatesNothingFromBytesToStampedScans) {
   const fsr_wire_identity identity = {"0123456789abcdef", "0123456789abcdef", "", 16, 10, 4095, 1000};
   std::vector<std::uint8_t> bytes(1024);
   StampingHandler handler;
-  fsr::protocol::Decoder decoder(handler);
+  fsr::protocol::WireDecoder decoder(handler);
 
   const test_support::AllocationGuard guard;
-  for (std::uint32_t i = 0; i < 300'000;
-       ++i) {  // five minutes at 1 kHz: the clock's window fills and moves on
+  for (std::uint32_t i = 0; i < 300'000; ++i) {  // five minutes at 1 kHz: the clock's window fills and moves
     std::size_t size = fsr_wire_encode_scan(bytes.data(), bytes.size(), i, i * 1000, &scan);
     size += fsr_wire_encode_identity(bytes.data() + size, bytes.size() - size, i, i * 1000, &identity);
     if (i % 7 == 0) bytes[i % size] ^= 0x20U;

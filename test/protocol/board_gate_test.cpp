@@ -14,19 +14,19 @@ class Gate : public testing::Test {
   BoardGate gate_{kPatience, kSettling};
 };
 
-TEST_F(Gate, NeverWaitsForABoardThatNeverNamedItself) {
+TEST_F(Gate, NeverHoldsScansOfABoardThatNeverSentAnIdentity) {
   gate_.doubt();
   EXPECT_EQ(gate_.scan(1), Verdict::kPass);
   EXPECT_FALSE(gate_.gaveUp());
 }
 
-TEST_F(Gate, LetsTheFirstBoardPassBeforeAndAfterItsName) {
+TEST_F(Gate, PassesScansOfTheFirstBoardBeforeAndAfterItsIdentity) {
   EXPECT_EQ(gate_.scan(1), Verdict::kPass);
   EXPECT_EQ(gate_.identity("A", 2), BoardGate::Board::kSame);
   EXPECT_EQ(gate_.scan(3), Verdict::kPass);
 }
 
-TEST_F(Gate, HoldsScansAfterAReplugUntilTheSameBoardNamesItself) {
+TEST_F(Gate, HoldsScansAfterAReplugUntilTheIdentityOfTheSameBoard) {
   gate_.identity("A", 1);
   gate_.doubt();
   EXPECT_EQ(gate_.scan(2), Verdict::kHold);
@@ -35,7 +35,7 @@ TEST_F(Gate, HoldsScansAfterAReplugUntilTheSameBoardNamesItself) {
   EXPECT_EQ(gate_.scan(601), Verdict::kPass);
 }
 
-TEST_F(Gate, HoldsScansOfAnotherBoardUntilTheNewsHasSettled) {
+TEST_F(Gate, HoldsScansOfAnotherBoardForTheSettlingTime) {
   gate_.identity("A", 1);
   gate_.doubt();
   EXPECT_EQ(gate_.scan(2), Verdict::kHold);
@@ -45,17 +45,17 @@ TEST_F(Gate, HoldsScansOfAnotherBoardUntilTheNewsHasSettled) {
   EXPECT_EQ(gate_.identity("B", 800), BoardGate::Board::kSame);
 }
 
-TEST_F(Gate, GivesUpOnABoardThatStaysSilentAboutItsName) {
+TEST_F(Gate, GivesUpOnABoardThatSendsNoIdentityAnyMore) {
   gate_.identity("A", 1);
   gate_.doubt();
   EXPECT_EQ(gate_.scan(10), Verdict::kHold);
   EXPECT_EQ(gate_.scan(10 + kPatience), Verdict::kPass);
   EXPECT_TRUE(gate_.gaveUp());
-  EXPECT_FALSE(gate_.gaveUp()) << "said once";
+  EXPECT_FALSE(gate_.gaveUp()) << "reported once";
   EXPECT_EQ(gate_.scan(2000), Verdict::kPass);
 }
 
-TEST_F(Gate, ATimeThatGoesBackHoldsNothingForEver) {
+TEST_F(Gate, EndsTheWaitWhereTimeGoesBackwards) {
   gate_.identity("A", 1);
   gate_.doubt();
   EXPECT_EQ(gate_.scan(5000), Verdict::kHold);

@@ -10,9 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "fsr_pressure_map/protocol/wire.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "protocol/serial_port.h"
-#include "support/packet_recorder.h"
+#include "support/link_listener.h"
 #include "support/pty.h"
 
 namespace {
@@ -21,73 +22,11 @@ using Bytes = std::vector<std::uint8_t>;
 using fsr::protocol::LinkPhase;
 using std::chrono::milliseconds;
 
-constexpr std::chrono::seconds kPatience(20);  // never waited out where the code is right
-
 Bytes reading(std::uint32_t sequence) {
   Bytes packet(64);
   packet.resize(fsr_wire_encode_transducer(packet.data(), packet.size(), sequence, sequence * 1000, 5));
   return packet;
 }
-
-// Notes all that a link says, for the test's thread to wait for.
-class Listener : public fsr::protocol::LinkHandler {
- public:
-  void onScan(const fsr::protocol::PacketHeader& header, const fsr::protocol::ScanPacket& scan) override {
-    recorder_.onScan(header, scan);
-  }
-  void onTransducer(const fsr::protocol::PacketHeader& header, std::int32_t counts) override {
-    add([&] { recorder_.onTransducer(header, counts); });
-  }
-  void onTemperature(const fsr::protocol::PacketHeader& header, std::int32_t value) override {
-    recorder_.onTemperature(header, value);
-  }
-  void onIdentity(const fsr::protocol::PacketHeader& header,
-                  const fsr::protocol::IdentityPacket& identity) override {
-    recorder_.onIdentity(header, identity);
-  }
-  void onOpen(std::uint32_t) override {}
-  void onBytes(std::int64_t) override {}
-  void onChange(const fsr::protocol::LinkReport& report) override {
-    add([&] { phases_.push_back(report.phase); });
-  }
-
-  // True once `count` packets came.
-  bool packets(std::size_t count) {
-    return await([&] { return recorder_.lines.size() >= count; });
-  }
-  // True once the link came to `phase`, after what an earlier call waited for.
-  bool reaches(LinkPhase phase) {
-    return await([&] {
-      while (seen_ < phases_.size()) {
-        if (phases_[seen_++] == phase) return true;
-      }
-      return false;
-    });
-  }
-  std::size_t packetCount() {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return recorder_.lines.size();
-  }
-
- private:
-  template <typename Do>
-  void add(Do action) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    action();
-    changed_.notify_all();
-  }
-  template <typename Condition>
-  bool await(Condition condition) {
-    std::unique_lock<std::mutex> lock(mutex_);
-    return changed_.wait_for(lock, kPatience, condition);
-  }
-
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  test_support::PacketRecorder recorder_;
-  std::vector<LinkPhase> phases_;
-  std::size_t seen_ = 0;
-};
 
 class BoardReader : public testing::Test {
  protected:
@@ -105,7 +44,7 @@ class BoardReader : public testing::Test {
   std::string port_ = folder_.path("ttyBoard");
   std::atomic<std::int64_t> now_{1};
   std::unique_ptr<test_support::Pty> board_;
-  Listener listener_;
+  test_support::LinkListener listener_;
 };
 
 TEST_F(BoardReader, ReadsTheBoard) {
@@ -118,7 +57,7 @@ TEST_F(BoardReader, ReadsTheBoard) {
   EXPECT_EQ(link->report().connections, 1U);
 }
 
-TEST_F(BoardReader, SaysWhyItWaitsAndStartsWhenTheBoardComes) {
+TEST_F(BoardReader, ReportsWhyItWaitsAndStartsWhenTheBoardIsPluggedIn) {
   const auto link = makeLink();
   ASSERT_TRUE(listener_.reaches(LinkPhase::kWaiting));
   EXPECT_NE(link->report().reason.find("there is no serial port " + port_), std::string::npos)
@@ -130,7 +69,7 @@ TEST_F(BoardReader, SaysWhyItWaitsAndStartsWhenTheBoardComes) {
   EXPECT_TRUE(listener_.packets(1));
 }
 
-TEST_F(BoardReader, SurvivesUnpluggingAsOftenAsItHappens) {
+TEST_F(BoardReader, SurvivesRepeatedUnplugging) {
   const auto link = makeLink();
   for (std::uint32_t round = 1; round <= 3; ++round) {
     plugIn();
@@ -141,7 +80,8 @@ TEST_F(BoardReader, SurvivesUnpluggingAsOftenAsItHappens) {
     ASSERT_TRUE(listener_.reaches(LinkPhase::kWaiting));
   }
   EXPECT_EQ(link->report().connections, 3U);
-  EXPECT_EQ(link->report().counts.of(FSR_WIRE_TRANSDUCER).gaps, 0U) << "an outage is no gap in the stream";
+  EXPECT_EQ(link->report().counts.of(fsr::protocol::PacketType::kTransducer).gaps, 0U)
+      << "an outage is no gap in the stream";
 }
 
 TEST_F(BoardReader, ClosesThePortWhenDisabledAndOpensItAgain) {
@@ -187,12 +127,47 @@ TEST_F(BoardReader, KeepsACaptureThatReplaysToTheSamePackets) {
     for (std::uint32_t i = 0; i < 50; ++i) board_->write(reading(i));
     ASSERT_TRUE(listener_.packets(50));
   }
-  Listener replayed;
+  test_support::LinkListener replayed;
   const auto open = [&] { return std::make_unique<fsr::protocol::CaptureReader>(capture); };
   const fsr::protocol::BoardReader link(open, replayed, {milliseconds(1), ""});
   ASSERT_TRUE(replayed.reaches(LinkPhase::kEnded));
   EXPECT_EQ(replayed.packetCount(), 50U);
   EXPECT_EQ(link.report().counts.skipped_bytes, 0U);
+}
+
+TEST_F(BoardReader, ReportsAnExceptionOfTheHandlerAsItsFaultAndKeepsTheLink) {
+  listener_.before_transducer = [](const fsr::protocol::PacketHeader& header) {
+    if (header.sequence == 2) throw std::runtime_error("no room for reading 2");
+  };
+  plugIn();
+  const auto link = makeLink();
+  ASSERT_TRUE(listener_.reaches(LinkPhase::kReading));
+  board_->write(reading(1));
+  board_->write(reading(2));
+  board_->write(reading(3));
+  ASSERT_TRUE(listener_.packets(2)) << "readings 1 and 3";
+  ASSERT_TRUE(listener_.complains());
+  const fsr::protocol::LinkReport report = link->report();
+  EXPECT_EQ(report.phase, LinkPhase::kReading);
+  EXPECT_EQ(report.reason, "") << "nothing is wrong with the port";
+  EXPECT_EQ(report.connections, 1U);
+  EXPECT_EQ(report.handler_faults, 1U);
+  EXPECT_EQ(report.handler_complaint,
+            "handling a transducer reading failed in this program, not on the link: no room for reading 2");
+}
+
+TEST_F(BoardReader, KeepsTheLinkWhateverTheHandlerThrows) {
+  listener_.before_open = [] { throw 1; };
+  listener_.before_bytes = [] { throw std::runtime_error("bytes"); };
+  listener_.before_change = [] { throw std::runtime_error("change"); };
+  plugIn();
+  const auto link = makeLink();
+  ASSERT_TRUE(listener_.reaches(LinkPhase::kReading));
+  board_->write(reading(1));
+  ASSERT_TRUE(listener_.packets(1));
+  EXPECT_EQ(link->report().phase, LinkPhase::kReading);
+  EXPECT_EQ(link->report().connections, 1U);
+  EXPECT_GE(link->report().handler_faults, 2U) << "of onOpen() and of onChange()";
 }
 
 TEST_F(BoardReader, RefusesToStartOnACaptureThatExists) {

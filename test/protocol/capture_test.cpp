@@ -61,7 +61,7 @@ class Capture : public testing::Test {
   std::string path_ = folder_.path("run.fsrcap");
 };
 
-TEST_F(Capture, GivesBytesAndTimesBackAsTheyCame) {
+TEST_F(Capture, ReturnsTheBytesAndTimesThatWereWritten) {
   write(path_, kPieces);
   fsr::protocol::CaptureReader reader(path_);
   EXPECT_EQ(reader.baud(), 115200U);
@@ -83,7 +83,7 @@ TEST_F(Capture, HasTheDocumentedBytes) {
   EXPECT_EQ(bytes, expected);
 }
 
-TEST_F(Capture, SplitsAPieceThatDoesNotFitTheBuffer) {
+TEST_F(Capture, SplitsAChunkThatDoesNotFitTheBuffer) {
   write(path_, {{7, {1, 2, 3}}});
   fsr::protocol::CaptureReader reader(path_);
   EXPECT_EQ(readAll(reader, 2), (Pieces{{7, {1, 2}}, {7, {3}}}));
@@ -94,7 +94,7 @@ TEST_F(Capture, ReplaysATruncatedFileUpToTheCut) {
   Bytes whole;
   for (const Piece& piece : kPieces) whole.insert(whole.end(), piece.bytes.begin(), piece.bytes.end());
   const std::size_t file_size = std::filesystem::file_size(path_);
-  // Bytes of the file before each piece's content: header 16, then 12 + content for each.
+  // Bytes of the file before the content of each chunk: header 16, then 12 + content for each.
   for (std::size_t size = file_size; size-- > fsr::protocol::capture::kFileHeader;) {
     std::filesystem::resize_file(path_, size);
     fsr::protocol::CaptureReader reader(path_);
@@ -109,10 +109,10 @@ TEST_F(Capture, ReplaysATruncatedFileUpToTheCut) {
   }
 }
 
-TEST_F(Capture, StopsAtALengthThatCannotBeAndSaysWhere) {
+TEST_F(Capture, StopsAtAnImpossibleLengthAndNamesThePlace) {
   write(path_, kPieces);
   std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
-  file.seekp(31 + 8 + 3);  // highest byte of the second piece's length
+  file.seekp(31 + 8 + 3);  // highest byte of the second chunk's length
   file.put('\x7F');
   file.close();
   fsr::protocol::CaptureReader reader(path_);
@@ -140,7 +140,7 @@ TEST_F(Capture, NamesAFileThatCannotBeWrittenOrRead) {
             std::string::npos);
 }
 
-TEST_F(Capture, RefusesAFileThatIsNoCapture) {
+TEST_F(Capture, RefusesAFileThatIsNotACapture) {
   for (const std::string content : {"", "FSRCAP01", "#ROSBAG V2.0\n and much more"}) {
     std::ofstream(path_, std::ios::trunc) << content;
     EXPECT_EQ(complaintOf([&] { fsr::protocol::CaptureReader reader(path_); }),
@@ -167,7 +167,7 @@ class FileSizeLimit {
   rlimit before_{};
 };
 
-TEST_F(Capture, SaysThatTheDiskIsFullAndKeepsWhatItHas) {
+TEST_F(Capture, ReportsAFullDiskAndKeepsWhatWasWritten) {
   const Bytes bytes = {1, 2, 3};
   {
     const FileSizeLimit limit(40);
@@ -179,7 +179,7 @@ TEST_F(Capture, SaysThatTheDiskIsFullAndKeepsWhatItHas) {
   EXPECT_EQ(readAll(reader), (Pieces{{1, bytes}}));
 }
 
-// A clock that goes on by one step at each look.
+// A clock that advances by one step at each call.
 struct SteppingClock {
   std::int64_t now = 1000000000;  // [ns]
   std::int64_t step = 0;
@@ -205,7 +205,7 @@ TEST_F(Capture, PacesAReplayByItsClockAndShiftsItsTimesToNow) {
   EXPECT_TRUE(paced.ended());
 }
 
-TEST_F(Capture, PacedReplayGivesEveryByteThroughASmallBuffer) {
+TEST_F(Capture, PacedReplayDeliversEveryByteThroughASmallBuffer) {
   write(path_, {{0, {1, 2, 3}}, {10, {4}}});
   SteppingClock clock;
   clock.step = 1;

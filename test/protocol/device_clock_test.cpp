@@ -14,8 +14,7 @@ namespace {
 constexpr double kMs = 1e-3;  // [s]
 constexpr double kUs = 1e-6;  // [s]
 
-// A board and its link with a known truth: when device time t [s] really was, and what a packet made then
-// is delayed by.
+// A board and its link with known host times of device times [s] and known delays of packets.
 struct Link {
   double offset = 1.7e9;  // host time of device time 0 [s]
   double drift = 50e-6;   // the host's clock runs faster by this
@@ -70,11 +69,11 @@ TEST(DeviceClock, FollowsOffsetAndDriftThroughRandomDelays) {
 
 TEST(DeviceClock, RemovesTheJitterOfBatches) {
   Link link;
-  // A USB adapter that hands its bytes over every 16 ms of its own clock.
+  // A USB adapter that delivers its bytes every 16 ms of its own clock.
   link.delay = [](double host) { return 16 * kMs - std::fmod(host, 16 * kMs); };
   fsr::protocol::DeviceClock clock;
   const Errors errors = run(link, 600, 10, clock);
-  // Packets every 10 ms meet the batch every 16 ms at 8 phases 2 ms apart, which drift by at 50 ppm: the
+  // Packets every 10 ms and batches every 16 ms have 8 phases 2 ms apart, which drift with 50 ppm. So the
   // smallest delay is a saw-tooth of 2 ms in 40 s, and the line lies within its height.
   EXPECT_GT(errors.lowest, -2 * kMs);
   EXPECT_LT(errors.highest, 2 * kMs);
@@ -94,7 +93,7 @@ TEST(DeviceClock, KeepsTheSpacingOfTheBoardUnderJitter) {
     const std::int64_t arrival = std::llround((link.offset + sent + link.delay(sent)) * 1e9);
     const std::int64_t host = clock.hostTime(
         clock.observe(static_cast<std::uint32_t>(std::llround((link.first + t) * 1e6)), arrival, 0));
-    // The estimate may improve at any packet, by far less than the 16 ms that the arrivals jump by.
+    // The estimate may change at any packet, but by far less than the 16 ms jumps of the arrivals.
     const double spacing = last == 0 ? link.period : static_cast<double>(host - last) * 1e-9;
     EXPECT_NEAR(spacing, link.period, 0.3 * kMs) << t;
     last = host;
@@ -117,7 +116,7 @@ TEST(DeviceClock, FollowsACeramicResonatorFromTheFirstSecond) {
 TEST(DeviceClock, FollowsADriftThatWandersWithTemperature) {
   Link link;
   constexpr double kTurn = 2 * M_PI / 1200;  // 20 minutes [1/s]
-  // Rate 20 ppm sin: host - device wanders by 20e-6 / kTurn (1 - cos), here taken as part of the delay.
+  // Rate 20 ppm sin: host - device changes by 20e-6 / kTurn (1 - cos), here treated as part of the delay.
   auto wander = [](double host) { return 20e-6 / kTurn * (1 - std::cos(kTurn * host)); };
   auto noise = exponential(1 * kMs, 4);
   link.delay = [=](double host) { return wander(host) + noise(host); };
@@ -131,26 +130,26 @@ TEST(DeviceClock, FollowsADriftThatWandersWithTemperature) {
     const double error = static_cast<double>(clock.hostTime(wide)) * 1e-9 - sent - wander(sent);
     if (t > 10) errors = {std::min(errors.lowest, error), std::max(errors.highest, error)};
   }
-  // A chord of a 128 s window under a rate that changes by 0.1 ppm/s misses by about 0.5 * 1e-7 * 128^2 = 0.8
-  // ms.
+  // For a rate that changes by 0.1 ppm/s, the error of a line over a window of 128 s is about
+  // 0.5 * 1e-7 * 128^2 = 0.8 ms.
   EXPECT_GT(errors.lowest, -1 * kMs);
   EXPECT_LT(errors.highest, 1 * kMs);
 }
 
-TEST(DeviceClock, TakesOffTheKnownDelay) {
+TEST(DeviceClock, SubtractsTheKnownDelay) {
   fsr::protocol::DeviceClock clock;
   const std::uint64_t wide = clock.observe(5000, 1'000'000'000, 14'583'333);
   EXPECT_EQ(wide, 5000U);
   EXPECT_EQ(clock.hostTime(wide), 985'416'667);
 }
 
-TEST(DeviceClock, CountsOnWhereThirtyTwoBitsWrap) {
+TEST(DeviceClock, ContinuesWhereThirtyTwoBitsWrap) {
   Link link;
   link.first = 4294.9;  // wraps at 4294.967296 s
   link.period = 1;
   fsr::protocol::DeviceClock clock;
   std::uint64_t last = 0;
-  for (int i = 0; i < 9000; ++i) {  // twice round
+  for (int i = 0; i < 9000; ++i) {  // the counter wraps twice
     const double device = link.first + i;
     const auto whole = static_cast<std::uint64_t>(std::llround(device * 1e6));
     const std::uint64_t wide = clock.observe(static_cast<std::uint32_t>(whole),
@@ -162,7 +161,7 @@ TEST(DeviceClock, CountsOnWhereThirtyTwoBitsWrap) {
   EXPECT_EQ(clock.jumps(), 0U);
 }
 
-TEST(DeviceClock, TakesPacketsOfAnEarlierDeviceTimeInBetween) {
+TEST(DeviceClock, AcceptsPacketsOfASlightlyEarlierDeviceTime) {
   fsr::protocol::DeviceClock clock;
   clock.observe(1'000'000, 2'000'000'000, 0);
   const std::uint64_t older = clock.observe(960'000, 2'000'100'000, 0);
@@ -181,21 +180,21 @@ std::int64_t feed(fsr::protocol::DeviceClock& clock, int count, std::uint32_t de
   return last;
 }
 
-TEST(DeviceClock, StartsAnewWhenTheBoardWasReset) {
+TEST(DeviceClock, RestartsWhenTheBoardWasReset) {
   fsr::protocol::DeviceClock clock;
   feed(clock, 1000, 3'000'000'000U, 0);
   EXPECT_EQ(feed(clock, 100, 500, 30'000'000'000), 30'990'000'000);
   EXPECT_EQ(clock.jumps(), 1U);
 }
 
-TEST(DeviceClock, StartsAnewWhenTheBoardsClockJumpsAhead) {
+TEST(DeviceClock, RestartsWhenTheBoardsClockJumpsAhead) {
   fsr::protocol::DeviceClock clock;
   feed(clock, 1000, 0, 0);
   EXPECT_EQ(feed(clock, 100, 500'000'000, 10'000'000'000), 10'990'000'000);
   EXPECT_EQ(clock.jumps(), 1U);
 }
 
-TEST(DeviceClock, StartsAnewWhenTheHostsClockIsSetBackOrAhead) {
+TEST(DeviceClock, RestartsWhenTheHostsClockIsSetBackOrAhead) {
   for (const std::int64_t step : {-3600'000'000'000, 3600'000'000'000}) {
     fsr::protocol::DeviceClock clock;
     feed(clock, 1000, 0, 0);
@@ -204,21 +203,21 @@ TEST(DeviceClock, StartsAnewWhenTheHostsClockIsSetBackOrAhead) {
   }
 }
 
-TEST(DeviceClock, StartsAnewAtOnceWhenAYoungBoardWasReset) {
+TEST(DeviceClock, RestartsAtOnceWhenABoardWasResetSoonAfterItsStart) {
   fsr::protocol::DeviceClock clock;
   feed(clock, 300, 0, 0);
   EXPECT_EQ(feed(clock, 1, 500, 5'000'000'000), 5'000'000'000);
   EXPECT_EQ(clock.jumps(), 1U);
 }
 
-TEST(DeviceClock, IsNotMovedByAStallThatEnds) {
+TEST(DeviceClock, IsNotChangedByAStallThatEnds) {
   fsr::protocol::DeviceClock clock;
   feed(clock, 100, 0, 0);
-  // 4 s of packets come together when the computer wakes up, then everything is as before.
+  // 4 s of packets arrive together when the computer wakes up. Then the link is as before.
   for (std::int64_t us = 1'000'000; us < 5'000'000; us += 10'000) {
     const std::uint64_t device = clock.observe(static_cast<std::uint32_t>(us), 5'000'000'000, 0);
-    // A packet counts as late from 1 s on; the younger ones may bend the line by the 2 % of drift that
-    // are believed, 80 ms in 4 s.
+    // A packet counts as late from 1 s on. Less late ones may tilt the line by the accepted drift of 2 %,
+    // which is 80 ms in 4 s.
     ASSERT_NEAR(static_cast<double>(clock.hostTime(device) - us * 1000) * 1e-9, 0,
                 us < 4'000'000 ? 1e-9 : 80 * kMs);
   }
@@ -234,8 +233,8 @@ TEST(DeviceClock, ForgetsAnEarlierConnectionWithoutCountingAJump) {
   EXPECT_EQ(clock.jumps(), 0U);
 }
 
-// Rig time at 20 times the computer's: what the scheduler delays by 1 ms, bytes or ticks, is 20 ms here.
-TEST(DeviceClock, KeepsAnEvenSpacingUnderAClockThatTicks) {
+// Rig time at 20 times real time: a delay of 1 ms by the scheduler, of bytes or ticks, is 20 ms here.
+TEST(DeviceClock, KeepsAnEvenSpacingUnderATickingClock) {
   Link link;
   link.drift = 0;
   link.period = 0.1;
@@ -252,12 +251,12 @@ TEST(DeviceClock, KeepsAnEvenSpacingUnderAClockThatTicks) {
   const Errors errors = run(link, 300, 20, clock);
   EXPECT_EQ(clock.jumps(), 0U);
   // Arrivals scatter by a tick (evenly spread: deviation 0.3 ticks) and by 28 ms; the mean of 200 after 20 s
-  // scatters by 1/14 of that, 5 ms, and is tracked over 280 s: 4 deviations either side.
+  // scatters by 1/14 of that, 5 ms, and is compared over 280 s: 4 deviations on either side.
   EXPECT_NEAR(errors.lowest, -kTick / 2, 20 * kMs);
   EXPECT_NEAR(errors.highest, -kTick / 2, 20 * kMs);
 }
 
-TEST(DeviceClock, IsNotMovedByTicksThatComeMuchTooLateNowAndThen) {
+TEST(DeviceClock, IsNotChangedByOccasionalTicksThatAreMuchTooLate) {
   Link link;
   link.drift = 0;
   link.period = 0.1;
@@ -271,7 +270,7 @@ TEST(DeviceClock, IsNotMovedByTicksThatComeMuchTooLateNowAndThen) {
   EXPECT_NEAR(errors.highest, 0, 1e-6);
 }
 
-TEST(StampSequence, LetsIncreasingTimesPass) {
+TEST(StampSequence, KeepsIncreasingTimes) {
   fsr::protocol::StampSequence stamps;
   EXPECT_EQ(stamps.next(1000, 5), 1000);
   EXPECT_EQ(stamps.next(10'001'000, 10'005), 10'001'000);
@@ -293,7 +292,7 @@ TEST(StampSequence, IncreasesEvenWhereDeviceTimeDoesNot) {
   EXPECT_EQ(stamps.next(90'000'000, 0), 100'002'000);
 }
 
-TEST(StampSequence, GoesBackWithTheHostsTime) {
+TEST(StampSequence, FollowsTheHostsTimeBackwards) {
   fsr::protocol::StampSequence stamps;
   stamps.next(100'000'000'000, 5000);
   EXPECT_EQ(stamps.next(2'000'000'000, 15'000), 2'000'000'000);

@@ -10,7 +10,7 @@ fsr::protocol::PacketHeader at(std::uint32_t device_time, std::size_t size) {
   return {0, device_time, size};
 }
 
-TEST(PacketStamper, TakesOffTheLineAndHalfTheScan) {
+TEST(PacketStamper, SubtractsTheTimeOnTheLineAndHalfTheScan) {
   fsr::protocol::PacketStamper stamper;
   stamper.startLine(115200);
   stamper.setArrival(1000 * kMs);
@@ -20,39 +20,40 @@ TEST(PacketStamper, TakesOffTheLineAndHalfTheScan) {
   EXPECT_EQ(time.device_time, 7000U);
 }
 
-TEST(PacketStamper, TakesNoLineOffWithoutBaud) {
+TEST(PacketStamper, SubtractsNoTimeOnTheLineWithoutBaud) {
   fsr::protocol::PacketStamper stamper;
   stamper.startLine(0);
   stamper.setArrival(1000 * kMs);
   EXPECT_EQ(stamper.transducer(at(7000, 24)).stamp, 1000 * kMs);
 }
 
-TEST(PacketStamper, PlacesScansAndReadingsOnOneClock) {
+TEST(PacketStamper, StampsScansAndReadingsWithOneClock) {
   fsr::protocol::PacketStamper stamper;
   stamper.startLine(115200);
   stamper.setArrival(1000 * kMs);
   const std::int64_t scan = stamper.scan(at(100'000, 168), 5000).stamp;
-  // Sampled 1 ms after the middle of the scan, but here a long time later: only the first tells of the line.
+  // Sampled 1 ms after the middle of the scan but received much later: only the first packet shows the delay.
   stamper.setArrival(1040 * kMs);
   EXPECT_EQ(stamper.transducer(at(101'000, 24)).stamp, scan + 1 * kMs);
 }
 
-TEST(PacketStamper, StampsPacketsOfOneReadApart) {
+TEST(PacketStamper, GivesPacketsOfOneReadDifferentStamps) {
   fsr::protocol::PacketStamper stamper;
   stamper.startLine(0);
   stamper.setArrival(1000 * kMs);
   const std::int64_t first = stamper.scan(at(10'000, 168), 0).stamp;
   const std::int64_t second = stamper.scan(at(20'000, 168), 0).stamp;
-  // The second tells that the first was 10 ms late; its stamp may not go back, and catches up at half speed.
+  // The second packet shows that the first was 10 ms late. Its stamp may not decrease; it catches up at half
+  // speed.
   EXPECT_EQ(second, first + 5 * kMs);
   EXPECT_EQ(stamper.transducer(at(20'000, 24)).stamp, 1000 * kMs);
 }
 
-TEST(PacketStamper, DatesATemperatureBackWithoutLearningFromIt) {
+TEST(PacketStamper, StampsATemperatureWithoutUpdatingTheClock) {
   fsr::protocol::PacketStamper stamper;
   stamper.startLine(0);
   stamper.setArrival(1000 * kMs);
-  EXPECT_EQ(stamper.temperature(at(3'000'000, 24)).stamp, 1000 * kMs) << "before any clock: when it came";
+  EXPECT_EQ(stamper.temperature(at(3'000'000, 24)).stamp, 1000 * kMs) << "without a clock: its arrival";
   stamper.scan(at(10'000'000, 168), 0);
   stamper.setArrival(11'000 * kMs);
   EXPECT_EQ(stamper.temperature(at(15'000'000, 24)).stamp, 6000 * kMs);

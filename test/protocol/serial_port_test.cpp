@@ -17,14 +17,14 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kLong(5000);  // never waited out where the code is right
+constexpr milliseconds kLong(5000);  // never reached where the code is right
 constexpr std::uint32_t kBaud = 115200;
 
 std::int64_t noTime() {
   return 42;
 }
 
-// What a constructor of the port complained about; empty where it did not.
+// The message of the exception that the constructor throws; empty where it does not throw.
 std::string complaintOf(const std::string& path) {
   try {
     fsr::protocol::SerialPort port(path, kBaud, noTime);
@@ -47,7 +47,7 @@ class SerialPort : public testing::Test {
 
 TEST_F(SerialPort, ReadsBytesAsTheyWereSentWithTheirTime) {
   fsr::protocol::SerialPort port(link_, kBaud, noTime);
-  Bytes all(256);  // every value: XON, XOFF, CR, NUL, DEL ... must pass unharmed
+  Bytes all(256);  // every value: XON, XOFF, CR, NUL, DEL ... must pass unchanged
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint8_t>(i);
   ASSERT_TRUE(board_->write(all));
   Bytes received;
@@ -79,7 +79,7 @@ TEST_F(SerialPort, SaysThatTheBoardWasUnplugged) {
   }
 }
 
-TEST_F(SerialPort, SetsNamedAndUnnamedSpeedsAndLeavesThePortAloneAtZero) {
+TEST_F(SerialPort, SetsNamedAndUnnamedSpeedsAndKeepsThePortsSpeedAtZero) {
   for (const std::uint32_t baud : {9600U, 115200U, 921600U, 250000U, 1234567U}) {
     fsr::protocol::SerialPort port(link_, baud, noTime);
     EXPECT_EQ(board_->speed(), baud);
@@ -88,11 +88,11 @@ TEST_F(SerialPort, SetsNamedAndUnnamedSpeedsAndLeavesThePortAloneAtZero) {
   EXPECT_EQ(board_->speed(), 1234567U);
 }
 
-TEST_F(SerialPort, TakesNoTimeForBytesOfAPseudoTerminal) {
+TEST_F(SerialPort, HasNoBaudForAPseudoTerminal) {
   EXPECT_EQ(fsr::protocol::SerialPort(link_, kBaud, noTime).baud(), 0U);
 }
 
-TEST_F(SerialPort, KeepsAnotherReaderOutAndSaysHowToFindTheFirst) {
+TEST_F(SerialPort, RefusesASecondReaderAndSaysHowToFindTheFirst) {
   const fsr::protocol::SerialPort first(link_, kBaud, noTime);
   const std::string complaint = complaintOf(link_);
   EXPECT_TRUE(contains(complaint, "another program has " + link_ + " open")) << complaint;
@@ -111,7 +111,7 @@ TEST_F(SerialPort, NamesAMissingPortAndWhatToSet) {
   EXPECT_TRUE(contains(complaint, "No such file or directory")) << complaint;
 }
 
-TEST_F(SerialPort, RefusesAFileThatIsNoPort) {
+TEST_F(SerialPort, RefusesAFileThatIsNotAPort) {
   std::ofstream(folder_.path("notes.txt")) << "no port";
   EXPECT_TRUE(contains(complaintOf(folder_.path("notes.txt")), "notes.txt is not a serial port"));
   EXPECT_TRUE(contains(complaintOf(folder_.path()), "is not a serial port"));

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -10,18 +11,23 @@
 
 #include "fsr_pressure_map/protocol/wire.h"
 #include "protocol/link_rate.h"
+#include "support/program_output.h"
+#include "support/pty.h"
 
-// Holds docs/wire_format.md to the code: what firmware authors read is what the driver understands.
+// Compares docs/wire_format.md and docs/boards.md with the code.
 namespace {
 
-std::string document() {
-  std::ifstream file(std::string(FSR_SOURCE_DIR) + "/docs/wire_format.md");
+const std::string kSource = FSR_SOURCE_DIR;
+
+std::string document(const std::string& name) {
+  std::ifstream file(kSource + "/docs/" + name);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 // Text between the first `start` behind `heading` and the next `end`.
-std::string between(const std::string& heading, const std::string& start, const std::string& end) {
-  const std::string text = document();
+std::string between(const std::string& heading, const std::string& start, const std::string& end,
+                    const std::string& name = "wire_format.md") {
+  const std::string text = document(name);
   const std::size_t from = text.find(start, text.find(heading));
   if (from == std::string::npos) return "";
   const std::size_t first = from + start.size();
@@ -45,6 +51,23 @@ struct Link {
   std::string name;
   double bytes_per_second;
 };
+
+// Follows docs/boards.md to the letter: copies both files into one folder, compiles the program that it shows
+// with the command that it shows, and compares the output with the packet of docs/wire_format.md.
+TEST(BoardsDocument, ShowsAProgramThatPrintsTheExampleWhereBothFilesAreCopied) {
+  const std::string heading = "## Testing the encoder";
+  const test_support::TemporaryFolder firmware;
+  std::ofstream(firmware.path("check.c")) << between(heading, "```c\n", "```", "boards.md");
+  const std::string command = between(heading, "    gcc ", "\n", "boards.md");
+  ASSERT_NE(command, "");
+  const test_support::ProgramOutput printed = test_support::outputOf(
+      "cp " + kSource + "/include/fsr_pressure_map/protocol/wire.h " + kSource + "/src/protocol/wire.c " +
+      firmware.path() + " && cd " + firmware.path() + " && gcc " + command + " 2>&1");
+  EXPECT_EQ(printed.status, 0) << printed.text;
+  std::string expected = between("## Example", "```\n", "```");
+  std::replace(expected.begin(), expected.end() - 1, '\n', ' ');
+  EXPECT_EQ(printed.text, expected);
+}
 
 TEST(WireFormatDocument, ShowsTheScanRatesThatTheFormulaGives) {
   const std::vector<Link> links = {{"115200 baud", fsr::protocol::serialBytesPerSecond(115200)},

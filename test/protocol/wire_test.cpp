@@ -3,10 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
+
+#include "support/program_output.h"
+#include "support/pty.h"
 
 namespace {
 
@@ -75,7 +76,7 @@ TEST(Wire, EncodesAnIdentityByteForByteAndCutsLongTexts) {
   EXPECT_EQ(Bytes(buffer.begin(), buffer.begin() + size), expected);
 }
 
-TEST(Wire, RefusesABufferThatIsTooSmallAndLeavesItAlone) {
+TEST(Wire, RefusesABufferThatIsTooSmallWithoutWritingToIt) {
   const fsr_wire_identity identity = {"", "", "", 7, 10, 4095, 0};
   Buffer buffer{};
   for (std::size_t room = 0; room < kScanPacket.size(); ++room) {
@@ -107,33 +108,19 @@ TEST(Wire, EncodesEverySizeUpToSixtyFourSquareAndNoOther) {
   EXPECT_EQ(length(7, 10, 0), 0U);
 }
 
-// Runs `command` and returns what it printed; the exit status goes to `status`.
-std::string outputOf(const std::string& command, int& status) {
-  std::string output;
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return "popen failed";
-  for (int c = fgetc(pipe); c != EOF; c = fgetc(pipe)) output.push_back(static_cast<char>(c));
-  status = pclose(pipe);
-  return output;
-}
-
+// As docs/boards.md says: both files in one folder of the firmware project.
 TEST(Wire, CompilesFreestandingAndNeedsNoLibrary) {
-  char folder[] = "/tmp/fsr_wire_XXXXXX";
-  ASSERT_NE(mkdtemp(folder), nullptr);
-  const std::string object = std::string(folder) + "/wire.o";
+  const test_support::TemporaryFolder firmware;
   const std::string source = FSR_SOURCE_DIR;
-  int status = -1;
-  const std::string compiled =
-      outputOf("gcc -std=c99 -ffreestanding -nostdlib -Os -c -Wall -Wextra -Wpedantic -Werror -I" + source +
-                   "/include " + source + "/src/protocol/wire.c -o " + object,
-               status);
-  EXPECT_EQ(status, 0) << compiled;
+  const test_support::ProgramOutput compiled = test_support::outputOf(
+      "cp " + source + "/include/fsr_pressure_map/protocol/wire.h " + source + "/src/protocol/wire.c " +
+      firmware.path() + " && cd " + firmware.path() +
+      " && gcc -std=c99 -ffreestanding -nostdlib -Os -c -Wall -Wextra -Wpedantic -Werror wire.c 2>&1");
+  EXPECT_EQ(compiled.status, 0) << compiled.text;
   // The compiler itself may call memcpy and memset, freestanding or not; firmware always has those.
-  const std::string undefined =
-      outputOf("nm --undefined-only " + object + " | grep -v -w -e memcpy -e memset", status);
-  EXPECT_EQ(undefined, "");
-  std::remove(object.c_str());
-  std::remove(folder);
+  const test_support::ProgramOutput undefined = test_support::outputOf(
+      "nm --undefined-only " + firmware.path("wire.o") + " | grep -v -w -e memcpy -e memset");
+  EXPECT_EQ(undefined.text, "");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint16_t kFullScale = 1023;
 
-// A curve with waves of a hundred codes, read with scatter [counts].
+// Readings with scatter [counts] of a curve with waves a hundred codes long.
 CodeSamples wavyCurve(std::size_t number, double scatter, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0.0, scatter);
@@ -38,7 +38,8 @@ std::vector<CodeStatistics> sumsOf(const std::vector<CodeSamples>& sections) {
   return sums;
 }
 
-// Squared errors on section `tested` of a model trained without it and `left_out`, reading by reading.
+// Squared errors on section `tested` of a model trained without it and without `left_out`, reading by
+// reading.
 double plainSquares(const std::vector<CodeSamples>& sections, std::size_t tested, std::size_t left_out,
                     double bandwidth) {
   CodeSamples training;
@@ -54,7 +55,7 @@ double plainSquares(const std::vector<CodeSamples>& sections, std::size_t tested
   return sum;
 }
 
-TEST(BandwidthErrors, AreThoseOfModelsThatSawNeitherSection) {
+TEST(BandwidthErrors, AreThoseOfModelsTrainedWithoutBothSections) {
   const auto sections = sectionsOf(3);
   const BandwidthErrors errors(sumsOf(sections), kFullScale, {}, {0.01, 0.1});
   for (const std::size_t g : {0, 1}) {
@@ -68,7 +69,7 @@ TEST(BandwidthErrors, AreThoseOfModelsThatSawNeitherSection) {
   }
 }
 
-TEST(BandwidthErrors, ChooseWiderWhereReadingsScatterMore) {
+TEST(BandwidthErrors, ChooseAWiderBandwidthForMoreScatter) {
   const auto best = [](double scatter) {
     return BandwidthErrors(sumsOf(sectionsOf(scatter)), kFullScale, {}, bandwidthGrid()).best();
   };
@@ -77,7 +78,7 @@ TEST(BandwidthErrors, ChooseWiderWhereReadingsScatterMore) {
   EXPECT_LT(best(12), bandwidthGrid().back());
 }
 
-TEST(BandwidthErrors, TheChoiceForASectionDoesNotKnowIt) {
+TEST(BandwidthErrors, TheChoiceForASectionDoesNotUseIt) {
   auto sections = sectionsOf(3);
   const BandwidthErrors before(sumsOf(sections), kFullScale, {}, bandwidthGrid());
   for (FixedPressure& pressure : sections[2].pressure) pressure = toFixed(1e6) - pressure;
@@ -88,7 +89,7 @@ TEST(BandwidthErrors, TheChoiceForASectionDoesNotKnowIt) {
   }
 }
 
-TEST(BandwidthErrors, OfTaxelsAddUp) {
+TEST(BandwidthErrors, OfTwoTaxelsAreAdded) {
   BandwidthErrors both(sumsOf(sectionsOf(3)), kFullScale, {}, {0.01, 0.1});
   const BandwidthErrors other(sumsOf(sectionsOf(9)), kFullScale, {}, {0.01, 0.1});
   const double before = both.squares(1, 0);
@@ -96,7 +97,7 @@ TEST(BandwidthErrors, OfTaxelsAddUp) {
   EXPECT_EQ(both.squares(1, 0), before + other.squares(1, 0));
 }
 
-TEST(BandwidthErrors, WithNothingToHoldOutTheyChooseThePapers) {
+TEST(BandwidthErrors, ChooseThePapersBandwidthIfNothingCanBeHeldOut) {
   const auto sections = sumsOf({wavyCurve(50, 3, 1), wavyCurve(0, 3, 1)});
   const BandwidthErrors errors(sections, kFullScale, {}, bandwidthGrid());
   EXPECT_EQ(errors.best(), kPaperBandwidth);
@@ -105,13 +106,13 @@ TEST(BandwidthErrors, WithNothingToHoldOutTheyChooseThePapers) {
   EXPECT_TRUE(tuned.model.held_out[0].pressure.empty());
 }
 
-TEST(BandwidthErrors, OfPressureBinsAreRefused) {
+TEST(BandwidthErrors, RefuseWeightsOfPressureBins) {
   GrnnOptions options;
   options.weighting = SampleWeighting::kEachPressureBin;
   EXPECT_THROW(BandwidthErrors(sumsOf(sectionsOf(3)), kFullScale, options, {0.1}), settings::InputError);
 }
 
-TEST(CrossValidateTuned, TrainsEachModelWithItsOwnChoice) {
+TEST(CrossValidateTuned, TrainsEachModelWithItsOwnBandwidth) {
   const auto sections = sumsOf(sectionsOf(6));
   const BandwidthErrors errors(sections, kFullScale, {}, bandwidthGrid());
   const TunedModel tuned = crossValidateTuned(sections, kFullScale, {}, errors, HeldOutDeviation::kNo);

@@ -1,12 +1,12 @@
-#include "fsr_pressure_map/regression/code_samples.h"
+#include "regression/code_samples.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "fsr_pressure_map/regression/grnn.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "regression/cross_validation.h"
+#include "regression/grnn/grnn.h"
 
 namespace fsr::regression {
 namespace {
@@ -24,7 +24,7 @@ CodeSamples randomSamples(std::size_t number, unsigned seed) {
   return samples;
 }
 
-TEST(CodeSamples, AnImpossibleSetIsRefused) {
+TEST(CodeSamples, RefuseVectorsThatDoNotFit) {
   CodeSamples samples = randomSamples(3, 1);
   EXPECT_NO_THROW(validate(samples));
   samples.curvature = {1.0};

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/code_statistics.h"
+#include "regression/code_statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ CodeStatistics statisticsOf(const std::vector<Reading>& readings) {
   return accumulator.take();
 }
 
-TEST(CodeStatistics, HoldCountSumAndSquaresOfEachCode) {
+TEST(CodeStatistics, ContainCountSumAndSquaresOfEachCode) {
   const CodeStatistics statistics = statisticsOf({{7, 1.5}, {4095, -2.0}, {7, 0.25}});
   std::vector<CodeSums> sums;
   statistics.forEach([&](const CodeSums& code) { sums.push_back(code); });
@@ -69,7 +69,7 @@ TEST(CodeStatistics, MergingNothingChangesNothing) {
   EXPECT_TRUE(statistics == before);
 }
 
-TEST(CodeStatistics, AnOverflowingSumIsRefused) {
+TEST(CodeStatistics, RefuseASumThatOverflows) {
   const CodeSums full{5, 1u << 19, std::numeric_limits<std::int64_t>::max() - 10, 0};
   CodeStatistics a, b;
   a.append(full);
@@ -77,18 +77,18 @@ TEST(CodeStatistics, AnOverflowingSumIsRefused) {
   EXPECT_THROW(a.merge(b), settings::InputError);
 }
 
-TEST(CodeStatistics, AnImpossiblePressureIsRefused) {
+TEST(CodeStatistics, RefuseAPressureOutOfRange) {
   EXPECT_THROW(toFixed(std::nan("")), settings::InputError);
   EXPECT_THROW(toFixed(1e9), settings::InputError);
   EXPECT_EQ(fromFixed(toFixed(-kLargestPressure)), -kLargestPressure);
 }
 
-TEST(CodeAccumulator, ACountAboveFullScaleIsRefused) {
+TEST(CodeAccumulator, RefusesACodeAboveFullScale) {
   CodeAccumulator accumulator(1023);
   EXPECT_THROW(accumulator.add(1024, 0), settings::InputError);
 }
 
-TEST(CodeAccumulator, StartsAfreshOnceTaken) {
+TEST(CodeAccumulator, IsEmptyAfterTake) {
   CodeAccumulator accumulator(65535);
   accumulator.add(65535, 1);
   EXPECT_EQ(accumulator.take().codes(), 1u);

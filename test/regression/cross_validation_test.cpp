@@ -7,7 +7,7 @@
 #include <functional>
 #include <random>
 
-#include "fsr_pressure_map/regression/grnn.h"
+#include "regression/grnn/grnn.h"
 #include "regression/held_out_deviation.h"
 
 namespace fsr::regression {
@@ -27,7 +27,7 @@ CodeStatistics statisticsOf(const Section& section) {
   return accumulator.take();
 }
 
-// Readings on the line 150 Pa a count from code 100 to 3900, with the error that `error` draws [Pa].
+// Readings on the line 150 Pa a count from code 100 to 3900, with errors from `error` [Pa].
 Section line(std::size_t number, std::mt19937& random, const std::function<double(int code)>& error) {
   Section section;
   for (std::size_t i = 0; i < number; ++i) {
@@ -43,7 +43,7 @@ CrossValidatedModel fit(const std::vector<Section>& sections) {
   return crossValidate(statistics, kFullScale, Grnn(), HeldOutDeviation::kYes);
 }
 
-// Share of each section's readings within the deviation that the other sections state.
+// Share of the readings of each section within the deviation from the other sections.
 double shareWithin(const std::vector<Section>& sections, const CrossValidatedModel& model) {
   double inside = 0, all = 0;
   for (std::size_t k = 0; k < sections.size(); ++k) {
@@ -56,39 +56,39 @@ double shareWithin(const std::vector<Section>& sections, const CrossValidatedMod
   return inside / all;
 }
 
-TEST(CrossValidation, AHeldOutModelHasNotSeenItsSection) {
-  // One section lies 9 kPa above the other: each model answers with the other section's line.
+TEST(CrossValidation, AHeldOutModelIsTrainedWithoutItsSection) {
+  // One section is 9 kPa above the other: each model answers with the line of the other section.
   const std::vector<Section> sections = {{{100, 0.0}, {3000, 1e3}}, {{100, 9e3}, {3000, 10e3}}};
   const CrossValidatedModel model = fit(sections);
   EXPECT_EQ(model.held_out[0].pressure[100], 9e3);
   EXPECT_EQ(model.held_out[1].pressure[100], 0.0);
   EXPECT_EQ(model.table.pressure[100], 4.5e3f);
-  EXPECT_NEAR(model.table.deviation[100], 9e3, 9e3 * 0.01);  // a bin of the ratio's histogram
+  EXPECT_NEAR(model.table.deviation[100], 9e3, 9e3 * 0.01);  // the width of a bin in the histogram of ratios
   EXPECT_EQ(model.table.lowest, 100);
   EXPECT_EQ(model.table.highest, 3000);
 }
 
-TEST(CrossValidation, NormalErrorsLieWithinOneDeviationAsOftenAsTheyShould) {
+TEST(CrossValidation, NormalErrorsAreWithinOneDeviationAt68Percent) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   std::vector<Section> sections;
   for (int k = 0; k < 5; ++k) {
-    // deviation grows along the codes from 2 to 10 kPa
+    // the deviation increases with the code from 2 to 10 kPa
     sections.push_back(line(1500, random, [&](int code) { return (2e3 + 2.1 * code) * normal(random); }));
   }
   const CrossValidatedModel model = fit(sections);
   EXPECT_GT(shareWithin(sections, model), 0.63);
   EXPECT_LT(shareWithin(sections, model), 0.73);
-  // The stated deviation follows the true one, widened by the model's own scatter.
+  // The stated deviation follows the true one, plus the scatter of the model itself.
   EXPECT_NEAR(model.table.deviation[400] / (2e3 + 2.1 * 400), 1.1, 0.3);
   EXPECT_NEAR(model.table.deviation[3500] / (2e3 + 2.1 * 3500), 1.1, 0.3);
 }
 
-TEST(CrossValidation, ALoopsErrorsLieWithinOneDeviationAsOftenAsTheyShould) {
+TEST(CrossValidation, ErrorsOfAHysteresisLoopAreWithinOneDeviationAt68Percent) {
   std::mt19937 random(8);
   std::vector<Section> sections;
   for (int k = 0; k < 5; ++k) {
-    // loading and unloading lie 15 kPa to either side: no reading is near the mean
+    // loading and unloading are 15 kPa on either side: no reading is near the mean
     sections.push_back(line(1500, random, [&](int) {
       return (random() % 2 == 0 ? 15e3 : -15e3) + static_cast<double>(random() % 4000) - 2e3;
     }));
@@ -98,7 +98,7 @@ TEST(CrossValidation, ALoopsErrorsLieWithinOneDeviationAsOftenAsTheyShould) {
   EXPECT_LT(shareWithin(sections, model), 0.73);
 }
 
-TEST(CrossValidation, ARareCodeTakesTheDeviationOfAll) {
+TEST(CrossValidation, ARareCodeGetsTheDeviationOfAllCodes) {
   std::mt19937 random(9);
   std::normal_distribution<double> normal;
   std::vector<Section> sections;
@@ -108,11 +108,11 @@ TEST(CrossValidation, ARareCodeTakesTheDeviationOfAll) {
   sections[1].push_back({4090, 700e3});
   const CrossValidatedModel model = fit(sections);
   const float typical = model.table.deviation[2000];
-  EXPECT_GT(model.table.deviation[4090], 0.5f * typical);  // two equal readings prove no precision
+  EXPECT_GT(model.table.deviation[4090], 0.5f * typical);  // two equal readings do not show precision
   EXPECT_NEAR(model.table.deviation[0], typical, 0.2f * typical);
 }
 
-TEST(CrossValidation, NoDeviationIsBelowTheStepOfOneCount) {
+TEST(CrossValidation, TheDeviationIsAtLeastTheStepOfOneCount) {
   std::mt19937 random(10);
   std::vector<Section> sections;
   for (int k = 0; k < 5; ++k) sections.push_back(line(4000, random, [](int) { return 0.0; }));
@@ -121,7 +121,7 @@ TEST(CrossValidation, NoDeviationIsBelowTheStepOfOneCount) {
   for (const float deviation : model.table.deviation) EXPECT_GE(deviation, 1.0f);
 }
 
-TEST(CrossValidation, OneSectionAloneIsJudgedByItsOwnReadings) {
+TEST(CrossValidation, TheDeviationOfASingleSectionIsThatOfItsOwnReadings) {
   const CrossValidatedModel model = fit({{{100, 0.0}, {100, 8e3}, {2000, 50e3}}, {}});
   EXPECT_TRUE(model.held_out[0].pressure.empty());
   EXPECT_EQ(model.table.pressure[100], 4e3f);
@@ -129,13 +129,13 @@ TEST(CrossValidation, OneSectionAloneIsJudgedByItsOwnReadings) {
   for (const float pressure : model.table.pressure) EXPECT_TRUE(std::isfinite(pressure));
 }
 
-TEST(CrossValidation, PressureThatNeverChangesKeepsAPositiveDeviation) {
+TEST(CrossValidation, AConstantPressureHasAPositiveDeviation) {
   const CrossValidatedModel model = fit({{{100, 5e3}, {101, 5e3}}, {{100, 5e3}, {102, 5e3}}});
   for (const float deviation : model.table.deviation) EXPECT_EQ(deviation, 1.0f);
   for (const float pressure : model.table.pressure) EXPECT_EQ(pressure, 5e3f);
 }
 
-TEST(HeldOutErrors, LeavingASectionOutForgetsItsErrors) {
+TEST(HeldOutErrors, LeavingASectionOutRemovesItsErrors) {
   const std::vector<double> pressure(kFullScale + 1u, 0.0);
   HeldOutErrors errors(kFullScale);
   errors.addSection(statisticsOf({{100, 1e3}, {200, -1e3}}), pressure);

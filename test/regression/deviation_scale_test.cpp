@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kCodes = 4096;
 
-// Readings at codes 0 to 3999 whose ratio `draw(code)` gives.
+// Readings at codes 0 to 3999 with the ratio `draw(code)`.
 template <typename Draw>
 std::vector<double> factorsOf(std::size_t readings_of_code, Draw draw) {
   DeviationScale scale(std::vector<double>(kCodes, static_cast<double>(readings_of_code)));
@@ -46,7 +46,7 @@ TEST(DeviationScale, OfUniformErrorsIsTheirQuantile) {
   }
 }
 
-TEST(DeviationScale, OneHeavyCodeHasItsOwn) {
+TEST(DeviationScale, ACodeWithManyReadingsHasItsOwnFactor) {
   std::mt19937 random(4);
   std::normal_distribution<double> normal;
   std::vector<double> readings(kCodes, 2.0);

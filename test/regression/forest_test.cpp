@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/forest.h"
+#include "regression/forest/forest.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 using test_support::regressionData;
 using test_support::rmsePercentOn;
 
-// Mean RMSE% over seeds 1 to 10: its own scatter is 0.004, on two inputs that become leaves 0.12.
+// Mean RMSE% over seeds 1 to 10. Its own scatter is 0.004, and 0.12 on two inputs with leaves.
 double meanRmse(ForestOptions options, const std::function<double(const ForestOptions&)>& rmse) {
   double sum = 0;
   for (options.seed = 1; options.seed <= 10; ++options.seed) sum += rmse(options);
@@ -43,25 +43,25 @@ double twoInputs(const ForestOptions& options) {
 
 constexpr double kRmseTolerance = 0.05;  // [%] of the range
 
-// Numbers of other packages: test/data/make_regression_data.py, 20 seeds (scikit-learn 1.2.1, ranger 0.14.1).
+// Values of other packages: test/data/make_regression_data.py, 20 seeds (scikit-learn 1.2.1, ranger 0.14.1).
 TEST(Forest, OnOneInputAgreesWithScikitLearn) {
   ForestOptions options;
   options.leaf_count = LeafCount::kDistinct;
   EXPECT_NEAR(meanRmse(options, oneInput), 4.8816, kRmseTolerance);
 }
 
-TEST(Forest, OnAReplicaAgreesWithScikitLearnsTreesOnReplicas) {
+TEST(Forest, OnResampledReadingsAgreesWithScikitLearnsTreesOnResampledReadings) {
   // DecisionTreeRegressor(min_samples_leaf=5) on 150 resampled sets
   EXPECT_NEAR(meanRmse({}, oneInput), 4.9384, kRmseTolerance);
 }
 
-TEST(Forest, OnTwoInputsThatAreRetriedAgreesWithScikitLearn) {
+TEST(Forest, OnTwoInputsWithRetryAgreesWithScikitLearn) {
   ForestOptions options;
   options.leaf_count = LeafCount::kDistinct;
   EXPECT_NEAR(meanRmse(options, twoInputs), 2.4662, kRmseTolerance);
 }
 
-TEST(Forest, OnTwoInputsThatBecomeLeavesAgreesWithRanger) {
+TEST(Forest, OnTwoInputsWithLeavesAgreesWithRanger) {
   ForestOptions options;
   options.sampling = InputSampling::kLeaf;
   EXPECT_NEAR(meanRmse(options, twoInputs), 5.7572, 0.4);
@@ -88,8 +88,9 @@ TEST(Forest, CutsAClearStepMidway) {
   EXPECT_NEAR(fit.pressure[4095], 9e3, 1e-9);
 }
 
-TEST(Forest, NoLeafIsSmallerThanItMayBe) {
-  // Four readings apart from a hundred: on a replica they are often fewer than five, and then not cut off.
+TEST(Forest, NoLeafIsSmallerThanTheMinimum) {
+  // Four readings apart from a hundred. Among resampled readings they are often fewer than five and then not
+  // cut off.
   std::vector<std::uint16_t> code(104, 10);
   std::vector<double> pressure(104, 1e3);
   std::fill(code.begin() + 100, code.end(), std::uint16_t{20});
@@ -118,7 +119,7 @@ TEST(Forest, TheOrderOfReadingsHasNoEffect) {
   }
 }
 
-TEST(Forest, ThreadsHaveNoEffectAndSeedsHave) {
+TEST(Forest, ThreadsHaveNoEffectAndTheSeedHas) {
   const auto data = regressionData().train;
   const Forest forest;
   const Fit alone = forest.fitSamples(data);
@@ -139,14 +140,14 @@ TEST(Forest, TablesCoverEveryCurvature) {
   for (const Fit& fit : steps.fits) {
     for (const double pressure : fit.pressure) ASSERT_TRUE(std::isfinite(pressure));
   }
-  // flat and bent part midway between 0 and 7.69 1/m, among other places
+  // flat and bent are separated midway between 0 and 7.69 1/m, among other cuts
   EXPECT_TRUE(std::count(steps.split.begin(), steps.split.end(), 7.69 / 2));
   EXPECT_NE(&steps.at(3.8), &steps.at(3.9));
   EXPECT_EQ(&steps.at(-100.0), &steps.fits.front());
   EXPECT_EQ(&steps.at(100.0), &steps.fits.back());
 }
 
-TEST(Forest, ImpossibleOptionsAndInputAreRefused) {
+TEST(Forest, OptionsAndInputOutOfRangeAreRefused) {
   ForestOptions none;
   none.trees = 0;
   EXPECT_THROW(Forest{none}, settings::InputError);

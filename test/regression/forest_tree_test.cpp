@@ -14,7 +14,7 @@
 namespace fsr::regression {
 namespace {
 
-// A second forest, as plain as can be: a replica of the readings, and every cut tried at every node.
+// A second, simple implementation: a resampled copy of the readings, and every cut tried at every node.
 struct Reading {
   std::array<double, 2> input;  // code, curvature
   double pressure;              // [Pa]
@@ -52,7 +52,7 @@ Cut bestOf(const std::vector<Reading>& readings, std::size_t input, std::size_t 
   return best;
 }
 
-// The readings that tree `tree` draws, from the documented stream over the data's own order.
+// The readings that tree `tree` draws, from the documented stream over the sorted readings.
 std::vector<Reading> replica(const ForestData& data, std::uint64_t seed, std::uint64_t tree) {
   std::vector<Reading> all(data.pressure.size());
   std::size_t reading = 0, slot = 0;
@@ -121,7 +121,7 @@ CodeSamples noisyCurves(std::size_t number, unsigned seed) {
   return samples;
 }
 
-// Answers of both at every code and at curvatures between and beyond those of training.
+// Answers of both implementations at every code and at curvatures between and beyond those of training.
 void expectThePlainTree(bool on_curvature, const ForestOptions& options) {
   const CodeSamples samples = noisyCurves(401, 3);
   const ForestData data(samples, on_curvature);
@@ -157,7 +157,7 @@ TEST(TreeGrower, OnTwoInputsGrowsTheTreeOfAPlainSearch) {
   expectThePlainTree(true, {});
 }
 
-TEST(TreeGrower, WithLeavesForInputsThatCannotCutGrowsTheTreeOfAPlainSearch) {
+TEST(TreeGrower, WithLeavesForInputsWithoutACutGrowsTheTreeOfAPlainSearch) {
   ForestOptions options;
   options.sampling = InputSampling::kLeaf;
   options.minimum_leaf = 2;
@@ -172,7 +172,7 @@ TEST(BestCut, OfEqualCutsTakesTheLowest) {
   EXPECT_EQ(bestCut({count.data(), count.data(), sum.data(), code.data(), false, 0, 4, 3}), kNoCut);
 }
 
-TEST(BestCut, FindsNothingWhereAllAreEqual) {
+TEST(BestCut, FindsNoCutIfAllPressuresAreEqual) {
   std::vector<double> count, sum, code;
   for (int i = 0; i < 40; ++i) {
     count.push_back(3 * i);

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/grnn.h"
+#include "regression/grnn/grnn.h"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ std::vector<Reading> curve(std::size_t number, double low, double high, unsigned
   return readings;
 }
 
-// The formula itself in long double: every sample, the smallest distance taken out of the exponents.
+// The formula in long double: all samples, with the smallest exponent subtracted.
 std::vector<double> dense(const std::vector<Reading>& readings, std::uint16_t full_scale, double bandwidth) {
   long double mean = 0, squares = 0;
   for (const Reading& reading : readings) mean += reading.code;
@@ -54,7 +54,7 @@ std::vector<double> dense(const std::vector<Reading>& readings, std::uint16_t fu
     for (const Reading& reading : readings) {
       const long double d = static_cast<long double>(reading.code) - code;
       const long double excess = (d * d - nearest * nearest) / (2 * sigma * sigma);
-      if (excess > 100) continue;  // 1e-43 of the nearest
+      if (excess > 100) continue;  // 1e-43 of the weight of the nearest
       const long double weight = std::exp(-excess);
       sum += weight * reading.pressure;
       weights += weight;
@@ -64,8 +64,8 @@ std::vector<double> dense(const std::vector<Reading>& readings, std::uint16_t fu
   return answers;
 }
 
-// Largest difference over all codes, as a share of the training pressures' range; infinite where an
-// answer is not finite.
+// Largest difference over all codes, as a share of the range of training pressures; infinite if an answer is
+// not finite.
 double worstError(const std::vector<Reading>& readings, std::uint16_t full_scale, double bandwidth) {
   const Fit fit = Grnn(bandwidth).fit(histogramOf(readings, full_scale));
   const std::vector<double> expected = dense(readings, full_scale, bandwidth);
@@ -92,16 +92,16 @@ TEST(Grnn, NarrowAndWideBandwidthsAgreeWithTheDenseFormula) {
   }
 }
 
-TEST(Grnn, GapsAndFarCodesHaveTheNearestSamplesValue) {
+TEST(Grnn, GapsAndFarCodesHaveTheValueOfTheNearestSample) {
   auto readings = curve(150, 40, 700, 3);
   for (const Reading& reading : curve(150, 3000, 3100, 4)) readings.push_back(reading);
   EXPECT_LT(worstError(readings, 4095, kPaperBandwidth), kTolerance);
 
-  // At a hundred sigmas and more nothing but the outermost code has weight.
+  // At a distance of a hundred sigmas and more only the outermost code has weight.
   const Fit fit = Grnn(kPaperBandwidth).fit(histogramOf({{100, 1e3}, {104, 2e3}, {900, 9e3}}, 4095));
   EXPECT_NEAR(fit.pressure[0], 1e3, 1e-9);
   EXPECT_NEAR(fit.pressure[480], 2e3, 1e-9);
-  EXPECT_NEAR(fit.pressure[502], 5.5e3, 1e-9);  // midway: both neighbours alike
+  EXPECT_NEAR(fit.pressure[502], 5.5e3, 1e-9);  // midway: equal weights of both neighbours
   EXPECT_NEAR(fit.pressure[4095], 9e3, 1e-9);
   EXPECT_EQ(fit.support[4095], 0.0);
 }
@@ -141,7 +141,7 @@ TEST(Grnn, MatlabsSpreadIsTheDistanceOfHalfAResponse) {
 }
 
 TEST(Grnn, TheLiteralDistanceIsNotSquared) {
-  // the same with w = -d / (2 * .25**2)
+  // as above, with w = -d / (2 * .25**2)
   GrnnOptions options;
   options.bandwidth = 0.25;
   options.distance = KernelDistance::kLiteral;
@@ -153,8 +153,8 @@ TEST(Grnn, TheLiteralDistanceIsNotSquared) {
   EXPECT_NEAR(fit.support[105], 1.64636449, 1e-8);
 }
 
-TEST(Grnn, PressureBinsThatWeighAlikeForgetHowLongTheChamberHeldAPressure) {
-  // Two pressures whose readings overlap: held equally long, and one of them nine times as long.
+TEST(Grnn, WithEqualPressureBinsTheDurationOfAPressureHasNoEffect) {
+  // Two pressures with overlapping readings: held equally long, and one of them nine times as long.
   const auto train = [](int times_high, SampleWeighting weighting) {
     CodeSamples samples;
     samples.full_scale = 4095;
@@ -181,7 +181,7 @@ TEST(Grnn, PressureBinsNeedTheReadings) {
   EXPECT_THROW(Grnn(options).fit(histogramOf(kFive, 4095)), settings::InputError);
 }
 
-TEST(Grnn, ReadingsThatNeverDifferAnswerWithTheirMean) {
+TEST(Grnn, OfAConstantReadingIsTheMeanPressure) {
   const Fit fit = Grnn().fit(histogramOf({{12, 100.0}, {12, 200.0}}, 4095));
   EXPECT_EQ(fit.pressure[0], 150.0);
   EXPECT_EQ(fit.pressure[12], 150.0);
@@ -191,7 +191,7 @@ TEST(Grnn, ReadingsThatNeverDifferAnswerWithTheirMean) {
   EXPECT_EQ(Grnn().fit(histogramOf({{7, 5.0}}, 15)).pressure[3], 5.0);
 }
 
-TEST(Grnn, ABandwidthThatCannotBeIsRefused) {
+TEST(Grnn, RefusesABandwidthOutOfRange) {
   EXPECT_THROW(Grnn(0.0), settings::InputError);
   EXPECT_THROW(Grnn(-1.0), settings::InputError);
   EXPECT_THROW(Grnn(std::nan("")), settings::InputError);

@@ -45,7 +45,7 @@ std::vector<Sample> dwells(unsigned seed) {
   return samples;
 }
 
-// The formula itself in long double, the smallest exponent taken out.
+// The formula in long double, with the smallest exponent subtracted.
 struct Dense {
   std::vector<long double> pressure, log_weight;
 };
@@ -62,7 +62,7 @@ Dense dense(const std::vector<Sample>& samples, const std::function<long double(
     for (const auto& [at, sums] : by_code) least = std::min(least, exponent(std::abs(at - code)));
     for (const auto& [at, sums] : by_code) {
       const long double excess = exponent(std::abs(at - code)) - least;
-      if (excess > 100) continue;  // 1e-43 of the nearest
+      if (excess > 100) continue;  // 1e-43 of the weight of the nearest
       const long double value = std::exp(-excess);
       sum += value * sums.second;
       weight += value * sums.first;
@@ -77,7 +77,7 @@ void expectAgreement(const KernelMean& mean, const Dense& expected, double range
   for (std::size_t code = 0; code <= kFullScale; ++code) {
     const auto pressure = static_cast<double>(expected.pressure[code]);
     ASSERT_NEAR(mean.pressure[code], pressure, kTolerance * range) << code << ", " << width;
-    // a logarithm of weight right to 1e-10 is a weight right to 1e-10
+    // an error of 1e-10 in the logarithm is a relative error of 1e-10 in the weight
     const auto log_weight = static_cast<double>(expected.log_weight[code]);
     ASSERT_NEAR(mean.log_weight[code], log_weight, 1e-10 + 1e-15 * std::abs(log_weight)) << code;
     if (log_weight > -590) {
@@ -88,7 +88,7 @@ void expectAgreement(const KernelMean& mean, const Dense& expected, double range
   }
 }
 
-TEST(GaussianMean, AgreesWithTheDenseFormulaBesideLongDwells) {
+TEST(GaussianMean, AgreesWithTheDenseFormulaNearLongDwells) {
   const auto samples = dwells(1);
   for (const double sigma : {0.3, 7.0, 20.0, 28.0, 57.0, 130.0, 450.0, 30000.0}) {
     const Dense expected = dense(samples, [&](long double d) { return d * d / (2 * sigma * sigma); });
@@ -114,12 +114,12 @@ TEST(LaplaceMean, AgreesWithTheDenseFormula) {
   }
 }
 
-TEST(GaussianMean, NoLogarithmsWhereNotAskedFor) {
+TEST(GaussianMean, GivesNoLogarithmsUnlessAskedFor) {
   EXPECT_TRUE(gaussianMean(codesOf(dwells(3)), 7.0).log_weight.empty());
   EXPECT_TRUE(laplaceMean(codesOf(dwells(3)), 7.0).log_weight.empty());
 }
 
-TEST(CoarseGrid, IsForWideKernels) {
+TEST(CoarseGrid, IsUsedForWideKernels) {
   EXPECT_FALSE(CoarseGrid::suits(7.0));
   EXPECT_TRUE(CoarseGrid::suits(20.0));
 }

@@ -29,13 +29,13 @@ TEST(LinearRegression, AgreesWithScikitLearnAndR) {
   EXPECT_NEAR(line.support[0], 0.12888029955308614, 1e-14);
 }
 
-TEST(LinearRegression, ANarrowRangeOfLargeCodesLosesNoDigits) {
+TEST(LinearRegression, ANarrowRangeOfLargeCodesLosesNoPrecision) {
   const Fit line = fit({65000, 65001, 65002, 65003}, {1e5, 2e5, 3e5, 4e5}, 65535);
   EXPECT_NEAR(line.pressure[65000], 1e5, 1e-6);
   EXPECT_NEAR(line.pressure[65535], 1e5 + 535e5, 1e-4);
 }
 
-TEST(LinearRegression, ReadingsThatNeverDifferAnswerWithTheirMean) {
+TEST(LinearRegression, OfAConstantReadingIsTheMeanPressure) {
   const Fit line = fit({12, 12}, {100.0, 200.0});
   EXPECT_EQ(line.pressure[0], 150.0);
   EXPECT_EQ(line.pressure[4095], 150.0);

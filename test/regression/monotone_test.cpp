@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "fsr_pressure_map/regression/grnn.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "regression/grnn/grnn.h"
 #include "regression/isotonic.h"
 
 namespace fsr::regression {
@@ -52,7 +52,7 @@ double readingAt(double pressure) {
   return 60 + 3300 * std::pow(pressure / 620e3, 0.7);
 }
 
-// Scans under pressures that a chamber holds according to `draw` [Pa].
+// Scans at the pressures that `draw` gives [Pa].
 template <typename Draw>
 CodeSamples scans(std::size_t number, unsigned seed, Draw draw, double sign = 1.0) {
   std::mt19937 random(seed);
@@ -71,26 +71,26 @@ double evenly(std::mt19937& random) {
   return std::uniform_real_distribution<double>(0, 620e3)(random);
 }
 
-// Mostly near 450 kPa.
+// Pressures that are mostly near 450 kPa.
 double longDwell(std::mt19937& random) {
   return random() % 10 == 0 ? evenly(random) : std::uniform_real_distribution<double>(430e3, 470e3)(random);
 }
 
-TEST(Monotone, FindsTheCurveBack) {
+TEST(Monotone, RecoversTheCurve) {
   const MonotoneCurve curve(scans(6000, 1, evenly));
   for (double pressure = 20e3; pressure < 600e3; pressure += 20e3) {
     EXPECT_NEAR(curve.pressureAt(readingAt(pressure)), pressure, 6e3) << pressure;
   }
 }
 
-TEST(Monotone, AFallingReadingIsInvertedAsWell) {
+TEST(Monotone, InvertsAFallingCurve) {
   const MonotoneCurve curve(scans(6000, 2, evenly, -1.0));
   EXPECT_NEAR(curve.pressureAt(4000 - readingAt(100e3)), 100e3, 6e3);
   EXPECT_NEAR(curve.pressureAt(4000 - readingAt(500e3)), 500e3, 6e3);
 }
 
-TEST(Monotone, ForgetsHowLongTheChamberHeldAPressure) {
-  // Readings of pressures next to a long dwell: the GRNN's mean is drawn to the dwell, the curve is not.
+TEST(Monotone, DoesNotDependOnHowLongTheChamberHeldAPressure) {
+  // Readings near a long dwell: the mean of the GRNN is biased towards the dwell, the curve is not.
   const CodeSamples dwell = scans(20000, 3, longDwell);
   const Fit monotone = Monotone().fitSamples(dwell), grnn = Grnn().fitSamples(dwell);
   for (const double pressure : {415e3, 485e3}) {
@@ -100,7 +100,7 @@ TEST(Monotone, ForgetsHowLongTheChamberHeldAPressure) {
   }
 }
 
-TEST(Monotone, KnotsRiseStrictlyAndTheTableNeverFalls) {
+TEST(Monotone, KnotsIncreaseStrictlyAndTheTableDoesNotDecrease) {
   const CodeSamples samples = scans(3000, 4, evenly);
   const MonotoneCurve curve(samples);
   for (std::size_t i = 1; i < curve.knotReading().size(); ++i) {
@@ -119,7 +119,7 @@ TEST(Monotone, StaysWithinThePressuresOfTraining) {
   EXPECT_EQ(fit.pressure.back(), fromFixed(*high));
 }
 
-TEST(Monotone, StatesTheScatterThroughTheSlope) {
+TEST(Monotone, ComputesTheDeviationFromScatterAndSlope) {
   const MonotoneCurve curve(scans(20000, 6, evenly));
   for (const double pressure : {100e3, 300e3, 500e3}) {
     const double slope = 0.7 * 3300 / 620e3 * std::pow(pressure / 620e3, -0.3);  // [counts/Pa]
@@ -127,14 +127,14 @@ TEST(Monotone, StatesTheScatterThroughTheSlope) {
   }
 }
 
-TEST(Monotone, SupportIsThatOfTheKnotsBetween) {
+TEST(Monotone, SupportIsThatOfTheNeighbouringKnots) {
   const MonotoneCurve curve(scans(6000, 7, evenly));
   const double left = curve.knotReading()[10], right = curve.knotReading()[11];
   const double at_left = curve.supportAt(left), at_right = curve.supportAt(right);
   EXPECT_NEAR(curve.supportAt((left + right) / 2), 4 / (1 / at_left + 1 / at_right), 1e-6);
 }
 
-TEST(Monotone, OneReadingOrOnePressureAnswersWithItsMean) {
+TEST(Monotone, OfOneReadingOrOnePressureIsTheMean) {
   CodeSamples samples;
   samples.full_scale = 15;
   samples.add(7, toFixed(1e3));

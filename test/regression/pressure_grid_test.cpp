@@ -5,7 +5,7 @@
 namespace fsr::regression {
 namespace {
 
-TEST(PressureGrid, HoldsEveryPressureInAsManyBinsAsAllowed) {
+TEST(PressureGrid, CoversEveryPressureWithAtMostTheGivenBins) {
   const std::vector<FixedPressure> pressure = {toFixed(-800.0), toFixed(0.0), toFixed(619e3)};
   const PressureGrid grid = pressureGrid(pressure, 64);
   EXPECT_LE(grid.bins, 64u);
@@ -23,7 +23,7 @@ TEST(PressureGrid, OnePressureIsOneBin) {
   EXPECT_EQ(grid.bin(toFixed(5e3)), 0u);
 }
 
-TEST(PressureGrid, WeightsAddUpToTheSamplesWhateverTheirOrder) {
+TEST(PressureGrid, WeightsAddUpToTheNumberOfSamplesInAnyOrder) {
   CodeSamples samples;
   samples.full_scale = 255;
   for (int i = 0; i < 30; ++i) samples.add(static_cast<std::uint16_t>(7 * i), toFixed(100.0 * i * i));

@@ -1,6 +1,6 @@
-// What every regressor owes its callers, checked on each of them and on each way to set it.
+// Properties of every regressor, checked for each one and for each of its options.
 
-#include "fsr_pressure_map/regression/regressors.h"
+#include "regression/regressors.h"
 
 #include <gtest/gtest.h>
 
@@ -15,33 +15,33 @@
 namespace fsr::regression {
 namespace {
 
-struct Way {
+struct Variant {
   std::string title;
   RegressorOptions options;
-  double rmse_percent;  // on test/data/regression.csv, of another package or of the curve's own scatter
+  double rmse_percent;  // on test/data/regression.csv, by another package or from the scatter of the curve
   double tolerance;
 };
 
-std::ostream& operator<<(std::ostream& out, const Way& way) {
-  return out << way.title;
+std::ostream& operator<<(std::ostream& out, const Variant& variant) {
+  return out << variant.title;
 }
 
-Way way(const std::string& title, const std::string& name, double rmse_percent, double tolerance) {
-  Way result{title, {}, rmse_percent, tolerance};
+Variant variant(const std::string& title, const std::string& name, double rmse_percent, double tolerance) {
+  Variant result{title, {}, rmse_percent, tolerance};
   result.options.name = name;
   return result;
 }
 
-std::vector<Way> ways() {
-  // rmse_percent: make_regression_data.py; numpy, dense, for the GRNN
-  std::vector<Way> all = {way("linear", "linear", 6.4883855033, 1e-7),  //
-                          way("grnn", "grnn", 4.8185991615, 1e-7),
-                          way("grnn_matlab_spread", "grnn", 4.7736266963, 1e-7),
-                          way("grnn_literal", "grnn", 4.7088471812, 1e-7),
-                          way("grnn_pressure_bins", "grnn", 4.8, 0.3),
-                          way("forest", "forest", 4.9384, 0.06),
-                          way("forest_distinct", "forest", 4.8816, 0.05),
-                          way("monotone", "monotone", 4.8, 0.4)};
+std::vector<Variant> variants() {
+  // rmse_percent: make_regression_data.py; GRNN: numpy, dense formula
+  std::vector<Variant> all = {variant("linear", "linear", 6.4883855033, 1e-7),  //
+                              variant("grnn", "grnn", 4.8185991615, 1e-7),
+                              variant("grnn_matlab_spread", "grnn", 4.7736266963, 1e-7),
+                              variant("grnn_literal", "grnn", 4.7088471812, 1e-7),
+                              variant("grnn_pressure_bins", "grnn", 4.8, 0.3),
+                              variant("forest", "forest", 4.9384, 0.06),
+                              variant("forest_distinct", "forest", 4.8816, 0.05),
+                              variant("monotone", "monotone", 4.8, 0.4)};
   all[2].options.grnn.bandwidth = 1.0 / 64;
   all[2].options.grnn.spread = SpreadMeaning::kHalf;
   all[3].options.grnn.bandwidth = 1.0 / 8;
@@ -51,7 +51,7 @@ std::vector<Way> ways() {
   return all;
 }
 
-class EveryRegressor : public testing::TestWithParam<Way> {
+class EveryRegressor : public testing::TestWithParam<Variant> {
  protected:
   std::unique_ptr<Regressor> regressor_ = makeRegressor(GetParam().options);
 };
@@ -85,7 +85,7 @@ TEST_P(EveryRegressor, HasAFiniteAnswerAtEveryCode) {
   expectAnAnswerAtEveryCode(regressor_->fitSamples(curve(700, 2, 65535)), 65535);
 }
 
-TEST_P(EveryRegressor, BridgesGapsWithinThePressuresOfTraining) {
+TEST_P(EveryRegressor, StaysWithinThePressuresOfTrainingInGaps) {
   CodeSamples samples;
   samples.full_scale = 4095;
   for (std::uint16_t i = 0; i < 40; ++i) {
@@ -101,7 +101,7 @@ TEST_P(EveryRegressor, BridgesGapsWithinThePressuresOfTraining) {
   }
 }
 
-TEST_P(EveryRegressor, GivesTheSameBitsAgain) {
+TEST_P(EveryRegressor, IsRepeatableBitForBit) {
   const CodeSamples samples = curve(500, 3);
   const Fit first = regressor_->fitSamples(samples);
   const Fit again = makeRegressor(GetParam().options)->fitSamples(samples);
@@ -109,7 +109,7 @@ TEST_P(EveryRegressor, GivesTheSameBitsAgain) {
   EXPECT_EQ(first.support, again.support);
 }
 
-TEST_P(EveryRegressor, TakesReadingsInAnyOrder) {
+TEST_P(EveryRegressor, DoesNotDependOnTheOrderOfReadings) {
   CodeSamples samples = curve(500, 4);
   const Fit forward = regressor_->fitSamples(samples);
   std::reverse(samples.code.begin(), samples.code.end());
@@ -133,17 +133,18 @@ TEST_P(EveryRegressor, MergesExactlyOrSaysThatItNeedsTheBags) {
   EXPECT_EQ(regressor_->fit(merged).support, regressor_->fitSamples(both).support);
 }
 
-TEST_P(EveryRegressor, AnswersAConstantReadingWithItsMean) {
+TEST_P(EveryRegressor, OfAConstantReadingIsTheMeanPressure) {
   CodeSamples samples;
   samples.full_scale = 4095;
   for (int i = 0; i < 100; ++i) samples.add(1234, toFixed(1e3 * i));
   const Fit fit = regressor_->fitSamples(samples);
-  // replicas of a hundred readings scatter by 29 kPa / sqrt(100 x 150); bins' edges cut some readings off
+  // the mean of a hundred resampled readings scatters by 29 kPa / sqrt(100 x 150); bin edges cut some
+  // readings off
   const double tolerance = regressor_->mergeable() ? 1e-6 : 1e3;
   for (const std::size_t code : {0, 1234, 4095}) EXPECT_NEAR(fit.pressure[code], 49.5e3, tolerance) << code;
 }
 
-TEST_P(EveryRegressor, AnswersAConstantPressureWithIt) {
+TEST_P(EveryRegressor, OfAConstantPressureIsThatPressure) {
   CodeSamples samples;
   samples.full_scale = 4095;
   for (std::uint16_t i = 0; i < 100; ++i) samples.add(static_cast<std::uint16_t>(30 * i), toFixed(5e3));
@@ -151,7 +152,7 @@ TEST_P(EveryRegressor, AnswersAConstantPressureWithIt) {
   for (const double pressure : fit.pressure) ASSERT_NEAR(pressure, 5e3, 1e-9);
 }
 
-TEST_P(EveryRegressor, AnswersOneReadingWithItsPressure) {
+TEST_P(EveryRegressor, OfOneReadingIsItsPressure) {
   CodeSamples samples;
   samples.full_scale = 4095;
   samples.add(77, toFixed(12e3));
@@ -159,7 +160,7 @@ TEST_P(EveryRegressor, AnswersOneReadingWithItsPressure) {
   for (const double pressure : fit.pressure) ASSERT_EQ(pressure, 12e3);
 }
 
-TEST_P(EveryRegressor, StatesAHeldOutDeviation) {
+TEST_P(EveryRegressor, HasAHeldOutDeviation) {
   const std::vector<CodeSamples> sections = {curve(300, 7), curve(300, 8), curve(300, 9)};
   const CrossValidatedModel model = crossValidateSamples(sections, *regressor_, HeldOutDeviation::kYes);
   for (const float deviation : model.table.deviation) ASSERT_GT(deviation, 0.0f);
@@ -184,10 +185,10 @@ TEST_P(EveryRegressor, PredictsAsWellAsOtherPackages) {
   EXPECT_NEAR(test_support::rmsePercentOn(data.test, answers), GetParam().rmse_percent, GetParam().tolerance);
 }
 
-INSTANTIATE_TEST_SUITE_P(Regressors, EveryRegressor, testing::ValuesIn(ways()),
+INSTANTIATE_TEST_SUITE_P(Regressors, EveryRegressor, testing::ValuesIn(variants()),
                          [](const auto& instance) { return instance.param.title; });
 
-TEST(Regressors, AllNamesAreKnownAndOthersAreNot) {
+TEST(Regressors, AreMadeByNameAndOtherNamesAreRefused) {
   for (const std::string& name : regressorNames()) {
     RegressorOptions options;
     options.name = name;

@@ -24,22 +24,22 @@ std::string lastLine(const std::string& text) {
   return text.substr(text.rfind('\n', text.size() - 2) + 1);
 }
 
-TEST(SocketText, SaysWhatARecordingWithoutReferenceTellsOfItself) {
+TEST(SocketText, ReportsTheCheckOfARecordingWithoutReference) {
   EXPECT_EQ(
       socketText(example()),
       "socket.bag\n"
       "Rest before: 0.5 to 9.5 s\n"
       "Rest after: 71.0 to 79.0 s\n"
-      "Rest after less rest before: median 0.00 % of full scale, most -3.00 % at (row, column) (1, 0); "
-      "1 taxels beyond the limit\n"
+      "Change of the readings at rest: median 0.00 % of full scale, largest -3.00 % at (row, column) (1, 0); "
+      "1 taxel beyond the limit\n"
       "At full scale: 0.25 % of the readings\n"
-      "Beyond the readings of training: not known; beyond its curvatures: not known (give --calibration)\n"
-      "Longest static load: 35 s, from 20 s on, at (row, column) (1, 1)\n"
+      "Outside the readings of training: not known; outside its curvatures: not known (give --calibration)\n"
+      "Longest static load: 35 s, from second 20, at (row, column) (1, 1)\n"
       "Dead (row, column): none; stuck: none\n"
       "Readings are usable; no reference: accuracy not assessed.\n");
 }
 
-TEST(SocketText, EndsWithTheWorstReasonToLookAgain) {
+TEST(SocketText, EndsWithTheFirstReasonToLookAgain) {
   calibration::SocketCheck check = example();
   check.after.reset();
   check.change.clear();
@@ -51,7 +51,7 @@ TEST(SocketText, EndsWithTheWorstReasonToLookAgain) {
       "Look again, because no rest was recorded after; and 1 more; no reference: accuracy not assessed.\n");
 }
 
-TEST(AdmissionText, EndsWithWhatTheRecordingsAreFitFor) {
+TEST(AdmissionText, EndsWithTheUseThatTheRecordingsAreFitFor) {
   discrepancy::Admission admission;
   EXPECT_EQ(lastLine(admissionText(admission)), "Fit for training and for discrepancy.\n");
   admission.discrepancy = "one cycle is not enough";

@@ -24,7 +24,7 @@ calibration::Calibration trained(compensation::Scheme scheme) {
   return calibration::calibrate(problem);
 }
 
-// The line that begins with `start`.
+// The line that starts with `start`.
 std::string lineOf(const std::string& text, const std::string& start) {
   std::istringstream lines(text);
   std::string line;
@@ -40,7 +40,7 @@ TEST(CalibrationReport, ShowsCoverageInBothUnitsOfCurvature) {
       lineOf(text, "cylinder_5cm"),
       "cylinder_5cm              20.00       0.200     500      5         40/45         40/40         85/85"
       "         85/80           0/0");
-  EXPECT_NE(text.find("Thin:\n  no surface was loaded above 300 kPa\n"), std::string::npos);
+  EXPECT_NE(text.find("Few or no data:\n  no surface was loaded above 300 kPa\n"), std::string::npos);
 }
 
 TEST(CalibrationReport, ShowsScoresOfEachSurface) {
@@ -55,14 +55,14 @@ TEST(CalibrationReport, ShowsScoresOfEachSurface) {
   EXPECT_EQ(text.find("nan"), std::string::npos);
 }
 
-TEST(CalibrationReport, MarksSurfacesThatTheModelNeverSaw) {
+TEST(CalibrationReport, MarksSurfacesThatTheModelWasNotTrainedOn) {
   const std::string text = scoresText(trained(compensation::Scheme::kFlatOnly).scores);
   EXPECT_NE(text.find("cylinder_5cm *"), std::string::npos);
-  EXPECT_NE(text.find("* the model that answers has not been trained on this surface"), std::string::npos);
+  EXPECT_NE(text.find("* the model used for this surface was not trained on it"), std::string::npos);
   EXPECT_EQ(scoresText(trained(compensation::Scheme::kBaseline).scores).find('*'), std::string::npos);
 }
 
-TEST(CalibrationReport, SaysWhatTheSchemeLearned) {
+TEST(CalibrationReport, PrintsTheLearnedParametersOfTheScheme) {
   calibration::Calibration calibration;
   EXPECT_EQ(learnedText(calibration), "");
   calibration.tables.scheme = compensation::Scheme::kScaledCurvature;
@@ -75,8 +75,8 @@ TEST(CalibrationReport, SaysWhatTheSchemeLearned) {
   EXPECT_EQ(learnedText(calibration), "Curvature ranges: flat; cylinder_13cm, cylinder_11cm\n");
 }
 
-TEST(CalibrationReport, SaysThatScoresWereNotAskedFor) {
-  EXPECT_EQ(scoresText({}), "Scores were not asked for.\n");
+TEST(CalibrationReport, SaysThatScoresWereNotComputed) {
+  EXPECT_EQ(scoresText({}), "Scores were not computed.\n");
 }
 
 TEST(CalibrationReport, PrintsWarningsLineByLine) {
@@ -86,7 +86,7 @@ TEST(CalibrationReport, PrintsWarningsLineByLine) {
   EXPECT_EQ(warningsText(calibration), "Warning: one\nWarning: two\n");
 }
 
-TEST(CalibrationReport, JsonHoldsTheSameNumbers) {
+TEST(CalibrationReport, JsonHasTheSameNumbers) {
   const calibration::Calibration calibration = trained(compensation::Scheme::kPerCurvature);
   const auto json = nlohmann::json::parse(calibrationJson(calibration));
   EXPECT_EQ(json["scheme"], "per_curvature");

@@ -17,24 +17,25 @@ void expectHolds(const std::string& text, const std::vector<std::string>& parts)
     EXPECT_NE(text.find(part), std::string::npos) << part << " in:\n" << text;
 }
 
-TEST(DiscrepancyText, SaysWhatIsNotExcludedAndWhatIsNotTestable) {
-  expectHolds(discrepancyText(exampleDiscrepancy()),
-              {"Best explanation among 23 effects tested", "Not excluded: hysteresis | hysteresis + creep.",
-               "crosstalk (uneven_load), wear (many_cycles)",
-               "3.10 % FS (19.2 kPa) before, 0.80 % FS (5.0 kPa) after, floor 0.60 % FS (3.7 kPa)",
-               "closed 92 % (90 to 94 %)", "Held out: cycles, condition",
-               "Closed on each condition by what the others foretell: 88 % (flat 90 %, cylinder_7cm 86 %)",
-               "21.0 kPa in a ramp (5.0 with it)", "Next experiment: Run five cycles", "looked at 3 times"});
+TEST(DiscrepancyText, ListsWhatIsNotExcludedAndWhatIsNotTestable) {
+  expectHolds(
+      discrepancyText(exampleDiscrepancy()),
+      {"Best explanation among 23 effects tested", "Not excluded: hysteresis | hysteresis + creep.",
+       "crosstalk (uneven_load), wear (many_cycles)",
+       "3.10 % FS (19.2 kPa) before, 0.80 % FS (5.0 kPa) after, floor 0.60 % FS (3.7 kPa)",
+       "closed 92 % (90 to 94 %)", "Held out by: cycles, condition",
+       "Gap closed on each condition with sizes fitted to the others: 88 % (flat 90 %, cylinder_7cm 86 %)",
+       "21.0 kPa in a ramp (5.0 with it)", "Next experiment: Run five cycles", "used 3 times"});
 }
 
-TEST(DiscrepancyText, LeavesOutWhatIsAbsent) {
+TEST(DiscrepancyText, LeavesOutAbsentParts) {
   const discrepancy::DiscrepancyReport nothing;
   const std::string text = discrepancyText(nothing);
-  for (const char* part : {"Not excluded", "Not testable", "Next experiment", "looked at", "Held out"})
+  for (const char* part : {"Not excluded", "Not testable", "Next experiment", "times by now", "Held out"})
     EXPECT_EQ(text.find(part), std::string::npos) << part;
 }
 
-TEST(DiscrepancyJson, HoldsEveryNumberAndNullForNone) {
+TEST(DiscrepancyJson, HasEveryNumberAndNullForNone) {
   const auto json = nlohmann::json::parse(discrepancyJson(exampleDiscrepancy()));
   EXPECT_EQ(json["verdict"], "named");
   EXPECT_EQ(json["gap"]["before"], 0.031);
@@ -61,7 +62,7 @@ TEST(DiscrepancyTables, AreOneForEachFigureWithUnitsInTheirHeadings) {
   expectHolds(tables.at("candidates.csv"), {"hysteresis + creep,credible,86.5,93.5,14.2"});
 }
 
-TEST(DiscrepancyTables, LeaveACellEmptyWhereThereIsNoValue) {
+TEST(DiscrepancyTables, LeaveTheCellOfAMissingValueEmpty) {
   discrepancy::DiscrepancyReport report = exampleDiscrepancy();
   report.gap.after = NAN;
   report.gap.after_interval = {NAN, NAN};
@@ -69,7 +70,7 @@ TEST(DiscrepancyTables, LeaveACellEmptyWhereThereIsNoValue) {
   expectHolds(discrepancyTables(report).at("gap.csv"), {"after,,,,\n"});
 }
 
-TEST(FitRemarks, TellTheIntervalOfWhatWasFitted) {
+TEST(FitRemarks, GiveTheIntervalOfAFittedValue) {
   const simulation::ValueRemarks remarks = fitRemarks(exampleDiscrepancy());
   EXPECT_EQ(remarks.at("hysteresis.loop_width"),
             "fitted, 95 % interval 0.058 to 0.067 fraction of full scale");
@@ -82,7 +83,8 @@ TEST(ConfirmationText, SaysPassedOrNotAndTheRival) {
   confirmation.size = 0.4;
   confirmation.interval = {0.3, 0.5};
   confirmation.best_rival = "creep";
-  expectHolds(confirmationText(confirmation), {"Not confirmed: The loop", "0.40 of what", "more: creep"});
+  expectHolds(confirmationText(confirmation),
+              {"Not confirmed: The loop", "relative to the prediction: 0.40", "more: creep"});
   expectHolds(
       confirmationYaml(confirmation, "abc", {{"new.bag", "def", 10, 0}}),
       {"passed: false", "size: 0.4", "best_rival: creep", "prediction_hash: \"abc\"", "sha256: \"def\""});

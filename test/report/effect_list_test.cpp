@@ -7,7 +7,7 @@
 
 namespace {
 
-TEST(EffectList, TellsOfEveryEffectAndSetsApartWhatAGasChamberCannotShow) {
+TEST(EffectList, ListsEveryEffectAndSeparatesThoseThatAGasChamberCannotShow) {
   const std::string text = fsr::report::effectListText();
   const std::size_t listed = text.find("Effects that a gas chamber cannot show");
   ASSERT_NE(listed, std::string::npos);

@@ -27,7 +27,7 @@ const fsr::study::StudyResult& smallStudy() {
   return result;
 }
 
-// Number of cells of a CSV line, quoted commas aside.
+// Number of cells of a CSV line; commas in quotation marks do not count.
 std::size_t cells(const std::string& line) {
   bool quoted = false;
   std::size_t number = 1;
@@ -57,7 +57,7 @@ TEST(StudyTables, HaveAsManyCellsInEachRowAsHeadings) {
   }
 }
 
-TEST(StudyTables, HaveTheSameDigitsFromOneThreadAndMany) {
+TEST(StudyTables, DoNotDependOnTheNumberOfThreads) {
   fsr::study::StudyProblem one = smallProblem(), three = smallProblem();
   one.plan.threads = 1;
   three.plan.threads = 3;
@@ -74,7 +74,7 @@ TEST(StudyTables, QuoteNamesAndLeaveUnknownNumbersEmpty) {
   for (const auto& [name, content] : tables) EXPECT_FALSE(contains(content, ",nan")) << name;
 }
 
-TEST(StudyTables, HoldEveryMethodOfEverySplit) {
+TEST(StudyTables, HaveEveryMethodOfEverySplit) {
   const fsr::study::StudyResult& result = smallStudy();
   const std::string scores = fsr::report::studyTables(result).at("scores.csv");
   std::size_t expected = 0;
@@ -83,7 +83,7 @@ TEST(StudyTables, HoldEveryMethodOfEverySplit) {
   EXPECT_EQ(static_cast<std::size_t>(std::count(scores.begin(), scores.end(), '\n')), expected + 1);
 }
 
-TEST(StudyText, PutsThePapersNumbersBesideOursAndSaysWhatTheyAreWorth) {
+TEST(StudyText, ShowsThePapersNumbersBesideOursAndStatesTheLimits) {
   const std::string text = fsr::report::studyText(smallStudy());
   EXPECT_TRUE(contains(text, "6.93 +- 0.81")) << text;
   EXPECT_TRUE(contains(text, "As published, taxels treated as independent")) << text;
@@ -91,7 +91,7 @@ TEST(StudyText, PutsThePapersNumbersBesideOursAndSaysWhatTheyAreWorth) {
   EXPECT_TRUE(contains(text, "n = 3 taxels")) << text;
 }
 
-TEST(StudyJson, NamesTheHeadingOfThePublishedTestsAndEveryDecision) {
+TEST(StudyJson, HasThePublishedTestsAndEveryDecision) {
   const fsr::study::StudyResult& result = smallStudy();
   const std::string json = fsr::report::studyJson(result);
   EXPECT_TRUE(contains(json, "\"as_published_taxels_treated_as_independent\""));
@@ -101,7 +101,7 @@ TEST(StudyJson, NamesTheHeadingOfThePublishedTestsAndEveryDecision) {
   EXPECT_GE(result.decisions.size(), 12u);
 }
 
-TEST(StudyJson, WritesNullWhereANumberIsNotKnown) {
+TEST(StudyJson, WritesNullForAnUnknownNumber) {
   fsr::study::StudyResult result = smallStudy();
   result.comparisons.front().scores.front().r2_spread.mean = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(contains(fsr::report::studyJson(result), "\"mean\": null"));

@@ -26,7 +26,7 @@ class VerdictOnDisk : public testing::Test {
   }
   void TearDown() override { fs::remove(path_); }
   void write(const std::string& text) const { std::ofstream(path_) << text; }
-  /// The example with `from` replaced, read back: what is said against it.
+  /// The message of the refusal when the example is read with `from` replaced; "" if it is accepted.
   std::string complaint(const std::string& from, const std::string& to) const {
     std::string text = verdictText(exampleDiscrepancy());
     const std::size_t at = text.find(from);
@@ -42,7 +42,7 @@ class VerdictOnDisk : public testing::Test {
   std::string path_;
 };
 
-TEST(VerdictText, IsLaidDownToTheLetter) {
+TEST(VerdictText, IsExactlyAsDocumented) {
   const std::string expected = R"(verdict: named
 effects:
   - id: hysteresis
@@ -59,7 +59,7 @@ gap: {before: 0.031, after: 0.008, floor: 0.006, closed: 0.92, closed_interval: 
   EXPECT_EQ(text.substr(begin, end - begin), expected);
 }
 
-TEST(VerdictText, HasNullForWhatIsAbsent) {
+TEST(VerdictText, HasNullForAbsentValues) {
   discrepancy::DiscrepancyReport report;
   report.sentence = "Nothing: \"noise\" alone.";
   report.gap.closed = NAN;
@@ -75,7 +75,7 @@ TEST(VerdictText, HasNullForWhatIsAbsent) {
   EXPECT_EQ(yaml["effects"].size(), 0u);
 }
 
-TEST(VerdictText, SurvivesNamesThatYamlWouldReadOtherwise) {
+TEST(VerdictText, QuotesNamesThatYamlWouldReadOtherwise) {
   discrepancy::DiscrepancyReport report = exampleDiscrepancy();
   report.where.conditions = {"no", "12", "a, b: \"c\"", "tilde ~"};
   report.inputs[0].file = "{strange}.bag";
@@ -84,7 +84,7 @@ TEST(VerdictText, SurvivesNamesThatYamlWouldReadOtherwise) {
   EXPECT_EQ(yaml["inputs"][0]["file"].as<std::string>(), "{strange}.bag");
 }
 
-TEST(VerdictText, HasNumbersThatEveryYamlReaderKnows) {
+TEST(VerdictText, HasNumbersThatEveryYamlReaderReads) {
   discrepancy::DiscrepancyReport report = exampleDiscrepancy();
   report.effects[0].parameters[0].value = 1e-6;
   report.effects[0].parameters[0].interval = {-2.5e-7, 123456789};
@@ -103,11 +103,11 @@ TEST_F(VerdictOnDisk, ReadsBackTheSame) {
   EXPECT_EQ(verdict.credible_set, report.credible_set);
   ASSERT_EQ(verdict.inputs.size(), 2u);
   EXPECT_EQ(verdict.inputs[1].sha256, report.inputs[1].sha256);
-  EXPECT_EQ(verdict.inputs[1].show_opened, 3);
+  EXPECT_EQ(verdict.inputs[1].hold_out_opened, 3);
   EXPECT_EQ(verdict.version, "0.1.0");
 }
 
-TEST_F(VerdictOnDisk, RefusesByFieldAndWhatWouldBeRight) {
+TEST_F(VerdictOnDisk, RefusalsNameTheFieldAndWhatWouldBeRight) {
   const std::vector<std::vector<std::string>> cases = {
       {"verdict: named", "verdict: sure", "sure", "not_identifiable"},
       {"verdict: named", "verdikt: named", "verdikt", "unknown here"},
@@ -142,14 +142,14 @@ TEST_F(VerdictOnDisk, PredictionKeepsEveryBit) {
   EXPECT_EQ(read.prediction.rivals[1][0].id, "time_skew");
 }
 
-TEST_F(VerdictOnDisk, PredictionKeepsADriftThatNeverEnds) {
+TEST_F(VerdictOnDisk, PredictionKeepsAnInfiniteTimeConstant) {
   discrepancy::Prediction prediction;
   prediction.rivals = {{{"drift", {{"rate", -0.002}, {"time_constant", INFINITY}}}}};
   write(predictionText({prediction, std::string(64, 'd')}));
   EXPECT_EQ(readPrediction(path_).prediction.rivals[0][0].values, prediction.rivals[0][0].values);
 }
 
-TEST_F(VerdictOnDisk, EmptyPredictionIsOneToo) {
+TEST_F(VerdictOnDisk, ReadsBackAnEmptyPrediction) {
   write(predictionText({{}, "x"}));
   EXPECT_TRUE(readPrediction(path_).prediction.effects.empty());
   EXPECT_TRUE(readPrediction(path_).prediction.rivals.empty());

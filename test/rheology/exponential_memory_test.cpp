@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/rheology/exponential_memory.h"
+#include "rheology/exponential_memory.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@ namespace {
 
 using fsr::rheology::ExponentialMemory;
 
-// Rounding of a few hundred steps; the formula itself is exact.
+// Rounding of a few hundred steps. The formula itself is exact.
 constexpr double kRounding = 1e-12;
 
-TEST(ExponentialMemory, AnswersAStepWithOneMinusExp) {
+TEST(ExponentialMemory, RespondsToAStepWithOneMinusExp) {
   const ExponentialMemory memory(20);
   EXPECT_NEAR(memory.step(1, 1, 20, 0), 1 - std::exp(-1.0), kRounding);
   EXPECT_NEAR(memory.step(1, 1, 1e6, 0), 1, kRounding);
@@ -37,7 +37,7 @@ TEST(ExponentialMemory, DoesNotDependOnTheSamplingOfARamp) {
   EXPECT_NEAR(m, whole, kRounding * 100);
 }
 
-TEST(ExponentialMemory, StaysPutAtRestAndWithoutTime) {
+TEST(ExponentialMemory, DoesNotChangeAtRestOrWithoutTime) {
   const ExponentialMemory memory(3);
   EXPECT_EQ(memory.step(4, 4, 0.1, 4), 4);
   EXPECT_EQ(memory.step(4, 9, 0, 2), 2);

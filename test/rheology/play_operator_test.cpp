@@ -12,7 +12,7 @@ using fsr::rheology::PrandtlIshlinskii;
 
 const PrandtlIshlinskii kOperator({0, 1, 2, 4}, {0.4, 0.3, 0.2, 0.1});
 
-/// Drives the operator along straight ways between turning points, `steps` to each.
+/// Drives the operator linearly from turning point to turning point, with `steps` steps to each.
 class Drive {
  public:
   explicit Drive(double start) : position_(start), state_(kOperator.stateSize()) {
@@ -41,7 +41,7 @@ class Drive {
   std::vector<double> state_;
 };
 
-TEST(PlayOperator, StandsStillInsideItsGapAndFollowsAtItsEdge) {
+TEST(PlayOperator, IsConstantInsideItsGapAndFollowsAtItsEdge) {
   EXPECT_EQ(fsr::rheology::playStep(0.9, 1.0, 0.0), 0.0);
   EXPECT_EQ(fsr::rheology::playStep(3.0, 1.0, 0.0), 2.0);
   EXPECT_EQ(fsr::rheology::playStep(1.5, 1.0, 2.0), 2.0);
@@ -81,7 +81,7 @@ TEST(PlayOperator, LoopHasTheAnalyticAreaAndWidth) {
   drive.to(30, 30000);
   const double up = drive.to(30, 1);
   drive.to(0, 30000);
-  // Integral over input runs back on the way down: what is left is minus the enclosed area.
+  // While the input falls, its integral is negative. The sum is minus the enclosed area.
   EXPECT_NEAR(-(drive.area() - before), kOperator.loopArea(0, 30), 1e-3);
   EXPECT_NEAR(kOperator.loopArea(0, 30), 2 * (0.3 * 1 * 28 + 0.2 * 2 * 26 + 0.1 * 4 * 22), 1e-12);
   EXPECT_NEAR(kOperator.fullLoopWidth(), 2 * (0.3 + 0.4 + 0.4), 1e-12);

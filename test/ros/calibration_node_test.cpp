@@ -66,7 +66,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// Every test starts on a flat surface with the right board, no mask and no tare.
+/// Every test starts with a flat surface, the right board, no mask and no tare.
 class CalibrationNode : public testing::Test {
  protected:
   void SetUp() override {
@@ -75,7 +75,7 @@ class CalibrationNode : public testing::Test {
     ASSERT_TRUE(load(kFile).success);
     ASSERT_TRUE(mask({}).success);
     rig.identify("board-1");
-    // By way of another bend: a map of the flat surface may be one of the mount before.
+    // Another surface in between, because a map of the flat surface may belong to the previous mount.
     rig.lieOn({15.0f}, "bent", ++mount);
     reach([](const PressureMap& map) { return map.flags[0] & PressureMap::FLAG_BETWEEN_CLASSES; });
     rig.lieOn({0.0f}, "flat", ++mount);
@@ -83,7 +83,7 @@ class CalibrationNode : public testing::Test {
     reach([](const PressureMap& map) { return map.state == PressureMap::STATE_OK && map.flags[0] == 0; });
   }
 
-  /// Scans on until a map is as wanted.
+  /// Publishes scans until a map fulfils a condition.
   PressureMap reach(const std::function<bool(const PressureMap&)>& wanted, std::uint16_t code = 500) {
     const auto whole = [&](const PressureMap& map) { return map.flags.size() == kRigTaxels && wanted(map); };
     const PressureMap map = rig.mapWhen(code, whole);
@@ -91,7 +91,7 @@ class CalibrationNode : public testing::Test {
     return map;
   }
 
-  /// A service of the node while scans of `code` go on, 0.1 s apart in their stamps.
+  /// Calls a service of the node while scans of `code` are published with stamps 0.1 s apart.
   Reply whileScanning(
       const std::function<Reply()>& service,
       const std::function<std::uint16_t(int)>& code = [](int) { return std::uint16_t{50}; }) {
@@ -119,12 +119,12 @@ TEST_F(CalibrationNode, PublishesEmptyMapsUntilItHasACalibration) {
   EXPECT_EQ(info->id, "");
 }
 
-TEST_F(CalibrationNode, TakesUpItsFileOnceItIsThere) {
+TEST_F(CalibrationNode, LoadsItsFileAsSoonAsItExists) {
   const std::string id = save(kFile, {0.0, 10.0, 20.0});
   const PressureMap map =
       reach([](const PressureMap& m) { return m.state != PressureMap::STATE_UNCALIBRATED; });
   EXPECT_EQ(map.state, PressureMap::STATE_CURVATURE_UNKNOWN);
-  EXPECT_EQ(map.pressure[3], knownPressure(3, 0, 500));  // the flattest class
+  EXPECT_EQ(map.pressure[3], knownPressure(3, 0, 500));  // the flattest trained surface
   EXPECT_EQ(map.calibration, id);
   EXPECT_EQ(map.scheme, "per_curvature");
 }
@@ -196,7 +196,7 @@ TEST_F(CalibrationNode, SaysWhenCurvatureIsUnknown) {
   reach([](const PressureMap& m) { return m.state == PressureMap::STATE_CURVATURE_UNKNOWN; });
 }
 
-TEST_F(CalibrationNode, TakesACurvatureThatFitsNoMatrixForUnknown) {
+TEST_F(CalibrationNode, TreatsACurvatureOfAnotherSizeAsUnknown) {
   rig.lieOn(std::vector<float>(70, 10.0f));
   reach([](const PressureMap& m) { return m.state == PressureMap::STATE_CURVATURE_UNKNOWN; });
 }
@@ -218,12 +218,12 @@ TEST_F(CalibrationNode, SaysWhenTheScanIsOfAnotherSizeOrFullScale) {
   EXPECT_EQ(map.state, PressureMap::STATE_SIZE_MISMATCH);
   ASSERT_EQ(map.pressure.size(), 16u);
   EXPECT_TRUE(std::isnan(map.pressure[0]));
-  scan.rows = 64;  // and a scan that contradicts itself
+  scan.rows = 64;  // and a scan whose size does not fit its counts
   EXPECT_EQ(rig.mapOf(scan).state, PressureMap::STATE_SIZE_MISMATCH);
   EXPECT_EQ(rig.mapOf(500).state, PressureMap::STATE_OK);
 }
 
-TEST_F(CalibrationNode, MasksWhatTheUserAndTheBoardMask) {
+TEST_F(CalibrationNode, AppliesTheMasksOfUserAndBoard) {
   std::vector<std::uint8_t> taxels(kRigTaxels, 0);
   taxels[7] = 1;
   ASSERT_TRUE(mask(taxels).success);
@@ -327,7 +327,7 @@ TEST_F(CalibrationNode, DropsTheTareOnAnotherMountOrCalibration) {
   EXPECT_FALSE(fs::exists(kTareFile));
 }
 
-TEST_F(CalibrationNode, TellsOfTheCalibrationInUse) {
+TEST_F(CalibrationNode, DescribesTheCalibrationInUse) {
   CalibrationInfo info;
   ros::NodeHandle handle;
   const ros::Subscriber eye = handle.subscribe<CalibrationInfo>(
@@ -344,7 +344,7 @@ TEST_F(CalibrationNode, TellsOfTheCalibrationInUse) {
   EXPECT_TRUE(CalibrationRig::waitFor([&] { return info.header.stamp > first; })) << "repeated for recorders";
 }
 
-TEST_F(CalibrationNode, TellsDiagnosticsWhatIsWrong) {
+TEST_F(CalibrationNode, ReportsErrorsInDiagnostics) {
   rig.identify("board-2");
   reach([](const PressureMap& m) { return m.state == PressureMap::STATE_WRONG_SENSOR; });
   bool told = false;
@@ -362,13 +362,13 @@ TEST_F(CalibrationNode, TellsDiagnosticsWhatIsWrong) {
   }));
 }
 
-/// The second node: it fills bad taxels and times curvature out after 3 s.
+/// The second node: it fills bad taxels, and its curvature is stale after 3 s.
 class FillingNode : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_TRUE(rig.connected());
     rig.identify("board-1");
-    rig.stamp += 1e5;  // a stretch of time of its own
+    rig.stamp += 1e5;  // an interval of time that no other test uses
     rig.lieOn({0.0f});
     rig.mapWhen(500, [](const PressureMap& m) { return !m.flags.empty() && m.state == m.STATE_OK; });
   }
@@ -379,7 +379,7 @@ TEST_F(FillingNode, SaysWhenCurvatureIsStaleUntilTimeRunsBack) {
   EXPECT_EQ(rig.mapOf(500).state, PressureMap::STATE_OK);
   rig.stamp += 10;
   EXPECT_EQ(rig.mapOf(500).state, PressureMap::STATE_CURVATURE_STALE);
-  rig.stamp -= 1000;  // the bag starts over
+  rig.stamp -= 1000;  // as when a bag starts again
   EXPECT_EQ(rig.mapOf(500).state, PressureMap::STATE_OK);
 }
 

@@ -34,7 +34,7 @@ TEST(CurvatureNode, PublishesTheSurfaceNamedByTheService) {
   EXPECT_FLOAT_EQ(message.y[0], 0.0f);
 }
 
-TEST(CurvatureNode, RaisesTheMountByOneWhereNoneIsGiven) {
+TEST(CurvatureNode, IncreasesTheMountByOneIfNoneIsGiven) {
   setSurface("flat", 7);
   EXPECT_EQ(setSurface("cylinder_9cm", 0).mount, 8u);
 }
@@ -73,7 +73,7 @@ TEST(CurvatureNode, RepeatsItselfForRecorders) {
   EXPECT_GT(later, first.header.stamp);
 }
 
-TEST(SessionNode, SaysWhatARecordingIsAbout) {
+TEST(SessionNode, PublishesTheDescriptionOfARecording) {
   const auto session = ros::topic::waitForMessage<fsr_pressure_map::Session>("session", ros::Duration(30));
   ASSERT_TRUE(session);
   EXPECT_EQ(session->subject_code, "S012");

@@ -16,8 +16,9 @@ using test_support::await;
 
 constexpr double kWander = 0.02;  // [s]; a tenth of a tick
 
-// A rig that runs as fast as the driver takes it: each step is 0.1 s of rig time, a scan and a reading of the
-// transducer; /clock ticks every second step, so that half of the packets meet a clock that is 0.1 s behind.
+// A rig that runs as fast as the driver reads it. Each step is 0.1 s of rig time, with one scan and one
+// reading of the transducer. /clock ticks every second step, so for half of the packets the clock is 0.1 s
+// late.
 class Rig {
  public:
   explicit Rig(const std::string& port) : pty_(port) {
@@ -34,7 +35,7 @@ class Rig {
     ++step_;
     if (step_ % 2 == 0) tick();
     const auto device =
-        static_cast<std::uint32_t>(step_) * 100'000U;  // the board's clock started 100 s late [us]
+        static_cast<std::uint32_t>(step_) * 100'000U;  // the board's clock starts 100 s late [us]
     pty_.write(test_support::scanPacket(step_, device, 1, 1, {7}, 0));
     pty_.write(test_support::transducerPacket(step_, device + 30'000, 5));
   }
@@ -69,11 +70,11 @@ TEST(DriverInRigTime, StampsInRigTimeAsEvenlyAsTheBoardScans) {
   for (int i = 0; i < kSteps; ++i) {
     const double truth = 100 + 0.1 * (i + 1);
     const double scan = raw.messages[i]->header.stamp.toSec();
-    // A tick is 0.2 s; its message may come one more packet late.
+    // A tick is 0.2 s; its message may be late by one more packet.
     ASSERT_NEAR(scan, truth - 0.15, 0.16) << i;
     if (i < 200) continue;
-    // After 20 s the estimate moves by milliseconds, by more where a busy computer brings ticks late, but
-    // never so far that order or spacing of scan (0.1 s apart) and reading (30 ms later) are lost.
+    // After 20 s the estimate changes by milliseconds; more if ticks are late on a busy computer, but never
+    // so much that the order or spacing of scans (0.1 s apart) and readings (30 ms later) is lost.
     ASSERT_NEAR(scan - raw.messages[i - 1]->header.stamp.toSec(), 0.1, kWander) << i;
     ASSERT_NEAR(pressure.messages[i]->header.stamp.toSec() - scan, 0.03, kWander) << i;
   }

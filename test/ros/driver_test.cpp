@@ -39,7 +39,7 @@ std::vector<std::uint16_t> countsOf(std::uint32_t scan) {
   return counts;
 }
 
-// A 2 x 3 board at 100 Hz whose scans say their own number.
+// A 2 x 3 board at 100 Hz whose counts encode the number of the scan.
 class Board {
  public:
   explicit Board(const std::string& port) : pty_(port) {}
@@ -64,7 +64,7 @@ class Board {
   std::uint32_t next_ = 1;
 };
 
-// The last that every part of /diagnostics said, from the first moment of the tests on.
+// The last status of every part of /diagnostics since the start of the tests.
 class Diagnostics {
  public:
   Diagnostics() {
@@ -74,15 +74,17 @@ class Diagnostics {
     subscriber_ = ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 1000, keep);
   }
 
-  // Waits until `name` says `part` at `level`; what it said last where it never does, else `part`.
+  // Waits until the message of `name` contains `part` at `level`; returns `part`, or the last message if it
+  // never does.
   std::string await(const std::string& name, int level, const std::string& part) {
     const auto says = [&] { return last_[name].level == level && contains(name, part); };
     return test_support::await(says) ? part : last_[name].message;
   }
-  // Waits until `driver` has its port open, whether bytes come or not.
+  // Waits until `driver` has opened its port, with or without bytes.
   bool awaitOpenPort(const std::string& driver) {
     const std::string link = driver + ": link";
-    return test_support::await([&] { return contains(link, "reading") || contains(link, "no byte from"); });
+    return test_support::await(
+        [&] { return contains(link, "reading") || contains(link, "has sent nothing for"); });
   }
 
  private:
@@ -101,8 +103,8 @@ Diagnostics& diagnostics() {
 
 const std::string kWaiting = "waiting for the board: there is no serial port ";
 
-// Plugs a board in under a driver that waits for one and sees it read. (What a board sends before its port is
-// open is stale, and dropped.)
+// Connects a board to a driver that waits for one, and waits until the driver reads it. (Bytes sent before
+// the port is open are stale and are dropped.)
 std::unique_ptr<Board> plugIn(const std::string& port, const std::string& driver) {
   EXPECT_EQ(diagnostics().await(driver + ": link", Level::ERROR, kWaiting + port), kWaiting + port);
   auto board = std::make_unique<Board>(port);
@@ -110,7 +112,7 @@ std::unique_ptr<Board> plugIn(const std::string& port, const std::string& driver
   return board;
 }
 
-// Every test unplugs its board at its end: each of them starts with a driver that waits.
+// Every test unplugs its board at its end, so that each test starts with a driver that waits.
 class DriverNode : public testing::Test {
  protected:
   std::string port_ = parameter("port");
@@ -165,7 +167,7 @@ TEST_F(DriverNode, PublishesAbsolutePressureAndTemperature) {
   EXPECT_DOUBLE_EQ(temperature.messages.front()->temperature, 23.75);
 }
 
-TEST_F(DriverNode, DescribesTheMatrixAgainAndAgain) {
+TEST_F(DriverNode, RepeatsTheDescriptionOfTheMatrix) {
   Listener<fsr_pressure_map::MatrixInfo> info("fsr/matrix_info");
   const auto board = plugIn(port_, "fsr/driver");
   board->introduceItself();
@@ -179,7 +181,7 @@ TEST_F(DriverNode, DescribesTheMatrixAgainAndAgain) {
 
 TEST_F(DriverNode, ComplainsAboutASilentBoard) {
   const auto board = plugIn(port_, "fsr/driver");
-  const std::string complaint = "no byte from " + port_;
+  const std::string complaint = port_ + " has sent nothing for";
   EXPECT_EQ(diagnostics().await("fsr/driver: link", Level::ERROR, complaint), complaint);
 }
 
@@ -216,7 +218,7 @@ TEST(DriverNodelet, LoadsIntoAManagerAndPublishes) {
   EXPECT_EQ(raw.messages[4]->counts, countsOf(5));
 }
 
-// Runs the node with `arguments`; what it prints goes to `output`.
+// Runs the node with `arguments` and stores its output in `output`.
 int exitStatus(const std::string& arguments, std::string& output) {
   FILE* pipe =
       popen(("rosrun fsr_pressure_map driver_node __name:=refused " + arguments + " 2>&1").c_str(), "r");

@@ -22,7 +22,7 @@ PressureStatisticsArray sheet(std::uint8_t alarm) {
   return array;
 }
 
-TEST(Limb, SumsTheSheetsRoundItAndMissesTheSilentOne) {
+TEST(Limb, SumsItsSheetsAndReportsASilentOne) {
   ros::NodeHandle handle;
   test_support::Listener<PressureStatisticsArray> ears("limb_statistics");
   ros::Publisher left = handle.advertise<PressureStatisticsArray>("left/statistics", 10);
@@ -39,7 +39,7 @@ TEST(Limb, SumsTheSheetsRoundItAndMissesTheSilentOne) {
   EXPECT_NEAR(last().contact_area, 8e-4, 1e-12);
   EXPECT_NEAR(last().mean, 25e3, 1e-6);
   ASSERT_TRUE(test_support::await([&] {
-    left.publish(sheet(PressureStatistics::OK));  // the right one is silent from here on
+    left.publish(sheet(PressureStatistics::OK));  // the right sheet sends nothing from here on
     return last().force == 10.0 && last().alarm == PressureStatistics::UNKNOWN;
   }));
   ASSERT_TRUE(test_support::await([&] {

@@ -1,4 +1,4 @@
-// ROS time that jumps back: `rosbag play --loop --clock` through the calibration node and the view.
+// ROS time that jumps back: `rosbag play --loop --clock` with the calibration node and the view node.
 #include <fsr_pressure_map/CalibrationInfo.h>
 #include <fsr_pressure_map/PressureMap.h>
 #include <fsr_pressure_map/PressureStatisticsArray.h>
@@ -32,8 +32,9 @@ constexpr std::uint16_t kFullScale = 1023;
 constexpr std::int64_t kStart = 1'500'000'000'000'000'000;  // [ns]
 constexpr std::int64_t kScanPeriod = 20'000'000;            // [ns]
 constexpr int kScans = 200;                                 // 4 s
-constexpr std::int64_t kCurvatureAt = 3'900'000'000;  // [ns], once: from a future when time has jumped back
-constexpr double kStaleFrom = 2.0;                    // [s] since kStart: ages begin anew with each round
+constexpr std::int64_t kCurvatureAt =
+    3'900'000'000;                  // [ns], sent once: in the future after time has jumped back
+constexpr double kStaleFrom = 2.0;  // [s] since kStart: ages start from 0 in each round
 
 void writeLoop() {
   fsr_ros::BagWriter bag(kBag);
@@ -48,7 +49,7 @@ void writeLoop() {
   bag.close();
 }
 
-/// rosbag play, until it goes out of scope.
+/// Runs rosbag play until it is destroyed.
 class Player {
  public:
   Player() : pid_(fork()) {
@@ -79,7 +80,7 @@ bool isTheTables(const PressureMap& map, std::uint16_t code) {
   return !map.pressure.empty();
 }
 
-TEST(LoopedBag, GoesOnWithEachRoundAndNothingOfTheOneBefore) {
+TEST(LoopedBag, ContinuesInEachRoundWithoutStateOfTheRoundBefore) {
   const Listener<PressureMap> maps("pressure_map");
   const Listener<fsr_pressure_map::PressureStatisticsArray> statistics("statistics");
   ASSERT_TRUE(maps.connected());
@@ -97,7 +98,7 @@ TEST(LoopedBag, GoesOnWithEachRoundAndNothingOfTheOneBefore) {
       return rounds >= 3;
     })) << "three times back to the start";
   }
-  std::map<int, int> of_round;  // maps
+  std::map<int, int> of_round;  // number of maps of each round
   int round = 0;
   for (std::size_t i = 0; i < maps.messages.size(); ++i) {
     const PressureMap& map = *maps.messages[i];
@@ -106,7 +107,8 @@ TEST(LoopedBag, GoesOnWithEachRoundAndNothingOfTheOneBefore) {
     const double time = sinceStart(map.header.stamp);
     const auto code = static_cast<std::uint16_t>(300 + std::lround(time * 1e9 / kScanPeriod));
     ASSERT_TRUE(isTheTables(map, code)) << "round " << round << " at " << time << " s";
-    if (round == 0 || std::abs(time - kStaleFrom) < 0.1 || time > 3.8) continue;  // known from then on
+    if (round == 0 || std::abs(time - kStaleFrom) < 0.1 || time > 3.8)
+      continue;  // the curvature is known from then on
     EXPECT_EQ(map.state, time < kStaleFrom ? PressureMap::STATE_OK : PressureMap::STATE_CURVATURE_STALE)
         << "round " << round << " at " << time << " s";
   }

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Links that exist outlive their master: a recorder goes on, without a hole, while roscore is gone and after it came back."""
+"""Existing connections do not need the master: a recorder loses nothing while roscore is gone and after it is back."""
 import os
 import pathlib
 import signal

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""record.launch makes bags that can be understood alone and lose at most the last second on kill -9."""
+"""record.launch writes bags that can be understood without other files and lose at most the last second on kill -9."""
 import os
 import pathlib
 import shutil
@@ -16,14 +16,14 @@ import rospy
 import rostest
 from fsr_pressure_map.msg import MatrixFrame, MatrixInfo
 
-SCAN_RATE = 10.0  # [Hz], the paper's: the slowest stream, so the one whose chunk stays open longest
+SCAN_RATE = 10.0  # [Hz], as in the paper: the slowest stream, whose chunk stays open longest
 SCANS = 40
-# What may lie in the sockets between publisher and recorder.
+# Bytes that the sockets between publisher and recorder may hold.
 SOCKET_BYTES = sum(int(pathlib.Path(f"/proc/sys/net/ipv4/{name}").read_text().split()[2]) for name in ("tcp_rmem", "tcp_wmem"))
 
 
 class Recorder:
-    """`roslaunch record.launch` with a bag of its own."""
+    """Runs `roslaunch record.launch` with its own bag."""
 
     def __init__(self, folder, *arguments):
         self.bag = pathlib.Path(folder) / "recorded"
@@ -79,7 +79,7 @@ class RecordTest(unittest.TestCase):
         return stamps
 
     def scans_on_disk(self):
-        """The scans that a kill -9 would leave by now."""
+        """The scans that would be left after a kill -9 now."""
         copy = pathlib.Path(self.folder.name) / "so_far.bag"
         shutil.copy(f"{self.recorder.bag}.bag.active", copy)
         with rosbag.Bag(str(copy), "a", allow_unindexed=True) as bag:
@@ -88,7 +88,7 @@ class RecordTest(unittest.TestCase):
         return [message for topic, message in self.recorded(copy) if topic == "/fsr/raw"]
 
     def wait_until_written(self, count):
-        """Goes on publishing until the first `count` scans are in the file."""
+        """Publishes until the first `count` scans are in the file."""
         for i in range(count, count + 600):
             if len(self.scans_on_disk()) >= count:
                 return
@@ -101,7 +101,7 @@ class RecordTest(unittest.TestCase):
             return [(topic, message) for topic, message, _ in bag.read_messages()]
 
     def small_disk(self, size):
-        """Folder of a file system of that size; the test is skipped, loudly, where the kernel forbids it."""
+        """A folder on a file system of that size. The test is skipped with a message if the kernel forbids it."""
         folder = pathlib.Path(self.folder.name) / "small"
         folder.mkdir()
         if subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "none", str(folder)], stderr=subprocess.DEVNULL).returncode:
@@ -117,7 +117,7 @@ class RecordTest(unittest.TestCase):
             frame = MatrixFrame(sequence=i, rows=32, columns=32, full_scale=4095, counts=[i % 4096] * 1024)
             frame.header.stamp = rospy.Time.now()
             self.scans.publish(frame)
-            # No more under way than every queue on the way holds, so that nothing but the disk loses a scan.
+            # Fewer scans in transit than any queue holds, so that only the disk can lose a scan.
             for _ in range(600):
                 if self.recorder.launch.poll() is not None or size() > 2048 * (i - 50):
                     break
@@ -131,14 +131,14 @@ class RecordTest(unittest.TestCase):
 
     def test_a_disk_that_fills_ends_the_launch_with_a_closed_bag(self):
         self.record(self.small_disk("2m"), "min_space:=1")
-        self.publish_until_the_launch_ends(800)  # half of them are more than it may take
+        self.publish_until_the_launch_ends(800)  # half of them are more than the disk may take
         self.assertFalse(pathlib.Path(f"{self.recorder.bag}.bag.active").exists())
         self.check_without_hole(f"{self.recorder.bag}.bag", 300)
 
     def test_a_full_disk_ends_the_launch_and_leaves_what_was_written(self):
         self.record(self.small_disk("400k"), "min_space:=0")
-        self.publish_until_the_launch_ends(400)  # twice what the disk takes
-        active = pathlib.Path(self.folder.name) / "rescued.bag"  # on a disk with room for the index
+        self.publish_until_the_launch_ends(400)  # twice the capacity of the disk
+        active = pathlib.Path(self.folder.name) / "rescued.bag"  # on a disk with enough space for the index
         shutil.copy(f"{self.recorder.bag}.bag.active", active)
         subprocess.run(["rosbag", "reindex", str(active)], check=True, stdout=subprocess.DEVNULL)
         self.check_without_hole(active, 100)
@@ -147,7 +147,7 @@ class RecordTest(unittest.TestCase):
         self.record()
         self.publish_scans()
         pid = self.recorder.pid()
-        os.kill(pid, signal.SIGSTOP)  # a disk that takes nothing for a while
+        os.kill(pid, signal.SIGSTOP)  # stands for a disk that writes nothing for a while
         scan = MatrixFrame(rows=128, columns=128, full_scale=4095, counts=[1] * 128 ** 2)
         sent = list(range(SCANS, SCANS + 200 + SOCKET_BYTES // (2 * len(scan.counts))))  # 200: more than any queue
         for i in sent:
@@ -166,7 +166,7 @@ class RecordTest(unittest.TestCase):
     def test_kill_loses_at_most_the_last_second(self):
         self.record()
         stamps = self.publish_scans()
-        # However far the recorder lags behind, it gets there; were the chunks larger, it would not.
+        # The recorder catches up, however late it is; with larger chunks it would not.
         self.wait_for(lambda: stamps[-1] - self.scans_on_disk()[-1].header.stamp.to_sec() < 1.0)
         os.kill(self.recorder.pid(), signal.SIGKILL)
         self.recorder.launch.wait(30)  # the launch ends with its recorder

@@ -20,7 +20,7 @@ namespace {
 
 using test_support::BoardListener;
 
-constexpr double kLong = 30;  // [s] for what must happen; nothing waits for it to pass
+constexpr double kLong = 30;  // limit for events that must happen [s]
 
 bool until(const std::function<bool()>& condition) {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kLong);
@@ -69,7 +69,7 @@ double meanOf(const BoardListener& listener) {
   return sum / static_cast<double>(listener.scans.back().counts.size());
 }
 
-/// Follows `~status`. A status may be over before anybody looks.
+/// Records `~status`, because a status may have ended before the test checks it.
 class Status {
  public:
   Status() {
@@ -96,7 +96,7 @@ TEST(RigEmulatorNode, RunsItsCyclesOnRequestAndSaysWhenTheyAreDone) {
   EXPECT_GT((ros::Time::now() - started).toSec(), 23.5) << "two cycles of 12 s in rig time";
 }
 
-TEST(RigEmulatorNode, AFreshRunTakesTheProtocolThatTheParametersSay) {
+TEST(RigEmulatorNode, ANewRunUsesThePresentParameters) {
   ros::param::set("rig_emulator/chamber/cycles", 1);
   ros::param::set("rig_emulator/chamber/peak", 120000.0);
   EXPECT_EQ(trigger("start"), "run 2: 1 cycle to 120 kPa gauge, 6 s each");
@@ -110,7 +110,7 @@ TEST(RigEmulatorNode, AFreshRunTakesTheProtocolThatTheParametersSay) {
 }
 
 TEST(RigEmulatorNode, StopsOnRequest) {
-  ros::param::set("rig_emulator/chamber/cycles", 500);  // far from done when it is stopped
+  ros::param::set("rig_emulator/chamber/cycles", 500);  // so many that the run is stopped before its end
   trigger("start");
   trigger("stop");
   ros::param::del("rig_emulator/chamber");
@@ -144,7 +144,7 @@ TEST(RigEmulatorNode, ChangesTheSurfaceUnderTheMatrix) {
   EXPECT_NE(refused.message.find("cylinder_7cm"), std::string::npos) << "lists what there is";
 }
 
-TEST(RigEmulatorNode, DamagesTheLineAsItsParametersSayAndHealsIt) {
+TEST(RigEmulatorNode, DamagesTheLineByItsParametersAndEndsTheDamage) {
   ros::param::set("rig_emulator/damage/unplug", true);
   EXPECT_NE(setDamage(true).message.find("unplugged"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(port()));
@@ -169,12 +169,12 @@ TEST(RigEmulatorNode, AResetRestartsTheBoard) {
   ASSERT_TRUE(listener.until([&] { return !listener.scans.empty() && listener.scans.back().sequence > 40; }));
   ros::param::set("rig_emulator/damage/reset", true);
   EXPECT_TRUE(setDamage(true).success);
-  EXPECT_TRUE(listener.until([&] { return listener.counts().of(FSR_WIRE_SCAN).restarts == 1; }));
+  EXPECT_TRUE(listener.until([&] { return listener.counts().of(fsr::protocol::PacketType::kScan).restarts == 1; }));
   ros::param::del("rig_emulator/damage");
   EXPECT_TRUE(setDamage(false).success);
 }
 
-TEST(RigEmulatorNode, LeavesWithStatusTwoWhereItsSettingsCannotBeUsed) {
+TEST(RigEmulatorNode, ExitsWithStatusTwoForInvalidSettings) {
   const auto node = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rig_emulator_node";
   const int status =
       std::system((node.string() + " __name:=other _simulation:=/nowhere.yaml > /dev/null 2>&1").c_str());

@@ -1,5 +1,5 @@
-// Faults of a whole rig: driver, curvature, calibration and view as calibrated.launch starts them, on a board
-// that this test emulates. Every map that says it is calibrated is held against its scan and its board.
+// Faults of a whole rig: driver, curvature, calibration and view node as calibrated.launch starts them, with
+// a board that this test emulates. Every map with the state OK is compared with its scan and its board.
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/PressureMap.h>
@@ -28,7 +28,8 @@ using fsr_pressure_map::PressureMap;
 using test_support::await;
 using test_support::Listener;
 
-constexpr std::uint32_t kOthersClock = 1'000'000'000;  // [us]: tells the scans of board B from those of A
+constexpr std::uint32_t kOthersClock =
+    1'000'000'000;  // [us]: distinguishes the scans of board B from those of A
 
 std::unique_ptr<fsr::emulator::Emulator> makeBoard(const std::string& serial) {
   fsr::emulator::EmulatorOptions options;
@@ -41,7 +42,7 @@ std::unique_ptr<fsr::emulator::Emulator> makeBoard(const std::string& serial) {
   return std::make_unique<fsr::emulator::Emulator>(options);
 }
 
-// 0 where the node does not answer.
+// 0 if the node does not answer.
 int pidOf(const std::string& node) {
   XmlRpc::XmlRpcValue request, response, uri, answer;
   request[0] = ros::this_node::getName();
@@ -64,7 +65,7 @@ class RigFaults : public testing::Test {
     ASSERT_TRUE(calibratedMaps(5));
   }
 
-  // No map that claims to be calibrated says anything but the table's pressure for its own scan.
+  // Every map with the state OK has the table's pressures for its own scan.
   void TearDown() override {
     std::map<ros::Time, MatrixFrame::ConstPtr> scans;
     for (const auto& scan : raw_.messages) scans[scan->header.stamp] = scan;
@@ -88,7 +89,7 @@ class RigFaults : public testing::Test {
     return true;
   }
 
-  // So many more maps of state OK come.
+  // Waits for this many further maps with the state OK.
   bool calibratedMaps(std::size_t count) { return mapsOfState(PressureMap::STATE_OK, count); }
   bool mapsOfState(int state, std::size_t count) {
     std::size_t seen = maps_.messages.size(), good = 0;
@@ -125,7 +126,7 @@ TEST_F(RigFaults, AnotherBoardOnThePortNeverPassesForTheCalibrations) {
   ASSERT_TRUE(calibratedMaps(20));
 }
 
-TEST_F(RigFaults, WhatABadLineCostsIsCountedInDiagnostics) {
+TEST_F(RigFaults, TheLossesOfABadLineAreCountedInDiagnostics) {
   std::uint64_t lost = 0;
   const auto keep = [&](const diagnostic_msgs::DiagnosticArray::ConstPtr& array) {
     for (const auto& status : array->status) {

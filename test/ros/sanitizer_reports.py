@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""sanitizer_reports.py FILE...: prints those reports of a sanitizer that tell of the package's own code.
+"""sanitizer_reports.py FILE...: prints those reports of a sanitizer that concern the package's own code.
 
 All but data races do. ROS is not built with the thread sanitizer, which therefore does not see in what order ROS's threads
 release a message or a connection: a race counts where both of its accesses were made by the package's code, by itself or
@@ -22,7 +22,7 @@ def made_by_us(stack):
         if OURS.search(frame["what"]):
             return True
         if "<null>" in frame["what"] and ".so" in frame["module"]:
-            return False  # else the sanitizer's own, which stands in the executable, or a header
+            return False  # otherwise a function of the sanitizer, which is in the executable, or of a header
     return False
 
 

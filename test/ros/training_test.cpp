@@ -1,4 +1,5 @@
-// The training node beside the tool `train`: a bag that is replayed without loss gives the same tables.
+// The training node compared with the tool `train`: a bag that is replayed without loss gives the same
+// tables.
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <gtest/gtest.h>
@@ -15,6 +16,7 @@
 #include <map>
 #include <sstream>
 
+#include "compensation/training_statistics.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/bags/resource_path.h"
@@ -25,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// `rosbag play` in a process group of its own; it keeps its connections until it is destroyed.
+/// `rosbag play` in its own process group; it keeps its connections until it is destroyed.
 class Replay {
  public:
   explicit Replay(const std::string& bag) : child_(::fork()) {
@@ -133,7 +135,7 @@ TEST_F(Training, AReplayedBagGivesTheTablesOfTheTool) {
   const fsr::calibration::Calibration live =
       fsr::calibration::loadCalibration(output, fsr::calibration::CalibrationParts::kAll);
   const fsr::calibration::Calibration direct = trainedByTool(bag, (folder_ / "direct.h5").string());
-  EXPECT_EQ(live.statistics.cells, direct.statistics.cells);
+  EXPECT_EQ(live.statistics->cells, direct.statistics->cells);
   ASSERT_EQ(live.tables.tables.size(), direct.tables.tables.size());
   for (std::size_t i = 0; i < direct.tables.tables.size(); ++i) {
     EXPECT_EQ(live.tables.tables[i].pressure, direct.tables.tables[i].pressure);
@@ -145,10 +147,10 @@ TEST_F(Training, AReplayedBagGivesTheTablesOfTheTool) {
   EXPECT_EQ(live.warnings, std::vector<std::string>{});
 }
 
-TEST_F(Training, ClearForgetsWhatWasGathered) {
+TEST_F(Training, ClearRemovesWhatWasCollected) {
   const std_srvs::Trigger::Response answer = call("training/clear");
   EXPECT_TRUE(answer.success);
-  EXPECT_EQ(answer.message, "forgot 600 scans");
+  EXPECT_EQ(answer.message, "removed 600 scans");
   EXPECT_TRUE(waitUntil([this] { return message_ == "waiting for raw, chamber_pressure, curvature"; }));
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Driver on one machine, calibration on another: two network namespaces on one cable that is cut and mended."""
+"""Driver on one machine, calibration on another: two network namespaces with a cable that is cut and connected again."""
 import os
 import pathlib
 import subprocess
@@ -77,7 +77,7 @@ class TwoMachinesTest(unittest.TestCase):
                               stderr=subprocess.DEVNULL, check=False).returncode == 0
 
     def wait_for_silence(self, count):
-        """Until the count stays as it is for a second, in which ten maps would come; that count."""
+        """Waits until the count stays the same for a second, in which ten maps would come; returns the count."""
         last, since = count(), time.monotonic()
         def silent():
             nonlocal last, since

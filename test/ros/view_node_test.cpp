@@ -19,7 +19,7 @@ using fsr_pressure_map::PressureMap;
 using fsr_pressure_map::SurfaceCurvature;
 using sensor_msgs::PointCloud2;
 
-/// The view node's surroundings: a map and a curvature that others would publish.
+/// Publishes the map and the curvature that the view node needs.
 class View : public testing::Test {
  protected:
   void SetUp() override {
@@ -27,7 +27,7 @@ class View : public testing::Test {
     curvature = handle.advertise<SurfaceCurvature>("curvature", 10, true);
   }
 
-  /// Publishes a map now and then until `done`, or for 30 s.
+  /// Publishes maps until `done`, or for 30 s.
   bool publishUntil(const std::function<bool()>& done) {
     const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(30);
     while (!done() && ros::WallTime::now() < give_up) {
@@ -82,7 +82,8 @@ TEST_F(View, ShowsTheMapInTheFrameOfItsScan) {
 TEST_F(View, BendsTheSheetWithTheSurface) {
   const ros::Subscriber eyes = look();
   bend(20.0f, 1);
-  const float height = (std::cos(20.0f * 0.020f) - 1) / 20.0f;  // cylinder of 5 cm, 2 cm from its line
+  const float height =
+      (std::cos(20.0f * 0.020f) - 1) / 20.0f;  // cylinder of 5 cm radius, 2 cm from its top line
   EXPECT_TRUE(publishUntil([&] { return cloud && std::abs(heightOfCorner() - height) < 1e-7f; }));
   bend(0.0f, 15);
   EXPECT_TRUE(publishUntil([&] { return heightOfCorner() == 0.0f; }));
@@ -110,7 +111,8 @@ TEST_F(View, DrawsTheSheetWithMarksCentrePeakAndLegend) {
   EXPECT_EQ(sheet.header.frame_id, "left_sheet");
   EXPECT_EQ(sheet.points.size(), 15u * 9 * 6);
   EXPECT_EQ(sheet.colors.size(), sheet.points.size());
-  EXPECT_NEAR(array->markers[3].pose.position.x, 0.020, 1e-3);  // the peak: row 2, column 4, on whatever bend
+  EXPECT_NEAR(array->markers[3].pose.position.x, 0.020,
+              1e-3);  // the peak: row 2, column 4, whatever the curvature
   EXPECT_NEAR(array->markers[3].pose.position.y, 0.010, 1e-3);
   EXPECT_NE(array->markers[4].text.find("14 kPa"), std::string::npos) << array->markers[4].text;
 }

@@ -42,7 +42,7 @@ TEST(CommandLine, TakesFilesAndOptionsInAnyOrder) {
   EXPECT_EQ(line.number("ambient", 0, Range{0, 120e3, "Pa"}), 98e3);
 }
 
-TEST(CommandLine, FallsBackWhereAnOptionIsNotGiven) {
+TEST(CommandLine, UsesTheFallbackWhereAnOptionIsMissing) {
   CommandLine line = tool();
   EXPECT_TRUE(parse(line, {}));
   EXPECT_EQ(line.number("ambient", 7.5, Range{0, 1, ""}), 7.5);
@@ -51,14 +51,14 @@ TEST(CommandLine, FallsBackWhereAnOptionIsNotGiven) {
   EXPECT_FALSE(line.has("no-scores"));
 }
 
-TEST(CommandLine, AfterTwoDashesThereAreFilesOnly) {
+TEST(CommandLine, TakesEverythingAfterTwoDashesAsFiles) {
   CommandLine line = tool();
   EXPECT_TRUE(parse(line, {"--", "--odd.bag"}));
   EXPECT_EQ(line.files(), std::vector<std::string>{"--odd.bag"});
 }
 
-TEST(CommandLine, RefusesInOneSentence) {
-  EXPECT_EQ(complaint({"--outptu", "x"}), "--outptu is no option of train; see train --help");
+TEST(CommandLine, RefusesBadInputWithOneSentence) {
+  EXPECT_EQ(complaint({"--outptu", "x"}), "--outptu is not an option of train; see train --help");
   EXPECT_EQ(complaint({"--output"}), "--output needs a value: FILE");
   EXPECT_EQ(complaint({"--output", "a", "--output", "b"}), "--output is given twice; keep one");
   EXPECT_EQ(complaint({"--no-scores=1"}), "--no-scores takes no value");
@@ -76,13 +76,13 @@ TEST(CommandLine, HelpListsEveryOption) {
   EXPECT_FALSE(parse(line, {"--help", "x.bag"}));
   EXPECT_EQ(line.help(),
             "train BAG... --output FILE\n\nTrains a calibration.\n\n"
-            "  --help         print this and stop\n"
+            "  --help         print this help and exit\n"
             "  --output FILE  where to\n"
             "  --ambient PA   ambient pressure\n"
             "  --no-scores    fast\n");
 }
 
-TEST(RunTool, TurnsUnusableInputIntoStatusTwo) {
+TEST(RunTool, ReturnsStatusTwoForUnusableInput) {
   EXPECT_EQ(runTool("train", [] { return 3; }), 3);
   testing::internal::CaptureStderr();
   EXPECT_EQ(runTool("train", []() -> int { throw InputError("a.bag: is empty"); }), 2);

@@ -34,7 +34,7 @@ class ReplaceFile : public testing::Test {
   fs::path folder;
 };
 
-TEST_F(ReplaceFile, LeavesTheNewContentAloneAtThePath) {
+TEST_F(ReplaceFile, LeavesOnlyTheNewContentAtThePath) {
   replaceFile(folder / "a.yaml", "long old content");
   replaceFile(folder / "a.yaml", std::string("new\0one", 7));
   EXPECT_EQ(contentOf(folder / "a.yaml"), std::string("new\0one", 7));
@@ -52,7 +52,7 @@ TEST_F(ReplaceFile, NamesThePathWhereItsFolderIsMissing) {
   }
 }
 
-TEST_F(ReplaceFile, AFullDiskLeavesTheOldContentAndNothingElse) {
+TEST_F(ReplaceFile, KeepsOnlyTheOldContentWhereTheDiskIsFull) {
   replaceFile(folder / "a.yaml", "old");
   const test_support::FileSizeLimit disk(1000);
   EXPECT_THROW(replaceFile(folder / "a.yaml", std::string(2000, 'x')), InputError);
@@ -60,8 +60,8 @@ TEST_F(ReplaceFile, AFullDiskLeavesTheOldContentAndNothingElse) {
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(ReplaceFile, LeavesNothingBehindWhenTheRenameFails) {
-  fs::create_directory(folder / "a.yaml");  // no file can take a directory's place
+TEST_F(ReplaceFile, RemovesTheTemporaryFileWhenTheRenameFails) {
+  fs::create_directory(folder / "a.yaml");  // a file cannot replace a directory
   EXPECT_THROW(replaceFile(folder / "a.yaml", "x"), InputError);
   EXPECT_EQ(files(), 1u);
 }

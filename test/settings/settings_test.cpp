@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
 
 #include <gtest/gtest.h>
 
@@ -51,13 +51,13 @@ TEST(Settings, NamesAMissingKey) {
             "rig.yaml: rate is missing; give a number, 1 to 1000 Hz");
 }
 
-TEST(Settings, RefusesANumberThatIsNone) {
+TEST(Settings, RefusesATextWhereANumberIsExpected) {
   const auto settings = Settings::fromText("rate: fast\npeak: .nan", "rig.yaml");
   EXPECT_THROW(settings.number("rate", kRate), InputError);
   EXPECT_THROW(settings.number("peak", {}), InputError);
 }
 
-TEST(Settings, RefusesAnUnknownKeyDeepInside) {
+TEST(Settings, RefusesAnUnknownKeyOfANestedSection) {
   const auto settings = Settings::fromText("chamber: {rate: 3, raet: 4}", "rig.yaml");
   settings.section("chamber").number("rate", kRate);
   EXPECT_EQ(messageOf([&] { settings.refuseUnknown(); }),
@@ -69,7 +69,7 @@ TEST(Settings, RefusesAKeyGivenTwice) {
             "rig.yaml: rate is given twice; keep one");
 }
 
-TEST(Settings, RefusesAKeyThatIsNoName) {
+TEST(Settings, RefusesAKeyThatIsNotAText) {
   EXPECT_EQ(messageOf([] { Settings::fromText("rate: 1\n? [a, b]\n: 2", "rig.yaml"); }),
             "rig.yaml: a key is a list of 2, but must be a name");
   const auto settings = Settings::fromText("chamber: {~: 1}", "rig.yaml");
@@ -77,7 +77,7 @@ TEST(Settings, RefusesAKeyThatIsNoName) {
             "rig.yaml: a key of chamber is empty, but must be a name");
 }
 
-TEST(Settings, RefusesAFileThatIsNoMappingOrNoYaml) {
+TEST(Settings, RefusesAFileThatIsNotAYamlMapping) {
   EXPECT_THROW(Settings::fromText("- 1\n- 2", "rig.yaml"), InputError);
   EXPECT_THROW(Settings::fromText("", "rig.yaml"), InputError);
   EXPECT_THROW(Settings::fromText("a: [1, 2", "rig.yaml"), InputError);
@@ -96,7 +96,7 @@ TEST(Settings, NamesTheBadEntryOfAList) {
             "limb.yaml: x[1] is 2000, but must be a number, 1 to 1000 Hz");
 }
 
-TEST(Range, SaysItsBoundsInWords) {
+TEST(Range, DescribesItsBounds) {
   EXPECT_EQ((Range{0, 2, "s"}.text()), "0 to 2 s");
   EXPECT_EQ((Range{0, INFINITY, "s"}.text()), "0 s or more");
   EXPECT_EQ((Range{-INFINITY, 2, ""}.text()), "2 or less");

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
 
 namespace {
 
-TEST(YamlText, NumbersAreShortAndComesBackAsTheSameNumber) {
+TEST(YamlText, NumbersAreShortAndReadBackAsTheSameNumber) {
   EXPECT_EQ(fsr::settings::numberText(0.1), "0.1");
   EXPECT_EQ(fsr::settings::numberText(17000), "17000");
   EXPECT_EQ(fsr::settings::numberText(-3e-4), "-0.0003");
@@ -23,7 +23,7 @@ TEST(YamlText, NumbersAreShortAndComesBackAsTheSameNumber) {
   EXPECT_EQ(fsr::settings::numberText(NAN), ".nan");
 }
 
-TEST(YamlText, QuotedTextsComeBackWhole) {
+TEST(YamlText, QuotedTextsReadBackAsTheSameText) {
   const std::string text = "a \"b\" \\ c: # {x}\n'd'";
   const auto settings = fsr::settings::Settings::fromText("t: " + fsr::settings::quotedText(text), "a.yaml");
   EXPECT_EQ(settings.text("t"), text);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsr_pressure_map/settings/input_error.h"
 #include "support/simulated_rig.h"
 
 namespace {

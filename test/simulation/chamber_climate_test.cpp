@@ -1,4 +1,6 @@
 #include "fsr_pressure_map/simulation/chamber_climate.h"
+#include "simulation/chamber_gas.h"
+#include "simulation/read_settings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,6 @@
 #include "fsr_pressure_map/simulation/chamber_program.h"
+#include "simulation/pressure_profile.h"
+#include "simulation/read_settings.h"
 
 #include <gtest/gtest.h>
 

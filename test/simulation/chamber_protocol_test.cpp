@@ -6,6 +6,8 @@
 #include <stdexcept>
 
 #include "fsr_pressure_map/simulation/transducer.h"
+#include "simulation/pressure_profile.h"
+#include "simulation/read_settings.h"
 
 namespace {
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "simulation/read_settings.h"
 #include "simulation/session.h"
 #include "simulation/simulation_text.h"
 

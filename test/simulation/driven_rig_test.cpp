@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "simulation/read_settings.h"
 #include "simulation/session.h"
 #include "support/simulated_rig.h"
 

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <set>
 
+#include "fsr_pressure_map/settings/input_error.h"
+#include "simulation/pressure_profile.h"
 #include "simulation/reference_channel.h"
 #include "simulation/sensitivity.h"
 #include "support/allocation_guard.h"
@@ -21,7 +23,7 @@ using fsr::simulation::EffectKind;
 using fsr::simulation::EffectParameter;
 using fsr::simulation::EffectValues;
 using fsr::simulation::ParameterRole;
-using fsr::simulation::RigMoment;
+using fsr::simulation::RigSample;
 using fsr::simulation::SensorChain;
 using fsr::simulation::SimulationSettings;
 using test_support::rig;
@@ -41,7 +43,7 @@ class Course {
                   {fsr::simulation::LoadPattern::Kind::kDisc, {0, 0}, 0.015, 0});
     }
   }
-  RigMoment moment(int scan) const {
+  RigSample sample(int scan) const {
     const double time = scan * kPeriod;
     return {time, profile_.at(time), static_cast<std::uint64_t>(scan), 23 + time / 40, &course_};
   }
@@ -57,7 +59,7 @@ const Course kCourse;
 void readOn(SensorChain& chain, int first, int last, std::vector<double>& readings) {
   for (int scan = first; scan < last; ++scan) {
     kCourse.prepare(chain, scan);
-    chain.read(kCourse.moment(scan));
+    chain.read(kCourse.sample(scan));
     readings.insert(readings.end(), chain.reading().begin(), chain.reading().end());
   }
 }
@@ -69,7 +71,7 @@ std::vector<double> run(const SimulationSettings& settings) {
   std::vector<double> readings;
   readOn(chain, 0, kCourse.scans(), readings);
   for (int scan = 0; scan < kCourse.scans(); ++scan) {
-    readings.push_back(reference.indicated(kCourse.moment(scan).pressure));
+    readings.push_back(reference.indicated(kCourse.sample(scan).pressure));
   }
   return readings;
 }
@@ -286,11 +288,11 @@ TEST(EveryEffect, ForgetsItsHistoryWhenReset) {
 TEST(EveryEffect, ReadsWithoutAllocating) {
   onEvery(simulated, [](const EffectEntry& entry) {
     SensorChain chain(with(entry.info.id, usualValues(entry)));
-    std::vector<RigMoment> moments;
-    for (int scan = 0; scan < 100; ++scan) moments.push_back(kCourse.moment(scan));
-    chain.read(moments[0]);
+    std::vector<RigSample> samples;
+    for (int scan = 0; scan < 100; ++scan) samples.push_back(kCourse.sample(scan));
+    chain.read(samples[0]);
     const test_support::AllocationGuard guard;
-    for (const RigMoment& moment : moments) chain.read(moment);
+    for (const RigSample& sample : samples) chain.read(sample);
     EXPECT_EQ(guard.allocations(), 0u);
   });
 }
@@ -330,8 +332,8 @@ TEST(EveryEffect, ItsDerivativesAgreeWithFiniteDifferences) {
       double error = 0, size = 0;  // sums of squares
       for (int scan = 0; scan < kCourse.scans(); ++scan) {
         kCourse.prepare(sensitivity, scan);
-        const auto& derivative = sensitivity.read(kCourse.moment(scan)).reading;
-        if (kCourse.moment(scan).pressure < kNoLoad) continue;
+        const auto& derivative = sensitivity.read(kCourse.sample(scan)).reading;
+        if (kCourse.sample(scan).pressure < kNoLoad) continue;
         for (std::size_t i = 0; i < derivative.size(); ++i) {
           const double wanted = expected[std::size_t(scan) * derivative.size() + i];
           error += (derivative[i] - wanted) * (derivative[i] - wanted);

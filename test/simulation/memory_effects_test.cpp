@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "fsr_pressure_map/settings/input_error.h"
+#include "simulation/pressure_profile.h"
 #include "support/simulated_rig.h"
 
 namespace {
@@ -199,8 +201,8 @@ TEST(Temperature, FollowsTheGasWithItsLag) {
   SensorChain chain(straightRig("  temperature: {coefficient: 0.003, lag: 60}\n"));
   std::vector<double> times, logs;
   for (std::uint64_t second = 0; second < 200; ++second) {
-    fsr::simulation::RigMoment moment{double(second), 310e3, second, second == 0 ? 23.0 : 33.0};
-    const double rise = chain.read(moment)[0] / (0.5 * kStraightCounts) - 1;
+    fsr::simulation::RigSample sample{double(second), 310e3, second, second == 0 ? 23.0 : 33.0};
+    const double rise = chain.read(sample)[0] / (0.5 * kStraightCounts) - 1;
     if (second < 2 || second > 120) continue;
     times.push_back(double(second));
     logs.push_back(std::log(1 - rise / (warm("  temperature: {coefficient: 0.003}\n", 33) - 1)));

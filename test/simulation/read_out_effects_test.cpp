@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "fsr_pressure_map/settings/input_error.h"
+#include "simulation/pressure_profile.h"
 #include "simulation/reference_channel.h"
 #include "simulation/sensitivity.h"
 #include "support/simulated_rig.h"
@@ -81,12 +83,12 @@ TEST(Repositioning, ShiftsAnUnevenLoad) {
   for (std::uint32_t mount = 1; mount <= 60; ++mount) {
     chain.mount(surfaceOf({}, mount), {LoadPattern::Kind::kDisc, {0, 0}, 0.01, 0});
     const auto counts = scanAt(chain, 310e3);
-    double sum = 0, moment = 0;
+    double sum = 0, sample = 0;
     for (int i = 0; i < 81; ++i) {
       sum += counts[i];
-      moment += counts[i] * (i % 9 - 4) * 0.01;
+      sample += counts[i] * (i % 9 - 4) * 0.01;
     }
-    centres.push_back(moment / sum);
+    centres.push_back(sample / sum);
   }
   EXPECT_NEAR(deviation(centres), 0.01, 0.003);
 }

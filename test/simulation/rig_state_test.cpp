@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "simulation/driven_rig.h"
+#include "simulation/read_settings.h"
 #include "simulation/session.h"
 
 namespace {
@@ -95,7 +96,8 @@ TEST(RigState, OfAnotherRigIsRefused) {
   fsr::simulation::SimulationSettings small = rig(kFlat);
   small.layout.size = {1, 1};
   EXPECT_THROW(fsr::simulation::Session(small).resume(other.state()), fsr::settings::InputError);
-  EXPECT_THROW(fsr::simulation::readRigState(Settings::fromText("{rig_state: 2}", "state.yaml")), fsr::settings::InputError);
+  EXPECT_THROW(fsr::simulation::readRigState(Settings::fromText("{rig_state: 2}", "state.yaml")),
+               fsr::settings::InputError);
 }
 
 }  // namespace

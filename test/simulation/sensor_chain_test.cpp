@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "fsr_pressure_map/settings/input_error.h"
+#include "simulation/pressure_profile.h"
 #include "support/allocation_guard.h"
 
 namespace {

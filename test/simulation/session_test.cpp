@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "simulation/read_settings.h"
 #include "support/simulated_rig.h"
 
 namespace {

@@ -8,6 +8,8 @@
 
 #include "settings/yaml_text.h"
 #include "simulation/effects/effect_library.h"
+#include "simulation/pressure_profile.h"
+#include "simulation/read_settings.h"
 #include "simulation/sensor_chain.h"
 #include "simulation/simulation_text.h"
 
@@ -60,8 +62,8 @@ TEST(SimulationSettings, WrittenOutAndReadBackTheyAreTheSame) {
     after.mount(again.session.back().surface);
     const fsr::simulation::PressureCourse course = [](double time) { return 5e3 * time; };
     for (std::uint64_t i = 0; i < 100; ++i) {
-      const fsr::simulation::RigMoment moment{double(i), 5e3 * double(i), i, 23, &course};
-      EXPECT_EQ(before.read(moment), after.read(moment));
+      const fsr::simulation::RigSample sample{double(i), 5e3 * double(i), i, 23, &course};
+      EXPECT_EQ(before.read(sample), after.read(sample));
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/simulation/taxel_curves.h"
+#include "simulation/taxel_curves.h"
 
 #include <gtest/gtest.h>
 
@@ -63,17 +63,17 @@ TEST(TaxelCurves, AddToWhatTheChainReads) {
   SensorChain plain(settings);
   settings.taxel_curves = std::make_shared<const TaxelCurves>(example());
   SensorChain corrected(settings);
-  RigMoment moment;
-  moment.pressure = 50e3;
-  plain.read(moment);
-  corrected.read(moment);
+  RigSample sample;
+  sample.pressure = 50e3;
+  plain.read(sample);
+  corrected.read(sample);
   EXPECT_NEAR(corrected.reading()[0] - plain.reading()[0], 4095 * 0.01, 1e-9);
   EXPECT_NEAR(corrected.reading()[1] - plain.reading()[1], 4095 * 0.02, 1e-9);
   corrected.mount(matrix::Surface{"bent", 1, {matrix::Curvature{13, 0, 0}}, {}});
   plain.mount(matrix::Surface{"bent", 1, {matrix::Curvature{13, 0, 0}}, {}});
-  moment.time = 1;
-  plain.read(moment);
-  corrected.read(moment);
+  sample.time = 1;
+  plain.read(sample);
+  corrected.read(sample);
   EXPECT_NEAR(corrected.reading()[1] - plain.reading()[1], 4095 / 3.0, 1e-9);
 }
 

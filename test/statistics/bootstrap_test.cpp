@@ -55,7 +55,7 @@ TEST(Bootstrap, BcaIntervalAgreesWithRGivenTheReplicates) {
 }
 
 TEST(Bootstrap, BcaCountsAReplicateThatEqualsTheEstimateHalf) {
-  Values replicates;  // a statistic that jumps: 0, 1 and 2, as often below the estimate as above
+  Values replicates;  // a discrete statistic: 0, 1 and 2, below the estimate as often as above
   for (const auto& [value, times] : {std::pair{0.0, 25}, {1.0, 50}, {2.0, 25}})
     replicates.insert(replicates.end(), times, value);
   const fsr::statistics::Interval interval = fsr::statistics::bcaInterval(1, replicates, {1, 2, 3}, 0.95);
@@ -101,7 +101,7 @@ TEST(Bootstrap, IsStudentsIntervalForAMeanOfFewUnits) {
   EXPECT_EQ(result.method, IntervalMethod::kT);
 }
 
-TEST(Bootstrap, TakesTheHighestLevelWithFiveUnits) {
+TEST(Bootstrap, ResamplesTheHighestLevelWithFiveUnits) {
   BootstrapProblem problem = meanOfUnits(kX70);
   problem.levels = {{"sheet", Indices(70, 0)},
                     {"mount", blocks(70, 20)},
@@ -113,7 +113,7 @@ TEST(Bootstrap, TakesTheHighestLevelWithFiveUnits) {
   EXPECT_EQ(result.method, IntervalMethod::kT);
 }
 
-TEST(Bootstrap, IsContentWithFiveUnits) {
+TEST(Bootstrap, GivesAnIntervalForFiveUnits) {
   BootstrapProblem problem = meanOfUnits(kX70);
   problem.levels = {{"mount", blocks(70, 14)}, {"taxel", blocks(70, 1)}};
   EXPECT_EQ(bootstrap(problem).level, "mount");
@@ -136,7 +136,7 @@ TEST(Bootstrap, ChangesMethodAtTenUnits) {
   EXPECT_EQ(bootstrap(meanOfUnits(head(kX70, 10))).method, IntervalMethod::kBca);
 }
 
-TEST(Bootstrap, DrawsUnitsWhole) {
+TEST(Bootstrap, DrawsWholeUnits) {
   BootstrapProblem problem = meanOfUnits(kX70, 5);
   problem.statistic = [](const Indices& at) {
     for (std::size_t i = 0; i < at.size(); ++i) {
@@ -146,7 +146,7 @@ TEST(Bootstrap, DrawsUnitsWhole) {
   };
   const BootstrapResult result = bootstrap(problem);
   EXPECT_EQ(result.resamples, 1999u);
-  EXPECT_EQ(result.low, 70);  // a statistic that never varies
+  EXPECT_EQ(result.low, 70);  // a constant statistic
   EXPECT_EQ(result.high, 70);
 }
 
@@ -173,7 +173,7 @@ TEST(Bootstrap, DependsOnSeedAndStream) {
   EXPECT_NE(bootstrap(meanOfUnits(kX70), options).low, low);
 }
 
-/// Units of five readings that share a deviation: readings are not independent, units are.
+/// Units of five readings with a common deviation: the units are independent, the readings are not.
 Values clustered(std::uint64_t trial, std::size_t units) {
   const fsr::statistics::RandomStream stream = fsr::statistics::randomStream(1, "clusters", trial);
   Values x(5 * units);
@@ -195,11 +195,11 @@ int coveredOf(int trials, std::size_t units, std::size_t each) {
 TEST(Bootstrap, CoversTheTruthOnlyIfTheRightLevelIsResampled) {
   constexpr int kTrials = 400;
   EXPECT_TRUE(fitsLevel(coveredOf(kTrials, 8, 5), kTrials, 0.95));   // Student's interval: exact
-  EXPECT_TRUE(fitsLevel(coveredOf(kTrials, 30, 5), kTrials, 0.94));  // BCa: a little short at 30 units
+  EXPECT_TRUE(fitsLevel(coveredOf(kTrials, 30, 5), kTrials, 0.94));  // BCa: slightly too narrow with 30 units
   EXPECT_LT(coveredOf(kTrials, 30, 1), kTrials * 0.75);
 }
 
-TEST(Bootstrap, LeavesResamplesOutWhoseStatisticIsNotFinite) {
+TEST(Bootstrap, IgnoresResamplesWhoseStatisticIsNotFinite) {
   BootstrapProblem problem = meanOfUnits(kX70);
   problem.statistic = [](const Indices& at) {
     const bool has_first = std::count(at.begin(), at.end(), 0u) > 1;  // in a quarter of the resamples
@@ -211,7 +211,7 @@ TEST(Bootstrap, LeavesResamplesOutWhoseStatisticIsNotFinite) {
   EXPECT_GT(result.resamples, 1000u);
 }
 
-TEST(Bootstrap, GivesNoIntervalWhereAUnitCarriesTheStatisticAlone) {
+TEST(Bootstrap, GivesNoIntervalWhereTheStatisticDependsOnOneUnit) {
   BootstrapProblem problem = meanOfUnits(kX70);
   problem.statistic = [](const Indices& at) {
     return std::count(at.begin(), at.end(), 0u) ? meanAt(kX70, at) : std::nan("");
@@ -219,7 +219,7 @@ TEST(Bootstrap, GivesNoIntervalWhereAUnitCarriesTheStatisticAlone) {
   EXPECT_EQ(bootstrap(problem).method, IntervalMethod::kNone);
 }
 
-TEST(Bootstrap, PassesOnWhatTheStatisticThrowsInAThread) {
+TEST(Bootstrap, RethrowsAnExceptionOfTheStatisticInAThread) {
   BootstrapProblem problem = meanOfUnits(kX70);
   problem.statistic = [](const Indices& at) -> double {
     if (std::count(at.begin(), at.end(), 0u) > 3) throw std::runtime_error("no");
@@ -230,7 +230,7 @@ TEST(Bootstrap, PassesOnWhatTheStatisticThrowsInAThread) {
   EXPECT_THROW(bootstrap(problem, options), std::runtime_error);
 }
 
-TEST(Bootstrap, RefusesWhatItCannotResample) {
+TEST(Bootstrap, RefusesUnusableProblems) {
   BootstrapProblem problem = meanOfUnits(kX70);
   problem.levels.clear();
   EXPECT_THROW(bootstrap(problem), fsr::settings::InputError);

@@ -25,13 +25,13 @@ TEST(Friedman, AgreesWithR) {
   expectR(measures({{1, 2}, {2, 3}, {3, 1}}), 1, 2, 0.606530659712633);
 }
 
-TEST(Friedman, ReachesNTimesKMinusOneAtMost) {
+TEST(Friedman, IsAtMostNTimesKMinusOne) {
   std::vector<Values> values;
   for (int j = 0; j < 5; ++j) values.push_back(mapped(kX70, [j](double x) { return x + j; }));
   expectNear(friedman(measures(values)).statistic, 280);
 }
 
-TEST(Friedman, SeesOnlyTheOrderWithinUnits) {
+TEST(Friedman, DependsOnlyOnTheOrderWithinUnits) {
   fsr::statistics::RepeatedMeasures data = tied5();
   const double p = friedman(data).p;
   for (Values& values : data.values) {
@@ -55,14 +55,14 @@ TEST(Friedman, RejectsTheNullAtItsLevel) {
   EXPECT_TRUE(fitsLevel(rejections, kTrials, 0.05)) << rejections;
 }
 
-TEST(Friedman, FindsNothingWhereEveryUnitIsTied) {
+TEST(Friedman, GivesPOneWhereEveryUnitIsTied) {
   const fsr::statistics::TestResult result = friedman(measures({kA, kA, kA}));
   EXPECT_EQ(result.p, 1);
   EXPECT_EQ(result.statistic, 0);
   EXPECT_EQ(result.method, fsr::statistics::PMethod::kNothingToTest);
 }
 
-TEST(Friedman, RefusesWhatItCannotJudge) {
+TEST(Friedman, RefusesUnusableData) {
   EXPECT_THROW(friedman({}), fsr::settings::InputError);
   EXPECT_THROW(friedman(measures({kA})), fsr::settings::InputError);
   EXPECT_THROW(friedman(measures({{1}, {2}})), fsr::settings::InputError);

@@ -13,7 +13,7 @@ namespace {
 const std::vector<double> kReference = {0, 25e3, 75e3, 150e3, 300e3, 620e3};
 const std::vector<double> kPredicted = {1e3, 24e3, 78e3, 141e3, 310e3, 601e3};
 const std::vector<double> kErrors = {1e3, -1e3, 3e3, -9e3, 10e3, -19e3};
-constexpr double kRounding = 1e-14;  // relative: a few roundings of a double
+constexpr double kRounding = 1e-14;  // relative: a few rounding errors of a double
 
 TEST(Metrics, RSquaredAndRmsePercentAgreeWithNumpy) {
   // 1 - ((p-r)**2).sum() / ((r-r.mean())**2).sum()
@@ -26,7 +26,7 @@ TEST(Metrics, RSquaredIsNegativeWhereTheMeanPredictsBetter) {
   EXPECT_LT(rSquared({3, 2, 1}, {1, 2, 3}), 0);
 }
 
-TEST(Metrics, ScoresHaveNoMeaningWhereTheReferenceDoesNotVary) {
+TEST(Metrics, ScoresAreNanWhereTheReferenceDoesNotVary) {
   EXPECT_TRUE(std::isnan(rSquared({1, 2}, {5, 5})));
   EXPECT_TRUE(std::isnan(rSquared({1}, {5})));
   EXPECT_TRUE(std::isnan(rmsePercent({1, 2}, {5, 5})));
@@ -52,7 +52,7 @@ TEST(Metrics, ErrorSummaryOfOneErrorHasNoLimits) {
   EXPECT_TRUE(std::isnan(summary.limit_low));
 }
 
-TEST(Metrics, ErrorSummaryOfNothingIsNotZero) {
+TEST(Metrics, ErrorSummaryOfNoErrorsIsNan) {
   const ErrorSummary summary = summariseErrors({});
   EXPECT_EQ(summary.count, 0u);
   EXPECT_TRUE(std::isnan(summary.bias));
@@ -69,7 +69,7 @@ TEST(Metrics, QuantileInterpolatesBetweenOrderStatistics) {
   EXPECT_TRUE(std::isnan(quantile(nothing, 0.5)));
 }
 
-TEST(Metrics, SpreadLeavesOutWhatHasNoScore) {
+TEST(Metrics, SpreadIgnoresNan) {
   const Spread spread = spreadOf({1.0, std::nan(""), 3.0});
   EXPECT_DOUBLE_EQ(spread.mean, 2.0);
   EXPECT_DOUBLE_EQ(spread.deviation, std::sqrt(2.0));
@@ -77,7 +77,7 @@ TEST(Metrics, SpreadLeavesOutWhatHasNoScore) {
   EXPECT_TRUE(std::isnan(spreadOf({1.0}).deviation));
 }
 
-TEST(PressureBins, TakeTheirLowerEdgeAndNotTheirUpper) {
+TEST(PressureBins, IncludeTheirLowerEdgeAndNotTheirUpper) {
   EXPECT_EQ(pressureBin(-2e3), 0u);
   EXPECT_EQ(pressureBin(49999.0), 0u);
   EXPECT_EQ(pressureBin(50e3), 1u);
@@ -92,7 +92,7 @@ TEST(PressureBins, AreNamedInKilopascal) {
   EXPECT_EQ(pressureBinName(4), "400+");
 }
 
-TEST(ErrorBins, KeepBinsAndDirectionsApart) {
+TEST(ErrorBins, SeparateBinsAndDirections) {
   ErrorBins bins;
   bins.add(1e3f, 10e3, LoadDirection::kLoading);
   bins.add(-1e3f, 20e3, LoadDirection::kUnloading);

@@ -41,14 +41,14 @@ TEST(MultipleComparisons, HolmIsNeverAboveBonferroni) {
   for (std::size_t i = 0; i < p.size(); ++i) EXPECT_LE(stepped[i], strict[i]);
 }
 
-TEST(MultipleComparisons, LeaveOneTestOrNoneAlone) {
+TEST(MultipleComparisons, ReturnOneOrNoTestUnchanged) {
   EXPECT_EQ(fsr::statistics::bonferroni({0.3}), Values{0.3});
   EXPECT_EQ(fsr::statistics::holm({0.3}), Values{0.3});
   EXPECT_TRUE(fsr::statistics::bonferroni({}).empty());
   EXPECT_TRUE(fsr::statistics::holm({}).empty());
 }
 
-TEST(MultipleComparisons, RefuseWhatIsNoProbability) {
+TEST(MultipleComparisons, RefuseValuesThatAreNotProbabilities) {
   for (const double p : {std::nan(""), -0.1, 1.1}) {
     EXPECT_THROW(fsr::statistics::bonferroni({0.1, p}), fsr::settings::InputError);
     EXPECT_THROW(fsr::statistics::holm({0.1, p}), fsr::settings::InputError);

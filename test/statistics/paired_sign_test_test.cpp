@@ -27,7 +27,7 @@ TEST(PairedSignTest, AgreesWithR) {
   expectR(kX70, mapped(kY70, [](double y) { return y + 20; }), 0, 70, 1.69406589450861e-21);
 }
 
-TEST(PairedSignTest, SeesOnlyTheOrderWithinPairs) {
+TEST(PairedSignTest, DependsOnlyOnTheOrderWithinPairs) {
   const auto stretch = [](double x) { return std::exp(3 * x); };
   EXPECT_EQ(pairedSignTest(mapped(kT70, stretch), mapped(kU70, stretch)).p, pairedSignTest(kT70, kU70).p);
   EXPECT_EQ(pairedSignTest(kU70, kT70).p, pairedSignTest(kT70, kU70).p);
@@ -46,13 +46,13 @@ TEST(PairedSignTest, RejectsTheNullAtItsExactLevel) {
   EXPECT_TRUE(fitsLevel(rejections, kTrials, 0.0413894653320312)) << rejections;
 }
 
-TEST(PairedSignTest, FindsNothingWhereAllDifferencesAreZero) {
+TEST(PairedSignTest, GivesPOneWhereAllDifferencesAreZero) {
   const fsr::statistics::TestResult result = pairedSignTest(kA, kA);
   EXPECT_EQ(result.p, 1);
   EXPECT_EQ(result.method, fsr::statistics::PMethod::kNothingToTest);
 }
 
-TEST(PairedSignTest, RefusesWhatItCannotJudge) {
+TEST(PairedSignTest, RefusesUnusableData) {
   EXPECT_THROW(pairedSignTest({}, {}), fsr::settings::InputError);
   EXPECT_THROW(pairedSignTest({1}, {1, 2}), fsr::settings::InputError);
   EXPECT_THROW(pairedSignTest({std::nan("")}, {1}), fsr::settings::InputError);

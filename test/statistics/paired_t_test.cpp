@@ -38,7 +38,7 @@ TEST(PairedT, AgreesWithR) {
   expectR({1, 2}, {3, 7}, {-2.33333333333333, 1, 0.257762116818313, -3.5, -22.559307104262, 15.559307104262});
 }
 
-TEST(PairedT, KeepsItsDigitsFarInTheTail) {
+TEST(PairedT, KeepsItsPrecisionFarInTheTail) {
   const Values far = mapped(kY70, [](double y) { return y + 20; });  // y70 + 20
   expectR(
       kX70, far,
@@ -64,18 +64,18 @@ TEST(PairedT, RejectsEqualMeansAtItsLevel) {
   EXPECT_TRUE(fitsLevel(rejections, kTrials, 0.05)) << rejections;
 }
 
-TEST(PairedT, FindsNothingBetweenEqualSamples) {
+TEST(PairedT, GivesPOneForEqualSamples) {
   const fsr::statistics::PairedT result = pairedT(kA, kA);
   EXPECT_EQ(result.test.p, 1);
   EXPECT_EQ(result.test.statistic, 0);
   EXPECT_EQ(result.test.method, fsr::statistics::PMethod::kNothingToTest);
 }
 
-TEST(PairedT, RefusesWhatItCannotJudge) {
+TEST(PairedT, RefusesUnusableData) {
   EXPECT_THROW(pairedT({}, {}), fsr::settings::InputError);
   EXPECT_THROW(pairedT({1}, {2}), fsr::settings::InputError);
   EXPECT_THROW(pairedT({1, 2}, {2}), fsr::settings::InputError);
-  EXPECT_THROW(pairedT({1, 2, 3}, {3, 4, 5}), fsr::settings::InputError);  // always 2 apart
+  EXPECT_THROW(pairedT({1, 2, 3}, {3, 4, 5}), fsr::settings::InputError);  // all differences are -2
   EXPECT_THROW(pairedT({1, std::nan("")}, {3, 4}), fsr::settings::InputError);
 }
 

@@ -63,7 +63,7 @@ TEST(PaperRule, TakesFriedmanThenWilcoxonOrSignTestsForSkewedTreatments) {
   const Values sign = {7.20202772352865, 0.413914286739155, 0.722379271917629, 0.224628954925094,
                        2.81978921793657, 0.413914286739155, 7.20202772352865,  7.20202772352865,
                        9.04974526459463, 7.20202772352865};
-  const std::size_t steps_before = 6;  // five treatments, one choice
+  const std::size_t steps_before = 6;  // five treatments and one choice of a test
   for (std::size_t i = 0; i < 10; ++i) {
     const bool symmetric =
         result.decisions[steps_before + i].conclusion == "symmetric: Wilcoxon signed-rank test";
@@ -72,7 +72,7 @@ TEST(PaperRule, TakesFriedmanThenWilcoxonOrSignTestsForSkewedTreatments) {
   }
 }
 
-TEST(PaperRule, AsksTheSymmetryOfTheDifferences) {
+TEST(PaperRule, TestsTheSymmetryOfTheDifferences) {
   const Values skewed = kX70, zero(70, 0.0);
   const Values flat = mapped(uniform(3, 70), [](double u) { return u - 0.4; });
   const PaperRuleResult sign = paperRule({{"a", "b"}, {skewed, zero}});
@@ -85,7 +85,7 @@ TEST(PaperRule, AsksTheSymmetryOfTheDifferences) {
   EXPECT_EQ(conclusions(ranks).back(), "a - b: symmetric: Wilcoxon signed-rank test");
 }
 
-TEST(PaperRule, CorrectsForWantOfSphericity) {
+TEST(PaperRule, CorrectsForViolatedSphericity) {
   fsr::statistics::RepeatedMeasures data = normal3();
   for (double& x : data.values[2]) x = 5 * x;
   const PaperRuleResult result = paperRule(data);
@@ -93,16 +93,16 @@ TEST(PaperRule, CorrectsForWantOfSphericity) {
   EXPECT_GT(result.p, result.test.p);
 }
 
-TEST(PaperRule, ComparesNoPairsWhereNothingDiffersTogether) {
+TEST(PaperRule, ComparesNoPairsWhereTheTreatmentsTogetherDoNotDiffer) {
   const PaperRuleResult result = paperRule(skewed5());  // Friedman: p = 0.24
   EXPECT_FALSE(result.differ);
   EXPECT_TRUE(result.pairs.empty());
 }
 
-TEST(PaperRule, CanAskTheNormalityOfTheDifferencesInstead) {
+TEST(PaperRule, CanTestTheNormalityOfTheDifferencesInstead) {
   fsr::statistics::PaperRuleOptions options;
   options.normality = fsr::statistics::NormalityOf::kDifferences;
-  // Skewed levels that both treatments share; normal differences.
+  // Both treatments have the same skewed levels; their differences are normal.
   const Values noise = mapped(uniform(15, 70), fsr::statistics::normalQuantile);
   Values shifted = kX70;
   for (std::size_t i = 0; i < shifted.size(); ++i) shifted[i] += noise[i] - 1;
@@ -112,7 +112,7 @@ TEST(PaperRule, CanAskTheNormalityOfTheDifferencesInstead) {
   EXPECT_EQ(conclusions(paperRule(data, options)).front(), "a - b: normal");
 }
 
-TEST(PaperRule, AnswersDegenerateDataAsDocumented) {
+TEST(PaperRule, HandlesDegenerateDataAsDocumented) {
   const PaperRuleResult same = paperRule({{"a", "b"}, {kA, kA}});
   EXPECT_EQ(same.p, 1);
   EXPECT_FALSE(same.differ);
@@ -126,7 +126,7 @@ TEST(PaperRule, AnswersDegenerateDataAsDocumented) {
   EXPECT_EQ(conclusions(few).back(), "a - b: too few to judge symmetry: paired sign test");
 }
 
-TEST(PaperRule, RefusesWhatItCannotJudge) {
+TEST(PaperRule, RefusesUnusableData) {
   EXPECT_THROW(paperRule(measures({kA})), fsr::settings::InputError);
   EXPECT_THROW(paperRule(measures({{1, 2}, {2, 3}})), fsr::settings::InputError);
   EXPECT_THROW(paperRule(measures({{1, 2, 3}, {2, 3}})), fsr::settings::InputError);

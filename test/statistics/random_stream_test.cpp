@@ -12,7 +12,7 @@ using fsr::statistics::normalQuantile;
 using fsr::statistics::RandomStream;
 using fsr::statistics::randomStream;
 
-// SplitMix64 started at 1234567, as its authors publish it.
+// SplitMix64 with seed 1234567, as published by its authors.
 TEST(RandomStream, GivesTheNumbersOfSplitMix64) {
   const RandomStream stream(1234567);
   EXPECT_EQ(stream.bits(0), 6457827717110365317u);
@@ -75,7 +75,7 @@ TEST(RandomStream, PurposesMembersAndSeedsAreIndependent) {
   }
 }
 
-TEST(RandomStream, IsTheSameInAnyOrder) {
+TEST(RandomStream, GivesTheSameNumbersInAnyOrder) {
   const RandomStream one = randomStream(7, "x", 3), other = randomStream(7, "x", 3);
   const double last = one.normal(1000);
   EXPECT_EQ(other.normal(0), one.normal(0));

@@ -34,7 +34,7 @@ inline fsr::statistics::RepeatedMeasures tied5() {
   return measures(values);
 }
 
-/// Times to round first base, three ways, 22 players: Hollander and Wolfe 1999, table 7.1.
+/// Times of 22 players to round first base with three methods: Hollander and Wolfe 1999, table 7.1.
 inline fsr::statistics::RepeatedMeasures roundingTimes() {
   return measures({{5.40, 5.85, 5.20, 5.55, 5.90, 5.45, 5.40, 5.45, 5.25, 5.85, 5.25,
                     5.65, 5.60, 5.05, 5.50, 5.45, 5.55, 5.45, 5.50, 5.65, 5.70, 6.30},

@@ -41,8 +41,8 @@ fsr::statistics::RepeatedMeasures firstUnits(fsr::statistics::RepeatedMeasures d
 // sprintf("%.15g", c(r[1,"F"], r[1,"num Df"], r[1,"den Df"], r[1,"Pr(>F)"],
 //                    s$GG.eps, r[1,"G-G Pr"], s$HF.eps, r[1,"H-F Pr"]))
 // H <- apply(contr.helmert(ncol(m)), 2, function(v) v / sqrt(sum(v^2)))   # Mauchly on the contrasts:
-// RT less its mean: R's contrasts are 1e-10 from orthogonal to the units' level, which at 5.5 s shows.
-// u <- mauchly.test(lm(m %*% H ~ 1)); sprintf("%.15g", c(u$statistic, u$p.value))
+// For RT the mean is subtracted: R's contrasts are orthogonal to the units' level to 1e-10 only, which
+// matters at 5.5 s. u <- mauchly.test(lm(m %*% H ~ 1)); sprintf("%.15g", c(u$statistic, u$p.value))
 TEST(RepeatedMeasuresAnova, AgreesWithR) {
   expectR(roundingTimes(),
           {6.28830791576219, 2, 42, 0.00408410072218699, 0.773501463270237, 0.00843979904539667,
@@ -53,7 +53,7 @@ TEST(RepeatedMeasuresAnova, AgreesWithR) {
                     0.737272710320512, 2.34179476711271e-11, 0.372537667698601, 7.27698489529451e-11});
 }
 
-TEST(RepeatedMeasuresAnova, TakesAnEpsilonAboveOneAsOne) {
+TEST(RepeatedMeasuresAnova, UsesAnEpsilonAboveOneAsOne) {
   expectR(normal3(), {7.68297844903738, 2, 58, 0.00109665193601302, 0.96224105287834, 0.00129032216425848,
                       1.02924094361553, 0.00109665193601302, 0.960759367926911, 0.570958823301983});
 }
@@ -67,7 +67,7 @@ TEST(RepeatedMeasuresAnova, AgreesWithROnFewUnits) {
            0.673369898948621, 0.0892499673097401, 0.018192732728116, 0.0134731739857929});
 }
 
-// mauchly.test(lm(m ~ 1), X = ~1)$p.value takes k where the series has k - 1
+// mauchly.test(lm(m ~ 1), X = ~1)$p.value uses k where the series has k - 1
 TEST(RepeatedMeasuresAnova, DiffersFromRsDefaultMauchlyBySecondOrderOnly) {
   EXPECT_NEAR(repeatedMeasuresAnova(skewed5()).mauchly.p, 0.237004509241067, 1e-5);
   EXPECT_NEAR(repeatedMeasuresAnova(roundingTimes()).mauchly.p, 0.0312813222773883, 1e-5);
@@ -83,7 +83,7 @@ TEST(RepeatedMeasuresAnova, IsThePairedTTestOnTwoTreatments) {
   EXPECT_EQ(result.mauchly.p, 1);
 }
 
-TEST(RepeatedMeasuresAnova, DoesNotDependOnTheLevelOfAUnitOrTheOrderOfTreatments) {
+TEST(RepeatedMeasuresAnova, DoesNotDependOnOffsetsOfUnitsOrTheOrderOfTreatments) {
   fsr::statistics::RepeatedMeasures data = roundingTimes();
   const fsr::statistics::RepeatedMeasuresAnova before = repeatedMeasuresAnova(data);
   for (Values& values : data.values) {
@@ -126,7 +126,7 @@ TEST(RepeatedMeasuresAnova, RejectsTheSphericalNullAtItsLevel) {
   EXPECT_TRUE(fitsLevel(not_spherical, kTrials, 0.05)) << not_spherical;
 }
 
-TEST(RepeatedMeasuresAnova, AnswersDegenerateDataAsDocumented) {
+TEST(RepeatedMeasuresAnova, HandlesDegenerateDataAsDocumented) {
   const fsr::statistics::RepeatedMeasuresAnova same = repeatedMeasuresAnova(measures({kA, kA, kA}));
   EXPECT_EQ(same.test.p, 1);
   EXPECT_EQ(same.test.method, fsr::statistics::PMethod::kNothingToTest);
@@ -139,7 +139,7 @@ TEST(RepeatedMeasuresAnova, AnswersDegenerateDataAsDocumented) {
   EXPECT_EQ(few.huynh_feldt.epsilon, 1);
 }
 
-TEST(RepeatedMeasuresAnova, RefusesWhatItCannotJudge) {
+TEST(RepeatedMeasuresAnova, RefusesUnusableData) {
   EXPECT_THROW(repeatedMeasuresAnova({}), fsr::settings::InputError);
   EXPECT_THROW(repeatedMeasuresAnova(measures({kA})), fsr::settings::InputError);
   EXPECT_THROW(repeatedMeasuresAnova(measures({{1}, {2}})), fsr::settings::InputError);

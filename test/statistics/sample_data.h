@@ -6,14 +6,14 @@
 #include <cmath>
 #include <vector>
 
-// Data that R and the tests can both make, digit by digit. In R (`n` values from `s`):
+// Data that R and the tests can both compute with identical digits. In R (`n` values from `s`):
 //   pm <- function(s, n) sapply(1:n, function(i) (s <<- (s * 16807) %% 2147483647) / 2147483647)
 //   x70 <- -log(pm(11, 70)); y70 <- -log(pm(12, 70)) * 1.5
 //   t70 <- floor(8 * pm(13, 70)); u70 <- floor(8 * pm(14, 70)^2)
 //   a <- c(1.83,0.50,1.62,2.48,1.68,1.88,1.55,3.06,1.30)
 //   b <- c(0.878,0.647,0.598,2.05,1.06,1.29,1.06,3.14,1.29)
 //   s1 <- sleep$extra[1:10]; s2 <- sleep$extra[11:20]
-// All reference values of this room: R 4.2.2, boot 1.3-28.1, exactRankTests 0.8-35 (Debian 12).
+// All reference values of this room are from R 4.2.2, boot 1.3-28.1, exactRankTests 0.8-35 (Debian 12).
 
 namespace sample_data {
 
@@ -55,14 +55,14 @@ const Values kY70 = exponential(12, 70, 1.5);
 const Values kT70 = mapped(uniform(13, 70), [](double u) { return std::floor(8 * u); });
 const Values kU70 = mapped(uniform(14, 70), [](double u) { return std::floor(8 * u * u); });
 
-/// R prints 15 digits; the algorithms differ in the order of their sums.
+/// R prints 15 digits. The algorithms add in different orders.
 constexpr double kAgreement = 1e-9;
 
 inline void expectNear(double value, double reference, double relative = kAgreement) {
   EXPECT_NEAR(value, reference, relative * std::abs(reference)) << "reference " << reference;
 }
 
-/// Whether a count of rejections fits a level: inside 4 standard deviations of the binomial.
+/// Whether a count of rejections fits a level: within 4 standard deviations of the binomial distribution.
 inline bool fitsLevel(int rejections, int trials, double level) {
   return std::abs(rejections - trials * level) <= 4 * std::sqrt(trials * level * (1 - level));
 }

@@ -42,8 +42,8 @@ TEST(ShapiroWilk, AgreesWithROnSkewedTiedAndLargeSamples) {
   expectR(q5000, 0.999369312150204, 0.0798703711317994);  // qnorm(pm(16, 5000))
 }
 
-TEST(ShapiroWilk, KeepsItsDigitsFarFromZero) {
-  // x <- 1e9 + pm(17, 30); shapiro.test(x - median(x)); without the subtraction R is 5e-8 off itself
+TEST(ShapiroWilk, KeepsItsPrecisionFarFromZero) {
+  // x <- 1e9 + pm(17, 30); shapiro.test(x - median(x)); without the subtraction R has an error of 5e-8
   expectR(mapped(uniform(17, 30), [](double u) { return 1e9 + u; }), 0.897620712169061, 0.00734898981414136);
 }
 
@@ -71,7 +71,7 @@ TEST(ShapiroWilk, RejectsNormalSamplesAtItsLevel) {
   EXPECT_TRUE(fitsLevel(rejections, kTrials, 0.05)) << rejections;
 }
 
-TEST(ShapiroWilk, RefusesWhatItCannotJudge) {
+TEST(ShapiroWilk, RefusesUnusableData) {
   EXPECT_THROW(shapiroWilk({}), fsr::settings::InputError);
   EXPECT_THROW(shapiroWilk({1, 2}), fsr::settings::InputError);
   EXPECT_THROW(shapiroWilk(Values(10, 0.1)), fsr::settings::InputError);

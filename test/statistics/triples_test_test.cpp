@@ -21,7 +21,7 @@ void expectR(const Values& sample, double z, double p) {
   expectNear(result.p, p);
 }
 
-// R has no such test among Debian's packages; the definition, triple by triple:
+// Debian's packages of R have no such test. This is the definition, triple by triple:
 //   tri <- function(x) { n <- length(x); B <- numeric(n); B2 <- matrix(0, n, n)
 //     for (i in 1:(n-2)) for (j in (i+1):(n-1)) for (k in (j+1):n) {
 //       f <- sign(x[i]+x[j]-2*x[k]) + sign(x[i]+x[k]-2*x[j]) + sign(x[j]+x[k]-2*x[i]); ijk <- c(i,j,k)
@@ -41,7 +41,7 @@ TEST(TriplesTest, AgreesWithItsDefinitionInRUnderTies) {
           0.485589284182965);  // 10 * (s1 - s2)
 }
 
-TEST(TriplesTest, StaysFiniteWhereEveryTripleLeansOneWay) {
+TEST(TriplesTest, StaysFiniteWhereAllTriplesAreSkewedAlike) {
   expectR({1, 2, 4, 8, 16, 32, 64, 128, 256, 512}, 4.14039335605412, 3.46710768726972e-05);  // tri(2^(0:9))
 }
 
@@ -64,9 +64,9 @@ int rejectionsOf(Quantile quantile, std::size_t n, int trials) {
   return rejections;
 }
 
-// The variance is estimated, so that the level is nominal for large n only: with 70 units 10,000 trials
-// of another seed gave 6.8 % for uniform, 6.1 % for Laplace's, 6.2 % for Student's distribution.
-TEST(TriplesTest, KeepsItsLevelOnSymmetricDistributionsOfAnyTail) {
+// The variance is estimated, so the test has its nominal level for large n only. With 70 units, 10,000 trials
+// with another seed gave 6.8 % for uniform, 6.1 % for Laplace's, 6.2 % for Student's distribution.
+TEST(TriplesTest, KeepsItsLevelOnSymmetricDistributionsWithAnyTail) {
   constexpr int kTrials = 1000;
   constexpr double kMeasuredLevel = 0.064;
   const auto flat = [](double u) { return u; };
@@ -83,7 +83,7 @@ TEST(TriplesTest, FindsSkewness) {
   EXPECT_GT(rejectionsOf(skewed, 70, 200), 190);
 }
 
-TEST(TriplesTest, AnswersDegenerateDataAsDocumented) {
+TEST(TriplesTest, HandlesDegenerateDataAsDocumented) {
   const fsr::statistics::TestResult result = triplesTest(Values(10, 0.0));
   EXPECT_EQ(result.p, 1);
   EXPECT_EQ(result.method, fsr::statistics::PMethod::kNothingToTest);

@@ -33,7 +33,7 @@ TEST(WilcoxonSignedRank, AgreesWithRsApproximationFromFiftyOn) {
 }
 
 // ... wilcox.test(..., exact = TRUE) and wilcox.test(..., exact = FALSE)
-TEST(WilcoxonSignedRank, AgreesWithRWhenToldTheMethod) {
+TEST(WilcoxonSignedRank, AgreesWithRForAGivenMethod) {
   expectR(kX70, kY70, WilcoxonMethod::kExact, 773, 0.00555593080661182, PMethod::kExact);
   expectR(head(kX70, 49), head(kY70, 49), WilcoxonMethod::kNormal, 352, 0.00970134088867275,
           PMethod::kNormalApproximation);
@@ -50,20 +50,20 @@ TEST(WilcoxonSignedRank, CountsTheConditionalDistributionUnderTiesAndZeros) {
           PMethod::kExact);
 }
 
-TEST(WilcoxonSignedRank, DropsDifferencesOfZeroAndSaysSo) {
+TEST(WilcoxonSignedRank, DropsDifferencesOfZeroAndCountsThem) {
   const fsr::statistics::TestResult result = wilcoxonSignedRank(kSleep1, kSleep2);
   EXPECT_EQ(result.n, 10u);
   EXPECT_EQ(result.dropped, 1u);
 }
 
-TEST(WilcoxonSignedRank, AnswersTheSameWhenSwapped) {
+TEST(WilcoxonSignedRank, GivesTheSamePValueWhenSwapped) {
   for (const auto method : {WilcoxonMethod::kExact, WilcoxonMethod::kNormal}) {
     EXPECT_DOUBLE_EQ(wilcoxonSignedRank(kT70, kU70, method).p, wilcoxonSignedRank(kU70, kT70, method).p);
     EXPECT_DOUBLE_EQ(wilcoxonSignedRank(kA, kB, method).p, wilcoxonSignedRank(kB, kA, method).p);
   }
 }
 
-TEST(WilcoxonSignedRank, SeesOnlyTheOrderOfTheMagnitudes) {
+TEST(WilcoxonSignedRank, DependsOnlyOnTheOrderOfTheMagnitudes) {
   const Values zero(70, 0.0);
   Values d = kX70;
   for (std::size_t i = 0; i < d.size(); i += 3) d[i] = -d[i];
@@ -84,7 +84,7 @@ TEST(WilcoxonSignedRank, RejectsTheNullNoMoreOftenThanItsExactLevel) {
   EXPECT_TRUE(fitsLevel(rejections, kTrials, 0.048828125)) << rejections;
 }
 
-TEST(WilcoxonSignedRank, FindsNothingWhereAllDifferencesAreZero) {
+TEST(WilcoxonSignedRank, GivesPOneWhereAllDifferencesAreZero) {
   const fsr::statistics::TestResult result = wilcoxonSignedRank(kA, kA);
   EXPECT_EQ(result.p, 1);
   EXPECT_EQ(result.dropped, kA.size());
@@ -97,7 +97,7 @@ TEST(WilcoxonSignedRank, StaysFiniteOnMagnitudesThatAreAllEqual) {
   EXPECT_LT(wilcoxonSignedRank(Values(60, 1.0), Values(60, 0.0)).p, 1e-10);
 }
 
-TEST(WilcoxonSignedRank, RefusesWhatItCannotJudge) {
+TEST(WilcoxonSignedRank, RefusesUnusableData) {
   EXPECT_THROW(wilcoxonSignedRank({}, {}), fsr::settings::InputError);
   EXPECT_THROW(wilcoxonSignedRank({1, 2}, {1}), fsr::settings::InputError);
   EXPECT_THROW(wilcoxonSignedRank({1, std::nan("")}, {1, 2}), fsr::settings::InputError);

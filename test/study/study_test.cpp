@@ -38,7 +38,8 @@ const StudyMethod& methodOf(const std::vector<StudyMethod>& methods, const std::
   return *std::find_if(methods.begin(), methods.end(), [&](const StudyMethod& m) { return m.id == id; });
 }
 
-// RMSE% of one GRNN on the reading, five sections, written down once more without tables.
+// RMSE% of one GRNN on the reading, over five sections, computed directly from the definition, without
+// tables.
 double plainRmsePercent(const StudyData& data, const Grouping& kept, std::size_t taxel, double bandwidth) {
   double sum = 0;
   for (std::size_t k = 0; k < data.sections; ++k) {
@@ -87,7 +88,7 @@ TEST(Study, AnotherSeedDrawsOtherScans) {
   EXPECT_EQ(first.comparisons[2].scores[1].rmse_percent, second.comparisons[2].scores[1].rmse_percent);
 }
 
-TEST(Study, AnswersThePapersQuestionsInItsOrder) {
+TEST(Study, ReportsThePapersComparisonsInItsOrder) {
   const StudyResult result = study(smallProblem());
   ASSERT_EQ(result.comparisons.size(), 4u);
   EXPECT_EQ(result.comparisons[0].id, "algorithms");
@@ -99,7 +100,7 @@ TEST(Study, AnswersThePapersQuestionsInItsOrder) {
   EXPECT_EQ(result.comparisons[0].scores[1].rmse_percent, result.comparisons[2].scores[0].rmse_percent);
 }
 
-TEST(Study, QuotesTheSplitWhereTheBestMethodErrsMost) {
+TEST(Study, QuotesTheSplitInWhichTheBestMethodHasTheLargestError) {
   const StudyResult once = study(smallProblem());
   EXPECT_EQ(once.headline.split, "leave_curvature_out");
 
@@ -137,13 +138,13 @@ TEST(Study, RefusesRecordingsWithoutAFlatSurface) {
   problem.recordings = {test_support::syntheticRecording(rig)};
   try {
     study(problem);
-    FAIL() << "took it";
+    FAIL() << "accepted it";
   } catch (const settings::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("flat"), std::string::npos) << error.what();
   }
 }
 
-TEST(Study, LeavesOutTaxelsThatNeverChangeAndSaysSo) {
+TEST(Study, LeavesOutConstantTaxelsWithAWarning) {
   StudyProblem problem = smallProblem();
   dataset::Recording& recording = problem.recordings[0];
   for (std::size_t i = 0; i < recording.scans(); ++i) recording.counts[i * 6 + 4] = 7;
@@ -153,7 +154,7 @@ TEST(Study, LeavesOutTaxelsThatNeverChangeAndSaysSo) {
   EXPECT_NE(result.warnings.back().find("left out: 4"), std::string::npos) << result.warnings.back();
 }
 
-TEST(Evaluation, ScoresTheBaselineAsTheFormulaDoes) {
+TEST(Evaluation, ScoresTheBaselineAsByItsDefinition) {
   const StudyProblem problem = smallProblem();
   const StudyData data = gatherStudyData(problem.recordings, 5);
   const Split split = leaveSectionOut(data);
@@ -180,7 +181,7 @@ TEST(Evaluation, GridAgreesWithTheSingleBandwidth) {
   }
 }
 
-TEST(Evaluation, AnswersFromTheNearestCurvatureWhereNoneWasTrained) {
+TEST(Evaluation, UsesTheNearestCurvatureForOneThatWasNotTrained) {
   const StudyProblem problem = smallProblem();
   const StudyData data = gatherStudyData(problem.recordings, 5);
   const Split split = leaveCurvatureOut(data);
@@ -188,11 +189,12 @@ TEST(Evaluation, AnswersFromTheNearestCurvatureWhereNoneWasTrained) {
   const StudyMethod& method = methodOf(methods, "per_curvature");
   const FoldModel model = plainModel(method, grnnOf({}, 1.0 / 16));
   const TaxelReadings readings(data, split.grouping, 0);
-  const auto answers = answersOf(model, 0, readings.training(split.folds[2].train, false), {1, 2});
-  EXPECT_EQ(answers[0], answers[1]);  // 20 1/m left out: the answer of 7.7 1/m, not of the flat
+  const auto tables = tablesFor(model, 0, readings.training(split.folds[2].train, false), {1, 2});
+  EXPECT_EQ(tables[0],
+            tables[1]);  // 20 1/m is left out: its table is that of 7.7 1/m, not of the flat surface
 }
 
-TEST(Evaluation, SchemesLearnNothingFromTheCurvatureLeftOut) {
+TEST(Evaluation, SchemesLearnNothingFromAHeldOutCurvature) {
   const StudyProblem problem = smallProblem();
   const StudyData data = gatherStudyData(problem.recordings, 5);
   dataset::Recording spoilt = problem.recordings[0];
@@ -207,7 +209,7 @@ TEST(Evaluation, SchemesLearnNothingFromTheCurvatureLeftOut) {
     const auto answer = [&](const StudyData& of, const Split& held_out) {
       const FoldModel model =
           learnedModel(of, method, held_out.grouping, held_out.folds[1], 1.0 / 16, problem.plan);
-      return answersOf(model, 0,
+      return tablesFor(model, 0,
                        TaxelReadings(of, held_out.grouping, 0).training(held_out.folds[1].train, false), {1});
     };
     EXPECT_EQ(answer(data, split), answer(other, other_split)) << method.id;
@@ -240,7 +242,7 @@ TEST(StudyMethods, TakeAsManyScansAsOneConditionHas) {
   EXPECT_EQ(methodOf(half, "flat_or_curved").one_of, (std::vector<std::size_t>{1, 2, 2}));
 }
 
-TEST(DownSampled, KeepsTheShareOfEachGroupAndTheSameForAllTaxels) {
+TEST(DownSampled, KeepsTheShareOfEachGroup) {
   const Grouping whole{1, {{{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}, {{0, 1, 2}}}};
   const Grouping random = downSampled(whole, {3, 1}, DownSampling::kRandom, 1);
   EXPECT_EQ(random.scans[0][0].size(), 4u);
@@ -265,7 +267,7 @@ TEST(StudyPlan, ShippedFileHoldsTheDefaults) {
   EXPECT_EQ(plan.seed, usual.seed);
 }
 
-TEST(StudyPlan, RefusesWhatItDoesNotKnow) {
+TEST(StudyPlan, RefusesUnknownKeysAndValues) {
   EXPECT_THROW(readStudyPlan(settings::Settings::fromText("study: x\nsectoins: 5\n", "x.yaml")),
                settings::InputError);
   EXPECT_THROW(readStudyPlan(settings::Settings::fromText("study: x\ndown_sampling: some\n", "x.yaml")),
@@ -274,9 +276,9 @@ TEST(StudyPlan, RefusesWhatItDoesNotKnow) {
                settings::InputError);
 }
 
-// The setting was fitted on seeds 1 and 2; these it has not seen. Twelve taxels instead of 70 scatter by some
-// 0.1 %, which the tolerance of 10 % covers.
-TEST(PaperSetting, ReachesThePapersTableOnAnotherSheet) {
+// The settings were fitted on seeds 1 and 2; this test uses others. With 12 taxels instead of 70 the means
+// scatter by about 0.1 %, which the tolerance of 10 % covers.
+TEST(PaperSetting, ReproducesThePapersTableOnAnotherSheet) {
   simulation::SimulationSettings settings =
       simulation::readSimulationFile(std::string(FSR_SOURCE_DIR) + "/config/simulation/paper.yaml");
   settings.layout.size = {3, 4};
@@ -308,7 +310,7 @@ TEST(PaperSetting, ReachesThePapersTableOnAnotherSheet) {
   }
 }
 
-// --- input that carries little --------------------------------------------------------------------------
+// --- small or unusable input ----------------------------------------------------------------------------
 
 namespace {
 
@@ -323,7 +325,7 @@ std::string refusal(const StudyProblem& problem) {
 
 }  // namespace
 
-TEST(StudyInput, OneConditionIsAStudyWithoutDifferences) {
+TEST(StudyInput, OneConditionGivesNoDifferences) {
   StudyProblem problem = smallProblem();
   test_support::SyntheticRig rig = bentRig();
   rig.surfaces = {{"flat", 0.0}};
@@ -366,7 +368,7 @@ TEST(StudyInput, RefusesBagsOfDifferentMatrices) {
   EXPECT_NE(refusal(problem).find("3 x 3"), std::string::npos) << refusal(problem);
 }
 
-TEST(StudyInput, RefusesAMatrixOfTooFewTaxelsToTest) {
+TEST(StudyInput, RefusesAMatrixOfFewerThanThreeTaxels) {
   StudyProblem problem = smallProblem();
   test_support::SyntheticRig rig = bentRig();
   rig.size = {1, 2};
@@ -374,7 +376,7 @@ TEST(StudyInput, RefusesAMatrixOfTooFewTaxelsToTest) {
   EXPECT_NE(refusal(problem).find("3 taxels"), std::string::npos) << refusal(problem);
 }
 
-TEST(StudyInput, LiteralDistanceLeavesSecondInputsOutAndSaysSo) {
+TEST(StudyInput, LiteralDistanceLeavesSecondInputsOutWithAWarning) {
   StudyProblem problem = smallProblem();
   problem.plan.grnn.distance = regression::KernelDistance::kLiteral;
   const StudyResult result = study(problem);

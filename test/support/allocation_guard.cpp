@@ -17,7 +17,7 @@ thread_local std::size_t allocations_on_this_thread = 0;
 
 #if BUILT_WITH(address_sanitizer) || BUILT_WITH(thread_sanitizer)
 
-// A sanitizer has an operator new of its own, which tells whoever asks.
+// A sanitizer has its own operator new, which reports allocations to a hook.
 #include <sanitizer/allocator_interface.h>
 
 namespace {
@@ -49,7 +49,7 @@ void* countedAligned(std::size_t size, std::align_val_t alignment) {
 
 }  // namespace
 
-// The other forms of new and delete (arrays, nothrow) call these by the standard's default.
+// The default forms of new and delete for arrays and with nothrow call these.
 void* operator new(std::size_t size) {
   return counted(size);
 }

@@ -4,8 +4,9 @@
 
 namespace test_support {
 
-/// Counts what operator new was asked for on this thread since the guard was made. Linking
-/// allocation_guard.cpp replaces operator new of the whole test executable; under a sanitizer malloc counts too.
+/// Counts the allocations by operator new on this thread since the guard was made. Linking
+/// allocation_guard.cpp replaces operator new of the whole test executable. Under a sanitizer, malloc is
+/// counted, too.
 class AllocationGuard {
  public:
   AllocationGuard();

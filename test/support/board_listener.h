@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/protocol/decoder.h"
 #include "protocol/serial_port.h"
+#include "protocol/wire_decoder.h"
 
 namespace test_support {
 
-/// Opens a board's port as the driver does and keeps what the decoder found.
+/// Opens a board's port as the driver does and keeps the decoded packets.
 class BoardListener : public fsr::protocol::PacketHandler {
  public:
   struct Scan {
@@ -32,7 +32,7 @@ class BoardListener : public fsr::protocol::PacketHandler {
   std::vector<Reading> temperature;
   std::vector<std::string> serials;  // one for each identity packet
 
-  /// Reads until the condition holds; false where it does not within half a minute.
+  /// Reads until the condition is true. Returns false after 30 s.
   bool until(const std::function<bool()>& condition) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     while (!condition() && std::chrono::steady_clock::now() < end) read();
@@ -66,7 +66,7 @@ class BoardListener : public fsr::protocol::PacketHandler {
   }
 
   fsr::protocol::SerialPort port_;
-  fsr::protocol::Decoder decoder_;
+  fsr::protocol::WireDecoder decoder_;
 };
 
 }  // namespace test_support

@@ -5,7 +5,7 @@
 
 #include "fsr_pressure_map/protocol/wire.h"
 
-/// Packets of a small board, for tests that play one.
+/// Packets of a small board, for tests that imitate one.
 namespace test_support {
 
 using Bytes = std::vector<std::uint8_t>;

@@ -19,8 +19,8 @@ constexpr std::uint16_t kRigColumns = 4;
 constexpr std::size_t kRigTaxels = 12;
 constexpr std::uint16_t kRigFullScale = 1023;
 
-/// What stands round a calibration node: a board's scans and identity, a curvature, and an eye on the maps.
-/// Stamps are the rig's own, so that no test waits for a clock.
+/// The environment of a calibration node: it publishes a board's scans and identity and a curvature, and
+/// receives the maps. It makes its own stamps, so that no test waits for a clock.
 class CalibrationRig {
  public:
   explicit CalibrationRig(const std::string& map_topic = "pressure_map") {
@@ -28,10 +28,10 @@ class CalibrationRig {
     info_ = handle_.advertise<fsr_pressure_map::MatrixInfo>("matrix_info", 10, true);
     curvature_ = handle_.advertise<fsr_pressure_map::SurfaceCurvature>("curvature", 10, true);
     const auto keep = [this](const fsr_pressure_map::PressureMap::ConstPtr& map) { maps_.push_back(map); };
-    eye_ = handle_.subscribe<fsr_pressure_map::PressureMap>(map_topic, 1000, keep);
+    map_subscriber_ = handle_.subscribe<fsr_pressure_map::PressureMap>(map_topic, 1000, keep);
   }
 
-  /// Lets messages come in until `done`; false after 30 s.
+  /// Receives messages until `done` returns true. Returns false after 30 s.
   static bool waitFor(const std::function<bool()>& done) {
     const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(30);
     while (!done() && ros::WallTime::now() < give_up) {
@@ -40,7 +40,7 @@ class CalibrationRig {
     return done();
   }
 
-  /// Scans on until a map comes back: from then on none is lost.
+  /// Publishes scans until a map comes back. From then on no scan is lost.
   bool connected() {
     return waitFor([this] {
       publishScan(500);
@@ -62,7 +62,7 @@ class CalibrationRig {
     return scan(std::vector<std::uint16_t>(kRigTaxels, code));
   }
 
-  /// Publishes a scan 0.1 s after the last one and waits for its map; an empty one where none comes.
+  /// Publishes a scan 0.1 s after the last one and waits for its map. Returns an empty map if none comes.
   fsr_pressure_map::PressureMap mapOf(fsr_pressure_map::MatrixFrame frame) {
     frame.header.stamp = ros::Time(stamp += 0.1);
     raw_.publish(frame);
@@ -71,7 +71,7 @@ class CalibrationRig {
   }
   fsr_pressure_map::PressureMap mapOf(std::uint16_t code) { return mapOf(scan(code)); }
 
-  /// The first map of `code` for which `good` holds, or after 30 s the last one that came.
+  /// The first map of `code` for which `good` returns true, or after 30 s the last map.
   fsr_pressure_map::PressureMap mapWhen(
       std::uint16_t code, const std::function<bool(const fsr_pressure_map::PressureMap&)>& good) {
     fsr_pressure_map::PressureMap map;
@@ -84,7 +84,8 @@ class CalibrationRig {
     raw_.publish(scan(code));
   }
 
-  /// Publishes a surface of curvature x for all taxels, or unknown where none is given, stamped now.
+  /// Publishes a surface with the curvature `x` (one for all taxels or one for each; empty = unknown),
+  /// stamped now.
   void lieOn(const std::vector<float>& x, const std::string& name = "surface", std::uint32_t mount = 1) {
     fsr_pressure_map::SurfaceCurvature message;
     message.header.stamp = ros::Time(stamp);
@@ -108,7 +109,7 @@ class CalibrationRig {
  private:
   ros::NodeHandle handle_;
   ros::Publisher raw_, info_, curvature_;
-  ros::Subscriber eye_;
+  ros::Subscriber map_subscriber_;
   std::deque<fsr_pressure_map::PressureMap::ConstPtr> maps_;
 };
 

@@ -6,7 +6,7 @@ namespace test_support {
 
 namespace {
 
-// A loop: the residual is high while loading, low while unloading.
+// A curve of the residual over a covariate from `low` to `high`.
 fsr::discrepancy::ResidualCurve curve(const std::string& covariate, const std::string& unit, double low,
                                       double high) {
   fsr::discrepancy::ResidualCurve curve;
@@ -47,7 +47,7 @@ fsr::discrepancy::FoundEffect loop() {
   effect.summary = "loading and unloading differ, at any speed";
   effect.parameters = {{"loop_width", 0.062, "fraction of full scale", {0.058, 0.067}}};
   effect.z = 14.1;
-  effect.share_of_ceiling = 0.93;
+  effect.share_of_explainable = 0.93;
   return effect;
 }
 

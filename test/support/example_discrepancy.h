@@ -4,7 +4,7 @@
 
 namespace test_support {
 
-/// A report with something in every field, for tests of those who write it down.
+/// A report with a value in every field, for tests of report writers.
 fsr::discrepancy::DiscrepancyReport exampleDiscrepancy();
 
 }  // namespace test_support

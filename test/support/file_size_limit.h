@@ -6,8 +6,8 @@
 
 namespace test_support {
 
-/// While it lives, no regular file of this process can grow beyond `bytes`: the disk that is full, without a
-/// disk of one's own. Writes fail with EFBIG.
+/// While this object exists, no regular file of this process can grow beyond `bytes`, as on a full disk.
+/// Writes fail with EFBIG.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

@@ -1,6 +1,6 @@
 #pragma once
 
-// Of the leak sanitizer, where there is one.
+// Functions of the leak sanitizer, if the build has one.
 extern "C" {
 void __lsan_disable() __attribute__((weak));
 void __lsan_enable() __attribute__((weak));
@@ -8,8 +8,8 @@ void __lsan_enable() __attribute__((weak));
 
 namespace test_support {
 
-/// What is allocated on this thread while it lives may be lost: by another library, for a reason said beside
-/// it.
+/// While this object exists, the leak sanitizer ignores memory that is allocated on this thread and lost. For
+/// leaks of other libraries; the reason is given where it is used.
 class LeaksOfOthers {
  public:
   LeaksOfOthers() {

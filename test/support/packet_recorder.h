@@ -9,7 +9,7 @@
 
 namespace test_support {
 
-/// Keeps what a decoder delivered, one readable line a packet, so that tests compare lists of lines.
+/// Keeps the packets of a decoder as text, one line for each packet, so that tests compare lists of lines.
 class PacketRecorder : public fsr::protocol::PacketHandler {
  public:
   std::vector<std::string> lines;

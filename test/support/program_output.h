@@ -5,7 +5,7 @@
 
 namespace test_support {
 
-/// What a shell command prints to its standard output, and its exit status.
+/// Standard output and exit status of a shell command.
 struct ProgramOutput {
   std::string text;
   int status = -1;

@@ -13,7 +13,7 @@
 namespace test_support {
 namespace {
 
-// The slave is closed again at once: its opener is the program under test, and its closing shows.
+// The slave is closed again at once, so that only the program under test opens it and its closing is visible.
 std::string unlock(int master) {
   char name[64] = "";
   if (grantpt(master) != 0 || unlockpt(master) != 0 || ptsname_r(master, name, sizeof(name)) != 0) {
@@ -65,7 +65,7 @@ unsigned Pty::speed() const {
   return ioctl(master_, TCGETS2, &settings) == 0 ? settings.c_ospeed : 0;
 }
 
-// The kernel reports a hang-up on the master while no slave is open (and has been).
+// The kernel reports a hang-up on the master after the last slave was closed.
 bool Pty::isOpen() const {
   pollfd event = {master_, POLLIN, 0};
   return poll(&event, 1, 0) >= 0 && (event.revents & POLLHUP) == 0;

@@ -6,7 +6,7 @@
 
 namespace test_support {
 
-/// A new folder under /tmp that vanishes with its content.
+/// A new folder below /tmp. It is deleted with its content when this object is destroyed.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -20,21 +20,21 @@ class TemporaryFolder {
   std::string path_;
 };
 
-/// The board's end of a serial line: a pseudo-terminal whose other end has a name of the test's choice.
-/// Its destruction is the unplugging.
+/// The board's end of a serial line: a pseudo-terminal. The other end has a name that the test chooses.
+/// Destroying the object unplugs the board.
 class Pty {
  public:
-  /// `link`: a symbolic link that is made to the port.
+  /// `link`: path of a symbolic link to the port, which is made.
   explicit Pty(const std::string& link);
   ~Pty();
   Pty(const Pty&) = delete;
   Pty& operator=(const Pty&) = delete;
 
-  /// Blocks where the line's buffer is full; false where nobody reads it for a second.
+  /// Blocks while the line's buffer is full. Returns false if nobody reads it for a second.
   bool write(const std::vector<std::uint8_t>& bytes);
   /// Speed that the reader has set [1/s].
   unsigned speed() const;
-  /// True while somebody has the port open.
+  /// Whether a program has the port open.
   bool isOpen() const;
 
  private:

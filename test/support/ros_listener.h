@@ -8,8 +8,8 @@
 
 namespace test_support {
 
-/// Serves callbacks until `condition` holds; false where that did not happen within 30 s of wall time,
-/// which no working code needs.
+/// Serves callbacks until `condition` returns true. Returns false after 30 s of wall time, which working code
+/// never needs.
 template <typename Condition>
 bool await(Condition condition) {
   const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(30);
@@ -20,7 +20,7 @@ bool await(Condition condition) {
   return true;
 }
 
-/// Keeps every message of a topic.
+/// Keeps all messages of a topic.
 template <typename Message>
 class Listener {
  public:
@@ -31,7 +31,7 @@ class Listener {
 
   std::vector<typename Message::ConstPtr> messages;
 
-  /// Waits for the publisher, so that nothing sent from now on is missed.
+  /// Waits for the publisher, so that no later message is missed.
   bool connected() const {
     return await([this] { return subscriber_.getNumPublishers() > 0; });
   }

@@ -1,4 +1,5 @@
 #include "support/simulated_rig.h"
+#include "simulation/read_settings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +47,7 @@ std::vector<Reading> readAlong(SensorChain& chain, const fsr::simulation::Pressu
   std::vector<Reading> readings;
   for (std::uint64_t scan = 0; static_cast<double>(scan) * period <= profile.duration(); ++scan) {
     const double time = static_cast<double>(scan) * period;
-    fsr::simulation::RigMoment moment{time, profile.at(time), scan, temperature, &course};
+    fsr::simulation::RigSample moment{time, profile.at(time), scan, temperature, &course};
     readings.push_back({time, moment.pressure, chain.read(moment)[taxel]});
   }
   return readings;

@@ -7,7 +7,7 @@
 
 namespace test_support {
 
-/// A whole calibration around smallTables(): what a file needs, and no more.
+/// A calibration with smallTables() and only the other values that a file needs.
 fsr::calibration::Calibration smallCalibration(fsr::matrix::MatrixSize size,
                                                const std::vector<double>& curvatures,
                                                const std::string& serial = "board-1",

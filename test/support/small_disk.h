@@ -8,8 +8,8 @@
 
 namespace test_support {
 
-/// A file system of its own, `size` as mount takes it ("64k"), for as long as it lives. Only root may mount
-/// one: ready() is false where the system forbids it, and a test had better skip than pass.
+/// A small file system, mounted while this object exists. `size` is as for mount, e.g. "64k". Only root may
+/// mount: ready() is false if the system forbids it; then a test should skip.
 class SmallDisk {
  public:
   explicit SmallDisk(const std::string& size)

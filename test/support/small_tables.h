@@ -6,8 +6,8 @@
 
 namespace test_support {
 
-/// Pressure that tableOf() gives a code [Pa]: every taxel, class and code has a value of its own, exact
-/// in a float.
+/// Pressure of a code in the tables of smallTables() [Pa]. Each taxel, class and code has a different value,
+/// which is exact in a float.
 inline float knownPressure(std::size_t taxel, std::size_t curvature_class, std::size_t code) {
   return static_cast<float>(100 * code + 10 * curvature_class) + static_cast<float>(taxel) / 128;
 }
@@ -18,7 +18,7 @@ inline float knownDeviation(std::size_t taxel, std::size_t curvature_class, std:
 }
 
 constexpr std::uint16_t kLowestTrained = 20;
-constexpr std::uint16_t kMarginAtTop = 95;  // codes below full scale that training did not reach
+constexpr std::uint16_t kMarginAtTop = 95;  // number of codes below full scale that training did not reach
 
 /// A calibration small enough to check by hand: one class for each of `curvatures` [1/m], ascending.
 inline fsr::compensation::CurvatureTables smallTables(fsr::matrix::MatrixSize size,

@@ -14,8 +14,8 @@ struct SyntheticSurface {
   double curvature = 0;  // across the rows [1/m]
 };
 
-/// A matrix in a chamber, as simple as the tests can do with: triangular cycles from zero to `peak`,
-/// counts growing with the root of the pressure, less gain and some preload on a bend.
+/// A simple matrix in a chamber. Pressure runs in triangular cycles from zero to `peak`. Counts are
+/// proportional to the root of the pressure. Bending reduces the gain and adds a preload.
 struct SyntheticRig {
   std::string name = "synthetic.bag";
   fsr::matrix::MatrixSize size{2, 3};
@@ -26,16 +26,16 @@ struct SyntheticRig {
   double rate = 10.0;   // of the scans [Hz]
   double peak = 600e3;  // gauge [Pa]
   double noise = 10.0;  // half width of the uniform noise [counts]
-  double loop = 0.0;    // counts by which unloading lies above loading
-  /// Bending acts as if the curvature were this [1/m]; null = the curvature itself.
+  double loop = 0.0;    // unloading minus loading [counts]
+  /// Curvature that acts on the sensor as a function of the true one [1/m]; null = the true one.
   double (*felt_curvature)(double curvature) = nullptr;
   unsigned seed = 1;
 };
 
-/// Gauge pressure of a triangular cycle, phase 0 to 1 [Pa].
+/// Gauge pressure of a triangular cycle [Pa]; `phase` is 0 to 1.
 double trianglePressure(double phase, double peak);
 
-/// The noise-free reading of a taxel [counts].
+/// Reading of a taxel without noise [counts].
 double syntheticReading(const SyntheticRig& rig, std::size_t taxel, double curvature, double pressure);
 
 fsr::dataset::Recording syntheticRecording(const SyntheticRig& rig);

@@ -1,4 +1,4 @@
-#include "view/bent_sheet.h"
+#include "fsr_pressure_map/view/bent_sheet.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace fsr::view {
 namespace {
 
 const matrix::Layout kLayout{{7, 10}, 0.010, 0.012};
-constexpr double kRounding = 1e-14;  // [m], of some 20 chained motions
+constexpr double kRounding = 1e-14;  // [m], after about 20 chained motions
 
 matrix::Surface uniform(const matrix::Curvature& curvature) {
   matrix::Surface surface;
@@ -18,8 +18,8 @@ matrix::Surface uniform(const matrix::Curvature& curvature) {
   return surface;
 }
 
-// Position on a cylinder of curvature k [1/m] whose axis stands at `angle` [rad] from the y axis: by arc
-// length across the axis, straight along it.
+// Position on a cylinder of curvature k [1/m] whose axis is at `angle` [rad] from the y axis: arc length
+// across the axis, straight along it.
 Vector3 onCylinder(const matrix::Position& flat, double k, double angle) {
   const double across = flat.x * std::cos(angle) + flat.y * std::sin(angle);
   const double along = -flat.x * std::sin(angle) + flat.y * std::cos(angle);
@@ -38,7 +38,7 @@ double distance(const Vector3& a, const Vector3& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-TEST(BentSheet, AFlatOrUnknownSurfaceIsTheLayout) {
+TEST(BentSheet, IsFlatOnAFlatOrUnknownSurface) {
   for (const matrix::Surface& surface : {uniform({}), matrix::Surface{}}) {
     const auto poses = bendSheet(kLayout, surface);
     ASSERT_EQ(poses.size(), 70u);
@@ -50,7 +50,7 @@ TEST(BentSheet, AFlatOrUnknownSurfaceIsTheLayout) {
   }
 }
 
-TEST(BentSheet, FollowsACylinderByArcLengthWhateverItsAxis) {
+TEST(BentSheet, FollowsACylinderOfAnyAxisByArcLength) {
   for (const double k : {20.0, 1 / 0.13, -14.3}) {
     for (const double angle : {0.0, M_PI / 2, 0.3, -1.0}) {
       const double c = std::cos(angle), s = std::sin(angle);
@@ -80,7 +80,7 @@ TEST(BentSheet, LiesExactlyOnASphere) {
   }
 }
 
-TEST(BentSheet, KeepsLengthsAlongRowsWhereCurvatureDiffersFromTaxelToTaxel) {
+TEST(BentSheet, KeepsLengthsAlongRowsIfCurvatureDiffersBetweenTaxels) {
   matrix::Surface surface;
   for (std::size_t i = 0; i < 70; ++i) surface.curvature.push_back({5.0 + double(i % 10), -2.0, 0});
   const auto poses = bendSheet(kLayout, surface);
@@ -103,7 +103,7 @@ TEST(BentSheet, OneValueForAllEqualsTheSameValueForEach) {
   for (std::size_t i = 0; i < 70; ++i) expectNear(a[i].position, b[i].position, i);
 }
 
-TEST(BentSheet, ASaddleRisesOneWayAndFallsTheOther) {
+TEST(BentSheet, ASaddleRisesAlongOneAxisAndFallsAlongTheOther) {
   const auto poses = bendSheet(kLayout, uniform({15, -15, 0}));
   EXPECT_LT(poses[kLayout.index(3, 0).value].position.z, 0);
   EXPECT_GT(poses[kLayout.index(0, 5).value].position.z, 0);

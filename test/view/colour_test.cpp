@@ -11,7 +11,7 @@ namespace fsr::view {
 namespace {
 
 // matplotlib 3.6.3: [tuple(round(c * 255) for c in colormaps["viridis"](i)[:3]) for i in (0, 128, 255)]
-TEST(ColourMap, IsMatplotlibs) {
+TEST(ColourMap, EqualsMatplotlibs) {
   EXPECT_EQ(colourAt(ColourMap::kViridis, 0), (Colour{68, 1, 84}));
   EXPECT_EQ(colourAt(ColourMap::kViridis, 0.5), (Colour{33, 145, 140}));
   EXPECT_EQ(colourAt(ColourMap::kViridis, 1), (Colour{253, 231, 37}));
@@ -20,13 +20,13 @@ TEST(ColourMap, IsMatplotlibs) {
   EXPECT_EQ(colourAt(ColourMap::kCividis, 1), (Colour{254, 232, 56}));
 }
 
-TEST(ColourMap, EndsBeyondTheScale) {
+TEST(ColourMap, KeepsItsEndColoursOutsideTheScale) {
   EXPECT_EQ(colourAt(ColourMap::kViridis, -3), colourAt(ColourMap::kViridis, 0));
   EXPECT_EQ(colourAt(ColourMap::kViridis, 7), colourAt(ColourMap::kViridis, 1));
   EXPECT_EQ(colourAt(ColourMap::kViridis, NAN), colourAt(ColourMap::kViridis, 0));
 }
 
-// Lightness of CIELAB (D65) from sRGB.
+// CIELAB lightness (D65) of an sRGB colour.
 double lightness(Colour colour) {
   const auto linear = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
   const double y = 0.2126 * linear(colour.red / 255.0) + 0.7152 * linear(colour.green / 255.0) +
@@ -34,8 +34,8 @@ double lightness(Colour colour) {
   return y > 216.0 / 24389 ? 116 * std::cbrt(y) - 16 : y * 24389 / 27;
 }
 
-// Whoever sees no hue at all still sees the order, in steps of about one size.
-TEST(ColourMap, GrowsLighterInEvenSteps) {
+// The order is visible without any hue, in steps of about equal size.
+TEST(ColourMap, BecomesLighterInEvenSteps) {
   for (const ColourMap map : {ColourMap::kViridis, ColourMap::kCividis}) {
     const double range = lightness(colourAt(map, 1)) - lightness(colourAt(map, 0));
     for (int i = 1; i <= 16; ++i) {
@@ -57,7 +57,7 @@ std::string labels(const PressureScale& scale, int most) {
   return text;
 }
 
-TEST(PressureScale, TicksAreRoundInTheUnitThatIsShown) {
+TEST(PressureScale, TicksAreRoundInTheDisplayedUnit) {
   EXPECT_EQ(labels({0, 600e3, PressureUnit::kKilopascal, {}}, 7), "0 100 200 300 400 500 600 ");
   EXPECT_EQ(labels({0, 2500, PressureUnit::kKilopascal, {}}, 7), "0.0 0.5 1.0 1.5 2.0 2.5 ");
   EXPECT_EQ(labels({-50e3, 120e3, PressureUnit::kKilopascal, {}}, 5), "-50 0 50 100 ");
@@ -77,7 +77,7 @@ TEST(PressureScale, RefusesAnEmptyRange) {
   EXPECT_THROW(requireSound(PressureScale{0, NAN, {}, {}}), settings::InputError);
 }
 
-TEST(AutoRange, GrowsAtOnceToARoundValue) {
+TEST(AutoRange, RisesAtOnceToARoundValue) {
   AutoRange range(10e3, 5);
   EXPECT_DOUBLE_EQ(range.update(0, 3e3), 10e3);
   EXPECT_DOUBLE_EQ(range.update(0.1, 130e3), 200e3);
@@ -92,13 +92,13 @@ TEST(AutoRange, DoesNotFlickerUnderAChangingPeak) {
   }
 }
 
-TEST(AutoRange, StepsDownWhenPeaksStayLowForLong) {
+TEST(AutoRange, StepsDownAfterPeaksStayedLow) {
   AutoRange range(10e3, 5);
   range.update(0, 190e3);
   EXPECT_DOUBLE_EQ(range.update(1, 20e3), 200e3);
   EXPECT_DOUBLE_EQ(range.update(5.9, 20e3), 200e3);
   EXPECT_DOUBLE_EQ(range.update(6.0, 20e3), 100e3);
-  EXPECT_DOUBLE_EQ(range.update(6.1, 20e3), 100e3);  // and has patience again
+  EXPECT_DOUBLE_EQ(range.update(6.1, 20e3), 100e3);  // the wait starts again
   EXPECT_DOUBLE_EQ(range.update(0.5, 20e3), 100e3);  // a looped bag
 }
 

@@ -44,7 +44,7 @@ TEST(HeatMap, ShowsTheDeviationOnRequest) {
   EXPECT_EQ(painter.draw(map).at(painter.centre(map.layout, {44}, 0)), style.scale.colour(44e3));
 }
 
-TEST(HeatMap, RunsOverFromTaxelToTaxelWhereSmooth) {
+TEST(HeatMap, InterpolatesBetweenTaxelsIfSmooth) {
   map::PressureMap map = ramp({1, 2});
   map.pressure = {0, 600e3f};
   HeatMapStyle style;
@@ -56,7 +56,7 @@ TEST(HeatMap, RunsOverFromTaxelToTaxelWhereSmooth) {
   EXPECT_NEAR(middle.green, style.scale.colour(300e3).green, 3);
 }
 
-TEST(HeatMap, HoldsTheWholeScaleInItsColourBar) {
+TEST(HeatMap, ColourBarShowsTheWholeScale) {
   const HeatMap painter(HeatMapStyle{});
   const map::PressureMap map = ramp({7, 10});
   const Image image = painter.draw(map);
@@ -70,7 +70,7 @@ TEST(HeatMap, HoldsTheWholeScaleInItsColourBar) {
   }
 }
 
-TEST(HeatMap, MarksTaxelsThatAreNotToBeBelieved) {
+TEST(HeatMap, MarksUnreliableTaxels) {
   for (const TaxelLook look : markedLooks()) {
     map::PressureMap map = ramp({3, 3});
     if (look == TaxelLook::kNoReading) map.pressure[4] = NAN;
@@ -94,7 +94,7 @@ TEST(HeatMap, HasOneSizeForAllMapsOfAMatrix) {
   EXPECT_EQ(a.height(), b.height());
 }
 
-TEST(HeatMap, TakesEveryMatrixSize) {
+TEST(HeatMap, AcceptsEveryMatrixSize) {
   for (const matrix::MatrixSize size : {matrix::MatrixSize{1, 1}, matrix::MatrixSize{1, 64},
                                         matrix::MatrixSize{64, 1}, matrix::MatrixSize{64, 64}}) {
     EXPECT_NO_THROW(HeatMap(HeatMapStyle{}).draw(ramp(size)));
@@ -108,7 +108,7 @@ TEST(HeatMap, RefusesAMapThatContradictsItself) {
   EXPECT_THROW(HeatMap(HeatMapStyle{}).draw(map::PressureMap{}), settings::InputError);
 }
 
-TEST(Legend, HoldsTheScaleFromItsHighEndDown) {
+TEST(Legend, ShowsTheScaleWithItsHighEndOnTop) {
   Legend legend;
   legend.lines = {"one"};
   const Image image = drawLegend(legend);
@@ -132,7 +132,7 @@ TEST(Image, DrawsNothingOutsideItself) {
   EXPECT_EQ(image.bytes().size(), 300u);
 }
 
-TEST(Image, SetsARowWithinItself) {
+TEST(Image, ClipsARowToItsWidth) {
   Image image(10, 10, {1, 2, 3});
   for (const Pixel left : {Pixel{-2, 4}, Pixel{0, -1}, Pixel{0, 10}, Pixel{30, 4}, Pixel{-30, 4}}) {
     image.setRow(left, std::vector<Colour>(4, {1, 1, 9}));
@@ -143,7 +143,7 @@ TEST(Image, SetsARowWithinItself) {
   EXPECT_EQ(image.at({9, 3}), (Colour{1, 2, 3}));
 }
 
-TEST(Image, BecomesAPngFile) {
+TEST(Image, IsEncodedAsPng) {
   const std::string png = pngOf(Image(3, 2, {10, 20, 30}));
   EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
   EXPECT_EQ(png.substr(png.size() - 8, 4), "IEND");

@@ -30,7 +30,7 @@ TEST(SheetMesh, CoversTheSheetToItsEdges) {
   for (const double area : mesh.areas()) EXPECT_NEAR(area, 1.2e-4, 1e-14);
 }
 
-TEST(SheetMesh, FacesTheSideThatPressureActsOn) {
+TEST(SheetMesh, TrianglesFaceTheLoadedSide) {
   const SheetMesh mesh(kLayout, uniform({20, 0, 0}), 3);
   for (std::size_t i = 0; i < mesh.corners().size(); i += 3) {
     const Vector3 &a = mesh.corners()[i], &b = mesh.corners()[i + 1], &c = mesh.corners()[i + 2];
@@ -46,7 +46,7 @@ TEST(SheetMesh, PutsTaxelCentresWhereBendSheetPutsThem) {
     const auto poses = bendSheet(kLayout, surface);
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const Vector3 p = mesh.point(kLayout.row({i}), kLayout.column({i}));
-      EXPECT_NEAR(p.x, poses[i].position.x, 3e-5);  // [m]; curvature runs over in finer steps
+      EXPECT_NEAR(p.x, poses[i].position.x, 3e-5);  // [m]; the mesh interpolates curvature in finer steps
       EXPECT_NEAR(p.y, poses[i].position.y, 3e-5);
       EXPECT_NEAR(p.z, poses[i].position.z, 3e-5);
     }
@@ -58,16 +58,16 @@ TEST(SheetMesh, LiftsAPointAlongTheNormal) {
   EXPECT_NEAR(mesh.point(3, 4.5, 0.001).z, 0.001, 1e-15);
 }
 
-TEST(TaxelAreas, OfACylinderAreThoseOfTheFlatSheet) {
+TEST(TaxelAreas, OfACylinderEqualThoseOfTheFlatSheet) {
   for (const matrix::Curvature k :
        {matrix::Curvature{20, 0, 0}, matrix::Curvature{0, -20, 0}, matrix::Curvature{10, 10, 10}}) {
     for (const double area : taxelAreas(kLayout, uniform(k))) EXPECT_NEAR(area, 1.2e-4, 1e-4 * 1.2e-4);
   }
 }
 
-// Rows are great circles at right angles to the middle one, ds^2 = dx^2 + cos^2(x / R) dy^2: the sheet's
-// area is H 2 R sin(W / 2 R).
-TEST(TaxelAreas, OfASphereShrinkTowardsTheEndsOfTheRows) {
+// On a sphere, rows are great circles at right angles to the middle column: ds^2 = dx^2 + cos^2(x / R) dy^2.
+// The area of the sheet is therefore H 2 R sin(W / 2 R).
+TEST(TaxelAreas, OfASphereDecreaseTowardsTheEndsOfTheRows) {
   const double radius = 0.08, width = 0.10, height = 0.084;
   const auto areas = taxelAreas(kLayout, uniform({1 / radius, 1 / radius, 0}));
   const double expected = height * 2 * radius * std::sin(width / (2 * radius));
@@ -75,9 +75,10 @@ TEST(TaxelAreas, OfASphereShrinkTowardsTheEndsOfTheRows) {
   EXPECT_LT(areas[30], areas[34]);
 }
 
-// An even 200 kPa on a sphere of 8 cm radius: the area above, 0.084 m x 0.16 m x sin(0.625) = 78.64 cm^2,
-// times 200 kPa = 1572.8 N; on the flat sheet of 84 cm^2 it would be 1680 N.
-TEST(TaxelAreas, MakeTheForceOnABentSheetThatOfItsOwnArea) {
+// A uniform 200 kPa on a sphere of 8 cm radius: by the equation above the area is
+// 0.084 m x 0.16 m x sin(0.625) = 78.64 cm^2, so the force is 1572.8 N. The flat sheet of 84 cm^2 would give
+// 1680 N.
+TEST(TaxelAreas, GiveTheForceOnTheBentSheet) {
   map::PressureMap map;
   map.reset(kLayout);
   map.pressure.assign(70, 200e3f);
@@ -96,7 +97,7 @@ map::PressureMap ramp() {
   return map;
 }
 
-TEST(SheetMesh, ColoursEachTaxelAlike) {
+TEST(SheetMesh, ColoursAllCornersOfATaxelAlike) {
   const SheetMesh mesh(kLayout, uniform({}), 2);
   map::PressureMap map = ramp();
   map.pressure[69] = NAN;
@@ -108,13 +109,14 @@ TEST(SheetMesh, ColoursEachTaxelAlike) {
   EXPECT_EQ(colours.back(), kNoReadingColour);
 }
 
-TEST(SheetMesh, ColoursRunOverBetweenTaxelsAndMeetThemAtTheirCentres) {
+TEST(SheetMesh, InterpolatesColoursBetweenTaxelCentres) {
   const SheetMesh mesh(kLayout, uniform({}), 2);
   std::vector<Colour> colours;
   mesh.colourSmoothly(ramp().pressure, {}, colours);
   ASSERT_EQ(colours.size(), mesh.corners().size());
-  EXPECT_EQ(colours[24 * 34 + 2], PressureScale{}.colour(8e3 * 34));  // third corner of taxel 34: its centre
-  EXPECT_EQ(colours[24 * 34 + 0], PressureScale{}.colour(8e3 * (34 + 33 + 24 + 23) / 4));  // its corner
+  EXPECT_EQ(colours[24 * 34 + 2], PressureScale{}.colour(8e3 * 34));  // third corner of taxel 34 = its centre
+  EXPECT_EQ(colours[24 * 34 + 0],
+            PressureScale{}.colour(8e3 * (34 + 33 + 24 + 23) / 4));  // first corner of taxel 34
 }
 
 TEST(SmoothLayer, LeavesTaxelsWithoutAReadingOut) {
@@ -127,7 +129,7 @@ TEST(SmoothLayer, LeavesTaxelsWithoutAReadingOut) {
   EXPECT_DOUBLE_EQ(layer.at(-3, -3), 10);
 }
 
-TEST(SmoothLayer, GivesAWholeRowAsItGivesPoints) {
+TEST(SmoothLayer, GivesTheSameForAWholeRowAsForSinglePoints) {
   std::vector<float> values = ramp().pressure;
   values[13] = NAN;
   const SmoothLayer layer(values, kLayout.size);

@@ -10,38 +10,40 @@
 
 namespace fsr::calibration {
 
-/// Errors of held-out readings: each section is predicted by models that never saw it.
+/// Errors of held-out readings: each section is predicted by models that were trained without it.
 struct Score {
   std::uint64_t readings = 0;  ///< scans x taxels
-  /// Mean and deviation over taxels. Of each taxel: the mean of its sections' scores, the range of
-  /// RMSE% being that of the held-out section.
+  /// Mean and standard deviation over taxels. The value of a taxel is the mean over its sections; the range
+  /// for RMSE% is that of the held-out section.
   statistics::Spread r2;
   statistics::Spread rmse_percent;
-  std::size_t worst_taxel = 0;  ///< the one of the largest RMSE%
+  std::size_t worst_taxel = 0;  ///< the taxel with the largest RMSE%
   double worst_rmse_percent = std::numeric_limits<double>::quiet_NaN();
-  /// Of all taxels and sections together [Pa].
+  /// Errors of all taxels and sections together [Pa].
   statistics::BinnedErrors errors;
-  /// Share of the readings within one stated deviation, the deviation taken from other sections.
+  /// Share of the readings within one stated deviation; the deviation comes from other sections.
   double within_one_deviation = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// One curvature class of the bags, predicted as the scheme would.
+/// One curvature class of the bags, predicted by the scheme.
 struct ConditionScore {
   dataset::CurvatureClass condition;
-  bool trained = true;  ///< false: the answering model saw nothing of this class (flat_only on a bend)
+  bool trained =
+      true;  ///< false: the model that answers was not trained on this class (flat_only on a bent surface)
   Score score;
 };
 
-/// Inner surfaces, each in turn answered as if training had not seen it: what a new curvature may expect.
+/// Errors on inner surfaces, each in turn predicted as if it were not in the training: the error to expect on
+/// a new curvature.
 struct UnseenScore {
   std::uint64_t readings =
       0;  ///< scans x taxels; 0 = there is no inner surface, or the scheme has no classes
-  statistics::Spread rmse_percent;  ///< mean and deviation over taxels, of the range of pressure
+  statistics::Spread rmse_percent;  ///< mean and standard deviation over taxels, % of the range of pressure
   double rmse = std::numeric_limits<double>::quiet_NaN();  ///< of all readings together [Pa]
 };
 
 struct CalibrationScores {
-  std::vector<ConditionScore> conditions;  ///< empty = not asked for
+  std::vector<ConditionScore> conditions;  ///< empty = not computed
   Score whole;                             ///< all conditions together
   UnseenScore unseen;
 };

@@ -25,7 +25,7 @@ struct TrainedRanges {
   TrainedInterval temperature;    ///< [degree Celsius]
 };
 
-/// Over the scans of the classes for which `trained` is true.
+/// The ranges over the scans of those classes for which `trained` is true.
 TrainedRanges findTrainedRanges(const std::vector<dataset::Recording>& recordings,
                                 const dataset::ConditionClasses& classes, const std::vector<bool>& trained);
 

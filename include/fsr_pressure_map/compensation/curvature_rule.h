@@ -5,17 +5,17 @@
 
 namespace fsr::compensation {
 
-/// How the tables of a taxel's curvature classes become the one table for the curvature at hand.
+/// How the table of a taxel at any curvature is computed from the tables of its curvature classes.
 enum class BlendRule {
-  kNearest,      ///< the nearest class's table
-  kKernel,       ///< a GRNN's mean of all of them, weighted by distance in reading and curvature
-  kInterpolate,  ///< linear in curvature between the two neighbours' pressures at a code
-  kByName,       ///< the table of the surface's name; nearest where there is none of that name
+  kNearest,      ///< the table of the nearest class
+  kKernel,       ///< GRNN: mean of all classes, weighted by distance in reading and curvature
+  kInterpolate,  ///< linear in curvature between the pressures of the two neighbouring classes at a code
+  kByName,       ///< the table of the class with the name of the surface; the nearest class if there is none
 };
 
-/// A monotone law of the matrix between its classes: pressure at curvature k = gain(k) P(code) + offset(k),
-/// P being the taxel's table without bending effects. Straight interpolation between two classes cuts
-/// the bend of this law off; the law puts it back.
+/// A monotone function of curvature for the whole matrix: pressure at curvature k = gain(k) P(code) +
+/// offset(k), where P is the taxel's table without bending effects. Linear interpolation between two classes
+/// ignores the curve of this function; straightening() corrects for it.
 struct EffectLaw {
   std::vector<double> curvature;  ///< knots, ascending [1/m]; empty = none
   std::vector<double> gain;       ///< of each knot
@@ -25,33 +25,33 @@ struct EffectLaw {
     double gain;
     double offset;  // [Pa]
   };
-  /// By monotone cubic (Fritsch and Carlson) between the knots, level beyond them.
+  /// Monotone cubic interpolation between the knots (Fritsch and Carlson 1980), constant beyond them.
   Effect at(double curvature) const;
 };
 
-/// What to do to the straight interpolation between two classes so that it follows a law: gain P + offset.
-/// 1 and 0 where there is no law, and beyond the classes (`low` = `high`).
+/// Correction of the linear interpolation between two classes so that it follows a law: gain P + offset. 1
+/// and 0 if there is no law, and beyond the classes (`low` = `high`).
 EffectLaw::Effect straightening(const EffectLaw& law, double low, double high, double share, double at);
 
-/// How far predictions for a curvature that training left out were off, beyond the stated deviation, by
-/// pressure: what a reading midway between two classes is uncertain by.
+/// Error of predictions for curvatures that training left out, beyond the stated deviation, by pressure: the
+/// uncertainty of a reading midway between two classes.
 struct UnseenDeviation {
   std::vector<double> pressure;   ///< knots, ascending [Pa]; empty = not known
   std::vector<double> deviation;  ///< of each knot [Pa]
 
-  /// Linear between the knots, level beyond them. Not to be called where nothing is known.
+  /// Linear between the knots, constant beyond them. Must not be called if there are no knots.
   double at(double pressure) const;
 };
 
 struct CurvatureRule {
   BlendRule blend = BlendRule::kNearest;
-  /// Which model each class has its tables from, where classes share one; empty = each has its own.
+  /// The model of each class, where classes share a model; empty = each class has its own.
   std::vector<std::size_t> model_of_class;
-  /// kKernel: distance in curvature at which a class's weight falls by e^-1/2, one for all taxels or one
-  /// each [1/m]; infinite = curvature has no effect.
+  /// kKernel: distance in curvature at which the weight of a class decreases by the factor e^-1/2, one for
+  /// all taxels or one each [1/m]; infinite = curvature has no effect.
   std::vector<double> length_scale;
-  EffectLaw law;           ///< kInterpolate: curvature_map's
-  UnseenDeviation unseen;  ///< found by leaving each inner class out
+  EffectLaw law;           ///< kInterpolate: the law of curvature_map
+  UnseenDeviation unseen;  ///< from leaving each inner class out in turn
 
   double lengthScale(std::size_t taxel) const {
     return length_scale.size() == 1 ? length_scale.front() : length_scale.at(taxel);

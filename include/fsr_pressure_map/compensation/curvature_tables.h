@@ -13,22 +13,21 @@
 
 namespace fsr::compensation {
 
-/// A scheme, compiled: for each taxel one CodeTable for each curvature class, and the rule that makes one
-/// table of them for any curvature (see blend_table.h).
+/// The tables of a trained scheme: one CodeTable for each taxel and curvature class, and the rule that
+/// computes from them the table at any curvature.
 struct CurvatureTables {
   Scheme scheme = Scheme::kPerCurvature;
   matrix::MatrixSize size;
   std::uint16_t full_scale = 0;
-  /// Classes by ascending curvature of taxel 0. Schemes that ignore curvature have one, which
-  /// answers everywhere.
+  /// Classes by ascending curvature of taxel 0. Schemes that ignore curvature have one class.
   std::vector<dataset::CurvatureClass> classes;
   /// [taxels x classes], taxel by taxel.
   std::vector<regression::CodeTable> tables;
-  /// Range of principal curvature over training [1/m]: a taxel outside it is flagged
-  /// kCurvatureExtrapolated, whatever the scheme does with it.
+  /// Range of principal curvature over training [1/m]. A taxel outside it is flagged kCurvatureExtrapolated,
+  /// whatever the scheme.
   double curvature_low = 0;
   double curvature_high = 0;
-  /// A taxel farther than this from every class curvature is flagged kBetweenClasses [1/m].
+  /// A taxel farther than this from the curvatures of all classes is flagged kBetweenClasses [1/m].
   double class_tolerance = 0.5;
   CurvatureRule rule = {};
 

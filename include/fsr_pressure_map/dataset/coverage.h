@@ -7,18 +7,17 @@
 #include <vector>
 
 #include "fsr_pressure_map/dataset/condition_classes.h"
-#include "fsr_pressure_map/dataset/sections.h"
 #include "fsr_pressure_map/statistics/pressure_bins.h"
 
 namespace fsr::dataset {
 
-/// What the recordings hold of one pressure bin in one direction.
+/// Data of one pressure bin in one direction of load.
 struct CoverageCell {
   std::uint64_t scans = 0;
-  std::uint64_t cycles = 0;  ///< cycles that passed through
+  std::uint64_t cycles = 0;  ///< cycles that passed through the bin
 };
 
-/// What the recordings hold of one curvature class.
+/// Data of one curvature class.
 struct ConditionCoverage {
   CurvatureClass condition;
   std::uint64_t scans = 0;
@@ -29,27 +28,25 @@ struct ConditionCoverage {
   std::array<CoverageCell, statistics::kPressureBins> unloading;
 };
 
-/// Pressure x curvature x direction: where a calibration from these recordings stands on much data,
-/// where on little, where on none.
+/// Amount of data for each curvature class, pressure bin and direction of load.
 struct Coverage {
   std::vector<ConditionCoverage> conditions;  ///< one for each curvature class
-  std::vector<std::string> thin;              ///< sentences, worst first; empty = nothing is thin
+  std::vector<std::string>
+      thin;  ///< sentences on bins with little or no data, worst first; empty = there are none
 };
 
-/// A cell with fewer scans than this, or fewer cycles than there are sections, is called thin.
+/// A cell with fewer scans than this, or with fewer cycles than there are sections, is called thin.
 constexpr std::uint64_t kThinScans = 50;
 
-/// What is thin among `conditions`, worst first; `sections` is their number.
+/// Sentences on the thin cells of `conditions`, worst first. `sections`: number of sections of the
+/// cross-validation.
 std::vector<std::string> thinPlaces(const std::vector<ConditionCoverage>& conditions, std::size_t sections);
 
-/// Adds what other recordings hold of the same class.
+/// Adds the data that other recordings hold of the same class.
 void addCoverage(const ConditionCoverage& more, ConditionCoverage& coverage);
 
-/// `sections` has one entry for each recording.
-Coverage measureCoverage(const std::vector<Recording>& recordings, const ConditionClasses& classes,
-                         const std::vector<Sections>& sections);
-
-/// The same with classes and sections as a calibration of the recordings has them.
+/// Coverage of the classes and sections that a calibration of the recordings would use. `sections`: number of
+/// sections of the cross-validation.
 Coverage coverageOf(const std::vector<Recording>& recordings, std::size_t sections);
 
 }  // namespace fsr::dataset

@@ -12,19 +12,19 @@
 namespace fsr::discrepancy {
 
 struct DiscrepancyOptions {
-  /// Ids of effects that somebody asks for: where the recordings cannot show one of them, that is the
-  /// verdict.
+  /// Ids of effects that the user asks for. If nothing else is found and the recordings cannot show one of
+  /// them, the verdict is kNotIdentifiable.
   std::vector<std::string> ask;
-  std::vector<std::string> leave_out;  ///< ids that are not in the library for this run
-  bool repeat = false;                 ///< add effects until none is left
+  std::vector<std::string> leave_out;  ///< ids of effects that are not considered
+  bool repeat = false;  ///< after an effect is named, add it and search again until none is named
   std::uint64_t seed = 1;
-  unsigned threads = 0;  ///< 0 = one for each core; the numbers do not depend on it
+  unsigned threads = 0;  ///< 0 = one for each core; the results do not depend on it
 };
 
-/// A simulation that may lack effects, and measurements.
+/// A simulation that may lack effects, and measurements of the simulated sheet.
 struct DiscrepancyProblem {
   simulation::SimulationSettings simulation;
-  std::vector<dataset::Recording> recordings;  ///< one for each bag, of one matrix
+  std::vector<dataset::Recording> recordings;  ///< one for each bag, all of one matrix
   DiscrepancyOptions options;
 };
 
@@ -33,7 +33,7 @@ enum class Verdict { kNone, kUnknown, kAmbiguous, kWrongForm, kNamed, kNotIdenti
 /// "none", "unknown", "ambiguous", "wrong_form", "named", "not_identifiable".
 std::string name(Verdict verdict);
 
-/// 95 % unless said otherwise; NaN where it is not known.
+/// A confidence interval, 95 % unless said otherwise. NaN where it is not known.
 struct Interval {
   double low = 0;
   double high = 0;
@@ -46,33 +46,34 @@ struct FittedParameter {
   Interval interval;
 };
 
-/// An effect that is put forward.
+/// An effect of the verdict.
 struct FoundEffect {
   std::string id;
   std::string summary;                      ///< the library's one line
-  std::vector<FittedParameter> parameters;  ///< empty for what a detector found
-  double z = 0;                             ///< of what it explains, over cycles that took no part in its fit
-  double share_of_ceiling = 0;              ///< of what anything explains
+  std::vector<FittedParameter> parameters;  ///< empty where a detector found the effect
+  double z = 0;                     ///< of the error that it explains in cycles that it was not fitted to
+  double share_of_explainable = 0;  ///< of the explainable error
 };
 
-/// An effect that these recordings cannot show, or not alone.
+/// An effect that these recordings cannot show.
 struct NotIdentifiable {
   std::string id;
   std::string experiment;  ///< that would show it, as in name(Experiment)
   std::string reason;      ///< one sentence
 };
 
-/// Whether what the static curves leave depends on a covariate, asked before any effect is named.
+/// Test whether the residuals of the static curves depend on a covariate. It is made before any effect is
+/// named.
 struct CovariateTest {
   std::string covariate;      ///< as in name(Covariate)
   std::string method;         ///< sign_flips, block_bootstrap
-  double p = 1;               ///< by chance alone, as much or more
-  double adjusted = 1;        ///< by Benjamini and Yekutieli, over all covariates
-  double share_of_error = 0;  ///< of the readings' squared error that it explains
+  double p = 1;               ///< probability of at least this dependence by chance
+  double adjusted = 1;        ///< the same, adjusted by Benjamini and Yekutieli over all covariates
+  double share_of_error = 0;  ///< share of the squared error of the readings that it explains
   bool depends = false;       ///< adjusted p <= 0.05 and share >= 2 %
 };
 
-/// Where the discrepancy shows.
+/// Where the discrepancy is visible.
 struct WhereItShows {
   std::vector<std::size_t> taxels;               ///< row-major; empty = all
   std::vector<std::string> conditions;           ///< surfaces; empty = all
@@ -81,56 +82,58 @@ struct WhereItShows {
   std::vector<std::pair<double, double>> times;  ///< [s] since the first scan; empty = all
 };
 
-/// How much of the gap is closed where what was found was sized without seeing it: each surface foretold by
-/// the others, each protocol by the others. Naming and static curves have seen all of them.
+/// Share of the gap that is closed on parts that the sizes of the effects were not fitted to. Each surface is
+/// predicted from the other surfaces, or each protocol from the other protocols. The choice of the effects
+/// and the static curves used all parts.
 struct HeldOutGap {
   std::string by;     ///< condition, protocol
   double closed = 0;  ///< see Gap; over all parts
   Interval closed_interval;
-  std::vector<std::pair<std::string, double>> parts;  ///< what was left out, and how much is closed there
+  std::vector<std::pair<std::string, double>>
+      parts;  ///< each part that was left out, with the share that is closed there
 };
 
-/// How far simulation and measurement are apart, as rms over scans and taxels [share of full scale], on
-/// data that took no part.
+/// Distance between simulation and measurement, as root mean square over scans and taxels [share of full
+/// scale], on the hold-out cycles.
 struct Gap {
   double before = 0;
   double after = 0;
-  double floor = 0;   ///< what no explanation could undercut
+  double floor = 0;   ///< noise floor: no explanation can be better
   double closed = 0;  ///< (before^2 - after^2) / (before^2 - floor^2); NaN where that is not defined
   Interval before_interval, after_interval, floor_interval, closed_interval;
-  double before_pressure = 0;  ///< the same through the local slope of the curves [Pa]
+  double before_pressure = 0;  ///< the same as a pressure, by the local slope of the static curves [Pa]
   double after_pressure = 0;
   double floor_pressure = 0;
   std::vector<std::string> held_out_by;  ///< of cycles, condition, protocol
-  std::vector<HeldOutGap> foretold;      ///< of the last two
-  std::vector<std::string> missing;      ///< sentences: what no data were held out for
+  std::vector<HeldOutGap> foretold;      ///< for condition and protocol
+  std::vector<std::string> missing;      ///< sentences: kinds of data of which none could be held out
 };
 
-/// What the gap costs in use, as the largest error [Pa]; NaN where not known.
+/// Largest error of the pressure in use that the missing effects cause [Pa]. NaN where it is not known.
 struct GapInUse {
   std::string situation;  ///< ramp, stance, standing
   double before = 0;      ///< [Pa]
   double after = 0;       ///< [Pa]
 };
 
-/// How one candidate did.
+/// Result of one candidate.
 struct CandidateScore {
   std::vector<std::string> ids;  ///< one effect, or a pair
   std::string outcome;           ///< named, credible, refused, not_identifiable, required_data_missing
-  double share_of_error = 0;     ///< of the squared error before, held out
-  double share_of_ceiling = 0;
+  double share_of_error = 0;     ///< share of the squared error that it explains, on hold-out data
+  double share_of_explainable = 0;
   double z = 0;
 };
 
-/// What to do at the rig next.
+/// The experiment that would decide between the credible explanations.
 struct NextExperiment {
   std::string protocol;   ///< two_speeds, minor_loops, step_hold, rest, two_ambients, random_order, ...
-  std::string sentence;   ///< what to do, and what it tells apart
-  double separation = 0;  ///< the smallest, in standard deviations
+  std::string sentence;   ///< what to do at the rig, and which explanations it distinguishes
+  double separation = 0;  ///< smallest distance between two explanations, in standard deviations of the noise
   std::vector<std::pair<std::string, std::string>> separates;  ///< pairs of ids
 };
 
-/// Mean residual over one covariate, for figures.
+/// Mean residual against one covariate, for figures.
 struct ResidualCurve {
   std::string covariate;       ///< as in name(Covariate)
   std::string unit;            ///< of `at`
@@ -140,12 +143,12 @@ struct ResidualCurve {
   std::vector<double> error;   ///< standard error of both
 };
 
-/// A bag and how often its held-out part was looked at.
+/// A bag, and how often its hold-out cycles were used to compute a gap.
 struct InputUse {
   std::string file;
   std::string sha256;
   std::uint64_t scans = 0;
-  int show_opened = 0;
+  int hold_out_opened = 0;
 };
 
 /// One round of `repeat`.
@@ -155,20 +158,20 @@ struct RepeatStep {
   double share_of_error = 0;
 };
 
-/// What was foretold before the next experiment; confirm() holds it against new recordings.
+/// A prediction that is frozen before the next experiment. confirm() compares it with new recordings.
 struct Prediction {
   std::vector<simulation::EnabledEffect> effects;              ///< of the best explanation
-  std::vector<std::vector<simulation::EnabledEffect>> rivals;  ///< other explanations that were credible
-  Interval size;     ///< factor of the first effect's strength, 1 = as fitted
-  std::string hash;  ///< SHA-256 of all of the above and the simulation
+  std::vector<std::vector<simulation::EnabledEffect>> rivals;  ///< the other credible explanations
+  Interval size;     ///< range of the factor of the first effect's strength, 1 = as fitted
+  std::string hash;  ///< see hashOf()
 };
 
-/// Everything that verdict.yaml, results.json and the report say.
+/// Everything that verdict.yaml, results.json and the report contain.
 struct DiscrepancyReport {
   Verdict verdict = Verdict::kNone;
   std::string sentence;  ///< the verdict in words
   std::vector<FoundEffect> effects;
-  std::vector<std::vector<std::string>> credible_set;  ///< every explanation not excluded, best first
+  std::vector<std::vector<std::string>> credible_set;  ///< every explanation that is not excluded, best first
   std::vector<std::string> depends_on;                 ///< covariates, as in name(Covariate)
   std::vector<NotIdentifiable> not_identifiable;
   std::vector<CovariateTest> covariates;
@@ -177,7 +180,7 @@ struct DiscrepancyReport {
   std::vector<GapInUse> in_use;
   std::vector<NextExperiment> next_experiment;  ///< none or one
   std::vector<CandidateScore> candidates;       ///< best first
-  std::vector<std::string> tested;              ///< ids of all effects that were tried
+  std::vector<std::string> tested;              ///< ids of all effects that were considered
   std::vector<std::string> limitations;         ///< sentences
   std::vector<ResidualCurve> curves;
   std::vector<RepeatStep> steps;
@@ -190,34 +193,36 @@ struct DiscrepancyReport {
   std::string version;
 };
 
-/// Throws InputError: one sentence that names the first thing in the way and what would be right.
+/// Throws InputError with one sentence that names the first problem and what would be right.
 void validate(const DiscrepancyProblem& problem);
 
-/// Called as the work goes on, from one thread: what is being done, and the share done.
+/// Called repeatedly, always from one thread: `step` is the present step, `share` the share of the work that
+/// is done.
 using DiscrepancyProgress = std::function<void(const std::string& step, double share)>;
 
-/// Where do they disagree, what is missing, how small is the gap once it is in? Validates first. The
-/// same numbers on any number of threads.
+/// Compares the recordings with the simulation, names the effects that the simulation lacks, and measures how
+/// much of the gap they close. Calls validate() first. The result does not depend on the number of threads.
 DiscrepancyReport investigate(const DiscrepancyProblem& problem, const DiscrepancyProgress& progress = {});
 
-/// What new recordings say of a prediction.
+/// Result of a comparison of new recordings with a prediction.
 struct Confirmation {
   bool passed = false;
   std::string sentence;
   double size = 0;  ///< of the first effect, 1 = as predicted
   Interval interval;
-  double share_of_error = 0;  ///< that the prediction explains, nothing fitted
-  /// A rival that explains more; or, asked without knowing what was foretold, an explanation of the new
-  /// recordings that excludes it. Empty = none.
+  double share_of_error = 0;  ///< share of the squared error that the prediction explains without any fit
+  /// A rival that explains more; or, if the new recordings are investigated without the prediction, an
+  /// explanation that excludes the predicted one. Empty = none.
   std::string best_rival;
 };
 
-/// Whether recordings that nobody had seen bear out what was predicted. `simulation` is the `base` of the
-/// report. Throws InputError, also where hash and prediction do not belong together.
+/// Tests a prediction with recordings that were made after it. `simulation` is the `base` of the report.
+/// Throws InputError, also where the hash does not fit the prediction and the simulation.
 Confirmation confirm(const Prediction& prediction, const simulation::SimulationSettings& simulation,
                      const std::vector<dataset::Recording>& recordings);
 
-/// Hash of a prediction made with a simulation.
+/// SHA-256 of a prediction (without its hash) and of the whole simulation that it was made with, including
+/// its taxel curves. Names of files are not part of it.
 std::string hashOf(const Prediction& prediction, const simulation::SimulationSettings& simulation);
 
 }  // namespace fsr::discrepancy

@@ -11,35 +11,36 @@
 
 namespace fsr::map {
 
-/// Summary of one region of a map; NaN where the map gives no answer. Pressures are gauge.
+/// Summary of one region of a map. NaN where the map has no answer. Pressures are gauge.
 struct RegionStatistics {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
   std::string region;                 ///< "" = the whole matrix
   double peak = kNone;                ///< highest reading [Pa]
-  matrix::TaxelIndex peak_taxel;      ///< where it is; meaningless while peak is NaN
+  matrix::TaxelIndex peak_taxel;      ///< taxel of the peak; undefined while peak is NaN
   double mean = kNone;                ///< over the contact area, weighted by area [Pa]
-  double standard_deviation = kNone;  ///< over the contact area, likewise [Pa]
+  double standard_deviation = kNone;  ///< over the contact area, weighted by area [Pa]
   double contact_area = 0;            ///< of the taxels in contact [m^2]
-  double total_area = 0;              ///< of the region's taxels, masked ones left out [m^2]
+  double total_area = 0;              ///< of the region's taxels without masked ones [m^2]
   double force = kNone;               ///< sum of normal force over the contact area [N]
-  double pressure_time_integral = 0;  ///< of the taxel that gathered most [Pa s]
-  double duration = 0;                ///< that the integral spans [s]
-  std::size_t bad = 0;                ///< taxels without a reading, masked ones left out
+  double pressure_time_integral = 0;  ///< largest of the taxels [Pa s]
+  double duration = 0;                ///< of the integral [s]
+  std::size_t bad = 0;                ///< taxels without a reading; masked ones are not counted
   std::size_t saturated = 0;
-  std::optional<matrix::Position> centre;  ///< of pressure, on the flat sheet [m]; none without contact
+  std::optional<matrix::Position> centre;  ///< centre of pressure on the flat sheet [m]; none without contact
   AlarmState alarm = AlarmState::kUnknown;
 };
 
-/// A taxel is in contact from `contact_threshold` [Pa] on, unless it is under its turn-on pressure. `areas`
-/// are those of the taxels on the bent sheet (view: taxelAreas) [rows x columns], row-major [m^2]. The force
-/// is the sum of pressure x area, each taxel's along its own normal, so not the length of their vector
-/// sum. Throws InputError where map, region and areas are not of one size.
+/// Summary of one map. A taxel is in contact at `contact_threshold` [Pa] and above, unless it is below its
+/// turn-on pressure. `areas`: areas of the taxels on the bent sheet (view: taxelAreas) [rows x columns],
+/// row-major [m^2]. The force is the sum of pressure x area. Each taxel's force points along its own normal,
+/// so this sum is not the length of their vector sum. Throws InputError where map, region and areas have
+/// different sizes.
 RegionStatistics regionStatistics(const PressureMap& map, const Region& region,
                                   const std::vector<double>& areas, double contact_threshold);
 
-/// Pressure-time integral of each taxel, by trapezoids between maps. Gaps longer than `longest_gap`, maps
-/// that give no pressure, and time that runs back (a looped bag: starts anew) are not bridged.
+/// Pressure-time integral of each taxel, by trapezoids between maps. Gaps longer than `longest_gap` [s] and
+/// maps without pressure add nothing. Time that runs backwards (a looped bag) restarts the integral.
 class PressureIntegral {
  public:
   explicit PressureIntegral(double longest_gap = 1.0) : longest_gap_(longest_gap) {}
@@ -60,9 +61,10 @@ class PressureIntegral {
   std::vector<double> integral_;  // [Pa s]
 };
 
-/// Several sheets round one limb as one: areas, forces and counts add up, the peak and the integral are the
-/// highest, mean and deviation are over all their contact area; no centre, for they share no sheet. The
-/// alarm is the worst: alarm, then unknown, then OK. The peak's taxel is that of its own sheet.
+/// Statistics of several sheets around one limb, as one. Areas, forces and counts are added. Peak and
+/// integral are the largest. Mean and deviation are over the contact area of all sheets. There is no centre,
+/// because the sheets have no common plane. The alarm is the worst: alarm, then unknown, then OK. The peak's
+/// taxel is an index on its own sheet.
 RegionStatistics sumOfSheets(const std::string& region, const std::vector<RegionStatistics>& sheets);
 
 /// Statistics of all regions over time.
@@ -70,10 +72,10 @@ class MapStatistics {
  public:
   MapStatistics(std::vector<Region> regions, double contact_threshold);
 
-  /// `time` of the map [s]; `areas` as for regionStatistics(). Throws InputError likewise.
+  /// `time` of the map [s]; `areas` and errors as for regionStatistics().
   const std::vector<RegionStatistics>& update(double time, const PressureMap& map,
                                               const std::vector<double>& areas);
-  /// What is to be said when no map has come for too long: names and UNKNOWN.
+  /// The statistics where no map has come for too long: names, and alarms that are unknown.
   std::vector<RegionStatistics> stale();
   void resetIntegral() { integral_.reset(); }
 

@@ -7,17 +7,17 @@
 
 namespace fsr::map {
 
-/// State of a whole map; the numbers are those of PressureMap.msg.
+/// State of a whole map. The numbers are those of PressureMap.msg.
 enum class MapState : std::uint8_t {
   kOk = 0,
-  kUncalibrated = 1,      ///< pressure is all NaN
-  kCurvatureUnknown = 2,  ///< none received: the calibration's stated fallback was used
+  kUncalibrated = 1,      ///< all pressures are NaN
+  kCurvatureUnknown = 2,  ///< no curvature was received: the calibration's fallback was used
   kCurvatureStale = 3,
-  kSizeMismatch = 4,  ///< pressure is all NaN
-  kWrongSensor = 5,   ///< the board's serial number is not the calibration's
+  kSizeMismatch = 4,  ///< all pressures are NaN
+  kWrongSensor = 5,   ///< the board's serial number is not that of the calibration
 };
 
-/// Flags of one taxel; the numbers are those of PressureMap.msg.
+/// Flags of one taxel. The numbers are those of PressureMap.msg.
 namespace taxel_flag {
 constexpr std::uint16_t kSaturated = 1;
 constexpr std::uint16_t kDead = 2;
@@ -38,10 +38,11 @@ struct PressureMap {
   matrix::Layout layout;
   MapState state = MapState::kUncalibrated;
   std::vector<float> pressure;       ///< [rows x columns], row-major [Pa]; NaN = no reading, never Inf
-  std::vector<float> deviation;      ///< one standard deviation of a held-out reading [Pa], likewise
-  std::vector<std::uint16_t> flags;  ///< taxel_flag bits, likewise
+  std::vector<float> deviation;      ///< standard deviation of a held-out reading [Pa], same order
+  std::vector<std::uint16_t> flags;  ///< taxel_flag bits, same order
 
-  /// Makes room for `layout` and fills with NaN, NaN and 0; allocates only where the size grows.
+  /// Sets the layout, pressures and deviations to NaN and flags to 0. Allocates only where the size
+  /// increases.
   void reset(const matrix::Layout& new_layout);
 };
 

@@ -8,8 +8,8 @@
 
 namespace fsr::matrix {
 
-/// Curvature tensor of the surface under one taxel [1/m], in the matrix frame. Positive where the
-/// sheet is convex towards +z (wrapped round a limb phantom and loaded from outside), negative on
+/// Curvature tensor of the surface under one taxel [1/m], in the matrix frame. It is positive where the
+/// sheet is convex towards +z, e.g. wrapped round a limb phantom and loaded from outside. It is negative on
 /// the inside of a socket wall.
 struct Curvature {
   double x = 0;   ///< of the section through a row
@@ -19,16 +19,16 @@ struct Curvature {
 
 bool operator==(const Curvature& a, const Curvature& b);
 
-/// The principal curvature of largest magnitude of [[x, xy], [xy, y]], sign kept [1/m]; of two of
-/// one magnitude the positive one. This is the scalar that schemes of one curvature input use.
+/// The principal curvature of [[x, xy], [xy, y]] with the largest magnitude, with its sign [1/m]. Of two with
+/// the same magnitude it is the positive one. Schemes with one curvature input use this scalar.
 double principalCurvature(const Curvature& curvature);
 
-/// What the matrix lies on.
+/// The surface that the matrix lies on.
 struct Surface {
   std::string name;                  ///< e.g. cylinder_7cm; may be empty
-  std::uint32_t mount = 0;           ///< raised by one at each remounting; 0 = unknown
-  std::vector<Curvature> curvature;  ///< one for all taxels, or one each, row-major; empty = unknown
-  std::vector<double> deviation;     ///< one standard deviation [1/m], likewise; empty = unknown
+  std::uint32_t mount = 0;           ///< increases by one at each mounting; 0 = unknown
+  std::vector<Curvature> curvature;  ///< one for all taxels, or one for each, row-major; empty = unknown
+  std::vector<double> deviation;     ///< standard deviation [1/m], one or one for each taxel; empty = unknown
 
   bool known() const { return !curvature.empty(); }
   const Curvature& at(TaxelIndex taxel) const {
@@ -36,10 +36,10 @@ struct Surface {
   }
 };
 
-/// Throws InputError where a surface has neither none, one nor `size` curvatures or deviations.
+/// Throws InputError unless the surface has no, one or `size` curvatures, and no, one or `size` deviations.
 void requireFit(const Surface& surface, MatrixSize size);
 
-/// Same name, mount and curvature (deviation left aside).
+/// Whether name, mount and curvature are equal. Deviations are not compared.
 bool sameCondition(const Surface& a, const Surface& b);
 
 }  // namespace fsr::matrix

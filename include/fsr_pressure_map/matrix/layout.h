@@ -24,7 +24,7 @@ inline bool operator!=(MatrixSize a, MatrixSize b) {
 /// "7 x 10": rows x columns.
 std::string sizeText(MatrixSize size);
 
-/// Largest matrix that any room accepts, a side.
+/// Largest number of rows, and of columns, that the package accepts.
 constexpr std::uint16_t kMaxMatrixSide = 64;
 
 /// Number of a taxel, row-major: row * columns + column.
@@ -32,18 +32,18 @@ struct TaxelIndex {
   std::size_t value = 0;
 };
 
-/// A point of the flat sheet [m] in the matrix frame: origin at the matrix's centre, x along a row
-/// (column index grows), y along a column (row index grows), z out of the loaded face.
+/// A point of the flat sheet [m] in the matrix frame. The origin is the matrix's centre, x points along a row
+/// (increasing column index), y along a column (increasing row index), z out of the loaded face.
 struct Position {
   double x = 0;
   double y = 0;
 };
 
-/// Where the taxels of a matrix lie on its sheet.
+/// Positions of the taxels of a matrix on its sheet.
 struct Layout {
   MatrixSize size;
-  double pitch_x = 0.010;  ///< distance of neighbours along a row [m]
-  double pitch_y = 0.010;  ///< distance of neighbours along a column [m]
+  double pitch_x = 0.010;  ///< distance between neighbours along a row [m]
+  double pitch_y = 0.010;  ///< distance between neighbours along a column [m]
 
   TaxelIndex index(std::uint16_t row, std::uint16_t column) const;
   std::uint16_t row(TaxelIndex taxel) const;

@@ -8,23 +8,23 @@
 
 namespace fsr::matrix {
 
-/// One reading of every taxel, as the converter gave it.
+/// One reading of every taxel, in counts of the converter.
 struct Scan {
   MatrixSize size;
   std::uint16_t full_scale = 0;       ///< largest count that the converter can give, e.g. 4095
   std::vector<std::uint16_t> counts;  ///< [rows x columns], row-major
 };
 
-/// A scan that somebody else holds, e.g. a message.
+/// A scan whose counts are stored elsewhere, e.g. in a message.
 struct ScanView {
   MatrixSize size;
   std::uint16_t full_scale = 0;
   const std::uint16_t* counts = nullptr;  ///< [count], row-major
-  std::size_t count = 0;                  ///< rows * columns, unless the sender erred
+  std::size_t count = 0;                  ///< rows * columns, unless the sender made an error
 };
 
-/// The size that a scan states, or 0 x 0 where its counts contradict it: memory is never made from what a
-/// sender merely claims.
+/// The size that a scan states, or 0 x 0 where it has another number of counts. Use it before allocating
+/// memory for a scan from outside.
 inline MatrixSize honestSize(const ScanView& scan) {
   return scan.count == scan.size.taxels() ? scan.size : MatrixSize{};
 }
@@ -33,8 +33,8 @@ inline ScanView view(const Scan& scan) {
   return {scan.size, scan.full_scale, scan.counts.data(), scan.counts.size()};
 }
 
-/// Throws InputError where the size is none that a matrix can have, the number of counts is not the
-/// size's, or a count is above full scale.
+/// Throws InputError where a matrix cannot have this size, the number of counts does not fit the size, or a
+/// count is above full scale.
 void requireSound(const ScanView& scan);
 
 }  // namespace fsr::matrix

@@ -8,23 +8,27 @@
 
 namespace fsr::protocol {
 
-/// What every packet of the wire format carries.
+/// What a packet tells.
+enum class PacketType : unsigned { kScan, kTransducer, kTemperature, kIdentity };
+constexpr std::size_t kPacketTypes = 4;
+
+/// What every packet carries.
 struct PacketHeader {
   std::uint32_t sequence = 0;     ///< counts the packets of one type, wraps
   std::uint32_t device_time = 0;  ///< the board's clock [us], wraps after 71.6 minutes
   std::size_t size = 0;           ///< of the whole packet [bytes]
 };
 
-/// One scan. The counts are the decoder's own memory, valid during the call only.
+/// One scan. The counts are in the decoder's memory and valid during the call only.
 struct ScanPacket {
   matrix::MatrixSize size;
   std::uint16_t full_scale = 0;           ///< largest count that the converter can give
-  std::uint32_t duration = 0;             ///< first to last taxel [us]; 0 = unknown
+  std::uint32_t duration = 0;             ///< from the first to the last taxel [us]; 0 = unknown
   const std::uint16_t* counts = nullptr;  ///< [rows x columns], row-major, none above full_scale
 };
 
-/// Who the board is. The texts are the decoder's own memory, valid during the call only; they are as
-/// the board sent them, so a caller that prints them should expect any byte but zero.
+/// Who the board is. The texts are in the decoder's memory and valid during the call only. They are as the
+/// board sent them: a caller that prints them must expect any byte but zero.
 struct IdentityPacket {
   std::string_view serial;
   std::string_view firmware;
@@ -34,7 +38,7 @@ struct IdentityPacket {
   std::uint32_t scan_period = 0;  ///< [us]; 0 = unknown
 };
 
-/// Where the decoder puts what it found.
+/// Receives the packets that a decoder finds.
 class PacketHandler {
  public:
   virtual ~PacketHandler() = default;

@@ -1,8 +1,8 @@
 #pragma once
 
 /* The bytes that a board sends, and their encoder, in C99 for firmware: no allocation, no library, no
- * floating point, 64 bytes of tables. Copy this file and wire.c into a firmware project as they are.
- * docs/wire_format.md explains the format with a byte-exact example.
+ * floating point, 64 bytes of tables. Copy this file and wire.c into one folder of a firmware project,
+ * unchanged. docs/wire_format.md explains the format with a byte-exact example.
  *
  * A packet, little endian:
  *
@@ -17,8 +17,8 @@
  *         16      n  payload
  *     16 + n      4  packet check      CRC-32 (IEEE 802.3) of bytes 2 to 15 + n
  *
- * The header has a check of its own so that a length is known to be whole before anything waits for that
- * many bytes: a corrupt length can never swallow the good packets behind it. */
+ * The header has its own check, so that a decoder knows the length to be right before it waits for that
+ * many bytes. A corrupt length therefore never costs the valid packets behind it. */
 
 #include <stddef.h>
 #include <stdint.h>
@@ -33,8 +33,8 @@ extern "C" {
 
 /* Packet types. */
 #define FSR_WIRE_SCAN 1u        /* device time = middle of the scan */
-#define FSR_WIRE_TRANSDUCER 2u  /* device time = when the transducer was sampled */
-#define FSR_WIRE_TEMPERATURE 3u /* device time = when the temperature was sampled */
+#define FSR_WIRE_TRANSDUCER 2u  /* device time = time of the sample */
+#define FSR_WIRE_TEMPERATURE 3u /* device time = time of the sample */
 #define FSR_WIRE_IDENTITY 4u    /* at start-up and about once a second; device time = now */
 
 /* Sizes [bytes]. */
@@ -60,7 +60,7 @@ typedef struct {
   const uint16_t* counts; /* [rows x columns], row-major, none above full_scale */
 } fsr_wire_scan;
 
-/* Payload of an identity: three texts of 16 bytes (ASCII, filled up with zeros), rows u8, columns u8,
+/* Payload of an identity: three texts of 16 bytes (ASCII, padded with zeros), rows u8, columns u8,
  * full scale u16, scan period u32. */
 typedef struct {
   const char* serial;   /* serial number; longer texts are cut at 16 bytes */
@@ -72,11 +72,11 @@ typedef struct {
   uint32_t scan_period_us; /* [us]; 0 = unknown */
 } fsr_wire_identity;
 
-/* Each encoder writes one whole packet to `out` and returns its length [bytes], or returns 0 and leaves
- * `out` alone where the packet does not fit `capacity` or a scan breaks the limits above. */
+/* Each encoder writes one whole packet to `out` and returns its length [bytes]. It returns 0 and writes
+ * nothing where the packet does not fit `capacity` or a scan violates the limits above. */
 size_t fsr_wire_encode_scan(uint8_t* out, size_t capacity, uint32_t sequence, uint32_t time_us,
                             const fsr_wire_scan* scan);
-/* `counts`: the transducer's raw reading; the receiver knows its straight line. */
+/* `counts`: the transducer's raw reading; the receiver converts it to a pressure. */
 size_t fsr_wire_encode_transducer(uint8_t* out, size_t capacity, uint32_t sequence, uint32_t time_us,
                                   int32_t counts);
 /* `millidegrees`: [0.001 degree Celsius]. */

@@ -4,9 +4,9 @@
 
 namespace fsr::settings {
 
-/// Input that cannot be used: a file, a setting, an option, a recording.
-/// what() is one sentence for the user that names file, field, value and what would be right.
-/// Tools print it and leave with exit status 2; nodes log it and go on with what they had.
+/// Unusable input: a file, a setting, an option, a recording.
+/// what() is one sentence for the user that names the file, the field, the value and what would be right.
+/// Tools print it and exit with status 2. Nodes log it and continue with what they had.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

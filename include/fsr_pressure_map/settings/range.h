@@ -5,7 +5,7 @@
 
 namespace fsr::settings {
 
-/// Permitted interval of a setting, ends included, with the unit that messages print.
+/// Permitted interval of a setting, including both ends, with the unit that messages print.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();

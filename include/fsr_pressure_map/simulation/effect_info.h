@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -8,35 +9,47 @@
 
 namespace fsr::simulation {
 
-/// Where in the forward chain an effect acts; effects run in this order, within a stage in the order
-/// of the library.
+/// Where in the forward chain an effect acts. Effects run in this order, and within a stage in the order of
+/// the library.
 ///
-///     chamber P(t) -> when was it read -> less the cavity -> load P_e -> memory u -> gain g
+///     chamber P(t) -> time of reading -> less the cavity -> load P_e -> memory u -> gain g
 ///                  -> G = curve(u, g) -> read-out -> sample y -> reading
 ///     and beside it: chamber P(t) -> reference
 enum class ChainStage {
-  kTiming,       ///< when the taxels were really read: TaxelSignals::skew and offset
+  kTiming,       ///< time at which each taxel is really read: TaxelSignals::skew and offset
   kCavity,       ///< gas behind the taxels: TaxelSignals::load
-  kLoad,         ///< what presses on a taxel: TaxelSignals::load
+  kLoad,         ///< load on a taxel: TaxelSignals::load
   kMemory,       ///< history of the load: TaxelSignals::load
   kGain,         ///< factors of the conductance: TaxelSignals::gain
   kConductance,  ///< static curve: load and gain -> TaxelSignals::conductance
   kReadOut,      ///< wires and supply: TaxelSignals::conductance
   kSample,       ///< conductance -> TaxelSignals::reading
-  kReading,      ///< what disturbs the reading before it is rounded: TaxelSignals::reading
+  kReading,      ///< disturbances of the reading before it is rounded: TaxelSignals::reading
   kReference,    ///< the chamber's transducer: Effect::transduce()
 };
 
-/// What one set of an effect's parameters belongs to.
+/// What has its own realisation of an effect: the whole rig, each row, column or taxel, or each mount.
 enum class EffectLevel { kRig, kRow, kColumn, kTaxel, kMount };
 
-/// How somebody who looks for an effect in measurements tries it.
+/// How `discrepancy` looks for an effect in recordings.
 enum class EffectKind {
   kBase,      ///< part of every rig: never looked for
-  kAdditive,  ///< by the derivatives with respect to its strengths
-  kGrid,      ///< likewise, for each combination of the `tried` values of its shape parameters
-  kDetector,  ///< by a test of its own: faults, clipping, what differs from mount to mount by chance
+  kAdditive,  ///< by the derivatives of the reading with respect to its strengths
+  kGrid,      ///< the same, for each combination of the `tried` values of its shapes
+  kDetector,  ///< by a test of its own, see Detector
   kListed,    ///< not simulated: a gas chamber cannot show it
+};
+
+/// The test that finds an effect which derivatives cannot find.
+enum class Detector {
+  kNone,         ///< no test of its own
+  kStuckTaxels,  ///< taxels that keep one code while the others move
+  kDeadTaxels,   ///< taxels that read far below what the others say
+  kRowFaults,    ///< rows whose taxels leave the others together
+  kColumnFaults,
+  kMains,       ///< a periodic pattern that runs through the matrix with the scan
+  kMounts,      ///< changes of preload and gain from one mount to the next on the same surface
+  kSaturation,  ///< static curves that differ by a function of the reading alone
 };
 
 /// Which sign a strength may have.
@@ -62,20 +75,22 @@ enum class Covariate {
   kTotalLoad,
 };
 
-/// What a recording must hold before an effect may be named alone.
+/// What the recordings must contain before an effect may be named alone.
 enum class Evidence {
   kThermometer,
   kMountLabels,
-  kTwoRampRates,     ///< or dwells: one speed cannot tell a loop from a short memory
-  kUnevenLoad,       ///< under uniform pressure the static curve takes it all
+  kTwoRampRates,     ///< or dwells: at one speed a loop cannot be distinguished from a short memory
+  kUnevenLoad,       ///< under uniform pressure the static curve absorbs all of it
   kSecondReference,  ///< another pressure gauge
   kVentedSheet,      ///< the same sheet without its seal
-  kManyCycles,       ///< 10,000 and more, or so unevenly spread that the clock tells nothing of them
+  kManyCycles,       ///< 10,000 and more, or so unevenly spread that they are not proportional to clock time
+  kRemounts,         ///< some surface was mounted twice
+  kUnevenPace,       ///< many cycles at some times and none for hours at others
 };
 
-/// What to do at the rig to see an effect.
+/// The experiment that shows an effect.
 enum class Experiment {
-  kNone,  ///< ordinary cycles show it
+  kNone,  ///< ordinary cycles
   kTwoRampRates,
   kDwells,
   kStepAndHold,
@@ -85,7 +100,7 @@ enum class Experiment {
   kTwoAmbients,
   kManyCycles,
   kRemount,
-  kFlatAgain,  ///< the flat once more at the end, other surfaces in random order
+  kFlatAgain,  ///< the flat surface again at the end, other surfaces in random order
   kUnevenLoad,
   kOpenRow,
   kVentedSheet,
@@ -94,11 +109,11 @@ enum class Experiment {
   kTwoHumidities,
 };
 
-/// What a parameter is for.
+/// The role of a parameter.
 enum class ParameterRole {
-  kStrength,  ///< scales the effect, which is linear in it where it acts, and off at `neutral`
-  kShape,     ///< gives the form of what a strength scales
-  kScatter,   ///< deviation between taxels or mounts, by the simulation's seed; off at `neutral`
+  kStrength,  ///< scales the effect. Where the effect acts it is linear in it; at `neutral` it is off
+  kShape,     ///< gives the form of the effect
+  kScatter,   ///< standard deviation between taxels or mounts, drawn by the seed; off at `neutral`
 };
 
 /// One parameter of an effect.
@@ -106,28 +121,39 @@ struct EffectParameter {
   std::string name;
   std::string meaning;
   ParameterRole role = ParameterRole::kShape;
-  settings::Range permitted;  ///< with the unit; settings outside it are refused
-  double usual = 0;           ///< where the settings do not give it
-  /// At this value the parameter changes nothing, bit for bit; NaN for a shape.
+  settings::Range permitted;  ///< with the unit; values outside it are refused
+  double usual = 0;           ///< value where the settings give none
+  /// At this value the parameter changes nothing, bit for bit. NaN for a shape.
   double neutral = std::numeric_limits<double>::quiet_NaN();
-  /// What a real rig may have: a fit outside it is no explanation.
+  /// Range of real rigs. A fit outside it is no explanation.
   settings::Range plausible = {};
-  /// Of a shape: the values that are tried when the effect is looked for; empty = the usual one.
+  /// Of a shape: the values that are tried when the effect is looked for. Empty = the usual one.
   std::vector<double> tried = {};
+  /// `discrepancy` fits the simulation to the static curves of the recordings before it looks for anything.
+  /// Place of this parameter in that fit, from 1; 0 = it is not fitted.
+  int place_in_base_fit = 0;
+  /// This scatter is set to the relative deviation of the taxels' readings that was measured.
+  bool from_taxel_deviation = false;
 
   EffectParameter within(double low, double high) const;     ///< sets `plausible`
   EffectParameter offAt(double value) const;                 ///< sets `neutral`
   EffectParameter trying(std::vector<double> values) const;  ///< sets `tried` and, by it, `plausible`
+  EffectParameter inBaseFit(int place) const;                ///< sets `place_in_base_fit`
+  EffectParameter fromTaxelDeviation() const;                ///< sets `from_taxel_deviation`
 };
 
-/// A strength or scatter that is off at 0, a shape; plausible is what is permitted until within().
+/// Make a parameter. Strengths and scatters are off at 0. `plausible` is the permitted range until within()
+/// is called.
 EffectParameter strength(std::string name, std::string meaning, const settings::Range& permitted,
                          double usual);
 EffectParameter scatter(std::string name, std::string meaning, const settings::Range& permitted,
                         double usual);
 EffectParameter shape(std::string name, std::string meaning, const settings::Range& permitted, double usual);
 
-/// What an effect says about itself.
+/// Values of all parameters of one effect, by name, in SI units.
+using EffectValues = std::map<std::string, double>;
+
+/// The properties of an effect.
 struct EffectInfo {
   std::string id;
   std::string summary;
@@ -139,15 +165,29 @@ struct EffectInfo {
   std::vector<EffectParameter> parameters;
   SignRule sign = SignRule::kPositive;  ///< of its strengths
   std::vector<Covariate> depends_on;
-  std::vector<Evidence> needs;         ///< to be named alone
-  std::vector<std::string> collinear;  ///< ids of effects that leave much the same traces
+  std::vector<Evidence> needs;         ///< needed to name the effect alone
+  std::vector<std::string> collinear;  ///< ids of effects with similar traces
   Experiment experiment = Experiment::kNone;
-  bool required = false;  ///< no chain runs without it
+  bool required = false;  ///< every chain contains it
+
+  // Further properties that `discrepancy` uses.
+  Detector detector = Detector::kNone;
+  bool looked_for = true;     ///< false: not among the candidates in this version
+  bool stochastic = false;    ///< draws new random numbers at each scan
+  bool slow = false;          ///< changes from cycle to cycle, hardly within a cycle
+  bool any_course = false;    ///< slow, and its form can imitate any other slow effect
+  bool mixture = false;       ///< sums of it with several shapes are forms of the same effect
+  bool with_bending = false;  ///< belongs to the simplest simulation of a bent sensor
+  /// Ids of effects that together describe the residual of this one where its real form differs from the
+  /// library's.
+  std::vector<std::string> wrong_form_like = {};
+  std::string also_called = {};  ///< name in data sheets, where it could be confused with another effect
 };
 
 /// The parameter of that name; throws std::out_of_range.
 const EffectParameter& parameter(const EffectInfo& info, const std::string& name);
 std::vector<EffectParameter> strengths(const EffectInfo& info);
+bool dependsOn(const EffectInfo& info, Covariate covariate);
 
 /// Names as files and reports spell them, e.g. "time_since_reversal".
 std::string name(ChainStage stage);

@@ -3,12 +3,11 @@
 #include <vector>
 
 #include "fsr_pressure_map/matrix/layout.h"
-#include "fsr_pressure_map/settings/settings.h"
 
 namespace fsr::simulation {
 
-/// Where on the sheet the pressure acts: everywhere, as gas does, or under a disc or beside an edge, as
-/// an indenter does. Uneven loads show what uniform ones cannot: crosstalk, and the map.
+/// Where on the sheet the pressure acts: everywhere (gas), or under a disc or on one side of an edge
+/// (indenter). Uneven loads make effects visible that uniform ones hide, e.g. crosstalk.
 struct LoadPattern {
   enum class Kind { kUniform, kDisc, kEdge };
   Kind kind = Kind::kUniform;
@@ -17,12 +16,8 @@ struct LoadPattern {
   double angle = 0;         ///< from x to the edge's loaded side [rad]
 };
 
-/// Reads the mapping `disc: {x, y, radius}` or `edge: {x, y, angle}`; x and y are 0 where missing.
-/// Throws InputError.
-LoadPattern readLoadPattern(const settings::Settings& settings);
-
-/// Share of each taxel's cell, pitch by pitch, that is loaded, [rows x columns], row-major; exactly 1
-/// everywhere for the uniform load.
+/// Loaded share of the cell of each taxel, which is one pitch wide and high, [rows x columns], row-major.
+/// Exactly 1 everywhere for the uniform load.
 std::vector<double> loadShares(const LoadPattern& pattern, const matrix::Layout& layout);
 
 }  // namespace fsr::simulation

@@ -7,17 +7,18 @@
 
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "fsr_pressure_map/matrix/layout.h"
-#include "fsr_pressure_map/settings/settings.h"
 #include "fsr_pressure_map/simulation/chamber_climate.h"
 #include "fsr_pressure_map/simulation/chamber_program.h"
-#include "fsr_pressure_map/simulation/effect.h"
+#include "fsr_pressure_map/simulation/effect_info.h"
 #include "fsr_pressure_map/simulation/load_pattern.h"
-#include "fsr_pressure_map/simulation/taxel_curves.h"
 #include "fsr_pressure_map/simulation/transducer.h"
 
 namespace fsr::simulation {
 
-/// The simulated board, as far as it is no effect.
+struct TaxelCurves;   // src/simulation/taxel_curves.h
+class EffectLibrary;  // src/simulation/effects/effect_library.h
+
+/// The simulated board, except for its effects on the readings.
 struct SimulatedBoard {
   std::string serial = "SIM-0001";
   std::string firmware = "1.0.0";
@@ -27,11 +28,11 @@ struct SimulatedBoard {
   double transducer_rate = 10;  ///< [Hz], 0 = no transducer on this link
 };
 
-/// Throws InputError where a scan takes longer than the time from scan to scan; `origin` stands where
-/// messages name the file.
+/// Throws InputError where a scan takes longer than the time from one scan to the next. Messages use `origin`
+/// as the name of the file.
 void validate(const SimulatedBoard& board, const std::string& origin);
 
-/// One effect that is enabled, with all its parameters.
+/// An effect that is enabled, with all its parameters.
 struct EnabledEffect {
   std::string id;
   EffectValues values;
@@ -39,11 +40,11 @@ struct EnabledEffect {
   std::vector<std::string> only_surfaces{};  ///< by name; empty = all
 };
 
-/// One mount of the matrix and what the chamber then does: one bag.
+/// One mount of the matrix and the program of the chamber during it. It becomes one bag.
 struct Station {
   matrix::Surface surface;  ///< mounts are numbered from 1
   LoadPattern load;
-  double pause = 60;  ///< at rest before it, not recorded [s]
+  double pause = 60;  ///< rest before it, which is not recorded [s]
   ChamberProgram program;
 };
 
@@ -55,13 +56,16 @@ struct SimulationSettings {
   matrix::Layout layout{{7, 10}, 0.010, 0.010};
   SimulatedBoard board;
   ChamberProtocol chamber;       ///< cycles that the emulator runs
-  std::vector<Station> session;  ///< what `simulate` goes through, at least one
+  std::vector<Station> session;  ///< stations of `simulate`, at least one
   double start = 1704099600;     ///< date of rig time 0 [s since 1970]
   ChamberClimate climate;
   Transducer transducer;
-  std::vector<EnabledEffect> effects;               ///< in the library's order
-  std::shared_ptr<const TaxelCurves> taxel_curves;  ///< beyond the static law; none = nothing
-  std::string taxel_curves_file;                    ///< where they come from, as the settings name it
+  std::vector<EnabledEffect> effects;  ///< in the library's order
+  std::shared_ptr<const TaxelCurves>
+      taxel_curves;               ///< deviations of single taxels from the static curve; may be null
+  std::string taxel_curves_file;  ///< their file, as the settings name it
+
+  std::shared_ptr<const EffectLibrary> library;  ///< of `effects`; null = the effects of this package
 
   /// nullptr where it is not enabled.
   const EnabledEffect* effect(const std::string& id) const;
@@ -89,7 +93,6 @@ struct SimulationSettings {
 ///     taxel_curves: taxel_curves.csv    # beside this file; see TaxelCurves
 ///
 /// Throws InputError that names unknown effects and keys, and values out of range.
-SimulationSettings readSimulation(const settings::Settings& settings);
 SimulationSettings readSimulationFile(const std::string& path);
 
 }  // namespace fsr::simulation

@@ -9,10 +9,10 @@
 
 namespace fsr::statistics {
 
-// Measures of how far predictions lie from the reference. An error is predicted - reference.
-// NaN stands where a measure has no meaning for the data; every function says when.
+// Measures of the errors of predictions. An error is predicted - reference. A measure that has no meaning for
+// the data is NaN; every function says when.
 
-/// R2 = 1 - SSE / SST, SST about the mean of `reference`. Negative where the mean predicts better.
+/// R2 = 1 - SSE / SST, with SST about the mean of `reference`. Negative where the mean predicts better.
 /// NaN where the reference has fewer than two values or does not vary.
 double rSquared(const std::vector<double>& predicted, const std::vector<double>& reference);
 
@@ -21,25 +21,25 @@ double rSquared(const std::vector<double>& predicted, const std::vector<double>&
 double rmsePercent(const std::vector<double>& predicted, const std::vector<double>& reference);
 
 /// The q-quantile, 0 <= q <= 1, interpolated between order statistics (R's type 7, numpy's default).
-/// NaN of an empty list. Reorders `values`.
+/// NaN for an empty list. Reorders `values`.
 double quantile(std::vector<double>& values, double q);
 
-/// Errors as one would state them for use. All NaN where `count` is 0.
+/// Summary of errors. All NaN where `count` is 0.
 struct ErrorSummary {
   std::size_t count = 0;
-  double bias = std::numeric_limits<double>::quiet_NaN();  ///< mean error [Pa]
-  double rmse = std::numeric_limits<double>::quiet_NaN();  ///< [Pa]
-  double limit_low =
-      std::numeric_limits<double>::quiet_NaN();  ///< bias - 1.96 deviations [Pa]; NaN below two
-  double limit_high =
-      std::numeric_limits<double>::quiet_NaN();  ///< bias + 1.96 deviations [Pa]; NaN below two
+  double bias = std::numeric_limits<double>::quiet_NaN();       ///< mean error [Pa]
+  double rmse = std::numeric_limits<double>::quiet_NaN();       ///< [Pa]
+  double limit_low = std::numeric_limits<double>::quiet_NaN();  ///< bias - 1.96 standard deviations [Pa]; NaN
+                                                                ///< below two errors
+  double limit_high = std::numeric_limits<double>::quiet_NaN();    ///< bias + 1.96 standard deviations [Pa];
+                                                                   ///< NaN below two errors
   double p95_absolute = std::numeric_limits<double>::quiet_NaN();  ///< 95th percentile of |error| [Pa]
 };
 
 /// `errors` in Pa.
 ErrorSummary summariseErrors(const std::vector<double>& errors);
 
-/// Errors by pressure bin, both directions together and each alone.
+/// Errors by pressure bin, for both directions of load together and for each alone.
 struct BinnedErrors {
   struct Directions {
     ErrorSummary all;
@@ -50,7 +50,7 @@ struct BinnedErrors {
   std::array<Directions, kPressureBins> bins;
 };
 
-/// Collects errors bin by bin.
+/// Collects errors by pressure bin and direction of load.
 class ErrorBins {
  public:
   /// `error` and `reference` in Pa.
@@ -65,8 +65,8 @@ class ErrorBins {
   std::array<std::array<std::vector<float>, kDirections>, kPressureBins> errors_;
 };
 
-/// Mean and sample deviation over taxels. NaN values are left out; NaN where nothing is left
-/// (deviation: where fewer than two are).
+/// Mean and sample standard deviation over taxels. NaN values are left out. The mean of no value and the
+/// deviation of fewer than two values are NaN.
 struct Spread {
   double mean = std::numeric_limits<double>::quiet_NaN();
   double deviation = std::numeric_limits<double>::quiet_NaN();

@@ -10,17 +10,18 @@
 
 namespace fsr::view {
 
-/// How a heat map looks; every default stands here.
+/// Style of a heat map, with all defaults.
 struct HeatMapStyle {
   PressureScale scale;
   MapLayer layer = MapLayer::kPressure;
-  bool smooth = false;    ///< colours run over from taxel to taxel; false: a square each
-  int longer_side = 400;  ///< of the matrix in the picture, about [pixels], 64 to 4096
+  bool smooth = false;    ///< true: colours are interpolated between taxels; false: one square for each taxel
+  int longer_side = 400;  ///< longer side of the matrix in the picture, approximately [pixels], 64 to 4096
 };
 
-/// Draws heat maps: the matrix as its arrays are printed, row 0 on top (the sheet seen from its back), marks
-/// on taxels that are not to be believed as they stand (taxel_look.h), colour bar with unit and range, the
-/// key of the marks, and lines of text above.
+/// Draws heat maps. Row 0 is on top, as arrays are printed (the sheet seen from its back). Taxels whose value
+/// is not reliable have a mark: a cross for no reading, an open square for saturated, two diagonals for
+/// extrapolated, a dash for below range. A picture also has a colour bar with unit and range, the key of the
+/// marks, and lines of text above.
 class HeatMap {
  public:
   explicit HeatMap(const HeatMapStyle& style) : style_(style) {}
@@ -28,11 +29,11 @@ class HeatMap {
   void setScale(const PressureScale& scale) { style_.scale = scale; }
   const HeatMapStyle& style() const { return style_; }
 
-  /// Width and height depend on the matrix, the style and the number of lines alone. Throws InputError for
-  /// a map without taxels or with arrays that do not fit its layout.
+  /// Width and height of the picture depend only on the matrix, the style and the number of lines. Throws
+  /// InputError for a map without taxels or with arrays that do not fit its layout.
   Image draw(const map::PressureMap& map, const std::vector<std::string>& lines = {}) const;
 
-  /// Where a taxel's centre lies in draw()'s picture.
+  /// Position of a taxel's centre in the picture of draw().
   Pixel centre(const matrix::Layout& layout, matrix::TaxelIndex taxel, std::size_t lines) const;
 
  private:

@@ -8,13 +8,13 @@
 
 namespace fsr::view {
 
-/// A point of an image [pixels] from its top left corner.
+/// A point of an image [pixels], counted from the top left corner.
 struct Pixel {
   int x = 0;
   int y = 0;
 };
 
-/// An rgb8 picture and the little drawing that legends need. What lies outside the picture is left out.
+/// An rgb8 picture with simple drawing functions. Pixels outside the picture are ignored.
 class Image {
  public:
   Image() = default;
@@ -28,14 +28,14 @@ class Image {
 
   Colour at(Pixel pixel) const;
   void set(Pixel pixel, Colour colour);
-  /// Pixels to the right of `left`, itself the first.
+  /// Sets the pixels from `left` to the right, one for each colour.
   void setRow(Pixel left, const std::vector<Colour>& colours);
-  /// `corner` is the top left one.
+  /// Fills a rectangle; `corner` is its top left corner.
   void fill(Pixel corner, int width, int height, Colour colour);
-  /// `thickness` pixels wide.
+  /// Draws a straight line, `thickness` pixels wide.
   void line(Pixel from, Pixel to, Colour colour, int thickness = 1);
 
-  /// Draws ASCII text with its top left at `corner`; other bytes become '?'.
+  /// Draws ASCII text with its top left corner at `corner`. Other bytes are drawn as '?'.
   void text(Pixel corner, const std::string& text, Colour colour);
   static int textWidth(const std::string& text);
   static constexpr int kTextHeight = 13;
@@ -46,7 +46,7 @@ class Image {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// The picture as the bytes of a PNG file. Throws InputError where memory or libpng fail.
+/// Encodes the picture as a PNG file. Throws InputError if libpng fails or memory runs out.
 std::string pngOf(const Image& image);
 
 }  // namespace fsr::view

@@ -7,34 +7,35 @@
 
 namespace fsr::view {
 
-/// What of a map is shown in colour.
+/// Quantity of a map that is shown in colour.
 enum class MapLayer { kPressure, kDeviation };
 
 /// The layer's values [rows x columns], row-major [Pa], NaN = no reading.
 const std::vector<float>& layerOf(const map::PressureMap& map, MapLayer layer);
 
-/// "pressure, gauge" or "standard deviation": what a legend calls it.
+/// Name for legends: "gauge pressure" or "standard deviation".
 const char* name(MapLayer layer);
 
-/// The layer between taxel centres, bilinear; level beyond the outer centres. A taxel without a value gives
-/// none, and takes no part in its neighbours'. The values must outlive it.
+/// Interpolates a layer bilinearly between taxel centres. Beyond the outer centres it is constant. A point
+/// nearest to a taxel without a value is NaN; elsewhere such a taxel is left out of the interpolation. Keeps
+/// a pointer to `values` [rows x columns], row-major: they must outlive this object.
 class SmoothLayer {
  public:
   SmoothLayer(const std::vector<float>& values, matrix::MatrixSize size)
       : values_(values.data()), size_(size) {}
 
-  /// A coordinate along rows or columns: the two centres beside it, and how far it is from the first.
+  /// A coordinate along rows or columns: the two taxels beside it, and its distance from the first [pitch].
   struct Place {
     int low = 0;
     int high = 0;
     double part = 0;
   };
-  /// Coordinate 0 is the centre of row (column) 0, 1 that of the next.
+  /// Coordinate 0 is the centre of row (column) 0, coordinate 1 that of the next one.
   Place row(double coordinate) const { return place(coordinate, size_.rows); }
   Place column(double coordinate) const { return place(coordinate, size_.columns); }
 
   double at(const Place& row, const Place& column) const;
-  /// at() for all `columns` of one row; quicker than one by one where every taxel has a value.
+  /// at() for all `columns` of one row; faster than single calls if every taxel has a value.
   void alongRow(const Place& row, const std::vector<Place>& columns, std::vector<double>& result) const;
   double at(double r, double c) const { return at(row(r), column(c)); }
 

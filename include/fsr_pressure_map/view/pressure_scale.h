@@ -7,18 +7,19 @@
 
 namespace fsr::view {
 
-/// Units of screens; everything else is in Pa. Only a picture of raw scans has counts, which are no pressure.
+/// Units for display; all other interfaces use Pa. kCount is for pictures of raw scans, which are not
+/// pressures.
 enum class PressureUnit { kKilopascal, kMillimetreOfMercury, kCount };
 
 std::vector<std::string> pressureUnitNames();  ///< kPa, mmHg
-/// Throws InputError for a name that pressureUnitNames() does not have.
+/// Throws InputError for a name that is not among pressureUnitNames().
 PressureUnit pressureUnitOf(const std::string& name);
 std::string name(PressureUnit unit);
-/// One unit [Pa]; the conventional mmHg is 133.322387415 Pa (ISO 80000-4:2006). A scale of counts holds
-/// counts.
+/// Size of one unit [Pa]. The conventional mmHg is 133.322387415 Pa (ISO 80000-4:2006). For kCount it is 1:
+/// such a scale contains counts.
 double pascals(PressureUnit unit);
 
-/// From pressure to colour, and what a legend says about it.
+/// Assigns colours to pressures, with the unit for the legend.
 struct PressureScale {
   double low = 0;       ///< [Pa]
   double high = 600e3;  ///< [Pa]
@@ -28,19 +29,19 @@ struct PressureScale {
   Colour colour(double pressure) const { return colourAt(colours, (pressure - low) / (high - low)); }
 };
 
-/// Throws InputError unless low < high, both finite.
+/// Throws InputError unless low and high are finite and low < high.
 void requireSound(const PressureScale& scale);
 
-/// A pressure [Pa] in the scale's unit, e.g. "312 kPa", "-"; NaN is "-".
+/// A pressure [Pa] as text in a unit, e.g. "312 kPa". NaN and infinity give "-".
 std::string pressureText(double pressure, PressureUnit unit);
 
-/// A mark at a colour bar.
+/// A tick of a colour bar.
 struct Tick {
   double pressure = 0;  ///< [Pa]
   std::string label;    ///< number in the scale's unit
 };
 
-/// Round values inside the scale, at most `most` of them, a step of 1, 2 or 5 times a power of ten apart.
+/// Round values inside the scale, at most `most` of them. Their distance is 1, 2 or 5 times a power of ten.
 std::vector<Tick> ticks(const PressureScale& scale, int most);
 
 }  // namespace fsr::view

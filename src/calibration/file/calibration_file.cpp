@@ -25,14 +25,14 @@ constexpr std::size_t kIdDigits = 12;
 // 32 x 32 taxels of 16 bit with six classes fit [bytes].
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{4} << 30;
 
-// The whole user block: a line of text, the rest zeros.
+// The user block: a line of text, filled up with zeros.
 std::string userBlock(std::uint64_t schema, const std::string& hash) {
   std::string block = std::string(kFormat) + " schema=" + std::to_string(schema) + " sha256=" + hash + "\n";
   block.resize(hdf5::kUserBlock, '\0');
   return block;
 }
 
-// The schema that the user block names; refuses what is no calibration file.
+// The schema that the user block names. Refuses a file that is not a calibration.
 std::uint64_t schemaOf(const std::string& bytes) {
   if (bytes.empty()) throw settings::InputError("is empty; train again, or copy the file again");
   const std::string start = std::string(kFormat) + " schema=";
@@ -50,7 +50,7 @@ void readUpTo(std::uintmax_t size, std::ifstream& file, std::string& bytes) {
   }
 }
 
-// The file; of one that is no calibration no more than its first line.
+// The bytes of the file. Of a file that is not a calibration only the first line is read.
 std::string readWhole(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw settings::InputError("cannot be opened (" + std::string(std::strerror(errno)) + ")");
@@ -65,13 +65,11 @@ std::string readWhole(const std::string& path) {
   return bytes;
 }
 
-// The id; refuses bytes that do not have the hash that the user block names.
-std::string verified(const std::string& bytes) {
+// The id. Refuses bytes that do not have the hash that the user block names.
+std::string verified(const std::string& bytes, std::uint64_t schema) {
   const std::size_t content = bytes.size() - std::min(bytes.size(), hdf5::kUserBlock);
   const std::string hash = settings::sha256(bytes.data() + bytes.size() - content, content);
-  // The hash does not cover the line's own number, so that this is held against what the schema brought.
-  const std::uint64_t own = bytes.find(kRuleMeaning) == std::string::npos ? 1 : kCalibrationSchema;
-  if (content == 0 || bytes.compare(0, hdf5::kUserBlock, userBlock(own, hash)) != 0) {
+  if (content == 0 || bytes.compare(0, hdf5::kUserBlock, userBlock(schema, hash)) != 0) {
     throw settings::InputError(
         "is damaged or cut short: its bytes do not have the SHA-256 that its first line names; "
         "copy the file again or train again");
@@ -79,19 +77,28 @@ std::string verified(const std::string& bytes) {
   return hash.substr(0, kIdDigits);
 }
 
-// The id of a whole file of a schema that is known; refuses any other.
-std::string verifiedId(const std::string& path) {
+struct VerifiedFile {
+  std::uint64_t schema;
+  std::string id;
+};
+
+// Reads a whole file. Refuses a schema that this version does not know.
+VerifiedFile verifiedFile(const std::string& path) {
   const std::string bytes = readWhole(path);
   const std::uint64_t schema = schemaOf(bytes);
+  const std::string has = "has schema " + std::to_string(schema) + ", but this version reads ";
   if (schema > kCalibrationSchema) {
-    throw settings::InputError("has schema " + std::to_string(schema) + ", but this version reads up to " +
-                               std::to_string(kCalibrationSchema) + "; update the package");
+    throw settings::InputError(has + "up to " + std::to_string(kCalibrationSchema) + "; update the package");
   }
-  return verified(bytes);
+  if (schema < kOldestSchema) {
+    throw settings::InputError(has + std::to_string(kOldestSchema) + " to " +
+                               std::to_string(kCalibrationSchema) + "; train again");
+  }
+  return {schema, verified(bytes, schema)};
 }
 
-// What changes when a file is replaced or written to: which it is, when and how long it is. Zeros where it
-// is not there.
+// Properties that change when a file is replaced or written to: inode, time, size. Zeros if it does not
+// exist.
 using FileState = std::tuple<ino_t, time_t, long, off_t>;
 
 FileState stateOf(const std::string& path) {
@@ -122,13 +129,14 @@ std::string saveCalibration(const Calibration& calibration, const std::string& p
   return hash.substr(0, kIdDigits);
 }
 
-Calibration loadCalibration(const std::string& path, CalibrationParts parts) {
+Calibration loadCalibration(const std::string& path, CalibrationParts parts,
+                            const regression::RegressorTable* regressors) {
   try {
     const FileState before = stateOf(path);
-    const std::string id = verifiedId(path);
-    Calibration calibration = readCalibration(hdf5::Reader(path), parts);
+    const VerifiedFile file = verifiedFile(path);
+    Calibration calibration = readCalibration(hdf5::Reader(path), file.schema, parts, regressors);
     if (stateOf(path) != before) throw settings::InputError("was replaced while it was read; read it again");
-    calibration.id = id;
+    calibration.id = file.id;
     return calibration;
   } catch (const settings::InputError& error) {
     throw settings::InputError(path + ": " + error.what());

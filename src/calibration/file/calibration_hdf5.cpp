@@ -1,7 +1,10 @@
 #include "calibration/file/calibration_hdf5.h"
 
+#include <memory>
+#include <utility>
+
+#include "compensation/training_statistics.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "regression/option_names.h"
 
 namespace fsr::calibration {
 
@@ -120,33 +123,11 @@ Provenance readProvenance(const hdf5::Reader& reader) {
   return provenance;
 }
 
-void writeModel(const Calibration& calibration, hdf5::Writer& writer) {
-  const regression::GrnnOptions& grnn = calibration.regressor.grnn;
-  const regression::ForestOptions& forest = calibration.regressor.forest;
-  writer.attribute("/", "model", calibration.regressor.name);
-  writer.attribute("/", "bandwidth", std::vector<double>{grnn.bandwidth});
-  writer.group("/model");
-  writer.attribute("/model", "bandwidth_chosen", calibration.bandwidth_chosen ? 1 : 0);
-  writer.attribute("/model", "spread", regression::spreadName(grnn.spread));
-  writer.attribute("/model", "distance", regression::distanceName(grnn.distance));
-  writer.attribute("/model", "weighting", regression::weightingName(grnn.weighting));
-  writer.attribute("/model", "trees", forest.trees);
-  writer.attribute("/model", "minimum_leaf", forest.minimum_leaf);
-  writer.attribute("/model", "leaf_rule", regression::leafRuleName(forest.leaf_count));
-}
-
-void readModel(const hdf5::Reader& reader, Calibration& calibration) {
-  regression::RegressorOptions& options = calibration.regressor;
-  options.name = reader.text("/", "model");
-  options.grnn.bandwidth = reader.numbers("/", "bandwidth", 1)[0];
-  if (!reader.has("/model")) return;  // the first files, all of them of a GRNN as it is by default
-  calibration.bandwidth_chosen = reader.integer("/model", "bandwidth_chosen") != 0;
-  options.grnn.spread = regression::spreadFromName(reader.text("/model", "spread"));
-  options.grnn.distance = regression::distanceFromName(reader.text("/model", "distance"));
-  options.grnn.weighting = regression::weightingFromName(reader.text("/model", "weighting"));
-  options.forest.trees = reader.integer("/model", "trees");
-  options.forest.minimum_leaf = reader.integer("/model", "minimum_leaf");
-  options.forest.leaf_count = regression::leafRuleFromName(reader.text("/model", "leaf_rule"));
+// The hash of the file does not cover the schema's number, so the content has to agree with it.
+void requireSchema(const hdf5::Reader& reader, std::uint64_t schema) {
+  if (reader.has("/rule") == (schema >= kFirstSchemaWithRule)) return;
+  throw settings::InputError("is damaged: its first line names schema " + std::to_string(schema) +
+                             ", but its content is of another; copy the file again or train again");
 }
 
 }  // namespace
@@ -167,11 +148,15 @@ void writeCalibration(const Calibration& calibration, hdf5::Writer& writer) {
   writeRule(calibration.tables, writer);
   writeCoverage(calibration.coverage, writer);
   if (!calibration.scores.conditions.empty()) writeScores(calibration.scores, writer);
-  writeStatistics(calibration.statistics, writer);
+  writeStatistics(calibration.statistics ? *calibration.statistics : compensation::TrainingStatistics{},
+                  writer);
 }
 
-Calibration readCalibration(const hdf5::Reader& reader, CalibrationParts parts) {
+Calibration readCalibration(const hdf5::Reader& reader, std::uint64_t schema, CalibrationParts parts,
+                            const regression::RegressorTable* regressors) {
+  requireSchema(reader, schema);
   Calibration calibration;
+  calibration.regressor.table = regressors;
   readModel(reader, calibration);
   calibration.folds = reader.integer("/", "folds");
   calibration.sensor = readSensor(reader);
@@ -185,7 +170,7 @@ Calibration readCalibration(const hdf5::Reader& reader, CalibrationParts parts) 
   calibration.provenance = readProvenance(reader);
   calibration.warnings = reader.texts("/provenance/warnings");
   calibration.tables = readTables(reader, calibration.layout.size);
-  readRule(reader, calibration.tables);
+  if (schema >= kFirstSchemaWithRule) readRule(reader, calibration.tables);
   calibration.tables.curvature_low = calibration.trained.curvature.low;
   calibration.tables.curvature_high = calibration.trained.curvature.high;
   compensation::TrainingStatistics statistics =
@@ -193,7 +178,9 @@ Calibration readCalibration(const hdf5::Reader& reader, CalibrationParts parts) 
   calibration.coverage = readCoverage(reader, statistics.classes);
   if (reader.integer("/", "scored") != 0) calibration.scores = readScores(reader, statistics.classes);
   statistics.full_scale = calibration.tables.full_scale;
-  if (parts == CalibrationParts::kAll) calibration.statistics = std::move(statistics);
+  if (parts == CalibrationParts::kAll) {
+    calibration.statistics = std::make_shared<const compensation::TrainingStatistics>(std::move(statistics));
+  }
   return calibration;
 }
 

@@ -28,17 +28,22 @@ namespace fsr::calibration {
 //                  code, count, sum that it points into; square_high, square_low of the rows with count > 1
 //
 // Taxels are row-major. Numbers carry `unit`, everything says its `meaning`.
+//
+// The number of the schema is in the user block (see calibration_file.h).
 constexpr std::uint64_t kCalibrationSchema = 2;
-
-// Stands in every file from schema 2 on, and in none before.
-constexpr char kRuleMeaning[] = "how the tables of the classes become the table of any curvature";
+constexpr std::uint64_t kOldestSchema = 1;
+constexpr std::uint64_t kFirstSchemaWithRule = 2;
 
 void writeCalibration(const Calibration& calibration, hdf5::Writer& writer);
 
+/// Reads content of `schema`, kOldestSchema to kCalibrationSchema. `regressors` as in loadCalibration().
 /// Throws InputError that names what is missing or does not fit.
-Calibration readCalibration(const hdf5::Reader& reader, CalibrationParts parts);
+Calibration readCalibration(const hdf5::Reader& reader, std::uint64_t schema, CalibrationParts parts,
+                            const regression::RegressorTable* regressors);
 
-// Parts with a file of their own.
+// Each part has its own source file.
+void writeModel(const Calibration& calibration, hdf5::Writer& writer);
+void readModel(const hdf5::Reader& reader, Calibration& calibration);
 void writeTables(const compensation::CurvatureTables& tables, hdf5::Writer& writer);
 compensation::CurvatureTables readTables(const hdf5::Reader& reader, matrix::MatrixSize size);
 void writeRule(const compensation::CurvatureTables& tables, hdf5::Writer& writer);
@@ -49,7 +54,7 @@ dataset::Coverage readCoverage(const hdf5::Reader& reader,
 void writeScores(const CalibrationScores& scores, hdf5::Writer& writer);
 CalibrationScores readScores(const hdf5::Reader& reader, const std::vector<dataset::CurvatureClass>& classes);
 void writeStatistics(const compensation::TrainingStatistics& statistics, hdf5::Writer& writer);
-/// `cells` = whether to read the sums too, not the classes alone.
+/// `cells`: whether to read the sums too, not only the classes.
 compensation::TrainingStatistics readStatistics(const hdf5::Reader& reader, matrix::MatrixSize size,
                                                 bool cells);
 void writeClasses(const std::string& group, const std::vector<dataset::CurvatureClass>& classes,

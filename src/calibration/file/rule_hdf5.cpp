@@ -28,7 +28,7 @@ compensation::BlendRule blendFromName(const std::string& name) {
                              "\", which this version does not know; update the package");
 }
 
-// Columns of equal length, or none of them.
+// A column of the rule; empty if the file has none.
 std::vector<double> readColumn(const std::string& path, const hdf5::Reader& reader) {
   return reader.has(path) ? reader.dataset<double>(path, reader.shape(path)) : std::vector<double>{};
 }
@@ -51,7 +51,7 @@ void writeRule(const compensation::CurvatureTables& tables, hdf5::Writer& writer
   const compensation::CurvatureRule& rule = tables.rule;
   writer.group("/rule");
   writer.attribute("/rule", "blend", blendName(rule.blend));
-  writer.attribute("/rule", "meaning", kRuleMeaning);
+  writer.attribute("/rule", "meaning", "how the tables of the classes become the table of any curvature");
   const auto column = [&](const std::string& path, const std::vector<double>& values, const std::string& unit,
                           const std::string& meaning) {
     if (!values.empty()) writer.dataset(path, values, {values.size()}, unit, meaning);
@@ -82,7 +82,6 @@ void writeRule(const compensation::CurvatureTables& tables, hdf5::Writer& writer
 }
 
 void readRule(const hdf5::Reader& reader, compensation::CurvatureTables& tables) {
-  if (!reader.has("/rule")) return;  // a file of schema 1: nearest
   compensation::CurvatureRule& rule = tables.rule;
   rule.blend = blendFromName(reader.text("/rule", "blend"));
   rule.length_scale = readColumn("/rule/length_scale", reader);

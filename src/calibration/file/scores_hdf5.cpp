@@ -4,7 +4,7 @@ namespace fsr::calibration {
 
 namespace {
 
-// Every table has one row for each class and a last one for all together.
+// Every dataset has one row for each class and a last row for all together.
 constexpr std::size_t kMeasures = 6;
 constexpr std::size_t kDirections = 3;
 constexpr std::size_t kErrors = (1 + statistics::kPressureBins) * kDirections * kMeasures;

@@ -1,13 +1,14 @@
 #include "calibration/file/calibration_hdf5.h"
+#include "compensation/training_statistics.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr::calibration {
 
 namespace {
 
-// All cells one after the other.
+// The rows of all cells, one cell after the other.
 struct Rows {
-  std::vector<std::uint64_t> first = {0};  // row where each cell begins, and the end
+  std::vector<std::uint64_t> first = {0};  // index of the first row of each cell, and the number of rows
   std::vector<std::uint16_t> code;
   std::vector<std::uint32_t> count;
   std::vector<std::int64_t> sum;
@@ -66,7 +67,7 @@ std::vector<regression::CodeStatistics> cellsOf(const Rows& rows) {
   return cells;
 }
 
-constexpr std::size_t kMostSections = 1000;  // far beyond what training cuts
+constexpr std::size_t kMostSections = 1000;  // far more than training uses
 constexpr char kConditions[] = "/statistics/conditions";
 
 void writeConditions(const std::vector<dataset::RecordedCondition>& conditions, hdf5::Writer& writer) {
@@ -82,7 +83,7 @@ void writeConditions(const std::vector<dataset::RecordedCondition>& conditions, 
                  "of each condition of each bag, bag after bag: what the classes were pooled from");
 }
 
-// None in the first files.
+// Files of the first version have none.
 std::vector<dataset::RecordedCondition> readConditions(matrix::MatrixSize size, const hdf5::Reader& reader) {
   if (!reader.has(kConditions)) return {};
   std::vector<dataset::RecordedCondition> conditions;

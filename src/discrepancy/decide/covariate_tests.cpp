@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "discrepancy/fit/cycle_levels.h"
+#include "discrepancy/thresholds.h"
 #include "fsr_pressure_map/simulation/effect_info.h"
 #include "statistics/multiple_comparisons.h"
 #include "statistics/random_stream.h"
@@ -13,9 +14,8 @@ namespace fsr::discrepancy {
 namespace {
 
 constexpr double kLevel = 0.05;
-constexpr double kLeastShare = 0.02;  // of the readings' squared error
-constexpr double kBlock = 5;          // noise hangs together for less [s]
-constexpr double kSingular = 1e-9;    // of the largest eigenvalue
+constexpr double kBlock = 5;        // noise hangs together for less [s]
+constexpr double kSingular = 1e-9;  // of the largest eigenvalue
 constexpr std::size_t kRateTerms = 2;
 constexpr std::size_t kFewTaxels = 4;  // too few to have rows and columns
 
@@ -105,7 +105,7 @@ struct Terms {
 
 class Tester {
  public:
-  explicit Tester(const CovariateTests& with) : with_(with), grams_(with.competition.grams()) {
+  explicit Tester(const CovariateTests& with) : with_(with), grams_(with.candidates.grams()) {
     std::vector<bool> wanted;
     for (const MeasuredCycle& cycle : with.measured.cycles) wanted.push_back(cycle.use == CycleUse::kFit);
     for (std::size_t c = 0; c < wanted.size(); ++c) {
@@ -113,8 +113,8 @@ class Tester {
     }
     total_ = grams_.sum(wanted);
     for (const std::size_t c : cycles_)
-      moments_ += static_cast<double>(with.measured.cycles[c].last - with.measured.cycles[c].first);
-    const Trace none = Trace::Zero(static_cast<Eigen::Index>(with.measured.moments()));
+      samples_ += static_cast<double>(with.measured.cycles[c].last - with.measured.cycles[c].first);
+    const Trace none = Trace::Zero(static_cast<Eigen::Index>(with.measured.samples()));
     square_ = std::max(1e-300, spreadOf(with.measured, with.taxels, none).square);
   }
 
@@ -139,14 +139,14 @@ class Tester {
 
   const CovariateTests& with_;
   const CycleGrams& grams_;
-  std::vector<std::size_t> cycles_;  // to fit on
+  std::vector<std::size_t> cycles_;  // to fit
   Eigen::MatrixXd total_;
-  double moments_ = 0, square_ = 0;
+  double samples_ = 0, square_ = 0;
   std::vector<CovariateTest> tests_;
 };
 
 Columns Tester::columnsOf(const std::string& family) const {
-  for (const Family& one : with_.competition.generics()) {
+  for (const Family& one : with_.candidates.generics()) {
     if (one.id == family) return one.alternatives.front().columns;
   }
   return {};
@@ -175,7 +175,7 @@ Eigen::MatrixXd Tester::sums(const Terms& terms) const {
 // Of the sum over a term of unit length, where noise hangs together within a block: from one block to the
 // next, so that what is slow does not count.
 double Tester::blockVariance() const {
-  const Trace target = with_.competition.target();
+  const Trace target = with_.candidates.target();
   double squares = 0, number = 0;
   for (const std::size_t c : cycles_) {
     const MeasuredCycle& cycle = with_.measured.cycles[c];
@@ -201,7 +201,7 @@ void Tester::testWithinCycles(const std::string& covariate, const Terms& terms) 
   const bool exchangeable = cycles_.size() >= CovariateTests::kFewestExchangeable;
   const Outcome outcome = exchangeable ? flipSigns(cycles, with_.draws, stream(covariate))
                                        : drawBlocks(cycles, blockVariance(), with_.draws, stream(covariate));
-  add(covariate, exchangeable ? "sign_flips" : "block_bootstrap", outcome, outcome.beyond / moments_);
+  add(covariate, exchangeable ? "sign_flips" : "block_bootstrap", outcome, outcome.beyond / samples_);
 }
 
 // How each taxel deviates from the common trace, along its terms of direction and rate; [cycles x (taxels x
@@ -211,7 +211,7 @@ Eigen::MatrixXd Tester::deviations(Eigen::Index& number) const {
   Columns along = columnsOf("direction x pressure"), rate = columnsOf("pressure_rate");
   rate.resize(std::min(rate.size(), kRateTerms));
   along.insert(along.end(), rate.begin(), rate.end());
-  const Eigen::MatrixXd terms = with_.competition.columns(along) * whitening(part(total_, along, along));
+  const Eigen::MatrixXd terms = with_.candidates.columns(along) * whitening(part(total_, along, along));
   number = terms.cols();
   const auto taxels = static_cast<Eigen::Index>(measured.taxels());
   Eigen::MatrixXd by_taxel(static_cast<Eigen::Index>(cycles_.size()), taxels * number);
@@ -246,7 +246,7 @@ void Tester::testLines(simulation::Covariate covariate, const Eigen::MatrixXd& b
   }
   const Outcome outcome = flipSigns(sums, with_.draws, stream(simulation::name(covariate)));
   const auto taxels = static_cast<double>(with_.measured.usedTaxels());
-  add(simulation::name(covariate), "sign_flips", outcome, outcome.beyond / moments_ / taxels);
+  add(simulation::name(covariate), "sign_flips", outcome, outcome.beyond / samples_ / taxels);
 }
 
 void Tester::testPlaces() {
@@ -292,7 +292,7 @@ std::vector<CovariateTest> Tester::run() {
   const std::vector<double> adjusted = statistics::benjaminiYekutieli(p);
   for (std::size_t t = 0; t < tests_.size(); ++t) {
     tests_[t].adjusted = adjusted[t];
-    tests_[t].depends = adjusted[t] <= kLevel && tests_[t].share_of_error >= kLeastShare;
+    tests_[t].depends = adjusted[t] <= kLevel && tests_[t].share_of_error >= thresholds::kLeastShareOfError;
   }
   return tests_;
 }

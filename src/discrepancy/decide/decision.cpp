@@ -3,22 +3,23 @@
 #include <algorithm>
 #include <utility>
 
-#include "discrepancy/decide/contest.h"
-#include "discrepancy/decide/rivals.h"
+#include "discrepancy/decide/comparison.h"
+#include "discrepancy/decide/credible_set.h"
 #include "discrepancy/decide/second_effect.h"
+#include "discrepancy/thresholds.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kLeastShareOfCeiling = 0.5;  // of an effect, else it is unknown
-constexpr double kGenericBetter = 0.1;        // of the ceiling
+constexpr double kLeastShareOfExplainable = 0.5;  // of an effect, else it is unknown
+constexpr double kGenericBetter = 0.1;            // of the explainable share
 
 // Puts one explanation forward and says how sure it is.
 class Verdicts {
  public:
-  explicit Verdicts(Contest& contest) : contest_(contest) {}
+  explicit Verdicts(Comparison& comparison) : comparison_(comparison) {}
 
   Decision decide();
 
@@ -30,60 +31,61 @@ class Verdicts {
   void nameIt(const Explanation& best);
   void listCandidates();
 
-  Contest& contest_;
+  Comparison& comparison_;
   std::vector<Explanation> pairs_;  // those that are worth it, best first
   Decision decision_;
 };
 
 bool Verdicts::unknown(const Explanation& best) {
-  const Score* generic = contest_.simplestGeneric();
-  const bool none = mayBeNone(best.refined);
-  if (!generic || !(none || contest_.shows(*generic))) return false;
-  const double more = contest_.shareOf(*generic) - best.share;
-  const bool beaten = more > kGenericBetter * contest_.ceiling() &&
-                      contest_.selection().z(best.score, *generic) > weigh::kSignificant;
-  const bool weak = none || !contest_.shows(best) || best.share < kLeastShareOfCeiling * contest_.ceiling();
-  if (!weak && !(beaten && !Contest::within(contest_.covariates(*generic), best.score))) return false;
+  const Score* generic = comparison_.simplestGeneric();
+  const bool none = mayBeNone(best.refined, comparison_.library());
+  if (!generic || !(none || comparison_.shows(*generic))) return false;
+  const double more = comparison_.shareOf(*generic) - best.share;
+  const bool beaten = more > kGenericBetter * comparison_.explainable() &&
+                      comparison_.crossValidation().z(best.score, *generic) > thresholds::kSignificant;
+  const bool weak =
+      none || !comparison_.shows(best) || best.share < kLeastShareOfExplainable * comparison_.explainable();
+  if (!weak && !(beaten && !comparison_.within(comparison_.covariates(*generic), best.score))) return false;
   decision_.verdict = Verdict::kUnknown;
   decision_.explanation = *generic;
-  decision_.share = contest_.shareOf(*generic);
-  for (const simulation::Covariate c : contest_.covariates(*generic))
+  decision_.share = comparison_.shareOf(*generic);
+  for (const simulation::Covariate c : comparison_.covariates(*generic))
     decision_.depends_on.push_back(simulation::name(c));
   return true;
 }
 
 // Whether another form would add to the effects: then theirs is not quite it.
 bool Verdicts::leavesOfItsForm(const Explanation& explanation) const {
-  const Score any = contest_.inAnyForm(explanation);
-  return contest_.shareOf(any) - explanation.share > kGenericBetter * contest_.ceiling() &&
-         contest_.selection().z(explanation.score, any) > weigh::kSignificant;
+  const Score any = comparison_.inAnyForm(explanation);
+  return comparison_.shareOf(any) - explanation.share > kGenericBetter * comparison_.explainable() &&
+         comparison_.crossValidation().z(explanation.score, any) > thresholds::kSignificant;
 }
 
 bool Verdicts::fitsWell(const Explanation& explanation) const {
-  return explanation.share >= weigh::kGoodForm * contest_.ceiling() && !explanation.refined.at_bound &&
-         !leavesOfItsForm(explanation);
+  return explanation.share >= thresholds::kGoodForm * comparison_.explainable() &&
+         !explanation.refined.at_bound && !leavesOfItsForm(explanation);
 }
 
 Explanation& Verdicts::find(const std::vector<std::string>& ids) {
   const auto is = [&](const Explanation& explanation) { return explanation.score.ids == ids; };
   const auto pair = std::find_if(pairs_.begin(), pairs_.end(), is);
   if (pair != pairs_.end()) return *pair;
-  return *std::find_if(contest_.singles().begin(), contest_.singles().end(), is);
+  return *std::find_if(comparison_.singles().begin(), comparison_.singles().end(), is);
 }
 
 void Verdicts::nameIt(const Explanation& best) {
-  decision_.credible = credibleSet(contest_, pairs_, best);
+  decision_.credible = credibleSet(comparison_, pairs_, best);
   Explanation& first = find(decision_.credible.front());
-  contest_.refineOne(first);
+  comparison_.refineOne(first);
   decision_.refined = first.refined;
   decision_.explanation = first.score;
   decision_.share = first.share;
   if (decision_.credible.size() == 1) {
-    for (const auto& partner : partnersOf(contest_, first)) decision_.credible.push_back(partner);
+    for (const auto& partner : partnersOf(comparison_, first)) decision_.credible.push_back(partner);
   }
   for (std::size_t r = 1; r < decision_.credible.size(); ++r) {
     Explanation& rival = find(decision_.credible[r]);
-    contest_.refineOne(rival);
+    comparison_.refineOne(rival);
     decision_.rivals.push_back(rival.refined);
   }
   const bool good = fitsWell(first);
@@ -91,7 +93,7 @@ void Verdicts::nameIt(const Explanation& best) {
                       : good                        ? Verdict::kNamed
                                                     : Verdict::kWrongForm;
   for (const std::string& id : first.score.ids) {
-    for (const simulation::Covariate c : simulation::findEffect(id)->info.depends_on) {
+    for (const simulation::Covariate c : comparison_.infoOf(id).depends_on) {
       auto& told = decision_.depends_on;
       if (!std::count(told.begin(), told.end(), simulation::name(c))) told.push_back(simulation::name(c));
     }
@@ -99,39 +101,39 @@ void Verdicts::nameIt(const Explanation& best) {
 }
 
 void Verdicts::listCandidates() {
-  const double of_readings = contest_.shareOfReadings(1), ceiling = contest_.ceiling();
+  const double of_readings = comparison_.shareOfReadings(1), explainable = comparison_.explainable();
   const auto add = [&](const Score& score, double share) {
-    CandidateScore candidate{score.ids, "refused", 0, 0, contest_.z(score)};
-    candidate.share_of_ceiling = ceiling > 0 ? share / ceiling : 0;
+    CandidateScore candidate{score.ids, "refused", 0, 0, comparison_.z(score)};
+    candidate.share_of_explainable = explainable > 0 ? share / explainable : 0;
     candidate.share_of_error = share * of_readings;
     const auto& credible = decision_.credible;
     if (std::count(credible.begin(), credible.end(), score.ids)) candidate.outcome = "credible";
     decision_.candidates.push_back(candidate);
   };
-  for (const Explanation& e : contest_.singles()) add(e.score, e.share);
+  for (const Explanation& e : comparison_.singles()) add(e.score, e.share);
   for (const Explanation& e : pairs_) add(e.score, e.share);
-  for (const Score& score : contest_.generics()) add(score, contest_.shareOf(score));
+  for (const Score& score : comparison_.generics()) add(score, comparison_.shareOf(score));
   std::stable_sort(decision_.candidates.begin(), decision_.candidates.end(),
                    [](const CandidateScore& a, const CandidateScore& b) {
-                     return a.share_of_ceiling > b.share_of_ceiling;
+                     return a.share_of_explainable > b.share_of_explainable;
                    });
 }
 
 Decision Verdicts::decide() {
-  const Explanation* best = contest_.best();
-  const Score* generic = contest_.bestGeneric();
-  if (best && (contest_.shows(*best) || (generic && contest_.shows(*generic)))) {
-    contest_.refineNear();
-    const Explanation& one = *contest_.best();
-    contest_.raiseCeiling(one.share);
-    pairs_ = pairsWorthIt(contest_, one);
+  const Explanation* best = comparison_.best();
+  const Score* generic = comparison_.bestGeneric();
+  if (best && (comparison_.shows(*best) || (generic && comparison_.shows(*generic)))) {
+    comparison_.refineNear();
+    const Explanation& one = *comparison_.best();
+    comparison_.raiseExplainable(one.share);
+    pairs_ = pairsWorthIt(comparison_, one);
     Explanation& put = pairs_.empty() ? find(one.score.ids) : pairs_.front();
-    contest_.refineOne(put);
+    comparison_.refineOne(put);
     if (!unknown(put)) nameIt(put);
-    decision_.z = contest_.z(decision_.explanation);
-    decision_.share_of_error = contest_.shareOfError(decision_.explanation);
+    decision_.z = comparison_.z(decision_.explanation);
+    decision_.share_of_error = comparison_.shareOfError(decision_.explanation);
   }
-  decision_.ceiling = contest_.ceiling();
+  decision_.explainable = comparison_.explainable();
   listCandidates();
   return decision_;
 }
@@ -139,10 +141,10 @@ Decision Verdicts::decide() {
 }  // namespace
 
 Decision decide(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
-                const TaxelFit& taxels, const Competition& competition,
+                const TaxelFit& taxels, const Candidates& candidates,
                 const simulation::SimulationSettings& base) {
-  Contest contest(measured, common, fit, taxels, competition, base);
-  return Verdicts(contest).decide();
+  Comparison comparison(measured, common, fit, taxels, candidates, base);
+  return Verdicts(comparison).decide();
 }
 
 }  // namespace fsr::discrepancy

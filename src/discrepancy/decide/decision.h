@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "discrepancy/decide/competition.h"
+#include "discrepancy/decide/candidates.h"
 #include "discrepancy/decide/refine.h"
 #include "discrepancy/fit/taxel_fit.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
@@ -18,7 +18,7 @@ struct Decision {
   std::vector<Refined> rivals;  ///< likewise, of the other credible explanations
   std::vector<std::vector<std::string>> credible;
   std::vector<std::string> depends_on;
-  double ceiling = 0;         ///< share of the common trace's error that anything explains
+  double explainable = 0;     ///< share of the common trace's error that anything explains
   double share = 0;           ///< that the explanation does
   double share_of_error = 0;  ///< of the readings' squared error
   double z = 0;
@@ -31,7 +31,7 @@ struct Decision {
 /// Effects are compared by what their signatures explain of cycles that took no part; those that come
 /// near the best once more through the true forward model, because a large effect bends.
 Decision decide(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
-                const TaxelFit& taxels, const Competition& competition,
+                const TaxelFit& taxels, const Candidates& candidates,
                 const simulation::SimulationSettings& base);
 
 }  // namespace fsr::discrepancy

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <memory>
 
-#include "discrepancy/decide/competition.h"
+#include "discrepancy/decide/candidates.h"
 #include "discrepancy/fit/levenberg.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
@@ -46,11 +46,11 @@ settings::Range rangeOf(const simulation::EffectParameter& parameter) {
   return range;
 }
 
-std::vector<Knob> knobsOf(const std::vector<simulation::EnabledEffect>& effects) {
+std::vector<Knob> knobsOf(const simulation::EffectLibrary& library,
+                          const std::vector<simulation::EnabledEffect>& effects) {
   std::vector<Knob> knobs;
   for (std::size_t e = 0; e < effects.size(); ++e) {
-    for (const simulation::EffectParameter& parameter :
-         simulation::findEffect(effects[e].id)->info.parameters) {
+    for (const simulation::EffectParameter& parameter : library.info(effects[e].id).parameters) {
       const bool strength = parameter.role == simulation::ParameterRole::kStrength;
       const bool shape = parameter.role == simulation::ParameterRole::kShape && !parameter.tried.empty();
       const double value = effects[e].values.at(parameter.name);
@@ -69,7 +69,7 @@ simulation::SimulationSettings keepStages(simulation::SimulationSettings setting
   auto& effects = settings.effects;
   effects.erase(std::remove_if(effects.begin(), effects.end(),
                                [&](const simulation::EnabledEffect& effect) {
-                                 const bool late = simulation::findEffect(effect.id)->info.stage >=
+                                 const bool late = simulation::libraryOf(base).info(effect.id).stage >=
                                                    simulation::ChainStage::kConductance;
                                  return !base.effect(effect.id) && late != read_out;
                                }),
@@ -83,25 +83,26 @@ struct Changes {
 };
 
 Changes changesBy(const Measured& measured, const simulation::SimulationSettings& base,
-                  const simulation::SimulationSettings& added, const DrivenSignals& without, bool carried) {
+                  const simulation::SimulationSettings& added, const DrivenSignals& without,
+                  bool state_kept) {
   const simulation::SimulationSettings early = keepStages(added, base, false),
                                        late = keepStages(added, base, true);
-  const auto moments = without.load.size();
-  Changes changes{Trace::Zero(moments), Trace::Ones(moments), Trace::Zero(moments)};
+  const auto samples = without.load.size();
+  Changes changes{Trace::Zero(samples), Trace::Ones(samples), Trace::Zero(samples)};
   if (early.effects.size() > base.effects.size()) {
-    const DrivenSignals with = driven(measured, early, carried);
+    const DrivenSignals with = driven(measured, early, state_kept);
     changes.load = with.load - without.load;
     changes.gain = with.gain.cwiseQuotient(without.gain.cwiseMax(1e-9));
   }
   if (late.effects.size() > base.effects.size()) {
-    changes.reading = driven(measured, late, carried).reading - without.reading;
+    changes.reading = driven(measured, late, state_kept).reading - without.reading;
   }
   return changes;
 }
 
 // On flat surfaces the changes are those of `flat`.
 void onFlat(const Measured& measured, const Changes& flat, Changes& changes) {
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     if (!dataset::isFlat(measured.classes[measured.classOf(i)])) continue;
     const auto at = static_cast<Eigen::Index>(i);
     changes.load[at] = flat.load[at];
@@ -116,12 +117,12 @@ void onFlat(const Measured& measured, const Changes& flat, Changes& changes) {
 void levelGain(const Measured& measured, Changes& changes) {
   const auto classes = static_cast<Eigen::Index>(measured.classes.size());
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(classes), number = sum;
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     const auto c = static_cast<Eigen::Index>(measured.classOf(i));
     sum[c] += changes.gain[static_cast<Eigen::Index>(i)];
     number[c] += 1;
   }
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     const auto c = static_cast<Eigen::Index>(measured.classOf(i));
     changes.gain[static_cast<Eigen::Index>(i)] *= number[c] / std::max(1e-9, sum[c]);
   }
@@ -140,17 +141,17 @@ class Refiner {
  public:
   Refiner(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
           const simulation::SimulationSettings& base, std::vector<simulation::EnabledEffect> effects,
-          bool carried, std::vector<bool> bent_only)
+          bool state_kept, std::vector<bool> bent_only)
       : measured_(measured),
         common_(common),
         fit_(fit),
         base_(base),
         effects_(std::move(effects)),
-        carried_(carried),
+        state_kept_(state_kept),
         bent_only_(std::move(bent_only)),
-        plain_(driven(measured, base, carried)) {
+        plain_(driven(measured, base, state_kept)) {
     bent_only_.resize(effects_.size(), false);
-    knobs_ = knobsOf(effects_);
+    knobs_ = knobsOf(simulation::libraryOf(base), effects_);
     for (const Knob& knob : knobs_) at_.push_back(knob.read(effects_[knob.effect].values.at(knob.name)));
   }
 
@@ -171,17 +172,17 @@ class Refiner {
       bent = withEffect(bent, effects[e]);
       if (!bent_only_[e]) flat = withEffect(flat, effects[e]);
     }
-    Changes changes = changesBy(measured_, base_, bent, plain_, carried_);
+    Changes changes = changesBy(measured_, base_, bent, plain_, state_kept_);
     if (flat.effects.size() < bent.effects.size())
-      onFlat(measured_, changesBy(measured_, base_, flat, plain_, carried_), changes);
+      onFlat(measured_, changesBy(measured_, base_, flat, plain_, state_kept_), changes);
     levelGain(measured_, changes);
     return changes;
   }
-  Trace withoutShown(Trace trace) const {
+  Trace withoutHoldOut(Trace trace) const {
     for (const MeasuredCycle& cycle : measured_.cycles) {
       if (cycle.use == CycleUse::kFit) continue;
-      const auto moments = static_cast<Eigen::Index>(cycle.last - cycle.first);
-      trace.segment(static_cast<Eigen::Index>(cycle.first), moments).setZero();
+      const auto samples = static_cast<Eigen::Index>(cycle.last - cycle.first);
+      trace.segment(static_cast<Eigen::Index>(cycle.first), samples).setZero();
     }
     return trace;
   }
@@ -190,7 +191,7 @@ class Refiner {
     try {
       const Changes changes = changesAt(at);
       const Trace freed = freedOf(common_.all, fit_.unloaded(), changes);
-      return withoutShown(StaticFit(fit_, freed, loadOf(measured_, changes)).project(freed));
+      return withoutHoldOut(StaticFit(fit_, freed, loadOf(measured_, changes)).project(freed));
     } catch (const settings::InputError&) {
       return std::nullopt;
     }
@@ -203,7 +204,7 @@ class Refiner {
   const StaticFit& fit_;
   const simulation::SimulationSettings& base_;
   std::vector<simulation::EnabledEffect> effects_;
-  bool carried_;
+  bool state_kept_;
   std::vector<bool> bent_only_;  // of each effect
   std::vector<Knob> knobs_;
   std::vector<double> at_;
@@ -217,9 +218,9 @@ std::vector<double> Refiner::deviations(const Eigen::VectorXd& left) const {
   Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
   for (const MeasuredCycle& cycle : measured_.cycles) {
     const auto first = static_cast<Eigen::Index>(cycle.first);
-    const auto moments = static_cast<Eigen::Index>(cycle.last - cycle.first);
+    const auto samples = static_cast<Eigen::Index>(cycle.last - cycle.first);
     const Eigen::VectorXd pull =
-        jacobian.middleRows(first, moments).transpose() * left.segment(first, moments);
+        jacobian.middleRows(first, samples).transpose() * left.segment(first, samples);
     spread += pull * pull.transpose();
   }
   Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
@@ -249,13 +250,13 @@ Refined Refiner::run() {
   for (std::size_t k = 0; k < at_.size(); ++k) at_[k] = knobs_[k].read(knobs_[k].write(at_[k]));
   Refined refined;
   refined.effects = effectsAt(at_);
-  refined.carried = carried_;
+  refined.state_kept = state_kept_;
   refined.parameters.resize(effects_.size());
   refined.trace = Trace::Zero(common_.all.size());
   const auto left = error(at_);
   if (!left) return refined;
   refined.left = *left;
-  refined.share = 1 - left->squaredNorm() / withoutShown(fit_.project(common_.all)).squaredNorm();
+  refined.share = 1 - left->squaredNorm() / withoutHoldOut(fit_.project(common_.all)).squaredNorm();
   const Changes changes = changesAt(at_);
   const Trace freed = freedOf(common_.all, fit_.unloaded(), changes);
   const Trace after = StaticFit(fit_, freed, loadOf(measured_, changes)).residual(freed);
@@ -264,7 +265,7 @@ Refined Refiner::run() {
   for (std::size_t k = 0; k < knobs_.size(); ++k) {
     const Knob& knob = knobs_[k];
     const simulation::EffectParameter& info =
-        simulation::parameter(simulation::findEffect(effects_[knob.effect].id)->info, knob.name);
+        simulation::parameter(measured_.info(effects_[knob.effect].id), knob.name);
     const double value = knob.write(at_[k]), half = kTwoSided * deviation[k];
     refined.parameters[knob.effect].push_back(
         {knob.name, value, info.permitted.unit, {knob.write(at_[k] - half), knob.write(at_[k] + half)}});
@@ -276,10 +277,10 @@ Refined Refiner::run() {
 
 }  // namespace
 
-bool mayBeNone(const Refined& refined) {
+bool mayBeNone(const Refined& refined, const simulation::EffectLibrary& library) {
   bool any = false;
   for (std::size_t e = 0; e < refined.parameters.size(); ++e) {
-    const simulation::EffectInfo& info = simulation::findEffect(refined.effects[e].id)->info;
+    const simulation::EffectInfo& info = library.info(refined.effects[e].id);
     for (const FittedParameter& fitted : refined.parameters[e]) {
       const simulation::EffectParameter& known = simulation::parameter(info, fitted.name);
       if (known.role != simulation::ParameterRole::kStrength) continue;
@@ -292,7 +293,7 @@ bool mayBeNone(const Refined& refined) {
 
 simulation::SimulationSettings withEffect(simulation::SimulationSettings settings,
                                           const simulation::EnabledEffect& effect) {
-  const std::vector<std::string> order = simulation::effectIds();
+  const std::vector<std::string> order = simulation::libraryOf(settings).ids();
   const auto place = [&](const std::string& id) { return std::find(order.begin(), order.end(), id); };
   auto& effects = settings.effects;
   effects.erase(std::remove_if(effects.begin(), effects.end(),
@@ -311,11 +312,11 @@ void takeOut(Measured& measured, const StaticFit& fit, const simulation::Simulat
   const Trace load = loadOf(measured, changes);
   if (measured.gain.empty()) {
     measured.unloaded = fit.unloaded();
-    measured.gain.assign(measured.moments(), 1.0);
-    measured.added.assign(measured.moments(), 0.0);
+    measured.gain.assign(measured.samples(), 1.0);
+    measured.added.assign(measured.samples(), 0.0);
   }
   measured.load.assign(load.data(), load.data() + load.size());
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     measured.gain[i] *= changes.gain[static_cast<Eigen::Index>(i)];
     measured.added[i] += changes.reading[static_cast<Eigen::Index>(i)];
   }
@@ -323,7 +324,7 @@ void takeOut(Measured& measured, const StaticFit& fit, const simulation::Simulat
 
 bool hasTimeCourse(const simulation::EffectInfo& info) {
   return (info.kind == simulation::EffectKind::kAdditive || info.kind == simulation::EffectKind::kGrid) &&
-         !isStatic(info) && info.id != "mains_pickup";
+         !isStatic(info) && info.detector == simulation::Detector::kNone;
 }
 
 simulation::SimulationSettings takeOutEnabled(Measured& measured, const CommonTraces& common,
@@ -334,7 +335,7 @@ simulation::SimulationSettings takeOutEnabled(Measured& measured, const CommonTr
   std::vector<simulation::EnabledEffect> moving;
   still.effects.clear();
   for (const simulation::EnabledEffect& effect : base.effects) {
-    const bool moves = hasTimeCourse(simulation::findEffect(effect.id)->info);
+    const bool moves = hasTimeCourse(measured.info(effect.id));
     (moves ? moving : still.effects).push_back(effect);
   }
   if (moving.empty()) return base;
@@ -349,15 +350,14 @@ simulation::SimulationSettings takeOutEnabled(Measured& measured, const CommonTr
   return with;
 }
 
-Foretold foretell(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
+Predicted predict(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                   const simulation::SimulationSettings& base,
                   const std::vector<simulation::EnabledEffect>& effects) {
   const DrivenSignals plain = driven(measured, base, true);
   const Residuals residuals = [&](const std::vector<double>& at) -> std::optional<Eigen::VectorXd> {
     simulation::SimulationSettings with = base;
     for (simulation::EnabledEffect effect : effects) {
-      for (const simulation::EffectParameter& parameter :
-           simulation::strengths(simulation::findEffect(effect.id)->info)) {
+      for (const simulation::EffectParameter& parameter : simulation::strengths(measured.info(effect.id))) {
         effect.values[parameter.name] *= std::exp(std::clamp(at[0], -4.0, 2.0));
       }
       with = withEffect(with, effect);
@@ -371,7 +371,7 @@ Foretold foretell(const Measured& measured, const CommonTraces& common, const St
       return std::nullopt;
     }
   };
-  Foretold told;
+  Predicted told;
   const double before = fit.project(common.all).squaredNorm();
   const auto as_told = residuals({0});
   if (!as_told || before <= 0) return told;
@@ -384,8 +384,8 @@ Foretold foretell(const Measured& measured, const CommonTraces& common, const St
   double squares = 0;
   for (const MeasuredCycle& cycle : measured.cycles) {
     const auto first = static_cast<Eigen::Index>(cycle.first);
-    const auto moments = static_cast<Eigen::Index>(cycle.last - cycle.first);
-    squares += std::pow(slope.segment(first, moments).dot(best->segment(first, moments)), 2);
+    const auto samples = static_cast<Eigen::Index>(cycle.last - cycle.first);
+    squares += std::pow(slope.segment(first, samples).dot(best->segment(first, samples)), 2);
   }
   const double half = kTwoSided * std::sqrt(squares) / std::max(1e-300, slope.squaredNorm());
   told.interval = {told.size * std::exp(-half), told.size * std::exp(half)};
@@ -394,9 +394,9 @@ Foretold foretell(const Measured& measured, const CommonTraces& common, const St
 
 Refined refine(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                const simulation::SimulationSettings& base,
-               const std::vector<simulation::EnabledEffect>& start, bool carried,
+               const std::vector<simulation::EnabledEffect>& start, bool state_kept,
                std::vector<bool> bent_only) {
-  return Refiner(measured, common, fit, base, start, carried, std::move(bent_only)).run();
+  return Refiner(measured, common, fit, base, start, state_kept, std::move(bent_only)).run();
 }
 
 }  // namespace fsr::discrepancy

@@ -7,6 +7,7 @@
 #include "discrepancy/fit/static_fit.h"
 #include "discrepancy/samples/measured.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
+#include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
 
@@ -14,26 +15,27 @@ namespace fsr::discrepancy {
 simulation::SimulationSettings withEffect(simulation::SimulationSettings settings,
                                           const simulation::EnabledEffect& effect);
 
-/// Effects whose parameters fit the common trace best, on the cycles that are not shown, through the
+/// Effects whose parameters fit the common trace best, on the cycles that are not held out, through the
 /// true forward model.
 struct Refined {
   std::vector<simulation::EnabledEffect> effects;
   std::vector<std::vector<FittedParameter>> parameters;  ///< of each effect, those that were fitted
-  Trace trace;            ///< what they take away from what the static curves left of the common trace
-  Trace left;             ///< of the projected common trace, 0 in cycles to show on
-  double share = 0;       ///< of the squared error of the projected common trace
-  bool at_bound = false;  ///< a strength left its plausible range
-  bool carried = true;    ///< as it was asked for
+  Trace trace;             ///< what they take away from what the static curves left of the common trace
+  Trace left;              ///< of the projected common trace, 0 in hold-out cycles
+  double share = 0;        ///< of the squared error of the projected common trace
+  bool at_bound = false;   ///< a strength left its plausible range
+  bool state_kept = true;  ///< as it was asked for
 };
 
 /// Whether the intervals of all strengths hold the value at which the effects do nothing; false where no
 /// strength was fitted.
-bool mayBeNone(const Refined& refined);
+bool mayBeNone(const Refined& refined,
+               const simulation::EffectLibrary& library = simulation::EffectLibrary::shipped());
 
 /// `bent_only`, of each effect: it acts where the surface is bent, and nowhere else; empty = none does.
 Refined refine(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                const simulation::SimulationSettings& base,
-               const std::vector<simulation::EnabledEffect>& start, bool carried,
+               const std::vector<simulation::EnabledEffect>& start, bool state_kept,
                std::vector<bool> bent_only);
 
 /// Takes what `with` has beyond `without` out of the readings: from now on curves are functions of the load
@@ -49,13 +51,13 @@ simulation::SimulationSettings takeOutEnabled(Measured& measured, const CommonTr
                                               const std::vector<simulation::EnabledEffect>& beside = {});
 
 /// What fixed effects explain of new recordings.
-struct Foretold {
+struct Predicted {
   double share = 0;       ///< of the squared error of the projected common trace, nothing fitted
   double best_share = 0;  ///< the same with the effects' size free
   double size = 1;        ///< that fits best, common factor of all strengths
   Interval interval;      ///< of it
 };
-Foretold foretell(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
+Predicted predict(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                   const simulation::SimulationSettings& base,
                   const std::vector<simulation::EnabledEffect>& effects);
 

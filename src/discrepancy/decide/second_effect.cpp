@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "discrepancy/thresholds.h"
+
 namespace fsr::discrepancy {
 
 namespace {
@@ -11,33 +13,50 @@ namespace {
 constexpr double kSecondOfRest = 0.45;   // of what remains explainable: a wrong form alone leaves that much
 constexpr double kSecondOfFirst = 0.03;  // of what the first effect explains
 constexpr double kSecondLookalike = 8;   // standard errors, where a wrong form of one looks like the other
-constexpr double kAnyForm = 0.7;    // of what the second adds: if a form of the first does, there is none
-constexpr double kCreepNear = 0.8;  // of a loop with a break-in
+constexpr double kAnyForm = 0.7;        // of what the second adds: if a form of the first does, there is none
+constexpr double kWrongFormNear = 0.8;  // of the pair that describes its wrong form
 constexpr std::size_t kPairsRefined = 4;
 constexpr double kMuchOpen = 0.75;  // of the common trace's error: less explained leaves room for two
 
-// A creep whose form is not quite the library's leaves something of a loop, and goes on otherwise in the
-// first cycles of every mount, as a break-in does.
-bool lookAlike(const Explanation& pair) {
-  return pair.has("creep") && (pair.has("break_in") || pair.has("hysteresis"));
+// Whether one effect of the pair is like what the other leaves where its form is not the library's.
+bool lookAlike(const simulation::EffectLibrary& library, const Explanation& pair) {
+  return std::any_of(pair.score.ids.begin(), pair.score.ids.end(), [&](const std::string& id) {
+    const std::vector<std::string>& like = library.info(id).wrong_form_like;
+    return std::any_of(like.begin(), like.end(), [&](const std::string& other) { return pair.has(other); });
+  });
+}
+
+// Whether the pair is what one of the effects leaves where its form is not the library's.
+bool isLeftBy(const simulation::EffectLibrary& library, const Explanation& pair, const Explanation& single) {
+  return std::any_of(single.score.ids.begin(), single.score.ids.end(), [&](const std::string& id) {
+    const std::vector<std::string>& like = library.info(id).wrong_form_like;
+    const auto in_pair = [&](const std::string& other) { return pair.has(other); };
+    return !like.empty() && std::all_of(like.begin(), like.end(), in_pair);
+  });
+}
+
+bool takesAnyCourse(const simulation::EffectLibrary& library, const Explanation& pair) {
+  const auto any_course = [&](const std::string& id) { return library.info(id).any_course; };
+  return std::any_of(pair.score.ids.begin(), pair.score.ids.end(), any_course);
 }
 
 // The pairs that do best as signatures, best first, and the best single effect with each of the others: a
 // large effect bends, and its signature alone says too little of it.
-std::vector<Explanation> bestPairs(const Contest& contest, const Explanation& one) {
-  const Selection& selection = contest.selection();
-  const std::vector<Explanation>& singles = contest.singles();
-  const std::vector<Family>& families = contest.competition().effects();
+std::vector<Explanation> bestPairs(const Comparison& comparison, const Explanation& one) {
+  const CrossValidation& crossValidation = comparison.crossValidation();
+  const std::vector<Explanation>& singles = comparison.singles();
+  const std::vector<Family>& families = comparison.candidates().effects();
   std::vector<Explanation> pairs;
   for (std::size_t a = 0; a < singles.size(); ++a) {
     for (std::size_t b = a + 1; b < singles.size(); ++b) {
-      if (isSlow(families[a].id) && isSlow(families[b].id)) continue;
+      // Some dozens of gains of cycles do not hold two slow effects.
+      if (comparison.infoOf(families[a].id).slow && comparison.infoOf(families[b].id).slow) continue;
       Explanation pair;
-      pair.score = selection.score(singles[a].score, families[b]);
-      Score swapped = selection.score(singles[b].score, families[a]);
+      pair.score = crossValidation.score(singles[a].score, families[b]);
+      Score swapped = crossValidation.score(singles[b].score, families[a]);
       std::swap(swapped.ids.front(), swapped.ids.back());
       if (swapped.total < pair.score.total) pair.score = swapped;
-      pair.share = contest.shareOf(pair.score);
+      pair.share = comparison.shareOf(pair.score);
       pairs.push_back(pair);
     }
   }
@@ -50,38 +69,42 @@ std::vector<Explanation> bestPairs(const Contest& contest, const Explanation& on
   return pairs;
 }
 
-bool isWorthIt(const Contest& contest, const Explanation& one, double in_any_form, const Explanation& two) {
-  const double gain = two.share - one.share, rest = std::max(contest.ceiling(), two.share) - one.share;
-  if (lookAlike(two) && contest.selection().z(one.score, two.score) < kSecondLookalike) return false;
+bool isWorthIt(const Comparison& comparison, const Explanation& one, double in_any_form,
+               const Explanation& two) {
+  const double gain = two.share - one.share, rest = std::max(comparison.explainable(), two.share) - one.share;
+  if (lookAlike(comparison.library(), two) &&
+      comparison.crossValidation().z(one.score, two.score) < kSecondLookalike)
+    return false;
   if (in_any_form >= one.share + kAnyForm * gain) return false;
   return gain >= kSecondOfRest * rest && gain >= kSecondOfFirst * one.share &&
-         contest.behindInErrors(one, two) > weigh::kSignificant &&
-         gain / two.share * contest.shareOfError(two.score) >= weigh::kLeastShareOfError;
+         comparison.behindInErrors(one, two) > thresholds::kSignificant &&
+         gain / two.share * comparison.shareOfError(two.score) >= thresholds::kLeastShareOfError;
 }
 
 }  // namespace
 
-bool mayBeOne(const Explanation& single, const Explanation& pair) {
-  return single.has("creep") && pair.has("hysteresis") && pair.has("break_in") &&
-         single.share >= kCreepNear * pair.share;
+bool mayBeOne(const Explanation& single, const Explanation& pair, const simulation::EffectLibrary& library) {
+  return isLeftBy(library, pair, single) && single.share >= kWrongFormNear * pair.share;
 }
 
-std::vector<Explanation> pairsWorthIt(Contest& contest, const Explanation& one) {
-  std::vector<Explanation> pairs = bestPairs(contest, one);
+std::vector<Explanation> pairsWorthIt(Comparison& comparison, const Explanation& one) {
+  std::vector<Explanation> pairs = bestPairs(comparison, one);
   if (pairs.empty()) return pairs;
-  const double open = std::max(contest.ceiling(), pairs.front().share) - one.share;
+  const double open = std::max(comparison.explainable(), pairs.front().share) - one.share;
   if (open < kSecondOfFirst * one.share && one.share > kMuchOpen) pairs.clear();
-  for (Explanation& pair : pairs) contest.refineOne(pair);
-  const double in_any_form = contest.shareOf(contest.inAnyForm(one));
-  const auto hopeless = [&](const Explanation& pair) { return !isWorthIt(contest, one, in_any_form, pair); };
+  for (Explanation& pair : pairs) comparison.refineOne(pair);
+  const double in_any_form = comparison.shareOf(comparison.inAnyForm(one));
+  const auto hopeless = [&](const Explanation& pair) {
+    return !isWorthIt(comparison, one, in_any_form, pair);
+  };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), hopeless), pairs.end());
   const auto merit = [&](const Explanation& pair) {
-    return one.share +
-           (pair.share - one.share) * (pair.has("drift") || pair.refined.at_bound ? weigh::kDriftHides : 1);
+    const bool doubtful = takesAnyCourse(comparison.library(), pair) || pair.refined.at_bound;
+    return one.share + (pair.share - one.share) * (doubtful ? thresholds::kAnyCourseHides : 1);
   };
   std::stable_sort(pairs.begin(), pairs.end(),
                    [&](const auto& a, const auto& b) { return merit(a) > merit(b); });
-  if (!pairs.empty()) contest.raiseCeiling(pairs.front().share);
+  if (!pairs.empty()) comparison.raiseExplainable(pairs.front().share);
   return pairs;
 }
 

@@ -16,29 +16,22 @@ namespace {
 constexpr std::size_t kPressures = 24;  // at which curves are compared, of each visit
 constexpr double kLargestStep = 4;      // of a logarithm: a factor of 50 either way
 
-// Base parameters that are fitted, all on logarithms of their size.
-struct BaseParameter {
-  const char* effect;
-  const char* name;
-};
-const BaseParameter kBase[] = {
-    {"static_curve", "conductance"},
-    {"static_curve", "exponent"},
-    {"static_curve", "saturation_pressure"},
-    {"static_curve", "offset"},
-    {"bending_preload", "amplitude"},
-    {"bending_preload", "curvature_constant"},
-    {"bending_gain", "change"},
-    {"saturation", "level"},
-    {"saturation", "sharpness"},
-    {"bending_gain", "curvature_constant"},
-};
-
+// A parameter that is fitted, on the logarithm of its size.
 struct Fitted {
+  int place;  // in the fit
   std::string effect, name;
   double start;
   settings::Range range;
 };
+
+bool isFitted(const simulation::EffectParameter& parameter) {
+  return parameter.place_in_base_fit > 0;
+}
+
+bool isFitted(const simulation::EffectInfo& info) {
+  return std::any_of(info.parameters.begin(), info.parameters.end(),
+                     [](const simulation::EffectParameter& parameter) { return isFitted(parameter); });
+}
 
 simulation::EnabledEffect& enabled(simulation::SimulationSettings& settings, const std::string& id) {
   return *std::find_if(settings.effects.begin(), settings.effects.end(),
@@ -48,17 +41,18 @@ simulation::EnabledEffect& enabled(simulation::SimulationSettings& settings, con
 // What is fitted of these settings; parameters that are off start from a hundredth of what they may be.
 std::vector<Fitted> fittedOf(const simulation::SimulationSettings& settings, bool bent) {
   std::vector<Fitted> fitted;
-  for (const auto& [effect, name] : kBase) {
-    const simulation::EnabledEffect* present = settings.effect(effect);
-    const bool by_bending = std::string(effect).rfind("bending", 0) == 0;
-    if (!present || (!bent && by_bending)) continue;
-    const settings::Range& range =
-        simulation::parameter(simulation::findEffect(effect)->info, name).permitted;
-    double start = present->values.at(name);
-    if (std::string(name) == "offset" && start == 0) start = 0.01 * present->values.at("conductance");
-    if (start == 0 || !std::isfinite(start)) continue;
-    fitted.push_back({effect, name, start, range});
+  for (const simulation::EnabledEffect& effect : settings.effects) {
+    const simulation::EffectInfo& info = simulation::libraryOf(settings).info(effect.id);
+    if (!bent && info.with_bending) continue;
+    for (const simulation::EffectParameter& parameter : info.parameters) {
+      if (!isFitted(parameter)) continue;
+      double start = effect.values.at(parameter.name);
+      if (parameter.name == "offset" && start == 0) start = 0.01 * effect.values.at("conductance");
+      if (start == 0 || !std::isfinite(start)) continue;
+      fitted.push_back({parameter.place_in_base_fit, effect.id, parameter.name, start, parameter.permitted});
+    }
   }
+  std::sort(fitted.begin(), fitted.end(), [](const Fitted& a, const Fitted& b) { return a.place < b.place; });
   return fitted;
 }
 
@@ -72,8 +66,8 @@ simulation::SimulationSettings settingsAt(simulation::SimulationSettings setting
   return settings;
 }
 
-// A few moments of every visit, evenly over the pressures that it saw.
-std::vector<std::size_t> chosenMoments(const Measured& measured) {
+// A few samples of every visit, evenly over the pressures that it saw.
+std::vector<std::size_t> chosenSamples(const Measured& measured) {
   std::vector<std::size_t> chosen;
   for (const Visit& visit : measured.visits) {
     std::vector<std::size_t> order;
@@ -91,15 +85,15 @@ std::vector<std::size_t> chosenMoments(const Measured& measured) {
   return chosen;
 }
 
-// Static readings of the representative taxel at the chosen moments [share of full scale].
+// Static readings of the representative taxel at the chosen samples [share of full scale].
 Eigen::VectorXd staticReadings(const Measured& measured, const simulation::SimulationSettings& settings,
-                               const std::vector<std::size_t>& moments) {
+                               const std::vector<std::size_t>& samples) {
   simulation::SensorChain chain(representative(settings));
-  Eigen::VectorXd readings(static_cast<Eigen::Index>(moments.size()));
+  Eigen::VectorXd readings(static_cast<Eigen::Index>(samples.size()));
   std::size_t mounted = measured.visits.size();
-  for (std::size_t k = 0; k < moments.size(); ++k) {
-    if (measured.visit[moments[k]] != mounted) {
-      mounted = measured.visit[moments[k]];
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (measured.visit[samples[k]] != mounted) {
+      mounted = measured.visit[samples[k]];
       matrix::Surface surface = measured.visits[mounted].surface;
       matrix::Curvature mean;
       for (const matrix::Curvature& c : surface.curvature)
@@ -107,9 +101,9 @@ Eigen::VectorXd staticReadings(const Measured& measured, const simulation::Simul
       surface.curvature = {mean};
       chain.mount(surface);
     }
-    simulation::RigMoment moment;
-    moment.pressure = measured.pressure[moments[k]];
-    chain.read(moment);
+    simulation::RigSample sample;
+    sample.pressure = measured.pressure[samples[k]];
+    chain.read(sample);
     readings[static_cast<Eigen::Index>(k)] = chain.reading()[0] / settings.fullScale();
   }
   return readings;
@@ -119,11 +113,10 @@ Eigen::VectorXd staticReadings(const Measured& measured, const simulation::Simul
 simulation::SimulationSettings withoutMemory(simulation::SimulationSettings settings) {
   auto& effects = settings.effects;
   effects.erase(std::remove_if(effects.begin(), effects.end(),
-                               [](const simulation::EnabledEffect& e) {
-                                 return std::none_of(
-                                            std::begin(kBase), std::end(kBase),
-                                            [&](const BaseParameter& b) { return e.id == b.effect; }) &&
-                                        e.id != "converter";
+                               [&](const simulation::EnabledEffect& e) {
+                                 const simulation::EffectInfo& info =
+                                     simulation::libraryOf(settings).info(e.id);
+                                 return !isFitted(info) && !info.required;
                                }),
                 effects.end());
   return settings;
@@ -151,15 +144,15 @@ simulation::SimulationSettings fitBase(const Measured& measured, const StaticFit
   bool bent = false;
   for (const dataset::CurvatureClass& c : measured.classes) bent = bent || !dataset::isFlat(c);
   const std::vector<Fitted> fitted = fittedOf(settings, bent);
-  const std::vector<std::size_t> moments = chosenMoments(measured);
-  Eigen::VectorXd wanted(static_cast<Eigen::Index>(moments.size()));
-  for (std::size_t k = 0; k < moments.size(); ++k) {
-    wanted[static_cast<Eigen::Index>(k)] = fit.curve()[static_cast<Eigen::Index>(moments[k])];
+  const std::vector<std::size_t> samples = chosenSamples(measured);
+  Eigen::VectorXd wanted(static_cast<Eigen::Index>(samples.size()));
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    wanted[static_cast<Eigen::Index>(k)] = fit.curve()[static_cast<Eigen::Index>(samples[k])];
   }
   const simulation::SimulationSettings still = withoutMemory(settings);
   const Residuals residuals = [&](const std::vector<double>& at) -> std::optional<Eigen::VectorXd> {
     try {
-      return staticReadings(measured, settingsAt(still, fitted, at), moments) - wanted;
+      return staticReadings(measured, settingsAt(still, fitted, at), samples) - wanted;
     } catch (const settings::InputError&) {
       return std::nullopt;
     }
@@ -168,10 +161,12 @@ simulation::SimulationSettings fitBase(const Measured& measured, const StaticFit
   options.steps = 40;
   const auto at = levenberg(residuals, std::vector<double>(fitted.size(), 0.0), options);
   simulation::SimulationSettings base = settingsAt(settings, fitted, at);
-  enabled(base, "static_curve").values["conductance_scatter"] =
-      std::min(taxelScatter(measured),
-               simulation::parameter(simulation::findEffect("static_curve")->info, "conductance_scatter")
-                   .permitted.high);
+  for (simulation::EnabledEffect& effect : base.effects) {
+    for (const simulation::EffectParameter& parameter : measured.info(effect.id).parameters) {
+      if (!parameter.from_taxel_deviation) continue;
+      effect.values[parameter.name] = std::min(taxelScatter(measured), parameter.permitted.high);
+    }
+  }
   return base;
 }
 

@@ -37,17 +37,17 @@ void CycleLevels::judge(const Measured& measured, const StaticFit& fit, const Tr
     Eigen::Matrix2d gram = Eigen::Matrix2d::Zero();
     Eigen::Vector2d right = Eigen::Vector2d::Zero();
     for (auto i = static_cast<Eigen::Index>(cycle.first); i < static_cast<Eigen::Index>(cycle.last); ++i) {
-      const Eigen::Vector2d x(fit.rise()[i], 1);
+      const Eigen::Vector2d x(fit.netCurve()[i], 1);
       gram += x * x.transpose();
       right += x * residual[i];
     }
     const bool loaded = gram.determinant() > kSingular * gram.trace() * gram.trace();
-    if (cycle.use == CycleUse::kShow || !loaded) continue;
+    if (cycle.use == CycleUse::kHoldOut || !loaded) continue;
     cycles_.push_back(c);
     visit_.push_back(cycle.visit);
     levels.push_back(gram.ldlt().solve(right));
     gram_ += gram;
-    moments_ += static_cast<double>(cycle.last - cycle.first);
+    samples_ += static_cast<double>(cycle.last - cycle.first);
   }
   levels_.resize(static_cast<Eigen::Index>(levels.size()), 2);
   for (std::size_t c = 0; c < levels.size(); ++c) levels_.row(static_cast<Eigen::Index>(c)) = levels[c];
@@ -97,23 +97,23 @@ void CycleLevels::add(simulation::Covariate covariate, Eigen::MatrixXd terms) {
 
 void CycleLevels::plan(const Measured& measured) {
   const auto rows = static_cast<Eigen::Index>(cycles_.size());
-  Eigen::MatrixXd since(rows, 2), clock(rows, 2), way(rows, 2), room(rows, 1);
+  Eigen::MatrixXd since(rows, 2), clock(rows, 2), path_length(rows, 2), room(rows, 1);
   Eigen::MatrixXd mounts = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(measured.visits.size()));
-  const double end = measured.time.back(), all = std::max(1.0, measured.way.back());
+  const double end = measured.time.back(), all = std::max(1.0, measured.path_length.back());
   for (Eigen::Index k = 0; k < rows; ++k) {
     const std::size_t c = cycles_[static_cast<std::size_t>(k)];
     const MeasuredCycle& cycle = measured.cycles[c];
     const auto number =
         static_cast<double>(c - measured.cycle[measured.visits[cycle.visit].first]);  // of the visit's
-    const double time = mean(measured.time, cycle) / end, gone = mean(measured.way, cycle) / all;
+    const double time = mean(measured.time, cycle) / end, gone = mean(measured.path_length, cycle) / all;
     since.row(k) << std::exp(-number), std::exp(-number / 3);
     clock.row(k) << time, time * time;
-    way.row(k) << gone, std::sqrt(gone);
+    path_length.row(k) << gone, std::sqrt(gone);
     room(k, 0) = measured.temperature.empty() ? 0 : mean(measured.temperature, cycle);
     mounts(k, static_cast<Eigen::Index>(cycle.visit)) = 1;
   }
   add(simulation::Covariate::kCycle, since);
-  add(simulation::Covariate::kAccumulatedChange, way);
+  add(simulation::Covariate::kAccumulatedChange, path_length);
   add(simulation::Covariate::kClockTime, clock);
   if (rows > 0 && room.maxCoeff() - room.minCoeff() > kMoved) add(simulation::Covariate::kTemperature, room);
   if (measured.visits.size() > measured.classes.size()) add(simulation::Covariate::kMount, mounts);
@@ -146,7 +146,7 @@ double CycleLevels::statistic(const Eigen::MatrixXd& levels, const Course& cours
 double CycleLevels::explained(const Course& course) const {
   const Eigen::MatrixXd fitted = course.terms * (course.terms.transpose() * levels_);
   const auto cycles = static_cast<double>(std::max<Eigen::Index>(1, fitted.rows()));
-  return (fitted.transpose() * fitted * gram_).trace() / cycles / std::max(1.0, moments_);
+  return (fitted.transpose() * fitted * gram_).trace() / cycles / std::max(1.0, samples_);
 }
 
 }  // namespace fsr::discrepancy

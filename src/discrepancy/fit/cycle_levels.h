@@ -42,8 +42,8 @@ class CycleLevels {
   std::vector<std::size_t> visit_, group_;  // of each
   std::size_t groups_ = 0;
   Eigen::MatrixXd levels_;
-  Eigen::Matrix2d gram_;  // of rise and 1, summed over all moments
-  double moments_ = 0;
+  Eigen::Matrix2d gram_;  // of rise and 1, summed over all samples
+  double samples_ = 0;
   std::vector<Course> courses_;
 };
 

@@ -19,7 +19,7 @@ double hat(double x) {
   return std::max(0.0, 1 - std::abs(x));
 }
 
-// What the columns are functions of, at each moment.
+// What the columns are functions of, at each sample.
 struct Covariates {
   std::vector<double> pressure;      // share of the highest
   std::vector<double> rate;          // in units of a usual ramp
@@ -44,7 +44,7 @@ double bendOf(const Visit& visit) {
   return sum / static_cast<double>(visit.surface.curvature.size());
 }
 
-// Time since the pressure turned, and the last turning points, of the moments of one visit.
+// Time since the pressure turned, and the last turning points, of the samples of one visit.
 void followTurns(const Measured& measured, const Visit& visit, double highest, Covariates& covariates) {
   double turned = measured.time[visit.first], valley = measured.pressure[visit.first], peak = valley;
   double low = valley, high = valley;
@@ -73,11 +73,11 @@ Covariates covariatesOf(const Measured& measured) {
   for (const Visit& visit : measured.visits) {
     followTurns(measured, visit, highest, covariates);
     const double bend = bendOf(visit) / most_bend;
-    const auto moments = static_cast<double>(visit.last - visit.first);
+    const auto samples = static_cast<double>(visit.last - visit.first);
     for (std::size_t i = visit.first; i < visit.last; ++i) {
       covariates.pressure.push_back(measured.pressure[i] / highest);
       covariates.rate.push_back(measured.rate[i] / usual);
-      covariates.in_visit.push_back(static_cast<double>(i - visit.first) / moments);
+      covariates.in_visit.push_back(static_cast<double>(i - visit.first) / samples);
       covariates.cycle.push_back(static_cast<double>(measured.cycle[i] - measured.cycle[visit.first]));
       covariates.bend.push_back(bend);
     }
@@ -92,8 +92,8 @@ class Terms {
   Terms(const Measured& measured, const StaticFit& fit) : measured_(measured), fit_(fit) {}
 
   void load(const Function& f) { add(f, fit_.slope()); }
-  void gain(const Function& f) { add(f, fit_.rise()); }
-  void zero(const Function& f) { add(f, Trace::Ones(fit_.rise().size())); }
+  void gain(const Function& f) { add(f, fit_.netCurve()); }
+  void zero(const Function& f) { add(f, Trace::Ones(fit_.netCurve().size())); }
   void loadAndGain(const Function& f) {
     load(f);
     gain(f);
@@ -103,7 +103,7 @@ class Terms {
  private:
   void add(const Function& f, const Trace& through) {
     Trace column(through.size());
-    for (std::size_t i = 0; i < measured_.moments(); ++i) {
+    for (std::size_t i = 0; i < measured_.samples(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
       column[at] = f(i) * through[at];
     }

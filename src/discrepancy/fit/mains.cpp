@@ -4,25 +4,20 @@
 #include <cmath>
 #include <complex>
 
+#include "discrepancy/thresholds.h"
 #include "simulation/effects/effect_library.h"
+#include "statistics/median.h"
 
 namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kLeastTurns = 0.4;   // of the phase over the whole scan
-constexpr double kLeastZ = 8;         // of the peak, among the other patterns
-constexpr double kLeastShare = 0.02;  // of the readings' squared error
-constexpr double kRound = 0.5;        // most of |sum z^2| / sum |z|^2 of something that turns
+constexpr double kLeastTurns = 0.4;  // of the phase over the whole scan
+constexpr double kLeastZ = 8;        // of the peak, among the other patterns
+constexpr double kRound = 0.5;       // most of |sum z^2| / sum |z|^2 of something that turns
 constexpr std::size_t kFewestTaxels = 8;
 constexpr double kMainsFrequency = 50;  // that is assumed [Hz]
 constexpr double kDeviationPerMedian = 1.4826;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Readings less what the static curves and all taxels together say, of the used taxels.
 class Residuals {
@@ -34,8 +29,8 @@ class Residuals {
   }
   std::size_t size() const { return place_.size(); }
   double place(std::size_t k) const { return static_cast<double>(place_[k]); }
-  void at(std::size_t moment, Eigen::VectorXd& result) {
-    taxels_.residuals(moment, all_);
+  void at(std::size_t sample, Eigen::VectorXd& result) {
+    taxels_.residuals(sample, all_);
     for (std::size_t k = 0; k < place_.size(); ++k) result[static_cast<Eigen::Index>(k)] = all_[place_[k]];
     result.array() -= result.mean();
   }
@@ -51,11 +46,11 @@ Eigen::MatrixXd covarianceOf(const Measured& measured, Residuals& residuals) {
   const auto n = static_cast<Eigen::Index>(residuals.size());
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd now(n);
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     residuals.at(i, now);
     covariance.selfadjointView<Eigen::Lower>().rankUpdate(now);
   }
-  covariance /= static_cast<double>(measured.moments());
+  covariance /= static_cast<double>(measured.samples());
   return covariance.selfadjointView<Eigen::Lower>();
 }
 
@@ -82,36 +77,36 @@ Mains findMains(const Measured& measured, const TaxelFit& taxels) {
     powers.push_back((w.adjoint() * covariance * w).value().real());
     turns.push_back(turn);
   }
-  const double usual = median(powers);
+  const double usual = statistics::upperMedian(powers);
   std::vector<double> deviations;
   for (const double power : powers) deviations.push_back(std::abs(power - usual));
   const auto peak = static_cast<std::size_t>(std::max_element(powers.begin(), powers.end()) - powers.begin());
   const double excess = powers[peak] - usual;
   const double total = covariance.trace() / static_cast<double>(residuals.size()) + taxels.within();
   mains.turn = turns[peak];
-  mains.z = excess / std::max(1e-300, kDeviationPerMedian * median(deviations));
+  mains.z = excess / std::max(1e-300, kDeviationPerMedian * statistics::upperMedian(deviations));
   mains.share = total > 0 ? 2 * excess / static_cast<double>(residuals.size()) / total : 0;
   mains.amplitude = 2 * std::sqrt(excess / static_cast<double>(residuals.size()));
-  if (mains.z < kLeastZ || mains.share < kLeastShare) return mains;
+  if (mains.z < kLeastZ || mains.share < thresholds::kLeastShareOfError) return mains;
   const Eigen::VectorXcd pattern = patternOf(residuals, mains.turn);
-  const auto moments = static_cast<Eigen::Index>(measured.moments());
-  mains.cosine.resize(moments);
-  mains.sine.resize(moments);
+  const auto samples = static_cast<Eigen::Index>(measured.samples());
+  mains.cosine.resize(samples);
+  mains.sine.resize(samples);
   Eigen::VectorXd now(static_cast<Eigen::Index>(residuals.size()));
   std::vector<std::complex<double>> square(measured.visits.size());
   std::complex<double> turned = 0, before = 0;
   double size = 0, seconds = 0, steps = 0;
-  for (Eigen::Index i = 0; i < moments; ++i) {
-    const auto moment = static_cast<std::size_t>(i);
-    residuals.at(moment, now);
+  for (Eigen::Index i = 0; i < samples; ++i) {
+    const auto sample = static_cast<std::size_t>(i);
+    residuals.at(sample, now);
     const std::complex<double> z = pattern.dot(now.cast<std::complex<double>>());
     mains.cosine[i] = z.real();
     mains.sine[i] = z.imag();
-    square[measured.visit[moment]] += z * z;
+    square[measured.visit[sample]] += z * z;
     size += std::norm(z);
-    if (i > 0 && measured.visit[moment] == measured.visit[moment - 1]) {
+    if (i > 0 && measured.visit[sample] == measured.visit[sample - 1]) {
       turned += std::conj(before) * z;
-      seconds += measured.time[moment] - measured.time[moment - 1];
+      seconds += measured.time[sample] - measured.time[sample - 1];
       ++steps;
     }
     before = z;
@@ -119,7 +114,7 @@ Mains findMains(const Measured& measured, const TaxelFit& taxels) {
   mains.beat = steps > 0 ? std::arg(turned) / (2 * M_PI) / (seconds / steps) : 0;
   double one_phase = 0;  // a pattern that changes from visit to visit only is no hum either
   for (const std::complex<double>& sum : square) one_phase += std::abs(sum);
-  mains.found = one_phase < kRound * (size - static_cast<double>(moments) * usual);
+  mains.found = one_phase < kRound * (size - static_cast<double>(samples) * usual);
   return mains;
 }
 
@@ -134,7 +129,7 @@ void takeOut(const Mains& mains, const StaticFit& fit, CommonTraces& common) {
 }
 
 simulation::EnabledEffect asEffect(const Mains& mains, double full_scale) {
-  simulation::EnabledEffect effect{"mains_pickup", {}};
+  simulation::EnabledEffect effect{simulation::foundBy(simulation::Detector::kMains).id, {}};
   for (const simulation::EffectParameter& parameter : simulation::findEffect(effect.id)->info.parameters) {
     effect.values[parameter.name] = parameter.usual;
   }

@@ -4,30 +4,26 @@
 #include <cmath>
 #include <map>
 
+#include "discrepancy/thresholds.h"
+#include "statistics/median.h"
+
 namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kOdd = 6;            // times the usual square of what is left: noise differs by less
-constexpr double kDeaf = 0.02;        // of the usual variance of the readings within a visit
-constexpr double kLeastShare = 0.02;  // of the readings' squared error
-constexpr double kTogether = 2;       // times the square that the mean of a line has by chance
-constexpr double kMostOfLine = 0.6;   // of a line's taxels: the line is odd
+constexpr double kOdd = 6;           // times the usual square of what is left: noise differs by less
+constexpr double kDeaf = 0.02;       // of the usual variance of the readings within a visit
+constexpr double kTogether = 2;      // times the square that the mean of a line has by chance
+constexpr double kMostOfLine = 0.6;  // of a line's taxels: the line is odd
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// Sums over the moments that are not shown, of what is left of each taxel and line beside the mean of all.
+// Sums over the samples that are not shown, of what is left of each taxel and line beside the mean of all.
 struct Sums {
   Eigen::VectorXd squares;                  // [taxels]
   Eigen::VectorXd lines[2];                 // of the means of rows, of columns
   Eigen::MatrixXd reading, reading_square;  // [taxels x visits]
-  Eigen::VectorXd in_visit;                 // moments
+  Eigen::VectorXd in_visit;                 // samples
   double common = 0;                        // square of the mean
-  double moments = 0;
+  double samples = 0;
 };
 
 class Judge {
@@ -50,7 +46,7 @@ class Judge {
   void judgeLines(bool column, OddTaxels& odd) const;
   double total() const {
     return sums_.squares.sum() +
-           static_cast<double>(used_.size()) * (sums_.common + fit_.within() * sums_.moments);
+           static_cast<double>(used_.size()) * (sums_.common + fit_.within() * sums_.samples);
   }
 
   const Measured& measured_;
@@ -77,8 +73,8 @@ void Judge::addUp() {
     sums_.lines[column] = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(members_[column].size()));
   }
   std::vector<double> own, readings;
-  for (std::size_t i = 0; i < measured_.moments(); ++i) {
-    if (measured_.cycles[measured_.cycle[i]].use == CycleUse::kShow) continue;
+  for (std::size_t i = 0; i < measured_.samples(); ++i) {
+    if (measured_.cycles[measured_.cycle[i]].use == CycleUse::kHoldOut) continue;
     fit_.residuals(i, own);
     measured_.readings(i, readings);
     double mean = 0;
@@ -98,7 +94,7 @@ void Judge::addUp() {
       }
     }
     sums_.common += mean * mean;
-    sums_.moments += 1;
+    sums_.samples += 1;
   }
 }
 
@@ -111,7 +107,7 @@ bool Judge::isDeaf(std::size_t taxel) const {
     };
     std::vector<double> all;
     for (const std::size_t t : used_) all.push_back(variance(t));
-    if (variance(taxel) < kDeaf * median(all)) return true;
+    if (variance(taxel) < kDeaf * statistics::upperMedian(all)) return true;
   }
   return false;
 }
@@ -129,7 +125,7 @@ void Judge::judgeLines(bool column, OddTaxels& odd) const {
     more += n * (sums_.lines[column][l] - by_chance);
   }
   const double share = more / std::max(1e-300, total());
-  if (share < kLeastShare || share <= odd.share) return;
+  if (share < thresholds::kLeastShareOfError || share <= odd.share) return;
   odd = {{}, column ? simulation::Covariate::kColumn : simulation::Covariate::kRow, share};
   for (const std::size_t t : used_) {
     if (std::count(lines.begin(), lines.end(), lineOf(t, column))) odd.taxels.push_back(t);
@@ -141,7 +137,7 @@ OddTaxels Judge::run() const {
   if (used_.size() < 4) return odd;
   std::vector<double> squares;
   for (const std::size_t t : used_) squares.push_back(sums_.squares[static_cast<Eigen::Index>(t)]);
-  const double usual = median(squares);
+  const double usual = statistics::upperMedian(squares);
   double more = 0;
   bool deaf = false;
   for (const std::size_t t : used_) {
@@ -153,7 +149,7 @@ OddTaxels Judge::run() const {
     deaf = deaf || is_deaf;
   }
   odd.share = more / std::max(1e-300, total());
-  if (odd.share < kLeastShare && !deaf) odd = OddTaxels();
+  if (odd.share < thresholds::kLeastShareOfError && !deaf) odd = OddTaxels();
   for (const bool column : {false, true}) judgeLines(column, odd);
   if (odd.by != simulation::Covariate::kTaxel) return odd;
   for (const bool column : {false, true}) {

@@ -39,37 +39,37 @@ class RecordedCourse {
 
 // Leads a chain, or a difference of two, through everything that was recorded.
 template <typename Chain, typename Make, typename Use>
-void drive(const Measured& measured, bool carried, Make make, Use use) {
+void drive(const Measured& measured, bool state_kept, Make make, Use use) {
   RecordedCourse recorded(measured);
   const simulation::PressureCourse course = [&](double time) { return recorded(time); };
   Chain chain = make();
-  simulation::RigMoment moment;
-  moment.course = &course;
+  simulation::RigSample sample;
+  sample.course = &course;
   const auto rest = [&](double time) {
-    moment.time = time;
-    moment.pressure = 0;
-    chain.read(moment);
+    sample.time = time;
+    sample.pressure = 0;
+    chain.read(sample);
   };
   for (const Visit& visit : measured.visits) {
     const double start = measured.time[visit.first];
     const double before = visit.first > 0 ? measured.time[visit.first - 1] : start;
-    if (!carried && visit.first > 0) chain = make();
-    if (carried && start - before > kBreak) rest(before + kBreak / 4);
+    if (!state_kept && visit.first > 0) chain = make();
+    if (state_kept && start - before > kBreak) rest(before + kBreak / 4);
     chain.mount(visit.surface);
-    if (carried && start - before > kBreak) rest(start - kBreak / 4);
+    if (state_kept && start - before > kBreak) rest(start - kBreak / 4);
     for (std::size_t i = visit.first; i < visit.last; ++i) {
-      moment.time = measured.time[i];
-      moment.pressure = measured.pressure[i];
-      moment.scan = i;
-      moment.temperature =
+      sample.time = measured.time[i];
+      sample.pressure = measured.pressure[i];
+      sample.scan = i;
+      sample.temperature =
           measured.temperature.empty() ? simulation::kRoomTemperature : measured.temperature[i];
-      use(i, chain.read(moment), chain);
+      use(i, chain.read(sample), chain);
     }
   }
 }
 
 DrivenSignals emptySignals(const Measured& measured) {
-  const auto scans = static_cast<Eigen::Index>(measured.moments());
+  const auto scans = static_cast<Eigen::Index>(measured.samples());
   return {Trace::Zero(scans), Trace::Zero(scans), Trace::Zero(scans)};
 }
 
@@ -90,16 +90,16 @@ matrix::Surface oneTaxel(const matrix::Surface& surface) {
 // Of the derivative of one strength.
 struct Derivative {
   simulation::Sensitivity sensitivity;
-  const simulation::TaxelSignals& read(const simulation::RigMoment& moment) {
-    return sensitivity.read(moment);
+  const simulation::TaxelSignals& read(const simulation::RigSample& sample) {
+    return sensitivity.read(sample);
   }
   void mount(const matrix::Surface& surface) { sensitivity.mount(oneTaxel(surface)); }
 };
 
 struct Chain {
   simulation::SensorChain chain;
-  const simulation::TaxelSignals& read(const simulation::RigMoment& moment) {
-    chain.read(moment);
+  const simulation::TaxelSignals& read(const simulation::RigSample& sample) {
+    chain.read(sample);
     return chain.signals();
   }
   void mount(const matrix::Surface& surface) { chain.mount(oneTaxel(surface)); }
@@ -141,7 +141,8 @@ bool sought(const simulation::EffectEntry& entry, const simulation::SimulationSe
   const bool by_derivative =
       kind == simulation::EffectKind::kAdditive || kind == simulation::EffectKind::kGrid;
   const bool left_out = std::count(leave_out.begin(), leave_out.end(), entry.info.id) > 0;
-  return by_derivative && !left_out && !settings.effect(entry.info.id) && entry.info.id != "mains_pickup";
+  return by_derivative && !left_out && !settings.effect(entry.info.id) &&
+         entry.info.detector == simulation::Detector::kNone;
 }
 
 bool remembers(const simulation::EffectEntry& entry) {
@@ -152,7 +153,7 @@ bool remembers(const simulation::EffectEntry& entry) {
 std::vector<Signature> planned(const simulation::SimulationSettings& settings,
                                const std::vector<std::string>& leave_out) {
   std::vector<Signature> plan;
-  for (const simulation::EffectEntry& entry : simulation::effectLibrary()) {
+  for (const simulation::EffectEntry& entry : simulation::libraryOf(settings).entries()) {
     if (!sought(entry, settings, leave_out)) continue;
     for (const simulation::EffectValues& values : shapeGrid(entry.info)) {
       for (const simulation::EffectParameter& strength : simulation::strengths(entry.info)) {
@@ -165,7 +166,7 @@ std::vector<Signature> planned(const simulation::SimulationSettings& settings,
         signature.scale = entry.info.sign == simulation::SignRule::kNegative ? -1 : 1;
         plan.push_back(signature);
         if (!remembers(entry)) continue;
-        signature.carried = false;
+        signature.state_kept = false;
         plan.push_back(signature);
       }
     }
@@ -185,15 +186,17 @@ simulation::SimulationSettings representative(const simulation::SimulationSettin
   one.layout.size = {1, 1};
   one.taxel_curves = nullptr;
   auto& effects = one.effects;
-  const auto unwanted = [](const simulation::EnabledEffect& effect) {
-    const simulation::EffectEntry* entry = simulation::findEffect(effect.id);
-    const bool detected = entry->info.kind == simulation::EffectKind::kDetector && effect.id != "saturation";
-    return effect.id == "white_noise" || detected;
+  const simulation::EffectLibrary& library = simulation::libraryOf(settings);
+  const auto unwanted = [&](const simulation::EnabledEffect& effect) {
+    const simulation::EffectInfo& info = library.info(effect.id);
+    const bool single =
+        info.kind == simulation::EffectKind::kDetector && info.level != simulation::EffectLevel::kRig;
+    return info.stochastic || single;
   };
   effects.erase(std::remove_if(effects.begin(), effects.end(), unwanted), effects.end());
   for (simulation::EnabledEffect& effect : effects) {
     effect.only_taxels.clear();  // the one taxel is one on which it acts
-    for (const simulation::EffectParameter& parameter : simulation::findEffect(effect.id)->info.parameters) {
+    for (const simulation::EffectParameter& parameter : library.info(effect.id).parameters) {
       if (parameter.role == simulation::ParameterRole::kScatter)
         effect.values[parameter.name] = parameter.neutral;
     }
@@ -203,26 +206,27 @@ simulation::SimulationSettings representative(const simulation::SimulationSettin
 
 DrivenSignals drivenDerivative(const Measured& measured, const simulation::SimulationSettings& settings,
                                const std::string& id, const std::string& strength,
-                               const simulation::EffectValues& values, bool carried) {
+                               const simulation::EffectValues& values, bool state_kept) {
   DrivenSignals signals = emptySignals(measured);
   const simulation::SimulationSettings one = representative(settings);
   const auto make = [&] { return Derivative{simulation::Sensitivity(one, id, strength, values)}; };
-  drive<Derivative>(measured, carried, make, keep<Derivative>(signals, one.fullScale()));
+  drive<Derivative>(measured, state_kept, make, keep<Derivative>(signals, one.fullScale()));
   return signals;
 }
 
-DrivenSignals driven(const Measured& measured, const simulation::SimulationSettings& settings, bool carried) {
+DrivenSignals driven(const Measured& measured, const simulation::SimulationSettings& settings,
+                     bool state_kept) {
   DrivenSignals signals = emptySignals(measured);
   const simulation::SimulationSettings one = representative(settings);
   drive<Chain>(
-      measured, carried, [&] { return Chain{simulation::SensorChain(one)}; },
+      measured, state_kept, [&] { return Chain{simulation::SensorChain(one)}; },
       keep<Chain>(signals, one.fullScale()));
   return signals;
 }
 
 Trace throughCurve(const StaticFit& fit, const DrivenSignals& derivative, simulation::ChainStage stage) {
   if (stage >= simulation::ChainStage::kConductance) return derivative.reading;
-  return derivative.load.cwiseProduct(fit.slope()) + derivative.gain.cwiseProduct(fit.rise());
+  return derivative.load.cwiseProduct(fit.slope()) + derivative.gain.cwiseProduct(fit.netCurve());
 }
 
 std::vector<Signature> signatures(const Measured& measured, const StaticFit& fit,
@@ -233,8 +237,8 @@ std::vector<Signature> signatures(const Measured& measured, const StaticFit& fit
     Signature& signature = all[s];
     if (!possible(signature.values)) return;
     const DrivenSignals derivative = drivenDerivative(measured, settings, signature.id, signature.strength,
-                                                      signature.values, signature.carried);
-    Trace trace = throughCurve(fit, derivative, simulation::findEffect(signature.id)->info.stage);
+                                                      signature.values, signature.state_kept);
+    Trace trace = throughCurve(fit, derivative, measured.info(signature.id).stage);
     const double rms = std::sqrt(trace.squaredNorm() / static_cast<double>(trace.size()));
     if (!(rms > 0) || !std::isfinite(rms)) return;
     trace *= signature.scale / rms;

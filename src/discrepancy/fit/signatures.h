@@ -5,7 +5,7 @@
 
 #include "discrepancy/fit/static_fit.h"
 #include "discrepancy/samples/measured.h"
-#include "fsr_pressure_map/simulation/effect.h"
+#include "simulation/effect.h"
 
 namespace fsr::discrepancy {
 
@@ -14,7 +14,7 @@ struct Signature {
   std::string id;
   std::string strength;
   simulation::EffectValues values;  ///< of all parameters but the strength
-  bool carried = true;  ///< the sheet remembers from one visit to the next, else each starts afresh
+  bool state_kept = true;  ///< the sheet remembers from one visit to the next, else each starts afresh
   bool free_sign = false;
   double scale = 1;  ///< strength per unit of `trace`; its sign is that of the rule
   double left = 0;   ///< share of its rms that the static curves and cycle gains leave
@@ -34,10 +34,11 @@ struct DrivenSignals {
 /// The derivative of all signals with respect to one strength.
 DrivenSignals drivenDerivative(const Measured& measured, const simulation::SimulationSettings& settings,
                                const std::string& id, const std::string& strength,
-                               const simulation::EffectValues& values, bool carried);
+                               const simulation::EffectValues& values, bool state_kept);
 
 /// The signals of a chain.
-DrivenSignals driven(const Measured& measured, const simulation::SimulationSettings& settings, bool carried);
+DrivenSignals driven(const Measured& measured, const simulation::SimulationSettings& settings,
+                     bool state_kept);
 
 /// What a change of load and gain does to the common trace, through the measured static curves' slope.
 Trace throughCurve(const StaticFit& fit, const DrivenSignals& derivative, simulation::ChainStage stage);

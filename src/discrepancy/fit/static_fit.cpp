@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "statistics/median.h"
+
 namespace fsr::discrepancy {
 
 namespace {
@@ -15,16 +17,9 @@ constexpr double kRidge = 1e-10;
 constexpr double kLeastScatter = 1e-5;
 
 // Gains that were shrunk to less than this are not grown by more.
-constexpr double kLeastKept = 0.02;
+constexpr double kLeastGainWeight = 0.02;
 // Of the median of absolute normal numbers.
 constexpr double kDeviationPerMedian = 1.4826;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<double> knotsOf(const Trace& load) {
   const double low = load.minCoeff(), high = std::max(load.maxCoeff(), low + 1);
@@ -35,7 +30,7 @@ std::vector<double> knotsOf(const Trace& load) {
 
 Trace loadOf(const Measured& measured) {
   const std::vector<double>& load = measured.load.empty() ? measured.pressure : measured.load;
-  return Eigen::Map<const Trace>(load.data(), static_cast<Eigen::Index>(measured.moments()));
+  return Eigen::Map<const Trace>(load.data(), static_cast<Eigen::Index>(measured.samples()));
 }
 
 template <typename Use>
@@ -54,7 +49,7 @@ Eigen::LDLT<Eigen::MatrixXd> decompose(Eigen::MatrixXd matrix) {
 
 CommonTraces commonTraces(const Measured& measured) {
   CommonTraces traces;
-  const auto scans = static_cast<Eigen::Index>(measured.moments());
+  const auto scans = static_cast<Eigen::Index>(measured.samples());
   traces.all.setZero(scans);
   for (Trace& half : traces.halves) half.setZero(scans);
   std::vector<std::size_t> taxels[2];
@@ -62,7 +57,7 @@ CommonTraces commonTraces(const Measured& measured) {
     if (measured.used[i]) taxels[(measured.layout.row({i}) + measured.layout.column({i})) % 2].push_back(i);
   }
   std::vector<double> readings;
-  for (std::size_t scan = 0; scan < measured.moments(); ++scan) {
+  for (std::size_t scan = 0; scan < measured.samples(); ++scan) {
     measured.readings(scan, readings);
     const auto at = static_cast<Eigen::Index>(scan);
     for (int h = 0; h < 2; ++h) {
@@ -77,7 +72,7 @@ CommonTraces commonTraces(const Measured& measured) {
 }
 
 StaticFit::StaticFit(const Measured& measured, CurvePer per, const Trace& common) : measured_(measured) {
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     group_.push_back(per == CurvePer::kVisit ? measured.visit[i]
                                              : static_cast<std::uint32_t>(measured.classOf(i)));
   }
@@ -93,7 +88,7 @@ StaticFit::StaticFit(const StaticFit& like, const Trace& common, const Trace& lo
       groups_(like.groups_),
       per_(like.per_),
       gain_scatter_(like.gain_scatter_),
-      kept_(like.kept_) {
+      gain_weight_(like.gain_weight_) {
   fitCurves(common, load);
   prepare();
 }
@@ -120,7 +115,7 @@ void StaticFit::fitCurves(const Trace& common, const Trace& load) {
     slope_[i] = std::max(slope, 0.0);
   }
   zero_ = curve_.minCoeff();
-  rise_ = curve_.array() - zero_;
+  net_curve_ = curve_.array() - zero_;
 }
 
 double StaticFit::curveAt(std::size_t scan, double load) const {
@@ -170,32 +165,32 @@ void StaticFit::scaleGains(Trace& trace, Factor factor) const {
     const MeasuredCycle& cycle = measured_.cycles[c];
     const auto first = static_cast<Eigen::Index>(cycle.first);
     const auto scans = static_cast<Eigen::Index>(cycle.last - cycle.first);
-    const auto gain = rise_.segment(first, scans);
+    const auto gain = net_curve_.segment(first, scans);
     const double square = gain.squaredNorm();
     if (square <= 0) continue;
     trace.segment(first, scans) += (factor(c) - 1) * gain.dot(trace.segment(first, scans)) / square * gain;
   }
 }
 
-void StaticFit::shrink(Trace& trace) const {
-  scaleGains(trace, [&](std::size_t cycle) { return kept_[cycle]; });
+void StaticFit::applyGainWeights(Trace& trace) const {
+  scaleGains(trace, [&](std::size_t cycle) { return gain_weight_[cycle]; });
 }
 
-Trace StaticFit::grown(const Trace& projected) const {
+Trace StaticFit::withoutGainWeights(const Trace& projected) const {
   Trace trace = projected;
-  scaleGains(trace, [&](std::size_t cycle) { return 1 / std::max(kept_[cycle], kLeastKept); });
+  scaleGains(trace, [&](std::size_t cycle) { return 1 / std::max(gain_weight_[cycle], kLeastGainWeight); });
   return trace;
 }
 
 // The curves live in shrunk space too: x' = W x, B' = W B, and B'^T x' = B^T W (W x).
 Trace StaticFit::project(const Trace& trace) const {
-  Trace shrunk = trace;
-  shrink(shrunk);
-  Trace twice = shrunk;
-  shrink(twice);
-  Trace curve = curveFrom(coefficientsOf(twice, shrunk_));
-  shrink(curve);
-  return shrunk - curve;
+  Trace weighted = trace;
+  applyGainWeights(weighted);
+  Trace twice = weighted;
+  applyGainWeights(twice);
+  Trace curve = curveFrom(coefficientsOf(twice, weighted_));
+  applyGainWeights(curve);
+  return weighted - curve;
 }
 
 void StaticFit::judgeGainScatter(const Trace& left) {
@@ -203,21 +198,23 @@ void StaticFit::judgeGainScatter(const Trace& left) {
   for (const MeasuredCycle& cycle : measured_.cycles) {
     const auto first = static_cast<Eigen::Index>(cycle.first);
     const auto scans = static_cast<Eigen::Index>(cycle.last - cycle.first);
-    weight.push_back(rise_.segment(first, scans).squaredNorm());
-    gain.push_back(
-        weight.back() > 0 ? rise_.segment(first, scans).dot(left.segment(first, scans)) / weight.back() : 0);
+    weight.push_back(net_curve_.segment(first, scans).squaredNorm());
+    gain.push_back(weight.back() > 0
+                       ? net_curve_.segment(first, scans).dot(left.segment(first, scans)) / weight.back()
+                       : 0);
   }
   std::vector<double> steps;
   for (std::size_t c = 1; c < gain.size(); ++c) {
     if (measured_.cycles[c].visit != measured_.cycles[c - 1].visit) continue;
     steps.push_back(std::abs(gain[c] - gain[c - 1]));
   }
-  kept_.resize(gain.size());
-  gain_scatter_ = std::max(kLeastScatter, kDeviationPerMedian / std::sqrt(2.0) * median(steps));
+  gain_weight_.resize(gain.size());
+  gain_scatter_ =
+      std::max(kLeastScatter, kDeviationPerMedian / std::sqrt(2.0) * statistics::upperMedian(steps, 0));
   const double noise = left.squaredNorm() / static_cast<double>(left.size());
   for (std::size_t c = 0; c < gain.size(); ++c) {
     const double by_noise = noise / std::max(weight[c], 1e-12);
-    kept_[c] = std::sqrt(by_noise / (by_noise + gain_scatter_ * gain_scatter_));
+    gain_weight_[c] = std::sqrt(by_noise / (by_noise + gain_scatter_ * gain_scatter_));
   }
   prepare();
 }
@@ -235,15 +232,16 @@ void StaticFit::prepare() {
     Eigen::VectorXd along = Eigen::VectorXd::Zero(size);
     double square = 0;
     for (std::size_t i = cycle.first; i < cycle.last; ++i) {
-      const double gain = rise_[static_cast<Eigen::Index>(i)];
+      const double gain = net_curve_[static_cast<Eigen::Index>(i)];
       square += gain * gain;
       eachSpline(splines_[i], [&](Eigen::Index k, double x, double) { along[k] += gain * x; });
     }
     if (square <= 0) continue;
-    normal[group_[cycle.first]] -= (1 - kept_[c] * kept_[c]) / square * along * along.transpose();
+    normal[group_[cycle.first]] -=
+        (1 - gain_weight_[c] * gain_weight_[c]) / square * along * along.transpose();
   }
-  shrunk_.clear();
-  for (const Eigen::MatrixXd& matrix : normal) shrunk_.push_back(decompose(matrix));
+  weighted_.clear();
+  for (const Eigen::MatrixXd& matrix : normal) weighted_.push_back(decompose(matrix));
 }
 
 }  // namespace fsr::discrepancy

@@ -36,9 +36,9 @@ class StaticFit {
   /// weighed as in `like`.
   StaticFit(const StaticFit& like, const Trace& common, const Trace& load);
 
-  const Trace& curve() const { return curve_; }  ///< static reading at each scan [share of full scale]
-  const Trace& slope() const { return slope_; }  ///< never negative [share of full scale / Pa]
-  const Trace& rise() const { return rise_; }    ///< static reading above the unloaded one
+  const Trace& curve() const { return curve_; }         ///< static reading at each scan [share of full scale]
+  const Trace& slope() const { return slope_; }         ///< never negative [share of full scale / Pa]
+  const Trace& netCurve() const { return net_curve_; }  ///< static reading above the unloaded one
 
   /// Reading of a scan's curve at another load [Pa]; straight on beyond its ends, never below the unloaded
   /// one.
@@ -53,7 +53,7 @@ class StaticFit {
   /// Shrinks along the cycles' gains, then takes out the static curves.
   Trace project(const Trace& trace) const;
   /// Undoes the shrinking of what project() returned.
-  Trace grown(const Trace& projected) const;
+  Trace withoutGainWeights(const Trace& projected) const;
   /// Takes out the static curves, nothing shrunk.
   Trace residual(const Trace& trace) const;
 
@@ -71,7 +71,7 @@ class StaticFit {
   using Normal = Eigen::LDLT<Eigen::MatrixXd>;
   template <typename Factor>
   void scaleGains(Trace& trace, Factor factor) const;
-  void shrink(Trace& trace) const;
+  void applyGainWeights(Trace& trace) const;
   Eigen::MatrixXd coefficientsOf(const Trace& trace, const std::vector<Normal>& normal) const;
   Trace curveFrom(const Eigen::MatrixXd& coefficients) const;
   void prepare();
@@ -83,12 +83,12 @@ class StaticFit {
   std::size_t groups_ = 0;
   CurvePer per_ = CurvePer::kClass;
   std::vector<SplineBasis::Values> splines_;  // of each scan
-  std::vector<Normal> plain_, shrunk_;        // of each group
+  std::vector<Normal> plain_, weighted_;      // of each group
   Eigen::MatrixXd fitted_;                    // [coefficients x groups]
-  Trace curve_, slope_, rise_;
+  Trace curve_, slope_, net_curve_;
   double zero_ = 0;
   double gain_scatter_ = 0;
-  std::vector<double> kept_;  // of each cycle: what shrink() leaves along its gain
+  std::vector<double> gain_weight_;  // of each cycle: what shrink() leaves along its gain
 };
 
 }  // namespace fsr::discrepancy

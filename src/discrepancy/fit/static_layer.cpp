@@ -5,18 +5,17 @@
 #include <map>
 
 #include "discrepancy/fit/levenberg.h"
+#include "discrepancy/thresholds.h"
 
 namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kLeastShare = 0.02;  // of the readings' squared error
 constexpr double kLeastZ = 6;
 constexpr std::size_t kPoints = 60;     // of a curve
-constexpr double kShows = 0.2;          // of the largest rms
 constexpr double kSure = 2;             // standard errors of a curve
-constexpr double kFewMoments = 8;       // at one pressure
-constexpr double kTogether = 5;         // moments that hang together: noise is coloured
+constexpr double kFewSamples = 8;       // at one pressure
+constexpr double kTogether = 5;         // samples that hang together: noise is coloured
 constexpr double kPreloadScale = 50e3;  // [Pa]
 
 // Smooth functions of the place on the sheet, without the constant: powers of x and y up to a degree.
@@ -44,8 +43,8 @@ Eigen::MatrixXd smoothFields(const matrix::Layout& layout, const std::vector<std
 // One mount's preload and gain of each taxel against the surface's mean.
 struct MountFields {
   Eigen::MatrixXd change;  // [taxels x 2], preload [Pa] and gain
-  Eigen::Matrix2d gram;    // of slope and rise, summed over the moments
-  double moments = 0;
+  Eigen::Matrix2d gram;    // of slope and rise, summed over the samples
+  double samples = 0;
   std::size_t curvature_class = 0;
 };
 
@@ -61,7 +60,7 @@ MountFields fieldsOf(const Measured& measured, const StaticFit& fit, const Taxel
   for (std::size_t i = at.first; i < at.last; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     taxels.residuals(i, residual);
-    const Eigen::Vector2d x(fit.slope()[k], fit.rise()[k]);
+    const Eigen::Vector2d x(fit.slope()[k], fit.netCurve()[k]);
     fields.gram += x * x.transpose();
     for (std::size_t t = 0; t < used.size(); ++t) {
       double r = residual[used[t]];
@@ -71,7 +70,7 @@ MountFields fieldsOf(const Measured& measured, const StaticFit& fit, const Taxel
       }
       right.col(static_cast<Eigen::Index>(t)) += x * r;
     }
-    ++fields.moments;
+    ++fields.samples;
   }
   fields.change = fields.gram.ldlt().solve(right).transpose();
   return fields;
@@ -109,14 +108,14 @@ Eigen::VectorXd misfitOf(const Eigen::VectorXd& curve, const Eigen::VectorXd& re
 }
 
 // Variance of each class's curve at each pressure, by what is left round it there; infinite where hardly a
-// moment speaks of it.
+// sample speaks of it.
 Eigen::MatrixXd chanceOf(const Measured& measured, const StaticFit& fit, const Trace& common, double low,
                          double step) {
   const auto classes = static_cast<Eigen::Index>(measured.classes.size());
   const auto points = static_cast<Eigen::Index>(kPoints);
   Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(points, classes), number = squares;
   const Trace left = fit.residual(common);
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     const auto k = static_cast<Eigen::Index>(std::lround((measured.pressure[i] - low) / step));
     const auto c = static_cast<Eigen::Index>(measured.classOf(i));
     if (k < 0 || k >= points) continue;
@@ -127,7 +126,7 @@ Eigen::MatrixXd chanceOf(const Measured& measured, const StaticFit& fit, const T
   for (Eigen::Index c = 0; c < classes; ++c) {
     for (Eigen::Index k = 0; k < points; ++k) {
       const double n = number(k, c);
-      chance(k, c) = n < kFewMoments ? INFINITY : kTogether * squares(k, c) / (n * n);
+      chance(k, c) = n < kFewSamples ? INFINITY : kTogether * squares(k, c) / (n * n);
     }
   }
   return chance;
@@ -147,7 +146,7 @@ Repositioning findRepositioning(const Measured& measured, const StaticFit& fit, 
   if (used.size() < 4 || *std::max_element(visits_of.begin(), visits_of.end()) < 2) return found;
   const Eigen::MatrixXd smooth = smoothFields(measured.layout, used);
   const auto n = static_cast<double>(used.size()), terms = static_cast<double>(smooth.cols());
-  double inside = 0, outside = 0, moments = 0, offsets = 0, gains = 0, mounts = 0;
+  double inside = 0, outside = 0, samples = 0, offsets = 0, gains = 0, mounts = 0;
   std::map<std::size_t, double> by_class;
   for (std::size_t v = 0; v < measured.visits.size(); ++v) {
     if (visits_of[measured.visits[v].curvature_class] < 2) continue;
@@ -158,23 +157,24 @@ Repositioning findRepositioning(const Measured& measured, const StaticFit& fit, 
     const double explains = (smoothed * fields.gram * smoothed.transpose()).trace();
     inside += explains;
     outside += all - explains;
-    moments += fields.moments;
+    samples += fields.samples;
     by_class[fields.curvature_class] += explains;
     offsets += smoothed.col(0).squaredNorm() / n;
     gains += smoothed.col(1).squaredNorm() / n;
     ++mounts;
   }
   const double chance = outside / (n - 1 - terms) * terms;  // what the smooth fields would take of chance
-  const Spread nothing = spreadOf(measured, taxels, Trace::Zero(fit.rise().size()));
-  found.share = nothing.square > 0 ? (inside - chance) / (moments * n) / nothing.square : 0;
+  const Spread nothing = spreadOf(measured, taxels, Trace::Zero(fit.netCurve().size()));
+  found.share = nothing.square > 0 ? (inside - chance) / (samples * n) / nothing.square : 0;
   found.z = (inside - chance) / std::max(1e-300, chance * std::sqrt(1 / (terms * mounts)));
   found.offset = std::sqrt(offsets / mounts);
   found.gain = std::sqrt(gains / mounts);
-  found.found = found.share >= kLeastShare && found.z >= kLeastZ;
+  found.found = found.share >= thresholds::kLeastShareOfError && found.z >= kLeastZ;
   double most = 0;
   for (const auto& [c, square] : by_class) most = std::max(most, square);
   for (const auto& [c, square] : by_class) {
-    if (square >= kShows * kShows * most) found.where.conditions.push_back(measured.classes[c].surface);
+    if (square >= thresholds::kShows * thresholds::kShows * most)
+      found.where.conditions.push_back(measured.classes[c].surface);
   }
   if (found.where.conditions.size() == measured.classes.size()) found.where.conditions.clear();
   found.where.pressure = {0, *std::max_element(measured.pressure.begin(), measured.pressure.end())};
@@ -187,13 +187,13 @@ StaticMisfit findStaticMisfit(const Measured& measured, const StaticFit& fit, co
   if (measured.classes.size() < 2) return result;
   const auto [least, most] = std::minmax_element(measured.pressure.begin(), measured.pressure.end());
   const double low = std::max(0.0, *least), step = (*most - low) / (kPoints - 1);
-  std::vector<std::size_t> moment_of(measured.classes.size(), measured.moments());
-  for (std::size_t i = 0; i < measured.moments(); ++i) moment_of[measured.classOf(i)] = i;
+  std::vector<std::size_t> sample_of(measured.classes.size(), measured.samples());
+  for (std::size_t i = 0; i < measured.samples(); ++i) sample_of[measured.classOf(i)] = i;
   Eigen::MatrixXd curves(static_cast<Eigen::Index>(kPoints),
                          static_cast<Eigen::Index>(measured.classes.size()));
   for (Eigen::Index c = 0; c < curves.cols(); ++c) {
     for (Eigen::Index k = 0; k < curves.rows(); ++k) {
-      curves(k, c) = fit.curveAt(moment_of[static_cast<std::size_t>(c)], low + step * static_cast<double>(k));
+      curves(k, c) = fit.curveAt(sample_of[static_cast<std::size_t>(c)], low + step * static_cast<double>(k));
     }
   }
   const Eigen::MatrixXd chance = chanceOf(measured, fit, common, low, step);
@@ -223,13 +223,13 @@ StaticMisfit findStaticMisfit(const Measured& measured, const StaticFit& fit, co
   const Eigen::VectorXd by_pressure = misfit.rowwise().norm();
   result.pressure = {INFINITY, 0};
   for (Eigen::Index k = 0; k < by_pressure.size(); ++k) {
-    if (by_pressure[k] < 0.25 * by_pressure.maxCoeff()) continue;
+    if (by_pressure[k] < thresholds::kPressureShows * by_pressure.maxCoeff()) continue;
     result.pressure.low = std::min(result.pressure.low, low + step * static_cast<double>(k));
     result.pressure.high = std::max(result.pressure.high, low + step * static_cast<double>(k));
   }
   const Eigen::VectorXd by_class = misfit.colwise().norm();
   for (Eigen::Index c = 0; c < by_class.size(); ++c) {
-    if (by_class[c] >= kShows * by_class.maxCoeff())
+    if (by_class[c] >= thresholds::kShows * by_class.maxCoeff())
       result.conditions.push_back(measured.classes[static_cast<std::size_t>(c)].surface);
   }
   return result;

@@ -7,6 +7,8 @@
 #include <numeric>
 
 #include "simulation/driven_rig.h"
+#include "simulation/effects/enabled_effects.h"
+#include "simulation/taxel_curves.h"
 
 namespace fsr::discrepancy {
 
@@ -20,25 +22,16 @@ constexpr double kSameCurvature = 1e-6;  // [1/m]
 struct Pair {
   double pressure;   // [Pa]
   double curvature;  // principal, of taxel 0 [1/m]
-  bool shown;        // takes no part in any fit
+  bool held_out;     // takes no part in any fit
   const std::uint16_t* measured;
   const double* simulated;
 };
 
-simulation::SimulationSettings withoutNoise(simulation::SimulationSettings settings) {
-  auto& effects = settings.effects;
-  effects.erase(
-      std::remove_if(effects.begin(), effects.end(),
-                     [](const simulation::EnabledEffect& effect) { return effect.id == "white_noise"; }),
-      effects.end());
-  return settings;
-}
-
 // The cycles that are shown, as times since the first scan of all [s].
-std::vector<std::pair<double, double>> shownTimes(const Measured& measured) {
+std::vector<std::pair<double, double>> holdOutTimes(const Measured& measured) {
   std::vector<std::pair<double, double>> times;
   for (const MeasuredCycle& cycle : measured.cycles) {
-    if (cycle.use != CycleUse::kShow) continue;
+    if (cycle.use != CycleUse::kHoldOut) continue;
     const bool last = cycle.last >= measured.time.size();
     times.emplace_back(measured.time[cycle.first], last ? INFINITY : measured.time[cycle.last]);
   }
@@ -62,11 +55,11 @@ std::vector<const dataset::Recording*> inOrderOfTime(const Measured& measured) {
 // Drives the simulation through everything that was recorded.
 void forEachScan(const Measured& measured, const simulation::SimulationSettings& simulation,
                  const std::function<void(const Pair&)>& use) {
-  const simulation::SimulationSettings quiet = withoutNoise(simulation);
+  const simulation::SimulationSettings quiet = simulation::withoutNoise(simulation);
   simulation::DrivenRig rig(quiet);
   double end = -INFINITY;
   const std::vector<const dataset::Recording*> order = inOrderOfTime(measured);
-  const auto shown = shownTimes(measured);
+  const auto held_out = holdOutTimes(measured);
   const double first = order.front()->time.front();
   for (const dataset::Recording* recording : order) {
     const double start = 1e-9 * static_cast<double>(recording->start_ns - order.front()->start_ns) - first;
@@ -76,7 +69,7 @@ void forEachScan(const Measured& measured, const simulation::SimulationSettings&
     rig.run(*recording, [&](std::size_t scan, const simulation::SensorChain& chain) {
       const matrix::Surface& surface = recording->conditions.at(recording->condition[scan]);
       const double curvature = surface.known() ? matrix::principalCurvature(surface.at({0})) : 0;
-      use({recording->pressure[scan], curvature, within(shown, start + recording->time[scan]),
+      use({recording->pressure[scan], curvature, within(held_out, start + recording->time[scan]),
            recording->scan(scan), chain.reading().data()});
     });
   }
@@ -162,7 +155,7 @@ simulation::SimulationSettings withTaxelCurves(const Measured& measured,
   result.taxel_curves.reset();
   std::vector<Sums> all = preparedSums(measured);
   forEachScan(measured, result, [&](const Pair& pair) {
-    if (!pair.shown) sumsOf(all, pair.curvature).add(pair, measured.full_scale);
+    if (!pair.held_out) sumsOf(all, pair.curvature).add(pair, measured.full_scale);
   });
   simulation::TaxelCurves curves;
   curves.taxels = measured.taxels();
@@ -175,7 +168,7 @@ simulation::SimulationSettings withTaxelCurves(const Measured& measured,
 double simulatedGap(const Measured& measured, const simulation::SimulationSettings& simulation) {
   double squares = 0, number = 0;
   forEachScan(measured, simulation, [&](const Pair& pair) {
-    if (!pair.shown) return;
+    if (!pair.held_out) return;
     for (std::size_t t = 0; t < measured.taxels(); ++t) {
       if (!measured.used[t]) continue;
       squares += std::pow((pair.measured[t] - pair.simulated[t]) / measured.full_scale, 2);

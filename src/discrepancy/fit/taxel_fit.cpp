@@ -19,8 +19,8 @@ TaxelFit::TaxelFit(const Measured& measured, const StaticFit& fit) : measured_(m
   std::vector<Eigen::MatrixXd> normal(fit.groups(), Eigen::MatrixXd::Zero(size, size));
   coefficients_.assign(fit.groups(), Eigen::MatrixXd::Zero(size, taxels));
   std::vector<double> readings;
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
-    if (measured.cycles[measured.cycle[i]].use == CycleUse::kShow) continue;
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
+    if (measured.cycles[measured.cycle[i]].use == CycleUse::kHoldOut) continue;
     measured.readings(i, readings);
     const Eigen::Map<const Eigen::RowVectorXd> row(readings.data(), taxels);
     const SplineBasis::Values& at = fit.splines(i);
@@ -39,10 +39,10 @@ TaxelFit::TaxelFit(const Measured& measured, const StaticFit& fit) : measured_(m
   judgeWithin();
 }
 
-void TaxelFit::residuals(std::size_t moment, std::vector<double>& result) const {
-  measured_.readings(moment, result);
-  const SplineBasis::Values& at = fit_.splines(moment);
-  const Eigen::MatrixXd& coefficients = coefficients_[fit_.groupOf(moment)];
+void TaxelFit::residuals(std::size_t sample, std::vector<double>& result) const {
+  measured_.readings(sample, result);
+  const SplineBasis::Values& at = fit_.splines(sample);
+  const Eigen::MatrixXd& coefficients = coefficients_[fit_.groupOf(sample)];
   for (std::size_t t = 0; t < result.size(); ++t) {
     for (std::size_t j = 0; j < SplineBasis::kAtOnce; ++j) {
       result[t] -=
@@ -52,11 +52,11 @@ void TaxelFit::residuals(std::size_t moment, std::vector<double>& result) const 
   }
 }
 
-// The pressure goes on within a moment; what it moves is taken out by the common slope.
+// The pressure goes on within a sample; what it moves is taken out by the common slope.
 void TaxelFit::judgeWithin() {
   double squares = 0, number = 0;
   std::vector<double> mean;
-  for (std::size_t m = 0; m < measured_.moments(); ++m) {
+  for (std::size_t m = 0; m < measured_.samples(); ++m) {
     if (measured_.scans[m] < 2) continue;
     measured_.recorded(m, mean);
     const Visit& visit = measured_.visits[measured_.visit[m]];
@@ -82,10 +82,10 @@ Spread spreadOf(const Measured& measured, const TaxelFit& taxels, const Trace& t
   const auto rows = static_cast<Eigen::Index>(measured.taxels());
   const auto classes = static_cast<Eigen::Index>(measured.classes.size());
   Eigen::MatrixXd product = Eigen::MatrixXd::Zero(rows, classes), square = product;
-  Eigen::VectorXd norm = Eigen::VectorXd::Zero(classes), moments = norm;
+  Eigen::VectorXd norm = Eigen::VectorXd::Zero(classes), samples = norm;
   std::vector<double> residual;
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
-    if (measured.cycles[measured.cycle[i]].use == CycleUse::kShow) continue;
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
+    if (measured.cycles[measured.cycle[i]].use == CycleUse::kHoldOut) continue;
     taxels.residuals(i, residual);
     const auto c = static_cast<Eigen::Index>(measured.classOf(i));
     const double x = trace[static_cast<Eigen::Index>(i)];
@@ -93,7 +93,7 @@ Spread spreadOf(const Measured& measured, const TaxelFit& taxels, const Trace& t
     product.col(c) += x * r;
     square.col(c) += r.cwiseAbs2();
     norm[c] += x * x;
-    moments[c] += 1;
+    samples[c] += 1;
   }
   Spread spread;
   spread.amplitude = spread.error =
@@ -105,14 +105,14 @@ Spread spreadOf(const Measured& measured, const TaxelFit& taxels, const Trace& t
       const double a = product(t, c) / norm[c];
       const double left = std::max(0.0, square(t, c) - a * a * norm[c]);
       spread.amplitude(t, c) = a;
-      spread.error(t, c) = std::sqrt(left / std::max(1.0, moments[c] - 1) / norm[c]);
+      spread.error(t, c) = std::sqrt(left / std::max(1.0, samples[c] - 1) / norm[c]);
       const double weight = norm[c];  // what counts is the rms that it makes
       sum += weight * a;
       squares += weight * (a * a - std::pow(spread.error(t, c), 2));
       number += weight;
     }
   }
-  const double scans = moments.sum() * static_cast<double>(measured.usedTaxels());
+  const double scans = samples.sum() * static_cast<double>(measured.usedTaxels());
   spread.square = square.sum() / std::max(1.0, scans) + taxels.within();
   if (sum != 0) spread.local = std::clamp(squares * number / (sum * sum), 1.0, kMostLocal);
   return spread;

@@ -8,15 +8,15 @@
 
 namespace fsr::discrepancy {
 
-/// Static curves of every taxel, fitted to the cycles that are not shown.
+/// Static curves of every taxel, fitted to the cycles that are not held out.
 class TaxelFit {
  public:
   TaxelFit(const Measured& measured, const StaticFit& fit);
 
   /// What the curves leave of every taxel's reading [share of full scale]; 0 for those not used.
-  void residuals(std::size_t moment, std::vector<double>& result) const;
+  void residuals(std::size_t sample, std::vector<double>& result) const;
 
-  /// Mean square of single scans round the mean of their moment [share of full scale, squared]: noise
+  /// Mean square of single scans round the mean of their sample [share of full scale, squared]: noise
   /// that no explanation reaches.
   double within() const { return within_; }
 

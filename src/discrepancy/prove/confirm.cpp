@@ -8,9 +8,9 @@
 #include "discrepancy/decide/decision.h"
 #include "discrepancy/decide/refine.h"
 #include "discrepancy/fit/base_fit.h"
+#include "discrepancy/prove/prediction_hash.h"
 #include "discrepancy/prove/wording.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "settings/sha256.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
@@ -19,17 +19,6 @@ namespace {
 
 constexpr double kLeastShare = 0.3;    // of the common trace's squared error that a true prediction explains
 constexpr double kRivalBetter = 0.03;  // of it: a rival that explains more by this fails the prediction
-
-void write(std::ostream& out, const std::vector<simulation::EnabledEffect>& effects) {
-  for (const simulation::EnabledEffect& effect : effects) {
-    out << effect.id << "{";
-    for (const auto& [name, value] : effect.values) out << name << "=" << value << ";";
-    for (const std::size_t taxel : effect.only_taxels) out << taxel << ",";
-    for (const std::string& surface : effect.only_surfaces) out << surface << ",";
-    out << "}";
-  }
-  out << "\n";
-}
 
 std::string idsOf(const std::vector<simulation::EnabledEffect>& effects) {
   std::vector<std::string> ids;
@@ -42,8 +31,8 @@ std::string idsOf(const std::vector<simulation::EnabledEffect>& effects) {
 std::string excludedBy(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                        const simulation::SimulationSettings& base, const std::string& id) {
   const TaxelFit taxels(measured, fit);
-  const Competition competition(measured, common, fit, signatures(measured, fit, base, {}, 0), 0);
-  const Decision decision = decide(measured, common, fit, taxels, competition, base);
+  const Candidates candidates(measured, common, fit, signatures(measured, fit, base, {}, 0), 0);
+  const Decision decision = decide(measured, common, fit, taxels, candidates, base);
   const auto& credible = decision.credible;
   const bool in = std::any_of(credible.begin(), credible.end(), [&](const std::vector<std::string>& ids) {
     return std::count(ids.begin(), ids.end(), id) > 0;
@@ -53,23 +42,11 @@ std::string excludedBy(const Measured& measured, const CommonTraces& common, con
 
 }  // namespace
 
-std::string hashOf(const Prediction& prediction, const simulation::SimulationSettings& simulation) {
-  std::ostringstream text;
-  text.precision(9);
-  write(text, prediction.effects);
-  for (const auto& rival : prediction.rivals) write(text, rival);
-  text << prediction.size.low << " " << prediction.size.high << "\n";
-  text << simulation.layout.size.rows << " x " << simulation.layout.size.columns << "\n";
-  write(text, simulation.effects);
-  const std::string bytes = text.str();
-  return settings::sha256(bytes.data(), bytes.size());
-}
-
 Confirmation confirm(const Prediction& prediction, const simulation::SimulationSettings& simulation,
                      const std::vector<dataset::Recording>& recordings) {
   if (prediction.effects.empty())
     throw settings::InputError("prediction: it names no effect, there is nothing to confirm");
-  if (hashOf(prediction, simulation) != prediction.hash) {
+  if (!hasItsHash(prediction, simulation)) {
     throw settings::InputError(
         "prediction: its hash does not fit what it says; it was changed after it was made");
   }
@@ -85,13 +62,13 @@ Confirmation confirm(const Prediction& prediction, const simulation::SimulationS
   const CommonTraces common = commonTraces(measured);
   const StaticFit fit(measured, CurvePer::kClass, common.all);
   Confirmation confirmation;
-  const Foretold told = foretell(measured, common, fit, base, prediction.effects);
+  const Predicted told = predict(measured, common, fit, base, prediction.effects);
   confirmation.share_of_error = told.share;
   confirmation.size = told.size;
   confirmation.interval = told.interval;
   double most = told.share;
   for (const auto& rival : prediction.rivals) {
-    const double share = foretell(measured, common, fit, base, rival).best_share;
+    const double share = predict(measured, common, fit, base, rival).best_share;
     if (share <= std::max(most, told.best_share + kRivalBetter)) continue;
     most = share;
     confirmation.best_rival = idsOf(rival);

@@ -88,11 +88,11 @@ class CalibratedSheet {
 };
 
 std::vector<double> CalibratedSheet::curveOf(std::size_t curvature_class, double highest) const {
-  std::size_t moment = 0;
-  while (measured_.classOf(moment) != curvature_class) ++moment;
+  std::size_t sample = 0;
+  while (measured_.classOf(sample) != curvature_class) ++sample;
   std::vector<double> curve;
   for (std::size_t k = 0; k < kPoints; ++k) {
-    const double reading = fit_.curveAt(moment, highest * static_cast<double>(k) / (kPoints - 1));
+    const double reading = fit_.curveAt(sample, highest * static_cast<double>(k) / (kPoints - 1));
     curve.push_back(curve.empty() ? reading : std::max(reading, curve.back()));
   }
   return curve;
@@ -114,7 +114,7 @@ std::vector<double> CalibratedSheet::errors(const Situation& situation, std::siz
   const double highest = kBeyond * *std::max_element(measured_.pressure.begin(), measured_.pressure.end());
   const std::vector<double> curve = curveOf(curvature_class, highest);
   std::vector<double> errors;
-  simulation::RigMoment now;
+  simulation::RigSample now;
   now.course = &situation.pressure;
   for (now.time = 0; now.time <= situation.end; now.time += situation.step, ++now.scan) {
     now.pressure = situation.pressure(now.time);

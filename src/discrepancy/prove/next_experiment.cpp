@@ -12,6 +12,8 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/chamber_program.h"
 #include "simulation/effects/effect_library.h"
+#include "simulation/pressure_profile.h"
+#include "simulation/read_settings.h"
 #include "simulation/session.h"
 
 namespace fsr::discrepancy {
@@ -32,7 +34,7 @@ struct Protocol {
   bool hours = false;   // flat alone, as in kHoursApart
 };
 
-// Cycles on the flat surface that clock, way, mount and warmth count differently.
+// Cycles on the flat surface, so that clock time, path length, mount and temperature are not proportional.
 struct Block {
   double pause;  // before it [s]
   int cycles;
@@ -41,7 +43,7 @@ struct Block {
 const Block kHoursApart[] = {
     {600, 6, false}, {7200, 6, true}, {7200, 6, false}, {300, 60, false}, {10800, 6, false}};
 
-// What a chamber with a regulator can do; the names are those that a user finds in the README.
+// Protocols for a chamber with a regulator. The names are those in docs/discrepancy.md.
 const Protocol kProtocols[] = {
     {"two_speeds", "cycles at 8 and at 40 kPa/s with dwells of some ten seconds at half and full pressure",
      "[{cycles: {peak: 620000, rate: 40000, dwell_peak: 10, cycles: 3}},"
@@ -171,15 +173,16 @@ double smallestApart(const std::vector<Trace>& residuals) {
 }
 
 // Whether it brings what the recordings lacked and some explanation needs, to be named alone.
-bool bringsEvidence(const Protocol& protocol, const EvidenceAtHand& at_hand,
+bool bringsEvidence(const simulation::EffectLibrary& library, const Protocol& protocol,
+                    const AvailableEvidence& at_hand,
                     const std::vector<std::vector<simulation::EnabledEffect>>& explanations) {
-  EvidenceAtHand then = at_hand;
+  AvailableEvidence then = at_hand;
   then.two_rates = then.two_rates || protocol.two_rates;
   then.thermometer = then.thermometer || protocol.warmer;
   then.uneven_pace = then.uneven_pace || protocol.hours;
   for (const auto& effects : explanations) {
     for (const simulation::EnabledEffect& effect : effects) {
-      for (const simulation::Evidence need : simulation::findEffect(effect.id)->info.needs) {
+      for (const simulation::Evidence need : library.info(effect.id).needs) {
         const bool can = need == simulation::Evidence::kTwoRampRates ||
                          need == simulation::Evidence::kThermometer ||
                          need == simulation::Evidence::kManyCycles;
@@ -200,12 +203,14 @@ std::string nameOf(const std::vector<simulation::EnabledEffect>& effects) {
 
 std::vector<NextExperiment> nextExperiment(
     const simulation::SimulationSettings& base,
-    const std::vector<std::vector<simulation::EnabledEffect>>& explanations, const EvidenceAtHand& at_hand,
+    const std::vector<std::vector<simulation::EnabledEffect>>& explanations, const AvailableEvidence& at_hand,
     double floor) {
   if (explanations.size() < 2) return {};
   const Protocol* best = nullptr;
   double most = -1;
-  const auto brings = [&](const Protocol& p) { return bringsEvidence(p, at_hand, explanations); };
+  const auto brings = [&](const Protocol& p) {
+    return bringsEvidence(simulation::libraryOf(base), p, at_hand, explanations);
+  };
   const bool any_brings = std::any_of(std::begin(kProtocols), std::end(kProtocols), brings);
   for (const Protocol& protocol : kProtocols) {
     if (any_brings && !brings(protocol)) continue;

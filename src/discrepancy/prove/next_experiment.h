@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "discrepancy/samples/evidence.h"
+#include "discrepancy/samples/available_evidence.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 
 namespace fsr::discrepancy {
@@ -13,7 +13,7 @@ namespace fsr::discrepancy {
 /// of a reading [share of full scale]. None for fewer than two explanations.
 std::vector<NextExperiment> nextExperiment(
     const simulation::SimulationSettings& base,
-    const std::vector<std::vector<simulation::EnabledEffect>>& explanations, const EvidenceAtHand& at_hand,
+    const std::vector<std::vector<simulation::EnabledEffect>>& explanations, const AvailableEvidence& at_hand,
     double floor);
 
 }  // namespace fsr::discrepancy

@@ -1,19 +1,23 @@
 #include "discrepancy/prove/wording.h"
 
+#include <algorithm>
 #include <sstream>
+
+#include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
 
 namespace {
 
-// Data sheets call creep "drift": whoever reads the word must not take it for the other.
-std::string called(const std::string& id) {
-  return id == "creep" ? "creep (data sheets: drift under constant load)" : id;
+// Some data sheets use the name of another effect.
+std::string called(const simulation::EffectLibrary& library, const std::string& id) {
+  const std::string& other = library.info(id).also_called;
+  return other.empty() ? id : id + " (data sheets: " + other + ")";
 }
 
-std::string called(const std::vector<std::string>& ids) {
+std::string called(const simulation::EffectLibrary& library, const std::vector<std::string>& ids) {
   std::vector<std::string> names;
-  for (const std::string& id : ids) names.push_back(called(id));
+  for (const std::string& id : ids) names.push_back(called(library, id));
   return listText(names, " with ");
 }
 
@@ -30,6 +34,18 @@ std::string sizeText(const DiscrepancyReport& report) {
   return text.str();
 }
 
+// What would show the effects of the verdict: "; crosstalk needs the experiment uneven_load".
+std::string experimentsText(const DiscrepancyReport& report) {
+  std::vector<std::string> needs;
+  for (const NotIdentifiable& one : report.not_identifiable) {
+    const auto names_it = [&](const auto& ids) { return std::count(ids.begin(), ids.end(), one.id) > 0; };
+    if (!std::any_of(report.credible_set.begin(), report.credible_set.end(), names_it)) continue;
+    if (one.experiment != simulation::name(simulation::Experiment::kNone))
+      needs.push_back(one.id + " needs the experiment " + one.experiment);
+  }
+  return needs.empty() ? "" : "; " + listText(needs);
+}
+
 }  // namespace
 
 std::string listText(const std::vector<std::string>& items, const std::string& last) {
@@ -44,7 +60,7 @@ std::string listText(const std::vector<std::string>& items, const std::string& l
 std::string sentenceOf(const DiscrepancyReport& report) {
   const std::string tested = std::to_string(report.tested.size()) + " effects tested";
   std::vector<std::string> sets;
-  for (const auto& ids : report.credible_set) sets.push_back(called(ids));
+  for (const auto& ids : report.credible_set) sets.push_back(called(simulation::libraryOf(report.base), ids));
   switch (report.verdict) {
     case Verdict::kNone:
       return "Among " + tested + ", none is missing that these recordings show.";
@@ -58,8 +74,7 @@ std::string sentenceOf(const DiscrepancyReport& report) {
       return "Best explanation among " + tested + ", under this protocol: " + sets.front() +
              sizeText(report) + ", but not in the form that the library has.";
     case Verdict::kNotIdentifiable:
-      return "These recordings cannot show " + listText(report.depends_on) +
-             ": see the experiments that would.";
+      return "These recordings cannot show " + listText(sets, " or ") + experimentsText(report) + ".";
     case Verdict::kNamed:
       return "Best explanation among " + tested + ", under this protocol: " + sets.front() +
              sizeText(report) + ".";

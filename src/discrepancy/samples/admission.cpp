@@ -2,24 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr::discrepancy {
 
 namespace {
 
-std::string number(double value, int digits) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
-}
-
 std::string percent(double share) {
-  return number(100 * share, share < 0.001 ? 3 : 1) + " %";
+  return settings::fixedText(100 * share, share < 0.001 ? 3 : 1) + " %";
 }
 
 AdmittedRecording lookAt(const dataset::Recording& recording) {
@@ -46,9 +39,10 @@ void judgeLag(const AdmittedRecording& recording, const AdmissionOptions& option
   }
   const double lag = recording.lag->seconds;
   if (std::abs(lag) <= options.lag) return;
-  admission.problems.push_back(recording.name + ": the matrix answers " + number(std::abs(lag), 2) + " s " +
-                               (lag > 0 ? "later" : "earlier") + " than chamber_pressure says (allowed: " +
-                               number(options.lag, 2) + " s): do both stamps come from one clock?");
+  admission.problems.push_back(
+      recording.name + ": the matrix answers " + settings::fixedText(std::abs(lag), 2) + " s " +
+      (lag > 0 ? "later" : "earlier") + " than chamber_pressure says (allowed: " +
+      settings::fixedText(options.lag, 2) + " s): do both stamps come from one clock?");
 }
 
 void judgeFaults(const AdmittedRecording& recording, std::size_t taxels, const AdmissionOptions& options,

@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 
 #include "dataset/cycles.h"
 #include "discrepancy/samples/measured.h"
+#include "discrepancy/thresholds.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 #include "simulation/effects/effect_library.h"
 #include "statistics/random_stream.h"
 
@@ -19,15 +20,8 @@ constexpr std::uint64_t kFewRestarts = 2;  // of the board in one bag
 constexpr double kAnswers = 0.05;          // of what most taxels move, between low and high pressure
 constexpr double kLeastAnswer = 0.0005;    // likewise, at least [share of full scale]
 constexpr double kLeastRange = 50e3;       // of the pressure [Pa]
-constexpr double kMostUnusable = 0.5;      // share of the taxels
 constexpr double kBetween = 60;            // bags whose stamps overlap, one after the other [s]
-constexpr double kShowShare = 0.2;         // of the cycles
-
-std::string number(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
+constexpr double kHoldOutShare = 0.2;      // of the cycles
 
 void requireWhole(const dataset::Recording& recording) {
   const auto refuse = [&](const std::string& what) {
@@ -45,7 +39,7 @@ void requireWhole(const dataset::Recording& recording) {
   if (!whole) refuse("counts, pressure, temperature, condition and mask do not fit each other");
   for (std::size_t i = 1; i < recording.scans(); ++i) {
     if (recording.time[i] > recording.time[i - 1]) continue;
-    refuse("its stamps run backwards at " + number(recording.time[i]) + " s, but must ascend");
+    refuse("its stamps run backwards at " + settings::roundedText(recording.time[i]) + " s, but must ascend");
   }
   if (recording.losses.counter_back > kFewRestarts) {
     refuse("its stamps run backwards, or the board started afresh, " +
@@ -57,8 +51,8 @@ void requireWhole(const dataset::Recording& recording) {
 void requireFinite(const dataset::Recording& recording) {
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     if (std::isfinite(recording.pressure[i])) continue;
-    throw settings::InputError(recording.name + ": chamber pressure at " + number(recording.time[i]) +
-                               " s is no number");
+    throw settings::InputError(recording.name + ": chamber pressure at " +
+                               settings::roundedText(recording.time[i]) + " s is no number");
   }
 }
 
@@ -88,9 +82,10 @@ void requireTogether(const std::vector<dataset::Recording>& recordings) {
   }
 }
 
-void requireKnown(const std::vector<std::string>& ids, const std::string& option) {
+void requireKnown(const simulation::EffectLibrary& library, const std::vector<std::string>& ids,
+                  const std::string& option) {
   for (const std::string& id : ids) {
-    if (!simulation::findEffect(id)) throw settings::InputError(option + ": no effect is called " + id);
+    if (!library.find(id)) throw settings::InputError(option + ": no effect is called " + id);
   }
 }
 
@@ -137,8 +132,8 @@ int sign(statistics::LoadDirection direction) {
                                                               : 0;
 }
 
-// Scans first .. last - 1 of a visit become one moment.
-void appendMoment(Measured& measured, const VisitCourse& course, std::size_t first, std::size_t last) {
+// Scans first .. last - 1 of a visit become one sample.
+void appendSample(Measured& measured, const VisitCourse& course, std::size_t first, std::size_t last) {
   const Visit& visit = measured.visits.back();
   const std::vector<double>& temperature = (*measured.recordings)[visit.recording].temperature;
   measured.time.push_back(mean(course.time, first, last));
@@ -157,17 +152,17 @@ void appendMoment(Measured& measured, const VisitCourse& course, std::size_t fir
 void appendVisit(Measured& measured, double start, std::size_t pooled) {
   Visit& visit = measured.visits.back();
   const VisitCourse course = courseOf((*measured.recordings)[visit.recording], visit, start);
-  visit.first = measured.moments();
+  visit.first = measured.samples();
   for (std::size_t c = 0; c < course.cycles.count(); ++c) {
     const bool last = c + 1 == course.cycles.count();
     const std::size_t end = last ? course.time.size() : course.cycles.first[c + 1];
-    measured.cycles.push_back({measured.visits.size() - 1, measured.moments(), 0, 0, CycleUse::kFit});
+    measured.cycles.push_back({measured.visits.size() - 1, measured.samples(), 0, 0, CycleUse::kFit});
     for (std::size_t i = course.cycles.first[c]; i < end; i += pooled) {
-      appendMoment(measured, course, i, std::min(i + pooled, end));
+      appendSample(measured, course, i, std::min(i + pooled, end));
     }
-    measured.cycles.back().last = measured.moments();
+    measured.cycles.back().last = measured.samples();
   }
-  visit.last = measured.moments();
+  visit.last = measured.samples();
 }
 
 std::size_t scansPooled(const std::vector<dataset::Recording>& recordings) {
@@ -179,8 +174,8 @@ std::size_t scansPooled(const std::vector<dataset::Recording>& recordings) {
     const double seconds = recording.time.back() - recording.time.front();
     shortest = std::min(shortest, seconds / static_cast<double>(recording.scans() - 1));
   }
-  const double most = std::max(1.0, std::floor(Measured::kLongestMoment / shortest));
-  const double wanted = static_cast<double>(scans) / static_cast<double>(Measured::kManyMoments);
+  const double most = std::max(1.0, std::floor(Measured::kLongestSample / shortest));
+  const double wanted = static_cast<double>(scans) / static_cast<double>(Measured::kManySamples);
   return static_cast<std::size_t>(std::clamp(std::round(wanted), 1.0, most));
 }
 
@@ -203,7 +198,7 @@ void appendRecording(Measured& measured, const dataset::ConditionClasses& classe
   }
 }
 
-// Interleaved folds, and cycles to show on: in each visit as many, drawn by the seed.
+// Interleaved folds, and hold-out cycles: in each visit as many, drawn by the seed.
 void partCycles(Measured& measured, std::uint64_t seed) {
   const statistics::RandomStream stream = statistics::randomStream(seed, "discrepancy.split");
   std::vector<std::vector<std::size_t>> of_visit(measured.visits.size());
@@ -212,10 +207,10 @@ void partCycles(Measured& measured, std::uint64_t seed) {
   double owed = 0;
   for (std::size_t v = 0; v < of_visit.size(); ++v) {
     std::vector<std::size_t>& cycles = of_visit[v];
-    owed += kShowShare * static_cast<double>(cycles.size());
+    owed += kHoldOutShare * static_cast<double>(cycles.size());
     for (; owed >= 1 && cycles.size() > 1; owed -= 1) {
       const std::size_t drawn = stream.bits(v * 1000 + cycles.size()) % cycles.size();
-      measured.cycles[cycles[drawn]].use = CycleUse::kShow;
+      measured.cycles[cycles[drawn]].use = CycleUse::kHoldOut;
       cycles.erase(cycles.begin() + static_cast<std::ptrdiff_t>(drawn));
     }
     for (const std::size_t c : cycles) measured.cycles[c].fold = next++ % Measured::kFolds;
@@ -229,8 +224,7 @@ void maskTaxels(Measured& measured) {
       if (recording.mask[i]) measured.used[i] = 0;
     }
   }
-  if (static_cast<double>(measured.usedTaxels()) <
-      (1 - kMostUnusable) * static_cast<double>(measured.taxels())) {
+  if (!thresholds::enoughUsable(measured.usedTaxels(), measured.taxels())) {
     throw settings::InputError(
         (*measured.recordings)[0].name + ": " + std::to_string(measured.taxels() - measured.usedTaxels()) +
         " of " + std::to_string(measured.taxels()) + " taxels are masked, but at least half must be usable");
@@ -240,16 +234,16 @@ void maskTaxels(Measured& measured) {
 // Deviation of what each taxel reads [share of full scale].
 std::vector<double> movements(const Measured& measured) {
   std::vector<double> sum(measured.taxels()), squares(measured.taxels()), readings;
-  for (std::size_t i = 0; i < measured.moments(); ++i) {
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
     measured.recorded(i, readings);
     for (std::size_t t = 0; t < readings.size(); ++t) {
       sum[t] += readings[t];
       squares[t] += readings[t] * readings[t];
     }
   }
-  const auto moments = static_cast<double>(measured.moments());
+  const auto samples = static_cast<double>(measured.samples());
   for (std::size_t t = 0; t < sum.size(); ++t) {
-    squares[t] = std::sqrt(std::max(0.0, squares[t] / moments - std::pow(sum[t] / moments, 2)));
+    squares[t] = std::sqrt(std::max(0.0, squares[t] / samples - std::pow(sum[t] / samples, 2)));
   }
   return squares;
 }
@@ -263,7 +257,7 @@ void requireAnswers(const Measured& measured) {
   const double least = std::max(kLeastAnswer, kAnswers * usual);
   std::size_t usable = 0;
   for (std::size_t t = 0; t < answer.size(); ++t) usable += measured.used[t] && answer[t] >= least;
-  if (2 * usable >= answer.size()) return;
+  if (thresholds::enoughUsable(usable, answer.size())) return;
   throw settings::InputError(
       (*measured.recordings)[0].name + ": " + std::to_string(answer.size() - usable) + " of " +
       std::to_string(answer.size()) +
@@ -274,7 +268,8 @@ void requireJudgeable(const Measured& measured) {
   const std::string name = (*measured.recordings)[0].name;
   const auto [low, high] = std::minmax_element(measured.pressure.begin(), measured.pressure.end());
   if (*high - *low < kLeastRange) {
-    throw settings::InputError(name + ": chamber pressure covers " + number((*high - *low) * 1e-3) +
+    throw settings::InputError(name + ": chamber pressure covers " +
+                               settings::roundedText((*high - *low) * 1e-3) +
                                " kPa, but at least 50 kPa are needed to tell anything");
   }
   if (measured.cycles.size() < kFewestCycles) {
@@ -284,32 +279,40 @@ void requireJudgeable(const Measured& measured) {
         " of filling and venting, but at least 3 are needed: what was found must be held "
         "against others");
   }
-  if (measured.moments() < kFewestScans) {
-    throw settings::InputError(name + ": " + std::to_string(measured.moments()) +
+  if (measured.samples() < kFewestScans) {
+    throw settings::InputError(name + ": " + std::to_string(measured.samples()) +
                                " scans, but at least 200 are needed");
   }
 }
 
 }  // namespace
 
+const simulation::EffectInfo& Measured::info(const std::string& effect) const {
+  return effects().info(effect);
+}
+
+const simulation::EffectLibrary& Measured::effects() const {
+  return library ? *library : simulation::EffectLibrary::shipped();
+}
+
 std::size_t Measured::usedTaxels() const {
   return static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
 }
 
-void Measured::recorded(std::size_t moment, std::vector<double>& result) const {
-  const dataset::Recording& recording = (*recordings)[visits[visit[moment]].recording];
+void Measured::recorded(std::size_t sample, std::vector<double>& result) const {
+  const dataset::Recording& recording = (*recordings)[visits[visit[sample]].recording];
   result.assign(taxels(), 0.0);
-  for (std::size_t s = 0; s < scans[moment]; ++s) {
-    const std::uint16_t* counts = recording.scan(first_scan[moment] + s);
+  for (std::size_t s = 0; s < scans[sample]; ++s) {
+    const std::uint16_t* counts = recording.scan(first_scan[sample] + s);
     for (std::size_t i = 0; i < result.size(); ++i) result[i] += counts[i];
   }
-  for (double& reading : result) reading /= full_scale * static_cast<double>(scans[moment]);
+  for (double& reading : result) reading /= full_scale * static_cast<double>(scans[sample]);
 }
 
-void Measured::readings(std::size_t moment, std::vector<double>& result) const {
-  recorded(moment, result);
+void Measured::readings(std::size_t sample, std::vector<double>& result) const {
+  recorded(sample, result);
   if (gain.empty()) return;
-  for (double& reading : result) reading = (reading - added[moment] - unloaded) / gain[moment] + unloaded;
+  for (double& reading : result) reading = (reading - added[sample] - unloaded) / gain[sample] + unloaded;
 }
 
 void validate(const DiscrepancyProblem& problem) {
@@ -320,13 +323,14 @@ void validate(const DiscrepancyProblem& problem) {
   }
   requireTogether(problem.recordings);
   requireFit(problem.recordings.front(), problem.simulation);
-  requireKnown(problem.options.ask, "--ask");
-  requireKnown(problem.options.leave_out, "--without");
+  requireKnown(simulation::libraryOf(problem.simulation), problem.options.ask, "--ask");
+  requireKnown(simulation::libraryOf(problem.simulation), problem.options.leave_out, "--without");
 }
 
 Measured admit(const DiscrepancyProblem& problem) {
   Measured measured;
   measured.recordings = &problem.recordings;
+  measured.library = problem.simulation.library;
   const dataset::Recording& first = problem.recordings.front();
   measured.layout = first.layout;
   measured.full_scale = first.full_scale;
@@ -346,9 +350,10 @@ Measured admit(const DiscrepancyProblem& problem) {
   }
   const double start = measured.time.front();
   for (double& time : measured.time) time -= start;
-  measured.way.assign(measured.moments(), 0);
-  for (std::size_t i = 1; i < measured.moments(); ++i) {
-    measured.way[i] = measured.way[i - 1] + std::abs(measured.pressure[i] - measured.pressure[i - 1]);
+  measured.path_length.assign(measured.samples(), 0);
+  for (std::size_t i = 1; i < measured.samples(); ++i) {
+    measured.path_length[i] =
+        measured.path_length[i - 1] + std::abs(measured.pressure[i] - measured.pressure[i - 1]);
   }
   partCycles(measured, problem.options.seed);
   maskTaxels(measured);

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <map>
 
+#include "discrepancy/thresholds.h"
 #include "simulation/effects/effect_library.h"
+#include "statistics/median.h"
 
 namespace fsr::discrepancy {
 
@@ -22,16 +24,7 @@ constexpr double kSudden = 0.02;       // a line leaves the others by more than 
 constexpr double kSuddenShare = 0.12;  // and by more than this share of the reading,
 constexpr double kSuddenNoise = 8;     // and by more than this many of its usual deviations
 constexpr std::size_t kLineScans = 2;
-constexpr double kBlock = 5;             // of the slow part of a line's deviation [s]
-constexpr double kBin = 25e3;            // [Pa]
-constexpr double kPressureShows = 0.25;  // of the largest rms
-
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+constexpr double kBlock = 5;  // of the slow part of a line's deviation [s]
 
 // One visit, scan by scan, against the median of its taxels.
 struct Sheet {
@@ -62,7 +55,7 @@ Sheet sheetOf(const Measured& measured, const Visit& visit) {
     for (std::size_t t = 0; t < measured.taxels(); ++t) {
       if (measured.used[t]) values.push_back(counts[t] / measured.full_scale);
     }
-    sheet.middle.push_back(median(values));
+    sheet.middle.push_back(statistics::upperMedian(values, 0));
   }
   const double most = *std::max_element(sheet.middle.begin(), sheet.middle.end());
   for (std::size_t t = 0; t < measured.taxels(); ++t) {
@@ -70,7 +63,7 @@ Sheet sheetOf(const Measured& measured, const Visit& visit) {
     for (std::size_t i = 0; i < sheet.scans(); i += 3) {
       if (sheet.middle[i] > 0.4 * most) values.push_back(sheet.reading(i, t) / sheet.middle[i]);
     }
-    sheet.ratio.push_back(median(values));
+    sheet.ratio.push_back(statistics::upperMedian(values, 0));
   }
   return sheet;
 }
@@ -146,7 +139,7 @@ std::vector<double> lineDeviation(const Sheet& sheet, const std::vector<std::siz
   for (std::size_t i = 0; i < sheet.scans(); ++i) {
     values.clear();
     for (const std::size_t t : taxels) values.push_back(sheet.reading(i, t) - sheet.expected(i, t));
-    deviation.push_back(median(values));
+    deviation.push_back(statistics::upperMedian(values, 0));
   }
   const double period = sheet.scans() > 1 ? (sheet.time(sheet.scans() - 1) - sheet.time(0)) /
                                                 static_cast<double>(sheet.scans() - 1)
@@ -156,7 +149,7 @@ std::vector<double> lineDeviation(const Sheet& sheet, const std::vector<std::siz
   for (std::size_t from = 0; from < sheet.scans(); from += block) {
     values.assign(deviation.begin() + static_cast<std::ptrdiff_t>(from),
                   deviation.begin() + static_cast<std::ptrdiff_t>(std::min(from + block, sheet.scans())));
-    slow.push_back(median(values));
+    slow.push_back(statistics::upperMedian(values, 0));
   }
   std::vector<double> fast = deviation;
   for (std::size_t i = 0; i < fast.size(); ++i) {
@@ -164,7 +157,7 @@ std::vector<double> lineDeviation(const Sheet& sheet, const std::vector<std::siz
     const std::size_t b = i / block;
     for (std::size_t k = b >= 2 ? b - 2 : 0; k <= std::min(b + 2, slow.size() - 1); ++k)
       around.push_back(slow[k]);
-    fast[i] -= median(around);
+    fast[i] -= statistics::upperMedian(around, 0);
   }
   return fast;
 }
@@ -173,7 +166,7 @@ std::vector<bool> failingScans(const Sheet& sheet, const std::vector<std::size_t
   const std::vector<double> fast = lineDeviation(sheet, taxels);
   std::vector<double> sizes;
   for (const double x : fast) sizes.push_back(std::abs(x));
-  const double usual = 1.48 * median(sizes);
+  const double usual = 1.48 * statistics::upperMedian(sizes, 0);
   std::vector<bool> failing(sheet.scans(), false);
   for (std::size_t i = 0; i < sheet.scans(); ++i) {
     const double least = std::max({kSudden, kSuddenShare * sheet.middle[i], kSuddenNoise * usual});
@@ -197,8 +190,8 @@ class Detectors {
 
   Faults run() {
     for (const bool rows : {true, false}) findLine(rows);
-    findTaxels("stuck_taxel", stuckScans);
-    findTaxels("dead_taxel", deadScans);
+    findTaxels(simulation::Detector::kStuckTaxels, stuckScans);
+    findTaxels(simulation::Detector::kDeadTaxels, deadScans);
     judgeReadings();
     return std::move(faults_);
   }
@@ -212,7 +205,7 @@ class Detectors {
     });
   }
   void findLine(bool rows);
-  void findTaxels(const char* id, Test test);
+  void findTaxels(simulation::Detector detector, Test test);
   void keep(Fault& fault, const std::vector<std::vector<bool>>& flags);
   void judgeReadings();
 
@@ -252,6 +245,8 @@ void Detectors::findLine(bool rows) {
   const std::size_t lines = rows ? measured_.layout.size.rows : measured_.layout.size.columns;
   const std::size_t across = rows ? measured_.layout.size.columns : measured_.layout.size.rows;
   if (lines < 3 || across < 3) return;
+  const simulation::Detector detector =
+      rows ? simulation::Detector::kRowFaults : simulation::Detector::kColumnFaults;
   Fault best;
   std::vector<std::vector<bool>> best_flags;
   double most = 0;
@@ -270,7 +265,7 @@ void Detectors::findLine(bool rows) {
     }
     if (hit <= most) continue;
     most = hit;
-    best = Fault{rows ? "row_fault" : "column_fault", line, taxels, 0, 0, 0, {}};
+    best = Fault{detector, simulation::foundBy(detector).id, line, taxels, 0, 0, 0, {}};
     best_flags = flags;
   }
   if (most < static_cast<double>(kDeadScans) || (!best.taxels.empty() && taken(best.taxels.front()))) return;
@@ -278,8 +273,8 @@ void Detectors::findLine(bool rows) {
   faults_.faults.push_back(best);
 }
 
-void Detectors::findTaxels(const char* id, Test test) {
-  Fault fault{id, 0, {}, 0, 0, 0, {}};
+void Detectors::findTaxels(simulation::Detector detector, Test test) {
+  Fault fault{detector, simulation::foundBy(detector).id, 0, {}, 0, 0, 0, {}};
   std::vector<std::vector<bool>> together;
   for (std::size_t t = 0; t < measured_.taxels(); ++t) {
     if (!measured_.used[t] || taken(t)) continue;
@@ -311,21 +306,22 @@ void Detectors::judgeReadings() {
   for (std::size_t v = 0; v < sheets_.size(); ++v) {
     const Sheet& sheet = sheets_[v];
     double squares = 0;
-    std::size_t moment = sheet.visit.first;
+    std::size_t sample = sheet.visit.first;
     for (std::size_t i = 0; i < sheet.scans(); ++i) {
-      while (moment + 1 < sheet.visit.last && measured_.first_scan[moment + 1] <= sheet.scan(i)) ++moment;
-      const bool shown = measured_.cycles[measured_.cycle[moment]].use == CycleUse::kShow;
-      auto& bin = bins[static_cast<long>(std::max(0.0, measured_.pressure[moment]) / kBin)];
+      while (sample + 1 < sheet.visit.last && measured_.first_scan[sample + 1] <= sheet.scan(i)) ++sample;
+      const bool held_out = measured_.cycles[measured_.cycle[sample]].use == CycleUse::kHoldOut;
+      auto& bin =
+          bins[static_cast<long>(std::max(0.0, measured_.pressure[sample]) / thresholds::kPressureBin)];
       for (const auto& [t, flags] : failing_) {
         bin.second += 1;
         if (!flags[v][i]) continue;
         const double square = std::pow(sheet.reading(i, t) - sheet.expected(i, t), 2);
         bin.first += square;
         squares += square;
-        if (shown) readings.shown += square;
+        if (held_out) readings.held_out += square;
       }
       readings.readings += static_cast<double>(measured_.taxels());
-      if (shown) readings.readings_shown += static_cast<double>(measured_.taxels());
+      if (held_out) readings.held_out_readings += static_cast<double>(measured_.taxels());
     }
     readings.square += squares;
     by_surface[sheet.visit.surface.name] += squares;
@@ -335,9 +331,11 @@ void Detectors::judgeReadings() {
     most = std::max(most, sums.second > 0 ? std::sqrt(sums.first / sums.second) : 0);
   readings.pressure = {INFINITY, 0};
   for (const auto& [bin, sums] : bins) {
-    if (sums.second == 0 || std::sqrt(sums.first / sums.second) < kPressureShows * most) continue;
-    readings.pressure.low = std::min(readings.pressure.low, static_cast<double>(bin) * kBin);
-    readings.pressure.high = std::max(readings.pressure.high, static_cast<double>(bin + 1) * kBin);
+    if (sums.second == 0 || std::sqrt(sums.first / sums.second) < thresholds::kPressureShows * most) continue;
+    readings.pressure.low =
+        std::min(readings.pressure.low, static_cast<double>(bin) * thresholds::kPressureBin);
+    readings.pressure.high =
+        std::max(readings.pressure.high, static_cast<double>(bin + 1) * thresholds::kPressureBin);
   }
   for (const auto& [surface, squares] : by_surface) {
     if (squares > 0.01 * readings.square) readings.conditions.push_back(surface);

@@ -11,21 +11,26 @@ namespace fsr::discrepancy {
 
 /// A taxel or a line that fails, found by a test of its own.
 struct Fault {
-  std::string id;                                ///< stuck_taxel, dead_taxel, row_fault or column_fault
+  simulation::Detector detector = simulation::Detector::kNone;
+  std::string id;                                ///< of the effect that this detector finds
   std::size_t line = 0;                          ///< row or column, of a line
   std::vector<std::size_t> taxels;               ///< row-major
   double share = 0;                              ///< of the scans
   double depth = 0;                              ///< mean loss of the reading, relative
   double longest = 0;                            ///< spell [s]
   std::vector<std::pair<double, double>> times;  ///< spells [s] since the first scan
+
+  bool isLine() const {
+    return detector == simulation::Detector::kRowFaults || detector == simulation::Detector::kColumnFaults;
+  }
 };
 
 /// What all faults do to the readings, against what the other taxels say.
 struct FaultyReadings {
   double square = 0;    ///< summed over scans and taxels [share of full scale, squared]
-  double shown = 0;     ///< the same over the cycles to show on
+  double held_out = 0;  ///< the same over the hold-out cycles
   double readings = 0;  ///< scans x taxels
-  double readings_shown = 0;
+  double held_out_readings = 0;
   Interval pressure;                    ///< where they differ [Pa]
   std::vector<std::string> conditions;  ///< surfaces; empty = all
 };

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+
+#include "settings/number_text.h"
+#include "statistics/median.h"
+
+#include "discrepancy/thresholds.h"
 
 namespace fsr::discrepancy {
 
@@ -12,7 +16,6 @@ constexpr double kOtherSpeed = 1.5;  // factor from one group of cycles to the n
 constexpr double kOtherDwell = 3;    // likewise
 constexpr double kOtherPeak = 1.3;   // likewise
 constexpr double kStill = 0.05;      // of the fastest rate: the chamber holds
-constexpr double kLoaded = 0.1;      // of the highest pressure
 constexpr double kLeastDwell = 2;    // shorter ones are corners [s]
 
 // How one cycle was run.
@@ -22,13 +25,6 @@ struct Course {
   double peak = 0;   // [Pa]
 };
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 Course courseOf(const Measured& measured, const MeasuredCycle& cycle, double fastest, double highest) {
   Course course;
   std::vector<double> speeds;
@@ -36,10 +32,10 @@ Course courseOf(const Measured& measured, const MeasuredCycle& cycle, double fas
     course.peak = std::max(course.peak, measured.pressure[i]);
     const double speed = std::abs(measured.rate[i]);
     if (speed > kStill * fastest) speeds.push_back(speed);
-    const bool holds = speed <= kStill * fastest && measured.pressure[i] > kLoaded * highest;
+    const bool holds = speed <= kStill * fastest && measured.pressure[i] > thresholds::kLoaded * highest;
     if (holds && i + 1 < cycle.last) course.dwell += measured.time[i + 1] - measured.time[i];
   }
-  course.speed = median(speeds);
+  course.speed = statistics::upperMedian(speeds, 0);
   course.dwell = std::max(course.dwell, kLeastDwell);
   return course;
 }
@@ -61,26 +57,21 @@ std::vector<std::vector<std::size_t>> groupsBy(const std::vector<double>& featur
   return groups;
 }
 
-bool anyShown(const Measured& measured, const std::vector<std::size_t>& cycles) {
+bool anyHeldOut(const Measured& measured, const std::vector<std::size_t>& cycles) {
   return std::any_of(cycles.begin(), cycles.end(),
-                     [&](std::size_t c) { return measured.cycles[c].use == CycleUse::kShow; });
+                     [&](std::size_t c) { return measured.cycles[c].use == CycleUse::kHoldOut; });
 }
 
-std::string figure(double value) {
-  std::ostringstream text;
-  text.precision(2);
-  text << value;
-  return text.str();
-}
-
-// A part that shows nothing, or leaves too few to fit on, is no part: then all count as alike.
+// A part that shows nothing, or leaves too few to fit, is no part: then all count as alike.
 std::vector<Part> partsBy(const Measured& measured, const std::vector<double>& feature, double factor,
                           const char* before, const char* after, double unit) {
   std::vector<Part> parts;
   for (const auto& group : groupsBy(feature, factor)) {
     std::vector<double> members;
     for (const std::size_t c : group) members.push_back(feature[c] / unit);
-    if (anyShown(measured, group)) parts.push_back({before + figure(median(members)) + after, group});
+    if (anyHeldOut(measured, group))
+      parts.push_back(
+          {before + settings::roundedText(statistics::upperMedian(members, 0), 2) + after, group});
   }
   return parts.size() < 2 ? std::vector<Part>() : parts;
 }
@@ -93,8 +84,8 @@ std::vector<Part> partsByCondition(const Measured& measured) {
   for (std::size_t c = 0; c < measured.cycles.size(); ++c) {
     parts[measured.visits[measured.cycles[c].visit].curvature_class].cycles.push_back(c);
   }
-  const auto shows_nothing = [&](const Part& part) { return !anyShown(measured, part.cycles); };
-  parts.erase(std::remove_if(parts.begin(), parts.end(), shows_nothing), parts.end());
+  const auto holds_nothing_out = [&](const Part& part) { return !anyHeldOut(measured, part.cycles); };
+  parts.erase(std::remove_if(parts.begin(), parts.end(), holds_nothing_out), parts.end());
   return parts.size() < 2 ? std::vector<Part>() : parts;
 }
 
@@ -117,7 +108,7 @@ std::vector<Part> partsByProtocol(const Measured& measured) {
 
 Measured withoutPart(const Measured& measured, const Part& part) {
   Measured rest = measured;
-  for (const std::size_t c : part.cycles) rest.cycles[c].use = CycleUse::kShow;
+  for (const std::size_t c : part.cycles) rest.cycles[c].use = CycleUse::kHoldOut;
   return rest;
 }
 

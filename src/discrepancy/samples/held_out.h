@@ -20,7 +20,8 @@ std::vector<Part> partsByCondition(const Measured& measured);
 /// load, else in their peak; none where all are alike.
 std::vector<Part> partsByProtocol(const Measured& measured);
 
-/// The recordings, with the cycles of a part among those to show on: what is fitted to them has not seen it.
+/// The recordings, with the cycles of a part among the hold-out cycles: what is fitted to them has not seen
+/// it.
 Measured withoutPart(const Measured& measured, const Part& part);
 
 }  // namespace fsr::discrepancy

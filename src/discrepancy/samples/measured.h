@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,7 @@
 
 namespace fsr::discrepancy {
 
-/// A stay of the matrix on one surface: moments first .. last - 1.
+/// A stay of the matrix on one surface: samples first .. last - 1.
 struct Visit {
   std::size_t recording = 0;
   matrix::Surface surface;
@@ -22,9 +23,9 @@ struct Visit {
 };
 
 /// Which use a cycle serves. What is shown at the end takes no part in anything before.
-enum class CycleUse : std::uint8_t { kFit, kShow };
+enum class CycleUse : std::uint8_t { kFit, kHoldOut };
 
-/// One filling and venting: moments first .. last - 1.
+/// One filling and venting: samples first .. last - 1.
 struct MeasuredCycle {
   std::size_t visit = 0;
   std::size_t first = 0;
@@ -33,14 +34,15 @@ struct MeasuredCycle {
   CycleUse use = CycleUse::kFit;
 };
 
-/// All recordings of a problem as one course of events. A moment is one scan or the mean of a few
-/// consecutive ones: what is looked for is slower than scans are, and fewer moments are sooner done.
+/// All recordings of a problem as one course of events. A sample is one scan or the mean of a few
+/// consecutive ones: what is looked for is slower than scans are, and fewer samples are sooner done.
 struct Measured {
   static constexpr std::uint32_t kFolds = 4;
-  static constexpr std::size_t kManyMoments = 14000;  ///< above it scans are pooled, up to kLongestMoment
-  static constexpr double kLongestMoment = 0.5;       ///< [s]
+  static constexpr std::size_t kManySamples = 14000;  ///< above it scans are pooled, up to kLongestMoment
+  static constexpr double kLongestSample = 0.5;       ///< [s]
 
   const std::vector<dataset::Recording>* recordings = nullptr;
+  std::shared_ptr<const simulation::EffectLibrary> library;  ///< of the simulation
   matrix::Layout layout;
   double full_scale = 0;                         ///< [counts]
   std::vector<dataset::CurvatureClass> classes;  ///< by ascending curvature of taxel 0
@@ -48,12 +50,12 @@ struct Measured {
   std::vector<MeasuredCycle> cycles;
   std::vector<std::uint8_t> used;  ///< of each taxel; 0 = masked or faulty
 
-  // Of each moment, in time order:
+  // Of each sample, in time order:
   std::vector<double> time;         ///< since the first scan of the first recording [s]
   std::vector<double> pressure;     ///< gauge, its noise smoothed away where it runs straight [Pa]
   std::vector<double> rate;         ///< [Pa/s]
   std::vector<double> temperature;  ///< [degree Celsius]; empty where a recording has none
-  std::vector<double> way;          ///< sum of |dP| since the first moment [Pa]
+  std::vector<double> path_length;  ///< sum of |dP| since the first sample [Pa]
   std::vector<std::uint32_t> visit;
   std::vector<std::uint32_t> cycle;
   std::vector<std::int8_t> direction;   ///< +1 loading, -1 unloading, 0 = never changes
@@ -68,18 +70,20 @@ struct Measured {
 
   std::vector<std::string> limitations;  ///< sentences
 
-  std::size_t moments() const { return time.size(); }
+  std::size_t samples() const { return time.size(); }
   std::size_t taxels() const { return layout.size.taxels(); }
   std::size_t usedTaxels() const;
-  std::size_t classOf(std::size_t moment) const { return visits[visit[moment]].curvature_class; }
+  const simulation::EffectLibrary& effects() const;
+  const simulation::EffectInfo& info(const std::string& effect) const;
+  std::size_t classOf(std::size_t sample) const { return visits[visit[sample]].curvature_class; }
   /// Mean reading of every taxel as it was recorded [share of full scale], [taxels], row-major.
-  void recorded(std::size_t moment, std::vector<double>& result) const;
+  void recorded(std::size_t sample, std::vector<double>& result) const;
   /// The same without the gain and the reading of effects that were taken out.
-  void readings(std::size_t moment, std::vector<double>& result) const;
+  void readings(std::size_t sample, std::vector<double>& result) const;
 };
 
 /// Puts the recordings in order of time, finds visits and cycles, and parts the cycles, by the seed,
-/// into those to fit on and those to show on. The recordings must outlive it. Throws InputError where
+/// into those to fit and the hold-out cycles. The recordings must outlive it. Throws InputError where
 /// they cannot be judged.
 Measured admit(const DiscrepancyProblem& problem);
 

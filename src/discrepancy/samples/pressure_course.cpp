@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "discrepancy/samples/measured.h"
+#include "statistics/median.h"
 
 namespace fsr::discrepancy {
 
@@ -44,13 +45,6 @@ Line lineThrough(const std::vector<double>& time, const std::vector<double>& pre
   return line;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double plainSlope(const std::vector<double>& time, const std::vector<double>& pressure, std::size_t i) {
   const std::size_t before = i > 0 ? i - 1 : i, after = std::min(i + 1, time.size() - 1);
   return time[after] > time[before] ? (pressure[after] - pressure[before]) / (time[after] - time[before]) : 0;
@@ -70,7 +64,7 @@ std::vector<double> smoothCourse(const std::vector<double>& time, const std::vec
     lines.push_back(lineThrough(time, pressure, first));
     scatters.push_back(lines.back().scatter);
   }
-  const double most = kStraight * median(scatters) + 1e-9;
+  const double most = kStraight * statistics::upperMedian(scatters, 0) + 1e-9;
   for (std::size_t i = 0; i < time.size(); ++i) {
     const std::size_t from = i >= kScans - 1 ? i - (kScans - 1) : 0, to = std::min(i, lines.size() - 1);
     const auto best = std::min_element(lines.begin() + static_cast<std::ptrdiff_t>(from),

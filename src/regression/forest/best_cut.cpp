@@ -10,7 +10,7 @@ namespace fsr::regression {
 
 namespace {
 
-// Half of the lanes: what AVX2 holds; AVX-512 gains nothing from longer vectors here.
+// Half of the lanes: the width of AVX2. With AVX-512, longer vectors bring no gain here.
 constexpr std::size_t kHalf = kCutLanes / 2;
 using Lanes = double __attribute__((vector_size(kHalf * sizeof(double))));
 using Indices = std::int64_t __attribute__((vector_size(kHalf * sizeof(std::int64_t))));
@@ -19,7 +19,7 @@ using Indices = std::int64_t __attribute__((vector_size(kHalf * sizeof(std::int6
 const Lanes kNone = {0, 0, 0, 0};
 const Lanes kOne = {1, 1, 1, 1};
 
-// What the cuts of one node share.
+// Values that all cuts of one node share.
 struct Node {
   explicit Node(const CutProblem& p)
       : size_before(p.size[p.begin]),
@@ -32,15 +32,15 @@ struct Node {
   double size_before, size, count_before, sum_before, count, mean;
 };
 
-// Of each lane the best cut so far, and its gain as a fraction.
+// The best cut so far in each lane, and its gain as a fraction.
 struct Best {
   Lanes gain = kNone;
   Lanes weight = kOne;
   Indices at = {};
 };
 
-// Offers the cuts at i, i + 1, ... Beyond the node's end the right side counts nothing or less, so that
-// the minimum leaf rules those cuts out too.
+// Tries the cuts at i, i + 1, ... Beyond the end of the node the right side has zero readings or fewer, so
+// the minimum leaf rules these cuts out too.
 FSR_INLINE void offer(const CutProblem& p, const Node& node, std::size_t i, const Indices& here, Best& best) {
   Lanes size, left, sum;
   std::memcpy(&size, p.size + i, sizeof(size));
@@ -66,7 +66,7 @@ FSR_INLINE void offer(const CutProblem& p, const Node& node, std::size_t i, cons
   best.at = exceeds ? here : best.at;
 }
 
-// The better of each lane's two cuts; of equals the lower one.
+// The better of two cuts in each lane; of equal ones the lower.
 FSR_INLINE void merge(const Best& other, Best& best) {
   const Lanes theirs = other.gain * best.weight, ours = best.gain * other.weight;
   const Indices exceeds = (theirs > ours) | ((theirs == ours) & (other.at < best.at));
@@ -85,7 +85,7 @@ FSR_INLINE void swapNeighbours(Values& v) {
   v = Values{v[1], v[0], v[3], v[2]};
 }
 
-// Most nodes of a tree hold so few entries that one cut after the other is sooner tried.
+// Most nodes of a tree have so few entries that trying one cut after the other is faster.
 constexpr std::size_t kFew = 5;
 
 std::size_t bestOfFew(const CutProblem& p) {
@@ -97,7 +97,7 @@ std::size_t bestOfFew(const CutProblem& p) {
     const double left = p.count[i] - node.count_before;
     const double excess = (p.sum[i] - node.sum_before) - node.mean * left;
     const double gain = excess * excess, weight = left * (node.count - left);
-    // no branch to mispredict
+    // without a branch, which would often be mispredicted
     const bool better = (std::min(size, node.size - size) >= p.minimum_leaf) &
                         (gain * best_weight > best_gain * weight) &
                         (!p.codes_repeat | (p.code[i] != p.code[i - 1]));

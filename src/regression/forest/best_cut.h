@@ -4,10 +4,10 @@
 
 namespace fsr::regression {
 
-/// Width of the search: arrays reach this many values beyond the run's end.
+/// Width of the search: arrays extend this many values beyond the end of the run.
 constexpr std::size_t kCutLanes = 8;
 
-/// Where to cut a run of entries in two. What the search loads beyond `end` must be no size between
+/// Where to cut a run of entries in two. Values beyond `end` that the search loads must not be sizes between
 /// those of `begin` and `end`.
 struct CutProblem {
   // [end + kCutLanes] values each
@@ -16,7 +16,7 @@ struct CutProblem {
   const double* sum;    ///< their pressure, of the entries before each
   const double* code;   ///< of each entry; equal codes stand together
 
-  bool codes_repeat;  ///< whether neighbouring entries may have equal codes, between which no cut goes
+  bool codes_repeat;  ///< whether neighbouring entries may have equal codes, which a cut must not separate
   std::size_t begin;  ///< entries begin .. end - 1, at least one
   std::size_t end;
   double minimum_leaf;  ///< size that each side must keep, at least 1
@@ -24,12 +24,12 @@ struct CutProblem {
 
 constexpr std::size_t kNoCut = 0;
 
-/// The first entry of the right side of the cut that lowers the sum of squared errors most, the lowest of
-/// equally good ones; kNoCut where none lowers it or leaves enough on both sides. The sum falls by
+/// The first entry of the right side of the cut that reduces the sum of squared errors most, the lowest of
+/// equal ones; kNoCut if no cut reduces it or leaves enough on both sides. The reduction is
 ///
 ///     (S_left - n_left mean)^2 n / (n_left n_right);
 ///
-/// fractions are compared crosswise, without dividing.
+/// fractions are compared by cross-multiplication, without division.
 std::size_t bestCut(const CutProblem& problem);
 
 }  // namespace fsr::regression

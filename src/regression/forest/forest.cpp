@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/regression/forest.h"
+#include "regression/forest/forest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,9 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "regression/forest/forest_tree.h"
+#include "regression/option_names.h"
+#include "regression/regressors.h"
+#include "regression/second_input.h"
 
 namespace fsr::regression {
 
@@ -26,7 +29,7 @@ Fit zeros(std::size_t table_size) {
   return {std::vector<double>(table_size, 0.0), std::vector<double>(table_size, 0.0)};
 }
 
-// Sums over trees, in their order.
+// Adds a leaf to the sums over trees, in the order of the trees.
 void addLeaf(const ForestLeaf& leaf, Fit& sums) {
   for (auto code = static_cast<std::size_t>(leaf.first); code < static_cast<std::size_t>(leaf.end); ++code) {
     sums.pressure[code] += leaf.pressure;
@@ -34,7 +37,7 @@ void addLeaf(const ForestLeaf& leaf, Fit& sums) {
   }
 }
 
-// Sums to means, units to Pa.
+// Converts sums to means and units to Pa.
 void finish(const ForestData& data, std::size_t trees, Fit& fit) {
   const auto number = static_cast<double>(trees);
   for (double& pressure : fit.pressure) pressure = data.centre + data.unit * (pressure / number);
@@ -101,6 +104,32 @@ CurvatureSteps fitCurvatureForest(const CodeSamples& training, const ForestOptio
   }
   for (Fit& fit : steps.fits) finish(data, options.trees, fit);
   return steps;
+}
+
+RegressorEntry forestEntry() {
+  RegressorEntry entry;
+  entry.name = "forest";
+  entry.summary = "random forest of regression trees (Breiman 2001)";
+  entry.make = [](const RegressorOptions& options) -> std::unique_ptr<Regressor> {
+    return std::make_unique<Forest>(options.forest);
+  };
+  entry.write = [](const RegressorOptions& options, OptionWriter& writer) {
+    writer.integer("trees", options.forest.trees);
+    writer.integer("minimum_leaf", options.forest.minimum_leaf);
+    writer.text("leaf_rule", leafRuleName(options.forest.leaf_count));
+  };
+  entry.read = [](const OptionReader& reader, RegressorOptions& options) {
+    options.forest.trees = reader.integer("trees");
+    options.forest.minimum_leaf = reader.integer("minimum_leaf");
+    options.forest.leaf_count = leafRuleFromName(reader.text("leaf_rule"));
+  };
+  entry.in_every_file = true;
+  SecondInput input;
+  input.fit = [](const ClassReadings& readings, const ClassInputs& inputs, const RegressorOptions& options) {
+    return fitForestOnInput(readings, inputs, options.forest);
+  };
+  entry.second_input = input;
+  return entry;
 }
 
 }  // namespace fsr::regression

@@ -11,7 +11,7 @@ namespace fsr::regression {
 
 namespace {
 
-// Integers up to here are exact in a double.
+// Integers up to this are exact in a double.
 constexpr double kExactInteger = 9007199254740992.0;  // 2^53
 
 struct Reading {
@@ -31,7 +31,7 @@ std::vector<double> distinct(std::vector<double> values) {
   return values;
 }
 
-// By code with one pass of counting, then each code's few readings by comparison.
+// Sorts by code with one counting pass, then the few readings of each code by comparison.
 std::vector<Reading> sorted(const CodeSamples& training, const std::vector<double>& curvatures) {
   std::vector<std::size_t> place(training.full_scale + 2u, 0);
   for (const std::uint16_t code : training.code) ++place[code + 1u];
@@ -61,8 +61,8 @@ FixedPressure meanOf(const std::vector<FixedPressure>& pressure) {
   return static_cast<FixedPressure>(sum / static_cast<std::int64_t>(pressure.size()));
 }
 
-// How many of the lowest bits to drop, so that a sum of all readings is exact in a double: 0 for
-// 10,000 readings of 600 kPa.
+// Number of lowest bits to drop so that a sum of all readings is exact in a double: 0 for 10,000 readings of
+// 600 kPa.
 int bitsTooMany(const std::vector<FixedPressure>& pressure, FixedPressure centre) {
   const auto [low, high] = std::minmax_element(pressure.begin(), pressure.end());
   double largest = static_cast<double>(std::max(centre - *low, *high - centre));

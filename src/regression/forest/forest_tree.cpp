@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t kLanes = 8;
 
-// Of `number` entries, lanes of the vector unit, what was drawn of their readings, which stand `stride`
-// apart.
+// Sums over the drawn readings of `number` entries (lanes of the vector unit). The readings of an entry are
+// `stride` apart.
 template <std::size_t number>
 inline __attribute__((always_inline)) void sumLanes(const std::uint8_t* times, const double* pressure,
                                                     std::size_t stride, std::size_t readings, double* count,
@@ -31,7 +31,7 @@ inline __attribute__((always_inline)) void sumLanes(const std::uint8_t* times, c
   std::copy(sums, sums + number, sum);
 }
 
-// Of each entry of a class what was drawn of its readings.
+// Sums over the drawn readings of each entry of a class.
 FSR_EACH_VECTOR_WIDTH
 void sumDrawn(const std::uint8_t* times, const double* pressure, std::size_t entries, std::size_t readings,
               double* count, double* sum) {
@@ -65,10 +65,10 @@ TreeGrower::TreeGrower(const ForestData& data, std::int32_t table_size, const Fo
       sum_before_(data.entries() + kCutLanes),
       distinct_before_(distinct_ ? data.entries() + kCutLanes : 0),
       curvature_(data.entries() + 1) {
-  nodes_.reserve(2 * data.entries());  // no cut parts an entry, so references to nodes stay valid
+  nodes_.reserve(2 * data.entries());  // entries are never split, so references to nodes stay valid
 }
 
-// As many readings as there are, with replacement. A reading drawn 256 times would wrap round, once in
+// Draws N of N readings with replacement. A reading drawn 256 times would wrap around; this happens once in
 // 10^500 trees.
 void TreeGrower::draw(statistics::RandomStream stream) {
   std::fill(times_drawn_.begin(), times_drawn_.end(), std::uint8_t{0});
@@ -82,7 +82,7 @@ void TreeGrower::draw(statistics::RandomStream stream) {
   if (readings % 2 != 0) take(stream.bits(readings / 2) >> 32);
 }
 
-// Sums of the entries that were drawn; returns their number.
+// Sums of the entries that were drawn. Returns their number.
 std::size_t TreeGrower::pool() {
   std::fill(slot_distinct_.begin(), slot_distinct_.end(), 0.0);
   std::size_t reading = 0, slot = 0;
@@ -97,7 +97,7 @@ std::size_t TreeGrower::pool() {
   double count = 0, sum = 0, distinct = 0;
   std::size_t entries = 0;
   for (std::size_t entry = 0; entry < data_.entries(); ++entry) {
-    // written always, kept where a reading was drawn: no branch to mispredict
+    // always written, kept only if a reading was drawn: avoids a branch that would be mispredicted
     code_[entries] = data_.code[entry];
     curvature_[entries] = data_.curvature[entry];
     count_before_[entries] = count;
@@ -111,7 +111,7 @@ std::size_t TreeGrower::pool() {
   }
   count_before_[entries] = count;
   sum_before_[entries] = sum;
-  // what stands beyond the last entry must not look like one more cut
+  // values beyond the last entry must not look like a further cut
   std::vector<double>& size = sizeBefore();
   std::fill_n(size.begin() + static_cast<std::ptrdiff_t>(entries), kCutLanes, distinct_ ? distinct : count);
   return entries;
@@ -124,14 +124,14 @@ const std::vector<ForestLeaf>& TreeGrower::grow(std::uint64_t tree) {
   leaves_.clear();
   nodes_.clear();
   addNode(0, pool(), 0, table_size_, -kInfinity, kInfinity);
-  // Level by level: neighbours in the list do not wait for each other's cut.
+  // Level by level: neighbouring nodes in the list do not depend on each other's cut.
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     if (!cut(nodes_[i], i)) addLeaf(nodes_[i]);
   }
   return leaves_;
 }
 
-// Fields are written in place: a node that is built aside and copied would stall on its own stores.
+// Fields are written in place: building a node and copying it would stall on its own stores.
 void TreeGrower::addNode(std::size_t begin, std::size_t end, std::int32_t first_code, std::int32_t end_code,
                          double low, double high) {
   Node& node = nodes_.emplace_back();
@@ -141,7 +141,7 @@ void TreeGrower::addNode(std::size_t begin, std::size_t end, std::int32_t first_
   node.end_code = end_code;
   node.low = low;
   node.high = high;
-  if (data_.curvatures.size() > 1 || mayBeCut(node)) return;  // draws of inputs go by nodes' numbers
+  if (data_.curvatures.size() > 1 || mayBeCut(node)) return;  // inputs are drawn by the number of the node
   addLeaf(node);
   nodes_.pop_back();
 }
@@ -180,7 +180,7 @@ bool TreeGrower::cutCode(const Node& node) {
   return true;
 }
 
-// The same search over the sums of the node's curvatures.
+// The same search over the sums of the curvatures of the node.
 bool TreeGrower::cutCurvature(const Node& node) {
   std::array<double, kMostForestCurvatures> all_size{}, all_count{}, all_sum{};
   for (std::size_t i = node.begin; i < node.end; ++i) {
@@ -203,15 +203,16 @@ bool TreeGrower::cutCurvature(const Node& node) {
       bestCut({size.data(), count.data(), sum.data(), value.data(), false, 0, present, minimum_leaf_});
   if (at == kNoCut) return false;
   const double midway = 0.5 * (value[at - 1] + value[at]);
-  const double split = midway > value[at - 1] ? midway : value[at];  // neighbouring doubles have no middle
+  const double split =
+      midway > value[at - 1] ? midway : value[at];  // there is no double between neighbouring doubles
   const std::size_t middle = partition(node, index[at]);
   addNode(node.begin, middle, node.first_code, node.end_code, node.low, split);
   addNode(middle, node.end, node.first_code, node.end_code, split, node.high);
   return true;
 }
 
-// Moves the node's entries of curvatures below `first_right` to the front, both sides keeping their
-// order, and returns where the right side begins.
+// Moves the entries of the node with curvatures below `first_right` to the front. Both sides keep their
+// order. Returns where the right side begins.
 std::size_t TreeGrower::partition(const Node& node, std::uint8_t first_right) {
   moved_.clear();
   for (std::size_t i = node.begin; i < node.end; ++i) {

@@ -4,16 +4,16 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsr_pressure_map/regression/code_samples.h"
-#include "fsr_pressure_map/regression/forest.h"
+#include "regression/code_samples.h"
+#include "regression/forest/forest.h"
 #include "statistics/random_stream.h"
 
 namespace fsr::regression {
 
-/// Training readings as trees draw them. Readings that agree in all inputs form one entry: no tree can
-/// part them.
+/// Training readings in the order in which trees draw them. Readings that are equal in all inputs form one
+/// entry, because no tree can separate them.
 struct ForestData {
-  /// Throws InputError where there are too many curvatures.
+  /// Throws InputError if there are too many curvatures.
   ForestData(const CodeSamples& training, bool on_curvature);
 
   std::size_t entries() const { return code.size(); }
@@ -23,16 +23,16 @@ struct ForestData {
     std::size_t entries, readings_each;
   };
 
-  double centre = 0;                    ///< mean pressure [Pa]
-  double unit = 0;                      ///< of `pressure` [Pa]: so small that sums of N are exact in doubles
-  std::vector<double> code;             ///< of each entry, ascending; double for the vector unit
+  double centre = 0;         ///< mean pressure [Pa]
+  double unit = 0;           ///< unit of `pressure` [Pa], so small that sums of N are exact in doubles
+  std::vector<double> code;  ///< of each entry, ascending; double for the vector unit
   std::vector<std::uint8_t> curvature;  ///< of each entry, index into `curvatures`
-  std::vector<std::uint32_t> slot;      ///< of each entry: its place by number of readings, then as here
+  std::vector<std::uint32_t> slot;      ///< of each entry: its rank by number of readings, then by position
   std::vector<double> curvatures;       ///< ascending [1/m]; one value where curvature is no input
-  /// By size. Of each class come the first reading of every entry, by slot, then the second of every
-  /// entry ...: sums over them run along the vector unit.
+  /// Sorted by size. For each class: the first reading of every entry, by slot, then the second reading of
+  /// every entry, and so on, so that sums over them can be vectorised.
   std::vector<SizeClass> classes;
-  std::vector<double> pressure;  ///< of each reading in that order, less the centre [unit], integers
+  std::vector<double> pressure;  ///< of each reading in that order, minus the centre [unit], integers
 };
 
 /// One leaf: codes first .. end - 1, curvatures low to below high [1/m].
@@ -41,16 +41,16 @@ struct ForestLeaf {
   std::int32_t end;
   double low;
   double high;
-  double pressure;  ///< mean of its readings, less the centre [unit]
+  double pressure;  ///< mean of its readings, minus the centre [unit]
   double readings;
 };
 
-/// Grows trees one after the other, keeping its memory.
+/// Grows one tree after the other and reuses its memory.
 class TreeGrower {
  public:
   TreeGrower(const ForestData& data, std::int32_t table_size, const ForestOptions& options);
 
-  /// Tree number `tree` of the forest. Leaves come in no order.
+  /// Tree number `tree` of the forest. The order of the leaves is not specified.
   const std::vector<ForestLeaf>& grow(std::uint64_t tree);
 
  private:
@@ -70,7 +70,7 @@ class TreeGrower {
   std::size_t pool();
   // Readings before each entry, as the minimum leaf counts them.
   std::vector<double>& sizeBefore() { return distinct_ ? distinct_before_ : count_before_; }
-  // To the nodes; of one input to the leaves where the minimum leaf lets nothing be cut.
+  // Adds a node, or a leaf if there is one input and the minimum leaf permits no cut.
   void addNode(std::size_t begin, std::size_t end, std::int32_t first_code, std::int32_t end_code, double low,
                double high);
   bool mayBeCut(const Node& node);
@@ -89,8 +89,8 @@ class TreeGrower {
   std::uint64_t seed_;
 
   std::vector<std::uint8_t> times_drawn_;                      // of each reading
-  std::vector<double> slot_count_, slot_sum_, slot_distinct_;  // of each slot, what was drawn of it
-  // The entries that were drawn; of counts and sums [unit] those before each entry.
+  std::vector<double> slot_count_, slot_sum_, slot_distinct_;  // of each slot: sums over the drawn readings
+  // The entries that were drawn. Counts and sums [unit] are those before each entry.
   std::vector<double> code_, count_before_, sum_before_, distinct_before_;
   std::vector<std::uint8_t> curvature_;
   std::vector<Entry> moved_;

@@ -12,16 +12,17 @@ namespace fsr::regression {
 
 namespace {
 
-constexpr std::size_t kNodes = 16;  // a point is interpolated from 7 before its cell's first node to 8 after
+constexpr std::size_t kNodes =
+    16;  // a point is interpolated from 7 nodes before its cell's first node to 8 after it
 constexpr int kFirstNode = -7;
-constexpr double kNodesPerSigma = 10;  // with 16 nodes an error of 1.1e-15, by long double
+constexpr double kNodesPerSigma = 10;  // with 16 nodes the error is 1.1e-15, found with long double
 constexpr double kWidestCell = 512;    // [codes]
 
 std::size_t spacingFor(double sigma) {
   return static_cast<std::size_t>(std::min(sigma / kNodesPerSigma, kWidestCell));
 }
 
-// Of each node the product of its distances to the others: i! (15 - i)!, with their sign.
+// For each node the product of its distances to the others: i! (15 - i)!, with sign.
 std::array<double, kNodes> distanceProducts() {
   std::array<double, kNodes> products;
   for (std::size_t i = 0; i < kNodes; ++i) {
@@ -33,8 +34,8 @@ std::array<double, kNodes> distanceProducts() {
   return products;
 }
 
-// Lagrange's weights of the sixteen nodes at a point of the cell 0 .. 1: of each the product of the
-// point's distances to all other nodes, those below and those above.
+// Lagrange weights of the sixteen nodes at a point of the cell 0 .. 1: for each node the product of the
+// distances of the point to all other nodes, below and above it.
 std::array<double, kNodes> lagrangeWeights(double at, const std::array<double, kNodes>& products) {
   std::array<double, kNodes> weights;
   double below = 1, above = 1;
@@ -59,7 +60,7 @@ void addTaps(const double* taps, const double* from, std::size_t number, double*
   }
 }
 
-// The kernel from node to node.
+// Applies the kernel from node to node.
 void convolve(WeightedCodes& grid, double sigma, double reach) {
   const auto nodes = static_cast<std::ptrdiff_t>(grid.table_size);
   const double radius = std::min(reach + kNodes, static_cast<double>(nodes));
@@ -103,13 +104,14 @@ CoarseGrid::CoarseGrid(const WeightedCodes& samples, double sigma, double reach)
   weight_ = toCodes(grid.count);
 }
 
-// Where each sample stands among the cells, those of one offset together, fifteen empty cells on either side.
+// Position of each sample among the cells. Samples at the same offset are adjacent, with fifteen empty cells
+// on either side.
 std::vector<std::size_t> CoarseGrid::placesOf(const WeightedCodes& samples) const {
   std::vector<std::size_t> places(samples.code.size());
   std::size_t cell = 0, cell_begin = 0;
   for (std::size_t s = 0; s < places.size(); ++s) {
     const auto code = static_cast<std::size_t>(samples.code[s]);
-    for (; code >= cell_begin + spacing_; cell_begin += spacing_) ++cell;  // sooner than to divide
+    for (; code >= cell_begin + spacing_; cell_begin += spacing_) ++cell;  // faster than a division
     places[s] = (code - cell_begin) * paddedCells() + cell + kNodes - 1;
   }
   return places;
@@ -119,14 +121,14 @@ std::size_t CoarseGrid::paddedCells() const {
   return cells_ + 2 * (kNodes - 1);
 }
 
-// Node n of the result is the (n - 7)th of the grid.
+// Node n of the result is node n - 7 of the grid.
 std::vector<double> CoarseGrid::toNodes(const std::vector<std::size_t>& places,
                                         const std::vector<double>& values) const {
   const std::size_t row = paddedCells();
   std::vector<double> by_offset(spacing_ * row), nodes(cells_ + kNodes - 1);
   for (std::size_t s = 0; s < places.size(); ++s) by_offset[places[s]] = values[s];
   for (std::size_t offset = 0; offset < spacing_; ++offset) {
-    std::array<double, kNodes> taps;  // node n gets from cell n - i by weight i
+    std::array<double, kNodes> taps;  // weight i of cell n - i contributes to node n
     std::reverse_copy(&lagrange_[offset * kNodes], &lagrange_[(offset + 1) * kNodes], taps.begin());
     addTaps(taps.data(), &by_offset[offset * row], nodes.size(), nodes.data());
   }

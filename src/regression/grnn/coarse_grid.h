@@ -7,27 +7,27 @@
 
 namespace fsr::regression {
 
-/// Sums of a wide Gaussian kernel at every code, the work of which does not grow with its width.
+/// Sums of a wide Gaussian kernel at every code. The work does not grow with the width.
 ///
-/// A Gaussian is a polynomial to all digits over a fraction of sigma. So each sample is handed to the
-/// sixteen nearest nodes of a grid of at most sigma / 10 by Lagrange's weights, the kernel acts from node
-/// to node, and each code reads its value off its sixteen nearest nodes by the same weights. The kernel
-/// between any sample and code is then right to 2e-15 of its peak, whatever their distance. (By
-/// comparison, an FFT's error is a share of the largest sum anywhere.)
+/// Over a fraction of sigma a Gaussian is a polynomial to double precision. Each sample is therefore
+/// distributed to the sixteen nearest nodes of a grid with a spacing of at most sigma / 10 by Lagrange
+/// weights, the kernel is applied from node to node, and each code is interpolated from its sixteen nearest
+/// nodes by the same weights. The error of the kernel between any sample and code is below 2e-15 of its peak,
+/// whatever their distance. (The error of an FFT is a share of the largest sum anywhere.)
 class CoarseGrid {
  public:
-  /// Whether the grid saves work at all.
+  /// Whether the grid saves work.
   static bool suits(double sigma);
 
-  /// Samples farther than `reach` from a code need not count there [counts].
+  /// Samples farther than `reach` from a code may be ignored there [counts].
   CoarseGrid(const WeightedCodes& samples, double sigma, double reach);
 
   /// Sums of pressure [Pa] and of weight at the codes begin .. end - 1.
   void sumCodes(std::ptrdiff_t begin, std::ptrdiff_t end, double* sums, double* weights) const;
 
  private:
-  // Values at codes, ordered for the vector unit: those at the same offset within all cells stand
-  // together, [spacing x cells].
+  // Values at codes in an order for vectorisation: values at the same offset within all cells are adjacent,
+  // [spacing x cells].
   using CellValues = std::vector<double>;
 
   std::vector<std::size_t> placesOf(const WeightedCodes& samples) const;

@@ -9,7 +9,7 @@ namespace fsr::regression {
 
 namespace {
 
-// Sums at the codes of a block, and the power of each code's `step` by now.
+// Sums at the codes of a block, and the present power of the `step` of each code.
 struct OuterSums {
   OuterSums() { power.fill(1.0); }
   std::array<double, kCodeBlock> step{}, power, pressure{}, weight{};
@@ -39,7 +39,7 @@ void FarGaussian::sumBlock(std::ptrdiff_t begin, std::ptrdiff_t end, KernelMean&
   }
 }
 
-// The nearest code first.
+// Starts with the nearest code.
 void FarGaussian::sumBeyondAll(std::ptrdiff_t begin, std::ptrdiff_t end, KernelMean& mean) {
   const bool below = end <= samples_.code.front();
   const std::ptrdiff_t edge = below ? samples_.code.front() : samples_.code.back();
@@ -63,7 +63,7 @@ void FarGaussian::sumBeyondAll(std::ptrdiff_t begin, std::ptrdiff_t end, KernelM
   }
 }
 
-// Within a gap or beside one.
+// For codes within a gap between samples or beside one.
 void FarGaussian::sumCode(std::ptrdiff_t code, KernelMean& mean) {
   const std::size_t right = samples_.firstFrom(code);
   const bool on_left = right > 0, on_right = right < samples_.code.size();

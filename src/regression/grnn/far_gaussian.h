@@ -10,21 +10,22 @@
 
 namespace fsr::regression {
 
-/// Of a larger exponent a kernel value is taken for 0: far from the smallest double, so that quotients of
-/// sums of values keep full precision.
+/// Kernel values of a larger exponent are treated as 0. The limit is far from the smallest double, so that
+/// quotients of sums keep full precision.
 constexpr double kLargestKernelExponent = 600.0;
 
-/// Gaussian means at codes so far from every sample that only quotients of kernel values can be formed: those
-/// to the value at the nearest sample, n away. A sample j beyond it on its side has exp(-p (2 n j + j^2)):
-/// the j-th power of one exponential times a value that all codes share.
+/// Gaussian means at codes so far from every sample that kernel values underflow. They are computed relative
+/// to the kernel value of the nearest sample, at distance n. A sample at distance j beyond it on its side has
+/// the relative value exp(-p (2 n j + j^2)): the j-th power of one exponential times a value that all codes
+/// share.
 class FarGaussian {
  public:
-  /// `precision` = p = 1 / 2 sigma^2 [1/counts^2]; samples with d^2 > n^2 + `beyond_nearest` [counts^2] are
-  /// left out. `samples` must outlive this.
+  /// `precision` = p = 1 / 2 sigma^2 [1/counts^2]. Samples with d^2 > n^2 + `beyond_nearest` [counts^2] are
+  /// left out. `samples` must outlive the object.
   FarGaussian(const WeightedCodes& samples, double precision, double beyond_nearest, LogWeight log_weight)
       : samples_(samples), precision_(precision), beyond_nearest_(beyond_nearest), log_weight_(log_weight) {}
 
-  /// Fills in the codes begin .. end - 1, at most a block of them.
+  /// Computes the codes begin .. end - 1, at most one block.
   void sumBlock(std::ptrdiff_t begin, std::ptrdiff_t end, KernelMean& mean);
 
  private:
@@ -35,11 +36,11 @@ class FarGaussian {
 
   void sumBeyondAll(std::ptrdiff_t begin, std::ptrdiff_t end, KernelMean& mean);
   void sumCode(std::ptrdiff_t code, KernelMean& mean);
-  // Adds the samples first, first + step, ..., the first of which is `distance` away.
+  // Adds the samples first, first + step, ...; the first is `distance` away.
   void addSide(double distance, double nearest, std::ptrdiff_t first, std::ptrdiff_t step, Sums& sums);
   void store(std::ptrdiff_t code, double nearest, Sums sums, KernelMean& mean) const;
   double shared(std::ptrdiff_t j);  // exp(-p j^2)
-  // exp(-2 p i): what a power's base changes by from code to code.
+  // exp(-2 p i): the factor between the bases of the powers of neighbouring codes.
   const BlockValues& stepPowers();
 
   const WeightedCodes& samples_;

@@ -14,8 +14,8 @@ namespace fsr::regression {
 
 namespace {
 
-// The coarse grid answers where its error, a share of the samples within reach, is this far below their
-// weight; near enough to a sample also that what it leaves out does not count.
+// The coarse grid is used where its error, a share of the samples within reach, is this far below their
+// weight, and where a sample is so near that the samples it leaves out do not matter.
 constexpr double kLeastShareOfWeight = 0.01;
 constexpr double kFarthestOnGrid = 3.0;  // [sigma]
 constexpr double kNoGap = 0.5;           // [sigma]
@@ -64,18 +64,18 @@ class GaussianSums {
   }
 
  private:
-  // How far the samples lie that count at a code whose nearest sample is `nearest` away [counts].
+  // Distance within which samples count at a code whose nearest sample is `nearest` away [counts].
   double reach(double nearest) const {
     return std::min(std::sqrt(nearest * nearest + beyond_nearest_), static_cast<double>(codes_));
   }
 
-  // Whether no kernel value that counts there underflows.
+  // Whether no kernel value that counts at such a code underflows.
   bool isNear(double nearest) const {
     return precision_ * (nearest * nearest + beyond_nearest_) <= kLargestKernelExponent;
   }
 
-  // Of each block the largest distance of a code to its nearest sample; what is less than `kNoGap` lengthens
-  // no reach and counts as that.
+  // Largest distance of a code to its nearest sample, for each block. Distances below `kNoGap` do not
+  // lengthen the reach and are set to it.
   void findFarthest() {
     const double no_gap = kNoGap * sigma_;
     farthest_.assign(static_cast<std::size_t>((codes_ + kCodeBlock - 1) / kCodeBlock), no_gap);
@@ -104,7 +104,7 @@ class GaussianSums {
     grid_reach_ = static_cast<std::ptrdiff_t>(grid_reach);
   }
 
-  // Of the samples within the grid's reach of some code of the block.
+  // Number of samples within the reach of the grid from some code of the block.
   double weightWithinReach(std::ptrdiff_t block, std::ptrdiff_t end) {
     if (count_before_.empty()) {
       count_before_.assign(samples_.count.size() + 1, 0.0);

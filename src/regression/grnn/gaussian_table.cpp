@@ -14,7 +14,7 @@ constexpr std::ptrdiff_t kVectors = kCodeBlock / kLanes;
 constexpr double kSmallestKernel = 700.0;  // exponent
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 
-// `kernel` points to distance 0; code i of the block lies at distance block + i - code from a sample.
+// `kernel` points to distance 0. Code i of the block is at distance block + i - code from a sample.
 FSR_EACH_VECTOR_WIDTH
 void addSamples(const WeightedCodes& samples, std::size_t first, std::size_t last, const double* kernel,
                 double* block_sums, double* block_weights) {
@@ -41,7 +41,7 @@ GaussianTable::GaussianTable(double sigma, std::ptrdiff_t radius)
   const double precision = 0.5 / (sigma * sigma);
   for (std::ptrdiff_t d = 0; d <= side; ++d) {
     const double exponent = precision * static_cast<double>(d * d);
-    const double value = exponent < kSmallestKernel ? std::exp(-exponent) : 0.0;  // no denormal numbers
+    const double value = exponent < kSmallestKernel ? std::exp(-exponent) : 0.0;  // avoids denormal numbers
     values_[static_cast<std::size_t>(side - d)] = values_[static_cast<std::size_t>(side + d)] = value;
   }
 }

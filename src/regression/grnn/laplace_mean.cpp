@@ -7,19 +7,19 @@ namespace fsr::regression {
 
 namespace {
 
-// Sums over the samples on one side of a code, as seen from the nearest of them.
+// Sums over the samples on one side of a code, relative to the nearest of them.
 struct Side {
   double sum = 0, weight = 0;
   double distance = INFINITY;  // of the code to that nearest one [counts]
 };
 
-// One side for every code, by one pass along the codes: between samples only the distance grows.
-// `step` is 1 for the samples at or below a code, -1 for those above it.
+// The side of every code, by one pass over the codes: between samples only the distance changes. `step` is 1
+// for the samples at or below a code, -1 for those above it.
 std::vector<Side> sides(const WeightedCodes& samples, double length, int step) {
   const auto codes = static_cast<std::ptrdiff_t>(samples.table_size);
   std::vector<Side> sides(samples.table_size);
   Side side;
-  auto next = step > 0 ? std::size_t{0} : samples.code.size() - 1;  // wraps round when exhausted
+  auto next = step > 0 ? std::size_t{0} : samples.code.size() - 1;  // wraps around at the end
   for (std::ptrdiff_t code = step > 0 ? 0 : codes - 1; code >= 0 && code < codes; code += step) {
     if (step < 0) sides[static_cast<std::size_t>(code)] = side;
     if (next < samples.code.size() && samples.code[next] == code) {

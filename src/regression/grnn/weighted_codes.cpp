@@ -9,7 +9,7 @@ namespace fsr::regression {
 
 namespace {
 
-// So many times the square of a code of 16 bits is exact in a double.
+// This many squares of a 16-bit code add up exactly in a double.
 constexpr std::uint64_t kExactSamples = std::uint64_t{1} << 21;
 
 }  // namespace
@@ -17,7 +17,8 @@ constexpr std::uint64_t kExactSamples = std::uint64_t{1} << 21;
 WeightedCodes weightedCodes(const CodeHistogram& training) {
   const std::vector<std::int64_t>& count = training.count();
   const std::size_t occupied = count.size() - std::count(count.begin(), count.end(), 0);
-  // Every code is written and kept where it occurs, no branch to mispredict: one place more than kept.
+  // Every code is written, but kept only if it occurs. This avoids a branch that would be mispredicted and
+  // needs room for one more.
   WeightedCodes samples{count.size(),
                         static_cast<double>(training.samples()),
                         std::vector<std::int32_t>(occupied + 1),
@@ -28,7 +29,7 @@ WeightedCodes weightedCodes(const CodeHistogram& training) {
   const auto occurs = [](std::int64_t number) { return number != 0; };
   const auto first =
       static_cast<std::size_t>(std::find_if(count.begin(), count.end(), occurs) - count.begin());
-  std::size_t code = first;  // none occurs below it, and none from where all are found
+  std::size_t code = first;  // no code occurs below `first`, nor after all have been found
   for (; found < occupied; ++code) {
     samples.code[found] = static_cast<std::int32_t>(code);
     samples.count[found] = static_cast<double>(count[code]);
@@ -50,7 +51,7 @@ struct Moments {
   double sum = 0, squares = 0;
 };
 
-// Sums of count x code and count x code^2. In doubles, lane by lane: whole numbers, all of them exact.
+// Sums of count x code and count x code^2 in doubles, lane by lane. All values are whole numbers and exact.
 FSR_EACH_VECTOR_WIDTH
 Moments momentsOf(const std::int64_t* count, std::size_t codes) {
   constexpr std::size_t kLanes = 8;
@@ -77,7 +78,7 @@ Moments momentsOf(const std::int64_t* count, std::size_t codes) {
   return all;
 }
 
-// number (number - 1) times the variance of the readings, exactly.
+// number (number - 1) times the variance of the readings, exact.
 Int128 scatterOf(const CodeHistogram& training) {
   const std::vector<std::int64_t>& count = training.count();
   const Int128 number = training.samples();

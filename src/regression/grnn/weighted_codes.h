@@ -5,22 +5,22 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsr_pressure_map/regression/code_statistics.h"
-#include "fsr_pressure_map/regression/regressor.h"
+#include "regression/code_statistics.h"
+#include "regression/regressor.h"
 
 namespace fsr::regression {
 
-/// The codes that occur in training, ascending: what the regressors on sums compute with.
+/// The codes that occur in training, ascending: the input of the regressors on sums.
 struct WeightedCodes {
   std::size_t table_size = 0;      ///< full scale + 1
   double samples = 0;              ///< sum of `count`
   std::vector<std::int32_t> code;  ///< signed, for distances
-  std::vector<double> count;       ///< weight of each code: its number of samples, unless weighted
+  std::vector<double> count;       ///< weight of each code: its number of samples, unless bins are weighted
   std::vector<double> sum;         ///< of pressure, with the same weights [Pa]
-  /// Number of codes that occur below each code 0 .. table_size: where to begin.
+  /// Number of occurring codes below each code 0 .. table_size.
   std::vector<std::int32_t> below;
 
-  /// Number of the first one that is not below `reading`, which may lie outside the table.
+  /// Index of the first code that is not below `reading`, which may be outside the table.
   std::size_t firstFrom(std::ptrdiff_t reading) const {
     const auto last = static_cast<std::ptrdiff_t>(table_size);
     const auto inside = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(reading, 0, last));
@@ -30,11 +30,11 @@ struct WeightedCodes {
 
 WeightedCodes weightedCodes(const CodeHistogram& training);
 
-/// Sample deviation of the training readings [counts], from exact integer sums; 0 where they never differ.
+/// Sample standard deviation of the training readings [counts], from exact integer sums; 0 if all are equal.
 double readingDeviation(const CodeHistogram& training);
 
-/// The answer where the readings never differ: their mean pressure at every code, supported by all of
-/// them at the one code and by none elsewhere.
+/// The answer if all readings are equal: their mean pressure at every code. Support is their number at that
+/// code and 0 elsewhere.
 Fit constantFit(const WeightedCodes& samples);
 
 }  // namespace fsr::regression

@@ -6,8 +6,8 @@
 
 namespace fsr_ros {
 
-/// Closes a bag that is thrown away. One whose disk is full throws as it is closed, and, destroyed, once
-/// more, which ends the process: such a bag is never destroyed.
+/// Closes a bag whose content is not needed. If the disk is full, rosbag::Bag::close() throws, and so does
+/// the destructor, which would end the process. Such a bag is leaked instead of destroyed.
 void abandonBag(std::unique_ptr<rosbag::Bag> bag) noexcept;
 
 }  // namespace fsr_ros

@@ -21,7 +21,7 @@
 
 namespace fsr_ros {
 
-/// A message that is written as it stands, with the connection that it belongs to.
+/// A serialised message and its connection, written to a bag without deserialising it.
 struct SerialisedMessage {
   const fsr::exports::ArchivedConnection& connection;
   const std::string& bytes;
@@ -29,7 +29,7 @@ struct SerialisedMessage {
 
 }  // namespace fsr_ros
 
-// How rosbag asks a message for its type.
+// The traits through which rosbag asks a message for its type and bytes.
 namespace ros {
 namespace message_traits {
 template <>
@@ -82,7 +82,7 @@ class Selected {
     rosbag::View all(bag);
     const ros::Time begin = all.getBeginTime();
     const ros::Time from = begin + ros::Duration(selection.from);
-    // Beyond what a duration holds there is nothing to cut off.
+    // ros::Duration cannot hold larger values.
     const ros::Time until = selection.until < 1e9 ? begin + ros::Duration(selection.until) : ros::TIME_MAX;
     const std::vector<std::string> keep = topicsToKeep(topics, selection.wanted);
     if (keep.empty()) {
@@ -122,7 +122,8 @@ class Selected {
   std::vector<fsr::exports::ArchivedConnection> connections_;
 };
 
-// A full disk is told by the archive's own end.
+// Adds the group /scans. Returns why it is incomplete; empty = it is complete. A full disk raises an error
+// later, in ArchiveWriter::finish().
 std::string joinScans(const std::string& path, const std::string& topics,
                       fsr::exports::ArchiveWriter& archive) {
   ScanSelection selection;
@@ -181,8 +182,9 @@ class Restorer {
   }
 
  private:
-  // rosbag numbers connections as they come, and replays messages of one moment by these numbers: those of
-  // one moment are written in the old numbers' order, so that they are replayed as before.
+  // rosbag numbers connections in the order of their first message, and replays messages with the same time
+  // in the order of these numbers. Messages with the same time are therefore written in the order of the old
+  // numbers.
   void write() {
     std::stable_sort(together_.begin(), together_.end(),
                      [](const auto& a, const auto& b) { return a.connection < b.connection; });
@@ -195,7 +197,7 @@ class Restorer {
   }
 
   static ros::Time receivedAt(const fsr::exports::ArchivedMessage& message) {
-    constexpr std::int64_t kEnd = std::int64_t{1} << 32;  // of what a bag can tell [s]
+    constexpr std::int64_t kEnd = std::int64_t{1} << 32;  // end of the range of ros::Time [s]
     if (message.received_ns < 0 || message.received_ns / 1000000000 >= kEnd) {
       throw fsr::settings::InputError("a message was received at " + std::to_string(message.received_ns) +
                                       " ns, but a bag holds the years 1970 to 2106");
@@ -207,7 +209,7 @@ class Restorer {
   fsr::exports::ArchiveReader& archive_;
   rosbag::Bag& bag_;
   std::vector<boost::shared_ptr<ros::M_string>> headers_;
-  std::vector<fsr::exports::ArchivedMessage> together_;  // of one moment
+  std::vector<fsr::exports::ArchivedMessage> together_;  // messages with the same time of reception
   std::uint64_t messages_ = 0;
 };
 

@@ -1,4 +1,4 @@
-#include "ros/bags/bag_reader.h"
+#include "fsr_pressure_map/ros/bag_reader.h"
 
 #include <ros/message_traits.h>
 
@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 
+#include "dataset/recording_builder.h"
 #include "ros/bags/bag_walk.h"
 #include "ros/bags/message_events.h"
 #include "ros/bags/sensor_topics.h"
@@ -64,7 +65,7 @@ class Feeder {
   const BagWalk& bag_;
   SensorTopics topics_;
   fsr::dataset::RecordingBuilder& builder_;
-  std::map<std::uint32_t, std::function<void(MessageBytes)>> readers_;  // of each connection that is taken
+  std::map<std::uint32_t, std::function<void(MessageBytes)>> readers_;  // by connection number
 };
 
 }  // namespace
@@ -74,7 +75,9 @@ fsr::dataset::Recording readBag(const std::string& path, const BagReadOptions& o
   tellingOfDamage(path, [&] {
     fsr::dataset::RecordingBuilder builder;
     const BagWalk bag(path);
-    fsr::dataset::RecordingOptions chosen = options.recording;
+    fsr::dataset::RecordingOptions chosen;
+    chosen.ambient_pressure = options.ambient_pressure;
+    chosen.change_margin = options.change_margin;
     chosen.name = std::filesystem::path(path).filename().string();
     chosen.sha256 = Feeder(bag, options.topics, builder).run();
     recording = builder.build(chosen);

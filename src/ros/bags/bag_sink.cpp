@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <iomanip>
-#include <sstream>
 #include <utility>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/number_text.h"
 
 namespace fsr_ros {
 
@@ -15,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMessagesBetweenLooks = 256;  // at the disk's space
+constexpr std::size_t kBatch = 256;  // messages between two checks of the space left on the disk
 
 std::string withExtension(const std::string& bag) {
   const std::string end = ".bag";
@@ -23,21 +22,15 @@ std::string withExtension(const std::string& bag) {
   return has_it ? bag : bag + end;
 }
 
-std::string megabytes(std::uint64_t bytes) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(1) << static_cast<double>(bytes) / 1e6 << " MB";
-  return text.str();
-}
-
-// A second recording under one name would overwrite the first, or what a kill left of it.
-void refuseTaken(const std::string& bag) {
+// A second recording under the same name would overwrite the first one, or what is left of it after a kill.
+void refuseExisting(const std::string& bag) {
   std::error_code error;
   if (fs::exists(bag, error))
-    throw fsr::settings::InputError(bag + ": there is a bag of that name; give another one");
+    throw fsr::settings::InputError(bag + ": a bag of this name exists; give another name");
   if (fs::exists(bag + ".active", error)) {
     throw fsr::settings::InputError(
-        bag + ".active: is left of a recording that was not closed; rescue it with rosbag " +
-        "reindex under another name, or remove it");
+        bag + ".active: this is the rest of a recording that was not closed; rename it and repair it with " +
+        "rosbag reindex, or remove it");
   }
 }
 
@@ -48,7 +41,7 @@ BagSink::BagSink(const BagSinkOptions& options, std::function<void(const std::st
       closed_name_(withExtension(options.bag)),
       ended_(std::move(ended)),
       bag_(std::make_unique<rosbag::Bag>()) {
-  refuseTaken(closed_name_);
+  refuseExisting(closed_name_);
   report_.file = closed_name_ + ".active";
   try {
     bag_->open(report_.file, rosbag::bagmode::Write);
@@ -96,17 +89,18 @@ void BagSink::run() {
       std::unique_lock<std::mutex> lock(mutex_);
       changed_.wait_for(lock, std::chrono::seconds(1), [this] { return stopping_ || !queue_.empty(); });
       if (stopping_ && queue_.empty()) break;
-      const auto end =
-          queue_.begin() + static_cast<std::ptrdiff_t>(std::min(queue_.size(), kMessagesBetweenLooks));
+      const auto end = queue_.begin() + static_cast<std::ptrdiff_t>(std::min(queue_.size(), kBatch));
       batch.assign(std::make_move_iterator(queue_.begin()), std::make_move_iterator(end));
       queue_.erase(queue_.begin(), end);
+      in_hand_ = batch.size();
     }
     if (!hasSpace() || !writeAll(batch)) return;
   }
   close();
 }
 
-// False where the disk is as full as it may get: the bag is closed then, with what is left for its index.
+// Returns false if less than `least_space` is left on the disk. The bag is then closed, while there is still
+// room for its index.
 bool BagSink::hasSpace() {
   std::error_code error;
   const fs::space_info space = fs::space(fs::path(closed_name_ + ".active"), error);
@@ -117,10 +111,9 @@ bool BagSink::hasSpace() {
   }
   if (space.available >= options_.least_space) return true;
   if (close()) {
-    end("NOTHING IS RECORDED any more: " + megabytes(space.available) + " are left on the disk, less than " +
-        megabytes(options_.least_space) + "; " + closed_name_ +
-        " is closed and whole; make room, then start "
-        "a new recording");
+    end("RECORDING STOPPED: only " + fsr::settings::megabytesText(space.available) +
+        " are left on the disk, less than " + fsr::settings::megabytesText(options_.least_space) + "; " +
+        closed_name_ + " was closed and is complete; make room, then start a new recording");
   }
   return false;
 }
@@ -130,12 +123,13 @@ bool BagSink::writeAll(std::deque<Waiting>& batch) {
     try {
       message.write(*bag_);
     } catch (const rosbag::BagException& error) {
-      static_cast<void>(bag_.release());  // its destructor would write, fail, and end the program
-      end("NOTHING IS RECORDED any more: " + closed_name_ + ".active cannot be written (" + error.what() +
-          "); make room, then rosbag reindex it");
+      static_cast<void>(bag_.release());  // its destructor would write again, throw and end the program
+      end("RECORDING STOPPED: " + closed_name_ + ".active cannot be written (" + error.what() +
+          "); make room, then repair it with rosbag reindex");
       return false;
     }
     const std::lock_guard<std::mutex> lock(mutex_);
+    --in_hand_;
     ++report_.messages;
     report_.waiting -= message.bytes;
   }
@@ -148,7 +142,7 @@ bool BagSink::close() {
     fs::rename(closed_name_ + ".active", closed_name_);
   } catch (const std::exception& error) {
     static_cast<void>(bag_.release());
-    end(closed_name_ + ".active cannot be closed (" + error.what() + "); rosbag reindex it");
+    end(closed_name_ + ".active cannot be closed (" + error.what() + "); repair it with rosbag reindex");
     return false;
   }
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -160,7 +154,7 @@ void BagSink::end(const std::string& complaint) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     report_.complaint = complaint;
-    report_.lost += queue_.size();
+    report_.lost += queue_.size() + in_hand_;
     report_.waiting = 0;
     queue_.clear();
   }

@@ -14,40 +14,42 @@
 namespace fsr_ros {
 
 struct BagSinkOptions {
-  std::string bag;  ///< to write, with or without .bag
-  std::uint32_t chunk_size =
-      1024;  ///< what a kill costs at most, beside it what the C library buffers [bytes]
-  std::uint64_t least_space = 200'000'000;  ///< that stays free on the disk [bytes]
-  std::uint64_t buffer = 256'000'000;       ///< for messages that the disk has not taken yet [bytes]
+  std::string bag;  ///< file to write, with or without .bag
+  /// Largest amount of data that a kill of the process loses, beside the buffer of the C library [bytes].
+  std::uint32_t chunk_size = 1024;
+  std::uint64_t least_space = 200'000'000;  ///< space that stays free on the disk [bytes]
+  std::uint64_t buffer = 256'000'000;  ///< size of the queue of messages that are not written yet [bytes]
 };
 
-/// How a recording stands.
+/// State of a recording.
 struct BagSinkReport {
-  std::string file;            ///< FILE.bag.active, and FILE.bag once it is closed
-  std::string complaint;       ///< why it ended by itself; empty = it did not
-  std::uint64_t messages = 0;  ///< written
-  std::uint64_t lost = 0;      ///< the buffer was full, or the recording had ended
-  std::uint64_t waiting = 0;   ///< in the buffer [bytes]
-  std::uint64_t space = 0;     ///< left on the disk, as seen last [bytes]
+  std::string file;            ///< FILE.bag.active; FILE.bag after it is closed
+  std::string complaint;       ///< why the recording stopped by itself; empty = it did not
+  std::uint64_t messages = 0;  ///< messages written
+  std::uint64_t lost = 0;      ///< messages lost: the queue was full, or the recording had stopped
+  std::uint64_t waiting = 0;   ///< size of the queue [bytes]
+  std::uint64_t space = 0;     ///< space left on the disk at the last check [bytes]
 };
 
-/// Writes a bag on a thread of its own, so that a disk that stands still holds up nobody who receives
-/// messages. It is FILE.bag.active until it is closed: whole, with its index. Where the disk is nearly full
-/// it is closed in time and says so; where a write fails all the same, what was written is left under
-/// .active, for `rosbag reindex`.
+/// Writes a bag in its own thread, so that a slow disk does not delay the thread that receives messages. The
+/// file is called FILE.bag.active until it is closed and has its index. When the disk is nearly full, the bag
+/// is closed in time and the recording stops. When a write fails, the file stays under the name .active and
+/// can be repaired with `rosbag reindex`. Every message that was added is counted either as written or as
+/// lost.
 class BagSink {
  public:
   using Write = std::function<void(rosbag::Bag&)>;
 
-  /// Throws fsr::InputError where the bag, or what is left of a recording of that name, is there already, or
-  /// where the file cannot be made. `ended`: called once, from the writing thread, where it ends by itself.
+  /// Throws fsr::InputError if the bag, or the rest of a recording of that name, exists already, or if the
+  /// file cannot be created. `ended` is called once, from the writing thread, if the recording stops by
+  /// itself.
   BagSink(const BagSinkOptions& options, std::function<void(const std::string&)> ended);
-  /// Writes what waits, then closes the bag.
+  /// Writes the messages in the queue, then closes the bag.
   ~BagSink();
   BagSink(const BagSink&) = delete;
   BagSink& operator=(const BagSink&) = delete;
 
-  /// A message of so many bytes that `write` puts into the bag; false where it is lost.
+  /// Queues a message of `bytes` bytes, which `write` will write to the bag. Returns false if it is lost.
   bool add(std::uint64_t bytes, Write write);
   BagSinkReport report() const;
 
@@ -66,11 +68,12 @@ class BagSink {
   const BagSinkOptions options_;
   const std::string closed_name_;
   const std::function<void(const std::string&)> ended_;
-  std::unique_ptr<rosbag::Bag> bag_;  // of the thread
+  std::unique_ptr<rosbag::Bag> bag_;  // used by the writing thread only
 
-  mutable std::mutex mutex_;  // of all below
+  mutable std::mutex mutex_;  // guards the following members
   std::condition_variable changed_;
   std::deque<Waiting> queue_;
+  std::size_t in_hand_ = 0;  // messages that were taken off the queue, but are not written yet
   BagSinkReport report_;
   bool stopping_ = false;
   std::thread thread_;

@@ -11,11 +11,14 @@
 #include <map>
 #include <sstream>
 
+#include "settings/number_text.h"
+#include "statistics/median.h"
+
 namespace fsr_ros {
 
 namespace {
 
-// A stamped type's definition begins with its header, comments aside.
+// The definition of a stamped type begins with its header, after comments.
 bool beginsWithHeader(const std::string& definition) {
   std::istringstream lines(definition);
   for (std::string line; std::getline(lines, line);) {
@@ -26,6 +29,7 @@ bool beginsWithHeader(const std::string& definition) {
   return false;
 }
 
+// Collects the times of one topic.
 class Course {
  public:
   explicit Course(const rosbag::ConnectionInfo& connection) {
@@ -38,7 +42,7 @@ class Course {
     ++course_.messages;
     const double arrival = instance.getTime().toSec();
     const double time = course_.stamped ? stampOf(instance) : arrival;
-    if (time <= 0) return;  // no stamp was set
+    if (time <= 0) return;  // the publisher set no stamp
     if (!times_.empty() && time < times_.back()) ++course_.backwards;
     if (!times_.empty() && time == times_.back()) ++course_.repeated;
     if (course_.stamped) course_.latest = std::max(course_.latest, arrival - time);
@@ -53,14 +57,13 @@ class Course {
     const auto longest = std::max_element(steps.begin(), steps.end());
     course_.longest_gap = *longest;
     course_.gap_at = times_[static_cast<std::size_t>(longest - steps.begin())] - start;
-    const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    if (*middle > 0) course_.rate = 1 / *middle;
+    const double usual = fsr::statistics::upperMedian(steps);
+    if (usual > 0) course_.rate = 1 / usual;
     return course_;
   }
 
  private:
-  // A header is serialised as seq, secs, nsecs, 32 bits each.
+  // A header is serialised as seq, secs and nsecs, 32 bits each.
   double stampOf(const rosbag::MessageInstance& instance) {
     bytes_.resize(instance.size());
     if (bytes_.size() < 12) return 0;
@@ -76,13 +79,6 @@ class Course {
   std::vector<double> times_;  // [s]
   std::vector<std::uint8_t> bytes_;
 };
-
-std::string number(double value, int digits) {
-  if (std::isnan(value)) return "-";
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
-}
 
 bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -115,9 +111,11 @@ std::string topicsText(const std::vector<TopicCourse>& courses) {
   };
   row("topic", {"messages", "rate [1/s]", "gap [s]", "at [s]", "backwards", "same stamp", "late [s]"});
   for (const TopicCourse& course : courses) {
-    row(course.topic, {std::to_string(course.messages), number(course.rate, 2), number(course.longest_gap, 3),
-                       number(course.gap_at, 1), std::to_string(course.backwards),
-                       std::to_string(course.repeated), course.stamped ? number(course.latest, 3) : "-"});
+    row(course.topic,
+        {std::to_string(course.messages), fsr::settings::cellText(course.rate, 2),
+         fsr::settings::cellText(course.longest_gap, 3), fsr::settings::cellText(course.gap_at, 1),
+         std::to_string(course.backwards), std::to_string(course.repeated),
+         course.stamped ? fsr::settings::cellText(course.latest, 3) : "-"});
   }
   return out.str();
 }

@@ -7,26 +7,27 @@
 
 namespace fsr_ros {
 
-/// How the messages of one topic came.
+/// Timing of the messages of one topic.
 struct TopicCourse {
   std::string topic, type;
   std::uint64_t messages = 0;
-  bool stamped = false;  ///< its type begins with a header; else times are those of their arrival
-  double rate = std::numeric_limits<double>::quiet_NaN();         ///< by the median step [1/s]
-  double longest_gap = std::numeric_limits<double>::quiet_NaN();  ///< from one to the next [s]
-  double gap_at = 0;            ///< where it begins, since the bag's first message [s]
-  std::uint64_t backwards = 0;  ///< stamps earlier than the one before, in the order of the recording
-  std::uint64_t repeated = 0;   ///< stamps equal to the one before
-  double latest = 0;            ///< longest time from stamp to arrival at the recorder [s]
+  bool stamped = false;  ///< its type begins with a header; otherwise the times of reception are used
+  double rate = std::numeric_limits<double>::quiet_NaN();         ///< from the median interval [1/s]
+  double longest_gap = std::numeric_limits<double>::quiet_NaN();  ///< longest interval [s]
+  double gap_at = 0;            ///< start of the longest interval, since the bag's first message [s]
+  std::uint64_t backwards = 0;  ///< number of stamps earlier than the one before, in the order of recording
+  std::uint64_t repeated = 0;   ///< number of stamps equal to the one before
+  double latest = 0;            ///< longest time from the stamp to the reception by the recorder [s]
 };
 
-/// Topics of a sound bag (see requireSoundBag), by name. Throws rosbag::BagException where it cannot be read.
+/// The topics of a bag, sorted by name. The bag must have passed requireSoundBag(). Throws
+/// rosbag::BagException if it cannot be read.
 std::vector<TopicCourse> topicCourses(const std::string& path);
 
-/// A table of them for the terminal.
+/// The topics as a table for the terminal.
 std::string topicsText(const std::vector<TopicCourse>& courses);
 
-/// Times of the events of one kind [ns], by their stamps, on topics whose name ends with `events`.
+/// Stamps of the events of one kind [ns], ascending, from topics whose name ends with `events`.
 std::vector<std::int64_t> eventTimes(const std::string& path, const std::string& kind);
 
 }  // namespace fsr_ros

@@ -5,113 +5,27 @@
 #include <rosbag/exceptions.h>
 
 #include <algorithm>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <set>
 #include <string_view>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "settings/sha256.h"
+#include "ros/bags/bag_records.h"
 
 namespace fsr_ros {
 
 namespace {
 
-constexpr char kMagic[] = "#ROSBAG V2.0\n";
-constexpr std::size_t kIndexEntry = 12;            // time, offset into the chunk [bytes]
-constexpr std::uint32_t kLargestChunk = 1u << 27;  // unpacked [bytes]; rosbag record makes them of 768 KB
+using bag_records::damaged;
+using bag_records::field;
+using bag_records::number;
+using bag_records::RecordFile;
+using bag_records::takeBlock;
 
-[[noreturn]] void damaged(const std::string& what) {
-  throw rosbag::BagFormatException(what);
-}
-
-// Little endian, as the machines that ROS runs on.
-template <typename T>
-T number(std::string_view bytes) {
-  T value{};
-  if (bytes.size() < sizeof(T)) damaged("a number is cut short");
-  std::memcpy(&value, bytes.data(), sizeof(T));
-  return value;
-}
-
-// Takes a length and as many bytes off the front.
-std::string_view takeBlock(std::string_view& rest) {
-  const auto size = number<std::uint32_t>(rest);
-  rest.remove_prefix(sizeof(size));
-  if (size > rest.size()) damaged("a length points behind its end");
-  const std::string_view block = rest.substr(0, size);
-  rest.remove_prefix(size);
-  return block;
-}
-
-// The value of a field of a record's header: "length name=value" one after the other.
-template <typename T>
-T field(std::string_view header, std::string_view name) {
-  while (!header.empty()) {
-    const std::string_view entry = takeBlock(header);
-    const std::size_t equals = entry.find('=');
-    if (equals == std::string_view::npos) damaged("a header field has no value");
-    if (entry.substr(0, equals) != name) continue;
-    if constexpr (std::is_same_v<T, std::string_view>) {
-      return entry.substr(equals + 1);
-    } else {
-      return number<T>(entry.substr(equals + 1));
-    }
-  }
-  damaged("a record has no field " + std::string(name));
-}
-
-// The records of the file, one after the other.
-class RecordFile {
- public:
-  explicit RecordFile(const std::string& path)
-      : file_(path, std::ios::binary), size_(std::filesystem::file_size(path)) {
-    take(sizeof(kMagic) - 1, header_);
-    if (header_ != kMagic) damaged("it does not begin with #ROSBAG V2.0");
-  }
-
-  std::uint64_t position() const { return position_; }
-  bool atEnd() const { return position_ >= size_; }
-  void goTo(std::uint64_t position) {
-    if (position > size_) damaged("its index begins behind the file's end");
-    position_ = position;
-    file_.seekg(static_cast<std::streamoff>(position));
-  }
-  // Makes header() and data() those of the next record.
-  void next() {
-    takeBlock(header_);
-    takeBlock(data_);
-  }
-
-  const std::string& header() const { return header_; }
-  std::string& data() { return data_; }
-  // Of all bytes that were read.
-  std::string sha256() { return hash_.hexadecimal(); }
-
- private:
-  void take(std::uint64_t size, std::string& into) {
-    if (size > size_ - position_) damaged("a record ends behind the file's end");
-    into.resize(size);
-    if (!file_.read(into.data(), static_cast<std::streamsize>(size))) damaged("it cannot be read to its end");
-    position_ += size;
-    hash_.add(into.data(), size);
-  }
-
-  void takeBlock(std::string& into) {
-    take(sizeof(std::uint32_t), into);
-    take(number<std::uint32_t>(into), into);
-  }
-
-  std::ifstream file_;
-  std::uint64_t size_;
-  std::uint64_t position_ = 0;
-  std::string header_, data_;
-  fsr::settings::Sha256 hash_;
-};
+constexpr std::size_t kIndexEntry = 12;  // size of an index entry: time and offset into the chunk [bytes]
+// Largest unpacked size of a chunk [bytes]; rosbag record makes chunks of 768 KB.
+constexpr std::uint32_t kLargestChunk = 1u << 27;
 
 std::map<std::uint32_t, BagConnection> indexedConnections(const std::string& path) {
   RecordFile file(path);
@@ -145,6 +59,7 @@ bool operator<(const Message& a, const Message& b) {
   return std::tie(a.offset, a.connection) < std::tie(b.offset, b.connection);
 }
 
+// One pass over a bag: checks each record and calls `visit` for each message in the index.
 class Walk {
  public:
   Walk(const std::string& path, const BagWalk::Visit& visit) : file_(path), visit_(visit) {}
@@ -213,7 +128,7 @@ class Walk {
     }
   }
 
-  // The record's data, which rosbag has packed as `compression` says, to `chunk_`.
+  // Unpacks the data of the record, compressed as `compression` says, into chunk_.
   void unpack(std::string_view compression, std::uint32_t size) {
     std::string& packed = file_.data();
     if (compression == rosbag::COMPRESSION_NONE) {
@@ -241,7 +156,7 @@ class Walk {
       const Message wanted{number<std::uint32_t>(data.substr(8)), id, {}, false};
       const auto found = std::lower_bound(messages_.begin(), messages_.end(), wanted);
       if (found == messages_.end() || wanted < *found) damaged("an index points to no message");
-      // Else a small file could hold a large message any number of times.
+      // Otherwise a small file could contain a large message any number of times.
       if (std::exchange(found->indexed, true)) damaged("an index points to a message twice");
       visit_(id, found->bytes);
     }
@@ -263,18 +178,18 @@ class Walk {
     }
   }
 
-  // A connection's own header: type, definition, ...
+  // Checks the data of a connection: type, definition, ...
   static void fields(std::string_view data) { field<std::string_view>(data, rosbag::TYPE_FIELD_NAME); }
 
   RecordFile file_;
   const BagWalk::Visit& visit_;
-  std::vector<std::uint64_t> starts_, chunks_;  // of the records of the file, ascending
+  std::vector<std::uint64_t> starts_, chunks_;  // positions in the file, ascending
   std::set<std::uint32_t> connections_, used_;
   std::uint64_t index_position_ = 0;
   std::uint64_t counted_chunks_ = 0;
   std::uint64_t counted_connections_ = 0;
 
-  // Of the chunk that was met last:
+  // The last chunk:
   std::string chunk_;
   std::vector<Message> messages_;  // ascending
 };

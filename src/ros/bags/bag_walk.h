@@ -7,23 +7,25 @@
 
 namespace fsr_ros {
 
-/// What a bag says of the messages of one topic and publisher.
+/// A connection of a bag: topic and message type of one publisher.
 struct BagConnection {
   std::string topic, type, md5sum;
 };
 
-/// A serialised message, where it stands in the walk's own memory.
+/// A serialised message, in memory that belongs to the walk.
 struct MessageBytes {
   std::uint8_t* data;
   std::uint32_t size;
 };
 
-/// Walks a bag's records from end to end, once. rosbag believes every length and offset in the file, and one
-/// that is wrong makes it read outside of its memory; here each is looked at before it is used.
+/// Reads the records of a bag once, from its beginning to its end. rosbag trusts every length and offset in
+/// the file, and a wrong one makes it read outside of its memory. This class checks each of them before it is
+/// used.
 ///
-/// Throws rosbag::BagUnindexedException where the bag was not closed, and another rosbag::BagException where
-/// records do not tile the file, an index points elsewhere than at a message of its connection, or a chunk
-/// cannot be unpacked. Memory: one chunk of the bag, and some bytes for each of its messages.
+/// Throws rosbag::BagUnindexedException if the bag was not closed, and another rosbag::BagException if the
+/// records do not fill the file without gaps, if an index entry does not point to a message of its
+/// connection, or if a chunk cannot be unpacked. Memory: one chunk of the bag, and some bytes for each of its
+/// messages.
 class BagWalk {
  public:
   /// Reads the index at the file's end.
@@ -31,11 +33,10 @@ class BagWalk {
 
   const std::map<std::uint32_t, BagConnection>& connections() const { return connections_; }
 
-  /// Takes a message of the connection of this number; a message is good until the visit ends.
+  /// Is called with each message and the number of its connection. The bytes are valid during the call only.
   using Visit = std::function<void(std::uint32_t connection, MessageBytes message)>;
 
-  /// Hands over every message that the index names, in the order of the file. Returns the SHA-256 of the
-  /// file's bytes.
+  /// Calls `visit` for every message in the index, in the order of the file. Returns the SHA-256 of the file.
   std::string run(const Visit& visit) const;
 
  private:
@@ -43,7 +44,7 @@ class BagWalk {
   std::map<std::uint32_t, BagConnection> connections_;
 };
 
-/// Walks the bag and leaves its messages alone: before rosbag opens it. Throws likewise.
+/// Checks the structure of a bag before rosbag opens it. Throws as BagWalk does.
 void requireSoundBag(const std::string& path);
 
 }  // namespace fsr_ros

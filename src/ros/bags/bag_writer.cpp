@@ -31,7 +31,7 @@ fsr::settings::InputError cannotWrite(const std::string& path, const std::string
 ros::Time rosTime(std::int64_t stamp_ns, const std::string& path) {
   if (stamp_ns <= 0 || stamp_ns / kSecond > std::numeric_limits<std::uint32_t>::max()) {
     throw fsr::settings::InputError(path + ": a stamp of " + std::to_string(stamp_ns) +
-                                    " ns cannot stand in a bag, which holds the years 1970 to 2106");
+                                    " ns cannot be written to a bag, which holds the years 1970 to 2106");
   }
   ros::Time time;
   time.fromNSec(static_cast<std::uint64_t>(stamp_ns));
@@ -58,8 +58,8 @@ fsr_pressure_map::MatrixInfo describe(const fsr::dataset::Recording& recording, 
   return info;
 }
 
-// The header of a connection whose publisher latches, as rosbag record keeps it, so that a replay latches
-// too; nullptr for other topics.
+// The header of a connection whose publisher latches, as rosbag record writes it, so that a replay latches
+// too. nullptr for other topics.
 template <typename Message>
 boost::shared_ptr<ros::M_string> latched(const std::string& topic) {
   if (topic != "matrix_info" && topic != "curvature" && topic != "session") return nullptr;
@@ -70,7 +70,7 @@ boost::shared_ptr<ros::M_string> latched(const std::string& topic) {
                     {"latching", "1"}});
 }
 
-// Says what stands in the bag again and again: once a second and where the surface changes.
+// Writes description, surface and session once a second; the surface also when it changes.
 class Repeater {
  public:
   Repeater(const fsr::dataset::Recording& recording, const BagOptions& options)

@@ -15,21 +15,21 @@
 
 namespace fsr_ros {
 
-/// A bag of one sensor, with the topics and messages that the nodes would have recorded. It is
-/// written under a temporary name: at `path` there is the old file or the whole new one. Where a bag
-/// or a stamp cannot be written, fsr::InputError says why.
+/// Writes a bag of one sensor, with the topics and messages that the nodes publish. The bag has a temporary
+/// name until close(), so that `path` is either the old file or the complete new one. Throws fsr::InputError
+/// if the bag or a stamp cannot be written.
 class BagWriter {
  public:
-  /// `topics` is the namespace of the topics, `frame_id` the matrix frame.
+  /// `topics` is the namespace of the topics, `frame_id` the TF frame of the matrix.
   explicit BagWriter(const std::string& path, const std::string& topics = "fsr",
                      const std::string& frame_id = "fsr_matrix");
-  /// Without close() nothing remains.
+  /// Removes the temporary file if close() was not called.
   ~BagWriter();
   BagWriter(const BagWriter&) = delete;
   BagWriter& operator=(const BagWriter&) = delete;
 
-  /// Stamps are of the header and of the bag alike, and positive [ns]. The bag grows fastest and reads
-  /// fastest where they come in time order.
+  /// `stamp_ns` is both the header's stamp and the time of reception; it must be positive [ns]. A bag is
+  /// written and read fastest if its messages are in time order.
   void addScan(std::int64_t stamp_ns, std::uint32_t sequence, const fsr::matrix::ScanView& scan);
   void addChamberPressure(std::int64_t stamp_ns, double absolute_pressure, double variance);  // [Pa]
   void addTemperature(std::int64_t stamp_ns, double temperature);  // [degree Celsius]
@@ -37,16 +37,16 @@ class BagWriter {
   void addMatrixInfo(std::int64_t stamp_ns, fsr_pressure_map::MatrixInfo info);
   void addSession(std::int64_t stamp_ns, fsr_pressure_map::Session session);
 
-  /// A message as it stands, with its own header; defined for those of record.launch.
+  /// Writes a message with its own header. Defined for the message types of record.launch.
   template <typename Message>
   void add(const std::string& topic, const Message& message);
 
-  /// A message of another bag, with its topic and time; and one in its place.
+  /// Writes a message of another bag with its topic and time; replace() writes another message instead of it.
   void copy(const rosbag::MessageInstance& instance);
   template <typename Message>
   void replace(const rosbag::MessageInstance& instance, const Message& message);
 
-  /// Gives the bag its name.
+  /// Closes the bag and gives it its final name.
   void close();
 
  private:
@@ -62,19 +62,19 @@ class BagWriter {
   std::unique_ptr<rosbag::Bag> bag_;
 };
 
-/// What a bag says beside a Recording.
+/// Values that a bag holds in addition to a Recording.
 struct BagOptions {
   std::string topics = "fsr";         ///< namespace of the topics
   double ambient_pressure = 101325;   ///< added to the gauge pressures [Pa]
-  double pressure_variance = 0;       ///< of the chamber's transducer, 0 = unknown [Pa^2]
-  double reference_voltage = 0;       ///< of the converter, 0 = unknown [V]
-  double feedback_resistance = 0;     ///< of the read-out, 0 = unknown [ohm]
-  fsr_pressure_map::Session session;  ///< written where it has a session_id
+  double pressure_variance = 0;       ///< variance of the chamber's transducer, 0 = unknown [Pa^2]
+  double reference_voltage = 0;       ///< reference voltage of the converter, 0 = unknown [V]
+  double feedback_resistance = 0;     ///< feedback resistance of the read-out, 0 = unknown [ohm]
+  fsr_pressure_map::Session session;  ///< written if it has a session_id
 };
 
-/// Description, surface and session at the first scan, at each change and once a second, as the nodes
-/// repeat them; one chamber pressure and one temperature for each scan, where the Recording has them.
-/// Throws fsr::InputError.
+/// Writes a recording as a bag. Description, surface and session are written at the first scan and once a
+/// second, as the nodes repeat them, the surface also when it changes. Each scan has one chamber pressure and
+/// one temperature if the recording has them. Throws fsr::InputError.
 void writeBag(const std::string& path, const fsr::dataset::Recording& recording,
               const BagOptions& options = {});
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <set>
 
-#include "ros/bags/bag_reader.h"
+#include "fsr_pressure_map/ros/bag_reader.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/bags/simulated_bags.h"
 #include "simulation/driven_rig.h"
@@ -18,15 +18,15 @@ namespace fsr_ros {
 
 namespace {
 
-/// All scans that have a reference, also those near a change of surface.
+// Reads all scans that have a reference, including those near a change of surface.
 fsr::dataset::Recording readWhole(const std::string& path, const std::string& topics) {
   BagReadOptions options;
   options.topics = topics;
-  options.recording.change_margin = 0;
+  options.change_margin = 0;
   return readBag(path, options);
 }
 
-/// What a simulated matrix read at each of a recording's stamps.
+// The counts of the simulated matrix at each stamp of a recording.
 class SimulatedScans {
  public:
   SimulatedScans(fsr::simulation::DrivenRig& rig, const fsr::dataset::Recording& recording)
@@ -37,7 +37,7 @@ class SimulatedScans {
     });
   }
 
-  /// nullptr where there is none at that stamp.
+  // The counts at a stamp, row-major; nullptr if there is no scan at that stamp.
   const std::uint16_t* find(std::int64_t stamp_ns) const {
     const auto found = std::lower_bound(stamps_.begin(), stamps_.end(), stamp_ns - kRounding);
     if (found == stamps_.end() || *found > stamp_ns + kRounding) return nullptr;
@@ -45,7 +45,7 @@ class SimulatedScans {
   }
 
  private:
-  static constexpr std::int64_t kRounding = 2;  // of times kept in seconds [ns]
+  static constexpr std::int64_t kRounding = 2;  // rounding error of times kept in seconds [ns]
   std::size_t taxels_;
   std::vector<std::int64_t> stamps_;
   std::vector<std::uint16_t> counts_;
@@ -55,7 +55,7 @@ std::string withoutLeadingSlash(const std::string& name) {
   return name.rfind('/', 0) == 0 ? name.substr(1) : name;
 }
 
-/// Copies one sensor's topics message by message, with other readings.
+// Copies the messages of one sensor and replaces its readings.
 class Copier {
  public:
   Copier(const fsr::simulation::SimulationSettings& settings, const std::string& topics,
@@ -114,9 +114,10 @@ void warn(const fsr::dataset::Recording& recording, std::vector<std::string>& wa
   const auto& surfaces = recording.conditions;
   const bool known = std::all_of(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.known(); });
   if (!known)
-    warnings.push_back(recording.name + ": the surface is not known throughout; the model lies flat there");
+    warnings.push_back(recording.name +
+                       ": the surface is unknown in parts of it; the simulated matrix lies flat there");
   if (recording.temperature.empty()) {
-    warnings.push_back(recording.name + ": holds no temperature; the model is at 23 degree Celsius");
+    warnings.push_back(recording.name + ": holds no temperature; the simulation uses 23 degree Celsius");
   }
 }
 
@@ -124,15 +125,17 @@ void warnOfSize(const fsr::dataset::Recording& recording, const fsr::simulation:
                 std::vector<std::string>& warnings) {
   const fsr::matrix::MatrixSize simulated = settings.layout.size;
   if (recording.layout.size == simulated) return;
-  warnings.push_back(recording.name + ": is of a matrix of " + sizeText(recording.layout.size) + ", " +
-                     settings.origin + " of " + sizeText(simulated) + "; the model takes the bag's");
+  warnings.push_back(recording.name + ": the matrix has " + sizeText(recording.layout.size) +
+                     " taxels, but " + settings.origin + " has " + sizeText(simulated) +
+                     "; the simulation uses the bag's size");
 }
 
 std::string outputPath(const std::string& bag, const std::string& output) {
   const auto path = std::filesystem::path(output) / std::filesystem::path(bag).filename();
   std::error_code error;
   if (std::filesystem::equivalent(path, bag, error)) {
-    throw fsr::settings::InputError(bag + ": would be overwritten; give another folder with --output");
+    throw fsr::settings::InputError(bag +
+                                    ": this bag would be overwritten; give another folder with --output");
   }
   return path;
 }

@@ -10,22 +10,23 @@
 
 namespace fsr_ros {
 
-/// A calibration ready for scans: its file read and checked, its tables packed. Making one takes a fraction
-/// of a second, so it is made beside the scans and then swapped in.
+/// A calibration that is ready for use: the file is read and checked, and the tables are packed. This takes a
+/// fraction of a second, so it is done in another thread than the scans, and the result is swapped in.
 struct LoadedCalibration {
-  fsr_pressure_map::CalibrationInfo info;  ///< header left empty
+  fsr_pressure_map::CalibrationInfo info;  ///< without header
   fsr::calibration::Calibrator calibrator;
 };
 
-/// Throws fsr::InputError that names the file and what is wrong with it.
+/// Loads a calibration file. Throws fsr::InputError that names the file and what is wrong with it.
 std::unique_ptr<LoadedCalibration> loadForUse(const std::string& path,
                                               const fsr::calibration::CalibratorOptions& options);
 
-/// Header left empty.
+/// The description that the calibration node publishes, without header.
 fsr_pressure_map::CalibrationInfo toMessage(const fsr::calibration::Calibration& calibration,
                                             const std::string& path);
 
-/// "per_curvature (grnn), id 3f2a..., 7 x 10 taxels, 6 curvatures from 0 to 20 1/m".
+/// One line for the log: "per_curvature (grnn), id 3f2a..., 7 x 10 taxels, trained from 0 to 20 1/m in 6
+/// classes".
 std::string describe(const LoadedCalibration& loaded);
 
 }  // namespace fsr_ros

@@ -10,8 +10,8 @@
 
 namespace fsr_ros {
 
-// Messages as events of a RecordingBuilder, by their header stamps: the same for a bag and for topics.
-// Each throws fsr::InputError where the message is malformed.
+// Add messages to a RecordingBuilder by their header stamps, both from bags and from live topics. Each throws
+// fsr::InputError if the message is malformed.
 
 void addEvent(const fsr_pressure_map::MatrixFrame& message, fsr::dataset::RecordingBuilder& builder);
 void addEvent(const sensor_msgs::FluidPressure& message, fsr::dataset::RecordingBuilder& builder);
@@ -19,7 +19,7 @@ void addEvent(const fsr_pressure_map::SurfaceCurvature& message, fsr::dataset::R
 void addEvent(const sensor_msgs::Temperature& message, fsr::dataset::RecordingBuilder& builder);
 void addEvent(const fsr_pressure_map::MatrixInfo& message, fsr::dataset::RecordingBuilder& builder);
 
-/// Throws fsr::InputError where the size, pitch or mask are none that a matrix can have.
+/// Throws fsr::InputError if the pitch is not positive or the mask does not fit the matrix.
 fsr::dataset::MatrixDescription toDescription(const fsr_pressure_map::MatrixInfo& message);
 
 }  // namespace fsr_ros

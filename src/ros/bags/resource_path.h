@@ -4,19 +4,19 @@
 
 namespace fsr_ros {
 
-/// The file that a path or URL stands for, as parameters and services take it:
+/// Resolves a path or URL of a parameter or service to a file:
 ///
-///     /data/calibration.h5               as it is
-///     file:///data/calibration.h5        the same
-///     package://my_rig/calibration.h5    inside a package that rospack finds
-///     ${ROS_HOME}/calibration.h5         the directory of ROS, ~/.ros where the variable is not set
-///     ~/calibration.h5                   the user's home
+///     /data/calibration.h5               unchanged
+///     file:///data/calibration.h5        the same file
+///     package://my_rig/calibration.h5    in a package that rospack finds
+///     ${ROS_HOME}/calibration.h5         in the directory of ROS, ~/.ros if the variable is not set
+///     ~/calibration.h5                   in the user's home directory
 ///
-/// An empty text stays empty. Throws fsr::InputError where the text cannot mean a file: a relative
-/// path (a node's working directory is nobody's choice), an unknown package, variable or scheme.
+/// An empty text stays empty. Throws fsr::InputError for a relative path (users do not choose the working
+/// directory of a node) and for an unknown package, variable or scheme.
 std::string resolveResource(const std::string& text);
 
-/// ROS's own directory for logs and state: $ROS_HOME, else ~/.ros.
+/// The directory of ROS for logs and state: $ROS_HOME, or ~/.ros if it is not set.
 std::string rosHome();
 
 }  // namespace fsr_ros

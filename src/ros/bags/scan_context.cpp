@@ -20,13 +20,14 @@ namespace fsr_ros {
 
 namespace {
 
-constexpr std::int64_t kLongestGap = 2000000000;  // readings farther apart bracket nothing [ns]
+constexpr std::int64_t kLongestGap = 2000000000;  // no interpolation between readings farther apart [ns]
 
 std::int64_t stampOf(const std_msgs::Header& header) {
   return static_cast<std::int64_t>(header.stamp.toNSec());
 }
 
-// The label that holds at a stamp; of the first, whether it holds before its own stamp too.
+// The label that is valid at a stamp. `first_holds_before`: the first label is also valid before its own
+// stamp.
 std::string at(const std::vector<std::pair<std::int64_t, std::string>>& labels, std::int64_t stamp_ns,
                bool first_holds_before) {
   const auto after =
@@ -52,7 +53,7 @@ ScanContext::ScanContext(const rosbag::Bag& bag, const SensorTopics& topics, std
   readLabels(bag, topics);
 }
 
-// `take` returns false where it has seen enough.
+// Calls `take` for each message of a topic, until it returns false.
 template <typename Message, typename Take>
 void ScanContext::forEach(const rosbag::Bag& bag, const SensorTopics& topics, const std::string& base,
                           Take take) {

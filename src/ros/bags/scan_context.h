@@ -17,21 +17,22 @@
 
 namespace fsr_ros {
 
-/// The topics by which an export finds a sensor: raw, or maps alone.
+/// The topics by which an export finds a sensor: raw, or the maps.
 std::vector<SensorTopics::Mark> sensorMarks(const std::string& map = "pressure_map");
 
-/// What a bag tells beside its scans: chamber pressure and its cycles, temperature, board, session, events,
-/// calibration. Read once, from end to end.
+/// The data of a bag other than its scans: chamber pressure and its cycles, temperature, board, session,
+/// events and calibration. The bag is read once, from its beginning to its end.
 class ScanContext {
  public:
-  /// `ambient` [Pa]; none = what matrix_info says, else 101325. Throws fsr::InputError.
+  /// `ambient`: ambient pressure [Pa]; none = the value in matrix_info, or 101325 without one. Throws
+  /// fsr::InputError.
   ScanContext(const rosbag::Bag& bag, const SensorTopics& topics, std::optional<double> ambient);
 
   const fsr_pressure_map::MatrixInfo& board() const { return board_; }
   const std::shared_ptr<const fsr::matrix::Surface>& firstSurface() const { return first_surface_; }
-  /// Pitch as the board states it, else the usual one.
+  /// Layout with the pitch in matrix_info, or the default pitch without one.
   fsr::matrix::Layout layout(fsr::matrix::MatrixSize size) const;
-  /// All but name and maps.
+  /// Description of the recording, without its name and `maps`.
   fsr::exports::ExportSubject subject() const;
   static void describe(const fsr_pressure_map::CalibrationInfo& info, fsr::exports::ExportSubject& subject);
 
@@ -39,7 +40,7 @@ class ScanContext {
   void complete(fsr::exports::ScanRecord& scan) const;
 
  private:
-  using Label = std::pair<std::int64_t, std::string>;  // stamp [ns], text that holds from then on
+  using Label = std::pair<std::int64_t, std::string>;  // stamp [ns], text that is valid from then on
 
   void readBoard(const rosbag::Bag& bag, const SensorTopics& topics);
   void readSeries(const rosbag::Bag& bag, const SensorTopics& topics);
@@ -55,7 +56,7 @@ class ScanContext {
   std::shared_ptr<const fsr::matrix::Surface> first_surface_;
   fsr::dataset::TimeSeries chamber_;  // absolute [Pa]
   fsr::dataset::TimeSeries temperature_;
-  std::vector<std::int64_t> cycles_;  // stamps at which each begins
+  std::vector<std::int64_t> cycles_;  // stamp of the start of each cycle [ns]
   std::vector<Label> sessions_;
   std::vector<Label> events_;
 };

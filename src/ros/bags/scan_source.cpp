@@ -13,66 +13,26 @@
 #include <map>
 
 #include "dataset/recording_builder.h"
-#include "ros/bags/loaded_calibration.h"
+#include "fsr_pressure_map/ros/pressure_map_message.h"
 #include "ros/bags/message_events.h"
 #include "ros/bags/scan_context.h"
+#include "ros/bags/scan_maps.h"
 #include "ros/bags/sensor_topics.h"
 #include "ros/messages/message_reader.h"
-#include "ros/messages/pressure_map_message.h"
 #include "ros/messages/surface_message.h"
 
 namespace fsr_ros {
 
 namespace {
 
-constexpr std::int64_t kPatience = 2000000000;  // a scan waits as long for its map [ns]
+constexpr std::int64_t kPatience = 2000000000;  // how long a scan waits for its map [ns]
 
 std::int64_t stampOf(const std_msgs::Header& header) {
   return static_cast<std::int64_t>(header.stamp.toNSec());
 }
 
-// Computes maps where a calibration file is given.
-class MapMaker {
- public:
-  MapMaker(const std::string& path, const fsr_pressure_map::MatrixInfo& board) {
-    if (path.empty()) return;
-    loaded_ = loadForUse(path, {});
-    const std::string& serial = loaded_->info.sensor_serial;
-    loaded_->calibrator.setWrongSensor(!serial.empty() && !board.serial.empty() && serial != board.serial);
-    if (board.mask.size() == loaded_->calibrator.layout().size.taxels()) {
-      loaded_->calibrator.setMask(board.mask);
-    }
-  }
-
-  const fsr_pressure_map::CalibrationInfo* info() const { return loaded_ ? &loaded_->info : nullptr; }
-
-  void make(fsr::exports::ScanRecord& scan) {
-    if (!loaded_ || scan.counts.empty()) return;
-    const double time = 1e-9 * static_cast<double>(scan.stamp_ns);
-    if (scan.surface != surface_ && scan.surface != nullptr) {
-      surface_ = scan.surface;
-      loaded_->calibrator.setSurface(*surface_, time);
-    }
-    fsr::map::PressureMap map;
-    loaded_->calibrator.calibrate({scan.layout.size, scan.full_scale, scan.counts.data(), scan.counts.size()},
-                                  time, map);
-    if (map.state == fsr::map::MapState::kSizeMismatch) {
-      throw fsr::settings::InputError("the scans are of " + fsr::matrix::sizeText(scan.layout.size) +
-                                      " taxels up to " + std::to_string(scan.full_scale) +
-                                      " counts, but the calibration is of " +
-                                      fsr::matrix::sizeText(loaded_->calibrator.layout().size) +
-                                      " or another full scale; give the one that belongs to this matrix");
-    }
-    scan.layout = map.layout;
-    scan.map = std::move(map);
-  }
-
- private:
-  std::unique_ptr<LoadedCalibration> loaded_;
-  std::shared_ptr<const fsr::matrix::Surface> surface_;
-};
-
-// Joins what belongs to one scan and sends it on, in the order of the stamps.
+// Joins each scan with its map and surface by their stamps, and sends the scans on in the order of the
+// stamps.
 class Joiner {
  public:
   Joiner(const ScanSelection& selection, const ScanContext& context, fsr::exports::ScanSink& sink)
@@ -124,7 +84,7 @@ class Joiner {
     return seconds < 9e9 ? std::llround(seconds * 1e9) : std::numeric_limits<std::int64_t>::max();
   }
 
-  // The record of a stamp; those that are old enough go.
+  // The record of a stamp. Sends the records that have waited long enough.
   fsr::exports::ScanRecord& at(std::int64_t stamp_ns) {
     while (!waiting_.empty() && waiting_.begin()->first < stamp_ns - kPatience) sendFirst();
     fsr::exports::ScanRecord& scan = waiting_[stamp_ns];
@@ -146,7 +106,7 @@ class Joiner {
     if (!first_ns_) first_ns_ = scan.stamp_ns;
     scan.since_ns = scan.stamp_ns - *first_ns_;
     scan.surface = surfaceAt(scan.stamp_ns);
-    maker_.make(scan);  // also where it is not wanted: what watches over taxels sees every scan
+    maker_.make(scan);  // also for scans that are not exported: the checks for dead taxels need every scan
     if (!wanted(scan.since_ns)) return;
     context_.complete(scan);
     sink_.add(scan);
@@ -162,7 +122,7 @@ class Joiner {
     return true;
   }
 
-  // The first surface holds before its stamp too, for it is repeated each second.
+  // The first surface is also valid before its stamp, because it is repeated each second.
   std::shared_ptr<const fsr::matrix::Surface> surfaceAt(std::int64_t stamp_ns) {
     while (!surfaces_.empty() && surfaces_.front().first <= stamp_ns) {
       surface_ = surfaces_.front().second;
@@ -185,7 +145,7 @@ class Joiner {
   std::size_t sent_ = 0;
 };
 
-// The topics that a joiner is fed with, as the bag spells them.
+// The topics that are read, as the bag spells them; empty = not read.
 struct ScanTopics {
   std::string raw, map, curvature;
 };
@@ -202,7 +162,7 @@ ScanTopics scanTopics(const SensorTopics& topics, const ScanSelection& selection
   found.curvature = find("curvature", ros::message_traits::datatype<fsr_pressure_map::SurfaceCurvature>());
   if (!selection.calibration.empty()) {
     if (found.raw.empty())
-      throw fsr::settings::InputError("holds no topic raw to compute maps from with --calibration");
+      throw fsr::settings::InputError("holds no topic raw, which --calibration needs to compute maps");
     found.map.clear();
   }
   if (!selection.counts && !found.map.empty()) found.raw.clear();

@@ -30,7 +30,7 @@ void requireFile(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, error))
     throw fsr::settings::InputError("there is no such file");
   if (std::filesystem::file_size(path, error) == 0) {
-    throw fsr::settings::InputError("is empty; give a bag that record.launch has written");
+    throw fsr::settings::InputError("the file is empty; give a bag recorded with record.launch");
   }
 }
 
@@ -46,7 +46,7 @@ SensorTopics::Types typesOf(const rosbag::Bag& bag) {
 }  // namespace
 
 void tellingOfDamage(const std::string& path, const std::function<void()>& read) {
-  const std::string way_out = "; copy it again, or save what is left with: rosbag reindex " + path;
+  const std::string remedy = "; copy it again, or save what is left with: rosbag reindex " + path;
   try {
     requireFile(path);
     read();
@@ -54,9 +54,9 @@ void tellingOfDamage(const std::string& path, const std::function<void()>& read)
     throw fsr::settings::InputError(path + ": the bag was not closed and has no index; run: rosbag reindex " +
                                     path);
   } catch (const rosbag::BagException& error) {
-    throw fsr::settings::InputError(path + ": is no whole bag (" + error.what() + ")" + way_out);
+    throw fsr::settings::InputError(path + ": is not a complete bag (" + error.what() + ")" + remedy);
   } catch (const ros::serialization::StreamOverrunException&) {
-    throw fsr::settings::InputError(path + ": a message in it is cut short" + way_out);
+    throw fsr::settings::InputError(path + ": a message in it is cut short" + remedy);
   } catch (const fsr::settings::InputError& complaint) {
     throw fsr::settings::InputError(path + ": " + complaint.what());
   }

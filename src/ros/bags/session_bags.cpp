@@ -12,7 +12,7 @@ namespace fsr_ros {
 
 namespace {
 
-/// The driver's settings for the simulated board.
+// The driver's settings for the simulated board.
 DriverSettings driverSettings(const fsr::simulation::SimulationSettings& settings) {
   DriverSettings driver;
   driver.pitch_x = settings.layout.pitch_x;
@@ -38,8 +38,8 @@ fsr_pressure_map::Session simulatedSession() {
   return session;
 }
 
-/// Writes what one station's rig tells, as the driver, the curvature node and the session node would
-/// publish it.
+// Writes the bag of one station with the messages that the driver, the curvature node and the session node
+// would publish.
 class StationBag {
  public:
   StationBag(const std::string& path, const fsr::simulation::SimulationSettings& settings,
@@ -85,7 +85,7 @@ class StationBag {
     publish("temperature", *message);
   }
 
-  /// Numbers the messages of a topic, as a publisher does.
+  // Numbers the messages of a topic, as a publisher does.
   template <typename Message>
   void publish(const std::string& topic, Message& message) {
     message.header.seq = published_[topic]++;
@@ -100,7 +100,7 @@ class StationBag {
   fsr_pressure_map::Session session_;
   BagWriter bag_;
   std::uint32_t sequence_ = 0;
-  std::map<std::string, std::uint32_t> published_;  // messages of each topic
+  std::map<std::string, std::uint32_t> published_;  // number of messages of each topic
 };
 
 }  // namespace

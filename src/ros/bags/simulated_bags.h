@@ -10,36 +10,37 @@
 
 namespace fsr_ros {
 
-/// What simulated bags are written with.
+/// Output of a simulation.
 struct SimulatedBags {
-  std::string output;                                     ///< folder
-  std::optional<fsr::simulation::RigState> state;         ///< where the rig goes on from; empty = a new sheet
-  std::function<void(const std::string& path)> progress;  ///< told each bag that is about to be written
+  std::string output;                                     ///< folder for the bags
+  std::optional<fsr::simulation::RigState> state;         ///< state to continue from; none = a new sheet
+  std::function<void(const std::string& path)> progress;  ///< called before each bag is written
 };
 
-/// What came of it.
+/// Result of a simulation.
 struct SimulatedRun {
   fsr::simulation::SimulationSettings
-      rig;                            ///< as it ran: with the matrix and full scale of bags that drove it
-  fsr::simulation::RigState state;    ///< what it remembers at the end
-  std::vector<std::string> warnings;  ///< sentences for the user about bags that drove it
+      rig;                          ///< settings as used: with the matrix and full scale of the driving bags
+  fsr::simulation::RigState state;  ///< state of the rig at the end
+  std::vector<std::string> warnings;  ///< sentences for the user about the driving bags
 };
 
-/// Goes through the simulation's session and writes a bag for each station, "1_flat.bag",
-/// "2_cylinder_5cm.bag": the topics and messages of record.launch, made by the driver's own functions.
-/// Throws fsr::InputError.
+/// Runs the session of the simulation and writes one bag for each station ("1_flat.bag",
+/// "2_cylinder_5cm.bag"). The bags have the topics of record.launch, and the driver's own functions make the
+/// messages. Throws fsr::InputError.
 SimulatedRun writeSessionBags(const fsr::simulation::SimulationSettings& settings, const SimulatedBags& bags);
 
-/// What drives a simulated sensor.
+/// Recorded bags that drive a simulated sensor.
 struct DrivingBags {
   std::vector<std::string> paths;  ///< in time order
   std::string topics;              ///< namespace of the sensor; empty = the only one
 };
 
-/// Runs the simulated sensor on the recorded pressure, surfaces and temperature of real bags and writes
-/// copies of the same names in which `raw` holds what it reads, at the stamps of the recorded scans, and
-/// `matrix_info` says that it is the simulated sensor. Scans that no chamber pressure brackets are left
-/// out. The matrix and the full scale are those of the bags. Throws fsr::InputError.
+/// Runs the simulated sensor on the recorded pressure, surfaces and temperature of real bags, and writes
+/// copies of the bags under the same names. In the copies, `raw` holds the simulated readings at the stamps
+/// of the recorded scans, and `matrix_info` describes the simulated sensor. Scans without a chamber pressure
+/// before and after them are left out. The matrix size and the full scale are those of the bags. Throws
+/// fsr::InputError.
 SimulatedRun writeDrivenBags(const fsr::simulation::SimulationSettings& settings, const DrivingBags& driving,
                              const SimulatedBags& bags);
 

@@ -7,21 +7,22 @@
 
 namespace fsr_ros {
 
-/// A folder of surface files, by the names that users give: `cylinder_7cm` is cylinder_7cm.yaml in it; a
-/// name with a slash is a path or URL of its own.
+/// A folder of surface files. The name `cylinder_7cm` stands for cylinder_7cm.yaml in the folder; a name with
+/// a slash is a path or URL.
 class SurfaceFolder {
  public:
   SurfaceFolder() = default;
-  /// `folder`: path or URL; `size` checks files with one value for each taxel. Throws fsr::InputError.
+  /// `folder`: path or URL. `size`: files with one value for each taxel must fit it. Throws fsr::InputError.
   SurfaceFolder(const std::string& folder, fsr::matrix::MatrixSize size);
 
   /// The package's own folder, config/surfaces.
   static std::string shipped() { return "package://fsr_pressure_map/config/surfaces"; }
 
-  /// The file of that name; throws fsr::InputError that lists the names where there is none.
+  /// The path of a surface file. Throws fsr::InputError that lists the surfaces in the folder if there is
+  /// none of that name.
   std::string pathOf(const std::string& surface) const;
 
-  /// Reads it; throws fsr::InputError.
+  /// Reads a surface file. Throws fsr::InputError.
   fsr::matrix::Surface load(const std::string& surface) const;
 
  private:

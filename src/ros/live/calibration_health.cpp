@@ -1,8 +1,8 @@
 #include "ros/live/calibration_health.h"
 
 #include <algorithm>
-#include <iomanip>
-#include <sstream>
+
+#include "settings/number_text.h"
 
 namespace fsr_ros {
 
@@ -14,12 +14,6 @@ using fsr::map::MapState;
 namespace flag = fsr::map::taxel_flag;
 
 constexpr std::size_t kListedTaxels = 10;
-
-std::string rounded(double value) {
-  std::ostringstream text;
-  text << std::setprecision(4) << value;
-  return text.str();
-}
 
 std::size_t flagged(const fsr::map::PressureMap& map, std::uint16_t flags) {
   const auto has = [flags](std::uint16_t f) { return (f & flags) != 0; };
@@ -48,7 +42,7 @@ void addPressures(const fsr::map::PressureMap& map, double contact_threshold, St
     peak = std::max(peak, pressure);
   }
   status.add("taxels in contact", contact);
-  status.add("peak in contact, gauge [kPa]", rounded(peak / 1000));
+  status.add("peak in contact, gauge [kPa]", fsr::settings::roundedText(peak / 1000, 4));
 }
 
 void addFlags(const fsr::map::PressureMap& map, Status& status) {
@@ -75,18 +69,19 @@ std::string stateSentence(const CalibrationHealth& health) {
     case MapState::kOk:
       return "";
     case MapState::kUncalibrated:
-      return "maps are empty, for no calibration is loaded: " + health.complaint;
+      return "maps are empty because no calibration is loaded: " + health.complaint;
     case MapState::kCurvatureUnknown:
-      return "curvature is unknown, so every taxel uses its flattest class: " +
-             (health.surface_complaint.empty() ? "no curvature came" : health.surface_complaint);
+      return "the curvature is unknown, so every taxel uses the flattest trained surface: " +
+             (health.surface_complaint.empty() ? "no curvature has been received" : health.surface_complaint);
     case MapState::kCurvatureStale:
-      return "the last curvature is older than ~curvature_timeout and still in use: is its node alive?";
+      return "the last curvature is older than ~curvature_timeout, but still in use: is the curvature node "
+             "running?";
     case MapState::kSizeMismatch:
-      return "maps are empty, for the board sends " + sizeText(health.map.layout.size) +
-             " taxels or has a full scale that are not the calibration's (" + health.info.path + ")";
+      return "maps are empty because the board sends " + sizeText(health.map.layout.size) +
+             " taxels, and this size or the full scale is not that of the calibration " + health.info.path;
     case MapState::kWrongSensor:
-      return "the board is " + health.board + ", but the calibration was made with " +
-             health.info.sensor_serial;
+      return "the board has the serial number " + health.board +
+             ", but the calibration was trained with board " + health.info.sensor_serial;
   }
   return "";
 }
@@ -113,7 +108,7 @@ void judgeMaps(const CalibrationHealth& before, const CalibrationHealth& now, do
   const std::string complaint = stateSentence(now);
   const std::size_t bad = flagged(now.map, flag::kDead | flag::kStuck);
   if (scans == 0) {
-    status.summary(Level::ERROR, "waiting for scans: none came on " + scan_topic);
+    status.summary(Level::ERROR, "waiting for scans: none has come on " + scan_topic);
   } else if (!complaint.empty()) {
     status.summary(isError(now.map.state) ? Level::ERROR : Level::WARN, complaint);
   } else if (bad > 0) {
@@ -121,9 +116,9 @@ void judgeMaps(const CalibrationHealth& before, const CalibrationHealth& now, do
   } else {
     status.summary(Level::OK, "maps are calibrated");
   }
-  status.add("maps a second of wall time", rounded(double(scans) / seconds));
+  status.add("maps a second of wall time", fsr::settings::roundedText(double(scans) / seconds, 4));
   status.add("maps", now.scans);
-  status.add("taxels come back to life", now.revivals);
+  status.add("dead taxels that recovered", now.revivals);
   addFlags(now.map, status);
   addPressures(now.map, contact_threshold, status);
 }

@@ -11,13 +11,13 @@ namespace fsr_ros {
 /// Diagnostics of the calibration in use and its tare.
 void judgeCalibration(const CalibrationHealth& health, diagnostic_updater::DiagnosticStatusWrapper& status);
 
-/// Diagnostics of the maps, from two moments `seconds` apart: rate, state, taxels by flag. `scan_topic` is
-/// what the node waits for where no scan came.
+/// Diagnostics of the maps between two samples `seconds` apart: rate, state, and taxels by flag. `scan_topic`
+/// is named in the message when no scan has come.
 void judgeMaps(const CalibrationHealth& before, const CalibrationHealth& now, double seconds,
                const std::string& scan_topic, double contact_threshold,
                diagnostic_updater::DiagnosticStatusWrapper& status);
 
-/// What a map's state means and what to do about it; empty where all is well.
+/// What a map's state means and what to do about it; empty for the state OK.
 std::string stateSentence(const CalibrationHealth& health);
 
 }  // namespace fsr_ros

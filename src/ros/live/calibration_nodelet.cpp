@@ -8,7 +8,7 @@
 
 namespace fsr_ros {
 
-/// The calibration inside a nodelet manager.
+/// The calibration node as a nodelet.
 class CalibrationNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -16,7 +16,7 @@ class CalibrationNodelet : public nodelet::Nodelet {
       server_ = std::make_unique<CalibrationServer>(getNodeHandle(), getPrivateNodeHandle());
     } catch (const fsr::settings::InputError& error) {
       NODELET_FATAL_STREAM(error.what());
-      throw;  // the manager then reports that the nodelet did not load
+      throw;  // so that the manager reports that the nodelet did not load
     }
   }
 

@@ -13,11 +13,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kPatience = 5.0;      // without a scan, until a tare gives up [s]
-constexpr double kWatchPeriod = 0.25;  // of a file that is waited for [s]
+constexpr double kPatience = 5.0;      // a tare gives up after this time without a scan [s]
+constexpr double kWatchPeriod = 0.25;  // period of looking for a file that could not be loaded [s]
 constexpr double kSecond = 1.0;        // [s]
 
-// Changes whenever the file does.
+// A text that changes when the file changes.
 std::string fingerprint(const std::string& path) {
   std::error_code error;
   const auto time = fs::last_write_time(path, error).time_since_epoch().count();
@@ -74,7 +74,7 @@ void CalibrationServer::subscribe() {
 }
 
 CalibrationServer::~CalibrationServer() {
-  live_.stop();  // a tare that waits for scans would keep the thread
+  live_.stop();  // otherwise a tare that waits for scans would block the thread
   slow_thread_.stop();
 }
 
@@ -97,7 +97,7 @@ void CalibrationServer::everySecond() {
   logChange();
 }
 
-// Once a second at most, whatever a sender does.
+// Called once a second, so that frequent changes do not flood the log.
 void CalibrationServer::logChange() {
   const std::string sentence = stateSentence(now_);
   if (now_.scans == 0 || sentence == logged_) return;
@@ -122,7 +122,14 @@ void CalibrationServer::tryWanted() {
   if (now == tried_) return;
   tried_ = now;
   fsr_pressure_map::LoadFile::Response reply;
-  answer(reply, [&] { return live_.load(path); });
+  answer(reply, [&] {
+    try {
+      return live_.load(path);
+    } catch (const fsr::settings::InputError& error) {
+      throw fsr::settings::InputError(std::string(error.what()) +
+                                      "; the node tries again when the file changes");
+    }
+  });
   if (reply.success) publishInfo();
 }
 
@@ -135,7 +142,7 @@ bool CalibrationServer::loadCalibration(fsr_pressure_map::LoadFile::Request& req
   });
   if (!response.success) {
     const std::string used = live_.info().path;
-    response.message += used.empty() ? "; still none is loaded" : "; still in use: " + used;
+    response.message += used.empty() ? "; no calibration is loaded" : "; still in use: " + used;
   }
   publishInfo();
   return true;

@@ -15,12 +15,12 @@
 
 namespace fsr_ros {
 
-/// Turns `raw` into `pressure_map` scan by scan, with the help of `curvature` and `matrix_info`; publishes
+/// Converts each scan on `raw` to a map on `pressure_map`, using `curvature` and `matrix_info`. Publishes
 /// `calibration_info` (latched and repeated each second) and diagnostics. Parameters: CalibrationSettings.
 ///
-/// Services, each of which says what was done: `~load_calibration`, `~reload`, `~set_mask`, `~tare`,
-/// `~clear_tare`. They run in a thread of their own, as does the first load: no scan waits for a file. A file
-/// that is named by `~calibration` and is not there yet, or not sound, is tried again when it changes.
+/// Services: `~load_calibration`, `~reload`, `~set_mask`, `~tare`, `~clear_tare`. Each reply says what was
+/// done. The services and the first load run in a separate thread, so that no scan waits for a file. If the
+/// file in `~calibration` does not exist or cannot be read, the node tries again when the file changes.
 class CalibrationServer {
  public:
   /// Throws fsr::InputError for parameters that cannot be used.
@@ -51,8 +51,8 @@ class CalibrationServer {
   ros::NodeHandle private_handle_;
   CalibrationSettings settings_;
   LiveCalibration live_;
-  std::string logged_ = "nothing";  // what the log last said of the maps
-  std::string tried_;               // the wanted file as it was when it was last tried
+  std::string logged_ = "nothing";  // sentence about the maps that was logged last
+  std::string tried_;               // fingerprint of the wanted file at the last attempt
 
   ros::Publisher maps_;
   ros::Publisher info_;
@@ -61,11 +61,11 @@ class CalibrationServer {
   ros::Subscriber board_;
 
   diagnostic_updater::Updater diagnostics_;
-  CalibrationHealth before_;  // as the last diagnostics saw it
+  CalibrationHealth before_;  // one second before now_
   CalibrationHealth now_;
   ros::WallTimer second_;
 
-  ros::CallbackQueue slow_queue_;  // of services and loading
+  ros::CallbackQueue slow_queue_;  // for services and loading
   ros::WallTimer watch_;
   std::vector<ros::ServiceServer> services_;
   ros::AsyncSpinner slow_thread_;  // last: it uses everything above

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
-// One file for each node: /fsr/calibration -> ${ROS_HOME}/fsr_pressure_map/fsr_calibration_tare.yaml.
+// The default differs for each node: /fsr/calibration ->
+// ${ROS_HOME}/fsr_pressure_map/fsr_calibration_tare.yaml.
 std::string defaultTareFile(const std::string& node) {
   std::string name = node.substr(node.find_first_not_of('/'));
   std::replace(name.begin(), name.end(), '/', '_');

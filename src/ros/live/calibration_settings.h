@@ -11,15 +11,16 @@
 
 namespace fsr_ros {
 
-/// Every parameter of the calibration node with its default.
+/// Parameters of the calibration node and their defaults.
 struct CalibrationSettings {
   std::string calibration;  ///< resolved path; empty = wait for ~load_calibration
   fsr::calibration::CalibratorOptions
       calibrator;  ///< ~class_hysteresis, ~curvature_step, ~curvature_timeout, ~fill_bad_taxels
   fsr::calibration::TareOptions tare;  ///< ~tare_limit, ~tare_scatter, ~tare_window
-  std::string tare_file;               ///< resolved path; empty = in ${ROS_HOME}, named after the node
-  double contact_threshold = 10e3;     ///< from here on diagnostics count a taxel as in contact [Pa]
-  std::uint32_t queue_size = 10000;    ///< of scans in and maps out [messages]: ten seconds at 1 kHz
+  std::string tare_file;               ///< resolved path; empty = a file in ${ROS_HOME}, named after the node
+  double contact_threshold = 10e3;     ///< diagnostics count a taxel as in contact from this pressure on [Pa]
+  std::uint32_t queue_size =
+      10000;  ///< length of the queues of scans and maps [messages]: ten seconds at 1 kHz
 };
 
 /// Reads and checks the private parameters. Throws fsr::InputError.

@@ -41,8 +41,8 @@ bool CurvatureServer::setSurface(fsr_pressure_map::SetSurface::Request& request,
                        "), from " + fs::absolute(surfaces_.pathOf(request.surface)).string();
   } catch (const fsr::settings::InputError& error) {
     response.success = false;
-    response.message =
-        std::string(error.what()) + "; still " + (surface_.known() ? surface_.name : "unknown");
+    response.message = std::string(error.what()) + "; the surface is still " +
+                       (surface_.known() ? surface_.name : "unknown");
   }
   return true;
 }

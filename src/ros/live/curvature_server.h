@@ -10,12 +10,12 @@
 
 namespace fsr_ros {
 
-/// Publishes what the matrix lies on: `curvature`, latched and repeated each second of ROS time, so
-/// that a bag cut anywhere still knows its surface. Service `~set_surface` changes it while running.
+/// Publishes the surface under the matrix on `curvature`, latched and repeated each second of ROS time, so
+/// that every part of a bag contains it. The service `~set_surface` changes the surface.
 ///
-/// Parameters: `~surface` (name of a file in `~surfaces`, or a path to a surface file; empty =
-/// curvature unknown until the service is called), `~surfaces` (folder of surface files), `~mount`,
-/// `~rows` and `~columns` (check surface files with one value for each taxel), `~frame_id`.
+/// Parameters: `~surface` (name of a file in `~surfaces`, or path of a surface file; empty = unknown until
+/// the service is called), `~surfaces` (folder of surface files), `~mount`, `~rows` and `~columns` (surface
+/// files with one value for each taxel must fit them), `~frame_id`.
 class CurvatureServer {
  public:
   /// Throws fsr::InputError.

@@ -10,15 +10,15 @@
 namespace fsr_ros {
 namespace {
 
-constexpr std::uint32_t kQueue = 10000;  // messages for a subscriber that is behind: ten seconds at 1 kHz
+constexpr std::uint32_t kQueue = 10000;  // queue of each topic [messages]: ten seconds at 1 kHz
 constexpr int kLooksPerSecond = 10;
-constexpr std::size_t kMostHeld = 4096;  // scans that wait for their board's name
+constexpr std::size_t kMostHeld = 4096;  // scans that wait for the identity of their board
 
 std::int64_t rosTime() {
   return static_cast<std::int64_t>(ros::Time::now().toNSec());
 }
 
-// Simulated time may run many times faster than the computer, so that a hiccup of its scheduler is seconds
+// Simulated time may run many times faster than real time, so that a short delay of a process is seconds
 // long.
 fsr::protocol::DeviceClockOptions clockOptions() {
   fsr::protocol::DeviceClockOptions options;
@@ -30,7 +30,8 @@ fsr::protocol::DeviceClockOptions clockOptions() {
   return options;
 }
 
-// The baud of a line that takes time in ROS's time: none in a simulated one.
+// The baud rate from which the stamper computes the duration of a transfer. In simulated time bytes take no
+// time.
 std::uint32_t baudInRosTime(std::uint32_t baud) {
   return ros::Time::isSimTime() ? 0 : baud;
 }
@@ -41,7 +42,7 @@ fsr::protocol::BoardReader::Open opener(const DriverSettings& settings) {
       return std::make_unique<fsr::protocol::SerialPort>(port, baud, rosTime);
     };
   }
-  const fsr::protocol::CaptureReader refuses_what_is_no_capture(settings.replay_file);
+  const fsr::protocol::CaptureReader throws_if_not_a_capture(settings.replay_file);
   return [file = settings.replay_file] {
     return std::make_unique<fsr::protocol::PacedSource>(std::make_unique<fsr::protocol::CaptureReader>(file),
                                                         rosTime);
@@ -52,7 +53,8 @@ DriverSettings readSettings(const ros::NodeHandle& private_handle) {
   const Parameters parameters(private_handle);
   const DriverSettings settings = readDriverSettings(parameters);
   for (const std::string& name : parameters.unknown()) {
-    ROS_WARN_STREAM("parameter " << name << " is set, but the driver has none of that name: it does nothing");
+    ROS_WARN_STREAM(
+        "parameter " << name << " is set, but the driver has no parameter of that name, so it has no effect");
   }
   return settings;
 }
@@ -76,7 +78,8 @@ Driver::Driver(const ros::NodeHandle& handle, const ros::NodeHandle& private_han
   service_ = private_handle_.advertiseService("set_enabled", &Driver::setEnabled, this);
   diagnostics_.add("link", [this](auto& status) { judgeLink(before_, now_, settings_, status); });
   diagnostics_.add("scans", [this](auto& status) { judgeScans(before_, now_, settings_, status); });
-  const fsr::protocol::BoardReader::Options options = {settings_.reconnect_delay, settings_.capture_file};
+  const fsr::protocol::BoardReader::Options options = {settings_.reconnect_delay, settings_.capture_file,
+                                                       fsr::protocol::protocolNamed(settings_.protocol).make};
   fsr::protocol::LinkHandler& handler = *this;
   reader_ = std::make_unique<fsr::protocol::BoardReader>(opener(settings_), handler, options);
   timer_ = handle_.createWallTimer(ros::WallDuration(1.0 / kLooksPerSecond),
@@ -98,7 +101,7 @@ void Driver::onScan(const fsr::protocol::PacketHeader& header, const fsr::protoc
   health_.clock_jumps = stamper_.clock().jumps();
 }
 
-// At once, or when the board that sent it has named itself.
+// Publishes a scan at once, or holds it until the board has sent its identity.
 void Driver::publishScan(const fsr_pressure_map::MatrixFramePtr& message) {
   const bool hold = gate_.scan(arrival_) == fsr::protocol::BoardGate::Verdict::kHold;
   if (gate_.gaveUp()) note({});
@@ -151,6 +154,9 @@ void Driver::onBytes(std::int64_t receive_time) {
 }
 
 void Driver::onChange(const fsr::protocol::LinkReport& report) {
+  if (report.handler_faults > 0 && !std::exchange(fault_logged_, true)) {
+    ROS_ERROR_STREAM(private_handle_.getNamespace() << ": " << report.handler_complaint);
+  }
   const std::string sentence = linkSentence(report, settings_);
   if (report.phase == fsr::protocol::LinkPhase::kWaiting ||
       report.phase == fsr::protocol::LinkPhase::kNoTime) {
@@ -194,7 +200,7 @@ bool Driver::setEnabled(std_srvs::SetBool::Request& request, std_srvs::SetBool::
   return true;
 }
 
-// Diagnostics come each second, and at once where the link changed.
+// Publishes diagnostics each second, and at once when the link has changed.
 void Driver::look() {
   const DriverHealth now = health();
   const bool second_passed = ++looks_ % kLooksPerSecond == 0;

@@ -19,18 +19,18 @@
 namespace fsr_ros {
 
 /// Reads a board and publishes `raw`, `chamber_pressure`, `temperature`, `matrix_info` (latched and repeated
-/// each second) and diagnostics; service `~set_enabled` closes and opens the port. Parameters:
+/// each second) and diagnostics. The service `~set_enabled` closes and opens the port. Parameters:
 /// DriverSettings.
 ///
-/// Packets are published from the link's own thread as they come, as shared pointers, so that nodelets of
-/// one manager get them without a copy. Everything else runs in the node's callback queue.
+/// Packets are published from the thread of the link as they come, as shared pointers, so that nodelets of
+/// one manager receive them without a copy. Everything else runs in the callback queue of the node.
 ///
-/// Under simulated time a host time is what /clock said last: stamps are then rig time, as evenly spaced as
-/// the board made them and early by about half a tick of /clock (see fsr::DeviceClock).
+/// In simulated time the host time is the last value of /clock. Stamps are then rig time, as evenly spaced as
+/// the board made the scans, and early by about half a tick of /clock (see fsr::protocol::DeviceClock).
 class Driver : private fsr::protocol::LinkHandler {
  public:
-  /// Throws fsr::InputError for parameters and files that cannot be used. A port that is missing is waited
-  /// for.
+  /// Throws fsr::InputError for parameters and files that cannot be used. If the port does not exist, the
+  /// driver waits for it.
   Driver(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
  private:
@@ -61,18 +61,19 @@ class Driver : private fsr::protocol::LinkHandler {
   ros::Publisher pressure_;
   ros::Publisher temperature_;
   ros::Publisher info_;
-  // Of the link's thread:
+  // Used by the thread of the link only:
   fsr::protocol::PacketStamper stamper_;
   fsr::protocol::BoardGate gate_;
-  std::vector<fsr_pressure_map::MatrixFramePtr> held_;  // scans of a board in doubt
-  std::uint64_t jumps_ = 0;                             // of the board's clock, so far
-  std::int64_t arrival_ = 0;                            // of the bytes at hand [ns]
+  std::vector<fsr_pressure_map::MatrixFramePtr> held_;  // scans of a board that has not sent its identity
+  std::uint64_t jumps_ = 0;                             // jumps of the board's clock so far
+  bool fault_logged_ = false;                           // an exception of this handler was logged
+  std::int64_t arrival_ = 0;                            // time of arrival of the current bytes [ns]
 
-  mutable std::mutex mutex_;  // over health_, which both threads use
+  mutable std::mutex mutex_;  // guards health_, which both threads use
   DriverHealth health_;
 
   diagnostic_updater::Updater diagnostics_;
-  // What diagnostics judge: now_ against before_, one to two seconds apart.
+  // Diagnostics compare now_ with before_, which is one to two seconds older.
   DriverHealth before_;
   DriverHealth last_second_;
   DriverHealth now_;

@@ -1,9 +1,9 @@
 #include "ros/live/driver_health.h"
 
 #include <cmath>
-#include <iomanip>
 #include <optional>
-#include <sstream>
+
+#include "settings/number_text.h"
 
 namespace fsr_ros {
 namespace {
@@ -13,9 +13,7 @@ using Level = diagnostic_msgs::DiagnosticStatus;
 using fsr::protocol::LinkPhase;
 
 std::string rounded(double value) {
-  std::ostringstream text;
-  text << std::setprecision(3) << value;
-  return text.str();
+  return fsr::settings::roundedText(value, 3);
 }
 
 std::uint64_t packets(const fsr::protocol::DecoderCounts& counts) {
@@ -31,13 +29,13 @@ bool onlyNoise(const DriverHealth& before, const DriverHealth& now) {
 }
 
 std::string noiseSentence(const DriverSettings& settings) {
-  return "bytes come from " + sourceName(settings) + ", but none of them makes a packet: is serial_baud " +
-         std::to_string(settings.serial_baud) + " the board's rate, and is it this board's port?";
+  return sourceName(settings) + " sends bytes, but no valid packet: is serial_baud " +
+         std::to_string(settings.serial_baud) + " the baud rate of the board, and is this its port?";
 }
 
 std::string silenceSentence(double silence, const DriverSettings& settings) {
-  return "no byte from " + sourceName(settings) + " for " + rounded(silence) +
-         " s: is the board powered and does its firmware run?";
+  return sourceName(settings) + " has sent nothing for " + rounded(silence) +
+         " s: does the board have power, and is its firmware running?";
 }
 
 double expectedRate(const Board& board, const DriverSettings& settings) {
@@ -45,7 +43,7 @@ double expectedRate(const Board& board, const DriverSettings& settings) {
   return board.scan_period > 0 ? 1 / board.scan_period : 0;
 }
 
-// Scans a second of the board's own time [1/s]; none where the two moments do not tell.
+// Scan rate in the board's own time [1/s]; none if the two samples are not enough to compute it.
 std::optional<double> scanRate(const DriverHealth& before, const DriverHealth& now) {
   if (before.scans == 0 || now.scan_time <= before.scan_time) return std::nullopt;
   return static_cast<double>(now.scans - before.scans) /
@@ -55,7 +53,7 @@ std::optional<double> scanRate(const DriverHealth& before, const DriverHealth& n
 void summarizeRate(std::optional<double> rate, double expected, double tolerance, Status& status) {
   const std::string text = rate ? rounded(*rate) + " scans a second" : "first scans of the board";
   if (rate && expected > 0 && std::abs(*rate - expected) > tolerance * expected) {
-    status.summary(Level::WARN, text + " where " + rounded(expected) + " are expected");
+    status.summary(Level::WARN, text + ", but " + rounded(expected) + " are expected");
   } else {
     status.summary(Level::OK, text);
   }
@@ -63,14 +61,14 @@ void summarizeRate(std::optional<double> rate, double expected, double tolerance
 
 void addCounts(const DriverHealth& now, Status& status) {
   const fsr::protocol::DecoderCounts& counts = now.link.counts;
-  const fsr::protocol::SequenceCounts& scans = counts.of(FSR_WIRE_SCAN);
+  const fsr::protocol::SequenceCounts& scans = counts.of(fsr::protocol::PacketType::kScan);
   status.add("scans published", now.scans);
   status.add("scans lost", scans.lost);
   status.add("gaps in the scan counter", scans.gaps);
   status.add("duplicate scans", scans.duplicates);
   status.add("restarts of the board", scans.restarts);
   status.add("scans of another size", now.refused_scans);
-  status.add("dropped: board never named itself", now.unclaimed_scans);
+  status.add("dropped: board sent no identity", now.unclaimed_scans);
   status.add("dropped: packet check", counts.bad_packet_check);
   status.add("dropped: header check", counts.bad_header_check);
   status.add("dropped: length", counts.bad_length);
@@ -78,6 +76,7 @@ void addCounts(const DriverHealth& now, Status& status) {
   status.add("dropped: unknown type", counts.unknown_type);
   status.add("dropped: impossible content", counts.bad_content);
   status.add("skipped bytes", counts.skipped_bytes);
+  status.add("failures of the driver", now.link.handler_faults);
 }
 
 }  // namespace
@@ -96,9 +95,9 @@ std::string linkSentence(const fsr::protocol::LinkReport& report, const DriverSe
     case LinkPhase::kReading:
       return "reading " + source;
     case LinkPhase::kNoTime:
-      return "waiting for /clock: use_sim_time is true and no time has come";
+      return "waiting for /clock: use_sim_time is true, but no time has been published";
     case LinkPhase::kEnded:
-      return source + " is over" + (report.reason.empty() ? "" : ": " + report.reason);
+      return source + " has ended" + (report.reason.empty() ? "" : ": " + report.reason);
   }
   return "";
 }
@@ -116,6 +115,9 @@ void judgeLink(const DriverHealth& before, const DriverHealth& now, const Driver
     status.summary(good ? Level::OK : bad, linkSentence(link, settings));
   }
   if (!link.capture_complaint.empty()) status.mergeSummary(Level::ERROR, link.capture_complaint);
+  if (link.handler_faults > before.link.handler_faults) {
+    status.mergeSummary(Level::ERROR, link.handler_complaint);
+  }
   status.add("serial number", now.board.serial);
   status.add("firmware", now.board.firmware);
   status.add("board", now.board.model);
@@ -132,8 +134,8 @@ void judgeScans(const DriverHealth& before, const DriverHealth& now, const Drive
   const double expected = expectedRate(now.board, settings);
   if (now.refused_scans > before.refused_scans) {
     status.summary(Level::ERROR, "the board sends " + sizeText(now.board.size) +
-                                     " taxels, but rows and columns say " + sizeText(settings.expected) +
-                                     ": no scan is published");
+                                     " taxels, but the parameters rows and columns are " +
+                                     sizeText(settings.expected) + ": no scan is published");
   } else if (now.scans > before.scans) {
     summarizeRate(rate, expected, settings.frequency_tolerance, status);
   } else {

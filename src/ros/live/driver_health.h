@@ -11,29 +11,30 @@
 
 namespace fsr_ros {
 
-/// How the driver stood at one moment, as far as diagnostics are concerned.
+/// A sample of the driver's state, for diagnostics.
 struct DriverHealth {
   fsr::protocol::LinkReport link;
   Board board;
   std::uint64_t scans = 0;            ///< published
   std::uint64_t scan_time = 0;        ///< device time of the last of them [us]
-  std::uint64_t refused_scans = 0;    ///< of another size than the parameters expect
-  std::uint64_t unclaimed_scans = 0;  ///< dropped: the port closed before their board named itself
+  std::uint64_t refused_scans = 0;    ///< scans of another size than the parameters say
+  std::uint64_t unclaimed_scans = 0;  ///< dropped: the port closed before the board sent its identity
   std::uint64_t clock_jumps = 0;
-  double clock_drift = 0;  ///< how much faster the host's clock runs than the board's (ratio)
+  double clock_drift = 0;  ///< how much faster the host's clock runs than the board's (relative)
 };
 
-/// Where the driver reads: "/dev/ttyACM0" or "replay of /data/run.fsrcap".
+/// What the driver reads: "/dev/ttyACM0" or "replay of /data/run.fsrcap".
 std::string sourceName(const DriverSettings& settings);
 
-/// How the link stands, one sentence for log and service reply.
+/// State of the link as one sentence for the log and diagnostics.
 std::string linkSentence(const fsr::protocol::LinkReport& report, const DriverSettings& settings);
 
-/// Diagnostics of the link, from two moments one to two seconds apart.
+/// Diagnostics of the link between two samples, one to two seconds apart.
 void judgeLink(const DriverHealth& before, const DriverHealth& now, const DriverSettings& settings,
                diagnostic_updater::DiagnosticStatusWrapper& status);
 
-/// Diagnostics of the scans, likewise: rate against what is expected, losses, damage by cause.
+/// Diagnostics of the scans between two samples: rate compared with the expected one, lost scans, and damaged
+/// packets by cause.
 void judgeScans(const DriverHealth& before, const DriverHealth& now, const DriverSettings& settings,
                 diagnostic_updater::DiagnosticStatusWrapper& status);
 

@@ -8,7 +8,7 @@
 
 namespace fsr_ros {
 
-/// The driver inside a nodelet manager.
+/// The driver as a nodelet.
 class DriverNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -16,7 +16,7 @@ class DriverNodelet : public nodelet::Nodelet {
       driver_ = std::make_unique<Driver>(getNodeHandle(), getPrivateNodeHandle());
     } catch (const fsr::settings::InputError& error) {
       NODELET_FATAL_STREAM(error.what());
-      throw;  // the manager then reports that the nodelet did not load
+      throw;  // so that the manager reports that the nodelet did not load
     }
   }
 

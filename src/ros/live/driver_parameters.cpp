@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "fsr_pressure_map/protocol/decoder.h"
 #include "ros/bags/resource_path.h"
 
 namespace fsr_ros {
@@ -15,7 +16,7 @@ TransducerLine readLine(const Parameters& parameters) {
   line.slope = parameters.number("transducer_slope", line.slope, {-1e6, 1e6, "Pa/count"});
   line.absolute = parameters.flag("transducer_absolute", line.absolute);
   line.deviation = parameters.number("transducer_deviation", line.deviation, {0, 1e7, "Pa"});
-  if (line.slope == 0) throw parameters.error("transducer_slope", "a line without slope measures nothing");
+  if (line.slope == 0) throw parameters.error("transducer_slope", "must not be 0");
   return line;
 }
 
@@ -29,12 +30,13 @@ void readLink(const Parameters& parameters, DriverSettings& settings) {
   settings.serial_port = resolveResource(parameters.text("serial_port", settings.serial_port));
   settings.serial_baud =
       static_cast<std::uint32_t>(parameters.integer("serial_baud", settings.serial_baud, {0, 12e6, "baud"}));
+  settings.protocol = fsr::protocol::protocolNamed(parameters.text("protocol", settings.protocol)).name;
   settings.read_timeout = parameters.number("read_timeout", settings.read_timeout, {0.01, 3600, "s"});
   const double delay = parameters.number("reconnect_delay", 1.0, {0.01, 3600, "s"});
   settings.reconnect_delay = std::chrono::milliseconds(static_cast<std::int64_t>(delay * 1000));
   settings.capture_file = resolveResource(parameters.text("capture_file", ""));
   settings.replay_file = resolveResource(parameters.text("replay_file", ""));
-  if (settings.serial_port.empty()) throw parameters.error("serial_port", "must name the board's port");
+  if (settings.serial_port.empty()) throw parameters.error("serial_port", "must name the port of the board");
 }
 
 void readIdentity(const Parameters& parameters, DriverSettings& settings) {

@@ -64,14 +64,14 @@ LimbServer::LimbServer(const ros::NodeHandle& handle, const ros::NodeHandle& pri
     sheets_[i].subscriber = handle_.subscribe<PressureStatisticsArray>(topics[i], kQueueSize, keep);
   }
   const auto look = [this](const ros::WallTimerEvent&) {
-    if (std::none_of(sheets_.begin(), sheets_.end(), [this](const Sheet& sheet) { return speaks(sheet); })) {
+    if (std::none_of(sheets_.begin(), sheets_.end(), [this](const Sheet& sheet) { return isHeard(sheet); })) {
       publish();
     }
   };
   silence_ = handle_.createWallTimer(ros::WallDuration(0.5 * stale_after_), look);
 }
 
-bool LimbServer::speaks(const Sheet& sheet) const {
+bool LimbServer::isHeard(const Sheet& sheet) const {
   return sheet.last && (ros::WallTime::now() - sheet.received).toSec() <= stale_after_;
 }
 
@@ -79,7 +79,7 @@ void LimbServer::publish() {
   std::vector<PressureStatisticsArrayConstPtr> heard;
   PressureStatisticsArray array;
   for (const Sheet& sheet : sheets_) {
-    if (!speaks(sheet)) continue;
+    if (!isHeard(sheet)) continue;
     heard.push_back(sheet.last);
     array.header.stamp = std::max(array.header.stamp, sheet.last->header.stamp);
   }

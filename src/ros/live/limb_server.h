@@ -8,9 +8,10 @@
 
 namespace fsr_ros {
 
-/// Several sheets round one limb as one: sums the `statistics` of `~sheets` (topics, with spaces or commas
-/// between) region by region name and publishes `limb_statistics` for every message of any sheet. A sheet
-/// that is silent for `~stale_after` [s] adds no numbers and makes every alarm UNKNOWN.
+/// Combines the statistics of several sheets round one limb. Sums the topics in `~sheets` (separated by
+/// spaces or commas) by region name, and publishes `limb_statistics` for every message of any sheet. A sheet
+/// without a message for `~stale_after` [s] is left out of the sums, and every alarm that is not ALARM
+/// becomes UNKNOWN.
 class LimbServer {
  public:
   /// Throws fsr::InputError.
@@ -23,7 +24,7 @@ class LimbServer {
     ros::Subscriber subscriber;
   };
   void publish();
-  bool speaks(const Sheet& sheet) const;
+  bool isHeard(const Sheet& sheet) const;
 
   ros::NodeHandle handle_;
   double stale_after_;  // [s]

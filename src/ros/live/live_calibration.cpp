@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "fsr_pressure_map/ros/pressure_map_message.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/messages/pressure_map_message.h"
 #include "ros/messages/surface_message.h"
 
 namespace fsr_ros {
@@ -16,7 +16,7 @@ constexpr double kComplaintPeriod = 10.0;  // [s]
 
 using Lock = std::lock_guard<std::mutex>;
 
-// The pitch that the board states, else the usual one.
+// Layout with the pitch in matrix_info, or the default pitch without one.
 fsr::matrix::Layout layoutOf(fsr::matrix::MatrixSize size, const fsr_pressure_map::MatrixInfo& board) {
   fsr::matrix::Layout layout{size};
   if (board.pitch_x > 0) layout.pitch_x = board.pitch_x;
@@ -57,7 +57,7 @@ void LiveCalibration::calibrate(const fsr_pressure_map::MatrixFrame& scan,
 void LiveCalibration::setSurface(const fsr_pressure_map::SurfaceCurvature& message) {
   const Lock lock(mutex_);
   surface_received_ = true;
-  // By hand (rostopic pub) messages come without a stamp: they are of now.
+  // Messages sent by hand (rostopic pub) have no stamp: the time of reception is used.
   surface_time_ = (message.header.stamp.isZero() ? ros::Time::now() : message.header.stamp).toSec();
   surface_complaint_.clear();
   try {
@@ -80,7 +80,7 @@ void LiveCalibration::setBoard(const fsr_pressure_map::MatrixInfo& message) {
 std::string LiveCalibration::load(const std::string& path) {
   std::unique_ptr<LoadedCalibration> next;
   try {
-    next = loadForUse(path, settings_.calibrator);  // the long part, while scans go on
+    next = loadForUse(path, settings_.calibrator);  // takes long; scans are processed meanwhile
   } catch (const fsr::settings::InputError& error) {
     const Lock lock(mutex_);
     if (!loaded_) complaint_ = error.what();
@@ -89,7 +89,7 @@ std::string LiveCalibration::load(const std::string& path) {
   const std::string what = describe(*next);
   {
     const Lock lock(mutex_);
-    loaded_.swap(next);  // the old one is freed after the lock
+    loaded_.swap(next);  // the old calibration is freed after the lock is released
     wanted_path_ = path;
     complaint_.clear();
     if (surface_received_) applySurface();
@@ -108,7 +108,7 @@ std::string LiveCalibration::reload() {
   }
   if (path.empty()) {
     throw fsr::settings::InputError(
-        "no calibration was ever named; call ~load_calibration with the path of a file");
+        "no calibration file is known; call ~load_calibration with the path of one");
   }
   return load(path);
 }
@@ -131,14 +131,16 @@ void LiveCalibration::applyBoard() {
   loaded_->calibrator.setWrongSensor(!trained.empty() && !board_.serial.empty() && trained != board_.serial);
 }
 
-// Masked is what the board or the user masks; a mask of another size cannot be meant for this calibration.
+// A taxel is masked if the board or the user masks it. A mask of another size does not belong to this
+// calibration.
 void LiveCalibration::applyMask() {
   if (!loaded_) return;
   std::vector<std::uint8_t> mask(loaded_->calibrator.layout().size.taxels(), 0);
   for (const auto* source : {&board_.mask, &mask_}) {
     if (source->size() != mask.size()) {
       if (!source->empty()) {
-        ROS_WARN_STREAM_THROTTLE(kComplaintPeriod, "a mask of " << source->size() << " taxels is left aside: "
+        ROS_WARN_STREAM_THROTTLE(kComplaintPeriod, "a mask of " << source->size()
+                                                                << " taxels is ignored because "
                                                                 << "the calibration has " << mask.size());
       }
       continue;
@@ -159,7 +161,7 @@ std::string LiveCalibration::setMask(const std::vector<std::uint8_t>& mask) {
   if (loaded_ && !mask.empty() && mask.size() != loaded_->calibrator.layout().size.taxels()) {
     throw fsr::settings::InputError(
         "the mask has " + std::to_string(mask.size()) + " values, but must have none, or " +
-        std::to_string(loaded_->calibrator.layout().size.taxels()) + ", row after row");
+        std::to_string(loaded_->calibrator.layout().size.taxels()) + ", row-major");
   }
   mask_ = mask;
   applyMask();

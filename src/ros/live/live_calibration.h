@@ -21,7 +21,7 @@
 
 namespace fsr_ros {
 
-/// How the calibration node stood at one moment, as far as diagnostics are concerned.
+/// A sample of the calibration node's state, for diagnostics.
 struct CalibrationHealth {
   std::string complaint;                   ///< why no calibration is loaded, or why the last load failed
   std::string surface_complaint;           ///< what is wrong with the last curvature message; empty = nothing
@@ -30,12 +30,13 @@ struct CalibrationHealth {
   std::string board;  ///< serial number; empty = unknown
   std::optional<fsr::calibration::Tare> tare;
   std::uint64_t scans = 0;
-  std::uint64_t revivals = 0;  ///< taxels that came back to life
-  fsr::map::PressureMap map;   ///< the last one
+  std::uint64_t revivals = 0;  ///< dead taxels that recovered
+  fsr::map::PressureMap map;   ///< the last map
 };
 
-/// The calibration node without its topics: what it was told and what follows for each scan. Every method may
-/// be called from any thread; none keeps scans waiting for longer than a copy.
+/// The calibration node without its topics: holds calibration, surface, board, mask and tare, and applies
+/// them to each scan. Every method may be called from any thread. None delays a scan for longer than it takes
+/// to copy data.
 class LiveCalibration {
  public:
   explicit LiveCalibration(const CalibrationSettings& settings);
@@ -45,24 +46,24 @@ class LiveCalibration {
   void setSurface(const fsr_pressure_map::SurfaceCurvature& message);
   void setBoard(const fsr_pressure_map::MatrixInfo& message);
 
-  // What services ask for: each returns a sentence that says what was done, or throws fsr::InputError.
+  // Actions of the services. Each returns a sentence that says what was done, or throws fsr::InputError.
 
-  /// Reads a file and, where it is sound, puts it in the old calibration's place.
+  /// Reads a calibration file and, if it is valid, replaces the calibration in use.
   std::string load(const std::string& path);
-  /// load() of the file in use, or else of the one that was last asked for.
+  /// Loads the file in use again, or the file that was requested last if none is in use.
   std::string reload();
-  /// In addition to the mask of the board.
+  /// Masks taxels in addition to those that the board masks.
   std::string setMask(const std::vector<std::uint8_t>& mask);
-  /// Waits until the window of the tare is full; refused where no scan comes for `patience` [s].
+  /// Measures a tare; waits until its window is full. Refused if no scan comes for `patience` [s].
   std::string tare(double patience);
   std::string clearTare();
 
-  /// The file that is wanted and not loaded; empty where there is none.
+  /// The file that was requested, but is not loaded; empty if there is none.
   std::string wanted() const;
   fsr_pressure_map::CalibrationInfo info() const;
   CalibrationHealth health() const;
 
-  /// Ends a waiting tare(), for good.
+  /// Ends a waiting tare(). Later calls of tare() are refused.
   void stop();
 
  private:
@@ -76,7 +77,7 @@ class LiveCalibration {
   void awaitWindow(std::unique_lock<std::mutex>& lock, double patience);
 
   const CalibrationSettings settings_;
-  mutable std::mutex mutex_;  // over all that follows
+  mutable std::mutex mutex_;  // guards the following members
   std::unique_ptr<LoadedCalibration> loaded_;
   std::string wanted_path_;
   std::string complaint_;
@@ -86,14 +87,14 @@ class LiveCalibration {
   fsr::matrix::Surface surface_;
   double surface_time_ = 0;  // [s]
   fsr_pressure_map::MatrixInfo board_;
-  std::vector<std::uint8_t> mask_;  // by service
+  std::vector<std::uint8_t> mask_;  // set by the service
 
   TareKeeper tare_;
-  std::optional<fsr::calibration::TareMeasurement> measurement_;  // while tare() waits
-  fsr::calibration::Tare measured_for_;                           // what must stay the same meanwhile
+  std::optional<fsr::calibration::TareMeasurement> measurement_;  // set while tare() waits
+  fsr::calibration::Tare measured_for_;  // calibration and surface, which must not change meanwhile
   bool measured_ = false;
   bool stopping_ = false;
-  std::condition_variable progress_;  // a map came, or the end
+  std::condition_variable progress_;  // notified by a new map, and by stop()
 
   fsr::map::PressureMap map_;
   std::uint64_t scans_ = 0;

@@ -1,4 +1,4 @@
-// The tare of LiveCalibration: a service waits while scans fill the window.
+// The tare of LiveCalibration: the service waits while scans fill the measuring window.
 
 #include <chrono>
 #include <ctime>
@@ -12,11 +12,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Waiting for ever is no answer: stamps may stand still.
+// If the stamps do not advance, the window never fills. The service then gives up after this time.
 constexpr std::chrono::seconds kLongestWait{60};
 
 fsr::settings::InputError changedMeanwhile() {
-  return fsr::settings::InputError("the tare is refused: the calibration or the surface changed meanwhile");
+  return fsr::settings::InputError(
+      "the tare is refused: the calibration or the surface changed during the measurement");
 }
 
 std::string nowUtc() {
@@ -48,14 +49,14 @@ std::string LiveCalibration::tare(double patience) {
   applyTare();
   if (!tare_.tare()) throw changedMeanwhile();
   return "the sheet is tared on surface \"" + tare.surface + "\", mount " + std::to_string(tare.mount) +
-         "; kept in " + settings_.tare_file;
+         "; stored in " + settings_.tare_file;
 }
 
 void LiveCalibration::startTare() {
   if (!loaded_) {
     throw fsr::settings::InputError("the tare is refused: no calibration is loaded (" + complaint_ + ")");
   }
-  if (measurement_) throw fsr::settings::InputError("the tare is refused: one is being measured already");
+  if (measurement_) throw fsr::settings::InputError("the tare is refused: another tare is being measured");
   measurement_.emplace(loaded_->calibrator.layout(), settings_.tare);
   measured_ = false;
   measured_for_ = {};
@@ -83,14 +84,14 @@ void LiveCalibration::awaitWindow(std::unique_lock<std::mutex>& lock, double pat
     if (stopping_) throw fsr::settings::InputError("the tare is refused: the node is ending");
     if (!came)
       throw fsr::settings::InputError(
-          "the tare is refused: no scan came for a while; is the driver running?");
+          "the tare is refused: no scan has come for a while; is the driver running?");
     if (map_.state == fsr::map::MapState::kSizeMismatch || map_.state == fsr::map::MapState::kWrongSensor) {
       throw fsr::settings::InputError("the tare is refused: the board does not match the calibration");
     }
     if (!loaded_ || !fsr::calibration::holds(measured_for_, id(), surface_)) throw changedMeanwhile();
     if (Clock::now() > give_up) {
       throw fsr::settings::InputError(
-          "the tare is refused: its window did not fill; do the scans' stamps advance?");
+          "the tare is refused: there were not enough scans within its window; do the stamps advance?");
     }
   }
 }

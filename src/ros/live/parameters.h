@@ -12,9 +12,9 @@
 
 namespace fsr_ros {
 
-/// The private parameters of a node, read once at start and checked: a value of the wrong type or
-/// out of range raises fsr::InputError that names the parameter with its full path, its value and
-/// what would be right. Every parameter has a default.
+/// Reads and checks the private parameters of a node. A value of the wrong type or out of range raises
+/// fsr::InputError, which names the parameter with its full path, its value and what would be right. Every
+/// parameter has a default.
 class Parameters {
  public:
   explicit Parameters(const ros::NodeHandle& private_handle) : handle_(private_handle) {}
@@ -23,13 +23,14 @@ class Parameters {
   std::int64_t integer(const std::string& name, std::int64_t fallback,
                        const fsr::settings::Range& range) const;
   bool flag(const std::string& name, bool fallback) const;
-  /// Numbers are taken as their text, so that `_trial:=3` works.
+  /// A number is converted to its text, so that `_trial:=3` works.
   std::string text(const std::string& name, const std::string& fallback) const;
   std::string choice(const std::string& name, const std::vector<std::string>& choices,
                      const std::string& fallback) const;
 
-  /// Full paths of parameters that are set under the node's name although nobody asked for them: call it
-  /// after the last read and warn, since a misspelt parameter otherwise does nothing in silence.
+  /// Full paths of the private parameters that are set, but were not read. Call it after all parameters have
+  /// been read and warn about the result, because a misspelt parameter would otherwise be ignored without a
+  /// message.
   std::vector<std::string> unknown() const;
 
   /// An InputError about a parameter: "parameter /fsr/driver/rows is 90, but " + `complaint`.
@@ -42,10 +43,11 @@ class Parameters {
   mutable std::set<std::string> asked_;  // full paths
 };
 
-/// Runs a node's main part; an InputError becomes one fatal log line and exit status 2.
+/// Runs the main part of a node. An InputError is logged as one fatal line and gives exit status 2.
 template <typename Run>
 int runNode(Run run) {
-  const ros::NodeHandle keeps_the_log_open;  // the last handle that goes would close it before the sentence
+  const ros::NodeHandle
+      keeps_the_log_open;  // destroying the last handle would close the log before the message
   try {
     run();
     return 0;

@@ -16,7 +16,7 @@ using topic_tools::ShapeShifter;
 using Event = ros::MessageEvent<ShapeShifter const>;
 using Level = diagnostic_msgs::DiagnosticStatus;
 
-constexpr std::uint32_t kQueue = 10000;  // messages of a topic: ten seconds at 1 kHz
+constexpr std::uint32_t kQueue = 10000;  // queue of each topic [messages]: ten seconds at 1 kHz
 
 BagSinkOptions readOptions(const Parameters& parameters) {
   BagSinkOptions options;
@@ -35,8 +35,9 @@ Recorder::Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private
   const BagSinkOptions options = readOptions(parameters);
   std::istringstream topics(parameters.text("topics", ""));
   for (const std::string& name : parameters.unknown()) {
-    ROS_WARN_STREAM("parameter " << name
-                                 << " is set, but the recorder has none of that name: it does nothing");
+    ROS_WARN_STREAM(
+        "parameter " << name
+                     << " is set, but the recorder has no parameter of that name, so it has no effect");
   }
   sink_ = std::make_unique<BagSink>(options, [this](const std::string& complaint) {
     ROS_FATAL_STREAM(complaint);
@@ -78,9 +79,9 @@ void Recorder::judge(diagnostic_updater::DiagnosticStatusWrapper& status) {
   if (!now.complaint.empty()) {
     status.summary(Level::ERROR, now.complaint);
   } else if (lost > 0) {
-    status.summary(Level::ERROR, std::to_string(lost) + " messages lost: the disk takes less than comes");
+    status.summary(Level::ERROR, std::to_string(lost) + " messages lost: the disk is slower than the data");
   } else if (rate == 0) {
-    status.summary(Level::WARN, "nothing comes to be recorded to " + now.file);
+    status.summary(Level::WARN, "no message to record to " + now.file);
   } else {
     status.summary(Level::OK, "recording to " + now.file);
   }

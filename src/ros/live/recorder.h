@@ -12,10 +12,10 @@
 
 namespace fsr_ros {
 
-/// Records topics of any type into one bag, as `rosbag record` does, for streams that nothing may be missing
-/// from: each topic may be ten seconds at 1 kHz behind before a message is lost (rosbag: a tenth of a
-/// second), a full disk leaves a closed bag, and an older recording is never overwritten. Diagnostics say
-/// what was written and what was lost. Ends ROS, with a sentence, where it can record no more.
+/// Records topics of any type into one bag, as `rosbag record` does, but loses less. The queue of each topic
+/// holds ten seconds at 1 kHz (rosbag: a tenth of a second). When the disk is full, the bag is closed. An
+/// older recording is never overwritten. Diagnostics report the messages written and lost. If recording
+/// stops, the node logs the reason and ends.
 ///
 /// Parameters: `~bag`, `~topics` (names, separated by spaces), `~chunk_kb`, `~min_space` [MB], `~buffer`
 /// [MB].
@@ -24,7 +24,7 @@ class Recorder {
   /// Throws fsr::InputError.
   Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
-  /// Whether it ended by itself.
+  /// Whether the recording stopped by itself.
   bool failed() const { return failed_; }
 
  private:
@@ -33,7 +33,7 @@ class Recorder {
 
   ros::NodeHandle handle_;
   std::atomic<bool> failed_{false};
-  std::atomic<std::uint64_t> without_time_{0};  // messages before /clock
+  std::atomic<std::uint64_t> without_time_{0};  // messages received before the first /clock
   std::unique_ptr<BagSink> sink_;
   diagnostic_updater::Updater diagnostics_;
   BagSinkReport before_;

@@ -1,8 +1,8 @@
 #include "ros/live/recording_watch.h"
 
 #include <filesystem>
-#include <iomanip>
-#include <sstream>
+
+#include "settings/number_text.h"
 
 namespace fsr_ros {
 
@@ -10,18 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Level = diagnostic_msgs::DiagnosticStatus;
-
-std::string megabytes(std::uint64_t bytes) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(1) << static_cast<double>(bytes) / 1e6 << " MB";
-  return text.str();
-}
-
-std::string seconds(double time) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(0) << time << " s";
-  return text.str();
-}
 
 bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -54,17 +42,20 @@ void RecordingWatch::judge(const RecordingLook& look, double time,
   }
   noteGrowth(look.size, time);
   const double still = time - last_->time;
-  const std::string left = megabytes(look.space) + " are left on its disk";
+  const std::string left = fsr::settings::megabytesText(look.space) + " are left on its disk";
   if (!endsWith(look.file, ".active")) {
-    status.summary(Level::WARN, "the recording is over: " + look.file + " is closed");
+    status.summary(Level::WARN, "the recording has ended: " + look.file + " is closed");
   } else if (look.space < least_space_) {
-    status.summary(Level::ERROR, "NOTHING IS RECORDED: " + left + ", and recording stops below " +
-                                     megabytes(least_space_) + "; make room, then start a new recording");
+    status.summary(Level::ERROR, "RECORDING STOPPED: " + left + ", and recording stops below " +
+                                     fsr::settings::megabytesText(least_space_) +
+                                     "; make room, then start a new recording");
   } else if (still > patience_) {
-    status.summary(Level::ERROR, look.file + " has not grown for " + seconds(still) +
-                                     ": do scans come (see the driver's diagnostics)? " + left);
+    status.summary(Level::ERROR,
+                   look.file + " has not grown for " + fsr::settings::fixedText(still, 0) + " s" +
+                       ": does the board send scans (see the diagnostics of the driver)? " + left);
   } else {
-    status.summary(Level::OK, "recording to " + look.file + ": " + megabytes(look.size) + ", " + left);
+    status.summary(Level::OK, "recording to " + look.file + ": " + fsr::settings::megabytesText(look.size) +
+                                  ", " + left);
   }
   const double span = last_->time - first_->time;
   status.add("size [bytes]", look.size);

@@ -8,31 +8,32 @@
 
 namespace fsr_ros {
 
-/// A bag that is being written, at one moment.
+/// A sample of the state of a bag that is being written.
 struct RecordingLook {
-  std::string file;         ///< FILE.bag.active, or FILE.bag once it is closed; empty = neither is there
+  std::string file;         ///< FILE.bag.active, or FILE.bag after it is closed; empty = neither exists
   std::uint64_t size = 0;   ///< [bytes]
-  std::uint64_t space = 0;  ///< that its disk has left [bytes]
+  std::uint64_t space = 0;  ///< space left on its disk [bytes]
 };
 
-/// `bag`: the path that the recorder was given, with or without .bag.
+/// `bag`: path of the recording, with or without .bag.
 RecordingLook lookAtRecording(const std::string& bag);
 
-/// Sees from outside whether a recording goes on: a recorder that was killed or hangs cannot say so itself,
-/// and `rosbag record` stops writing without ending where the disk is nearly full.
+/// Checks from outside whether the file of a recording grows. A recorder that was killed or hangs cannot
+/// report that itself, and `rosbag record` stops writing without ending when the disk is nearly full.
 class RecordingWatch {
  public:
-  /// `least_space`: below it recording stops [bytes]. `patience`: how long a bag may stay the same size [s].
+  /// `least_space`: recording stops when less space is left [bytes]. `patience`: time without growth after
+  /// which diagnostics report an error [s].
   RecordingWatch(std::uint64_t least_space, double patience)
       : least_space_(least_space), patience_(patience) {}
 
-  /// Diagnostics of what is seen at `time` [s, steady].
+  /// Diagnostics of a sample taken at `time` (monotonic clock [s]).
   void judge(const RecordingLook& look, double time, diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
   struct Growth {
     std::uint64_t size;
-    double time;  // at which it was first seen that large [s]
+    double time;  // at which the file was first seen with this size [s]
   };
 
   void noteGrowth(std::uint64_t size, double time);

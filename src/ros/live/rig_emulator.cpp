@@ -36,7 +36,7 @@ void warnOfOtherTime(double time_scale) {
   bool simulated = false;
   ros::param::get("/use_sim_time", simulated);
   if (simulated != (time_scale != 1)) {
-    ROS_WARN("/use_sim_time is %s, but must be %s at a time scale of %g: set it before the nodes start",
+    ROS_WARN("/use_sim_time is %s, but must be %s at a time scale of %g; set it before the nodes start",
              simulated ? "true" : "false", simulated ? "false" : "true", time_scale);
   }
 }
@@ -61,7 +61,7 @@ RigEmulator::RigEmulator(const ros::NodeHandle& handle, const ros::NodeHandle& p
                own.advertiseService("set_surface", &RigEmulator::setSurface, this),
                own.advertiseService("set_damage", &RigEmulator::setDamage, this)};
   ROS_INFO_STREAM("emulated board " << options.simulation.board.serial << " (" << options.simulation.origin
-                                    << ") on " << rig_->port() << ", on " << options.surface.name);
+                                    << ") on port " << rig_->port() << ", surface " << options.surface.name);
 }
 
 fsr::simulation::SimulationSettings RigEmulator::readSimulation() {
@@ -169,7 +169,7 @@ bool RigEmulator::setDamage(std_srvs::SetBool::Request& request, std_srvs::SetBo
   return answer(response, [&] {
     const fsr::emulator::LineDamage damage = request.data ? readDamage() : fsr::emulator::LineDamage{};
     rig_->setDamage(damage);
-    if (!request.data) return std::string("the line is healthy");
+    if (!request.data) return std::string("the line is undamaged");
     const bool reset = parameters_.flag("damage/reset", false);
     if (reset) rig_->resetBoard();
     const double jump = parameters_.number("damage/clock_jump", 0, {-1000, 1000, "s"});

@@ -10,21 +10,24 @@
 #include "emulator/emulator.h"
 #include "ros/bags/surface_folder.h"
 #include "ros/live/parameters.h"
+#include "simulation/read_settings.h"
 
 namespace fsr_ros {
 
-/// The emulated rig as a node: a board behind a serial port, in a chamber that services operate.
+/// The emulated rig as a node: a board behind a serial port, in a pressure chamber that is controlled by
+/// services.
 ///
-/// Topic `~status` (std_msgs/String, latched): state and number of the run, "running 2", then "done 2";
-/// before the first run "idle 0". A script that waits for the message behind its `~start` needs no sleep.
-/// At a time scale other than 1 it also publishes `/clock` in rig time, counted from the wall time of its
-/// start: before each scan is sent, and 250 times a second of wall time at least.
+/// Topic `~status` (std_msgs/String, latched): state and number of the run, "running 2", then "done 2"; "idle
+/// 0" before the first run. A script can wait for this message after it has called `~start`. At a time scale
+/// other than 1 the node also publishes `/clock` in rig time, which begins at the wall time of the start:
+/// before each scan is sent, and at least 250 times a second of wall time.
 ///
-/// Services: `~start` (a fresh run of cycles as `~chamber/` says by now), `~stop`, `~set_surface`,
-/// `~set_damage` (true: as `~damage/` says by now; false: healthy). The rig does not publish
-/// `curvature`: whoever remounts tells the curvature node, too, with the same name and mount.
+/// Services: `~start` (starts a new run of cycles with the present parameters `~chamber/`), `~stop`,
+/// `~set_surface`, `~set_damage` (true: damages the line as the present parameters `~damage/` say; false:
+/// ends the damage). The node does not publish `curvature`: when the surface changes, call the curvature node
+/// too, with the same surface and mount.
 ///
-/// Parameters: see launch/rig_emulator.launch and the README.
+/// Parameters: see launch/rig_emulator.launch and docs/nodes.md.
 class RigEmulator {
  public:
   /// Throws fsr::InputError.
@@ -45,13 +48,13 @@ class RigEmulator {
   bool setDamage(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
 
   Parameters parameters_;
-  fsr::simulation::ChamberProtocol file_protocol_;  // of the simulation file, where ~chamber/ says nothing
+  fsr::simulation::ChamberProtocol file_protocol_;  // protocol of the simulation file: defaults of ~chamber/
   SurfaceFolder surfaces_;
   std::uint32_t mount_ = 1;
   ros::Time origin_;  // rig time 0
   ros::Publisher status_;
   ros::Publisher clock_;
-  std::unique_ptr<fsr::emulator::Emulator> rig_;  // stops before the publishers go
+  std::unique_ptr<fsr::emulator::Emulator> rig_;  // stops before the publishers are destroyed
   std::vector<ros::ServiceServer> services_;
 };
 

@@ -6,9 +6,9 @@
 
 namespace fsr_ros {
 
-/// Runs what a service asks for and puts its sentence into the reply, or the reason why not: an
-/// fsr::InputError is a refusal, not a failed call. Both are logged. Returns true, as a service
-/// callback does whose reply was made.
+/// Runs the action of a service and puts its sentence into the reply. If the action throws fsr::InputError,
+/// the reply has success = false and the reason; the call itself does not fail. Both are logged. Returns
+/// true, the return value of the service callback.
 template <typename Response, typename Action>
 bool answer(Response& response, Action action) {
   try {

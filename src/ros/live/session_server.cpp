@@ -13,7 +13,7 @@ namespace fsr_ros {
 
 namespace {
 
-constexpr double kPatience = 10.0;         // with a bag that stays the same [s]
+constexpr double kPatience = 10.0;         // time without growth of the bag until an error [s]
 constexpr double kComplaintPeriod = 10.0;  // [s]
 
 const std::vector<std::string> kUses = {"chamber", "socket", "bench"};
@@ -39,7 +39,7 @@ fsr_pressure_map::Session readSession(const Parameters& parameters) {
                            "must be a code of one to three capitals and two to four digits, e.g. S012");
   }
   if (session.person && session.subject_code.empty()) {
-    throw parameters.error("subject_code", "must be given where person is true");
+    throw parameters.error("subject_code", "must be given if person is true");
   }
   return session;
 }

@@ -12,13 +12,13 @@
 
 namespace fsr_ros {
 
-/// Publishes what a recording is about, so that a bag can be understood alone: `session`, latched and
-/// repeated each second, from the private parameters named as the fields of Session.msg; and
-/// `events`, one for each call of `~mark`.
+/// Publishes the description of a recording, so that a bag can be understood without other files. `session`
+/// is latched and repeated each second; its fields are the private parameters of the same names. `events`
+/// gets one message for each call of `~mark`.
 ///
-/// Where `~bag` names the bag that is being recorded, `/diagnostics` and the log say whether it grows.
+/// If `~bag` names the bag that is being recorded, `/diagnostics` and the log report whether it grows.
 ///
-/// Persons appear by code only: `~subject_code` must match [A-Z]{1,3}[0-9]{2,4}.
+/// Persons are identified by a code only: `~subject_code` must match [A-Z]{1,3}[0-9]{2,4}.
 class SessionServer {
  public:
   /// Throws fsr::InputError.

@@ -15,25 +15,25 @@ TareKeeper::TareKeeper(std::string path) : path_(std::move(path)) {
   try {
     tare_ = fsr::calibration::loadTare(path_);
   } catch (const fsr::settings::InputError& error) {
-    ROS_ERROR_STREAM("no tare: " << error.what());
+    ROS_ERROR_STREAM("the stored tare is not used: " << error.what());
   }
 }
 
 std::vector<float> TareKeeper::review(const std::string& id, const fsr::matrix::Surface* surface) {
   if (!tare_ || id.empty()) return {};
-  // A tare that was taken without any curvature need not wait for one.
+  // A tare that was measured without curvature does not need to wait for a curvature message.
   if (fsr::calibration::holds(*tare_, id, surface != nullptr ? *surface : fsr::matrix::Surface{}))
     return tare_->offset;
   if (surface == nullptr && tare_->calibration == id) return {};
-  ROS_WARN_STREAM("the tare of " << tare_->date << " is dropped: it was taken with calibration "
+  ROS_WARN_STREAM("the tare of " << tare_->date << " is dropped: it was measured with calibration "
                                  << tare_->calibration << " on surface \"" << tare_->surface << "\", mount "
-                                 << tare_->mount << ", and one of them is another now");
+                                 << tare_->mount << ", and one of these has changed");
   clear();
   return {};
 }
 
 void TareKeeper::write(const fsr::calibration::Tare& tare, const std::string& path) {
-  std::error_code ignored;  // the write itself says what is wrong with the folder
+  std::error_code ignored;  // an error in the folder shows when the file is written
   fs::create_directories(fs::path(path).parent_path(), ignored);
   fsr::calibration::saveTare(tare, path);
 }

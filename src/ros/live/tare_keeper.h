@@ -8,23 +8,25 @@
 
 namespace fsr_ros {
 
-/// Keeps the tare on disk, so that it survives a restart of the node, and drops it together with its file
-/// once the calibration, the surface or the mount is another.
+/// Stores the tare on disk, so that it survives a restart of the node. Drops the tare and its file when the
+/// calibration, the surface or the mount changes.
 class TareKeeper {
  public:
-  /// Takes up what an earlier run left in the file; a file that cannot be used is logged and left alone.
+  /// Reads the tare that an earlier run stored. If the file cannot be read, logs an error and leaves the
+  /// file.
   explicit TareKeeper(std::string path);
 
-  /// What is to be taken off now [Pa], empty = nothing. A tare waits while no calibration is loaded (`id`
-  /// empty) or no curvature has come yet (`surface` nullptr); it is dropped where it does not hold.
+  /// The offset to subtract from each taxel, row-major [Pa]; empty = none. The tare is not used yet while no
+  /// calibration is loaded (`id` empty) or no curvature has come (`surface` nullptr). It is dropped if
+  /// calibration, surface or mount are not those it was measured with.
   std::vector<float> review(const std::string& id, const fsr::matrix::Surface* surface);
 
-  /// Writes a tare's file (a matter of a disk's time) without adopting it. Throws fsr::InputError.
+  /// Writes the file of a tare, which may take long, without using the tare. Throws fsr::InputError.
   static void write(const fsr::calibration::Tare& tare, const std::string& path);
-  /// Takes a tare that was written.
+  /// Uses a tare that was written.
   void adopt(const fsr::calibration::Tare& tare) { tare_ = tare; }
 
-  /// Drops tare and file. False where there was none.
+  /// Drops the tare and its file. Returns false if there was no tare.
   bool clear();
 
   const std::optional<fsr::calibration::Tare>& tare() const { return tare_; }

@@ -7,6 +7,7 @@
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "regression/option_names.h"
+#include "regression/regressors.h"
 #include "report/calibration_report.h"
 #include "ros/bags/message_events.h"
 #include "ros/bags/resource_path.h"
@@ -17,7 +18,8 @@ namespace fsr_ros {
 
 namespace {
 
-// A bag replayed at many times its speed sends faster than a busy machine takes; messages are small.
+// A bag replayed at many times its speed may send faster than a busy computer receives. The messages are
+// small.
 constexpr std::uint32_t kQueue = 100000;
 constexpr double kReportPeriod = 0.5;  // [s], wall time
 
@@ -92,8 +94,8 @@ std::string summary(const fsr::calibration::Calibration& calibration, const std:
 TrainingServer::TrainingServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : handle_(handle) {
   const Parameters parameters(private_handle);
-  std::error_code exists_or_cannot;  // the latter is said when it is written to
-  std::filesystem::create_directories(rosHome(), exists_or_cannot);
+  std::error_code ignored;  // if the folder cannot be made, writing to it raises an error
+  std::filesystem::create_directories(rosHome(), ignored);
   output_ = resolveResource(parameters.text("output", rosHome() + "/calibration.h5"));
   if (output_.empty()) throw parameters.error("output", "must name the calibration file to write");
   report_ = resolveResource(parameters.text("report", ""));
@@ -101,7 +103,9 @@ TrainingServer::TrainingServer(const ros::NodeHandle& handle, const ros::NodeHan
   const double ambient = parameters.number("ambient_pressure", -1, {-1, 120e3, "Pa"});
   if (ambient >= 0) recording_options_.ambient_pressure = ambient;
   for (const std::string& name : parameters.unknown()) {
-    ROS_WARN_STREAM("parameter " << name << " is set, but training has none of that name: it does nothing");
+    ROS_WARN_STREAM(
+        "parameter " << name
+                     << " is set, but the training node has no parameter of that name, so it has no effect");
   }
   recording_options_.name = "topics of " + handle_.getNamespace();
 
@@ -132,7 +136,7 @@ void TrainingServer::gather(const Message& message) {
     addEvent(message, builder_);
   } catch (const fsr::settings::InputError& error) {
     ++refused_;
-    ROS_WARN_STREAM_THROTTLE(10.0, "Left out: " << error.what());
+    ROS_WARN_STREAM_THROTTLE(10.0, "A message was left out: " << error.what());
   }
 }
 
@@ -140,7 +144,7 @@ bool TrainingServer::train(std_srvs::Trigger::Request&, std_srvs::Trigger::Respo
   const std::unique_lock<std::mutex> alone(training_, std::try_to_lock);
   if (!alone.owns_lock()) {
     response.success = false;
-    response.message = "a training is running; wait for its answer";
+    response.message = "another training is running; wait for its reply";
     return true;
   }
   try {
@@ -183,7 +187,7 @@ std::string TrainingServer::trainNow() {
 bool TrainingServer::clear(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   {
     const std::lock_guard<std::mutex> lock(gathering_);
-    response.message = "forgot " + std::to_string(builder_.events().scans) + " scans";
+    response.message = "removed " + std::to_string(builder_.events().scans) + " scans";
     builder_.clear();
     refused_ = 0;
   }

@@ -13,17 +13,17 @@
 
 namespace fsr_ros {
 
-/// Gathers what `rosbag play` replays, or a rig sends, on raw, chamber_pressure, curvature, temperature
-/// and matrix_info, and trains a calibration of it on `~train`; `~clear` forgets it. Of one bag replayed
-/// without loss the tables are those of the tool `train`, bit for bit.
+/// Collects messages from the topics raw, chamber_pressure, curvature, temperature and matrix_info, sent by
+/// `rosbag play` or a rig. The service `~train` trains a calibration from them, and `~clear` removes them. If
+/// one bag was replayed without loss, the tables are those of the tool `train`, bit for bit.
 ///
-/// Training runs in the service's own thread: give the node two spinner threads or more, and it goes on
-/// gathering meanwhile. `~gathered` (diagnostic_msgs/DiagnosticStatus, latched) tells what has come and
-/// what is still missing.
+/// Training runs in the thread of the service call. With two or more spinner threads, the node goes on
+/// collecting meanwhile. `~gathered` (diagnostic_msgs/DiagnosticStatus, latched) reports what has come and
+/// what is missing.
 ///
 /// Parameters: ~output, ~report, ~scheme, ~model, ~bandwidth, ~spread, ~distance, ~equal_bins, ~trees,
-/// ~minimum_leaf, ~leaf_rule, ~folds, ~scores, ~threads, ~seed, ~ambient_pressure; train.launch says what
-/// each means.
+/// ~minimum_leaf, ~leaf_rule, ~folds, ~scores, ~threads, ~seed, ~ambient_pressure; see train.launch and
+/// docs/nodes.md.
 class TrainingServer {
  public:
   /// Throws fsr::InputError.
@@ -47,7 +47,7 @@ class TrainingServer {
   std::mutex gathering_;  // guards builder_ and refused_
   fsr::dataset::RecordingBuilder builder_;
   std::uint64_t refused_ = 0;  // messages
-  std::mutex training_;        // one at a time
+  std::mutex training_;        // held during a training: one at a time
 
   std::vector<ros::Subscriber> subscribers_;
   ros::Publisher gathered_;

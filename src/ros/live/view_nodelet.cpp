@@ -8,7 +8,7 @@
 
 namespace fsr_ros {
 
-/// The view inside a nodelet manager.
+/// The view node as a nodelet.
 class ViewNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
@@ -16,7 +16,7 @@ class ViewNodelet : public nodelet::Nodelet {
       server_ = std::make_unique<ViewServer>(getNodeHandle(), getPrivateNodeHandle());
     } catch (const fsr::settings::InputError& error) {
       NODELET_FATAL_STREAM(error.what());
-      throw;  // the manager then reports that the nodelet did not load
+      throw;  // so that the manager reports that the nodelet did not load
     }
   }
 

@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsr_pressure_map/ros/pressure_map_message.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/messages/bent_points.h"
 #include "ros/messages/image_message.h"
-#include "ros/messages/pressure_map_message.h"
 #include "ros/messages/statistics_message.h"
 #include "ros/messages/surface_markers.h"
 #include "ros/messages/surface_message.h"
@@ -41,7 +41,7 @@ ViewServer::ViewServer(const ros::NodeHandle& handle, const ros::NodeHandle& pri
   outputs_["centre_of_pressure"] =
       handle_.advertise<geometry_msgs::PointStamped>("centre_of_pressure", queue, follow, follow);
   silence_ = handle_.createWallTimer(ros::WallDuration(0.5 * settings_.stale_after),
-                                     [this](const ros::WallTimerEvent&) { complainOfSilence(); });
+                                     [this](const ros::WallTimerEvent&) { reportSilence(); });
 }
 
 void ViewServer::followSubscribers() {
@@ -83,13 +83,14 @@ void ViewServer::onMap(const fsr_pressure_map::PressureMapConstPtr& message) {
   }
 }
 
-// Regions belong to a matrix size, which only the first map tells.
+// Regions need the matrix size, which is known from the first map on.
 void ViewServer::prepare(const fsr::matrix::Layout& layout) {
   std::vector<fsr::map::Region> regions(1);
   try {
     if (!settings_.regions.empty()) regions = fsr::map::readRegionFile(settings_.regions, layout.size);
   } catch (const fsr::settings::InputError& error) {
-    ROS_ERROR_STREAM(error.what() << "; until the node is started again, statistics are of the whole matrix");
+    ROS_ERROR_STREAM(
+        error.what() << "; until the node is restarted, the statistics have no regions but the whole matrix");
   }
   statistics_ = fsr::map::MapStatistics(std::move(regions), settings_.contact_threshold);
   size_ = layout.size;
@@ -150,8 +151,8 @@ void ViewServer::publishCentre(const std_msgs::Header& header, const fsr::map::R
   outputs_["centre_of_pressure"].publish(message);
 }
 
-// Whoever waits for an alarm must hear that nobody knows, rather than nothing.
-void ViewServer::complainOfSilence() {
+// Without maps the alarms are published as UNKNOWN, so that a subscriber does not take silence for OK.
+void ViewServer::reportSilence() {
   if (!maps_ || !wanted("statistics")) return;
   if ((ros::WallTime::now() - last_map_).toSec() < settings_.stale_after) return;
   if (size_.taxels() == 0)

@@ -15,11 +15,11 @@
 
 namespace fsr_ros {
 
-/// Publishes pictures and numbers of the pressure map on its sheet, bent by `curvature` (flat while that is
-/// unknown), in the frame of the scan: `points`, `surface`, `image`, `statistics`, `centre_of_pressure`.
-/// Works only while somebody subscribes: else it does not even receive maps. `surface` and `image` come no
-/// more often than `~rate`, the rest for every map. Statistics count from the first subscriber on, and say
-/// UNKNOWN when maps stop. Parameters: ViewSettings.
+/// Publishes pictures and statistics of the pressure map in the frame of the scan: `points`, `surface`,
+/// `image`, `statistics`, `centre_of_pressure`. The sheet is bent as `curvature` says, and flat while the
+/// curvature is unknown. The node receives maps only while one of its topics has a subscriber. `surface` and
+/// `image` are published at most at `~rate`, the other topics for every map. The pressure-time integral
+/// begins with the first subscriber. When maps stop, all alarms become UNKNOWN. Parameters: ViewSettings.
 class ViewServer {
  public:
   /// Throws fsr::InputError.
@@ -35,7 +35,7 @@ class ViewServer {
   void publishStatistics(const std_msgs::Header& header,
                          const std::vector<fsr::map::RegionStatistics>& regions);
   void publishCentre(const std_msgs::Header& header, const fsr::map::RegionStatistics& whole);
-  void complainOfSilence();
+  void reportSilence();
   void prepare(const fsr::matrix::Layout& layout);
   const fsr::map::RegionStatistics& whole() const { return now_.front(); }
 
@@ -47,7 +47,7 @@ class ViewServer {
   ros::WallTimer silence_;
 
   SheetShape shape_;
-  fsr::matrix::MatrixSize size_;  // that statistics_ were made for
+  fsr::matrix::MatrixSize size_;  // matrix size of statistics_
   fsr::map::MapStatistics statistics_;
   std::vector<fsr::map::RegionStatistics> now_;
   fsr::view::AutoRange auto_range_;

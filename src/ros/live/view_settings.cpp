@@ -49,7 +49,9 @@ ViewSettings::ViewSettings(const ros::NodeHandle& private_handle) {
   regions = resolveResource(parameters.text("regions", ""));
   stale_after = parameters.number("stale_after", 1.0, {0.05, 3600, "s"});
   for (const std::string& name : parameters.unknown()) {
-    ROS_WARN_STREAM("parameter " << name << " is set, but the view node has none of that name");
+    ROS_WARN_STREAM(
+        "parameter " << name
+                     << " is set, but the view node has no parameter of that name, so it has no effect");
   }
 }
 

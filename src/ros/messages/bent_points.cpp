@@ -6,14 +6,14 @@ namespace fsr_ros {
 
 namespace {
 
-/// One point as it lies in the message's bytes.
+// One point as it is stored in the message.
 struct Point {
   float x, y, z;    // [m]
   float intensity;  // [Pa]
   std::uint16_t row, column, flags;
   std::uint16_t padding;
 };
-static_assert(sizeof(Point) == 24, "no bytes between the fields");
+static_assert(sizeof(Point) == 24, "there must be no gaps between the fields");
 
 sensor_msgs::PointField field(const char* name, std::size_t offset, std::uint8_t type) {
   sensor_msgs::PointField result;
@@ -57,7 +57,7 @@ sensor_msgs::PointCloud2 toPoints(const fsr::map::PressureMap& map,
   cloud.is_bigendian = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
   cloud.point_step = sizeof(Point);
   cloud.row_step = cloud.point_step * cloud.width;
-  cloud.is_dense = true;  // every point has a place, though not every one has a pressure
+  cloud.is_dense = true;  // every point has a position, though its pressure may be NaN
   cloud.data.resize(poses.size() * sizeof(Point));
   for (std::size_t taxel = 0; taxel < poses.size(); ++taxel) {
     const Point point = pointOf(map, poses[taxel].position, taxel);

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "fsr_pressure_map/map/pressure_map.h"
-#include "view/bent_sheet.h"
+#include "fsr_pressure_map/view/bent_sheet.h"
 
 namespace fsr_ros {
 
-/// The map as points on its bent sheet, rows x columns: x, y, z [m] and intensity (pressure, gauge [Pa], NaN
-/// = no reading) as float32; row, column and flags (of PressureMap.msg) as uint16. `poses` has one entry for
-/// each taxel. Header left empty.
+/// The map as points on the bent sheet [rows x columns]. Fields: x, y, z [m] and intensity (gauge pressure
+/// [Pa], NaN = no reading) as float32; row, column and flags (see PressureMap.msg) as uint16. `poses` has one
+/// entry for each taxel, row-major. The header is left empty.
 sensor_msgs::PointCloud2 toPoints(const fsr::map::PressureMap& map,
                                   const std::vector<fsr::view::TaxelPose>& poses);
 

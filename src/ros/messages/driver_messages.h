@@ -14,21 +14,22 @@
 
 namespace fsr_ros {
 
-/// What is known of the board that is connected.
+/// Description of the connected board.
 struct Board {
-  std::string serial;  ///< empty until it said who it is
+  std::string serial;  ///< empty until the board has sent its identity
   std::string firmware;
   std::string model;
-  fsr::matrix::MatrixSize size;  ///< 0 x 0 until a scan or an identity came
+  fsr::matrix::MatrixSize size;  ///< 0 x 0 until a scan or the identity has come
   std::uint16_t full_scale = 0;
   double scan_period = 0;  ///< [s]; 0 = unknown
 };
 
-/// Texts of the board as printable ASCII, anything else as '?': ROS strings are to be UTF-8.
+/// Converts an identity packet. Characters other than printable ASCII become '?', because ROS strings must be
+/// UTF-8.
 Board toBoard(const fsr::protocol::IdentityPacket& identity);
 
-/// Header of what was true at `time` [host, ns], `offset` [s] later. Stamp 0 where that lies before time
-/// began.
+/// Header with the stamp `time` (host clock [ns]) plus the time_offset of the settings. The stamp is 0 if the
+/// sum is negative.
 std_msgs::Header headerAt(std::int64_t time, const DriverSettings& settings);
 
 fsr_pressure_map::MatrixFramePtr scanMessage(const fsr::protocol::PacketHeader& header,
@@ -36,7 +37,7 @@ fsr_pressure_map::MatrixFramePtr scanMessage(const fsr::protocol::PacketHeader& 
                                              const fsr::protocol::PacketTime& time,
                                              const DriverSettings& settings);
 
-/// Absolute pressure from the transducer's counts.
+/// Absolute pressure [Pa] from the counts of the transducer.
 sensor_msgs::FluidPressurePtr pressureMessage(std::int32_t counts, const fsr::protocol::PacketTime& time,
                                               const DriverSettings& settings);
 
@@ -44,7 +45,7 @@ sensor_msgs::TemperaturePtr temperatureMessage(std::int32_t millidegrees,
                                                const fsr::protocol::PacketTime& time,
                                                const DriverSettings& settings);
 
-/// Header's stamp left 0.
+/// The stamp of the header is left 0.
 fsr_pressure_map::MatrixInfo matrixInfo(const Board& board, const DriverSettings& settings);
 
 }  // namespace fsr_ros

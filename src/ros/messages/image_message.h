@@ -6,7 +6,7 @@
 
 namespace fsr_ros {
 
-/// The picture as rgb8.
+/// The image with encoding rgb8.
 sensor_msgs::Image toMessage(const std_msgs::Header& header, fsr::view::Image image);
 
 }  // namespace fsr_ros

@@ -14,7 +14,7 @@
 
 namespace fsr_ros {
 
-/// Throws fsr::InputError where a bag's definition of a topic's type, known by its hash, is another one.
+/// Throws fsr::InputError if the topic was recorded with another definition of its message type.
 template <typename Message>
 void requireDefinition(const std::string& topic, const std::string& md5sum) {
   if (md5sum == ros::message_traits::md5sum<Message>()) return;
@@ -23,9 +23,9 @@ void requireDefinition(const std::string& topic, const std::string& md5sum) {
                                   "; convert the bag with rosbag fix");
 }
 
-/// Reads a serialised message. Throws ros::serialization::StreamOverrunException where it is cut short or
-/// claims more than it has: ROS would make room for as many values as a message merely claims to hold, up to
-/// 16 GB.
+/// Deserialises a message. Throws ros::serialization::StreamOverrunException if the message is cut short or
+/// if the length of an array does not fit its bytes. Without this check ROS would allocate as much memory as
+/// the length says, up to 16 GB.
 template <typename Message>
 void readMessage(std::uint8_t* bytes, std::size_t size, Message& message) {
   static const fsr::exports::MessageType structure = fsr::exports::parseMessageType(
@@ -40,7 +40,7 @@ void readMessage(std::uint8_t* bytes, std::size_t size, Message& message) {
 /// Reads messages out of a bag that may be damaged.
 class MessageReader {
  public:
-  /// As serialised; valid until the next call.
+  /// The serialised message; valid until the next call.
   std::string_view bytes(const rosbag::MessageInstance& instance) {
     bytes_.resize(instance.size());
     ros::serialization::OStream into(bytes_.data(), static_cast<std::uint32_t>(bytes_.size()));

@@ -1,4 +1,4 @@
-#include "ros/messages/pressure_map_message.h"
+#include "fsr_pressure_map/ros/pressure_map_message.h"
 
 #include <string>
 
@@ -11,7 +11,7 @@ namespace {
 using Message = fsr_pressure_map::PressureMap;
 namespace flag = fsr::map::taxel_flag;
 
-// The core's numbers travel as they are: they must stay the message's.
+// States and flags are copied as numbers, so those of the core must equal those of the message.
 constexpr bool same(fsr::map::MapState state, std::uint8_t number) {
   return static_cast<std::uint8_t>(state) == number;
 }

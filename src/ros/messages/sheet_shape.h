@@ -8,18 +8,19 @@
 
 namespace fsr_ros {
 
-/// The bent sheet of the last layout and surface, made anew only when one of them changes and somebody asks.
+/// The shape of the bent sheet for the last layout and surface. It is computed on request, and again only
+/// after the layout or the surface has changed.
 class SheetShape {
  public:
   explicit SheetShape(int fineness) : fineness_(fineness) {}
 
   void setSurface(fsr::matrix::Surface surface);
-  /// Where the surface does not fit the layout, the next question throws fsr::InputError.
+  /// If the surface does not fit the layout, the next of the calls below throws fsr::InputError.
   void setLayout(const fsr::matrix::Layout& layout);
 
   const std::vector<fsr::view::TaxelPose>& poses();
   const fsr::view::SheetMesh& mesh();
-  const std::vector<double>& areas();  ///< of the taxels on the bent sheet [m^2]
+  const std::vector<double>& areas();  ///< area of each taxel on the bent sheet, row-major [m^2]
 
  private:
   void forget();

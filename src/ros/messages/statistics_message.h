@@ -6,11 +6,13 @@
 
 namespace fsr_ros {
 
-/// `layout` gives the peak's row and column. Without contact the centre is NaN.
+/// Converts statistics to a message, without header. `layout` is needed for the row and column of the peak.
+/// The centre of pressure is NaN without contact.
 fsr_pressure_map::PressureStatistics toMessage(const fsr::map::RegionStatistics& statistics,
                                                const fsr::matrix::Layout& layout);
 
-/// All but the peak's taxel and the centre, which have no meaning beyond their own sheet.
+/// Converts a message back, except for the taxel of the peak and the centre of pressure, which apply to one
+/// sheet only.
 fsr::map::RegionStatistics toStatistics(const fsr_pressure_map::PressureStatistics& message);
 
 }  // namespace fsr_ros

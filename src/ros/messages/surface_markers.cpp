@@ -8,8 +8,9 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kMarkLift = 0.0004;  // [m] above the face, so that strokes are not hidden in it
-constexpr double kDotLift = 0.0015;   // [m]
+constexpr double kMarkLift =
+    0.0004;                          // height of the strokes above the surface, so that they stay visible [m]
+constexpr double kDotLift = 0.0015;  // height of the spheres' centres above the surface [m]
 
 geometry_msgs::Point toPoint(const fsr::view::Vector3& v) {
   geometry_msgs::Point point;
@@ -77,7 +78,7 @@ Marker marks(const std_msgs::Header& header, const fsr::map::PressureMap& map,
   return result;
 }
 
-// A ball on the face at taxel coordinates, or nothing where there is no place for it.
+// A small sphere on the surface at a row and column; it is deleted if they are NaN.
 Marker dot(const std_msgs::Header& header, const char* space, const fsr::view::SheetMesh& mesh, double row,
            double column, fsr::view::Colour colour) {
   Marker result = marker(header, space, Marker::SPHERE);
@@ -107,7 +108,7 @@ Marker legend(const std_msgs::Header& header, const fsr::map::PressureMap& map,
               const fsr::view::HeatMapStyle& style, const fsr::map::RegionStatistics& whole) {
   Marker result = marker(header, "legend", Marker::TEXT_VIEW_FACING);
   result.text = legendText(map, style, whole);
-  result.scale.z = 0.005;  // [m] of a capital letter
+  result.scale.z = 0.005;  // height of a capital letter [m]
   result.pose.position.y = -0.5 * map.layout.pitch_y * map.layout.size.rows - 0.012;
   return result;
 }
@@ -127,7 +128,7 @@ std::string stateText(fsr::map::MapState state) {
     case fsr::map::MapState::kSizeMismatch:
       return "the calibration is for another matrix size";
     case fsr::map::MapState::kWrongSensor:
-      return "the calibration is of another sensor";
+      return "the calibration belongs to another sensor";
   }
   return "unknown state";
 }
@@ -141,7 +142,7 @@ visualization_msgs::MarkerArray toMarkers(const std_msgs::Header& header, const 
   const fsr::matrix::Position centre = whole.centre.value_or(fsr::matrix::Position{nowhere, nowhere});
   const bool peak = !std::isnan(whole.peak);
   visualization_msgs::MarkerArray array;
-  array.markers.push_back(sheet(header, map, mesh, style));  // large: moved, not copied from a list
+  array.markers.push_back(sheet(header, map, mesh, style));  // large, so moved instead of copied from a list
   array.markers.push_back(marks(header, map, mesh, style));
   array.markers.push_back(dot(header, "centre_of_pressure", mesh,
                               centre.y / layout.pitch_y + 0.5 * (layout.size.rows - 1),

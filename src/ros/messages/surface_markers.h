@@ -10,12 +10,12 @@
 
 namespace fsr_ros {
 
-/// What a map's state means for who looks at it, "" = all is well.
+/// The state of a map in words; "" for the state OK.
 std::string stateText(fsr::map::MapState state);
 
-/// The map on its bent sheet for rviz's MarkerArray display, in the frame of `header`: namespaces `sheet`
-/// (the coloured mesh), `marks` (strokes on taxels that are not to be believed, see taxel_look.h),
-/// `centre_of_pressure` (white), `peak` (black) and `legend` (text: what is shown, its range, the numbers).
+/// The map on its bent sheet for the MarkerArray display of rviz, in the frame of `header`. Namespaces:
+/// `sheet` (the coloured mesh), `marks` (strokes on taxels with an unreliable reading, see taxel_look.h),
+/// `centre_of_pressure` (white), `peak` (black) and `legend` (text with quantity, range, peak and mean).
 /// `whole` are the statistics of the whole matrix.
 visualization_msgs::MarkerArray toMarkers(const std_msgs::Header& header, const fsr::map::PressureMap& map,
                                           const fsr::view::SheetMesh& mesh,

@@ -15,7 +15,7 @@ double valueAt(const std::vector<float>& values, std::size_t i) {
   return values.size() == 1 ? values.front() : values[i];
 }
 
-// One value where every array has one at most, else the number of taxels that the longest has.
+// The length of the longest array, at least 1.
 std::size_t taxelsOf(const fsr_pressure_map::SurfaceCurvature& message) {
   return std::max({message.x.size(), message.y.size(), message.xy.size(), std::size_t{1}});
 }
@@ -24,7 +24,7 @@ void checkArray(const std::vector<float>& values, const char* field, std::size_t
   if (values.size() > 1 && values.size() != taxels) {
     throw fsr::settings::InputError(std::string("curvature message: ") + field + " has " +
                                     std::to_string(values.size()) + " values, but must have none, one or " +
-                                    std::to_string(taxels) + " like its longest array");
+                                    std::to_string(taxels) + " as the longest array");
   }
   for (const float value : values) {
     if (!std::isfinite(value)) {
@@ -48,7 +48,7 @@ fsr::matrix::Surface toSurface(const fsr_pressure_map::SurfaceCurvature& message
   surface.name = message.surface;
   surface.mount = message.mount;
   surface.deviation.assign(message.deviation.begin(), message.deviation.end());
-  if (message.x.empty()) return surface;  // unknown, by the message's definition
+  if (message.x.empty()) return surface;  // the message's definition says: an empty x means unknown
   surface.curvature.resize(taxels);
   for (std::size_t i = 0; i < taxels; ++i) {
     surface.curvature[i] = {valueAt(message.x, i), valueAt(message.y, i), valueAt(message.xy, i)};

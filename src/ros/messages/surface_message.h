@@ -6,11 +6,12 @@
 
 namespace fsr_ros {
 
-/// The message's surface, or InputError where its arrays do not fit each other: each of x, y, xy
-/// and deviation may be empty, one value, or one value for each taxel.
+/// The surface of a message. Each of x, y, xy and deviation may be empty, have one value, or have one value
+/// for each taxel. Throws fsr::InputError if the arrays do not fit each other or hold a value that is not
+/// finite.
 fsr::matrix::Surface toSurface(const fsr_pressure_map::SurfaceCurvature& message);
 
-/// Header left empty.
+/// The message of a surface, without header.
 fsr_pressure_map::SurfaceCurvature toMessage(const fsr::matrix::Surface& surface);
 
 }  // namespace fsr_ros

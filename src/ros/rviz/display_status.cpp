@@ -10,7 +10,7 @@ namespace {
 
 using rviz::StatusProperty;
 
-constexpr double kSilence = 2.0;  // [s] without a map before the status speaks of it
+constexpr double kSilence = 2.0;  // time without a message after which the status reports it [s]
 
 }  // namespace
 
@@ -24,7 +24,7 @@ StatusLine stateStatus(fsr::map::MapState state) {
     case fsr::map::MapState::kSizeMismatch:
       return {StatusProperty::Error, text + ": no pressure to show"};
     case fsr::map::MapState::kWrongSensor:
-      return {StatusProperty::Error, text + ": pressures are not to be believed"};
+      return {StatusProperty::Error, text + ": the pressures are not valid"};
     default:
       return {StatusProperty::Warn, text};
   }
@@ -53,7 +53,7 @@ std::string stateHeadline(fsr::map::MapState state) {
 }
 
 StatusLine messageStatus(double seconds, const std::string& noun, const std::string& topic) {
-  if (topic.empty()) return {StatusProperty::Warn, "no topic is chosen"};
+  if (topic.empty()) return {StatusProperty::Warn, "no topic is selected"};
   if (seconds < 0) return {StatusProperty::Warn, "no " + noun + " has come on " + topic};
   if (!isSilent(seconds)) return {StatusProperty::Ok, noun + "s are coming"};
   return {StatusProperty::Warn, "no " + noun + " for " + std::to_string(static_cast<long>(seconds)) +
@@ -75,7 +75,7 @@ StatusLine taxelStatus(const std::vector<fsr::view::TaxelLook>& looks) {
     if (counts[look] == 0) continue;
     text += (text.empty() ? "" : ", ") + std::to_string(counts[look]) + " " + fsr::view::name(look);
   }
-  if (text.empty()) return {StatusProperty::Ok, "all read within range"};
+  if (text.empty()) return {StatusProperty::Ok, "all readings are within range"};
   const bool harmless = counts[fsr::view::TaxelLook::kGood] + counts[fsr::view::TaxelLook::kBelowRange] ==
                         static_cast<int>(looks.size());
   return {harmless ? StatusProperty::Ok : StatusProperty::Warn, text};

@@ -17,23 +17,24 @@ struct StatusLine {
   std::string text;
 };
 
-/// Why no pressure is shown, or what is to be kept in mind about the one that is.
+/// State of a map: why no pressure is shown, or how far the pressure can be trusted.
 StatusLine stateStatus(fsr::map::MapState state);
 
-/// `seconds` since the last message; below 0 = none ever came on `topic`. `noun`: what it is, e.g. "map".
+/// `seconds`: time since the last message; below 0 = no message has come on `topic`. `noun`: name of the
+/// data, e.g. "map".
 StatusLine messageStatus(double seconds, const std::string& noun, const std::string& topic);
 
-/// Whether data of that age [s] are no longer what is there now.
+/// Whether data of this age [s] are too old to be the present state; also true below 0, without data.
 bool isSilent(double seconds);
 
-/// The state for a legend, in capitals: it must not be overlooked; empty = nothing to say.
+/// The state for a legend, in capitals so that it is not overlooked; empty for the state OK.
 std::string stateHeadline(fsr::map::MapState state);
 
-/// What the sheet's shape comes from; `error` where the last message could not be used.
+/// Source of the sheet's shape. `error`: why the last message could not be used; empty = it was used.
 StatusLine curvatureStatus(const fsr::matrix::Surface& surface, const std::string& error,
                            const std::string& topic);
 
-/// How many taxels are not to be believed as they stand.
+/// Number of taxels with an unreliable reading, by kind.
 StatusLine taxelStatus(const std::vector<fsr::view::TaxelLook>& looks);
 
 }  // namespace fsr_rviz

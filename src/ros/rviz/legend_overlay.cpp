@@ -65,7 +65,7 @@ void LegendOverlay::makeTexture(const fsr::view::Image& image) {
   pass->setDepthCheckEnabled(false);
   pass->setDepthWriteEnabled(false);
   Ogre::TextureUnitState* unit = pass->createTextureUnitState(texture_->getName());
-  unit->setTextureFiltering(Ogre::TFO_NONE);  // pixel for pixel: text stays sharp
+  unit->setTextureFiltering(Ogre::TFO_NONE);  // no filter, so that text stays sharp
   panel_->setMaterialName(material_->getName());
   panel_->setDimensions(static_cast<Ogre::Real>(image.width()), static_cast<Ogre::Real>(image.height()));
 }
@@ -80,7 +80,7 @@ void LegendOverlay::blit(const fsr::view::Image& image) {
   const bool fits = texture_ && texture_->getWidth() == static_cast<Ogre::uint32>(image.width()) &&
                     texture_->getHeight() == static_cast<Ogre::uint32>(image.height());
   if (!fits) makeTexture(image);
-  // blitFromMemory() takes a pointer to what it only reads.
+  // blitFromMemory() only reads, but needs a pointer to non-const data.
   std::vector<std::uint8_t> bytes = image.bytes();
   const Ogre::PixelBox box(static_cast<Ogre::uint32>(image.width()),
                            static_cast<Ogre::uint32>(image.height()), 1, Ogre::PF_BYTE_RGB, bytes.data());

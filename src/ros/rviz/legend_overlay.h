@@ -12,7 +12,8 @@ class PanelOverlayElement;
 
 namespace fsr_rviz {
 
-/// A legend that stands before the 3D scene, at one place of the window. Drawn anew only where it changed.
+/// A legend at a fixed place of the window, in front of the 3D scene. It is drawn again only when it has
+/// changed.
 class LegendOverlay {
  public:
   LegendOverlay();
@@ -22,7 +23,7 @@ class LegendOverlay {
 
   void show(const fsr::view::Legend& legend);
   void hide();
-  /// Of the top left corner [pixels].
+  /// Sets the position of the top left corner [pixels].
   void moveTo(int left, int top);
 
  private:

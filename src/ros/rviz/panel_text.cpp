@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "fsr_pressure_map/ros/pressure_map_message.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/messages/pressure_map_message.h"
 #include "ros/messages/surface_markers.h"
 #include "ros/rviz/display_status.h"
 
@@ -15,8 +15,8 @@ namespace {
 
 using fsr_pressure_map::PressureStatistics;
 
-// Why the map cannot answer for the whole matrix; empty where that is not known.
-QString doubt(const fsr_pressure_map::PressureMapConstPtr& message) {
+// Why the alarm of the whole matrix is unknown, in brackets; empty if the map gives no reason.
+QString reasonOfUnknown(const fsr_pressure_map::PressureMapConstPtr& message) {
   if (!message) return " (no maps)";
   try {
     const fsr::map::PressureMap map = fsr_ros::toPressureMap(*message);
@@ -29,7 +29,7 @@ QString doubt(const fsr_pressure_map::PressureMapConstPtr& message) {
     const StatusLine taxels = taxelStatus(looks);
     return taxels.level == rviz::StatusProperty::Ok ? "" : " (" + text(taxels.text) + ")";
   } catch (const fsr::settings::InputError&) {
-    return "";  // the display says what is wrong with it
+    return "";  // the display shows what is wrong with the message
   }
 }
 
@@ -54,7 +54,8 @@ AlarmLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& sta
       const bool whole = region.region.empty();
       const QString name = whole ? QString("whole matrix") : text(region.region);
       if (region.alarm == PressureStatistics::ALARM) alarm << name;
-      if (region.alarm == PressureStatistics::UNKNOWN) unknown << (whole ? name + doubt(map) : name);
+      if (region.alarm == PressureStatistics::UNKNOWN)
+        unknown << (whole ? name + reasonOfUnknown(map) : name);
     }
   }
   QStringList lines;

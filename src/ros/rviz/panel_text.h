@@ -8,20 +8,21 @@
 
 namespace fsr_rviz {
 
-/// The words, or "-" for none.
+/// The text, or "-" if it is empty.
 QString text(const std::string& words);
 
-/// `value` in a unit that is worth `unit` in SI, e.g. (0.0026, 1e-4, "cm²", 1) = "26.0 cm²"; NaN is "-".
+/// `value` (SI) in the unit `name`, which is `unit` in SI, e.g. (0.0026, 1e-4, "cm²", 1) = "26.0 cm²". NaN
+/// gives "-".
 QString number(double value, double unit, const char* name, int decimals);
 
-/// What stands beside "Alarms": in words first, in colour second.
+/// The line "Alarms" of the panel.
 struct AlarmLine {
   QString text;
   QString style;  ///< Qt style sheet
 };
 
-/// Of all regions. Null for what did not come of late: without statistics the alarm is UNKNOWN, and without
-/// a map nobody can say why.
+/// The alarms of all regions. A message is null if none has come recently: without statistics the alarm is
+/// UNKNOWN, and without a map the reason is not known.
 AlarmLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& statistics,
                     const fsr_pressure_map::PressureMapConstPtr& map);
 

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "ros/messages/pressure_map_message.h"
+#include "fsr_pressure_map/ros/pressure_map_message.h"
 
 namespace fsr_rviz {
 
@@ -20,20 +20,21 @@ constexpr std::uint32_t kQueueSize = 10;  // [messages]
 
 PressureMapDisplay::PressureMapDisplay() : SheetDisplay("map") {
   addSource(ros::message_traits::datatype<fsr_pressure_map::PressureMap>(), "Pressure maps to show.");
-  layer_ = choice("Layer", {"Pressure", "Deviation"}, "Gauge pressure, or one standard deviation of it.",
-                  this, SLOT(updateStyle()));
-  unit_ = choice("Unit", fsr::view::pressureUnitNames(), "Of the legend and the read-out.", this,
+  layer_ = choice("Layer", {"Pressure", "Deviation"}, "Gauge pressure, or its standard deviation.", this,
+                  SLOT(updateStyle()));
+  unit_ = choice("Unit", fsr::view::pressureUnitNames(), "Unit in the legend and the selection panel.", this,
                  SLOT(updateStyle()));
-  low_ = new rviz::FloatProperty("Low (kPa)", 0, "Pressure at the dark end.", this, SLOT(updateStyle()));
-  high_ =
-      new rviz::FloatProperty("High (kPa)", 600, "Pressure at the bright end.", this, SLOT(updateStyle()));
+  low_ = new rviz::FloatProperty("Low (kPa)", 0, "Pressure at the dark end of the colour scale.", this,
+                                 SLOT(updateStyle()));
+  high_ = new rviz::FloatProperty("High (kPa)", 600, "Pressure at the bright end of the colour scale.", this,
+                                  SLOT(updateStyle()));
   for (rviz::FloatProperty* end : {low_, high_}) {
     end->setMin(-kMostKilopascal);
     end->setMax(kMostKilopascal);
   }
-  auto_range_ = new rviz::BoolProperty("Auto Range", false,
-                                       "The bright end follows the peaks, on round values, without flicker.",
-                                       this, SLOT(updateStyle()));
+  auto_range_ =
+      new rviz::BoolProperty("Auto Range", false, "The bright end follows the peak pressure in round steps.",
+                             this, SLOT(updateStyle()));
   addLook();
 }
 

@@ -10,7 +10,7 @@
 
 namespace fsr_rviz {
 
-/// Shows a PressureMap on its bent sheet: gauge pressure or its deviation, in kPa or mmHg.
+/// Shows a PressureMap on the bent sheet: gauge pressure or its standard deviation, in kPa or mmHg.
 class PressureMapDisplay : public SheetDisplay {
   Q_OBJECT
 
@@ -43,7 +43,7 @@ class PressureMapDisplay : public SheetDisplay {
   double auto_high_ = 0;  // [Pa]
 };
 
-/// The flags of a taxel in words, e.g. "saturated, tared"; "none".
+/// The flags of a taxel in words, e.g. "saturated, tared"; "none" without flags.
 std::string flagsText(std::uint16_t flags);
 
 }  // namespace fsr_rviz

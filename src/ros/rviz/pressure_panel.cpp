@@ -24,12 +24,12 @@ namespace {
 
 using fsr_pressure_map::PressureStatistics;
 
-constexpr double kSilence = 3.0;         // [s] after which a number is no longer shown
+constexpr double kSilence = 3.0;         // age after which a number is no longer shown [s]
 constexpr int kRefresh = 200;            // [ms]
-constexpr double kStandardAir = 101325;  // [Pa], where matrix_info says nothing
+constexpr double kStandardAir = 101325;  // ambient pressure without matrix_info [Pa]
 constexpr std::uint32_t kQueueSize = 10;
 
-// The answer of a service, or why there is none.
+// Calls a service and returns its message, or why it could not be called.
 template <typename Service>
 std::string answerOf(const std::string& name, Service& service) {
   if (!ros::service::exists(name, false)) return "there is no service " + name;
@@ -53,7 +53,25 @@ PressurePanel::PressurePanel(QWidget* parent) : Panel(parent) {
   grid->addWidget(namespace_, 0, 1);
   addNumbers(grid);
   column->addLayout(grid);
+  addButtons(column);
+  reply_ = addText(column, "reply");
+  waiting_ = addText(column, "waiting");
+  column->addStretch();
+  auto* warning = new QLabel("<b>Research use, not for diagnosis or fitting decisions</b>");
+  warning->setWordWrap(true);
+  column->addWidget(warning);
+  setLayout(column);
 
+  timer_ = new QTimer(this);
+  connect(timer_, SIGNAL(timeout()), this, SLOT(refresh()));
+  connect(namespace_, SIGNAL(editingFinished()), this, SLOT(listen()));
+}
+
+PressurePanel::~PressurePanel() {
+  if (caller_.joinable()) caller_.join();
+}
+
+void PressurePanel::addButtons(QVBoxLayout* column) {
   auto* actions = new QHBoxLayout;
   auto* events = new QHBoxLayout;
   const auto button = [this](const char* label, const char* slot, QHBoxLayout* row) {
@@ -73,27 +91,14 @@ PressurePanel::PressurePanel(QWidget* parent) : Panel(parent) {
   button("Mark event", SLOT(markEvent()), events);
   column->addLayout(actions);
   column->addLayout(events);
-  reply_ = new QLabel;
-  reply_->setObjectName("reply");
-  reply_->setWordWrap(true);
-  column->addWidget(reply_);
-  waiting_ = new QLabel;
-  waiting_->setObjectName("waiting");
-  waiting_->setWordWrap(true);
-  column->addWidget(waiting_);
-  column->addStretch();
-  auto* warning = new QLabel("<b>Research use, not for diagnosis or fitting decisions</b>");
-  warning->setWordWrap(true);
-  column->addWidget(warning);
-  setLayout(column);
-
-  timer_ = new QTimer(this);
-  connect(timer_, SIGNAL(timeout()), this, SLOT(refresh()));
-  connect(namespace_, SIGNAL(editingFinished()), this, SLOT(listen()));
 }
 
-PressurePanel::~PressurePanel() {
-  if (caller_.joinable()) caller_.join();
+QLabel* PressurePanel::addText(QVBoxLayout* column, const char* name) {
+  auto* text = new QLabel;
+  text->setObjectName(name);
+  text->setWordWrap(true);
+  column->addWidget(text);
+  return text;
 }
 
 QLabel* PressurePanel::addLine(QGridLayout* grid, const QString& name) {
@@ -201,14 +206,14 @@ void PressurePanel::refresh() {
   showWaiting();
 }
 
-// A node that is there repeats what it knows each second, whether data flow or not.
+// Every running node repeats its messages each second, so that a missing message means a missing node.
 void PressurePanel::showWaiting() {
   QStringList lines;
   const auto want = [&](bool there, const char* topic, const char* what) {
     if (!there) lines << QString("Nothing on %1: %2").arg(text(handle_.resolveName(name(topic))), what);
   };
-  want(last_calibration_.fresh(), "calibration_info", "tare and reload wait for the calibration node.");
-  want(last_statistics_.fresh(), "statistics", "the numbers wait for the view node.");
+  want(last_calibration_.fresh(), "calibration_info", "tare and reload need the calibration node.");
+  want(last_statistics_.fresh(), "statistics", "the numbers need the view node.");
   want(last_surface_.message != nullptr, "curvature", "the surface is unknown.");
   want(last_session_.fresh(), "session", "events can be marked while record.launch runs.");
   waiting_->setText(lines.join("\n"));
@@ -260,7 +265,7 @@ void PressurePanel::markEvent() {
 }
 
 void PressurePanel::call(const std::string& what, const std::function<std::string()>& service) {
-  if (caller_.joinable()) caller_.join();  // it has answered: the buttons would be off otherwise
+  if (caller_.joinable()) caller_.join();  // the last call has ended, or the buttons would be disabled
   for (QPushButton* button : buttons_) button->setEnabled(false);
   reply_->setText(text(what) + " ...");
   caller_ = std::thread([this, service] {

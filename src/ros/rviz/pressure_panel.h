@@ -23,13 +23,14 @@ class QLabel;
 class QLineEdit;
 class QPushButton;
 class QTimer;
+class QVBoxLayout;
 
 namespace fsr_rviz {
 
-/// The numbers of one sensor beside its picture, and buttons for what is done most: tare, reload, mark an
-/// event. Everything is read from the sensor's namespace; what has not come yet, or not for 3 s, reads "-",
-/// and below the buttons stands which node is missing. Services run beside the window, which never waits for
-/// them.
+/// Panel with the numbers of one sensor and with buttons for tare, reload and marking an event. All topics
+/// are in the sensor's namespace. A number that has not come yet, or not for 3 s, is shown as "-", and a line
+/// below the buttons names the missing node. Services are called in another thread, so that the window never
+/// waits for them.
 class PressurePanel : public rviz::Panel {
   Q_OBJECT
 
@@ -60,6 +61,8 @@ class PressurePanel : public rviz::Panel {
   void keep(const std::string& topic, Last<Message>& last);
   QLabel* addLine(QGridLayout* grid, const QString& name);
   void addNumbers(QGridLayout* grid);
+  void addButtons(QVBoxLayout* column);
+  static QLabel* addText(QVBoxLayout* column, const char* name);
   void showStatistics();
   void showAlarms();
   void showWaiting();

@@ -12,7 +12,7 @@ namespace fsr_rviz {
 namespace {
 
 constexpr std::uint32_t kQueueSize = 10;  // [messages]
-constexpr double kUsualFullScale = 4095;  // until a scan tells its own
+constexpr double kUsualFullScale = 4095;  // until the first scan
 
 fsr::matrix::Layout layoutOf(const fsr_pressure_map::MatrixFrame& scan,
                              const fsr_pressure_map::MatrixInfoConstPtr& info) {
@@ -29,9 +29,9 @@ fsr::matrix::Layout layoutOf(const fsr_pressure_map::MatrixFrame& scan,
 
 RawCountsDisplay::RawCountsDisplay() : SheetDisplay("scan") {
   addSource(ros::message_traits::datatype<fsr_pressure_map::MatrixFrame>(), "Raw scans to show.");
-  high_ =
-      new rviz::FloatProperty("High (counts)", 0, "Counts at the bright end; 0 = the converter's largest.",
-                              this, SLOT(updateStyle()));
+  high_ = new rviz::FloatProperty("High (counts)", 0,
+                                  "Counts at the bright end; 0 = full scale of the converter.", this,
+                                  SLOT(updateStyle()));
   high_->setMin(0);
   addLook();
 }
@@ -83,13 +83,13 @@ fsr::view::Legend RawCountsDisplay::legend() const {
 }
 
 ReadOut RawCountsDisplay::readOut(std::size_t taxel) const {
-  // Of what is drawn: the last scan may be another, or broken.
+  // The reading that is drawn: a later scan may have come, or may be invalid.
   return {{"Raw reading", std::to_string(std::lround(picture().values[taxel])) + " of " +
                               std::to_string(full_scale_) + " counts"}};
 }
 
 void RawCountsDisplay::sayState() {
-  say("State", {rviz::StatusProperty::Ok, "raw counts of the converter, no pressure"});
+  say("State", {rviz::StatusProperty::Ok, "raw counts of the converter, not pressure"});
   say("Taxels", taxelStatus(picture().looks));
 }
 

@@ -9,8 +9,8 @@
 
 namespace fsr_rviz {
 
-/// Shows the converter's counts of a scan on the bent sheet: what the board says before any calibration, on a
-/// scale of counts. The pitch is that of `matrix_info` beside the scans' topic, 10 mm while that is silent.
+/// Shows the counts of a scan on the bent sheet, without calibration, on a scale of counts. The pitch is that
+/// of `matrix_info` in the namespace of the scans, or 10 mm until it has come.
 class RawCountsDisplay : public SheetDisplay {
   Q_OBJECT
 
@@ -34,7 +34,7 @@ class RawCountsDisplay : public SheetDisplay {
   ros::Subscriber infos_;
   fsr_pressure_map::MatrixInfoConstPtr info_;
   fsr_pressure_map::MatrixFrameConstPtr last_;
-  int full_scale_ = 0;  // of the scan that is drawn [counts]
+  int full_scale_ = 0;  // full scale of the scan that is drawn [counts]
 };
 
 }  // namespace fsr_rviz

@@ -51,12 +51,13 @@ void SheetDisplay::addSource(const std::string& message_type, const char* help) 
   curvature_topic_ = new rviz::RosTopicProperty(
       "Curvature Topic", "",
       QString::fromStdString(ros::message_traits::datatype<fsr_pressure_map::SurfaceCurvature>()),
-      "Shape of the surface under the matrix; empty = `curvature` beside the other topic.", this,
+      "Shape of the surface under the matrix; empty = `curvature` in the namespace of the other topic.", this,
       SLOT(updateTopic()));
 }
 
 void SheetDisplay::addLook() {
-  shape_ = choice("Style", {"Smooth", "Cells"}, "Colours run over between taxels, or a square each.", this,
+  shape_ = choice("Style", {"Smooth", "Cells"},
+                  "Smooth: colours are interpolated between taxels. Cells: one square for each taxel.", this,
                   SLOT(updateStyle()));
   colours_ = choice("Colour Map", fsr::view::colourMapNames(), "Dark = low, bright = high.", this,
                     SLOT(updateStyle()));
@@ -64,22 +65,25 @@ void SheetDisplay::addLook() {
                                     SLOT(updateStyle()));
   fineness_->setMin(1);
   fineness_->setMax(16);
-  marks_ = new rviz::BoolProperty("Marks", true, "On taxels that are not to be believed as they stand.", this,
+  marks_ = new rviz::BoolProperty("Marks", true, "Marks on taxels with an unreliable reading.", this,
                                   SLOT(updateStyle()));
-  title_ = new rviz::StringProperty("Title", "", "Text before the first row; the mean of all taxels follows.",
-                                    this, SLOT(updateStyle()));
+  title_ =
+      new rviz::StringProperty("Title", "", "Text beside the first row, followed by the mean of all taxels.",
+                               this, SLOT(updateStyle()));
   offset_ = new rviz::VectorProperty("Offset", Ogre::Vector3::ZERO,
-                                     "Moves the picture in its own frame [m], to set several side by side.",
+                                     "Moves the picture in its own frame [m], to show several side by side.",
                                      this, SLOT(updatePlace()));
   legend_ = new rviz::BoolProperty("Legend", true, "Colour bar with unit and range, over the scene.", this,
                                    SLOT(updateLegend()));
-  left_ = new rviz::IntProperty("Left", 10, "Of the legend [pixels].", legend_, SLOT(updateLegend()), this);
-  top_ = new rviz::IntProperty("Top", 10, "Of the legend [pixels].", legend_, SLOT(updateLegend()), this);
+  left_ = new rviz::IntProperty("Left", 10, "Position of the legend [pixels].", legend_, SLOT(updateLegend()),
+                                this);
+  top_ = new rviz::IntProperty("Top", 10, "Position of the legend [pixels].", legend_, SLOT(updateLegend()),
+                               this);
 }
 
 SheetDisplay::~SheetDisplay() {
   unsubscribe();
-  selection_.reset();  // before what it points to
+  selection_.reset();  // before the objects that it points to
 }
 
 void SheetDisplay::onInitialize() {
@@ -173,7 +177,7 @@ fsr::view::ColourMap SheetDisplay::colours() const {
   return fsr::view::colourMapOf(colours_->getStdString());
 }
 
-// A surface that does not fit the matrix is said in the status, and the sheet drawn flat.
+// If the surface does not fit the matrix, the status reports it and the sheet is drawn flat.
 void SheetDisplay::makeMesh() {
   selection_.reset();
   const fsr::matrix::Layout& layout = shown_.picture.layout;
@@ -235,7 +239,7 @@ void SheetDisplay::placeSheet() {
 
 void SheetDisplay::updateStyle() {
   if (!last_) return updateLegend();
-  shown_.mesh.reset();  // fineness may be another
+  shown_.mesh.reset();  // the fineness may have changed
   fresh_ = true;
 }
 
@@ -263,7 +267,7 @@ double SheetDisplay::age() const {
   return last_ ? (ros::WallTime::now() - last_time_).toSec() : -1;
 }
 
-// Once: from then on it is the user's.
+// Expands the status once; afterwards the user decides.
 void SheetDisplay::openStatus() {
   for (int i = 0; i < numChildren() && !status_opened_; ++i) {
     if (!childAt(i)->getName().startsWith("Status")) continue;
@@ -273,7 +277,7 @@ void SheetDisplay::openStatus() {
 }
 
 void SheetDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
-  const std::string topic = topic_->getTopicStd();  // shown as the launch file remapped it
+  const std::string topic = topic_->getTopicStd();  // shown with the remappings of the launch file
   say("Messages", messageStatus(age(), noun_, topic.empty() ? topic : update_nh_.resolveName(topic)));
   openStatus();
   if (fresh_) redraw();

@@ -30,15 +30,17 @@ class VectorProperty;
 
 namespace fsr_rviz {
 
-/// A property with a choice of names; its index is the choice.
+/// A property with a choice of names. Its option value is the index in `options`.
 rviz::EnumProperty* choice(const char* name, const std::vector<std::string>& options, const char* help,
                            rviz::Property* parent, const char* slot);
 
-/// What pictures on a bent sheet have in common: curvature, mesh, marks, legend, title, place, selection, and
-/// a status that says why nothing is shown. A kind of display adds what it listens to and what that means.
+/// Base class of displays that draw values on a bent sheet. It handles curvature, mesh, marks, legend, title,
+/// position, selection, and a status that says why nothing is shown. A derived class subscribes to its data
+/// and interprets them.
 ///
-/// No message filter: that would keep messages back where their frame is unknown, and the status could not
-/// tell a wrong frame from a missing map. The sheet stands where the newest transform puts it.
+/// There is no tf message filter: it would hold back messages whose frame is unknown, and the status could
+/// not distinguish a wrong frame from a missing message. The newest transform determines the position of the
+/// sheet.
 class SheetDisplay : public rviz::Display {
   Q_OBJECT
 
@@ -46,23 +48,23 @@ class SheetDisplay : public rviz::Display {
   ~SheetDisplay() override;
 
  protected:
-  /// `noun` of what it listens to, e.g. "map".
+  /// `noun`: name of the data, e.g. "map".
   explicit SheetDisplay(const char* noun) : noun_(noun) {}
 
-  /// Both once, from the constructor, the own properties between them.
+  /// The constructor of a derived class calls both, and adds its own properties between the two calls.
   void addSource(const std::string& message_type, const char* help);
   void addLook();
 
   virtual ros::Subscriber listen(const std::string& topic) = 0;
-  /// Values, looks and scale of what came last. Throws fsr::InputError where it cannot be shown.
+  /// Fills in values, looks and scale from the last message. Throws fsr::InputError if it cannot be shown.
   virtual void paint(SheetPicture& picture) = 0;
-  /// Title, scale and lines; the base adds the name of the surface, and whether there are marks.
+  /// Title, scale and lines. The base class adds the name of the surface and the key of the marks.
   virtual fsr::view::Legend legend() const = 0;
   virtual ReadOut readOut(std::size_t taxel) const = 0;
   virtual void sayState() = 0;
   virtual void forget() = 0;
 
-  /// To be called with each message. Drawn once a frame, however many come.
+  /// To be called for each message. The picture is drawn at most once in each frame of rviz.
   void received(const std_msgs::Header& header);
   void say(const char* name, const StatusLine& line);
   std::string besideTopic(const std::string& name) const;
@@ -94,7 +96,7 @@ class SheetDisplay : public rviz::Display {
   void makeMesh();
   void placeSheet();
   void openStatus();
-  double age() const;  // of what came last [s]; below 0 = nothing came
+  double age() const;  // time since the last message [s]; below 0 = no message has come
 
   const char* noun_;
   rviz::RosTopicProperty* topic_ = nullptr;
@@ -113,9 +115,9 @@ class SheetDisplay : public rviz::Display {
   ros::Subscriber curvature_;
   fsr::matrix::Surface surface_;
   std::string surface_error_;
-  std::optional<std_msgs::Header> last_;  // of what came last; none = nothing came
+  std::optional<std_msgs::Header> last_;  // header of the last message; none = no message has come
   ros::WallTime last_time_;
-  bool fresh_ = false;  // something changed since it was drawn
+  bool fresh_ = false;  // something has changed since the last drawing
   bool status_opened_ = false;
   ShownSheet shown_;
 

@@ -8,14 +8,14 @@
 
 namespace fsr_rviz {
 
-/// What is drawn on a sheet, whatever it is: a pressure, its deviation, or counts.
+/// The values that are drawn on a sheet: pressure, its standard deviation, or counts.
 struct SheetPicture {
   fsr::matrix::Layout layout;
-  std::vector<float> values;  ///< [rows x columns], row-major, in what the scale measures; NaN = no reading
-  std::vector<fsr::view::TaxelLook> looks;  ///< likewise
+  std::vector<float> values;  ///< [rows x columns], row-major, in the unit of the scale; NaN = no reading
+  std::vector<fsr::view::TaxelLook> looks;  ///< [rows x columns], row-major
   fsr::view::PressureScale scale;
-  bool smooth = true;  ///< colours run over from taxel to taxel; false: a square each
-  bool marks = true;   ///< on taxels that are not to be believed
+  bool smooth = true;  ///< colours are interpolated between taxels; false: one square for each taxel
+  bool marks = true;   ///< marks on taxels with an unreliable reading
 };
 
 }  // namespace fsr_rviz

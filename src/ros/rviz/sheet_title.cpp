@@ -8,8 +8,8 @@ namespace fsr_rviz {
 
 namespace {
 
-constexpr float kHeight = 0.0065F;  // of a capital letter [m]
-constexpr double kGap = 0.011;      // to the sheet's edge [m]
+constexpr float kHeight = 0.0065F;  // height of a capital letter [m]
+constexpr double kGap = 0.011;      // distance to the sheet's edge [m]
 
 }  // namespace
 

@@ -13,7 +13,7 @@ class MovableText;
 
 namespace fsr_rviz {
 
-/// A line of text before the sheet's first row, so that sheets beside each other can be told apart.
+/// A line of text beside the sheet's first row, which identifies the sheet when there are several.
 class SheetTitle {
  public:
   SheetTitle(Ogre::SceneManager* scene, Ogre::SceneNode* parent);
@@ -21,7 +21,7 @@ class SheetTitle {
   SheetTitle(const SheetTitle&) = delete;
   SheetTitle& operator=(const SheetTitle&) = delete;
 
-  /// Empty = none.
+  /// Shows the text; an empty text hides the title.
   void show(const std::string& text, const fsr::matrix::Layout& layout);
   void hide();
 

@@ -12,8 +12,9 @@ namespace fsr_rviz {
 
 namespace {
 
-constexpr double kMarkLift = 0.0004;  // [m] above the face, so that strokes are not hidden in it
-constexpr double kMarkWidth = 0.06;   // of a taxel's side
+constexpr double kMarkLift =
+    0.0004;                          // height of the strokes above the surface, so that they stay visible [m]
+constexpr double kMarkWidth = 0.06;  // width of a stroke, as a part of a taxel's side
 
 Ogre::Vector3 toOgre(const fsr::view::Vector3& v) {
   return {static_cast<Ogre::Real>(v.x), static_cast<Ogre::Real>(v.y), static_cast<Ogre::Real>(v.z)};
@@ -24,7 +25,7 @@ Ogre::ColourValue toOgre(fsr::view::Colour c) {
                            static_cast<float>(c.blue) / 255);
 }
 
-// Colours as they are, both faces visible; the same for the second pass of rviz's selection.
+// A material without lighting whose both faces are visible, also in the second pass of rviz's selection.
 Ogre::MaterialPtr plainMaterial() {
   static int count = 0;
   Ogre::MaterialPtr material =
@@ -42,7 +43,7 @@ Ogre::MaterialPtr plainMaterial() {
   return material;
 }
 
-// Four corners of a stroke as a narrow band on the face.
+// Adds a stroke as a narrow band of two triangles on the surface.
 void addBand(Ogre::ManualObject& object, const fsr::view::SheetMesh& mesh, double row, double column,
              const fsr::view::Stroke& stroke, const Ogre::ColourValue& colour) {
   const double dx = stroke.to.x - stroke.from.x, dy = stroke.to.y - stroke.from.y;

@@ -11,8 +11,8 @@
 
 namespace fsr_rviz {
 
-/// The coloured sheet and its marks in rviz's scene. Colours are those of the scale, without light or shade:
-/// what a colour means must not depend on where one looks from.
+/// The coloured sheet and its marks in the scene of rviz. The colours are those of the scale, without
+/// lighting, so that they do not depend on the direction of view.
 class SheetVisual {
  public:
   SheetVisual(Ogre::SceneManager* scene, Ogre::SceneNode* parent);
@@ -21,7 +21,7 @@ class SheetVisual {
   SheetVisual& operator=(const SheetVisual&) = delete;
 
   void show(const SheetPicture& picture, const fsr::view::SheetMesh& mesh);
-  /// In colours that tell the index of a taxel + 1 (red highest), for rviz's selection.
+  /// Draws each taxel in a colour that encodes its index + 1 (red = highest byte), for rviz's selection.
   void showIndices(const fsr::view::SheetMesh& mesh);
   void setVisible(bool visible);
 
@@ -37,8 +37,8 @@ class SheetVisual {
   Ogre::ManualObject* sheet_;
   Ogre::ManualObject* marks_;
   Ogre::MaterialPtr material_;
-  bool drawn_ = false;                      // the sheet has its section
-  std::vector<fsr::view::Colour> colours_;  // of the corners, as last drawn
+  bool drawn_ = false;                      // the sheet has been drawn once
+  std::vector<fsr::view::Colour> colours_;  // colours of the corners at the last drawing
 };
 
 }  // namespace fsr_rviz

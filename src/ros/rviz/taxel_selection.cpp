@@ -19,7 +19,8 @@ TaxelSelection::TaxelSelection(rviz::DisplayContext* context, SheetVisual& visua
     : SelectionHandler(context), visual_(visual), shown_(shown), read_out_(std::move(read_out)) {}
 
 bool TaxelSelection::taxelOf(uint64_t extra_handle, std::size_t& taxel) const {
-  taxel = static_cast<std::size_t>(extra_handle & 0xffffffff) - 1;  // 0 = none becomes far too large
+  taxel = static_cast<std::size_t>(extra_handle & 0xffffffff) -
+          1;  // the handle 0 means none and becomes a very large index
   return shown_.mesh && taxel < shown_.picture.values.size();
 }
 

@@ -12,19 +12,19 @@
 
 namespace fsr_rviz {
 
-/// What a display shows at the moment.
+/// The picture and mesh that a display shows.
 struct ShownSheet {
   SheetPicture picture;
   std::optional<fsr::view::SheetMesh> mesh;
 };
 
-/// What is known of a taxel, as names and values.
+/// Data of one taxel, as pairs of name and value.
 using ReadOut = std::vector<std::pair<std::string, std::string>>;
 
-/// Reads taxels out in rviz's selection panel: row, column, and what the display knows of them.
+/// Shows row, column and data of the selected taxels in rviz's selection panel.
 class TaxelSelection : public rviz::SelectionHandler {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive the object.
   TaxelSelection(rviz::DisplayContext* context, SheetVisual& visual, const ShownSheet& shown,
                  std::function<ReadOut(std::size_t taxel)> read_out);
 

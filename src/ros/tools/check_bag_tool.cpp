@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/admission_report.h"
-#include "ros/bags/bag_reader.h"
 #include "ros/bags/bag_topics.h"
 #include "settings/command_line.h"
 
@@ -22,32 +22,33 @@ constexpr int kNotFit = 1;  // exit status with --strict
 fsr::settings::CommandLine options() {
   fsr::settings::CommandLine line(
       "check_bag", "[--use socket [--calibration FILE]] BAG...",
-      "Looks at recordings before anything is made of them: topics, rates, gaps and stamps; lag between "
-      "matrix "
-      "and chamber; dead, stuck and clipped taxels, failing lines; coverage of pressure, curvature and "
-      "direction. "
-      "The last line is the verdict.\n"
-      "Exit status: 0 whatever the verdict is, with --strict 1 where it is not fit or to be looked at again; "
-      "2 where a bag cannot be read.");
+      "Checks recordings before they are used: topics, rates, gaps and stamps; lag between matrix and "
+      "chamber; "
+      "dead, stuck and clipped taxels and failing lines; coverage of pressure, curvature and direction. The "
+      "last line is the verdict.\n"
+      "Exit status: 0 whatever the verdict is; with --strict 1 if the verdict is not good; 2 if a bag cannot "
+      "be "
+      "read.");
   line.option("use", "NAME",
-              "chamber (default) or socket: there is no reference, the bag is judged by itself")
+              "chamber (default), or socket: recorded without a reference, judged by the bag alone")
       .option("calibration", "FILE",
-              "with --use socket: says what lies beyond the training of this calibration")
-      .option("sections", "N", "of the cross-validation that coverage is judged for, 2 to 20; default 5")
-      .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
-      .option("namespace", "NS", "the sensor's namespace, where a bag holds several")
-      .flag("strict", "exit status 1 where the verdict is not good");
+              "with --use socket: report what is outside the trained range of this calibration")
+      .option("sections", "N",
+              "sections of the cross-validation for which coverage is judged, 2 to 20; default 5")
+      .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
+      .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
+      .flag("strict", "exit status 1 if the verdict is not good");
   return line;
 }
 
 BagReadOptions readOptions(const fsr::settings::CommandLine& line) {
   BagReadOptions how;
   how.topics = line.text("namespace", "");
-  if (line.has("ambient")) how.recording.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
+  if (line.has("ambient")) how.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
   return how;
 }
 
-// What the reader sorted in silence, and labels that it does not need.
+// Remarks about stamps that the reader sorted, and about missing topics that it does not need.
 std::vector<std::string> remarksOn(const std::vector<TopicCourse>& courses) {
   std::vector<std::string> remarks;
   for (const TopicCourse& course : courses) {
@@ -55,8 +56,9 @@ std::vector<std::string> remarksOn(const std::vector<TopicCourse>& courses) {
     remarks.push_back(course.topic + " has " + std::to_string(course.backwards) +
                       " stamps that run backwards; they were sorted");
   }
-  for (const auto& [base, why] : {std::pair{"temperature", "what is slow cannot be told from what is warm"},
-                                  std::pair{"session", "nothing says whose recording this is"}}) {
+  for (const auto& [base, why] :
+       {std::pair{"temperature", "slow drift cannot be distinguished from effects of temperature"},
+        std::pair{"session", "the bag does not say to which session it belongs"}}) {
     const auto is_it = [&](const TopicCourse& course) {
       const std::string end = std::string("/") + base;
       return course.topic.size() >= end.size() &&
@@ -85,7 +87,7 @@ int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {
   return line.has("strict") && !admission.fit() ? kNotFit : 0;
 }
 
-// Since the first scan [s].
+// The first or the last of the times, since the first scan [s].
 std::optional<double> since(const fsr::dataset::Recording& recording, const std::vector<std::int64_t>& times,
                             bool first) {
   if (times.empty()) return std::nullopt;

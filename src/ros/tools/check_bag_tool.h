@@ -4,9 +4,9 @@
 
 namespace fsr_ros {
 
-/// `check_bag BAG...`: are recordings fit for training and for discrepancy? `check_bag --use socket BAG...`:
-/// what a recording without reference says of itself. The verdict is the last line of `out`. Returns 0
-/// whatever it is, or with --strict 1 where it is not the best; throws fsr::InputError where a bag cannot be
+/// `check_bag BAG...` checks whether recordings can be used for training and for discrepancy. `check_bag
+/// --use socket BAG...` checks a recording without reference. The verdict is the last line of `out`. Returns
+/// 0 whatever the verdict is, or with --strict 1 if it is not good. Throws fsr::InputError if a bag cannot be
 /// read.
 int checkBagTool(int argc, const char* const* argv, std::ostream& out);
 

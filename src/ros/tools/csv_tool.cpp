@@ -19,32 +19,34 @@ constexpr double kStandardAmbient = 101325;  // [Pa]
 fsr::settings::CommandLine commandLine() {
   fsr::settings::CommandLine line(
       "csv_to_bag", "TABLE --columns ROLE=COLUMN[:UNIT],... --output BAG",
-      "Makes a bag of a table of text (plain or .gz), one row a scan, as LabVIEW and spreadsheets "
-      "write it.\nRoles: time (s, ms, us, min), reading (counts, V, mV, S, mS, uS, ohm, kohm, Mohm; "
+      "Converts a text table (plain or .gz) with one row for each scan, as LabVIEW and spreadsheets "
+      "write it, to a bag.\nRoles: time (s, ms, us, min), reading (counts, V, mV, S, mS, uS, ohm, kohm, "
+      "Mohm; "
       "one for each taxel),\nreference (kPa, Pa, MPa, bar, mbar, psi, mmHg, N, or e.g. 2500Pa for "
       "each unit), curvature (1/m, 1/cm),\ntemperature (C, K, F), surface, mount. COLUMN is a name "
       "or a number from 1.");
   line.option("columns", "LIST", "e.g. time=1:ms,reading=force_V:V,reference=pressure:bar")
       .option("output", "BAG", "file to write")
-      .option("separator", "NAME", "comma, semicolon, tab or space (told from the first row)")
-      .option("header", "yes|no", "whether the first row names the columns (told from the first row)")
-      .option("skip-lines", "N", "lines before the table (0)")
+      .option("separator", "NAME", "comma, semicolon, tab or space (detected from the first row)")
+      .option("header", "yes|no", "whether the first row names the columns (detected from the first row)")
+      .option("skip-lines", "N", "number of lines before the table (0)")
       .flag("decimal-comma", "numbers are written 3,14")
-      .flag("skip-bad-rows", "leave out rows that would be refused, and say how many")
-      .option("matrix", "ROWSxCOLUMNS", "how the readings lie, row-major (one row)")
+      .flag("skip-bad-rows", "leave out rows with errors, and print how many")
+      .option("matrix", "ROWSxCOLUMNS", "size of the matrix; the readings are row-major (one row)")
       .option("pitch", "M", "distance of neighbouring taxels [m] (0.010)")
       .option("range", "LOW,HIGH",
-              "of the readings, in V or S, for counts 0 to 65535 (0 to a round number); 5,0 where it falls")
-      .option("full-scale", "N", "largest count, where readings are counts (4095, or 65535)")
-      .option("area", "M2", "that a reference in N acts on [m^2] (1e-4)")
+              "readings [V or S] at counts 0 and 65535 (0 and a round number); 5,0 if the reading falls with "
+              "pressure")
+      .option("full-scale", "N", "largest count, if the readings are counts (4095, or 65535)")
+      .option("area", "M2", "area on which a reference in N acts [m^2] (1e-4)")
       .flag("absolute", "the reference is absolute pressure, not gauge")
       .option("ambient", "PA", "ambient pressure [Pa] (101325)")
-      .option("curvature", "1/M", "of the surface, where no column tells it [1/m]; 0 = flat (unknown)")
-      .option("surface", "NAME", "name of the surface, where no column tells it")
-      .option("start", "SECONDS", "stamp of time 0, since 1970 (946684800 = 2000-01-01)")
-      .option("namespace", "NAME", "of the topics (fsr)")
-      .option("sensor-id", "ID", "for matrix_info")
-      .option("serial", "TEXT", "for matrix_info");
+      .option("curvature", "1/M", "curvature of the surface, if no column holds it [1/m]; 0 = flat (unknown)")
+      .option("surface", "NAME", "name of the surface, if no column holds it")
+      .option("start", "SECONDS", "stamp of time 0, in seconds since 1970 (946684800 = 2000-01-01)")
+      .option("namespace", "NAME", "namespace of the topics (fsr)")
+      .option("sensor-id", "ID", "sensor_id of matrix_info")
+      .option("serial", "TEXT", "serial number in matrix_info");
   return line;
 }
 
@@ -129,7 +131,7 @@ BagOptions bagOptions(const fsr::settings::CommandLine& line, const fsr::dataset
   options.topics = line.text("namespace", "fsr");
   options.ambient_pressure = line.number("ambient", kStandardAmbient, {3e4, 2e5, "Pa"});
   if (scale.unit == "V") options.reference_voltage = std::abs(scale.high - scale.low);
-  // Of a read-out whose output is full scale at the largest conductance.
+  // The resistance with which the output is full scale at the largest conductance.
   if (scale.unit == "S") options.feedback_resistance = 1 / scale.high;
   options.session.session_id = "table";
   options.session.use = "bench";

@@ -4,8 +4,8 @@
 
 namespace fsr_ros {
 
-/// `csv_to_bag TABLE --columns ... --output BAG`: prints what the bag holds and how readings became
-/// counts to `out`. Returns 0; throws fsr::InputError, and then there is no bag.
+/// `csv_to_bag TABLE --columns ... --output BAG`: converts a table to a bag, and prints what the bag holds
+/// and how readings were converted to counts. Returns 0. Throws fsr::InputError; in that case no bag is left.
 int csvToBagTool(int argc, const char* const* argv, std::ostream& out);
 
 }  // namespace fsr_ros

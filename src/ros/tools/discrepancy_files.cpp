@@ -7,6 +7,7 @@
 #include "report/verdict_file.h"
 #include "settings/replace_file.h"
 #include "settings/sha256.h"
+#include "simulation/taxel_curves.h"
 
 namespace fsr_ros {
 
@@ -22,7 +23,7 @@ std::string heading(const fsr::discrepancy::DiscrepancyReport& report) {
   return text;
 }
 
-// A simulation and, beside it, the curves of its taxels.
+// Writes a simulation and, if it has them, the curves of its taxels.
 void writeSimulation(const fsr::simulation::SimulationSettings& settings, const std::string& folder,
                      const std::string& name, const std::string& head,
                      const fsr::simulation::ValueRemarks& remarks) {
@@ -40,7 +41,7 @@ std::string outputFolder(const std::string& path) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder)) {
-    throw fsr::settings::InputError(folder.string() + ": the folder cannot be made (" + error.message() +
+    throw fsr::settings::InputError(folder.string() + ": the folder cannot be created (" + error.message() +
                                     "); give another one with --output");
   }
   return folder;
@@ -53,7 +54,8 @@ void writeDiscrepancy(const fsr::discrepancy::DiscrepancyReport& report, const s
   fsr::settings::replaceFile(folder + "/results.json", fsr::report::discrepancyJson(report));
   writeSimulation(
       report.base, folder, "base.yaml",
-      "The simulation before anything was added to it, fitted to the recordings.\n" + heading(report), {});
+      "The simulation without the effects that were found, fitted to the recordings.\n" + heading(report),
+      {});
   writeSimulation(report.added, folder, "simulation.yaml", heading(report), fsr::report::fitRemarks(report));
   const std::string verdict = fsr::report::verdictText(report);
   fsr::settings::replaceFile(folder + "/prediction.yaml",
@@ -67,10 +69,10 @@ StoredPrediction readPredictionBeside(const std::string& verdict_path) {
   StoredPrediction stored{fsr::report::readPrediction(folder + "/prediction.yaml"),
                           fsr::simulation::readSimulationFile(folder + "/base.yaml")};
   if (fsr::settings::sha256OfFile(verdict_path) != stored.frozen.verdict_sha256) {
-    throw fsr::settings::InputError(
-        verdict_path +
-        ": is not the file that prediction.yaml was frozen with; an edited verdict cannot be "
-        "confirmed, run discrepancy again");
+    throw fsr::settings::InputError(verdict_path +
+                                    ": this file has changed since prediction.yaml was written with it; an "
+                                    "edited verdict cannot be confirmed, "
+                                    "so run discrepancy again");
   }
   return stored;
 }

@@ -7,22 +7,23 @@
 
 namespace fsr_ros {
 
-/// The folder, made where it is not there. Throws fsr::InputError where it cannot be made.
+/// Creates a folder if it does not exist, and returns its absolute path. Throws fsr::InputError if it cannot
+/// be created.
 std::string outputFolder(const std::string& path);
 
 /// Writes a report into a folder: verdict.yaml, simulation.yaml (with the effects found), base.yaml (fitted,
-/// without them), prediction.yaml, results.json and the tables behind the figures in figures/. Every file is
-/// there whole or not at all, verdict.yaml last. Throws fsr::InputError.
+/// without them), prediction.yaml, results.json, and the tables for the figures in figures/. Each file is
+/// either complete or not written; verdict.yaml is written last. Throws fsr::InputError.
 void writeDiscrepancy(const fsr::discrepancy::DiscrepancyReport& report, const std::string& folder);
 
-/// A prediction and the simulation that it completes.
+/// A prediction and the simulation to which its effects are added.
 struct StoredPrediction {
   fsr::report::FrozenPrediction frozen;
   fsr::simulation::SimulationSettings base;
 };
 
-/// Reads what writeDiscrepancy() left beside a verdict.yaml. Throws fsr::InputError, also where the verdict
-/// was edited since.
+/// Reads the prediction that writeDiscrepancy() wrote beside a verdict.yaml. Throws fsr::InputError, also if
+/// the verdict was edited afterwards.
 StoredPrediction readPredictionBeside(const std::string& verdict_path);
 
 }  // namespace fsr_ros

@@ -9,10 +9,10 @@
 #include <sstream>
 
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
+#include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/discrepancy_report.h"
 #include "report/verdict_file.h"
-#include "ros/bags/bag_reader.h"
 #include "ros/bags/resource_path.h"
 #include "ros/tools/discrepancy_files.h"
 #include "ros/tools/figure_script.h"
@@ -27,29 +27,31 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFiguresMissing = 3;  // exit status where everything else is there
+constexpr int kFiguresMissing = 3;  // exit status if only the figures could not be drawn
 constexpr char kDefaultSimulation[] = "package://fsr_pressure_map/config/simulation/core.yaml";
 
 fsr::settings::CommandLine options() {
   fsr::settings::CommandLine line(
       "discrepancy", "[--simulation FILE] BAG... --output DIR  |  --confirm verdict.yaml NEWBAG...",
-      "Says where a simulation and measured bags disagree, which physical effect is missing and how small "
-      "the gap is\nonce it is in; or that nothing is missing, or that no effect of the library explains it. "
-      "A folder stands for the\nbags in it. How often the held-out part of a bag was looked at is counted in "
-      "ROS_HOME/fsr_pressure_map/show_opened.");
+      "Finds where a simulation and measured bags disagree, which physical effect is missing and how small "
+      "the gap is\nwith this effect. The verdict may also be that nothing is missing, or that no effect of "
+      "the "
+      "library explains the\ngap. A folder stands for the bags in it. The number of times that the hold-out "
+      "cycles of a bag were "
+      "used is kept in\nROS_HOME/fsr_pressure_map/show_opened.");
   line.option("simulation", "FILE",
-              "what is believed so far (config/simulation/core.yaml, with the bags' layout)")
-      .option("output", "DIR", "verdict.yaml, simulation.yaml, results.json, report.html go there")
+              "simulation to start from (config/simulation/core.yaml, with the layout of the bags)")
+      .option("output", "DIR", "folder for verdict.yaml, simulation.yaml, results.json and report.html")
       .option("ask", "ID,...",
-              "effects that you ask for: where the bags cannot show one, that is the verdict")
-      .flag("repeat", "add effects one after another until none is left")
-      .option("confirm", "FILE", "a verdict.yaml: do these new bags bear out what it predicted?")
+              "effects to ask about: if the bags cannot show one of them, that is the verdict")
+      .flag("repeat", "go on adding effects until no further effect is found")
+      .option("confirm", "FILE", "a verdict.yaml: test its prediction on these new bags")
       .option("without", "ID,...", "leave these effects out of the library")
-      .option("seed", "N", "of the split into find and show, and of the tests (1)")
-      .option("threads", "N", "0 = one for each core (0); the numbers do not depend on it")
-      .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
-      .option("namespace", "NS", "the sensor's namespace, where a bag holds several")
-      .flag("no-report", "leave report.html and its figures out");
+      .option("seed", "N", "seed of the split into find and show cycles, and of the tests (1)")
+      .option("threads", "N", "number of threads, 0 = one for each core (0); the results do not depend on it")
+      .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
+      .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
+      .flag("no-report", "do not write report.html and its figures");
   return line;
 }
 
@@ -62,7 +64,7 @@ std::vector<std::string> listOf(const fsr::settings::CommandLine& line, const st
   return items;
 }
 
-// By the number that a session puts before the name: 2_bent before 10_flat.
+// Orders bags by the number at the start of their names: 2_bent before 10_flat.
 bool comesFirst(const fs::path& a, const fs::path& b) {
   const double first = std::atof(a.filename().c_str()), second = std::atof(b.filename().c_str());
   return first != second ? first < second : a < b;
@@ -91,7 +93,7 @@ std::vector<fsr::dataset::Recording> readBags(const fsr::settings::CommandLine& 
                                               const fsr::discrepancy::DiscrepancyProgress& progress) {
   BagReadOptions how;
   how.topics = line.text("namespace", "");
-  if (line.has("ambient")) how.recording.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
+  if (line.has("ambient")) how.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
   std::vector<fsr::dataset::Recording> recordings;
   for (const std::string& path : bagsOf(line)) {
     if (progress) progress("reading " + path, 0);
@@ -100,7 +102,7 @@ std::vector<fsr::dataset::Recording> readBags(const fsr::settings::CommandLine& 
   return recordings;
 }
 
-// Without a file: the core alone, for whatever matrix the bags are of.
+// Without --simulation: the core simulation with the matrix of the bags.
 fsr::simulation::SimulationSettings simulationFor(const fsr::settings::CommandLine& line,
                                                   const fsr::dataset::Recording& recording) {
   if (line.has("simulation")) return fsr::simulation::readSimulationFile(line.text("simulation", ""));
@@ -118,7 +120,7 @@ fsr::discrepancy::DiscrepancyOptions discrepancyOptions(const fsr::settings::Com
   return chosen;
 }
 
-// One line that is written over, on a terminal; nothing elsewhere.
+// Progress as one line that is overwritten, if stderr is a terminal.
 fsr::discrepancy::DiscrepancyProgress progressOnTerminal() {
   if (::isatty(STDERR_FILENO) == 0) return {};
   return [](const std::string& step, double share) {
@@ -127,11 +129,11 @@ fsr::discrepancy::DiscrepancyProgress progressOnTerminal() {
   };
 }
 
-void countLooks(fsr::discrepancy::DiscrepancyReport& report) {
+void countUses(fsr::discrepancy::DiscrepancyReport& report) {
   const ShowLedger ledger;
   for (fsr::discrepancy::InputUse& input : report.inputs) {
-    if (input.show_opened > 0 && !input.sha256.empty())
-      input.show_opened = ledger.open(input.sha256, report.seed);
+    if (input.hold_out_opened > 0 && !input.sha256.empty())
+      input.hold_out_opened = ledger.open(input.sha256, report.seed);
   }
 }
 
@@ -155,21 +157,21 @@ int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   problem.recordings = readBags(line, progress);
   problem.simulation = simulationFor(line, problem.recordings.front());
   fsr::discrepancy::DiscrepancyReport report = fsr::discrepancy::investigate(problem, progress);
-  countLooks(report);
+  countUses(report);
   writeDiscrepancy(report, folder);
   out << fsr::report::discrepancyText(report) << "Written: " << folder << "/verdict.yaml" << std::endl;
   return line.has("no-report") ? 0 : drawReport(folder, out);
 }
 
-// A bag that the verdict was made from proves nothing about it.
+// A bag that was used to find the verdict cannot confirm it.
 void requireNew(const std::vector<fsr::dataset::Recording>& recordings,
                 const fsr::report::VerdictFile& verdict, const std::string& path) {
   for (const fsr::dataset::Recording& recording : recordings) {
     for (const fsr::discrepancy::InputUse& used : verdict.inputs) {
       if (used.sha256 != recording.sha256) continue;
-      throw fsr::settings::InputError(recording.name + ": " + path +
-                                      " was made from this bag, but only one that was "
-                                      "recorded afterwards can confirm it");
+      throw fsr::settings::InputError(
+          recording.name + ": " + path +
+          " was made from this bag; only a bag recorded afterwards can confirm it");
     }
   }
 }
@@ -180,8 +182,7 @@ int confirmVerdict(const fsr::settings::CommandLine& line, std::ostream& out) {
   const StoredPrediction stored = readPredictionBeside(path);
   if (stored.frozen.prediction.effects.empty()) {
     throw fsr::settings::InputError(path + ": its verdict is " + verdict.verdict +
-                                    ", which predicts nothing that could be "
-                                    "confirmed");
+                                    ", which predicts nothing that can be confirmed");
   }
   const std::vector<fsr::dataset::Recording> recordings = readBags(line, progressOnTerminal());
   requireNew(recordings, verdict, path);
@@ -197,7 +198,7 @@ int confirmVerdict(const fsr::settings::CommandLine& line, std::ostream& out) {
   return 0;
 }
 
-// roslaunch adds __name:=... and __log:=... to what it starts.
+// Removes the arguments __name:=... and __log:=... that roslaunch adds.
 std::vector<const char*> withoutRemappings(int argc, const char* const* argv) {
   std::vector<const char*> words;
   for (int i = 0; i < argc; ++i) {

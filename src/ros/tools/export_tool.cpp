@@ -3,16 +3,11 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <map>
+#include <iomanip>
 #include <memory>
 #include <sstream>
 #include <vector>
 
-#include "exports/animated_png.h"
-#include "exports/csv_table.h"
-#include "exports/picture_folder.h"
-#include "exports/tekscan_file.h"
-#include "exports/video_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_archive.h"
 #include "ros/bags/scan_source.h"
@@ -25,28 +20,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fsr::settings::CommandLine options() {
+// A value of --to: its line in the help, and what it does.
+struct ExportFormat {
+  std::string name;
+  std::string summary;
+  std::function<void(const fsr::settings::CommandLine& line, std::ostream& out)> write;
+};
+
+fsr::settings::CommandLine options(const std::vector<ExportFormat>& formats) {
+  std::ostringstream purpose;
+  purpose << "Writes a recording in a format that other programs read without ROS. FORMAT is\n";
+  for (const ExportFormat& format : formats) {
+    purpose << "  " << std::left << std::setw(8) << format.name << " " << format.summary << "\n";
+  }
+  purpose << "docs/exports.md describes every column and dataset.";
   fsr::settings::CommandLine line(
-      "export", "BAG... --to FORMAT --output PATH, or ARCHIVE --to bag --output BAG",
-      "Writes a recording for those who have no ROS. FORMAT is\n"
-      "  csv      tidy table, a row for each taxel and scan (.gz: compressed); several bags in one\n"
-      "  tekscan  ASCII as Tekscan's I-Scan and F-Scan save it (*.asf)\n"
-      "  hdf5     archive of every topic, from which\n"
-      "  bag      gives back the bag, message by message, byte for byte\n"
-      "  png      a picture of each map, in a new folder\n"
-      "  movie    NAME.png (animated, needs no other program), or .mp4 .webm .mkv .avi .gif by ffmpeg\n"
-      "docs/exports.md describes every column and dataset.");
-  line.option("to", "FORMAT", "what to write")
-      .option("output", "PATH", "file to write; a file that is there is replaced")
-      .option("calibration", "FILE",
-              "compute the maps with this calibration, instead of taking recorded ones")
-      .option("from", "S", "leave out what is earlier, in seconds since the first scan (0)")
-      .option("until", "S", "leave out what is later, likewise (all)")
+      "export", "BAG... --to FORMAT --output PATH, or ARCHIVE --to bag --output BAG", purpose.str());
+  line.option("to", "FORMAT", "format to write")
+      .option("output", "PATH", "file to write; an existing file is replaced")
+      .option("calibration", "FILE", "compute the maps with this calibration instead of using recorded ones")
+      .option("from", "S", "start, in seconds since the first scan (0)")
+      .option("until", "S", "end, in seconds since the first scan (all)")
       .option("topics", "A,B", "hdf5: only these topics, full names or names under the namespace (all)")
-      .option("rate", "HZ", "at most as many scans a second (all; pictures: 10)")
-      .option("map", "TOPIC", "topic of the maps, where a bag holds several (pressure_map)")
-      .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
-      .option("namespace", "NS", "the sensor's namespace, where a bag holds several");
+      .option("rate", "HZ", "largest number of scans a second (all; pictures: 10)")
+      .option("map", "TOPIC", "topic of the maps, if a bag holds several (pressure_map)")
+      .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
+      .option("namespace", "NS", "namespace of the sensor, if a bag holds several");
   declarePictureOptions(line);
   return line;
 }
@@ -69,15 +68,15 @@ ScanSelection selectionOf(const fsr::settings::CommandLine& line) {
 
 void requireOne(const fsr::settings::CommandLine& line) {
   if (line.files().size() == 1) return;
-  throw fsr::settings::InputError("give one file for --to " + line.text("to", "") +
-                                  "; only csv takes several bags");
+  throw fsr::settings::InputError("--to " + line.text("to", "") + " takes one file, but " +
+                                  std::to_string(line.files().size()) + " are given");
 }
 
-// Throws where an option was given that this format has no use for.
+// Throws if an option was given that does not apply to this format.
 void refuseOthers(const fsr::settings::CommandLine& line, const std::vector<std::string>& options) {
   for (const std::string& option : options) {
     if (!line.has(option)) continue;
-    throw fsr::settings::InputError("--" + option + " does not go with --to " + line.text("to", ""));
+    throw fsr::settings::InputError("--" + option + " cannot be used with --to " + line.text("to", ""));
   }
 }
 
@@ -86,7 +85,7 @@ std::string outputOf(const fsr::settings::CommandLine& line) {
   std::error_code error;
   for (const std::string& input : line.files()) {
     if (fs::equivalent(input, output, error)) {
-      throw fsr::settings::InputError("--output is " + input + " itself: give another name");
+      throw fsr::settings::InputError("--output is " + input + " itself; give another name");
     }
   }
   return output;
@@ -102,62 +101,29 @@ void sendAll(const fsr::settings::CommandLine& line, const ScanSelection& select
   for (const std::string& bag : line.files()) scans += sendScans(bag, selection, sink);
   if (scans == 0) {
     throw fsr::settings::InputError(line.files().front() +
-                                    ": holds no scan between --from and --until; widen them");
+                                    ": holds no scan between --from and --until; choose a longer interval");
   }
   sink.finish();
-  out << scans << " scans are in " << fullPath(line.text("output", "")) << std::endl;
+  out << scans << " scans written to " << fullPath(line.text("output", "")) << std::endl;
 }
 
-void writeCsv(const fsr::settings::CommandLine& line, std::ostream& out) {
-  refuseOthers(line, {"topics"});
-  refuseOthers(line, pictureOptionNames());
-  const ScanSelection selection = selectionOf(line);
-  fsr::exports::CsvTable table(outputOf(line));
-  sendAll(line, selection, table, out);
-}
-
-void writeTekscan(const fsr::settings::CommandLine& line, std::ostream& out) {
-  requireOne(line);
-  refuseOthers(line, {"topics"});
-  refuseOthers(line, pictureOptionNames());
-  const ScanSelection selection = selectionOf(line);
-  const std::string output = outputOf(line);
-  if (fs::path(output).extension() == ".gz") {
-    throw fsr::settings::InputError("--output is " + output + ", but only csv is written compressed");
+void writeScans(const fsr::exports::ScanFormat& format, const fsr::settings::CommandLine& line,
+                std::ostream& out) {
+  fsr::exports::PictureOptions pictures;
+  if (format.pictures) {
+    pictures = pictureOptions(line);
+  } else {
+    refuseOthers(line, pictureOptionNames());
   }
-  fsr::exports::TekscanFile file(output);
-  sendAll(line, selection, file, out);
-}
-
-ScanSelection picturesSelection(const fsr::settings::CommandLine& line,
-                                const fsr::exports::PictureOptions& pictures) {
-  requireOne(line);
+  if (!format.several_recordings) requireOne(line);
   refuseOthers(line, {"topics"});
   ScanSelection selection = selectionOf(line);
-  selection.rate = pictures.rate;
-  selection.counts = false;
-  return selection;
-}
-
-void writePictures(const fsr::settings::CommandLine& line, std::ostream& out) {
-  const fsr::exports::PictureOptions pictures = pictureOptions(line);
-  const ScanSelection selection = picturesSelection(line, pictures);
-  fsr::exports::PictureFolder folder(outputOf(line), pictures);
-  sendAll(line, selection, folder, out);
-}
-
-void writeMovie(const fsr::settings::CommandLine& line, std::ostream& out) {
-  const fsr::exports::PictureOptions pictures = pictureOptions(line);
-  const ScanSelection selection = picturesSelection(line, pictures);
-  const std::string output = outputOf(line);
-  const fs::path ending = fs::path(output).extension();
-  std::unique_ptr<fsr::exports::ScanSink> movie;
-  if (ending == ".png" || ending == ".apng") {
-    movie = std::make_unique<fsr::exports::AnimatedPng>(output, pictures);
-  } else {
-    movie = std::make_unique<fsr::exports::VideoFile>(output, pictures);
+  if (format.pictures) {
+    selection.rate = pictures.rate;
+    selection.counts = false;
   }
-  sendAll(line, selection, *movie, out);
+  const std::unique_ptr<fsr::exports::ScanSink> sink = format.open(outputOf(line), pictures);
+  sendAll(line, selection, *sink, out);
 }
 
 std::vector<std::string> split(const std::string& list) {
@@ -175,8 +141,8 @@ void writeArchive(const fsr::settings::CommandLine& line, std::ostream& out) {
   const ArchiveSelection selection{range.topics, split(line.text("topics", "")), range.from, range.until};
   const ArchiveResult result = archiveBag(line.files().front(), selection, outputOf(line));
   if (!result.complaint.empty())
-    out << "Warning: the group /scans is not whole: " << result.complaint << "\n";
-  out << result.messages << " messages are in " << fullPath(line.text("output", "")) << std::endl;
+    out << "Warning: the group /scans is incomplete: " << result.complaint << "\n";
+  out << result.messages << " messages written to " << fullPath(line.text("output", "")) << std::endl;
 }
 
 void writeBag(const fsr::settings::CommandLine& line, std::ostream& out) {
@@ -184,34 +150,43 @@ void writeBag(const fsr::settings::CommandLine& line, std::ostream& out) {
   refuseOthers(line, {"calibration", "rate", "map", "ambient", "topics", "from", "until", "namespace"});
   refuseOthers(line, pictureOptionNames());
   const std::uint64_t messages = restoreBag(line.files().front(), outputOf(line));
-  out << messages << " messages, each as it was in the bag, are in " << fullPath(line.text("output", ""))
-      << std::endl;
+  out << messages << " messages, identical to those of the bag, written to "
+      << fullPath(line.text("output", "")) << std::endl;
 }
 
-using Writer = void (*)(const fsr::settings::CommandLine&, std::ostream&);
+std::vector<ExportFormat> exportFormats(const std::vector<fsr::exports::ScanFormat>& scan_formats) {
+  std::vector<ExportFormat> formats;
+  for (const fsr::exports::ScanFormat& format : scan_formats) {
+    formats.push_back({format.name, format.summary,
+                       [&format](const auto& line, std::ostream& out) { writeScans(format, line, out); }});
+  }
+  formats.push_back({"hdf5", "archive of every topic in one file", writeArchive});
+  formats.push_back({"bag", "restores the bag from such an archive, each message byte for byte", writeBag});
+  return formats;
+}
 
-Writer writerOf(const std::string& format) {
-  static const std::map<std::string, Writer> kWriters = {{"csv", writeCsv},      {"tekscan", writeTekscan},
-                                                         {"hdf5", writeArchive}, {"bag", writeBag},
-                                                         {"png", writePictures}, {"movie", writeMovie}};
-  const auto found = kWriters.find(format);
-  if (found != kWriters.end()) return found->second;
+const ExportFormat& formatOf(const std::string& name, const std::vector<ExportFormat>& formats) {
   std::string names;
-  for (const auto& writer : kWriters) names += (names.empty() ? "" : ", ") + writer.first;
-  throw fsr::settings::InputError("--to is \"" + format + "\", but must be one of " + names);
+  for (const ExportFormat& format : formats) {
+    if (format.name == name) return format;
+    names += (names.empty() ? "" : ", ") + format.name;
+  }
+  throw fsr::settings::InputError("--to is \"" + name + "\", but must be one of " + names);
 }
 
 }  // namespace
 
-int exportTool(int argc, const char* const* argv, std::ostream& out) {
-  fsr::settings::CommandLine line = options();
+int exportTool(int argc, const char* const* argv, std::ostream& out,
+               const std::vector<fsr::exports::ScanFormat>& scan_formats) {
+  const std::vector<ExportFormat> formats = exportFormats(scan_formats);
+  fsr::settings::CommandLine line = options(formats);
   if (!line.parse(argc, argv)) {
     out << line.help();
     return 0;
   }
-  const Writer write = writerOf(line.requiredText("to"));
+  const ExportFormat& format = formatOf(line.requiredText("to"), formats);
   if (line.files().empty()) throw fsr::settings::InputError("give at least one BAG; see export --help");
-  write(line, out);
+  format.write(line, out);
   return 0;
 }
 

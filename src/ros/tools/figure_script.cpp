@@ -13,10 +13,10 @@ namespace fsr_ros {
 
 namespace {
 
-// Debian's own: it has matplotlib as a package, while another python may come first in PATH.
+// Debian's python, whose matplotlib comes as a package. Another python may come first in PATH.
 constexpr char kPython[] = "/usr/bin/python3";
 
-// The last line with text: where python fails, that is the reason.
+// The last line that is not empty. If python fails, this line holds the reason.
 std::string lastLine(std::istream& lines) {
   std::string line, last;
   while (std::getline(lines, line)) {
@@ -36,7 +36,8 @@ void runPython(const std::string& path, const std::vector<std::string>& argument
   std::error_code failed;
   process::child python(kPython, process::args(words), (process::std_out & process::std_err) > output,
                         process::std_in < process::null, failed);
-  if (failed) throw fsr::settings::InputError(std::string(kPython) + " does not start: " + failed.message());
+  if (failed)
+    throw fsr::settings::InputError(std::string(kPython) + " cannot be started: " + failed.message());
   const std::string reason = lastLine(output);
   python.wait();
   if (python.exit_code() == 0) return;
@@ -49,9 +50,9 @@ void drawFigures(const std::string& script, const std::vector<std::string>& argu
   const std::string package = ros::package::getPath("fsr_pressure_map");
   if (package.empty()) {
     throw fsr::settings::InputError(
-        "the figures were not drawn: ROS_PACKAGE_PATH does not lead to fsr_pressure_map; source the "
-        "setup.bash "
-        "of its workspace");
+        "the figures were not drawn: ROS_PACKAGE_PATH does not contain fsr_pressure_map; source the "
+        "setup.bash of its "
+        "workspace");
   }
   runPython(package + "/scripts/figures/" + script, arguments);
 }

@@ -44,14 +44,14 @@ fsr::exports::PictureOptions pictureOptions(const fsr::settings::CommandLine& li
 
 void declarePictureOptions(fsr::settings::CommandLine& line) {
   line.option("range", "LOW,HIGH",
-              "pictures: ends of the colours [Pa] (0 to what the calibration was trained on; a tenth of it "
+              "pictures: range of the colour scale [Pa] (0 to the largest trained pressure; a tenth of it "
               "for the deviation)")
       .option("unit", "NAME", "pictures: kPa or mmHg (kPa)")
       .option("colour-map", "NAME", "pictures: viridis or cividis (viridis)")
-      .option("style", "NAME", "pictures: smooth, or cells: a square each (smooth)")
+      .option("style", "NAME", "pictures: smooth, or cells: one square for each taxel (smooth)")
       .option("layer", "NAME",
-              "pictures: pressure, or deviation: one standard deviation of a reading (pressure)")
-      .option("size", "PIXELS", "pictures: longer side of the matrix (400)");
+              "pictures: pressure, or deviation: the standard deviation of a reading (pressure)")
+      .option("size", "PIXELS", "pictures: length of the matrix's longer side (400)");
 }
 
 std::vector<std::string> pictureOptionNames() {

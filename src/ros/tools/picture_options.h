@@ -8,7 +8,8 @@
 
 namespace fsr_ros {
 
-/// How `export` draws maps: the options of its command line, named as the view's parameters are.
+/// Adds the options for pictures to the command line of `export`. They have the names of the view node's
+/// parameters.
 void declarePictureOptions(fsr::settings::CommandLine& line);
 std::vector<std::string> pictureOptionNames();
 

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kNewStart = 946684800;  // 2000-01-01 00:00 UTC [s]
 
-// What was taken out, by sentence, and how often.
+// What was removed, and how often.
 using Ledger = std::map<std::string, std::uint64_t>;
 
 class Scrubber {
@@ -101,11 +101,11 @@ Ledger scrub(const std::string& path, const std::string& fresh) {
     to->close();
     return ledger;
   } catch (const rosbag::BagFormatException& error) {
-    throw fsr::settings::InputError(path + ": is no whole bag (" + error.what() + ")");
+    throw fsr::settings::InputError(path + ": is not a complete bag (" + error.what() + ")");
   } catch (const rosbag::BagException& error) {
     abandonBag(std::move(to));
     throw fsr::settings::InputError(path + ": cannot be copied (" + error.what() +
-                                    "); is it a whole bag, and has the disk of --output room for it?");
+                                    "); is the bag complete, and is there enough space for --output?");
   } catch (const fsr::settings::InputError& error) {
     throw fsr::settings::InputError(path + ": " + error.what());
   }
@@ -117,7 +117,9 @@ int scrubTool(int argc, const char* const* argv, std::ostream& out) {
   fsr::settings::CommandLine line(
       "scrub", "BAG --output BAG",
       "Copies a bag without notes, session id, operator, ethics reference, names of nodes and hosts, "
-      "/rosout and other foreign topics, its times moved to begin on 2000-01-01; lists what it removed.");
+      "/rosout and other topics that are not known. The times are moved so that the copy begins on "
+      "2000-01-01. "
+      "Prints what was removed.");
   line.option("output", "BAG", "bag to write");
   if (!line.parse(argc, argv)) {
     out << line.help();
@@ -130,7 +132,7 @@ int scrubTool(int argc, const char* const* argv, std::ostream& out) {
   std::error_code error;
   if (!fs::is_regular_file(input, error)) throw fsr::settings::InputError(input + ": there is no such file");
   if (fs::equivalent(input, output, error))
-    throw fsr::settings::InputError("--output is the bag itself: give another name");
+    throw fsr::settings::InputError("--output is the bag itself; give another name");
   fsr::settings::requireReplaceable(output);
 
   const std::string fresh = output + ".new-" + std::to_string(::getpid());
@@ -145,7 +147,7 @@ int scrubTool(int argc, const char* const* argv, std::ostream& out) {
   out << "Removed:\n";
   for (const auto& [what, count] : ledger) out << "  " << count << " x " << what << '\n';
   out << "The scrubbed bag is " << fs::absolute(output).lexically_normal().string()
-      << "\nFile names, and what subject codes stand for, are yours to look after.\n";
+      << "\nCheck the file name yourself, and keep the list of subject codes confidential.\n";
   return 0;
 }
 

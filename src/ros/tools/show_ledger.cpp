@@ -14,7 +14,7 @@ namespace fsr_ros {
 
 namespace {
 
-// UTC, as ISO 8601 spells it.
+// The current time in UTC, in the format of ISO 8601.
 std::string now() {
   const std::time_t time = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   std::tm parts{};
@@ -33,13 +33,14 @@ int ShowLedger::open(const std::string& sha256, std::uint64_t seed) const {
   std::filesystem::create_directories(folder_, error);
   const std::string path = folder_ + "/" + sha256;
   {
-    // One short line in one write: runs beside each other do not tear it.
+    // One short line in one write, so that programs running at the same time do not mix their lines.
     std::ofstream ledger(path, std::ios::app);
     ledger << now() + " seed " + std::to_string(seed) + "\n" << std::flush;
     if (!ledger) {
-      throw fsr::settings::InputError(path +
-                                      ": cannot be written, but it counts how often the bag was looked at; "
-                                      "let ROS_HOME name a folder that can");
+      throw fsr::settings::InputError(
+          path +
+          ": cannot be written, but it counts how often the hold-out cycles of the bag "
+          "were used; set ROS_HOME to a folder that can be written");
     }
   }
   std::ifstream lines(path);

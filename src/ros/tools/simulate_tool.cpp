@@ -20,25 +20,25 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kTruth = "truth.yaml";
-constexpr int kFiguresMissing = 3;  // exit status where all is there but the figures
+constexpr int kFiguresMissing = 3;  // exit status if only the figures could not be drawn
 
 fsr::settings::CommandLine options() {
-  fsr::settings::CommandLine line(
-      "simulate", "--simulation FILE [--drive BAG...] --output DIR",
-      "Writes bags of a simulated rig: through the session of the simulation file, or on the "
-      "recorded pressure, surfaces and temperature of real bags. What the rig really is "
-      "stands in truth.yaml beside them and nowhere else.");
-  line.option("simulation", "FILE", "the rig, e.g. config/simulation/bench.yaml")
-      .option("output", "DIR", "folder to write to; it is made where it is not there")
-      .option("drive", "BAG", "run the model on these bags, in time order, instead of the session")
-      .option("namespace", "NS", "the sensor's namespace, where a bag holds several")
-      .option("seed", "N", "instead of the file's: another sheet and other noise")
-      .option("effect", "ID", "enable this effect, at its usual values where the file does not have it")
-      .option("state", "FILE",
-              "go on from the state that another run saved: what the sheet remembers, and when")
-      .option("save-state", "FILE", "save it at the end")
-      .flag("plot", "draw what the rig's effects do, or --effect alone, instead of writing bags")
-      .flag("list-effects", "describe every effect, or --effect alone, and leave");
+  fsr::settings::CommandLine line("simulate", "--simulation FILE [--drive BAG...] --output DIR",
+                                  "Writes bags of a simulated rig. The pressure, surfaces and temperature "
+                                  "are those of the session in the "
+                                  "simulation file, or those recorded in real bags. The true settings of the "
+                                  "rig are in truth.yaml beside "
+                                  "the bags, and not in the bags.");
+  line.option("simulation", "FILE", "settings of the rig, e.g. config/simulation/bench.yaml")
+      .option("output", "DIR", "folder to write to; it is created if it does not exist")
+      .option("drive", "BAG", "run the simulation on these bags, in time order, instead of the session")
+      .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
+      .option("seed", "N", "seed instead of the file's: another sheet and other noise")
+      .option("effect", "ID", "enable this effect, with its usual values if the file does not set them")
+      .option("state", "FILE", "continue from the state of the sheet that another run saved")
+      .option("save-state", "FILE", "save the state of the sheet at the end")
+      .flag("plot", "draw the effects of the rig, or --effect alone, instead of writing bags")
+      .flag("list-effects", "describe every effect, or --effect alone, and exit");
   return line;
 }
 
@@ -55,13 +55,13 @@ std::string folderOf(const fsr::settings::CommandLine& line) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder)) {
-    throw fsr::settings::InputError(folder.string() + ": the folder cannot be made (" + error.message() +
+    throw fsr::settings::InputError(folder.string() + ": the folder cannot be created (" + error.message() +
                                     "); give another one with --output");
   }
   return folder;
 }
 
-/// A folder that was made and then stayed empty, because nothing came of it, goes again.
+// Creates the output folder. The destructor removes it again if it is new and still empty.
 class TidyFolder {
  public:
   explicit TidyFolder(const fsr::settings::CommandLine& line)
@@ -80,13 +80,13 @@ class TidyFolder {
   std::string path_;
 };
 
-/// Recorded bags must not be lost under the name of simulated ones.
-void refuseBagsOfOthers(const fs::path& folder) {
+// Throws if the folder has bags that no simulation wrote, so that recorded bags are not overwritten.
+void refuseRecordedBags(const fs::path& folder) {
   if (fs::exists(folder / kTruth)) return;
   for (const auto& file : fs::directory_iterator(folder)) {
     if (file.path().extension() != ".bag") continue;
     throw fsr::settings::InputError(folder.string() + ": holds " + file.path().filename().string() +
-                                    ", which no simulation wrote; give another folder with --output");
+                                    ", which was not written by simulate; give another folder with --output");
   }
 }
 
@@ -95,15 +95,15 @@ std::vector<std::string> bagsOf(const fsr::settings::CommandLine& line) {
   if (line.has("drive")) {
     bags.insert(bags.begin(), line.text("drive", ""));
   } else if (!bags.empty()) {
-    throw fsr::settings::InputError(bags.front() + ": bags are given with --drive, to run the model on them");
+    throw fsr::settings::InputError(bags.front() + ": to run the simulation on bags, give them with --drive");
   }
   return bags;
 }
 
 std::string remarkOf(const fsr::settings::CommandLine& line, const std::vector<std::string>& driving) {
-  std::string remark = "What the simulated rig behind the bags beside this file really is.";
+  std::string remark = "True settings of the simulated rig that wrote the bags in this folder.";
   if (line.has("state"))
-    remark += "\nIt went on from " + fs::path(line.text("state", "")).filename().string() + ".";
+    remark += "\nContinued from " + fs::path(line.text("state", "")).filename().string() + ".";
   for (const std::string& bag : driving) remark += "\nDriven by " + fs::path(bag).filename().string() + ".";
   return remark;
 }
@@ -116,7 +116,7 @@ void writeBags(const fsr::settings::CommandLine& line, const fsr::simulation::Si
   SimulatedBags bags;
   const TidyFolder folder(line);
   bags.output = folder.path();
-  refuseBagsOfOthers(bags.output);
+  refuseRecordedBags(bags.output);
   bags.progress = [&](const std::string& path) { out << path << std::endl; };
   if (line.has("state")) {
     bags.state = fsr::simulation::readRigState(fsr::settings::Settings::fromFile(line.requiredText("state")));

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <iostream>
 
+#include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/study_report.h"
-#include "ros/bags/bag_reader.h"
 #include "ros/tools/figure_script.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
@@ -20,22 +20,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFiguresMissing = 3;  // exit status where all is there but the figures
+constexpr int kFiguresMissing = 3;  // exit status if only the figures could not be drawn
 
 fsr::settings::CommandLine options() {
   fsr::settings::CommandLine line(
       "study", "BAG... | --simulation FILE --output DIR",
-      "Repeats the paper's study on bags of a matrix in a pressure chamber, or on a simulated "
-      "one: algorithms, flat against bent, methods, tests; and how far the numbers carry.");
-  line.option("output", "DIR", "folder to write to; it is made where it is not there")
+      "Repeats the study of Ahmadizadeh and Menon (Sensors 2019, 19(24), 5519, doi:10.3390/s19245519) on "
+      "bags of a "
+      "matrix in a pressure chamber, or on a simulated one: regression algorithms, flat against bent "
+      "surfaces, "
+      "compensation methods, statistical tests, and how far the results hold for other data.");
+  line.option("output", "DIR", "folder to write to; it is created if it does not exist")
       .option("simulation", "FILE", "simulate these recordings, e.g. config/simulation/paper.yaml")
-      .option("simulation-seed", "N", "instead of the simulation's: another sheet and other noise")
-      .option("plan", "FILE", "what the study decides, e.g. config/study/paper.yaml; default: as there")
-      .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
-      .option("namespace", "NS", "the sensor's namespace, where a bag holds several")
-      .option("seed", "N", "of down-sampling, forest and bootstrap; default: the plan's")
-      .option("threads", "N", "default: one for each core; the numbers do not depend on it")
-      .flag("paper-only", "leave out what goes beyond the paper: harder splits, further schemes")
+      .option("simulation-seed", "N", "seed instead of the simulation's: another sheet and other noise")
+      .option("plan", "FILE", "settings of the study, e.g. config/study/paper.yaml, which has the defaults")
+      .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
+      .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
+      .option("seed", "N", "seed of down-sampling, forest and bootstrap; default: the plan's")
+      .option("threads", "N",
+              "number of threads; default: one for each core; the results do not depend on it")
+      .flag("paper-only", "leave out what is not in the paper: harder splits, further schemes")
       .flag("no-figures", "write results.json and the tables only");
   return line;
 }
@@ -71,7 +75,7 @@ fsr::study::StudyProblem problemOf(const fsr::settings::CommandLine& line) {
   }
   BagReadOptions reading;
   reading.topics = line.text("namespace", "");
-  if (line.has("ambient")) reading.recording.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
+  if (line.has("ambient")) reading.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
   for (const std::string& path : line.files()) problem.recordings.push_back(readBag(path, reading));
   return problem;
 }
@@ -81,7 +85,7 @@ fs::path folderOf(const fsr::settings::CommandLine& line) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder)) {
-    throw fsr::settings::InputError(folder.string() + ": the folder cannot be made (" + error.message() +
+    throw fsr::settings::InputError(folder.string() + ": the folder cannot be created (" + error.message() +
                                     "); give another one with --output");
   }
   fsr::settings::requireReplaceable((folder / "results.json").string());
@@ -119,7 +123,7 @@ int studyTool(int argc, const char* const* argv, std::ostream& out) {
   if (terminal) std::cerr << '\n';
   out << fsr::report::studyText(result);
   write(folder, result);
-  out << "\nResults are in " << (folder / "results.json").string() << '\n';
+  out << "\nResults written to " << (folder / "results.json").string() << '\n';
   if (line.has("no-figures")) return 0;
   try {
     drawFigures("study.py", {folder.string()});
@@ -127,7 +131,7 @@ int studyTool(int argc, const char* const* argv, std::ostream& out) {
     std::cerr << "study: the figures are missing: " << error.what() << std::endl;
     return kFiguresMissing;
   }
-  out << "The report is in " << (folder / "report.html").string() << std::endl;
+  out << "Report written to " << (folder / "report.html").string() << std::endl;
   return 0;
 }
 

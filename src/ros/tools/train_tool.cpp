@@ -9,11 +9,12 @@
 #include "calibration/merge.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "regression/option_names.h"
+#include "regression/regressors.h"
 #include "report/calibration_check_report.h"
 #include "report/calibration_report.h"
-#include "ros/bags/bag_reader.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
 
@@ -30,38 +31,44 @@ std::string list(const std::vector<std::string>& names) {
 fsr::settings::CommandLine options() {
   fsr::settings::CommandLine line(
       "train", "BAG... --output FILE, or --merge CALIBRATION... --output FILE, or --check FILE BAG...",
-      "Trains a calibration from bags of a matrix in a pressure chamber: topics raw, "
-      "chamber_pressure and curvature, and matrix_info and temperature where recorded.");
+      "Trains a calibration from bags of a matrix in a pressure chamber. It uses the topics raw, "
+      "chamber_pressure and curvature, and matrix_info and temperature if they were recorded.");
   line.option("output", "FILE", "calibration file to write (HDF5)")
-      .option("check", "FILE", "score this calibration on the bags instead: still good, or recalibrate?")
-      .flag("merge", "of calibration files, what training on all their bags would give; without scores")
+      .option("check", "FILE", "test this calibration on the bags instead: is it still good?")
+      .flag("merge",
+            "merge calibration files: gives what training on all their bags would give, without scores")
       .option("scheme", "NAME",
               fsr::compensation::schemeList() + "; default " +
                   fsr::compensation::schemeName(fsr::calibration::CalibrationOptions{}.scheme))
       .option("model", "NAME", list(fsr::regression::regressorNames()) + "; default grnn")
-      .option("ambient", "PA", "ambient pressure [Pa]; default: what matrix_info says, else 101325")
-      .option("namespace", "NS", "the sensor's namespace, where a bag holds several")
-      .option("bandwidth", "SIGMA",
-              "spread of the GRNN in deviations of the readings (the paper: 0.0078125); default auto: "
-              "by nested cross-validation")
-      .option("spread", "NAME", "what the bandwidth means, sigma or matlab (newgrnn's spread); default sigma")
+      .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
+      .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
+      .option(
+          "bandwidth", "SIGMA",
+          "bandwidth of the GRNN in standard deviations of the readings (paper: 0.0078125); default auto: "
+          "chosen by nested cross-validation")
+      .option("spread", "NAME",
+              "how the bandwidth is understood, sigma or matlab (the spread of newgrnn); default sigma")
       .option("distance", "NAME",
-              "in the GRNN's exponent, squared or literal (as the paper is worded); default squared")
-      .flag("equal-bins", "GRNN: every bin of chamber pressure weighs alike, however long it was held")
-      .option("trees", "N", "of the forest; default 150")
-      .option("minimum-leaf", "N", "readings that a leaf of the forest keeps; default 5")
+              "distance in the GRNN's exponent, squared or literal (not squared, as the paper words it); "
+              "default squared")
+      .flag("equal-bins",
+            "GRNN: give every bin of chamber pressure the same weight, however many scans it has")
+      .option("trees", "N", "number of trees of the forest; default 150")
+      .option("minimum-leaf", "N", "smallest number of readings in a leaf of the forest; default 5")
       .option("leaf-rule", "NAME",
-              "a reading drawn twice counts twice (draws, as MATLAB) or once (distinct, as scikit-learn); "
-              "default draws")
-      .option("folds", "N", "sections of the cross-validation, 2 to 20; default 5")
-      .option("seed", "N", "of the forest's draws, kept in the file; default 1")
-      .option("threads", "N", "default: one for each core; the numbers do not depend on it")
-      .flag("no-scores", "leave the cross-validated scores out")
+              "a reading drawn twice counts twice in a leaf (draws, as in MATLAB) or once (distinct, as in "
+              "scikit-learn); default draws")
+      .option("folds", "N", "number of sections of the cross-validation, 2 to 20; default 5")
+      .option("seed", "N", "seed of the forest's random draws, stored in the file; default 1")
+      .option("threads", "N",
+              "number of threads; default: one for each core; the results do not depend on it")
+      .flag("no-scores", "do not compute the cross-validated scores")
       .option("report", "FILE", "also write coverage, scores and provenance as JSON");
   return line;
 }
 
-// Options of a model that was not chosen are refused: they would do nothing in silence.
+// Throws if an option of another model is given, because it would have no effect.
 void refuseOptionsOfOthers(const fsr::settings::CommandLine& line, const std::string& model) {
   const std::vector<std::pair<std::string, std::string>> options = {
       {"bandwidth", "grnn"}, {"spread", "grnn"},         {"distance", "grnn"},   {"equal-bins", "grnn"},
@@ -77,7 +84,7 @@ void refuseOptionsOfOthers(const fsr::settings::CommandLine& line, const std::st
 fsr::regression::RegressorOptions regressorOptions(const fsr::settings::CommandLine& line) {
   fsr::regression::RegressorOptions options;
   options.name = line.text("model", options.name);
-  fsr::regression::makeRegressor(options);  // refuses a name that there is not
+  fsr::regression::makeRegressor(options);  // throws if there is no model of that name
   refuseOptionsOfOthers(line, options.name);
   options.grnn.spread =
       fsr::regression::spreadFromName(line.text("spread", fsr::regression::spreadName(options.grnn.spread)));
@@ -113,7 +120,7 @@ fsr::calibration::CalibrationOptions calibrationOptions(const fsr::settings::Com
 std::vector<fsr::dataset::Recording> readBags(const fsr::settings::CommandLine& line) {
   BagReadOptions options;
   options.topics = line.text("namespace", "");
-  if (line.has("ambient")) options.recording.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
+  if (line.has("ambient")) options.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
   std::vector<fsr::dataset::Recording> recordings;
   for (const std::string& path : line.files()) recordings.push_back(readBag(path, options));
   return recordings;
@@ -128,8 +135,7 @@ void showProgress(std::size_t done, std::size_t taxels) {
 }
 
 int check(const fsr::settings::CommandLine& line, std::ostream& out) {
-  if (line.has("output"))
-    throw fsr::settings::InputError("--check writes no calibration: leave --output out");
+  if (line.has("output")) throw fsr::settings::InputError("--check writes no calibration; remove --output");
   const std::string path = line.text("check", "");
   const fsr::calibration::Calibration calibration =
       fsr::calibration::loadCalibration(path, fsr::calibration::CalibrationParts::kWithoutStatistics);
@@ -139,14 +145,14 @@ int check(const fsr::settings::CommandLine& line, std::ostream& out) {
   return 0;
 }
 
-// What merging takes from the files, and cannot be told.
+// Throws if an option is given that merging takes from the files.
 void refuseOptionsOfTraining(const fsr::settings::CommandLine& line) {
   for (const char* const option :
        {"scheme", "model", "bandwidth", "spread", "distance", "equal-bins", "trees", "minimum-leaf",
         "leaf-rule", "folds", "seed", "ambient", "namespace"}) {
     if (!line.has(option)) continue;
     throw fsr::settings::InputError("--" + std::string(option) +
-                                    " cannot be given with --merge: the files decide");
+                                    " cannot be used with --merge, because the files determine it");
   }
 }
 
@@ -161,7 +167,7 @@ fsr::calibration::Calibration merge(const fsr::settings::CommandLine& line, std:
   options.threads = threadsOf(line);
   fsr::calibration::Calibration calibration = fsr::calibration::mergeCalibrations(parts, options);
   out << fsr::report::coverageText(calibration.coverage) << '\n' << fsr::report::warningsText(calibration);
-  out << "Scores need the bags: train on all of them to have some.\n";
+  out << "A merged calibration has no scores; train on all the bags to get them.\n";
   return calibration;
 }
 
@@ -197,8 +203,8 @@ int trainTool(int argc, const char* const* argv, std::ostream& out) {
   calibration.id = fsr::calibration::saveCalibration(calibration, output);
   if (!report.empty()) fsr::settings::replaceFile(report, fsr::report::calibrationJson(calibration));
   out << "Calibration " << calibration.id << " (" << fsr::compensation::schemeName(calibration.tables.scheme)
-      << ", " << fsr::report::modelText(calibration) << ") is in " << fullPath(output) << std::endl;
-  if (!report.empty()) out << "Report is in " << fullPath(report) << std::endl;
+      << ", " << fsr::report::modelText(calibration) << ") written to " << fullPath(output) << std::endl;
+  if (!report.empty()) out << "Report written to " << fullPath(report) << std::endl;
   return 0;
 }
 

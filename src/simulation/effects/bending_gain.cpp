@@ -1,12 +1,13 @@
-// A bent taxel answers to a load with another slope.
+// Bending changes the sensitivity of a taxel.
 //
 //     g = g (1 + b_i s(kappa) + c s(kappa) f_i(kappa)),   s = 1 - exp(-|kappa| / kg)
 //
-// b_i: change in a tight bend, scattering from taxel to taxel; f_i: a smooth random function of
-// curvature for each taxel i, of deviation 1 and correlation length l [1/m], which makes surfaces differ
-// from each other by chance as they do in the paper. Both vanish on the flat. Source: gains of -10 to
-// -23 % with some 3 % of scatter match the paper's tables (baseline against method 1); the form in kappa
-// is an assumption, as is the share of a concave bend.
+// kappa: principal curvature of the taxel [1/m]. b_i: change of the gain in a tight bend; it scatters from
+// taxel to taxel. f_i: a smooth random function of the curvature for each taxel i, with standard deviation 1
+// and correlation length l [1/m]. It lets surfaces differ from each other at random, as they do in
+// Ahmadizadeh and Menon 2019. Both terms are zero on the flat.
+// Size: gains of -10 to -23 % with a scatter of 3 % reproduce the tables of that paper (baseline against
+// method 1). The form in kappa and the share that a concave bend has are assumptions.
 
 #include <algorithm>
 #include <cmath>
@@ -28,9 +29,12 @@ EffectInfo info() {
   info.level = EffectLevel::kTaxel;
   info.kind = EffectKind::kGrid;
   info.parameters = {
-      strength("change", "b, change of gain in a tight bend", {-0.9, 1, ""}, -0.17).within(-0.5, 0),
+      strength("change", "b, change of gain in a tight bend", {-0.9, 1, ""}, -0.17)
+          .within(-0.5, 0)
+          .inBaseFit(7),
       shape("curvature_constant", "kg, curvature at which 63 % of b is there", {0.01, 1000, "1/m"}, 6)
-          .trying({1, 6, 15}),
+          .trying({1, 6, 15})
+          .inBaseFit(10),
       scatter("change_scatter", "deviation of b from taxel to taxel, relative", {0, 0.5, ""}, 0),
       scatter("scatter", "c, deviation of the gain from curvature to curvature", {0, 0.2, ""}, 0),
       shape("scatter_length", "l, curvature over which that scatter changes", {0.01, 1000, "1/m"}, 1.5),
@@ -40,6 +44,7 @@ EffectInfo info() {
   info.depends_on = {Covariate::kCurvature, Covariate::kPressure, Covariate::kTaxel};
   info.collinear = {"bending_preload", "repositioning"};
   info.experiment = Experiment::kFlatAgain;
+  info.with_bending = true;
   return info;
 }
 
@@ -60,7 +65,7 @@ class BendingGain : public Effect {
     for (std::size_t i = 0; i < gain_.size(); ++i) gain_[i] = gain(i, mounting.curvature[i]);
   }
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     for (std::size_t i = 0; i < gain_.size(); ++i) signals.gain[i] *= gain_[i];
   }
 

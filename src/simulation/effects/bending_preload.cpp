@@ -1,11 +1,12 @@
-// Bending presses the layers of the sheet together before any gas does.
+// Bending presses the layers of the sheet together before any gas pressure acts.
 //
 //     P_e = P_e + P0(kappa),   P0 = A (1 - exp(-kappa / k0)) + B kappa   [Pa]
 //
-// kappa: the taxel's principal curvature [1/m]. The saturating term is the spacer gap that closes, the
-// linear one the membrane tension T kappa of a stretched sheet (Laplace). Source: the step between flat
-// and bent sheets in the paper's Fig. 5 and tables is matched by some 34 kPa on every cylinder. That a
-// concave bend (kappa < 0) acts likewise but less is an assumption; nobody has published it for a matrix.
+// kappa: principal curvature of the taxel [1/m]. The saturating term is the spacer gap that closes. The
+// linear term is the membrane tension T kappa of a stretched sheet (Laplace).
+// Size: some 34 kPa on every cylinder reproduces the step between the flat and the bent sheets in Fig. 5 and
+// the tables of Ahmadizadeh and Menon 2019. It is an assumption that a concave bend (kappa < 0) has the same
+// effect, but a smaller one; nobody has published it for a matrix.
 
 #include <cmath>
 
@@ -26,10 +27,13 @@ EffectInfo info() {
   info.level = EffectLevel::kTaxel;
   info.kind = EffectKind::kGrid;
   info.parameters = {
-      strength("amplitude", "A, preload of a tight bend", {0, 300e3, "Pa"}, 34e3).within(2e3, 150e3),
+      strength("amplitude", "A, preload of a tight bend", {0, 300e3, "Pa"}, 34e3)
+          .within(2e3, 150e3)
+          .inBaseFit(5),
       strength("slope", "B, further preload by curvature", {0, 20e3, "Pa m"}, 0).within(0, 5e3),
       shape("curvature_constant", "k0, curvature at which 63 % of A is there", {0.01, 1000, "1/m"}, 3)
-          .trying({1, 3, 10}),
+          .trying({1, 3, 10})
+          .inBaseFit(6),
       scatter("scatter", "deviation from taxel to taxel, relative", {0, 0.5, ""}, 0),
       shape("concave_share", "share of it under a concave bend", {0, 1, ""}, 0.6),
   };
@@ -37,6 +41,7 @@ EffectInfo info() {
   info.depends_on = {Covariate::kCurvature, Covariate::kPressure};
   info.collinear = {"turn_on", "bending_gain", "repositioning"};
   info.experiment = Experiment::kFlatAgain;
+  info.with_bending = true;
   return info;
 }
 
@@ -56,7 +61,7 @@ class BendingPreload : public Effect {
     }
   }
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     for (std::size_t i = 0; i < preload_.size(); ++i) signals.load[i] += preload_[i];
   }
 

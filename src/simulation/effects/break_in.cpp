@@ -1,10 +1,11 @@
-// The first cycles after mounting read differently, until the sheet has settled.
+// The readings of the first cycles after mounting differ until the sheet has settled.
 //
 //     g = g (1 + a exp(-N / N_0)),   N = W / (2 P_span),   W = sum |dP| since it was mounted
 //
-// N counts cycles by the way that the pressure has gone, so that partial ones count in part. Why makers ask
-// for conditioning: FlexiForce's manual (rev. G) wants 110 % of the load four or five times before use. Size:
-// a few per cent, over in 3 to 10 cycles (estimate); the sign is free.
+// W is the path length of the pressure [Pa]. N is the number of cycles computed from it, so that a partial
+// cycle counts in part. Makers ask for conditioning for this reason: the manual of FlexiForce (rev. G) wants
+// 110 % of the load four or five times before use.
+// Size: a few per cent, which fade within 3 to 10 cycles (estimate). The sign is free.
 
 #include <cmath>
 
@@ -30,32 +31,33 @@ EffectInfo info() {
   };
   info.sign = SignRule::kEither;
   info.depends_on = {Covariate::kCycle, Covariate::kMount};
-  info.needs = {Evidence::kMountLabels};
+  info.needs = {Evidence::kMountLabels, Evidence::kRemounts};
   info.collinear = {"drift", "wear", "temperature"};
   info.experiment = Experiment::kRemount;
+  info.slow = true;
   return info;
 }
 
 class BreakIn : public Effect {
  public:
   BreakIn(const EffectValues& values, const EffectContext&)
-      : change_(values.at("change")), way_(values.at("cycles") * 2 * values.at("span")) {
+      : change_(values.at("change")), path_length_(values.at("cycles") * 2 * values.at("span")) {
     state_.assign(kState, 0.0);
   }
 
-  void mount(const Mounting&) override { state_[kWay] = 0; }
+  void mount(const Mounting&) override { state_[kPathLength] = 0; }
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    if (!moment.first) state_[kWay] += std::abs(moment.pressure - state_[kBefore]);
-    state_[kBefore] = moment.pressure;
-    const double factor = 1 + change_ * std::exp(-state_[kWay] / way_);
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    if (!sample.first) state_[kPathLength] += std::abs(sample.pressure - state_[kBefore]);
+    state_[kBefore] = sample.pressure;
+    const double factor = 1 + change_ * std::exp(-state_[kPathLength] / path_length_);
     for (double& gain : signals.gain) gain *= factor;
   }
 
  private:
-  enum { kBefore, kWay, kState };  // chamber at the scan before, W [Pa]
+  enum { kBefore, kPathLength, kState };  // chamber at the scan before, W [Pa]
   double change_;
-  double way_;  // W that leaves 37 % [Pa]
+  double path_length_;  // W that leaves 37 % [Pa]
 };
 
 }  // namespace

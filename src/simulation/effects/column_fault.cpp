@@ -1,8 +1,8 @@
-// A column's wire makes bad contact: all its taxels fade together, in bursts.
+// The wire of a column has a bad contact. All its taxels lose conductance together, in bursts.
 //
 //     G_i = G_i (1 - depth) in a burst, for all taxels i of the column
 //
-// A crimped connector or a cracked tail; what a burst looks like is an assumption.
+// Causes: a crimped connector, a cracked tail. The form of a burst is an assumption.
 
 #include "simulation/effects/effect_library.h"
 #include "simulation/effects/faults.h"
@@ -23,6 +23,7 @@ EffectInfo info() {
   info.parameters = looseLineParameters("column");
   info.depends_on = {Covariate::kColumn, Covariate::kClockTime};
   info.collinear = {"row_fault"};
+  info.detector = Detector::kColumnFaults;
   return info;
 }
 
@@ -31,8 +32,8 @@ class ColumnFault : public Effect {
   ColumnFault(const EffectValues& values, const EffectContext& context)
       : size_(context.layout.size), line_("column_fault", size_.columns, values, context) {}
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    const double contact = line_.contact(moment.time);
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    const double contact = line_.contact(sample.time);
     for (std::size_t row = 0; row < size_.rows; ++row) {
       signals.conductance[row * size_.columns + line_.line()] *= contact;
     }

@@ -1,9 +1,10 @@
-// A soft liner or backing lets the sheet sink in, spreads what presses on it and shares the load.
+// A soft liner or backing lets the sheet sink in. It spreads the load over the neighbours and carries part
+// of it.
 //
 //     P_i = sum_k K(x_i - x_k) P_k
 //
-// Gas presses the same everywhere and on both: K, whose sum is 1, changes nothing. An indenter on a liner
-// shows it.
+// Gas presses with the same pressure everywhere, so that K, whose sum is 1, changes nothing. An indenter
+// pressed on the sheet with and without its liner shows the effect.
 
 #include "simulation/effects/effect_library.h"
 

@@ -1,10 +1,10 @@
-// Zero-potential read-out and converter: counts are proportional to conductance.
+// Zero-potential read-out and analogue-to-digital converter: counts are proportional to the conductance.
 //
 //     y = full_scale V / V_ref,  V = V_ref R_f G   [counts]
 //
-// The matrix is driven by the converter's own reference, so V_ref cancels. The chain rounds y to whole
-// counts and clips it to 0 .. full_scale after all that disturbs the reading; one count of 12 bits is
-// 0.024 % of full scale. Circuit: the paper's Fig. 2.
+// The reference of the converter also drives the matrix, so that V_ref cancels. After all effects of the
+// reading the chain rounds y to whole counts and clips it to 0 .. full_scale. One count of 12 bits is 0.024
+// % of full scale. Circuit: Fig. 2 of Ahmadizadeh and Menon 2019.
 
 #include <cmath>
 
@@ -43,7 +43,7 @@ class Converter : public Effect {
     }
   }
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     for (std::size_t i = 0; i < signals.reading.size(); ++i) {
       signals.reading[i] = counts_per_siemens_ * signals.conductance[i] + offset_;
     }

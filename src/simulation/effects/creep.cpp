@@ -1,19 +1,20 @@
-// Under a constant load the reading goes on rising, by the same share in each decade of time.
+// Under a constant load the reading keeps rising, by the same share in each decade of time.
 //
 //     u = P_e + (1 - v) c(P_e),   g = g (1 + v c(P_e) / P_span),   c = a sum_i J_i * dP_e / 2
 //
-// J_i(t) = 1 - exp(-t / tau_i), tau_i two a decade from the fastest to the slowest: a step of the load
-// creeps by a for each decade between them, and fades alike when the load is gone. v: share of it that
-// changes the sensitivity instead of acting like more load. Data sheets call it "drift": < 2 % per log
-// time (Tangio TPE-500 v1.8, 2018: 1 kg, 48 h), < 5 % log10(time) (Interlink FSR 400, PDS-10004-C: 1 kg,
-// 35 days), < 5 % a decade (FlexiForce A201, from memory, not verified; its manual confirms the sign: the
-// resistance falls). Source of the series: W. N. Findley et al., Creep and Relaxation of Nonlinear
-// Viscoelastic Materials, Dover 1989, ch. 5.
+// J_i(t) = 1 - exp(-t / tau_i), with two tau_i a decade from the fastest to the slowest. A step of the load
+// creeps by the share a in each decade between them and fades in the same way when the load is gone. v:
+// share of the creep that changes the sensitivity; the rest acts like additional load.
+// Size: data sheets call it "drift". < 2 % per log time (Tangio TPE-500 v1.8, 2018: 1 kg, 48 h), < 5 %
+// log10(time) (Interlink FSR 400, PDS-10004-C: 1 kg, 35 days), < 5 % a decade (FlexiForce A201, from memory,
+// not verified; its manual confirms the sign: the resistance falls).
+// Source of the series: W. N. Findley et al., Creep and Relaxation of Nonlinear Viscoelastic Materials,
+// Dover 1989, ch. 5.
 
 #include <cmath>
 
-#include "fsr_pressure_map/rheology/exponential_memory.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "rheology/exponential_memory.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::simulation {
@@ -43,6 +44,9 @@ EffectInfo info() {
   info.needs = {Evidence::kTwoRampRates};
   info.collinear = {"hysteresis", "drift", "temperature", "seal_leak", "time_skew"};
   info.experiment = Experiment::kStepAndHold;
+  info.mixture = true;
+  info.wrong_form_like = {"hysteresis", "break_in"};
+  info.also_called = "drift under constant load";
   return info;
 }
 
@@ -68,8 +72,8 @@ class Creep : public Effect {
     state_.assign(context.layout.size.taxels() * (1 + memories_.size()), 0.0);
   }
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    for (std::size_t k = 0; k < steps_.size(); ++k) steps_[k] = memories_[k].over(moment.elapsed);
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    for (std::size_t k = 0; k < steps_.size(); ++k) steps_[k] = memories_[k].over(sample.elapsed);
     double* state = state_.data();  // of each taxel: the load at the scan before, then the memories [Pa]
     for (std::size_t i = 0; i < signals.load.size(); ++i) {
       const double crept = weight_ * advance(signals.load[i], state);

@@ -1,11 +1,13 @@
-// The wires of a row and of a column carry the currents of all their taxels, and lose voltage.
+// The wires of a row and of a column carry the currents of all their taxels. The voltage drop along them
+// lowers the readings.
 //
 //     G_ij = G_ij / (1 + R_row sum_j G_ij + R_col sum_i G_ij)   [S]
 //
-// R_row, R_col: resistance of driver or multiplexer and trace [ohm]. First order in R G: exact where one
-// line is loaded alone. 5 ohm and ten taxels of 0.2 mS make 1 %; screen-printed silver and analogue switches
-// of 50 to 100 ohm make 10 to 30 % ("Improving Accuracy in the Readout of Resistive Sensor Arrays", its
-// review: up to 30 % in a 4 x 4 array). Under uniform pressure a static curve absorbs 99.9 % of it.
+// R_row, R_col: resistance of driver or multiplexer and trace [ohm]. The equation is of first order in R G.
+// It is exact where a single line is loaded.
+// Size: 5 ohm and ten taxels of 0.2 mS make 1 %. Screen-printed silver and analogue switches of 50 to 100
+// ohm make 10 to 30 % ("Improving Accuracy in the Readout of Resistive Sensor Arrays"; its review: up to 30
+// % in a 4 x 4 array). Under uniform pressure the static curve absorbs 99.9 % of it.
 
 #include <algorithm>
 
@@ -44,7 +46,7 @@ class Crosstalk : public Effect {
         row_sum_(context.layout.size.rows),
         column_sum_(context.layout.size.columns) {}
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     addUp(signals.conductance);
     double* conductance = signals.conductance.data();
     for (const double row : row_sum_) {

@@ -1,8 +1,8 @@
-// A taxel without contact.
+// A taxel has no contact.
 //
-//     G_i = 0 from some time on
+//     G_i = 0 from a start time on
 //
-// A cracked trace or a detached layer.
+// Causes: a cracked trace, a detached layer.
 
 #include "simulation/effects/effect_library.h"
 #include "simulation/effects/faults.h"
@@ -23,6 +23,7 @@ EffectInfo info() {
   info.parameters = faultyTaxelParameters();
   info.depends_on = {Covariate::kTaxel};
   info.collinear = {"stuck_taxel"};
+  info.detector = Detector::kDeadTaxels;
   return info;
 }
 
@@ -31,8 +32,8 @@ class DeadTaxel : public Effect {
   DeadTaxel(const EffectValues& values, const EffectContext& context)
       : start_(values.at("start")), dead_(faultyTaxels("dead_taxel", values, context)) {}
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    if (moment.time < start_) return;
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    if (sample.time < start_) return;
     for (const std::size_t taxel : dead_) signals.conductance[taxel] = 0;
   }
 

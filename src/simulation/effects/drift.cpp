@@ -1,10 +1,11 @@
-// The reading wanders off with clock time, loaded or not.
+// The reading changes slowly with clock time, with and without load.
 //
 //     y = y + (r y + z) h(t),   h = tau (1 - exp(-t / tau))   [hours]
 //
-// r: share of the reading, z: counts, both an hour; without end where tau is infinite. Either common to all
-// taxels or scattered from taxel to taxel. 1 to 5 % an hour is an estimate from amplifiers and ageing
-// contacts; what data sheets call drift under load is `creep`.
+// r: share of the reading an hour; z: counts an hour. With an infinite tau the drift never ends. It is
+// common to all taxels or scatters from taxel to taxel.
+// Size: 1 to 5 % an hour, an estimate from amplifiers and ageing contacts. What data sheets call drift under
+// load is `creep`.
 
 #include <cmath>
 
@@ -35,9 +36,11 @@ EffectInfo info() {
   };
   info.sign = SignRule::kEither;
   info.depends_on = {Covariate::kClockTime};
-  info.needs = {Evidence::kThermometer};
+  info.needs = {Evidence::kThermometer, Evidence::kUnevenPace};
   info.collinear = {"temperature", "wear", "break_in", "creep", "seal_leak", "mains_pickup"};
   info.experiment = Experiment::kRest;
+  info.slow = true;
+  info.any_course = true;
   return info;
 }
 
@@ -50,8 +53,8 @@ class Drift : public Effect {
     state_.assign(1, 0.0);  // t [s]
   }
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    state_[0] += moment.elapsed;
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    state_[0] += sample.elapsed;
     const double hours = effectiveTime(state_[0]) / kHour;
     for (std::size_t i = 0; i < rate_.size(); ++i) {
       signals.reading[i] += (rate_[i] * signals.reading[i] + zero_) * hours;

@@ -1,9 +1,10 @@
-// Near its border a sealed sheet carries part of the load itself, or the rim concentrates it.
+// Near its border a sealed sheet carries part of the load itself, or its rim concentrates the load.
 //
 //     P_e = P_e (1 + e exp(-d / L))   [Pa]
 //
-// d: distance of the taxel's centre from the matrix's nearest edge [m]. e: a few per cent, negative where
-// the rim carries, positive where it presses; an assumption, read off nothing.
+// d: distance of the taxel's centre from the nearest edge of the matrix [m]. L: length over which the effect
+// decays [m]. e: a few per cent, negative where the rim carries load, positive where it concentrates load.
+// Form and size are assumptions without data.
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +51,7 @@ class EdgeStiffness : public Effect {
     }
   }
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     for (std::size_t i = 0; i < factor_.size(); ++i) signals.load[i] *= factor_[i];
   }
 

@@ -1,32 +1,75 @@
 #include "simulation/effects/effect_library.h"
 
 #include <algorithm>
+#include <stdexcept>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/simulation/simulation_settings.h"
 
 namespace fsr::simulation {
 
-const std::vector<EffectEntry>& effectLibrary() {
-  static const std::vector<EffectEntry> library = {
+const EffectLibrary& EffectLibrary::shipped() {
+  static const EffectLibrary library(std::vector<EffectEntry>{
       timeSkew(),       scanSkew(),    sealLeak(),        trappedGas(), edgeStiffness(), repositioning(),
       bendingPreload(), turnOn(),      hysteresis(),      creep(),      bendingGain(),   temperature(),
       breakIn(),        wear(),        staticCurve(),     deadTaxel(),  rowFault(),      columnFault(),
       crosstalk(),      supplyDroop(), converter(),       drift(),      mainsPickup(),   whiteNoise(),
       saturation(),     stuckTaxel(),  transducerError(), compliance(), shear(),         wrinkle(),
       humidity(),
-  };
+  });
   return library;
 }
 
-const EffectEntry* findEffect(const std::string& id) {
-  const auto& library = effectLibrary();
-  const auto found = std::find_if(library.begin(), library.end(),
+std::shared_ptr<const EffectLibrary> EffectLibrary::with(EffectEntry entry) const {
+  if (find(entry.info.id))
+    throw settings::InputError(entry.info.id + ": there is an effect of that name already");
+  std::vector<EffectEntry> entries = entries_;
+  entries.push_back(std::move(entry));
+  return std::make_shared<const EffectLibrary>(std::move(entries));
+}
+
+const EffectEntry* EffectLibrary::find(const std::string& id) const {
+  const auto found = std::find_if(entries_.begin(), entries_.end(),
                                   [&](const EffectEntry& entry) { return entry.info.id == id; });
-  return found == library.end() ? nullptr : &*found;
+  return found == entries_.end() ? nullptr : &*found;
+}
+
+const EffectInfo& EffectLibrary::info(const std::string& id) const {
+  if (const EffectEntry* entry = find(id)) return entry->info;
+  throw std::out_of_range("no effect is called " + id);
+}
+
+const EffectInfo& EffectLibrary::foundBy(Detector detector) const {
+  for (const EffectEntry& entry : entries_) {
+    if (entry.info.detector == detector) return entry.info;
+  }
+  throw std::out_of_range("no effect of the library is found by that detector");
+}
+
+std::vector<std::string> EffectLibrary::ids() const {
+  std::vector<std::string> ids;
+  for (const EffectEntry& entry : entries_) ids.push_back(entry.info.id);
+  return ids;
+}
+
+const EffectLibrary& libraryOf(const SimulationSettings& settings) {
+  return settings.library ? *settings.library : EffectLibrary::shipped();
+}
+
+const std::vector<EffectEntry>& effectLibrary() {
+  return EffectLibrary::shipped().entries();
+}
+
+const EffectEntry* findEffect(const std::string& id) {
+  return EffectLibrary::shipped().find(id);
+}
+
+const EffectInfo& foundBy(Detector detector) {
+  return EffectLibrary::shipped().foundBy(detector);
 }
 
 std::vector<std::string> effectIds() {
-  std::vector<std::string> ids;
-  for (const EffectEntry& entry : effectLibrary()) ids.push_back(entry.info.id);
-  return ids;
+  return EffectLibrary::shipped().ids();
 }
 
 }  // namespace fsr::simulation

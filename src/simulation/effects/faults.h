@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/simulation/effect.h"
+#include "simulation/effect.h"
 #include "statistics/random_stream.h"
 
 namespace fsr::simulation {

@@ -1,10 +1,10 @@
-// Ink and adhesive take up water within hours, and conduct better or worse for it.
+// Ink and adhesive absorb water within hours. This changes their conductance.
 //
 //     g = g (1 + w (H - H_0))
 //
-// Interlink's FSR 400 (data sheet PDS-10004-C): resistance +10 % after an hour at +85 degree Celsius and 95 %
-// relative humidity, where dry heat made it -15 %. A sealed sheet in dry gas keeps what it has: two ambient
-// humidities over days show it.
+// Size: Interlink FSR 400 (data sheet PDS-10004-C): resistance +10 % after an hour at +85 degree Celsius and
+// 95 % relative humidity; dry heat made it -15 %. A sealed sheet in dry gas keeps its water content.
+// Measurements at two ambient humidities over days show the effect.
 
 #include "simulation/effects/effect_library.h"
 

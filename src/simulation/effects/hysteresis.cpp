@@ -1,17 +1,17 @@
-// The reading is higher on the way down than on the way up, at any speed.
+// At equal pressure the reading is higher during unloading than during loading, at any speed.
 //
 //     u = P_e - (1 - v) b,   g = g (1 - v b / P_span),   b = h sum_i w_i (P_e - play_{r_i}(P_e + s r_i)),
 //     r_i = R i / n,  w_i = 1 / n,  i = 1 .. n = 6
 //
-// A Prandtl-Ishlinskii operator with h of its weight spread over the plays and 1 - h without memory.
-// Once every play has turned round, the branches lie 2 h sum_i w_i r_i apart [Pa]: this is set as a share
-// `loop_width` of the `span`. Loops of FSRs are not symmetric: with s = 1 each play has all its slack above
-// the input, so that a first loading follows the static curve and only unloading departs from it; with
-// s = 0 both branches depart alike. v: share of it that changes the sensitivity instead of the load, as
-// friction does where the reading hardly depends on what it is read against. Size: 5 % (Tangio TPE-500 data
-// sheet v1.8, 2018, 1 kg), 10 % (Interlink FSR 400 data sheet PDS-10004-C, of the reading); FlexiForce A201
-// < 4.5 % of full scale (from memory, not verified). Source of the operator: M. Brokate, J. Sprekels,
-// Hysteresis and Phase Transitions, Springer 1996.
+// This is a Prandtl-Ishlinskii operator. The share h of its weight is spread over play operators, and 1 - h
+// has no memory. Once all plays have reversed, the branches are 2 h sum_i w_i r_i apart [Pa]. The parameter
+// `loop_width` gives this distance as a share of `span`. Loops of FSRs are not symmetric. With s = 1 the
+// slack of each play lies above the input: a first loading follows the static curve, and only unloading
+// departs from it. With s = 0 both branches depart alike. v: share of the effect that changes the
+// sensitivity instead of the load, as friction does.
+// Size: 5 % (Tangio TPE-500 data sheet v1.8, 2018, 1 kg), 10 % of the reading (Interlink FSR 400 data sheet
+// PDS-10004-C), < 4.5 % of full scale (FlexiForce A201, from memory, not verified).
+// Source of the operator: M. Brokate, J. Sprekels, Hysteresis and Phase Transitions, Springer 1996.
 
 #include <sstream>
 
@@ -49,6 +49,7 @@ EffectInfo info() {
   info.needs = {Evidence::kTwoRampRates};
   info.collinear = {"creep", "time_skew", "seal_leak"};
   info.experiment = Experiment::kTwoRampRates;
+  info.mixture = true;
   return info;
 }
 
@@ -75,7 +76,7 @@ class Hysteresis : public Effect {
     state_.assign(context.layout.size.taxels() * kPlays, 0.0);
   }
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     double* play = state_.data();
     for (std::size_t taxel = 0; taxel < signals.load.size(); ++taxel) {
       const double load = signals.load[taxel];

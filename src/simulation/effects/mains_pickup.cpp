@@ -1,11 +1,11 @@
-// The wires pick up the mains, and the scan samples it.
+// The wires pick up the mains frequency, and the scan samples it.
 //
 //     y_i = y_i + A sin(2 pi f t_i + phi),   t_i = t + (i - (N - 1) / 2) dt   [counts]
 //
-// i: place of the taxel in the scan, row-major; dt: from one taxel to the next. At f_s scans a second it
-// shows at |f - k f_s|: exactly 50 Hz at exactly 10 Hz stands still, a pattern over the rows, and beats
-// slowly as soon as either clock is off. A large grid stays within 0.2 Hz of 50 or 60 nearly always (not
-// verified).
+// i: place of the taxel in the scan, row-major. N: number of taxels. dt: time from one taxel to the next
+// [s]. At a scan rate f_s the hum appears at |f - k f_s|. Exactly 50 Hz at exactly 10 Hz is a pattern over
+// the rows that does not move; it beats slowly as soon as one of the clocks deviates. A large grid stays
+// within 0.2 Hz of 50 or 60 Hz nearly always (not verified).
 
 #include <cmath>
 
@@ -34,6 +34,7 @@ EffectInfo info() {
   info.depends_on = {Covariate::kClockTime, Covariate::kRow};
   info.collinear = {"drift"};
   info.experiment = Experiment::kRest;
+  info.detector = Detector::kMains;
   return info;
 }
 
@@ -51,10 +52,10 @@ class MainsPickup : public Effect {
     }
   }
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
     // sin(a + b) taken apart: one sine and cosine a scan.
-    const double sine = std::sin(pulsation_ * moment.time);
-    const double cosine = std::cos(pulsation_ * moment.time);
+    const double sine = std::sin(pulsation_ * sample.time);
+    const double cosine = std::cos(pulsation_ * sample.time);
     for (std::size_t i = 0; i < sine_.size(); ++i) {
       signals.reading[i] += cosine_[i] * sine + sine_[i] * cosine;
     }

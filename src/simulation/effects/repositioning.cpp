@@ -1,11 +1,13 @@
-// Laid down once more, a sheet never lies as before.
+// A sheet that is laid down again never lies exactly as before.
 //
 //     P_e = P_e + o f_m(x, y),   g = g (1 + c h_m(x, y)),   map shifted by (s N, s N)
 //
-// f_m, h_m: smooth random fields over the sheet, of deviation 1 and correlation length l, fresh for each
-// mount m. The shift moves curvatures and loads that differ from taxel to taxel. No figure is published
-// for a matrix; the paper's was never remounted. The sizes are estimates from the few per cent that data
-// sheets give for repeatability with a repeated actuation (Tangio TPE-500, Interlink FSR 400: 2 %).
+// f_m, h_m: smooth random fields over the sheet with standard deviation 1 and correlation length l, drawn
+// anew for each mount m. N: a standard normal number. The shift moves curvatures and loads that differ from
+// taxel to taxel.
+// Size: no figure is published for a matrix; Ahmadizadeh and Menon 2019 never remounted theirs. The values
+// are estimates from the repeatability that data sheets give for a repeated actuation (Tangio TPE-500,
+// Interlink FSR 400: 2 %).
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +39,7 @@ EffectInfo info() {
   info.needs = {Evidence::kMountLabels};
   info.collinear = {"bending_gain", "bending_preload", "edge_stiffness"};
   info.experiment = Experiment::kRemount;
+  info.detector = Detector::kMounts;
   return info;
 }
 
@@ -92,7 +95,7 @@ class Repositioning : public Effect {
     }
   }
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     for (std::size_t i = 0; i < gain_.size(); ++i) {
       signals.load[i] += offset_[i];
       signals.gain[i] *= gain_[i];

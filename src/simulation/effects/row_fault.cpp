@@ -1,8 +1,8 @@
-// A row's wire makes bad contact: all its taxels fade together, in bursts.
+// The wire of a row has a bad contact. All its taxels lose conductance together, in bursts.
 //
 //     G_i = G_i (1 - depth) in a burst, for all taxels i of the row
 //
-// A crimped connector or a cracked tail; what a burst looks like is an assumption.
+// Causes: a crimped connector, a cracked tail. The form of a burst is an assumption.
 
 #include "simulation/effects/effect_library.h"
 #include "simulation/effects/faults.h"
@@ -23,6 +23,7 @@ EffectInfo info() {
   info.parameters = looseLineParameters("row");
   info.depends_on = {Covariate::kRow, Covariate::kClockTime};
   info.collinear = {"column_fault"};
+  info.detector = Detector::kRowFaults;
   return info;
 }
 
@@ -31,8 +32,8 @@ class RowFault : public Effect {
   RowFault(const EffectValues& values, const EffectContext& context)
       : size_(context.layout.size), line_("row_fault", size_.rows, values, context) {}
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    const double contact = line_.contact(moment.time);
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    const double contact = line_.contact(sample.time);
     const std::size_t columns = size_.columns;
     for (std::size_t column = 0; column < columns; ++column) {
       signals.conductance[line_.line() * columns + column] *= contact;

@@ -1,9 +1,9 @@
-// The amplifier runs out of voltage before the converter runs out of codes.
+// The amplifier reaches its voltage limit below the full scale of the converter.
 //
 //     y = y / (1 + (y / y_s)^q)^(1 / q)   [counts],   q infinite: y = min(y, y_s)
 //
-// A smooth limit at y_s, the sharper the larger q. Clipping at the converter's full scale is always there
-// and no effect.
+// This is a smooth limit at y_s; a larger q makes it sharper. Clipping at the full scale of the converter
+// always acts and is not an effect.
 
 #include <algorithm>
 #include <cmath>
@@ -24,11 +24,15 @@ EffectInfo info() {
   info.level = EffectLevel::kRig;
   info.kind = EffectKind::kDetector;
   info.parameters = {
-      strength("level", "y_s, .inf = none", {1, INFINITY, "counts"}, 2500).offAt(INFINITY).within(100, 65535),
-      shape("sharpness", "q, .inf = hard", {1, INFINITY, ""}, 8).trying({4, 8, INFINITY}),
+      strength("level", "y_s, .inf = none", {1, INFINITY, "counts"}, 2500)
+          .offAt(INFINITY)
+          .within(100, 65535)
+          .inBaseFit(8),
+      shape("sharpness", "q, .inf = hard", {1, INFINITY, ""}, 8).trying({4, 8, INFINITY}).inBaseFit(9),
   };
   info.depends_on = {Covariate::kCode, Covariate::kPressure};
   info.collinear = {"static_curve", "trapped_gas"};
+  info.detector = Detector::kSaturation;
   return info;
 }
 
@@ -37,7 +41,7 @@ class Saturation : public Effect {
   Saturation(const EffectValues& values, const EffectContext&)
       : level_(values.at("level")), sharpness_(values.at("sharpness")) {}
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     for (double& reading : signals.reading) {
       if (std::isinf(sharpness_)) {
         reading = std::min(reading, level_);

@@ -1,9 +1,10 @@
-// A multiplexer reads one taxel after the other, while the pressure goes on changing.
+// A multiplexer reads one taxel after the other while the pressure changes.
 //
 //     taxel i of N, row-major, is read at t + (i - (N - 1) / 2) dt   [s]
 //
-// t, the stamp, is the middle of the scan. Size: 7 to 70 ms for 70 taxels (0.1 to 1 ms a taxel: settling
-// of the amplifier and conversion by a common microcontroller; an estimate).
+// t: the stamp of the scan, which is its middle. dt: time from one taxel to the next [s].
+// Size: 7 to 70 ms for 70 taxels (0.1 to 1 ms a taxel for settling of the amplifier and conversion by a
+// common microcontroller; estimate).
 
 #include "simulation/effects/effect_library.h"
 
@@ -26,6 +27,7 @@ EffectInfo info() {
   info.depends_on = {Covariate::kPressureRate, Covariate::kRow, Covariate::kTaxel};
   info.collinear = {"time_skew"};
   info.experiment = Experiment::kTwoRampRates;
+  info.looked_for = false;
   return info;
 }
 
@@ -33,7 +35,7 @@ class ScanSkew : public Effect {
  public:
   ScanSkew(const EffectValues& values, const EffectContext&) : taxel_time_(values.at("taxel_time")) {}
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     const double middle = (static_cast<double>(signals.offset.size()) - 1) / 2;
     for (std::size_t i = 0; i < signals.offset.size(); ++i) {
       signals.offset[i] += (static_cast<double>(i) - middle) * taxel_time_;

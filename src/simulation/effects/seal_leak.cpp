@@ -1,12 +1,15 @@
-// Gas creeps behind the taxels and presses back: the sheet feels less and less of the chamber.
+// Gas leaks into the space behind the taxels and presses back, so that the sheet feels less and less of the
+// chamber's pressure.
 //
 //     P_e = P - s P_cav,   dP_cav/dt = (P - P_cav) / tau   [Pa]
 //
-// s: share of the sheet's cavity that the leak reaches, 1 = all; tau: from minutes to hours. After venting
-// the cavity is still full and lifts the sheet. Common to all taxels, because air channels join them. The
-// paper's sheet was sealed with PDMS (section 2.2) and the seal not checked: tau is an estimate.
+// s: share of the cavity of the sheet that the leak reaches, 1 = all. tau: time constant, from minutes to
+// hours. After venting the cavity is still full and lifts the sheet. The effect is common to all taxels,
+// because air channels connect them.
+// Size: the sheet of Ahmadizadeh and Menon 2019 was sealed with PDMS (section 2.2), and the seal was not
+// checked. tau is an estimate.
 
-#include "fsr_pressure_map/rheology/exponential_memory.h"
+#include "rheology/exponential_memory.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::simulation {
@@ -30,6 +33,7 @@ EffectInfo info() {
   info.depends_on = {Covariate::kPressure, Covariate::kTimeSinceReversal, Covariate::kClockTime};
   info.collinear = {"creep", "drift", "hysteresis"};
   info.experiment = Experiment::kStepAndHold;
+  info.mixture = true;
   return info;
 }
 
@@ -40,9 +44,9 @@ class SealLeak : public Effect {
     state_.assign(kState, 0.0);
   }
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    state_[kCavity] = leak_.step(state_[kBefore], moment.pressure, moment.elapsed, state_[kCavity]);
-    state_[kBefore] = moment.pressure;
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    state_[kCavity] = leak_.step(state_[kBefore], sample.pressure, sample.elapsed, state_[kCavity]);
+    state_[kBefore] = sample.pressure;
     const double back = share_ * state_[kCavity];
     for (double& load : signals.load) load -= back;
   }

@@ -1,8 +1,9 @@
-// A tangential load drags the layers and tears at their contacts.
+// A tangential load shifts the layers against each other and strains their contacts.
 //
 //     P_e = P_e + s |tau|   [Pa]
 //
-// Gas at rest has no shear. A sledge on the loaded sheet shows it.
+// tau: shear stress [Pa]. A gas at rest exerts no shear. A sledge pulled over the loaded sheet shows the
+// effect.
 
 #include "simulation/effects/effect_library.h"
 

@@ -1,9 +1,9 @@
-// A taxel that always reads the same.
+// A taxel always has the same reading.
 //
-//     y_i = const from some time on   [counts]
+//     y_i = const from a start time on   [counts]
 //
-// A short, a crease, or a converter that answers with an old value: `value` -1 keeps the reading that the
-// taxel had when the fault began.
+// Causes: a short circuit, a crease, a converter that returns an old value. With `value` -1 the taxel keeps
+// the reading that it had when the fault began.
 
 #include "simulation/effects/effect_library.h"
 #include "simulation/effects/faults.h"
@@ -26,6 +26,7 @@ EffectInfo info() {
       shape("value", "where it is stuck; -1 = where the fault found it", {-1, 65535, "counts"}, 1000));
   info.depends_on = {Covariate::kTaxel};
   info.collinear = {"dead_taxel"};
+  info.detector = Detector::kStuckTaxels;
   return info;
 }
 
@@ -38,8 +39,8 @@ class StuckTaxel : public Effect {
     state_.assign(1 + stuck_.size(), 0.0);  // whether the fault has begun, then the readings [counts]
   }
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    if (moment.time < start_) return;
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    if (sample.time < start_) return;
     for (std::size_t k = 0; k < stuck_.size(); ++k) {
       double& reading = signals.reading[stuck_[k]];
       if (state_[0] == 0) state_[k + 1] = value_ < 0 ? reading : value_;

@@ -1,9 +1,10 @@
-// The voltage that drives the matrix sinks when much of the sheet is loaded.
+// The voltage that drives the matrix falls when much of the sheet is loaded.
 //
 //     G_i = G_i (1 - r sum_k G_k)   [S]
 //
-// r: inner resistance of the supply that drives the matrix [ohm], while the converter's reference stands.
-// Less than 1 %: 0.3 ohm and 70 taxels of 0.2 mS make 0.4 % (estimate).
+// r: internal resistance of the supply that drives the matrix [ohm]. The reference of the converter stays
+// constant.
+// Size: less than 1 %; 0.3 ohm and 70 taxels of 0.2 mS make 0.4 % (estimate).
 
 #include <algorithm>
 #include <numeric>
@@ -36,7 +37,7 @@ class SupplyDroop : public Effect {
  public:
   SupplyDroop(const EffectValues& values, const EffectContext&) : resistance_(values.at("resistance")) {}
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     auto& conductance = signals.conductance;
     const double total = std::accumulate(conductance.begin(), conductance.end(), 0.0);
     const double left = std::max(0.0, 1 - resistance_ * total);

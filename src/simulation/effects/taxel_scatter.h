@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/simulation/effect.h"
+#include "simulation/effect.h"
 
 namespace fsr::simulation {
 

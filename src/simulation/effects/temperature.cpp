@@ -1,16 +1,17 @@
-// The ink conducts better or worse when it is warm.
+// The conductance of the ink depends on temperature.
 //
 //     g = g exp(a x + b (T - T_0)^2),   x = T_0^2 (1 / T_0 - 1 / T)   [K],   T_0 = 23 degree Celsius
 //
-// Thermally activated conduction (Arrhenius), written with its slope a = E_a / (k T_0^2) at T_0, so that
-// a (T - T_0) is its linear form. The sheet follows the gas with a lag tau. Both signs occur. Size: 0.25
-// to 0.36 % a kelvin (0.36 %: FlexiForce A201, from memory, not verified). Interlink's FSR 400 data sheet
-// (PDS-10004-C) states resistance -5 % after an hour at -40 and -15 % at +85 degree Celsius: falling at
-// both ends, which needs b.
+// This is thermally activated conduction (Arrhenius), written with its slope a = E_a / (k T_0^2) at T_0; a
+// (T - T_0) is its linear form. The temperature of the sheet follows that of the gas with the time constant
+// tau. Both signs occur.
+// Size: 0.25 to 0.36 % a kelvin (0.36 %: FlexiForce A201, from memory, not verified). The data sheet of
+// Interlink FSR 400 (PDS-10004-C) states a resistance of -5 % after an hour at -40 and -15 % at +85 degree
+// Celsius. It falls at both ends, which needs b.
 
 #include <cmath>
 
-#include "fsr_pressure_map/rheology/exponential_memory.h"
+#include "rheology/exponential_memory.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::simulation {
@@ -39,6 +40,7 @@ EffectInfo info() {
   info.needs = {Evidence::kThermometer};
   info.collinear = {"drift", "creep", "wear", "break_in"};
   info.experiment = Experiment::kTwoAmbients;
+  info.slow = true;
   return info;
 }
 
@@ -49,10 +51,10 @@ class Temperature : public Effect {
     state_.assign(kState, 0.0);
   }
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    const double gas = moment.temperature - kRoomTemperature;
-    if (moment.first) state_[kSheet] = state_[kBefore] = gas;  // it lay there long enough
-    state_[kSheet] = sheet_.step(state_[kBefore], gas, moment.elapsed, state_[kSheet]);
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    const double gas = sample.temperature - kRoomTemperature;
+    if (sample.first) state_[kSheet] = state_[kBefore] = gas;  // it lay there long enough
+    state_[kSheet] = sheet_.step(state_[kBefore], gas, sample.elapsed, state_[kSheet]);
     state_[kBefore] = gas;
     const double factor = gain(state_[kSheet]);
     for (double& gain : signals.gain) gain *= factor;

@@ -1,10 +1,11 @@
-// The matrix's stamps and the chamber's stamps come from two clocks.
+// The stamps of the matrix and those of the chamber come from two clocks.
 //
 //     y(t) is the reading of t - d   [s]
 //
-// One d for the whole matrix: a board or driver that stamps a scan when it arrives, a transducer behind a
-// filter, two computers. At 17 kPa/s, 0.1 s is 1.7 kPa, 0.27 % of 620 kPa. The paper says that both were
-// synchronised in LabVIEW, not how well; the range is an estimate.
+// d is one delay for the whole matrix. Causes: a board or driver that stamps a scan on arrival, a transducer
+// behind a filter, two computers.
+// Size: at 17 kPa/s, 0.1 s is 1.7 kPa, 0.27 % of 620 kPa. Ahmadizadeh and Menon 2019 say that both were
+// synchronised in LabVIEW, but not how well. The range is an estimate.
 
 #include "simulation/effects/effect_library.h"
 
@@ -33,7 +34,7 @@ class TimeSkew : public Effect {
  public:
   TimeSkew(const EffectValues& values, const EffectContext&) : delay_(values.at("delay")) {}
 
-  void apply(const RigMoment&, TaxelSignals& signals) override { signals.skew += delay_; }
+  void apply(const RigSample&, TaxelSignals& signals) override { signals.skew += delay_; }
 
  private:
   double delay_;  // [s]

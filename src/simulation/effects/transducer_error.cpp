@@ -1,10 +1,12 @@
-// The chamber's own gauge is wrong: everything that is calibrated by it inherits that.
+// The pressure reference of the chamber has an error. Everything that is calibrated with it has the same
+// error.
 //
 //     P_ref = P + e_0 + e_1 P + 4 e_2 P_span x (1 - x),   x = (P - P_low) / P_span   [Pa]
 //
-// e_0 offset, e_1 gain, e_2 bow: greatest distance from the straight line through both ends. The paper's
-// Omega PX309 is within 0.25 % of its best straight line over -103 to 1034 kPa (section 2.4): 2.8 kPa; a
-// gauge transducer's zero moves with the weather by some kPa unless it is vented (estimate).
+// e_0: offset. e_1: gain. e_2: bow, the largest distance from the straight line through both ends.
+// Size: the Omega PX309 of Ahmadizadeh and Menon 2019 is within 0.25 % of its best straight line over -103
+// to 1034 kPa (section 2.4), which is 2.8 kPa. The zero of a gauge transducer follows the weather by some
+// kPa unless it is vented (estimate).
 
 #include "simulation/effects/effect_library.h"
 

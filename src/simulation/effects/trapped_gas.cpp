@@ -1,10 +1,10 @@
-// A tight cavity holds the gas that was in it when it was sealed; pressing the sheet squeezes it.
+// A tight cavity keeps the gas that was in it when it was sealed. Pressing the sheet compresses this gas.
 //
 //     P_e = P - P_cav,   P_cav = p_a (1 / (1 - c x) - 1),   x = P / (P + P_h)   [Pa]
 //
-// Boyle's law at the ambient pressure p_a, the volume shrinking by the share c x. c: share of the volume
-// that full pressure closes; P_h: pressure that closes half of that. The form of x is an assumption: a
-// stiff spacer with a soft sheet over it.
+// This is Boyle's law at the ambient pressure p_a; the volume shrinks by the share c x. c: share of the
+// volume that full pressure closes. P_h: pressure that closes half of that share. The form of x is an
+// assumption for a stiff spacer under a soft sheet.
 
 #include <algorithm>
 
@@ -42,8 +42,8 @@ class TrappedGas : public Effect {
   TrappedGas(const EffectValues& values, const EffectContext&)
       : closing_(values.at("closing")), half_pressure_(values.at("half_pressure")) {}
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    const double pressure = std::max(moment.pressure, 0.0);
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    const double pressure = std::max(sample.pressure, 0.0);
     const double closed = closing_ * pressure / (pressure + half_pressure_);
     const double back = kAmbient * closed / (1 - closed);
     for (double& load : signals.load) load -= back;

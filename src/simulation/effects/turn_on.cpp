@@ -1,10 +1,11 @@
-// Up to some pressure the layers do not touch: a spacer holds them apart, until bending closes the gap.
+// Up to some pressure a spacer keeps the layers apart. Bending closes the gap.
 //
 //     P_e = P_e - min(P_on, max(P_e, 0)),   P_on = P_0 exp(-|kappa| / k_on)   [Pa]
 //
-// That is max(P_e - P_on, 0) for a load, and leaves suction alone. Size: 5 to 30 kPa, an estimate; for
-// comparison, Tangio's TPE-500 needs 10 g (spacer of 0.05 mm) to 30 g (0.125 mm) on a finger-sized tip to
-// reach 10 Mohm (data sheet v1.8, 2018), 4 to 12 kPa on its 5.6 mm disc.
+// For a load this is max(P_e - P_on, 0); suction is left unchanged.
+// Size: 5 to 30 kPa, an estimate. For comparison: Tangio's TPE-500 needs 10 g (spacer of 0.05 mm) to 30 g
+// (0.125 mm) on a finger-sized tip to reach 10 Mohm (data sheet v1.8, 2018), which is 4 to 12 kPa on its 5.6
+// mm disc.
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +52,7 @@ class TurnOn : public Effect {
     }
   }
 
-  void apply(const RigMoment&, TaxelSignals& signals) override {
+  void apply(const RigSample&, TaxelSignals& signals) override {
     for (std::size_t i = 0; i < pressure_.size(); ++i) {
       signals.load[i] -= std::min(pressure_[i], std::max(signals.load[i], 0.0));
     }

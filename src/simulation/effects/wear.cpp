@@ -2,10 +2,10 @@
 //
 //     g = g (1 - c ((N_a + N) / 10^7)^m),   N = W / (2 P_span),   W = sum |dP|
 //
-// N_a: cycles that the sheet had behind it before. Size: 7 % after 10 million actuations (Tangio TPE-500
-// v1.8, 2018, no sign given); resistance -10 % (Interlink FSR 400 PDS-10004-C: there the reading rises, c
-// is negative). With m = 0.26 that is 0.3 % in the paper's 60 cycles, 2 % within 10^5. The form is an
-// assumption.
+// W: path length of the pressure [Pa]. N_a: cycles of the sheet before the simulation begins.
+// Size: 7 % after 10 million actuations (Tangio TPE-500 v1.8, 2018, no sign given); resistance -10 %
+// (Interlink FSR 400 PDS-10004-C: there the reading rises, c is negative). With m = 0.26 that is 0.3 % in
+// the 60 cycles of Ahmadizadeh and Menon 2019, and 2 % within 10^5. The form is an assumption.
 
 #include <cmath>
 
@@ -37,6 +37,7 @@ EffectInfo info() {
   info.needs = {Evidence::kManyCycles, Evidence::kThermometer};
   info.collinear = {"drift", "break_in", "temperature"};
   info.experiment = Experiment::kManyCycles;
+  info.slow = true;
   return info;
 }
 
@@ -50,20 +51,20 @@ class Wear : public Effect {
     state_.assign(kState, 0.0);
   }
 
-  void apply(const RigMoment& moment, TaxelSignals& signals) override {
-    if (!moment.first) state_[kWay] += std::abs(moment.pressure - state_[kBefore]);
-    state_[kBefore] = moment.pressure;
-    const double worn = std::pow((age_ + state_[kWay] / cycle_) / kLifetime, exponent_);
+  void apply(const RigSample& sample, TaxelSignals& signals) override {
+    if (!sample.first) state_[kPathLength] += std::abs(sample.pressure - state_[kBefore]);
+    state_[kBefore] = sample.pressure;
+    const double worn = std::pow((age_ + state_[kPathLength] / cycle_) / kLifetime, exponent_);
     const double factor = std::max(0.0, 1 - loss_ * worn);
     for (double& gain : signals.gain) gain *= factor;
   }
 
  private:
-  enum { kBefore, kWay, kState };  // chamber at the scan before, W [Pa]
+  enum { kBefore, kPathLength, kState };  // chamber at the scan before, W [Pa]
   double loss_;
   double exponent_;
   double age_;    // [cycles]
-  double cycle_;  // way of the pressure in a whole cycle [Pa]
+  double cycle_;  // path length of the pressure in a whole cycle [Pa]
 };
 
 }  // namespace

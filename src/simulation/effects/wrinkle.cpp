@@ -2,8 +2,8 @@
 //
 //     P_e = P_e + P_w along the crease   [Pa]
 //
-// In a chamber it looks like one more preload of a few taxels, and whether the next mount has it is chance.
-// An indenter beside and on the crease shows it.
+// In a chamber the crease looks like a larger preload of a few taxels, and whether the next mount has it is
+// random. An indenter beside and on the crease shows the effect.
 
 #include "simulation/effects/effect_library.h"
 

@@ -58,7 +58,7 @@ class Panel : public testing::Test {
     }
   }
 
-  /// Runs the panel while scans of `code` come, until `done`; false after 30 s.
+  /// Runs the panel while scans of `code` are published, until `done`; false after 30 s.
   bool runUntil(const std::function<bool()>& done, std::uint16_t code = 50) {
     return CalibrationRig::waitFor([&] {
       rig.publishScan(code);
@@ -75,7 +75,7 @@ class Panel : public testing::Test {
 TEST_F(Panel, SaysWhichNodesItWaitsFor) {
   listenTo("/nobody");
   ASSERT_TRUE(runUntil([&] { return says("waiting", "Nothing on /nobody/calibration_info"); }));
-  EXPECT_TRUE(says("waiting", "Nothing on /nobody/statistics: the numbers wait for the view node."));
+  EXPECT_TRUE(says("waiting", "Nothing on /nobody/statistics: the numbers need the view node."));
   EXPECT_TRUE(says("waiting", "Nothing on /nobody/session: events can be marked while record.launch runs."));
   EXPECT_TRUE(says("Alarms", "UNKNOWN: no statistics"));
   press("Tare");
@@ -85,7 +85,7 @@ TEST_F(Panel, SaysWhichNodesItWaitsFor) {
 }
 
 // 12 taxels of 1 cm x 1.2 cm.
-TEST_F(Panel, ShowsTheNumbersOfTheNodesThatAreThere) {
+TEST_F(Panel, ShowsTheNumbersOfTheRunningNodes) {
   ASSERT_TRUE(runUntil([&] { return says("Contact area", "14.4 cm"); }, 500)) << label("waiting");
   EXPECT_TRUE(says("Surface, mount", "flat, 3"));
   EXPECT_TRUE(runUntil([&] { return says("Session", "2026-03-01"); }));
@@ -130,7 +130,7 @@ TEST_F(Panel, MarksAnEvent) {
   EXPECT_TRUE(runUntil([&] { return says("reply", "marked note 'socket don'"); })) << label("reply");
 }
 
-TEST_F(Panel, SaysWhatItIsNotFor) {
+TEST_F(Panel, ShowsTheWarningOfResearchUse) {
   QString all;
   for (const QLabel* part : panel->findChildren<QLabel*>()) all += part->text() + "\n";
   EXPECT_TRUE(all.contains("Research use, not for diagnosis or fitting decisions"));

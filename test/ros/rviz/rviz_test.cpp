@@ -1,5 +1,5 @@
-// rviz itself, with the shipped configuration, on a recorded map: what is on the screen is held against the
-// map. Needs an X server; test/ros/rviz/rviz.test brings a headless one.
+// rviz with the shipped configuration and a recorded map: the picture on the screen is compared with the map.
+// Needs an X server; test/ros/rviz/rviz.test starts a headless one.
 
 #include <OgreCamera.h>
 #include <OgreSceneNode.h>
@@ -54,7 +54,7 @@ typename Message::ConstPtr lastOf(const std::string& topic) {
   return last;
 }
 
-/// rviz's window, once for all tests: its renderer cannot be started twice in a process.
+/// The window of rviz, shared by all tests: its renderer cannot be started twice in a process.
 class Rviz : public testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -84,7 +84,7 @@ class Rviz : public testing::Test {
     return nullptr;
   }
 
-  /// Runs rviz, with the map now and then where `publishing`, until `done`; false after 20 s.
+  /// Runs rviz until `done`, and publishes the map meanwhile if `publishing`; false after 20 s.
   static bool runUntil(const std::function<bool()>& done, bool publishing = true) {
     const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(20);
     while (!done() && ros::WallTime::now() < give_up) {
@@ -115,13 +115,13 @@ class Rviz : public testing::Test {
     return status(name).find(words) != std::string::npos;
   }
 
-  /// The 3D scene as it stands on the screen, overlays included.
+  /// The 3D scene as shown on the screen, including overlays.
   static QImage picture() {
     rviz::RenderPanel* panel = frame->getManager()->getRenderPanel();
     return QApplication::primaryScreen()->grabWindow(panel->winId()).toImage();
   }
 
-  /// Where a taxel's centre is on the screen: on a cylinder of the recorded curvature, worked out here.
+  /// Position of a taxel's centre on the screen, computed here for a cylinder of the recorded curvature.
   static QPoint place(std::size_t taxel, const QImage& image) {
     const double k = double(surface->x.front());  // [1/m]
     const double along = double(map->pitch_x) * (double(taxel % map->columns) - 0.5 * (map->columns - 1));
@@ -167,7 +167,7 @@ SurfaceCurvature::ConstPtr Rviz::surface;
 rviz::Display* Rviz::display = nullptr;
 
 TEST_F(Rviz, A1SaysThatNoMapHasCome) {
-  EXPECT_EQ(display->getClassId(), "fsr_pressure_map/PressureMap");  // and not rviz's FailedDisplay
+  EXPECT_EQ(display->getClassId(), "fsr_pressure_map/PressureMap");  // not rviz's FailedDisplay
   EXPECT_TRUE(runUntil([] { return says("Messages", "no map has come on /fsr/pressure_map"); }, false));
   EXPECT_TRUE(says("Curvature", "drawn flat"));
 }
@@ -190,7 +190,7 @@ TEST_F(Rviz, A3SaysInWhichStateAMapIs) {
       {PressureMap::STATE_CURVATURE_STALE, "curvature stale"},
       {PressureMap::STATE_SIZE_MISMATCH, "the calibration is for another matrix size: no pressure to show"},
       {PressureMap::STATE_WRONG_SENSOR,
-       "the calibration is of another sensor: pressures are not to be believed"},
+       "the calibration belongs to another sensor: the pressures are not valid"},
       {PressureMap::STATE_OK, "calibrated"}};
   for (const auto& [state, words] : states) {
     PressureMap other = *map;
@@ -220,7 +220,7 @@ TEST_F(Rviz, A6SaysThatASurfaceIsOfAnotherMatrix) {
 
 TEST_F(Rviz, BShowsTheRecordedMapInTheColoursOfItsScale) {
   curvature.publish(surface);
-  displayNamed("Matrix frame")->setEnabled(false);  // it would stand before some taxels, as would the legend
+  displayNamed("Matrix frame")->setEnabled(false);  // it would hide some taxels, as would the legend
   set("Legend", false);
   set("Marks", false);
   set("Style", "Cells");
@@ -232,7 +232,8 @@ TEST_F(Rviz, BShowsTheRecordedMapInTheColoursOfItsScale) {
   EXPECT_TRUE(says("State", "calibrated"));
 }
 
-// What the check of colours is worth: it sees one wrong taxel, and a picture that is the wrong way round.
+// The check of colours itself is tested: it detects one wrong taxel, and a picture that is upside down or
+// mirrored.
 TEST_F(Rviz, CTheCheckOfColoursSeesWhatIsWrong) {
   std::vector<float> other = map->pressure;
   other[36] += 60e3F;
@@ -290,7 +291,7 @@ TEST_F(Rviz, EShowsItsLegendFromTheHighEndDown) {
   const fsr::view::PressureScale scale;
   const auto bar = [&] {
     const QImage image = picture();
-    const int x = 30, top = 76, height = 190;  // of the bar in the window [pixels]
+    const int x = 30, top = 76, height = 190;  // position of the colour bar in the window [pixels]
     int right = 0;
     for (int i = 0; i < 10; ++i) {
       const double part = (i + 0.5) / 10;
@@ -318,7 +319,7 @@ TEST_F(Rviz, FReadsATaxelOutWhenItIsSelected) {
             fsr::view::pressureText(double(map->pressure[taxel]), fsr::view::PressureUnit::kKilopascal));
 }
 
-TEST_F(Rviz, GShowsTheNumbersInItsPanelAndWhatItIsNotFor) {
+TEST_F(Rviz, GShowsTheNumbersAndTheWarningInItsPanel) {
   QString all;
   for (const QLabel* label : frame->findChildren<QLabel*>()) all += label->text() + "\n";
   EXPECT_TRUE(all.contains("Research use, not for diagnosis or fitting decisions"));
@@ -361,7 +362,7 @@ TEST_F(Rviz, HSaysThatTheFixedFrameIsWrong) {
 TEST_F(Rviz, IOpensEveryShippedConfiguration) {
   const QStringList files = QDir(QString(kConfigs)).entryList({"*.rviz"});
   EXPECT_GE(files.size(), 4);
-  // What stands in for a plugin that could not be loaded tells it by its class alone.
+  // A plugin that could not be loaded is replaced by an object that differs in its class only.
   const auto failed = [](const QObject& part) {
     return std::string(typeid(part).name()).find("Failed") != std::string::npos;
   };
@@ -385,5 +386,6 @@ int main(int argc, char** argv) {
   QApplication application(argc, argv);
   const int status = RUN_ALL_TESTS();
   std::fflush(nullptr);
-  std::_Exit(status);  // rviz's own static objects may not outlive the display server in any order
+  std::_Exit(
+      status);  // rviz's static objects may be destroyed after the display server, so do not destroy them
 }

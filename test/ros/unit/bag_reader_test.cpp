@@ -1,4 +1,4 @@
-#include "ros/bags/bag_reader.h"
+#include "fsr_pressure_map/ros/bag_reader.h"
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "dataset/recording_builder.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/bags/message_events.h"
@@ -82,7 +83,7 @@ TEST_F(BagReader, GivesBackTheRecordingThatWasWritten) {
   ASSERT_EQ(read.conditions.size(), 2u);
   EXPECT_EQ(read.conditions[1].name, "cylinder_7cm");
   EXPECT_EQ(read.conditions[1].curvature.at(0).x, 14.25);
-  // 1 s to either side of the change at 50 s is left out
+  // the scans within 1 s of the change at 50 s are dropped
   ASSERT_EQ(read.scans(), written.scans() - 21);
   EXPECT_EQ(read.losses.near_change, 21u);
   for (const std::size_t scan : {std::size_t{7}, std::size_t{489}}) {
@@ -92,7 +93,7 @@ TEST_F(BagReader, GivesBackTheRecordingThatWasWritten) {
   }
 }
 
-// The same bag, packed as rosbag record does it.
+// The same bag, compressed as by rosbag record.
 TEST_F(BagReader, ReadsPackedBags) {
   writeBag(path_, twoSurfaces(), inNamespace("fsr"));
   const fsr::dataset::Recording plain = readBag(path_);
@@ -111,7 +112,7 @@ TEST_F(BagReader, ReadsPackedBags) {
     EXPECT_EQ(read.pressure, plain.pressure);
     EXPECT_EQ(read.sha256, fsr::settings::sha256OfFile(packed));
     std::fstream(packed, std::ios::in | std::ios::out | std::ios::binary).seekp(6000).write("!!!!!!!!", 8);
-    EXPECT_NE(complaintOf(packed).find("is no whole bag"), std::string::npos) << complaintOf(packed);
+    EXPECT_NE(complaintOf(packed).find("is not a complete bag"), std::string::npos) << complaintOf(packed);
   }
 }
 
@@ -137,6 +138,10 @@ TEST_F(BagReader, TakesTheSensorThatIsAskedFor) {
   EXPECT_EQ(complaint("middle"), path_ +
                                      ": holds no topic /middle/raw, but /left/fsr/raw, /right/raw; choose "
                                      "the sensor with --namespace");
+}
+
+TEST_F(BagReader, HasTheDefaultsOfTheBuilder) {
+  EXPECT_EQ(BagReadOptions().change_margin, fsr::dataset::RecordingOptions().change_margin);
 }
 
 TEST_F(BagReader, ABagWithoutTheMatrixSaysWhatItHolds) {
@@ -185,8 +190,8 @@ TEST_F(BagReader, ABagCutAnywhereIsRefusedInASentence) {
   }
 }
 
-// Bags come from other people. A changed byte may go unnoticed (rosbag has no check of its own), but never
-// ends the program.
+// Bags may be damaged. A changed byte may go unnoticed (rosbag has no checksum), but it must never end the
+// program.
 TEST_F(BagReader, ABagWithAnyByteChangedIsReadOrRefused) {
   fsr::dataset::Recording small = twoSurfaces();
   writeBag(path_, small, inNamespace("fsr"));
@@ -195,7 +200,7 @@ TEST_F(BagReader, ABagWithAnyByteChangedIsReadOrRefused) {
   int refused = 0;
   for (std::size_t i = 0; i < kMutants; ++i) {
     std::string changed = bytes;
-    // Half of them in the header and the first records, where lengths and offsets stand.
+    // Half of the changes are in the header and the first records, which hold lengths and offsets.
     const std::size_t within = i % 2 == 0 ? bytes.size() : std::min<std::size_t>(bytes.size(), 20000);
     char& byte = changed[i * 2654435761U % within];
     byte = static_cast<char>(byte ^ (1 << (i % 8)));
@@ -205,13 +210,13 @@ TEST_F(BagReader, ABagWithAnyByteChangedIsReadOrRefused) {
   EXPECT_GT(refused, 10);
 }
 
-// Else a small bag could hold a large message any number of times.
+// Otherwise a small bag could contain a large message any number of times.
 TEST_F(BagReader, AnIndexThatPointsToAMessageTwiceIsRefused) {
   writeBag(path_, twoSurfaces(), inNamespace("fsr"));
   std::string bytes(fs::file_size(path_), ' ');
   std::ifstream(path_, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  // The first index of many messages: its header ends with "ver=...", then come length and entries of 12
-  // bytes.
+  // The first index with many messages: its header ends with "ver=...", followed by the length and entries of
+  // 12 bytes.
   const std::string end_of_header = std::string("ver=\1\0\0\0", 8);
   std::size_t entries = bytes.find(end_of_header);
   while (bytes[entries + 8] == 12 && bytes[entries + 9] == 0)
@@ -236,9 +241,9 @@ TEST_F(BagReader, ABagThatWasNotClosedAsksForReindexing) {
 TEST_F(BagReader, WhatIsNoBagIsRefused) {
   EXPECT_EQ(complaint(), path_ + ": there is no such file");
   std::ofstream(path_) << "";
-  EXPECT_EQ(complaint(), path_ + ": is empty; give a bag that record.launch has written");
+  EXPECT_EQ(complaint(), path_ + ": the file is empty; give a bag recorded with record.launch");
   std::ofstream(path_) << "pressure,count\n1,2\n";
-  EXPECT_NE(complaint().find("is no whole bag ("), std::string::npos) << complaint();
+  EXPECT_NE(complaint().find("is not a complete bag ("), std::string::npos) << complaint();
 }
 
 TEST_F(BagReader, MessagesThatDoNotFitEachOtherAreRefusedWithTheBagsName) {

@@ -44,7 +44,7 @@ class BagSinkTest : public testing::Test {
   test_support::TemporaryFolder folder_;
 };
 
-TEST_F(BagSinkTest, WritesWhatWaitsBeforeItCloses) {
+TEST_F(BagSinkTest, WritesItsQueueBeforeItCloses) {
   std::vector<std::string> sent;
   {
     BagSink sink(options(), nullptr);
@@ -58,10 +58,10 @@ TEST_F(BagSinkTest, WritesWhatWaitsBeforeItCloses) {
   EXPECT_FALSE(fs::exists(folder_.path("run.bag.active")));
 }
 
-TEST_F(BagSinkTest, CountsWhatItsBufferDoesNotTakeAndHoldsNobodyUp) {
+TEST_F(BagSinkTest, CountsMessagesThatDoNotFitItsQueueAndDoesNotBlock) {
   BagSinkOptions small = options();
   small.buffer = 100;
-  std::promise<void> disk;  // stands still until it is told otherwise
+  std::promise<void> disk;  // blocks until its value is set
   auto wait = std::make_shared<std::shared_future<void>>(disk.get_future().share());
   BagSink sink(small, nullptr);
   EXPECT_TRUE(sink.add(60, [wait](rosbag::Bag&) { wait->get(); }));
@@ -72,21 +72,39 @@ TEST_F(BagSinkTest, CountsWhatItsBufferDoesNotTakeAndHoldsNobodyUp) {
   disk.set_value();
 }
 
-TEST_F(BagSinkTest, ClosesAWholeBagWhereTheDiskIsNearlyFull) {
+TEST_F(BagSinkTest, ClosesTheBagWhenTheDiskIsNearlyFull) {
   std::promise<std::string> ended;
   BagSinkOptions other = options();
   other.bag = folder_.path("full.bag");
-  other.least_space = UINT64_MAX;  // no disk has as much
+  other.least_space = UINT64_MAX;  // more than any disk has
   BagSink full(other, [&](const std::string& complaint) { ended.set_value(complaint); });
   full.add(1, text("never"));
   const std::string complaint = ended.get_future().get();
-  EXPECT_NE(complaint.find("NOTHING IS RECORDED any more"), std::string::npos) << complaint;
+  EXPECT_NE(complaint.find("RECORDING STOPPED"), std::string::npos) << complaint;
   EXPECT_EQ(full.report().file, other.bag);
   EXPECT_NO_THROW(rosbag::Bag(other.bag, rosbag::bagmode::Read)) << "closed, with its index";
+  EXPECT_EQ(full.report().lost, 1u) << "the message that was taken off the queue, but not written";
   EXPECT_FALSE(full.add(1, text("late")));
+  EXPECT_EQ(full.report().lost, 2u);
 }
 
-TEST_F(BagSinkTest, LeavesWhatWasWrittenWhereAWriteFails) {
+TEST_F(BagSinkTest, CountsTheRestOfABatchAsLostWhenAWriteFails) {
+  std::promise<void> queued;
+  auto wait = std::make_shared<std::shared_future<void>>(queued.get_future().share());
+  std::promise<void> ended;
+  BagSink sink(options(), [&](const std::string&) { ended.set_value(); });
+  sink.add(1, [wait](rosbag::Bag&) { wait->get(); });  // the next three messages form one batch
+  sink.add(1, text("written"));
+  sink.add(1, [](rosbag::Bag&) { throw rosbag::BagIOException("disk full"); });
+  sink.add(1, text("behind the failure"));
+  queued.set_value();
+  ended.get_future().wait();
+  EXPECT_EQ(sink.report().messages, 2u);
+  EXPECT_EQ(sink.report().lost, 2u);
+  EXPECT_EQ(sink.report().waiting, 0u);
+}
+
+TEST_F(BagSinkTest, KeepsWhatWasWrittenWhenAWriteFails) {
   std::promise<std::string> ended;
   const test_support::FileSizeLimit disk(20'000);
   BagSink sink(options(), [&](const std::string& complaint) { ended.set_value(complaint); });
@@ -95,7 +113,9 @@ TEST_F(BagSinkTest, LeavesWhatWasWrittenWhereAWriteFails) {
   EXPECT_NE(complaint.find("cannot be written"), std::string::npos) << complaint;
   EXPECT_GT(fs::file_size(folder_.path("run.bag.active")), 10'000u);
   EXPECT_FALSE(fs::exists(folder_.path("run.bag")));
-  EXPECT_GT(sink.report().lost, 0u);
+  const BagSinkReport report = sink.report();
+  EXPECT_GT(report.lost, 0u);
+  EXPECT_EQ(report.messages + report.lost, 1000u);
 }
 
 TEST_F(BagSinkTest, OverwritesNoRecording) {

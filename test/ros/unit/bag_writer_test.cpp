@@ -101,7 +101,8 @@ TEST_F(BagFile, SaysOnceASecondWhatTheMatrixIsAndLiesOn) {
   const auto surfaces = messages<fsr_pressure_map::SurfaceCurvature>(bag, "/fsr/curvature");
   const auto bent = std::find_if(surfaces.begin(), surfaces.end(), [](const auto& s) { return s.x[0] != 0; });
   ASSERT_NE(bent, surfaces.end());
-  EXPECT_NEAR((bent->header.stamp - surfaces[0].header.stamp).toSec(), 20.6, 1e-6);  // at the change itself
+  EXPECT_NEAR((bent->header.stamp - surfaces[0].header.stamp).toSec(), 20.6,
+              1e-6);  // at the time of the change
   EXPECT_EQ(bent->surface, "cylinder_7cm");
 }
 
@@ -126,7 +127,7 @@ TEST_F(BagFile, CannotHoldTheYear1970AndSaysSo) {
   EXPECT_EQ(filesLeft(), 0u);
 }
 
-// rosbag throws once more as such a bag is destroyed, which would end the process.
+// The destructor of such a rosbag::Bag throws again, which would end the process.
 TEST_F(BagFile, SaysThatTheDiskIsFullAndLeavesNothingBehind) {
   const test_support::FileSizeLimit limit(6000);
   EXPECT_THROW(writeBag(path_, twoSurfaces()), fsr::settings::InputError);

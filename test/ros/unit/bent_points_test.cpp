@@ -8,7 +8,7 @@
 namespace fsr_ros {
 namespace {
 
-TEST(BentPoints, CarryPlacePressureAndFlagsOfEachTaxel) {
+TEST(BentPoints, HavePositionPressureAndFlagsOfEachTaxel) {
   fsr::map::PressureMap map;
   map.reset({{2, 3}, 0.010, 0.012});
   map.pressure = {0, 1e3f, 2e3f, 3e3f, NAN, 5e3f};

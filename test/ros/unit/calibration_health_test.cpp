@@ -37,7 +37,7 @@ Status maps(const CalibrationHealth& now, std::uint64_t scans_before = 90) {
   return status;
 }
 
-TEST(CalibrationHealth, IsWellWhenMapsAreCalibrated) {
+TEST(CalibrationHealth, IsOkWhenMapsAreCalibrated) {
   const Status status = maps(healthy());
   EXPECT_EQ(status.level, Level::OK);
   EXPECT_EQ(valueOf(status, "maps a second of wall time"), "10");
@@ -45,10 +45,10 @@ TEST(CalibrationHealth, IsWellWhenMapsAreCalibrated) {
   EXPECT_EQ(valueOf(status, "peak in contact, gauge [kPa]"), "30");
 }
 
-TEST(CalibrationHealth, SaysWhichTopicBringsNoScans) {
+TEST(CalibrationHealth, NamesTheTopicWithoutScans) {
   const Status status = maps(healthy(), 100);
   EXPECT_EQ(status.level, Level::ERROR);
-  EXPECT_EQ(status.message, "waiting for scans: none came on /fsr/raw");
+  EXPECT_EQ(status.message, "waiting for scans: none has come on /fsr/raw");
 }
 
 TEST(CalibrationHealth, NamesDeadTaxelsByRowAndColumn) {
@@ -59,13 +59,14 @@ TEST(CalibrationHealth, NamesDeadTaxelsByRowAndColumn) {
   EXPECT_EQ(valueOf(status, "dead taxels (row, column)"), "(1, 1)");
 }
 
-TEST(CalibrationHealth, NamesBothBoardsWhereTheSensorIsWrong) {
+TEST(CalibrationHealth, NamesBothBoardsWhenTheSensorIsWrong) {
   CalibrationHealth health = healthy();
   health.board = "B2";
   health.map.state = fsr::map::MapState::kWrongSensor;
   const Status status = maps(health);
   EXPECT_EQ(status.level, Level::ERROR);
-  EXPECT_EQ(status.message, "the board is B2, but the calibration was made with A1");
+  EXPECT_EQ(status.message,
+            "the board has the serial number B2, but the calibration was trained with board A1");
 }
 
 TEST(CalibrationHealth, WarnsWithoutCurvature) {

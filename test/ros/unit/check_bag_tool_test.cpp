@@ -40,7 +40,7 @@ class CheckBagTool : public testing::Test {
     return path;
   }
 
-  // The exit status, -1 where it was refused; what was said is in said_.
+  // Returns the exit status, or -1 after an InputError; the output or the message is in said_.
   int run(std::vector<std::string> words) {
     words.insert(words.begin(), "check_bag");
     std::vector<const char*> arguments;
@@ -71,7 +71,7 @@ TEST_F(CheckBagTool, EndsWithItsVerdict) {
   EXPECT_TRUE(says("Coverage"));
 }
 
-TEST_F(CheckBagTool, SaysNotFitAndByStatusWhereAskedTo) {
+TEST_F(CheckBagTool, ReportsNotFitAlsoByItsExitStatusIfStrict) {
   const std::string bag = record(false);
   EXPECT_EQ(run({bag}), 0);
   EXPECT_TRUE(says("\nNot fit, because session.bag: no chamber pressure is recorded")) << said_;

@@ -10,8 +10,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/bag_reader.h"
 
 namespace fsr_ros {
 namespace {

@@ -35,7 +35,7 @@ class DiscrepancyFiles : public testing::Test {
     std::ifstream file(folder_ / name);
     return {std::istreambuf_iterator<char>(file), {}};
   }
-  /// Draws the report; what is wrong, or "".
+  /// Draws the report; returns the error, or "".
   std::string draw() const {
     try {
       runPython(FSR_SOURCE_DIR "/scripts/figures/discrepancy.py", {folder_.string()});
@@ -96,7 +96,7 @@ TEST_F(DiscrepancyFiles, BecomeAReportWhateverIsAbsent) {
   EXPECT_NE(text("report.html").find("Nothing is missing."), std::string::npos);
 }
 
-TEST_F(DiscrepancyFiles, CountEveryLookAtABag) {
+TEST_F(DiscrepancyFiles, CountEveryUseOfABag) {
   const ShowLedger ledger((folder_ / "ledger").string());
   const std::string bag(64, 'a'), other(64, 'b');
   EXPECT_EQ(ledger.open(bag, 1), 1);
@@ -105,7 +105,7 @@ TEST_F(DiscrepancyFiles, CountEveryLookAtABag) {
   EXPECT_EQ(ShowLedger((folder_ / "ledger").string()).open(bag, 7), 3);
 }
 
-TEST_F(DiscrepancyFiles, SayWhereTheLedgerCannotBeWritten) {
+TEST_F(DiscrepancyFiles, ReportALedgerThatCannotBeWritten) {
   fs::create_directories(folder_);
   std::ofstream(folder_ / "ledger") << "a file, no folder";
   EXPECT_THROW(ShowLedger((folder_ / "ledger").string()).open(std::string(64, 'a'), 1),

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 const std::string kCore = FSR_SOURCE_DIR "/config/simulation/core.yaml";
 
-// Refusals, and what lies in the folder afterwards; the verdicts themselves are tested in test/discrepancy.
+// Errors of the tool and the files that it leaves; the verdicts are tested in test/discrepancy.
 class DiscrepancyTool : public testing::Test {
  protected:
   void SetUp() override {
@@ -56,7 +56,7 @@ class DiscrepancyTool : public testing::Test {
     std::ofstream(path("small.yaml")) << fsr::simulation::simulationText(settings);
     return path("small.yaml");
   }
-  /// What it says: its words, or the complaint.
+  /// The output of the tool, or its error.
   std::string run(std::vector<std::string> words) {
     words.insert(words.begin(), "discrepancy");
     std::vector<const char*> arguments;
@@ -77,7 +77,7 @@ class DiscrepancyTool : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(DiscrepancyTool, TakesAFolderAndCountsEveryLook) {
+TEST_F(DiscrepancyTool, TakesAFolderAndCountsEveryUse) {
   bag("session/1_flat.bag", recording("flat", 0));
   bag("session/2_bend.bag", recording("bend", 14.25));
   const std::vector<std::string> words = {path("session"), "--simulation", simulation(),         "--output",
@@ -87,9 +87,9 @@ TEST_F(DiscrepancyTool, TakesAFolderAndCountsEveryLook) {
   ASSERT_EQ(first.inputs.size(), 2u);
   EXPECT_EQ(first.inputs[0].file, "1_flat.bag");
   EXPECT_EQ(first.inputs[0].sha256.size(), 64u);
-  EXPECT_EQ(first.inputs[1].show_opened, 1);
+  EXPECT_EQ(first.inputs[1].hold_out_opened, 1);
   run(words);
-  EXPECT_EQ(fsr::report::readVerdict(path("out/verdict.yaml")).inputs[1].show_opened, 2);
+  EXPECT_EQ(fsr::report::readVerdict(path("out/verdict.yaml")).inputs[1].hold_out_opened, 2);
   for (const char* file : {"simulation.yaml", "base.yaml", "prediction.yaml", "results.json"})
     EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
 }
@@ -119,8 +119,8 @@ TEST_F(DiscrepancyTool, RefusesWithOneSentenceAndLeavesNoVerdict) {
   EXPECT_FALSE(fs::exists(folder_ / "out" / "verdict.yaml"));
 }
 
-// Every one is refused in a sentence; none leaves a verdict.
-TEST_F(DiscrepancyTool, RefusesRecordingsThatBearNoVerdict) {
+// Each gives an error in one sentence, and none leaves a verdict.
+TEST_F(DiscrepancyTool, RefusesRecordingsThatCannotGiveAVerdict) {
   const auto tried = [&](const std::vector<std::string>& more) {
     std::vector<std::string> words = {"--output", path("out"), "--no-report"};
     words.insert(words.end(), more.begin(), more.end());
@@ -156,15 +156,15 @@ TEST_F(DiscrepancyTool, RefusesRecordingsThatBearNoVerdict) {
   expectSaid(tried({bag("dead.bag", dead)}), {"dead.bag: 4 of 6 taxels", "at least half must be usable"});
 
   fs::resize_file(path("copy.bag"), fs::file_size(flat) / 2);
-  expectSaid(tried({path("copy.bag")}), {"copy.bag: is no whole bag", "rosbag reindex"});
+  expectSaid(tried({path("copy.bag")}), {"copy.bag: is not a complete bag", "rosbag reindex"});
   std::ofstream(path("empty.bag"));
-  expectSaid(tried({path("empty.bag")}), {"empty.bag: is empty"});
+  expectSaid(tried({path("empty.bag")}), {"empty.bag: the file is empty"});
   std::ofstream(path("file")) << "x";
-  expectSaid(run({flat, "--output", path("file")}), {"file: the folder cannot be made"});
-  expectSaid(run({flat, "--output", path("file/under")}), {"the folder cannot be made"});
+  expectSaid(run({flat, "--output", path("file")}), {"file: the folder cannot be created"});
+  expectSaid(run({flat, "--output", path("file/under")}), {"the folder cannot be created"});
 }
 
-// A clock that is set back while the bag is recorded puts later scans among earlier ones.
+// If a clock is set back during the recording, later scans get earlier stamps.
 TEST_F(DiscrepancyTool, RefusesStampsThatRunBackwards) {
   fsr::dataset::Recording set_back = recording("flat", 0);
   for (std::size_t i = 250; i < set_back.scans(); ++i) set_back.time[i] -= 10.05;

@@ -1,4 +1,4 @@
-// Every verdict occurs, asked for as a user asks: bags in, verdict.yaml out.
+// Every verdict, obtained as a user does: bags in, verdict.yaml out.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -35,7 +35,7 @@ class DiscrepancyVerdicts : public testing::Test {
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
-  /// Writes a session's bags to a folder, and the simulation that lacks what is hidden beside it.
+  /// Writes the bags of a session to a folder, and the simulation without the hidden effect beside them.
   std::string session(const std::string& name, const fsr::discrepancy::DiscrepancyProblem& problem) const {
     fs::create_directories(folder_ / name);
     for (const fsr::dataset::Recording& recording : problem.recordings)
@@ -113,8 +113,9 @@ TEST_F(DiscrepancyVerdicts, NotIdentifiable) {
   EXPECT_EQ(file.credible_set, (std::vector<Words>{{"crosstalk"}}));
 }
 
-// One speed cannot tell a loop from a short memory. The experiment that the verdict recommends gives the one
-// right name; what was frozen before it passes, and fails where the rig has a short memory instead.
+// A single speed cannot distinguish a loop from a short memory. The experiment that the verdict recommends
+// identifies the right one. The prediction made before it is confirmed, and it fails on a rig with a short
+// memory instead.
 TEST_F(DiscrepancyVerdicts, AmbiguousUntilTheRecommendedExperimentIsRun) {
   const std::string first =
       session("one_speed", fsr::discrepancy::planted::problem(fsr::discrepancy::planted::kOneSpeed, kLoop));
@@ -136,7 +137,7 @@ TEST_F(DiscrepancyVerdicts, AmbiguousUntilTheRecommendedExperimentIsRun) {
   EXPECT_EQ(after.effects, Words{"hysteresis"});
 }
 
-// The loop was not in the library, so its neighbour was put forward and frozen. The experiment refutes it.
+// Without the loop in the library, a similar effect was found and predicted. The experiment refutes it.
 TEST_F(DiscrepancyVerdicts, AFrozenWrongPredictionIsNotConfirmed) {
   const std::string first =
       session("one_speed", fsr::discrepancy::planted::problem(fsr::discrepancy::planted::kOneSpeed, kLoop));

@@ -18,7 +18,7 @@ DriverHealth reading() {
   return health;
 }
 
-// A second later, with `scans` more at the board's 100 Hz.
+// The state a second later, with `scans` further scans at the board's 100 Hz.
 DriverHealth later(DriverHealth health, std::uint64_t scans) {
   health.scans += scans;
   health.scan_time += 10'000 * scans;
@@ -43,7 +43,7 @@ bool contains(const Status& status, const std::string& part) {
   return status.message.find(part) != std::string::npos;
 }
 
-TEST(DriverHealth, IsWellWhileScansCome) {
+TEST(DriverHealth, IsOkWhileScansCome) {
   const DriverHealth before = later(reading(), 100);
   const DriverHealth now = later(before, 100);
   EXPECT_EQ(link(before, now).level, Level::OK);
@@ -67,16 +67,26 @@ TEST(DriverHealth, ComplainsAboutSilenceBeyondTheTimeout) {
   EXPECT_EQ(link(now, now).level, Level::OK);
   now.link.silence = 1.5;
   EXPECT_EQ(link(now, now).level, Level::ERROR);
-  EXPECT_TRUE(contains(link(now, now), "no byte from /dev/ttyACM0 for 1.5 s")) << link(now, now).message;
+  EXPECT_TRUE(contains(link(now, now), "/dev/ttyACM0 has sent nothing for 1.5 s")) << link(now, now).message;
 }
 
-TEST(DriverHealth, TakesNoiseForAWrongBaud) {
+TEST(DriverHealth, BlamesTheDriverAndNotTheLinkForAFailingHandler) {
+  const DriverHealth before = reading();
+  DriverHealth now = reading();
+  now.link.handler_faults = 1;
+  now.link.handler_complaint = "handling a scan failed in this program, not on the link: out of memory";
+  EXPECT_EQ(link(before, now).level, Level::ERROR);
+  EXPECT_TRUE(contains(link(before, now), now.link.handler_complaint)) << link(before, now).message;
+  EXPECT_FALSE(contains(link(before, now), "waiting")) << link(before, now).message;
+}
+
+TEST(DriverHealth, SuspectsAWrongBaudRateWhenOnlyNoiseComes) {
   const DriverHealth before = reading();
   DriverHealth now = reading();
   now.link.counts.bytes = 500;
   now.link.counts.skipped_bytes = 490;
   EXPECT_EQ(link(before, now).level, Level::ERROR);
-  EXPECT_TRUE(contains(link(before, now), "is serial_baud 115200 the board's rate"))
+  EXPECT_TRUE(contains(link(before, now), "is serial_baud 115200 the baud rate of the board"))
       << link(before, now).message;
 }
 
@@ -89,13 +99,13 @@ TEST(DriverHealth, WarnsBeyondTheToleranceOfTheRateOnly) {
   EXPECT_EQ(scans(before, now, settings).level, Level::OK);
   now.scans = before.scans + 89;
   EXPECT_EQ(scans(before, now, settings).level, Level::WARN);
-  EXPECT_EQ(scans(before, now, settings).message, "89 scans a second where 100 are expected");
+  EXPECT_EQ(scans(before, now, settings).message, "89 scans a second, but 100 are expected");
 }
 
-TEST(DriverHealth, ExpectsTheRateThatTheBoardTold) {
+TEST(DriverHealth, ExpectsTheRateThatTheBoardReports) {
   DriverHealth before = later(reading(), 1);
   before.board.scan_period = 0.005;
-  EXPECT_EQ(scans(before, later(before, 100)).message, "100 scans a second where 200 are expected");
+  EXPECT_EQ(scans(before, later(before, 100)).message, "100 scans a second, but 200 are expected");
 }
 
 TEST(DriverHealth, JudgesNoRateFromItsFirstScans) {
@@ -111,18 +121,19 @@ TEST(DriverHealth, RefusesABoardOfAnotherSize) {
   now.board.size = {16, 10};
   now.refused_scans = 3;
   EXPECT_EQ(scans(reading(), now, settings).level, Level::ERROR);
-  EXPECT_EQ(scans(reading(), now, settings).message,
-            "the board sends 16 x 10 taxels, but rows and columns say 7 x 10: no scan is published");
+  EXPECT_EQ(
+      scans(reading(), now, settings).message,
+      "the board sends 16 x 10 taxels, but the parameters rows and columns are 7 x 10: no scan is published");
 }
 
-TEST(DriverHealth, IsWellAfterAReplayAndSaysWhatWasCut) {
+TEST(DriverHealth, IsOkAfterAReplayAndReportsACutCapture) {
   DriverSettings settings;
   settings.replay_file = "/data/run.fsrcap";
   DriverHealth now;
   now.link.phase = LinkPhase::kEnded;
   now.link.reason = "capture /data/run.fsrcap is cut short at byte 90: replayed up to there";
   EXPECT_EQ(link(now, now, settings).level, Level::OK);
-  EXPECT_EQ(link(now, now, settings).message, "replay of /data/run.fsrcap is over: " + now.link.reason);
+  EXPECT_EQ(link(now, now, settings).message, "replay of /data/run.fsrcap has ended: " + now.link.reason);
   EXPECT_EQ(scans(now, now, settings).level, Level::OK);
 }
 

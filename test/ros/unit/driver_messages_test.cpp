@@ -10,7 +10,7 @@ using fsr_ros::DriverSettings;
 
 constexpr fsr::protocol::PacketTime kTime = {1'700'000'000'123'456'789, 5'000'000'000};
 
-TEST(DriverMessages, CarriesAScanWithStampAndDeviceTime) {
+TEST(DriverMessages, ConvertsAScanWithStampAndDeviceTime) {
   const std::array<std::uint16_t, 6> counts = {0, 1, 2, 3, 4, 4095};
   const auto message =
       fsr_ros::scanMessage({17, 705032704, 40}, {{2, 3}, 4095, 5000, counts.data()}, kTime, DriverSettings());
@@ -34,7 +34,7 @@ TEST(DriverMessages, AddsTheAmbientPressureToAGaugeReading) {
   EXPECT_DOUBLE_EQ(message->variance, 1600);
 }
 
-TEST(DriverMessages, LeavesAnAbsoluteReadingAsItIs) {
+TEST(DriverMessages, DoesNotChangeAnAbsoluteReading) {
   DriverSettings settings;
   settings.transducer_line = {0, 10, true, 0};
   const auto message = fsr_ros::pressureMessage(-3, kTime, settings);

@@ -1,5 +1,5 @@
-// Where the package lies and where ROS may write, for every test of this executable, however it is started.
-// (ctest's ENVIRONMENT does not do: gtest_discover_tests passes on the first entry of a list alone.)
+// Sets the path of the package and the folder that ROS may write to, for all tests of this executable.
+// (ctest's ENVIRONMENT cannot be used: gtest_discover_tests passes on only the first entry of a list.)
 
 #include <gtest/gtest.h>
 

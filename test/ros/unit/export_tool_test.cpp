@@ -29,6 +29,7 @@
 #include "ros/bags/bag_writer.h"
 #include "settings/sha256.h"
 #include "support/file_size_limit.h"
+#include "support/line_format.h"
 #include "support/program_output.h"
 #include "support/pty.h"
 #include "support/small_calibration.h"
@@ -56,19 +57,20 @@ class ExportTool : public testing::Test {
     fsr_ros::writeBag(bag_, recording_, options);
   }
 
-  std::string run(const std::vector<std::string>& words) {
+  std::string run(const std::vector<std::string>& words,
+                  const std::vector<fsr::exports::ScanFormat>& formats = fsr::exports::scanFormats()) {
     std::vector<const char*> arguments = {"export"};
     for (const std::string& word : words) arguments.push_back(word.c_str());
     std::ostringstream out;
     try {
-      EXPECT_EQ(fsr_ros::exportTool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
+      EXPECT_EQ(fsr_ros::exportTool(static_cast<int>(arguments.size()), arguments.data(), out, formats), 0);
       return out.str();
     } catch (const fsr::settings::InputError& error) {
       return error.what();
     }
   }
 
-  // The table's columns by name.
+  // The columns of the table by name.
   static std::map<std::string, std::vector<std::string>> table(const std::string& path) {
     std::ifstream file(path);
     std::vector<std::string> names;
@@ -92,7 +94,7 @@ class ExportTool : public testing::Test {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_.path()), {}));
   }
 
-  // The bag with a map for each scan, and an event at second 5.
+  // The bag with a map for each scan, and an event 5 s after the start.
   std::string withMaps() {
     const std::string path = folder_.path("maps.bag");
     rosbag::Bag from(bag_), to(path, rosbag::bagmode::Write);
@@ -130,7 +132,7 @@ class ExportTool : public testing::Test {
 
 TEST_F(ExportTool, WritesEveryScanOfABagWithoutMaps) {
   const std::string said = run({bag_, "--to", "csv", "--output", csv_});
-  EXPECT_EQ(said, "1000 scans are in " + csv_ + "\n");
+  EXPECT_EQ(said, "1000 scans written to " + csv_ + "\n");
   const auto columns = table(csv_);
   ASSERT_EQ(columns.at("counts").size(), 6000u);
   for (std::size_t scan = 0; scan < 1000; scan += 37) {
@@ -185,12 +187,12 @@ TEST_F(ExportTool, WritesTekscanFrames) {
   EXPECT_NE(text.find("SECONDS_PER_FRAME 0.1000"), std::string::npos);
 }
 
-TEST_F(ExportTool, DrawsMapsInThePaceThatIsAskedFor) {
+TEST_F(ExportTool, DrawsMapsAtTheGivenRate) {
   const std::string bag = withMaps(), pictures = folder_.path("pictures");
   EXPECT_EQ(run({bag, "--to", "png", "--output", pictures, "--rate", "2", "--until", "3"}),
-            "7 scans are in " + pictures + "\n");
+            "7 scans written to " + pictures + "\n");
   EXPECT_EQ(std::distance(fs::directory_iterator(pictures), {}), 7);
-  EXPECT_NE(run({bag, "--to", "png", "--output", pictures}).find("is there already"), std::string::npos);
+  EXPECT_NE(run({bag, "--to", "png", "--output", pictures}).find("exists already"), std::string::npos);
   run({bag, "--to", "movie", "--output", folder_.path("maps.png"), "--until", "2", "--unit", "mmHg"});
   EXPECT_GT(fs::file_size(folder_.path("maps.png")), 20000u);
   EXPECT_NE(run({bag_, "--to", "png", "--output", folder_.path("none")})
@@ -199,9 +201,9 @@ TEST_F(ExportTool, DrawsMapsInThePaceThatIsAskedFor) {
   EXPECT_NE(
       run({bag, "--to", "png", "--output", folder_.path("none"), "--range", "5"}).find("--range is \"5\""),
       std::string::npos);
-  EXPECT_NE(
-      run({bag, "--to", "csv", "--output", csv_, "--unit", "kPa"}).find("--unit does not go with --to csv"),
-      std::string::npos);
+  EXPECT_NE(run({bag, "--to", "csv", "--output", csv_, "--unit", "kPa"})
+                .find("--unit cannot be used with --to csv"),
+            std::string::npos);
   EXPECT_FALSE(fs::exists(folder_.path("none")));
 }
 
@@ -209,12 +211,12 @@ TEST_F(ExportTool, RefusesACalibrationOfAnotherMatrix) {
   const std::string calibration = folder_.path("calibration.h5");
   fsr::calibration::saveCalibration(test_support::smallCalibration({3, 3}, {0.0}), calibration);
   EXPECT_NE(run({bag_, "--to", "csv", "--output", csv_, "--calibration", calibration})
-                .find("the scans are of 2 x 3 taxels up to 1023 counts, but the calibration is of 3 x 3"),
+                .find("the scans have 2 x 3 taxels and up to 1023 counts, but the calibration is for 3 x 3"),
             std::string::npos);
   EXPECT_FALSE(fs::exists(csv_));
 }
 
-// A message as a bag holds it.
+// A message as stored in a bag.
 using Held = std::tuple<std::string, std::string, std::uint64_t, std::string, ros::M_string>;
 
 std::vector<Held> messagesOf(const std::string& path) {
@@ -238,8 +240,8 @@ void expectSame(const std::vector<Held>& after, const std::vector<Held>& before)
   }
 }
 
-// Two publishers of one topic, types of others, texts and times that columns cannot hold, arrays of all
-// sizes.
+// Two publishers of one topic, types of other packages, texts and times that columns cannot hold, and arrays
+// of all sizes.
 void addOddMessages(const std::string& path) {
   rosbag::Bag bag(path, rosbag::bagmode::Append);
   const auto header = [](const char* caller) {
@@ -252,7 +254,7 @@ void addOddMessages(const std::string& path) {
                       {"message_definition", ros::message_traits::definition<std_msgs::String>()}});
   };
   for (int i = 0; i < 40; ++i) {
-    const ros::Time time(1500000001, 1000 * (i / 4));  // ten moments, four messages each
+    const ros::Time time(1500000001, 1000 * (i / 4));  // ten times, four messages each
     std_msgs::String text;
     text.data = i % 7 == 3 ? std::string("a\0b", 3) : "text " + std::to_string(i);
     bag.write("/twice", time, text, header(i % 2 == 0 ? "/one" : "/two"));
@@ -264,12 +266,12 @@ void addOddMessages(const std::string& path) {
     bag.write("/diagnostics", time, diagnostics);
     std_msgs::Duration duration;
     duration.data = ros::Duration(-3, 7 + i);
-    bag.write("/fsr", time, duration);  // the beginning of other topics' names
+    bag.write("/fsr", time, duration);  // also the beginning of other topics' names
     std_msgs::UInt8MultiArray array;
     array.data.assign(static_cast<std::size_t>(i % 5), 7);
     bag.write("/odd name", time, array);
     std_msgs::Header unusual;
-    unusual.stamp.nsec = 2000000000;  // more than a second of them
+    unusual.stamp.nsec = 2000000000;  // more than one second
     bag.write("/unusual", time, unusual);
     bag.write("/empty", time, std_msgs::Empty());
   }
@@ -280,7 +282,7 @@ TEST_F(ExportTool, AnArchiveTurnsBackIntoTheBagByteForByte) {
   addOddMessages(bag);
   const std::vector<Held> before = messagesOf(bag);
   EXPECT_EQ(run({bag, "--to", "hdf5", "--output", archive}),
-            std::to_string(before.size()) + " messages are in " + archive + "\n");
+            std::to_string(before.size()) + " messages written to " + archive + "\n");
   run({archive, "--to", "bag", "--output", back});
   expectSame(messagesOf(back), before);
 }
@@ -302,7 +304,7 @@ TEST_F(ExportTool, AnArchiveIsReadPlainlyByH5py) {
                              fsr::settings::sha256OfFile(folder_.path("maps.bag")) + "\n");
 }
 
-// The joined scans say what the table says.
+// The joined scans are equal to those of the table.
 TEST_F(ExportTool, AnArchiveHoldsTheJoinedScans) {
   if (test_support::outputOf("/usr/bin/python3 -c 'import h5py' 2>&1").status != 0) {
     GTEST_SKIP() << "h5py is not installed (Debian package python3-h5py): it was NOT tried";
@@ -345,9 +347,10 @@ TEST_F(ExportTool, ArchivesABagWithAMalformedScanAllTheSame) {
   }
   const std::string archive = folder_.path("all.h5"), back = folder_.path("back.bag");
   const std::string said = run({bag_, "--to", "hdf5", "--output", archive});
-  EXPECT_NE(said.find("Warning: the group /scans is not whole: " + bag_), std::string::npos) << said;
+  EXPECT_NE(said.find("Warning: the group /scans is incomplete: " + bag_), std::string::npos) << said;
   run({archive, "--to", "bag", "--output", back});
-  // Appending made a second connection like the first; the new bag has one, so moments have another order.
+  // Appending created a second connection like the first one. The new bag has one, so messages with the same
+  // time are in another order.
   std::vector<Held> before = messagesOf(bag_), after = messagesOf(back);
   std::sort(before.begin(), before.end());
   std::sort(after.begin(), after.end());
@@ -379,11 +382,11 @@ TEST_F(ExportTool, RefusesADamagedArchive) {
   EXPECT_NE(run({archive, "--to", "bag", "--output", back}).find("is damaged or cut short"),
             std::string::npos);
   EXPECT_EQ(run({bag_, "--to", "bag", "--output", back}),
-            bag_ + ": is no archive; give one that export --to hdf5 has written");
+            bag_ + ": is not an archive; give one that export --to hdf5 has written");
   EXPECT_FALSE(fs::exists(back));
 }
 
-// Changes a dataset of an archive, and signs the file anew: a hash is no signature.
+// Changes a dataset of an archive and updates its hash.
 constexpr char kForge[] = R"(
 import hashlib, sys, h5py
 path, name, what = sys.argv[1:]
@@ -399,7 +402,7 @@ data[:512] = line.ljust(512, b'\0')
 open(path, 'wb').write(data)
 )";
 
-TEST_F(ExportTool, RefusesAnArchiveThatWasChangedAndSignedAnew) {
+TEST_F(ExportTool, RefusesAChangedArchiveWithAnUpdatedHash) {
   if (test_support::outputOf("/usr/bin/python3 -c 'import h5py' 2>&1").status != 0) {
     GTEST_SKIP() << "h5py is not installed (Debian package python3-h5py): it was NOT tried";
   }
@@ -414,18 +417,19 @@ TEST_F(ExportTool, RefusesAnArchiveThatWasChangedAndSignedAnew) {
     EXPECT_EQ(python.text, "");
     return run({archive, "--to", "bag", "--output", back});
   };
-  EXPECT_NE(refusal("fsr/raw/sequence", "77").find("the messages of /fsr/raw are not those of the bag"),
+  EXPECT_NE(refusal("fsr/raw/sequence", "77").find("the messages of /fsr/raw differ from those of the bag"),
             std::string::npos);
   EXPECT_NE(refusal("archive/message/time", "-5").find("received at -5 ns"), std::string::npos);
-  EXPECT_NE(refusal("archive/message/connection", "99").find("leads nowhere"), std::string::npos);
-  EXPECT_NE(refusal("fsr/raw/counts", "delete").find("are not those of the bag"), std::string::npos);
+  EXPECT_NE(refusal("archive/message/connection", "99").find("has a row that does not exist"),
+            std::string::npos);
+  EXPECT_NE(refusal("fsr/raw/counts", "delete").find("differ from those of the bag"), std::string::npos);
   EXPECT_NE(refusal("fsr/raw/counts", "flat").find("no usable size"), std::string::npos);
   EXPECT_NE(refusal("fsr/raw/counts", "wide").find("no usable size"), std::string::npos);
   EXPECT_NE(refusal("archive/message/time", "long").find("has too few entries"), std::string::npos);
   EXPECT_FALSE(fs::exists(back));
 }
 
-TEST_F(ExportTool, LeavesNothingBehindWhereTheDiskIsFull) {
+TEST_F(ExportTool, LeavesNoFileWhenTheDiskIsFull) {
   const std::string maps = withMaps(), archive = folder_.path("all.h5");
   run({maps, "--to", "hdf5", "--output", archive});
   const std::size_t before = files();
@@ -443,6 +447,28 @@ TEST_F(ExportTool, LeavesNothingBehindWhereTheDiskIsFull) {
   EXPECT_EQ(files(), before);
 }
 
+TEST_F(ExportTool, OffersAFormatFromOutsideThePackage) {
+  std::vector<fsr::exports::ScanFormat> formats = fsr::exports::scanFormats();
+  formats.push_back(test_support::lineFormat());
+  const std::string output = folder_.path("scans.txt");
+  EXPECT_EQ(run({bag_, "--to", "lines", "--output", output, "--until", "3"}, formats),
+            "31 scans written to " + output + "\n");
+  std::ifstream file(output);
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line, "# 1_flat.bag");
+  std::getline(file, line);
+  std::string first = "0.000000";
+  for (std::size_t taxel = 0; taxel < 6; ++taxel) first += " " + std::to_string(recording_.scan(0)[taxel]);
+  EXPECT_EQ(line, first);
+
+  EXPECT_NE(run({"--help"}, formats).find("lines    one line for each scan"), std::string::npos);
+  EXPECT_NE(run({bag_, "--to", "pdf", "--output", output}, formats).find("lines"), std::string::npos);
+  EXPECT_EQ(run({bag_, "--to", "lines", "--output", output, "--unit", "kPa"}, formats),
+            "--unit cannot be used with --to lines");
+  EXPECT_NE(run({bag_, "--to", "lines", "--output", output}).find("must be one of"), std::string::npos);
+}
+
 TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
   const auto refusal = [&](const std::vector<std::string>& more, const std::string& to = "csv") {
     std::vector<std::string> words = {"--to", to, "--output", csv_};
@@ -450,12 +476,13 @@ TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
     return run(words);
   };
   EXPECT_EQ(refusal({folder_.path("none.bag")}), folder_.path("none.bag") + ": there is no such file");
-  EXPECT_NE(refusal({bag_}, "pdf").find("--to is \"pdf\", but must be one of "), std::string::npos);
+  EXPECT_EQ(refusal({bag_}, "pdf"),
+            "--to is \"pdf\", but must be one of csv, tekscan, png, movie, hdf5, bag");
   EXPECT_NE(refusal({bag_, "--namespace", "left"}).find("holds no topic /left/raw"), std::string::npos);
   EXPECT_NE(refusal({bag_, "--map", "map_b"}).find("holds no topic map_b, but /fsr/"), std::string::npos);
   EXPECT_NE(refusal({bag_, "--from", "500"}).find("holds no scan between"), std::string::npos);
   EXPECT_NE(refusal({bag_, "--from", "5", "--until", "4"}).find("--from is 5"), std::string::npos);
-  EXPECT_NE(refusal({bag_, bag_}, "tekscan").find("give one file"), std::string::npos);
+  EXPECT_NE(refusal({bag_, bag_}, "tekscan").find("takes one file, but 2 are given"), std::string::npos);
   const std::string foreign = folder_.path("foreign.bag");
   {
     rosbag::Bag bag(foreign, rosbag::bagmode::Write);
@@ -465,10 +492,10 @@ TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
   const std::string cut = folder_.path("cut.bag");
   fs::copy_file(bag_, cut);
   fs::resize_file(cut, fs::file_size(cut) / 2);
-  EXPECT_NE(refusal({cut}).find("is no whole bag"), std::string::npos);
+  EXPECT_NE(refusal({cut}).find("is not a complete bag"), std::string::npos);
   EXPECT_EQ(files(), 3u) << "the bags alone";
   EXPECT_EQ(run({bag_, "--to", "csv", "--output", bag_}),
-            "--output is " + bag_ + " itself: give another name");
+            "--output is " + bag_ + " itself; give another name");
   EXPECT_NE(run({bag_, "--to", "csv", "--output", folder_.path("no/a.csv")}).find("cannot be written"),
             std::string::npos);
 }

@@ -51,7 +51,7 @@ TEST_F(FigureScript, SaysWhyItFailed) {
   EXPECT_NE(message.find("results.json: no key rows"), std::string::npos) << message;
 }
 
-// More than a pipe holds: whoever waits before reading waits for ever.
+// More than the buffer of a pipe: waiting for the end before reading would block for ever.
 TEST_F(FigureScript, MayPrintMuch) {
   EXPECT_EQ(refusal(script("print('x' * 300000)\nprint('y\\n' * 100000)")), "not refused");
 }

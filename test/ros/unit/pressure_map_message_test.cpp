@@ -1,4 +1,4 @@
-#include "ros/messages/pressure_map_message.h"
+#include "fsr_pressure_map/ros/pressure_map_message.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ fsr_pressure_map::PressureMap someMessage() {
   return message;
 }
 
-TEST(PressureMapMessage, CarriesTheMapThereAndBack) {
+TEST(PressureMapMessage, ConvertsAMapThereAndBack) {
   const fsr_pressure_map::PressureMap message = someMessage();
   EXPECT_EQ(message.state, fsr_pressure_map::PressureMap::STATE_CURVATURE_STALE);
   EXPECT_EQ(message.rows, 2);

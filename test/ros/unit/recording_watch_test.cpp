@@ -26,20 +26,20 @@ class RecordingWatch : public testing::Test {
   fsr_ros::RecordingWatch watch_{kLeast, 10};
 };
 
-TEST_F(RecordingWatch, IsContentWhileTheBagGrows) {
+TEST_F(RecordingWatch, IsOkWhileTheBagGrows) {
   at(0, {"x.bag.active", 1000, 2 * kLeast});
   const auto status = at(8, {"x.bag.active", 9000, 2 * kLeast});
   EXPECT_EQ(status.level, Level::OK);
   EXPECT_TRUE(says(status, "x.bag.active")) << status.message;
 }
 
-TEST_F(RecordingWatch, CriesWhereTheDiskIsAsFullAsItMayGet) {
+TEST_F(RecordingWatch, ReportsAnErrorWhenTheDiskIsNearlyFull) {
   const auto status = at(0, {"x.bag.active", 1000, kLeast - 1});
   EXPECT_EQ(status.level, Level::ERROR);
-  EXPECT_TRUE(says(status, "NOTHING IS RECORDED: 200.0 MB are left")) << status.message;
+  EXPECT_TRUE(says(status, "RECORDING STOPPED: 200.0 MB are left")) << status.message;
 }
 
-TEST_F(RecordingWatch, CriesWhereTheBagStaysTheSame) {
+TEST_F(RecordingWatch, ReportsAnErrorWhenTheBagDoesNotGrow) {
   at(0, {"x.bag.active", 1000, 2 * kLeast});
   EXPECT_EQ(at(9, {"x.bag.active", 1000, 2 * kLeast}).level, Level::OK);
   const auto status = at(11, {"x.bag.active", 1000, 2 * kLeast});
@@ -48,9 +48,9 @@ TEST_F(RecordingWatch, CriesWhereTheBagStaysTheSame) {
   EXPECT_EQ(at(12, {"x.bag.active", 1001, 2 * kLeast}).level, Level::OK) << "it goes on";
 }
 
-TEST_F(RecordingWatch, SaysThatARecordingIsOverOrNotThere) {
+TEST_F(RecordingWatch, ReportsAnEndedAndAMissingRecording) {
   EXPECT_TRUE(says(at(0, {}), "waiting for the recorder"));
-  EXPECT_TRUE(says(at(1, {"x.bag", 1000, kLeast}), "is over"));
+  EXPECT_TRUE(says(at(1, {"x.bag", 1000, kLeast}), "has ended"));
 }
 
 TEST(LookAtRecording, FindsTheBagUnderBothOfItsNames) {

@@ -19,7 +19,7 @@ class ResourcePath : public testing::Test {
   }
 };
 
-TEST_F(ResourcePath, LeavesAnAbsolutePathAndNothingAsTheyAre) {
+TEST_F(ResourcePath, DoesNotChangeAnAbsoluteOrEmptyPath) {
   EXPECT_EQ(resolveResource("/data/a b.h5"), "/data/a b.h5");
   EXPECT_EQ(resolveResource("file:///data/a.h5"), "/data/a.h5");
   EXPECT_EQ(resolveResource(""), "");
@@ -37,7 +37,7 @@ TEST_F(ResourcePath, FindsAFileOfAPackage) {
   EXPECT_TRUE(std::filesystem::equivalent(path, FSR_SOURCE_DIR "/package.xml")) << path;
 }
 
-TEST_F(ResourcePath, RefusesWhatCannotMeanAFile) {
+TEST_F(ResourcePath, RefusesRelativePathsAndUnknownSchemes) {
   for (const char* text : {"c.h5", "../c.h5", "http://rig/c.h5", "${HOME}/c.h5",
                            "package://no_such_package/c", "package:///c"}) {
     EXPECT_THROW(resolveResource(text), fsr::settings::InputError) << text;

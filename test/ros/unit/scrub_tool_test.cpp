@@ -73,7 +73,7 @@ class ScrubTool : public testing::Test {
   std::string output_ = folder_.path("out.bag");
 };
 
-TEST_F(ScrubTool, LeavesNoSecretAndKeepsTheScans) {
+TEST_F(ScrubTool, RemovesIdentifyingDataAndKeepsTheScans) {
   const std::string said = run({path_, "--output", output_});
   std::ifstream file(output_, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
@@ -101,10 +101,11 @@ TEST_F(ScrubTool, LeavesNoSecretAndKeepsTheScans) {
   }
 }
 
-TEST_F(ScrubTool, RefusesToWriteOverTheBagAndWhatIsNone) {
-  EXPECT_EQ(run({path_, "--output", path_}), "--output is the bag itself: give another name");
+TEST_F(ScrubTool, RefusesToOverwriteTheBagAndFilesThatAreNoBags) {
+  EXPECT_EQ(run({path_, "--output", path_}), "--output is the bag itself; give another name");
   std::ofstream(folder_.path("text")) << "no bag";
-  EXPECT_NE(run({folder_.path("text"), "--output", output_}).find("is no whole bag"), std::string::npos);
+  EXPECT_NE(run({folder_.path("text"), "--output", output_}).find("is not a complete bag"),
+            std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(output_));
 }
 

@@ -11,8 +11,8 @@
 #include <set>
 #include <sstream>
 
+#include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/bag_reader.h"
 #include "ros/bags/bag_writer.h"
 #include "simulation/portrait.h"
 #include "simulation/session.h"
@@ -52,7 +52,7 @@ class SimulateTool : public testing::Test {
 
   fs::path folder_;
   int status_ = -1;
-  std::string printed_;  // before it failed
+  std::string printed_;  // output before the error
 };
 
 std::set<std::string> topicsOf(const std::string& bag_path) {
@@ -224,9 +224,9 @@ TEST_F(SimulateTool, SaysWhatADrivenModelIsLikeAndWhatItMissed) {
   const std::string printed =
       run({"--simulation", kBench, "--output", path("model"), "--drive", path("bare.bag")});
   EXPECT_EQ(status_, 0) << printed;
-  EXPECT_NE(printed.find("is of a matrix of 2 x 5"), std::string::npos) << printed;
+  EXPECT_NE(printed.find("the matrix has 2 x 5 taxels"), std::string::npos) << printed;
   EXPECT_NE(printed.find("holds no temperature"), std::string::npos) << printed;
-  EXPECT_NE(printed.find("the model lies flat there"), std::string::npos) << printed;
+  EXPECT_NE(printed.find("the simulated matrix lies flat there"), std::string::npos) << printed;
   const auto truth = fsr::simulation::readSimulationFile(path("model/truth.yaml"));
   EXPECT_EQ(truth.layout.size, (fsr::matrix::MatrixSize{2, 5}));
   EXPECT_EQ(truth.fullScale(), 1023);
@@ -242,7 +242,8 @@ TEST_F(SimulateTool, LeavesTheOriginalAlone) {
 TEST_F(SimulateTool, OverwritesItsOwnBagsButNobodyElses) {
   std::ofstream(path("recorded.bag")) << "x";
   const std::string complaint = run({"--simulation", kBench, "--output", folder_});
-  EXPECT_NE(complaint.find("holds recorded.bag, which no simulation wrote"), std::string::npos) << complaint;
+  EXPECT_NE(complaint.find("holds recorded.bag, which was not written by simulate"), std::string::npos)
+      << complaint;
   EXPECT_EQ(filesIn(folder_), (std::set<std::string>{"recorded.bag"}));
   run({"--simulation", kBench, "--output", path("out")});
   run({"--simulation", kBench, "--output", path("out")});
@@ -279,7 +280,7 @@ TEST_F(SimulateTool, SaysWhatItCannotUse) {
   EXPECT_NE(run({"--simulation", kBench, "--output", path("out"), "--effect", "hysterese"}).find("hysterese"),
             std::string::npos);
   std::ofstream(path("file")) << "x";
-  EXPECT_NE(run({"--simulation", kBench, "--output", path("file")}).find("cannot be made"),
+  EXPECT_NE(run({"--simulation", kBench, "--output", path("file")}).find("cannot be created"),
             std::string::npos);
   EXPECT_FALSE(fs::exists(path("out/1_flat.bag")));
 }

@@ -33,7 +33,7 @@ class TareKeeperTest : public testing::Test {
   fsr::matrix::Surface flat;
 };
 
-TEST_F(TareKeeperTest, TakesUpWhatAnEarlierRunLeft) {
+TEST_F(TareKeeperTest, ReadsTheTareOfAnEarlierRun) {
   TareKeeper keeper(path);
   EXPECT_EQ(keeper.review("id", &flat), tare.offset);
 }
@@ -46,7 +46,7 @@ TEST_F(TareKeeperTest, WaitsForCalibrationAndCurvature) {
   EXPECT_EQ(keeper.review("id", &flat), tare.offset);
 }
 
-TEST_F(TareKeeperTest, WaitsForNoCurvatureWhereItWasTakenWithoutOne) {
+TEST_F(TareKeeperTest, NeedsNoCurvatureIfItWasMeasuredWithoutOne) {
   tare.surface.clear();
   tare.mount = 0;
   TareKeeper::write(tare, path);

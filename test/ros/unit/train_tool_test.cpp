@@ -65,7 +65,7 @@ TEST_F(TrainTool, PrintsCoverageThenScoresThenThePath) {
   EXPECT_LT(coverage, scores);
   EXPECT_LT(scores, path);
   EXPECT_NE(path, std::string::npos) << text;
-  EXPECT_NE(text.find(" (chosen)) is in " + output + "\n", path), std::string::npos) << text;
+  EXPECT_NE(text.find(" (chosen)) written to " + output + "\n", path), std::string::npos) << text;
   EXPECT_EQ(calibration.tables.classes.size(), 2u);
   EXPECT_EQ(calibration.provenance.bags.at(1).name, "bend.bag");
 }
@@ -84,9 +84,9 @@ TEST_F(TrainTool, TakesItsOptions) {
   EXPECT_EQ(calibration.provenance.seed, 7u);
   EXPECT_NEAR(calibration.trained.pressure.low, 1325.0, 1e-6);  // the bag's ambient is 101325
   EXPECT_TRUE(calibration.scores.conditions.empty());
-  EXPECT_NE(text.find("Scores were not asked for."), std::string::npos);
+  EXPECT_NE(text.find("Scores were not computed."), std::string::npos);
   EXPECT_TRUE(fs::exists(report));
-  EXPECT_NE(text.find("Report is in " + report + "\n"), std::string::npos);
+  EXPECT_NE(text.find("Report written to " + report + "\n"), std::string::npos);
 }
 
 TEST_F(TrainTool, TrainsEverySchemeByItsName) {
@@ -94,7 +94,8 @@ TEST_F(TrainTool, TrainsEverySchemeByItsName) {
   const std::string output = (folder_ / "calibration.h5").string();
   for (const std::string& scheme : fsr::compensation::schemeNames()) {
     const std::string text = run({flat, bend_, "--scheme", scheme, "--bandwidth", "0.1", "--output", output});
-    EXPECT_NE(text.find(" (" + scheme + ", grnn, bandwidth 0.1) is in " + output), std::string::npos) << text;
+    EXPECT_NE(text.find(" (" + scheme + ", grnn, bandwidth 0.1) written to " + output), std::string::npos)
+        << text;
     EXPECT_EQ(fsr::compensation::schemeName(fsr::calibration::loadCalibration(output).tables.scheme), scheme);
   }
 }
@@ -104,7 +105,7 @@ TEST_F(TrainTool, TrainsEachModelWithItsOptions) {
     const std::string output = (folder_ / "calibration.h5").string();
     words.insert(words.end(), {bend_, "--output", output});
     const std::string text = run(words);
-    EXPECT_NE(text.find("is in " + output), std::string::npos) << text;
+    EXPECT_NE(text.find("written to " + output), std::string::npos) << text;
     return fsr::calibration::loadCalibration(output);
   };
   EXPECT_EQ(trained({"--model", "linear"}).regressor.name, "linear");
@@ -131,8 +132,8 @@ TEST_F(TrainTool, MergesCalibrations) {
   run({bend_, "--output", b});
   run({flat, bend_, "--output", whole});
   const std::string text = run({"--merge", a, b, "--output", merged, "--threads", "1"});
-  EXPECT_NE(text.find("Scores need the bags"), std::string::npos) << text;
-  EXPECT_NE(text.find(" is in " + merged), std::string::npos) << text;
+  EXPECT_NE(text.find("A merged calibration has no scores"), std::string::npos) << text;
+  EXPECT_NE(text.find(" written to " + merged), std::string::npos) << text;
   const fsr::compensation::CurvatureTables one = fsr::calibration::loadCalibration(merged).tables;
   const fsr::compensation::CurvatureTables other = fsr::calibration::loadCalibration(whole).tables;
   ASSERT_EQ(one.tables.size(), other.tables.size());
@@ -142,7 +143,7 @@ TEST_F(TrainTool, MergesCalibrations) {
   }
   EXPECT_EQ(run({"--merge", a, "--output", merged}), "merging needs two calibration files or more");
   EXPECT_EQ(run({"--merge", a, b, "--output", merged, "--model", "linear"}),
-            "--model cannot be given with --merge: the files decide");
+            "--model cannot be used with --merge, because the files determine it");
   EXPECT_EQ(run({"--merge", a, a, "--output", merged}),
             a + ": was trained on flat.bag, as was " + a + "; each bag may count once");
 }
@@ -167,7 +168,7 @@ TEST_F(TrainTool, ChecksACalibrationOnNewBags) {
   const std::string bad = run({"--check", output, other});
   EXPECT_NE(bad.find("Recalibrate, because"), std::string::npos) << bad;
   EXPECT_EQ(run({"--check", output, "--output", output, bend_}),
-            "--check writes no calibration: leave --output out");
+            "--check writes no calibration; remove --output");
 }
 
 TEST_F(TrainTool, WrongUsageIsOneSentence) {

@@ -1,0 +1,86 @@
+#include "discrepancy/prove/prediction_hash.h"
+
+#include <sstream>
+#include <utility>
+
+#include "settings/sha256.h"
+#include "settings/yaml_text.h"
+#include "simulation/simulation_text.h"
+#include "simulation/taxel_curves.h"
+
+namespace fsr::discrepancy {
+
+namespace {
+
+using Effects = std::vector<simulation::EnabledEffect>;
+
+// Every field has a name and an end, so that no two predictions have the same text.
+void write(std::ostream& out, const Effects& effects) {
+  for (const simulation::EnabledEffect& effect : effects) {
+    out << effect.id << " {";
+    for (const auto& [name, value] : effect.values)
+      out << name << ": " << settings::numberText(value) << ", ";
+    out << "only_taxels: [";
+    for (const std::size_t taxel : effect.only_taxels) out << taxel << ", ";
+    out << "], only_surfaces: [";
+    for (const std::string& surface : effect.only_surfaces) out << settings::quotedText(surface) << ", ";
+    out << "]} ";
+  }
+  out << "\n";
+}
+
+// Names of files are left out: base.yaml and its table may be moved and renamed.
+std::string contentOf(simulation::SimulationSettings simulation) {
+  const auto curves = std::exchange(simulation.taxel_curves, nullptr);
+  simulation.taxel_curves_file.clear();
+  return simulation::simulationText(simulation) + (curves ? simulation::taxelCurvesText(*curves) : "");
+}
+
+std::string hashOfText(const std::string& text) {
+  return settings::sha256(text.data(), text.size());
+}
+
+void writeFirst(std::ostream& out, const Effects& effects) {
+  for (const simulation::EnabledEffect& effect : effects) {
+    out << effect.id << "{";
+    for (const auto& [name, value] : effect.values) out << name << "=" << value << ";";
+    for (const std::size_t taxel : effect.only_taxels) out << taxel << ",";
+    for (const std::string& surface : effect.only_surfaces) out << surface << ",";
+    out << "}";
+  }
+  out << "\n";
+}
+
+}  // namespace
+
+std::string hashOf(const Prediction& prediction, const simulation::SimulationSettings& simulation) {
+  std::ostringstream text;
+  text << "prediction, second form\neffects: ";
+  write(text, prediction.effects);
+  for (const Effects& rival : prediction.rivals) {
+    text << "rival: ";
+    write(text, rival);
+  }
+  text << "size: " << settings::numberText(prediction.size.low) << " to "
+       << settings::numberText(prediction.size.high) << "\n"
+       << contentOf(simulation);
+  return hashOfText(text.str());
+}
+
+std::string firstHashOf(const Prediction& prediction, const simulation::SimulationSettings& simulation) {
+  std::ostringstream text;
+  text.precision(9);
+  writeFirst(text, prediction.effects);
+  for (const Effects& rival : prediction.rivals) writeFirst(text, rival);
+  text << prediction.size.low << " " << prediction.size.high << "\n";
+  text << simulation.layout.size.rows << " x " << simulation.layout.size.columns << "\n";
+  writeFirst(text, simulation.effects);
+  return hashOfText(text.str());
+}
+
+bool hasItsHash(const Prediction& prediction, const simulation::SimulationSettings& simulation) {
+  return prediction.hash == hashOf(prediction, simulation) ||
+         prediction.hash == firstHashOf(prediction, simulation);
+}
+
+}  // namespace fsr::discrepancy

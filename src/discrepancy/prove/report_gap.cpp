@@ -1,0 +1,138 @@
+#include "discrepancy/prove/report_gap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "discrepancy/decide/refine.h"
+#include "discrepancy/prove/gap.h"
+#include "discrepancy/samples/held_out.h"
+#include "simulation/effects/effect_library.h"
+
+namespace fsr::discrepancy {
+
+namespace {
+
+constexpr double kHoldsElsewhere = 0.5;  // of the gap closed on cycles: less on a part is worth a word
+
+class GapReporter {
+ public:
+  GapReporter(const Found& found, DiscrepancyReport& report) : found_(found), report_(report) {}
+
+  void run();
+
+ private:
+  void confine(double amplitude);
+  std::vector<Part> surfacesWhereItShows() const;
+  Trace leftWithout(const Part& part) const;
+  void holdOut(const std::string& by, const std::vector<Part>& parts, const GapGround& ground,
+               const std::string& missing);
+
+  const Found& found_;
+  DiscrepancyReport& report_;
+};
+
+// The simulation's effects act where they were found to, and there as strongly: the common trace is a mean
+// over all taxels.
+void GapReporter::confine(double amplitude) {
+  for (const simulation::EnabledEffect& found : found_.decision.refined.effects) {
+    simulation::EnabledEffect effect = *report_.added.effect(found.id);
+    effect.only_taxels = report_.where.taxels;
+    effect.only_surfaces = report_.where.conditions;
+    for (const simulation::EffectParameter& strength :
+         simulation::strengths(found_.measured.info(found.id))) {
+      double& value = effect.values.at(strength.name);
+      if (!effect.only_taxels.empty() && amplitude > 1)
+        value = std::clamp(amplitude * value, strength.permitted.low, strength.permitted.high);
+    }
+    report_.added = withEffect(report_.added, effect);
+  }
+}
+
+std::vector<Part> GapReporter::surfacesWhereItShows() const {
+  std::vector<Part> surfaces = partsByCondition(found_.measured);
+  const std::vector<std::string>& where = report_.where.conditions;
+  const auto elsewhere = [&](const Part& part) {
+    return !where.empty() && !std::count(where.begin(), where.end(), part.name);
+  };
+  surfaces.erase(std::remove_if(surfaces.begin(), surfaces.end(), elsewhere), surfaces.end());
+  return surfaces.size() < 2 ? std::vector<Part>() : surfaces;
+}
+
+// What the explanation takes from the common trace where it was sized without one part.
+Trace GapReporter::leftWithout(const Part& part) const {
+  if (found_.by_terms) {
+    std::vector<bool> unseen(found_.measured.cycles.size());
+    for (const std::size_t c : part.cycles) unseen[c] = true;
+    const Trace trace = found_.candidates.explainedWithout(found_.decision.explanation, unseen);
+    return found_.decision.verdict == Verdict::kUnknown ? found_.fit.residual(trace)
+                                                        : found_.fit.withoutGainWeights(trace);
+  }
+  std::vector<simulation::EnabledEffect> effects = found_.decision.refined.effects;
+  effects.insert(effects.end(), found_.beside.begin(), found_.beside.end());
+  return refine(withoutPart(found_.measured, part), found_.common, found_.fit, report_.base, effects,
+                found_.decision.refined.state_kept, found_.decision.explanation.set.bent_only)
+      .trace;
+}
+
+// The gap once more, each part foretold by what was fitted to the others.
+void GapReporter::holdOut(const std::string& by, const std::vector<Part>& parts, const GapGround& ground,
+                          const std::string& missing) {
+  if (found_.decision.verdict == Verdict::kNone) return;
+  if (parts.empty()) {
+    report_.gap.missing.push_back(missing);
+    return;
+  }
+  const Trace foretold = predictedByTheRest(found_.measured, parts, found_.threads,
+                                            [this](const Part& part) { return leftWithout(part); });
+  HeldOutGap held{by, 0, {}, {}};
+  std::vector<std::size_t> cycles;
+  for (const Part& part : parts) {
+    cycles.insert(cycles.end(), part.cycles.begin(), part.cycles.end());
+    held.parts.emplace_back(part.name, measureGap(ground, foretold, part.cycles).closed);
+  }
+  const Gap all = measureGap(ground, foretold, cycles);
+  held.closed = all.closed;
+  held.closed_interval = all.closed_interval;
+  for (const auto& [part, closed] : held.parts) {
+    if (closed >= kHoldsElsewhere * report_.gap.closed) continue;
+    report_.limitations.push_back("On " + part + " it holds badly: sized on all the others it closes " +
+                                  std::to_string(std::lround(100 * closed)) + " % of the gap there.");
+  }
+  report_.gap.held_out_by.push_back(by);
+  report_.gap.foretold.push_back(held);
+}
+
+void GapReporter::run() {
+  const Spread spread = spreadOf(found_.measured, found_.taxels, found_.left);
+  const double to_error =
+      spread.square > 0 ? found_.candidates.meanSquare() * spread.local / spread.square : 0;
+  const bool in_common = found_.decision.verdict != Verdict::kNone;
+  if (in_common) report_.where = placeOf(found_.measured, found_.left, spread);
+  const Eigen::MatrixXd mask = maskOf(found_.measured, report_.where, spread);
+  GapExtras extras;
+  for (const Detection& detection : found_.detections) {
+    extras.before_more += detection.before_more;
+    extras.after_less += detection.after_less;
+  }
+  extras.before_more += found_.static_square;
+  const double explainable = in_common ? std::min(1.0, found_.decision.explainable * to_error) : 0;
+  if (!found_.by_terms && in_common) confine(mask.maxCoeff());
+  const GapGround ground{found_.measured, found_.fit, found_.taxels, mask, explainable, extras, found_.seed};
+  report_.gap = measureGap(ground, found_.left, allCycles(found_.measured));
+  holdOut("condition", surfacesWhereItShows(), ground,
+          "It shows on one surface alone, so none was held out.");
+  holdOut("protocol", partsByProtocol(found_.measured), ground,
+          "All cycles are run alike, so no protocol was held out.");
+  if (report_.gap.held_out_by.size() < 2)
+    report_.gap.missing.push_back("Cycles alone are weak evidence that it holds elsewhere.");
+  const Trace before = found_.fit.residual(found_.common.all);
+  report_.curves = residualCurves(found_.measured, before, before - found_.left);
+}
+
+}  // namespace
+
+void reportGap(const Found& found, DiscrepancyReport& report) {
+  GapReporter(found, report).run();
+}
+
+}  // namespace fsr::discrepancy

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+
+namespace fsr::discrepancy {
+
+/// Thresholds that decide the same question in several files. Each file has those of its own besides.
+namespace thresholds {
+
+/// Share of the readings' squared error. An effect, a pattern or a group of taxels that explains less does
+/// not matter.
+constexpr double kLeastShareOfError = 0.02;
+/// Standard errors by which one explanation must be ahead of another.
+constexpr double kSignificant = 2;
+/// Share of the explainable error. An effect that explains less does not have the right form.
+constexpr double kGoodForm = 0.7;
+/// Share of what an effect with any course explains. A slow effect that comes that near may be the true one.
+constexpr double kAnyCourseHides = 0.5;
+/// Share of the largest root mean square. A taxel, a class of curvature or a mount below it does not show the
+/// effect.
+constexpr double kShows = 0.2;
+/// The same for a bin of pressure.
+constexpr double kPressureShows = 0.25;
+/// Width of a bin of pressure [Pa].
+constexpr double kPressureBin = 25e3;
+/// Share of the highest pressure. Below it the sheet counts as unloaded.
+constexpr double kLoaded = 0.1;
+
+/// At least half of the taxels must be usable: detectors compare a taxel with the others.
+constexpr bool enoughUsable(std::size_t usable, std::size_t taxels) {
+  return 2 * usable >= taxels;
+}
+
+}  // namespace thresholds
+
+}  // namespace fsr::discrepancy

@@ -1,0 +1,31 @@
+#include "fsr_pressure_map/protocol/decoder.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "protocol/wire_decoder.h"
+
+namespace fsr::protocol {
+namespace {
+
+template <typename D>
+std::unique_ptr<Decoder> make(PacketHandler& handler) {
+  return std::make_unique<D>(handler);
+}
+
+}  // namespace
+
+const std::vector<Protocol>& protocols() {
+  static const std::vector<Protocol> all = {
+      {"wire", "binary packets with checks, docs/wire_format.md", make<WireDecoder>},
+  };
+  return all;
+}
+
+const Protocol& protocolNamed(const std::string& name) {
+  std::string names;
+  for (const Protocol& protocol : protocols()) {
+    if (protocol.name == name) return protocol;
+    names += (names.empty() ? "" : ", ") + protocol.name;
+  }
+  throw settings::InputError("there is no protocol " + name + ": set one of " + names);
+}
+
+}  // namespace fsr::protocol

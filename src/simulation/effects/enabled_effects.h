@@ -1,0 +1,13 @@
+#pragma once
+
+#include "fsr_pressure_map/simulation/simulation_settings.h"
+
+namespace fsr::simulation {
+
+/// The converter, without which no chain runs.
+const EnabledEffect& converterOf(const SimulationSettings& settings);
+
+/// The settings without the effects that draw new random numbers at each scan.
+SimulationSettings withoutNoise(SimulationSettings settings);
+
+}  // namespace fsr::simulation

@@ -1,0 +1,85 @@
+#include "exports/scan_formats.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "exports/scan_examples.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "support/line_format.h"
+#include "support/pty.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using fsr::exports::ScanFormat;
+
+// An output name of the format's kind. A movie that needs no other program is an animated PNG.
+std::string outputOf(const ScanFormat& format, const test_support::TemporaryFolder& folder) {
+  return folder.path(format.name == "movie" ? "maps.png" : "out_" + format.name);
+}
+
+void writeTwoScans(const ScanFormat& format, const std::string& output, bool finish) {
+  const auto sink = format.open(output, {});
+  sink->begin(export_test::exampleSubject());
+  fsr::exports::ScanRecord scan = export_test::exampleScan();
+  sink->add(scan);
+  scan.stamp_ns += 100000000;
+  scan.since_ns += 100000000;
+  sink->add(scan);
+  if (finish) sink->finish();
+}
+
+// The shipped formats and one from outside the package.
+std::vector<ScanFormat> allFormats() {
+  std::vector<ScanFormat> formats = fsr::exports::scanFormats();
+  formats.push_back(test_support::lineFormat());
+  return formats;
+}
+
+TEST(ScanFormats, EachWritesItsOutputWholeOrNotAtAll) {
+  for (const ScanFormat& format : allFormats()) {
+    SCOPED_TRACE(format.name);
+    const test_support::TemporaryFolder folder;
+    writeTwoScans(format, outputOf(format, folder), false);
+    EXPECT_TRUE(fs::is_empty(folder.path())) << "without finish()";
+    writeTwoScans(format, outputOf(format, folder), true);
+    EXPECT_TRUE(fs::exists(outputOf(format, folder)));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+  }
+}
+
+TEST(ScanFormats, EachHasANameOfItsOwnAndASummaryOfOneLine) {
+  std::set<std::string> names;
+  for (const ScanFormat& format : allFormats()) {
+    EXPECT_TRUE(names.insert(format.name).second) << format.name;
+    EXPECT_FALSE(format.summary.empty()) << format.name;
+    EXPECT_EQ(format.summary.find('\n'), std::string::npos) << format.name;
+  }
+}
+
+TEST(ScanFormats, AFormatFromOutsideWritesWhatItIsGiven) {
+  const test_support::TemporaryFolder folder;
+  writeTwoScans(test_support::lineFormat(), folder.path("a.txt"), true);
+  std::ifstream file(folder.path("a.txt"));
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(text, "# 2_cylinder.bag\n0.050000 0 1 2 300 17 4095\n0.150000 0 1 2 300 17 4095\n");
+}
+
+TEST(ScanFormats, TekscanRefusesACompressedOutput) {
+  const test_support::TemporaryFolder folder;
+  for (const ScanFormat& format : fsr::exports::scanFormats()) {
+    if (format.name != "tekscan") continue;
+    try {
+      format.open(folder.path("a.asf.gz"), {});
+      FAIL() << "opened";
+    } catch (const fsr::settings::InputError& error) {
+      EXPECT_EQ(error.what(), "--output is " + folder.path("a.asf.gz") + ", but only csv can be compressed");
+    }
+  }
+}
+
+}  // namespace
