@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <set>
 
-#include "ros/bags/bag_reader.h"
+#include "fsr_pressure_map/ros/bag_reader.h"
 
 namespace blind {
 namespace {

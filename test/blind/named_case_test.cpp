@@ -10,7 +10,7 @@
 #include "blind/case_files.h"
 #include "blind/hand_plan.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/settings/settings.h"
+#include "settings/settings.h"
 
 namespace blind {
 namespace {
