@@ -346,7 +346,7 @@ Measured admit(const DiscrepancyProblem& problem) {
   }
   if (!thermometer) {
     measured.temperature.clear();
-    measured.limitations.push_back("No temperature was recorded: what is slow cannot be told apart.");
+    measured.limitations.push_back("No temperature was recorded, so slow effects cannot be told apart.");
   }
   const double start = measured.time.front();
   for (double& time : measured.time) time -= start;
