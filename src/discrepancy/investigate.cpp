@@ -22,16 +22,17 @@ namespace fsr::discrepancy {
 
 namespace {
 
-// A size that was fitted holds that well under another protocol: forms are never quite right.
+// Range of the size under another protocol, as a factor of the fitted size. The form of an effect is never
+// exact.
 constexpr double kPredictedLow = 0.6, kPredictedHigh = 1.6;
-constexpr double kFarLevel = 1.8;          // of the highest reading: a limit that far off limits nothing
-constexpr int kMostRounds = 4;             // of repeat()
-constexpr double kFormHolds = 0.7;         // of what a mixture of forms explains
-constexpr double kNotIdentifiable = 0.05;  // of a signature, that the static curves leave
+constexpr double kFarLevel = 1.8;   // of the highest reading: a higher saturation level has no influence
+constexpr int kMostRounds = 4;      // of repeat()
+constexpr double kFormHolds = 0.7;  // of what a mixture of forms explains; above it the single form is used
+constexpr double kNotIdentifiable = 0.05;  // share of a signature that the static curves leave
 
 using Ids = std::vector<std::string>;
 
-// One run, step by step; each step needs those before it.
+// One run of all steps. Each step needs the results of the steps before it.
 class Investigation {
  public:
   Investigation(const DiscrepancyProblem& problem, const DiscrepancyProgress& progress)
@@ -85,10 +86,10 @@ class Investigation {
   bool unknown_statics_ = false;
   OddTaxels odd_;
   std::vector<Detection> detections_, later_;
-  simulation::SimulationSettings current_;  // with all that was taken out
+  simulation::SimulationSettings current_;  // includes all effects that were subtracted
   bool quiet_ = false;
-  bool by_terms_ = false;  // what is shown are fitted terms, not the effects in the simulation
-  Trace left_;             // what the effects take from the common trace's residual
+  bool by_terms_ = false;  // the gap is that of fitted terms, not of the effects in the simulation
+  Trace left_;             // part of the common trace's residual that the effects explain
   DiscrepancyReport report_;
 };
 
@@ -99,7 +100,7 @@ void Investigation::detectFaults() {
     detections_.push_back(detectionOf(fault, faults.readings, 0));
     for (const std::size_t t : fault.taxels) measured_.used[t] = 0;
   }
-  // What one fault adds to the gap is counted once.
+  // All faults share one contribution to the gap. It is counted once.
   for (std::size_t f = 1; f < detections_.size(); ++f) detections_[f].before_more = 0;
   const std::size_t usable = measured_.usedTaxels(), all = measured_.taxels();
   if (thresholds::enoughUsable(usable, all) && usable > 0) return;
@@ -118,7 +119,7 @@ void Investigation::takeOutStatics() {
   if (!measured_.gain.empty()) refitStatics();
 }
 
-// After something was taken out.
+// Fits the static curves again after an effect was subtracted.
 void Investigation::refitStatics() {
   common_ = commonTraces(measured_);
   if (mains_.found) takeOut(mains_, *fit_, common_);
@@ -126,8 +127,8 @@ void Investigation::refitStatics() {
   taxels_ = std::make_unique<TaxelFit>(measured_, *fit_);
 }
 
-// What the simulation enables was sized as if nothing else were there. Now that something is found, both are
-// sized together, and the search is made once more.
+// The sizes of the effects that the simulation enables were fitted without any other effect. After an effect
+// is found, their sizes are fitted together with it, and the search is repeated.
 void Investigation::sizeTogether() {
   if (measured_.gain.empty() || decision_.credible.empty()) return;
   const std::vector<simulation::EnabledEffect> found = {decision_.refined.effects.front()};
@@ -140,8 +141,8 @@ void Investigation::sizeTogether() {
   compete();
 }
 
-// Round after round, what was named is taken out and the rest is searched again, until nothing is named. The
-// part to show on stays closed.
+// Each round subtracts the named effects and searches the residual again, until nothing is named. The
+// hold-out cycles are not used.
 void Investigation::repeat() {
   const Trace before = fit_->residual(common_.all);
   const Decision first = decision_;
@@ -174,7 +175,7 @@ void Investigation::repeat() {
   left_ = before - fit_->residual(common_.all).cwiseProduct(gain);
 }
 
-// Effects of a later round stand beside those of the first.
+// Keeps the effects of a later round, to report them beside those of the first round.
 void Investigation::moreEffects() {
   for (std::size_t e = 0; e < decision_.refined.effects.size(); ++e) {
     const simulation::EffectInfo& info = measured_.info(decision_.refined.effects[e].id);
@@ -199,7 +200,7 @@ void Investigation::takeOutMains() {
   takeOut(mains_, *fit_, common_);
 }
 
-// Where the same surface reads otherwise after each remounting, every mount has curves of its own.
+// Where the readings of the same surface change with each remounting, every mount gets its own curves.
 void Investigation::lookAtMounts() {
   if (!sought(simulation::Detector::kMounts)) return;
   const Repositioning mounts = findRepositioning(measured_, *fit_, *taxels_, Trace(), Eigen::MatrixXd());
@@ -235,13 +236,13 @@ void Investigation::lookAtStaticCurves() {
   }
 }
 
-// Where neither all taxels together nor a detector has anything to say, single taxels or lines may.
+// Looks for effects on single taxels or lines where neither the common trace nor a detector shows an effect.
 void Investigation::lookAtTaxels() {
   const bool else_found = unknown_statics_ || !detections_.empty() || decision_.verdict != Verdict::kNone;
   if (!else_found) odd_ = findOddTaxels(measured_, *taxels_);
 }
 
-// What the common trace says goes into the report.
+// Writes the decision on the common trace into the report.
 void Investigation::put() {
   report_.verdict = decision_.verdict;
   report_.credible_set = decision_.credible;
@@ -265,14 +266,14 @@ void Investigation::put() {
   }
   left_ = refined.trace;
   if (refined.share >= kFormHolds * decision_.share) return;
-  // The gap is that of the mixture of forms that was found; the simulation holds the nearest single form.
+  // The gap is that of the mixture of forms that was found. The simulation contains the nearest single form.
   by_terms_ = true;
   left_ = fit_->withoutGainWeights(candidates_->explained(decision_.explanation));
   report_.limitations.push_back(
       "The form in the simulation closes less of the gap than the mixture of forms that was found.");
 }
 
-// Readings and curves as they were before the rounds of repeat(): what is shown is shown against them.
+// Restores readings and curves to those before the rounds of repeat(). The gap is measured against them.
 void Investigation::startAgain() {
   measured_.load.clear();
   measured_.gain.clear();
@@ -282,7 +283,7 @@ void Investigation::startAgain() {
   refitStatics();
 }
 
-// What detectors found stands beside every explanation of the common trace.
+// Adds the effects that detectors found to every explanation of the common trace.
 void Investigation::putDetections() {
   if (unknown_statics_) {
     report_.verdict = Verdict::kUnknown;
@@ -357,8 +358,8 @@ void Investigation::listNotIdentifiable() {
   }
 }
 
-// Somebody asked for an effect that these recordings cannot show: that is the answer, unless there is
-// another one.
+// If the user asked for an effect that these recordings cannot show, this is the verdict, unless there is
+// another verdict.
 void Investigation::answerQuestions() {
   if (report_.verdict != Verdict::kNone) return;
   Ids hidden;
@@ -373,7 +374,7 @@ void Investigation::answerQuestions() {
   for (const std::string& id : hidden) report_.credible_set.push_back({id});
 }
 
-// The next experiment, and what it will show.
+// Recommends the next experiment and predicts its result.
 void Investigation::plan() {
   if (decision_.credible.empty()) return;
   std::vector<std::vector<simulation::EnabledEffect>> explanations = {decision_.refined.effects};
@@ -386,7 +387,7 @@ void Investigation::plan() {
   prediction.size = {kPredictedLow, kPredictedHigh};
 }
 
-// No explanation stands out, and yet what is left is no noise.
+// Adds a limitation where no explanation stands out, but the residual still depends on covariates.
 void Investigation::doubtSilence() {
   if (report_.verdict != Verdict::kNone) return;
   Ids covariates;

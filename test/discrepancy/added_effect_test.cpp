@@ -1,4 +1,4 @@
-// An effect from outside of the package is a candidate of the discrepancy without any change of the package.
+// An effect from outside the package is a candidate of the discrepancy without any change to the package.
 
 #include <gtest/gtest.h>
 

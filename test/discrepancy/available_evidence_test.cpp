@@ -1,4 +1,4 @@
-// What recordings hold, so that slow effects may be told apart.
+// Tests which evidence the recordings contain to distinguish slow effects.
 
 #include "discrepancy/samples/available_evidence.h"
 

@@ -1,4 +1,4 @@
-// Does what is left depend on a covariate? Silent on noise, each covariate found where it is planted.
+// The tests of the residuals against covariates find nothing in noise and find each planted covariate.
 #include "discrepancy/decide/covariate_tests.h"
 
 #include <gtest/gtest.h>
@@ -35,8 +35,8 @@ CovariateTest of(const std::vector<CovariateTest>& tests, const std::string& cov
   return found == tests.end() ? CovariateTest() : *found;
 }
 
-// Curves that splines hold exactly, of the pressure as it is admitted; gain that scatters from cycle to
-// cycle, and noise of every reading.
+// Replaces the counts by curves that splines represent exactly, as functions of the pressure after admission.
+// The gain scatters from cycle to cycle, and every reading has noise.
 void makeNoise(DiscrepancyProblem& problem, std::uint64_t night) {
   const Measured measured = admit(problem);
   const statistics::RandomStream noise = statistics::randomStream(night, "night"),
@@ -69,10 +69,11 @@ TEST(CovariateTests, AreUniformOnNoise) {
   EXPECT_GE(p.size(), 11u);
   for (auto& [covariate, values] : p) {
     std::sort(values.begin(), values.end());
-    double apart = 0;  // Kolmogorov and Smirnov's distance from uniform
+    double apart = 0;  // Kolmogorov-Smirnov distance from the uniform distribution
     for (std::size_t i = 0; i < values.size(); ++i)
       apart = std::max(apart, std::abs(values[i] - (static_cast<double>(i) + 0.5) / kNights));
-    // scipy.stats.kstwo.ppf(0.999, 40) = 0.3017: one in a thousand by chance, of eleven
+    // scipy.stats.kstwo.ppf(0.999, 40) = 0.3017: exceeded by chance once in a thousand, for each of eleven
+    // tests
     EXPECT_LT(apart, 0.3017) << covariate;
   }
 }

@@ -1,4 +1,5 @@
-// What was found must hold on surfaces and protocols that it was not sized on, and has a price in use.
+// The effects that were found must hold on surfaces and protocols that their sizes were not fitted to. Their
+// errors in use are tested too.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -45,7 +46,7 @@ TEST(HeldOut, ALoopIsForetoldOnSurfacesAndSpeedsThatItWasNotSizedOn) {
   }
 }
 
-// On one surface the loop is four times as wide. Who has not seen that surface foretells a narrow one.
+// On one surface the loop is four times as wide. A fit without this surface predicts a narrow loop.
 TEST(HeldOut, SaysSoWhereASurfaceIsNotForetoldByTheOthers) {
   DiscrepancyProblem problem = planted::problem(planted::kTwoSpeeds, "  hysteresis: {loop_width: 0.025}\n");
   problem.recordings.back() =
@@ -111,9 +112,9 @@ TEST(CostsInUse, OfALateClockAreSpeedTimesDelay) {
   const simulation::SimulationSettings late =
       planted::simulation(planted::kOneSurface, "  time_skew: {delay: 0.1}\n");
   const auto costs = costsInUse(measured, problem.simulation, late, 0.99);
-  // 0.1 s at 17 kPa/s; the static curve lies between filling and venting, both as fast
+  // 0.1 s at 17 kPa/s. The static curve lies between filling and venting, which are equally fast.
   EXPECT_NEAR(costOf(costs, "ramp"), 1700, 300);
-  // a half sine of 310 kPa in 0.6 s: at its steepest, 310 kPa sin(pi / 6) in the first 0.1 s
+  // A half sine of 310 kPa in 0.6 s. It is steepest in the first 0.1 s: 310 kPa sin(pi / 6).
   EXPECT_NEAR(costOf(costs, "stance"), 155e3, 15e3);
   EXPECT_NEAR(costs.front().after, 0.1 * costs.front().before, 1e-6);
 }

@@ -1,4 +1,4 @@
-// Plants an effect in a simulated session and asks for its name.
+// Plants an effect in a simulated session and checks that the verdict names it.
 
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 
@@ -16,7 +16,7 @@ using fsr::discrepancy::DiscrepancyProblem;
 using fsr::discrepancy::DiscrepancyReport;
 using fsr::discrepancy::Verdict;
 
-// Two speeds and dwells on three surfaces; a scan every 0.4 s keeps it quick.
+// Two speeds and dwells on three surfaces. A scan every 0.4 s keeps the test fast.
 const char* const kTwoSpeeds = R"(
 simulation: planted
 seed: 7
@@ -44,7 +44,7 @@ effects:
   converter: {}
 )";
 
-// The paper's cycles: one speed, no dwells.
+// The cycles of the paper: one speed, no dwells.
 const char* const kOneSpeed = R"(
 simulation: planted
 seed: 7
@@ -66,7 +66,7 @@ fsr::simulation::SimulationSettings simulation(const std::string& text, const st
   return fsr::simulation::readSimulation(fsr::settings::Settings::fromText(text + more, "planted.yaml"));
 }
 
-// What a rig with `more` records, against a simulation without it.
+// Recordings of a rig with the effects in `more`, and a simulation without these effects.
 DiscrepancyProblem planted(const std::string& text, const std::string& more) {
   DiscrepancyProblem problem;
   problem.simulation = simulation(text);
@@ -183,7 +183,7 @@ TEST(Investigate, NamesTwoEffectsTogether) {
   EXPECT_EQ(ids, (std::vector<std::string>{"hysteresis", "time_skew"}));
 }
 
-// After the loop is out, the break-in is all that is left, however little of the whole it is.
+// After the loop is subtracted, only the break-in remains, even though it is a small part of the whole.
 TEST(Investigate, SeesASecondEffectThatAddsLittle) {
   const DiscrepancyReport report =
       investigate(planted(kTwoSpeeds, "  hysteresis: {loop_width: 0.05}\n  break_in: {change: -0.07}\n"));
@@ -221,8 +221,8 @@ TEST(Investigate, AnswersAQuestionThatTheRecordingsCannotAnswer) {
   EXPECT_EQ(report.credible_set, (std::vector<std::vector<std::string>>{{"crosstalk"}}));
 }
 
-// One speed cannot tell a loop from a short memory. The experiment that is recommended can, and the
-// prediction that was made before it passes for the truth and fails for the other.
+// One speed cannot distinguish a loop from a short memory. The recommended experiment can. The prediction
+// that was made before it passes for the true effect and fails for the other.
 TEST(Investigate, RecommendsAnExperimentThatSettlesIt) {
   const std::string loop = "  hysteresis: {loop_width: 0.05}\n";
   DiscrepancyProblem problem = planted(kOneSpeed, loop);

@@ -1,4 +1,4 @@
-// Fits by grams: what acts on bent surfaces alone stands beside what acts everywhere.
+// Fits with gram matrices: columns that act only on bent surfaces together with columns that act everywhere.
 
 #include "discrepancy/fit/least_squares.h"
 
@@ -11,8 +11,8 @@ namespace {
 
 constexpr Eigen::Index kMoments = 40;
 
-// Two columns and a target: 1.5 of the first everywhere, 0.7 of the second where it is bent. The first cycle
-// is flat.
+// Two columns and a target. The target is 1.5 of the first column everywhere plus 0.7 of the second where the
+// surface is bent. The first cycle is flat.
 Eigen::MatrixXd columns() {
   Eigen::MatrixXd all(2 * kMoments, 3);
   for (Eigen::Index i = 0; i < all.rows(); ++i) {
@@ -43,7 +43,7 @@ TEST(ColumnSet, MayHoldAColumnThatActsWhereItIsBentBesideOneThatActsEverywhere) 
 TEST(ColumnSet, KeepsTheSignThatIsNotFree) {
   const CycleGrams grams(-columns(), {{0, 2 * kMoments}}, 1);
   Eigen::MatrixXd part = partOf(grams.of(0), {{0}, {false}, {false}}, false);
-  part(0, 1) = part(1, 0) = -part(0, 1);  // the target turned over
+  part(0, 1) = part(1, 0) = -part(0, 1);  // the sign of the target is reversed
   EXPECT_EQ(fitColumns(part, {{0}, {false}, {false}})[0], 0);
   EXPECT_LT(fitColumns(part, {{0}, {true}, {false}})[0], 0);
 }

@@ -1,4 +1,4 @@
-// Recordings of real sensors that nobody simulated; see test/data/README.md for who made them.
+// Recordings of real sensors, not simulated; see test/data/README.md for their authors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,8 +42,8 @@ bool anywhere(const DiscrepancyReport& report, const std::string& id) {
                      [&](const auto& ids) { return holds(ids, id); });
 }
 
-// Force against position of a piston; the force counted against the forward stroke, since a sheet's reading
-// is the higher one on the way back. Friction turns round within 5 mm of a stroke of 41 mm.
+// Force of a piston against its position. The force is counted against the forward stroke, because the
+// reading of a sheet is higher on the way back. The friction reverses within 5 mm of a stroke of 41 mm.
 DiscrepancyReport piston(const std::string& table) {
   dataset::TablePlan plan;
   plan.range = {{10, 0}};

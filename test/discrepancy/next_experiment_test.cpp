@@ -1,4 +1,4 @@
-// Which experiment is recommended.
+// Tests which experiment is recommended.
 
 #include "discrepancy/prove/next_experiment.h"
 

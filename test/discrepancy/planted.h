@@ -12,7 +12,8 @@
 
 namespace fsr::discrepancy::planted {
 
-/// A small rig on three surfaces, run at two speeds and with dwells; a scan every 0.4 s keeps it quick.
+/// A small rig on three surfaces. It runs at two speeds and with dwells. A scan every 0.4 s keeps the test
+/// fast.
 inline const char* const kTwoSpeeds = R"(
 simulation: planted
 seed: 7
@@ -34,7 +35,7 @@ effects:
   converter: {}
 )";
 
-/// The same rig under the paper's cycles on one surface.
+/// The same rig with the cycles of the paper on one surface.
 inline const char* const kOneSurface = R"(
 simulation: planted
 seed: 7
@@ -51,7 +52,7 @@ effects:
   converter: {}
 )";
 
-/// The paper's cycles on two surfaces: one speed, no dwells.
+/// The cycles of the paper on two surfaces: one speed, no dwells.
 inline const char* const kOneSpeed = R"(
 simulation: planted
 seed: 7
@@ -69,7 +70,7 @@ effects:
   converter: {}
 )";
 
-/// Four taxels that are quickly simulated; the session is still to come.
+/// Four taxels that are fast to simulate. The caller appends the session.
 inline const char* const kFourTaxels = R"(
 simulation: rig
 seed: 7
@@ -91,7 +92,7 @@ inline simulation::SimulationSettings simulation(const std::string& text, const 
   return simulation::readSimulation(settings::Settings::fromText(text + more, "planted.yaml"));
 }
 
-/// What a rig with `more` records, against a simulation without it.
+/// Recordings of a rig with the effects in `more`, and a simulation without these effects.
 inline DiscrepancyProblem problem(const std::string& text, const std::string& more) {
   DiscrepancyProblem problem;
   problem.simulation = simulation(text);
@@ -100,8 +101,8 @@ inline DiscrepancyProblem problem(const std::string& text, const std::string& mo
   return problem;
 }
 
-/// A rig whose matrix feels the chamber's pressure [Pa] and `more` of it, a function of the pressure as a
-/// share of 620 kPa and of the direction: forms that the library does not have.
+/// A rig whose matrix feels the chamber's pressure plus `more` [Pa]. `more` is a function of the pressure, as
+/// a share of 620 kPa, and of the direction. It plants forms that are not in the library.
 template <typename More>
 DiscrepancyProblem problemFeeling(const std::string& text, More more) {
   DiscrepancyProblem problem = planted::problem(text, "");
@@ -123,8 +124,8 @@ DiscrepancyProblem problemFeeling(const std::string& text, More more) {
   return problem;
 }
 
-/// Branches that are far apart where the pressure is low and cross where it is high: friction that
-/// changes its sign, as no play operator does.
+/// A loop whose branches are far apart at low pressure and cross at high pressure. Its friction changes sign,
+/// which a play operator cannot do.
 inline DiscrepancyProblem crossedLoop() {
   constexpr double kPi = 3.14159265358979323846;
   return problemFeeling(kTwoSpeeds, [](double share, int direction) {

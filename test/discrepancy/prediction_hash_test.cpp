@@ -1,4 +1,4 @@
-// The hash of a prediction covers everything that confirm() and the files beside it hold.
+// The hash of a prediction covers everything that confirm() uses and that the files beside it contain.
 
 #include "discrepancy/prove/prediction_hash.h"
 

@@ -1,4 +1,4 @@
-// Effects fitted through the forward model, and where they act.
+// Tests the fit of effects through the forward model, and where the effects act.
 
 #include "discrepancy/decide/refine.h"
 
@@ -10,7 +10,7 @@
 namespace fsr::discrepancy {
 namespace {
 
-// Divided by a gain, what is left gets smaller, whatever it is: that of an old sheet hardly changes any more.
+// Division by a gain reduces any residual, including noise. The gain of an old sheet hardly changes any more.
 TEST(Refine, AGainDoesNotExplainNoiseByDividingIt) {
   const DiscrepancyProblem problem = planted::problem(planted::kTwoSpeeds, "");
   const Measured measured = admit(problem);
@@ -32,7 +32,7 @@ TEST(Refine, KnowsWhereTheSizeOfAnEffectMayBeNone) {
   EXPECT_FALSE(mayBeNone(refined));
 }
 
-// Where the trace does not move, its amplitude is anything.
+// Where the trace does not change, its amplitude is arbitrary.
 TEST(Mask, HeedsAmplitudesAsFarAsTheyAreKnown) {
   const DiscrepancyProblem problem = planted::problem(planted::kTwoSpeeds, "");
   const Measured measured = admit(problem);

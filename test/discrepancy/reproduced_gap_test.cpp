@@ -1,4 +1,4 @@
-// What simulate --drive leaves of the recordings is the gap that the report states.
+// The difference between simulate --drive and the recordings is the gap that the report states.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace fsr::discrepancy {
 namespace {
 
-constexpr double kAlike = 0.15;  // spline curves there, hats over pressure here
+constexpr double kAlike = 0.15;  // the report fits splines, the simulation hat functions of pressure
 
 const char* const kSession = R"(
 simulation: planted
@@ -48,7 +48,7 @@ TEST(ReproducedGap, IsTheStatedOneBeforeAndAfter) {
   EXPECT_NEAR(after, report.gap.after, kAlike * report.gap.after);
 }
 
-// A loop on one row of taxels, or on bent surfaces alone: so it is in the simulation.
+// A loop that acts on one row of taxels or on one bent surface only must do the same in the simulation.
 TEST(ReproducedGap, OfAnEffectThatActsInSomePlacesOnly) {
   for (const char* where : {"only_surfaces: [cylinder_5cm]", "only_taxels: [3, 4, 5]"}) {
     DiscrepancyProblem problem;

@@ -1,4 +1,4 @@
-// Two effects that may be one in a form that the library does not have.
+// Tests whether two effects may be one effect whose form is not in the library.
 
 #include "discrepancy/decide/second_effect.h"
 

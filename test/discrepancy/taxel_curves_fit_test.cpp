@@ -10,7 +10,7 @@
 namespace fsr::discrepancy {
 namespace {
 
-// A rig that has nothing to do with the simulation: the curves have to take up all of it.
+// A rig that is unrelated to the simulation. The curves must absorb the whole difference.
 DiscrepancyProblem problemOf(test_support::SyntheticRig rig) {
   rig.surfaces = {{"flat", 0.0}, {"bend", 14.25}};
   rig.cycles = 10;
@@ -27,7 +27,8 @@ TEST(TaxelCurvesFit, LeaveNoiseAloneOfASheetWithoutMemory) {
   const Measured measured = admit(problem);
   const simulation::SimulationSettings curved = withTaxelCurves(measured, problem.simulation, "curves.csv");
   EXPECT_GT(simulatedGap(measured, problem.simulation), 0.05);
-  // uniform noise of +-10 counts: 10 / sqrt(3) / 4095 = 0.00141 rms; the corner at rest is no straight line
+  // Uniform noise of +-10 counts: 10 / sqrt(3) / 4095 = 0.00141 rms. The corner at rest is not a straight
+  // line.
   EXPECT_NEAR(simulatedGap(measured, curved), 0.00141, 0.0004);
   EXPECT_EQ(curved.taxel_curves_file, "curves.csv");
   EXPECT_EQ(curved.taxel_curves->surfaces.size(), 2u);
@@ -38,7 +39,7 @@ TEST(TaxelCurvesFit, LeaveALoopToWhoeverExplainsIt) {
   rig.loop = 200;
   const DiscrepancyProblem problem = problemOf(rig);
   const Measured measured = admit(problem);
-  // half a loop of 200 counts either side of the curve
+  // The branches lie half a loop of 200 counts to either side of the curve.
   const double gap = simulatedGap(measured, withTaxelCurves(measured, problem.simulation, "curves.csv"));
   EXPECT_GT(gap, 0.5 * 100 / 4095);
   EXPECT_LT(gap, 1.2 * 100 / 4095);
@@ -49,7 +50,7 @@ TEST(TaxelCurvesFit, AreNotFittedToWhatIsShown) {
   const Measured first = admit(problem);
   const simulation::SimulationSettings before = withTaxelCurves(first, problem.simulation, "");
   const double gap = simulatedGap(first, before);
-  // Counts of all shown scans, spoilt.
+  // Corrupts the counts of all hold-out scans.
   for (std::size_t i = 0; i < problem.recordings[0].scans(); ++i) {
     const double time = problem.recordings[0].time[i];
     for (const MeasuredCycle& cycle : first.cycles) {

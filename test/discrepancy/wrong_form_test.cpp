@@ -1,4 +1,5 @@
-// The right place, but not the form that the library has: said so, and neither named nor unknown.
+// An effect in the right place but not in the library's form gets the verdict wrong_form, neither named nor
+// unknown.
 #include <gtest/gtest.h>
 
 #include "discrepancy/planted.h"
@@ -13,7 +14,7 @@ TEST(WrongForm, IsSaidOfALoopWhoseBranchesCross) {
   EXPECT_NE(report.sentence.find("not in the form"), std::string::npos) << report.sentence;
 }
 
-// 0.28 of the span is beyond any loop that a data sheet knows of.
+// 0.28 of the span is more than any loop in a data sheet.
 TEST(WrongForm, IsSaidOfASizeThatIsNotPlausible) {
   const DiscrepancyReport report =
       investigate(planted::problem(planted::kTwoSpeeds, "  hysteresis: {loop_width: 0.28, reach: 200000}\n"));
@@ -27,7 +28,7 @@ TEST(WrongForm, IsNotSaidOfALoopInTheLibrarysOwnForm) {
   EXPECT_EQ(report.verdict, Verdict::kNamed) << report.sentence;
 }
 
-// Bent surfaces need not be mentioned where the same terms do as well without them.
+// Bent surfaces are not mentioned where the same terms explain as much without them.
 TEST(Unknown, SaysNoMoreCovariatesThanItMust) {
   DiscrepancyProblem problem = planted::crossedLoop();
   problem.options.leave_out = {"hysteresis", "creep", "time_skew", "seal_leak"};

@@ -83,7 +83,7 @@ fsr::discrepancy::DiscrepancyReport exampleDiscrepancy() {
                        {{"hysteresis", "creep"}, "credible", 0.865, 0.935, 14.2},
                        {{"time_skew"}, "refused", 0.31, 0.34, 6.0}};
   report.tested = {"hysteresis", "creep", "time_skew"};
-  report.limitations = {"No temperature was recorded: what is slow cannot be told apart."};
+  report.limitations = {"No temperature was recorded, so slow effects cannot be told apart."};
   report.curves = {curve("pressure", "Pa", 0, 620e3),
                    curve("direction", "Pa, venting negative", -620e3, 620e3)};
   report.steps = {{"hysteresis", "hysteresis was added; it explains 86 % of the squared error", 0.86}};

@@ -49,7 +49,7 @@ struct FittedParameter {
 /// An effect of the verdict.
 struct FoundEffect {
   std::string id;
-  std::string summary;                      ///< the library's one line
+  std::string summary;                      ///< one line from the library
   std::vector<FittedParameter> parameters;  ///< empty where a detector found the effect
   double z = 0;                     ///< of the error that it explains in cycles that it was not fitted to
   double share_of_explainable = 0;  ///< of the explainable error
@@ -58,7 +58,7 @@ struct FoundEffect {
 /// An effect that these recordings cannot show.
 struct NotIdentifiable {
   std::string id;
-  std::string experiment;  ///< that would show it, as in name(Experiment)
+  std::string experiment;  ///< experiment that would show it, as in name(Experiment)
   std::string reason;      ///< one sentence
 };
 
@@ -106,7 +106,7 @@ struct Gap {
   double floor_pressure = 0;
   std::vector<std::string> held_out_by;  ///< of cycles, condition, protocol
   std::vector<HeldOutGap> foretold;      ///< for condition and protocol
-  std::vector<std::string> missing;      ///< sentences: kinds of data of which none could be held out
+  std::vector<std::string> missing;      ///< sentences: kinds of data of which nothing could be held out
 };
 
 /// Largest error of the pressure in use that the missing effects cause [Pa]. NaN where it is not known.
@@ -167,7 +167,7 @@ struct RepeatStep {
 
 /// A prediction that is frozen before the next experiment. confirm() compares it with new recordings.
 struct Prediction {
-  std::vector<simulation::EnabledEffect> effects;              ///< of the best explanation
+  std::vector<simulation::EnabledEffect> effects;              ///< effects of the best explanation
   std::vector<std::vector<simulation::EnabledEffect>> rivals;  ///< the other credible explanations
   Interval size;     ///< range of the factor of the first effect's strength, 1 = as fitted
   std::string hash;  ///< see hashOf()
@@ -193,8 +193,8 @@ struct DiscrepancyReport {
   std::vector<ResidualCurve> curves;
   std::vector<RepeatStep> steps;
   simulation::SimulationSettings
-      base;  ///< the simulation given, its enabled effects fitted to the recordings
-  simulation::SimulationSettings added;  ///< `base` with the effects found
+      base;  ///< the given simulation, with its enabled effects fitted to the recordings
+  simulation::SimulationSettings added;  ///< `base` with the effects that were found
   Prediction prediction;
   std::vector<InputUse> inputs;
   std::uint64_t seed = 0;
@@ -219,8 +219,8 @@ struct Confirmation {
   double size = 0;  ///< of the first effect, 1 = as predicted
   Interval interval;
   double share_of_error = 0;  ///< share of the squared error that the prediction explains without any fit
-  /// A rival that explains more; or, if the new recordings are investigated without the prediction, an
-  /// explanation that excludes the predicted one. Empty = none.
+  /// A rival that explains more. It may also be an explanation that excludes the predicted one when the new
+  /// recordings are investigated without the prediction. Empty = none.
   std::string best_rival;
 };
 

@@ -9,7 +9,7 @@ namespace fsr::discrepancy {
 
 namespace {
 
-// Noise that all taxels share is gone after this time [s].
+// Noise that all taxels share is uncorrelated after this time [s].
 constexpr double kRepeats = 1.2;
 
 bool sameShapes(const simulation::EffectInfo& info, const Signature& a, const Signature& b) {
@@ -22,7 +22,8 @@ bool sameShapes(const simulation::EffectInfo& info, const Signature& a, const Si
   return true;
 }
 
-// Mixtures: one set for each way to begin; others: the strengths of one combination of shapes.
+// The alternatives of one effect. A mixture has one set of columns for each start state (state kept or not).
+// Any other effect has one set for each combination of shapes; the set holds the strengths.
 Family familyOf(const simulation::EffectInfo& info, const std::vector<Signature>& signatures) {
   Family family;
   family.id = info.id;
@@ -47,7 +48,7 @@ Family familyOf(const simulation::EffectInfo& info, const std::vector<Signature>
   return family;
 }
 
-// Every alternative once more, confined to where the surface is bent.
+// Adds a copy of every alternative that acts only where the surface is bent.
 void addBentOnly(Family& family) {
   std::vector<ColumnSet> bent = family.alternatives;
   for (ColumnSet& set : bent) set.bent_only.assign(set.columns.size(), true);

@@ -10,7 +10,7 @@
 
 namespace fsr::discrepancy {
 
-/// The explanations that compete for what the static curves leave of the common trace.
+/// The explanations that compete for the residual of the common trace after the static curves.
 class Candidates {
  public:
   Candidates(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
@@ -22,25 +22,26 @@ class Candidates {
     return covariates_[generic];
   }
   const std::vector<Signature>& signatures() const { return signatures_; }
-  /// What the library says about an effect.
+  /// Description of an effect in the library.
   const simulation::EffectInfo& info(const std::string& id) const { return measured_.info(id); }
   const CrossValidation& crossValidation() const { return *cross_validation_; }
   const CycleGrams& grams() const { return *grams_; }
-  /// Some of the projected columns, signatures before generic terms, [samples x chosen].
+  /// The chosen columns after projection [samples x chosen]. Signatures come before generic terms.
   Eigen::MatrixXd columns(const std::vector<Eigen::Index>& chosen) const;
 
-  /// Share of the squared error that repeats from one half of the taxels to the other and from one
-  /// sample to one a second later: what anything could explain. 0 where nothing is hidden.
+  /// Share of the squared error that an explanation could explain. It is the part that repeats between the
+  /// two halves of the taxels and between samples more than one second apart. 0 where nothing repeats.
   double repeating() const { return repeating_; }
 
   /// Mean squared error of the common trace [share of full scale, squared].
   double meanSquare() const { return mean_square_; }
 
-  /// What an explanation adds to the common trace, projected.
+  /// Contribution of an explanation to the common trace, after projection.
   Trace explained(const Score& score) const;
-  /// The same with coefficients that have not seen some cycles, of which there is one flag each.
+  /// The same with coefficients that are fitted without some cycles. `cycles` has one flag for each cycle;
+  /// true = left out.
   Trace explainedWithout(const Score& score, const std::vector<bool>& cycles) const;
-  /// The projected common trace.
+  /// The common trace after projection.
   Trace target() const { return columns_.col(columns_.cols() - 1); }
 
  private:
@@ -51,16 +52,16 @@ class Candidates {
   const Measured& measured_;
   std::vector<Signature> signatures_;
   std::vector<Family> effects_, generics_;
-  std::vector<std::vector<simulation::Covariate>> covariates_;  // of each generic
-  Eigen::MatrixXd columns_;  // [samples x columns], the last one the target
+  std::vector<std::vector<simulation::Covariate>> covariates_;  // of each generic family
+  Eigen::MatrixXd columns_;  // [samples x columns], the last one is the target
   std::unique_ptr<CycleGrams> grams_;
   std::unique_ptr<CrossValidation> cross_validation_;
   double repeating_ = 0;
   double mean_square_ = 0;
 };
 
-/// Whether the traces of an effect depend on nothing but where the static curve depends on: under a
-/// uniform load they cannot be told from it.
+/// Whether the traces of an effect depend only on variables that the static curve depends on. Under a uniform
+/// load such an effect cannot be distinguished from the static curve.
 bool isStatic(const simulation::EffectInfo& info);
 
 }  // namespace fsr::discrepancy

@@ -10,16 +10,17 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kLeastZ = 3;            // of an explanation over nothing
+constexpr double kLeastZ = 3;            // of an explanation against no explanation
 constexpr double kNearlyAsWell = 0.05;   // of what the best generic term explains
-constexpr double kWorthRefining = 0.35;  // of what the best one explains
-constexpr double kClear = 0.9;           // of the explainable share: an explanation that leaves nothing open
-constexpr double kFarBehind = 0.35;      // of the best: no rival of a clear one
+constexpr double kWorthRefining = 0.35;  // of what the best single effect explains
+constexpr double kClear = 0.9;       // of the explainable share: an explanation above it leaves nothing open
+constexpr double kFarBehind = 0.35;  // of the best share: an effect below it is no rival of a clear best one
 
-// The single signatures that do most of what a mixture did, one for each effect, as settings.
+// Start of the fit through the forward model. For each effect it holds the single signature that fits best,
+// converted to settings. This signature replaces a mixture of signatures.
 struct Start {
   std::vector<simulation::EnabledEffect> effects;
-  std::vector<bool> bent_only;  // of each
+  std::vector<bool> bent_only;  // of each effect
   bool state_kept = true;
 };
 
@@ -187,7 +188,7 @@ void Comparison::refineNear() {
   }
 }
 
-// What an explanation leaves of the projected common trace.
+// Residual of the projected common trace after an explanation.
 Trace Comparison::leftBy(const Explanation& explanation) const {
   if (explanation.is_refined && explanation.refined.share >= shareOf(explanation.score)) {
     return explanation.refined.left;

@@ -14,14 +14,14 @@ namespace fsr::discrepancy {
 namespace {
 
 constexpr double kLevel = 0.05;
-constexpr double kBlock = 5;        // noise hangs together for less [s]
-constexpr double kSingular = 1e-9;  // of the largest eigenvalue
+constexpr double kBlock = 5;        // noise is correlated over less than this time [s]
+constexpr double kSingular = 1e-9;  // of the largest eigenvalue; smaller ones count as 0
 constexpr std::size_t kRateTerms = 2;
-constexpr std::size_t kFewTaxels = 4;  // too few to have rows and columns
+constexpr std::size_t kFewTaxels = 4;  // with fewer, rows, columns and taxels are not tested
 
 using Columns = std::vector<Eigen::Index>;
 
-// p value, and what the statistic has beyond its mean under chance.
+// p value, and excess of the statistic over its mean under the null hypothesis.
 struct Outcome {
   double p = 1;
   double beyond = 0;
@@ -37,7 +37,8 @@ Outcome outcomeOf(double statistic, const std::vector<double>& by_chance) {
   return {(1 + as_large) / (draws + 1), std::max(0.0, statistic - sum / draws)};
 }
 
-// Rows: what each cycle adds to every term. The statistic is the squared length of their sum.
+// Each row holds the contributions of one cycle to all terms. The statistic is the squared length of the sum
+// of the rows.
 Outcome flipSigns(const Eigen::MatrixXd& cycles, std::uint64_t draws,
                   const statistics::RandomStream& stream) {
   std::vector<double> by_chance;
@@ -59,7 +60,7 @@ Outcome flipSigns(const Eigen::MatrixXd& cycles, std::uint64_t draws,
   return outcomeOf(cycles.colwise().sum().squaredNorm(), by_chance);
 }
 
-// Too few cycles to change signs of: normal noise of that variance in every term.
+// Replaces flipSigns() where there are too few cycles: draws normal noise of this variance in every term.
 Outcome drawBlocks(const Eigen::MatrixXd& cycles, double variance, std::uint64_t draws,
                    const statistics::RandomStream& stream) {
   std::vector<double> by_chance;
@@ -72,7 +73,7 @@ Outcome drawBlocks(const Eigen::MatrixXd& cycles, double variance, std::uint64_t
   return outcomeOf(cycles.colwise().sum().squaredNorm(), by_chance);
 }
 
-// Maps columns to as many as are independent, orthonormal under the gram matrix.
+// Matrix that maps the columns to linearly independent ones, which are orthonormal under the gram matrix.
 Eigen::MatrixXd whitening(const Eigen::MatrixXd& gram) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
   const double least = kSingular * solver.eigenvalues().maxCoeff();
@@ -98,7 +99,8 @@ Eigen::MatrixXd part(const Eigen::MatrixXd& matrix, const Columns& rows, const C
   return result;
 }
 
-// Terms of the common trace that are tested together: `tested`, beyond what `beside` explain.
+// Terms of the common trace that are tested together. The test is of what `tested` explain in addition to
+// `beside`.
 struct Terms {
   Columns tested, beside;
 };
@@ -139,7 +141,7 @@ class Tester {
 
   const CovariateTests& with_;
   const CycleGrams& grams_;
-  std::vector<std::size_t> cycles_;  // to fit
+  std::vector<std::size_t> cycles_;  // indices of the cycles to fit
   Eigen::MatrixXd total_;
   double samples_ = 0, square_ = 0;
   std::vector<CovariateTest> tests_;
@@ -152,14 +154,14 @@ Columns Tester::columnsOf(const std::string& family) const {
   return {};
 }
 
-// Of each cycle, [cycles x independent terms].
+// Inner products of the terms with the target in each cycle, [cycles x independent terms].
 Eigen::MatrixXd Tester::sums(const Terms& terms) const {
   const Columns target = {grams_.target()};
   Eigen::MatrixXd gram = part(total_, terms.tested, terms.tested), shared;
   if (!terms.beside.empty()) {
     const Eigen::MatrixXd white = whitening(part(total_, terms.beside, terms.beside));
     const Eigen::MatrixXd across = part(total_, terms.beside, terms.tested);
-    shared = white * (white.transpose() * across);  // of `beside`, to be taken from `tested`
+    shared = white * (white.transpose() * across);  // coefficients of `beside` in `tested`
     gram -= across.transpose() * shared;
   }
   const Eigen::MatrixXd white = whitening(gram);
@@ -172,8 +174,8 @@ Eigen::MatrixXd Tester::sums(const Terms& terms) const {
   return sums;
 }
 
-// Of the sum over a term of unit length, where noise hangs together within a block: from one block to the
-// next, so that what is slow does not count.
+// Variance of the inner product of the noise with a term of unit length. Noise is correlated within a block.
+// The variance is estimated from differences between consecutive blocks, so that slow trends are not counted.
 double Tester::blockVariance() const {
   const Trace target = with_.candidates.target();
   double squares = 0, number = 0;
@@ -204,8 +206,8 @@ void Tester::testWithinCycles(const std::string& covariate, const Terms& terms) 
   add(covariate, exchangeable ? "sign_flips" : "block_bootstrap", outcome, outcome.beyond / samples_);
 }
 
-// How each taxel deviates from the common trace, along its terms of direction and rate; [cycles x (taxels x
-// terms)].
+// Deviation of each taxel from the common trace, as inner products with the terms of direction and rate;
+// [cycles x (taxels x terms)].
 Eigen::MatrixXd Tester::deviations(Eigen::Index& number) const {
   const Measured& measured = with_.measured;
   Columns along = columnsOf("direction x pressure"), rate = columnsOf("pressure_rate");
@@ -232,7 +234,7 @@ Eigen::MatrixXd Tester::deviations(Eigen::Index& number) const {
   return by_taxel;
 }
 
-// Rows, columns and single taxels: `line` of each taxel.
+// Tests rows, columns or single taxels. `line` holds the index of this group for each taxel.
 void Tester::testLines(simulation::Covariate covariate, const Eigen::MatrixXd& by_taxel, Eigen::Index number,
                        const std::vector<std::size_t>& line) {
   const auto lines = static_cast<Eigen::Index>(*std::max_element(line.begin(), line.end()) + 1);

@@ -10,28 +10,29 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kRivalWithin = 0.05;  // of what the best explains
-constexpr double kRivalFar = 0.15;     // likewise: behind it by more it is none, whatever the errors
-constexpr double kSecondRival = 0.7;   // of what the second adds: another that adds as much is as good
-constexpr double kNearBadForm = 0.6;   // of the best one's share, where its form is wrong
+constexpr double kRivalWithin = 0.05;  // of what the best explanation explains
+constexpr double kRivalFar = 0.15;    // likewise: further behind it is no rival, whatever the standard errors
+constexpr double kSecondRival = 0.7;  // of what the second effect adds: a pair that adds as much is a rival
+constexpr double kNearBadForm = 0.6;  // of the best explanation's share, where its form is wrong
 
 using Ids = std::vector<std::string>;
 
-// Whether the recordings do not tell them apart.
+// Whether the recordings cannot distinguish them.
 bool isRival(const Comparison& comparison, const Explanation& other, const Explanation& best) {
   const AvailableEvidence& evidence = comparison.evidence();
   const double behind = best.share - other.share;
   if (comparison.behindInErrors(other, best) < thresholds::kSignificant && behind < kRivalFar * best.share)
     return true;
   if (mayBeOne(other, best, comparison.library())) return true;
-  // One effect against two was weighed by what the second adds; two against two by the same.
+  // A single effect was compared with a pair by what the second effect adds. Two pairs are compared by the
+  // same measure.
   if (best.score.ids.size() > 1 && other.score.ids.size() == 1) return false;
   if (best.score.ids.size() > 1)
     return behind <= (1 - kSecondRival) * (best.share - comparison.best()->share);
   const simulation::EffectInfo &first = comparison.infoOf(best.score.ids.front()),
                                &second = comparison.infoOf(other.score.ids.front());
-  // A drift imitates every slow effect. It excludes one only where its covariate was not proportional to
-  // clock time.
+  // A drift imitates every slow effect. It excludes a slow effect only where the covariate of this effect was
+  // not proportional to clock time.
   if (first.any_course && second.slow)
     return behind <= (evidence.apartFromClock(second) ? kRivalFar : thresholds::kAnyCourseHides) * best.share;
   // In that case a drift, with its three parameters, is no rival of the slow effect.
@@ -39,13 +40,14 @@ bool isRival(const Comparison& comparison, const Explanation& other, const Expla
   return behind <= kRivalWithin * best.share;
 }
 
-// Whether the recordings hold what an effect needs, to be named without a partner.
+// Whether the recordings contain the evidence that an effect needs to be named without a partner.
 bool standsAlone(const AvailableEvidence& evidence, const simulation::EffectInfo& info) {
   return std::all_of(info.needs.begin(), info.needs.end(),
                      [&](simulation::Evidence e) { return evidence.has(e); });
 }
 
-// The best of the effects that are easily taken for one of the explanation's; null where none comes near.
+// The best of the effects that are listed as similar to `info`, which is an effect of `explanation`. Null
+// where none comes near.
 const Explanation* partnerOf(const Comparison& comparison, const simulation::EffectInfo& info,
                              const Explanation& explanation) {
   const Explanation* partner = nullptr;
@@ -100,7 +102,7 @@ std::vector<Ids> partnersOf(const Comparison& comparison, const Explanation& fir
   const bool slow_apart = info.slow && comparison.evidence().apartFromClock(info);
   for (const Explanation& single : comparison.singles()) {
     if (single.score.ids == first.score.ids || single.share < kNearBadForm * first.share) continue;
-    // Hours of cycles and pauses have told it from what else is slow, in whatever form.
+    // Hours of cycles and pauses distinguish the first effect from other slow effects, whatever its form.
     const bool told = slow_apart && comparison.infoOf(single.score.ids.front()).slow &&
                       comparison.behindInErrors(single, first) > thresholds::kSignificant;
     if (!told) partners.push_back(single.score.ids);

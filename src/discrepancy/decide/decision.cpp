@@ -13,10 +13,10 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kLeastShareOfExplainable = 0.5;  // of an effect, else it is unknown
+constexpr double kLeastShareOfExplainable = 0.5;  // least share of an effect; below it the verdict is unknown
 constexpr double kGenericBetter = 0.1;            // of the explainable share
 
-// Puts one explanation forward and says how sure it is.
+// Chooses the preferred explanation and its verdict.
 class Verdicts {
  public:
   explicit Verdicts(Comparison& comparison) : comparison_(comparison) {}
@@ -32,7 +32,7 @@ class Verdicts {
   void listCandidates();
 
   Comparison& comparison_;
-  std::vector<Explanation> pairs_;  // those that are worth it, best first
+  std::vector<Explanation> pairs_;  // pairs whose second effect adds enough, best first
   Decision decision_;
 };
 
@@ -54,7 +54,7 @@ bool Verdicts::unknown(const Explanation& best) {
   return true;
 }
 
-// Whether another form would add to the effects: then theirs is not quite it.
+// Whether another form of the effects would explain more. If so, the library's form is not the right one.
 bool Verdicts::leavesOfItsForm(const Explanation& explanation) const {
   const Score any = comparison_.inAnyForm(explanation);
   return comparison_.shareOf(any) - explanation.share > kGenericBetter * comparison_.explainable() &&

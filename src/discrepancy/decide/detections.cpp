@@ -12,11 +12,11 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kFaultZ = 99;  // a detector does not doubt
+constexpr double kFaultZ = 99;  // the result of this detector counts as certain
 constexpr double kMisfitBeside =
-    0.08;  // of the readings' squared error, where time courses were found that bend the curves
+    0.08;  // of the readings' squared error, where time courses were found, which bend the curves
 constexpr double kByCode = 0.4;        // share of a misfit that one function of the reading explains
-constexpr double kHighReadings = 0.6;  // of the highest: where a saturation shows
+constexpr double kHighReadings = 0.6;  // of the highest reading: saturation is visible above it
 
 Detection plain(simulation::Detector detector, double z) {
   Detection detection;

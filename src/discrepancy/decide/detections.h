@@ -9,25 +9,26 @@
 
 namespace fsr::discrepancy {
 
-/// Something that a test of its own found, beside what all taxels share.
+/// An effect that a detector found. It is reported beside the explanation of the common trace.
 struct Detection {
   FoundEffect effect;
-  std::vector<simulation::EnabledEffect> enable;  ///< how the simulation is told; none where it cannot be
+  std::vector<simulation::EnabledEffect> enable;  ///< its settings; empty if it cannot be simulated
   std::vector<std::string> depends_on;
   WhereItShows where;
-  double before_more = 0;  ///< squared error that the gap before has more than the residual shows
-  double after_less = 0;   ///< squared error that the gap after and the floor have less
+  double before_more = 0;  ///< squared error of the gap before that the residual does not contain
+  double after_less = 0;   ///< squared error that the gap after and the floor do not contain
   bool wrong_form = false;
 };
 
 Detection detectionOf(const Fault& fault, const FaultyReadings& readings, double square);
 Detection detectionOf(const Mains& mains, double square, const Measured& measured);
 Detection detectionOf(const Repositioning& repositioning, double square);
-/// Saturation, with its level fitted to the static curves.
+/// Saturation. Its level is fitted to the static curves.
 Detection saturationOf(const StaticMisfit& misfit, const Measured& measured, const StaticFit& fit,
                        const simulation::SimulationSettings& base);
 
-/// Whether what the static curves differ by is more than chance, and whether it goes by code.
+/// isMisfit(): whether the misfit of the static curves is more than chance. isSaturation(): whether the
+/// misfit is a function of the code.
 bool isMisfit(const StaticMisfit& misfit, bool something_else_found);
 bool isSaturation(const StaticMisfit& misfit, const Measured& measured);
 

@@ -1,6 +1,7 @@
-// Signatures are derivatives at "none of it"; a large effect bends, and its shapes are no multiples of the
-// tried ones. So the parameters of the effects that were chosen are fitted once more through the whole chain.
-// K. Levenberg, 1944, D. Marquardt, 1963, with derivatives by differences.
+// Signatures are derivatives at strength zero. A large effect is not linear in its strength, and the trace
+// of its shape is not a multiple of the traces of the tried shapes. So the parameters of the chosen effects
+// are fitted again through the whole chain. Method: K. Levenberg, 1944, D. Marquardt, 1963, with derivatives
+// by differences.
 
 #include "discrepancy/decide/refine.h"
 
@@ -18,11 +19,11 @@ namespace fsr::discrepancy {
 namespace {
 
 constexpr double kDifference = 0.02;  // of a parameter's scale
-constexpr double kBeyondTried = 3;    // factor that a shape may leave its tried values by
+constexpr double kBeyondTried = 3;    // factor by which a shape may exceed its plausible range
 constexpr int kMostHalved = 8;
 constexpr double kTwoSided = 1.96;  // 95 % of a normal distribution
 
-// One number that is fitted, on a scale on which steps of about 1 are large.
+// One fitted parameter. It is scaled so that a step of about 1 is large.
 struct Knob {
   std::size_t effect;
   std::string name;
@@ -63,7 +64,8 @@ std::vector<Knob> knobsOf(const simulation::EffectLibrary& library,
   return knobs;
 }
 
-// Without the effects of the other kind: those up to the gain, or those of the read-out.
+// Removes the added effects of the other kind. With `read_out` the effects of the read-out stay, otherwise
+// those up to the gain.
 simulation::SimulationSettings keepStages(simulation::SimulationSettings settings,
                                           const simulation::SimulationSettings& base, bool read_out) {
   auto& effects = settings.effects;
@@ -77,7 +79,7 @@ simulation::SimulationSettings keepStages(simulation::SimulationSettings setting
   return settings;
 }
 
-// What effects do to load, gain and reading.
+// Changes of load, gain and reading by effects.
 struct Changes {
   Trace load, gain, reading;  // [Pa], factor, [share of full scale]
 };
@@ -100,7 +102,7 @@ Changes changesBy(const Measured& measured, const simulation::SimulationSettings
   return changes;
 }
 
-// On flat surfaces the changes are those of `flat`.
+// Replaces the changes on flat surfaces by those of `flat`.
 void onFlat(const Measured& measured, const Changes& flat, Changes& changes) {
   for (std::size_t i = 0; i < measured.samples(); ++i) {
     if (!dataset::isFlat(measured.classes[measured.classOf(i)])) continue;
@@ -111,9 +113,10 @@ void onFlat(const Measured& measured, const Changes& flat, Changes& changes) {
   }
 }
 
-// A gain that a whole class of curvature shares is part of its static curve. Left in, it would divide what is
-// left, noise and all, and a large one would seem to explain it: the mean of 1 / g^2 is no less than 1 where
-// that of g is 1.
+// Scales the gain to a mean of 1 in each class of curvature. A gain that a whole class shares is part of its
+// static curve. Without the scaling the residual, including the noise, would be divided by this gain, and a
+// large gain would seem to explain it. With the scaling this cannot happen: where the mean of g is 1, the
+// mean of 1 / g^2 is at least 1.
 void levelGain(const Measured& measured, Changes& changes) {
   const auto classes = static_cast<Eigen::Index>(measured.classes.size());
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(classes), number = sum;
@@ -186,7 +189,7 @@ class Refiner {
     }
     return trace;
   }
-  // Variable projection: for given parameters the curves are those of least squares.
+  // Variable projection: for given parameters the curves are fitted by least squares.
   std::optional<Eigen::VectorXd> error(const std::vector<double>& at) const {
     try {
       const Changes changes = changesAt(at);
@@ -211,7 +214,8 @@ class Refiner {
   DrivenSignals plain_;
 };
 
-// Of the knobs, by cycles: what is left of one cycle hangs together.
+// Standard deviations of the fitted parameters, clustered by cycle: residuals within one cycle are
+// correlated.
 std::vector<double> Refiner::deviations(const Eigen::VectorXd& left) const {
   const auto residuals = [this](const std::vector<double>& at) { return error(at); };
   const Eigen::MatrixXd jacobian = derivatives(residuals, at_, left, kDifference);
@@ -235,7 +239,8 @@ std::vector<double> Refiner::deviations(const Eigen::VectorXd& left) const {
   return deviations;
 }
 
-// Signatures are straight lines: what they say of a large effect may be more than the effect permits.
+// Halves the strengths until they are permitted. Signatures are linear, so the strength that they give for a
+// large effect may be more than the effect permits.
 void Refiner::makePermitted() {
   for (int halved = 0; halved < kMostHalved && !error(at_); ++halved) {
     for (std::size_t k = 0; k < knobs_.size(); ++k) {

@@ -11,51 +11,54 @@
 
 namespace fsr::discrepancy {
 
-/// Settings with one more effect, in the library's order.
+/// Adds an effect to the settings, or replaces it. The effects stay in the library's order.
 simulation::SimulationSettings withEffect(simulation::SimulationSettings settings,
                                           const simulation::EnabledEffect& effect);
 
-/// Effects whose parameters fit the common trace best, on the cycles that are not held out, through the
-/// true forward model.
+/// Effects with the parameters that fit the common trace best through the true forward model. The fit uses
+/// the cycles that are not held out.
 struct Refined {
   std::vector<simulation::EnabledEffect> effects;
-  std::vector<std::vector<FittedParameter>> parameters;  ///< of each effect, those that were fitted
-  Trace trace;             ///< what they take away from what the static curves left of the common trace
-  Trace left;              ///< of the projected common trace, 0 in hold-out cycles
-  double share = 0;        ///< of the squared error of the projected common trace
-  bool at_bound = false;   ///< a strength left its plausible range
-  bool state_kept = true;  ///< as it was asked for
+  std::vector<std::vector<FittedParameter>> parameters;  ///< fitted parameters of each effect
+  Trace trace;             ///< part of the common trace's residual that the effects explain
+  Trace left;              ///< residual of the projected common trace; 0 in hold-out cycles
+  double share = 0;        ///< share of the projected common trace's squared error that they explain
+  bool at_bound = false;   ///< a strength is outside its plausible range
+  bool state_kept = true;  ///< as passed to refine()
 };
 
-/// Whether the intervals of all strengths hold the value at which the effects do nothing; false where no
+/// Whether the intervals of all strengths contain the value at which the effects do nothing. False where no
 /// strength was fitted.
 bool mayBeNone(const Refined& refined,
                const simulation::EffectLibrary& library = simulation::EffectLibrary::shipped());
 
-/// `bent_only`, of each effect: it acts where the surface is bent, and nowhere else; empty = none does.
+/// `bent_only` has one flag for each effect: true = it acts only where the surface is bent. Empty = all
+/// false.
 Refined refine(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                const simulation::SimulationSettings& base,
                const std::vector<simulation::EnabledEffect>& start, bool state_kept,
                std::vector<bool> bent_only);
 
-/// Takes what `with` has beyond `without` out of the readings: from now on curves are functions of the load
-/// that the chain computes, and readings are as they would be without.
+/// Subtracts the effects that are in `with` but not in `without` from the readings. Afterwards the curves are
+/// functions of the load that the chain computes, and the readings are those of a sheet without these
+/// effects.
 void takeOut(Measured& measured, const StaticFit& fit, const simulation::SimulationSettings& without,
              const simulation::SimulationSettings& with);
 
-/// The same for all effects with a time course that the simulation enables, their sizes fitted first.
-/// Returns the simulation with these sizes. `beside`: effects that are fitted together with them and stay in.
+/// The same for all effects with a time course that the simulation enables. With `fit_sizes` their sizes are
+/// fitted first. Returns the simulation with these sizes. `beside`: effects that are fitted together with
+/// them but are not subtracted.
 simulation::SimulationSettings takeOutEnabled(Measured& measured, const CommonTraces& common,
                                               const StaticFit& fit,
                                               const simulation::SimulationSettings& base, bool fit_sizes,
                                               const std::vector<simulation::EnabledEffect>& beside = {});
 
-/// What fixed effects explain of new recordings.
+/// What effects with fixed parameters explain of new recordings.
 struct Predicted {
-  double share = 0;       ///< of the squared error of the projected common trace, nothing fitted
-  double best_share = 0;  ///< the same with the effects' size free
-  double size = 1;        ///< that fits best, common factor of all strengths
-  Interval interval;      ///< of it
+  double share = 0;       ///< share of the projected common trace's squared error, without any fit
+  double best_share = 0;  ///< the same with the size of the effects fitted
+  double size = 1;        ///< common factor of all strengths that fits best
+  Interval interval;      ///< of `size`
 };
 Predicted predict(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                   const simulation::SimulationSettings& base,

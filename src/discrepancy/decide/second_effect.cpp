@@ -13,12 +13,13 @@ namespace {
 constexpr double kSecondOfRest = 0.45;   // of what remains explainable: a wrong form alone leaves that much
 constexpr double kSecondOfFirst = 0.03;  // of what the first effect explains
 constexpr double kSecondLookalike = 8;   // standard errors, where a wrong form of one looks like the other
-constexpr double kAnyForm = 0.7;        // of what the second adds: if a form of the first does, there is none
-constexpr double kWrongFormNear = 0.8;  // of the pair that describes its wrong form
+constexpr double kAnyForm = 0.7;  // of what the second adds: if a form of the first adds it, there is none
+constexpr double kWrongFormNear = 0.8;  // of the share of the pair that describes its wrong form
 constexpr std::size_t kPairsRefined = 4;
-constexpr double kMuchOpen = 0.75;  // of the common trace's error: less explained leaves room for two
+constexpr double kMuchOpen = 0.75;  // of the common trace's error: below it there is room for a second effect
 
-// Whether one effect of the pair is like what the other leaves where its form is not the library's.
+// Whether one effect of the pair resembles the residual of the other where the other's form differs from the
+// library's.
 bool lookAlike(const simulation::EffectLibrary& library, const Explanation& pair) {
   return std::any_of(pair.score.ids.begin(), pair.score.ids.end(), [&](const std::string& id) {
     const std::vector<std::string>& like = library.info(id).wrong_form_like;
@@ -26,7 +27,7 @@ bool lookAlike(const simulation::EffectLibrary& library, const Explanation& pair
   });
 }
 
-// Whether the pair is what one of the effects leaves where its form is not the library's.
+// Whether the pair describes the residual of an effect of `single` where its form differs from the library's.
 bool isLeftBy(const simulation::EffectLibrary& library, const Explanation& pair, const Explanation& single) {
   return std::any_of(single.score.ids.begin(), single.score.ids.end(), [&](const std::string& id) {
     const std::vector<std::string>& like = library.info(id).wrong_form_like;
@@ -40,8 +41,8 @@ bool takesAnyCourse(const simulation::EffectLibrary& library, const Explanation&
   return std::any_of(pair.score.ids.begin(), pair.score.ids.end(), any_course);
 }
 
-// The pairs that do best as signatures, best first, and the best single effect with each of the others: a
-// large effect bends, and its signature alone says too little of it.
+// The pairs with the best signatures, best first, and all pairs with the best single effect. The latter are
+// included because a large effect is not linear in its strength, and its signature alone describes it badly.
 std::vector<Explanation> bestPairs(const Comparison& comparison, const Explanation& one) {
   const CrossValidation& crossValidation = comparison.crossValidation();
   const std::vector<Explanation>& singles = comparison.singles();
@@ -49,7 +50,7 @@ std::vector<Explanation> bestPairs(const Comparison& comparison, const Explanati
   std::vector<Explanation> pairs;
   for (std::size_t a = 0; a < singles.size(); ++a) {
     for (std::size_t b = a + 1; b < singles.size(); ++b) {
-      // Some dozens of gains of cycles do not hold two slow effects.
+      // The gains of a few dozen cycles cannot determine two slow effects.
       if (comparison.infoOf(families[a].id).slow && comparison.infoOf(families[b].id).slow) continue;
       Explanation pair;
       pair.score = crossValidation.score(singles[a].score, families[b]);

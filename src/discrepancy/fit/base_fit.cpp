@@ -13,12 +13,12 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr std::size_t kPressures = 24;  // at which curves are compared, of each visit
-constexpr double kLargestStep = 4;      // of a logarithm: a factor of 50 either way
+constexpr std::size_t kPressures = 24;  // in each visit, at which curves are compared
+constexpr double kLargestStep = 4;      // of a logarithm: about a factor of 50 up or down
 
-// A parameter that is fitted, on the logarithm of its size.
+// A fitted parameter. The fit works on the logarithm of its value.
 struct Fitted {
-  int place;  // in the fit
+  int place;  // in the order of the fit
   std::string effect, name;
   double start;
   settings::Range range;
@@ -38,7 +38,8 @@ simulation::EnabledEffect& enabled(simulation::SimulationSettings& settings, con
                        [&](const simulation::EnabledEffect& e) { return e.id == id; });
 }
 
-// What is fitted of these settings; parameters that are off start from a hundredth of what they may be.
+// Returns the parameters of these settings that are fitted. An offset of 0 starts from a hundredth of the
+// conductance; other parameters that are 0 are not fitted.
 std::vector<Fitted> fittedOf(const simulation::SimulationSettings& settings, bool bent) {
   std::vector<Fitted> fitted;
   for (const simulation::EnabledEffect& effect : settings.effects) {
@@ -66,7 +67,7 @@ simulation::SimulationSettings settingsAt(simulation::SimulationSettings setting
   return settings;
 }
 
-// A few samples of every visit, evenly over the pressures that it saw.
+// A few samples of every visit, evenly spaced over its range of pressure.
 std::vector<std::size_t> chosenSamples(const Measured& measured) {
   std::vector<std::size_t> chosen;
   for (const Visit& visit : measured.visits) {
@@ -109,7 +110,7 @@ Eigen::VectorXd staticReadings(const Measured& measured, const simulation::Simul
   return readings;
 }
 
-// Only what is static: the curves hold nothing else.
+// Keeps only the fitted and the required effects. They are static, and so are the curves.
 simulation::SimulationSettings withoutMemory(simulation::SimulationSettings settings) {
   auto& effects = settings.effects;
   effects.erase(std::remove_if(effects.begin(), effects.end(),
@@ -122,7 +123,7 @@ simulation::SimulationSettings withoutMemory(simulation::SimulationSettings sett
   return settings;
 }
 
-// Relative deviation of the taxels' readings at high pressure.
+// Relative standard deviation of the taxels' readings at the highest pressure.
 double taxelScatter(const Measured& measured) {
   const auto peak = std::max_element(measured.pressure.begin(), measured.pressure.end());
   std::vector<double> readings;

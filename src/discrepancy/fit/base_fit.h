@@ -5,9 +5,9 @@
 
 namespace fsr::discrepancy {
 
-/// The simulation with its base parameters as the recordings have them: static curve, preload and gain
-/// by bending as far as they are enabled, and the scatter of the taxels. A user's matrix is never the
-/// one in the file. What is enabled besides keeps its values.
+/// Fits the base parameters of the simulation to the recordings: static curve, preload and gain by bending
+/// where they are enabled, and the scatter of the taxels. A user's matrix never has exactly the parameters
+/// in the settings file. All other enabled effects keep their values.
 simulation::SimulationSettings fitBase(const Measured& measured, const StaticFit& fit,
                                        const simulation::SimulationSettings& settings);
 

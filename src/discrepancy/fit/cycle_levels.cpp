@@ -10,8 +10,8 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kSingular = 1e-9;  // of the largest eigenvalue
-constexpr double kMoved = 0.2;      // a room that changed by less did not [K]
+constexpr double kSingular = 1e-9;  // share of the largest eigenvalue; smaller ones count as 0
+constexpr double kMoved = 0.2;      // a room temperature that changes by less counts as constant [K]
 constexpr Eigen::Index kMoreThanTerms = 6;
 
 double mean(const std::vector<double>& values, const MeasuredCycle& cycle) {
@@ -104,7 +104,7 @@ void CycleLevels::plan(const Measured& measured) {
     const std::size_t c = cycles_[static_cast<std::size_t>(k)];
     const MeasuredCycle& cycle = measured.cycles[c];
     const auto number =
-        static_cast<double>(c - measured.cycle[measured.visits[cycle.visit].first]);  // of the visit's
+        static_cast<double>(c - measured.cycle[measured.visits[cycle.visit].first]);  // within the visit
     const double time = mean(measured.time, cycle) / end, gone = mean(measured.path_length, cycle) / all;
     since.row(k) << std::exp(-number), std::exp(-number / 3);
     clock.row(k) << time, time * time;

@@ -9,24 +9,24 @@ namespace fsr::discrepancy {
 namespace {
 
 constexpr std::size_t kPressureHats = 5;
-constexpr std::size_t kTimeHats = 4;  // of the clock, in each visit
+constexpr std::size_t kTimeHats = 4;  // over clock time, in each visit
 constexpr double kReversalStart = 1;  // first knot of the time since a reversal [s]
 constexpr double kReversalStep = 5;   // factor from knot to knot
 constexpr std::size_t kReversalHats = 4;
 
-// Triangle of width 1 about 0.
+// Triangle around 0 that reaches 0 at -1 and at 1.
 double hat(double x) {
   return std::max(0.0, 1 - std::abs(x));
 }
 
-// What the columns are functions of, at each sample.
+// The variables of the columns, at each sample.
 struct Covariates {
-  std::vector<double> pressure;      // share of the highest
-  std::vector<double> rate;          // in units of a usual ramp
-  std::vector<double> since;         // a reversal [s]
-  std::vector<double> valley, peak;  // the last ones, shares of the highest pressure
-  std::vector<double> in_visit;      // 0 .. 1
-  std::vector<double> cycle;         // since the visit began
+  std::vector<double> pressure;      // share of the highest pressure
+  std::vector<double> rate;          // in units of the usual rate of a ramp
+  std::vector<double> since;         // time since a reversal [s]
+  std::vector<double> valley, peak;  // last turning points, shares of the highest pressure
+  std::vector<double> in_visit;      // position in the visit, 0 .. 1
+  std::vector<double> cycle;         // number of cycles since the visit began
   std::vector<double> bend;          // share of the largest curvature
 };
 
@@ -44,7 +44,7 @@ double bendOf(const Visit& visit) {
   return sum / static_cast<double>(visit.surface.curvature.size());
 }
 
-// Time since the pressure turned, and the last turning points, of the samples of one visit.
+// Appends the time since the last reversal and the last turning points for the samples of one visit.
 void followTurns(const Measured& measured, const Visit& visit, double highest, Covariates& covariates) {
   double turned = measured.time[visit.first], valley = measured.pressure[visit.first], peak = valley;
   double low = valley, high = valley;

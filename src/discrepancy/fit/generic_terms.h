@@ -9,16 +9,16 @@
 
 namespace fsr::discrepancy {
 
-/// Smooth terms of some covariates, whatever physics may be behind them: how much is explainable at
-/// all, and by what. Load-like ones go through the static curves' slope, gain-like ones through their
-/// rise.
+/// Smooth functions of some covariates, independent of the physics behind them. They show how much can be
+/// explained at all, and by which covariates. Terms that act like a load are multiplied by the slope of the
+/// static curves, terms that act like a gain by their rise.
 struct GenericTerms {
   std::vector<simulation::Covariate> covariates;
-  std::vector<Trace> columns;  ///< projected; all signs are free
+  std::vector<Trace> columns;  ///< projected; the sign of each is free
 };
 
-/// The terms of each group of covariates; where the recordings have several curvatures, each once more
-/// with curvature (`columns` then holds the plain terms as well).
+/// Returns the terms of each group of covariates. If the recordings have several curvatures, each group
+/// except clock time is returned a second time with curvature (`columns` then holds the plain terms as well).
 std::vector<GenericTerms> genericTerms(const Measured& measured, const StaticFit& fit);
 
 }  // namespace fsr::discrepancy

@@ -8,7 +8,7 @@ namespace fsr::discrepancy {
 
 namespace {
 
-// Of each diagonal element: columns that are nearly one stay solvable.
+// Added to each diagonal element, relative to it. Keeps nearly equal columns solvable.
 constexpr double kRidge = 1e-9;
 constexpr int kMostRounds = 300;
 
@@ -30,7 +30,7 @@ Eigen::VectorXd solveMembers(const Eigen::MatrixXd& gram, const Eigen::VectorXd&
   return part.ldlt().solve(side);
 }
 
-// Takes the step from `now` towards `goal` as far as no sign is broken; members that reach 0 leave.
+// Moves `now` towards `goal` as far as all signs stay permitted. Members that reach 0 are removed.
 void step(Eigen::VectorXd& now, const Eigen::VectorXd& goal, Members& members,
           const std::vector<bool>& free) {
   double share = 1;
@@ -77,7 +77,7 @@ Eigen::VectorXd solveSigned(const Eigen::MatrixXd& gram, const Eigen::VectorXd& 
     }
     for (std::size_t k = 0; k < members.size(); ++k)
       solution[members[k]] = goal[static_cast<Eigen::Index>(k)];
-    // The column that would gain most by entering.
+    // Find the column that would gain most by entering.
     const Eigen::VectorXd slope = right - gram * solution;
     Eigen::Index best = -1;
     double most = 1e-9;

@@ -6,7 +6,7 @@ namespace {
 
 constexpr int kTries = 4;
 
-// A damped step that lowers the error; none where no damping helps.
+// Takes a damped step that lowers the error. Returns none if no damping that is tried lowers it.
 std::optional<std::pair<std::vector<double>, Eigen::VectorXd>> betterPoint(const Residuals& residuals,
                                                                            const std::vector<double>& at,
                                                                            const Eigen::VectorXd& now,

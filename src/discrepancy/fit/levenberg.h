@@ -7,21 +7,21 @@
 
 namespace fsr::discrepancy {
 
-/// Residuals at a point; none where the point is not permitted.
+/// Returns the residuals at a point, or none if the point is not permitted.
 using Residuals = std::function<std::optional<Eigen::VectorXd>(const std::vector<double>& at)>;
 
 struct LevenbergOptions {
   int steps = 6;
-  double difference = 0.02;  ///< for derivatives; coordinates are scaled so that 1 is large
-  double enough = 1e-4;      ///< share of the squared error that a step must gain to go on
+  double difference = 0.02;  ///< step for derivatives; coordinates are scaled so that 1 is large
+  double enough = 1e-4;      ///< share of the squared error; a step that gains less is the last one
 };
 
-/// Where the residuals' squares are least, from `start` on; `start` itself where it is not permitted.
-/// Sources: K. Levenberg 1944, D. Marquardt 1963.
+/// Returns the point where the sum of squared residuals is least, searched from `start`. Returns `start`
+/// itself if it is not permitted. Sources: K. Levenberg 1944, D. Marquardt 1963.
 std::vector<double> levenberg(const Residuals& residuals, std::vector<double> start,
                               const LevenbergOptions& options = {});
 
-/// Derivatives of the residuals by differences, [residuals x coordinates].
+/// Derivatives of the residuals by finite differences, [residuals x coordinates].
 Eigen::MatrixXd derivatives(const Residuals& residuals, const std::vector<double>& at,
                             const Eigen::VectorXd& there, double difference);
 

@@ -12,14 +12,14 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kLeastTurns = 0.4;  // of the phase over the whole scan
-constexpr double kLeastZ = 8;        // of the peak, among the other patterns
-constexpr double kRound = 0.5;       // most of |sum z^2| / sum |z|^2 of something that turns
+constexpr double kLeastTurns = 0.4;  // least turns of the phase over the whole scan
+constexpr double kLeastZ = 8;        // least z score of the peak among the patterns
+constexpr double kRound = 0.5;       // largest |sum z^2| / sum |z|^2 of a course through all phases
 constexpr std::size_t kFewestTaxels = 8;
-constexpr double kMainsFrequency = 50;  // that is assumed [Hz]
+constexpr double kMainsFrequency = 50;  // assumed [Hz]
 constexpr double kDeviationPerMedian = 1.4826;
 
-// Readings less what the static curves and all taxels together say, of the used taxels.
+// Readings of the used taxels, minus their static curves and minus the mean residual of these taxels.
 class Residuals {
  public:
   Residuals(const Measured& measured, const TaxelFit& taxels) : measured_(measured), taxels_(taxels) {
@@ -112,7 +112,7 @@ Mains findMains(const Measured& measured, const TaxelFit& taxels) {
     before = z;
   }
   mains.beat = steps > 0 ? std::arg(turned) / (2 * M_PI) / (seconds / steps) : 0;
-  double one_phase = 0;  // a pattern that changes from visit to visit only is no hum either
+  double one_phase = 0;  // a pattern that changes only between visits is not hum either
   for (const std::complex<double>& sum : square) one_phase += std::abs(sum);
   mains.found = one_phase < kRound * (size - static_cast<double>(samples) * usual);
   return mains;

@@ -7,23 +7,23 @@
 
 namespace fsr::discrepancy {
 
-/// Hum that runs through the matrix with the scan.
+/// Mains hum. Its phase advances through the matrix in the order of the scan.
 struct Mains {
   bool found = false;
-  double share = 0;      ///< of the readings' squared error
-  double z = 0;          ///< of its peak among patterns of other pitch
+  double share = 0;      ///< share of the readings' squared error
+  double z = 0;          ///< z score of its peak among patterns of other pitch
   double amplitude = 0;  ///< [share of full scale]
   double turn = 0;       ///< phase from one taxel of the scan to the next [rad]
-  double beat = 0;       ///< what is left of its frequency after sampling [Hz]
-  Trace cosine, sine;    ///< its course, for taking it out of the common traces
+  double beat = 0;       ///< its apparent frequency after sampling [Hz]
+  Trace cosine, sine;    ///< its time course, to subtract it from the common traces
 };
 
-/// A hum has one phase in each taxel, and the phase moves on from taxel to taxel: of all patterns
-/// exp(j turn i) in the order of the scan one stands out, and its course turns through all phases. A
-/// pattern that stands still in space has one phase only: it is no hum.
+/// Searches for hum. A hum has one phase in each taxel, and the phase advances from taxel to taxel.
+/// Therefore one of the patterns exp(j turn i), in the order of the scan, stands out, and its time course
+/// passes through all phases. A pattern that stands still in space has only one phase and is not hum.
 Mains findMains(const Measured& measured, const TaxelFit& taxels);
 
-/// Takes its course out of the common traces.
+/// Subtracts the hum's time course from the common traces.
 void takeOut(const Mains& mains, const StaticFit& fit, CommonTraces& common);
 
 simulation::EnabledEffect asEffect(const Mains& mains, double full_scale);

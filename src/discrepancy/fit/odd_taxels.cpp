@@ -11,18 +11,19 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kOdd = 6;           // times the usual square of what is left: noise differs by less
-constexpr double kDeaf = 0.02;       // of the usual variance of the readings within a visit
+constexpr double kOdd = 6;           // times the usual squared residual; noise differs by less
+constexpr double kDeaf = 0.02;       // share of the usual variance of the readings within a visit
 constexpr double kTogether = 2;      // times the square that the mean of a line has by chance
-constexpr double kMostOfLine = 0.6;  // of a line's taxels: the line is odd
+constexpr double kMostOfLine = 0.6;  // share of a line's taxels; from it on the line is odd
 
-// Sums over the samples that are not shown, of what is left of each taxel and line beside the mean of all.
+// Sums over the samples outside the hold-out cycles. The residuals of taxels and lines are relative to the
+// mean residual of all used taxels.
 struct Sums {
   Eigen::VectorXd squares;                  // [taxels]
-  Eigen::VectorXd lines[2];                 // of the means of rows, of columns
+  Eigen::VectorXd lines[2];                 // squares of the means of rows, of columns
   Eigen::MatrixXd reading, reading_square;  // [taxels x visits]
-  Eigen::VectorXd in_visit;                 // samples
-  double common = 0;                        // square of the mean
+  Eigen::VectorXd in_visit;                 // number of samples [visits]
+  double common = 0;                        // squares of the mean residual
   double samples = 0;
 };
 
@@ -112,7 +113,7 @@ bool Judge::isDeaf(std::size_t taxel) const {
   return false;
 }
 
-// Lines whose taxels move together, though none of them alone stands out.
+// Finds lines whose taxels deviate together although no single taxel stands out.
 void Judge::judgeLines(bool column, OddTaxels& odd) const {
   const double usual = sums_.squares.sum() / static_cast<double>(used_.size());
   std::vector<std::size_t> lines;

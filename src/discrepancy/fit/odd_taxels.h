@@ -8,16 +8,16 @@
 
 namespace fsr::discrepancy {
 
-/// Taxels, rows or columns that go their own way, whatever the reason: what remains to be said of a fault
-/// that no effect of the library describes.
+/// Taxels, rows or columns that deviate from the others, whatever the reason. They are reported when no
+/// effect of the library describes a fault.
 struct OddTaxels {
-  std::vector<std::size_t> taxels;                           ///< row-major, ascending; empty = none is odd
+  std::vector<std::size_t> taxels;                           ///< row-major indices, ascending; empty = none
   simulation::Covariate by = simulation::Covariate::kTaxel;  ///< or kRow, kColumn
-  double share = 0;  ///< of the readings' squared error that is theirs alone
+  double share = 0;  ///< share of the readings' squared error that these taxels alone cause
 };
 
-/// Judges what the static curves leave of every taxel but not of all together. A taxel that hardly answers to
-/// the pressure while others do is odd as well.
+/// Tests the residual of every taxel from its static curves, after the mean residual of all taxels has been
+/// subtracted. A taxel that hardly responds to the pressure while others do is odd as well.
 OddTaxels findOddTaxels(const Measured& measured, const TaxelFit& taxels);
 
 }  // namespace fsr::discrepancy

@@ -11,10 +11,10 @@ namespace fsr::discrepancy {
 
 namespace {
 
-// A break between two visits that is worth telling the chain of: the chamber was vented [s].
+// If the break between two visits is longer, the chain is told that the chamber was vented [s].
 constexpr double kBreak = 2;
 
-// Recorded pressure at any time, straight between the scans.
+// Recorded pressure at any time, interpolated linearly between the scans.
 class RecordedCourse {
  public:
   explicit RecordedCourse(const Measured& measured) : measured_(measured) {}
@@ -26,7 +26,7 @@ class RecordedCourse {
     const std::size_t next = std::min(at_ + 1, times.size() - 1);
     if (next == at_) return measured_.pressure[at_];
     double share = (time - times[at_]) / (times[next] - times[at_]);
-    // Between two visits nothing was recorded: each one's end is held.
+    // Nothing was recorded between two visits: the nearer end is held.
     if (measured_.visit[at_] != measured_.visit[next]) share = std::round(share);
     return measured_.pressure[at_] +
            std::clamp(share, 0.0, 1.0) * (measured_.pressure[next] - measured_.pressure[at_]);
@@ -37,7 +37,7 @@ class RecordedCourse {
   std::size_t at_ = 0;
 };
 
-// Leads a chain, or a difference of two, through everything that was recorded.
+// Drives a chain, or the difference of two chains, through everything that was recorded.
 template <typename Chain, typename Make, typename Use>
 void drive(const Measured& measured, bool state_kept, Make make, Use use) {
   RecordedCourse recorded(measured);
@@ -87,7 +87,7 @@ matrix::Surface oneTaxel(const matrix::Surface& surface) {
   return one;
 }
 
-// Of the derivative of one strength.
+// The derivative with respect to one strength, in the form that drive() expects.
 struct Derivative {
   simulation::Sensitivity sensitivity;
   const simulation::TaxelSignals& read(const simulation::RigSample& sample) {
@@ -115,7 +115,7 @@ auto keep(DrivenSignals& signals, double full_scale) {
   };
 }
 
-// All combinations of the tried values of an effect's shapes; its other strengths and scatters off.
+// All combinations of the tried values of an effect's shapes. Its strengths and scatters are neutral.
 std::vector<simulation::EffectValues> shapeGrid(const simulation::EffectInfo& info) {
   std::vector<simulation::EffectValues> grid(1);
   for (const simulation::EffectParameter& parameter : info.parameters) {
@@ -195,7 +195,7 @@ simulation::SimulationSettings representative(const simulation::SimulationSettin
   };
   effects.erase(std::remove_if(effects.begin(), effects.end(), unwanted), effects.end());
   for (simulation::EnabledEffect& effect : effects) {
-    effect.only_taxels.clear();  // the one taxel is one on which it acts
+    effect.only_taxels.clear();  // the effect acts on the only taxel
     for (const simulation::EffectParameter& parameter : library.info(effect.id).parameters) {
       if (parameter.role == simulation::ParameterRole::kScatter)
         effect.values[parameter.name] = parameter.neutral;

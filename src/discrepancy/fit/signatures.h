@@ -9,22 +9,22 @@
 
 namespace fsr::discrepancy {
 
-/// What one strength of one effect, with certain shapes, would add to the common trace.
+/// What one strength of one effect, with certain values of its shapes, would add to the common trace.
 struct Signature {
   std::string id;
   std::string strength;
-  simulation::EffectValues values;  ///< of all parameters but the strength
-  bool state_kept = true;  ///< the sheet remembers from one visit to the next, else each starts afresh
+  simulation::EffectValues values;  ///< of all parameters except the strength
+  bool state_kept = true;           ///< the state carries over between visits; else each visit starts afresh
   bool free_sign = false;
-  double scale = 1;  ///< strength per unit of `trace`; its sign is that of the rule
-  double left = 0;   ///< share of its rms that the static curves and cycle gains leave
-  Trace trace;       ///< projected, scaled to rms 1 before it was [-]
+  double scale = 1;  ///< strength per unit of `trace`; its sign follows the effect's sign rule
+  double left = 0;   ///< share of its rms that static curves and cycle gains do not explain
+  Trace trace;       ///< scaled to rms 1, then projected [-]
 };
 
-/// What a simulation without memory says of one taxel in the middle of the scatter: 1 x 1, no noise.
+/// Settings of a simulation of one taxel in the middle of the scatter: 1 x 1, no noise.
 simulation::SimulationSettings representative(const simulation::SimulationSettings& settings);
 
-/// The course of a chain's signals under the recorded pressure, surfaces and temperature.
+/// The time course of a chain's signals under the recorded pressure, surfaces and temperature.
 struct DrivenSignals {
   Trace load;     ///< [Pa]
   Trace gain;     ///< factor
@@ -40,12 +40,13 @@ DrivenSignals drivenDerivative(const Measured& measured, const simulation::Simul
 DrivenSignals driven(const Measured& measured, const simulation::SimulationSettings& settings,
                      bool state_kept);
 
-/// What a change of load and gain does to the common trace, through the measured static curves' slope.
+/// Converts a change of load and gain into a change of the common trace, by the slope and the rise of the
+/// measured static curves. From the conductance stage on it returns the change of the reading itself.
 Trace throughCurve(const StaticFit& fit, const DrivenSignals& derivative, simulation::ChainStage stage);
 
-/// Signatures of all effects that `settings` does not enable and that act on all taxels alike, for
-/// each combination of the shapes' tried values. Where an effect has a memory, both carried over and
-/// afresh. In the library's order.
+/// Returns the signatures of all effects that `settings` does not enable and that act on all taxels alike,
+/// for each combination of the shapes' tried values, in the library's order. An effect with memory appears
+/// twice: with its state carried over between visits, and with each visit starting afresh.
 std::vector<Signature> signatures(const Measured& measured, const StaticFit& fit,
                                   const simulation::SimulationSettings& settings,
                                   const std::vector<std::string>& leave_out, unsigned threads);

@@ -22,7 +22,7 @@ SplineBasis::Values SplineBasis::at(double x) const {
   Values values;
   values.first = k - (kAtOnce - 1);
   std::array<double, kAtOnce> lower{1, 0, 0, 0}, next{};
-  // Cox and de Boor's recursion, degree by degree; the last but one gives the slopes.
+  // Cox and de Boor's recursion, degree by degree. The last but one degree gives the slopes.
   for (std::size_t degree = 1; degree < kAtOnce; ++degree) {
     next.fill(0);
     if (degree == kAtOnce - 1) values.slope.fill(0);

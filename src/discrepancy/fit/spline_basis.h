@@ -6,13 +6,14 @@
 
 namespace fsr::discrepancy {
 
-/// Cubic B-splines over unevenly spaced knots: smooth curves that are linear in their coefficients and of
-/// which four at a time differ from 0. Source: C. de Boor, A Practical Guide to Splines, Springer 1978.
+/// Cubic B-splines over unevenly spaced knots. They form smooth curves that are linear in their coefficients.
+/// At each point only four splines differ from 0. Source: C. de Boor, A Practical Guide to Splines, Springer
+/// 1978.
 class SplineBasis {
  public:
   static constexpr std::size_t kAtOnce = 4;
 
-  /// `knots`: at least two, ascending, the ends included.
+  /// `knots`: at least two, ascending, including both ends.
   explicit SplineBasis(const std::vector<double>& knots);
 
   /// Number of coefficients: knots + 2.
@@ -21,7 +22,7 @@ class SplineBasis {
   double low() const { return knots_.front(); }
   double high() const { return knots_.back(); }
 
-  /// The splines first .. first + 3 and their slopes at `x`; beyond the ends the values there.
+  /// Values and slopes of the splines first .. first + 3 at `x`; beyond an end, those at that end.
   struct Values {
     std::size_t first = 0;
     std::array<double, kAtOnce> value{};
@@ -32,7 +33,7 @@ class SplineBasis {
  private:
   std::size_t piece(double x) const;
 
-  std::vector<double> knots_;  // the ends four times over
+  std::vector<double> knots_;  // each end four times
 };
 
 }  // namespace fsr::discrepancy

@@ -9,16 +9,16 @@ namespace fsr::discrepancy {
 
 namespace {
 
-// Closer where static curves bend most, at low pressure; shares of the range.
+// Shares of the range. Knots lie closer at low pressure, where static curves bend most.
 constexpr double kKnots[] = {0, 0.012, 0.03, 0.06, 0.1, 0.15, 0.22, 0.3, 0.4, 0.52, 0.64, 0.76, 0.88, 1};
-// Of the largest diagonal element: coefficients that no scan speaks of become 0.
+// Relative to the largest diagonal element. Coefficients that no scan determines become 0.
 constexpr double kRidge = 1e-10;
-// Cycle gains that scatter less than this are no matter [relative].
+// Least scatter of the cycle gains; smaller scatter does not matter [relative].
 constexpr double kLeastScatter = 1e-5;
 
-// Gains that were shrunk to less than this are not grown by more.
+// Least weight by which withoutGainWeights() divides.
 constexpr double kLeastGainWeight = 0.02;
-// Of the median of absolute normal numbers.
+// Standard deviation of normal numbers / median of their absolute values.
 constexpr double kDeviationPerMedian = 1.4826;
 
 std::vector<double> knotsOf(const Trace& load) {
@@ -158,7 +158,7 @@ Trace StaticFit::residual(const Trace& trace) const {
   return trace - curveFrom(coefficientsOf(trace, plain_));
 }
 
-// Multiplies each cycle's share along its gain by factor(cycle).
+// Multiplies each cycle's component along its gain by factor(cycle).
 template <typename Factor>
 void StaticFit::scaleGains(Trace& trace, Factor factor) const {
   for (std::size_t c = 0; c < measured_.cycles.size(); ++c) {
@@ -182,7 +182,7 @@ Trace StaticFit::withoutGainWeights(const Trace& projected) const {
   return trace;
 }
 
-// The curves live in shrunk space too: x' = W x, B' = W B, and B'^T x' = B^T W (W x).
+// The curves are shrunk in the same way: x' = W x, B' = W B, and B'^T x' = B^T W (W x).
 Trace StaticFit::project(const Trace& trace) const {
   Trace weighted = trace;
   applyGainWeights(weighted);

@@ -12,53 +12,53 @@ namespace fsr::discrepancy {
 /// One value for each scan.
 using Trace = Eigen::VectorXd;
 
-/// Means over the used taxels [share of full scale], as they were read.
+/// Means of the readings over the used taxels [share of full scale]; no curve is subtracted.
 struct CommonTraces {
   Trace all;
   Trace halves[2];  ///< over the white and over the black squares of a chessboard of taxels
 };
 CommonTraces commonTraces(const Measured& measured);
 
-/// Which static curve a scan belongs to.
+/// Which scans share a static curve: those of one class of curvature, or those of one visit.
 enum class CurvePer { kClass, kVisit };
 
-/// The common static curves: one smooth curve of pressure for each class of curvature (or each visit),
-/// and what takes them out of a trace.
+/// The common static curves: one smooth curve of pressure for each class of curvature (or each visit). The
+/// class also removes these curves from a trace.
 ///
-/// Between the cycles the gain scatters by chance. A trace's share along "gain of this cycle" is
-/// therefore shrunk before the curves are taken out, so that least squares weigh it by what it is
-/// worth: the cycles' gains are some dozens of numbers, not as many as there are scans.
+/// The gain scatters by chance from cycle to cycle. Therefore a trace's component along "gain of this cycle"
+/// is shrunk before the curves are removed. Least squares then give it the weight it deserves: the cycles'
+/// gains are some dozens of numbers, not as many as there are scans.
 class StaticFit {
  public:
-  /// `common`: the trace that the curves are fitted to.
+  /// `common`: the trace to which the curves are fitted.
   StaticFit(const Measured& measured, CurvePer per, const Trace& common);
-  /// The same as functions of another load than the chamber's pressure [Pa], with the cycles' gains
-  /// weighed as in `like`.
+  /// Fits the curves as functions of `load` [Pa] instead of the chamber's pressure. The cycles' gains keep
+  /// their weights from `like`.
   StaticFit(const StaticFit& like, const Trace& common, const Trace& load);
 
   const Trace& curve() const { return curve_; }         ///< static reading at each scan [share of full scale]
   const Trace& slope() const { return slope_; }         ///< never negative [share of full scale / Pa]
   const Trace& netCurve() const { return net_curve_; }  ///< static reading above the unloaded one
 
-  /// Reading of a scan's curve at another load [Pa]; straight on beyond its ends, never below the unloaded
-  /// one.
+  /// Reading of a scan's curve at another load [Pa]. Beyond its ends the curve continues as a straight line,
+  /// never below the unloaded reading.
   double curveAt(std::size_t scan, double load) const;
 
-  /// Lowest curve's lowest reading: a taxel without load [share of full scale].
+  /// Reading of a taxel without load: the lowest reading of the lowest curve [share of full scale].
   double unloaded() const { return zero_; }
 
-  /// Deviation of the gain from cycle to cycle by chance, relative.
+  /// Standard deviation of the gain from cycle to cycle by chance, relative.
   double gainScatter() const { return gain_scatter_; }
 
-  /// Shrinks along the cycles' gains, then takes out the static curves.
+  /// Shrinks the trace along the cycles' gains, then removes the static curves.
   Trace project(const Trace& trace) const;
   /// Undoes the shrinking of what project() returned.
   Trace withoutGainWeights(const Trace& projected) const;
-  /// Takes out the static curves, nothing shrunk.
+  /// Removes the static curves without shrinking anything.
   Trace residual(const Trace& trace) const;
 
-  /// Sets the scatter of the gain from what is left in a residual(), by the differences of one cycle
-  /// from the next: what is slow is no scatter.
+  /// Estimates the scatter of the gain from a residual(). The estimate uses the differences between
+  /// consecutive cycles, so slow trends are not counted as scatter.
   void judgeGainScatter(const Trace& residual);
 
   std::size_t groupOf(std::size_t scan) const { return group_[scan]; }
@@ -88,7 +88,7 @@ class StaticFit {
   Trace curve_, slope_, net_curve_;
   double zero_ = 0;
   double gain_scatter_ = 0;
-  std::vector<double> gain_weight_;  // of each cycle: what shrink() leaves along its gain
+  std::vector<double> gain_weight_;  // of each cycle: factor along its gain in project()
 };
 
 }  // namespace fsr::discrepancy

@@ -12,13 +12,13 @@ namespace fsr::discrepancy {
 namespace {
 
 constexpr double kLeastZ = 6;
-constexpr std::size_t kPoints = 60;     // of a curve
-constexpr double kSure = 2;             // standard errors of a curve
-constexpr double kFewSamples = 8;       // at one pressure
-constexpr double kTogether = 5;         // samples that hang together: noise is coloured
-constexpr double kPreloadScale = 50e3;  // [Pa]
+constexpr std::size_t kPoints = 60;     // in each curve
+constexpr double kSure = 2;             // standard errors; a smaller difference may be due to chance
+constexpr double kFewSamples = 8;       // at one pressure; fewer give no estimate
+constexpr double kTogether = 5;         // samples that count as one, because the noise is coloured
+constexpr double kPreloadScale = 50e3;  // unit of the preload in the fit [Pa]
 
-// Smooth functions of the place on the sheet, without the constant: powers of x and y up to a degree.
+// Smooth functions of the position on the sheet: powers of x and y up to a degree, without the constant.
 Eigen::MatrixXd smoothFields(const matrix::Layout& layout, const std::vector<std::size_t>& taxels) {
   const std::size_t degree = taxels.size() >= 40 ? 3 : taxels.size() >= 12 ? 2 : 1;
   const auto n = static_cast<Eigen::Index>(taxels.size());
@@ -40,10 +40,10 @@ Eigen::MatrixXd smoothFields(const matrix::Layout& layout, const std::vector<std
   return Eigen::MatrixXd(fields.householderQr().householderQ() * Eigen::MatrixXd::Identity(n, fields.cols()));
 }
 
-// One mount's preload and gain of each taxel against the surface's mean.
+// Preload and gain of each taxel in one mount, relative to the surface's mean.
 struct MountFields {
   Eigen::MatrixXd change;  // [taxels x 2], preload [Pa] and gain
-  Eigen::Matrix2d gram;    // of slope and rise, summed over the samples
+  Eigen::Matrix2d gram;    // Gram matrix of slope and rise, summed over the samples
   double samples = 0;
   std::size_t curvature_class = 0;
 };
@@ -76,9 +76,9 @@ MountFields fieldsOf(const Measured& measured, const StaticFit& fit, const Taxel
   return fields;
 }
 
-// Gain and preload that make one curve of another.
+// Result of mapping one curve onto another by gain and preload.
 struct Referred {
-  Eigen::VectorXd misfit;  // at each of the pressures that both have; else 0
+  Eigen::VectorXd misfit;  // at each pressure that both curves have; else 0
 };
 
 double interpolate(const Eigen::VectorXd& values, double low, double step, double at) {
@@ -107,8 +107,8 @@ Eigen::VectorXd misfitOf(const Eigen::VectorXd& curve, const Eigen::VectorXd& re
   return result ? *result : Eigen::VectorXd::Zero(curve.size());
 }
 
-// Variance of each class's curve at each pressure, by what is left round it there; infinite where hardly a
-// sample speaks of it.
+// Variance of each class's curve at each pressure, estimated from the residuals there; infinite where there
+// are too few samples.
 Eigen::MatrixXd chanceOf(const Measured& measured, const StaticFit& fit, const Trace& common, double low,
                          double step) {
   const auto classes = static_cast<Eigen::Index>(measured.classes.size());
@@ -163,7 +163,7 @@ Repositioning findRepositioning(const Measured& measured, const StaticFit& fit, 
     gains += smoothed.col(1).squaredNorm() / n;
     ++mounts;
   }
-  const double chance = outside / (n - 1 - terms) * terms;  // what the smooth fields would take of chance
+  const double chance = outside / (n - 1 - terms) * terms;  // what the smooth fields would explain by chance
   const Spread nothing = spreadOf(measured, taxels, Trace::Zero(fit.netCurve().size()));
   found.share = nothing.square > 0 ? (inside - chance) / (samples * n) / nothing.square : 0;
   found.z = (inside - chance) / std::max(1e-300, chance * std::sqrt(1 / (terms * mounts)));
@@ -208,7 +208,7 @@ StaticMisfit findStaticMisfit(const Measured& measured, const StaticFit& fit, co
   const double mean = misfit.squaredNorm() / static_cast<double>(misfit.size());
   result.rms = std::sqrt(mean);
   result.share = square > 0 ? mean / square : 0;
-  // One function of the reading: hats over the readings.
+  // One function of the reading, as a sum of hats over the readings.
   constexpr Eigen::Index kHats = 8;
   Eigen::MatrixXd hats = Eigen::MatrixXd::Zero(misfit.size(), kHats);
   const double highest = curves.maxCoeff();

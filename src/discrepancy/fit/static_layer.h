@@ -6,31 +6,32 @@
 
 namespace fsr::discrepancy {
 
-/// What changes from one mount to the next on the same surface: preload and gain of each taxel, smooth
-/// in space.
+/// Change from one mount to the next on the same surface: preload and gain of each taxel, smooth in space.
 struct Repositioning {
   bool found = false;
-  double share = 0;   ///< of the readings' squared error
-  double z = 0;       ///< how far it stands out from changes that know no neighbours
-  double offset = 0;  ///< deviation of the preload [Pa]
-  double gain = 0;    ///< deviation of the gain, relative
+  double share = 0;   ///< share of the readings' squared error
+  double z = 0;       ///< z score relative to changes that are independent in neighbouring taxels
+  double offset = 0;  ///< standard deviation of the preload [Pa]
+  double gain = 0;    ///< standard deviation of the gain, relative
   WhereItShows where;
 };
 
-/// `taxels` and `fit`: with curves that all mounts of a surface share. `explained`: what effects with a
-/// time course take from the common trace, `mask` their share in each taxel; both may be empty.
+/// `taxels` and `fit` must have curves that all mounts of a surface share. `explained` is the part of the
+/// common trace that effects with a time course explain. `mask` [taxels x classes] is the share of these
+/// effects in each taxel. Both may be empty.
 Repositioning findRepositioning(const Measured& measured, const StaticFit& fit, const TaxelFit& taxels,
                                 const Trace& explained, const Eigen::MatrixXd& mask);
 
-/// What is left where the curves of all surfaces are referred to the first one's by gain and preload.
+/// Misfit that remains after the curves of all surfaces have been mapped onto the first surface's curve by
+/// gain and preload.
 struct StaticMisfit {
-  double share = 0;                     ///< of the readings' squared error
+  double share = 0;                     ///< share of the readings' squared error
   double rms = 0;                       ///< [share of full scale]
-  double by_code = 0;                   ///< share of it that one function of the reading explains
-  Interval pressure;                    ///< where it shows [Pa]
-  std::vector<std::string> conditions;  ///< where it shows; empty = all
+  double by_code = 0;                   ///< share of the misfit that one function of the reading explains
+  Interval pressure;                    ///< where the misfit shows [Pa]
+  std::vector<std::string> conditions;  ///< where the misfit shows; empty = all
 };
-/// Differences that chance may have made count for nothing.
+/// Measures this misfit. Differences that may be due to chance count as 0.
 StaticMisfit findStaticMisfit(const Measured& measured, const StaticFit& fit, const Trace& common,
                               double square);
 

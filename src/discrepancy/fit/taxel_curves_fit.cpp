@@ -14,11 +14,11 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr Eigen::Index kPressures = 24;  // of a curve
-constexpr double kSmoothness = 1e-3;     // weight of second differences against one scan a pressure
-constexpr double kSameCurvature = 1e-6;  // [1/m]
+constexpr Eigen::Index kPressures = 24;  // in each curve
+constexpr double kSmoothness = 1e-3;     // weight of second differences, relative to one scan per pressure
+constexpr double kSameCurvature = 1e-6;  // largest difference of equal curvatures [1/m]
 
-// A scan as it was measured and as it was simulated, both [counts].
+// A scan as measured and as simulated, both [counts].
 struct Pair {
   double pressure;   // [Pa]
   double curvature;  // principal, of taxel 0 [1/m]
@@ -27,7 +27,7 @@ struct Pair {
   const double* simulated;
 };
 
-// The cycles that are shown, as times since the first scan of all [s].
+// Time spans of the hold-out cycles, since the first scan of the first recording [s].
 std::vector<std::pair<double, double>> holdOutTimes(const Measured& measured) {
   std::vector<std::pair<double, double>> times;
   for (const MeasuredCycle& cycle : measured.cycles) {
@@ -63,7 +63,7 @@ void forEachScan(const Measured& measured, const simulation::SimulationSettings&
   const double first = order.front()->time.front();
   for (const dataset::Recording* recording : order) {
     const double start = 1e-9 * static_cast<double>(recording->start_ns - order.front()->start_ns) - first;
-    // Tables that became bags may all begin at one date: then each has a sheet of its own.
+    // Bags converted from tables may all begin at the same date. Then each gets a new sheet.
     if (start + recording->time.front() < end) rig = simulation::DrivenRig(quiet);
     end = start + recording->time.back();
     rig.run(*recording, [&](std::size_t scan, const simulation::SensorChain& chain) {
@@ -75,7 +75,8 @@ void forEachScan(const Measured& measured, const simulation::SimulationSettings&
   }
 }
 
-// Sums of one surface: hats over pressures that lie closer the lower they are, where the law bends most.
+// Sums for the fit on one surface, by hats over pressures. The hats lie closer at low pressure, where the law
+// bends most.
 struct Sums {
   double curvature = 0, low = INFINITY, high = -INFINITY;
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(kPressures, kPressures);
@@ -128,7 +129,7 @@ simulation::TaxelCurves::OnSurface solved(const Sums& sums) {
   return surface;
 }
 
-// The range of pressures on each surface, among what may be fitted.
+// Returns empty sums for each surface, with its range of pressure over all recordings.
 std::vector<Sums> preparedSums(const Measured& measured) {
   std::vector<Sums> all;
   for (const dataset::Recording& recording : *measured.recordings) {

@@ -6,15 +6,15 @@
 
 namespace fsr::discrepancy {
 
-/// The simulation with the curves of single taxels (see TaxelCurves): what it lacks of the readings, by
-/// surface and pressure, when it is driven through the recordings. Fitted on the cycles that are not held
-/// out; `file` is the name that the settings give the table.
+/// Returns the simulation with curves of single taxels added (see TaxelCurves). The curves are the readings
+/// minus the simulation driven through the recordings, by surface and pressure. They are fitted to the cycles
+/// that are not held out. `file` is the name of the table in the settings.
 simulation::SimulationSettings withTaxelCurves(const Measured& measured,
                                                const simulation::SimulationSettings& simulation,
                                                const std::string& file);
 
-/// How far a simulation, driven through the recordings, is from them: rms over the scans of the hold-out
-/// cycles and the used taxels, its own noise left out [share of full scale]. NaN where no cycle is shown.
+/// Difference between the recordings and a simulation driven through them without its own noise: rms over the
+/// scans of the hold-out cycles and the used taxels [share of full scale]. NaN if there is no hold-out cycle.
 double simulatedGap(const Measured& measured, const simulation::SimulationSettings& simulation);
 
 }  // namespace fsr::discrepancy

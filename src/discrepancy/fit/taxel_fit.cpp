@@ -52,7 +52,7 @@ void TaxelFit::residuals(std::size_t sample, std::vector<double>& result) const 
   }
 }
 
-// The pressure goes on within a sample; what it moves is taken out by the common slope.
+// The pressure changes within a sample. The common slope is used to subtract the resulting change.
 void TaxelFit::judgeWithin() {
   double squares = 0, number = 0;
   std::vector<double> mean;
@@ -106,7 +106,7 @@ Spread spreadOf(const Measured& measured, const TaxelFit& taxels, const Trace& t
       const double left = std::max(0.0, square(t, c) - a * a * norm[c]);
       spread.amplitude(t, c) = a;
       spread.error(t, c) = std::sqrt(left / std::max(1.0, samples[c] - 1) / norm[c]);
-      const double weight = norm[c];  // what counts is the rms that it makes
+      const double weight = norm[c];  // an amplitude counts by the mean square it causes
       sum += weight * a;
       squares += weight * (a * a - std::pow(spread.error(t, c), 2));
       number += weight;

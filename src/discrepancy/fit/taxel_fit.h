@@ -13,11 +13,11 @@ class TaxelFit {
  public:
   TaxelFit(const Measured& measured, const StaticFit& fit);
 
-  /// What the curves leave of every taxel's reading [share of full scale]; 0 for those not used.
+  /// Reading of every taxel minus its static curve [share of full scale]; 0 for taxels not used.
   void residuals(std::size_t sample, std::vector<double>& result) const;
 
-  /// Mean square of single scans round the mean of their sample [share of full scale, squared]: noise
-  /// that no explanation reaches.
+  /// Mean squared deviation of single scans from the mean of their sample [share of full scale, squared].
+  /// No explanation can account for this noise.
   double within() const { return within_; }
 
  private:
@@ -29,12 +29,12 @@ class TaxelFit {
   double within_ = 0;
 };
 
-/// How strongly a trace shows in every taxel, on every class of curvature.
+/// How strongly a trace appears in every taxel, on every class of curvature.
 struct Spread {
   Eigen::MatrixXd amplitude;  ///< [taxels x classes], 1 = as in the trace; NaN for taxels not used
-  Eigen::MatrixXd error;      ///< standard error, with the noise taken as white
-  double square = 0;          ///< mean square of the readings' residual, scan by scan
-  double local = 1;           ///< mean square of the amplitude / its mean squared: 1 where all taxels agree
+  Eigen::MatrixXd error;      ///< standard error, assuming white noise
+  double square = 0;          ///< mean square of the readings' residual over single scans
+  double local = 1;           ///< mean square of the amplitude / its squared mean: 1 if all taxels agree
 };
 Spread spreadOf(const Measured& measured, const TaxelFit& taxels, const Trace& trace);
 

@@ -1,5 +1,7 @@
-// A fit finds what it looks for. So the next experiment's outcome is foretold, the prediction frozen under
-// its hash, and new recordings pass or fail it with nothing fitted but the static curves.
+// A fit tends to find what it looks for. A finding is therefore tested on new recordings: the outcome of the
+// next experiment is predicted, and a hash protects the prediction from changes. The new recordings confirm
+// the prediction or not. To compute what the prediction explains, only the static curves and the base
+// parameters of the simulation are fitted to them.
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +19,10 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kLeastShare = 0.3;    // of the common trace's squared error that a true prediction explains
-constexpr double kRivalBetter = 0.03;  // of it: a rival that explains more by this fails the prediction
+// Smallest share of the common trace's squared error that a true prediction explains.
+constexpr double kLeastShare = 0.3;
+// Share of the same error. A rival that explains more than the prediction by this much refutes it.
+constexpr double kRivalBetter = 0.03;
 
 std::string idsOf(const std::vector<simulation::EnabledEffect>& effects) {
   std::vector<std::string> ids;
@@ -26,8 +30,8 @@ std::string idsOf(const std::vector<simulation::EnabledEffect>& effects) {
   return listText(ids, " with ");
 }
 
-// What the new recordings say, asked without knowing what was foretold: an explanation that excludes the
-// foretold one, or empty.
+// Analyses the new recordings without using the prediction. Returns the best explanation if no credible
+// explanation contains the predicted effect `id`, else an empty text.
 std::string excludedBy(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                        const simulation::SimulationSettings& base, const std::string& id) {
   const TaxelFit taxels(measured, fit);

@@ -12,16 +12,16 @@ namespace fsr::discrepancy {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kRamp = 17e3;        // the paper's [Pa/s]
-constexpr double kStance = 0.6;       // foot on the ground, and off it [s]
-constexpr double kSteps = 10;         // the sheet is used to walking by the last one
-constexpr double kStanding = 600;     // [s]
-constexpr double kOnto = 1;           // from nothing to standing [s]
-constexpr double kLoaded = 0.1;       // of the peak: below it errors do not count
-constexpr double kBeyond = 1.3;       // of the highest pressure: curves go straight on up to there
-constexpr std::size_t kPoints = 500;  // of a curve
+constexpr double kRamp = 17e3;     // speed of the ramps in the paper [Pa/s]
+constexpr double kStance = 0.6;    // time with the foot on the ground, and time with it off the ground [s]
+constexpr double kSteps = 10;      // by the last step the sheet has adapted to walking
+constexpr double kStanding = 600;  // duration of standing [s]
+constexpr double kOnto = 1;        // time from no load to standing [s]
+constexpr double kLoaded = 0.1;    // share of the peak; errors below it do not count
+constexpr double kBeyond = 1.3;    // curves are extrapolated linearly to this factor of the highest pressure
+constexpr std::size_t kPoints = 500;  // points of a curve
 
-// A course of pressure and the part of it that counts.
+// A course of pressure, and the part of it in which errors count.
 struct Situation {
   const char* name;
   double peak;       // [Pa]
@@ -58,7 +58,7 @@ matrix::Surface surfaceOf(const Measured& measured, std::size_t curvature_class)
   return surface;
 }
 
-// The recordings as they were made, whatever was taken out of them since.
+// The recordings as they were made, without the subtraction of effects.
 Measured asRecorded(const Measured& measured) {
   Measured plain = measured;
   plain.load.clear();
@@ -67,7 +67,7 @@ Measured asRecorded(const Measured& measured) {
   return plain;
 }
 
-// A sheet and the static curves that somebody fitted to it in the chamber.
+// A sheet with the static curves that were fitted to it in the chamber.
 class CalibratedSheet {
  public:
   CalibratedSheet(const Measured& measured, const simulation::SimulationSettings& settings)
@@ -75,11 +75,11 @@ class CalibratedSheet {
         settings_(representative(settings)),
         fit_(measured_, CurvePer::kClass, driven(measured_, settings, true).reading) {}
 
-  // Of the reading as pressure [Pa], through the situation; 0 where it does not count.
+  // Error of the pressure that the sheet reads at each step of the situation [Pa]; 0 where it does not count.
   std::vector<double> errors(const Situation& situation, std::size_t curvature_class) const;
 
  private:
-  // Readings of the class's curve at kPoints pressures from 0 on, made never to fall.
+  // Readings of the class's curve at kPoints pressures from 0 to `highest`, made non-decreasing.
   std::vector<double> curveOf(std::size_t curvature_class, double highest) const;
 
   const Measured measured_;
@@ -98,7 +98,7 @@ std::vector<double> CalibratedSheet::curveOf(std::size_t curvature_class, double
   return curve;
 }
 
-// Pressure at which a curve has that reading; its ends are held [Pa].
+// Pressure at which a curve has this reading, limited to the ends of the curve [Pa].
 double pressureOf(const std::vector<double>& curve, double highest, double reading) {
   const auto above = std::upper_bound(curve.begin(), curve.end(), reading);
   if (above == curve.begin()) return 0;
@@ -137,7 +137,7 @@ double largestApart(const std::vector<double>& a, const std::vector<double>& b) 
 std::vector<GapInUse> costsInUse(const Measured& measured, const simulation::SimulationSettings& without,
                                  const simulation::SimulationSettings& with, double closed) {
   const double highest = *std::max_element(measured.pressure.begin(), measured.pressure.end());
-  const double left = std::sqrt(std::clamp(1 - closed, 0.0, 1.0));  // NaN where it is not known
+  const double left = std::sqrt(std::clamp(1 - closed, 0.0, 1.0));  // NaN if `closed` is not known
   const CalibratedSheet before(measured, with), neutral(measured, without);
   std::vector<GapInUse> costs;
   for (const Situation& situation : situations(highest)) {

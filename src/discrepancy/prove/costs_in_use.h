@@ -7,11 +7,12 @@
 
 namespace fsr::discrepancy {
 
-/// What it costs to read the sheet through static curves that were fitted to these recordings, while
-/// effects that `with` has beyond `without` act: the largest error in a ramp over the recorded range, in one
-/// of many steps of 0.6 s, and in ten minutes of standing, the latter two at half the highest pressure. Of
-/// all surfaces the worst; pressures below a tenth of the situation's peak do not count. `closed`: share of
-/// the squared error that a model with these effects takes away; what it leaves is the cost after.
+/// Computes the pressure errors that effects cause in use. The effects are those in `with` but not in
+/// `without`. The sheet is read through static curves that were fitted to these recordings. The result holds
+/// the largest error in each of three situations: a ramp over the recorded range, the last of several steps
+/// of 0.6 s, and ten minutes of standing. Steps and standing reach half the highest pressure. The worst
+/// surface counts. Pressures below a tenth of the situation's peak do not count. `closed`: share of the
+/// squared error that a model with these effects removes. The error that remains is the cost after.
 std::vector<GapInUse> costsInUse(const Measured& measured, const simulation::SimulationSettings& without,
                                  const simulation::SimulationSettings& with, double closed);
 

@@ -15,9 +15,9 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kDirectionShows = 0.1;  // of the squares: a direction
-constexpr double kSure = 3;              // standard errors
-constexpr int kDraws = 400;              // of the bootstrap over cycles
+constexpr double kDirectionShows = 0.1;  // share of the squared trace; a direction with less does not show it
+constexpr double kSure = 3;              // standard errors by which the amplitude of a taxel must exceed 0
+constexpr int kDraws = 400;              // draws of the bootstrap over cycles
 constexpr std::size_t kCurvePoints = 24;
 
 double ofClass(const Measured& measured, const Trace& left, std::size_t wanted) {
@@ -31,7 +31,7 @@ double ofClass(const Measured& measured, const Trace& left, std::size_t wanted) 
 }
 
 Interval pressuresOf(const Measured& measured, const Trace& left) {
-  std::map<long, std::pair<double, double>> bins;  // squares, number
+  std::map<long, std::pair<double, double>> bins;  // sum of squares, number of samples
   for (std::size_t i = 0; i < measured.samples(); ++i) {
     auto& bin =
         bins[static_cast<long>(std::floor(std::max(0.0, measured.pressure[i]) / thresholds::kPressureBin))];
@@ -62,9 +62,10 @@ std::string directionOf(const Measured& measured, const Trace& left) {
 
 // Sums over the readings of one cycle.
 struct CycleSums {
-  double before = 0, after = 0, number = 0;        // squared errors [share of full scale, squared], readings
-  double before_pressure = 0, after_pressure = 0;  // the same through the local slope [Pa^2]
-  double in_pressure = 0;                          // readings with a slope
+  // Squared errors [share of full scale, squared], and number of readings.
+  double before = 0, after = 0, number = 0;
+  double before_pressure = 0, after_pressure = 0;  // the same divided by the squared local slope [Pa^2]
+  double in_pressure = 0;                          // number of readings where the slope is steep enough
 };
 
 CycleSums sumsOf(const GapGround& ground, const Trace& left, const MeasuredCycle& cycle) {
@@ -91,7 +92,7 @@ CycleSums sumsOf(const GapGround& ground, const Trace& left, const MeasuredCycle
   return sum;
 }
 
-// Of the squared errors before and after, and of what anything explains.
+// Computes the gap from the sums of the chosen cycles and the share of the error that can be explained.
 Gap gapOf(const std::vector<CycleSums>& sums, const std::vector<std::size_t>& chosen, double explainable,
           const GapExtras& extras) {
   CycleSums total;
@@ -218,7 +219,7 @@ Eigen::MatrixXd maskOf(const Measured& measured, const WhereItShows& where, cons
       }
       if (std::isnan(spread.amplitude(t, c))) continue;
       mask(t, c) = 1;
-      // By least squares: where the trace hardly moves, an amplitude says nothing.
+      // Weighted least squares: where the trace hardly changes, the amplitude is uncertain.
       const double weight = 1 / (std::pow(spread.error(t, c), 2) + 1e-12);
       sum += weight * spread.amplitude(t, c);
       weights += weight;

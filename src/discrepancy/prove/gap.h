@@ -9,45 +9,47 @@
 
 namespace fsr::discrepancy {
 
-/// Where a trace shows, by what the static curves leave of it and by how much of it each taxel and each
-/// class of curvature has. Members are those with at least a fifth of the largest.
+/// Finds where a trace shows: its taxels, surfaces, pressures and direction. `left`: residual of the trace
+/// after the static curves. `spread`: amplitude of the trace in each taxel and each class of curvature. The
+/// trace shows in those taxels and classes that have at least a fifth of the largest value.
 WhereItShows placeOf(const Measured& measured, const Trace& left, const Spread& spread);
 
-/// Factor of the trace in each taxel on each class, [taxels x classes]: 0 where it does not show, else
-/// one number.
+/// Factor of the trace in each taxel on each class, [taxels x classes]. It is 0 where the trace does not
+/// show, and the same number everywhere else.
 Eigen::MatrixXd maskOf(const Measured& measured, const WhereItShows& where, const Spread& spread);
 
-/// Squared errors that the curves of each surface hide, or that detectors explain [share of full scale,
-/// squared].
+/// Mean squared errors that the static curves of each surface hide, or that detectors explain [share of full
+/// scale, squared].
 struct GapExtras {
-  double before_more = 0;  ///< that the gap before has more
-  double after_less = 0;   ///< that the gap after, and the floor, have less
+  double before_more = 0;  ///< to be added to the error before
+  double after_less = 0;   ///< to be subtracted from the error after; the floor is never above the result
 };
 
-/// What a gap is measured against.
+/// The data against which a gap is measured.
 struct GapGround {
   const Measured& measured;
   const StaticFit& fit;
   const TaxelFit& taxels;
-  const Eigen::MatrixXd& mask;  ///< as above
-  double explainable = 0;       ///< share of the squared error before that anything explains
+  const Eigen::MatrixXd& mask;  ///< see maskOf()
+  double explainable = 0;       ///< share of the squared error before that can be explained at all
   GapExtras extras;
   std::uint64_t seed = 0;
 };
 
-/// The gap on those of the cycles that took no part. `left`: what the static curves leave of the trace that
-/// the effects add.
+/// Measures the gap on those of `cycles` that are held out. `left`: residual, after the static curves, of the
+/// trace that the effects add.
 Gap measureGap(const GapGround& ground, const Trace& left, const std::vector<std::size_t>& cycles);
 
-/// What an explanation takes from the common trace, each part foretold by the rest: `left` is asked for the
-/// whole trace as it comes out without one part. Parts are independent of each other.
+/// Predicts in each part what an explanation removes from the common trace, using only the other parts.
+/// `left(part)` returns the whole trace from a fit without `part`. The calls do not depend on each other;
+/// they run on up to `threads` threads. Samples outside all parts are 0.
 Trace predictedByTheRest(const Measured& measured, const std::vector<Part>& parts, unsigned threads,
                          const std::function<Trace(const Part& part)>& left);
 
 /// Indices of all cycles.
 std::vector<std::size_t> allCycles(const Measured& measured);
 
-/// Mean residual of the common trace over covariates, before and after, on the cycles that took no part.
+/// Mean residual of the common trace against each covariate, before and after, over all samples.
 std::vector<ResidualCurve> residualCurves(const Measured& measured, const Trace& before, const Trace& after);
 
 }  // namespace fsr::discrepancy

@@ -20,23 +20,23 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kScanRate = 2;   // of the simulated experiments [Hz]
-constexpr double kWarmer = 10;    // of two ambients [K]
+constexpr double kScanRate = 2;   // scan rate of the simulated experiments [Hz]
+constexpr double kWarmer = 10;    // difference between the two room temperatures [K]
 constexpr double kBetween = 300;  // pause between two surfaces [s]
 
 struct Protocol {
   const char* name;
   const char* what;
   const char* program;  // YAML, see readChamberProgram()
-  bool two_rates;       // or dwells
-  bool twice;           // all surfaces once more
-  bool warmer;          // the second time in a warmer room
-  bool hours = false;   // flat alone, as in kHoursApart
+  bool two_rates;       // ramps of two speeds, or dwells
+  bool twice;           // all surfaces are mounted a second time
+  bool warmer;          // the room is warmer the second time
+  bool hours = false;   // flat surface only, as in kHoursApart
 };
 
 // Cycles on the flat surface, so that clock time, path length, mount and temperature are not proportional.
 struct Block {
-  double pause;  // before it [s]
+  double pause;  // before the block [s]
   int cycles;
   bool warmer;
 };
@@ -109,7 +109,8 @@ simulation::SimulationSettings hoursApart(simulation::SimulationSettings plan,
   return plan;
 }
 
-// The first and the last surface of the simulation, under the protocol.
+// The simulation of a protocol, with the first and the last surface of the given simulation. The protocol
+// hours_apart uses the first surface only.
 simulation::SimulationSettings planOf(const Protocol& protocol, const simulation::SimulationSettings& base) {
   simulation::SimulationSettings plan = representative(base);
   plan.board.scan_rate = plan.board.transducer_rate = kScanRate;
@@ -138,7 +139,7 @@ simulation::SimulationSettings planOf(const Protocol& protocol, const simulation
   return plan;
 }
 
-// What every explanation leaves after the static curves, under one protocol.
+// Residual of each explanation after the static curves are fitted, under one protocol.
 std::vector<Trace> residualsUnder(const Protocol& protocol, const simulation::SimulationSettings& base,
                                   const std::vector<std::vector<simulation::EnabledEffect>>& explanations) {
   DiscrepancyProblem problem;
@@ -155,7 +156,7 @@ std::vector<Trace> residualsUnder(const Protocol& protocol, const simulation::Si
   return residuals;
 }
 
-// rms by which one stays away from any size of the other.
+// Smallest rms difference between `a` and `b` times any factor that is not negative.
 double apart(const Trace& a, const Trace& b) {
   const double square = b.squaredNorm();
   const double size = square > 0 ? std::max(0.0, a.dot(b) / square) : 0;
@@ -172,7 +173,8 @@ double smallestApart(const std::vector<Trace>& residuals) {
   return smallest;
 }
 
-// Whether it brings what the recordings lacked and some explanation needs, to be named alone.
+// Whether the recordings and the protocol together contain the evidence that the effects of all explanations
+// need to be named alone. Evidence that no protocol provides is not considered.
 bool bringsEvidence(const simulation::EffectLibrary& library, const Protocol& protocol,
                     const AvailableEvidence& at_hand,
                     const std::vector<std::vector<simulation::EnabledEffect>>& explanations) {
@@ -218,7 +220,7 @@ std::vector<NextExperiment> nextExperiment(
     try {
       separation = smallestApart(residualsUnder(protocol, base, explanations));
     } catch (const settings::InputError&) {
-      continue;  // this rig cannot be put through it
+      continue;  // this rig cannot run the protocol
     }
     if (separation <= most) continue;
     most = separation;

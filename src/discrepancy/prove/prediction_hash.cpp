@@ -14,7 +14,7 @@ namespace {
 
 using Effects = std::vector<simulation::EnabledEffect>;
 
-// Every field has a name and an end, so that no two predictions have the same text.
+// Every field has a name and an end mark, so that different predictions have different texts.
 void write(std::ostream& out, const Effects& effects) {
   for (const simulation::EnabledEffect& effect : effects) {
     out << effect.id << " {";
@@ -29,7 +29,7 @@ void write(std::ostream& out, const Effects& effects) {
   out << "\n";
 }
 
-// Names of files are left out: base.yaml and its table may be moved and renamed.
+// File names are left out, because base.yaml and its table may be moved and renamed.
 std::string contentOf(simulation::SimulationSettings simulation) {
   const auto curves = std::exchange(simulation.taxel_curves, nullptr);
   simulation.taxel_curves_file.clear();

@@ -12,7 +12,8 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kHoldsElsewhere = 0.5;  // of the gap closed on cycles: less on a part is worth a word
+// Share of the value of Gap::closed on all hold-out cycles. A part with less is reported as a limitation.
+constexpr double kHoldsElsewhere = 0.5;
 
 class GapReporter {
  public:
@@ -31,8 +32,8 @@ class GapReporter {
   DiscrepancyReport& report_;
 };
 
-// The simulation's effects act where they were found to, and there as strongly: the common trace is a mean
-// over all taxels.
+// Confines the effects found to the taxels and surfaces where they show. If these are not all taxels, the
+// strengths are multiplied by `amplitude`, because the common trace is a mean over all taxels.
 void GapReporter::confine(double amplitude) {
   for (const simulation::EnabledEffect& found : found_.decision.refined.effects) {
     simulation::EnabledEffect effect = *report_.added.effect(found.id);
@@ -58,7 +59,7 @@ std::vector<Part> GapReporter::surfacesWhereItShows() const {
   return surfaces.size() < 2 ? std::vector<Part>() : surfaces;
 }
 
-// What the explanation takes from the common trace where it was sized without one part.
+// What the explanation removes from the common trace if its size is fitted without one part.
 Trace GapReporter::leftWithout(const Part& part) const {
   if (found_.by_terms) {
     std::vector<bool> unseen(found_.measured.cycles.size());
@@ -74,7 +75,7 @@ Trace GapReporter::leftWithout(const Part& part) const {
       .trace;
 }
 
-// The gap once more, each part foretold by what was fitted to the others.
+// Measures the gap again. Each part is predicted from a fit to the other parts.
 void GapReporter::holdOut(const std::string& by, const std::vector<Part>& parts, const GapGround& ground,
                           const std::string& missing) {
   if (found_.decision.verdict == Verdict::kNone) return;

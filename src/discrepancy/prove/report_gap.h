@@ -8,7 +8,7 @@
 
 namespace fsr::discrepancy {
 
-/// What was found, and what it was found in.
+/// The findings, and the data in which they were found.
 struct Found {
   const Measured& measured;
   const CommonTraces& common;
@@ -16,19 +16,19 @@ struct Found {
   const TaxelFit& taxels;
   const Candidates& candidates;
   const Decision& decision;
-  const std::vector<Detection>& detections;              ///< of detectors, and of later rounds
-  const std::vector<simulation::EnabledEffect>& beside;  ///< effects of later rounds
-  const Trace& left;      ///< what all this takes from the common trace's residual
-  bool by_terms = false;  ///< `left` is that of fitted terms, not of effects in a simulation
-  /// Error that static curves of another kind would take away [share of full scale, squared].
+  const std::vector<Detection>& detections;              ///< by detectors and in later rounds
+  const std::vector<simulation::EnabledEffect>& beside;  ///< effects found in later rounds
+  const Trace& left;      ///< part of the common trace's residual that all findings explain
+  bool by_terms = false;  ///< `left` comes from fitted terms, not from effects in a simulation
+  /// Mean squared error that static curves of another kind would remove [share of full scale, squared].
   double static_square = 0;
   unsigned threads = 1;
   std::uint64_t seed = 0;
 };
 
-/// Shows in `report` where it acts and how far it closes the gap: on cycles that took no part in anything, on
-/// each surface and each protocol foretold by what was fitted to the others; confines the effects of
-/// `report.added` to where they act.
+/// Writes into `report` where the findings show and how much of the gap they close. The gap is measured on
+/// the hold-out cycles. It is measured again for each surface and each protocol, predicted from a fit to the
+/// others. The effects found in `report.added` are confined to the taxels and surfaces where they show.
 void reportGap(const Found& found, DiscrepancyReport& report);
 
 }  // namespace fsr::discrepancy

@@ -9,7 +9,7 @@ namespace fsr::discrepancy {
 
 namespace {
 
-// Some data sheets use the name of another effect.
+// The id of an effect, and the name in data sheets if they use the name of another effect.
 std::string called(const simulation::EffectLibrary& library, const std::string& id) {
   const std::string& other = library.info(id).also_called;
   return other.empty() ? id : id + " (data sheets: " + other + ")";
@@ -34,7 +34,8 @@ std::string sizeText(const DiscrepancyReport& report) {
   return text.str();
 }
 
-// What would show the effects of the verdict: "; crosstalk needs the experiment uneven_load".
+// The experiments that would show the effects of the verdict, e.g. "; crosstalk needs the experiment
+// uneven_load".
 std::string experimentsText(const DiscrepancyReport& report) {
   std::vector<std::string> needs;
   for (const NotIdentifiable& one : report.not_identifiable) {

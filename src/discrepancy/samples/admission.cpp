@@ -69,7 +69,7 @@ void judgeRest(const AdmittedRecording& recording, const AdmissionOptions& optio
   }
 }
 
-// The sentence with which `ask` refuses; empty = it does not.
+// The error message of `ask`; empty = it raises no InputError.
 template <typename Ask>
 std::string refusal(Ask ask) {
   try {

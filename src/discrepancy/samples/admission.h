@@ -11,17 +11,16 @@
 
 namespace fsr::discrepancy {
 
-/// What may be wrong with recordings before somebody should look at it; every default stands here.
+/// Limits beyond which a recording is reported. All defaults are set here.
 struct AdmissionOptions {
-  double lag = 0.5;           ///< between matrix and chamber [s]; hysteresis alone looks like some tenths
-  double lost_share = 0.001;  ///< of the scans, before it is remarked (ratio)
-  double failing_share =
-      0.1;  ///< of the taxels that are dead or stuck, before training is not advised (ratio)
-  double saturated_share = 0.05;  ///< of the readings, before it is remarked (ratio)
-  std::size_t sections = 5;       ///< of the cross-validation that coverage is judged for
+  double lag = 0.5;            ///< between matrix and chamber [s]; hysteresis alone causes some tenths
+  double lost_share = 0.001;   ///< share of lost scans that causes a remark (ratio)
+  double failing_share = 0.1;  ///< share of dead or stuck taxels beyond which training is not advised (ratio)
+  double saturated_share = 0.05;  ///< share of readings at full scale that causes a remark (ratio)
+  std::size_t sections = 5;       ///< of the cross-validation for which the coverage is judged
 };
 
-/// One recording as it stands.
+/// Properties of one recording.
 struct AdmittedRecording {
   std::string name;
   std::size_t scans = 0;
@@ -33,22 +32,23 @@ struct AdmittedRecording {
   std::optional<dataset::ReferenceLag> lag;
 };
 
-/// Which use the recordings are fit for, and why.
+/// The uses for which the recordings are fit, and the reasons.
 struct Admission {
   std::vector<AdmittedRecording> recordings;
   dataset::Coverage coverage;  ///< empty where there is no reference or a curvature is unknown
   matrix::Layout layout;
-  std::vector<Fault> faults;  ///< spells of failing taxels and lines; empty where they cannot be looked for
-  std::string training;       ///< why `train` would refuse; empty = it would not
-  std::string discrepancy;    ///< why `discrepancy` would refuse; empty = it would not
-  std::vector<std::string> problems;  ///< why what comes of training would mislead, worst first
+  std::vector<Fault> faults;  ///< spells of failing taxels and lines; empty if the search is not possible
+  std::string training;       ///< why `train` would refuse the recordings; empty = it accepts them
+  std::string discrepancy;    ///< why `discrepancy` would refuse them; empty = it accepts them
+  std::vector<std::string> problems;  ///< why the result of a training would mislead, worst first
   std::vector<std::string> remarks;   ///< what else a user should know
 
   bool fit() const { return training.empty() && problems.empty(); }
 };
 
-/// Looks at recordings before anybody blames an algorithm: step 0 of every use. Never throws for what they
-/// hold; what `train` and `discrepancy` would say is asked of their own rules.
+/// Checks recordings before they are used. This is the first step of every use. It never throws because of
+/// what the recordings contain. To find out whether `train` and `discrepancy` would refuse the recordings, it
+/// calls the validation of each.
 Admission inspectRecordings(std::vector<dataset::Recording> recordings, const AdmissionOptions& options = {});
 
 }  // namespace fsr::discrepancy

@@ -16,12 +16,13 @@ namespace {
 
 constexpr std::size_t kFewestCycles = 3;
 constexpr std::size_t kFewestScans = 200;
-constexpr std::uint64_t kFewRestarts = 2;  // of the board in one bag
-constexpr double kAnswers = 0.05;          // of what most taxels move, between low and high pressure
-constexpr double kLeastAnswer = 0.0005;    // likewise, at least [share of full scale]
-constexpr double kLeastRange = 50e3;       // of the pressure [Pa]
-constexpr double kBetween = 60;            // bags whose stamps overlap, one after the other [s]
-constexpr double kHoldOutShare = 0.2;      // of the cycles
+constexpr std::uint64_t kFewRestarts = 2;  // restarts of the board that one bag may contain
+// A taxel responds to the pressure if the standard deviation of its readings reaches both of these limits.
+constexpr double kAnswers = 0.05;        // share of the usual standard deviation
+constexpr double kLeastAnswer = 0.0005;  // [share of full scale]
+constexpr double kLeastRange = 50e3;     // smallest range of the chamber pressure [Pa]
+constexpr double kBetween = 60;          // pause that is assumed between bags whose stamps overlap [s]
+constexpr double kHoldOutShare = 0.2;    // share of the cycles that is held out
 
 void requireWhole(const dataset::Recording& recording) {
   const auto refuse = [&](const std::string& what) {
@@ -63,7 +64,8 @@ void requireFit(const dataset::Recording& recording, const simulation::Simulatio
   }
 }
 
-// One sheet throughout, and nothing twice: what is shown would have been fitted to.
+// All recordings must be of one sheet. No scans may be given twice: hold-out cycles could then also be among
+// the cycles that are fitted.
 void requireTogether(const std::vector<dataset::Recording>& recordings) {
   const dataset::Recording& first = recordings.front();
   for (auto r = recordings.begin(); r != recordings.end(); ++r) {
@@ -98,7 +100,7 @@ std::vector<std::size_t> inOrderOfTime(const std::vector<dataset::Recording>& re
   return order;
 }
 
-// One visit, scan by scan, before scans are pooled.
+// The scans of one visit before they are pooled into samples.
 struct VisitCourse {
   std::vector<double> time, pressure, rate;
   dataset::Cycles cycles;
@@ -132,7 +134,7 @@ int sign(statistics::LoadDirection direction) {
                                                               : 0;
 }
 
-// Scans first .. last - 1 of a visit become one sample.
+// Adds scans first .. last - 1 of a visit as one sample.
 void appendSample(Measured& measured, const VisitCourse& course, std::size_t first, std::size_t last) {
   const Visit& visit = measured.visits.back();
   const std::vector<double>& temperature = (*measured.recordings)[visit.recording].temperature;
@@ -198,7 +200,8 @@ void appendRecording(Measured& measured, const dataset::ConditionClasses& classe
   }
 }
 
-// Interleaved folds, and hold-out cycles: in each visit as many, drawn by the seed.
+// Chooses the hold-out cycles and assigns the other cycles to interleaved folds. The seed determines which
+// cycles are held out. Every visit gives about the same share of its cycles.
 void partCycles(Measured& measured, std::uint64_t seed) {
   const statistics::RandomStream stream = statistics::randomStream(seed, "discrepancy.split");
   std::vector<std::vector<std::size_t>> of_visit(measured.visits.size());
@@ -231,7 +234,7 @@ void maskTaxels(Measured& measured) {
   }
 }
 
-// Deviation of what each taxel reads [share of full scale].
+// Standard deviation of each taxel's readings [share of full scale].
 std::vector<double> movements(const Measured& measured) {
   std::vector<double> sum(measured.taxels()), squares(measured.taxels()), readings;
   for (std::size_t i = 0; i < measured.samples(); ++i) {
@@ -248,7 +251,7 @@ std::vector<double> movements(const Measured& measured) {
   return squares;
 }
 
-// Detectors hold a taxel against the others: where most of them are dead, a dead one looks like all.
+// Detectors compare a taxel with the others. If most taxels are dead, a dead taxel does not differ from them.
 void requireAnswers(const Measured& measured) {
   const std::vector<double> answer = movements(measured);
   std::vector<double> sorted = answer;
@@ -346,7 +349,7 @@ Measured admit(const DiscrepancyProblem& problem) {
   }
   if (!thermometer) {
     measured.temperature.clear();
-    measured.limitations.push_back("No temperature was recorded: what is slow cannot be told apart.");
+    measured.limitations.push_back("No temperature was recorded, so slow effects cannot be told apart.");
   }
   const double start = measured.time.front();
   for (double& time : measured.time) time -= start;

@@ -9,8 +9,9 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kUnevenPace = 0.2;  // of the covariate's deviation, that a straight line of the clock leaves
-constexpr double kLongPause = 3600;  // [s]
+// Share of a covariate's standard deviation that a linear function of clock time must leave unexplained.
+constexpr double kUnevenPace = 0.2;
+constexpr double kLongPause = 3600;      // [s]
 constexpr double kTemperatureMoved = 5;  // [K]
 
 bool temperatureMoved(const Measured& measured) {
@@ -19,8 +20,8 @@ bool temperatureMoved(const Measured& measured) {
   return *high - *low > kTemperatureMoved;
 }
 
-// What a covariate and what the clock has done are two things only where a pause was long and the one is no
-// straight line of the other, from cycle to cycle.
+// Whether a covariate can be distinguished from clock time. This requires a long pause between two cycles,
+// and values at the starts of the cycles that are not a linear function of clock time.
 bool wentApart(const Measured& measured, const std::vector<double>& covariate) {
   if (covariate.empty()) return false;
   double sum_t = 0, sum_w = 0, tt = 0, ww = 0, tw = 0, longest = 0;
@@ -65,7 +66,8 @@ AvailableEvidence availableEvidence(const Measured& measured) {
   evidence.remounted = measured.classes.size() < measured.visits.size();
   evidence.mount_labels = std::all_of(measured.visits.begin(), measured.visits.end(),
                                       [](const Visit& v) { return v.surface.mount > 0; });
-  // Ramps of one speed show one peak of the rates; dwells at load are samples that stand still.
+  // With ramps of one speed, the rates have one peak. Dwells under load are samples at which the pressure
+  // does not change.
   const double highest = *std::max_element(measured.pressure.begin(), measured.pressure.end());
   std::vector<double> moving;
   double still = 0, loaded = 0;

@@ -7,12 +7,12 @@
 
 namespace fsr::discrepancy {
 
-/// What the recordings contain of the evidence that effects need before they are named.
+/// Which evidence the recordings contain. Effects need evidence before they are named.
 struct AvailableEvidence {
   bool thermometer = false;
-  bool two_rates = false;  ///< or dwells
+  bool two_rates = false;  ///< ramps of two speeds, or dwells
   bool mount_labels = false;
-  bool remounted = false;  ///< some surface was mounted twice
+  bool remounted = false;  ///< at least one surface was mounted twice
   bool temperature_moved = false;
   bool uneven_pace = false;    ///< many cycles at some times and none for hours at others
   bool uneven_warmth = false;  ///< over hours the temperature was not proportional to clock time

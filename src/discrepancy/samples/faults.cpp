@@ -12,26 +12,28 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kMoves = 0.02;         // of full scale: the others moved [share of full scale]
-constexpr double kStuckFor = 1.0;       // one code over at least this [s]
-constexpr std::size_t kStuckScans = 8;  // and as many scans
-constexpr double kDeadBelow = 0.35;     // of what the others say
-constexpr double kLoaded = 0.12;        // reading from which on that tells anything [share of full scale]
-constexpr double kWellLoaded = 0.25;    // likewise: here a taxel without a reading is dead
-constexpr double kNothing = 0.1;        // of what the others say
-constexpr std::size_t kDeadScans = 4;
-constexpr double kSudden = 0.02;       // a line leaves the others by more than this [share of full scale],
-constexpr double kSuddenShare = 0.12;  // and by more than this share of the reading,
-constexpr double kSuddenNoise = 8;     // and by more than this many of its usual deviations
-constexpr std::size_t kLineScans = 2;
-constexpr double kBlock = 5;  // of the slow part of a line's deviation [s]
+// Change of the median reading that shows that the other taxels moved [share of full scale].
+constexpr double kMoves = 0.02;
+constexpr double kStuckFor = 1.0;       // shortest time with one code [s]
+constexpr std::size_t kStuckScans = 8;  // fewest scans with one code
+constexpr double kDeadBelow = 0.35;     // share of the median reading; a taxel below it may be dead
+constexpr double kLoaded = 0.12;       // median reading above which a taxel may be dead [share of full scale]
+constexpr double kWellLoaded = 0.25;   // likewise; above it a taxel without a reading is dead
+constexpr double kNothing = 0.1;       // share of the median reading; a taxel below it has no reading
+constexpr std::size_t kDeadScans = 4;  // fewest scans of a dead taxel or a failing line
+// A line fails where its deviation from the other taxels exceeds all three of these limits.
+constexpr double kSudden = 0.02;       // [share of full scale]
+constexpr double kSuddenShare = 0.12;  // share of the median reading
+constexpr double kSuddenNoise = 8;     // in units of the line's usual deviation
+constexpr std::size_t kLineScans = 2;  // fewest scans of a line's fault
+constexpr double kBlock = 5;           // block length for the slow part of a line's deviation [s]
 
-// One visit, scan by scan, against the median of its taxels.
+// The scans of one visit, with the median of the taxels at each scan.
 struct Sheet {
   const dataset::Recording& recording;
   const Visit& visit;
-  std::vector<double> middle;  // median reading of each scan [share of full scale]
-  std::vector<double> ratio;   // usual reading of each taxel over the median
+  std::vector<double> middle;  // median reading of the taxels at each scan [share of full scale]
+  std::vector<double> ratio;   // usual reading of each taxel / the median reading
   double full_scale;
 
   std::size_t scans() const { return middle.size(); }
@@ -41,7 +43,7 @@ struct Sheet {
     return recording.scan(scan(i))[taxel] / full_scale;
   }
   double expected(std::size_t i, std::size_t taxel) const {
-    const bool usual = ratio[taxel] > 0.6 && ratio[taxel] < 1.6;  // else it hardly ever worked
+    const bool usual = ratio[taxel] > 0.6 && ratio[taxel] < 1.6;  // otherwise the taxel hardly ever worked
     return (usual ? ratio[taxel] : 1) * middle[i];
   }
 };
@@ -68,10 +70,10 @@ Sheet sheetOf(const Measured& measured, const Visit& visit) {
   return sheet;
 }
 
-// Which scans of which taxels fail, of all visits one after the other.
+// Which scans of which taxels fail, for all visits one after the other.
 using Flags = std::vector<std::vector<bool>>;  // [taxel or line][scan]
 
-// use(first, end) for each run of flagged scans.
+// Calls use(first, end) for each run of flagged scans; `end` is excluded.
 template <typename Use>
 void eachRun(const std::vector<bool>& flags, Use use) {
   for (std::size_t from = 0; from < flags.size();) {
@@ -120,7 +122,8 @@ std::vector<bool> deadScans(const Sheet& sheet, std::size_t taxel) {
     dead[i] = sheet.middle[i] > kLoaded && sheet.reading(i, taxel) < kDeadBelow * sheet.middle[i];
   }
   dropShort(dead, kDeadScans);
-  // A taxel that is only lifted, or has drifted, reads little at low pressure; a dead one nothing at high.
+  // A taxel that is only lifted, or has drifted, reads too little at low pressure. A dead taxel reads nothing
+  // at high pressure.
   const std::vector<bool> low = dead;
   eachRun(low, [&](std::size_t from, std::size_t to) {
     bool nothing = false;
@@ -133,7 +136,8 @@ std::vector<bool> deadScans(const Sheet& sheet, std::size_t taxel) {
   return dead;
 }
 
-// Median deviation of a line's taxels from what the others say, its slow part taken out.
+// Median deviation of a line's taxels from their expected readings, at each scan, without its slow part. The
+// expected readings follow from the other taxels.
 std::vector<double> lineDeviation(const Sheet& sheet, const std::vector<std::size_t>& taxels) {
   std::vector<double> deviation, values;
   for (std::size_t i = 0; i < sheet.scans(); ++i) {
@@ -212,10 +216,10 @@ class Detectors {
   const Measured& measured_;
   std::vector<Sheet> sheets_;
   Faults faults_;
-  std::map<std::size_t, std::vector<std::vector<bool>>> failing_;  // by taxel, [visit][scan]
+  std::map<std::size_t, std::vector<std::vector<bool>>> failing_;  // for each faulty taxel: [visit][scan]
 };
 
-// Spells, share and depth of what the flags say of the fault's taxels.
+// Computes the spells, the share and the depth of a fault from the flags of its taxels.
 void Detectors::keep(Fault& fault, const std::vector<std::vector<bool>>& flags) {
   double hit = 0, all = 0, lost = 0;
   for (std::size_t v = 0; v < sheets_.size(); ++v) {
@@ -301,7 +305,7 @@ void Detectors::findTaxels(simulation::Detector detector, Test test) {
 
 void Detectors::judgeReadings() {
   FaultyReadings& readings = faults_.readings;
-  std::map<long, std::pair<double, double>> bins;  // squares, readings
+  std::map<long, std::pair<double, double>> bins;  // sum of squares, number of readings
   std::map<std::string, double> by_surface;
   for (std::size_t v = 0; v < sheets_.size(); ++v) {
     const Sheet& sheet = sheets_[v];

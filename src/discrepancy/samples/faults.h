@@ -9,30 +9,30 @@
 
 namespace fsr::discrepancy {
 
-/// A taxel or a line that fails, found by a test of its own.
+/// Taxels or a line that fail, found by a detector.
 struct Fault {
   simulation::Detector detector = simulation::Detector::kNone;
-  std::string id;                                ///< of the effect that this detector finds
-  std::size_t line = 0;                          ///< row or column, of a line
+  std::string id;                                ///< id of the effect that this detector finds
+  std::size_t line = 0;                          ///< index of the row or column, if a line fails
   std::vector<std::size_t> taxels;               ///< row-major
-  double share = 0;                              ///< of the scans
-  double depth = 0;                              ///< mean loss of the reading, relative
-  double longest = 0;                            ///< spell [s]
-  std::vector<std::pair<double, double>> times;  ///< spells [s] since the first scan
+  double share = 0;                              ///< share of the scans that are faulty
+  double depth = 0;                              ///< mean relative loss of the reading
+  double longest = 0;                            ///< longest spell [s]
+  std::vector<std::pair<double, double>> times;  ///< start and end of each spell, since the first scan [s]
 
   bool isLine() const {
     return detector == simulation::Detector::kRowFaults || detector == simulation::Detector::kColumnFaults;
   }
 };
 
-/// What all faults do to the readings, against what the other taxels say.
+/// Errors that all faults cause in the readings, relative to the values expected from the other taxels.
 struct FaultyReadings {
-  double square = 0;    ///< summed over scans and taxels [share of full scale, squared]
+  double square = 0;    ///< squared errors, summed over scans and taxels [share of full scale, squared]
   double held_out = 0;  ///< the same over the hold-out cycles
   double readings = 0;  ///< scans x taxels
   double held_out_readings = 0;
-  Interval pressure;                    ///< where they differ [Pa]
-  std::vector<std::string> conditions;  ///< surfaces; empty = all
+  Interval pressure;                    ///< range in which the errors show [Pa]
+  std::vector<std::string> conditions;  ///< surfaces on which they show; empty = all
 };
 
 struct Faults {
@@ -40,11 +40,12 @@ struct Faults {
   FaultyReadings readings;
 };
 
-/// Looks through every scan. A taxel is stuck where it keeps one code while the others move, dead where
-/// it falls far below what they say; a line fails where its taxels leave the others together, suddenly.
+/// Searches every scan for faults. A taxel is stuck where it keeps one code while the others move. A taxel is
+/// dead where it reads far less than the others. A line fails where its taxels suddenly deviate together from
+/// the others.
 Faults findFaults(const Measured& measured);
 
-/// How the simulation would be told of a fault.
+/// The effect and the parameter values with which a simulation shows the fault.
 simulation::EnabledEffect asEffect(const Fault& fault);
 
 }  // namespace fsr::discrepancy

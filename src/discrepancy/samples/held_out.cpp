@@ -12,16 +12,18 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kOtherSpeed = 1.5;  // factor from one group of cycles to the next
-constexpr double kOtherDwell = 3;    // likewise
-constexpr double kOtherPeak = 1.3;   // likewise
-constexpr double kStill = 0.05;      // of the fastest rate: the chamber holds
-constexpr double kLeastDwell = 2;    // shorter ones are corners [s]
+// A feature that jumps by more than this factor starts a new group of cycles.
+constexpr double kOtherSpeed = 1.5;
+constexpr double kOtherDwell = 3;
+constexpr double kOtherPeak = 1.3;
 
-// How one cycle was run.
+constexpr double kStill = 0.05;    // share of the fastest rate; below it the chamber holds its pressure
+constexpr double kLeastDwell = 2;  // shorter dwells count as corners [s]
+
+// The protocol of one cycle.
 struct Course {
-  double speed = 0;  // median of the ramps [Pa/s]
-  double dwell = 0;  // time that it held under load, at least kLeastDwell [s]
+  double speed = 0;  // median speed of the ramps [Pa/s]
+  double dwell = 0;  // time at constant pressure under load, at least kLeastDwell [s]
   double peak = 0;   // [Pa]
 };
 
@@ -40,7 +42,7 @@ Course courseOf(const Measured& measured, const MeasuredCycle& cycle, double fas
   return course;
 }
 
-// Cycles by one feature, cut where it jumps by more than a factor.
+// Sorts the cycles by one feature and divides them into groups where the feature jumps by more than `factor`.
 std::vector<std::vector<std::size_t>> groupsBy(const std::vector<double>& feature, double factor) {
   std::vector<std::size_t> order;
   for (std::size_t c = 0; c < feature.size(); ++c) {
@@ -62,7 +64,8 @@ bool anyHeldOut(const Measured& measured, const std::vector<std::size_t>& cycles
                      [&](std::size_t c) { return measured.cycles[c].use == CycleUse::kHoldOut; });
 }
 
-// A part that shows nothing, or leaves too few to fit, is no part: then all count as alike.
+// One part for each group of cycles that contains hold-out cycles. With fewer than two such groups there are
+// no parts: all cycles count as alike.
 std::vector<Part> partsBy(const Measured& measured, const std::vector<double>& feature, double factor,
                           const char* before, const char* after, double unit) {
   std::vector<Part> parts;

@@ -7,21 +7,21 @@
 
 namespace fsr::discrepancy {
 
-/// Cycles of one surface, or of one way to fill and vent.
+/// Cycles on one surface, or cycles of one protocol of filling and venting.
 struct Part {
-  std::string name;                 ///< of the surface, or what the cycles have in common
+  std::string name;                 ///< name of the surface, or the common feature of the cycles
   std::vector<std::size_t> cycles;  ///< ascending
 };
 
-/// By surface: one part for each class of curvature; none where there is only one.
+/// Divides the cycles by surface: one part for each class of curvature that has hold-out cycles. None if
+/// there are fewer than two.
 std::vector<Part> partsByCondition(const Measured& measured);
 
-/// By protocol: cycles that differ clearly in the speed of their ramps, else in how long they dwell under
-/// load, else in their peak; none where all are alike.
+/// Divides the cycles by protocol. The parts differ clearly in the speed of the ramps. If no speeds differ,
+/// the parts differ in the dwell time under load, and otherwise in the peak. None if all cycles are alike.
 std::vector<Part> partsByProtocol(const Measured& measured);
 
-/// The recordings, with the cycles of a part among the hold-out cycles: what is fitted to them has not seen
-/// it.
+/// The recordings with all cycles of a part held out. A fit to them does not use the part.
 Measured withoutPart(const Measured& measured, const Part& part);
 
 /// The hold-out cycles of each recording, in time order.

@@ -22,7 +22,7 @@ struct Visit {
   std::size_t last_scan = 0;   ///< likewise, excluded
 };
 
-/// Which use a cycle serves. What is shown at the end takes no part in anything before.
+/// How a cycle is used. The final results are measured on the hold-out cycles, which serve nothing else.
 enum class CycleUse : std::uint8_t { kFit, kHoldOut };
 
 /// One filling and venting: samples first .. last - 1.
@@ -30,42 +30,42 @@ struct MeasuredCycle {
   std::size_t visit = 0;
   std::size_t first = 0;
   std::size_t last = 0;
-  std::uint32_t fold = 0;  ///< for choosing between explanations: 0 .. kFolds - 1, interleaved
+  std::uint32_t fold = 0;  ///< for the comparison of explanations: 0 .. kFolds - 1, interleaved
   CycleUse use = CycleUse::kFit;
 };
 
-/// All recordings of a problem as one course of events. A sample is one scan or the mean of a few
-/// consecutive ones: what is looked for is slower than scans are, and fewer samples are sooner done.
+/// All recordings of a problem, in order of time. A sample is one scan or the mean of a few consecutive
+/// scans. Scans are pooled to save computing time; the effects of interest are slower than the scans.
 struct Measured {
   static constexpr std::uint32_t kFolds = 4;
-  static constexpr std::size_t kManySamples = 14000;  ///< above it scans are pooled, up to kLongestMoment
-  static constexpr double kLongestSample = 0.5;       ///< [s]
+  static constexpr std::size_t kManySamples = 14000;  ///< with more, scans are pooled, up to kLongestSample
+  static constexpr double kLongestSample = 0.5;       ///< longest time over which scans are pooled [s]
 
   const std::vector<dataset::Recording>* recordings = nullptr;
-  std::shared_ptr<const simulation::EffectLibrary> library;  ///< of the simulation
+  std::shared_ptr<const simulation::EffectLibrary> library;  ///< effects of the simulation
   matrix::Layout layout;
   double full_scale = 0;                         ///< [counts]
   std::vector<dataset::CurvatureClass> classes;  ///< by ascending curvature of taxel 0
   std::vector<Visit> visits;
   std::vector<MeasuredCycle> cycles;
-  std::vector<std::uint8_t> used;  ///< of each taxel; 0 = masked or faulty
+  std::vector<std::uint8_t> used;  ///< for each taxel; 0 = masked or faulty
 
-  // Of each sample, in time order:
+  // For each sample, in order of time:
   std::vector<double> time;         ///< since the first scan of the first recording [s]
-  std::vector<double> pressure;     ///< gauge, its noise smoothed away where it runs straight [Pa]
+  std::vector<double> pressure;     ///< gauge pressure, smoothed where its course is straight [Pa]
   std::vector<double> rate;         ///< [Pa/s]
   std::vector<double> temperature;  ///< [degree Celsius]; empty where a recording has none
   std::vector<double> path_length;  ///< sum of |dP| since the first sample [Pa]
   std::vector<std::uint32_t> visit;
   std::vector<std::uint32_t> cycle;
-  std::vector<std::int8_t> direction;   ///< +1 loading, -1 unloading, 0 = never changes
+  std::vector<std::int8_t> direction;   ///< +1 = loading, -1 = unloading, 0 = pressure never changes
   std::vector<std::size_t> first_scan;  ///< of the visit's recording
-  std::vector<std::uint32_t> scans;     ///< how many
+  std::vector<std::uint32_t> scans;     ///< number of scans in the sample
 
-  // Effects that were taken out; empty = none.
-  std::vector<double> load;   ///< what the taxels felt, the chamber's pressure and its history [Pa]
-  std::vector<double> gain;   ///< factor of what they read above `unloaded`
-  std::vector<double> added;  ///< to their readings [share of full scale]
+  // Effects that were subtracted, for each sample; empty = none.
+  std::vector<double> load;   ///< on the taxels, from the chamber pressure and its history [Pa]
+  std::vector<double> gain;   ///< factor of the readings above `unloaded`
+  std::vector<double> added;  ///< added to the readings [share of full scale]
   double unloaded = 0;        ///< reading without load [share of full scale]
 
   std::vector<std::string> limitations;  ///< sentences
@@ -78,17 +78,17 @@ struct Measured {
   std::size_t classOf(std::size_t sample) const { return visits[visit[sample]].curvature_class; }
   /// Mean reading of every taxel as it was recorded [share of full scale], [taxels], row-major.
   void recorded(std::size_t sample, std::vector<double>& result) const;
-  /// The same without the gain and the reading of effects that were taken out.
+  /// The same without the gain and the added reading of the effects that were subtracted.
   void readings(std::size_t sample, std::vector<double>& result) const;
 };
 
-/// Puts the recordings in order of time, finds visits and cycles, and parts the cycles, by the seed,
-/// into those to fit and the hold-out cycles. The recordings must outlive it. Throws InputError where
-/// they cannot be judged.
+/// Puts the recordings in order of time and finds visits and cycles. The seed determines which cycles are
+/// held out and which are fitted. The recordings must outlive the result. Throws InputError if the recordings
+/// cannot be judged.
 Measured admit(const DiscrepancyProblem& problem);
 
-/// A course of pressure [Pa] without its noise: where it runs straight over some scans, the straight
-/// line, beside corners from the straight side alone. `rate` becomes its slope [Pa/s].
+/// Smooths a course of pressure [Pa]. Where the course is straight over some scans, the result is a straight
+/// line through them. Beside a corner the line uses scans of one side only. `rate` receives the slope [Pa/s].
 std::vector<double> smoothCourse(const std::vector<double>& time, const std::vector<double>& pressure,
                                  std::vector<double>& rate);
 

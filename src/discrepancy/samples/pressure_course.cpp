@@ -1,6 +1,7 @@
-// The reference scatters by a transducer step or so from scan to scan, and its slope by much more. A chamber
-// runs along ramps and dwells, so that straight lines through a few scans take the scatter away; beside a
-// corner the line must lie on one side of it (M. Kuwahara et al., 1976, does the same for pictures).
+// The reference pressure scatters by about one transducer step from scan to scan. Its slope scatters much
+// more. The chamber pressure consists of ramps and dwells, so straight lines through a few scans remove the
+// scatter. Beside a corner the line must lie on one side of it. M. Kuwahara et al., 1976, do the same for
+// images.
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +13,14 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr std::size_t kScans = 9;  // of a line
-constexpr double kLongestGap = 5;  // between two scans of one line [s]
-constexpr double kStraight = 3;    // scatter round a straight line, in units of the usual one
+constexpr std::size_t kScans = 9;  // in one line
+constexpr double kLongestGap = 5;  // longest mean time between two scans of one line [s]
+constexpr double kStraight = 3;    // largest scatter about a straight line, in units of the usual scatter
 
-// A straight line through kScans scans, about its own middle.
+// A straight line through kScans scans. `time` and `pressure` are the means over these scans.
 struct Line {
   double time = 0, pressure = 0, slope = 0;
-  double scatter = 0;  // rms round it [Pa]
+  double scatter = 0;  // rms deviation of the scans from the line [Pa]
 
   double at(double t) const { return pressure + slope * (t - time); }
 };
