@@ -91,7 +91,7 @@ TEST(HeldOut, CyclesAreNamedByTheStampsOfTheirScans) {
     }
   }
   for (const MeasuredCycle& cycle : measured.cycles) {
-    if (cycle.use != CycleUse::kShow) continue;
+    if (cycle.use != CycleUse::kHoldOut) continue;
     for (std::size_t m = cycle.first; m < cycle.last; ++m) expected += measured.scans[m];
   }
   EXPECT_EQ(cycles, 6u);
