@@ -99,7 +99,7 @@ class Trials(unittest.TestCase):
         self.assertEqual(self.figure("nothing hidden, false alarms")[0], 0)
 
     def test_what_the_generator_refuses_is_set_aside(self):
-        done = self.run_trials("none", grid=["--effects", "repositioning", "--nothing", "1"])
+        done = self.run_trials("none", grid=["--effects", "repositioning", "--kpa", "", "--nothing", "1"])
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("1 cases were refused", done.stderr)
         self.assertEqual(self.summary()["cases"], 1)
