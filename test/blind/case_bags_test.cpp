@@ -1,6 +1,7 @@
 #include "blind/case_bags.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -15,7 +16,10 @@ namespace fs = std::filesystem;
 
 class CaseBags : public testing::Test {
  protected:
-  void SetUp() override { folder_ = fs::path(testing::TempDir()) / "blind_case_bags"; }
+  // A folder for each process: ctest runs the cases side by side.
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / ("blind_case_bags_" + std::to_string(getpid()));
+  }
   void TearDown() override { fs::remove_all(folder_); }
 
   BlindCase written(const std::string& name) {
