@@ -1,6 +1,7 @@
 #include "blind/case_files.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 class CaseFiles : public testing::Test {
  protected:
   void SetUp() override {
-    path_ = fs::path(testing::TempDir()) / "blind_key.yaml";
+    path_ = fs::path(testing::TempDir()) / ("blind_key_" + std::to_string(getpid()) + ".yaml");
     spec_ = smallCase("mains_pickup", "swelling", 0.5);
     made_ = makeCase(spec_);
     std::ofstream(path_) << keyText(made_);
