@@ -11,7 +11,6 @@ import pathlib
 import re
 import shlex
 import shutil
-import subprocess
 import tempfile
 import time
 
@@ -145,7 +144,7 @@ def run_command(command, bags, output, home):
     words = list(itertools.chain.from_iterable(map(str, bags) if word == "{bags}" else [word] for word in filled))
     start = time.monotonic()
     try:
-        done = subprocess.run(words, capture_output=True, text=True, env=environment(home))
+        done = recompute.run_program(words, env=environment(home))
     except OSError as error:
         raise NotScored("command failed", "%s cannot be started (%s)." % (words[0], error.strerror)) from error
     said = (done.stderr.strip() or done.stdout.strip()).splitlines()[-1:] or ["it said nothing"]
@@ -177,8 +176,11 @@ def answer(case, found, command):
             shutil.rmtree(output, ignore_errors=True)
             output.mkdir()
             recompute.write_json(output / "refused.json", {"sentence": str(why), "command": command})
-        shutil.rmtree(found, ignore_errors=True)
-        shutil.copytree(output, found)
+        copy = found.with_name(found.name + ".new")  # so that `found` is never half an answer
+        for old in (copy, found):
+            shutil.rmtree(old, ignore_errors=True)
+        shutil.copytree(output, copy)
+        copy.replace(found)
 
 
 # --- the gap ----------------------------------------------------------------------------------------

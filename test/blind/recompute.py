@@ -23,6 +23,11 @@ class NotRecomputable(Exception):
     """One phrase that says why."""
 
 
+def run_program(words, **options):
+    """Runs a program in a session of its own: Ctrl-C in the terminal stops the script, which waits for programs that run."""
+    return subprocess.run(words, capture_output=True, text=True, start_new_session=True, **options)
+
+
 class Scans:
     """The scans of one bag: stamps [ns], counts [scans x taxels], full scale, and which taxels are in use."""
 
@@ -81,7 +86,7 @@ def runs_in_time_order(bags):
 
 def drive(command, simulation, run, folder, environment):
     words = [*command, "--simulation", str(simulation), "--output", str(folder), "--drive", *(str(b.path) for b in run)]
-    done = subprocess.run(words, capture_output=True, text=True, env=environment)
+    done = run_program(words, env=environment)
     if done.returncode != 0:
         raise NotRecomputable("simulate: " + (done.stderr.strip().splitlines() or ["status %d" % done.returncode])[-1])
     return [Scans(folder / b.path.name) for b in run]

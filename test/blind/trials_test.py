@@ -5,8 +5,10 @@ import json
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -21,12 +23,17 @@ class Trials(unittest.TestCase):
         self.output = pathlib.Path(self.folder.name, "results")
         self.log = pathlib.Path(self.folder.name, "calls")
 
-    def run_trials(self, answer, *more, grid=GRID):
+    def start_trials(self, answer, *words):
         """In an empty environment, as cron would."""
         command = "%s {bags} --output {output}" % (HERE / "fake_discrepancy")
-        words = [str(TRIALS), "--output", str(self.output), "--generator", str(HERE / "fake_blind_case.py"), "--command", command]
-        return subprocess.run([*words, *grid, *more], capture_output=True, text=True,
-                              env={"FAKE_ANSWER": answer, "FAKE_LOG": str(self.log), "PYTHONDONTWRITEBYTECODE": "1"})
+        usual = [str(TRIALS), "--output", str(self.output), "--generator", str(HERE / "fake_blind_case.py"), "--command", command]
+        return subprocess.Popen([*usual, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+                                env={"FAKE_ANSWER": answer, "FAKE_LOG": str(self.log), "PYTHONDONTWRITEBYTECODE": "1"})
+
+    def run_trials(self, answer, *more, grid=GRID):
+        run = self.start_trials(answer, *grid, *more)
+        out, err = run.communicate()
+        return subprocess.CompletedProcess(run.args, run.returncode, out, err)
 
     def summary(self):
         return json.loads((self.output / "summary.json").read_text())
@@ -75,6 +82,19 @@ class Trials(unittest.TestCase):
         self.run_trials("none", grid=["--effects", "creep:log_time", "--kpa", "", "--nothing", "2"])
         self.assertEqual(len(self.calls()), 4)
 
+    def test_an_interrupted_case_is_finished_and_none_is_lost(self):
+        run = self.start_trials("slow", *GRID, "--jobs", "2")
+        while not self.calls() and run.poll() is None:
+            time.sleep(0.02)
+        os.killpg(run.pid, signal.SIGINT)  # as Ctrl-C in a terminal does
+        said = run.communicate()[1]
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("goes on from here", said)
+        self.assertLess(len(self.names()), 6)
+        done = self.run_trials("none")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.summary()["cases"], len(self.calls())), (6, 6))
+
     def test_stops_in_time_and_goes_on(self):
         done = self.run_trials("none", "--minutes", "0.0001", "--jobs", "1")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -109,6 +129,22 @@ class Trials(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.calls(), [])
         self.assertEqual(len(list(self.output.glob("cases/*/bags/*.bag"))), len(self.names()))
+
+    def test_answers_a_data_set_and_leaves_its_bags(self):
+        self.run_trials("none", "--make-only")
+        done = self.run_trials("none")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((self.summary()["cases"], len(self.calls())), (6, 6))
+        self.assertEqual(len(list(self.output.glob("cases/*/bags/*.bag"))), 6)
+        self.assertEqual(self.run_trials("none", "--make-only").returncode, 0)
+
+    def test_makes_no_data_set_of_answers_without_bags(self):
+        self.run_trials("none")
+        done = self.run_trials("none", "--make-only")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("6 cases are answered and their bags removed; choose another --output", done.stderr)
+        self.run_trials("crash")
+        self.assertEqual(self.summary()["cases"], 6)
 
     def test_refuses_what_it_does_not_know(self):
         for words, said in [(["--effects", "creeep"], "creeep"), (["--snrs", "1"], "--snrs"), (["--shard", "3/2"], "3/2"),
