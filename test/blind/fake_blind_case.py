@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Stands for the generator in tests of scripts/blind_trials: --name NAME --effect ID:FORM[,...] --output CASE | --list.
+"""Stands for the generator in tests of scripts/blind_trials: --name NAME --effect ID:FORM[,...] --output CASE | --list |
+--classes.
 
 The bags hold no scans. A repositioning cannot show, so it is refused as the generator does.
 """
@@ -28,9 +29,13 @@ def main():
     for name in ("name", "effect", "snr", "kpa", "size", "output"):
         parser.add_argument("--" + name)
     parser.add_argument("--list", action="store_true")
+    parser.add_argument("--classes", action="store_true")
     options = parser.parse_args()
     if options.list:
         print("\n".join(LIST))
+        return 0
+    if options.classes:
+        print("regular\ndwells\nshort")
         return 0
     if "repositioning" in options.effect:
         print("blind_case: no surface is mounted twice", file=sys.stderr)

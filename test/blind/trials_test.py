@@ -154,6 +154,12 @@ class Trials(unittest.TestCase):
             self.assertIn(said, done.stderr)
         self.assertIn("--shard I/N", self.run_trials("none", "--help").stdout)
 
+    def test_says_what_the_fixed_campaign_lacks(self):
+        done = self.run_trials("none", grid=["--fixed"])  # this generator refuses the repositioning and has a class `short`
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("the fixed campaign lacks short, repositioning; change", done.stderr)
+        self.assertEqual(self.run_trials("none", "--shard", "1/2", grid=["--fixed"]).returncode, 0)  # a part need not hold all
+
     def test_the_fixed_campaign_names_each_case_once(self):
         names = [n for n in (HERE / "fixed_campaign.txt").read_text().split("\n") if n and not n.startswith("#")]
         self.assertEqual(len(names), len(set(names)))
