@@ -225,4 +225,5 @@ def score_folder(case, found, version, simulate):
         gap, problem = SKIPPED, why
     score.add_gap(row, gap)
     row["seconds"] = read_json(found / "run.json").get("seconds")
+    row["refused_because"] = read_json(found / "refused.json").get("sentence") if refused else None
     return row, problem

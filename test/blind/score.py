@@ -242,7 +242,7 @@ def score_case(key, verdict, name=""):
         "intervals": parameter_intervals(key, verdict) if first == truth else [],
         "stated_before": gap.get("before"), "stated_after": gap.get("after"),
         "recomputed_before": None, "recomputed_after": None, "ratio_before": None, "ratio_after": None,
-        "gap_problem": None, "seconds": None,
+        "gap_problem": None, "seconds": None, "refused_because": None,
     }
 
 

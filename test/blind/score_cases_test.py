@@ -94,6 +94,7 @@ class Scores(Folder):
         self.assertEqual({case: row["outcome"] for case, row in self.rows().items()}, {"loop": "refused", "quiet": "refused"})
         figure = next(f for f in self.summary()["figures"] if f["figure"].startswith("nothing hidden, false"))
         self.assertEqual((figure["value"]["k"], figure["value"]["n"]), (0, 1))
+        self.assertEqual(self.summary()["refused"], {"N cycles, but at least N are needed": 2})
         self.run_score(answer="none")  # it is not asked again
         self.assertEqual(self.summary()["outcomes"]["nothing"], {"refused": 1})
 

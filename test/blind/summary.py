@@ -4,6 +4,7 @@ import collections
 import csv
 import io
 import json
+import re
 import statistics
 
 from rates import rate
@@ -150,6 +151,12 @@ def confusion(rows):
     return {truth: dict(collections.Counter(r["answer"] for r in group)) for (truth,), group in grouped(rows, "truth").items()}
 
 
+def refusals(rows):
+    """Why the command refused cases: its sentences without program and file names, with N for every number."""
+    said = [re.sub(r"^(?:\S+: )+", "", r["refused_because"] or "no reason") for r in rows if r["outcome"] == "refused"]
+    return dict(collections.Counter(re.sub(r"\d+(?:\.\d+)?", "N", sentence) for sentence in said).most_common())
+
+
 def summarise(rows, not_scored=()):
     """Everything that the published table says, as data. `not_scored` are {case, category, sentence}."""
     hidden = [r for r in rows if r["kind"] != "nothing"]
@@ -168,6 +175,7 @@ def summarise(rows, not_scored=()):
             [r for r in rows if r["set_size"]], "set_size").items()},
         "could_not_be_told": {str(reason): dict(collections.Counter(r["outcome"] for r in g)) for (reason,), g in grouped(
             [r for r in hidden if not r["could_be_told"]], "reason").items()},
+        "refused": refusals(rows),
         "outcomes": {kind: dict(collections.Counter(r["outcome"] for r in g)) for (kind,), g in grouped(rows, "kind").items()},
         "detection": detection(hidden), "gap": ratios(rows), "confusion": confusion(rows), "cells": cells(rows),
     }
@@ -269,6 +277,7 @@ def markdown(summary):
             ["reason", "outcomes"], count_rows(summary["could_not_be_told"]))),
         section("Stated gap by recomputed gap", table(
             ["verdict", "gap", "recomputed", "lowest", "median", "highest"], ratio_rows(summary["gap"]))),
+        section("Refused by the command", table(["sentence", "cases"], summary["refused"].items())),
         section("First answers", table(["hidden", "answers"], count_rows(summary["confusion"]))),
     ]
     return "\n\n".join(parts) + "\n"
