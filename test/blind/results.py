@@ -71,7 +71,7 @@ def score_all(folders, options):
             print("\nwaiting for the cases that run", file=sys.stderr)
             for future in futures:
                 future.cancel()
-            sys.exit("score_cases: stopped; the same command goes on from here")
+            sys.exit("stopped; the same command goes on from here")
     return [rows[case] for case in folders if case in rows], sorted(problems, key=lambda p: p["case"])
 
 
