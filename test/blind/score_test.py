@@ -248,6 +248,10 @@ class Table(unittest.TestCase):
         self.assertEqual((cell["form"], cell["snr"], cell["kpa"], cell["cases"], cell["wrong_name"]), ("log", 1, 10, 1, 1))
         self.assertEqual(self.share(self.summary["effect_by_snr"]["creep"][1]), (1, 2))
         self.assertEqual(self.share(self.summary["effect_by_kpa"]["creep"][30]), (1, 1))
+        by_snr, by_kpa = self.summary["detection_by_snr"], self.summary["detection"]
+        self.assertEqual({snr: self.share(row["right"]) for snr, row in by_snr.items()}, {"1": (1, 2), "4": (1, 1)})
+        self.assertEqual({kpa: self.share(row["wrong_name"]) for kpa, row in by_kpa.items()}, {"10": (1, 2), "30": (0, 1)})
+        self.assertEqual(self.summary["outcomes_by_effect"], {"creep": {"right": 2, "wrong_name": 1}})
         self.assertEqual(self.share(self.summary["false_alarms"]["dwells"]), (1, 1))
         self.assertEqual(self.share(self.summary["credible_set"]["2"]), (1, 1))
 
@@ -260,7 +264,8 @@ class Table(unittest.TestCase):
 
     def test_prints_rates_with_both_intervals_and_what_is_missing(self):
         text = summary.markdown(self.summary)
-        self.assertIn("| nothing hidden, false alarms | 33.3 % (1 of 3) | 0.8 to 90.6 | 0.0 to 100.0 | <= 0.01 | no |", text)
+        self.assertIn("| nothing hidden, false alarms | 33.3 % (1 of 3) | 0.8 to 90.6 | 0.0 to 100.0 | <= 1 % | no |", text)
+        self.assertIn("| 10 | 100.0 % (2 of 2) | - | 50.0 % (1 of 2) | - | 50.0 % (1 of 2) | - |", text)
         self.assertIn("6 cases scored (nothing 3, single 3). 1 cases are not scored (no key: 1).", text)
 
     def test_writes_one_line_for_each_case(self):

@@ -36,7 +36,8 @@ def met(value, sense, target):
 
 
 def figure(name, value, sense=None, target=None):
-    return {"figure": name, "value": value, "target": "%s %g" % (sense, target) if sense else None,
+    target_text = "%s %g%s" % (sense, *((100 * target, " %") if isinstance(value, dict) else (target, ""))) if sense else None
+    return {"figure": name, "value": value, "target": target_text,
             "met": met(value, sense, target)}
 
 
@@ -88,7 +89,7 @@ def other_figures(rows):
     held = intervals_held(rows)
     coverage = figure("parameters in their stated intervals", rate(held, field("held")), ">=", 0.93)
     if coverage["value"]["rate"] is not None:
-        coverage.update(target="0.93 to 0.97", met=0.93 <= coverage["value"]["rate"] <= 0.97)
+        coverage.update(target="93 to 97 %", met=0.93 <= coverage["value"]["rate"] <= 0.97)
     ten = [r for r in rows if r["kind"] != "nothing" and r["kpa"] == 10]
     places = [r["f1"]["mean"] for r in rows if r["f1"]]
     return [
@@ -141,10 +142,17 @@ def ratios(rows):
     return table
 
 
-def detection(rows):
-    """By kPa at the map: heard of, right, named wrongly."""
-    return {str(kpa): {what: rate(group, field(what)) for what in ("heard_of", "right", "wrong_name")}
-            for (kpa,), group in grouped([r for r in rows if r["kpa"] is not None], "kpa").items()}
+HEARD = ("heard_of", "right", "wrong_name")
+
+
+def detection(rows, size):
+    """By size of the hidden effects, "kpa" or "snr": heard of, right, named wrongly."""
+    return {"%g" % value: {what: rate(group, field(what)) for what in HEARD}
+            for (value,), group in grouped([r for r in rows if r[size] is not None], size).items()}
+
+
+def outcomes_by(rows, name):
+    return {str(value): dict(collections.Counter(r["outcome"] for r in group)) for (value,), group in grouped(rows, name).items()}
 
 
 def confusion(rows):
@@ -173,11 +181,12 @@ def summarise(rows, not_scored=()):
         "false_alarms": {c: rate(g, field("heard_of")) for (c,), g in grouped(nothing, "protocol_class").items()},
         "credible_set": {str(n): rate(g, field("truth_in_set")) for (n,), g in grouped(
             [r for r in rows if r["set_size"]], "set_size").items()},
-        "could_not_be_told": {str(reason): dict(collections.Counter(r["outcome"] for r in g)) for (reason,), g in grouped(
-            [r for r in hidden if not r["could_be_told"]], "reason").items()},
+        "could_not_be_told": outcomes_by([r for r in hidden if not r["could_be_told"]], "reason"),
         "refused": refusals(rows),
-        "outcomes": {kind: dict(collections.Counter(r["outcome"] for r in g)) for (kind,), g in grouped(rows, "kind").items()},
-        "detection": detection(hidden), "gap": ratios(rows), "confusion": confusion(rows), "cells": cells(rows),
+        "outcomes": outcomes_by(rows, "kind"),
+        "outcomes_by_effect": outcomes_by([r for r in rows if r["kind"] in ("single", "foreign")], "truth"),
+        "detection": detection(hidden, "kpa"), "detection_by_snr": detection(hidden, "snr"),
+        "gap": ratios(rows), "confusion": confusion(rows), "cells": cells(rows),
     }
 
 
@@ -231,6 +240,10 @@ def rate_rows(data):
     return [[name, *(value_text(value).split(" | ") + ["", ""])[:3]] for name, value in data.items()]
 
 
+def detection_rows(data):
+    return [[size, *(cell for what in HEARD for cell in value_text(row[what]).split(" | ")[::2])] for size, row in data.items()]
+
+
 def ratio_rows(data):
     for verdict, row in data.items():
         for when in ("before", "after"):
@@ -259,10 +272,12 @@ def head(summary):
 
 def markdown(summary):
     rates = ["", "%", "exact", "clustered"]
+    heard = ["heard of", "clustered", "right", "clustered", "wrong name", "clustered"]
     parts = [
         head(summary),
         section("Figures", table(["figure", "reached", "exact", "clustered", "target", "met"], figure_rows(summary["figures"]))),
         section("Outcomes by kind of case", table(["kind", "outcomes"], count_rows(summary["outcomes"]))),
+        section("Outcomes by effect, one effect hidden", table(["hidden", "outcomes"], count_rows(summary["outcomes_by_effect"]))),
         section("Right by effect and SNR", grid("hidden", summary["effect_by_snr"], SNR[::-1])),
         section("Right by effect and kPa at the map", grid("hidden", summary["effect_by_kpa"], KPA)),
         section("Right by effect and protocol class", grid("hidden", summary["effect_by_protocol"])),
@@ -270,8 +285,8 @@ def markdown(summary):
             [name, ", ".join("%s %s" % (form, share(value)) for form, value in row.items())]
             for name, row in summary["effect_by_form"].items()])),
         section("False alarms by protocol class", table(["class", *rates[1:]], rate_rows(summary["false_alarms"]))),
-        section("Heard of, by kPa at the map", table(["kPa", *rates[1:]], rate_rows(
-            {k: row["heard_of"] for k, row in summary["detection"].items()}))),
+        section("Hidden effects by kPa at the map", table(["kPa", *heard], detection_rows(summary["detection"]))),
+        section("Hidden effects by SNR", table(["SNR", *heard], detection_rows(summary["detection_by_snr"]))),
         section("Truth in the credible set, by its size", table(["size", *rates[1:]], rate_rows(summary["credible_set"]))),
         section("Effects that could not be told, by reason", table(
             ["reason", "outcomes"], count_rows(summary["could_not_be_told"]))),
