@@ -210,7 +210,7 @@ def recomputed_gap(case, found, verdict, simulate):
 
 
 def score_folder(case, found, version, simulate):
-    """(row, problem): the score of an answered case, and what is not scored of it. `simulate` None: no gap is recomputed."""
+    """(row, problem): the score of an answered case, and why its gap is missing. `simulate` None: no gap is recomputed."""
     refused = not (found / "verdict.yaml").exists() and (found / "refused.json").exists()
     key, problem = read_key(case), None
     verdict = score.REFUSED if refused else read_verdict(found, version)
@@ -222,7 +222,7 @@ def score_folder(case, found, version, simulate):
     try:
         gap = recomputed_gap(case, found, verdict, simulate) if simulate and not refused else SKIPPED
     except NotScored as why:
-        gap, problem = SKIPPED, why
+        gap, problem = {"problem": why.category}, why
     score.add_gap(row, gap)
     row["seconds"] = read_json(found / "run.json").get("seconds")
     row["refused_because"] = read_json(found / "refused.json").get("sentence") if refused else None

@@ -143,8 +143,9 @@ class Scores(Folder):
         self.run_score("--no-gap")
         shutil.rmtree(self.cases / "loop" / "bags")
         done = self.run_score()
-        self.assertEqual((done.returncode, self.summary()["cases"]), (1, 2))
-        self.assertEqual(self.summary()["not_scored"], {"bags missing": 1})
+        self.assertEqual((done.returncode, self.summary()["cases"], self.summary()["not_scored"]), (1, 2, {}))
+        self.assertEqual(self.summary()["gap_not_recomputed"]["bags missing"], 1)
+        self.assertIn("so its gap is not recomputed", done.stderr)
 
     def test_refuses_what_it_does_not_know(self):
         for words, said in [(["--jbos", "2"], "--jbos"), (["--shard", "0/2"], "0/2"), (["--verdicts", "/nowhere"], "/nowhere")]:

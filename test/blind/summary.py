@@ -165,12 +165,14 @@ def refusals(rows):
     return dict(collections.Counter(re.sub(r"\d+(?:\.\d+)?", "N", sentence) for sentence in said).most_common())
 
 
-def summarise(rows, not_scored=()):
-    """Everything that the published table says, as data. `not_scored` are {case, category, sentence}."""
+def summarise(rows, problems=()):
+    """Everything that the published table says, as data. `problems` are {case, category, sentence}: of cases that are not
+    scored, and of scored ones whose gap is missing."""
+    scored = {r["case"] for r in rows}
     hidden = [r for r in rows if r["kind"] != "nothing"]
     nothing = [r for r in rows if r["kind"] == "nothing"]
     return {
-        "cases": len(rows), "not_scored": dict(collections.Counter(p["category"] for p in not_scored)),
+        "cases": len(rows), "not_scored": dict(collections.Counter(p["category"] for p in problems if p["case"] not in scored)),
         "kinds": dict(collections.Counter(r["kind"] for r in rows)),
         "gap_not_recomputed": dict(collections.Counter(r["gap_problem"] for r in rows if r["gap_problem"])),
         "figures": name_figures(rows) + set_figures(rows) + other_figures(rows),
