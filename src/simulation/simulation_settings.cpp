@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "fsr_pressure_map/simulation/chamber_program.h"
+#include "fsr_pressure_map/simulation/chamber.h"
 #include "matrix/surface_file.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/effects/enabled_effects.h"
