@@ -32,7 +32,7 @@
 #include <memory>
 #include <typeinfo>
 
-#include "fsr_pressure_map/view/pressure_scale.h"
+#include "fsr_pressure_map/view/colour_map.h"
 #include "view/taxel_look.h"
 
 namespace {
