@@ -10,7 +10,6 @@
 
 #include "fsr_pressure_map/compensation/curvature_tables.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
-#include "fsr_pressure_map/dataset/coverage.h"
 #include "fsr_pressure_map/dataset/recording.h"
 #include "fsr_pressure_map/regression/regressor_options.h"
 #include "fsr_pressure_map/statistics/metrics.h"
