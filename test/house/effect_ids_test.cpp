@@ -10,6 +10,7 @@
 #include <set>
 
 #include "simulation/effects/effect_library.h"
+#include "support/source_dir.h"
 
 namespace {
 
@@ -38,7 +39,7 @@ bool hasOtherMeaning(const std::string& id, const std::string& file) {
 }
 
 TEST(EffectIds, StandOnlyInTheEffectsThemselves) {
-  const fs::path source = FSR_SOURCE_DIR;
+  const fs::path source = test_support::sourceDir();
   std::size_t files = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(source / "src")) {
     const std::string file = entry.path().lexically_relative(source).string();

@@ -13,12 +13,14 @@
 #include <string>
 #include <vector>
 
+#include "support/source_dir.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 using Tokens = std::vector<std::string>;
 
-const fs::path kSource = FSR_SOURCE_DIR;
+const fs::path kSource = test_support::sourceDir();
 
 bool isWord(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
