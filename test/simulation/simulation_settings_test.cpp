@@ -178,8 +178,9 @@ TEST(SimulationSettings, WhatARigCannotDoIsRefusedByName) {
       {withSession("flat: true, program: [{hold: {pressure: 794e3, duration: 1}}]"),
        "session[0].program[0].hold.pressure is 794e3"},
       {"{simulation: a, matrix: {rows: 0}, effects: {static_curve: {}, converter: {}}}", "matrix.rows is 0"},
-      {"{simulation: a, session: [], effects: {static_curve: {}, converter: {}}}", "must hold one surface"},
-      {withEffects("humidity: {}"), "it is only listed: a gas chamber cannot show it"},
+      {"{simulation: a, session: [], effects: {static_curve: {}, converter: {}}}",
+       "must contain at least one surface"},
+      {withEffects("humidity: {}"), "it cannot be simulated: a gas chamber cannot show it"},
   };
   for (const auto& [yaml, expected] : cases) {
     const std::string complaint = complaintAbout(yaml);

@@ -237,7 +237,7 @@ std::vector<NextExperiment> nextExperiment(
   }
   std::ostringstream text;
   text.precision(2);
-  text << "Record " << best->what << ": it tells " << listText(names) << " apart by " << next.separation
+  text << "Record " << best->what << ": it distinguishes " << listText(names) << " by " << next.separation
        << " times the noise of one reading.";
   next.sentence = text.str();
   return {next};
