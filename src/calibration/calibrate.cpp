@@ -7,6 +7,7 @@
 #include "calibration/held_out_scoring.h"
 #include "calibration/sources.h"
 #include "calibration/taxel_training.h"
+#include "calibration/trained_ranges.h"
 #include "calibration/training_scans.h"
 #include "compensation/fit_scheme.h"
 #include "compensation/training_statistics.h"

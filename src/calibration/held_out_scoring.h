@@ -5,7 +5,7 @@
 
 #include "calibration/training_scans.h"
 #include "compensation/scheme_plan.h"
-#include "fsr_pressure_map/calibration/scores.h"
+#include "fsr_pressure_map/calibration/calibration.h"
 #include "regression/cross_validation.h"
 
 namespace fsr::calibration {

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/calibration/trained_ranges.h"
+#include "calibration/trained_ranges.h"
 
 #include <cmath>
 

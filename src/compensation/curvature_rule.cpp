@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/compensation/curvature_rule.h"
+#include "fsr_pressure_map/compensation/curvature_tables.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "fsr_pressure_map/compensation/curvature_rule.h"
+#include "fsr_pressure_map/compensation/curvature_tables.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/regression/code_table.h"
 

@@ -6,7 +6,7 @@
 
 #include "compensation/class_input.h"
 #include "compensation/scheme_plan.h"
-#include "fsr_pressure_map/compensation/curvature_rule.h"
+#include "fsr_pressure_map/compensation/curvature_tables.h"
 #include "regression/class_readings.h"
 #include "regression/cross_validation.h"
 #include "regression/regressors.h"

@@ -6,7 +6,7 @@
 #include "compensation/blend_table.h"
 #include "compensation/training_statistics.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
-#include "fsr_pressure_map/statistics/pressure_bins.h"
+#include "fsr_pressure_map/statistics/metrics.h"
 
 namespace fsr::compensation {
 

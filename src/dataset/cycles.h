@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "fsr_pressure_map/statistics/pressure_bins.h"
+#include "fsr_pressure_map/statistics/metrics.h"
 
 namespace fsr::dataset {
 

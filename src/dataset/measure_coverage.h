@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dataset/sections.h"
-#include "fsr_pressure_map/dataset/coverage.h"
+#include "fsr_pressure_map/dataset/condition_classes.h"
 
 namespace fsr::dataset {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/dataset/recording.h"
-#include "fsr_pressure_map/statistics/pressure_bins.h"
+#include "fsr_pressure_map/statistics/metrics.h"
 
 namespace fsr::dataset {
 

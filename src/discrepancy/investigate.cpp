@@ -168,8 +168,7 @@ void Investigation::repeat() {
   decision_ = first;
   quiet_ = last.verdict == Verdict::kNone;
   if (!quiet_)
-    report_.limitations.push_back("What is left after the last round is not quiet: " + name(last.verdict) +
-                                  ".");
+    report_.limitations.push_back("After the last round a discrepancy remains: " + name(last.verdict) + ".");
   by_terms_ = false;
   const Eigen::Map<const Trace> gain(measured_.gain.data(), before.size());
   left_ = before - fit_->residual(common_.all).cwiseProduct(gain);
@@ -270,7 +269,7 @@ void Investigation::put() {
   by_terms_ = true;
   left_ = fit_->withoutGainWeights(candidates_->explained(decision_.explanation));
   report_.limitations.push_back(
-      "The form in the simulation closes less of the gap than the mixture of forms that was found.");
+      "The form in the simulation closes less of the gap than the mixture of forms that was fitted.");
 }
 
 // Restores readings and curves to those before the rounds of repeat(). The gap is measured against them.
@@ -299,7 +298,8 @@ void Investigation::putDetections() {
   }
   if (detections_.empty()) return;
   if (report_.verdict == Verdict::kUnknown) {
-    report_.limitations.push_back("Beside what is unknown there is " + detections_.front().effect.id + ".");
+    report_.limitations.push_back("In addition to the unknown discrepancy there is " +
+                                  detections_.front().effect.id + ".");
     return;
   }
   if (report_.verdict == Verdict::kNone) {
@@ -344,9 +344,9 @@ void Investigation::listNotIdentifiable() {
     const bool remounted = measured_.classes.size() < measured_.visits.size();
     std::string reason;
     if (info.kind == simulation::EffectKind::kListed) reason = "A gas chamber cannot show it.";
-    if (tried && isStatic(info)) reason = "Under a uniform pressure the static curves take all of it.";
+    if (tried && isStatic(info)) reason = "Under a uniform pressure the static curves absorb all of it.";
     if (tried && !isStatic(info) && left < kNotIdentifiable)
-      reason = "The static curves leave hardly anything of it under this protocol.";
+      reason = "Under this protocol the static curves absorb nearly all of it.";
     if (info.detector == simulation::Detector::kMounts && !remounted)
       reason = "No surface was mounted twice.";
     if (!info.looked_for) reason = "It is not looked for in this version.";
@@ -395,8 +395,8 @@ void Investigation::doubtSilence() {
     if (test.depends) covariates.push_back(test.covariate);
   }
   if (covariates.empty()) return;
-  report_.limitations.push_back("What is left depends on " + listText(covariates) +
-                                ", though no explanation stands out from noise: more cycles would tell.");
+  report_.limitations.push_back("The residual depends on " + listText(covariates) +
+                                ", but no explanation is significant. Record more cycles.");
 }
 
 DiscrepancyReport Investigation::run() {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fsr_pressure_map/simulation/chamber_protocol.h"
+#include "fsr_pressure_map/simulation/chamber.h"
 #include "simulation/pressure_profile.h"
 
 namespace fsr::emulator {

@@ -1,9 +1,8 @@
-#include "fsr_pressure_map/map/alarm.h"
+#include "fsr_pressure_map/map/region.h"
 
 #include <cmath>
 
 #include "fsr_pressure_map/map/pressure_map.h"
-#include "fsr_pressure_map/map/region.h"
 
 namespace fsr::map {
 

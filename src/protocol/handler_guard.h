@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "fsr_pressure_map/protocol/packet.h"
+#include "fsr_pressure_map/protocol/decoder.h"
 
 namespace fsr::protocol {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "fsr_pressure_map/protocol/packet.h"
+#include "fsr_pressure_map/protocol/decoder.h"
 #include "protocol/device_clock.h"
 
 namespace fsr::protocol {

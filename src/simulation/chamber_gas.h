@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fsr_pressure_map/simulation/chamber_climate.h"
+#include "fsr_pressure_map/simulation/chamber.h"
 #include "rheology/exponential_memory.h"
 
 namespace fsr::simulation {

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/simulation/chamber_program.h"
+#include "fsr_pressure_map/simulation/chamber.h"
 
 #include <cmath>
 

@@ -49,7 +49,7 @@ DrivenRig::DrivenRig(const SimulationSettings& settings)
 
 void DrivenRig::require(const dataset::Recording& recording) const {
   if (recording.pressure.empty() || recording.scans() == 0) {
-    throw settings::InputError(recording.name + ": holds no chamber pressure to drive a simulation with");
+    throw settings::InputError(recording.name + ": contains no chamber pressure, which the simulation needs");
   }
   if (recording.layout.size != settings_.layout.size) {
     throw settings::InputError(recording.name + ": is of a matrix of " +
@@ -61,8 +61,7 @@ void DrivenRig::require(const dataset::Recording& recording) const {
       1e-9 * static_cast<double>(recording.start_ns - *origin_ns_) + recording.time.front() < end_;
   if (early) {
     throw settings::InputError(
-        recording.name +
-        ": begins before what the rig went through last had ended; give recordings in time order");
+        recording.name + ": begins before the recording before it has ended; give recordings in time order");
   }
 }
 

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/simulation/load_pattern.h"
+#include "fsr_pressure_map/simulation/simulation_settings.h"
 #include "simulation/read_settings.h"
 
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/simulation/chamber_climate.h"
+#include "fsr_pressure_map/simulation/chamber.h"
 #include "simulation/effect.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/effects/enabled_effects.h"

@@ -31,7 +31,7 @@ double interpolate(const std::vector<PressurePoint>& points, double time) {
 void PressureProfile::append(const std::vector<PressurePoint>& points, unsigned repeats) {
   check(points);
   const double start = duration();
-  if (std::isinf(start)) throw std::invalid_argument("a pressure profile ends with the part that never ends");
+  if (std::isinf(start)) throw std::invalid_argument("a part cannot follow one that repeats for ever");
   const double period = points.back().time;
   const double end = repeats == 0 ? std::numeric_limits<double>::infinity() : start + period * repeats;
   parts_.push_back({start, period, end, points});

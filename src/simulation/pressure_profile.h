@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fsr_pressure_map/simulation/chamber_program.h"
+#include "fsr_pressure_map/simulation/chamber.h"
 
 namespace fsr::simulation {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fsr_pressure_map/simulation/chamber_climate.h"
+#include "fsr_pressure_map/simulation/chamber.h"
 #include "simulation/chamber_gas.h"
 #include "simulation/effect.h"
 #include "simulation/reference_channel.h"

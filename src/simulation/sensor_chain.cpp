@@ -52,7 +52,7 @@ void keepOthers(const std::vector<std::uint8_t>& acts, const std::vector<double>
 
 double pressureAt(const RigSample& sample, double time) {
   if (sample.course == nullptr) {
-    throw std::invalid_argument("time_skew and scan_skew need the course of the pressure");
+    throw std::invalid_argument("effects of timing need the course of the pressure");
   }
   return (*sample.course)(time);
 }

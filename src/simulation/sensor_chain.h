@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "fsr_pressure_map/matrix/curvature.h"
-#include "fsr_pressure_map/simulation/load_pattern.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
 #include "simulation/effect.h"
 #include "simulation/taxel_curves.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "fsr_pressure_map/simulation/chamber_program.h"
+#include "fsr_pressure_map/simulation/chamber.h"
 #include "matrix/surface_file.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/effects/enabled_effects.h"
@@ -73,7 +73,7 @@ std::vector<Station> readSession(const settings::Settings& settings, const Simul
     session.push_back(readStation(station, usual, simulation.layout.size));
     ++usual.surface.mount;
   }
-  if (session.empty()) throw settings.error("session", "must hold one surface at least");
+  if (session.empty()) throw settings.error("session", "must contain at least one surface");
   return session;
 }
 
@@ -101,7 +101,7 @@ void refuseOtherEffects(const settings::Settings& effects, const EffectLibrary& 
   for (const std::string& id : effects.keys()) {
     const EffectEntry* entry = library.find(id);
     if (entry && entry->make) continue;
-    if (entry) throw effects.error(id, "it is only listed: a gas chamber cannot show it");
+    if (entry) throw effects.error(id, "it cannot be simulated: a gas chamber cannot show it");
     std::string known;
     for (const std::string& other : library.ids()) known += (known.empty() ? "" : ", ") + other;
     throw effects.error(id, "no effect has that name; the effects are " + known);

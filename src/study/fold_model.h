@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fsr_pressure_map/compensation/curvature_rule.h"
+#include "fsr_pressure_map/compensation/curvature_tables.h"
 #include "regression/regressors.h"
 #include "study/fold.h"
 #include "study/study_method.h"

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fsr_pressure_map/settings/input_error.h"
 #include "view/legend.h"
+#include "view/smooth_layer.h"
 #include "view/taxel_look.h"
 
 namespace fsr::view {
@@ -30,6 +32,23 @@ Colour colourOf(const PressureScale& scale, double value) {
 }
 
 }  // namespace
+
+const std::vector<float>& layerOf(const map::PressureMap& map, MapLayer layer) {
+  return layer == MapLayer::kPressure ? map.pressure : map.deviation;
+}
+
+const char* name(MapLayer layer) {
+  return layer == MapLayer::kPressure ? "gauge pressure" : "standard deviation";
+}
+
+void requireShowable(const map::PressureMap& map) {
+  const std::size_t n = map.layout.size.taxels();
+  if (n > 0 && map.pressure.size() == n && map.deviation.size() == n && map.flags.size() == n) return;
+  throw settings::InputError(
+      "a map of " + matrix::sizeText(map.layout.size) + " taxels has " + std::to_string(map.pressure.size()) +
+      " pressures, " + std::to_string(map.deviation.size()) + " deviations and " +
+      std::to_string(map.flags.size()) + " flags, but must have one of each for each taxel");
+}
 
 // Positions and lengths of the parts of the picture [pixels].
 struct HeatMap::Frame {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "fsr_pressure_map/view/colour_map.h"
 #include "fsr_pressure_map/view/image.h"
-#include "fsr_pressure_map/view/pressure_scale.h"
 
 namespace fsr::view {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "view/smooth_layer.h"
+
 namespace fsr::view {
 
 namespace {

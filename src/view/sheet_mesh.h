@@ -5,7 +5,7 @@
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "fsr_pressure_map/matrix/layout.h"
 #include "fsr_pressure_map/view/bent_sheet.h"
-#include "fsr_pressure_map/view/map_layer.h"
+#include "fsr_pressure_map/view/colour_map.h"
 #include "view/taxel_look.h"
 
 namespace fsr::view {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "fsr_pressure_map/calibration/calibrator.h"
-#include "protocol/wire_decoder.h"
 #include "protocol/board_gate.h"
 #include "protocol/packet_stamper.h"
+#include "protocol/wire_decoder.h"
 #include "support/allocation_guard.h"
 #include "support/small_tables.h"
 

@@ -6,6 +6,7 @@
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/source_dir.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr::calibration {
@@ -183,7 +184,7 @@ TEST(MergeRefuses, CurvaturesThatWouldFormOtherClasses) {
 }
 
 TEST(MergeAccepts, FilesOfSchemaOne) {
-  const std::string path = FSR_SOURCE_DIR "/test/data/calibrations/schema_1.h5";
+  const std::string path = test_support::sourceDir() + "/test/data/calibrations/schema_1.h5";
   const Calibration old = loadCalibration(path, CalibrationParts::kAll);
   Calibration twin = old;
   for (SourceBag& source : twin.provenance.bags) source.sha256.clear();

@@ -7,11 +7,12 @@
 #include "compensation/training_statistics.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
+#include "support/source_dir.h"
 
 namespace fsr::calibration {
 namespace {
 
-const std::string kFolder = FSR_SOURCE_DIR "/test/data/calibrations/";
+const std::string kFolder = test_support::sourceDir() + "/test/data/calibrations/";
 
 TEST(OldCalibrationFiles, AllLoadAndCalibrate) {
   int files = 0;

@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/dataset/coverage.h"
+#include "fsr_pressure_map/dataset/condition_classes.h"
 
 #include <gtest/gtest.h>
 

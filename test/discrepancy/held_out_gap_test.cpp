@@ -54,7 +54,7 @@ TEST(HeldOut, SaysSoWhereASurfaceIsNotForetoldByTheOthers) {
   const DiscrepancyReport report = investigate(problem);
   ASSERT_FALSE(report.gap.foretold.empty()) << report.sentence;
   EXPECT_EQ(report.gap.foretold.front().by, "condition");
-  EXPECT_EQ(report.limitations.back().find("On cylinder_5cm it holds badly"), 0u)
+  EXPECT_EQ(report.limitations.back().find("On cylinder_5cm the explanation is weak"), 0u)
       << report.limitations.back();
   for (const auto& [name, closed] : report.gap.foretold.front().parts) {
     if (name == "cylinder_5cm") {

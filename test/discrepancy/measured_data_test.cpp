@@ -7,6 +7,7 @@
 #include "discrepancy/samples/measured.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 #include "simulation/driven_rig.h"
+#include "support/source_dir.h"
 
 namespace fsr::discrepancy {
 namespace {
@@ -21,11 +22,12 @@ DiscrepancyProblem problemOf(const std::vector<std::string>& tables, const std::
   DiscrepancyProblem problem;
   for (const std::string& table : tables) {
     problem.recordings.push_back(
-        dataset::readTable(FSR_SOURCE_DIR "/test/data/measured/" + table, plan).recording);
+        dataset::readTable(test_support::sourceDir() + "/test/data/measured/" + table, plan).recording);
     plan.start_ns += kHour;
   }
   problem.simulation = simulation::fitted(
-      simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/core.yaml"), problem.recordings[0]);
+      simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/core.yaml"),
+      problem.recordings[0]);
   return problem;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "simulation/driven_rig.h"
+#include "support/source_dir.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr::discrepancy {
@@ -18,7 +19,8 @@ DiscrepancyProblem problemOf(test_support::SyntheticRig rig) {
   problem.recordings = {test_support::syntheticRecording(rig)};
   problem.recordings[0].start_ns = 1500000000000000000;
   problem.simulation = simulation::fitted(
-      simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/core.yaml"), problem.recordings[0]);
+      simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/core.yaml"),
+      problem.recordings[0]);
   return problem;
 }
 

@@ -5,6 +5,7 @@
 #include "protocol/wire_decoder.h"
 #include "simulation/read_settings.h"
 #include "support/packet_recorder.h"
+#include "support/source_dir.h"
 
 namespace {
 
@@ -70,7 +71,8 @@ TEST(Board, StartsAgainWhenReset) {
 
 TEST(Board, ComputesTheBitRateOfItsLink) {
   // 10 bits a byte; a scan of 7 x 10 is 168 bytes, a transducer or temperature packet 24, identity 76.
-  const auto demo = fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/demo.yaml");
+  const auto demo =
+      fsr::simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/demo.yaml");
   EXPECT_NEAR(Board(demo, {}).bitsPerSecond(), 10 * (10 * 168 + 10 * 24 + 24 + 76), 1e-9);
 }
 

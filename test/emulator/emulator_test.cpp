@@ -9,6 +9,7 @@
 #include "simulation/pressure_profile.h"
 #include "support/board_listener.h"
 #include "support/pty.h"
+#include "support/source_dir.h"
 
 namespace {
 
@@ -26,7 +27,8 @@ constexpr auto kLong = 30s;  // limit for events that must happen; no test waits
 /// The bench rig at two hundred times real time.
 EmulatorOptions bench() {
   EmulatorOptions options;
-  options.simulation = fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/bench.yaml");
+  options.simulation =
+      fsr::simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/bench.yaml");
   options.time_scale = 200;
   return options;
 }

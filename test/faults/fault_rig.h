@@ -22,6 +22,7 @@
 #include "protocol/serial_port.h"
 #include "support/pty.h"
 #include "support/small_tables.h"
+#include "support/source_dir.h"
 
 namespace test_support {
 
@@ -51,7 +52,7 @@ class FaultBoard {
   FaultBoard(const std::string& link, SentPackets& sent, const std::string& serial = "A",
              std::uint32_t baud = 0, std::uint32_t clock_offset = 0) {
     fsr::emulator::EmulatorOptions options;
-    options.simulation = fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/bench.yaml");
+    options.simulation = fsr::simulation::readSimulationFile(sourceDir() + "/config/simulation/bench.yaml");
     options.simulation.board.scan_rate = 500;
     options.simulation.board.serial = serial;
     options.link = link;

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "fsr_pressure_map/calibration/calibrator.h"
-#include "protocol/wire_decoder.h"
 #include "fuzz/fuzz_file.h"
 #include "protocol/packet_stamper.h"
+#include "protocol/wire_decoder.h"
 #include "support/packet_recorder.h"
 #include "support/small_tables.h"
 

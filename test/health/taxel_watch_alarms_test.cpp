@@ -7,6 +7,7 @@
 #include "fsr_pressure_map/health/taxel_watch.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
 #include "simulation/sensor_chain.h"
+#include "support/source_dir.h"
 
 namespace {
 
@@ -18,7 +19,7 @@ constexpr double kDuration = 600;  // of each sheet: 60 windows [s]
 // Number of verdicts on a sheet without a fault.
 std::size_t alarms(const std::string& file, std::uint64_t seed, const fsr::matrix::Surface& surface) {
   fsr::simulation::SimulationSettings settings =
-      fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/" + file);
+      fsr::simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/" + file);
   settings.seed = seed;
   fsr::simulation::SensorChain chain(settings);
   chain.mount(surface);
@@ -70,7 +71,7 @@ TEST(TaxelWatchAlarms, EachOfAHundredFaultsIsFoundWithinSeventySeconds) {
   for (std::uint64_t seed = 1; seed <= 25; ++seed) {
     for (const int fault : {0, 1, 2, 3}) {  // dead taxel, stuck taxel, short, broken row
       fsr::simulation::SimulationSettings settings =
-          fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/demo.yaml");
+          fsr::simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/demo.yaml");
       settings.seed = seed;
       fsr::simulation::SensorChain chain(settings);
       chain.mount({"flat", 1, {fsr::matrix::Curvature{}}, {}});

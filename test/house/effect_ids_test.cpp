@@ -10,6 +10,7 @@
 #include <set>
 
 #include "simulation/effects/effect_library.h"
+#include "support/source_dir.h"
 
 namespace {
 
@@ -28,7 +29,7 @@ const std::set<std::pair<std::string, std::string>> kOtherMeanings = {
     {"temperature", "src/dataset/table_columns.cpp"},
     {"temperature", "src/exports/scan_table.cpp"},
     {"temperature", "src/report/calibration_json.cpp"},
-    {"temperature", "src/simulation/chamber_climate.cpp"},
+    {"temperature", "src/simulation/chamber.cpp"},
     {"temperature", "src/simulation/effect_info.cpp"},
 };
 
@@ -38,7 +39,7 @@ bool hasOtherMeaning(const std::string& id, const std::string& file) {
 }
 
 TEST(EffectIds, StandOnlyInTheEffectsThemselves) {
-  const fs::path source = FSR_SOURCE_DIR;
+  const fs::path source = test_support::sourceDir();
   std::size_t files = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(source / "src")) {
     const std::string file = entry.path().lexically_relative(source).string();

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "support/source_dir.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -24,7 +26,7 @@ const std::map<std::string, int> kStorey = {
     {"nodes", 8},      {"tools", 8},
 };
 
-const fs::path kSource = FSR_SOURCE_DIR;
+const fs::path kSource = test_support::sourceDir();
 
 struct Include {
   fs::path file;

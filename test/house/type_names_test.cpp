@@ -1,5 +1,5 @@
-// No type name is defined twice in one namespace. Two different types of one name in one library are undefined behaviour:
-// the linker keeps one of their constructors for both.
+// No type name is defined twice in one namespace. Two different types of one name in one library are
+// undefined behaviour: the linker keeps one of their constructors for both.
 
 #include <gtest/gtest.h>
 
@@ -13,18 +13,25 @@
 #include <string>
 #include <vector>
 
+#include "support/source_dir.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 using Tokens = std::vector<std::string>;
 
-const fs::path kSource = FSR_SOURCE_DIR;
+const fs::path kSource = test_support::sourceDir();
 
-bool isWord(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool isWord(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
 
-bool isName(const std::string& token) { return isWord(token[0]) && std::isdigit(static_cast<unsigned char>(token[0])) == 0; }
+bool isName(const std::string& token) {
+  return isWord(token[0]) && std::isdigit(static_cast<unsigned char>(token[0])) == 0;
+}
 
-// The end of the comment, literal or preprocessor line that begins at `at`; `at` itself where none begins there.
+// The end of the comment, literal or preprocessor line that begins at `at`; `at` itself where none begins
+// there.
 std::size_t endOfNoCode(const std::string& text, std::size_t at) {
   const auto after = [&](const std::string& end, std::size_t from) {
     const std::size_t found = text.find(end, from);
@@ -56,7 +63,9 @@ Tokens tokensOf(const std::string& text) {
       at = end;
     } else if (isWord(text[at])) {
       const std::size_t begin = at;
-      while (at < text.size() && (isWord(text[at]) || (text[at] == '\'' && isWord(text[begin]) && !isName({text[begin]})))) ++at;
+      while (at < text.size() &&
+             (isWord(text[at]) || (text[at] == '\'' && isWord(text[begin]) && !isName({text[begin]}))))
+        ++at;
       tokens.push_back(text.substr(begin, at - begin));
     } else if (text.compare(at, 2, "::") == 0) {
       tokens.push_back("::");
@@ -69,18 +78,20 @@ Tokens tokensOf(const std::string& text) {
   return tokens;
 }
 
-// The type that the class, struct, union or enum keyword at `at` defines; empty where it only names one, has no name,
-// belongs to a class (struct A::B) or specialises a template.
+// The type that the class, struct, union or enum keyword at `at` defines; empty where it only names one, has
+// no name, belongs to a class (struct A::B) or specialises a template.
 std::string definedAt(const Tokens& tokens, std::size_t at) {
   std::string name;
   while (++at < tokens.size()) {
     const std::string& token = tokens[at];
     if (token == "[" || (token == "(" && tokens[at - 1] == "alignas")) {  // [[attribute]], alignas(...)
-      at = static_cast<std::size_t>(std::find(tokens.begin() + at, tokens.end(), token == "[" ? "]" : ")") - tokens.begin());
+      at = static_cast<std::size_t>(std::find(tokens.begin() + at, tokens.end(), token == "[" ? "]" : ")") -
+                                    tokens.begin());
     } else if (isName(token)) {
       if (token != "final" && token != "alignas" && token != "class" && token != "struct") name = token;
     } else if (token == ":") {
-      const auto end = std::find_if(tokens.begin() + at, tokens.end(), [](const auto& t) { return t == "{" || t == ";"; });
+      const auto end =
+          std::find_if(tokens.begin() + at, tokens.end(), [](const auto& t) { return t == "{" || t == ";"; });
       return end != tokens.end() && *end == "{" ? name : "";
     } else if (token != "]") {
       return token == "{" ? name : "";
@@ -89,7 +100,8 @@ std::string definedAt(const Tokens& tokens, std::size_t at) {
   return "";
 }
 
-// Types that the text defines at the scope of a namespace with a name, or outside all of them: "fsr::map::Region".
+// Types that the text defines at the scope of a namespace with a name, or outside all of them:
+// "fsr::map::Region".
 std::set<std::string> typesDefinedIn(const std::string& text) {
   static const std::string kNoNamespace = "{";
   const Tokens tokens = tokensOf(text);
@@ -103,19 +115,23 @@ std::set<std::string> typesDefinedIn(const std::string& text) {
       while (++at < tokens.size() && tokens[at] != "{" && tokens[at] != "=") {
         if (tokens[at] != "inline") name += tokens[at];
       }
-      if (at < tokens.size() && tokens[at] == "{") scopes.push_back(name.empty() ? kNoNamespace : name + "::");
+      if (at < tokens.size() && tokens[at] == "{")
+        scopes.push_back(name.empty() ? kNoNamespace : name + "::");
     } else if (token == "{") {
       const bool linkage = at >= 2 && tokens[at - 1] == "\"" && tokens[at - 2] == "extern";
       scopes.push_back(linkage ? "" : kNoNamespace);
     } else if (token == "}") {
       if (!scopes.empty()) scopes.pop_back();
-    } else if (in_namespace && (token == "class" || token == "struct" || token == "union" || token == "enum")) {
+    } else if (in_namespace &&
+               (token == "class" || token == "struct" || token == "union" || token == "enum")) {
       if (const std::string name = definedAt(tokens, at); !name.empty()) {
         std::string full;
         for (const std::string& scope : scopes) full += scope;
         types.insert(full + name);
       }
-      if (token == "enum" && at + 1 < tokens.size() && (tokens[at + 1] == "class" || tokens[at + 1] == "struct")) ++at;
+      if (token == "enum" && at + 1 < tokens.size() &&
+          (tokens[at + 1] == "class" || tokens[at + 1] == "struct"))
+        ++at;
     }
   }
   return types;
@@ -128,14 +144,16 @@ std::map<std::string, std::set<fs::path>> filesOfTypes() {
       if (!entry.is_regular_file()) continue;
       std::ifstream in(entry.path());
       const std::string text{std::istreambuf_iterator<char>(in), {}};
-      for (const std::string& type : typesDefinedIn(text)) files[type].insert(fs::relative(entry.path(), kSource));
+      for (const std::string& type : typesDefinedIn(text))
+        files[type].insert(fs::relative(entry.path(), kSource));
     }
   }
   return files;
 }
 
 TEST(TypeNames, AreReadFromDefinitionsAtNamespaceScope) {
-  const std::set<std::string> expected = {"Global", "fsr::A", "fsr::B", "fsr::C", "fsr::D", "fsr::E", "fsr::map::F", "fsr::map::G"};
+  const std::set<std::string> expected = {"Global", "fsr::A", "fsr::B",      "fsr::C",
+                                          "fsr::D", "fsr::E", "fsr::map::F", "fsr::map::G"};
   EXPECT_EQ(typesDefinedIn(R"x(
 #define BRACE {
 #include <a> // struct No {

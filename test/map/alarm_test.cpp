@@ -1,11 +1,10 @@
-#include "fsr_pressure_map/map/alarm.h"
+#include "fsr_pressure_map/map/region.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "fsr_pressure_map/map/pressure_map.h"
-#include "fsr_pressure_map/map/region.h"
 
 namespace fsr::map {
 namespace {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/source_dir.h"
 
 namespace fsr::map {
 namespace {
@@ -51,7 +52,7 @@ TEST(Regions, IncludeAnAlarmOfTheWholeMatrix) {
 }
 
 TEST(Regions, ReadTheShippedExample) {
-  const auto regions = readRegionFile(FSR_SOURCE_DIR "/config/regions/example.yaml", {7, 10});
+  const auto regions = readRegionFile(test_support::sourceDir() + "/config/regions/example.yaml", {7, 10});
   ASSERT_EQ(regions.size(), 3u);
   EXPECT_TRUE(regions[1].has(6) && regions[2].has(30) && !regions[2].has(0));
 }

@@ -6,6 +6,7 @@
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "fsr_pressure_map/matrix/layout.h"
 #include "matrix/surface_file.h"
+#include "support/source_dir.h"
 
 namespace fsr::matrix {
 namespace {
@@ -94,7 +95,8 @@ TEST(SurfaceFile, RefusesTwoFormsAndTooLargeACurvature) {
 
 TEST(SurfaceFile, EveryShippedSurfaceLoadsUnderItsFileName) {
   int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(FSR_SOURCE_DIR "/config/surfaces")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(test_support::sourceDir() + "/config/surfaces")) {
     const Surface surface = readSurfaceFile(entry.path().string(), kPaper);
     EXPECT_EQ(surface.name, entry.path().stem().string());
     ++files;

@@ -13,11 +13,12 @@
 #include "protocol/link_rate.h"
 #include "support/program_output.h"
 #include "support/pty.h"
+#include "support/source_dir.h"
 
 // Compares docs/wire_format.md and docs/boards.md with the code.
 namespace {
 
-const std::string kSource = FSR_SOURCE_DIR;
+const std::string kSource = test_support::sourceDir();
 
 std::string document(const std::string& name) {
   std::ifstream file(kSource + "/docs/" + name);

@@ -8,6 +8,7 @@
 
 #include "support/program_output.h"
 #include "support/pty.h"
+#include "support/source_dir.h"
 
 namespace {
 
@@ -111,7 +112,7 @@ TEST(Wire, EncodesEverySizeUpToSixtyFourSquareAndNoOther) {
 // As docs/boards.md says: both files in one folder of the firmware project.
 TEST(Wire, CompilesFreestandingAndNeedsNoLibrary) {
   const test_support::TemporaryFolder firmware;
-  const std::string source = FSR_SOURCE_DIR;
+  const std::string source = test_support::sourceDir();
   const test_support::ProgramOutput compiled = test_support::outputOf(
       "cp " + source + "/include/fsr_pressure_map/protocol/wire.h " + source + "/src/protocol/wire.c " +
       firmware.path() + " && cd " + firmware.path() +

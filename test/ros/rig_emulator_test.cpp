@@ -169,7 +169,8 @@ TEST(RigEmulatorNode, AResetRestartsTheBoard) {
   ASSERT_TRUE(listener.until([&] { return !listener.scans.empty() && listener.scans.back().sequence > 40; }));
   ros::param::set("rig_emulator/damage/reset", true);
   EXPECT_TRUE(setDamage(true).success);
-  EXPECT_TRUE(listener.until([&] { return listener.counts().of(fsr::protocol::PacketType::kScan).restarts == 1; }));
+  EXPECT_TRUE(
+      listener.until([&] { return listener.counts().of(fsr::protocol::PacketType::kScan).restarts == 1; }));
   ros::param::del("rig_emulator/damage");
   EXPECT_TRUE(setDamage(false).success);
 }

@@ -20,6 +20,7 @@
 #include "support/ros_listener.h"
 #include "support/small_calibration.h"
 #include "support/small_tables.h"
+#include "support/source_dir.h"
 
 namespace {
 
@@ -33,7 +34,8 @@ constexpr std::uint32_t kOthersClock =
 
 std::unique_ptr<fsr::emulator::Emulator> makeBoard(const std::string& serial) {
   fsr::emulator::EmulatorOptions options;
-  options.simulation = fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/bench.yaml");
+  options.simulation =
+      fsr::simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/bench.yaml");
   options.simulation.board.scan_rate = 100;
   options.simulation.board.serial = serial;
   options.link = ros::NodeHandle("~").param<std::string>("port", "");

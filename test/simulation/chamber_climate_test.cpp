@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/simulation/chamber_climate.h"
+#include "fsr_pressure_map/simulation/chamber.h"
 #include "simulation/chamber_gas.h"
 #include "simulation/read_settings.h"
 

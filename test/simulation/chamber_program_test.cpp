@@ -1,4 +1,4 @@
-#include "fsr_pressure_map/simulation/chamber_program.h"
+#include "fsr_pressure_map/simulation/chamber.h"
 #include "simulation/pressure_profile.h"
 #include "simulation/read_settings.h"
 

@@ -7,11 +7,12 @@
 #include <iterator>
 
 #include "simulation/effects/effect_library.h"
+#include "support/source_dir.h"
 
 namespace {
 
 TEST(EffectsDocument, TellsOfEveryEffectAndShowsItsPicture) {
-  const std::filesystem::path docs = FSR_SOURCE_DIR "/docs";
+  const std::filesystem::path docs = test_support::sourceDir() + "/docs";
   std::ifstream file(docs / "effects.md");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   for (const fsr::simulation::EffectEntry& entry : fsr::simulation::effectLibrary()) {

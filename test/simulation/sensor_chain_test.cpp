@@ -7,6 +7,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/pressure_profile.h"
 #include "support/allocation_guard.h"
+#include "support/source_dir.h"
 
 namespace {
 
@@ -14,7 +15,7 @@ using fsr::simulation::SensorChain;
 using fsr::simulation::SimulationSettings;
 
 SimulationSettings demo() {
-  return fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/demo.yaml");
+  return fsr::simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/demo.yaml");
 }
 
 /// Counts of all scans from `first` to `last` of the paper's cycles at 10 Hz.
@@ -53,7 +54,8 @@ TEST(SensorChain, ForgetsItsHistoryWhenReset) {
 }
 
 TEST(SensorChain, RefusesTheStateOfAnotherChain) {
-  const auto bench = fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/bench.yaml");
+  const auto bench =
+      fsr::simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/bench.yaml");
   SensorChain chain(demo()), other(bench);
   EXPECT_THROW(chain.restore(other.state()), fsr::settings::InputError);
 }

@@ -8,6 +8,7 @@
 
 #include "simulation/read_settings.h"
 #include "support/simulated_rig.h"
+#include "support/source_dir.h"
 
 namespace {
 
@@ -87,7 +88,7 @@ TEST(Session, RefusesCyclesWithoutEnd) {
 }
 
 TEST(Session, TakesSurfacesFromFilesBesideItsOwn) {
-  const std::string file = FSR_SOURCE_DIR "/config/simulation/mine.yaml";  // need not exist
+  const std::string file = test_support::sourceDir() + "/config/simulation/mine.yaml";  // need not exist
   const auto settings = readSimulation(Settings::fromText(
       "{simulation: t, session: [{surface: cylinder_7cm}], effects: {static_curve: {}, converter: {}}}",
       file));

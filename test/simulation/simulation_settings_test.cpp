@@ -12,6 +12,7 @@
 #include "simulation/read_settings.h"
 #include "simulation/sensor_chain.h"
 #include "simulation/simulation_text.h"
+#include "support/source_dir.h"
 
 namespace {
 
@@ -19,7 +20,7 @@ using fsr::settings::InputError;
 using fsr::settings::Settings;
 using fsr::simulation::readSimulation;
 
-const std::filesystem::path kFolder = FSR_SOURCE_DIR "/config/simulation";
+const std::filesystem::path kFolder = test_support::sourceDir() + "/config/simulation";
 
 std::string complaintAbout(const std::string& yaml) {
   try {
@@ -112,7 +113,7 @@ TEST(SimulationSettings, CoreHoldsWhatEveryMatrixHasAndNothingElse) {
 
 TEST(SimulationSettings, TheBenchmarksRigHasEveryEffect) {
   const auto settings =
-      fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/test/benchmark/all_effects.yaml");
+      fsr::simulation::readSimulationFile(test_support::sourceDir() + "/test/benchmark/all_effects.yaml");
   for (const fsr::simulation::EffectEntry& entry : fsr::simulation::effectLibrary()) {
     EXPECT_EQ(settings.effect(entry.info.id) != nullptr, entry.make != nullptr) << entry.info.id;
   }
@@ -177,8 +178,9 @@ TEST(SimulationSettings, WhatARigCannotDoIsRefusedByName) {
       {withSession("flat: true, program: [{hold: {pressure: 794e3, duration: 1}}]"),
        "session[0].program[0].hold.pressure is 794e3"},
       {"{simulation: a, matrix: {rows: 0}, effects: {static_curve: {}, converter: {}}}", "matrix.rows is 0"},
-      {"{simulation: a, session: [], effects: {static_curve: {}, converter: {}}}", "must hold one surface"},
-      {withEffects("humidity: {}"), "it is only listed: a gas chamber cannot show it"},
+      {"{simulation: a, session: [], effects: {static_curve: {}, converter: {}}}",
+       "must contain at least one surface"},
+      {withEffects("humidity: {}"), "it cannot be simulated: a gas chamber cannot show it"},
   };
   for (const auto& [yaml, expected] : cases) {
     const std::string complaint = complaintAbout(yaml);

@@ -8,6 +8,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/sensor_chain.h"
 #include "simulation/simulation_text.h"
+#include "support/source_dir.h"
 
 namespace fsr::simulation {
 namespace {
@@ -43,7 +44,8 @@ TaxelCurves example() {
 }
 
 SimulationSettings smallRig() {
-  SimulationSettings settings = readSimulationFile(FSR_SOURCE_DIR "/config/simulation/core.yaml");
+  SimulationSettings settings =
+      readSimulationFile(test_support::sourceDir() + "/config/simulation/core.yaml");
   settings.layout.size = {1, 2};
   return settings;
 }

@@ -9,6 +9,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/session.h"
 #include "study/evaluation.h"
+#include "support/source_dir.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr::study {
@@ -256,7 +257,7 @@ TEST(DownSampled, KeepsTheShareOfEachGroup) {
 }
 
 TEST(StudyPlan, ShippedFileHoldsTheDefaults) {
-  const StudyPlan plan = readStudyPlanFile(std::string(FSR_SOURCE_DIR) + "/config/study/paper.yaml");
+  const StudyPlan plan = readStudyPlanFile(test_support::sourceDir() + "/config/study/paper.yaml");
   const StudyPlan usual;
   EXPECT_EQ(plan.grnn.bandwidth, usual.grnn.bandwidth);
   EXPECT_EQ(plan.bandwidths, usual.bandwidths);
@@ -280,7 +281,7 @@ TEST(StudyPlan, RefusesUnknownKeysAndValues) {
 // scatter by about 0.1 %, which the tolerance of 10 % covers.
 TEST(PaperSetting, ReproducesThePapersTableOnAnotherSheet) {
   simulation::SimulationSettings settings =
-      simulation::readSimulationFile(std::string(FSR_SOURCE_DIR) + "/config/simulation/paper.yaml");
+      simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/paper.yaml");
   settings.layout.size = {3, 4};
   for (const std::uint64_t seed : {201, 202}) {
     settings.seed = seed;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/protocol/packet.h"
+#include "fsr_pressure_map/protocol/decoder.h"
 
 namespace test_support {
 

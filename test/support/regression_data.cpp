@@ -5,11 +5,12 @@
 #include <string>
 
 #include "fsr_pressure_map/statistics/metrics.h"
+#include "support/source_dir.h"
 
 namespace test_support {
 
 RegressionData regressionData() {
-  const std::string path = std::string(FSR_SOURCE_DIR) + "/test/data/regression.csv";
+  const std::string path = sourceDir() + "/test/data/regression.csv";
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);
   RegressionData data;

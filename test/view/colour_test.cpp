@@ -4,7 +4,6 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/view/colour_map.h"
-#include "fsr_pressure_map/view/pressure_scale.h"
 #include "view/auto_range.h"
 
 namespace fsr::view {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "fsr_pressure_map/map/map_statistics.h"
+#include "view/smooth_layer.h"
 
 namespace fsr::view {
 namespace {

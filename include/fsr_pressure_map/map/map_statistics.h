@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/map/alarm.h"
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/map/region.h"
 

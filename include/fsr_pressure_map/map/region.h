@@ -1,13 +1,28 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
-#include "fsr_pressure_map/map/alarm.h"
 #include "fsr_pressure_map/matrix/layout.h"
 
 namespace fsr::map {
+
+struct PressureMap;
+
+/// The numbers are those of PressureStatistics.msg.
+enum class AlarmState : std::uint8_t { kOk = 0, kAlarm = 1, kUnknown = 2 };
+
+/// Conditions of an alarm. The default never alarms.
+struct AlarmOptions {
+  double threshold =
+      std::numeric_limits<double>::infinity();  ///< pressure of any taxel [Pa]; infinite = no alarm
+  double dwell = 0;                             ///< time above the threshold before the alarm is raised [s]
+  double hysteresis = 0;  ///< an alarm ends only at this pressure below the threshold [Pa]
+
+  bool used() const { return threshold < std::numeric_limits<double>::infinity(); }
+};
 
 /// A named part of the matrix, with its alarm.
 struct Region {
@@ -36,5 +51,43 @@ struct Region {
 std::vector<Region> readRegionFile(const std::string& path, matrix::MatrixSize size);
 /// Reads the same from text. `origin`: name that messages give instead of a file.
 std::vector<Region> readRegions(const std::string& yaml, const std::string& origin, matrix::MatrixSize size);
+
+/// What one map shows of an alarm's region.
+struct AlarmEvidence {
+  /// Highest pressure that is certain [Pa]: of taxels with a valid reading, and of saturated ones, whose
+  /// pressure is at least their reading. NaN = none.
+  double sure = std::numeric_limits<double>::quiet_NaN();
+  /// Whether every taxel of the region has a reading within the range of training. A taxel below its turn-on
+  /// pressure counts as read, a masked one is ignored, a filled one does not count as read.
+  bool whole = false;
+  /// Highest reading of taxels below their range, whose pressure is less than their reading [Pa]; NaN = none.
+  double less_than = std::numeric_limits<double>::quiet_NaN();
+};
+
+AlarmEvidence evidence(const PressureMap& map, const Region& region);
+
+/// The alarm of one region over time.
+///
+/// It is raised where a certain pressure stays at or above the threshold for the dwell time, and ends only
+/// below threshold - hysteresis. Where the map cannot answer (stale, uncalibrated, curvature unknown,
+/// extrapolated, saturated or failed taxels, "less than" a pressure above the threshold) the state is
+/// kUnknown, never kOk. An alarm that is certain stays an alarm.
+class Alarm {
+ public:
+  explicit Alarm(const AlarmOptions& options = {}) : options_(options) {}
+
+  /// `time` of the map [s]. Time that runs backwards restarts the dwell.
+  AlarmState update(double time, const AlarmEvidence& evidence);
+  /// The state where no map has come for too long.
+  AlarmState stale();
+
+ private:
+  AlarmOptions options_;
+  AlarmState withoutAlarm(const AlarmEvidence& evidence) const;
+
+  bool above_ = false;      // the threshold was reached, and no certain pressure was below it since
+  double above_since_ = 0;  // [s]
+  bool raised_ = false;
+};
 
 }  // namespace fsr::map

@@ -4,11 +4,24 @@
 #include <vector>
 
 #include "fsr_pressure_map/map/pressure_map.h"
+#include "fsr_pressure_map/view/colour_map.h"
 #include "fsr_pressure_map/view/image.h"
-#include "fsr_pressure_map/view/map_layer.h"
-#include "fsr_pressure_map/view/pressure_scale.h"
 
 namespace fsr::view {
+
+class SmoothLayer;  // src/view/smooth_layer.h
+
+/// Quantity of a map that is shown in colour.
+enum class MapLayer { kPressure, kDeviation };
+
+/// The layer's values [rows x columns], row-major [Pa], NaN = no reading.
+const std::vector<float>& layerOf(const map::PressureMap& map, MapLayer layer);
+
+/// Name for legends: "gauge pressure" or "standard deviation".
+const char* name(MapLayer layer);
+
+/// Throws InputError for a map without taxels or with arrays that do not fit its layout.
+void requireShowable(const map::PressureMap& map);
 
 /// Style of a heat map, with all defaults.
 struct HeatMapStyle {

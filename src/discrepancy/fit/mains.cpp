@@ -17,7 +17,6 @@ constexpr double kLeastZ = 8;        // least z score of the peak among the patt
 constexpr double kRound = 0.5;       // largest |sum z^2| / sum |z|^2 of a course through all phases
 constexpr std::size_t kFewestTaxels = 8;
 constexpr double kMainsFrequency = 50;  // assumed [Hz]
-constexpr double kDeviationPerMedian = 1.4826;
 
 // Readings of the used taxels, minus their static curves and minus the mean residual of these taxels.
 class Residuals {
@@ -84,7 +83,7 @@ Mains findMains(const Measured& measured, const TaxelFit& taxels) {
   const double excess = powers[peak] - usual;
   const double total = covariance.trace() / static_cast<double>(residuals.size()) + taxels.within();
   mains.turn = turns[peak];
-  mains.z = excess / std::max(1e-300, kDeviationPerMedian * statistics::upperMedian(deviations));
+  mains.z = excess / std::max(1e-300, statistics::kDeviationPerMedian * statistics::upperMedian(deviations));
   mains.share = total > 0 ? 2 * excess / static_cast<double>(residuals.size()) / total : 0;
   mains.amplitude = 2 * std::sqrt(excess / static_cast<double>(residuals.size()));
   if (mains.z < kLeastZ || mains.share < thresholds::kLeastShareOfError) return mains;

@@ -18,8 +18,6 @@ constexpr double kLeastScatter = 1e-5;
 
 // Least weight by which withoutGainWeights() divides.
 constexpr double kLeastGainWeight = 0.02;
-// Standard deviation of normal numbers / median of their absolute values.
-constexpr double kDeviationPerMedian = 1.4826;
 
 std::vector<double> knotsOf(const Trace& load) {
   const double low = load.minCoeff(), high = std::max(load.maxCoeff(), low + 1);
@@ -209,8 +207,8 @@ void StaticFit::judgeGainScatter(const Trace& left) {
     steps.push_back(std::abs(gain[c] - gain[c - 1]));
   }
   gain_weight_.resize(gain.size());
-  gain_scatter_ =
-      std::max(kLeastScatter, kDeviationPerMedian / std::sqrt(2.0) * statistics::upperMedian(steps, 0));
+  gain_scatter_ = std::max(
+      kLeastScatter, statistics::kDeviationPerMedian / std::sqrt(2.0) * statistics::upperMedian(steps, 0));
   const double noise = left.squaredNorm() / static_cast<double>(left.size());
   for (std::size_t c = 0; c < gain.size(); ++c) {
     const double by_noise = noise / std::max(weight[c], 1e-12);

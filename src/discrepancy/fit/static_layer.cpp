@@ -76,11 +76,6 @@ MountFields fieldsOf(const Measured& measured, const StaticFit& fit, const Taxel
   return fields;
 }
 
-// Result of mapping one curve onto another by gain and preload.
-struct Referred {
-  Eigen::VectorXd misfit;  // at each pressure that both curves have; else 0
-};
-
 double interpolate(const Eigen::VectorXd& values, double low, double step, double at) {
   const double place = (at - low) / step;
   const auto i = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::floor(place)), 0, values.size() - 2);

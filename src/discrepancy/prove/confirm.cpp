@@ -49,10 +49,11 @@ std::string excludedBy(const Measured& measured, const CommonTraces& common, con
 Confirmation confirm(const Prediction& prediction, const simulation::SimulationSettings& simulation,
                      const std::vector<dataset::Recording>& recordings) {
   if (prediction.effects.empty())
-    throw settings::InputError("prediction: it names no effect, there is nothing to confirm");
+    throw settings::InputError("prediction: it contains no effect, so there is nothing to confirm");
   if (!hasItsHash(prediction, simulation)) {
     throw settings::InputError(
-        "prediction: its hash does not fit what it says; it was changed after it was made");
+        "prediction: its hash does not fit its content or base.yaml; one of them was changed after it was "
+        "written");
   }
   DiscrepancyProblem problem;
   problem.simulation = simulation;
@@ -85,10 +86,11 @@ Confirmation confirm(const Prediction& prediction, const simulation::SimulationS
   std::ostringstream text;
   text.precision(3);
   text << idsOf(prediction.effects) << (confirmation.passed ? " is confirmed: " : " is not confirmed: ")
-       << "as foretold it explains " << 100 * std::max(0.0, told.share)
+       << "as predicted it explains " << 100 * std::max(0.0, told.share)
        << " % of the common squared error, at " << told.size << " times its size";
   if (!confirmation.best_rival.empty()) text << "; " << confirmation.best_rival << " explains more";
-  if (!size_fits) text << ", foretold were " << prediction.size.low << " to " << prediction.size.high;
+  if (!size_fits)
+    text << ", but the prediction was " << prediction.size.low << " to " << prediction.size.high;
   text << ".";
   confirmation.sentence = text.str();
   return confirmation;

@@ -10,7 +10,7 @@
 #include "discrepancy/prove/wording.h"
 #include "discrepancy/samples/measured.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "fsr_pressure_map/simulation/chamber_program.h"
+#include "fsr_pressure_map/simulation/chamber.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/pressure_profile.h"
 #include "simulation/read_settings.h"
@@ -237,7 +237,7 @@ std::vector<NextExperiment> nextExperiment(
   }
   std::ostringstream text;
   text.precision(2);
-  text << "Record " << best->what << ": it tells " << listText(names) << " apart by " << next.separation
+  text << "Record " << best->what << ": it distinguishes " << listText(names) << " by " << next.separation
        << " times the noise of one reading.";
   next.sentence = text.str();
   return {next};

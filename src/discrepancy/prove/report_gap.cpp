@@ -96,7 +96,8 @@ void GapReporter::holdOut(const std::string& by, const std::vector<Part>& parts,
   held.closed_interval = all.closed_interval;
   for (const auto& [part, closed] : held.parts) {
     if (closed >= kHoldsElsewhere * report_.gap.closed) continue;
-    report_.limitations.push_back("On " + part + " it holds badly: sized on all the others it closes " +
+    report_.limitations.push_back("On " + part +
+                                  " the explanation is weak: fitted to all other parts, it closes " +
                                   std::to_string(std::lround(100 * closed)) + " % of the gap there.");
   }
   report_.gap.held_out_by.push_back(by);
@@ -121,11 +122,12 @@ void GapReporter::run() {
   const GapGround ground{found_.measured, found_.fit, found_.taxels, mask, explainable, extras, found_.seed};
   report_.gap = measureGap(ground, found_.left, allCycles(found_.measured));
   holdOut("condition", surfacesWhereItShows(), ground,
-          "It shows on one surface alone, so none was held out.");
+          "The discrepancy is visible on one surface only, so no surface was held out.");
   holdOut("protocol", partsByProtocol(found_.measured), ground,
-          "All cycles are run alike, so no protocol was held out.");
+          "All cycles have the same protocol, so no protocol was held out.");
   if (report_.gap.held_out_by.size() < 2)
-    report_.gap.missing.push_back("Cycles alone are weak evidence that it holds elsewhere.");
+    report_.gap.missing.push_back(
+        "Held-out cycles alone are weak evidence for other surfaces and protocols.");
   const Trace before = found_.fit.residual(found_.common.all);
   report_.curves = residualCurves(found_.measured, before, before - found_.left);
 }

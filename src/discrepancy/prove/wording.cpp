@@ -64,16 +64,16 @@ std::string sentenceOf(const DiscrepancyReport& report) {
   for (const auto& ids : report.credible_set) sets.push_back(called(simulation::libraryOf(report.base), ids));
   switch (report.verdict) {
     case Verdict::kNone:
-      return "Among " + tested + ", none is missing that these recordings show.";
+      return "Among " + tested + ", these recordings show none that is missing.";
     case Verdict::kUnknown:
-      return "Something is missing that none of the " + tested + " explains; it depends on " +
+      return "The simulation lacks something that none of the " + tested + " explains. It depends on " +
              listText(report.depends_on) + ".";
     case Verdict::kAmbiguous:
       return "Among " + tested +
-             ", under this protocol, these are not told apart: " + listText(sets, " or ") + ".";
+             ", these cannot be distinguished under this protocol: " + listText(sets, " or ") + ".";
     case Verdict::kWrongForm:
       return "Best explanation among " + tested + ", under this protocol: " + sets.front() +
-             sizeText(report) + ", but not in the form that the library has.";
+             sizeText(report) + ", but in a form that differs from the library's.";
     case Verdict::kNotIdentifiable:
       return "These recordings cannot show " + listText(sets, " or ") + experimentsText(report) + ".";
     case Verdict::kNamed:

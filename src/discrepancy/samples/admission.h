@@ -6,7 +6,7 @@
 
 #include "dataset/reference_lag.h"
 #include "discrepancy/samples/faults.h"
-#include "fsr_pressure_map/dataset/coverage.h"
+#include "fsr_pressure_map/dataset/condition_classes.h"
 #include "health/recording_health.h"
 
 namespace fsr::discrepancy {

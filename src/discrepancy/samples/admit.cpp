@@ -43,7 +43,7 @@ void requireWhole(const dataset::Recording& recording) {
     refuse("its stamps run backwards at " + settings::roundedText(recording.time[i]) + " s, but must ascend");
   }
   if (recording.losses.counter_back > kFewRestarts) {
-    refuse("its stamps run backwards, or the board started afresh, " +
+    refuse("its stamps run backwards, or the board restarted, " +
            std::to_string(recording.losses.counter_back) +
            " times; was a clock set while it was recorded? Record it again");
   }
@@ -53,7 +53,7 @@ void requireFinite(const dataset::Recording& recording) {
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     if (std::isfinite(recording.pressure[i])) continue;
     throw settings::InputError(recording.name + ": chamber pressure at " +
-                               settings::roundedText(recording.time[i]) + " s is no number");
+                               settings::roundedText(recording.time[i]) + " s is not a number");
   }
 }
 
@@ -188,7 +188,7 @@ void appendRecording(Measured& measured, const dataset::ConditionClasses& classe
   if (!measured.time.empty() && start + recording.time.front() <= measured.time.back()) {
     start = measured.time.back() + kBetween - recording.time.front();
     measured.limitations.push_back(recording.name +
-                                   " overlaps another bag in time; it is taken to follow it.");
+                                   " overlaps another bag in time; it is treated as if it followed it.");
   }
   for (std::size_t from = 0, to = 0; from < recording.scans(); from = to) {
     while (to < recording.scans() && recording.condition[to] == recording.condition[from]) ++to;
@@ -273,14 +273,13 @@ void requireJudgeable(const Measured& measured) {
   if (*high - *low < kLeastRange) {
     throw settings::InputError(name + ": chamber pressure covers " +
                                settings::roundedText((*high - *low) * 1e-3) +
-                               " kPa, but at least 50 kPa are needed to tell anything");
+                               " kPa, but at least 50 kPa are needed");
   }
   if (measured.cycles.size() < kFewestCycles) {
-    throw settings::InputError(
-        name + ": " + std::to_string(measured.cycles.size()) +
-        (measured.cycles.size() == 1 ? " cycle" : " cycles") +
-        " of filling and venting, but at least 3 are needed: what was found must be held "
-        "against others");
+    throw settings::InputError(name + ": " + std::to_string(measured.cycles.size()) +
+                               (measured.cycles.size() == 1 ? " cycle" : " cycles") +
+                               " of filling and venting, but at least 3 are needed: some of them are "
+                               "held out");
   }
   if (measured.samples() < kFewestScans) {
     throw settings::InputError(name + ": " + std::to_string(measured.samples()) +

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "fsr_pressure_map/protocol/packet.h"
+#include "fsr_pressure_map/protocol/decoder.h"
 #include "protocol/packet_stamper.h"
 #include "ros/messages/driver_settings.h"
 

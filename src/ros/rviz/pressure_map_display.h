@@ -3,7 +3,7 @@
 #ifndef Q_MOC_RUN
 #include <fsr_pressure_map/PressureMap.h>
 
-#include "fsr_pressure_map/view/map_layer.h"
+#include "fsr_pressure_map/view/heat_map.h"
 #include "ros/rviz/sheet_display.h"
 #include "view/auto_range.h"
 #endif

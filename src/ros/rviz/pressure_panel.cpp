@@ -15,7 +15,7 @@
 #include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "fsr_pressure_map/view/pressure_scale.h"
+#include "fsr_pressure_map/view/colour_map.h"
 #include "ros/rviz/panel_text.h"
 
 namespace fsr_rviz {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/matrix/layout.h"
-#include "fsr_pressure_map/view/pressure_scale.h"
+#include "fsr_pressure_map/view/colour_map.h"
 #include "view/taxel_look.h"
 
 namespace fsr_rviz {

@@ -32,7 +32,8 @@
 #include <memory>
 #include <typeinfo>
 
-#include "fsr_pressure_map/view/pressure_scale.h"
+#include "fsr_pressure_map/view/colour_map.h"
+#include "support/source_dir.h"
 #include "view/taxel_look.h"
 
 namespace {
@@ -41,8 +42,8 @@ using fsr_pressure_map::MatrixFrame;
 using fsr_pressure_map::PressureMap;
 using fsr_pressure_map::SurfaceCurvature;
 
-const char* const kBag = FSR_SOURCE_DIR "/test/data/indenter_map.bag";
-const char* const kConfigs = FSR_SOURCE_DIR "/config/rviz";
+const std::string kBag = test_support::sourceDir() + "/test/data/indenter_map.bag";
+const QString kConfigs = QString::fromStdString(test_support::sourceDir() + "/config/rviz");
 
 template <typename Message>
 typename Message::ConstPtr lastOf(const std::string& topic) {
@@ -60,7 +61,7 @@ class Rviz : public testing::Test {
   static void SetUpTestSuite() {
     frame = new rviz::VisualizationFrame;
     frame->setSplashPath("");
-    frame->initialize(QString(kConfigs) + "/live.rviz");
+    frame->initialize(kConfigs + "/live.rviz");
     frame->resize(1280, 900);
     frame->show();
     handle = new ros::NodeHandle;
@@ -360,14 +361,14 @@ TEST_F(Rviz, HSaysThatTheFixedFrameIsWrong) {
 }
 
 TEST_F(Rviz, IOpensEveryShippedConfiguration) {
-  const QStringList files = QDir(QString(kConfigs)).entryList({"*.rviz"});
+  const QStringList files = QDir(kConfigs).entryList({"*.rviz"});
   EXPECT_GE(files.size(), 4);
   // A plugin that could not be loaded is replaced by an object that differs in its class only.
   const auto failed = [](const QObject& part) {
     return std::string(typeid(part).name()).find("Failed") != std::string::npos;
   };
   for (const QString& file : files) {
-    ASSERT_TRUE(frame->loadDisplayConfigHelper((QString(kConfigs) + "/" + file).toStdString(), true));
+    ASSERT_TRUE(frame->loadDisplayConfigHelper((kConfigs + "/" + file).toStdString(), true));
     for (const QWidget* part : frame->findChildren<QWidget*>())
       EXPECT_FALSE(failed(*part)) << qPrintable(file);
     rviz::DisplayGroup* group = frame->getManager()->getRootDisplayGroup();

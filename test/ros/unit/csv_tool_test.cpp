@@ -12,13 +12,14 @@
 
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/source_dir.h"
 
 namespace fsr_ros {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kMeasured = FSR_SOURCE_DIR "/test/data/measured/";
+const std::string kMeasured = test_support::sourceDir() + "/test/data/measured/";
 
 class CsvToBag : public testing::Test {
  protected:

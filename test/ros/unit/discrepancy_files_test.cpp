@@ -13,6 +13,7 @@
 #include "ros/tools/figure_script.h"
 #include "ros/tools/show_ledger.h"
 #include "support/example_discrepancy.h"
+#include "support/source_dir.h"
 
 namespace fsr_ros {
 namespace {
@@ -27,7 +28,7 @@ class DiscrepancyFiles : public testing::Test {
                std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder_);
     report_.base = report_.added =
-        fsr::simulation::readSimulationFile(FSR_SOURCE_DIR "/config/simulation/core.yaml");
+        fsr::simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/core.yaml");
   }
   void TearDown() override { fs::remove_all(folder_); }
 
@@ -38,7 +39,7 @@ class DiscrepancyFiles : public testing::Test {
   /// Draws the report; returns the error, or "".
   std::string draw() const {
     try {
-      runPython(FSR_SOURCE_DIR "/scripts/figures/discrepancy.py", {folder_.string()});
+      runPython(test_support::sourceDir() + "/scripts/figures/discrepancy.py", {folder_.string()});
     } catch (const fsr::settings::InputError& error) {
       return error.what();
     }

@@ -12,6 +12,7 @@
 #include "report/verdict_file.h"
 #include "ros/bags/bag_writer.h"
 #include "simulation/simulation_text.h"
+#include "support/source_dir.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr_ros {
@@ -19,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kCore = FSR_SOURCE_DIR "/config/simulation/core.yaml";
+const std::string kCore = test_support::sourceDir() + "/config/simulation/core.yaml";
 
 // Errors of the tool and the files that it leaves; the verdicts are tested in test/discrepancy.
 class DiscrepancyTool : public testing::Test {

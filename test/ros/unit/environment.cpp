@@ -5,12 +5,14 @@
 
 #include <cstdlib>
 
+#include "support/source_dir.h"
+
 namespace {
 
 class RosEnvironment : public testing::Environment {
  public:
   void SetUp() override {
-    ::setenv("ROS_PACKAGE_PATH", FSR_SOURCE_DIR, 1);
+    ::setenv("ROS_PACKAGE_PATH", test_support::sourceDir().c_str(), 1);
     ::setenv("ROS_HOME", (testing::TempDir() + "fsr_unit_ros_home").c_str(), 1);
   }
 };

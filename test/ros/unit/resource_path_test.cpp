@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "support/source_dir.h"
 
 namespace fsr_ros {
 namespace {
@@ -15,7 +16,7 @@ class ResourcePath : public testing::Test {
   void SetUp() override {
     setenv("ROS_HOME", "/var/ros", 1);
     setenv("HOME", "/home/rig", 1);
-    setenv("ROS_PACKAGE_PATH", FSR_SOURCE_DIR, 1);
+    setenv("ROS_PACKAGE_PATH", test_support::sourceDir().c_str(), 1);
   }
 };
 
@@ -34,7 +35,7 @@ TEST_F(ResourcePath, KnowsTheHomeOfRosAndOfTheUser) {
 
 TEST_F(ResourcePath, FindsAFileOfAPackage) {
   const std::string path = resolveResource("package://fsr_pressure_map/package.xml");
-  EXPECT_TRUE(std::filesystem::equivalent(path, FSR_SOURCE_DIR "/package.xml")) << path;
+  EXPECT_TRUE(std::filesystem::equivalent(path, test_support::sourceDir() + "/package.xml")) << path;
 }
 
 TEST_F(ResourcePath, RefusesRelativePathsAndUnknownSchemes) {

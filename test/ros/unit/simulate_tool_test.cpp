@@ -17,13 +17,14 @@
 #include "simulation/portrait.h"
 #include "simulation/session.h"
 #include "simulation/simulation_text.h"
+#include "support/source_dir.h"
 
 namespace fsr_ros {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kBench = FSR_SOURCE_DIR "/config/simulation/bench.yaml";
+const std::string kBench = test_support::sourceDir() + "/config/simulation/bench.yaml";
 
 class SimulateTool : public testing::Test {
  protected:

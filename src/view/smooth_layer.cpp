@@ -1,20 +1,10 @@
-#include "fsr_pressure_map/view/map_layer.h"
+#include "view/smooth_layer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "fsr_pressure_map/settings/input_error.h"
-
 namespace fsr::view {
-
-const std::vector<float>& layerOf(const map::PressureMap& map, MapLayer layer) {
-  return layer == MapLayer::kPressure ? map.pressure : map.deviation;
-}
-
-const char* name(MapLayer layer) {
-  return layer == MapLayer::kPressure ? "gauge pressure" : "standard deviation";
-}
 
 SmoothLayer::Place SmoothLayer::place(double coordinate, int count) {
   const double inside = std::clamp(coordinate, 0.0, double(count - 1));
@@ -59,15 +49,6 @@ double SmoothLayer::patched(const Place& r, const Place& c) const {
   add(r.high, c.low, r.part * (1 - c.part));
   add(r.high, c.high, r.part * c.part);
   return sum / weight;
-}
-
-void requireShowable(const map::PressureMap& map) {
-  const std::size_t n = map.layout.size.taxels();
-  if (n > 0 && map.pressure.size() == n && map.deviation.size() == n && map.flags.size() == n) return;
-  throw settings::InputError(
-      "a map of " + matrix::sizeText(map.layout.size) + " taxels has " + std::to_string(map.pressure.size()) +
-      " pressures, " + std::to_string(map.deviation.size()) + " deviations and " +
-      std::to_string(map.flags.size()) + " flags, but must have one of each for each taxel");
 }
 
 }  // namespace fsr::view

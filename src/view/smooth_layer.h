@@ -2,19 +2,9 @@
 
 #include <vector>
 
-#include "fsr_pressure_map/map/pressure_map.h"
-#include "fsr_pressure_map/view/pressure_scale.h"
+#include "fsr_pressure_map/matrix/layout.h"
 
 namespace fsr::view {
-
-/// Quantity of a map that is shown in colour.
-enum class MapLayer { kPressure, kDeviation };
-
-/// The layer's values [rows x columns], row-major [Pa], NaN = no reading.
-const std::vector<float>& layerOf(const map::PressureMap& map, MapLayer layer);
-
-/// Name for legends: "gauge pressure" or "standard deviation".
-const char* name(MapLayer layer);
 
 /// Interpolates a layer bilinearly between taxel centres. Beyond the outer centres it is constant. A point
 /// nearest to a taxel without a value is NaN; elsewhere such a taxel is left out of the interpolation. Keeps
@@ -47,8 +37,5 @@ class SmoothLayer {
   const float* values_;
   matrix::MatrixSize size_;
 };
-
-/// Throws InputError for a map without taxels or with arrays that do not fit its layout.
-void requireShowable(const map::PressureMap& map);
 
 }  // namespace fsr::view

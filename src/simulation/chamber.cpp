@@ -1,5 +1,7 @@
-#include "fsr_pressure_map/simulation/chamber_protocol.h"
+#include "fsr_pressure_map/simulation/chamber.h"
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "settings/yaml_text.h"
@@ -20,6 +22,20 @@ void require(const std::string& origin, const char* field, double value, const s
   std::ostringstream sentence;
   sentence << origin << ": " << field << " is " << value << ", but must be " << range.text();
   throw settings::InputError(sentence.str());
+}
+
+const settings::Range kCelsius{-40, 125, "degree Celsius"};
+
+std::vector<TemperaturePoint> readRoom(const settings::Settings& settings) {
+  if (!settings.isList("room")) return {{0, settings.number("room", kCelsius)}};
+  std::vector<TemperaturePoint> room;
+  for (const settings::Settings& point : settings.sections("room")) {
+    room.push_back({point.number("time", {0, 1e9, "s"}), point.number("temperature", kCelsius)});
+    if (room.size() > 1 && room.back().time <= room[room.size() - 2].time) {
+      throw point.error("time", "must be later than the time before it");
+    }
+  }
+  return room;
 }
 
 }  // namespace
@@ -79,6 +95,19 @@ PressureProfile ventingProfile(const ChamberProtocol& protocol, double pressure)
   PressureProfile profile;
   if (pressure > 0) profile.append({{0, pressure}, {pressure / protocol.vent_rate, 0}});
   return profile;
+}
+
+ChamberClimate readChamberClimate(const settings::Settings& settings) {
+  ChamberClimate climate;
+  if (settings.has("room")) climate.room = readRoom(settings);
+  climate.heating = settings.number("heating", {0, 1e-3, "K/Pa"}, climate.heating);
+  climate.cooling = settings.number("cooling", {0.1, 1e5, "s"}, climate.cooling);
+  return climate;
+}
+
+std::int32_t Transducer::counts(double gauge_pressure) const {
+  const double unrounded = std::round((gauge_pressure - low) / step());
+  return static_cast<std::int32_t>(std::clamp(unrounded, 0.0, static_cast<double>(full_counts)));
 }
 
 }  // namespace fsr::simulation

@@ -1,11 +1,10 @@
-#include "fsr_pressure_map/simulation/chamber_protocol.h"
+#include "fsr_pressure_map/simulation/chamber.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <stdexcept>
 
-#include "fsr_pressure_map/simulation/transducer.h"
 #include "simulation/pressure_profile.h"
 #include "simulation/read_settings.h"
 
