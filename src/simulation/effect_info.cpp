@@ -92,7 +92,7 @@ std::string name(ChainStage stage) {
 }
 
 std::string name(EffectLevel level) {
-  return nameOf(level, {"rig", "row", "column", "taxel", "mount"});
+  return nameOf(level, {"rig", "row", "column", "taxel", "mount", "session"});
 }
 
 std::string name(EffectKind kind) {
@@ -110,19 +110,19 @@ std::string name(SignRule sign) {
 std::string name(Covariate covariate) {
   return nameOf(covariate, {"pressure", "direction", "pressure_rate", "time_since_reversal",
                             "previous_extremes", "cycle", "accumulated_change", "clock_time", "temperature",
-                            "curvature", "mount", "row", "column", "taxel", "code", "total_load"});
+                            "curvature", "mount", "row", "column", "taxel", "code", "total_load", "session"});
 }
 
 std::string name(Evidence evidence) {
   return nameOf(evidence, {"thermometer", "mount_labels", "two_ramp_rates", "uneven_load", "second_reference",
-                           "vented_sheet", "many_cycles", "remounts", "uneven_pace"});
+                           "vented_sheet", "many_cycles", "remounts", "uneven_pace", "two_sessions"});
 }
 
 std::string name(Experiment experiment) {
   return nameOf(experiment,
                 {"none", "two_ramp_rates", "dwells", "step_and_hold", "minor_loops", "rest", "slow_start",
                  "two_ambients", "many_cycles", "remount", "flat_again", "uneven_load", "open_row",
-                 "vented_sheet", "second_reference", "indenter_and_liner", "two_humidities"});
+                 "vented_sheet", "second_reference", "indenter_and_liner", "two_humidities", "new_session"});
 }
 
 }  // namespace fsr::simulation

@@ -143,6 +143,61 @@ TEST(Creep, RefusesTimeConstantsInTheWrongOrder) {
   EXPECT_THROW(SensorChain{straightRig("  creep: {fastest: 100, slowest: 1}\n")}, InputError);
 }
 
+// --- relaxation --------------------------------------------------------------------------------------
+
+TEST(Relaxation, LosesItsShareWithOneTimeConstant) {
+  const auto readings = along("  relaxation: {relaxed_share: 0.1, fastest: 60, slowest: 60}\n", kHold, 0.1);
+  for (const double time : {10.0, 60.0, 200.0, 900.0}) {
+    const double expected = 1 - 0.1 * -std::expm1(-time / 60);
+    EXPECT_NEAR(share(readingAt(readings, time)) / 0.5, expected, 1e-4) << time;
+  }
+}
+
+// The n time constants lie two a decade: between the fastest and the slowest the reading falls by 2 g / n in
+// each decade. From 0.1 s to 1e4 s there are 11.
+TEST(Relaxation, FallsByTheSameShareInEachDecadeOfTime) {
+  const auto readings = along("  relaxation: {relaxed_share: 0.2, fastest: 0.1, slowest: 1e4}\n", kHold, 0.1);
+  const double start = share(readingAt(readings, 0.2)) / 0.5;  // perDecade() divides by it
+  EXPECT_NEAR(perDecade(readings, 3, 30) * start, -2 * 0.2 / 11, 0.02 * 2 * 0.2 / 11);
+  EXPECT_NEAR(perDecade(readings, 30, 300) * start, -2 * 0.2 / 11, 0.02 * 2 * 0.2 / 11);
+}
+
+TEST(Relaxation, RecoversAtALowerLoad) {
+  const auto readings = along("  relaxation: {relaxed_share: 0.1}\n",
+                              profile({{0, 0}, {1, 310e3}, {3000, 310e3}, {3001, 155e3}, {33000, 155e3}}), 1);
+  const double final = 0.25 * 0.9 * kStraightCounts;
+  double before = readingAt(readings, 3002).counts;
+  EXPECT_LT(before, final - 0.04 * 0.25 * kStraightCounts);
+  for (const double after : {10.0, 100.0, 1000.0}) {
+    const double now = readingAt(readings, 3000 + after).counts;
+    EXPECT_GT(now, before);
+    before = now;
+  }
+  EXPECT_NEAR(readings.back().counts, final, 1);
+}
+
+TEST(Relaxation, OpensTheLoopInTheOtherSense) {
+  const auto readings = along("  relaxation: {relaxed_share: 0.1}\n", kTwoCycles, 0.1);
+  EXPECT_GT(share(readingAt(readings, 1.25 * kCycle)), share(readingAt(readings, 1.75 * kCycle)) + 0.01);
+}
+
+TEST(Relaxation, HasAnElasticResponseWithAnExponent) {
+  const auto readings =
+      along("  relaxation: {relaxed_share: 0.1, fastest: 10, slowest: 10, exponent: 2}\n", kHold, 0.1);
+  EXPECT_NEAR(share(readings.back()) / 0.5, 1 - 0.1 * 0.5, 1e-4);  // x = 620 kPa (1/2)^2 = P_e / 2
+}
+
+TEST(Relaxation, IsTheSameAtAnyScanRate) {
+  const auto course = profile({{0, 0}, {1, 310e3}, {300, 310e3}, {301, 0}, {600, 200e3}});
+  const auto coarse = along("  relaxation: {relaxed_share: 0.3}\n", course, 1);
+  const auto fine = along("  relaxation: {relaxed_share: 0.3}\n", course, 0.1);
+  for (const Reading& reading : coarse) EXPECT_EQ(reading.counts, readingAt(fine, reading.time).counts);
+}
+
+TEST(Relaxation, RefusesTimeConstantsInTheWrongOrder) {
+  EXPECT_THROW(SensorChain{straightRig("  relaxation: {fastest: 100, slowest: 1}\n")}, InputError);
+}
+
 // --- cavity ------------------------------------------------------------------------------------------
 
 TEST(SealLeak, LosesTheLoadWithItsTimeConstant) {

@@ -138,6 +138,29 @@ TEST(ScanSkew, ReadsTaxelAfterTaxelRoundTheStamp) {
   EXPECT_NEAR(line.intercept + 34.5 * line.slope, 300.0 / 620 * kStraightCounts, 1);
 }
 
+// 1 kPa/s: after t seconds the scan shows the pressure of (1 + e) t.
+TEST(ClockRate, ReadsAheadOfItsStampsInProportionToTheTimeSinceTheFirstScan) {
+  SensorChain slow(straightRig("  clock_rate: {rate: 1e-2}\n")),
+      fast(straightRig("  clock_rate: {rate: -1e-2}\n"));
+  const auto course = profile({{0, 0}, {620, 620e3}});
+  const auto ahead = readAlong(slow, course, 1), behind = readAlong(fast, course, 1);
+  EXPECT_EQ(ahead.front().counts, 0);
+  for (const double time : {10.0, 100.0, 600.0}) {
+    EXPECT_NEAR(readingAt(ahead, time).counts, 1.01 * time / 620 * kStraightCounts, 1) << time;
+    EXPECT_NEAR(readingAt(behind, time).counts, 0.99 * time / 620 * kStraightCounts, 1) << time;
+  }
+}
+
+TEST(ClockRate, CountsFromTheFirstScanAndAddsToAConstantDelay) {
+  SensorChain chain(straightRig("  clock_rate: {rate: 1e-2}\n  time_skew: {delay: 2}\n"));
+  const fsr::simulation::PressureCourse course = [](double time) { return 1e3 * (time - 1000); };
+  for (const double elapsed : {0.0, 100.0, 300.0}) {
+    const double expected = (200 + 1.01 * elapsed - 2) / 620 * kStraightCounts;
+    const double time = 1200 + elapsed;
+    EXPECT_NEAR(chain.read({time, course(time), 0, 23, &course})[0], expected, 1) << elapsed;
+  }
+}
+
 TEST(TimeSkew, NeedsTheCourseOfThePressure) {
   SensorChain chain(straightRig("  time_skew: {delay: 0.1}\n"));
   EXPECT_THROW(chain.read({0, 100e3, 0}), std::invalid_argument);
@@ -214,6 +237,45 @@ TEST(MainsPickup, StandsStillAsAPatternOverTheRowsAtAMultipleOfTheScanRate) {
 }
 
 // --- faults ------------------------------------------------------------------------------------------
+
+// Counts of 600 taxels at 310 kPa, less those without the effect, at each time [s].
+std::vector<std::vector<double>> offsets(const std::string& effect, const std::vector<double>& times) {
+  SensorChain chain(straightRig(effect, 20, 30));
+  std::vector<std::vector<double>> result;
+  for (const double time : times) {
+    result.push_back(scanAt(chain, 310e3, time));
+    for (double& count : result.back()) count -= 0.5 * kStraightCounts;
+  }
+  return result;
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  double covariance = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    covariance += (a[i] - test_support::mean(a)) * (b[i] - test_support::mean(b)) / double(a.size());
+  return covariance / (deviation(a) * deviation(b));
+}
+
+TEST(SessionOffset, BelongsToTheTaxelAndTheSession) {
+  const auto sessions = offsets("  session_offset: {offset: 100, pause: 10}\n", {0, 1, 5, 15, 16, 600});
+  EXPECT_EQ(sessions[1], sessions[0]);
+  EXPECT_EQ(sessions[2], sessions[0]);
+  EXPECT_EQ(sessions[4], sessions[3]);  // a session begins after 10 s without a scan
+  for (const std::size_t session : {0u, 3u, 5u}) {
+    EXPECT_NEAR(test_support::mean(sessions[session]), 0, 5 * 100 / std::sqrt(600.0));
+    EXPECT_NEAR(deviation(sessions[session]), 100, 5 * 100 / std::sqrt(1200.0));
+  }
+  EXPECT_NEAR(correlation(sessions[0], sessions[3]), 0, 5 / std::sqrt(600.0));
+  EXPECT_NEAR(correlation(sessions[3], sessions[5]), 0, 5 / std::sqrt(600.0));
+}
+
+TEST(SessionOffset, IsTheSameAtAnyLoadAndAfterMountingAgain) {
+  SensorChain chain(straightRig("  session_offset: {offset: 100}\n", 2, 3));
+  const auto low = scanAt(chain, 155e3, 0);
+  chain.mount(cylinder(0.07, 2));
+  const auto high = scanAt(chain, 310e3, 1);
+  for (std::size_t i = 0; i < low.size(); ++i) EXPECT_NEAR(high[i] - low[i], 0.25 * kStraightCounts, 1);
+}
 
 TEST(DeadTaxel, ReadsNothingFromItsStartOn) {
   SensorChain chain(straightRig("  dead_taxel: {taxels: 3, first: 8, start: 100}\n", 7, 10));

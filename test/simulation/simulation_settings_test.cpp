@@ -132,7 +132,7 @@ TEST(SimulationSettings, UnknownEffectsAndKeysAreRefusedByName) {
   const std::string complaint = complaintAbout(withEffects("hysterese: {}"));
   EXPECT_EQ(
       complaint.find("my.yaml: effects.hysterese is a mapping, but no effect has that name; the effects are "
-                     "time_skew, scan_skew, "),
+                     "time_skew, clock_rate, scan_skew, "),
       0u);
   EXPECT_NE(complaintAbout(withEffects("hysteresis: {width: 0.05}")).find("effects.hysteresis.width"),
             std::string::npos);

@@ -28,8 +28,9 @@ enum class ChainStage {
   kReference,    ///< the chamber's transducer: Effect::transduce()
 };
 
-/// What has its own realisation of an effect: the whole rig, each row, column or taxel, or each mount.
-enum class EffectLevel { kRig, kRow, kColumn, kTaxel, kMount };
+/// What has its own realisation of an effect: the whole rig, each row, column or taxel, each mount, or each
+/// session.
+enum class EffectLevel { kRig, kRow, kColumn, kTaxel, kMount, kSession };
 
 /// How `discrepancy` looks for an effect in recordings.
 enum class EffectKind {
@@ -73,6 +74,7 @@ enum class Covariate {
   kTaxel,
   kCode,
   kTotalLoad,
+  kSession,  ///< the board was switched off and on in between
 };
 
 /// What the recordings must contain before an effect may be named alone.
@@ -86,6 +88,7 @@ enum class Evidence {
   kManyCycles,       ///< 10,000 and more, or so unevenly spread that they are not proportional to clock time
   kRemounts,         ///< some surface was mounted twice
   kUnevenPace,       ///< many cycles at some times and none for hours at others
+  kTwoSessions,      ///< some mount was recorded in two sessions
 };
 
 /// The experiment that shows an effect.
@@ -107,6 +110,7 @@ enum class Experiment {
   kSecondReference,
   kIndenterAndLiner,
   kTwoHumidities,
+  kNewSession,  ///< the same mount again, after the board was switched off
 };
 
 /// The role of a parameter.

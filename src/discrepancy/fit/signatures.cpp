@@ -141,7 +141,7 @@ bool sought(const simulation::EffectEntry& entry, const simulation::SimulationSe
   const bool by_derivative =
       kind == simulation::EffectKind::kAdditive || kind == simulation::EffectKind::kGrid;
   const bool left_out = std::count(leave_out.begin(), leave_out.end(), entry.info.id) > 0;
-  return by_derivative && !left_out && !settings.effect(entry.info.id) &&
+  return by_derivative && entry.info.looked_for && !left_out && !settings.effect(entry.info.id) &&
          entry.info.detector == simulation::Detector::kNone;
 }
 

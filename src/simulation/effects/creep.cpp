@@ -42,7 +42,7 @@ EffectInfo info() {
   info.sign = SignRule::kPositive;
   info.depends_on = {Covariate::kTimeSinceReversal, Covariate::kDirection, Covariate::kPressure};
   info.needs = {Evidence::kTwoRampRates};
-  info.collinear = {"hysteresis", "drift", "temperature", "seal_leak", "time_skew"};
+  info.collinear = {"hysteresis", "drift", "temperature", "seal_leak", "time_skew", "relaxation"};
   info.experiment = Experiment::kStepAndHold;
   info.mixture = true;
   info.wrong_form_like = {"hysteresis", "break_in"};

@@ -37,7 +37,8 @@ EffectInfo info() {
   info.sign = SignRule::kEither;
   info.depends_on = {Covariate::kClockTime};
   info.needs = {Evidence::kThermometer, Evidence::kUnevenPace};
-  info.collinear = {"temperature", "wear", "break_in", "creep", "seal_leak", "mains_pickup"};
+  info.collinear = {"temperature", "wear",         "break_in",   "creep",
+                    "seal_leak",   "mains_pickup", "relaxation", "session_offset"};
   info.experiment = Experiment::kRest;
   info.slow = true;
   info.any_course = true;

@@ -11,6 +11,7 @@ namespace fsr::simulation {
 // The effects, one file each in src/simulation/effects. A new effect: its file, a line here and one in
 // effectLibrary().
 EffectEntry timeSkew();
+EffectEntry clockRate();
 EffectEntry scanSkew();
 EffectEntry sealLeak();
 EffectEntry trappedGas();
@@ -20,6 +21,7 @@ EffectEntry bendingPreload();
 EffectEntry turnOn();
 EffectEntry hysteresis();
 EffectEntry creep();
+EffectEntry relaxation();
 EffectEntry bendingGain();
 EffectEntry temperature();
 EffectEntry breakIn();
@@ -33,6 +35,7 @@ EffectEntry supplyDroop();
 EffectEntry converter();
 EffectEntry drift();
 EffectEntry mainsPickup();
+EffectEntry sessionOffset();
 EffectEntry whiteNoise();
 EffectEntry saturation();
 EffectEntry stuckTaxel();

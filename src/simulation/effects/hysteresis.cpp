@@ -47,7 +47,7 @@ EffectInfo info() {
   info.sign = SignRule::kPositive;
   info.depends_on = {Covariate::kDirection, Covariate::kPressure, Covariate::kPreviousExtremes};
   info.needs = {Evidence::kTwoRampRates};
-  info.collinear = {"creep", "time_skew", "seal_leak"};
+  info.collinear = {"creep", "time_skew", "seal_leak", "relaxation"};
   info.experiment = Experiment::kTwoRampRates;
   info.mixture = true;
   return info;

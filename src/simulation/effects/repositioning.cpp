@@ -37,7 +37,7 @@ EffectInfo info() {
   };
   info.depends_on = {Covariate::kMount, Covariate::kRow, Covariate::kColumn, Covariate::kPressure};
   info.needs = {Evidence::kMountLabels};
-  info.collinear = {"bending_gain", "bending_preload", "edge_stiffness"};
+  info.collinear = {"bending_gain", "bending_preload", "edge_stiffness", "session_offset"};
   info.experiment = Experiment::kRemount;
   info.detector = Detector::kMounts;
   return info;

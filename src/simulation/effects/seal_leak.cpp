@@ -31,7 +31,7 @@ EffectInfo info() {
   };
   info.sign = SignRule::kPositive;
   info.depends_on = {Covariate::kPressure, Covariate::kTimeSinceReversal, Covariate::kClockTime};
-  info.collinear = {"creep", "drift", "hysteresis"};
+  info.collinear = {"creep", "drift", "hysteresis", "relaxation"};
   info.experiment = Experiment::kStepAndHold;
   info.mixture = true;
   return info;

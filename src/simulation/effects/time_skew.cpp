@@ -25,7 +25,7 @@ EffectInfo info() {
   info.parameters = {strength("delay", "d, stamps are late by", {-60, 60, "s"}, 0.1).within(-1, 1)};
   info.sign = SignRule::kEither;
   info.depends_on = {Covariate::kPressureRate, Covariate::kDirection};
-  info.collinear = {"hysteresis", "creep", "scan_skew"};
+  info.collinear = {"hysteresis", "creep", "scan_skew", "clock_rate", "relaxation"};
   info.experiment = Experiment::kTwoRampRates;
   return info;
 }
