@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "discrepancy/planted.h"
 #include "discrepancy/prove/gap.h"
 
@@ -16,8 +18,14 @@ TEST(Refine, AGainDoesNotExplainNoiseByDividingIt) {
   const Measured measured = admit(problem);
   const CommonTraces common = commonTraces(measured);
   const StaticFit fit(measured, CurvePer::kClass, common.all);
-  const simulation::EnabledEffect withoutGainWeights{
-      "wear", {{"loss", -0.3}, {"exponent", 0.26}, {"age", 1e6}, {"span", 620e3}}};
+  const simulation::EnabledEffect withoutGainWeights{"wear",
+                                                     {{"loss", -0.3},
+                                                      {"exponent", 0.26},
+                                                      {"age", 1e6},
+                                                      {"span", 620e3},
+                                                      {"fading", INFINITY},
+                                                      {"impulse_share", 0},
+                                                      {"cycle_duration", 73}}};
   EXPECT_LT(refine(measured, common, fit, problem.simulation, {withoutGainWeights}, true, {}).share, 0.05);
 }
 

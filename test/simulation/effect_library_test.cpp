@@ -246,6 +246,20 @@ TEST(EveryEffect, AtNeutralChangesNothingBitForBit) {
   });
 }
 
+// So simulation files that do not know these parameters give the same readings as before.
+TEST(EffectLibrary, UsesOtherFormsOfAnEffectOnlyWhereTheSettingsAskForThem) {
+  const std::vector<std::pair<std::string, std::string>> forms = {
+      {"hysteresis", "rayleigh"}, {"seal_leak", "orifice_share"}, {"temperature", "reference"},
+      {"temperature", "start"},   {"temperature", "zero_shift"},  {"wear", "fading"},
+      {"wear", "impulse_share"}};
+  for (const auto& [id, name] : forms) {
+    const EffectParameter& form = parameter(fsr::simulation::findEffect(id)->info, name);
+    EXPECT_EQ(form.usual, form.neutral) << id << "." << name;
+    EXPECT_EQ(form.role, ParameterRole::kShape) << id << "." << name;
+    EXPECT_TRUE(form.tried.empty()) << id << "." << name;
+  }
+}
+
 TEST(EveryEffect, AtItsUsualSizeDoesSomething) {
   onEvery(optional, [](const EffectEntry& entry) {
     EXPECT_NE(run(with(entry.info.id, usualValues(entry))), run(rig("", 3, 4)));

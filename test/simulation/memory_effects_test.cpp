@@ -65,13 +65,15 @@ TEST(Hysteresis, DoesNotDependOnTheRate) {
 }
 
 TEST(Hysteresis, ReturnsToTheOldBranchAfterAMinorLoop) {  // wiping-out
-  const std::string effect = "  hysteresis: {loop_width: 0.08}\n";
-  const auto straight = along(effect, profile({{0, 0}, {62, 620e3}}), 0.1);
-  const auto looped =
-      along(effect, profile({{0, 0}, {40, 400e3}, {60, 200e3}, {80, 400e3}, {102, 620e3}}), 0.1);
-  EXPECT_GT(readingAt(looped, 50).counts, readingAt(straight, 30).counts + 500);  // the loop was open
-  for (const double after : {0.0, 5.0, 22.0}) {
-    EXPECT_NEAR(readingAt(looped, 80 + after).counts, readingAt(straight, 40 + after).counts, 1);
+  for (const std::string form : {"", ", rayleigh: 1"}) {
+    const std::string effect = "  hysteresis: {loop_width: 0.08" + form + "}\n";
+    const auto straight = along(effect, profile({{0, 0}, {62, 620e3}}), 0.1);
+    const auto looped =
+        along(effect, profile({{0, 0}, {40, 400e3}, {60, 200e3}, {80, 400e3}, {102, 620e3}}), 0.1);
+    EXPECT_GT(readingAt(looped, 50).counts, readingAt(straight, 30).counts + 500);  // the loop was open
+    for (const double after : {0.0, 5.0, 22.0}) {
+      EXPECT_NEAR(readingAt(looped, 80 + after).counts, readingAt(straight, 40 + after).counts, 1);
+    }
   }
 }
 
@@ -85,8 +87,64 @@ TEST(Hysteresis, OneSidedLeavesTheFirstLoadingAloneAndOpensAsWide) {
               2 * kCount);
 }
 
+constexpr double kReach = 150e3;  // usual [Pa]
+
+/// Second pass of a cycle that is `width` [Pa] wide and has its middle at 310 kPa: width of its loop at that
+/// pressure and area of its loop, in counts and in counts times Pa.
+struct MinorLoop {
+  double width = 0;
+  double area = 0;
+};
+MinorLoop minorLoop(const std::string& effect, double width) {
+  const double low = 310e3 - width / 2, high = 310e3 + width / 2;
+  const auto readings =
+      along(effect, profile({{0, 0}, {50, high}, {150, low}, {250, high}, {350, low}, {450, high}}), 1);
+  MinorLoop loop;
+  loop.width = readingAt(readings, 300).counts - double(readingAt(readings, 400).counts);
+  for (int second = 250; second < 450; ++second) {
+    const Reading &from = readingAt(readings, second), &to = readingAt(readings, second + 1);
+    loop.area -= 0.5 * (from.counts + to.counts) * (to.pressure - from.pressure);
+  }
+  return loop;
+}
+
+// The share of the weight on plays is h = loop_width P_span / R, because the mean radius is R / 2.
+TEST(Hysteresis, ByRayleighsLawOpensWithTheSquareOfTheCycleAndItsAreaWithTheCube) {
+  const std::string effect = "  hysteresis: {loop_width: 0.2, rayleigh: 1}\n";
+  const double share = 0.2 * kStraightSpan / kReach, counts = kStraightCounts / kStraightSpan;
+  for (const double width : {40e3, 100e3, 200e3, 300e3}) {
+    const MinorLoop loop = minorLoop(effect, width);
+    EXPECT_NEAR(loop.width, share / (8 * kReach) * width * width * counts, 3) << width;
+    const double area = share / (12 * kReach) * std::pow(width, 3) * counts;
+    EXPECT_NEAR(loop.area, area, 0.01 * area) << width;
+  }
+  EXPECT_EQ(minorLoop("  hysteresis: {loop_width: 0.2}\n", 40e3).width, 0);  // narrower than any play
+}
+
+TEST(Hysteresis, ByRayleighsLawLoadsAlongAParabola) {
+  const auto readings =
+      along("  hysteresis: {loop_width: 0.2, rayleigh: 1}\n", profile({{0, 0}, {62, 620e3}, {124, 0}}), 0.1);
+  const double share = 0.2 * kStraightSpan / kReach, counts = kStraightCounts / kStraightSpan;
+  const double top = readingAt(readings, 62).counts;
+  for (const double change : {50e3, 150e3, 300e3}) {  // du = (1 - h) dP + h / (4 R) dP |dP|
+    const double expected = ((1 - share) * change + share / (4 * kReach) * change * change) * counts;
+    EXPECT_NEAR(top - readingAt(readings, 62 + change / 10e3).counts, expected, 4) << change;
+  }
+}
+
+TEST(Hysteresis, OfEitherFormHasTheSameFullLoop) {
+  for (const std::string form : {"0", "0.5", "1"}) {
+    const auto readings =
+        along("  hysteresis: {loop_width: 0.05, rayleigh: " + form + "}\n", kTwoCycles, 0.01);
+    EXPECT_NEAR(share(readingAt(readings, 1.75 * kCycle)) - share(readingAt(readings, 1.25 * kCycle)), 0.05,
+                kHalfScan)
+        << form;
+  }
+}
+
 TEST(Hysteresis, RefusesALoopThatWouldRunBackwards) {
   EXPECT_THROW(SensorChain{straightRig("  hysteresis: {loop_width: 0.5, reach: 10e3}\n")}, InputError);
+  EXPECT_THROW(SensorChain{straightRig("  hysteresis: {loop_width: 0.3, rayleigh: 1}\n")}, InputError);
 }
 
 // --- creep -------------------------------------------------------------------------------------------
@@ -216,6 +274,56 @@ TEST(SealLeak, LosesNoMoreThanTheShareThatItReaches) {
   EXPECT_NEAR(readingAt(readings, 2900).counts, 0.7 * 0.5 * kStraightCounts, 2);
 }
 
+constexpr double kAmbient = 101325;  // [Pa]
+const std::string kOrifice = "  seal_leak: {time_constant: 600, orifice_share: 1, critical_ratio: 0.5";
+
+// The chamber holds p_1 = 620 kPa gauge. While the flow is choked, the cavity fills at (1 - b) p_1 / tau.
+// Then p_cav / p_1 = b + (1 - b) sin((t - t_b) / tau), which is 1 at t_b + tau pi / 2.
+TEST(SealLeak, ThroughAnOrificeFillsEvenlyWhileChokedAndInAFiniteTime) {
+  const auto readings = along(kOrifice + "}\n", profile({{0, 620e3}, {1600, 620e3}}), 1);
+  const double upstream = 620e3 + kAmbient, rate = 0.5 * upstream / 600;
+  const double choked_until = (0.5 * upstream - kAmbient) / rate;
+  ASSERT_NEAR(choked_until, 431.4, 0.1);
+  for (const double time : {100.0, 200.0, 430.0, 500.0, 800.0, 1300.0}) {
+    const double cavity = time < choked_until
+                              ? rate * time
+                              : upstream * (0.5 + 0.5 * std::sin((time - choked_until) / 600)) - kAmbient;
+    EXPECT_NEAR(readingAt(readings, time).counts, (620e3 - cavity) / kStraightSpan * kStraightCounts, 3)
+        << time;
+  }
+  EXPECT_EQ(readingAt(readings, std::ceil(choked_until + 600 * 1.5708) + 1).counts, 0);
+}
+
+// From a full cavity at 620 kPa to 200 kPa: while choked, the absolute pressure of the cavity falls as
+// exp(-(1 - b) t / tau), here until 200 kPa + ambient is half of it, for 215 s.
+TEST(SealLeak, ThroughAnOrificeEmptiesExponentiallyWhileChoked) {
+  const auto readings = along(kOrifice + ", share: 0.3}\n",
+                              profile({{0, 620e3}, {1600, 620e3}, {1600.01, 200e3}, {2000, 200e3}}), 0.1);
+  for (const double time : {50.0, 100.0, 200.0}) {
+    const double cavity = (620e3 + kAmbient) * std::exp(-0.5 * time / 600) - kAmbient;
+    EXPECT_NEAR(readingAt(readings, 1600 + time).counts,
+                (200e3 - 0.3 * cavity) / kStraightSpan * kStraightCounts, 3)
+        << time;
+  }
+}
+
+TEST(SealLeak, ThroughAnOrificeIsTheSameAtAnyScanRate) {
+  const auto course = profile({{0, 0}, {30, 500e3}, {400, 400e3}, {420, 50e3}, {900, 50e3}});
+  const auto coarse = along(kOrifice + ", share: 0.1}\n", course, 10);
+  const auto fine = along(kOrifice + ", share: 0.1}\n", course, 0.1);
+  const double tolerance = 1e-4 * kStraightCounts;
+  for (const Reading& reading : coarse) {
+    EXPECT_NEAR(reading.counts, readingAt(fine, reading.time).counts, tolerance);
+  }
+}
+
+TEST(SealLeak, WithHardlyAnyOrificeIsLaminar) {
+  const auto laminar = along("  seal_leak: {time_constant: 600}\n", kStepAndHold, 1);
+  const auto nearly = along("  seal_leak: {time_constant: 600, orifice_share: 1e-9}\n", kStepAndHold, 1);
+  for (const Reading& reading : laminar)
+    EXPECT_NEAR(reading.counts, readingAt(nearly, reading.time).counts, 1);
+}
+
 TEST(TrappedGas, PressesBackByBoylesLawWhateverTheHistory) {
   const auto readings = along("  trapped_gas: {closing: 0.3, half_pressure: 200e3}\n", kTwoCycles, 0.01);
   // p_a (1 / (1 - c P / (P + P_h)) - 1) for P = 310e3  ->  22597.66 Pa   (Python 3.11)
@@ -265,6 +373,47 @@ TEST(Temperature, FollowsTheGasWithItsLag) {
   EXPECT_NEAR(-1 / fitLine(times, logs).slope, 60, 1);
 }
 
+TEST(Temperature, IsNominalAtItsReference) {
+  const std::string effect = "  temperature: {coefficient: 0.003, reference: 30}\n";
+  EXPECT_EQ(warm(effect, 30), 1);
+  EXPECT_NEAR(warm(effect, 31) - 1, 0.003, 0.01 * 0.003 + kCount * 2);
+  EXPECT_LT(warm(effect, 23), 1 - 0.02);
+}
+
+TEST(Temperature, ShiftsTheZeroLikeALoad) {
+  const std::string effect = "  temperature: {coefficient: 0, zero_shift: 500}\n";
+  EXPECT_NEAR((warm(effect, 33) - 1) * 310e3, 5e3, 2 * kCount * kStraightSpan);
+  SensorChain chain(straightRig(effect));
+  EXPECT_EQ(chain.read({0, 0, 0, 33})[0], std::lround(5e3 / kStraightSpan * kStraightCounts));
+}
+
+/// Time constant [s] with which the reading at 310 kPa approaches its last value after the gas has warmed
+/// from 23 to `gas` within the first second.
+double lagOf(const std::string& effect, double gas) {
+  SensorChain chain(straightRig(effect));
+  std::vector<double> readings, times, logs;
+  for (std::uint64_t second = 0; second < 1000; ++second)
+    readings.push_back(chain.read({double(second), 310e3, second, second == 0 ? 23.0 : gas})[0]);
+  for (std::size_t second = 2; second < 50; ++second) {
+    times.push_back(double(second));
+    logs.push_back(std::log(std::abs(readings[second] - readings.back())));
+  }
+  return -1 / fitLine(times, logs).slope;
+}
+
+TEST(Temperature, ShiftsTheZeroWithALagOfItsOwn) {
+  EXPECT_NEAR(lagOf("  temperature: {coefficient: 0, zero_shift: 1000, lag: 100, zero_lag: 20}\n", 33), 20,
+              0.5);
+  EXPECT_NEAR(lagOf("  temperature: {coefficient: 0.01, lag: 100, zero_lag: 20}\n", 33), 100, 5);
+}
+
+TEST(Temperature, StartsAboveTheGasAndApproachesIt) {
+  SensorChain chain(straightRig("  temperature: {coefficient: 0.01, start: 10, lag: 50}\n"));
+  EXPECT_NEAR(chain.read({0, 310e3, 0, 23})[0] / (0.5 * kStraightCounts),
+              warm("  temperature: {coefficient: 0.01}\n", 33), 2 * kCount);
+  EXPECT_NEAR(lagOf("  temperature: {coefficient: 0.01, start: 10, lag: 50}\n", 23), 50, 2);
+}
+
 TEST(BreakIn, FadesOverTheFirstCyclesAndComesBackWithEachMount) {
   SensorChain chain(straightRig("  break_in: {change: -0.04, cycles: 2}\n"));
   const fsr::simulation::PressureProfile cycles =
@@ -292,6 +441,41 @@ TEST(Wear, TakesItsShareInTenMillionCyclesAndHardlyAnyInSixty) {
   const double lost = share(readingAt(fresh, 1)) - share(readingAt(fresh, 121));
   EXPECT_GT(lost, 5e-4);
   EXPECT_LT(lost, 3e-3);
+}
+
+TEST(Wear, ThatFadesComesToItsLossAfterSomeCycles) {
+  const auto cycles = fsr::simulation::pressureProfile({620e3, 620e3, 620e3, 0, 0, 40});
+  const auto readings = along("  wear: {loss: 0.2, exponent: 1, fading: 3}\n", cycles, 0.1);
+  for (const int cycle : {0, 1, 5, 39}) {
+    const double expected = 1 - 0.2 * -std::expm1(-(cycle + 0.5) / 3);
+    EXPECT_NEAR(share(readingAt(readings, 2.0 * cycle + 1)), expected, 2 * kCount) << cycle;
+  }
+}
+
+// A triangular cycle to 620 kPa within 73 s has the impulse of 73 s at 310 kPa.
+TEST(Wear, ByImpulseGoesOnWhileThePressureIsHeld) {
+  const std::string fading = "  wear: {loss: 0.2, exponent: 1, fading: 3";
+  const auto hold = profile({{0, 310e3}, {730, 310e3}});
+  const auto by_impulse = along(fading + ", impulse_share: 1, cycle_duration: 73}\n", hold, 1);
+  for (const int cycle : {0, 1, 2, 10}) {
+    const double expected = 1 - 0.2 * -std::expm1(-cycle / 3.0);
+    EXPECT_NEAR(share(readingAt(by_impulse, 73.0 * cycle)) / 0.5, expected, 4 * kCount) << cycle;
+  }
+  EXPECT_EQ(along(fading + "}\n", hold, 1).back().counts, 0.5 * kStraightCounts);  // by path length
+}
+
+TEST(Wear, OfACycleIsTheSameByPathLengthAndByImpulse) {
+  const auto cycles = fsr::simulation::pressureProfile({620e3, 17e3, 17e3, 0, 0, 3});
+  const auto lost = [&](const std::string& form) {
+    return along("  wear: {loss: 0.2, exponent: 1, fading: 3, cycle_duration: " + std::to_string(kCycle) +
+                     ", impulse_share: " + form + "}\n",
+                 cycles, 0.01);
+  };
+  const auto path = lost("0"), both = lost("0.5"), impulse = lost("1");
+  for (const double cycle : {1.5, 2.5}) {  // the peaks, where half of the cycle is over in each form
+    EXPECT_NEAR(readingAt(impulse, cycle * kCycle).counts, readingAt(path, cycle * kCycle).counts, 5);
+    EXPECT_NEAR(readingAt(both, cycle * kCycle).counts, readingAt(path, cycle * kCycle).counts, 5);
+  }
 }
 
 TEST(Drift, MovesByItsShareAnHourAndEndsWhereItIsTold) {

@@ -127,7 +127,8 @@ struct EffectParameter {
   ParameterRole role = ParameterRole::kShape;
   settings::Range permitted;  ///< with the unit; values outside it are refused
   double usual = 0;           ///< value where the settings give none
-  /// At this value the parameter changes nothing, bit for bit. NaN for a shape.
+  /// At this value the parameter changes nothing, bit for bit. NaN for a shape, unless the shape switches to
+  /// another form of the effect: then this is the value of the usual form.
   double neutral = std::numeric_limits<double>::quiet_NaN();
   /// Range of real rigs. A fit outside it is no explanation.
   settings::Range plausible = {};
