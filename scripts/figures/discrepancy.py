@@ -177,11 +177,14 @@ def kilopascal(value):
 
 
 def gap_table(gap):
+    if gap["before"] is None:
+        return style.paragraph("The gap was not measured, because nothing was held out.")
     def interval(name):
         low, high = gap[name + "_interval"]
         return "" if low is None or not low < high else "%s to %s" % (percent(low), percent(high))
     rows = [(name, percent(gap[name]), interval(name), kilopascal(gap[name + "_pa"]))
             for name in ("before", "after", "floor")]
+    rows.append(("differences between cycles", percent(gap["floor_bracket"][1]), "", ""))
     if gap["closed"] is not None:
         rows.append(("closed", percent(gap["closed"]), interval("closed"), ""))
     return style.table(["gap", "of full scale", "95 % interval", "gauge pressure"], rows)
@@ -197,6 +200,8 @@ def item(title, text):
 
 def not_excluded(results):
     sets = [" + ".join(spelt(i) for i in ids) for ids in results["credible_set"]]
+    if results["gap"]["before"] is None:
+        return "; ".join(sets) or "any effect: nothing was held out"
     return "; ".join(sets) if sets else "none: no effect of the library explains the gap"
 
 
@@ -208,16 +213,24 @@ def not_testable(results):
 
 
 def held_out(gap):
-    closed = {held["by"]: " (closed %s)" % percent(held["closed"]) for held in gap["foretold"]}
-    parts = ", ".join(by + closed.get(by, "") for by in gap["held_out_by"]) or "nothing"
+    explained = {held["by"]: " (%s of the common trace explained)" % percent(held["closed"]) for held in gap["foretold"]}
+    parts = ", ".join(by + explained.get(by, "") for by in gap["held_out_by"]) or "nothing"
     return parts + (" (weak evidence: only cycles)" if gap["held_out_by"] == ["cycles"] else "")
 
 
 def foretold_section(results):
     rows = [(held["by"], part["part"], percent(part["closed"]))
             for held in results["gap"]["foretold"] for part in held["parts"]]
-    return [style.paragraph("Share of the gap that the effects found close on data held out; their sizes were fitted to all other data:"),
-            style.table(["held out", "", "closed"], rows)] if rows else []
+    return [style.paragraph("Share of the common trace that the effects found explain on data held out; their sizes were fitted to "
+                            "all other data:"),
+            style.table(["held out", "", "explained"], rows)] if rows else []
+
+
+def surfaces_section(results):
+    rows = [(s["surface"], percent(s["before"]), percent(s["after"])) for s in results["gap"]["surfaces"]]
+    command = [style.paragraph("This command recomputes all of these numbers:"),
+               "<pre>%s</pre>" % html.escape(results["recompute"])] if results["recompute"] else []
+    return [style.table(["surface", "gap before", "gap after"], rows)] + command if rows else []
 
 
 def opened(results):
@@ -230,19 +243,32 @@ def costs(results):
                      for u in results["in_use"])
 
 
+def verdict_words(results):
+    if results["verdict"] == "unknown" and results["gap"]["before"] is None:
+        return "unknown: nothing was held out, so no name can be proved"
+    return WORDS.get(results["verdict"], results["verdict"])
+
+
+def next_step(results):
+    if results["next_experiment"]:
+        return results["next_experiment"]["sentence"]
+    if results["gap"]["before"] is None:
+        return "record more cycles, so that some can be held out"
+    return "none is needed to separate explanations"
+
+
 def first_screen(results, figure):
-    following = results["next_experiment"]
     facts = "".join([
         item("Not excluded", not_excluded(results)),
         item("Not testable here (what would show it)", not_testable(results)),
-        item("Next experiment", following["sentence"] if following else "none is needed to separate explanations"),
+        item("Next experiment", next_step(results)),
         item("Held out by", held_out(results["gap"]) + "; looked at " + opened(results)),
         item("Largest error if it is left out", costs(results)) if results["in_use"] else "",
     ])
     caption = ("Measured minus simulated: mean with 95 % interval, before and after the effects found were added, "
-               "and its rms on hold-out data. Floor: the smallest gap that any explanation could leave")
+               "and its rms on hold-out data. Floor: noise from differences between neighbouring scans")
     return ("<div class=first><p class=verdict><b>%s.</b> %s</p><div><dl>%s</dl><div class=gap>%s</div></div>%s</div>"
-            % (html.escape(WORDS.get(results["verdict"], results["verdict"]).capitalize()),
+            % (html.escape(verdict_words(results).capitalize()),
                html.escape(results["sentence"]), facts, gap_table(results["gap"]), style.picture(figure, caption)))
 
 
@@ -310,6 +336,7 @@ def sections(results, figures):
         ("What was found", effects_section(results) + [style.paragraph(s["sentence"]) for s in results["steps"]]),
         ("Where it appears", where_section(results) if shown else []),
         ("What the residual depends on", covariates_section(results)),
+        ("Gap on each surface", surfaces_section(results)),
         ("Hold-out surfaces and protocols", foretold_section(results)),
         ("Largest errors in use", use_section(results)),
         ("All candidates", pictures((figures["candidates"], "The best explanations, alone or in pairs. Green: "

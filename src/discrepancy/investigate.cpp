@@ -10,6 +10,7 @@
 #include "discrepancy/fit/odd_taxels.h"
 #include "discrepancy/fit/taxel_curves_fit.h"
 #include "discrepancy/prove/costs_in_use.h"
+#include "discrepancy/prove/driven_gap.h"
 #include "discrepancy/prove/next_experiment.h"
 #include "discrepancy/prove/report_gap.h"
 #include "discrepancy/prove/wording.h"
@@ -61,10 +62,13 @@ class Investigation {
   void compete();
   void lookAtStaticCurves();
   void lookAtTaxels();
+  void abstainWithoutProof();
   void put();
   void startAgain();
   void putDetections();
   void show();
+  simulation::SimulationSettings withFaults(simulation::SimulationSettings settings) const;
+  void prove();
   void listNotIdentifiable();
   void answerQuestions();
   void plan();
@@ -89,6 +93,7 @@ class Investigation {
   simulation::SimulationSettings current_;  // includes all effects that were subtracted
   bool quiet_ = false;
   bool by_terms_ = false;  // the gap is that of fitted terms, not of the effects in the simulation
+  Gap of_traces_;          // of the fitted traces; for planning
   Trace left_;             // part of the common trace's residual that the effects explain
   DiscrepancyReport report_;
 };
@@ -241,6 +246,27 @@ void Investigation::lookAtTaxels() {
   if (!else_found) odd_ = findOddTaxels(measured_, *taxels_);
 }
 
+// Where nothing is held out, no name can be proved, so none is given.
+void Investigation::abstainWithoutProof() {
+  if (HoldOutView(measured_, FitView(measured_)).scans() > 0) return;
+  if (decision_.credible.empty() && detections_.empty()) return;
+  for (const Detection& detection : detections_) {
+    report_.where = detection.where;
+    for (const std::string& covariate : detection.depends_on) {
+      auto& told = decision_.depends_on;
+      if (!std::count(told.begin(), told.end(), covariate)) told.push_back(covariate);
+    }
+  }
+  detections_.clear();
+  decision_.verdict = Verdict::kUnknown;
+  decision_.credible.clear();
+  decision_.rivals.clear();
+  decision_.refined = {};
+  for (CandidateScore& candidate : decision_.candidates) {
+    if (candidate.outcome == "credible") candidate.outcome = "required_data_missing";
+  }
+}
+
 // Writes the decision on the common trace into the report.
 void Investigation::put() {
   report_.verdict = decision_.verdict;
@@ -325,9 +351,62 @@ void Investigation::show() {
   for (const Detection& more : later_) beside.insert(beside.end(), more.enable.begin(), more.enable.end());
   const double static_square = unknown_statics_ ? misfit_.rms * misfit_.rms : 0;
   const auto& options = problem_.options;
-  reportGap({measured_, common_, *fit_, *taxels_, *candidates_, decision_, detections_, beside, left_,
-             by_terms_, static_square, options.threads, options.seed},
-            report_);
+  of_traces_ = reportGap({measured_, common_, *fit_, *taxels_, *candidates_, decision_, detections_, beside,
+                          left_, by_terms_, static_square, options.threads, options.seed},
+                         report_);
+}
+
+// Adds the faults of single taxels and lines that were found. What a taxel reads while it fails is no
+// property of its static curve, so the curves are fitted together with its fault.
+simulation::SimulationSettings Investigation::withFaults(simulation::SimulationSettings settings) const {
+  for (const Detection& detection : detections_) {
+    const simulation::EffectInfo& info = measured_.info(detection.effect.id);
+    const bool fault =
+        info.kind == simulation::EffectKind::kDetector && info.level != simulation::EffectLevel::kRig;
+    for (const simulation::EnabledEffect& effect : detection.enable) {
+      if (fault) settings = withEffect(settings, effect);
+    }
+  }
+  return settings;
+}
+
+// Adds the curves of single taxels to both simulations and measures the gap of both as they are written.
+void Investigation::prove() {
+  const FitView fit(measured_);
+  const HoldOutView hold_out(measured_, fit);
+  report_.base.taxel_curves = withTaxelCurves(fit, withFaults(report_.base), "").taxel_curves;
+  report_.base.taxel_curves_file = "base_curves.csv";
+  if (report_.effects.empty()) {
+    report_.added.taxel_curves = report_.base.taxel_curves;
+    report_.added.taxel_curves_file = "simulation_curves.csv";
+  } else {
+    report_.added = withTaxelCurves(fit, report_.added, "simulation_curves.csv");
+  }
+  const bool by_chance =
+      std::any_of(report_.effects.begin(), report_.effects.end(),
+                  [&](const FoundEffect& effect) { return measured_.info(effect.id).by_chance; });
+  tell("gap", 0.97);
+  measureDrivenGap(fit, hold_out, report_.base, report_.added, fit_->slope(),
+                   !report_.effects.empty() && !by_chance, problem_.options.seed, report_.gap);
+  report_.hold_out = hold_out.spans();
+  if (!by_chance && report_.gap.after > report_.gap.before)
+    report_.limitations.push_back(
+        "With the effects that were found, the written simulation is farther from the recordings than "
+        "without them.");
+  auto& missing = report_.gap.missing;
+  if (by_chance)
+    missing.push_back(
+        "A part of what was found is random, so no simulation repeats it as it was recorded. The gap after "
+        "it "
+        "was added may be larger than before.");
+  if (hold_out.leftOut() > 0)
+    missing.push_back(std::to_string(hold_out.leftOut()) +
+                      " scans of the hold-out cycles were left out of the gap: no fitted cycle reaches their "
+                      "pressures.");
+  if (hold_out.scans() > 0) return;
+  missing = {"Nothing was held out, so no gap was measured and no effect is named: record more cycles."};
+  report_.gap.held_out_by.clear();
+  report_.gap.foretold.clear();
 }
 
 void Investigation::listNotIdentifiable() {
@@ -380,7 +459,7 @@ void Investigation::plan() {
   std::vector<std::vector<simulation::EnabledEffect>> explanations = {decision_.refined.effects};
   for (const Refined& rival : decision_.rivals) explanations.push_back(rival.effects);
   report_.next_experiment =
-      nextExperiment(report_.base, explanations, availableEvidence(measured_), report_.gap.floor);
+      nextExperiment(report_.base, explanations, availableEvidence(measured_), of_traces_.floor);
   Prediction& prediction = report_.prediction;
   prediction.effects = explanations.front();
   prediction.rivals.assign(explanations.begin() + 1, explanations.end());
@@ -418,6 +497,7 @@ DiscrepancyReport Investigation::run() {
       CovariateTests{measured_, common_, *fit_, *taxels_, *candidates_, problem_.options.seed}.run();
   lookAtStaticCurves();
   lookAtTaxels();
+  abstainWithoutProof();
   put();
   if (problem_.options.repeat) {
     repeat();
@@ -426,16 +506,15 @@ DiscrepancyReport Investigation::run() {
   }
   putDetections();
   show();
-  report_.hold_out = holdOutCycles(measured_);
   listNotIdentifiable();
   answerQuestions();
   plan();
+  tell("curves", 0.92);
+  prove();
   if (!decision_.credible.empty() && !by_terms_) {
-    report_.in_use = costsInUse(measured_, report_.base, report_.added, report_.gap.closed_interval.low);
+    report_.in_use = costsInUse(measured_, report_.base, report_.added,
+                                std::clamp(report_.gap.closed_interval.low, 0.0, 1.0));
   }
-  tell("curves", 0.95);
-  report_.base = withTaxelCurves(measured_, report_.base, "base_curves.csv");
-  report_.added = withTaxelCurves(measured_, report_.added, "simulation_curves.csv");
   if (!report_.prediction.effects.empty()) {
     report_.prediction.hash = hashOf(report_.prediction, report_.base);
   }

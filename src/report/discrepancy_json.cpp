@@ -58,6 +58,12 @@ Json json(const discrepancy::HeldOutGap& held) {
 Json json(const discrepancy::Gap& gap) {
   Json foretold = Json::array();
   for (const discrepancy::HeldOutGap& held : gap.foretold) foretold.push_back(json(held));
+  Json covered = Json::array();
+  for (const discrepancy::CoveredPressures& one : gap.covered)
+    covered.push_back({{"surface", one.surface}, {"pressure_pa", json(one.pressure)}});
+  Json surfaces = Json::array();
+  for (const discrepancy::SurfaceGap& one : gap.surfaces)
+    surfaces.push_back({{"surface", one.surface}, {"before", one.before}, {"after", one.after}});
   return {{"unit", "fraction of full scale"},
           {"before", gap.before},
           {"before_interval", json(gap.before_interval)},
@@ -65,12 +71,16 @@ Json json(const discrepancy::Gap& gap) {
           {"after_interval", json(gap.after_interval)},
           {"floor", gap.floor},
           {"floor_interval", json(gap.floor_interval)},
+          {"floor_bracket", json(gap.floor_bracket)},
           {"closed", gap.closed},
           {"closed_interval", json(gap.closed_interval)},
           {"before_pa", gap.before_pressure},
           {"after_pa", gap.after_pressure},
           {"floor_pa", gap.floor_pressure},
           {"held_out_by", gap.held_out_by},
+          {"surfaces", surfaces},
+          {"covered", covered},
+          {"left_out", gap.left_out},
           {"foretold", foretold},
           {"missing", gap.missing}};
 }
@@ -129,6 +139,7 @@ std::string discrepancyJson(const discrepancy::DiscrepancyReport& report) {
                     {"covariates", list(report.covariates)},
                     {"where", json(report.where)},
                     {"gap", json(report.gap)},
+                    {"recompute", report.recompute},
                     {"in_use", list(report.in_use)},
                     {"next_experiment",
                      report.next_experiment.empty() ? Json(nullptr) : json(report.next_experiment.front())},

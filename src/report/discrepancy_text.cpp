@@ -29,9 +29,11 @@ std::string gapPart(double value, double pressure) {
 }
 
 std::string gapLine(const discrepancy::Gap& gap) {
+  if (!std::isfinite(gap.before)) return "Gap: not measured.\n";
   std::string text = "Gap, rms on hold-out data: " + gapPart(gap.before, gap.before_pressure) + " before, " +
                      gapPart(gap.after, gap.after_pressure) + " after, floor " +
-                     gapPart(gap.floor, gap.floor_pressure);
+                     gapPart(gap.floor, gap.floor_pressure) + " (neighbouring scans; between cycles " +
+                     gapPart(gap.floor_bracket.high, NAN) + ")";
   if (std::isfinite(gap.closed)) {
     text += "; closed " + number(kPercent * gap.closed, 0) + " %";
     if (std::isfinite(gap.closed_interval.low)) {
@@ -42,14 +44,23 @@ std::string gapLine(const discrepancy::Gap& gap) {
   return text + ".\n" + (gap.held_out_by.empty() ? "" : "Held out by: " + joined(gap.held_out_by) + ".\n");
 }
 
-// "Gap closed on each condition with sizes fitted to the others: 93 % (flat 95 %, cylinder_5cm 90 %)."
+// "Common trace explained on each condition with sizes fitted to the others: 93 % (flat 95 %, bent 90 %)."
 std::string foretoldLine(const discrepancy::HeldOutGap& held) {
   std::vector<std::string> parts;
   for (const auto& [part, closed] : held.parts)
     parts.push_back(part + " " + number(kPercent * closed, 0) + " %");
-  return "Gap closed on each " + held.by +
+  return "Common trace explained on each " + held.by +
          " with sizes fitted to the others: " + number(kPercent * held.closed, 0) + " % (" + joined(parts) +
          ").\n";
+}
+
+// "On each surface: flat 0.95 % FS before, 0.20 % FS after; ..."
+std::string surfacesLine(const std::vector<discrepancy::SurfaceGap>& surfaces) {
+  std::vector<std::string> parts;
+  for (const discrepancy::SurfaceGap& one : surfaces)
+    parts.push_back(one.surface + " " + gapPart(one.before, NAN) + " before, " + gapPart(one.after, NAN) +
+                    " after");
+  return parts.size() < 2 ? "" : "On each surface: " + joined(parts, "; ") + ".\n";
 }
 
 std::string useLine(const std::vector<discrepancy::GapInUse>& costs) {
@@ -98,7 +109,9 @@ std::string interval(const discrepancy::FittedParameter& parameter) {
 }  // namespace
 
 std::string discrepancyText(const discrepancy::DiscrepancyReport& report) {
-  std::string text = report.sentence + "\n" + notExcluded(report) + notTestable(report) + gapLine(report.gap);
+  std::string text = report.sentence + "\n" + notExcluded(report) + notTestable(report) +
+                     gapLine(report.gap) + surfacesLine(report.gap.surfaces);
+  if (!report.recompute.empty()) text += "Recompute the gap: " + report.recompute + "\n";
   for (const discrepancy::HeldOutGap& held : report.gap.foretold) text += foretoldLine(held);
   text += useLine(report.in_use);
   for (const std::string& missing : report.gap.missing) text += missing + "\n";

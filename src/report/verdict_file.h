@@ -19,9 +19,11 @@ namespace fsr::report {
 ///     not_identifiable: [{id: crosstalk, experiment: uneven_load}]
 ///     where: {taxels: all, conditions: all, pressure: [0, 620000], direction: both, time: all}
 ///     gap: {before: 0.031, ..., closed_interval: [0.9, 0.94], unit: fraction of full scale, ...}
-///     hold_out:                     # the gap is measured on these cycles: stamps of the first and last scan
-///     [s]
+///                                   # surfaces: [{surface: flat, before: 0.03, after: 0.007}]
+///                                   # covered: [{surface: flat, pressure: [0, 620000]}], left_out: 0
+///     hold_out:                     # the gap is measured on these spans: stamps of first and last scan [s]
 ///       - {file: 1_flat.bag, cycles: [[946684875.100000000, 946684950.000000000]]}
+///     recompute: rosrun ...         # the command that recomputes the gap
 ///     next_experiment: null         # or {protocol: two_speeds, sentence: ..., separation: 6.2}
 ///     seed: 1
 ///     version: 0.1.0
@@ -36,6 +38,9 @@ struct VerdictFile {
   std::vector<std::string> effects;  ///< ids
   std::vector<std::vector<std::string>> credible_set;
   std::vector<discrepancy::InputUse> inputs;
+  double gap_before = 0, gap_after = 0;  ///< as stated [share of full scale]; NaN where null
+  std::vector<discrepancy::SurfaceGap> gap_surfaces;
+  std::vector<discrepancy::HoldOutCycles> hold_out;  ///< stamps to the nanosecond
   std::uint64_t seed = 0;
   std::string version;
 };

@@ -1,6 +1,10 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/verdict_file.h"
@@ -120,14 +124,58 @@ std::vector<discrepancy::InputUse> readInputs(const Mapping& file) {
   return inputs;
 }
 
-void requireHoldOut(const Mapping& file) {
-  using Cycles = std::vector<std::pair<double, double>>;
+// Nanoseconds of a stamp in seconds. A floating point number would lose the last of them.
+std::optional<std::int64_t> stampOf(const std::string& text) {
+  constexpr std::size_t kSeconds = 10, kDigits = 9;  // before and after the point
+  const std::size_t point = std::min(text.find('.'), text.size());
+  std::string digits = text.substr(0, point) + (point < text.size() ? text.substr(point + 1) : "");
+  const std::size_t fraction = digits.size() - point;
+  const bool number = !digits.empty() && point <= kSeconds && fraction <= kDigits &&
+                      std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (!number) return std::nullopt;
+  digits.append(kDigits - fraction, '0');
+  const std::uint64_t stamp = std::stoull(digits);  // of 19 digits, so it fits
+  if (stamp > std::numeric_limits<std::int64_t>::max()) return std::nullopt;
+  return static_cast<std::int64_t>(stamp);
+}
+
+std::vector<discrepancy::HoldOutCycles> readHoldOut(const Mapping& file) {
+  using Cycles = std::vector<std::pair<std::string, std::string>>;
+  const std::string kind = "a list of [first, last] stamps";
+  std::vector<discrepancy::HoldOutCycles> bags;
   for (const Mapping& bag : file.list("hold_out", {"file", "cycles"})) {
-    bag.as<std::string>("file", "text");
-    for (const auto& [first, last] : bag.as<Cycles>("cycles", "a list of [first, last] stamps")) {
-      if (first > last) bag.fail("cycles", "must have no cycle that ends before it begins");
+    bags.push_back({bag.as<std::string>("file", "text"), {}});
+    for (const auto& [first, last] : bag.as<Cycles>("cycles", kind)) {
+      const auto from = stampOf(first), to = stampOf(last);
+      if (!from || !to) bag.fail("cycles", "must be " + kind);
+      if (*from > *to) bag.fail("cycles", "must have no cycle that ends before it begins");
+      bags.back().cycles.emplace_back(*from, *to);
     }
   }
+  return bags;
+}
+
+double statedGap(const Mapping& file, const std::string& key) {
+  const YAML::Node gap = file["gap"];
+  if (!gap.IsMap() || !gap[key]) file.fail("gap", "must be a mapping with the keys before and after");
+  if (gap[key].IsNull()) return NAN;
+  try {
+    return gap[key].as<double>();
+  } catch (const YAML::Exception&) {
+    file.fail("gap." + key, "must be a number or null");
+  }
+}
+
+std::vector<discrepancy::SurfaceGap> statedSurfaces(const Mapping& file) {
+  std::vector<discrepancy::SurfaceGap> surfaces;
+  try {
+    for (const YAML::Node& one : file["gap"]["surfaces"])
+      surfaces.push_back(
+          {one["surface"].as<std::string>(), one["before"].as<double>(), one["after"].as<double>()});
+  } catch (const YAML::Exception&) {
+    file.fail("gap.surfaces", "must be a list of mappings with surface, before and after");
+  }
+  return surfaces;
 }
 
 }  // namespace
@@ -135,7 +183,7 @@ void requireHoldOut(const Mapping& file) {
 VerdictFile readVerdict(const std::string& path) {
   const Mapping file(path, load(path), "",
                      {"verdict", "effects", "credible_set", "depends_on", "not_identifiable", "where", "gap",
-                      "hold_out", "next_experiment", "seed", "version", "inputs"});
+                      "hold_out", "recompute", "next_experiment", "seed", "version", "inputs"});
   VerdictFile verdict;
   verdict.verdict = file.as<std::string>("verdict", "text");
   requireVerdict(file, verdict.verdict);
@@ -147,7 +195,10 @@ VerdictFile readVerdict(const std::string& path) {
   }
   file.as<std::vector<std::string>>("depends_on", "a list of covariates");
   file.list("not_identifiable", {"id", "experiment"});
-  requireHoldOut(file);
+  verdict.hold_out = readHoldOut(file);
+  verdict.gap_before = statedGap(file, "before");
+  verdict.gap_after = statedGap(file, "after");
+  verdict.gap_surfaces = statedSurfaces(file);
   verdict.seed = file.as<std::uint64_t>("seed", "a whole number");
   verdict.version = file.as<std::string>("version", "text");
   verdict.inputs = readInputs(file);

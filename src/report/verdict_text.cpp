@@ -66,15 +66,36 @@ std::string whereText(const discrepancy::WhereItShows& where) {
          "\n";
 }
 
+std::string coveredText(const std::vector<discrepancy::CoveredPressures>& covered) {
+  std::vector<std::string> items;
+  for (const discrepancy::CoveredPressures& one : covered)
+    items.push_back(yaml::map({{"surface", yaml::text(one.surface)},
+                               {"pressure", yaml::pair(one.pressure.low, one.pressure.high)}}));
+  return yaml::list(items);
+}
+
+std::string surfacesText(const std::vector<discrepancy::SurfaceGap>& surfaces) {
+  std::vector<std::string> items;
+  for (const discrepancy::SurfaceGap& one : surfaces)
+    items.push_back(yaml::map({{"surface", yaml::text(one.surface)},
+                               {"before", yaml::number(one.before)},
+                               {"after", yaml::number(one.after)}}));
+  return yaml::list(items);
+}
+
 std::string gapText(const discrepancy::Gap& gap) {
   return "gap: " +
          yaml::map({{"before", yaml::number(gap.before)},
                     {"after", yaml::number(gap.after)},
                     {"floor", yaml::number(gap.floor)},
+                    {"floor_bracket", yaml::pair(gap.floor_bracket.low, gap.floor_bracket.high)},
                     {"closed", yaml::number(gap.closed)},
                     {"closed_interval", yaml::pair(gap.closed_interval.low, gap.closed_interval.high)},
                     {"unit", "fraction of full scale"},
-                    {"held_out_by", yaml::texts(gap.held_out_by)}}) +
+                    {"held_out_by", yaml::texts(gap.held_out_by)},
+                    {"surfaces", surfacesText(gap.surfaces)},
+                    {"covered", coveredText(gap.covered)},
+                    {"left_out", std::to_string(gap.left_out)}}) +
          "\n";
 }
 
@@ -128,9 +149,10 @@ std::string verdictText(const discrepancy::DiscrepancyReport& report) {
          effectsText(report.effects) + credibleText(report.credible_set) +
          "depends_on: " + yaml::texts(report.depends_on) + "\n" +
          notIdentifiableText(report.not_identifiable) + (shows ? whereText(report.where) : "where: null\n") +
-         gapText(report.gap) + holdOutText(report.hold_out) + nextText(report.next_experiment) +
-         "seed: " + std::to_string(report.seed) + "\nversion: " + yaml::text(report.version) + "\n" +
-         inputsText(report.inputs);
+         gapText(report.gap) + holdOutText(report.hold_out) +
+         "recompute: " + (report.recompute.empty() ? "null" : yaml::text(report.recompute)) + "\n" +
+         nextText(report.next_experiment) + "seed: " + std::to_string(report.seed) +
+         "\nversion: " + yaml::text(report.version) + "\n" + inputsText(report.inputs);
 }
 
 }  // namespace fsr::report

@@ -6,6 +6,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
+#include "simulation/effects/enabled_effects.h"
 
 namespace fsr::simulation {
 
@@ -75,7 +76,13 @@ SensorChain::SensorChain(const SimulationSettings& settings)
     if (!enabled || entry.info.stage == ChainStage::kReference) continue;
     links_.push_back({enabled->id, entry.info.stage,
                       entry.make(enabled->values, {settings.layout, settings.seed}),
-                      actingOn(*enabled, layout_.size.taxels()), enabled->only_surfaces});
+                      actingOn(*enabled, layout_.size.taxels()), enabled->only_surfaces,
+                      entry.info.required && entry.info.stage == ChainStage::kConductance});
+  }
+  if (curves_) {
+    for (const TaxelCurves::OnSurface& surface : curves_->surfaces)
+      load_curves_.emplace_back(surface, curves_->taxels);
+    siemens_ = 1 / converterOf(settings).values.at("feedback_resistance");
   }
   const std::vector<double> zeros(layout_.size.taxels());
   before_ = signals_ = {0, zeros, zeros, zeros, zeros, zeros};
@@ -92,7 +99,7 @@ void SensorChain::mount(const matrix::Surface& surface, const LoadPattern& patte
     link.here = link.surfaces.empty() || std::count(link.surfaces.begin(), link.surfaces.end(), surface.name);
   }
   share_ = mounting.share;
-  if (curves_) on_surface_ = &curves_->nearest(mounting.curvature.front());
+  if (curves_) on_surface_ = curves_->nearestIndex(mounting.curvature.front());
 }
 
 RigSample SensorChain::clocked(const RigSample& sample) {
@@ -111,9 +118,11 @@ void SensorChain::load(const RigSample& sample) {
   }
 }
 
-void SensorChain::addCurves(double pressure) {
+// The deviations belong to the static curve: gain, faults and read-out act on both.
+void SensorChain::addToConductance() {
+  const LoadCurves& curves = load_curves_[on_surface_];
   for (std::size_t i = 0; i < share_.size(); ++i) {
-    signals_.reading[i] += full_scale_ * addedAt(*on_surface_, share_.size(), i, share_[i] * pressure);
+    signals_.conductance[i] += siemens_ * signals_.gain[i] * curves.at(i, signals_.load[i]);
   }
 }
 
@@ -145,8 +154,10 @@ const std::vector<std::uint16_t>& SensorChain::read(const RigSample& stamped) {
     sample.pressure = pressureAt(sample, sample.time);
   }
   load(sample);
-  for (; link != links_.end(); ++link) apply(*link, sample);
-  if (on_surface_ != nullptr) addCurves(sample.pressure);
+  for (; link != links_.end(); ++link) {
+    apply(*link, sample);
+    if (link->is_static_curve && curves_) addToConductance();
+  }
   const double full_scale = full_scale_;
   for (std::size_t i = 0; i < counts_.size(); ++i) {
     counts_[i] = static_cast<std::uint16_t>(std::lround(std::clamp(signals_.reading[i], 0.0, full_scale)));

@@ -40,6 +40,9 @@ class SensorChain {
   /// All signals of the last scan. Load and gain are the inputs of the static curve.
   const TaxelSignals& signals() const { return signals_; }
 
+  /// Index of the surface of TaxelCurves that was used for the last scan.
+  std::size_t curvesSurface() const { return on_surface_; }
+
   std::uint16_t fullScale() const { return full_scale_; }
 
   ChainState state() const;
@@ -55,21 +58,24 @@ class SensorChain {
     std::unique_ptr<Effect> effect;
     std::vector<std::uint8_t> acts;     // [taxels]; empty = everywhere
     std::vector<std::string> surfaces;  // empty = all
+    bool is_static_curve = false;       // the deviations of the taxels follow it
     bool here = true;                   // on the surface where the matrix lies
     bool confined() const { return !here || !acts.empty(); }
   };
   void apply(Link& link, const RigSample& sample);
   RigSample clocked(const RigSample& sample);
   void load(const RigSample& sample);
-  void addCurves(double pressure);
+  void addToConductance();
 
   matrix::Layout layout_;
   std::uint16_t full_scale_;
   std::vector<Link> links_;  // in the order in which they act
   std::shared_ptr<const TaxelCurves> curves_;
-  const TaxelCurves::OnSurface* on_surface_ = nullptr;  // of `curves_`, where it lies now
-  std::vector<double> share_;                           // [taxels], of the chamber's pressure
-  std::vector<double> clock_;                           // whether a scan was read, and when the last one [s]
+  std::vector<LoadCurves> load_curves_;  // of each surface of `curves_`
+  std::size_t on_surface_ = 0;           // index of the surface in `curves_` where the sheet lies now
+  double siemens_ = 0;                   // conductance of a reading of full scale [S]
+  std::vector<double> share_;            // [taxels], of the chamber's pressure
+  std::vector<double> clock_;            // whether a scan was read, and when the last one [s]
   TaxelSignals signals_;
   TaxelSignals before_;  // an effect that acts on some taxels only
   std::vector<std::uint16_t> counts_;

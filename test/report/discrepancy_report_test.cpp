@@ -23,15 +23,22 @@ TEST(DiscrepancyText, ListsWhatIsNotExcludedAndWhatIsNotTestable) {
       {"Best explanation among 23 effects tested", "Not excluded: hysteresis | hysteresis + creep.",
        "crosstalk (uneven_load), wear (many_cycles)",
        "3.10 % FS (19.2 kPa) before, 0.80 % FS (5.0 kPa) after, floor 0.60 % FS (3.7 kPa)",
+       "between cycles 0.71 % FS",
+       "On each surface: flat 3.00 % FS before, 0.70 % FS after; cylinder_7cm 3.20 % FS before",
+       "Recompute the gap: rosrun fsr_pressure_map simulate --gap found/verdict.yaml --drive 1_flat.bag",
        "closed 92 % (90 to 94 %)", "Held out by: cycles, condition",
-       "Gap closed on each condition with sizes fitted to the others: 88 % (flat 90 %, cylinder_7cm 86 %)",
+       "Common trace explained on each condition with sizes fitted to the others: 88 % (flat 90 %, "
+       "cylinder_7cm 86 %)",
        "21.0 kPa in a ramp (5.0 with it)", "Next experiment: Run five cycles", "used 3 times"});
 }
 
 TEST(DiscrepancyText, LeavesOutAbsentParts) {
   const discrepancy::DiscrepancyReport nothing;
   const std::string text = discrepancyText(nothing);
-  for (const char* part : {"Not excluded", "Not testable", "Next experiment", "times by now", "Held out"})
+  EXPECT_NE(text.find("Gap: not measured."), std::string::npos);
+  EXPECT_EQ(text.find("0.00"), std::string::npos) << text;
+  for (const char* part : {"Recompute", "On each surface", "Not excluded", "Not testable", "Next experiment",
+                           "times by now", "Held out"})
     EXPECT_EQ(text.find(part), std::string::npos) << part;
 }
 
@@ -39,6 +46,11 @@ TEST(DiscrepancyJson, HasEveryNumberAndNullForNone) {
   const auto json = nlohmann::json::parse(discrepancyJson(exampleDiscrepancy()));
   EXPECT_EQ(json["verdict"], "named");
   EXPECT_EQ(json["gap"]["before"], 0.031);
+  EXPECT_EQ(json["gap"]["floor_bracket"][1], 0.0071);
+  EXPECT_EQ(json["gap"]["surfaces"][1]["after"], 0.009);
+  EXPECT_EQ(json["gap"]["covered"][1]["pressure_pa"][1], 615e3);
+  EXPECT_EQ(json["gap"]["left_out"], 12);
+  EXPECT_EQ(json["recompute"].get<std::string>().find("rosrun"), 0u);
   EXPECT_EQ(json["gap"]["closed_interval"][1], 0.94);
   EXPECT_EQ(json["effects"][0]["parameters"][0]["interval"][0], 0.058);
   EXPECT_EQ(json["candidates"].size(), 3u);
@@ -46,6 +58,7 @@ TEST(DiscrepancyJson, HasEveryNumberAndNullForNone) {
   EXPECT_EQ(json["gap"]["foretold"][0]["parts"][1]["part"], "cylinder_7cm");
   EXPECT_EQ(json["curves"][0]["at"].size(), 20u);
   const discrepancy::DiscrepancyReport nothing;
+  EXPECT_TRUE(nlohmann::json::parse(discrepancyJson(nothing))["gap"]["before"].is_null());
   EXPECT_TRUE(json["in_use"][2]["after_pa"].is_null());
   EXPECT_EQ(json["inputs"][1]["show_opened"], 3);
   EXPECT_TRUE(nlohmann::json::parse(discrepancyJson(nothing))["next_experiment"].is_null());

@@ -52,10 +52,11 @@ credible_set: [[hysteresis], [hysteresis, creep]]
 depends_on: [direction, pressure]
 not_identifiable: [{id: crosstalk, experiment: uneven_load}, {id: wear, experiment: many_cycles}]
 where: {taxels: [0, 3], conditions: [flat, cylinder_7cm], pressure: [50000, 400000], direction: both, time: all}
-gap: {before: 0.031, after: 0.008, floor: 0.006, closed: 0.92, closed_interval: [0.9, 0.94], unit: fraction of full scale, held_out_by: [cycles, condition]}
+gap: {before: 0.031, after: 0.008, floor: 0.006, floor_bracket: [0.006, 0.0071], closed: 0.92, closed_interval: [0.9, 0.94], unit: fraction of full scale, held_out_by: [cycles, condition], surfaces: [{surface: flat, before: 0.03, after: 0.007}, {surface: cylinder_7cm, before: 0.032, after: 0.009}], covered: [{surface: flat, pressure: [0, 620000]}, {surface: cylinder_7cm, pressure: [0, 615000]}], left_out: 12}
 hold_out:
   - {file: "1_flat.bag", cycles: [[946684875.100000000, 946684950.000000000]]}
   - {file: "2_bent.bag", cycles: [[946685000.000000001, 946685074.900000000], [946685150.000000000, 946685224.900000000]]}
+recompute: rosrun fsr_pressure_map simulate --gap found/verdict.yaml --drive 1_flat.bag 2_bent.bag
 )";
   const std::string text = verdictText(exampleDiscrepancy());
   const std::size_t begin = text.find("verdict:"), end = text.find("next_experiment:");
@@ -65,13 +66,14 @@ hold_out:
 TEST(VerdictText, HasNullForAbsentValues) {
   discrepancy::DiscrepancyReport report;
   report.sentence = "Nothing: \"noise\" alone.";
-  report.gap.closed = NAN;
-  report.gap.closed_interval = {NAN, NAN};
   report.version = "0.1.0";
   const YAML::Node yaml = YAML::Load(verdictText(report));
   EXPECT_EQ(yaml["verdict"].as<std::string>(), "none");
   EXPECT_TRUE(yaml["where"].IsNull());
   EXPECT_TRUE(yaml["next_experiment"].IsNull());
+  EXPECT_TRUE(yaml["gap"]["before"].IsNull());
+  EXPECT_TRUE(yaml["gap"]["floor_bracket"].IsNull());
+  EXPECT_TRUE(yaml["recompute"].IsNull());
   EXPECT_TRUE(yaml["gap"]["closed"].IsNull());
   EXPECT_TRUE(yaml["gap"]["closed_interval"].IsNull());
   EXPECT_TRUE(yaml["effects"].IsSequence());
@@ -109,6 +111,14 @@ TEST_F(VerdictOnDisk, ReadsBackTheSame) {
   EXPECT_EQ(verdict.inputs[1].sha256, report.inputs[1].sha256);
   EXPECT_EQ(verdict.inputs[1].hold_out_opened, 3);
   EXPECT_EQ(verdict.version, "0.1.0");
+  EXPECT_EQ(verdict.gap_before, 0.031);
+  EXPECT_EQ(verdict.gap_after, 0.008);
+  ASSERT_EQ(verdict.gap_surfaces.size(), 2u);
+  EXPECT_EQ(verdict.gap_surfaces[1].surface, "cylinder_7cm");
+  EXPECT_EQ(verdict.gap_surfaces[1].after, 0.009);
+  ASSERT_EQ(verdict.hold_out.size(), 2u);
+  EXPECT_EQ(verdict.hold_out[1].file, "2_bent.bag");
+  EXPECT_EQ(verdict.hold_out[1].cycles, report.hold_out[1].cycles) << "to the nanosecond";
 }
 
 TEST_F(VerdictOnDisk, RefusalsNameTheFieldAndWhatWouldBeRight) {
@@ -124,6 +134,10 @@ TEST_F(VerdictOnDisk, RefusalsNameTheFieldAndWhatWouldBeRight) {
       {"cycles: [[946684875.100000000, 946684950.000000000]]", "cycles: 3", "hold_out[0].cycles", "stamps"},
       {"[946684875.100000000, 946684950.000000000]", "[946684950.0, 946684875.1]", "hold_out[0].cycles",
        "ends before"},
+      {"[946684875.100000000, ", "[now, ", "hold_out[0].cycles", "stamps"},
+      {"[946684875.100000000, ", "[99999999999.0, ", "hold_out[0].cycles", "stamps"},
+      {"before: 0.031", "before: large", "gap.before", "number or null"},
+      {"{surface: flat, before: 0.03,", "{surface: flat, before: low,", "gap.surfaces", "before and after"},
       {"show_opened: 3", "show_opened: -3", "inputs[1].show_opened", "0 or more"},
       {"sha256: \"bb", "sha256: \"b", "inputs[1].sha256", "64"},
   };

@@ -35,6 +35,10 @@ fsr::discrepancy::Gap gap() {
   gap.before_pressure = 19220;
   gap.after_pressure = 4960;
   gap.floor_pressure = 3720;
+  gap.floor_bracket = {0.006, 0.0071};
+  gap.surfaces = {{"flat", 0.03, 0.007}, {"cylinder_7cm", 0.032, 0.009}};
+  gap.covered = {{"flat", {0, 620e3}}, {"cylinder_7cm", {0, 615e3}}};
+  gap.left_out = 12;
   gap.held_out_by = {"cycles", "condition"};
   gap.foretold = {{"condition", 0.88, {0.84, 0.91}, {{"flat", 0.9}, {"cylinder_7cm", 0.86}}}};
   gap.missing = {"No second protocol was recorded, so none was held out."};
@@ -70,6 +74,8 @@ fsr::discrepancy::DiscrepancyReport exampleDiscrepancy() {
   report.where.conditions = {"flat", "cylinder_7cm"};
   report.where.pressure = {50e3, 400e3};
   report.gap = gap();
+  report.recompute =
+      "rosrun fsr_pressure_map simulate --gap found/verdict.yaml --drive 1_flat.bag 2_bent.bag";
   report.hold_out = {
       {"1_flat.bag", {{946684875100000000, 946684950000000000}}},
       {"2_bent.bag", {{946685000000000001, 946685074900000000}, {946685150000000000, 946685224900000000}}}};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -26,6 +28,9 @@ struct DiscrepancyProblem {
   simulation::SimulationSettings simulation;
   std::vector<dataset::Recording> recordings;  ///< one for each bag, all of one matrix
   DiscrepancyOptions options;
+  /// The same recordings with the scans near a change of surface, which `recordings` leave out. Simulations
+  /// are driven through them, as `simulate --drive` does. Empty = `recordings` have every scan.
+  std::vector<dataset::Recording> whole = {};
 };
 
 enum class Verdict { kNone, kUnknown, kAmbiguous, kWrongForm, kNamed, kNotIdentifiable };
@@ -84,29 +89,55 @@ struct WhereItShows {
 
 /// Share of the gap that is closed on parts that the sizes of the effects were not fitted to. Each surface is
 /// predicted from the other surfaces, or each protocol from the other protocols. The choice of the effects
-/// and the static curves used all parts.
+/// and the static curves used all parts. These shares are of traces that are fitted to the mean over the
+/// taxels; they are not recomputed by driving the written simulations, as Gap::closed is.
 struct HeldOutGap {
   std::string by;     ///< condition, protocol
-  double closed = 0;  ///< see Gap; over all parts
+  double closed = 0;  ///< over all parts
   Interval closed_interval;
   std::vector<std::pair<std::string, double>>
       parts;  ///< each part that was left out, with the share that is closed there
 };
 
-/// Distance between simulation and measurement, as root mean square over scans and taxels [share of full
-/// scale], on the hold-out cycles.
+/// Range of pressures on a surface [Pa].
+struct CoveredPressures {
+  std::string surface;
+  Interval pressure;  ///< gauge
+};
+
+/// Gap on the hold-out scans of one surface [share of full scale].
+struct SurfaceGap {
+  std::string surface;
+  double before = NAN;
+  double after = NAN;
+};
+
+/// Distance between simulation and measurement, as root mean square over the taxels that its bag does not
+/// mask and the scans in DiscrepancyReport::hold_out [share of full scale]. Simulated are the counts of
+/// `simulate --drive` without white noise: with `base` before, with `added` after. NaN where nothing was held
+/// out.
 struct Gap {
-  double before = 0;
-  double after = 0;
-  double floor = 0;   ///< noise floor: no explanation can be better
-  double closed = 0;  ///< (before^2 - after^2) / (before^2 - floor^2); NaN where that is not defined
-  Interval before_interval, after_interval, floor_interval, closed_interval;
-  double before_pressure = 0;  ///< the same as a pressure, by the local slope of the static curves [Pa]
-  double after_pressure = 0;
-  double floor_pressure = 0;
-  std::vector<std::string> held_out_by;  ///< of cycles, condition, protocol
-  std::vector<HeldOutGap> foretold;      ///< for condition and protocol
-  std::vector<std::string> missing;      ///< sentences: kinds of data of which nothing could be held out
+  double before = NAN;
+  double after = NAN;
+  double floor = NAN;  ///< noise that no explanation can remove: the lower end of `floor_bracket`
+  /// (before^2 - after^2) / (before^2 - floor^2); may be below 0 or above 1. NaN where no effect was added,
+  /// or one that comes and goes at random.
+  double closed = NAN;
+  Interval before_interval{NAN, NAN}, after_interval{NAN, NAN}, floor_interval{NAN, NAN},
+      closed_interval{NAN, NAN};
+  double before_pressure = NAN;  ///< the same as a pressure, by the local slope of the static curves [Pa]
+  double after_pressure = NAN;
+  double floor_pressure = NAN;
+  /// What the noise may be: from differences between neighbouring scans, and from the differences between
+  /// cycles at the same surface, direction and pressure. The first misses noise that is slower than a scan,
+  /// the second contains effects that change from cycle to cycle.
+  Interval floor_bracket{NAN, NAN};
+  std::vector<SurfaceGap> surfaces;       ///< with hold-out scans, in order of time
+  std::size_t left_out = 0;               ///< scans of hold-out cycles beyond the pressures in `covered`
+  std::vector<CoveredPressures> covered;  ///< by the cycles that were fitted
+  std::vector<std::string> held_out_by;   ///< of cycles, condition, protocol
+  std::vector<HeldOutGap> foretold;       ///< for condition and protocol
+  std::vector<std::string> missing;       ///< sentences: kinds of data of which nothing could be held out
 };
 
 /// Largest error of the pressure in use that the missing effects cause [Pa]. NaN where it is not known.
@@ -154,7 +185,8 @@ struct InputUse {
 /// The hold-out cycles of one bag: nothing was fitted to them, and the gap is measured on them.
 struct HoldOutCycles {
   std::string file;  ///< base name of the bag
-  /// Stamps of the first and the last scan of each cycle, both included [ns since 1970].
+  /// Stamps of the first and the last scan of each cycle, both included [ns since 1970]. A cycle is several
+  /// spans where scans beyond the fitted pressures are left out.
   std::vector<std::pair<std::int64_t, std::int64_t>> cycles;
 };
 
@@ -184,6 +216,7 @@ struct DiscrepancyReport {
   std::vector<CovariateTest> covariates;
   WhereItShows where;
   Gap gap;
+  std::string recompute;                ///< command that recomputes the gap; empty = the gap is not known
   std::vector<HoldOutCycles> hold_out;  ///< in time order; bags without a hold-out cycle are left out
   std::vector<GapInUse> in_use;
   std::vector<NextExperiment> next_experiment;  ///< none or one

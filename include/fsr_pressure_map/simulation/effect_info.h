@@ -177,8 +177,10 @@ struct EffectInfo {
 
   // Further properties that `discrepancy` uses.
   Detector detector = Detector::kNone;
-  bool looked_for = true;     ///< false: not among the candidates in this version
-  bool stochastic = false;    ///< draws new random numbers at each scan
+  bool looked_for = true;   ///< false: not among the candidates in this version
+  bool stochastic = false;  ///< draws new random numbers at each scan
+  bool by_chance =
+      false;  ///< its course is random, or its phase unknown: no simulation repeats that of a recording
   bool slow = false;          ///< changes from cycle to cycle, hardly within a cycle
   bool any_course = false;    ///< slow, and its form can imitate any other slow effect
   bool mixture = false;       ///< sums of it with several shapes are forms of the same effect

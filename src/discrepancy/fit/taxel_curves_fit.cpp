@@ -1,12 +1,11 @@
 #include "discrepancy/fit/taxel_curves_fit.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numeric>
 
-#include "simulation/driven_rig.h"
+#include "discrepancy/fit/drive_recordings.h"
+#include "discrepancy/fit/penalised_spline.h"
+#include "simulation/effects/effect_library.h"
 #include "simulation/effects/enabled_effects.h"
 #include "simulation/taxel_curves.h"
 
@@ -14,169 +13,265 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr Eigen::Index kPressures = 24;  // in each curve
-constexpr double kSmoothness = 1e-3;     // weight of second differences, relative to one scan per pressure
-constexpr double kSameCurvature = 1e-6;  // largest difference of equal curvatures [1/m]
+constexpr std::size_t kMostKnots = 40, kFewestKnots = 4;
+constexpr std::size_t kScansPerKnot = 5;
+constexpr double kDenser = 0.35;  // spacing of the first knots, relative to even spacing
+constexpr double kProbe =
+    1e-3;  // change of the curves with which the slope is measured [share of full scale]
+constexpr double kSameSlope = 1e-6;
+constexpr int kMostRounds = 4;        // of Gauss and Newton, where the read-out is not linear
+constexpr double kSettled = 1e-5;     // change of a curve after which they end [share of full scale]
+constexpr double kWithin = 0.5;       // between two knots: where the curve must not fall either
+constexpr double kLeastSlope = 1e-3;  // relative to a linear read-out; below it a reading tells nothing
 
-// A scan as measured and as simulated, both [counts].
-struct Pair {
-  double pressure;   // [Pa]
-  double curvature;  // principal, of taxel 0 [1/m]
-  bool held_out;     // takes no part in any fit
-  const std::uint16_t* measured;
-  const double* simulated;
-};
+using Curves = simulation::TaxelCurves;
 
-// Time spans of the hold-out cycles, since the first scan of the first recording [s].
-std::vector<std::pair<double, double>> holdOutTimes(const Measured& measured) {
-  std::vector<std::pair<double, double>> times;
-  for (const MeasuredCycle& cycle : measured.cycles) {
-    if (cycle.use != CycleUse::kHoldOut) continue;
-    const bool last = cycle.last >= measured.time.size();
-    times.emplace_back(measured.time[cycle.first], last ? INFINITY : measured.time[cycle.last]);
+// The knots lie closer at low load, where the static law bends most.
+std::vector<double> knotsOver(double low, double high, std::size_t scans) {
+  const std::size_t knots = std::clamp(scans / kScansPerKnot, kFewestKnots, kMostKnots);
+  std::vector<double> result;
+  for (std::size_t k = 0; k < knots; ++k) {
+    const double even = static_cast<double>(k) / static_cast<double>(knots - 1);
+    result.push_back(low + (high - low) * even * (kDenser + (1 - kDenser) * even));
   }
-  return times;
+  return result;
 }
 
-bool within(const std::vector<std::pair<double, double>>& times, double time) {
-  return std::any_of(times.begin(), times.end(),
-                     [&](const auto& span) { return time >= span.first && time < span.second; });
-}
-
-std::vector<const dataset::Recording*> inOrderOfTime(const Measured& measured) {
-  std::vector<const dataset::Recording*> order;
-  for (const dataset::Recording& recording : *measured.recordings) order.push_back(&recording);
-  std::stable_sort(order.begin(), order.end(), [](const dataset::Recording* a, const dataset::Recording* b) {
-    return a->start_ns < b->start_ns;
-  });
-  return order;
-}
-
-// Drives the simulation through everything that was recorded.
-void forEachScan(const Measured& measured, const simulation::SimulationSettings& simulation,
-                 const std::function<void(const Pair&)>& use) {
-  const simulation::SimulationSettings quiet = simulation::withoutNoise(simulation);
-  simulation::DrivenRig rig(quiet);
-  double end = -INFINITY;
-  const std::vector<const dataset::Recording*> order = inOrderOfTime(measured);
-  const auto held_out = holdOutTimes(measured);
-  const double first = order.front()->time.front();
-  for (const dataset::Recording* recording : order) {
-    const double start = 1e-9 * static_cast<double>(recording->start_ns - order.front()->start_ns) - first;
-    // Bags converted from tables may all begin at the same date. Then each gets a new sheet.
-    if (start + recording->time.front() < end) rig = simulation::DrivenRig(quiet);
-    end = start + recording->time.back();
-    rig.run(*recording, [&](std::size_t scan, const simulation::SensorChain& chain) {
-      const matrix::Surface& surface = recording->conditions.at(recording->condition[scan]);
-      const double curvature = surface.known() ? matrix::principalCurvature(surface.at({0})) : 0;
-      use({recording->pressure[scan], curvature, within(held_out, start + recording->time[scan]),
-           recording->scan(scan), chain.reading().data()});
-    });
+// Curves that are 0 everywhere, with their knots over the loads that occur.
+Curves emptyCurves(const FitView& fit, const simulation::SimulationSettings& simulation) {
+  Curves curves;
+  curves.taxels = fit.taxels();
+  for (std::size_t c = 0; c < fit.classes(); ++c) {
+    if (fit.covered(c).low > fit.covered(c).high) continue;
+    curves.surfaces.push_back({fit.curvatureOf(c), {0, 1}, std::vector<double>(2 * curves.taxels, 0.0)});
   }
+  simulation::SimulationSettings flat = simulation;
+  flat.taxel_curves = std::make_shared<const Curves>(curves);
+  struct Range {
+    double low = INFINITY, high = -INFINITY;
+    std::size_t scans = 0;
+  };
+  std::vector<Range> ranges(curves.surfaces.size());
+  driveRecordings(fit.recordings(), flat,
+                  [&](std::size_t r, std::size_t i, const simulation::SensorChain& chain) {
+                    if (fit.sampleOf(r, i) == FitView::kNotInView) return;
+                    Range& range = ranges[chain.curvesSurface()];
+                    const std::vector<double>& load = chain.signals().load;
+                    const auto [low, high] = std::minmax_element(load.begin(), load.end());
+                    range.low = std::min(range.low, *low);
+                    range.high = std::max(range.high, *high);
+                    ++range.scans;
+                  });
+  for (std::size_t s = curves.surfaces.size(); s-- > 0;) {
+    if (ranges[s].scans == 0) {
+      curves.surfaces.erase(curves.surfaces.begin() + static_cast<std::ptrdiff_t>(s));
+      continue;
+    }
+    curves.surfaces[s].load =
+        knotsOver(ranges[s].low, std::max(ranges[s].high, ranges[s].low + 1), ranges[s].scans);
+    curves.surfaces[s].added.assign(curves.surfaces[s].load.size() * curves.taxels, 0.0);
+  }
+  return curves;
 }
 
-// Sums for the fit on one surface, by hats over pressures. The hats lie closer at low pressure, where the law
-// bends most.
-struct Sums {
-  double curvature = 0, low = INFINITY, high = -INFINITY;
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(kPressures, kPressures);
-  Eigen::MatrixXd right;  // [pressures x taxels]
-
-  double at(Eigen::Index k) const {
-    const double share = static_cast<double>(k) / (kPressures - 1);
-    return low + (high - low) * share * share;
-  }
-  void add(const Pair& pair, double full_scale) {
-    const double share = std::clamp((pair.pressure - low) / (high - low), 0.0, 1.0);
-    const auto k = std::min<Eigen::Index>(kPressures - 2,
-                                          static_cast<Eigen::Index>(std::sqrt(share) * (kPressures - 1)));
-    const double upper = (low + share * (high - low) - at(k)) / (at(k + 1) - at(k)), lower = 1 - upper;
-    normal(k, k) += lower * lower;
-    normal(k, k + 1) += lower * upper;
-    normal(k + 1, k) += lower * upper;
-    normal(k + 1, k + 1) += upper * upper;
-    for (Eigen::Index t = 0; t < right.cols(); ++t) {
-      const double left = (pair.measured[t] - pair.simulated[t]) / full_scale;
-      right(k, t) += lower * left;
-      right(k + 1, t) += upper * left;
+// Static readings of every taxel at loads, by the simulation alone, [loads x taxels] [share of full scale].
+Eigen::MatrixXd staticReadings(const simulation::SimulationSettings& simulation,
+                               const std::vector<double>& loads) {
+  simulation::SimulationSettings plain = simulation;
+  plain.taxel_curves.reset();
+  auto& effects = plain.effects;
+  effects.erase(std::remove_if(effects.begin(), effects.end(),
+                               [&](const simulation::EnabledEffect& effect) {
+                                 return !simulation::libraryOf(simulation).info(effect.id).required;
+                               }),
+                effects.end());
+  simulation::SensorChain chain(plain);
+  Eigen::MatrixXd readings(static_cast<Eigen::Index>(loads.size()),
+                           static_cast<Eigen::Index>(plain.layout.size.taxels()));
+  simulation::RigSample sample;
+  for (std::size_t k = 0; k < loads.size(); ++k) {
+    sample.pressure = loads[k];
+    sample.time = static_cast<double>(k);
+    chain.read(sample);
+    for (Eigen::Index t = 0; t < readings.cols(); ++t) {
+      readings(static_cast<Eigen::Index>(k), t) =
+          chain.reading()[static_cast<std::size_t>(t)] / chain.fullScale();
     }
   }
+  return readings;
+}
+
+// Fits the curves of one surface.
+class SurfaceFit {
+ public:
+  SurfaceFit(const Curves::OnSurface& surface, std::size_t taxels,
+             const simulation::SimulationSettings& simulation);
+
+  void add(std::size_t taxel, double load, double slope, double wanted) {
+    sums_[taxel].add(simulation::splineWeights(knots_, load), slope, wanted);
+  }
+  // Returns the values at the knots, [knots x taxels].
+  std::vector<double> solved() const;
+
+ private:
+  std::vector<double> knots_;
+  Eigen::MatrixXd bends_;
+  std::vector<SplineSums> sums_;  // of each taxel
+  Eigen::MatrixXd steps_;         // from values at the knots to rises from place to place
+  Eigen::MatrixXd static_steps_;  // rises of the static law, [places x taxels]
 };
 
-Sums& sumsOf(std::vector<Sums>& all, double curvature) {
-  const auto same = [&](const Sums& s) { return std::abs(s.curvature - curvature) <= kSameCurvature; };
-  const auto found = std::find_if(all.begin(), all.end(), same);
-  if (found != all.end()) return *found;
-  all.push_back({});
-  all.back().curvature = curvature;
-  return all.back();
+SurfaceFit::SurfaceFit(const Curves::OnSurface& surface, std::size_t taxels,
+                       const simulation::SimulationSettings& simulation)
+    : knots_(surface.load), sums_(taxels, SplineSums(knots_.size())) {
+  const auto n = static_cast<Eigen::Index>(knots_.size());
+  const std::vector<double> bends = simulation::splineBends(knots_);
+  bends_ = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+      bends.data(), n, n);
+  std::vector<double> places;
+  for (std::size_t k = 0; k + 1 < knots_.size(); ++k) {
+    places.push_back(knots_[k]);
+    places.push_back(knots_[k] + kWithin * (knots_[k + 1] - knots_[k]));
+  }
+  places.push_back(knots_.back());
+  Eigen::MatrixXd at = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(places.size()), n);
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const simulation::SplineWeights w = simulation::splineWeights(knots_, places[p]);
+    const auto row = static_cast<Eigen::Index>(p), k = static_cast<Eigen::Index>(w.knot);
+    at(row, k) += w.below;
+    at(row, k + 1) += w.above;
+    at.row(row) += w.below_bend * bends_.row(k) + w.above_bend * bends_.row(k + 1);
+  }
+  const Eigen::Index rises = at.rows() - 1;
+  steps_ = at.bottomRows(rises) - at.topRows(rises);
+  const Eigen::MatrixXd readings = staticReadings(simulation, places);
+  static_steps_ = readings.bottomRows(rises) - readings.topRows(rises);
 }
 
-simulation::TaxelCurves::OnSurface solved(const Sums& sums) {
-  Eigen::MatrixXd normal = sums.normal;
-  const double weight = kSmoothness * std::max(1.0, normal.diagonal().mean());
-  for (Eigen::Index k = 1; k + 1 < normal.rows(); ++k) {
-    const Eigen::Vector3d bend(1, -2, 1);
-    normal.block<3, 3>(k - 1, k - 1) += weight * bend * bend.transpose();
-  }
-  normal.diagonal().array() += 1e-9 * weight;
-  const Eigen::MatrixXd added = normal.ldlt().solve(sums.right);
-  simulation::TaxelCurves::OnSurface surface{sums.curvature, {}, {}};
-  for (Eigen::Index k = 0; k < added.rows(); ++k) {
-    surface.pressure.push_back(sums.at(k));
-    for (Eigen::Index t = 0; t < added.cols(); ++t) surface.added.push_back(added(k, t));
-  }
-  return surface;
-}
-
-// Returns empty sums for each surface, with its range of pressure over all recordings.
-std::vector<Sums> preparedSums(const Measured& measured) {
-  std::vector<Sums> all;
-  for (const dataset::Recording& recording : *measured.recordings) {
-    for (std::size_t i = 0; i < recording.scans(); ++i) {
-      const matrix::Surface& surface = recording.conditions.at(recording.condition[i]);
-      Sums& sums = sumsOf(all, surface.known() ? matrix::principalCurvature(surface.at({0})) : 0);
-      sums.low = std::min(sums.low, recording.pressure[i]);
-      sums.high = std::max(sums.high, recording.pressure[i]);
+std::vector<double> SurfaceFit::solved() const {
+  std::vector<PenalisedSpline> splines;
+  for (std::size_t t = 0; t < sums_.size(); ++t) {
+    const SplineSums& sums = sums_[t];
+    if (t > 0 && sums.sameDesign(sums_[t - 1])) {
+      splines.emplace_back(splines.back(), sums.right(bends_), sums.square(), sums.number());
+    } else {
+      splines.emplace_back(sums.normal(bends_), sums.right(bends_), sums.square(), sums.number());
     }
   }
-  for (Sums& sums : all) {
-    sums.high = std::max(sums.high, sums.low + 1);
-    sums.right = Eigen::MatrixXd::Zero(kPressures, static_cast<Eigen::Index>(measured.taxels()));
+  const double weight = chooseWeight(splines);
+  std::vector<double> values(knots_.size() * sums_.size());
+  for (std::size_t t = 0; t < sums_.size(); ++t) {
+    const Eigen::VectorXd own =
+        splines[t].valuesRising(weight, steps_, -static_steps_.col(static_cast<Eigen::Index>(t)));
+    for (std::size_t k = 0; k < knots_.size(); ++k)
+      values[k * sums_.size() + t] = own[static_cast<Eigen::Index>(k)];
   }
-  return all;
+  return values;
+}
+
+// Fits the curves by the method of Gauss and Newton: the readings as linear functions of the curves.
+class CurvesFit {
+ public:
+  CurvesFit(const FitView& fit, const simulation::SimulationSettings& simulation)
+      : fit_(fit), simulation_(simulation::withoutChance(simulation)) {
+    simulation_.taxel_curves.reset();
+    simulation_ = simulation::fitted(simulation_, *fit.recordings().front());
+    curves_ = emptyCurves(fit, simulation_);
+  }
+
+  Curves run();
+
+ private:
+  double step();
+  void prepare();
+  void takeIn(std::size_t recording, std::size_t scan, const double* plain,
+              const simulation::SensorChain& moved);
+  simulation::SimulationSettings with(double added) const;
+
+  const FitView& fit_;
+  simulation::SimulationSettings simulation_;
+  Curves curves_;
+  std::vector<simulation::LoadCurves> now_;  // of each surface
+  std::vector<SurfaceFit> fits_;             // likewise
+  bool linear_ = true;                       // the readings are linear in the curves
+  bool first_ = true;                        // step
+};
+
+// The simulation with the present curves and `added` at every load [share of full scale].
+simulation::SimulationSettings CurvesFit::with(double added) const {
+  Curves moved = curves_;
+  for (Curves::OnSurface& surface : moved.surfaces) {
+    for (double& value : surface.added) value += added;
+  }
+  simulation::SimulationSettings result = simulation_;
+  result.taxel_curves = std::make_shared<const Curves>(std::move(moved));
+  return result;
+}
+
+void CurvesFit::prepare() {
+  fits_.clear();
+  now_.clear();
+  for (const Curves::OnSurface& surface : curves_.surfaces) {
+    fits_.emplace_back(surface, curves_.taxels, simulation_);
+    now_.emplace_back(surface, curves_.taxels);
+  }
+}
+
+// Adds one scan to the sums. `plain`: readings with the present curves [counts].
+void CurvesFit::takeIn(std::size_t recording, std::size_t scan, const double* plain,
+                       const simulation::SensorChain& moved) {
+  const std::size_t surface = moved.curvesSurface();
+  const double full_scale = fit_.fullScale();
+  const std::uint16_t* counts = fit_.recordings()[recording]->scan(scan);
+  const std::vector<std::uint8_t>& unmasked = fit_.unmasked(recording);
+  for (std::size_t t = 0; t < curves_.taxels; ++t) {
+    if (!unmasked[t]) continue;
+    const double load = moved.signals().load[t], reading = plain[t] / full_scale;
+    const double slope = (moved.reading()[t] / full_scale - reading) / kProbe;
+    const bool full = counts[t] >= full_scale;
+    // Gains are linear, too, but they do not stay.
+    linear_ = linear_ && !full && std::abs(slope - moved.signals().gain[t]) < kSameSlope * std::abs(slope);
+    if (std::abs(slope) < kLeastSlope || (full && !first_ && reading >= 1)) continue;
+    fits_[surface].add(t, load, slope, counts[t] / full_scale - reading + slope * now_[surface].at(t, load));
+  }
+}
+
+// Returns the largest change of a curve [share of full scale].
+double CurvesFit::step() {
+  prepare();
+  driveRecordingsTwice(
+      fit_.recordings(), with(0), with(kProbe),
+      [&](std::size_t r, std::size_t i, const double* plain, const simulation::SensorChain& moved) {
+        if (fit_.sampleOf(r, i) != FitView::kNotInView) takeIn(r, i, plain, moved);
+      });
+  double largest = 0;
+  for (std::size_t s = 0; s < fits_.size(); ++s) {
+    const std::vector<double> values = fits_[s].solved();
+    std::vector<double>& before = curves_.surfaces[s].added;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      largest = std::max(largest, std::abs(values[k] - before[k]));
+    before = values;
+  }
+  first_ = false;
+  return largest;
+}
+
+Curves CurvesFit::run() {
+  for (int round = 0; round < kMostRounds; ++round) {
+    if (step() < kSettled || linear_) break;
+  }
+  return curves_;
 }
 
 }  // namespace
 
-simulation::SimulationSettings withTaxelCurves(const Measured& measured,
+simulation::SimulationSettings withTaxelCurves(const FitView& fit,
                                                const simulation::SimulationSettings& simulation,
                                                const std::string& file) {
   simulation::SimulationSettings result = simulation;
-  result.taxel_curves.reset();
-  std::vector<Sums> all = preparedSums(measured);
-  forEachScan(measured, result, [&](const Pair& pair) {
-    if (!pair.held_out) sumsOf(all, pair.curvature).add(pair, measured.full_scale);
-  });
-  simulation::TaxelCurves curves;
-  curves.taxels = measured.taxels();
-  for (const Sums& sums : all) curves.surfaces.push_back(solved(sums));
-  result.taxel_curves = std::make_shared<const simulation::TaxelCurves>(std::move(curves));
+  result.taxel_curves = std::make_shared<const Curves>(CurvesFit(fit, simulation).run());
   result.taxel_curves_file = file;
   return result;
-}
-
-double simulatedGap(const Measured& measured, const simulation::SimulationSettings& simulation) {
-  double squares = 0, number = 0;
-  forEachScan(measured, simulation, [&](const Pair& pair) {
-    if (!pair.held_out) return;
-    for (std::size_t t = 0; t < measured.taxels(); ++t) {
-      if (!measured.used[t]) continue;
-      squares += std::pow((pair.measured[t] - pair.simulated[t]) / measured.full_scale, 2);
-      ++number;
-    }
-  });
-  return number > 0 ? std::sqrt(squares / number) : NAN;
 }
 
 }  // namespace fsr::discrepancy

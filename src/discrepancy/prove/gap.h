@@ -36,8 +36,9 @@ struct GapGround {
   std::uint64_t seed = 0;
 };
 
-/// Measures the gap on those of `cycles` that are held out. `left`: residual, after the static curves, of the
-/// trace that the effects add.
+/// Measures the gap of fitted traces on those of `cycles` that are held out. It serves for surfaces and
+/// protocols that are predicted from the others; the gap that is reported is measured by driving simulations.
+/// `left`: residual, after the static curves, of the trace that the effects add.
 Gap measureGap(const GapGround& ground, const Trace& left, const std::vector<std::size_t>& cycles);
 
 /// Predicts in each part what an explanation removes from the common trace, using only the other parts.

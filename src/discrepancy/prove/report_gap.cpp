@@ -12,14 +12,14 @@ namespace fsr::discrepancy {
 
 namespace {
 
-// Share of the value of Gap::closed on all hold-out cycles. A part with less is reported as a limitation.
+// Share of what is closed on all hold-out cycles. A part with less is reported as a limitation.
 constexpr double kHoldsElsewhere = 0.5;
 
 class GapReporter {
  public:
   GapReporter(const Found& found, DiscrepancyReport& report) : found_(found), report_(report) {}
 
-  void run();
+  Gap run();
 
  private:
   void confine(double amplitude);
@@ -30,6 +30,7 @@ class GapReporter {
 
   const Found& found_;
   DiscrepancyReport& report_;
+  Gap of_traces_;
 };
 
 // Confines the effects found to the taxels and surfaces where they show. If these are not all taxels, the
@@ -95,16 +96,16 @@ void GapReporter::holdOut(const std::string& by, const std::vector<Part>& parts,
   held.closed = all.closed;
   held.closed_interval = all.closed_interval;
   for (const auto& [part, closed] : held.parts) {
-    if (closed >= kHoldsElsewhere * report_.gap.closed) continue;
-    report_.limitations.push_back("On " + part +
-                                  " the explanation is weak: fitted to all other parts, it closes " +
-                                  std::to_string(std::lround(100 * closed)) + " % of the gap there.");
+    if (closed >= kHoldsElsewhere * of_traces_.closed) continue;
+    report_.limitations.push_back(
+        "On " + part + " the explanation is weak: fitted to all other parts, it explains " +
+        std::to_string(std::lround(100 * closed)) + " % of the common trace there.");
   }
   report_.gap.held_out_by.push_back(by);
   report_.gap.foretold.push_back(held);
 }
 
-void GapReporter::run() {
+Gap GapReporter::run() {
   const Spread spread = spreadOf(found_.measured, found_.taxels, found_.left);
   const double to_error =
       spread.square > 0 ? found_.candidates.meanSquare() * spread.local / spread.square : 0;
@@ -120,7 +121,8 @@ void GapReporter::run() {
   const double explainable = in_common ? std::min(1.0, found_.decision.explainable * to_error) : 0;
   if (!found_.by_terms && in_common) confine(mask.maxCoeff());
   const GapGround ground{found_.measured, found_.fit, found_.taxels, mask, explainable, extras, found_.seed};
-  report_.gap = measureGap(ground, found_.left, allCycles(found_.measured));
+  of_traces_ = measureGap(ground, found_.left, allCycles(found_.measured));
+  report_.gap.held_out_by = of_traces_.held_out_by;
   holdOut("condition", surfacesWhereItShows(), ground,
           "The discrepancy is visible on one surface only, so no surface was held out.");
   holdOut("protocol", partsByProtocol(found_.measured), ground,
@@ -130,12 +132,13 @@ void GapReporter::run() {
         "Held-out cycles alone are weak evidence for other surfaces and protocols.");
   const Trace before = found_.fit.residual(found_.common.all);
   report_.curves = residualCurves(found_.measured, before, before - found_.left);
+  return of_traces_;
 }
 
 }  // namespace
 
-void reportGap(const Found& found, DiscrepancyReport& report) {
-  GapReporter(found, report).run();
+Gap reportGap(const Found& found, DiscrepancyReport& report) {
+  return GapReporter(found, report).run();
 }
 
 }  // namespace fsr::discrepancy

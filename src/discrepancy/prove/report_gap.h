@@ -26,9 +26,10 @@ struct Found {
   std::uint64_t seed = 0;
 };
 
-/// Writes into `report` where the findings show and how much of the gap they close. The gap is measured on
-/// the hold-out cycles. It is measured again for each surface and each protocol, predicted from a fit to the
-/// others. The effects found in `report.added` are confined to the taxels and surfaces where they show.
-void reportGap(const Found& found, DiscrepancyReport& report);
+/// Writes into `report` where the findings show, and what part of the traces they explain in the hold-out
+/// cycles of each surface and each protocol, predicted from a fit to the others. The effects found in
+/// `report.added` are confined to the taxels and surfaces where they show. Returns the gap of the fitted
+/// traces; the gap that the report states is that of the written simulations (measureDrivenGap()).
+Gap reportGap(const Found& found, DiscrepancyReport& report);
 
 }  // namespace fsr::discrepancy

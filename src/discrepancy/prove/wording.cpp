@@ -1,6 +1,7 @@
 #include "discrepancy/prove/wording.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "simulation/effects/effect_library.h"
@@ -66,6 +67,10 @@ std::string sentenceOf(const DiscrepancyReport& report) {
     case Verdict::kNone:
       return "Among " + tested + ", these recordings show none that is missing.";
     case Verdict::kUnknown:
+      if (std::isnan(report.gap.before))
+        return "The simulation lacks something, but nothing was held out, so no name can be proved. It "
+               "depends on " +
+               listText(report.depends_on) + ".";
       return "The simulation lacks something that none of the " + tested + " explains. It depends on " +
              listText(report.depends_on) + ".";
     case Verdict::kAmbiguous:

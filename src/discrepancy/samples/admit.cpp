@@ -23,6 +23,7 @@ constexpr double kLeastAnswer = 0.0005;  // [share of full scale]
 constexpr double kLeastRange = 50e3;     // smallest range of the chamber pressure [Pa]
 constexpr double kBetween = 60;          // pause that is assumed between bags whose stamps overlap [s]
 constexpr double kHoldOutShare = 0.2;    // share of the cycles that is held out
+constexpr double kVented = 0.25;         // of a cycle's height; a cycle that ends above it was cut off
 
 void requireWhole(const dataset::Recording& recording) {
   const auto refuse = [&](const std::string& what) {
@@ -200,8 +201,21 @@ void appendRecording(Measured& measured, const dataset::ConditionClasses& classe
   }
 }
 
+// Whether the recording ended before the chamber was vented again, as Ctrl-C does.
+bool isStump(const Measured& measured, const MeasuredCycle& cycle) {
+  const Visit& visit = measured.visits[cycle.visit];
+  const bool ends_recording =
+      cycle.last == visit.last && visit.last_scan == (*measured.recordings)[visit.recording].scans();
+  if (!ends_recording || cycle.first == cycle.last) return false;
+  const auto first = measured.pressure.begin() + static_cast<std::ptrdiff_t>(cycle.first);
+  const auto last = measured.pressure.begin() + static_cast<std::ptrdiff_t>(cycle.last);
+  const auto [low, high] = std::minmax_element(first, last);
+  return *(last - 1) - *low > kVented * (*high - *low);
+}
+
 // Chooses the hold-out cycles and assigns the other cycles to interleaved folds. The seed determines which
-// cycles are held out. Every visit gives about the same share of its cycles.
+// cycles are held out. Every visit gives about the same share of its cycles. A cycle that was cut off is
+// never held out.
 void partCycles(Measured& measured, std::uint64_t seed) {
   const statistics::RandomStream stream = statistics::randomStream(seed, "discrepancy.split");
   std::vector<std::vector<std::size_t>> of_visit(measured.visits.size());
@@ -211,11 +225,17 @@ void partCycles(Measured& measured, std::uint64_t seed) {
   for (std::size_t v = 0; v < of_visit.size(); ++v) {
     std::vector<std::size_t>& cycles = of_visit[v];
     owed += kHoldOutShare * static_cast<double>(cycles.size());
+    std::vector<std::size_t> stump;
+    if (!cycles.empty() && isStump(measured, measured.cycles[cycles.back()])) {
+      stump.push_back(cycles.back());
+      cycles.pop_back();
+    }
     for (; owed >= 1 && cycles.size() > 1; owed -= 1) {
       const std::size_t drawn = stream.bits(v * 1000 + cycles.size()) % cycles.size();
       measured.cycles[cycles[drawn]].use = CycleUse::kHoldOut;
       cycles.erase(cycles.begin() + static_cast<std::ptrdiff_t>(drawn));
     }
+    cycles.insert(cycles.end(), stump.begin(), stump.end());
     for (const std::size_t c : cycles) measured.cycles[c].fold = next++ % Measured::kFolds;
   }
 }
@@ -332,6 +352,7 @@ void validate(const DiscrepancyProblem& problem) {
 Measured admit(const DiscrepancyProblem& problem) {
   Measured measured;
   measured.recordings = &problem.recordings;
+  if (!problem.whole.empty()) measured.whole = &problem.whole;
   measured.library = problem.simulation.library;
   const dataset::Recording& first = problem.recordings.front();
   measured.layout = first.layout;

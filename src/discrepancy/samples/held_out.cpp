@@ -115,22 +115,4 @@ Measured withoutPart(const Measured& measured, const Part& part) {
   return rest;
 }
 
-std::vector<HoldOutCycles> holdOutCycles(const Measured& measured) {
-  std::vector<HoldOutCycles> bags;
-  const dataset::Recording* last = nullptr;
-  for (const MeasuredCycle& cycle : measured.cycles) {
-    if (cycle.use != CycleUse::kHoldOut || cycle.first == cycle.last) continue;
-    const dataset::Recording& recording = (*measured.recordings)[measured.visits[cycle.visit].recording];
-    if (&recording != last) bags.push_back({recording.name, {}});
-    last = &recording;
-    const auto stamp = [&](std::size_t scan) {
-      return recording.start_ns + std::llround(recording.time[scan] * 1e9);
-    };
-    const std::size_t end = cycle.last - 1;
-    bags.back().cycles.emplace_back(stamp(measured.first_scan[cycle.first]),
-                                    stamp(measured.first_scan[end] + measured.scans[end] - 1));
-  }
-  return bags;
-}
-
 }  // namespace fsr::discrepancy

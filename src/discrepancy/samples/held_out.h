@@ -24,7 +24,4 @@ std::vector<Part> partsByProtocol(const Measured& measured);
 /// The recordings with all cycles of a part held out. A fit to them does not use the part.
 Measured withoutPart(const Measured& measured, const Part& part);
 
-/// The hold-out cycles of each recording, in time order.
-std::vector<HoldOutCycles> holdOutCycles(const Measured& measured);
-
 }  // namespace fsr::discrepancy

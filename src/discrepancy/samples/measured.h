@@ -42,6 +42,8 @@ struct Measured {
   static constexpr double kLongestSample = 0.5;       ///< longest time over which scans are pooled [s]
 
   const std::vector<dataset::Recording>* recordings = nullptr;
+  /// The same with every scan, to drive simulations; nullptr = the recordings have every scan.
+  const std::vector<dataset::Recording>* whole = nullptr;
   std::shared_ptr<const simulation::EffectLibrary> library;  ///< effects of the simulation
   matrix::Layout layout;
   double full_scale = 0;                         ///< [counts]

@@ -19,9 +19,10 @@ namespace fsr_ros {
 namespace {
 
 // Reads all scans that have a reference, including those near a change of surface.
-fsr::dataset::Recording readWhole(const std::string& path, const std::string& topics) {
+fsr::dataset::Recording readWhole(const std::string& path, const DrivingBags& driving) {
   BagReadOptions options;
-  options.topics = topics;
+  options.topics = driving.topics;
+  options.ambient_pressure = driving.ambient_pressure;
   options.change_margin = 0;
   return readBag(path, options);
 }
@@ -148,7 +149,7 @@ SimulatedRun writeDrivenBags(const fsr::simulation::SimulationSettings& settings
   std::optional<fsr::simulation::DrivenRig> rig;
   for (const std::string& bag : driving.paths) {
     const std::string path = outputPath(bag, bags.output);
-    const fsr::dataset::Recording recording = readWhole(bag, driving.topics);
+    const fsr::dataset::Recording recording = readWhole(bag, driving);
     if (bags.progress) bags.progress(path);
     warn(recording, run.warnings);
     if (!rig) {

@@ -32,8 +32,9 @@ SimulatedRun writeSessionBags(const fsr::simulation::SimulationSettings& setting
 
 /// Recorded bags that drive a simulated sensor.
 struct DrivingBags {
-  std::vector<std::string> paths;  ///< in time order
-  std::string topics;              ///< namespace of the sensor; empty = the only one
+  std::vector<std::string> paths;               ///< in time order
+  std::string topics;                           ///< namespace of the sensor; empty = the only one
+  std::optional<double> ambient_pressure = {};  ///< [Pa]; none = see BagReadOptions
 };
 
 /// Runs the simulated sensor on the recorded pressure, surfaces and temperature of real bags, and writes

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <numeric>
 #include <sstream>
 
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
@@ -16,6 +17,7 @@
 #include "ros/bags/resource_path.h"
 #include "ros/tools/discrepancy_files.h"
 #include "ros/tools/figure_script.h"
+#include "ros/tools/recompute_gap_tool.h"
 #include "ros/tools/show_ledger.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
@@ -89,13 +91,21 @@ std::vector<std::string> bagsOf(const fsr::settings::CommandLine& line) {
   return bags;
 }
 
-std::vector<fsr::dataset::Recording> readBags(const fsr::settings::CommandLine& line,
+DrivingBags givenBags(const fsr::settings::CommandLine& line) {
+  DrivingBags bags{bagsOf(line), line.text("namespace", ""), {}};
+  if (line.has("ambient")) bags.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
+  return bags;
+}
+
+// `whole`: with the scans near a change of surface, too.
+std::vector<fsr::dataset::Recording> readBags(const DrivingBags& bags, bool whole,
                                               const fsr::discrepancy::DiscrepancyProgress& progress) {
   BagReadOptions how;
-  how.topics = line.text("namespace", "");
-  if (line.has("ambient")) how.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
+  how.topics = bags.topics;
+  how.ambient_pressure = bags.ambient_pressure;
+  if (whole) how.change_margin = 0;
   std::vector<fsr::dataset::Recording> recordings;
-  for (const std::string& path : bagsOf(line)) {
+  for (const std::string& path : bags.paths) {
     if (progress) progress("reading " + path, 0);
     recordings.push_back(readBag(path, how));
   }
@@ -148,16 +158,34 @@ int drawReport(const std::string& folder, std::ostream& out) {
   return 0;
 }
 
+DrivingBags inOrderOfTime(const DrivingBags& bags, const std::vector<fsr::dataset::Recording>& recordings) {
+  std::vector<std::size_t> order(bags.paths.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return recordings[a].start_ns < recordings[b].start_ns;
+  });
+  DrivingBags sorted = bags;
+  for (std::size_t b = 0; b < order.size(); ++b) sorted.paths[b] = bags.paths[order[b]];
+  return sorted;
+}
+
 int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   const std::string folder = outputFolder(line.requiredText("output"));
   fsr::settings::requireReplaceable(folder + "/verdict.yaml");
   const fsr::discrepancy::DiscrepancyProgress progress = progressOnTerminal();
   fsr::discrepancy::DiscrepancyProblem problem;
   problem.options = discrepancyOptions(line);
-  problem.recordings = readBags(line, progress);
+  const DrivingBags bags = givenBags(line);
+  problem.recordings = readBags(bags, false, progress);
+  const bool changes = std::any_of(problem.recordings.begin(), problem.recordings.end(),
+                                   [](const auto& recording) { return recording.losses.near_change > 0; });
+  if (changes) problem.whole = readBags(bags, true, progress);
   problem.simulation = simulationFor(line, problem.recordings.front());
   fsr::discrepancy::DiscrepancyReport report = fsr::discrepancy::investigate(problem, progress);
   countUses(report);
+  const std::string verdict = (fs::path(line.requiredText("output")) / "verdict.yaml").string();
+  if (!report.hold_out.empty())
+    report.recompute = recomputeCommand(verdict, inOrderOfTime(bags, problem.recordings));
   writeDiscrepancy(report, folder);
   out << fsr::report::discrepancyText(report) << "Written: " << folder << "/verdict.yaml" << std::endl;
   return line.has("no-report") ? 0 : drawReport(folder, out);
@@ -184,7 +212,8 @@ int confirmVerdict(const fsr::settings::CommandLine& line, std::ostream& out) {
     throw fsr::settings::InputError(path + ": its verdict is " + verdict.verdict +
                                     ", which predicts nothing that can be confirmed");
   }
-  const std::vector<fsr::dataset::Recording> recordings = readBags(line, progressOnTerminal());
+  const std::vector<fsr::dataset::Recording> recordings =
+      readBags(givenBags(line), false, progressOnTerminal());
   requireNew(recordings, verdict, path);
   const fsr::discrepancy::Confirmation answer =
       fsr::discrepancy::confirm(stored.frozen.prediction, stored.base, recordings);

@@ -7,6 +7,7 @@
 #include "report/portrait_json.h"
 #include "ros/bags/simulated_bags.h"
 #include "ros/tools/figure_script.h"
+#include "ros/tools/recompute_gap_tool.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
 #include "simulation/effects/effect_library.h"
@@ -23,15 +24,21 @@ constexpr const char* kTruth = "truth.yaml";
 constexpr int kFiguresMissing = 3;  // exit status if only the figures could not be drawn
 
 fsr::settings::CommandLine options() {
-  fsr::settings::CommandLine line("simulate", "--simulation FILE [--drive BAG...] --output DIR",
-                                  "Writes bags of a simulated rig. The pressure, surfaces and temperature "
-                                  "are those of the session in the "
-                                  "simulation file, or those recorded in real bags. The true settings of the "
-                                  "rig are in truth.yaml beside "
-                                  "the bags, and not in the bags.");
+  fsr::settings::CommandLine line(
+      "simulate", "--simulation FILE [--drive BAG...] --output DIR  |  --gap verdict.yaml --drive BAG...",
+      "Writes bags of a simulated rig. The pressure, surfaces and temperature "
+      "are those of the session in the "
+      "simulation file, or those recorded in real bags. The true settings of the "
+      "rig are in truth.yaml beside "
+      "the bags, and not in the bags.");
   line.option("simulation", "FILE", "settings of the rig, e.g. config/simulation/bench.yaml")
       .option("output", "DIR", "folder to write to; it is created if it does not exist")
       .option("drive", "BAG", "run the simulation on these bags, in time order, instead of the session")
+      .option("gap", "FILE",
+              "a verdict.yaml: recompute its gap on the bags of --drive, with base.yaml and simulation.yaml "
+              "beside "
+              "it; writes nothing")
+      .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
       .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
       .option("seed", "N", "seed instead of the file's: another sheet and other noise")
       .option("effect", "ID", "enable this effect, with its usual values if the file does not set them")
@@ -108,9 +115,22 @@ std::string remarkOf(const fsr::settings::CommandLine& line, const std::vector<s
   return remark;
 }
 
+DrivingBags drivingBags(const fsr::settings::CommandLine& line) {
+  DrivingBags bags{bagsOf(line), line.text("namespace", ""), {}};
+  if (line.has("ambient")) bags.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
+  return bags;
+}
+
+int recompute(const fsr::settings::CommandLine& line, std::ostream& out) {
+  const DrivingBags bags = drivingBags(line);
+  if (bags.paths.empty()) throw fsr::settings::InputError("--gap: give the bags of the verdict with --drive");
+  return printRecomputedGap(line.text("gap", ""), bags, out);
+}
+
 void writeBags(const fsr::settings::CommandLine& line, const fsr::simulation::SimulationSettings& settings,
                std::ostream& out) {
-  const std::vector<std::string> driving = bagsOf(line);
+  const DrivingBags driving_bags = drivingBags(line);
+  const std::vector<std::string>& driving = driving_bags.paths;
   const std::string saved = line.text("save-state", "");
   if (!saved.empty()) fsr::settings::requireReplaceable(saved);
   SimulatedBags bags;
@@ -121,9 +141,8 @@ void writeBags(const fsr::settings::CommandLine& line, const fsr::simulation::Si
   if (line.has("state")) {
     bags.state = fsr::simulation::readRigState(fsr::settings::Settings::fromFile(line.requiredText("state")));
   }
-  const SimulatedRun run = driving.empty()
-                               ? writeSessionBags(settings, bags)
-                               : writeDrivenBags(settings, {driving, line.text("namespace", "")}, bags);
+  const SimulatedRun run =
+      driving.empty() ? writeSessionBags(settings, bags) : writeDrivenBags(settings, driving_bags, bags);
   for (const std::string& warning : run.warnings) out << warning << std::endl;
   const fs::path truth = fs::path(bags.output) / kTruth;
   fsr::settings::replaceFile(truth, simulationText(run.rig, remarkOf(line, driving)));
@@ -176,6 +195,7 @@ int simulateTool(int argc, const char* const* argv, std::ostream& out) {
     out << listOf(line.text("effect", ""));
     return 0;
   }
+  if (line.has("gap")) return recompute(line, out);
   const fsr::simulation::SimulationSettings settings = settingsOf(line);
   if (line.has("plot")) return drawPlot(line, settings, out);
   writeBags(line, settings, out);

@@ -23,6 +23,7 @@ EffectInfo info() {
   info.parameters = looseLineParameters("column");
   info.depends_on = {Covariate::kColumn, Covariate::kClockTime};
   info.collinear = {"row_fault"};
+  info.by_chance = true;
   info.detector = Detector::kColumnFaults;
   return info;
 }

@@ -13,13 +13,28 @@ const EnabledEffect& converterOf(const SimulationSettings& settings) {
   });
 }
 
-SimulationSettings withoutNoise(SimulationSettings settings) {
+namespace {
+
+template <typename Unwanted>
+SimulationSettings without(SimulationSettings settings, Unwanted unwanted) {
   auto& effects = settings.effects;
-  const auto noise = [&](const EnabledEffect& effect) {
-    return libraryOf(settings).info(effect.id).stochastic;
-  };
-  effects.erase(std::remove_if(effects.begin(), effects.end(), noise), effects.end());
+  effects.erase(std::remove_if(effects.begin(), effects.end(),
+                               [&](const EnabledEffect& effect) {
+                                 return unwanted(libraryOf(settings).info(effect.id));
+                               }),
+                effects.end());
   return settings;
+}
+
+}  // namespace
+
+SimulationSettings withoutNoise(SimulationSettings settings) {
+  return without(std::move(settings), [](const EffectInfo& info) { return info.stochastic; });
+}
+
+SimulationSettings withoutChance(SimulationSettings settings) {
+  return without(std::move(settings),
+                 [](const EffectInfo& info) { return info.stochastic || info.by_chance; });
 }
 
 }  // namespace fsr::simulation

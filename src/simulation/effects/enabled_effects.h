@@ -10,4 +10,7 @@ const EnabledEffect& converterOf(const SimulationSettings& settings);
 /// The settings without the effects that draw new random numbers at each scan.
 SimulationSettings withoutNoise(SimulationSettings settings);
 
+/// The same without those whose course in a recording no simulation repeats (EffectInfo::by_chance).
+SimulationSettings withoutChance(SimulationSettings settings);
+
 }  // namespace fsr::simulation

@@ -34,6 +34,7 @@ EffectInfo info() {
   info.depends_on = {Covariate::kClockTime, Covariate::kRow};
   info.collinear = {"drift"};
   info.experiment = Experiment::kRest;
+  info.by_chance = true;
   info.detector = Detector::kMains;
   return info;
 }

@@ -39,6 +39,7 @@ EffectInfo info() {
   info.needs = {Evidence::kMountLabels};
   info.collinear = {"bending_gain", "bending_preload", "edge_stiffness", "session_offset"};
   info.experiment = Experiment::kRemount;
+  info.by_chance = true;
   info.detector = Detector::kMounts;
   return info;
 }

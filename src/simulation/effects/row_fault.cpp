@@ -23,6 +23,7 @@ EffectInfo info() {
   info.parameters = looseLineParameters("row");
   info.depends_on = {Covariate::kRow, Covariate::kClockTime};
   info.collinear = {"column_fault"};
+  info.by_chance = true;
   info.detector = Detector::kRowFaults;
   return info;
 }

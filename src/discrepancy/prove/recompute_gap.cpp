@@ -1,0 +1,65 @@
+#include "discrepancy/prove/recompute_gap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "discrepancy/fit/drive_recordings.h"
+
+namespace fsr::discrepancy {
+
+namespace {
+
+constexpr std::int64_t kRounding = 1000;  // of stamps that were read as floating point numbers [ns]
+
+bool within(const HoldOutCycles& bag, std::int64_t stamp) {
+  return std::any_of(bag.cycles.begin(), bag.cycles.end(), [&](const auto& span) {
+    return stamp >= span.first - kRounding && stamp <= span.second + kRounding;
+  });
+}
+
+struct Sum {
+  double squares = 0, number = 0;
+
+  void add(const dataset::Recording& recording, std::size_t scan, const std::vector<std::uint16_t>& counts) {
+    const std::uint16_t* measured = recording.scan(scan);
+    for (std::size_t t = 0; t < counts.size(); ++t) {
+      if (!recording.mask.empty() && recording.mask[t]) continue;
+      squares += std::pow((static_cast<double>(measured[t]) - counts[t]) / recording.full_scale, 2);
+      ++number;
+    }
+  }
+  double rms() const { return number > 0 ? std::sqrt(squares / number) : NAN; }
+};
+
+}  // namespace
+
+RecomputedGap recomputeGap(const std::vector<dataset::Recording>& recordings,
+                           const std::vector<HoldOutCycles>& hold_out,
+                           const simulation::SimulationSettings& simulation) {
+  std::vector<const dataset::Recording*> order;
+  for (const dataset::Recording& recording : recordings) order.push_back(&recording);
+  std::stable_sort(order.begin(), order.end(), [](const dataset::Recording* a, const dataset::Recording* b) {
+    return a->start_ns < b->start_ns;
+  });
+  Sum all;
+  std::vector<std::pair<std::string, Sum>> surfaces;
+  driveRecordings(order, simulation, [&](std::size_t r, std::size_t i, const simulation::SensorChain& chain) {
+    const dataset::Recording& recording = *order[r];
+    const std::int64_t stamp = recording.start_ns + std::llround(recording.time[i] * 1e9);
+    const bool listed = std::any_of(hold_out.begin(), hold_out.end(), [&](const HoldOutCycles& bag) {
+      return bag.file == recording.name && within(bag, stamp);
+    });
+    if (!listed) return;
+    const std::string& surface = recording.conditions.at(recording.condition[i]).name;
+    auto of_surface =
+        std::find_if(surfaces.begin(), surfaces.end(), [&](const auto& one) { return one.first == surface; });
+    if (of_surface == surfaces.end()) of_surface = surfaces.insert(surfaces.end(), {surface, {}});
+    all.add(recording, i, chain.counts());
+    of_surface->second.add(recording, i, chain.counts());
+  });
+  RecomputedGap gap{all.rms(), {}};
+  for (const auto& [surface, sum] : surfaces) gap.surfaces.emplace_back(surface, sum.rms());
+  return gap;
+}
+
+}  // namespace fsr::discrepancy

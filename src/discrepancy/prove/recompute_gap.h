@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fsr_pressure_map/discrepancy/discrepancy.h"
+
+namespace fsr::discrepancy {
+
+/// A gap, and the gap on each surface in order of time [share of full scale].
+struct RecomputedGap {
+  double rms = 0;  ///< NaN if there is no scan
+  std::vector<std::pair<std::string, double>> surfaces;
+};
+
+/// Recomputes the gap of one simulation from the hold-out spans of a verdict.
+RecomputedGap recomputeGap(const std::vector<dataset::Recording>& recordings,
+                           const std::vector<HoldOutCycles>& hold_out,
+                           const simulation::SimulationSettings& simulation);
+
+}  // namespace fsr::discrepancy
