@@ -67,7 +67,7 @@ class Temperature : public Effect {
         zero_shift_(values.at("zero_shift")),
         sheet_(values.at("lag")),
         zero_(values.at("zero_lag")) {
-    state_.assign(zero_shift_ == 0 ? kWithoutZero : kState, 0.0);
+    state_.assign(zero_shift_ == 0 ? std::size_t{kWithoutZero} : std::size_t{kState}, 0.0);
   }
 
   void apply(const RigSample& sample, TaxelSignals& signals) override {

@@ -73,7 +73,7 @@ class Wear : public Effect {
         fading_(values.at("fading")),
         impulse_share_(values.at("impulse_share")),
         cycle_impulse_(values.at("span") * values.at("cycle_duration") / 2) {
-    state_.assign(impulse_share_ == 0 ? kWithoutImpulse : kState, 0.0);
+    state_.assign(impulse_share_ == 0 ? std::size_t{kWithoutImpulse} : std::size_t{kState}, 0.0);
   }
 
   void apply(const RigSample& sample, TaxelSignals& signals) override {
