@@ -6,13 +6,12 @@
 #include <tuple>
 
 #include "discrepancy/fit/drive_recordings.h"
-#include "statistics/random_stream.h"
+#include "discrepancy/prove/gap_intervals.h"
 
 namespace fsr::discrepancy {
 
 namespace {
 
-constexpr int kDraws = 400;           // of the bootstrap over cycles
 constexpr double kLeastSlope = 0.05;  // share of the steepest slope; a flatter curve tells no pressure
 constexpr double kBins = 40;          // of pressure, in which readings of different cycles are compared
 constexpr double kOfDifferences = 6;  // variance of a second difference of white noise / that of the noise
@@ -36,35 +35,22 @@ double rootOfMean(double sum, double number) {
   return number > 0 ? std::sqrt(sum / number) : NAN;
 }
 
-struct Numbers {
-  double before, after, before_pressure, after_pressure, floor, closed;
-  Interval bracket;
-};
-
-Numbers numbersOf(const Sums& sums, bool explained) {
-  Numbers numbers{};
+// Only the numbers of the gap; intervals, surfaces and sentences are not set.
+Gap numbersOf(const Sums& sums, bool explained) {
+  Gap numbers;
   numbers.before = rootOfMean(sums.before, sums.number);
   numbers.after = rootOfMean(sums.after, sums.number);
   numbers.before_pressure = rootOfMean(sums.before_pressure, sums.in_pressure);
   numbers.after_pressure = rootOfMean(sums.after_pressure, sums.in_pressure);
-  numbers.bracket = {rootOfMean(sums.differences, sums.triples), rootOfMean(sums.repeated, sums.compared)};
-  if (numbers.bracket.high < numbers.bracket.low) std::swap(numbers.bracket.low, numbers.bracket.high);
-  numbers.floor = noiseFloor(numbers.bracket);
+  numbers.floor_bracket = {rootOfMean(sums.differences, sums.triples),
+                           rootOfMean(sums.repeated, sums.compared)};
+  if (numbers.floor_bracket.high < numbers.floor_bracket.low)
+    std::swap(numbers.floor_bracket.low, numbers.floor_bracket.high);
+  numbers.floor = noiseFloor(numbers.floor_bracket);
   const double open = std::pow(numbers.before, 2) - std::pow(numbers.floor, 2);
   numbers.closed =
       explained && open > 0 ? (std::pow(numbers.before, 2) - std::pow(numbers.after, 2)) / open : NAN;
   return numbers;
-}
-
-Interval middle95(std::vector<double> values) {
-  values.erase(std::remove_if(values.begin(), values.end(), [](double x) { return !std::isfinite(x); }),
-               values.end());
-  if (values.empty()) return {NAN, NAN};
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-  };
-  return {at(0.025), at(0.975)};
 }
 
 // Readings at the same surface, direction and pressure.
@@ -235,26 +221,6 @@ std::vector<SurfaceGap> DrivenGap::surfaces() const {
   return surfaces;
 }
 
-void addIntervals(const std::vector<Sums>& cycles, bool explained, std::uint64_t seed, Gap& gap) {
-  if (cycles.size() < 2) return;
-  const statistics::RandomStream stream = statistics::randomStream(seed, "discrepancy.gap");
-  std::vector<double> before, after, floor, closed;
-  for (int draw = 0; draw < kDraws; ++draw) {
-    Sums total;
-    for (std::size_t c = 0; c < cycles.size(); ++c)
-      total += cycles[stream.bits(static_cast<std::uint64_t>(draw) * cycles.size() + c) % cycles.size()];
-    const Numbers one = numbersOf(total, explained);
-    before.push_back(one.before);
-    after.push_back(one.after);
-    floor.push_back(one.floor);
-    closed.push_back(one.closed);
-  }
-  gap.before_interval = middle95(before);
-  gap.after_interval = middle95(after);
-  gap.floor_interval = middle95(floor);
-  gap.closed_interval = middle95(closed);
-}
-
 }  // namespace
 
 // The short-lag end is the one that calls no effect noise. The mean of a parametric bootstrap can take its
@@ -282,17 +248,25 @@ void measureDrivenGap(const FitView& fit, const HoldOutView& hold_out,
   const std::vector<Sums> cycles = driven.cycles();
   Sums total;
   for (const Sums& cycle : cycles) total += cycle;
-  const Numbers numbers = numbersOf(total, explained);
+  const Gap numbers = numbersOf(total, explained);
   gap.surfaces = driven.surfaces();
   gap.before = numbers.before;
   gap.after = numbers.after;
   gap.floor = numbers.floor;
-  gap.floor_bracket = numbers.bracket;
+  gap.floor_bracket = numbers.floor_bracket;
   gap.closed = numbers.closed;
   gap.before_pressure = numbers.before_pressure;
   gap.after_pressure = numbers.after_pressure;
   gap.floor_pressure = gap.before > 0 ? gap.before_pressure * gap.floor / gap.before : NAN;
-  addIntervals(cycles, explained, seed, gap);
+  if (cycles.size() < 2) return;
+  setIntervals(
+      cycles.size(), seed,
+      [&](const std::vector<std::size_t>& chosen) {
+        Sums drawn;
+        for (const std::size_t c : chosen) drawn += cycles[c];
+        return numbersOf(drawn, explained);
+      },
+      gap);
 }
 
 }  // namespace fsr::discrepancy

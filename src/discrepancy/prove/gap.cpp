@@ -6,10 +6,10 @@
 #include <map>
 #include <numeric>
 
+#include "discrepancy/prove/gap_intervals.h"
 #include "discrepancy/thresholds.h"
 #include "fsr_pressure_map/simulation/effect_info.h"
 #include "matrix/for_each_taxel.h"
-#include "statistics/random_stream.h"
 
 namespace fsr::discrepancy {
 
@@ -17,7 +17,6 @@ namespace {
 
 constexpr double kDirectionShows = 0.1;  // share of the squared trace; a direction with less does not show it
 constexpr double kSure = 3;              // standard errors by which the amplitude of a taxel must exceed 0
-constexpr int kDraws = 400;              // draws of the bootstrap over cycles
 constexpr std::size_t kCurvePoints = 24;
 
 double ofClass(const Measured& measured, const Trace& left, std::size_t wanted) {
@@ -119,17 +118,6 @@ Gap gapOf(const std::vector<CycleSums>& sums, const std::vector<std::size_t>& ch
   if (total.after > 0) gap.after_pressure *= std::sqrt(after / (total.after / n));
   gap.floor_pressure = gap.before > 0 ? gap.before_pressure * gap.floor / gap.before : 0;
   return gap;
-}
-
-Interval middle95(std::vector<double> values) {
-  values.erase(std::remove_if(values.begin(), values.end(), [](double x) { return std::isnan(x); }),
-               values.end());
-  if (values.empty()) return {NAN, NAN};
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-  };
-  return {at(0.025), at(0.975)};
 }
 
 struct Axis {
@@ -243,23 +231,12 @@ Gap measureGap(const GapGround& ground, const Trace& left, const std::vector<std
   std::vector<std::size_t> all(sums.size());
   std::iota(all.begin(), all.end(), 0);
   Gap gap = gapOf(sums, all, ground.explainable, ground.extras);
-  const statistics::RandomStream stream = statistics::randomStream(ground.seed, "discrepancy.gap");
-  std::vector<double> before, after, floor, closed;
-  for (int draw = 0; draw < kDraws && !all.empty(); ++draw) {
-    std::vector<std::size_t> chosen;
-    for (std::size_t c = 0; c < all.size(); ++c) {
-      chosen.push_back(stream.bits(static_cast<std::uint64_t>(draw) * all.size() + c) % all.size());
-    }
-    const Gap one = gapOf(sums, chosen, ground.explainable, ground.extras);
-    before.push_back(one.before);
-    after.push_back(one.after);
-    floor.push_back(one.floor);
-    closed.push_back(one.closed);
-  }
-  gap.before_interval = middle95(before);
-  gap.after_interval = middle95(after);
-  gap.floor_interval = middle95(floor);
-  gap.closed_interval = middle95(closed);
+  setIntervals(
+      sums.size(), ground.seed,
+      [&](const std::vector<std::size_t>& chosen) {
+        return gapOf(sums, chosen, ground.explainable, ground.extras);
+      },
+      gap);
   if (!all.empty()) gap.held_out_by = {"cycles"};
   return gap;
 }
