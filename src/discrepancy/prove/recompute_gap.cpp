@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dataset/time_order.h"
 #include "discrepancy/fit/drive_recordings.h"
 
 namespace fsr::discrepancy {
@@ -37,10 +38,7 @@ RecomputedGap recomputeGap(const std::vector<dataset::Recording>& recordings,
                            const std::vector<HoldOutCycles>& hold_out,
                            const simulation::SimulationSettings& simulation) {
   std::vector<const dataset::Recording*> order;
-  for (const dataset::Recording& recording : recordings) order.push_back(&recording);
-  std::stable_sort(order.begin(), order.end(), [](const dataset::Recording* a, const dataset::Recording* b) {
-    return a->start_ns < b->start_ns;
-  });
+  for (const std::size_t r : dataset::inOrderOfTime(recordings)) order.push_back(&recordings[r]);
   Sum all;
   std::vector<std::pair<std::string, Sum>> surfaces;
   driveRecordings(order, simulation, [&](std::size_t r, std::size_t i, const simulation::SensorChain& chain) {

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "dataset/cycles.h"
+#include "dataset/time_order.h"
 #include "discrepancy/samples/measured.h"
 #include "discrepancy/thresholds.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -90,15 +91,6 @@ void requireKnown(const simulation::EffectLibrary& library, const std::vector<st
   for (const std::string& id : ids) {
     if (!library.find(id)) throw settings::InputError(option + ": no effect is called " + id);
   }
-}
-
-std::vector<std::size_t> inOrderOfTime(const std::vector<dataset::Recording>& recordings) {
-  std::vector<std::size_t> order(recordings.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return recordings[a].start_ns < recordings[b].start_ns;
-  });
-  return order;
 }
 
 // The scans of one visit before they are pooled into samples.
@@ -361,7 +353,7 @@ Measured admit(const DiscrepancyProblem& problem) {
   measured.classes = classes.classes;
   bool thermometer = true;
   const std::size_t pooled = scansPooled(problem.recordings);
-  for (const std::size_t r : inOrderOfTime(problem.recordings)) {
+  for (const std::size_t r : dataset::inOrderOfTime(problem.recordings)) {
     appendRecording(measured, classes, r, pooled);
     for (const std::string& warning : problem.recordings[r].warnings)
       measured.limitations.push_back(problem.recordings[r].name + ": " + warning + ".");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dataset/time_order.h"
+
 namespace fsr::discrepancy {
 
 namespace {
@@ -46,11 +48,7 @@ ScanView::ScanView(const Measured& measured, CycleUse use) : measured_(measured)
   const std::vector<dataset::Recording>& admitted = *measured.recordings;
   const std::vector<dataset::Recording>& whole = measured.whole ? *measured.whole : admitted;
   std::vector<std::vector<std::uint32_t>> samples = samplesOf(measured, use);
-  std::vector<std::size_t> order(admitted.size());
-  for (std::size_t r = 0; r < order.size(); ++r) order[r] = r;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return admitted[a].start_ns < admitted[b].start_ns; });
-  for (const std::size_t r : order) {
+  for (const std::size_t r : dataset::inOrderOfTime(admitted)) {
     order_.push_back(&whole[r]);
     sample_.push_back(measured.whole ? onto(whole[r], admitted[r], samples[r]) : std::move(samples[r]));
     unmasked_.emplace_back(measured.taxels(), 1);

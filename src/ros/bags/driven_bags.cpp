@@ -18,15 +18,6 @@ namespace fsr_ros {
 
 namespace {
 
-// Reads all scans that have a reference, including those near a change of surface.
-fsr::dataset::Recording readWhole(const std::string& path, const DrivingBags& driving) {
-  BagReadOptions options;
-  options.topics = driving.topics;
-  options.ambient_pressure = driving.ambient_pressure;
-  options.change_margin = 0;
-  return readBag(path, options);
-}
-
 // The counts of the simulated matrix at each stamp of a recording.
 class SimulatedScans {
  public:
@@ -143,13 +134,18 @@ std::string outputPath(const std::string& bag, const std::string& output) {
 
 }  // namespace
 
+fsr::dataset::Recording readWhole(const std::string& path, BagReadOptions how) {
+  how.change_margin = 0;
+  return readBag(path, how);
+}
+
 SimulatedRun writeDrivenBags(const fsr::simulation::SimulationSettings& settings, const DrivingBags& driving,
                              const SimulatedBags& bags) {
   SimulatedRun run{settings, {}, {}};
   std::optional<fsr::simulation::DrivenRig> rig;
   for (const std::string& bag : driving.paths) {
     const std::string path = outputPath(bag, bags.output);
-    const fsr::dataset::Recording recording = readWhole(bag, driving);
+    const fsr::dataset::Recording recording = readWhole(bag, driving.how);
     if (bags.progress) bags.progress(path);
     warn(recording, run.warnings);
     if (!rig) {
@@ -158,7 +154,7 @@ SimulatedRun writeDrivenBags(const fsr::simulation::SimulationSettings& settings
       rig.emplace(run.rig);
       if (bags.state) rig->resume(*bags.state);
     }
-    copyBag(bag, path, settings, driving.topics, SimulatedScans(*rig, recording));
+    copyBag(bag, path, settings, driving.how.topics, SimulatedScans(*rig, recording));
     run.state = rig->state();
   }
   return run;

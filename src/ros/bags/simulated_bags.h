@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
 #include "simulation/rig_state.h"
 
@@ -32,10 +33,13 @@ SimulatedRun writeSessionBags(const fsr::simulation::SimulationSettings& setting
 
 /// Recorded bags that drive a simulated sensor.
 struct DrivingBags {
-  std::vector<std::string> paths;               ///< in time order
-  std::string topics;                           ///< namespace of the sensor; empty = the only one
-  std::optional<double> ambient_pressure = {};  ///< [Pa]; none = see BagReadOptions
+  std::vector<std::string> paths;  ///< in time order
+  BagReadOptions how = {};
 };
+
+/// Reads all scans of a bag that have a reference, including those near a change of surface. Throws
+/// fsr::settings::InputError.
+fsr::dataset::Recording readWhole(const std::string& path, BagReadOptions how);
 
 /// Runs the simulated sensor on the recorded pressure, surfaces and temperature of real bags, and writes
 /// copies of the bags under the same names. In the copies, `raw` holds the simulated readings at the stamps

@@ -11,6 +11,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/admission_report.h"
 #include "ros/bags/bag_topics.h"
+#include "ros/tools/bag_options.h"
 #include "settings/command_line.h"
 
 namespace fsr_ros {
@@ -41,13 +42,6 @@ fsr::settings::CommandLine options() {
   return line;
 }
 
-BagReadOptions readOptions(const fsr::settings::CommandLine& line) {
-  BagReadOptions how;
-  how.topics = line.text("namespace", "");
-  if (line.has("ambient")) how.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
-  return how;
-}
-
 // Remarks about stamps that the reader sorted, and about missing topics that it does not need.
 std::vector<std::string> remarksOn(const std::vector<TopicCourse>& courses) {
   std::vector<std::string> remarks;
@@ -75,7 +69,7 @@ int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {
   chosen.sections = static_cast<std::size_t>(line.integer("sections", 5, {2, 20, ""}));
   std::vector<fsr::dataset::Recording> recordings;
   for (const std::string& path : line.files()) {
-    recordings.push_back(readBag(path, readOptions(line)));
+    recordings.push_back(readBag(path, bagReadOptions(line)));
     const std::vector<TopicCourse> courses = topicCourses(path);
     std::vector<std::string>& warnings = recordings.back().warnings;
     for (const std::string& remark : remarksOn(courses)) warnings.push_back(remark);
@@ -102,7 +96,7 @@ int checkSockets(const fsr::settings::CommandLine& line, std::ostream& out) {
   }
   bool good = true;
   for (const std::string& path : line.files()) {
-    const fsr::dataset::Recording recording = readBag(path, readOptions(line));
+    const fsr::dataset::Recording recording = readBag(path, bagReadOptions(line));
     out << topicsText(topicCourses(path)) << '\n';
     const fsr::calibration::DonDoff events = {since(recording, eventTimes(path, "don"), true),
                                               since(recording, eventTimes(path, "doff"), false)};

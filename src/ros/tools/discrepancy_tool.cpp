@@ -6,15 +6,16 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <numeric>
 #include <sstream>
 
+#include "dataset/time_order.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/discrepancy_report.h"
 #include "report/verdict_file.h"
 #include "ros/bags/resource_path.h"
+#include "ros/tools/bag_options.h"
 #include "ros/tools/discrepancy_files.h"
 #include "ros/tools/figure_script.h"
 #include "ros/tools/recompute_gap_tool.h"
@@ -49,7 +50,7 @@ fsr::settings::CommandLine options() {
       .flag("repeat", "go on adding effects until no further effect is found")
       .option("confirm", "FILE", "a verdict.yaml: test its prediction on these new bags")
       .option("without", "ID,...", "leave these effects out of the library")
-      .option("seed", "N", "seed of the split into find and show cycles, and of the tests (1)")
+      .option("seed", "N", "seed of the split into fit and hold-out cycles, and of the tests (1)")
       .option("threads", "N", "number of threads, 0 = one for each core (0); the results do not depend on it")
       .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
       .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
@@ -91,23 +92,13 @@ std::vector<std::string> bagsOf(const fsr::settings::CommandLine& line) {
   return bags;
 }
 
-DrivingBags givenBags(const fsr::settings::CommandLine& line) {
-  DrivingBags bags{bagsOf(line), line.text("namespace", ""), {}};
-  if (line.has("ambient")) bags.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
-  return bags;
-}
-
 // `whole`: with the scans near a change of surface, too.
 std::vector<fsr::dataset::Recording> readBags(const DrivingBags& bags, bool whole,
                                               const fsr::discrepancy::DiscrepancyProgress& progress) {
-  BagReadOptions how;
-  how.topics = bags.topics;
-  how.ambient_pressure = bags.ambient_pressure;
-  if (whole) how.change_margin = 0;
   std::vector<fsr::dataset::Recording> recordings;
   for (const std::string& path : bags.paths) {
     if (progress) progress("reading " + path, 0);
-    recordings.push_back(readBag(path, how));
+    recordings.push_back(whole ? readWhole(path, bags.how) : readBag(path, bags.how));
   }
   return recordings;
 }
@@ -159,13 +150,8 @@ int drawReport(const std::string& folder, std::ostream& out) {
 }
 
 DrivingBags inOrderOfTime(const DrivingBags& bags, const std::vector<fsr::dataset::Recording>& recordings) {
-  std::vector<std::size_t> order(bags.paths.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return recordings[a].start_ns < recordings[b].start_ns;
-  });
-  DrivingBags sorted = bags;
-  for (std::size_t b = 0; b < order.size(); ++b) sorted.paths[b] = bags.paths[order[b]];
+  DrivingBags sorted{{}, bags.how};
+  for (const std::size_t b : fsr::dataset::inOrderOfTime(recordings)) sorted.paths.push_back(bags.paths[b]);
   return sorted;
 }
 
@@ -175,7 +161,7 @@ int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   const fsr::discrepancy::DiscrepancyProgress progress = progressOnTerminal();
   fsr::discrepancy::DiscrepancyProblem problem;
   problem.options = discrepancyOptions(line);
-  const DrivingBags bags = givenBags(line);
+  const DrivingBags bags{bagsOf(line), bagReadOptions(line)};
   problem.recordings = readBags(bags, false, progress);
   const bool changes = std::any_of(problem.recordings.begin(), problem.recordings.end(),
                                    [](const auto& recording) { return recording.losses.near_change > 0; });
@@ -213,7 +199,7 @@ int confirmVerdict(const fsr::settings::CommandLine& line, std::ostream& out) {
                                     ", which predicts nothing that can be confirmed");
   }
   const std::vector<fsr::dataset::Recording> recordings =
-      readBags(givenBags(line), false, progressOnTerminal());
+      readBags({bagsOf(line), bagReadOptions(line)}, false, progressOnTerminal());
   requireNew(recordings, verdict, path);
   const fsr::discrepancy::Confirmation answer =
       fsr::discrepancy::confirm(stored.frozen.prediction, stored.base, recordings);

@@ -11,6 +11,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_archive.h"
 #include "ros/bags/scan_source.h"
+#include "ros/tools/bag_options.h"
 #include "ros/tools/picture_options.h"
 #include "settings/command_line.h"
 
@@ -52,10 +53,11 @@ fsr::settings::CommandLine options(const std::vector<ExportFormat>& formats) {
 
 ScanSelection selectionOf(const fsr::settings::CommandLine& line) {
   ScanSelection selection;
-  selection.topics = line.text("namespace", "");
+  const BagReadOptions how = bagReadOptions(line);
+  selection.topics = how.topics;
   selection.map = line.text("map", selection.map);
   selection.calibration = line.text("calibration", "");
-  if (line.has("ambient")) selection.ambient = line.number("ambient", 0, {0, 120e3, "Pa"});
+  selection.ambient = how.ambient_pressure;
   selection.from = line.number("from", 0, {0, 1e9, "s"});
   selection.until = line.number("until", selection.until, {0, 1e9, "s"});
   selection.rate = line.number("rate", 0, {1e-3, 1e5, "Hz"});

@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "discrepancy/prove/recompute_gap.h"
-#include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/verdict_file.h"
 #include "settings/number_text.h"
@@ -20,12 +19,8 @@ namespace fs = std::filesystem;
 constexpr int kDigits = 8;
 
 std::vector<fsr::dataset::Recording> readAll(const DrivingBags& bags) {
-  BagReadOptions how;
-  how.topics = bags.topics;
-  how.ambient_pressure = bags.ambient_pressure;
-  how.change_margin = 0;
   std::vector<fsr::dataset::Recording> recordings;
-  for (const std::string& path : bags.paths) recordings.push_back(readBag(path, how));
+  for (const std::string& path : bags.paths) recordings.push_back(readWhole(path, bags.how));
   return recordings;
 }
 
@@ -97,8 +92,9 @@ int printRecomputedGap(const std::string& path, const DrivingBags& bags, std::os
 
 std::string recomputeCommand(const std::string& verdict, const DrivingBags& bags) {
   std::string command = "rosrun fsr_pressure_map simulate --gap " + quoted(verdict);
-  if (!bags.topics.empty()) command += " --namespace " + quoted(bags.topics);
-  if (bags.ambient_pressure) command += " --ambient " + fsr::settings::numberText(*bags.ambient_pressure);
+  if (!bags.how.topics.empty()) command += " --namespace " + quoted(bags.how.topics);
+  if (bags.how.ambient_pressure)
+    command += " --ambient " + fsr::settings::numberText(*bags.how.ambient_pressure);
   command += " --drive";
   for (const std::string& path : bags.paths) command += " " + quoted(path);
   return command;

@@ -6,6 +6,7 @@
 #include "report/effect_list.h"
 #include "report/portrait_json.h"
 #include "ros/bags/simulated_bags.h"
+#include "ros/tools/bag_options.h"
 #include "ros/tools/figure_script.h"
 #include "ros/tools/recompute_gap_tool.h"
 #include "settings/command_line.h"
@@ -115,22 +116,15 @@ std::string remarkOf(const fsr::settings::CommandLine& line, const std::vector<s
   return remark;
 }
 
-DrivingBags drivingBags(const fsr::settings::CommandLine& line) {
-  DrivingBags bags{bagsOf(line), line.text("namespace", ""), {}};
-  if (line.has("ambient")) bags.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
-  return bags;
-}
-
 int recompute(const fsr::settings::CommandLine& line, std::ostream& out) {
-  const DrivingBags bags = drivingBags(line);
+  const DrivingBags bags{bagsOf(line), bagReadOptions(line)};
   if (bags.paths.empty()) throw fsr::settings::InputError("--gap: give the bags of the verdict with --drive");
   return printRecomputedGap(line.text("gap", ""), bags, out);
 }
 
 void writeBags(const fsr::settings::CommandLine& line, const fsr::simulation::SimulationSettings& settings,
                std::ostream& out) {
-  const DrivingBags driving_bags = drivingBags(line);
-  const std::vector<std::string>& driving = driving_bags.paths;
+  const DrivingBags driving{bagsOf(line), bagReadOptions(line)};
   const std::string saved = line.text("save-state", "");
   if (!saved.empty()) fsr::settings::requireReplaceable(saved);
   SimulatedBags bags;
@@ -142,10 +136,10 @@ void writeBags(const fsr::settings::CommandLine& line, const fsr::simulation::Si
     bags.state = fsr::simulation::readRigState(fsr::settings::Settings::fromFile(line.requiredText("state")));
   }
   const SimulatedRun run =
-      driving.empty() ? writeSessionBags(settings, bags) : writeDrivenBags(settings, driving_bags, bags);
+      driving.paths.empty() ? writeSessionBags(settings, bags) : writeDrivenBags(settings, driving, bags);
   for (const std::string& warning : run.warnings) out << warning << std::endl;
   const fs::path truth = fs::path(bags.output) / kTruth;
-  fsr::settings::replaceFile(truth, simulationText(run.rig, remarkOf(line, driving)));
+  fsr::settings::replaceFile(truth, simulationText(run.rig, remarkOf(line, driving.paths)));
   out << truth.string() << std::endl;
   if (saved.empty()) return;
   fsr::settings::replaceFile(saved, stateText(run.state));

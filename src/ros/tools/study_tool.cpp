@@ -8,6 +8,7 @@
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/study_report.h"
+#include "ros/tools/bag_options.h"
 #include "ros/tools/figure_script.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
@@ -73,9 +74,7 @@ fsr::study::StudyProblem problemOf(const fsr::settings::CommandLine& line) {
     simulate(line, problem);
     return problem;
   }
-  BagReadOptions reading;
-  reading.topics = line.text("namespace", "");
-  if (line.has("ambient")) reading.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
+  const BagReadOptions reading = bagReadOptions(line);
   for (const std::string& path : line.files()) problem.recordings.push_back(readBag(path, reading));
   return problem;
 }

@@ -15,6 +15,7 @@
 #include "regression/regressors.h"
 #include "report/calibration_check_report.h"
 #include "report/calibration_report.h"
+#include "ros/tools/bag_options.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
 
@@ -118,9 +119,7 @@ fsr::calibration::CalibrationOptions calibrationOptions(const fsr::settings::Com
 }
 
 std::vector<fsr::dataset::Recording> readBags(const fsr::settings::CommandLine& line) {
-  BagReadOptions options;
-  options.topics = line.text("namespace", "");
-  if (line.has("ambient")) options.ambient_pressure = line.number("ambient", 0, {0, 120e3, "Pa"});
+  const BagReadOptions options = bagReadOptions(line);
   std::vector<fsr::dataset::Recording> recordings;
   for (const std::string& path : line.files()) recordings.push_back(readBag(path, options));
   return recordings;
