@@ -29,7 +29,7 @@ LAYOUT = """<style>
 .first { display: grid; grid-template-columns: minmax(20em, 2fr) 3fr; gap: 0 1.6em; }
 .first figure { margin: 0.8em 0 0; } .first p, .first ul { margin: 0.4em 0; } .first .verdict { grid-column: 1 / 3; margin: 0; }
 body { max-width: 76em; margin: 1em auto; } h1 { margin: 0.3em 0; }
-.gap td { padding: 0.15em 0.7em; } dt { font-weight: bold; margin-top: 0.5em; } dd { margin: 0; }
+.gap td { padding: 0.15em 0.7em; } dt { font-weight: bold; margin-top: 0.5em; } dd { margin: 0; } dd pre { margin: 0; white-space: pre-wrap; }
 @media (max-width: 50em) { .first { display: block; } }
 </style>"""
 
@@ -146,20 +146,20 @@ def draw_rest(folder, results):
 
 
 def draw_candidates(folder):
-    """Share of the held-out squared error that each candidate explains; None if there is no candidate."""
+    """What each candidate adds to the predictive density of held-out cycles; None if there is no candidate."""
     table = read_table(os.path.join(folder, "candidates.csv"))
-    number = min(len(table["effects"]), 15)
+    number = min(len(table["explanation"]), 15)
     if number == 0:
         return None
     drawing, axes = style.figure(style.PAGE, 0.5 + 0.2 * number)
     shown = {"named": style.GREEN, "credible": style.ORANGE}
-    share = [max(0, s) if not math.isnan(s) else 0 for s in table["share of error [%]"][:number]]
-    axes.barh(range(number), share, color=[shown.get(o, "#bbbbbb") for o in table["outcome"][:number]])
-    axes.set_yticks(range(number), [spelt(str(e)) for e in table["effects"][:number]])
+    nats = [max(0, s) if not math.isnan(s) else 0 for s in table["nats"][:number]]
+    axes.barh(range(number), nats, color=[shown.get(o, "#bbbbbb") for o in table["outcome"][:number]])
+    axes.set_yticks(range(number), [spelt(str(e)) for e in table["explanation"][:number]])
     axes.invert_yaxis()
-    axes.set_xlabel("explained of the squared error on held-out cycles [%]")
+    axes.set_xlabel("added to the log density of cycles that it was not fitted to [nats]")
     for i, outcome in enumerate(table["outcome"][:number]):
-        axes.annotate(spelt(str(outcome)), (share[i], i), va="center", fontsize=6.5, xytext=(3, 0),
+        axes.annotate(spelt(str(outcome)), (nats[i], i), va="center", fontsize=6.5, xytext=(3, 0),
                       textcoords="offset points")
     axes.margins(x=0.15)
     return style.save(drawing, os.path.join(folder, "candidates"))
@@ -176,14 +176,18 @@ def kilopascal(value):
     return "-" if value is None else "%.3g kPa" % (value / 1e3)
 
 
-def gap_table(gap):
+def probability(value):
+    return "-" if value is None else "%.2g" % value
+
+
+def gap_table(gap, added):
     if gap["before"] is None:
         return style.paragraph("The gap was not measured, because nothing was held out.")
     def interval(name):
         low, high = gap[name + "_interval"]
         return "" if low is None or not low < high else "%s to %s" % (percent(low), percent(high))
     rows = [(name, percent(gap[name]), interval(name), kilopascal(gap[name + "_pa"]))
-            for name in ("before", "after", "floor")]
+            for name in (("before", "after", "floor") if added else ("before", "floor"))]
     rows.append(("differences between cycles", percent(gap["floor_bracket"][1]), "", ""))
     if gap["closed"] is not None:
         rows.append(("closed", percent(gap["closed"]), interval("closed"), ""))
@@ -196,13 +200,6 @@ def sentence_list(sentences):
 
 def item(title, text):
     return "<dt>%s</dt><dd>%s</dd>" % (html.escape(title), html.escape(text))
-
-
-def not_excluded(results):
-    sets = [" + ".join(spelt(i) for i in ids) for ids in results["credible_set"]]
-    if results["gap"]["before"] is None:
-        return "; ".join(sets) or "any effect: nothing was held out"
-    return "; ".join(sets) if sets else "none: no effect of the library explains the gap"
 
 
 def not_testable(results):
@@ -228,19 +225,12 @@ def foretold_section(results):
 
 def surfaces_section(results):
     rows = [(s["surface"], percent(s["before"]), percent(s["after"])) for s in results["gap"]["surfaces"]]
-    command = [style.paragraph("This command recomputes all of these numbers:"),
-               "<pre>%s</pre>" % html.escape(results["recompute"])] if results["recompute"] else []
-    return [style.table(["surface", "gap before", "gap after"], rows)] + command if rows else []
+    return [style.table(["surface", "gap before", "gap after"], rows)] if rows else []
 
 
 def opened(results):
     most = max((i["show_opened"] for i in results["inputs"]), default=0)
     return "once" if most <= 1 else "%d times by now" % most
-
-
-def costs(results):
-    return ", ".join("%s %s" % (kilopascal(u["before_pa"]), SITUATIONS.get(u["situation"], u["situation"]))
-                     for u in results["in_use"])
 
 
 def verdict_words(results):
@@ -249,27 +239,20 @@ def verdict_words(results):
     return WORDS.get(results["verdict"], results["verdict"])
 
 
-def next_step(results):
-    if results["next_experiment"]:
-        return results["next_experiment"]["sentence"]
-    if results["gap"]["before"] is None:
-        return "record more cycles, so that some can be held out"
-    return "none is needed to separate explanations"
-
-
 def first_screen(results, figure):
-    facts = "".join([
-        item("Not excluded", not_excluded(results)),
-        item("Not testable here (what would show it)", not_testable(results)),
-        item("Next experiment", next_step(results)),
-        item("Held out by", held_out(results["gap"]) + "; looked at " + opened(results)),
-        item("Largest error if it is left out", costs(results)) if results["in_use"] else "",
-    ])
+    """The answers of the tool, in its order. The verdict stands above them, the gap is a table below them."""
+    answers = [i for i in results["first_screen"] if i["title"] != "Missing"]
+    facts = "".join(
+        "<dt>%s</dt><dd>%s</dd>" % (html.escape(i["title"]),
+                                    ("<pre>%s</pre>" if i["title"].startswith("Recompute") else "%s") % html.escape(i["answer"]))
+        for i in answers)
+    facts += item("Not testable here (what would show it)", not_testable(results))
+    facts += item("Held out by", held_out(results["gap"]) + "; looked at " + opened(results))
     caption = ("Measured minus simulated: mean with 95 % interval, before and after the effects found were added, "
                "and its rms on hold-out data. Floor: noise from differences between neighbouring scans")
     return ("<div class=first><p class=verdict><b>%s.</b> %s</p><div><dl>%s</dl><div class=gap>%s</div></div>%s</div>"
             % (html.escape(verdict_words(results).capitalize()),
-               html.escape(results["sentence"]), facts, gap_table(results["gap"]), style.picture(figure, caption)))
+               html.escape(results["sentence"]), facts, gap_table(results["gap"], results["effects"]), style.picture(figure, caption)))
 
 
 def effects_section(results):
@@ -301,13 +284,37 @@ def where_section(results):
 
 
 def covariates_section(results):
-    methods = {"sign_flips": "permutation test on whole cycles", "block_bootstrap": "bootstrap over cycles or blocks"}
-    rows = [(spelt(t["covariate"]), "yes" if t["depends"] else "no", "%.2g" % t["p"], "%.2g" % t["adjusted_p"],
-             percent(max(0, t["share_of_error"])), methods.get(t["method"], t["method"]))
-            for t in results["covariates"]]
-    return [style.paragraph("Dependence of the residual of the static curves, tested before any effect was named. p is adjusted by Benjamini "
-                            "and Yekutieli. Yes: p is at most 0.05 and the share of the squared error at least 2 %."),
-            style.table(["covariate", "depends", "p", "adjusted p", "share of the squared error", "test"], rows)] if rows else []
+    methods = {"predictive_density": "terms of the covariate", "effect": "effect found", "detector": "test of its own",
+               "static_curves": "static curves", "odd_taxels": "taxels that differ"}
+    rows = [(spelt(t["covariate"]), "yes" if t["depends"] else "no", probability(t["p"]), probability(t["adjusted_p"]),
+             kilopascal(t["at_map_pa"]), methods.get(t["method"], t["method"])) for t in results["covariates"]]
+    options = results["options"]
+    return [style.paragraph("Terms of each covariate compete with the effects: what they add to the predictive density of cycles that they "
+                            "were not fitted to. The adjusted p is corrected for the search among all explanations. Yes: the adjusted p "
+                            "is at most %.2g, and the size at the map at least %s; or what was found depends on the covariate."
+                            % (options["level"], kilopascal(results["least_gap_pa"]))),
+            style.table(["covariate", "depends", "p", "adjusted p", "rms at the map", "by"], rows)] if rows else []
+
+
+def seen_section(results):
+    seen = sorted((s for s in results["smallest_seen"] if s["at_map_pa"] is not None), key=lambda s: s["at_map_pa"])
+    return [style.paragraph("Each of these effects would have been seen from this size on, if nothing else were missing; never below the "
+                            "least gap of %s." % kilopascal(results["least_gap_pa"])),
+            style.table(["effect", "rms at the map"], [(spelt(s["id"]), kilopascal(s["at_map_pa"])) for s in seen])] if seen else []
+
+
+def scatter_section(results):
+    names = {"cycle_gain": "gain, from cycle to cycle", "cycle_offset": "zero, from cycle to cycle", "wandering": "slow wandering within a cycle"}
+    rows = [(names.get(s["part"], s["part"]), percent(s["size"]), "%s to %s" % (percent(s["interval"][0]), percent(s["interval"][1])),
+             s["unit"], kilopascal(s["at_map_pa"]), percent(s["share_of_noise"])) for s in results["scatter"]]
+    return [style.paragraph("Standard deviation of the mean reading of all taxels. An interval from 0 means: not to be told from none."),
+            style.table(["scatter", "size", "95 % interval", "of", "rms at the map", "share of the noise"], rows)] if rows else []
+
+
+def options_section(results):
+    def text(value):
+        return "-" if value is None else "%g" % value
+    return [style.table(["constant of the decision", "value"], [(spelt(k), text(v)) for k, v in results["options"].items()])]
 
 
 def use_section(results):
@@ -336,6 +343,8 @@ def sections(results, figures):
         ("What was found", effects_section(results) + [style.paragraph(s["sentence"]) for s in results["steps"]]),
         ("Where it appears", where_section(results) if shown else []),
         ("What the residual depends on", covariates_section(results)),
+        ("What would have been seen", seen_section(results)),
+        ("Scatter", scatter_section(results)),
         ("Gap on each surface", surfaces_section(results)),
         ("Hold-out surfaces and protocols", foretold_section(results)),
         ("Largest errors in use", use_section(results)),
@@ -345,6 +354,7 @@ def sections(results, figures):
         ("Not testable with these bags", [style.table(["effect", "experiment that would show it", "reason"], testable)] if testable else []),
         ("Limits", [sentence_list(results["limitations"] + results["gap"]["missing"])]
          if results["limitations"] or results["gap"]["missing"] else []),
+        ("Constants", options_section(results)),
         ("Provenance", provenance(results)),
     ]
     return [(heading, pieces) for heading, pieces in parts if pieces]

@@ -21,8 +21,10 @@ class TimeSeries {
   std::size_t size() const { return values_.size(); }
   std::uint64_t notFinite() const { return not_finite_; }
 
-  /// The value at `stamp_ns`, interpolated linearly between the value before and the value after it. None
-  /// where one of them is missing or they are more than `longest_gap_ns` apart.
+  /// The value at `stamp_ns`, by monotone cubic interpolation (PCHIP): the curve passes through all values,
+  /// and between two of them it stays in their range. None where the value before or after is missing, or
+  /// where they are more than `longest_gap_ns` apart. Values on the other side of such a gap have no
+  /// influence.
   std::optional<double> between(std::int64_t stamp_ns, std::int64_t longest_gap_ns) const;
   /// The same over gaps of any length. Before the first value it is the first, after the last the last one.
   /// The series must not be empty.

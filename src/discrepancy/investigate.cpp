@@ -2,7 +2,6 @@
 #include <cmath>
 #include <memory>
 
-#include "discrepancy/decide/covariate_tests.h"
 #include "discrepancy/decide/decision.h"
 #include "discrepancy/decide/detections.h"
 #include "discrepancy/decide/refine.h"
@@ -11,6 +10,7 @@
 #include "discrepancy/fit/taxel_curves_fit.h"
 #include "discrepancy/prove/costs_in_use.h"
 #include "discrepancy/prove/driven_gap.h"
+#include "discrepancy/prove/freeze.h"
 #include "discrepancy/prove/next_experiment.h"
 #include "discrepancy/prove/report_gap.h"
 #include "discrepancy/prove/wording.h"
@@ -23,13 +23,8 @@ namespace fsr::discrepancy {
 
 namespace {
 
-// Range of the size under another protocol, as a factor of the fitted size. The form of an effect is never
-// exact.
-constexpr double kPredictedLow = 0.6, kPredictedHigh = 1.6;
-constexpr double kFarLevel = 1.8;   // of the highest reading: a higher saturation level has no influence
-constexpr int kMostRounds = 4;      // of repeat()
-constexpr double kFormHolds = 0.7;  // of what a mixture of forms explains; above it the single form is used
-constexpr double kNotIdentifiable = 0.05;  // share of a signature that the static curves leave
+constexpr double kFarLevel = 1.8;  // of the highest reading: a higher saturation level has no influence
+constexpr int kMostRounds = 4;     // of repeat()
 
 using Ids = std::vector<std::string>;
 
@@ -51,6 +46,7 @@ class Investigation {
     const auto& out = problem_.options.leave_out;
     return !problem_.simulation.effect(id) && !std::count(out.begin(), out.end(), id);
   }
+  bool humOfAll() const;
   void detectFaults();
   void takeOutStatics();
   void refitStatics();
@@ -69,10 +65,14 @@ class Investigation {
   void show();
   simulation::SimulationSettings withFaults(simulation::SimulationSettings settings) const;
   void prove();
+  bool hidden(const std::string& id) const;
+  std::string notLookedFor(const simulation::EffectInfo& info) const;
   void listNotIdentifiable();
   void answerQuestions();
+  Answer answerTo(const std::string& id) const;
+  void listDependences();
+  void listDetections();
   void plan();
-  void doubtSilence();
   double squareOfReadings() const {
     return spreadOf(measured_, *taxels_, Trace::Zero(common_.all.size())).square;
   }
@@ -93,15 +93,22 @@ class Investigation {
   simulation::SimulationSettings current_;  // includes all effects that were subtracted
   bool quiet_ = false;
   bool by_terms_ = false;  // the gap is that of fitted terms, not of the effects in the simulation
-  Gap of_traces_;          // of the fitted traces; for planning
   Trace left_;             // part of the common trace's residual that the effects explain
   DiscrepancyReport report_;
 };
 
+// Whether all taxels hum. The phases of a hum differ from line to line, so it is also a step of lines.
+bool Investigation::humOfAll() const {
+  const CommonTraces common = commonTraces(measured_);
+  const StaticFit fit(measured_, CurvePer::kClass, common.all);
+  return findMains(measured_, fit, TaxelFit(measured_, fit), problem_.options).found;
+}
+
 void Investigation::detectFaults() {
-  Faults faults = findFaults(measured_);
+  const bool hum = humOfAll();
+  const Faults faults = findFaults(measured_, problem_.options);
   for (const Fault& fault : faults.faults) {
-    if (!sought(fault.id)) continue;
+    if (!sought(fault.id) || (hum && fault.isLine())) continue;
     detections_.push_back(detectionOf(fault, faults.readings, 0));
     for (const std::size_t t : fault.taxels) measured_.used[t] = 0;
   }
@@ -155,7 +162,7 @@ void Investigation::repeat() {
   for (int round = 0; round < kMostRounds; ++round) {
     const bool named = decision_.verdict == Verdict::kNamed;
     report_.steps.push_back({});
-    report_.steps.back().share_of_error = decision_.share_of_error;
+    report_.steps.back().at_map = decision_.at_map;
     if (!named) break;
     report_.steps.back().added = listText(decision_.credible.front(), " with ");
     report_.steps.back().sentence = "Added " + report_.steps.back().added + ".";
@@ -183,8 +190,7 @@ void Investigation::repeat() {
 void Investigation::moreEffects() {
   for (std::size_t e = 0; e < decision_.refined.effects.size(); ++e) {
     const simulation::EffectInfo& info = measured_.info(decision_.refined.effects[e].id);
-    later_.push_back({{info.id, info.summary, decision_.refined.parameters[e], decision_.z,
-                       std::min(1.0, decision_.share / decision_.explainable)},
+    later_.push_back({{info.id, info.summary, decision_.refined.parameters[e], decision_.z, decision_.closes},
                       {decision_.refined.effects[e]},
                       {},
                       {},
@@ -198,7 +204,7 @@ void Investigation::moreEffects() {
 
 void Investigation::takeOutMains() {
   if (!sought(simulation::Detector::kMains)) return;
-  mains_ = findMains(measured_, *taxels_);
+  mains_ = findMains(measured_, *fit_, *taxels_, problem_.options);
   if (!mains_.found) return;
   detections_.push_back(detectionOf(mains_, squareOfReadings(), measured_));
   takeOut(mains_, *fit_, common_);
@@ -218,17 +224,16 @@ void Investigation::compete() {
   tell("signatures", 0.2);
   const auto& options = problem_.options;
   candidates_ = std::make_unique<Candidates>(
-      measured_, common_, *fit_, signatures(measured_, *fit_, current_, options.leave_out, options.threads),
-      options.threads);
+      measured_, *fit_, signatures(measured_, *fit_, current_, options.leave_out, options.threads));
   tell("naming", 0.6);
-  decision_ = decide(measured_, common_, *fit_, *taxels_, *candidates_, current_);
+  decision_ = decide(measured_, common_, *fit_, *candidates_, current_, options);
 }
 
 void Investigation::lookAtStaticCurves() {
   misfit_ = findStaticMisfit(measured_, *fit_, common_.all, squareOfReadings());
   const bool else_found =
       !detections_.empty() || decision_.verdict != Verdict::kNone || !measured_.gain.empty();
-  if (!isMisfit(misfit_, else_found)) return;
+  if (!isMisfit(misfit_, else_found) || misfit_.at_map < decision_.least_gap) return;
   if (isSaturation(misfit_, measured_)) {
     const Detection saturation = saturationOf(misfit_, measured_, *fit_, report_.base);
     const double level = saturation.enable.front().values.at("level") / measured_.full_scale;
@@ -273,6 +278,16 @@ void Investigation::put() {
   report_.credible_set = decision_.credible;
   report_.depends_on = decision_.depends_on;
   report_.candidates = decision_.candidates;
+  report_.covariates = decision_.covariates;
+  report_.smallest_seen = decision_.smallest_seen;
+  report_.too_small = decision_.too_small;
+  report_.scatter = decision_.scatter;
+  report_.at_map = decision_.at_map;
+  report_.p = decision_.p;
+  report_.least_gap = decision_.least_gap;
+  report_.options = problem_.options;
+  report_.limitations.insert(report_.limitations.end(), decision_.limitations.begin(),
+                             decision_.limitations.end());
   for (CandidateScore& candidate : report_.candidates) {
     const bool named = decision_.verdict == Verdict::kNamed && candidate.outcome == "credible";
     if (named) candidate.outcome = "named";
@@ -280,22 +295,15 @@ void Investigation::put() {
   report_.added = report_.base;
   left_ = Trace::Zero(common_.all.size());
   by_terms_ = decision_.verdict == Verdict::kUnknown;
-  if (by_terms_) left_ = fit_->residual(candidates_->explained(decision_.explanation));
+  if (by_terms_) left_ = fit_->residual(decision_.explained);
   if (decision_.credible.empty()) return;
   const Refined& refined = decision_.refined;
   for (std::size_t e = 0; e < refined.effects.size(); ++e) {
     report_.added = withEffect(report_.added, refined.effects[e]);
     const simulation::EffectInfo& info = measured_.info(refined.effects[e].id);
-    report_.effects.push_back({info.id, info.summary, refined.parameters[e], decision_.z,
-                               std::min(1.0, decision_.share / decision_.explainable)});
+    report_.effects.push_back({info.id, info.summary, refined.parameters[e], decision_.z, decision_.closes});
   }
   left_ = refined.trace;
-  if (refined.share >= kFormHolds * decision_.share) return;
-  // The gap is that of the mixture of forms that was found. The simulation contains the nearest single form.
-  by_terms_ = true;
-  left_ = fit_->withoutGainWeights(candidates_->explained(decision_.explanation));
-  report_.limitations.push_back(
-      "The form in the simulation closes less of the gap than the mixture of forms that was fitted.");
 }
 
 // Restores readings and curves to those before the rounds of repeat(). The gap is measured against them.
@@ -310,8 +318,13 @@ void Investigation::startAgain() {
 
 // Adds the effects that detectors found to every explanation of the common trace.
 void Investigation::putDetections() {
-  if (unknown_statics_) {
+  const bool named = report_.verdict != Verdict::kNone && report_.verdict != Verdict::kUnknown;
+  if (unknown_statics_ && named)
+    report_.limitations.push_back(
+        "The static curves of the surfaces differ in a way that nothing that was found explains.");
+  if (unknown_statics_ && !named) {
     report_.verdict = Verdict::kUnknown;
+    report_.at_map = misfit_.at_map;
     report_.depends_on = {simulation::name(simulation::Covariate::kPressure),
                           simulation::name(simulation::Covariate::kCurvature)};
     report_.where.pressure = misfit_.pressure;
@@ -351,9 +364,9 @@ void Investigation::show() {
   for (const Detection& more : later_) beside.insert(beside.end(), more.enable.begin(), more.enable.end());
   const double static_square = unknown_statics_ ? misfit_.rms * misfit_.rms : 0;
   const auto& options = problem_.options;
-  of_traces_ = reportGap({measured_, common_, *fit_, *taxels_, *candidates_, decision_, detections_, beside,
-                          left_, by_terms_, static_square, options.threads, options.seed},
-                         report_);
+  reportGap({measured_, common_, *fit_, *taxels_, decision_, detections_, beside, left_, by_terms_,
+             static_square, options.threads, options.seed},
+            report_);
 }
 
 // Adds the faults of single taxels and lines that were found. What a taxel reads while it fails is no
@@ -401,35 +414,51 @@ void Investigation::prove() {
         "was added may be larger than before.");
   if (hold_out.leftOut() > 0)
     missing.push_back(std::to_string(hold_out.leftOut()) +
-                      " scans of the hold-out cycles were left out of the gap: no fitted cycle reaches their "
-                      "pressures.");
+                      (hold_out.leftOut() == 1 ? " scan of the hold-out cycles was"
+                                               : " scans of the hold-out cycles were") +
+                      " left out of the gap: no fitted cycle reaches such a pressure.");
   if (hold_out.scans() > 0) return;
   missing = {"Nothing was held out, so no gap was measured and no effect is named: record more cycles."};
   report_.gap.held_out_by.clear();
   report_.gap.foretold.clear();
 }
 
+// Whether an effect competed although no plausible strength of it would have been found.
+bool Investigation::hidden(const std::string& id) const {
+  const auto& seen = decision_.smallest_seen;
+  return std::any_of(seen.begin(), seen.end(),
+                     [&](const SmallestSeen& one) { return one.id == id && std::isnan(one.at_map); });
+}
+
+std::string Investigation::notLookedFor(const simulation::EffectInfo& info) const {
+  const AvailableEvidence evidence = availableEvidence(measured_);
+  std::string lacking;
+  for (const simulation::Evidence need : info.needs) {
+    if (!evidence.has(need)) lacking += (lacking.empty() ? "" : ", ") + simulation::name(need);
+  }
+  std::replace(lacking.begin(), lacking.end(), '_', ' ');
+  return lacking.empty() ? "It is not looked for in this version." : "It needs " + lacking + ".";
+}
+
 void Investigation::listNotIdentifiable() {
   for (const simulation::EffectEntry& entry : measured_.effects().entries()) {
     const simulation::EffectInfo& info = entry.info;
     if (!inLibrary(info.id) || info.kind == simulation::EffectKind::kBase) continue;
-    double left = 0;
-    bool tried = false;
-    for (const Signature& s : candidates_->signatures()) {
-      if (s.id != info.id) continue;
-      tried = true;
-      left = std::max(left, s.left);
-    }
-    const bool remounted = measured_.classes.size() < measured_.visits.size();
+    const auto& all = candidates_->signatures();
+    const bool tried =
+        std::any_of(all.begin(), all.end(), [&](const Signature& s) { return s.id == info.id; });
+    const std::vector<std::size_t> mounts = measured_.mounts();
+    const bool remounted = *std::max_element(mounts.begin(), mounts.end()) > 1;
     std::string reason;
     if (info.kind == simulation::EffectKind::kListed) reason = "A gas chamber cannot show it.";
     if (tried && isStatic(info)) reason = "Under a uniform pressure the static curves absorb all of it.";
-    if (tried && !isStatic(info) && left < kNotIdentifiable)
-      reason = "Under this protocol the static curves absorb nearly all of it.";
+    if (hidden(info.id)) reason = "Under this protocol no plausible strength of it would be seen.";
     if (info.detector == simulation::Detector::kMounts && !remounted)
       reason = "No surface was mounted twice.";
-    if (!info.looked_for) reason = "It is not looked for in this version.";
-    if (reason.empty()) {
+    if (!info.looked_for) reason = notLookedFor(info);
+    const bool found = std::any_of(report_.effects.begin(), report_.effects.end(),
+                                   [&](const FoundEffect& effect) { return effect.id == info.id; });
+    if (reason.empty() || found) {
       report_.tested.push_back(info.id);
     } else {
       report_.not_identifiable.push_back({info.id, simulation::name(info.experiment), reason});
@@ -437,45 +466,117 @@ void Investigation::listNotIdentifiable() {
   }
 }
 
-// If the user asked for an effect that these recordings cannot show, this is the verdict, unless there is
-// another verdict.
+// If nothing was found and the recordings cannot show an effect that the user asks about, this is the
+// verdict.
 void Investigation::answerQuestions() {
+  for (const std::string& id : problem_.options.ask) report_.answers.push_back(answerTo(id));
   if (report_.verdict != Verdict::kNone) return;
   Ids hidden;
-  for (const std::string& id : problem_.options.ask) {
-    for (const NotIdentifiable& one : report_.not_identifiable) {
-      if (one.id == id) hidden.push_back(id);
-    }
+  for (const Answer& answer : report_.answers) {
+    if (answer.answer == "not_identifiable") hidden.push_back(answer.id);
   }
   if (hidden.empty()) return;
   report_.verdict = Verdict::kNotIdentifiable;
-  report_.credible_set.clear();
   for (const std::string& id : hidden) report_.credible_set.push_back({id});
 }
 
-// Recommends the next experiment and predicts its result.
-void Investigation::plan() {
-  if (decision_.credible.empty()) return;
-  std::vector<std::vector<simulation::EnabledEffect>> explanations = {decision_.refined.effects};
-  for (const Refined& rival : decision_.rivals) explanations.push_back(rival.effects);
-  report_.next_experiment =
-      nextExperiment(report_.base, explanations, availableEvidence(measured_), of_traces_.floor);
-  Prediction& prediction = report_.prediction;
-  prediction.effects = explanations.front();
-  prediction.rivals.assign(explanations.begin() + 1, explanations.end());
-  prediction.size = {kPredictedLow, kPredictedHigh};
+Answer Investigation::answerTo(const std::string& id) const {
+  if (problem_.simulation.effect(id)) return {id, "in_simulation", NAN, "The simulation has it already."};
+  if (!inLibrary(id)) return {id, "left_out", NAN, "It was left out of the library."};
+  for (const FoundEffect& effect : report_.effects) {
+    if (effect.id == id) return {id, "found", NAN, "It is a part of the best explanation."};
+  }
+  const auto names_it = [&](const Ids& ids) { return std::count(ids.begin(), ids.end(), id) > 0; };
+  if (std::any_of(report_.credible_set.begin(), report_.credible_set.end(), names_it))
+    return {id, "not_excluded", NAN, "It is not excluded."};
+  for (const CandidateScore& candidate : report_.candidates) {
+    if (candidate.outcome == "required_data_missing" && names_it(candidate.ids))
+      return {id, "not_excluded", NAN, "It is not excluded, but nothing was held out to prove it."};
+  }
+  for (const NotIdentifiable& one : report_.not_identifiable) {
+    if (one.id == id) return {id, "not_identifiable", NAN, one.reason};
+  }
+  if (!std::count(report_.tested.begin(), report_.tested.end(), id))
+    return {id, "left_out", NAN, "It is not looked for."};
+  for (const SmallestSeen& seen : report_.smallest_seen) {
+    if (seen.id == id) return {id, "excluded", seen.at_map, "It was tested and not found."};
+  }
+  return {id, "excluded", NAN, "It was tested and not found."};
 }
 
-// Adds a limitation where no explanation stands out, but the residual still depends on covariates.
-void Investigation::doubtSilence() {
-  if (report_.verdict != Verdict::kNone) return;
-  Ids covariates;
-  for (const CovariateTest& test : report_.covariates) {
-    if (test.depends) covariates.push_back(test.covariate);
+// Lists what detectors and later rounds found beside the explanations of the common trace.
+void Investigation::listDetections() {
+  if (report_.verdict == Verdict::kUnknown) return;
+  for (const Detection& detection : detections_) {
+    auto& all = report_.candidates;
+    const Ids ids = {detection.effect.id};
+    const auto competed = std::find_if(all.begin(), all.end(),
+                                       [&](const CandidateScore& candidate) { return candidate.ids == ids; });
+    if (competed != all.end()) {
+      competed->outcome = "named";
+      continue;
+    }
+    CandidateScore candidate;
+    candidate.ids = ids;
+    candidate.outcome = "named";
+    candidate.nats = candidate.p = candidate.at_map = NAN;
+    candidate.z = detection.effect.z;
+    candidate.share_of_explainable = detection.effect.share_of_explainable;
+    all.insert(all.begin(), candidate);
   }
-  if (covariates.empty()) return;
-  report_.limitations.push_back("The residual depends on " + listText(covariates) +
-                                ", but no explanation is significant. Record more cycles.");
+}
+
+// The findings depend on covariates, too. Where terms of such a covariate alone do not show it, the finding
+// does, so its test stands in the list.
+void Investigation::listDependences() {
+  for (const std::string& covariate : report_.depends_on) {
+    auto& tests = report_.covariates;
+    const auto alone = std::find_if(tests.begin(), tests.end(),
+                                    [&](const CovariateTest& test) { return test.covariate == covariate; });
+    if (alone != tests.end() && alone->depends) continue;
+    const auto& competed = decision_.depends_on;
+    const bool of_effect =
+        !std::isnan(decision_.at_map) && std::count(competed.begin(), competed.end(), covariate) > 0;
+    CovariateTest test;
+    test.covariate = covariate;
+    test.method = of_effect                  ? "effect"
+                  : !report_.effects.empty() ? "detector"
+                  : unknown_statics_         ? "static_curves"
+                  : !odd_.taxels.empty()     ? "odd_taxels"
+                                             : "detector";
+    test.p = test.adjusted = of_effect ? decision_.p : NAN;
+    test.at_map = of_effect ? decision_.at_map : NAN;
+    test.depends = true;
+    if (alone != tests.end()) {
+      *alone = test;
+    } else {
+      tests.push_back(test);
+    }
+  }
+}
+
+// Recommends the next experiment and predicts its result. The set misses the best explanation with the
+// probability that remains beside `credible`.
+void Investigation::plan() {
+  const auto& pressure = measured_.raw_pressure;
+  const double peak = *std::max_element(pressure.begin(), pressure.end());
+  if (report_.verdict == Verdict::kUnknown) {
+    report_.next_experiment = experimentFor(report_.depends_on, !report_.hold_out.empty(), peak);
+    return;
+  }
+  if (decision_.credible.empty()) return;
+  report_.prediction = freeze(decision_, measured_, common_, *fit_, report_.base, problem_.options);
+  Contest contest;
+  contest.explanations = {decision_.refined.effects};
+  for (const Refined& rival : decision_.rivals) contest.explanations.push_back(rival.effects);
+  contest.weights = report_.prediction.weights;
+  contest.unknown = 1 - problem_.options.credible;
+  contest.at_hand = availableEvidence(measured_);
+  contest.noise = decision_.noise;
+  contest.peak = peak;
+  contest.draws = problem_.options.null_draws;
+  contest.seed = problem_.options.seed;
+  report_.next_experiment = nextExperiment(onItsSurfaces(report_.base, measured_), contest);
 }
 
 DiscrepancyReport Investigation::run() {
@@ -492,9 +593,6 @@ DiscrepancyReport Investigation::run() {
   takeOutMains();
   compete();
   sizeTogether();
-  tell("covariates", 0.75);
-  report_.covariates =
-      CovariateTests{measured_, common_, *fit_, *taxels_, *candidates_, problem_.options.seed}.run();
   lookAtStaticCurves();
   lookAtTaxels();
   abstainWithoutProof();
@@ -508,9 +606,11 @@ DiscrepancyReport Investigation::run() {
   show();
   listNotIdentifiable();
   answerQuestions();
-  plan();
+  listDetections();
+  listDependences();
   tell("curves", 0.92);
   prove();
+  plan();
   if (!decision_.credible.empty() && !by_terms_) {
     report_.in_use = costsInUse(measured_, report_.base, report_.added,
                                 std::clamp(report_.gap.closed_interval.low, 0.0, 1.0));
@@ -520,7 +620,6 @@ DiscrepancyReport Investigation::run() {
   }
   report_.limitations.insert(report_.limitations.begin(), measured_.limitations.begin(),
                              measured_.limitations.end());
-  doubtSilence();
   report_.sentence = sentenceOf(report_);
   tell("done", 1);
   return std::move(report_);

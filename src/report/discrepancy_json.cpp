@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/discrepancy_report.h"
+#include "report/first_screen.h"
 
 namespace fsr::report {
 
@@ -30,12 +31,8 @@ Json json(const discrepancy::NotIdentifiable& effect) {
 }
 
 Json json(const discrepancy::CovariateTest& test) {
-  return {{"covariate", test.covariate},
-          {"method", test.method},
-          {"p", test.p},
-          {"adjusted_p", test.adjusted},
-          {"share_of_error", test.share_of_error},
-          {"depends", test.depends}};
+  return {{"covariate", test.covariate}, {"method", test.method},    {"p", test.p},
+          {"adjusted_p", test.adjusted}, {"at_map_pa", test.at_map}, {"depends", test.depends}};
 }
 
 Json json(const discrepancy::WhereItShows& where) {
@@ -91,17 +88,86 @@ Json json(const discrepancy::GapInUse& use) {
 
 Json json(const discrepancy::CandidateScore& candidate) {
   return {{"ids", candidate.ids},
+          {"generic", candidate.generic},
           {"outcome", candidate.outcome},
-          {"share_of_error", candidate.share_of_error},
+          {"nats", candidate.nats},
+          {"p", candidate.p},
+          {"z", candidate.z},
           {"share_of_ceiling", candidate.share_of_explainable},
-          {"z", candidate.z}};
+          {"at_map_pa", candidate.at_map}};
+}
+
+Json json(const discrepancy::SmallestSeen& seen) {
+  return {{"id", seen.id}, {"at_map_pa", seen.at_map}};
+}
+
+Json json(const discrepancy::TooSmall& small) {
+  return {{"explanation", small.explanation}, {"p", small.p}, {"at_map_pa", small.at_map}};
+}
+
+Json json(const discrepancy::Scatter& scatter) {
+  return {{"part", scatter.part},
+          {"unit", scatter.unit},
+          {"size", scatter.size},
+          {"interval", json(scatter.interval)},
+          {"seen", scatter.seen()},
+          {"at_map_pa", scatter.at_map},
+          {"share_of_noise", scatter.of_noise}};
+}
+
+Json json(const discrepancy::Answer& answer) {
+  return {{"id", answer.id},
+          {"answer", answer.answer},
+          {"at_map_pa", answer.at_map},
+          {"sentence", answer.sentence}};
+}
+
+Json json(const FirstScreenItem& item) {
+  return {{"title", item.title}, {"answer", item.answer}};
+}
+
+// The constants of the decision.
+Json json(const discrepancy::DiscrepancyOptions& options) {
+  return {{"level", options.level},
+          {"credible", options.credible},
+          {"least_gap_pa", options.least_gap},
+          {"least_gap_share", options.least_gap_share},
+          {"generic_better", options.generic_better},
+          {"unknown_below", options.unknown_below},
+          {"wrong_form_below", options.wrong_form_below},
+          {"second_adds", options.second_adds},
+          {"contender", options.contender},
+          {"null_draws", options.null_draws},
+          {"resamples", options.resamples},
+          {"folds", options.folds},
+          {"degrees", options.degrees}};
 }
 
 Json json(const discrepancy::NextExperiment& next) {
   return {{"protocol", next.protocol},
           {"sentence", next.sentence},
           {"separation", next.separation},
-          {"separates", next.separates}};
+          {"cycles", next.cycles},
+          {"separates", next.separates},
+          {"certainty", next.certainty},
+          {"entropy_before", next.entropy_before},
+          {"entropy", next.entropy}};
+}
+
+std::vector<std::string> idsOf(const std::vector<simulation::EnabledEffect>& effects) {
+  std::vector<std::string> ids;
+  for (const simulation::EnabledEffect& effect : effects) ids.push_back(effect.id);
+  return ids;
+}
+
+Json json(const discrepancy::Prediction& prediction) {
+  if (prediction.effects.empty()) return nullptr;
+  Json rivals = Json::array();
+  for (const auto& rival : prediction.rivals) rivals.push_back(idsOf(rival));
+  return {{"effects", idsOf(prediction.effects)},
+          {"rivals", rivals},
+          {"size", json(prediction.size)},
+          {"weights", prediction.weights}};
 }
 
 Json json(const discrepancy::ResidualCurve& curve) {
@@ -117,7 +183,7 @@ Json json(const discrepancy::InputUse& input) {
 }
 
 Json json(const discrepancy::RepeatStep& step) {
-  return {{"added", step.added}, {"sentence", step.sentence}, {"share_of_error", step.share_of_error}};
+  return {{"added", step.added}, {"sentence", step.sentence}, {"at_map_pa", step.at_map}};
 }
 
 template <typename Items>
@@ -132,11 +198,20 @@ Json list(const Items& items) {
 std::string discrepancyJson(const discrepancy::DiscrepancyReport& report) {
   const Json all = {{"verdict", discrepancy::name(report.verdict)},
                     {"sentence", report.sentence},
+                    {"first_screen", list(firstScreen(report))},
                     {"effects", list(report.effects)},
                     {"credible_set", report.credible_set},
                     {"depends_on", report.depends_on},
                     {"not_identifiable", list(report.not_identifiable)},
                     {"covariates", list(report.covariates)},
+                    {"p", report.p},
+                    {"at_map_pa", report.at_map},
+                    {"least_gap_pa", report.least_gap},
+                    {"smallest_seen", list(report.smallest_seen)},
+                    {"too_small", list(report.too_small)},
+                    {"scatter", list(report.scatter)},
+                    {"answers", list(report.answers)},
+                    {"options", json(report.options)},
                     {"where", json(report.where)},
                     {"gap", json(report.gap)},
                     {"recompute", report.recompute},
@@ -149,6 +224,8 @@ std::string discrepancyJson(const discrepancy::DiscrepancyReport& report) {
                     {"curves", list(report.curves)},
                     {"steps", list(report.steps)},
                     {"simulation", report.base.name},
+                    {"next_experiments", list(report.next_experiment)},
+                    {"prediction", json(report.prediction)},
                     {"prediction_hash", report.prediction.hash},
                     {"inputs", list(report.inputs)},
                     {"seed", report.seed},

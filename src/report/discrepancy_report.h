@@ -11,8 +11,8 @@ namespace fsr::report {
 // A discrepancy report as text, JSON and tables. Nothing is computed here: every number is in the
 // DiscrepancyReport.
 
-/// Text for the terminal: verdict, explanations that are not excluded, effects that are not testable, gap,
-/// next experiment.
+/// Text for the terminal: the first screen (see firstScreen()), effects that are not testable, gap on each
+/// surface and limitations.
 std::string discrepancyText(const discrepancy::DiscrepancyReport& report);
 
 /// results.json: the whole report but the simulation's settings, indented. Numbers are SI; null = no value.

@@ -45,12 +45,13 @@ std::string gapTable(const discrepancy::Gap& gap) {
 }
 
 std::string candidatesTable(const std::vector<discrepancy::CandidateScore>& candidates) {
-  std::string text = "effects,outcome,share of error [%],share of ceiling [%],z\n";
+  std::string text = "explanation,outcome,nats,p,z,share of ceiling [%],at the map [Pa]\n";
   for (const discrepancy::CandidateScore& candidate : candidates) {
     std::string ids;
     for (const std::string& id : candidate.ids) ids += (ids.empty() ? "" : " + ") + id;
-    text += ids + "," + candidate.outcome + "," + cell(kPercent * candidate.share_of_error) + "," +
-            cell(kPercent * candidate.share_of_explainable) + "," + cell(candidate.z) + "\n";
+    text += ids + "," + candidate.outcome + "," + cell(candidate.nats) + "," + cell(candidate.p) + "," +
+            cell(candidate.z) + "," + cell(kPercent * candidate.share_of_explainable) + "," +
+            cell(candidate.at_map) + "\n";
   }
   return text;
 }

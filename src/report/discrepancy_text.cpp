@@ -1,7 +1,8 @@
+#include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "report/discrepancy_report.h"
+#include "report/first_screen.h"
 #include "report/flow_yaml.h"
 #include "settings/number_text.h"
 
@@ -9,7 +10,6 @@ namespace fsr::report {
 
 namespace {
 
-constexpr double kKilopascal = 1e3;  // [Pa]
 constexpr double kPercent = 100;
 
 std::string number(double value, int digits) {
@@ -20,28 +20,6 @@ std::string joined(const std::vector<std::string>& items, const std::string& bet
   std::string all;
   for (const std::string& item : items) all += (all.empty() ? "" : between) + item;
   return all;
-}
-
-// "3.10 % FS (19.2 kPa)".
-std::string gapPart(double value, double pressure) {
-  return number(kPercent * value, 2) + " % FS" +
-         (std::isfinite(pressure) ? " (" + number(pressure / kKilopascal, 1) + " kPa)" : "");
-}
-
-std::string gapLine(const discrepancy::Gap& gap) {
-  if (!std::isfinite(gap.before)) return "Gap: not measured.\n";
-  std::string text = "Gap, rms on hold-out data: " + gapPart(gap.before, gap.before_pressure) + " before, " +
-                     gapPart(gap.after, gap.after_pressure) + " after, floor " +
-                     gapPart(gap.floor, gap.floor_pressure) + " (neighbouring scans; between cycles " +
-                     gapPart(gap.floor_bracket.high, NAN) + ")";
-  if (std::isfinite(gap.closed)) {
-    text += "; closed " + number(kPercent * gap.closed, 0) + " %";
-    if (std::isfinite(gap.closed_interval.low)) {
-      text += " (" + number(kPercent * gap.closed_interval.low, 0) + " to " +
-              number(kPercent * gap.closed_interval.high, 0) + " %)";
-    }
-  }
-  return text + ".\n" + (gap.held_out_by.empty() ? "" : "Held out by: " + joined(gap.held_out_by) + ".\n");
 }
 
 // "Common trace explained on each condition with sizes fitted to the others: 93 % (flat 95 %, bent 90 %)."
@@ -55,32 +33,14 @@ std::string foretoldLine(const discrepancy::HeldOutGap& held) {
 }
 
 // "On each surface: flat 0.95 % FS before, 0.20 % FS after; ..."
-std::string surfacesLine(const std::vector<discrepancy::SurfaceGap>& surfaces) {
+std::string surfacesLine(const discrepancy::DiscrepancyReport& report) {
   std::vector<std::string> parts;
-  for (const discrepancy::SurfaceGap& one : surfaces)
-    parts.push_back(one.surface + " " + gapPart(one.before, NAN) + " before, " + gapPart(one.after, NAN) +
-                    " after");
-  return parts.size() < 2 ? "" : "On each surface: " + joined(parts, "; ") + ".\n";
-}
-
-std::string useLine(const std::vector<discrepancy::GapInUse>& costs) {
-  static const std::map<std::string, std::string> kSituations = {
-      {"ramp", "a ramp"}, {"stance", "a stance of 0.6 s"}, {"standing", "ten minutes of standing"}};
-  std::vector<std::string> parts;
-  for (const discrepancy::GapInUse& cost : costs) {
-    const auto found = kSituations.find(cost.situation);
-    parts.push_back(
-        number(cost.before / kKilopascal, 1) + " kPa in " +
-        (found == kSituations.end() ? cost.situation : found->second) +
-        (std::isfinite(cost.after) ? " (" + number(cost.after / kKilopascal, 1) + " with it)" : ""));
+  for (const discrepancy::SurfaceGap& one : report.gap.surfaces) {
+    std::string part = one.surface + " " + number(kPercent * one.before, 2) + " % FS";
+    if (!report.effects.empty()) part += " before, " + number(kPercent * one.after, 2) + " % FS after";
+    parts.push_back(part);
   }
-  return parts.empty() ? "" : "Largest error if it is left out: " + joined(parts) + ".\n";
-}
-
-std::string notExcluded(const discrepancy::DiscrepancyReport& report) {
-  std::vector<std::string> sets;
-  for (const auto& ids : report.credible_set) sets.push_back(joined(ids, " + "));
-  return sets.empty() ? "" : "Not excluded: " + joined(sets, " | ") + ".\n";
+  return parts.size() < 2 ? "" : "On each surface: " + joined(parts, "; ") + ".\n";
 }
 
 std::string notTestable(const discrepancy::DiscrepancyReport& report) {
@@ -106,18 +66,24 @@ std::string interval(const discrepancy::FittedParameter& parameter) {
          unit;
 }
 
+std::string rivalsYaml(const std::vector<discrepancy::RivalAnswer>& rivals) {
+  std::vector<std::string> items;
+  for (const discrepancy::RivalAnswer& rival : rivals)
+    items.push_back(flow_yaml::map({{"explanation", flow_yaml::text(rival.explanation)},
+                                    {"nats", flow_yaml::number(rival.nats)},
+                                    {"better", rival.better ? "true" : "false"}}));
+  return flow_yaml::list(items);
+}
+
 }  // namespace
 
 std::string discrepancyText(const discrepancy::DiscrepancyReport& report) {
-  std::string text = report.sentence + "\n" + notExcluded(report) + notTestable(report) +
-                     gapLine(report.gap) + surfacesLine(report.gap.surfaces);
-  if (!report.recompute.empty()) text += "Recompute the gap: " + report.recompute + "\n";
+  std::string text;
+  for (const FirstScreenItem& item : firstScreen(report)) text += item.title + ": " + item.answer + "\n";
+  text += "\n" + notTestable(report) + surfacesLine(report);
   for (const discrepancy::HeldOutGap& held : report.gap.foretold) text += foretoldLine(held);
-  text += useLine(report.in_use);
   for (const std::string& missing : report.gap.missing) text += missing + "\n";
   for (const discrepancy::RepeatStep& step : report.steps) text += "Step: " + step.sentence + "\n";
-  if (!report.next_experiment.empty())
-    text += "Next experiment: " + report.next_experiment.front().sentence + "\n";
   for (const std::string& limitation : report.limitations) text += "Limitation: " + limitation + "\n";
   return text + opened(report.inputs);
 }
@@ -139,8 +105,14 @@ std::string confirmationText(const discrepancy::Confirmation& confirmation) {
       std::string(confirmation.passed ? "Confirmed" : "Not confirmed") + ": " + confirmation.sentence;
   text += "\nSize relative to the prediction: " + number(confirmation.size, 2) + " (" +
           number(confirmation.interval.low, 2) + " to " + number(confirmation.interval.high, 2) +
-          "). Without any fitting, the prediction explains " +
+          " by these bags alone); predicted for these bags: " + number(confirmation.predicted.low, 2) +
+          " to " + number(confirmation.predicted.high, 2) + ", width " +
+          number(confirmation.predicted.high - confirmation.predicted.low, 2) +
+          ". Without any fitting, the prediction explains " +
           number(kPercent * confirmation.share_of_error, 0) + " % of the squared error.\n";
+  for (const discrepancy::RivalAnswer& rival : confirmation.rivals)
+    text += "Rival " + rival.explanation + ": " + number(rival.nats, 1) + " nats against the prediction; " +
+            (rival.better ? "better beyond chance" : "not better") + ".\n";
   if (!confirmation.best_rival.empty()) text += "A rival explains more: " + confirmation.best_rival + ".\n";
   return text;
 }
@@ -152,6 +124,8 @@ std::string confirmationYaml(const discrepancy::Confirmation& confirmation,
   std::string text = "# " + confirmation.sentence + "\npassed: " + (confirmation.passed ? "true" : "false") +
                      "\nsize: " + yaml::number(confirmation.size) +
                      "\nsize_interval: " + yaml::pair(confirmation.interval.low, confirmation.interval.high) +
+                     "\npredicted: " + yaml::pair(confirmation.predicted.low, confirmation.predicted.high) +
+                     "\np: " + yaml::number(confirmation.p) + "\nrivals: " + rivalsYaml(confirmation.rivals) +
                      "\nshare_of_error: " + yaml::number(confirmation.share_of_error) + "\nbest_rival: " +
                      (confirmation.best_rival.empty() ? "null" : yaml::text(confirmation.best_rival)) +
                      "\nprediction_hash: \"" + prediction_hash + "\"\ninputs:\n";

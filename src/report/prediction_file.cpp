@@ -35,6 +35,55 @@ std::vector<simulation::EnabledEffect> readEffects(const settings::Settings& sec
   return effects;
 }
 
+std::string numbersText(const std::vector<double>& numbers) {
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "" : ", ") + settings::numberText(number);
+  return "[" + text + "]";
+}
+
+// Nothing where an earlier version made the prediction: its hash covers no distribution.
+std::string distributionText(const discrepancy::Prediction& prediction) {
+  const discrepancy::ParameterSpread& spread = prediction.spread;
+  if (prediction.weights.empty()) return "";
+  std::string parameters;
+  for (std::size_t k = 0; k < spread.parameters.size(); ++k) {
+    const auto& one = spread.parameters[k];
+    parameters += "\n    - {effect: " + std::to_string(one.effect) + ", name: " + one.name +
+                  ", logarithmic: " + (one.logarithmic ? "true" : "false") +
+                  ", covariance: " + numbersText(spread.covariance[k]) + "}";
+  }
+  return "weights: " + numbersText(prediction.weights) +
+         "\nspread:\n  cycles: " + std::to_string(spread.cycles) +
+         "\n  groups: " + std::to_string(spread.groups) +
+         "\n  between: " + settings::numberText(spread.between) +
+         "\n  parameters:" + (parameters.empty() ? " []" : parameters) + "\n";
+}
+
+std::size_t readCount(const settings::Settings& file, const std::string& key) {
+  return static_cast<std::size_t>(file.number(key, {0, 1e9}));
+}
+
+discrepancy::ParameterSpread readSpread(const settings::Settings& file, const discrepancy::Prediction& of) {
+  discrepancy::ParameterSpread spread;
+  spread.cycles = readCount(file, "cycles");
+  spread.groups = readCount(file, "groups");
+  spread.between = file.number("between", {0, 1e9});
+  const std::vector<settings::Settings> parameters = file.sections("parameters");
+  for (const settings::Settings& one : parameters) {
+    discrepancy::ParameterSpread::Parameter parameter;
+    parameter.effect = readCount(one, "effect");
+    parameter.name = one.text("name");
+    parameter.logarithmic = one.flag("logarithmic", false);
+    if (parameter.effect >= of.effects.size() || !of.effects[parameter.effect].values.count(parameter.name))
+      throw one.error("name", "must be a parameter of the effect with this number");
+    spread.covariance.push_back(one.numbers("covariance", kAnyNumber));
+    if (spread.covariance.back().size() != parameters.size())
+      throw one.error("covariance", "must be one number for each parameter");
+    spread.parameters.push_back(parameter);
+  }
+  return spread;
+}
+
 }  // namespace
 
 std::string predictionText(const FrozenPrediction& frozen) {
@@ -47,7 +96,7 @@ std::string predictionText(const FrozenPrediction& frozen) {
          frozen.verdict_sha256 + "\"\neffects: " + effectsText(prediction.effects) +
          "\nrivals:" + (rivals.empty() ? " []" : rivals) + "\nsize: [" +
          settings::numberText(prediction.size.low) + ", " + settings::numberText(prediction.size.high) +
-         "]\nhash: \"" + prediction.hash + "\"\n";
+         "]\n" + distributionText(prediction) + "hash: \"" + prediction.hash + "\"\n";
 }
 
 FrozenPrediction readPrediction(const std::string& path) {
@@ -60,6 +109,10 @@ FrozenPrediction readPrediction(const std::string& path) {
   const std::vector<double> size = file.numbers("size", kAnyNumber);
   if (size.size() != 2) throw file.error("size", "must be two numbers, [low, high]");
   frozen.prediction.size = {size[0], size[1]};
+  if (file.has("weights")) {
+    frozen.prediction.weights = file.numbers("weights", {0, 1});
+    frozen.prediction.spread = readSpread(file.section("spread"), frozen.prediction);
+  }
   frozen.prediction.hash = file.text("hash");
   file.refuseUnknown();
   return frozen;

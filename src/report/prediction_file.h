@@ -17,8 +17,13 @@ struct FrozenPrediction {
 ///     verdict_sha256: ...
 ///     effects: {hysteresis: {loop_width: 0.062, ...}}
 ///     rivals: [{creep: {...}}]
-///     size: [0.9, 1.1]       # of the first effect, 1 = as fitted
-///     hash: ...              # of effects, rivals, size and the simulation that they complete
+///     size: [0.9, 1.1]       # 95 % predictive interval of the effects' common factor, 1 = as fitted
+///     weights: [0.8, 0.2]    # probability of the effects and of each rival
+///     spread: {cycles: 24, groups: 6, between: 1e-4, parameters: [{effect: 0, name: loop_width,
+///              logarithmic: false, covariance: [1.2e-06, ...]}, ...]}
+///     hash: ...              # of all this and the simulation that it completes
+///
+/// Files of earlier versions have neither weights nor spread.
 std::string predictionText(const FrozenPrediction& frozen);
 
 /// Reads prediction.yaml. Unknown keys are errors. Throws InputError that names file, field, value and what

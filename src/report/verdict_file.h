@@ -16,6 +16,14 @@ namespace fsr::report {
 ///         evidence: {z: 14.1, share_of_ceiling: 0.93}
 ///     credible_set: [[hysteresis]]  # all explanations that are not excluded, best first
 ///     depends_on: [direction, pressure]
+///     p: 0.0033                     # probability of the best score if nothing were missing
+///     at_map: 21000                 # rms of what is missing, at the map [Pa]
+///     least_gap: 1240               # what is smaller than this does not matter [Pa]
+///     in_use: [{situation: ramp, before: 21000, after: 5000}]        # largest errors [Pa]
+///     smallest_seen: [{id: creep, at_map: 700}]  # sizes from which effects would have been seen [Pa]
+///     too_small: []                 # what is visible, but smaller than the least gap
+///     scatter: [{part: cycle_gain, size: 0.012, unit: share, interval: [0.009, 0.016], at_map: 3100}]
+///     asked: [{id: crosstalk, answer: not_identifiable}]
 ///     not_identifiable: [{id: crosstalk, experiment: uneven_load}]
 ///     where: {taxels: all, conditions: all, pressure: [0, 620000], direction: both, time: all}
 ///     gap: {before: 0.031, ..., closed_interval: [0.9, 0.94], unit: fraction of full scale, ...}
@@ -24,7 +32,9 @@ namespace fsr::report {
 ///     hold_out:                     # the gap is measured on these spans: stamps of first and last scan [s]
 ///       - {file: 1_flat.bag, cycles: [[946684875.100000000, 946684950.000000000]]}
 ///     recompute: rosrun ...         # the command that recomputes the gap
-///     next_experiment: null         # or {protocol: two_speeds, sentence: ..., separation: 6.2}
+///     next_experiment: null         # or {protocol: two_speeds, sentence: ..., separation: 6.2, cycles: 20,
+///                                   # certainty: 0.98, entropy: [0.8, 0.05], then: null}
+///     prediction: {size: [0.93, 1.08], weights: [0.8, 0.2]}  # what new bags are held against; or null
 ///     seed: 1
 ///     version: 0.1.0
 ///     inputs: [{file: 1_flat.bag, sha256: ..., show_opened: 1}]

@@ -16,17 +16,19 @@ namespace {
 
 constexpr std::size_t kSha256Digits = 64;
 
-// A mapping of the file. It must have all of the given keys and no others.
+// A mapping of the file. It must have all of the given keys. Others than these and the optional ones are
+// errors.
 class Mapping {
  public:
   Mapping(const std::string& file, const YAML::Node& node, const std::string& field,
-          const std::vector<std::string>& keys)
+          const std::vector<std::string>& keys, const std::vector<std::string>& optional = {})
       : file_(file), field_(field), node_(node) {
     if (!node.IsMap()) fail("", "must be a mapping with the keys " + joined(keys));
     for (const auto& entry : node) {
       const std::string key = entry.first.Scalar();
-      if (std::find(keys.begin(), keys.end(), key) == keys.end())
-        fail(key, "is unknown here; known are " + joined(keys));
+      const bool known = std::find(keys.begin(), keys.end(), key) != keys.end() ||
+                         std::find(optional.begin(), optional.end(), key) != optional.end();
+      if (!known) fail(key, "is unknown here; known are " + joined(keys));
     }
     for (const std::string& key : keys) {
       if (!node[key]) fail(key, "is missing");
@@ -181,9 +183,11 @@ std::vector<discrepancy::SurfaceGap> statedSurfaces(const Mapping& file) {
 }  // namespace
 
 VerdictFile readVerdict(const std::string& path) {
-  const Mapping file(path, load(path), "",
-                     {"verdict", "effects", "credible_set", "depends_on", "not_identifiable", "where", "gap",
-                      "hold_out", "recompute", "next_experiment", "seed", "version", "inputs"});
+  const Mapping file(
+      path, load(path), "",
+      {"verdict", "effects", "credible_set", "depends_on", "not_identifiable", "where", "gap", "hold_out",
+       "recompute", "next_experiment", "seed", "version", "inputs"},
+      {"p", "at_map", "least_gap", "in_use", "smallest_seen", "too_small", "scatter", "asked", "prediction"});
   VerdictFile verdict;
   verdict.verdict = file.as<std::string>("verdict", "text");
   requireVerdict(file, verdict.verdict);

@@ -119,13 +119,82 @@ std::string holdOutText(const std::vector<discrepancy::HoldOutCycles>& bags) {
   return text;
 }
 
+std::string experimentText(const discrepancy::NextExperiment& next, const std::string& then) {
+  return yaml::map({{"protocol", yaml::text(next.protocol)},
+                    {"sentence", yaml::text(next.sentence)},
+                    {"separation", yaml::number(next.separation)},
+                    {"cycles", std::to_string(next.cycles)},
+                    {"certainty", yaml::number(next.certainty)},
+                    {"entropy", yaml::pair(next.entropy_before, next.entropy)},
+                    {"then", then}});
+}
+
+// A second experiment stands in the first one, as what follows it.
 std::string nextText(const std::vector<discrepancy::NextExperiment>& next) {
-  if (next.empty()) return "next_experiment: null\n";
-  return "next_experiment: " +
-         yaml::map({{"protocol", yaml::text(next.front().protocol)},
-                    {"sentence", yaml::text(next.front().sentence)},
-                    {"separation", yaml::number(next.front().separation)}}) +
+  std::string text = "null";
+  for (auto one = next.rbegin(); one != next.rend(); ++one) text = experimentText(*one, text);
+  return "next_experiment: " + text + "\n";
+}
+
+std::string predictionText(const discrepancy::Prediction& prediction) {
+  if (prediction.effects.empty()) return "prediction: null\n";
+  std::vector<std::string> weights;
+  for (const double weight : prediction.weights) weights.push_back(yaml::number(weight));
+  return "prediction: " +
+         yaml::map({{"size", yaml::pair(prediction.size.low, prediction.size.high)},
+                    {"weights", yaml::list(weights)}}) +
          "\n";
+}
+
+std::string seenText(const std::vector<discrepancy::SmallestSeen>& seen) {
+  std::vector<std::string> items;
+  for (const discrepancy::SmallestSeen& one : seen)
+    items.push_back(yaml::map({{"id", yaml::text(one.id)}, {"at_map", yaml::number(one.at_map)}}));
+  return "smallest_seen: " + yaml::list(items) + "\n";
+}
+
+std::string tooSmallText(const std::vector<discrepancy::TooSmall>& small) {
+  std::vector<std::string> items;
+  for (const discrepancy::TooSmall& one : small)
+    items.push_back(yaml::map({{"explanation", yaml::text(one.explanation)},
+                               {"p", yaml::number(one.p)},
+                               {"at_map", yaml::number(one.at_map)}}));
+  return "too_small: " + yaml::list(items) + "\n";
+}
+
+std::string scatterText(const std::vector<discrepancy::Scatter>& scatter) {
+  std::vector<std::string> items;
+  for (const discrepancy::Scatter& one : scatter)
+    items.push_back(yaml::map({{"part", yaml::text(one.part)},
+                               {"size", yaml::number(one.size)},
+                               {"unit", yaml::text(one.unit)},
+                               {"interval", yaml::pair(one.interval.low, one.interval.high)},
+                               {"at_map", yaml::number(one.at_map)}}));
+  return "scatter: " + yaml::list(items) + "\n";
+}
+
+std::string answersText(const std::vector<discrepancy::Answer>& answers) {
+  std::vector<std::string> items;
+  for (const discrepancy::Answer& one : answers)
+    items.push_back(yaml::map({{"id", yaml::text(one.id)}, {"answer", yaml::text(one.answer)}}));
+  return "asked: " + yaml::list(items) + "\n";
+}
+
+std::string inUseText(const std::vector<discrepancy::GapInUse>& costs) {
+  std::vector<std::string> items;
+  for (const discrepancy::GapInUse& one : costs)
+    items.push_back(yaml::map({{"situation", yaml::text(one.situation)},
+                               {"before", yaml::number(one.before)},
+                               {"after", yaml::number(one.after)}}));
+  return "in_use: " + yaml::list(items) + "\n";
+}
+
+// How sure the verdict is and what it costs. Sizes are in Pa.
+std::string evidenceText(const discrepancy::DiscrepancyReport& report) {
+  return "p: " + yaml::number(report.p) + "\nat_map: " + yaml::number(report.at_map) +
+         "\nleast_gap: " + yaml::number(report.least_gap) + "\n" + inUseText(report.in_use) +
+         seenText(report.smallest_seen) + tooSmallText(report.too_small) + scatterText(report.scatter) +
+         answersText(report.answers);
 }
 
 std::string inputsText(const std::vector<discrepancy::InputUse>& inputs) {
@@ -147,12 +216,13 @@ std::string verdictText(const discrepancy::DiscrepancyReport& report) {
                      report.verdict != discrepancy::Verdict::kNotIdentifiable;
   return "# " + report.sentence + "\nverdict: " + discrepancy::name(report.verdict) + "\n" +
          effectsText(report.effects) + credibleText(report.credible_set) +
-         "depends_on: " + yaml::texts(report.depends_on) + "\n" +
+         "depends_on: " + yaml::texts(report.depends_on) + "\n" + evidenceText(report) +
          notIdentifiableText(report.not_identifiable) + (shows ? whereText(report.where) : "where: null\n") +
          gapText(report.gap) + holdOutText(report.hold_out) +
          "recompute: " + (report.recompute.empty() ? "null" : yaml::text(report.recompute)) + "\n" +
-         nextText(report.next_experiment) + "seed: " + std::to_string(report.seed) +
-         "\nversion: " + yaml::text(report.version) + "\n" + inputsText(report.inputs);
+         nextText(report.next_experiment) + predictionText(report.prediction) +
+         "seed: " + std::to_string(report.seed) + "\nversion: " + yaml::text(report.version) + "\n" +
+         inputsText(report.inputs);
 }
 
 }  // namespace fsr::report

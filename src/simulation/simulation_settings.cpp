@@ -102,6 +102,9 @@ void refuseOtherEffects(const settings::Settings& effects, const EffectLibrary& 
     const EffectEntry* entry = library.find(id);
     if (entry && entry->make) continue;
     if (entry) throw effects.error(id, "it cannot be simulated: a gas chamber cannot show it");
+    if (id == "clock_rate") {
+      throw effects.error(id, "it is a part of time_skew now; write `time_skew: {delay: 0, rate: ...}`");
+    }
     std::string known;
     for (const std::string& other : library.ids()) known += (known.empty() ? "" : ", ") + other;
     throw effects.error(id, "no effect has that name; the effects are " + known);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "discrepancy/planted.h"
 #include "simulation/effects/effect_library.h"
 
@@ -35,6 +37,40 @@ TEST(Evidence, ARoomThatWarmsAndCoolsSeparatesTemperatureFromClockTime) {
                  "temperature: 35}, {time: 11500, temperature: 35}, {time: 20000, temperature: 23}]}\n");
   EXPECT_TRUE(warmed.temperature_moved);
   EXPECT_TRUE(warmed.apartFromClock(simulation::EffectLibrary::shipped().info("temperature")));
+}
+
+TEST(Evidence, AMountThatIsRecordedAgainAfterAPauseHasTwoSessions) {
+  DiscrepancyProblem problem =
+      planted::problem(planted::kFourTaxels + std::string("  - {surface: flat, flat: true}\n") +
+                           "  - {surface: flat, flat: true, pause: 300}\n",
+                       "");
+  EXPECT_FALSE(availableEvidence(admit(problem)).has(simulation::Evidence::kTwoSessions));
+  for (matrix::Surface& surface : problem.recordings.at(1).conditions) surface.mount = 1;
+  EXPECT_TRUE(availableEvidence(admit(problem)).has(simulation::Evidence::kTwoSessions));
+}
+
+// Recordings whose pressure follows sines of these periods [s], one after the other.
+AvailableEvidence evidenceOfSines(const std::vector<double>& periods) {
+  DiscrepancyProblem problem = planted::problem(planted::kFourTaxels + kTwoSurfaces, "");
+  for (dataset::Recording& recording : problem.recordings) {
+    double phase = 0;
+    for (std::size_t i = 0; i < recording.scans(); ++i) {
+      const std::size_t at = i * periods.size() / recording.scans();
+      if (i > 0) phase += (recording.time[i] - recording.time[i - 1]) / periods[at];
+      recording.pressure[i] = 300e3 * (1 - std::cos(2 * 3.14159265358979 * phase));
+    }
+  }
+  return availableEvidence(admit(problem));
+}
+
+TEST(Evidence, ASineOfOneFrequencyHasOnePace) {
+  EXPECT_FALSE(evidenceOfSines({60}).two_rates);
+  EXPECT_TRUE(evidenceOfSines({30, 80}).two_rates);
+}
+
+TEST(Evidence, RampsOfTwoSpeedsOrDwellsAreTwoPaces) {
+  EXPECT_TRUE(availableEvidence(admit(planted::problem(planted::kTwoSpeeds, ""))).two_rates);
+  EXPECT_FALSE(availableEvidence(admit(planted::problem(planted::kOneSpeed, ""))).two_rates);
 }
 
 TEST(Evidence, ASurfaceThatIsMountedTwiceIsNoticed) {

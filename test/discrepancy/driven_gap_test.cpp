@@ -83,9 +83,10 @@ TEST(DrivenGap, OfNothingIsTheNoise) {
 
 // A column that fails at random: the simulation fails at other times, so nothing is closed.
 TEST(DrivenGap, OfALooseColumnIsNotCalledClosed) {
-  const DiscrepancyProblem problem =
-      planted::problem(planted::kTwoSpeeds, "  column_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n");
+  const DiscrepancyProblem problem = planted::problem(
+      planted::withMatrix(5, 6), "  column_fault: {share: 0.04, line: 1, burst: 3, depth: 0.7}\n");
   const DiscrepancyReport report = investigate(problem);
+  ASSERT_FALSE(report.effects.empty()) << report.sentence;
   ASSERT_EQ(report.effects.at(0).id, "column_fault");
   expectRecomputable(problem, report);
   EXPECT_GT(report.gap.after, 0.9 * report.gap.before);

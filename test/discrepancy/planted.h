@@ -35,6 +35,14 @@ effects:
   converter: {}
 )";
 
+/// The same rig with another matrix. In twelve taxels a line of three is too short to tell from three taxels.
+inline std::string withMatrix(int rows, int columns) {
+  const std::string small = "{rows: 3, columns: 4}";
+  std::string rig = kTwoSpeeds;
+  return rig.replace(rig.find(small), small.size(),
+                     "{rows: " + std::to_string(rows) + ", columns: " + std::to_string(columns) + "}");
+}
+
 /// The same rig with the cycles of the paper on one surface.
 inline const char* const kOneSurface = R"(
 simulation: planted

@@ -26,7 +26,11 @@ simulation::SimulationSettings base() {
 }
 
 Prediction prediction() {
-  return {{{"creep", {{"amplitude", 0.01}}}}, {{{"time_skew", {{"delay", 0.2}}}}}, {0.6, 1.6}, ""};
+  Prediction prediction{
+      {{"creep", {{"amplitude", 0.01}}}}, {{{"time_skew", {{"delay", 0.2}}}}}, {0.6, 1.6}, ""};
+  prediction.weights = {0.9, 0.1};
+  prediction.spread = {{{0, "amplitude", false}}, {{1e-6}}, 24, 0.01, 3};
+  return prediction;
 }
 
 struct Change {
@@ -44,6 +48,17 @@ const std::vector<Change> kChanges = {
     {"a rival", [](P& p, S&) { p.rivals.clear(); }},
     {"a rival's surface", [](P& p, S&) { p.rivals[0][0].only_surfaces = {"flat"}; }},
     {"the predicted size", [](P& p, S&) { p.size.high += 1e-12; }},
+    {"a weight", [](P& p, S&) { p.weights[0] += 1e-12; }},
+    {"the weights", [](P& p, S&) { p.weights.clear(); }},
+    {"the covariance", [](P& p, S&) { p.spread.covariance[0][0] *= 4; }},
+    {"the scale of a parameter", [](P& p, S&) { p.spread.parameters[0].logarithmic = true; }},
+    {"the number of cycles", [](P& p, S&) { p.spread.cycles = 5; }},
+    {"the scatter between groups", [](P& p, S&) { p.spread.between = 1; }},
+    {"the whole distribution",
+     [](P& p, S&) {
+       p.weights.clear();
+       p.spread = {};
+     }},
     {"a value of the simulation", [](P&, S& s) { s.effects[0].values.begin()->second *= 1 + 1e-14; }},
     {"a taxel of the simulation's effect",
      [](P&, S& s) {
@@ -102,6 +117,8 @@ TEST(PredictionHash, AcceptsTheFirstFormOfOlderFiles) {
   EXPECT_EQ(firstHashOf(prediction(), simulation),
             "8e845e0efbe8cf6cc090c0f51384978d1f1edf43da7b0fe20075eb07947d818f");
   Prediction old = prediction();
+  old.weights.clear();
+  old.spread = {};
   old.hash = firstHashOf(old, base());
   EXPECT_TRUE(hasItsHash(old, base()));
   old.effects[0].values["amplitude"] *= 1.001;

@@ -20,9 +20,10 @@ TEST(EffectList, ListsEveryEffectAndSeparatesThoseThatAGasChamberCannotShow) {
 
 TEST(EffectList, GivesUnitsRangesAndNeeds) {
   const std::string text = fsr::report::effectListText();
-  EXPECT_NE(text.find("delay [s]: d, stamps are late by\n"
-                      "        strength, usual 0.1, neutral 0, plausible -1 to 1 s, permitted -60 to 60 s\n"),
-            std::string::npos);
+  EXPECT_NE(
+      text.find("delay [s]: d, stamps are late by\n"
+                "        strength, usual 0.1, neutral 0, plausible -10 to 10 s, permitted -60 to 60 s\n"),
+      std::string::npos);
   EXPECT_NE(text.find("permitted 0 to 1; tried 0, 1\n"), std::string::npos);  // one_sided of hysteresis
   EXPECT_NE(text.find("needs       vented_sheet\n"), std::string::npos);
 }

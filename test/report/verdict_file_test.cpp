@@ -48,8 +48,16 @@ effects:
   - id: hysteresis
     parameters: [{name: loop_width, value: 0.062, unit: fraction of full scale, interval: [0.058, 0.067]}]
     evidence: {z: 14.1, share_of_ceiling: 0.93}
-credible_set: [[hysteresis], [hysteresis, creep]]
+credible_set: [[hysteresis]]
 depends_on: [direction, pressure]
+p: 0.0033
+at_map: 20000
+least_gap: 1240
+in_use: [{situation: ramp, before: 21000, after: 5000}, {situation: stance, before: 18000, after: 4000}, {situation: standing, before: 9000, after: null}]
+smallest_seen: [{id: hysteresis, at_map: 1300}, {id: creep, at_map: 2400}, {id: wear, at_map: null}]
+too_small: []
+scatter: [{part: cycle_gain, size: 0.012, unit: share, interval: [0.009, 0.016], at_map: 3100}, {part: cycle_offset, size: 0, unit: share of full scale, interval: [0, 0.0004], at_map: 0}, {part: wandering, size: 0.0011, unit: share of full scale, interval: [0.0008, 0.0014], at_map: 650}]
+asked: [{id: crosstalk, answer: not_identifiable}]
 not_identifiable: [{id: crosstalk, experiment: uneven_load}, {id: wear, experiment: many_cycles}]
 where: {taxels: [0, 3], conditions: [flat, cylinder_7cm], pressure: [50000, 400000], direction: both, time: all}
 gap: {before: 0.031, after: 0.008, floor: 0.006, floor_bracket: [0.006, 0.0071], closed: 0.92, closed_interval: [0.9, 0.94], unit: fraction of full scale, held_out_by: [cycles, condition], surfaces: [{surface: flat, before: 0.03, after: 0.007}, {surface: cylinder_7cm, before: 0.032, after: 0.009}], covered: [{surface: flat, pressure: [0, 620000]}, {surface: cylinder_7cm, pressure: [0, 615000]}], left_out: 12}
@@ -121,6 +129,14 @@ TEST_F(VerdictOnDisk, ReadsBackTheSame) {
   EXPECT_EQ(verdict.hold_out[1].cycles, report.hold_out[1].cycles) << "to the nanosecond";
 }
 
+// Files of earlier versions lack them.
+TEST_F(VerdictOnDisk, NeedsNoneOfTheAddedFields) {
+  std::string text = verdictText(exampleDiscrepancy());
+  const std::size_t from = text.find("p: 0.0033"), to = text.find("not_identifiable:");
+  write(text.erase(from, to - from));
+  EXPECT_EQ(readVerdict(path_).verdict, "named");
+}
+
 TEST_F(VerdictOnDisk, RefusalsNameTheFieldAndWhatWouldBeRight) {
   const std::vector<std::vector<std::string>> cases = {
       {"verdict: named", "verdict: sure", "sure", "not_identifiable"},
@@ -128,8 +144,8 @@ TEST_F(VerdictOnDisk, RefusalsNameTheFieldAndWhatWouldBeRight) {
       {"seed: 1", "# seed: 1", "seed is missing"},
       {"seed: 1", "seed: many", "seed must be a whole number"},
       {"- id: hysteresis", "- id: histeresis", "effects[0].id", "histeresis"},
-      {"[[hysteresis], ", "[[magic], ", "credible_set", "magic"},
-      {"[[hysteresis], [hysteresis, creep]]", "hysteresis", "credible_set must be a list of lists"},
+      {"[[hysteresis]]", "[[magic]]", "credible_set", "magic"},
+      {"[[hysteresis]]", "hysteresis", "credible_set must be a list of lists"},
       {"hold_out:", "held_out:", "held_out", "unknown here"},
       {"cycles: [[946684875.100000000, 946684950.000000000]]", "cycles: 3", "hold_out[0].cycles", "stamps"},
       {"[946684875.100000000, 946684950.000000000]", "[946684950.0, 946684875.1]", "hold_out[0].cycles",
@@ -158,6 +174,14 @@ TEST_F(VerdictOnDisk, PredictionKeepsEveryBit) {
   EXPECT_EQ(read.verdict_sha256, std::string(64, 'd'));
   EXPECT_EQ(read.prediction.hash, prediction.hash);
   EXPECT_EQ(read.prediction.size.high, prediction.size.high);
+  EXPECT_EQ(read.prediction.weights, prediction.weights);
+  EXPECT_EQ(read.prediction.spread.covariance, prediction.spread.covariance);
+  EXPECT_EQ(read.prediction.spread.between, prediction.spread.between);
+  EXPECT_EQ(read.prediction.spread.cycles, 24u);
+  EXPECT_EQ(read.prediction.spread.groups, 3u);
+  ASSERT_EQ(read.prediction.spread.parameters.size(), 2u);
+  EXPECT_EQ(read.prediction.spread.parameters[1].name, "threshold");
+  EXPECT_TRUE(read.prediction.spread.parameters[1].logarithmic);
   ASSERT_EQ(read.prediction.effects.size(), 1u);
   EXPECT_EQ(read.prediction.effects[0].values, prediction.effects[0].values);
   ASSERT_EQ(read.prediction.rivals.size(), 2u);

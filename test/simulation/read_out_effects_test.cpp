@@ -139,9 +139,9 @@ TEST(ScanSkew, ReadsTaxelAfterTaxelRoundTheStamp) {
 }
 
 // 1 kPa/s: after t seconds the scan shows the pressure of (1 + e) t.
-TEST(ClockRate, ReadsAheadOfItsStampsInProportionToTheTimeSinceTheFirstScan) {
-  SensorChain slow(straightRig("  clock_rate: {rate: 1e-2}\n")),
-      fast(straightRig("  clock_rate: {rate: -1e-2}\n"));
+TEST(TimeSkew, WithARateReadsAheadOfItsStampsInProportionToTheTimeSinceTheFirstScan) {
+  SensorChain slow(straightRig("  time_skew: {delay: 0, rate: 1e-2}\n")),
+      fast(straightRig("  time_skew: {delay: 0, rate: -1e-2}\n"));
   const auto course = profile({{0, 0}, {620, 620e3}});
   const auto ahead = readAlong(slow, course, 1), behind = readAlong(fast, course, 1);
   EXPECT_EQ(ahead.front().counts, 0);
@@ -151,8 +151,8 @@ TEST(ClockRate, ReadsAheadOfItsStampsInProportionToTheTimeSinceTheFirstScan) {
   }
 }
 
-TEST(ClockRate, CountsFromTheFirstScanAndAddsToAConstantDelay) {
-  SensorChain chain(straightRig("  clock_rate: {rate: 1e-2}\n  time_skew: {delay: 2}\n"));
+TEST(TimeSkew, CountsTheRateFromTheFirstScanAndAddsItToTheDelay) {
+  SensorChain chain(straightRig("  time_skew: {delay: 2, rate: 1e-2}\n"));
   const fsr::simulation::PressureCourse course = [](double time) { return 1e3 * (time - 1000); };
   for (const double elapsed : {0.0, 100.0, 300.0}) {
     const double expected = (200 + 1.01 * elapsed - 2) / 620 * kStraightCounts;

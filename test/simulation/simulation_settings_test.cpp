@@ -132,8 +132,10 @@ TEST(SimulationSettings, UnknownEffectsAndKeysAreRefusedByName) {
   const std::string complaint = complaintAbout(withEffects("hysterese: {}"));
   EXPECT_EQ(
       complaint.find("my.yaml: effects.hysterese is a mapping, but no effect has that name; the effects are "
-                     "time_skew, clock_rate, scan_skew, "),
+                     "time_skew, scan_skew, "),
       0u);
+  EXPECT_NE(complaintAbout(withEffects("clock_rate: {rate: 1e-4}")).find("time_skew: {delay: 0, rate: "),
+            std::string::npos);
   EXPECT_NE(complaintAbout(withEffects("hysteresis: {width: 0.05}")).find("effects.hysteresis.width"),
             std::string::npos);
   EXPECT_NE(complaintAbout("{simulation: a, effects: {static_curve: {}, converter: {}}, chambre: {}}")

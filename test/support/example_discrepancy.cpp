@@ -61,15 +61,15 @@ fsr::discrepancy::DiscrepancyReport exampleDiscrepancy() {
   fsr::discrepancy::DiscrepancyReport report;
   report.verdict = fsr::discrepancy::Verdict::kNamed;
   report.sentence =
-      "Best explanation among 23 effects tested, under this protocol: hysteresis (loop_width 0.062, 0.058 to "
+      "Best explanation among 3 effects tested, under this protocol: hysteresis (loop_width 0.062, 0.058 to "
       "0.067).";
   report.effects = {loop()};
-  report.credible_set = {{"hysteresis"}, {"hysteresis", "creep"}};
+  report.credible_set = {{"hysteresis"}};
   report.depends_on = {"direction", "pressure"};
   report.not_identifiable = {{"crosstalk", "uneven_load", "The static curve takes all of it."},
                              {"wear", "many_cycles", "60 cycles wear nothing off."}};
-  report.covariates = {{"direction x pressure", "sign_flips", 1e-4, 3e-3, 0.8, true},
-                       {"temperature", "block_bootstrap", 0.4, 1, 0, false}};
+  report.covariates = {{"direction x pressure", "predictive_density", 3e-3, 3e-3, 20e3, true},
+                       {"cycle", "predictive_density", 0.4, 1, 0, false}};
   report.where.taxels = {0, 3};
   report.where.conditions = {"flat", "cylinder_7cm"};
   report.where.pressure = {50e3, 400e3};
@@ -84,15 +84,25 @@ fsr::discrepancy::DiscrepancyReport exampleDiscrepancy() {
                              "Run five cycles at 5 kPa/s and five at 40 kPa/s: a loop stays as wide, a short "
                              "memory does not.",
                              6.2,
-                             {{"hysteresis", "creep"}}}};
-  report.candidates = {{{"hysteresis"}, "named", 0.86, 0.93, 14.1},
-                       {{"hysteresis", "creep"}, "credible", 0.865, 0.935, 14.2},
-                       {{"time_skew"}, "refused", 0.31, 0.34, 6.0}};
+                             {{"hysteresis", "creep"}},
+                             20}};
+  report.candidates = {{{"hysteresis"}, false, "named", 812, 0.0033, 14.1, 0.93, 21e3},
+                       {{"hysteresis", "creep"}, false, "refused", 809, 0.0033, 14.2, 0.935, 21e3},
+                       {{"direction x pressure"}, true, "refused", 411, 0.0033, 6.0, 0.34, 9e3}};
+  report.smallest_seen = {{"hysteresis", 1300}, {"creep", 2400}, {"wear", NAN}};
+  report.scatter = {{"cycle_gain", "share", 0.012, {0.009, 0.016}, 3100, 0.71},
+                    {"cycle_offset", "share of full scale", 0, {0, 0.0004}, 0, 0},
+                    {"wandering", "share of full scale", 0.0011, {0.0008, 0.0014}, 650, 0.2}};
+  report.options.ask = {"crosstalk"};
+  report.answers = {{"crosstalk", "not_identifiable", NAN, "The static curve takes all of it."}};
+  report.at_map = 20e3;
+  report.p = 0.0033;
+  report.least_gap = 1240;
   report.tested = {"hysteresis", "creep", "time_skew"};
   report.limitations = {"No temperature was recorded, so slow effects cannot be told apart."};
   report.curves = {curve("pressure", "Pa", 0, 620e3),
                    curve("direction", "Pa, venting negative", -620e3, 620e3)};
-  report.steps = {{"hysteresis", "hysteresis was added; it explains 86 % of the squared error", 0.86}};
+  report.steps = {{"hysteresis", "hysteresis was added; it explains 86 % of the squared error", 21e3}};
   report.base.name = "core";
   report.base.effects = {{"white_noise", {{"deviation", 2}}}};
   report.added = report.base;
@@ -101,6 +111,9 @@ fsr::discrepancy::DiscrepancyReport exampleDiscrepancy() {
   report.prediction.rivals = {{{"creep", {{"strength", 0.04}}}}, {{"time_skew", {{"delay", 0.12}}}}};
   report.prediction.size = {0.93, 1.08};
   report.prediction.hash = std::string(64, 'c');
+  report.prediction.weights = {0.75, 0.15, 0.1};
+  report.prediction.spread = {
+      {{0, "loop_width", false}, {0, "threshold", true}}, {{4e-6, 1e-7}, {1e-7, 0.01}}, 24, 1e-4, 3};
   report.inputs = {{"1_flat.bag", std::string(64, 'a'), 4460, 1},
                    {"2_bent.bag", std::string(64, 'b'), 4460, 3}};
   report.seed = 1;

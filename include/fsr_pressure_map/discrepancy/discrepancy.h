@@ -14,13 +14,33 @@
 namespace fsr::discrepancy {
 
 struct DiscrepancyOptions {
-  /// Ids of effects that the user asks for. If nothing else is found and the recordings cannot show one of
-  /// them, the verdict is kNotIdentifiable.
+  /// Ids of effects that the user asks about. DiscrepancyReport::answers has an answer for each of them. If
+  /// nothing is found and the recordings cannot show one of them, the verdict is kNotIdentifiable.
   std::vector<std::string> ask;
   std::vector<std::string> leave_out;  ///< ids of effects that are not considered
   bool repeat = false;  ///< after an effect is named, add it and search again until none is named
   std::uint64_t seed = 1;
   unsigned threads = 0;  ///< 0 = one for each core; the results do not depend on it
+
+  // The constants of the decision: levels, sizes that matter, numbers of draws. They are printed with every
+  // result. Sources: docs/discrepancy.md.
+
+  double level = 0.01;     ///< of the test whether anything is missing, and whether anything is left
+  double credible = 0.95;  ///< probability that the credible set holds the best explanation
+  /// Size at the map below which a discrepancy does not matter [Pa]. NaN = `least_gap_share` of the range of
+  /// the chamber's pressure.
+  double least_gap = NAN;
+  double least_gap_share = 0.002;
+  // Shares of what can be closed in held-out cycles.
+  double generic_better = 0.1;    ///< generic terms that close so much more than any effect: unknown
+  double unknown_below = 0.5;     ///< an effect that leaves something and closes less: unknown
+  double wrong_form_below = 0.7;  ///< likewise: wrong form
+  double second_adds = 0.05;      ///< a second effect must close so much more
+  double contender = 0.2;         ///< of the best score: an explanation below it is not weighed by itself
+  std::size_t null_draws = 299;   ///< of the parametric bootstrap
+  std::size_t resamples = 999;    ///< of the bootstrap over cycles
+  std::size_t folds = 5;          ///< of the cross-validation over cycles
+  double degrees = 4;             ///< of freedom of the density of a cycle
 };
 
 /// A simulation that may lack effects, and measurements of the simulated sheet.
@@ -67,15 +87,54 @@ struct NotIdentifiable {
   std::string reason;      ///< one sentence
 };
 
-/// Test whether the residuals of the static curves depend on a covariate. It is made before any effect is
-/// named.
+/// Answer to a question of the user about one effect.
+struct Answer {
+  std::string id;
+  /// found, not_excluded (it is in the credible set), excluded (it would have been seen from `at_map`),
+  /// not_identifiable, in_simulation, left_out.
+  std::string answer;
+  double at_map = NAN;  ///< of an excluded effect: SmallestSeen::at_map [Pa]
+  std::string sentence;
+};
+
+/// Test whether what the static curves leave depends on covariates. Terms of these covariates compete with
+/// the effects in the same way.
 struct CovariateTest {
-  std::string covariate;      ///< as in name(Covariate)
-  std::string method;         ///< sign_flips, block_bootstrap
-  double p = 1;               ///< probability of at least this dependence by chance
-  double adjusted = 1;        ///< the same, adjusted by Benjamini and Yekutieli over all covariates
-  double share_of_error = 0;  ///< share of the squared error of the readings that it explains
-  bool depends = false;       ///< adjusted p <= 0.05 and share >= 2 %
+  std::string covariate;  ///< as in name(Covariate); several are joined by " x "
+  /// predictive_density: of terms of the covariates. The others are of a finding that depends on the
+  /// covariate: effect, detector, static_curves, odd_taxels.
+  std::string method;
+  double p = 1;          ///< probability of at least this dependence by chance
+  double adjusted = 1;   ///< the same, corrected for the search among all explanations
+  double at_map = 0;     ///< rms of what the terms explain, at the map [Pa]
+  bool depends = false;  ///< adjusted p <= level, and not smaller than the least gap
+};
+
+/// From which size nine of ten such recordings would have shown an effect.
+struct SmallestSeen {
+  std::string id;
+  double at_map = 0;  ///< rms at the map, never below the least gap [Pa]; NaN = no plausible strength shows
+};
+
+/// An explanation that is visible, but smaller than the least gap.
+struct TooSmall {
+  std::string explanation;  ///< ids of effects, or the name of generic terms
+  double p = 1;             ///< as CandidateScore::p
+  double at_map = 0;        ///< rms at the map [Pa]
+};
+
+/// Random change of the mean reading that is slower than the noise of single scans. It is a part of the noise
+/// model, fitted together with the preferred explanation.
+struct Scatter {
+  /// cycle_gain: relative gain of each cycle. cycle_offset: offset of each cycle. wandering: slow change
+  /// within a cycle, over about a third of its duration.
+  std::string part;
+  std::string unit;     ///< of `size`: share, or share of full scale
+  double size = 0;      ///< standard deviation
+  Interval interval;    ///< of `size`. From 0 = it cannot be told from none
+  double at_map = 0;    ///< rms at the map [Pa]
+  double of_noise = 0;  ///< share of the variance of the whole noise model
+  bool seen() const { return interval.low > 0; }
 };
 
 /// Where the discrepancy is visible.
@@ -149,19 +208,28 @@ struct GapInUse {
 
 /// Result of one candidate.
 struct CandidateScore {
-  std::vector<std::string> ids;  ///< one effect, or a pair
-  std::string outcome;           ///< named, credible, refused, not_identifiable, required_data_missing
-  double share_of_error = 0;     ///< share of the squared error that it explains, on hold-out data
-  double share_of_explainable = 0;
-  double z = 0;
+  std::vector<std::string> ids;  ///< one effect, a pair, or the name of generic terms
+  bool generic = false;
+  std::string outcome;  ///< named, credible, refused, required_data_missing
+  double nats = 0;      ///< added to the logarithm of the predictive density of cycles it was not fitted to
+  double p = 1;         ///< probability of such a score if nothing were missing, corrected for the search
+  double z = 0;         ///< mean of the nats by cycle, in standard errors; 0 where it was far behind the best
+  double share_of_explainable = 0;  ///< of what can be closed in those cycles
+  double at_map = 0;                ///< rms of what it explains, at the map [Pa]
 };
 
-/// The experiment that would decide between the credible explanations.
+/// An experiment that would decide between the credible explanations.
 struct NextExperiment {
-  std::string protocol;   ///< two_speeds, minor_loops, step_hold, rest, two_ambients, random_order, ...
-  std::string sentence;   ///< what to do at the rig, and which explanations it distinguishes
-  double separation = 0;  ///< smallest distance between two explanations, in standard deviations of the noise
+  std::string protocol;  ///< two_speeds, minor_loops, step_hold, rest, two_ambients, random_order, ...
+  std::string sentence;  ///< what to do at the rig, and which explanations it distinguishes
+  /// Smallest distance between two explanations in all its cycles, in standard deviations of the noise.
+  double separation = 0;
   std::vector<std::pair<std::string, std::string>> separates;  ///< pairs of ids
+  int cycles = 0;                                              ///< to be recorded on each surface
+  /// Expected probability of the true explanation after it, and after the experiments listed before it.
+  double certainty = NAN;
+  double entropy_before = NAN;  ///< of the credible set and `unknown`, before it [nats]
+  double entropy = NAN;         ///< the same after it, expected [nats]
 };
 
 /// Mean residual against one covariate, for figures.
@@ -194,15 +262,37 @@ struct HoldOutCycles {
 struct RepeatStep {
   std::string added;  ///< id, empty in the last round
   std::string sentence;
-  double share_of_error = 0;
+  double at_map = 0;  ///< rms of what is named or left, at the map [Pa]
+};
+
+/// How well the parameters of a prediction are known. Each is a normal variable round its fitted value.
+struct ParameterSpread {
+  struct Parameter {
+    std::size_t effect = 0;  ///< index into Prediction::effects
+    std::string name;
+    bool logarithmic = false;  ///< the variable is the logarithm of the value, else the value
+  };
+  std::vector<Parameter> parameters;
+  std::vector<std::vector<double>> covariance;  ///< of the variables
+  std::size_t cycles = 0;                       ///< that they were fitted to
+  /// Variance of the size between groups of cycles, beyond that within them; 0 = fewer than two groups. A
+  /// group is the cycles of one mount under one protocol.
+  double between = 0;
+  std::size_t groups = 0;
 };
 
 /// A prediction that is frozen before the next experiment. confirm() compares it with new recordings.
 struct Prediction {
   std::vector<simulation::EnabledEffect> effects;              ///< effects of the best explanation
   std::vector<std::vector<simulation::EnabledEffect>> rivals;  ///< the other credible explanations
-  Interval size;     ///< range of the factor of the first effect's strength, 1 = as fitted
+  /// 95 % predictive interval of the factor by which new recordings find the effects stronger, 1 = as fitted;
+  /// for as many cycles under the same protocol.
+  Interval size;
   std::string hash;  ///< see hashOf()
+  /// Probability of the explanation by `effects`, then of each rival; see weightsOf(). Empty in files of
+  /// earlier versions.
+  std::vector<double> weights = {};
+  ParameterSpread spread = {};  ///< empty in files of earlier versions
 };
 
 /// Everything that verdict.yaml, results.json and the report contain.
@@ -214,12 +304,23 @@ struct DiscrepancyReport {
   std::vector<std::string> depends_on;                 ///< covariates, as in name(Covariate)
   std::vector<NotIdentifiable> not_identifiable;
   std::vector<CovariateTest> covariates;
+  std::vector<SmallestSeen> smallest_seen;  ///< of each effect that competed
+  std::vector<TooSmall> too_small;          ///< only where the verdict would be none without it
+  std::vector<Scatter> scatter;             ///< also where nothing is missing; empty with too few cycles
+  std::vector<Answer> answers;              ///< to the questions of the user
+  /// Rms of what the preferred explanation adds and the static curves cannot take up, at the map [Pa]. Of
+  /// generic terms where the verdict is kUnknown. NaN where detectors alone found something, and where
+  /// nothing is missing.
+  double at_map = NAN;
+  double p = 1;          ///< probability of the best score if nothing were missing
+  double least_gap = 0;  ///< size at the map below which a discrepancy does not matter [Pa]
+  DiscrepancyOptions options;
   WhereItShows where;
   Gap gap;
   std::string recompute;                ///< command that recomputes the gap; empty = the gap is not known
   std::vector<HoldOutCycles> hold_out;  ///< in time order; bags without a hold-out cycle are left out
   std::vector<GapInUse> in_use;
-  std::vector<NextExperiment> next_experiment;  ///< none or one
+  std::vector<NextExperiment> next_experiment;  ///< none, one, or two where one is not enough
   std::vector<CandidateScore> candidates;       ///< best first
   std::vector<std::string> tested;              ///< ids of all effects that were considered
   std::vector<std::string> limitations;         ///< sentences
@@ -245,13 +346,23 @@ using DiscrepancyProgress = std::function<void(const std::string& step, double s
 /// much of the gap they close. Calls validate() first. The result does not depend on the number of threads.
 DiscrepancyReport investigate(const DiscrepancyProblem& problem, const DiscrepancyProgress& progress = {});
 
+/// What new recordings say of a rival of the predicted explanation.
+struct RivalAnswer {
+  std::string explanation;
+  double nats = 0;  ///< logarithm of its predictive density of the new cycles, less that of the prediction
+  bool better = false;  ///< beyond chance
+};
+
 /// Result of a comparison of new recordings with a prediction.
 struct Confirmation {
   bool passed = false;
   std::string sentence;
-  double size = 0;  ///< of the first effect, 1 = as predicted
-  Interval interval;
+  double size = 0;            ///< common factor of the effects' strengths, 1 = as predicted
+  Interval interval;          ///< of `size`, by the new recordings alone
+  Interval predicted;         ///< where `size` lies in 95 of 100 such recordings if the prediction is right
   double share_of_error = 0;  ///< share of the squared error that the prediction explains without any fit
+  double p = 1;               ///< probability of the best score on the new cycles if nothing were missing
+  std::vector<RivalAnswer> rivals;
   /// A rival that explains more. It may also be an explanation that excludes the predicted one when the new
   /// recordings are investigated without the prediction. Empty = none.
   std::string best_rival;

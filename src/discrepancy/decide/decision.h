@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "discrepancy/decide/appraisal.h"
 #include "discrepancy/decide/candidates.h"
 #include "discrepancy/decide/refine.h"
-#include "discrepancy/fit/taxel_fit.h"
+#include "discrepancy/fit/cycle_noise.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 
 namespace fsr::discrepancy {
@@ -13,26 +15,36 @@ namespace fsr::discrepancy {
 /// Result of the comparison of explanations on the common trace.
 struct Decision {
   Verdict verdict = Verdict::kNone;
-  Score explanation;  ///< the preferred one; generic terms where the verdict is unknown
-  Refined refined;    ///< the same, fitted through the true forward model; empty where the verdict is unknown
+  Refined refined;  ///< the preferred effects, fitted through the true forward model; empty where unknown
+  std::vector<bool> bent_only;  ///< of each of them: acts only where the surface is bent
   std::vector<Refined> rivals;  ///< likewise, for the other credible explanations
   std::vector<std::vector<std::string>> credible;
   std::vector<std::string> depends_on;
-  double explainable = 0;     ///< share of the common trace's error that is explainable
-  double share = 0;           ///< share that the explanation explains
-  double share_of_error = 0;  ///< share of the readings' squared error
-  double z = 0;
-  std::string reason;  ///< one sentence
+  Trace explained;       ///< what the preferred explanation adds to the common trace, by its columns
+  double p = 1;          ///< probability of the best score if nothing were missing
+  double z = 0;          ///< of the preferred explanation
+  double closes = 0;     ///< share of what can be closed
+  double at_map = NAN;   ///< see DiscrepancyReport::at_map [Pa]
+  double least_gap = 0;  ///< [Pa]
   std::vector<CandidateScore> candidates;
+  std::vector<CovariateTest> covariates;
+  std::vector<SmallestSeen> smallest_seen;
+  std::vector<TooSmall> too_small;
+  std::vector<Scatter> scatter;
+  /// Of the preferred explanation and of each rival: predictive log density of each cycle [nats]. A rival
+  /// that is credible because evidence is lacking has that of the preferred one.
+  std::vector<std::vector<double>> densities;
+  NoiseOfCycles noise;                   ///< fitted together with the preferred explanation
+  std::vector<std::string> limitations;  ///< sentences
 };
 
 /// Returns the first verdict that holds, in the order none, unknown, ambiguous, wrong_form, named.
 ///
-/// Effects are compared by what their signatures explain in cycles that they were not fitted to. Effects that
-/// come near the best one are compared again through the true forward model, because a large effect is not
-/// linear in its strength.
+/// Explanations are compared by the predictive density of cycles that they were not fitted to. The preferred
+/// one and its rivals are then fitted through the true forward model, because a large effect is not linear in
+/// its strength.
 Decision decide(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
-                const TaxelFit& taxels, const Candidates& candidates,
-                const simulation::SimulationSettings& base);
+                const Candidates& candidates, const simulation::SimulationSettings& base,
+                const DiscrepancyOptions& options);
 
 }  // namespace fsr::discrepancy

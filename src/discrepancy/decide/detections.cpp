@@ -7,6 +7,7 @@
 #include "discrepancy/fit/base_fit.h"
 #include "discrepancy/thresholds.h"
 #include "simulation/effects/effect_library.h"
+#include "statistics/random_stream.h"
 
 namespace fsr::discrepancy {
 
@@ -27,6 +28,12 @@ Detection plain(simulation::Detector detector, double z) {
   detection.effect.share_of_explainable = 1;
   for (const simulation::Covariate c : info.depends_on) detection.depends_on.push_back(simulation::name(c));
   return detection;
+}
+
+// Standard normal score that is exceeded with probability p.
+double zOf(double p) {
+  constexpr double kLeastP = 1e-300;
+  return -statistics::normalQuantile(std::clamp(p, kLeastP, 1 - 1e-16));
 }
 
 void tellParameters(Detection& detection, const std::vector<std::string>& names) {
@@ -50,7 +57,7 @@ simulation::EnabledEffect usualValues(const std::string& id) {
 }  // namespace
 
 Detection detectionOf(const Fault& fault, const FaultyReadings& readings, double square) {
-  Detection detection = plain(fault.detector, kFaultZ);
+  Detection detection = plain(fault.detector, zOf(fault.p));
   detection.enable = {asEffect(fault)};
   detection.where.taxels = fault.taxels;
   detection.where.conditions = readings.conditions;
@@ -62,7 +69,7 @@ Detection detectionOf(const Fault& fault, const FaultyReadings& readings, double
 }
 
 Detection detectionOf(const Mains& mains, double square, const Measured& measured) {
-  Detection detection = plain(simulation::Detector::kMains, mains.z);
+  Detection detection = plain(simulation::Detector::kMains, zOf(mains.p));
   detection.enable = {asEffect(mains, measured.full_scale)};
   tellParameters(detection, {"amplitude", "frequency", "taxel_time"});
   detection.where.pressure = {0, *std::max_element(measured.pressure.begin(), measured.pressure.end())};

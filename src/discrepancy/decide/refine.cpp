@@ -21,7 +21,8 @@ namespace {
 constexpr double kDifference = 0.02;  // of a parameter's scale
 constexpr double kBeyondTried = 3;    // factor by which a shape may exceed its plausible range
 constexpr int kMostHalved = 8;
-constexpr double kTwoSided = 1.96;  // 95 % of a normal distribution
+constexpr double kTwoSided = 1.96;              // 95 % of a normal distribution
+constexpr double kSmallest = -4, kLargest = 2;  // logarithm of the size of predicted effects
 
 // One fitted parameter. It is scaled so that a step of about 1 is large.
 struct Knob {
@@ -77,6 +78,16 @@ simulation::SimulationSettings keepStages(simulation::SimulationSettings setting
                                }),
                 effects.end());
   return settings;
+}
+
+// A trace that is 0 in the hold-out cycles.
+Trace withoutHoldOut(const Measured& measured, Trace trace) {
+  for (const MeasuredCycle& cycle : measured.cycles) {
+    if (cycle.use == CycleUse::kFit) continue;
+    const auto samples = static_cast<Eigen::Index>(cycle.last - cycle.first);
+    trace.segment(static_cast<Eigen::Index>(cycle.first), samples).setZero();
+  }
+  return trace;
 }
 
 // Changes of load, gain and reading by effects.
@@ -181,26 +192,19 @@ class Refiner {
     levelGain(measured_, changes);
     return changes;
   }
-  Trace withoutHoldOut(Trace trace) const {
-    for (const MeasuredCycle& cycle : measured_.cycles) {
-      if (cycle.use == CycleUse::kFit) continue;
-      const auto samples = static_cast<Eigen::Index>(cycle.last - cycle.first);
-      trace.segment(static_cast<Eigen::Index>(cycle.first), samples).setZero();
-    }
-    return trace;
-  }
   // Variable projection: for given parameters the curves are fitted by least squares.
   std::optional<Eigen::VectorXd> error(const std::vector<double>& at) const {
     try {
       const Changes changes = changesAt(at);
       const Trace freed = freedOf(common_.all, fit_.unloaded(), changes);
-      return withoutHoldOut(StaticFit(fit_, freed, loadOf(measured_, changes)).project(freed));
+      return withoutHoldOut(measured_, StaticFit(fit_, freed, loadOf(measured_, changes)).project(freed));
     } catch (const settings::InputError&) {
       return std::nullopt;
     }
   }
   void makePermitted();
-  std::vector<double> deviations(const Eigen::VectorXd& left) const;
+  Eigen::MatrixXd covariance(const Eigen::VectorXd& left) const;
+  ParameterSpread spreadOf(const Eigen::MatrixXd& covariance) const;
 
   const Measured& measured_;
   const CommonTraces& common_;
@@ -214,11 +218,16 @@ class Refiner {
   DrivenSignals plain_;
 };
 
-// Standard deviations of the fitted parameters, clustered by cycle: residuals within one cycle are
-// correlated.
-std::vector<double> Refiner::deviations(const Eigen::VectorXd& left) const {
+// Covariance of the fitted parameters, clustered by cycle: residuals within one cycle are correlated. A shape
+// at an end of its range is not free.
+Eigen::MatrixXd Refiner::covariance(const Eigen::VectorXd& left) const {
   const auto residuals = [this](const std::vector<double>& at) { return error(at); };
-  const Eigen::MatrixXd jacobian = derivatives(residuals, at_, left, kDifference);
+  Eigen::MatrixXd jacobian = derivatives(residuals, at_, left, kDifference);
+  for (std::size_t k = 0; k < knobs_.size(); ++k) {
+    const double value = knobs_[k].write(at_[k]);
+    const bool at_end = value <= knobs_[k].range.low || value >= knobs_[k].range.high;
+    if (at_end && !knobs_[k].is_strength) jacobian.col(static_cast<Eigen::Index>(k)).setZero();
+  }
   Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
   for (const MeasuredCycle& cycle : measured_.cycles) {
     const auto first = static_cast<Eigen::Index>(cycle.first);
@@ -232,11 +241,33 @@ std::vector<double> Refiner::deviations(const Eigen::VectorXd& left) const {
   normal.diagonal().array() += 1e-300;
   const Eigen::MatrixXd inverse =
       normal.ldlt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
-  const Eigen::VectorXd variance = (inverse * spread * inverse).diagonal();
-  std::vector<double> deviations;
-  for (Eigen::Index k = 0; k < variance.size(); ++k)
-    deviations.push_back(std::sqrt(std::max(0.0, variance[k])));
-  return deviations;
+  return inverse * spread * inverse;
+}
+
+// The covariance together with what is known without the recordings: a shape lies within the range of the fit
+// with 95 %. Where the recordings hardly determine a shape, its spread is otherwise too large to be linear.
+ParameterSpread Refiner::spreadOf(const Eigen::MatrixXd& covariance) const {
+  ParameterSpread result;
+  const auto size = static_cast<Eigen::Index>(knobs_.size());
+  Eigen::VectorXd precision = Eigen::VectorXd::Zero(size), unit(size);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const Knob& knob = knobs_[static_cast<std::size_t>(k)];
+    result.parameters.push_back({knob.effect, knob.name, knob.logarithmic});
+    unit[k] = knob.logarithmic ? 1 : knob.scale;
+    const double width = knob.logarithmic ? std::log(knob.range.high / knob.range.low)
+                                          : (knob.range.high - knob.range.low) / knob.scale;
+    if (!knob.is_strength && std::isfinite(width) && width > 0)
+      precision[k] = std::pow(2 * kTwoSided / width, 2);
+  }
+  const Eigen::MatrixXd known = Eigen::MatrixXd::Identity(size, size) + precision.asDiagonal() * covariance;
+  const Eigen::MatrixXd half = covariance * known.partialPivLu().inverse();
+  const Eigen::MatrixXd both = unit.asDiagonal() * (0.5 * (half + half.transpose())) * unit.asDiagonal();
+  for (Eigen::Index k = 0; k < size; ++k) {
+    result.covariance.emplace_back();
+    for (Eigen::Index l = 0; l < size; ++l) result.covariance.back().push_back(both(k, l));
+  }
+  result.cycles = measured_.fitCycles();
+  return result;
 }
 
 // Halves the strengths until they are permitted. Signatures are linear, so the strength that they give for a
@@ -247,6 +278,14 @@ void Refiner::makePermitted() {
       if (!knobs_[k].logarithmic && knobs_[k].is_strength) at_[k] /= 2;
     }
   }
+}
+
+// Whether even the end of the interval that is nearer to no effect is beyond the plausible strengths. An
+// effect that is smaller than usual is not implausible.
+bool isTooLarge(const FittedParameter& fitted, const simulation::EffectParameter& strength) {
+  if (fitted.value > strength.neutral)
+    return fitted.interval.low > std::max(strength.plausible.high, strength.neutral);
+  return fitted.interval.high < std::min(strength.plausible.low, strength.neutral);
 }
 
 Refined Refiner::run() {
@@ -261,23 +300,165 @@ Refined Refiner::run() {
   const auto left = error(at_);
   if (!left) return refined;
   refined.left = *left;
-  refined.share = 1 - left->squaredNorm() / withoutHoldOut(fit_.project(common_.all)).squaredNorm();
+  refined.share =
+      1 - left->squaredNorm() / withoutHoldOut(measured_, fit_.project(common_.all)).squaredNorm();
   const Changes changes = changesAt(at_);
   const Trace freed = freedOf(common_.all, fit_.unloaded(), changes);
   const Trace after = StaticFit(fit_, freed, loadOf(measured_, changes)).residual(freed);
   refined.trace = fit_.residual(common_.all) - after.cwiseProduct(changes.gain);
-  const std::vector<double> deviation = deviations(*left);
+  const Eigen::MatrixXd spread = covariance(*left);
+  refined.spread = spreadOf(spread);
+  const Eigen::VectorXd deviation = spread.diagonal().cwiseMax(0.0).cwiseSqrt();
   for (std::size_t k = 0; k < knobs_.size(); ++k) {
     const Knob& knob = knobs_[k];
     const simulation::EffectParameter& info =
         simulation::parameter(measured_.info(effects_[knob.effect].id), knob.name);
-    const double value = knob.write(at_[k]), half = kTwoSided * deviation[k];
+    const double value = knob.write(at_[k]), half = kTwoSided * deviation[static_cast<Eigen::Index>(k)];
     refined.parameters[knob.effect].push_back(
         {knob.name, value, info.permitted.unit, {knob.write(at_[k] - half), knob.write(at_[k] + half)}});
-    const bool strength = info.role == simulation::ParameterRole::kStrength;
-    if (strength && !info.plausible.contains(value)) refined.at_bound = true;
+    if (info.role == simulation::ParameterRole::kStrength)
+      refined.implausible = refined.implausible || isTooLarge(refined.parameters[knob.effect].back(), info);
   }
   return refined;
+}
+
+// Effects with fixed parameters in recordings that they were not fitted to. The first variable is the
+// logarithm of the common factor of all strengths; the parameters of the spread follow.
+class Predictor {
+ public:
+  Predictor(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
+            const simulation::SimulationSettings& base, const std::vector<simulation::EnabledEffect>& effects,
+            const ParameterSpread& spread)
+      : measured_(measured),
+        common_(common),
+        fit_(fit),
+        base_(base),
+        effects_(effects),
+        spread_(spread),
+        plain_(driven(measured, base, true)) {}
+
+  Predicted run() const;
+
+ private:
+  std::vector<simulation::EnabledEffect> effectsAt(const std::vector<double>& at) const;
+  Changes changesAt(const std::vector<double>& at) const {
+    simulation::SimulationSettings with = base_;
+    for (const simulation::EnabledEffect& effect : effectsAt(at)) with = withEffect(with, effect);
+    Changes changes = changesBy(measured_, base_, with, plain_, true);
+    levelGain(measured_, changes);
+    return changes;
+  }
+  std::optional<Eigen::VectorXd> error(const std::vector<double>& at) const {
+    try {
+      const Changes changes = changesAt(at);
+      const Trace freed = freedOf(common_.all, fit_.unloaded(), changes);
+      return withoutHoldOut(measured_, StaticFit(fit_, freed, loadOf(measured_, changes)).project(freed));
+    } catch (const settings::InputError&) {
+      return std::nullopt;
+    }
+  }
+  Trace traceAt(const std::vector<double>& at) const {
+    const Changes changes = changesAt(at);
+    const Trace freed = freedOf(common_.all, fit_.unloaded(), changes);
+    const Trace after = StaticFit(fit_, freed, loadOf(measured_, changes)).residual(freed);
+    return fit_.residual(common_.all) - after.cwiseProduct(changes.gain);
+  }
+  static double sizeOf(double logarithm) { return std::exp(std::clamp(logarithm, kSmallest, kLargest)); }
+  // Derivative of the error with respect to the size.
+  Eigen::VectorXd slopeAt(double logarithm) const {
+    const double inside = std::clamp(logarithm, kSmallest + kDifference, kLargest - kDifference);
+    const Residuals residuals = [this](const std::vector<double>& at) { return error(at); };
+    return derivatives(residuals, {inside}, *error({inside}), kDifference).col(0) / sizeOf(inside);
+  }
+  void judgeCycles(const Eigen::VectorXd& slope, const Eigen::VectorXd& left, Predicted& told) const;
+  double bySpread(const Eigen::VectorXd& slope, const Eigen::VectorXd& left) const;
+
+  const Measured& measured_;
+  const CommonTraces& common_;
+  const StaticFit& fit_;
+  const simulation::SimulationSettings& base_;
+  const std::vector<simulation::EnabledEffect>& effects_;
+  const ParameterSpread& spread_;
+  DrivenSignals plain_;
+};
+
+std::vector<simulation::EnabledEffect> Predictor::effectsAt(const std::vector<double>& at) const {
+  std::vector<simulation::EnabledEffect> effects = effects_;
+  for (std::size_t k = 1; k < at.size(); ++k) {
+    const ParameterSpread::Parameter& one = spread_.parameters[k - 1];
+    double& value = effects[one.effect].values[one.name];
+    const settings::Range& permitted =
+        simulation::parameter(measured_.info(effects[one.effect].id), one.name).permitted;
+    value =
+        std::clamp(one.logarithmic ? value * std::exp(at[k]) : value + at[k], permitted.low, permitted.high);
+  }
+  for (simulation::EnabledEffect& effect : effects) {
+    for (const simulation::EffectParameter& parameter : simulation::strengths(measured_.info(effect.id)))
+      effect.values[parameter.name] *= sizeOf(at[0]);
+  }
+  return effects;
+}
+
+// The size that each cycle gives, and the variance of the common one, clustered by cycle and corrected for
+// one fitted number.
+void Predictor::judgeCycles(const Eigen::VectorXd& slope, const Eigen::VectorXd& left,
+                            Predicted& told) const {
+  double squares = 0;
+  for (const MeasuredCycle& cycle : measured_.cycles) {
+    const auto first = static_cast<Eigen::Index>(cycle.first);
+    const auto samples = static_cast<Eigen::Index>(cycle.last - cycle.first);
+    const double pull = slope.segment(first, samples).dot(left.segment(first, samples));
+    told.information.push_back(slope.segment(first, samples).squaredNorm());
+    told.apart.push_back(-pull / std::max(1e-300, told.information.back()));
+    squares += pull * pull;
+  }
+  const auto cycles = static_cast<double>(measured_.fitCycles());
+  told.variance =
+      squares / std::max(1e-300, std::pow(slope.squaredNorm(), 2)) * cycles / std::max(1.0, cycles - 1);
+}
+
+// A parameter that is wrong by d changes the size that fits best by d times (its derivative along that of the
+// size). Each derivative is taken over a third of the parameter's standard deviation, at size 1.
+double Predictor::bySpread(const Eigen::VectorXd& slope, const Eigen::VectorXd& left) const {
+  const auto size = static_cast<Eigen::Index>(spread_.parameters.size());
+  Eigen::VectorXd along = Eigen::VectorXd::Zero(size);
+  Eigen::MatrixXd covariance(size, size);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const auto row = static_cast<std::size_t>(k);
+    for (Eigen::Index l = 0; l < size; ++l)
+      covariance(k, l) = spread_.covariance[row][static_cast<std::size_t>(l)];
+    const double step = std::sqrt(std::max(0.0, covariance(k, k))) / 3;
+    if (!(step > 0)) continue;
+    std::vector<double> moved(spread_.parameters.size() + 1, 0.0);
+    double width = 0;
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(left.size());
+    for (const double side : {-1.0, 1.0}) {
+      moved[row + 1] = side * step;
+      const auto there = error(moved);
+      if (!there) continue;
+      change += side * (*there - left);
+      width += step;
+    }
+    if (width > 0) along[k] = slope.dot(change) / width / std::max(1e-300, slope.squaredNorm());
+  }
+  return std::max(0.0, along.dot(covariance * along));
+}
+
+Predicted Predictor::run() const {
+  Predicted told;
+  told.trace = Trace::Zero(common_.all.size());
+  const Residuals residuals = [this](const std::vector<double>& at) { return error(at); };
+  const double before = withoutHoldOut(measured_, fit_.project(common_.all)).squaredNorm();
+  const auto as_told = error({0});
+  if (!as_told || before <= 0) return told;
+  told.share = 1 - as_told->squaredNorm() / before;
+  const std::vector<double> at = levenberg(residuals, {0}, {12, 0.02, 1e-5});
+  const auto best = error(at);
+  told.size = sizeOf(at[0]);
+  judgeCycles(slopeAt(at[0]), *best, told);
+  told.of_spread = bySpread(slopeAt(0), *as_told);
+  told.trace = traceAt(at);
+  return told;
 }
 
 }  // namespace
@@ -357,44 +538,8 @@ simulation::SimulationSettings takeOutEnabled(Measured& measured, const CommonTr
 
 Predicted predict(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                   const simulation::SimulationSettings& base,
-                  const std::vector<simulation::EnabledEffect>& effects) {
-  const DrivenSignals plain = driven(measured, base, true);
-  const Residuals residuals = [&](const std::vector<double>& at) -> std::optional<Eigen::VectorXd> {
-    simulation::SimulationSettings with = base;
-    for (simulation::EnabledEffect effect : effects) {
-      for (const simulation::EffectParameter& parameter : simulation::strengths(measured.info(effect.id))) {
-        effect.values[parameter.name] *= std::exp(std::clamp(at[0], -4.0, 2.0));
-      }
-      with = withEffect(with, effect);
-    }
-    try {
-      Changes changes = changesBy(measured, base, with, plain, true);
-      levelGain(measured, changes);
-      const Trace freed = freedOf(common.all, fit.unloaded(), changes);
-      return StaticFit(fit, freed, loadOf(measured, changes)).project(freed);
-    } catch (const settings::InputError&) {
-      return std::nullopt;
-    }
-  };
-  Predicted told;
-  const double before = fit.project(common.all).squaredNorm();
-  const auto as_told = residuals({0});
-  if (!as_told || before <= 0) return told;
-  told.share = 1 - as_told->squaredNorm() / before;
-  const std::vector<double> at = levenberg(residuals, {0}, {12, 0.02, 1e-5});
-  const auto best = residuals(at);
-  told.best_share = 1 - best->squaredNorm() / before;
-  told.size = std::exp(std::clamp(at[0], -4.0, 2.0));
-  const Eigen::VectorXd slope = derivatives(residuals, at, *best, kDifference).col(0);
-  double squares = 0;
-  for (const MeasuredCycle& cycle : measured.cycles) {
-    const auto first = static_cast<Eigen::Index>(cycle.first);
-    const auto samples = static_cast<Eigen::Index>(cycle.last - cycle.first);
-    squares += std::pow(slope.segment(first, samples).dot(best->segment(first, samples)), 2);
-  }
-  const double half = kTwoSided * std::sqrt(squares) / std::max(1e-300, slope.squaredNorm());
-  told.interval = {told.size * std::exp(-half), told.size * std::exp(half)};
-  return told;
+                  const std::vector<simulation::EnabledEffect>& effects, const ParameterSpread& spread) {
+  return Predictor(measured, common, fit, base, effects, spread).run();
 }
 
 Refined refine(const Measured& measured, const CommonTraces& common, const StaticFit& fit,

@@ -20,17 +20,21 @@ simulation::SimulationSettings withEffect(simulation::SimulationSettings setting
 struct Refined {
   std::vector<simulation::EnabledEffect> effects;
   std::vector<std::vector<FittedParameter>> parameters;  ///< fitted parameters of each effect
-  Trace trace;             ///< part of the common trace's residual that the effects explain
-  Trace left;              ///< residual of the projected common trace; 0 in hold-out cycles
-  double share = 0;        ///< share of the projected common trace's squared error that they explain
-  bool at_bound = false;   ///< a strength is outside its plausible range
-  bool state_kept = true;  ///< as passed to refine()
+  Trace trace;               ///< part of the common trace's residual that the effects explain
+  Trace left;                ///< residual of the projected common trace; 0 in hold-out cycles
+  double share = 0;          ///< share of the projected common trace's squared error that they explain
+  bool implausible = false;  ///< a strength is larger than its plausible range, with 95 % confidence
+  bool state_kept = true;    ///< as passed to refine()
+  ParameterSpread spread;    ///< of the parameters; not between groups of cycles
 };
 
 /// Whether the intervals of all strengths contain the value at which the effects do nothing. False where no
 /// strength was fitted.
 bool mayBeNone(const Refined& refined,
                const simulation::EffectLibrary& library = simulation::EffectLibrary::shipped());
+
+/// Whether an effect without a detector changes with time under a uniform pressure.
+bool hasTimeCourse(const simulation::EffectInfo& info);
 
 /// `bent_only` has one flag for each effect: true = it acts only where the surface is bent. Empty = all
 /// false.
@@ -55,13 +59,19 @@ simulation::SimulationSettings takeOutEnabled(Measured& measured, const CommonTr
 
 /// What effects with fixed parameters explain of new recordings.
 struct Predicted {
-  double share = 0;       ///< share of the projected common trace's squared error, without any fit
-  double best_share = 0;  ///< the same with the size of the effects fitted
-  double size = 1;        ///< common factor of all strengths that fits best
-  Interval interval;      ///< of `size`
+  double share = 0;     ///< share of the projected common trace's squared error, without any fit
+  double size = 1;      ///< common factor of all strengths that fits best
+  double variance = 0;  ///< of `size`, by the scatter between these cycles
+  /// Variance of the size that fits best if the effects are right, by the spread of their parameters.
+  double of_spread = 0;
+  Trace trace;  ///< what the effects of this size add to the common trace's residual
+  /// Of each cycle: the size that fits it best, less `size`, and the information on it.
+  std::vector<double> apart, information;
 };
+/// `spread`: of the effects' parameters. Under another protocol than that of the fit, a shape that is not
+/// well known changes the size that fits best.
 Predicted predict(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
                   const simulation::SimulationSettings& base,
-                  const std::vector<simulation::EnabledEffect>& effects);
+                  const std::vector<simulation::EnabledEffect>& effects, const ParameterSpread& spread = {});
 
 }  // namespace fsr::discrepancy

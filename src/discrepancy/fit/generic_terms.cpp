@@ -13,6 +13,7 @@ constexpr std::size_t kTimeHats = 4;  // over clock time, in each visit
 constexpr double kReversalStart = 1;  // first knot of the time since a reversal [s]
 constexpr double kReversalStep = 5;   // factor from knot to knot
 constexpr std::size_t kReversalHats = 4;
+constexpr std::size_t kDistanceHats = 4;  // over the root of the change of pressure since a reversal
 
 // Triangle around 0 that reaches 0 at -1 and at 1.
 double hat(double x) {
@@ -109,7 +110,7 @@ class Terms {
     }
     const double norm = column.norm();
     if (norm > 0) column *= std::sqrt(static_cast<double>(column.size())) / norm;
-    columns_.push_back(fit_.project(column));
+    columns_.push_back(std::move(column));
   }
   const Measured& measured_;
   const StaticFit& fit_;
@@ -162,6 +163,17 @@ Fill byExtremes(const Measured& m, const Covariates& c) {
       terms.gain([&](std::size_t i) { return on(i) * c.valley[i] * c.valley[i]; });
     }
     terms.gain([&](std::size_t i) { return weight(i) * std::min(c.valley[i], c.pressure[i]); });
+    // A loop that does not depend on the rate is, after a reversal, a function of the change of pressure.
+    for (std::size_t k = 0; k < kDistanceHats; ++k) {
+      for (const int direction : {-1, 1}) {
+        terms.load([&, k, direction](std::size_t i) {
+          if (m.direction[i] != direction) return 0.0;
+          const double turned = direction > 0 ? c.valley[i] : c.peak[i];
+          const double distance = std::sqrt(std::abs(c.pressure[i] - turned));
+          return weight(i) * hat(distance * (kDistanceHats - 1) - static_cast<double>(k));
+        });
+      }
+    }
   };
 }
 

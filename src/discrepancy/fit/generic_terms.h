@@ -14,7 +14,7 @@ namespace fsr::discrepancy {
 /// static curves, terms that act like a gain by their rise.
 struct GenericTerms {
   std::vector<simulation::Covariate> covariates;
-  std::vector<Trace> columns;  ///< projected; the sign of each is free
+  std::vector<Trace> columns;  ///< scaled to rms 1, not projected; the sign of each is free
 };
 
 /// Returns the terms of each group of covariates. If the recordings have several curvatures, each group

@@ -11,7 +11,8 @@ namespace fsr::discrepancy {
 struct Mains {
   bool found = false;
   double share = 0;      ///< share of the readings' squared error
-  double z = 0;          ///< z score of its peak among patterns of other pitch
+  double p = 1;          ///< of its line among those of permuted taxels
+  double at_map = 0;     ///< its rms divided by the mean slope of the static curves [Pa]
   double amplitude = 0;  ///< [share of full scale]
   double turn = 0;       ///< phase from one taxel of the scan to the next [rad]
   double beat = 0;       ///< its apparent frequency after sampling [Hz]
@@ -20,8 +21,11 @@ struct Mains {
 
 /// Searches for hum. A hum has one phase in each taxel, and the phase advances from taxel to taxel.
 /// Therefore one of the patterns exp(j turn i), in the order of the scan, stands out, and its time course
-/// passes through all phases. A pattern that stands still in space has only one phase and is not hum.
-Mains findMains(const Measured& measured, const TaxelFit& taxels);
+/// turns at one frequency, folded down by the sampling: a narrow line on one side of the spectrum. A pattern
+/// that stands still in space has the same power at f and at -f and is not hum. The largest such line is held
+/// against those that the same search finds after the taxels were permuted.
+Mains findMains(const Measured& measured, const StaticFit& fit, const TaxelFit& taxels,
+                const DiscrepancyOptions& options);
 
 /// Subtracts the hum's time course from the common traces.
 void takeOut(const Mains& mains, const StaticFit& fit, CommonTraces& common);

@@ -73,20 +73,6 @@ DrivenSignals emptySignals(const Measured& measured) {
   return {Trace::Zero(scans), Trace::Zero(scans), Trace::Zero(scans)};
 }
 
-matrix::Surface oneTaxel(const matrix::Surface& surface) {
-  matrix::Surface one = surface;
-  one.deviation.clear();
-  matrix::Curvature mean;
-  for (const matrix::Curvature& c : surface.curvature) {
-    const auto taxels = static_cast<double>(surface.curvature.size());
-    mean.x += c.x / taxels;
-    mean.y += c.y / taxels;
-    mean.xy += c.xy / taxels;
-  }
-  one.curvature = {mean};
-  return one;
-}
-
 // The derivative with respect to one strength, in the form that drive() expects.
 struct Derivative {
   simulation::Sensitivity sensitivity;
@@ -150,6 +136,19 @@ bool remembers(const simulation::EffectEntry& entry) {
          entry.info.stage == simulation::ChainStage::kCavity;
 }
 
+// Strengths at which the signature of an effect on the load is taken.
+std::vector<double> amplitudes(const simulation::EffectInfo& info,
+                               const simulation::EffectParameter& strength) {
+  if (info.stage >= simulation::ChainStage::kGain || strength.usual == 0) return {0};
+  std::vector<double> strengths;
+  for (const double share : {0.1, 1.0, 3.0}) {
+    const double amplitude = share * std::abs(strength.usual);
+    if (info.sign != simulation::SignRule::kNegative) strengths.push_back(amplitude);
+    if (info.sign != simulation::SignRule::kPositive) strengths.push_back(-amplitude);
+  }
+  return strengths;
+}
+
 std::vector<Signature> planned(const simulation::SimulationSettings& settings,
                                const std::vector<std::string>& leave_out) {
   std::vector<Signature> plan;
@@ -164,10 +163,14 @@ std::vector<Signature> planned(const simulation::SimulationSettings& settings,
         signature.values.erase(strength.name);
         signature.free_sign = entry.info.sign == simulation::SignRule::kEither;
         signature.scale = entry.info.sign == simulation::SignRule::kNegative ? -1 : 1;
-        plan.push_back(signature);
-        if (!remembers(entry)) continue;
-        signature.state_kept = false;
-        plan.push_back(signature);
+        for (const double amplitude : amplitudes(entry.info, strength)) {
+          signature.amplitude = amplitude;
+          signature.state_kept = true;
+          plan.push_back(signature);
+          if (!remembers(entry)) continue;
+          signature.state_kept = false;
+          plan.push_back(signature);
+        }
       }
     }
   }
@@ -180,6 +183,20 @@ bool possible(const simulation::EffectValues& values) {
 }
 
 }  // namespace
+
+matrix::Surface oneTaxel(const matrix::Surface& surface) {
+  matrix::Surface one = surface;
+  one.deviation.clear();
+  matrix::Curvature mean;
+  for (const matrix::Curvature& c : surface.curvature) {
+    const auto taxels = static_cast<double>(surface.curvature.size());
+    mean.x += c.x / taxels;
+    mean.y += c.y / taxels;
+    mean.xy += c.xy / taxels;
+  }
+  one.curvature = {mean};
+  return one;
+}
 
 simulation::SimulationSettings representative(const simulation::SimulationSettings& settings) {
   simulation::SimulationSettings one = settings;
@@ -224,9 +241,18 @@ DrivenSignals driven(const Measured& measured, const simulation::SimulationSetti
   return signals;
 }
 
-Trace throughCurve(const StaticFit& fit, const DrivenSignals& derivative, simulation::ChainStage stage) {
+Trace throughCurve(const Measured& measured, const StaticFit& fit, const DrivenSignals& derivative,
+                   simulation::ChainStage stage, double amplitude) {
   if (stage >= simulation::ChainStage::kConductance) return derivative.reading;
-  return derivative.load.cwiseProduct(fit.slope()) + derivative.gain.cwiseProduct(fit.netCurve());
+  const Trace gained = derivative.gain.cwiseProduct(fit.netCurve());
+  if (amplitude == 0) return derivative.load.cwiseProduct(fit.slope()) + gained;
+  Trace changed(gained.size());
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const double load = measured.load.empty() ? measured.pressure[i] : measured.load[i];
+    changed[at] = (fit.curveAt(i, load + amplitude * derivative.load[at]) - fit.curveAt(i, load)) / amplitude;
+  }
+  return changed + gained;
 }
 
 std::vector<Signature> signatures(const Measured& measured, const StaticFit& fit,
@@ -238,13 +264,13 @@ std::vector<Signature> signatures(const Measured& measured, const StaticFit& fit
     if (!possible(signature.values)) return;
     const DrivenSignals derivative = drivenDerivative(measured, settings, signature.id, signature.strength,
                                                       signature.values, signature.state_kept);
-    Trace trace = throughCurve(fit, derivative, measured.info(signature.id).stage);
+    Trace trace =
+        throughCurve(measured, fit, derivative, measured.info(signature.id).stage, signature.amplitude);
     const double rms = std::sqrt(trace.squaredNorm() / static_cast<double>(trace.size()));
     if (!(rms > 0) || !std::isfinite(rms)) return;
     trace *= signature.scale / rms;
     signature.scale /= rms;
-    signature.trace = fit.project(trace);
-    signature.left = std::sqrt(signature.trace.squaredNorm() / static_cast<double>(trace.size()));
+    signature.trace = std::move(trace);
   });
   const auto nothing = [](const Signature& s) { return s.trace.size() == 0; };
   all.erase(std::remove_if(all.begin(), all.end(), nothing), all.end());

@@ -17,9 +17,14 @@ struct Signature {
   bool state_kept = true;           ///< the state carries over between visits; else each visit starts afresh
   bool free_sign = false;
   double scale = 1;  ///< strength per unit of `trace`; its sign follows the effect's sign rule
-  double left = 0;   ///< share of its rms that static curves and cycle gains do not explain
-  Trace trace;       ///< scaled to rms 1, then projected [-]
+  /// Strength at which the change of the reading is taken and divided by the strength; 0 = the derivative at
+  /// strength 0. A change of load that is as large as the load itself is not linear in the reading.
+  double amplitude = 0;
+  Trace trace;  ///< scaled to rms 1 [-]
 };
+
+/// The surface of one taxel: the mean over those of all taxels.
+matrix::Surface oneTaxel(const matrix::Surface& surface);
 
 /// Settings of a simulation of one taxel in the middle of the scatter: 1 x 1, no noise.
 simulation::SimulationSettings representative(const simulation::SimulationSettings& settings);
@@ -40,9 +45,12 @@ DrivenSignals drivenDerivative(const Measured& measured, const simulation::Simul
 DrivenSignals driven(const Measured& measured, const simulation::SimulationSettings& settings,
                      bool state_kept);
 
-/// Converts a change of load and gain into a change of the common trace, by the slope and the rise of the
-/// measured static curves. From the conductance stage on it returns the change of the reading itself.
-Trace throughCurve(const StaticFit& fit, const DrivenSignals& derivative, simulation::ChainStage stage);
+/// Converts a change of load and gain into a change of the common trace, by the rise of the measured static
+/// curves and, for `amplitude` 0, by their slope. Otherwise the load changes by `amplitude` times the
+/// derivative, and the result is divided by it. From the conductance stage on it returns the change of the
+/// reading itself.
+Trace throughCurve(const Measured& measured, const StaticFit& fit, const DrivenSignals& derivative,
+                   simulation::ChainStage stage, double amplitude);
 
 /// Returns the signatures of all effects that `settings` does not enable and that act on all taxels alike,
 /// for each combination of the shapes' tried values, in the library's order. An effect with memory appears

@@ -22,6 +22,11 @@ class SplineBasis {
   double low() const { return knots_.front(); }
   double high() const { return knots_.back(); }
 
+  /// Middle of a spline: Greville's abscissa. Coefficients that are a line over the middles make a line.
+  double middle(std::size_t spline) const {
+    return (knots_[spline + 1] + knots_[spline + 2] + knots_[spline + 3]) / 3;
+  }
+
   /// Values and slopes of the splines first .. first + 3 at `x`; beyond an end, those at that end.
   struct Values {
     std::size_t first = 0;

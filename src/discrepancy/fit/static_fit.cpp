@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "statistics/median.h"
 
@@ -11,8 +13,9 @@ namespace {
 
 // Shares of the range. Knots lie closer at low pressure, where static curves bend most.
 constexpr double kKnots[] = {0, 0.012, 0.03, 0.06, 0.1, 0.15, 0.22, 0.3, 0.4, 0.52, 0.64, 0.76, 0.88, 1};
-// Relative to the largest diagonal element. Coefficients that no scan determines become 0.
-constexpr double kRidge = 1e-10;
+// Weight of the squared second differences, relative to the largest diagonal element. It is too small to
+// bend what scans determine; coefficients that no scan determines continue the curve as a straight line.
+constexpr double kBends = 1e-8;
 // Least scatter of the cycle gains; smaller scatter does not matter [relative].
 constexpr double kLeastScatter = 1e-5;
 
@@ -38,9 +41,38 @@ void eachSpline(const SplineBasis::Values& at, Use use) {
   }
 }
 
-Eigen::LDLT<Eigen::MatrixXd> decompose(Eigen::MatrixXd matrix) {
-  matrix.diagonal().array() += kRidge * matrix.diagonal().maxCoeff() + 1e-300;
+// Squares of the second differences of a spline's coefficients. They vanish for a straight line.
+Eigen::MatrixXd bendsOf(const SplineBasis& basis) {
+  const auto size = static_cast<Eigen::Index>(basis.size());
+  Eigen::MatrixXd differences = Eigen::MatrixXd::Zero(size - 2, size);
+  for (Eigen::Index k = 1; k + 1 < size; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const double before = basis.middle(at) - basis.middle(at - 1),
+                 after = basis.middle(at + 1) - basis.middle(at), mean = (before + after) / 2;
+    differences(k - 1, k - 1) = mean / before;
+    differences(k - 1, k) = -mean / before - mean / after;
+    differences(k - 1, k + 1) = mean / after;
+  }
+  return differences.transpose() * differences;
+}
+
+Eigen::LDLT<Eigen::MatrixXd> decompose(Eigen::MatrixXd matrix, const Eigen::MatrixXd& bends) {
+  const double most = matrix.diagonal().maxCoeff();
+  matrix += kBends * most * bends;
+  matrix.diagonal().array() += std::numeric_limits<double>::epsilon() * most + 1e-300;
   return matrix.ldlt();
+}
+
+// Samples to which the curves are fitted: those of the fit cycles, and all of a group that has none.
+std::vector<bool> fittedSamples(const Measured& measured, const std::vector<std::uint32_t>& group,
+                                std::size_t groups) {
+  std::vector<bool> has(groups, false), fitted;
+  const auto of_fit = [&](std::size_t i) { return measured.cycles[measured.cycle[i]].use == CycleUse::kFit; };
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    if (of_fit(i)) has[group[i]] = true;
+  }
+  for (std::size_t i = 0; i < group.size(); ++i) fitted.push_back(of_fit(i) || !has[group[i]]);
+  return fitted;
 }
 
 }  // namespace
@@ -76,6 +108,7 @@ StaticFit::StaticFit(const Measured& measured, CurvePer per, const Trace& common
   }
   per_ = per;
   groups_ = per == CurvePer::kVisit ? measured.visits.size() : measured.classes.size();
+  fits_ = fittedSamples(measured, group_, groups_);
   fitCurves(common, loadOf(measured));
   judgeGainScatter(residual(common));
 }
@@ -83,6 +116,7 @@ StaticFit::StaticFit(const Measured& measured, CurvePer per, const Trace& common
 StaticFit::StaticFit(const StaticFit& like, const Trace& common, const Trace& load)
     : measured_(like.measured_),
       group_(like.group_),
+      fits_(like.fits_),
       groups_(like.groups_),
       per_(like.per_),
       gain_scatter_(like.gain_scatter_),
@@ -94,14 +128,7 @@ StaticFit::StaticFit(const StaticFit& like, const Trace& common, const Trace& lo
 void StaticFit::fitCurves(const Trace& common, const Trace& load) {
   basis_ = SplineBasis(knotsOf(load));
   for (Eigen::Index i = 0; i < load.size(); ++i) splines_.push_back(basis_.at(load[i]));
-  const auto size = static_cast<Eigen::Index>(basis_.size());
-  std::vector<Eigen::MatrixXd> normal(groups_, Eigen::MatrixXd::Zero(size, size));
-  for (std::size_t i = 0; i < splines_.size(); ++i) {
-    eachSpline(splines_[i], [&](Eigen::Index a, double x, double) {
-      eachSpline(splines_[i], [&](Eigen::Index b, double y, double) { normal[group_[i]](a, b) += x * y; });
-    });
-  }
-  for (Eigen::MatrixXd& matrix : normal) plain_.push_back(decompose(matrix));
+  for (const Eigen::MatrixXd& matrix : normalMatrices()) plain_.push_back(decompose(matrix, bendsOf(basis_)));
   fitted_ = coefficientsOf(common, plain_);
   curve_ = curveFrom(fitted_);
   slope_.resize(common.size());
@@ -112,8 +139,23 @@ void StaticFit::fitCurves(const Trace& common, const Trace& load) {
                [&](Eigen::Index k, double, double s) { slope += s * fitted_(k, group_[scan]); });
     slope_[i] = std::max(slope, 0.0);
   }
-  zero_ = curve_.minCoeff();
+  zero_ = INFINITY;
+  for (std::size_t i = 0; i < fits_.size(); ++i) {
+    if (fits_[i]) zero_ = std::min(zero_, curve_[static_cast<Eigen::Index>(i)]);
+  }
   net_curve_ = curve_.array() - zero_;
+}
+
+std::vector<Eigen::MatrixXd> StaticFit::normalMatrices() const {
+  const auto size = static_cast<Eigen::Index>(basis_.size());
+  std::vector<Eigen::MatrixXd> normal(groups_, Eigen::MatrixXd::Zero(size, size));
+  for (std::size_t i = 0; i < splines_.size(); ++i) {
+    if (!fits_[i]) continue;
+    eachSpline(splines_[i], [&](Eigen::Index a, double x, double) {
+      eachSpline(splines_[i], [&](Eigen::Index b, double y, double) { normal[group_[i]](a, b) += x * y; });
+    });
+  }
+  return normal;
 }
 
 double StaticFit::curveAt(std::size_t scan, double load) const {
@@ -131,6 +173,7 @@ Eigen::MatrixXd StaticFit::coefficientsOf(const Trace& trace, const std::vector<
   Eigen::MatrixXd right =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(basis_.size()), static_cast<Eigen::Index>(groups_));
   for (std::size_t i = 0; i < splines_.size(); ++i) {
+    if (!fits_[i]) continue;
     const double y = trace[static_cast<Eigen::Index>(i)];
     eachSpline(splines_[i], [&](Eigen::Index k, double x, double) { right(k, group_[i]) += x * y; });
   }
@@ -202,14 +245,23 @@ void StaticFit::judgeGainScatter(const Trace& left) {
                        : 0);
   }
   std::vector<double> steps;
-  for (std::size_t c = 1; c < gain.size(); ++c) {
-    if (measured_.cycles[c].visit != measured_.cycles[c - 1].visit) continue;
-    steps.push_back(std::abs(gain[c] - gain[c - 1]));
+  std::optional<std::size_t> before;
+  for (std::size_t c = 0; c < gain.size(); ++c) {
+    if (!fits_[measured_.cycles[c].first]) continue;
+    if (before && measured_.cycles[c].visit == measured_.cycles[*before].visit)
+      steps.push_back(std::abs(gain[c] - gain[*before]));
+    before = c;
   }
   gain_weight_.resize(gain.size());
   gain_scatter_ = std::max(
       kLeastScatter, statistics::kDeviationPerMedian / std::sqrt(2.0) * statistics::upperMedian(steps, 0));
-  const double noise = left.squaredNorm() / static_cast<double>(left.size());
+  double square = 0, samples = 0;
+  for (std::size_t i = 0; i < fits_.size(); ++i) {
+    if (!fits_[i]) continue;
+    square += std::pow(left[static_cast<Eigen::Index>(i)], 2);
+    ++samples;
+  }
+  const double noise = square / std::max(1.0, samples);
   for (std::size_t c = 0; c < gain.size(); ++c) {
     const double by_noise = noise / std::max(weight[c], 1e-12);
     gain_weight_[c] = std::sqrt(by_noise / (by_noise + gain_scatter_ * gain_scatter_));
@@ -218,28 +270,22 @@ void StaticFit::judgeGainScatter(const Trace& left) {
 }
 
 void StaticFit::prepare() {
-  const auto size = static_cast<Eigen::Index>(basis_.size());
-  std::vector<Eigen::MatrixXd> normal(groups_, Eigen::MatrixXd::Zero(size, size));
-  for (std::size_t i = 0; i < splines_.size(); ++i) {
-    eachSpline(splines_[i], [&](Eigen::Index a, double x, double) {
-      eachSpline(splines_[i], [&](Eigen::Index b, double y, double) { normal[group_[i]](a, b) += x * y; });
-    });
-  }
+  std::vector<Eigen::MatrixXd> normal = normalMatrices();
   for (std::size_t c = 0; c < measured_.cycles.size(); ++c) {
     const MeasuredCycle& cycle = measured_.cycles[c];
-    Eigen::VectorXd along = Eigen::VectorXd::Zero(size);
+    Eigen::VectorXd along = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(basis_.size()));
     double square = 0;
     for (std::size_t i = cycle.first; i < cycle.last; ++i) {
       const double gain = net_curve_[static_cast<Eigen::Index>(i)];
       square += gain * gain;
       eachSpline(splines_[i], [&](Eigen::Index k, double x, double) { along[k] += gain * x; });
     }
-    if (square <= 0) continue;
+    if (square <= 0 || !fits_[cycle.first]) continue;
     normal[group_[cycle.first]] -=
         (1 - gain_weight_[c] * gain_weight_[c]) / square * along * along.transpose();
   }
   weighted_.clear();
-  for (const Eigen::MatrixXd& matrix : normal) weighted_.push_back(decompose(matrix));
+  for (const Eigen::MatrixXd& matrix : normal) weighted_.push_back(decompose(matrix, bendsOf(basis_)));
 }
 
 }  // namespace fsr::discrepancy

@@ -23,7 +23,9 @@ CommonTraces commonTraces(const Measured& measured);
 enum class CurvePer { kClass, kVisit };
 
 /// The common static curves: one smooth curve of pressure for each class of curvature (or each visit). The
-/// class also removes these curves from a trace.
+/// class also removes these curves from a trace. The curves are fitted to the fit cycles only; a group
+/// without a fit cycle has a curve of its own hold-out cycles. Beyond the pressures that were fitted a curve
+/// continues as a straight line.
 ///
 /// The gain scatters by chance from cycle to cycle. Therefore a trace's component along "gain of this cycle"
 /// is shrunk before the curves are removed. Least squares then give it the weight it deserves: the cycles'
@@ -61,6 +63,8 @@ class StaticFit {
   /// consecutive cycles, so slow trends are not counted as scatter.
   void judgeGainScatter(const Trace& residual);
 
+  /// Whether the curves are fitted to a scan.
+  bool isFitted(std::size_t scan) const { return fits_[scan]; }
   std::size_t groupOf(std::size_t scan) const { return group_[scan]; }
   std::size_t groups() const { return groups_; }
   CurvePer per() const { return per_; }
@@ -74,12 +78,14 @@ class StaticFit {
   void applyGainWeights(Trace& trace) const;
   Eigen::MatrixXd coefficientsOf(const Trace& trace, const std::vector<Normal>& normal) const;
   Trace curveFrom(const Eigen::MatrixXd& coefficients) const;
+  std::vector<Eigen::MatrixXd> normalMatrices() const;
   void prepare();
   void fitCurves(const Trace& common, const Trace& load);
 
   const Measured& measured_;
   SplineBasis basis_{{0, 1}};
   std::vector<std::uint32_t> group_;  // of each scan
+  std::vector<bool> fits_;            // of each scan: the curves are fitted to it
   std::size_t groups_ = 0;
   CurvePer per_ = CurvePer::kClass;
   std::vector<SplineBasis::Values> splines_;  // of each scan

@@ -12,11 +12,10 @@ namespace fsr::discrepancy {
 namespace {
 
 constexpr double kLeastZ = 6;
-constexpr std::size_t kPoints = 60;     // in each curve
-constexpr double kSure = 2;             // standard errors; a smaller difference may be due to chance
-constexpr double kFewSamples = 8;       // at one pressure; fewer give no estimate
-constexpr double kTogether = 5;         // samples that count as one, because the noise is coloured
-constexpr double kPreloadScale = 50e3;  // unit of the preload in the fit [Pa]
+constexpr std::size_t kPoints = 60;  // in each curve
+constexpr double kSure = 2;          // standard errors; a smaller difference may be due to chance
+constexpr double kFewSamples = 8;    // at one pressure; fewer give no estimate
+constexpr double kTogether = 5;      // samples that count as one, because the noise is coloured
 
 // Smooth functions of the position on the sheet: powers of x and y up to a degree, without the constant.
 Eigen::MatrixXd smoothFields(const matrix::Layout& layout, const std::vector<std::size_t>& taxels) {
@@ -83,24 +82,87 @@ double interpolate(const Eigen::VectorXd& values, double low, double step, doubl
   return values[i] + share * (values[i + 1] - values[i]);
 }
 
-Eigen::VectorXd misfitOf(const Eigen::VectorXd& curve, const Eigen::VectorXd& reference, double low,
-                         double step, double unloaded) {
-  const double high = low + step * static_cast<double>(reference.size() - 1);
-  const auto residuals = [&](const std::vector<double>& at) -> std::optional<Eigen::VectorXd> {
-    Eigen::VectorXd error = Eigen::VectorXd::Zero(curve.size());
-    for (Eigen::Index i = 0; i < curve.size(); ++i) {
-      const double load = low + step * static_cast<double>(i) + at[1] * kPreloadScale;
-      if (load > high || load < low) continue;
-      error[i] = curve[i] - unloaded - (1 + at[0]) * (interpolate(reference, low, step, load) - unloaded);
-    }
-    return error;
-  };
-  LevenbergOptions options;
-  options.steps = 30;
-  std::vector<double> at = levenberg(residuals, {-0.1, 0.3}, options);
-  const auto result = residuals(at);
-  return result ? *result : Eigen::VectorXd::Zero(curve.size());
+// What the curves are functions of [Pa].
+const std::vector<double>& loadOf(const Measured& measured) {
+  return measured.load.empty() ? measured.pressure : measured.load;
 }
+
+// Loads of a class of curvature to which its curve is fitted [Pa].
+struct Covered {
+  double low = INFINITY, high = -INFINITY;
+};
+
+std::vector<Covered> coveredBy(const Measured& measured, const StaticFit& fit) {
+  std::vector<Covered> covered(measured.classes.size());
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
+    if (!fit.isFitted(i)) continue;
+    Covered& of = covered[measured.classOf(i)];
+    of.low = std::min(of.low, loadOf(measured)[i]);
+    of.high = std::max(of.high, loadOf(measured)[i]);
+  }
+  return covered;
+}
+
+// Maps the reference onto a curve by gain and preload, over the pressures that both cover.
+class Mapping {
+ public:
+  Mapping(const Eigen::VectorXd& curve, const Eigen::VectorXd& reference, double low, double step,
+          double unloaded, const Covered& own, const Covered& other)
+      : curve_(curve),
+        reference_(reference),
+        low_(low),
+        step_(step),
+        unloaded_(unloaded),
+        own_(own),
+        other_(other) {}
+
+  // Curve less the mapped reference; 0 where one of them has no samples.
+  Eigen::VectorXd misfit() const {
+    Eigen::VectorXd best = Eigen::VectorXd::Zero(curve_.size());
+    double least = INFINITY;
+    const auto fitted = [this](const std::vector<double>& at) { return scaled(at); };
+    for (const double preload : {-1.0, 0.0, 1.0}) {
+      const std::vector<double> start = {0, preload};
+      if (!scaled(start)) continue;
+      LevenbergOptions options;
+      options.steps = 30;
+      const std::vector<double> at = levenberg(fitted, start, options);
+      const double square = scaled(at)->squaredNorm();
+      if (square < least) least = square, best = error(at).first;
+    }
+    return best;
+  }
+
+ private:
+  // Error at each point, and the number of points that both cover. `at`: relative gain, and preload as a
+  // share of a tenth of all pressures.
+  std::pair<Eigen::VectorXd, double> error(const std::vector<double>& at) const {
+    const double high = low_ + step_ * static_cast<double>(curve_.size() - 1);
+    Eigen::VectorXd error = Eigen::VectorXd::Zero(curve_.size());
+    double both = 0;
+    for (Eigen::Index i = 0; i < curve_.size(); ++i) {
+      const double pressure = low_ + step_ * static_cast<double>(i),
+                   load = pressure + at[1] * (high - low_) / 10;
+      if (pressure < own_.low || pressure > own_.high || load < other_.low || load > other_.high) continue;
+      error[i] =
+          curve_[i] - unloaded_ - (1 + at[0]) * (interpolate(reference_, low_, step_, load) - unloaded_);
+      ++both;
+    }
+    return {error, both};
+  }
+  // The error per point. Nothing where less than half of the curve meets the reference.
+  std::optional<Eigen::VectorXd> scaled(const std::vector<double>& at) const {
+    const auto [left, both] = error(at);
+    const double shared = std::min(own_.high, other_.high) - std::max(own_.low, other_.low);
+    if (both * step_ < shared / 2 || both < 3) return std::nullopt;
+    return Eigen::VectorXd(left / std::sqrt(both));
+  }
+
+  const Eigen::VectorXd& curve_;
+  const Eigen::VectorXd& reference_;
+  double low_, step_, unloaded_;
+  Covered own_, other_;
+};
 
 // Variance of each class's curve at each pressure, estimated from the residuals there; infinite where there
 // are too few samples.
@@ -111,9 +173,9 @@ Eigen::MatrixXd chanceOf(const Measured& measured, const StaticFit& fit, const T
   Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(points, classes), number = squares;
   const Trace left = fit.residual(common);
   for (std::size_t i = 0; i < measured.samples(); ++i) {
-    const auto k = static_cast<Eigen::Index>(std::lround((measured.pressure[i] - low) / step));
+    const auto k = static_cast<Eigen::Index>(std::lround((loadOf(measured)[i] - low) / step));
     const auto c = static_cast<Eigen::Index>(measured.classOf(i));
-    if (k < 0 || k >= points) continue;
+    if (k < 0 || k >= points || !fit.isFitted(i)) continue;
     squares(k, c) += std::pow(left[static_cast<Eigen::Index>(i)], 2);
     number(k, c) += 1;
   }
@@ -127,6 +189,25 @@ Eigen::MatrixXd chanceOf(const Measured& measured, const StaticFit& fit, const T
   return chance;
 }
 
+// Rms of the misfit divided by the slope of the curve at that pressure [Pa]. Where a curve is nearly flat, a
+// reading tells nothing of the pressure.
+double atMap(const Eigen::MatrixXd& misfit, const Eigen::MatrixXd& curves, double step) {
+  constexpr double kLeastSlope = 0.05;  // of the mean slope
+  const Eigen::Index last = curves.rows() - 1;
+  double square = 0, number = 0;
+  for (Eigen::Index c = 0; c < curves.cols(); ++c) {
+    const double mean = (curves(last, c) - curves(0, c)) / (static_cast<double>(last) * step);
+    for (Eigen::Index k = 0; k <= last; ++k) {
+      const Eigen::Index a = std::max<Eigen::Index>(0, k - 1), b = std::min(last, k + 1);
+      const double slope = (curves(b, c) - curves(a, c)) / (static_cast<double>(b - a) * step);
+      if (slope < kLeastSlope * mean || !(slope > 0)) continue;
+      square += std::pow(misfit(k, c) / slope, 2);
+      ++number;
+    }
+  }
+  return number > 0 ? std::sqrt(square / number) : 0;
+}
+
 }  // namespace
 
 Repositioning findRepositioning(const Measured& measured, const StaticFit& fit, const TaxelFit& taxels,
@@ -136,15 +217,14 @@ Repositioning findRepositioning(const Measured& measured, const StaticFit& fit, 
   for (std::size_t t = 0; t < measured.taxels(); ++t) {
     if (measured.used[t]) used.push_back(t);
   }
-  std::vector<std::size_t> visits_of(measured.classes.size());
-  for (const Visit& visit : measured.visits) ++visits_of[visit.curvature_class];
-  if (used.size() < 4 || *std::max_element(visits_of.begin(), visits_of.end()) < 2) return found;
+  const std::vector<std::size_t> mounts_of = measured.mounts();
+  if (used.size() < 4 || *std::max_element(mounts_of.begin(), mounts_of.end()) < 2) return found;
   const Eigen::MatrixXd smooth = smoothFields(measured.layout, used);
   const auto n = static_cast<double>(used.size()), terms = static_cast<double>(smooth.cols());
   double inside = 0, outside = 0, samples = 0, offsets = 0, gains = 0, mounts = 0;
   std::map<std::size_t, double> by_class;
   for (std::size_t v = 0; v < measured.visits.size(); ++v) {
-    if (visits_of[measured.visits[v].curvature_class] < 2) continue;
+    if (mounts_of[measured.visits[v].curvature_class] < 2) continue;
     MountFields fields = fieldsOf(measured, fit, taxels, v, used, explained, mask);
     fields.change.rowwise() -= fields.change.colwise().mean().eval();
     const Eigen::MatrixXd smoothed = smooth * (smooth.transpose() * fields.change);
@@ -180,7 +260,8 @@ StaticMisfit findStaticMisfit(const Measured& measured, const StaticFit& fit, co
                               double square) {
   StaticMisfit result;
   if (measured.classes.size() < 2) return result;
-  const auto [least, most] = std::minmax_element(measured.pressure.begin(), measured.pressure.end());
+  const std::vector<double>& load = loadOf(measured);
+  const auto [least, most] = std::minmax_element(load.begin(), load.end());
   const double low = std::max(0.0, *least), step = (*most - low) / (kPoints - 1);
   std::vector<std::size_t> sample_of(measured.classes.size(), measured.samples());
   for (std::size_t i = 0; i < measured.samples(); ++i) sample_of[measured.classOf(i)] = i;
@@ -192,9 +273,13 @@ StaticMisfit findStaticMisfit(const Measured& measured, const StaticFit& fit, co
     }
   }
   const Eigen::MatrixXd chance = chanceOf(measured, fit, common, low, step);
+  const std::vector<Covered> covered = coveredBy(measured, fit);
   Eigen::MatrixXd misfit = Eigen::MatrixXd::Zero(curves.rows(), curves.cols());
   for (Eigen::Index c = 1; c < curves.cols(); ++c) {
-    misfit.col(c) = misfitOf(curves.col(c), curves.col(0), low, step, fit.unloaded());
+    const Eigen::VectorXd curve = curves.col(c), reference = curves.col(0);
+    misfit.col(c) = Mapping(curve, reference, low, step, fit.unloaded(), covered[static_cast<std::size_t>(c)],
+                            covered.front())
+                        .misfit();
     for (Eigen::Index k = 0; k < curves.rows(); ++k) {
       const double by_chance = kSure * std::sqrt(chance(k, c) + chance(k, 0));
       misfit(k, c) = std::copysign(std::max(0.0, std::abs(misfit(k, c)) - by_chance), misfit(k, c));
@@ -203,6 +288,7 @@ StaticMisfit findStaticMisfit(const Measured& measured, const StaticFit& fit, co
   const double mean = misfit.squaredNorm() / static_cast<double>(misfit.size());
   result.rms = std::sqrt(mean);
   result.share = square > 0 ? mean / square : 0;
+  result.at_map = atMap(misfit, curves, step);
   // One function of the reading, as a sum of hats over the readings.
   constexpr Eigen::Index kHats = 8;
   Eigen::MatrixXd hats = Eigen::MatrixXd::Zero(misfit.size(), kHats);

@@ -27,6 +27,7 @@ Repositioning findRepositioning(const Measured& measured, const StaticFit& fit, 
 struct StaticMisfit {
   double share = 0;                     ///< share of the readings' squared error
   double rms = 0;                       ///< [share of full scale]
+  double at_map = 0;                    ///< rms of the misfit divided by the slope of the curves [Pa]
   double by_code = 0;                   ///< share of the misfit that one function of the reading explains
   Interval pressure;                    ///< where the misfit shows [Pa]
   std::vector<std::string> conditions;  ///< where the misfit shows; empty = all

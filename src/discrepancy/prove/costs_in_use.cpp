@@ -6,6 +6,7 @@
 #include "discrepancy/fit/signatures.h"
 #include "discrepancy/fit/static_fit.h"
 #include "simulation/sensor_chain.h"
+#include "statistics/median.h"
 
 namespace fsr::discrepancy {
 
@@ -19,6 +20,7 @@ constexpr double kStanding = 600;  // duration of standing [s]
 constexpr double kOnto = 1;        // time from no load to standing [s]
 constexpr double kLoaded = 0.1;    // share of the peak; errors below it do not count
 constexpr double kBeyond = 1.3;    // curves are extrapolated linearly to this factor of the highest pressure
+constexpr double kLeastSlope = 0.05;  // of the usual one: below it a reading tells nothing of the pressure
 constexpr std::size_t kPoints = 500;  // points of a curve
 
 // A course of pressure, and the part of it in which errors count.
@@ -67,6 +69,27 @@ Measured asRecorded(const Measured& measured) {
   return plain;
 }
 
+// Readings of a static curve at kPoints pressures from 0 to `highest`, never falling.
+struct Curve {
+  double highest = 0;  // [Pa]
+  double usual = 0;    // slope from point to point
+  std::vector<double> reading;
+
+  double step() const { return highest / (kPoints - 1); }
+  // Pressure at which the curve has this reading [Pa]. NaN beyond its ends: a map gives no pressure there.
+  double pressureOf(double value) const {
+    const auto above = std::upper_bound(reading.begin(), reading.end(), value);
+    if (above == reading.begin() || above == reading.end()) return NAN;
+    const double share = (value - *(above - 1)) / (*above - *(above - 1));
+    return step() * (static_cast<double>(above - reading.begin() - 1) + share);
+  }
+  // Whether the curve is so flat at this pressure that its reading tells nothing.
+  bool flatAt(double pressure) const {
+    const auto at = std::min(kPoints - 2, static_cast<std::size_t>(std::max(0.0, pressure / step())));
+    return reading[at + 1] - reading[at] < kLeastSlope * usual;
+  }
+};
+
 // A sheet with the static curves that were fitted to it in the chamber.
 class CalibratedSheet {
  public:
@@ -75,78 +98,89 @@ class CalibratedSheet {
         settings_(representative(settings)),
         fit_(measured_, CurvePer::kClass, driven(measured_, settings, true).reading) {}
 
-  // Error of the pressure that the sheet reads at each step of the situation [Pa]; 0 where it does not count.
-  std::vector<double> errors(const Situation& situation, std::size_t curvature_class) const;
+  // Error of the pressure that the sheet reads at each step of the situation [Pa]; NaN where it does not
+  // count. `highest`: pressure that the class reached in the recordings [Pa].
+  std::vector<double> errors(const Situation& situation, std::size_t curvature_class, double highest) const;
 
  private:
-  // Readings of the class's curve at kPoints pressures from 0 to `highest`, made non-decreasing.
-  std::vector<double> curveOf(std::size_t curvature_class, double highest) const;
+  Curve curveOf(std::size_t curvature_class, double highest) const;
 
   const Measured measured_;
   const simulation::SimulationSettings settings_;
   const StaticFit fit_;
 };
 
-std::vector<double> CalibratedSheet::curveOf(std::size_t curvature_class, double highest) const {
+Curve CalibratedSheet::curveOf(std::size_t curvature_class, double highest) const {
   std::size_t sample = 0;
   while (measured_.classOf(sample) != curvature_class) ++sample;
-  std::vector<double> curve;
+  Curve curve;
+  curve.highest = kBeyond * highest;
   for (std::size_t k = 0; k < kPoints; ++k) {
-    const double reading = fit_.curveAt(sample, highest * static_cast<double>(k) / (kPoints - 1));
-    curve.push_back(curve.empty() ? reading : std::max(reading, curve.back()));
+    const double reading = fit_.curveAt(sample, curve.step() * static_cast<double>(k));
+    curve.reading.push_back(k == 0 ? reading : std::max(reading, curve.reading.back()));
   }
+  std::vector<double> slopes;
+  for (std::size_t k = 1; k < kPoints; ++k) slopes.push_back(curve.reading[k] - curve.reading[k - 1]);
+  curve.usual = statistics::upperMedian(slopes);
   return curve;
 }
 
-// Pressure at which a curve has this reading, limited to the ends of the curve [Pa].
-double pressureOf(const std::vector<double>& curve, double highest, double reading) {
-  const auto above = std::upper_bound(curve.begin(), curve.end(), reading);
-  if (above == curve.begin()) return 0;
-  if (above == curve.end()) return highest;
-  const double share = (reading - *(above - 1)) / (*above - *(above - 1));
-  return highest * (static_cast<double>(above - curve.begin() - 1) + share) / (kPoints - 1);
-}
-
-std::vector<double> CalibratedSheet::errors(const Situation& situation, std::size_t curvature_class) const {
+std::vector<double> CalibratedSheet::errors(const Situation& situation, std::size_t curvature_class,
+                                            double highest) const {
   simulation::SensorChain chain(settings_);
   chain.mount(surfaceOf(measured_, curvature_class));
   const double full_scale = settings_.fullScale();
-  const double highest = kBeyond * *std::max_element(measured_.pressure.begin(), measured_.pressure.end());
-  const std::vector<double> curve = curveOf(curvature_class, highest);
+  const Curve curve = curveOf(curvature_class, highest);
   std::vector<double> errors;
   simulation::RigSample now;
   now.course = &situation.pressure;
   for (now.time = 0; now.time <= situation.end; now.time += situation.step, ++now.scan) {
     now.pressure = situation.pressure(now.time);
     chain.read(now);
-    const bool counts = now.time >= situation.from && now.pressure >= kLoaded * situation.peak;
-    const double read = pressureOf(curve, highest, chain.reading()[0] / full_scale);
-    errors.push_back(counts ? read - now.pressure : 0);
+    const bool counts =
+        now.time >= situation.from && now.pressure >= kLoaded * situation.peak && !curve.flatAt(now.pressure);
+    errors.push_back(counts ? curve.pressureOf(chain.reading()[0] / full_scale) - now.pressure : NAN);
   }
   return errors;
 }
 
+// Largest difference where both count.
 double largestApart(const std::vector<double>& a, const std::vector<double>& b) {
   double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double apart = std::abs(a[i] - b[i]);
+    if (apart > largest) largest = apart;
+  }
   return largest;
+}
+
+double highestOn(const Measured& measured, std::size_t curvature_class) {
+  double highest = 0;
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
+    if (measured.classOf(i) == curvature_class) highest = std::max(highest, measured.pressure[i]);
+  }
+  return highest;
 }
 
 }  // namespace
 
 std::vector<GapInUse> costsInUse(const Measured& measured, const simulation::SimulationSettings& without,
                                  const simulation::SimulationSettings& with, double closed) {
-  const double highest = *std::max_element(measured.pressure.begin(), measured.pressure.end());
   const double left = std::sqrt(std::clamp(1 - closed, 0.0, 1.0));  // NaN if `closed` is not known
   const CalibratedSheet before(measured, with), neutral(measured, without);
   std::vector<GapInUse> costs;
-  for (const Situation& situation : situations(highest)) {
-    double largest = 0;
-    for (std::size_t c = 0; c < measured.classes.size(); ++c) {
-      largest = std::max(largest, largestApart(before.errors(situation, c), neutral.errors(situation, c)));
+  for (std::size_t c = 0; c < measured.classes.size(); ++c) {
+    const double highest = highestOn(measured, c);
+    const std::vector<Situation> all = situations(highest);
+    costs.resize(all.size());
+    for (std::size_t s = 0; s < all.size(); ++s) {
+      const double apart =
+          largestApart(before.errors(all[s], c, highest), neutral.errors(all[s], c, highest));
+      costs[s].situation = all[s].name;
+      costs[s].before = std::max(costs[s].before, apart);
     }
-    costs.push_back({situation.name, largest, left * largest});
   }
+  for (GapInUse& cost : costs) cost.after = left * cost.before;
   return costs;
 }
 

@@ -11,8 +11,11 @@ namespace fsr::discrepancy {
 /// `without`. The sheet is read through static curves that were fitted to these recordings. The result holds
 /// the largest error in each of three situations: a ramp over the recorded range, the last of several steps
 /// of 0.6 s, and ten minutes of standing. Steps and standing reach half the highest pressure. The worst
-/// surface counts. Pressures below a tenth of the situation's peak do not count. `closed`: share of the
-/// squared error that a model with these effects removes. The error that remains is the cost after.
+/// surface counts; on each, the situations reach up to the highest pressure that was recorded there.
+/// Pressures below a tenth of the situation's peak do not count, nor those where the static curve is so flat
+/// that its reading tells nothing (a slope below a twentieth of the usual one), nor readings beyond the ends
+/// of the curve. `closed`: share of the squared error that a model with these effects removes. The error that
+/// remains is the cost after.
 std::vector<GapInUse> costsInUse(const Measured& measured, const simulation::SimulationSettings& without,
                                  const simulation::SimulationSettings& with, double closed);
 

@@ -2,31 +2,40 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <set>
+#include <variant>
 
 #include "discrepancy/decide/refine.h"
+#include "discrepancy/fit/cycle_design.h"
 #include "discrepancy/fit/signatures.h"
 #include "discrepancy/fit/static_fit.h"
 #include "discrepancy/prove/wording.h"
 #include "discrepancy/samples/measured.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/chamber.h"
+#include "settings/number_text.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/pressure_profile.h"
 #include "simulation/read_settings.h"
 #include "simulation/session.h"
+#include "statistics/random_stream.h"
 
 namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kScanRate = 2;   // scan rate of the simulated experiments [Hz]
-constexpr double kWarmer = 10;    // difference between the two room temperatures [K]
-constexpr double kBetween = 300;  // pause between two surfaces [s]
+constexpr double kScanRate = 2;       // scan rate of the simulated experiments [Hz]
+constexpr double kWarmer = 10;        // difference between the two room temperatures [K]
+constexpr double kBetween = 300;      // pause between two surfaces [s]
+constexpr double kFullPeak = 620e3;   // of the programs below; they are scaled to the user's chamber [Pa]
+constexpr double kFewestCycles = 10;  // on each surface: two in each fold of the comparison
+constexpr double kMostCycles = 100;   // on each surface: more is not recommended
+constexpr double kDrawsApart = 0.01;  // falls of entropy that differ less differ by the draws [nats]
+constexpr double kSure = 0.95;        // probability of one explanation that is enough
 
 struct Protocol {
   const char* name;
-  const char* what;
+  const char* what;     // [40] stands for 40 kPa/s, scaled
   const char* program;  // YAML, see readChamberProgram()
   bool two_rates;       // ramps of two speeds, or dwells
   bool twice;           // all surfaces are mounted a second time
@@ -45,7 +54,8 @@ const Block kHoursApart[] = {
 
 // Protocols for a chamber with a regulator. The names are those in docs/discrepancy.md.
 const Protocol kProtocols[] = {
-    {"two_speeds", "cycles at 8 and at 40 kPa/s with dwells of some ten seconds at half and full pressure",
+    {"two_speeds",
+     "cycles at [8] and at [40] kPa/s with dwells of some ten seconds at half and full pressure",
      "[{cycles: {peak: 620000, rate: 40000, dwell_peak: 10, cycles: 3}},"
      " {hold: {pressure: 310000, rate: 8000, duration: 15}}, {hold: {pressure: 620000, rate: 8000, duration: "
      "15}},"
@@ -73,174 +83,427 @@ const Protocol kProtocols[] = {
      " {cycles: {peak: 620000, rate: 8000, dwell_peak: 10, cycles: 1}}]",
      true, true, false},
     {"hours_apart",
-     "the flat surface, mounted anew each time, under cycles at 40 kPa/s and beside a thermometer: 6 cycles, "
+     "the flat surface, mounted anew each time, under cycles at [40] kPa/s and beside a thermometer: 6 "
+     "cycles, "
      "after two hours 6 in a room some 10 K warmer, after two more 6 as at first, at once 60 more, after "
      "three hours 6 (8 hours in all)",
      "[{cycles: {peak: 620000, rate: 40000, cycles: 6}}]", false, false, true, true},
 };
 
-simulation::ChamberProgram programOf(const Protocol& protocol) {
-  const settings::Settings settings =
-      settings::Settings::fromText(std::string("program: ") + protocol.program, protocol.name);
-  return simulation::readChamberProgram(settings.sections("program"));
+// Multiplies all pressures and rates of a part, so that its times stay.
+struct Scale {
+  double by;
+  void operator()(simulation::ChamberProtocol& part) const {
+    part.peak *= by;
+    part.fill_rate *= by;
+    part.vent_rate *= by;
+  }
+  void operator()(simulation::HoldPart& part) const {
+    part.pressure *= by;
+    part.rate *= by;
+  }
+  void operator()(simulation::LoopsPart& part) const {
+    part.low *= by;
+    part.high *= by;
+    part.rate *= by;
+  }
+  void operator()(simulation::RestPart& part) const { part.rate *= by; }
+};
+
+simulation::ChamberProgram programFrom(const std::string& yaml, double peak) {
+  simulation::ChamberProgram program = simulation::readChamberProgram(
+      settings::Settings::fromText("program: " + yaml, "protocol").sections("program"));
+  for (simulation::ProgramPart& part : program) std::visit(Scale{peak / kFullPeak}, part);
+  return program;
 }
 
-simulation::SimulationSettings hoursApart(simulation::SimulationSettings plan,
-                                          const simulation::Station& flat) {
+// What to do, with the rates [kPa/s] for a chamber of this peak.
+std::string whatToDo(const Protocol& protocol, double peak) {
+  std::string text = protocol.what;
+  for (std::size_t at = text.find('['); at != std::string::npos; at = text.find('[', at)) {
+    const std::size_t end = text.find(']', at);
+    const double rate = std::stod(text.substr(at + 1, end - at - 1)) * peak / kFullPeak;
+    text.replace(at, end + 1 - at, settings::roundedText(rate, 2));
+  }
+  return text + ", up to " + settings::roundedText(peak / 1e3, 3) + " kPa";
+}
+
+void runHoursApart(simulation::SimulationSettings& rig, const simulation::Station& flat, double peak) {
   double now = 0;
-  plan.session.clear();
-  plan.climate = simulation::ChamberClimate();
-  plan.climate.room = {{0, simulation::kRoomTemperature}};
   for (const Block& block : kHoursApart) {
     simulation::Station station = flat;
-    const std::string program =
-        "program: [{cycles: {peak: 620000, rate: 40000, cycles: " + std::to_string(block.cycles) + "}}]";
-    station.program = simulation::readChamberProgram(
-        settings::Settings::fromText(program, "hours_apart").sections("program"));
+    station.program = programFrom(
+        "[{cycles: {peak: 620000, rate: 40000, cycles: " + std::to_string(block.cycles) + "}}]", peak);
     station.pause = block.pause;
-    station.surface.mount = static_cast<std::uint32_t>(plan.session.size() + 1);
-    plan.session.push_back(station);
+    station.surface.mount = static_cast<std::uint32_t>(rig.session.size() + 1);
+    rig.session.push_back(station);
     const double starts = now + block.pause,
                  room = simulation::kRoomTemperature + (block.warmer ? kWarmer : 0);
-    if (block.pause > kBetween) plan.climate.room.push_back({starts - kBetween, room});
+    if (block.pause > kBetween) rig.climate.room.push_back({starts - kBetween, room});
     now = starts + simulation::pressureProfile(station.program).duration();
-    plan.climate.room.push_back({now, room});
+    rig.climate.room.push_back({now, room});
   }
-  return plan;
 }
 
-// The simulation of a protocol, with the first and the last surface of the given simulation. The protocol
-// hours_apart uses the first surface only.
-simulation::SimulationSettings planOf(const Protocol& protocol, const simulation::SimulationSettings& base) {
-  simulation::SimulationSettings plan = representative(base);
-  plan.board.scan_rate = plan.board.transducer_rate = kScanRate;
-  if (protocol.hours) return hoursApart(plan, base.session.front());
-  std::vector<simulation::Station> surfaces = {base.session.front()};
-  if (base.session.size() > 1) surfaces.push_back(base.session.back());
-  plan.session.clear();
+void run(const Protocol& protocol, simulation::SimulationSettings& rig, double peak) {
+  std::vector<simulation::Station> surfaces = {rig.session.front()};
+  if (rig.session.size() > 1) surfaces.push_back(rig.session.back());
+  rig.session.clear();
+  rig.climate = simulation::ChamberClimate();
+  rig.climate.room = {{0, simulation::kRoomTemperature}};
+  if (protocol.hours) return runHoursApart(rig, surfaces.front(), peak);
+  double half = 0;
   for (int round = 0; round < (protocol.twice ? 2 : 1); ++round) {
     for (simulation::Station station : surfaces) {
-      station.program = programOf(protocol);
+      station.program = programFrom(protocol.program, peak);
       station.pause = kBetween;
-      station.surface.mount = static_cast<std::uint32_t>(plan.session.size() + 1);
-      plan.session.push_back(station);
+      station.surface.mount = static_cast<std::uint32_t>(rig.session.size() + 1);
+      rig.session.push_back(station);
+      if (round == 0) half += kBetween + simulation::pressureProfile(station.program).duration();
     }
   }
-  plan.climate = simulation::ChamberClimate();
-  if (protocol.warmer) {
-    double half = 0;
-    for (std::size_t i = 0; i < plan.session.size() / 2; ++i) {
-      half += kBetween + simulation::pressureProfile(plan.session[i].program).duration();
-    }
-    plan.climate.room = {{0, simulation::kRoomTemperature},
-                         {half, simulation::kRoomTemperature},
-                         {half + kBetween, simulation::kRoomTemperature + kWarmer}};
-  }
-  return plan;
+  if (!protocol.warmer) return;
+  rig.climate.room.push_back({half, simulation::kRoomTemperature});
+  rig.climate.room.push_back({half + kBetween, simulation::kRoomTemperature + kWarmer});
 }
 
-// Residual of each explanation after the static curves are fitted, under one protocol.
-std::vector<Trace> residualsUnder(const Protocol& protocol, const simulation::SimulationSettings& base,
-                                  const std::vector<std::vector<simulation::EnabledEffect>>& explanations) {
+double durationOf(const simulation::SimulationSettings& plan) {
+  double seconds = 0;
+  for (const simulation::Station& station : plan.session)
+    seconds += station.pause + simulation::pressureProfile(station.program).duration();
+  return seconds;
+}
+
+// What one run of a protocol tells of the explanations.
+struct UnderProtocol {
+  const Protocol* protocol = nullptr;
+  Eigen::MatrixXd gram;  // of what the explanations add, under the noise, sum over the cycles
+  double cycles = 0;     // on each surface
+  double duration = 0;   // [s]
+};
+
+// Gram matrix of the design's columns under the noise, sum over the cycles.
+Eigen::MatrixXd gramOf(const CycleDesign& design, Eigen::Index explanations, const NoiseOfCycles& noise) {
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(explanations, explanations);
+  for (CycleBins bins : design.cycles) {
+    bins.white = noise.white * bins.scans.cwiseInverse();
+    const Eigen::LLT<Eigen::MatrixXd> root(noise.noise.covariance(bins, noise.cycle_time));
+    const Eigen::MatrixXd columns = root.matrixL().solve(bins.columns.leftCols(explanations));
+    gram += columns.transpose() * columns;
+  }
+  return gram;
+}
+
+UnderProtocol explanationsUnder(const Protocol& protocol, const simulation::SimulationSettings& base,
+                                const Contest& contest) {
   DiscrepancyProblem problem;
-  problem.simulation = planOf(protocol, base);
+  problem.simulation = representative(base);
+  problem.simulation.board.scan_rate = problem.simulation.board.transducer_rate = kScanRate;
+  run(protocol, problem.simulation, contest.peak);
   problem.recordings = simulation::simulateSession(problem.simulation);
-  const Measured measured = admit(problem);
-  std::vector<Trace> residuals;
-  for (const auto& effects : explanations) {
+  Measured measured = admit(problem);
+  for (MeasuredCycle& cycle : measured.cycles) cycle.use = CycleUse::kFit;
+  const auto explanations = static_cast<Eigen::Index>(contest.explanations.size());
+  Eigen::MatrixXd columns(static_cast<Eigen::Index>(measured.samples()), explanations);
+  for (Eigen::Index e = 0; e < explanations; ++e) {
     simulation::SimulationSettings with = base;
-    for (const simulation::EnabledEffect& effect : effects) with = withEffect(with, effect);
+    for (const auto& effect : contest.explanations[static_cast<std::size_t>(e)])
+      with = withEffect(with, effect);
     const Trace reading = driven(measured, with, true).reading;
-    residuals.push_back(StaticFit(measured, CurvePer::kClass, reading).residual(reading));
+    columns.col(e) = StaticFit(measured, CurvePer::kClass, reading).residual(reading);
   }
-  return residuals;
+  const Trace reading = driven(measured, base, true).reading;
+  const CycleDesign design =
+      cycleDesign(measured, StaticFit(measured, CurvePer::kClass, reading), reading, columns);
+  const auto cycles = static_cast<double>(design.cycles.size());
+  return {&protocol, gramOf(design, explanations, contest.noise),
+          cycles / static_cast<double>(design.classes), durationOf(problem.simulation)};
 }
 
-// Smallest rms difference between `a` and `b` times any factor that is not negative.
-double apart(const Trace& a, const Trace& b) {
-  const double square = b.squaredNorm();
-  const double size = square > 0 ? std::max(0.0, a.dot(b) / square) : 0;
-  return std::sqrt((a - size * b).squaredNorm() / static_cast<double>(a.size()));
+double entropyOf(const Eigen::VectorXd& probability) {
+  double sum = 0;
+  for (const double p : probability) sum -= p > 0 ? p * std::log(p) : 0;
+  return sum;
 }
 
-double smallestApart(const std::vector<Trace>& residuals) {
-  double smallest = INFINITY;
-  for (std::size_t a = 0; a < residuals.size(); ++a) {
-    for (std::size_t b = a + 1; b < residuals.size(); ++b) {
-      smallest = std::min({smallest, apart(residuals[a], residuals[b]), apart(residuals[b], residuals[a])});
+// Entropy of one explanation that is sure enough, and of all the others together.
+double sureEntropy() {
+  return entropyOf(Eigen::Vector2d(kSure, 1 - kSure));
+}
+
+// Smallest distance between two explanations, in standard deviations of the noise, after the size of one was
+// fitted to the other.
+double smallestDistance(const Eigen::MatrixXd& gram) {
+  double least = INFINITY;
+  for (Eigen::Index a = 0; a < gram.rows(); ++a) {
+    for (Eigen::Index b = 0; b < gram.rows(); ++b) {
+      if (a == b) continue;
+      const double size = gram(b, b) > 0 ? std::max(0.0, gram(a, b) / gram(b, b)) : 0;
+      least = std::min(least, gram(a, a) - 2 * size * gram(a, b) + size * size * gram(b, b));
     }
   }
-  return smallest;
+  return std::sqrt(std::max(0.0, least));
 }
 
-// Whether the recordings and the protocol together contain the evidence that the effects of all explanations
-// need to be named alone. Evidence that no protocol provides is not considered.
-bool bringsEvidence(const simulation::EffectLibrary& library, const Protocol& protocol,
-                    const AvailableEvidence& at_hand,
+AvailableEvidence with(const Protocol& protocol, AvailableEvidence evidence) {
+  evidence.two_rates = evidence.two_rates || protocol.two_rates;
+  evidence.thermometer = evidence.thermometer || protocol.warmer;
+  evidence.uneven_pace = evidence.uneven_pace || protocol.hours;
+  return evidence;
+}
+
+// How many kinds of evidence are lacking that the effects of the explanations need to be named alone.
+// Evidence that no protocol provides does not count.
+std::size_t lacking(const simulation::EffectLibrary& library, const AvailableEvidence& evidence,
                     const std::vector<std::vector<simulation::EnabledEffect>>& explanations) {
-  AvailableEvidence then = at_hand;
-  then.two_rates = then.two_rates || protocol.two_rates;
-  then.thermometer = then.thermometer || protocol.warmer;
-  then.uneven_pace = then.uneven_pace || protocol.hours;
+  std::set<simulation::Evidence> needs;
   for (const auto& effects : explanations) {
     for (const simulation::EnabledEffect& effect : effects) {
       for (const simulation::Evidence need : library.info(effect.id).needs) {
         const bool can = need == simulation::Evidence::kTwoRampRates ||
                          need == simulation::Evidence::kThermometer ||
                          need == simulation::Evidence::kManyCycles;
-        if (can && !then.has(need)) return false;
+        if (can && !evidence.has(need)) needs.insert(need);
       }
     }
   }
-  return true;
+  return needs.size();
 }
 
-std::string nameOf(const std::vector<simulation::EnabledEffect>& effects) {
+const Protocol& protocolCalled(const std::string& name) {
+  return *std::find_if(std::begin(kProtocols), std::end(kProtocols),
+                       [&](const Protocol& one) { return one.name == name; });
+}
+
+std::string idsOf(const std::vector<simulation::EnabledEffect>& effects) {
   std::vector<std::string> ids;
   for (const simulation::EnabledEffect& effect : effects) ids.push_back(effect.id);
   return listText(ids, " with ");
 }
 
+// A protocol, run as often as it takes.
+struct Experiment {
+  const Protocol* protocol = nullptr;
+  Eigen::MatrixXd gram;  // with that of the experiments before it
+  ExpectedKnowledge after;
+  double cycles = 0;  // on each surface
+  double duration = 0;
+
+  // Whether it leaves less entropy than another, or as little sooner.
+  bool betterThan(const Experiment& other) const {
+    if (!other.protocol) return true;
+    if (std::abs(after.entropy - other.after.entropy) > kDrawsApart)
+      return after.entropy < other.after.entropy;
+    return duration < other.duration;
+  }
+};
+
+class Planner {
+ public:
+  Planner(const simulation::SimulationSettings& base, const Contest& contest)
+      : contest_(contest), library_(simulation::libraryOf(base)), at_hand_(contest.at_hand) {
+    for (const Protocol& protocol : kProtocols) {
+      try {
+        all_.push_back(explanationsUnder(protocol, base, contest));
+      } catch (const settings::InputError&) {
+        continue;  // this rig cannot run the protocol
+      }
+    }
+    const auto size = static_cast<Eigen::Index>(contest.explanations.size());
+    known_ = Eigen::MatrixXd::Zero(size, size);
+    now_ = expectedKnowledge(known_, contest);
+  }
+
+  std::vector<NextExperiment> run() {
+    std::vector<NextExperiment> plan;
+    for (int round = 0; round < kRounds; ++round) {
+      const bool first = plan.empty();
+      if (!first && now_.entropy <= sureEntropy() && fewestLacking() == lacks()) break;
+      const Experiment best = bestExperiment();
+      if (!best.protocol) break;
+      const bool needed = lacksAfter(*best.protocol) < lacks();
+      if (!needed && now_.entropy - best.after.entropy <= kDrawsApart) break;
+      plan.push_back(told(best, first));
+      known_ = best.gram;
+      now_ = best.after;
+      done_.push_back(best.protocol);
+      at_hand_ = with(*best.protocol, at_hand_);
+    }
+    return plan;
+  }
+
+ private:
+  static constexpr int kRounds = 2;
+
+  // Kinds of evidence that are lacking now, and after a protocol.
+  std::size_t lacks() const { return lacking(library_, at_hand_, contest_.explanations); }
+  std::size_t lacksAfter(const Protocol& protocol) const {
+    return lacking(library_, with(protocol, at_hand_), contest_.explanations);
+  }
+  std::size_t fewestLacking() const {
+    std::size_t fewest = lacks();
+    for (const UnderProtocol& once : all_) fewest = std::min(fewest, lacksAfter(*once.protocol));
+    return fewest;
+  }
+
+  Experiment experimentBy(const UnderProtocol& once) const {
+    Experiment best;
+    best.protocol = once.protocol;
+    for (double runs = std::ceil(kFewestCycles / once.cycles);; runs *= 2) {
+      if (best.cycles > 0 && runs * once.cycles > kMostCycles) return best;
+      best.gram = known_ + runs * once.gram;
+      best.after = expectedKnowledge(best.gram, contest_);
+      best.cycles = runs * once.cycles;
+      best.duration = runs * once.duration;
+      if (best.after.entropy <= sureEntropy()) return best;
+    }
+  }
+
+  // The protocol that leaves the least entropy, among those that bring the most evidence.
+  Experiment bestExperiment() const {
+    Experiment best;
+    const std::size_t fewest = fewestLacking();
+    for (const UnderProtocol& once : all_) {
+      if (std::count(done_.begin(), done_.end(), once.protocol)) continue;
+      if (!(once.cycles > 0) || lacksAfter(*once.protocol) > fewest) continue;
+      const Experiment one = experimentBy(once);
+      if (one.betterThan(best)) best = one;
+    }
+    return best;
+  }
+
+  NextExperiment told(const Experiment& best, bool first) const {
+    NextExperiment next;
+    next.protocol = best.protocol->name;
+    next.cycles = static_cast<int>(std::lround(best.cycles));
+    next.separation = smallestDistance(best.gram);
+    next.certainty = best.after.certainty;
+    next.entropy_before = now_.entropy;
+    next.entropy = best.after.entropy;
+    std::vector<std::string> names;
+    for (const auto& effects : contest_.explanations) names.push_back(idsOf(effects));
+    for (std::size_t a = 0; a < names.size(); ++a) {
+      for (std::size_t b = a + 1; b < names.size(); ++b) next.separates.emplace_back(names[a], names[b]);
+    }
+    next.sentence = std::string(first ? "Record " : "Then record ") +
+                    whatToDo(*best.protocol, contest_.peak) + ", until each surface has " +
+                    std::to_string(next.cycles) + " cycles: it distinguishes " + listText(names) +
+                    ". The true explanation is expected to have a probability of " +
+                    settings::roundedText(100 * next.certainty, 3) + " % after it (" +
+                    settings::roundedText(100 * now_.certainty, 2) + " % before).";
+    return next;
+  }
+
+  const Contest& contest_;
+  const simulation::EffectLibrary& library_;
+  AvailableEvidence at_hand_;
+  std::vector<UnderProtocol> all_;
+  std::vector<const Protocol*> done_;
+  Eigen::MatrixXd known_;
+  ExpectedKnowledge now_;
+};
+
 }  // namespace
 
-std::vector<NextExperiment> nextExperiment(
-    const simulation::SimulationSettings& base,
-    const std::vector<std::vector<simulation::EnabledEffect>>& explanations, const AvailableEvidence& at_hand,
-    double floor) {
-  if (explanations.size() < 2) return {};
-  const Protocol* best = nullptr;
-  double most = -1;
-  const auto brings = [&](const Protocol& p) {
-    return bringsEvidence(simulation::libraryOf(base), p, at_hand, explanations);
-  };
-  const bool any_brings = std::any_of(std::begin(kProtocols), std::end(kProtocols), brings);
-  for (const Protocol& protocol : kProtocols) {
-    if (any_brings && !brings(protocol)) continue;
-    double separation = 0;
-    try {
-      separation = smallestApart(residualsUnder(protocol, base, explanations));
-    } catch (const settings::InputError&) {
-      continue;  // this rig cannot run the protocol
-    }
-    if (separation <= most) continue;
-    most = separation;
-    best = &protocol;
+simulation::SimulationSettings onItsSurfaces(simulation::SimulationSettings rig, const Measured& measured) {
+  std::vector<simulation::Station> stations;
+  for (std::size_t c = 0; c < measured.classes.size(); ++c) {
+    const auto on_it = [&](const Visit& visit) { return visit.curvature_class == c; };
+    const auto visit = std::find_if(measured.visits.begin(), measured.visits.end(), on_it);
+    if (visit == measured.visits.end()) continue;
+    simulation::Station station = rig.session.front();
+    station.surface = oneTaxel(visit->surface);
+    stations.push_back(station);
   }
-  if (!best) return {};
-  NextExperiment next;
-  next.protocol = best->name;
-  next.separation = floor > 0 ? most / floor : 0;
+  if (!stations.empty()) rig.session = stations;
+  return rig;
+}
+
+std::vector<std::string> protocolNames() {
   std::vector<std::string> names;
-  for (const auto& effects : explanations) names.push_back(nameOf(effects));
-  for (std::size_t a = 0; a < names.size(); ++a) {
-    for (std::size_t b = a + 1; b < names.size(); ++b) next.separates.emplace_back(names[a], names[b]);
+  for (const Protocol& protocol : kProtocols) names.push_back(protocol.name);
+  return names;
+}
+
+simulation::SimulationSettings runProtocol(const std::string& protocol, simulation::SimulationSettings rig,
+                                           double peak) {
+  run(protocolCalled(protocol), rig, peak);
+  return rig;
+}
+
+ExpectedKnowledge expectedKnowledge(const Eigen::MatrixXd& gram, const Contest& contest) {
+  const Eigen::Index members = gram.rows();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
+  const Eigen::MatrixXd root =
+      solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const Eigen::LLT<Eigen::MatrixXd> all(gram + Eigen::MatrixXd::Identity(members, members));
+  Eigen::VectorXd prior(members + 1), constant(members + 1);
+  for (Eigen::Index e = 0; e < members; ++e) {
+    prior[e] = (1 - contest.unknown) * contest.weights[static_cast<std::size_t>(e)];
+    constant[e] = std::log(prior[e]) - 0.5 * std::log(1 + gram(e, e));
   }
-  std::ostringstream text;
-  text.precision(2);
-  text << "Record " << best->what << ": it distinguishes " << listText(names) << " by " << next.separation
-       << " times the noise of one reading.";
-  next.sentence = text.str();
-  return {next};
+  prior[members] = contest.unknown;
+  constant[members] = std::log(contest.unknown) - all.matrixLLT().diagonal().array().log().sum();
+  const statistics::RandomStream stream = statistics::randomStream(contest.seed, "discrepancy.next");
+  ExpectedKnowledge expected;
+  std::uint64_t position = 0;
+  const auto normal = [&](Eigen::Index size) {
+    Eigen::VectorXd drawn(size);
+    for (double& one : drawn) one = stream.normal(position++);
+    return drawn;
+  };
+  for (Eigen::Index truth = 0; truth <= members; ++truth) {
+    for (std::size_t draw = 0; draw < contest.draws; ++draw) {
+      Eigen::VectorXd sizes = normal(members);
+      if (truth < members) sizes = Eigen::VectorXd::Unit(members, truth);
+      const Eigen::VectorXd seen = gram * sizes + root * normal(members);
+      Eigen::VectorXd posterior = constant;
+      for (Eigen::Index e = 0; e < members; ++e) posterior[e] += 0.5 * seen[e] * seen[e] / (1 + gram(e, e));
+      posterior[members] += 0.5 * seen.dot(all.solve(seen));
+      posterior = (posterior.array() - posterior.maxCoeff()).exp();
+      posterior /= posterior.sum();
+      const double share = prior[truth] / static_cast<double>(contest.draws);
+      expected.entropy += share * entropyOf(posterior);
+      expected.certainty += share * posterior[truth];
+    }
+  }
+  return expected;
+}
+
+std::vector<NextExperiment> nextExperiment(const simulation::SimulationSettings& base,
+                                           const Contest& contest) {
+  if (contest.explanations.size() < 2) return {};
+  return Planner(base, contest).run();
+}
+
+std::vector<NextExperiment> experimentFor(const std::vector<std::string>& covariates, bool proved,
+                                          double peak) {
+  using simulation::Covariate;
+  static const std::pair<Covariate, const char*> kVaries[] = {
+      {Covariate::kTemperature, "two_ambients"},      {Covariate::kMount, "random_order"},
+      {Covariate::kClockTime, "hours_apart"},         {Covariate::kCycle, "hours_apart"},
+      {Covariate::kAccumulatedChange, "hours_apart"}, {Covariate::kPreviousExtremes, "minor_loops"},
+      {Covariate::kTimeSinceReversal, "step_hold"},   {Covariate::kPressureRate, "two_speeds"},
+      {Covariate::kDirection, "two_speeds"}};
+  const int fewest = static_cast<int>(kFewestCycles);
+  NextExperiment next;
+  next.cycles = fewest;
+  next.separation = NAN;
+  if (!proved) {
+    next.protocol = "more_cycles";
+    next.sentence = "Record at least 10 cycles on each surface, so that some can be held out.";
+    return {next};
+  }
+  for (const auto& [covariate, protocol] : kVaries) {
+    const std::string name = simulation::name(covariate);
+    if (!std::count(covariates.begin(), covariates.end(), name)) continue;
+    next.protocol = protocol;
+    next.sentence = "Record " + whatToDo(protocolCalled(protocol), peak) + ": it varies the covariate " +
+                    name + " by itself. Repeat it until each surface has " + std::to_string(fewest) +
+                    " cycles.";
+    return {next};
+  }
+  return {};
 }
 
 }  // namespace fsr::discrepancy

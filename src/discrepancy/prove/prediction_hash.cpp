@@ -51,19 +51,44 @@ void writeFirst(std::ostream& out, const Effects& effects) {
   out << "\n";
 }
 
+void write(std::ostream& out, const ParameterSpread& spread) {
+  out << "spread: ";
+  for (std::size_t k = 0; k < spread.parameters.size(); ++k) {
+    const ParameterSpread::Parameter& one = spread.parameters[k];
+    out << one.effect << " " << one.name << (one.logarithmic ? " logarithm" : "") << ": [";
+    for (const double covariance : spread.covariance[k]) out << settings::numberText(covariance) << ", ";
+    out << "] ";
+  }
+  out << "cycles: " << spread.cycles << " groups: " << spread.groups
+      << " between: " << settings::numberText(spread.between) << "\n";
+}
+
+bool hasDistribution(const Prediction& prediction) {
+  const ParameterSpread& spread = prediction.spread;
+  return !prediction.weights.empty() || !spread.parameters.empty() || !spread.covariance.empty() ||
+         spread.cycles != 0 || spread.groups != 0 || spread.between != 0;
+}
+
 }  // namespace
 
 std::string hashOf(const Prediction& prediction, const simulation::SimulationSettings& simulation) {
   std::ostringstream text;
-  text << "prediction, second form\neffects: ";
+  const bool third = hasDistribution(prediction);
+  text << (third ? "prediction, third form\neffects: " : "prediction, second form\neffects: ");
   write(text, prediction.effects);
   for (const Effects& rival : prediction.rivals) {
     text << "rival: ";
     write(text, rival);
   }
   text << "size: " << settings::numberText(prediction.size.low) << " to "
-       << settings::numberText(prediction.size.high) << "\n"
-       << contentOf(simulation);
+       << settings::numberText(prediction.size.high) << "\n";
+  if (third) {
+    text << "weights: ";
+    for (const double weight : prediction.weights) text << settings::numberText(weight) << ", ";
+    text << "\n";
+    write(text, prediction.spread);
+  }
+  text << contentOf(simulation);
   return hashOfText(text.str());
 }
 
@@ -80,7 +105,7 @@ std::string firstHashOf(const Prediction& prediction, const simulation::Simulati
 
 bool hasItsHash(const Prediction& prediction, const simulation::SimulationSettings& simulation) {
   return prediction.hash == hashOf(prediction, simulation) ||
-         prediction.hash == firstHashOf(prediction, simulation);
+         (!hasDistribution(prediction) && prediction.hash == firstHashOf(prediction, simulation));
 }
 
 }  // namespace fsr::discrepancy

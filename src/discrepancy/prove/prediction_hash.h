@@ -6,7 +6,8 @@ namespace fsr::discrepancy {
 
 /// Whether prediction.hash is the hash of this prediction and this simulation.
 ///
-/// Two forms are accepted. hashOf() writes the present one. Files of early development versions hold the
+/// Three forms are accepted. hashOf() gives the third where the prediction has weights or a spread, and the
+/// second where it has neither, as in files of earlier versions. Files of early development versions hold the
 /// first form, which covers the effects (values to 9 digits), the size of the matrix and the predicted size,
 /// but nothing else of the simulation. A file with the first form is therefore still checked, but not as
 /// completely.

@@ -15,6 +15,10 @@ namespace {
 // Share of what is closed on all hold-out cycles. A part with less is reported as a limitation.
 constexpr double kHoldsElsewhere = 0.5;
 
+double squareOf(const Trace& trace) {
+  return trace.squaredNorm() / static_cast<double>(trace.size());
+}
+
 class GapReporter {
  public:
   GapReporter(const Found& found, DiscrepancyReport& report) : found_(found), report_(report) {}
@@ -23,6 +27,7 @@ class GapReporter {
 
  private:
   void confine(double amplitude);
+  double explainedShare() const;
   std::vector<Part> surfacesWhereItShows() const;
   Trace leftWithout(const Part& part) const;
   void holdOut(const std::string& by, const std::vector<Part>& parts, const GapGround& ground,
@@ -50,6 +55,12 @@ void GapReporter::confine(double amplitude) {
   }
 }
 
+// Share of the common trace's squared error that the findings explain.
+double GapReporter::explainedShare() const {
+  const double before = squareOf(found_.fit.residual(found_.common.all));
+  return before > 0 ? 1 - squareOf(found_.fit.residual(found_.common.all) - found_.left) / before : 0;
+}
+
 std::vector<Part> GapReporter::surfacesWhereItShows() const {
   std::vector<Part> surfaces = partsByCondition(found_.measured);
   const std::vector<std::string>& where = report_.where.conditions;
@@ -62,24 +73,17 @@ std::vector<Part> GapReporter::surfacesWhereItShows() const {
 
 // What the explanation removes from the common trace if its size is fitted without one part.
 Trace GapReporter::leftWithout(const Part& part) const {
-  if (found_.by_terms) {
-    std::vector<bool> unseen(found_.measured.cycles.size());
-    for (const std::size_t c : part.cycles) unseen[c] = true;
-    const Trace trace = found_.candidates.explainedWithout(found_.decision.explanation, unseen);
-    return found_.decision.verdict == Verdict::kUnknown ? found_.fit.residual(trace)
-                                                        : found_.fit.withoutGainWeights(trace);
-  }
   std::vector<simulation::EnabledEffect> effects = found_.decision.refined.effects;
   effects.insert(effects.end(), found_.beside.begin(), found_.beside.end());
   return refine(withoutPart(found_.measured, part), found_.common, found_.fit, report_.base, effects,
-                found_.decision.refined.state_kept, found_.decision.explanation.set.bent_only)
+                found_.decision.refined.state_kept, found_.decision.bent_only)
       .trace;
 }
 
 // Measures the gap again. Each part is predicted from a fit to the other parts.
 void GapReporter::holdOut(const std::string& by, const std::vector<Part>& parts, const GapGround& ground,
                           const std::string& missing) {
-  if (found_.decision.verdict == Verdict::kNone) return;
+  if (found_.decision.verdict == Verdict::kNone || found_.by_terms) return;
   if (parts.empty()) {
     report_.gap.missing.push_back(missing);
     return;
@@ -108,7 +112,7 @@ void GapReporter::holdOut(const std::string& by, const std::vector<Part>& parts,
 Gap GapReporter::run() {
   const Spread spread = spreadOf(found_.measured, found_.taxels, found_.left);
   const double to_error =
-      spread.square > 0 ? found_.candidates.meanSquare() * spread.local / spread.square : 0;
+      spread.square > 0 ? squareOf(found_.fit.project(found_.common.all)) * spread.local / spread.square : 0;
   const bool in_common = found_.decision.verdict != Verdict::kNone;
   if (in_common) report_.where = placeOf(found_.measured, found_.left, spread);
   const Eigen::MatrixXd mask = maskOf(found_.measured, report_.where, spread);
@@ -118,7 +122,7 @@ Gap GapReporter::run() {
     extras.after_less += detection.after_less;
   }
   extras.before_more += found_.static_square;
-  const double explainable = in_common ? std::min(1.0, found_.decision.explainable * to_error) : 0;
+  const double explainable = in_common ? std::min(1.0, explainedShare() * to_error) : 0;
   if (!found_.by_terms && in_common) confine(mask.maxCoeff());
   const GapGround ground{found_.measured, found_.fit, found_.taxels, mask, explainable, extras, found_.seed};
   of_traces_ = measureGap(ground, found_.left, allCycles(found_.measured));

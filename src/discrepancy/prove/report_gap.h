@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "discrepancy/decide/candidates.h"
 #include "discrepancy/decide/decision.h"
 #include "discrepancy/decide/detections.h"
+#include "discrepancy/fit/taxel_fit.h"
 
 namespace fsr::discrepancy {
 
@@ -14,7 +14,6 @@ struct Found {
   const CommonTraces& common;
   const StaticFit& fit;
   const TaxelFit& taxels;
-  const Candidates& candidates;
   const Decision& decision;
   const std::vector<Detection>& detections;              ///< by detectors and in later rounds
   const std::vector<simulation::EnabledEffect>& beside;  ///< effects found in later rounds

@@ -65,7 +65,8 @@ std::string sentenceOf(const DiscrepancyReport& report) {
   for (const auto& ids : report.credible_set) sets.push_back(called(simulation::libraryOf(report.base), ids));
   switch (report.verdict) {
     case Verdict::kNone:
-      return "Among " + tested + ", these recordings show none that is missing.";
+      return "Among " + tested + ", these recordings show none that is missing" +
+             (report.too_small.empty() ? "." : " and larger than the least gap.");
     case Verdict::kUnknown:
       if (std::isnan(report.gap.before))
         return "The simulation lacks something, but nothing was held out, so no name can be proved. It "

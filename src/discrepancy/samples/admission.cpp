@@ -107,7 +107,7 @@ Admission inspectRecordings(std::vector<dataset::Recording> recordings, const Ad
   measured.simulation.layout = admission.layout;
   admission.discrepancy = refusal([&] {
     validate(measured);
-    admission.faults = findFaults(admit(measured)).faults;
+    admission.faults = findFaults(admit(measured), measured.options).faults;
   });
   return admission;
 }

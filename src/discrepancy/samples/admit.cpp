@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "dataset/cycles.h"
 #include "dataset/time_order.h"
@@ -21,7 +22,7 @@ constexpr std::uint64_t kFewRestarts = 2;  // restarts of the board that one bag
 // A taxel responds to the pressure if the standard deviation of its readings reaches both of these limits.
 constexpr double kAnswers = 0.05;        // share of the usual standard deviation
 constexpr double kLeastAnswer = 0.0005;  // [share of full scale]
-constexpr double kLeastRange = 50e3;     // smallest range of the chamber pressure [Pa]
+constexpr double kLeastRange = 10e3;     // smallest range of the chamber pressure [Pa]
 constexpr double kBetween = 60;          // pause that is assumed between bags whose stamps overlap [s]
 constexpr double kHoldOutShare = 0.2;    // share of the cycles that is held out
 constexpr double kVented = 0.25;         // of a cycle's height; a cycle that ends above it was cut off
@@ -130,9 +131,12 @@ int sign(statistics::LoadDirection direction) {
 // Adds scans first .. last - 1 of a visit as one sample.
 void appendSample(Measured& measured, const VisitCourse& course, std::size_t first, std::size_t last) {
   const Visit& visit = measured.visits.back();
-  const std::vector<double>& temperature = (*measured.recordings)[visit.recording].temperature;
+  const dataset::Recording& recording = (*measured.recordings)[visit.recording];
+  const std::vector<double>& temperature = recording.temperature;
   measured.time.push_back(mean(course.time, first, last));
   measured.pressure.push_back(mean(course.pressure, first, last));
+  measured.raw_pressure.push_back(
+      mean(recording.pressure, visit.first_scan + first, visit.first_scan + last));
   measured.rate.push_back(mean(course.rate, first, last));
   measured.direction.push_back(static_cast<std::int8_t>(sign(course.cycles.direction[first])));
   measured.visit.push_back(static_cast<std::uint32_t>(measured.visits.size() - 1));
@@ -284,8 +288,8 @@ void requireJudgeable(const Measured& measured) {
   const auto [low, high] = std::minmax_element(measured.pressure.begin(), measured.pressure.end());
   if (*high - *low < kLeastRange) {
     throw settings::InputError(name + ": chamber pressure covers " +
-                               settings::roundedText((*high - *low) * 1e-3) +
-                               " kPa, but at least 50 kPa are needed");
+                               settings::roundedText((*high - *low) * 1e-3) + " kPa, but at least " +
+                               settings::roundedText(kLeastRange * 1e-3) + " kPa are needed");
   }
   if (measured.cycles.size() < kFewestCycles) {
     throw settings::InputError(name + ": " + std::to_string(measured.cycles.size()) +
@@ -311,6 +315,21 @@ const simulation::EffectLibrary& Measured::effects() const {
 
 std::size_t Measured::usedTaxels() const {
   return static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
+}
+
+std::size_t Measured::fitCycles() const {
+  return static_cast<std::size_t>(std::count_if(
+      cycles.begin(), cycles.end(), [](const MeasuredCycle& one) { return one.use == CycleUse::kFit; }));
+}
+
+std::vector<std::size_t> Measured::mounts() const {
+  std::vector<std::size_t> number(classes.size());
+  std::vector<std::set<std::uint32_t>> labels(classes.size());
+  for (const Visit& one : visits) {
+    const bool known = one.surface.mount > 0 && !labels[one.curvature_class].insert(one.surface.mount).second;
+    if (!known) ++number[one.curvature_class];
+  }
+  return number;
 }
 
 void Measured::recorded(std::size_t sample, std::vector<double>& result) const {

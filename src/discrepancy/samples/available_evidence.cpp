@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "discrepancy/thresholds.h"
+#include "statistics/median.h"
 
 namespace fsr::discrepancy {
 
@@ -12,6 +13,7 @@ namespace {
 // Share of a covariate's standard deviation that a linear function of clock time must leave unexplained.
 constexpr double kUnevenPace = 0.2;
 constexpr double kLongPause = 3600;      // [s]
+constexpr double kNewSession = 10;       // interruption after which the effects begin a new session [s]
 constexpr double kTemperatureMoved = 5;  // [K]
 
 bool temperatureMoved(const Measured& measured) {
@@ -37,6 +39,49 @@ bool wentApart(const Measured& measured, const std::vector<double>& covariate) {
   return 1 - both * both / (var_t * var_w) > kUnevenPace * kUnevenPace;
 }
 
+// Whether the same pressures were passed at two rates, or held. A sine of one frequency has many rates, but
+// at each pressure only one. Dwells under load are samples at which the pressure does not change.
+bool twoRatesOrDwells(const Measured& measured) {
+  constexpr std::size_t kPressures = 10, kFew = 5;
+  constexpr double kStill = 0.02;  // of the fastest rate
+  constexpr double kDwells = 0.1;  // of the samples under load
+  constexpr double kTwice = 1.5;   // ratio of two rates
+  const double highest = *std::max_element(measured.pressure.begin(), measured.pressure.end());
+  double still = 0, loaded = 0, fastest = 0;
+  for (const double r : measured.rate) fastest = std::max(fastest, std::abs(r));
+  std::vector<std::vector<double>> rates(2 * kPressures);
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
+    const double share = (measured.pressure[i] / highest - thresholds::kLoaded) / (1 - thresholds::kLoaded);
+    if (share < 0) continue;
+    ++loaded;
+    const double rate = measured.rate[i];
+    const auto at = std::min(kPressures - 1, static_cast<std::size_t>(share * kPressures));
+    if (std::abs(rate) < kStill * fastest)
+      ++still;
+    else
+      rates[2 * at + (rate > 0 ? 1 : 0)].push_back(std::abs(rate));
+  }
+  if (still > kDwells * loaded) return true;
+  std::vector<double> ratios;
+  for (std::vector<double>& here : rates) {
+    if (here.size() < kFew) continue;
+    std::sort(here.begin(), here.end());
+    ratios.push_back(here[(here.size() - 1) * 9 / 10] / here[(here.size() - 1) / 10]);
+  }
+  return statistics::upperMedian(ratios, 0) > kTwice;
+}
+
+// Whether a mount was recorded again after an interruption that begins a new session.
+bool interrupted(const Measured& measured) {
+  for (std::size_t v = 1; v < measured.visits.size(); ++v) {
+    const Visit &before = measured.visits[v - 1], &now = measured.visits[v];
+    const bool same = before.surface.name == now.surface.name && before.surface.mount == now.surface.mount;
+    const double pause = measured.time[now.first] - measured.time[before.last - 1];
+    if (same && before.recording != now.recording && pause >= kNewSession) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool AvailableEvidence::has(simulation::Evidence evidence) const {
@@ -52,6 +97,8 @@ bool AvailableEvidence::has(simulation::Evidence evidence) const {
     case simulation::Evidence::kManyCycles:
     case simulation::Evidence::kUnevenPace:
       return uneven_pace;
+    case simulation::Evidence::kTwoSessions:
+      return two_sessions;
     default:
       return false;
   }
@@ -63,31 +110,12 @@ AvailableEvidence availableEvidence(const Measured& measured) {
   evidence.uneven_pace = wentApart(measured, measured.path_length);
   evidence.temperature_moved = temperatureMoved(measured);
   evidence.uneven_warmth = evidence.temperature_moved && wentApart(measured, measured.temperature);
-  evidence.remounted = measured.classes.size() < measured.visits.size();
+  evidence.two_sessions = interrupted(measured);
+  const std::vector<std::size_t> mounts = measured.mounts();
+  evidence.remounted = *std::max_element(mounts.begin(), mounts.end()) > 1;
   evidence.mount_labels = std::all_of(measured.visits.begin(), measured.visits.end(),
                                       [](const Visit& v) { return v.surface.mount > 0; });
-  // With ramps of one speed, the rates have one peak. Dwells under load are samples at which the pressure
-  // does not change.
-  const double highest = *std::max_element(measured.pressure.begin(), measured.pressure.end());
-  std::vector<double> moving;
-  double still = 0, loaded = 0;
-  double fastest = 0;
-  for (const double r : measured.rate) fastest = std::max(fastest, std::abs(r));
-  for (std::size_t i = 0; i < measured.samples(); ++i) {
-    if (measured.pressure[i] < thresholds::kLoaded * highest) continue;
-    ++loaded;
-    if (std::abs(measured.rate[i]) < 0.02 * fastest)
-      ++still;
-    else
-      moving.push_back(std::abs(measured.rate[i]));
-  }
-  std::sort(moving.begin(), moving.end());
-  const auto at = [&](double share) {
-    return moving.empty() ? 0
-                          : moving[static_cast<std::size_t>(share * static_cast<double>(moving.size() - 1))];
-  };
-  evidence.two_rates = at(0.1) > 0 && at(0.9) > 1.5 * at(0.1);
-  evidence.two_rates = evidence.two_rates || still > 0.1 * loaded;
+  evidence.two_rates = twoRatesOrDwells(measured);
   return evidence;
 }
 

@@ -4,331 +4,259 @@
 #include <cmath>
 #include <map>
 
+#include "discrepancy/samples/line_faults.h"
+#include "discrepancy/samples/taxel_faults.h"
 #include "discrepancy/thresholds.h"
 #include "simulation/effects/effect_library.h"
-#include "statistics/median.h"
 
 namespace fsr::discrepancy {
 
 namespace {
 
-// Change of the median reading that shows that the other taxels moved [share of full scale].
-constexpr double kMoves = 0.02;
-constexpr double kStuckFor = 1.0;       // shortest time with one code [s]
-constexpr std::size_t kStuckScans = 8;  // fewest scans with one code
-constexpr double kDeadBelow = 0.35;     // share of the median reading; a taxel below it may be dead
-constexpr double kLoaded = 0.12;       // median reading above which a taxel may be dead [share of full scale]
-constexpr double kWellLoaded = 0.25;   // likewise; above it a taxel without a reading is dead
-constexpr double kNothing = 0.1;       // share of the median reading; a taxel below it has no reading
-constexpr std::size_t kDeadScans = 4;  // fewest scans of a dead taxel or a failing line
-// A line fails where its deviation from the other taxels exceeds all three of these limits.
-constexpr double kSudden = 0.02;       // [share of full scale]
-constexpr double kSuddenShare = 0.12;  // share of the median reading
-constexpr double kSuddenNoise = 8;     // in units of the line's usual deviation
-constexpr std::size_t kLineScans = 2;  // fewest scans of a line's fault
-constexpr double kBlock = 5;           // block length for the slow part of a line's deviation [s]
+using Flags = std::vector<std::vector<bool>>;  // [visits][scans]
 
-// The scans of one visit, with the median of the taxels at each scan.
-struct Sheet {
-  const dataset::Recording& recording;
-  const Visit& visit;
-  std::vector<double> middle;  // median reading of the taxels at each scan [share of full scale]
-  std::vector<double> ratio;   // usual reading of each taxel / the median reading
-  double full_scale;
-
-  std::size_t scans() const { return middle.size(); }
-  std::size_t scan(std::size_t i) const { return visit.first_scan + i; }
-  double time(std::size_t i) const { return recording.time[scan(i)]; }
-  double reading(std::size_t i, std::size_t taxel) const {
-    return recording.scan(scan(i))[taxel] / full_scale;
-  }
-  double expected(std::size_t i, std::size_t taxel) const {
-    const bool usual = ratio[taxel] > 0.6 && ratio[taxel] < 1.6;  // otherwise the taxel hardly ever worked
-    return (usual ? ratio[taxel] : 1) * middle[i];
-  }
-};
-
-Sheet sheetOf(const Measured& measured, const Visit& visit) {
-  Sheet sheet{(*measured.recordings)[visit.recording], visit, {}, {}, measured.full_scale};
-  std::vector<double> values;
-  for (std::size_t s = visit.first_scan; s < visit.last_scan; ++s) {
-    values.clear();
-    const std::uint16_t* counts = sheet.recording.scan(s);
-    for (std::size_t t = 0; t < measured.taxels(); ++t) {
-      if (measured.used[t]) values.push_back(counts[t] / measured.full_scale);
-    }
-    sheet.middle.push_back(statistics::upperMedian(values, 0));
-  }
-  const double most = *std::max_element(sheet.middle.begin(), sheet.middle.end());
-  for (std::size_t t = 0; t < measured.taxels(); ++t) {
-    values.clear();
-    for (std::size_t i = 0; i < sheet.scans(); i += 3) {
-      if (sheet.middle[i] > 0.4 * most) values.push_back(sheet.reading(i, t) / sheet.middle[i]);
-    }
-    sheet.ratio.push_back(statistics::upperMedian(values, 0));
-  }
-  return sheet;
-}
-
-// Which scans of which taxels fail, for all visits one after the other.
-using Flags = std::vector<std::vector<bool>>;  // [taxel or line][scan]
-
-// Calls use(first, end) for each run of flagged scans; `end` is excluded.
-template <typename Use>
-void eachRun(const std::vector<bool>& flags, Use use) {
-  for (std::size_t from = 0; from < flags.size();) {
-    std::size_t to = from;
-    while (to < flags.size() && flags[to] == flags[from]) ++to;
-    if (flags[from]) use(from, to);
-    from = to;
-  }
-}
-
-void clear(std::vector<bool>& flags, std::size_t from, std::size_t to) {
-  for (std::size_t i = from; i < to; ++i) flags[i] = false;
-}
-
-void dropShort(std::vector<bool>& flags, std::size_t least) {
-  const std::vector<bool> before = flags;
-  eachRun(before, [&](std::size_t from, std::size_t to) {
-    if (to - from < least) clear(flags, from, to);
-  });
-}
-
-std::vector<bool> stuckScans(const Sheet& sheet, std::size_t taxel) {
-  std::vector<bool> stuck(sheet.scans(), false);
-  const auto code = [&](std::size_t i) { return sheet.recording.scan(sheet.scan(i))[taxel]; };
-  for (std::size_t from = 0; from < sheet.scans();) {
-    std::size_t to = from;
-    double low = sheet.middle[from], high = low;
-    for (; to < sheet.scans() && code(to) == code(from); ++to) {
-      low = std::min(low, sheet.middle[to]);
-      high = std::max(high, sheet.middle[to]);
-    }
-    const bool long_enough = to - from >= kStuckScans && sheet.time(to - 1) - sheet.time(from) >= kStuckFor;
-    const bool rail = code(from) == 0 || code(from) >= sheet.full_scale;
-    if (long_enough && !rail && high - low > kMoves) {
-      std::fill(stuck.begin() + static_cast<std::ptrdiff_t>(from),
-                stuck.begin() + static_cast<std::ptrdiff_t>(to), true);
-    }
-    from = to;
-  }
-  return stuck;
-}
-
-std::vector<bool> deadScans(const Sheet& sheet, std::size_t taxel) {
-  std::vector<bool> dead(sheet.scans(), false);
-  for (std::size_t i = 0; i < sheet.scans(); ++i) {
-    dead[i] = sheet.middle[i] > kLoaded && sheet.reading(i, taxel) < kDeadBelow * sheet.middle[i];
-  }
-  dropShort(dead, kDeadScans);
-  // A taxel that is only lifted, or has drifted, reads too little at low pressure. A dead taxel reads nothing
-  // at high pressure.
-  const std::vector<bool> low = dead;
-  eachRun(low, [&](std::size_t from, std::size_t to) {
-    bool nothing = false;
-    for (std::size_t i = from; i < to; ++i) {
-      const double middle = sheet.middle[i];
-      nothing = nothing || (middle > kWellLoaded && sheet.reading(i, taxel) < kNothing * middle);
-    }
-    if (!nothing) clear(dead, from, to);
-  });
-  return dead;
-}
-
-// Median deviation of a line's taxels from their expected readings, at each scan, without its slow part. The
-// expected readings follow from the other taxels.
-std::vector<double> lineDeviation(const Sheet& sheet, const std::vector<std::size_t>& taxels) {
-  std::vector<double> deviation, values;
-  for (std::size_t i = 0; i < sheet.scans(); ++i) {
-    values.clear();
-    for (const std::size_t t : taxels) values.push_back(sheet.reading(i, t) - sheet.expected(i, t));
-    deviation.push_back(statistics::upperMedian(values, 0));
-  }
-  const double period = sheet.scans() > 1 ? (sheet.time(sheet.scans() - 1) - sheet.time(0)) /
-                                                static_cast<double>(sheet.scans() - 1)
-                                          : 1;
-  const auto block = std::max<std::size_t>(4, static_cast<std::size_t>(kBlock / std::max(period, 1e-6)));
-  std::vector<double> slow, around;
-  for (std::size_t from = 0; from < sheet.scans(); from += block) {
-    values.assign(deviation.begin() + static_cast<std::ptrdiff_t>(from),
-                  deviation.begin() + static_cast<std::ptrdiff_t>(std::min(from + block, sheet.scans())));
-    slow.push_back(statistics::upperMedian(values, 0));
-  }
-  std::vector<double> fast = deviation;
-  for (std::size_t i = 0; i < fast.size(); ++i) {
-    around.clear();
-    const std::size_t b = i / block;
-    for (std::size_t k = b >= 2 ? b - 2 : 0; k <= std::min(b + 2, slow.size() - 1); ++k)
-      around.push_back(slow[k]);
-    fast[i] -= statistics::upperMedian(around, 0);
-  }
-  return fast;
-}
-
-std::vector<bool> failingScans(const Sheet& sheet, const std::vector<std::size_t>& taxels) {
-  const std::vector<double> fast = lineDeviation(sheet, taxels);
-  std::vector<double> sizes;
-  for (const double x : fast) sizes.push_back(std::abs(x));
-  const double usual = 1.48 * statistics::upperMedian(sizes, 0);
-  std::vector<bool> failing(sheet.scans(), false);
-  for (std::size_t i = 0; i < sheet.scans(); ++i) {
-    const double least = std::max({kSudden, kSuddenShare * sheet.middle[i], kSuddenNoise * usual});
-    failing[i] = std::abs(fast[i]) > least;
-  }
-  dropShort(failing, kLineScans);
-  const std::vector<bool> before = failing;
-  eachRun(before, [&](std::size_t from, std::size_t to) {
-    const double jump = from >= 2 ? std::abs(fast[from] - fast[from - 2]) : 0;
-    const double least = std::max(kSudden, kSuddenNoise * usual);
-    if (jump < least / 2 + 0.25 * std::abs(fast[from])) clear(failing, from, to);
-  });
-  return failing;
-}
+// Share of the squared deviations of a line that the direction explains at the same reading. A line that does
+// the same in every cycle has a loop or a lag; a contact fails at any time.
+constexpr double kLoop = 0.5;
+constexpr double kReadingBin = 0.1;  // of the taxel's range
 
 class Detectors {
  public:
-  explicit Detectors(const Measured& measured) : measured_(measured) {
-    for (const Visit& visit : measured.visits) sheets_.push_back(sheetOf(measured, visit));
+  Detectors(const Measured& measured, const DiscrepancyOptions& options)
+      : measured_(measured), options_(options), courses_(taxelCourses(measured)) {
+    for (const std::uint8_t used : measured.used) sound_.push_back(used != 0);
+    const auto [low, high] = std::minmax_element(measured.pressure.begin(), measured.pressure.end());
+    range_ = *high - *low;
+    least_gap_ = leastGap(measured, options);
   }
 
   Faults run() {
-    for (const bool rows : {true, false}) findLine(rows);
-    findTaxels(simulation::Detector::kStuckTaxels, stuckScans);
-    findTaxels(simulation::Detector::kDeadTaxels, deadScans);
+    findLines();
+    findTaxels();
     judgeReadings();
     return std::move(faults_);
   }
 
  private:
-  using Test = std::vector<bool> (*)(const Sheet&, std::size_t);
-
-  bool taken(std::size_t taxel) const {
-    return std::any_of(faults_.faults.begin(), faults_.faults.end(), [&](const Fault& fault) {
-      return std::count(fault.taxels.begin(), fault.taxels.end(), taxel) > 0;
-    });
+  void findLines();
+  void joinLine(bool rows, std::vector<TaxelFault>& found);
+  void findTaxels();
+  void keep(Fault fault, const std::map<std::size_t, Flags>& flags);
+  double error(std::size_t visit, std::size_t taxel, std::size_t scan) const {  // [share of full scale]
+    return courses_[visit].deviation(taxel, scan) * courses_[visit].unit[taxel];
   }
-  void findLine(bool rows);
-  void findTaxels(simulation::Detector detector, Test test);
-  void keep(Fault& fault, const std::vector<std::vector<bool>>& flags);
   void judgeReadings();
+  bool isLoop(const std::map<std::size_t, Flags>& flags) const;
+  // Calls use(scan, sample) for the scans of a visit in order.
+  template <typename Use>
+  void eachScan(std::size_t visit, Use use) const {
+    std::size_t sample = measured_.visits[visit].first;
+    for (std::size_t i = 0; i < courses_[visit].scans(); ++i) {
+      while (sample + 1 < measured_.visits[visit].last &&
+             measured_.first_scan[sample + 1] <= measured_.visits[visit].first_scan + i)
+        ++sample;
+      use(i, sample);
+    }
+  }
 
   const Measured& measured_;
-  std::vector<Sheet> sheets_;
+  const DiscrepancyOptions& options_;
+  std::vector<VisitCourses> courses_;
+  std::vector<bool> sound_;
+  double range_ = 0, least_gap_ = 0;  // [Pa]
   Faults faults_;
-  std::map<std::size_t, std::vector<std::vector<bool>>> failing_;  // for each faulty taxel: [visit][scan]
+  std::map<std::size_t, Flags> failing_;  // of each faulty taxel
 };
 
-// Computes the spells, the share and the depth of a fault from the flags of its taxels.
-void Detectors::keep(Fault& fault, const std::vector<std::vector<bool>>& flags) {
-  double hit = 0, all = 0, lost = 0;
-  for (std::size_t v = 0; v < sheets_.size(); ++v) {
-    const Sheet& sheet = sheets_[v];
-    const double offset = measured_.time[sheet.visit.first] - sheet.time(0);
-    for (std::size_t i = 0; i < sheet.scans(); ++i) {
+// Whether the taxels do the same in every cycle: rise and fall differ at the same reading.
+bool Detectors::isLoop(const std::map<std::size_t, Flags>& flags) const {
+  struct Sums {
+    double number[2] = {0, 0}, sum[2] = {0, 0};
+  };
+  double squares = 0, between = 0;
+  for (const auto& [t, of_taxel] : flags) {
+    const std::size_t taxel = t;
+    for (std::size_t v = 0; v < courses_.size(); ++v) {
+      std::map<long, Sums> bins;
+      eachScan(v, [&](std::size_t i, std::size_t sample) {
+        const double deviation = courses_[v].deviation(taxel, i);
+        Sums& bin = bins[std::lround(static_cast<double>(courses_[v].expected[taxel][i]) / kReadingBin)];
+        const bool rises = measured_.direction[sample] > 0;
+        bin.number[rises] += 1;
+        bin.sum[rises] += deviation;
+        squares += deviation * deviation;
+      });
+      for (const auto& [at, bin] : bins) {
+        const double a = bin.number[0], b = bin.number[1];
+        if (a > 0 && b > 0) between += a * b / (a + b) * std::pow(bin.sum[0] / a - bin.sum[1] / b, 2);
+      }
+    }
+  }
+  return between > kLoop * squares;
+}
+
+// Computes the spells, the share, the depth and the size of a fault from the flags of its taxels, and keeps
+// it where its size matters.
+void Detectors::keep(Fault fault, const std::map<std::size_t, Flags>& flags) {
+  double hit = 0, all = 0, lost = 0, lost_of = 0, square = 0;
+  for (std::size_t v = 0; v < courses_.size(); ++v) {
+    const VisitCourses& visit = courses_[v];
+    bool before = false;
+    for (std::size_t i = 0; i < visit.scans(); ++i) {
+      bool now = false;
+      for (const auto& [t, of_taxel] : flags) {
+        if (!of_taxel[v][i]) continue;
+        now = true;
+        square += std::pow(visit.deviation(t, i), 2);
+        lost -= visit.deviation(t, i);
+        lost_of += static_cast<double>(visit.expected[t][i]);
+      }
       ++all;
-      if (!flags[v][i]) continue;
-      ++hit;
-      double now = 0;
-      for (const std::size_t t : fault.taxels)
-        now += 1 - sheet.reading(i, t) / std::max(1e-3, sheet.expected(i, t));
-      lost += now / static_cast<double>(fault.taxels.size());
-      const double time = sheet.time(i) + offset;
-      const bool goes_on = i > 0 && flags[v][i - 1];
-      if (!goes_on) fault.times.emplace_back(time, time);
-      fault.times.back().second = time;
-      fault.longest = std::max(fault.longest, time - fault.times.back().first);
+      if (now) {
+        ++hit;
+        if (!before) fault.times.emplace_back(visit.time[i], visit.time[i]);
+        fault.times.back().second = visit.time[i];
+        fault.longest = std::max(fault.longest, visit.time[i] - fault.times.back().first);
+      }
+      before = now;
     }
   }
   fault.share = hit / std::max(1.0, all);
-  fault.depth = hit > 0 ? lost / hit : 0;
-  for (const std::size_t t : fault.taxels) failing_[t] = flags;
-}
-
-void Detectors::findLine(bool rows) {
-  const std::size_t lines = rows ? measured_.layout.size.rows : measured_.layout.size.columns;
-  const std::size_t across = rows ? measured_.layout.size.columns : measured_.layout.size.rows;
-  if (lines < 3 || across < 3) return;
-  const simulation::Detector detector =
-      rows ? simulation::Detector::kRowFaults : simulation::Detector::kColumnFaults;
-  Fault best;
-  std::vector<std::vector<bool>> best_flags;
-  double most = 0;
-  for (std::size_t line = 0; line < lines; ++line) {
-    std::vector<std::size_t> taxels;
-    for (std::size_t t = 0; t < measured_.taxels(); ++t) {
-      const std::size_t own = rows ? measured_.layout.row({t}) : measured_.layout.column({t});
-      if (own == line && measured_.used[t]) taxels.push_back(t);
-    }
-    if (taxels.size() < 3) continue;
-    std::vector<std::vector<bool>> flags;
-    double hit = 0;
-    for (const Sheet& sheet : sheets_) {
-      flags.push_back(failingScans(sheet, taxels));
-      hit += static_cast<double>(std::count(flags.back().begin(), flags.back().end(), true));
-    }
-    if (hit <= most) continue;
-    most = hit;
-    best = Fault{detector, simulation::foundBy(detector).id, line, taxels, 0, 0, 0, {}};
-    best_flags = flags;
-  }
-  if (most < static_cast<double>(kDeadScans) || (!best.taxels.empty() && taken(best.taxels.front()))) return;
-  keep(best, best_flags);
-  faults_.faults.push_back(best);
-}
-
-void Detectors::findTaxels(simulation::Detector detector, Test test) {
-  Fault fault{detector, simulation::foundBy(detector).id, 0, {}, 0, 0, 0, {}};
-  std::vector<std::vector<bool>> together;
-  for (std::size_t t = 0; t < measured_.taxels(); ++t) {
-    if (!measured_.used[t] || taken(t)) continue;
-    std::vector<std::vector<bool>> flags;
-    double hit = 0;
-    for (const Sheet& sheet : sheets_) {
-      flags.push_back(test(sheet, t));
-      hit += static_cast<double>(std::count(flags.back().begin(), flags.back().end(), true));
-    }
-    if (hit == 0) continue;
+  fault.depth = lost_of > 0 ? lost / lost_of : 0;
+  fault.at_map = range_ * std::sqrt(square / (std::max(1.0, all) * static_cast<double>(flags.size())));
+  if (hit == 0 || fault.at_map < least_gap_) return;
+  if (fault.isLine() && isLoop(flags)) return;
+  for (const auto& [t, of_taxel] : flags) {
     fault.taxels.push_back(t);
-    failing_[t] = flags;
-    if (together.empty()) together = flags;
-    for (std::size_t v = 0; v < flags.size(); ++v) {
-      for (std::size_t i = 0; i < flags[v].size(); ++i) together[v][i] = together[v][i] || flags[v][i];
+    failing_[t] = of_taxel;
+    sound_[t] = false;
+  }
+  faults_.faults.push_back(std::move(fault));
+}
+
+simulation::Detector detectorOf(bool rows) {
+  return rows ? simulation::Detector::kRowFaults : simulation::Detector::kColumnFaults;
+}
+
+Fault faultOf(bool rows, std::size_t line, double p) {
+  Fault fault;
+  fault.detector = detectorOf(rows);
+  fault.id = simulation::foundBy(fault.detector).id;
+  fault.line = line;
+  fault.p = p;
+  return fault;
+}
+
+void Detectors::findLines() {
+  for (int round = 0; round < 2; ++round) {
+    LineFault best;
+    bool best_rows = false;
+    for (const bool rows : {true, false}) {
+      const simulation::Detector detector = detectorOf(rows);
+      const auto& faults = faults_.faults;
+      if (std::any_of(faults.begin(), faults.end(), [&](const Fault& f) { return f.detector == detector; }))
+        continue;
+      LineFault found = findLineFault(measured_, courses_, rows, sound_, options_);
+      if (!found.found || (best.found && best.p <= found.p)) continue;
+      best = std::move(found);
+      best_rows = rows;
+    }
+    if (!best.found) return;
+    std::map<std::size_t, Flags> flags;
+    for (const std::size_t t : best.taxels) flags[t] = best.failing;
+    const std::size_t before = faults_.faults.size();
+    keep(faultOf(best_rows, best.line, best.p), flags);
+    if (faults_.faults.size() == before) return;
+  }
+}
+
+// Share of the scans in which one of two taxels fails that both fail in.
+double together(const Flags& a, const Flags& b) {
+  double both = 0, any = 0;
+  for (std::size_t v = 0; v < a.size(); ++v) {
+    for (std::size_t i = 0; i < a[v].size(); ++i) {
+      both += a[v][i] && b[v][i];
+      any += a[v][i] || b[v][i];
     }
   }
-  if (fault.taxels.empty()) return;
-  const auto own = failing_;
-  keep(fault, together);
-  failing_ = own;
-  faults_.faults.push_back(fault);
+  return any > 0 ? both / any : 0;
+}
+
+// Taxels that fail together and make up a line have one cause. On a small sheet no permutation of the taxels
+// can show this, because so many of them make up a line.
+void Detectors::joinLine(bool rows, std::vector<TaxelFault>& found) {
+  constexpr std::size_t kFewest = 3;  // taxels of a line
+  constexpr double kTogether = 0.5;
+  const matrix::Layout& layout = measured_.layout;
+  const std::size_t lines = rows ? layout.size.rows : layout.size.columns;
+  for (std::size_t line = 0; line < lines; ++line) {
+    std::map<std::size_t, Flags> flags;
+    std::size_t members = 0;
+    double p = 1;
+    for (std::size_t t = 0; t < measured_.taxels(); ++t) {
+      if (!sound_[t] || (rows ? layout.row({t}) : layout.column({t})) != line) continue;
+      ++members;
+      for (const TaxelFault& one : found) {
+        if (one.taxel != t) continue;
+        if (!flags.empty() && together(flags.begin()->second, one.failing) < kTogether) continue;
+        flags[t] = one.failing;
+        p = std::min(p, one.p);
+      }
+    }
+    if (members < kFewest || flags.size() < members) continue;
+    const std::size_t before = faults_.faults.size();
+    keep(faultOf(rows, line, p), flags);
+    if (faults_.faults.size() == before) continue;
+    found.erase(std::remove_if(found.begin(), found.end(),
+                               [&](const TaxelFault& one) { return flags.count(one.taxel) > 0; }),
+                found.end());
+  }
+}
+
+void Detectors::findTaxels() {
+  std::vector<TaxelFault> found = findTaxelFaults(measured_, courses_, sound_, options_);
+  joinLine(true, found);
+  joinLine(false, found);
+  for (const auto& [kind, detector] :
+       {std::pair{TaxelFault::Kind::kStuck, simulation::Detector::kStuckTaxels},
+        std::pair{TaxelFault::Kind::kDead, simulation::Detector::kDeadTaxels}}) {
+    Fault fault;
+    fault.detector = detector;
+    fault.id = simulation::foundBy(detector).id;
+    std::map<std::size_t, Flags> flags;
+    for (const TaxelFault& one : found) {
+      if (one.kind != kind) continue;
+      flags[one.taxel] = one.failing;
+      fault.p = std::min(fault.p, one.p);
+    }
+    if (!flags.empty()) keep(std::move(fault), flags);
+  }
 }
 
 void Detectors::judgeReadings() {
   FaultyReadings& readings = faults_.readings;
   std::map<long, std::pair<double, double>> bins;  // sum of squares, number of readings
   std::map<std::string, double> by_surface;
-  for (std::size_t v = 0; v < sheets_.size(); ++v) {
-    const Sheet& sheet = sheets_[v];
+  for (std::size_t v = 0; v < courses_.size(); ++v) {
+    const Visit& visit = measured_.visits[v];
     double squares = 0;
-    std::size_t sample = sheet.visit.first;
-    for (std::size_t i = 0; i < sheet.scans(); ++i) {
-      while (sample + 1 < sheet.visit.last && measured_.first_scan[sample + 1] <= sheet.scan(i)) ++sample;
+    eachScan(v, [&](std::size_t i, std::size_t sample) {
       const bool held_out = measured_.cycles[measured_.cycle[sample]].use == CycleUse::kHoldOut;
       auto& bin =
           bins[static_cast<long>(std::max(0.0, measured_.pressure[sample]) / thresholds::kPressureBin)];
       for (const auto& [t, flags] : failing_) {
         bin.second += 1;
         if (!flags[v][i]) continue;
-        const double square = std::pow(sheet.reading(i, t) - sheet.expected(i, t), 2);
+        const double square = std::pow(error(v, t, i), 2);
         bin.first += square;
         squares += square;
         if (held_out) readings.held_out += square;
       }
       readings.readings += static_cast<double>(measured_.taxels());
       if (held_out) readings.held_out_readings += static_cast<double>(measured_.taxels());
-    }
+    });
     readings.square += squares;
-    by_surface[sheet.visit.surface.name] += squares;
+    by_surface[visit.surface.name] += squares;
   }
   double most = 0;
   for (const auto& [bin, sums] : bins)
@@ -349,8 +277,14 @@ void Detectors::judgeReadings() {
 
 }  // namespace
 
-Faults findFaults(const Measured& measured) {
-  return Detectors(measured).run();
+double leastGap(const Measured& measured, const DiscrepancyOptions& options) {
+  if (!std::isnan(options.least_gap)) return options.least_gap;
+  const auto [low, high] = std::minmax_element(measured.pressure.begin(), measured.pressure.end());
+  return options.least_gap_share * (*high - *low);
+}
+
+Faults findFaults(const Measured& measured, const DiscrepancyOptions& options) {
+  return Detectors(measured, options).run();
 }
 
 simulation::EnabledEffect asEffect(const Fault& fault) {

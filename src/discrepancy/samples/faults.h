@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "discrepancy/samples/measured.h"
+#include "discrepancy/samples/taxel_courses.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
 
 namespace fsr::discrepancy {
@@ -19,6 +20,8 @@ struct Fault {
   double depth = 0;                              ///< mean relative loss of the reading
   double longest = 0;                            ///< longest spell [s]
   std::vector<std::pair<double, double>> times;  ///< start and end of each spell, since the first scan [s]
+  double p = 1;                                  ///< of its test, corrected for all taxels or lines
+  double at_map = 0;  ///< rms error of the pressure at its taxels, over all scans [Pa]
 
   bool isLine() const {
     return detector == simulation::Detector::kRowFaults || detector == simulation::Detector::kColumnFaults;
@@ -40,10 +43,23 @@ struct Faults {
   FaultyReadings readings;
 };
 
-/// Searches every scan for faults. A taxel is stuck where it keeps one code while the others move. A taxel is
-/// dead where it reads far less than the others. A line fails where its taxels suddenly deviate together from
-/// the others.
-Faults findFaults(const Measured& measured);
+/// Least size at the map that matters [Pa]: `least_gap`, or its share of the range of the chamber's pressure.
+double leastGap(const Measured& measured, const DiscrepancyOptions& options);
+
+/// Searches every scan for faults, in the readings relative to those of the other taxels (taxelCourses()).
+/// What changes all taxels alike is therefore no fault of any.
+///
+/// A line fails where its taxels leave the neighbouring lines together from one scan to the next. The largest
+/// such step over all lines is held against the largest one after the taxels were permuted over the sheet
+/// (P. Westfall, S. Young, Resampling-based multiple testing, Wiley 1993).
+///
+/// A taxel fails where its largest deviation is an outlier among those of all taxels. Their logarithms follow
+/// Gumbel's distribution (E. Gumbel, Statistics of extremes, 1958), whose parameters are the median and the
+/// quartiles over the taxels. A failing taxel is named only where its readings do not follow the others: it
+/// is dead where it goes to the reading without load, and stuck where it goes to another one.
+///
+/// Both need `level`, and a size at the map of at least leastGap().
+Faults findFaults(const Measured& measured, const DiscrepancyOptions& options);
 
 /// The effect and the parameter values with which a simulation shows the fault.
 simulation::EnabledEffect asEffect(const Fault& fault);

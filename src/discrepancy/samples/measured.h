@@ -53,11 +53,12 @@ struct Measured {
   std::vector<std::uint8_t> used;  ///< for each taxel; 0 = masked or faulty
 
   // For each sample, in order of time:
-  std::vector<double> time;         ///< since the first scan of the first recording [s]
-  std::vector<double> pressure;     ///< gauge pressure, smoothed where its course is straight [Pa]
-  std::vector<double> rate;         ///< [Pa/s]
-  std::vector<double> temperature;  ///< [degree Celsius]; empty where a recording has none
-  std::vector<double> path_length;  ///< sum of |dP| since the first sample [Pa]
+  std::vector<double> time;          ///< since the first scan of the first recording [s]
+  std::vector<double> pressure;      ///< gauge pressure, smoothed where its course is straight [Pa]
+  std::vector<double> raw_pressure;  ///< gauge pressure as recorded [Pa]
+  std::vector<double> rate;          ///< [Pa/s]
+  std::vector<double> temperature;   ///< [degree Celsius]; empty where a recording has none
+  std::vector<double> path_length;   ///< sum of |dP| since the first sample [Pa]
   std::vector<std::uint32_t> visit;
   std::vector<std::uint32_t> cycle;
   std::vector<std::int8_t> direction;   ///< +1 = loading, -1 = unloading, 0 = pressure never changes
@@ -75,6 +76,10 @@ struct Measured {
   std::size_t samples() const { return time.size(); }
   std::size_t taxels() const { return layout.size.taxels(); }
   std::size_t usedTaxels() const;
+  std::size_t fitCycles() const;
+  /// Number of times that each class of curvature was mounted. Visits with the same label of a mount are one
+  /// mount; each visit without a label is a mount of its own.
+  std::vector<std::size_t> mounts() const;
   const simulation::EffectLibrary& effects() const;
   const simulation::EffectInfo& info(const std::string& effect) const;
   std::size_t classOf(std::size_t sample) const { return visits[visit[sample]].curvature_class; }

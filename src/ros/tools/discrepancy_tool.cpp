@@ -45,8 +45,13 @@ fsr::settings::CommandLine options() {
   line.option("simulation", "FILE",
               "simulation to start from (config/simulation/core.yaml, with the layout of the bags)")
       .option("output", "DIR", "folder for verdict.yaml, simulation.yaml, results.json and report.html")
-      .option("ask", "ID,...",
-              "effects to ask about: if the bags cannot show one of them, that is the verdict")
+      .option(
+          "ask", "ID,...",
+          "effects to ask about: each gets an answer; if nothing is found and the bags cannot show one of "
+          "them, that is the verdict")
+      .option("least-gap", "KPA",
+              "rms at the map below which a discrepancy does not matter [kPa] (0.2 % of the range of the "
+              "chamber's pressure)")
       .flag("repeat", "go on adding effects until no further effect is found")
       .option("confirm", "FILE", "a verdict.yaml: test its prediction on these new bags")
       .option("without", "ID,...", "leave these effects out of the library")
@@ -116,6 +121,10 @@ fsr::discrepancy::DiscrepancyOptions discrepancyOptions(const fsr::settings::Com
   chosen.ask = listOf(line, "ask");
   chosen.leave_out = listOf(line, "without");
   chosen.repeat = line.has("repeat");
+  if (line.has("least-gap")) {
+    constexpr double kKilopascal = 1e3;  // [Pa]
+    chosen.least_gap = kKilopascal * line.number("least-gap", 0, {0, 1e4, "kPa"});
+  }
   chosen.seed = static_cast<std::uint64_t>(line.integer("seed", 1, {0, 9e15, ""}));
   chosen.threads = static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
   return chosen;

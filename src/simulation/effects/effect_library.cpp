@@ -10,12 +10,12 @@ namespace fsr::simulation {
 
 const EffectLibrary& EffectLibrary::shipped() {
   static const EffectLibrary library(std::vector<EffectEntry>{
-      timeSkew(),      clockRate(),      scanSkew(),   sealLeak(),    trappedGas(),  edgeStiffness(),
-      repositioning(), bendingPreload(), turnOn(),     hysteresis(),  creep(),       relaxation(),
-      bendingGain(),   temperature(),    breakIn(),    wear(),        staticCurve(), deadTaxel(),
-      rowFault(),      columnFault(),    crosstalk(),  supplyDroop(), converter(),   drift(),
-      mainsPickup(),   sessionOffset(),  whiteNoise(), saturation(),  stuckTaxel(),  transducerError(),
-      compliance(),    shear(),          wrinkle(),    humidity(),
+      timeSkew(),       scanSkew(),   sealLeak(),    trappedGas(),  edgeStiffness(),   repositioning(),
+      bendingPreload(), turnOn(),     hysteresis(),  creep(),       relaxation(),      bendingGain(),
+      temperature(),    breakIn(),    wear(),        staticCurve(), deadTaxel(),       rowFault(),
+      columnFault(),    crosstalk(),  supplyDroop(), converter(),   drift(),           mainsPickup(),
+      sessionOffset(),  whiteNoise(), saturation(),  stuckTaxel(),  transducerError(), compliance(),
+      shear(),          wrinkle(),    humidity(),
   });
   return library;
 }

@@ -11,7 +11,6 @@ namespace fsr::simulation {
 // The effects, one file each in src/simulation/effects. A new effect: its file, a line here and one in
 // effectLibrary().
 EffectEntry timeSkew();
-EffectEntry clockRate();
 EffectEntry scanSkew();
 EffectEntry sealLeak();
 EffectEntry trappedGas();

@@ -61,7 +61,8 @@ EffectInfo info() {
       shape("gain_share", "v, 0 = acts like load, 1 = on the sensitivity", {0, 1, ""}, 0).trying({0, 1}),
       shape("rayleigh", "0 = loops of straight pieces, 1 = loops of parabolas (Rayleigh's law)", {0, 1, ""},
             0)
-          .offAt(0),
+          .offAt(0)
+          .trying({0, 1}),
   };
   info.sign = SignRule::kPositive;
   info.depends_on = {Covariate::kDirection, Covariate::kPressure, Covariate::kPreviousExtremes};

@@ -50,7 +50,6 @@ EffectInfo info() {
   info.collinear = {"seal_leak", "creep", "hysteresis", "time_skew", "drift"};
   info.experiment = Experiment::kStepAndHold;
   info.mixture = true;
-  info.looked_for = false;
   return info;
 }
 

@@ -41,7 +41,9 @@ EffectInfo info() {
   info.parameters = {
       strength("share", "s, share of the cavity that the leak reaches", {0, 1, ""}, 1).within(0.01, 1),
       shape("time_constant", "tau", {1, 1e6, "s"}, 1800).trying({60, 180, 600, 1800, 6000, 18000}),
-      shape("orifice_share", "q, 0 = laminar leak, 1 = orifice with choked flow", {0, 1, ""}, 0).offAt(0),
+      shape("orifice_share", "q, 0 = laminar leak, 1 = orifice with choked flow", {0, 1, ""}, 0)
+          .offAt(0)
+          .trying({0, 1}),
       shape("critical_ratio", "b, absolute pressure ratio below which the flow is choked", {0.05, 0.95, ""},
             0.528)
           .within(0.2, 0.528),

@@ -38,15 +38,16 @@ EffectInfo info() {
       strength("quadratic", "b, relative change", {-0.001, 0.001, "1/K^2"}, 0).within(-1e-4, 1e-4),
       shape("lag", "tau, time constant of the sheet behind the gas", {0.01, 1e5, "s"}, 60)
           .trying({1, 10, 60, 300, 1000}),
+      // Not tried: another reference only moves a part of b to a, and the course of the start is that of
+      // drift.
       shape("reference", "T_0, where the sensitivity is nominal", {-40, 125, "degree Celsius"},
             kRoomTemperature)
           .offAt(kRoomTemperature),
       shape("start", "s, temperature of the sheet above the gas at the first scan", {-50, 50, "K"}, 0)
           .offAt(0),
-      shape("zero_shift", "z, shift of the zero that acts like load", {-10e3, 10e3, "Pa/K"}, 0)
-          .within(-1e3, 1e3)
-          .offAt(0),
-      shape("zero_lag", "time constant of T_z behind the gas", {0.01, 1e5, "s"}, 60),
+      strength("zero_shift", "z, shift of the zero that acts like load", {-10e3, 10e3, "Pa/K"}, 0)
+          .within(-1e3, 1e3),
+      shape("zero_lag", "time constant of T_z behind the gas", {0.01, 1e5, "s"}, 60).trying({1, 60, 1000}),
   };
   info.sign = SignRule::kEither;
   info.depends_on = {Covariate::kTemperature, Covariate::kClockTime};

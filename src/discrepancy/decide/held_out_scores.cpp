@@ -1,0 +1,452 @@
+#include "discrepancy/decide/held_out_scores.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "discrepancy/fit/least_squares.h"
+#include "matrix/for_each_taxel.h"
+#include "statistics/random_stream.h"
+
+namespace fsr::discrepancy {
+
+namespace {
+
+using Index = Eigen::Index;
+
+// Exponents of ten of the prior variances that are tried [share of full scale, squared].
+constexpr double kLowest = -14, kHighest = 1, kStep = 0.5;
+
+// Fits columns whose coefficients may have either sign.
+class FreeFitter {
+ public:
+  explicit FreeFitter(const Eigen::MatrixXd& gram) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);
+    values_ = solver.eigenvalues().cwiseMax(0.0);
+    vectors_ = solver.eigenvectors();
+  }
+
+  FormFit fit(const Eigen::VectorXd& right) const {
+    FormFit fit;
+    fit.coefficients.setZero(right.size());
+    const Eigen::VectorXd turned = vectors_.transpose() * right;
+    const Eigen::ArrayXd pull = turned.array().square();
+    for (double e = kLowest; e <= kHighest; e += kStep) {
+      const double variance = std::pow(10, e);
+      const Eigen::ArrayXd grown = 1 + variance * values_;
+      const double likelihood = 0.5 * (variance * pull / grown - grown.log()).sum();
+      if (likelihood > fit.likelihood) fit.likelihood = likelihood, fit.variance = variance;
+    }
+    if (fit.variance == 0) return fit;
+    fit.coefficients = vectors_ * (fit.variance / (1 + fit.variance * values_) * turned.array()).matrix();
+    return fit;
+  }
+
+ private:
+  Eigen::ArrayXd values_;
+  Eigen::MatrixXd vectors_;
+};
+
+Eigen::MatrixXd among(const Eigen::MatrixXd& gram, const std::vector<Index>& chosen) {
+  const auto size = static_cast<Index>(chosen.size());
+  Eigen::MatrixXd part(size, size);
+  for (Index a = 0; a < size; ++a) {
+    for (Index b = 0; b < size; ++b)
+      part(a, b) = gram(chosen[static_cast<std::size_t>(a)], chosen[static_cast<std::size_t>(b)]);
+  }
+  return part;
+}
+
+// A form whose Gram matrix is decomposed, so that many right sides are fitted quickly. Where signs are bound,
+// the columns that take part are found by least squares with signs, and only these are fitted.
+class FormFitter {
+ public:
+  FormFitter(Eigen::MatrixXd gram, std::vector<bool> free)
+      : gram_(std::move(gram)),
+        free_(std::move(free)),
+        all_free_(std::count(free_.begin(), free_.end(), false) == 0),
+        whole_(gram_) {}
+
+  FormFit fit(const Eigen::VectorXd& right) const {
+    if (all_free_) return whole_.fit(right);
+    if (right.size() == 1) return right[0] > 0 ? whole_.fit(right) : nothing(1);
+    std::vector<Index> chosen = supportOf(right);
+    while (!chosen.empty()) {
+      Eigen::VectorXd own(static_cast<Index>(chosen.size()));
+      for (std::size_t k = 0; k < chosen.size(); ++k) own[static_cast<Index>(k)] = right[chosen[k]];
+      FormFit fit = FreeFitter(among(gram_, chosen)).fit(own);
+      const auto negative = [&](std::size_t k) {
+        return !free_[static_cast<std::size_t>(chosen[k])] && fit.coefficients[static_cast<Index>(k)] < 0;
+      };
+      std::vector<Index> kept;
+      for (std::size_t k = 0; k < chosen.size(); ++k) {
+        if (!negative(k)) kept.push_back(chosen[k]);
+      }
+      if (kept.size() == chosen.size()) {
+        const Eigen::VectorXd few = fit.coefficients;
+        fit.coefficients.setZero(right.size());
+        for (std::size_t k = 0; k < chosen.size(); ++k)
+          fit.coefficients[chosen[k]] = few[static_cast<Index>(k)];
+        return fit;
+      }
+      chosen = kept;
+    }
+    return nothing(right.size());
+  }
+
+ private:
+  static FormFit nothing(Index size) {
+    FormFit fit;
+    fit.coefficients.setZero(size);
+    return fit;
+  }
+  std::vector<Index> supportOf(const Eigen::VectorXd& right) const {
+    Eigen::MatrixXd gram = gram_;
+    gram.diagonal() *= 1 + 1e-6;
+    gram.diagonal().array() += 1e-300;
+    const Eigen::VectorXd fitted = solveSigned(gram, right, free_);
+    std::vector<Index> support;
+    for (Index k = 0; k < fitted.size(); ++k) {
+      if (fitted[k] != 0) support.push_back(k);
+    }
+    return support;
+  }
+
+  Eigen::MatrixXd gram_;
+  std::vector<bool> free_;
+  bool all_free_;
+  FreeFitter whole_;
+};
+
+void addTo(Eigen::MatrixXd& sum, const std::vector<Index>& rows, const Eigen::MatrixXd& part) {
+  for (std::size_t a = 0; a < rows.size(); ++a) sum.row(rows[a]) += part.row(static_cast<Index>(a));
+}
+
+Eigen::MatrixXd rowsOf(const Eigen::MatrixXd& matrix, const std::vector<Index>& rows) {
+  Eigen::MatrixXd chosen(static_cast<Index>(rows.size()), matrix.cols());
+  for (std::size_t a = 0; a < rows.size(); ++a) chosen.row(static_cast<Index>(a)) = matrix.row(rows[a]);
+  return chosen;
+}
+
+}  // namespace
+
+FormFit fitForm(const Eigen::MatrixXd& gram, const Eigen::VectorXd& right, const std::vector<bool>& free) {
+  return FormFitter(gram, free).fit(right);
+}
+
+HeldOutScores::HeldOutScores(const CycleDesign& design, const CycleNoise& noise, const StaticModel& model,
+                             const std::vector<Explaining>& explanations, std::size_t folds, double degrees)
+    : design_(design),
+      model_(model),
+      explanations_(explanations),
+      cycles_(design.cycles.size()),
+      fold_number_(folds),
+      degrees_(degrees) {
+  chooseColumns();
+  assignFolds();
+  cover();
+  whiten(noise, model);
+  solveFolds();
+  score();
+}
+
+// Only columns of some form are computed with.
+void HeldOutScores::chooseColumns() {
+  place_.assign(static_cast<std::size_t>(2 * design_.columns), -1);
+  for (const Explaining& explanation : explanations_) {
+    for (const Form& form : explanation.forms) {
+      for (const Index column : form.columns) {
+        Index& place = place_[static_cast<std::size_t>(column + (form.bent_only ? design_.columns : 0))];
+        if (place >= 0) continue;
+        place = static_cast<Index>(used_.size());
+        used_.push_back({column, form.bent_only});
+      }
+    }
+  }
+}
+
+// Interleaved, so that every fold leaves cycles of each surface.
+void HeldOutScores::assignFolds() {
+  for (std::size_t c = 0; c < cycles_.size(); ++c) cycles_[c].fold = c % fold_number_;
+}
+
+// A held-out bin counts only within the pressures that the other folds covered on its surface.
+void HeldOutScores::cover() {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  std::vector<std::vector<double>> low(fold_number_, std::vector<double>(design_.classes, kNone)), high = low;
+  for (auto& of_fold : high) std::fill(of_fold.begin(), of_fold.end(), -kNone);
+  for (std::size_t c = 0; c < cycles_.size(); ++c) {
+    const CycleBins& bins = design_.cycles[c];
+    for (std::size_t f = 0; f < fold_number_; ++f) {
+      if (f == cycles_[c].fold) continue;
+      double& l = low[f][bins.curvature_class];
+      double& h = high[f][bins.curvature_class];
+      l = std::min(l, bins.pressure.minCoeff());
+      h = std::max(h, bins.pressure.maxCoeff());
+    }
+  }
+  for (std::size_t c = 0; c < cycles_.size(); ++c) {
+    const CycleBins& bins = design_.cycles[c];
+    const double l = low[cycles_[c].fold][bins.curvature_class];
+    const double h = high[cycles_[c].fold][bins.curvature_class];
+    for (Index b = 0; b < bins.bins(); ++b) {
+      if (bins.pressure[b] >= l && bins.pressure[b] <= h) cycles_[c].covered.push_back(b);
+    }
+  }
+}
+
+void HeldOutScores::whiten(const CycleNoise& noise, const StaticModel& model) {
+  for (std::size_t c = 0; c < cycles_.size(); ++c) {
+    const CycleBins& bins = design_.cycles[c];
+    Whitened& w = cycles_[c];
+    const Eigen::MatrixXd covariance = noise.covariance(bins, design_.cycle_time);
+    const Eigen::MatrixXd statics = model.columns(bins);
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(bins.bins(), static_cast<Index>(used_.size()));
+    for (std::size_t k = 0; k < used_.size(); ++k) {
+      if (used_[k].bent_only && design_.flat[bins.curvature_class]) continue;
+      columns.col(static_cast<Index>(k)) = bins.columns.col(used_[k].column);
+    }
+    w.places = model.places(bins);
+    const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+    w.root = root.matrixL();
+    w.statics = root.matrixL().solve(statics);
+    w.columns = root.matrixL().solve(columns);
+    w.reading = root.matrixL().solve(bins.reading);
+    if (w.covered.empty()) continue;
+    const Eigen::MatrixXd half = rowsOf(covariance, w.covered);
+    const Eigen::MatrixXd some = rowsOf(half.transpose(), w.covered);
+    const Eigen::LLT<Eigen::MatrixXd> test(some);
+    w.test_root = test.matrixL();
+    w.test_statics = test.matrixL().solve(rowsOf(statics, w.covered));
+    w.test_columns = test.matrixL().solve(rowsOf(columns, w.covered));
+    w.test_reading = test.matrixL().solve(Eigen::VectorXd(rowsOf(bins.reading, w.covered)));
+  }
+}
+
+// Expected square of the whitened error of the static model in a cycle that it was not fitted to, beyond
+// that of the noise.
+double HeldOutScores::uncertainty(const Whitened& cycle, const Eigen::MatrixXd& inverse) {
+  const auto size = static_cast<Index>(cycle.places.size());
+  Eigen::MatrixXd own(size, size);
+  for (Index a = 0; a < size; ++a) {
+    for (Index b = 0; b < size; ++b)
+      own(a, b) =
+          inverse(cycle.places[static_cast<std::size_t>(a)], cycle.places[static_cast<std::size_t>(b)]);
+  }
+  return (cycle.test_statics * own).cwiseProduct(cycle.test_statics).sum();
+}
+
+// Sums of products over the cycles of one fold.
+struct HeldOutScores::Products {
+  Eigen::MatrixXd statics, mixed, columns;         // of the statics, with the columns, of the columns
+  Eigen::VectorXd static_reading, column_reading;  // with the reading
+
+  Products(Index statics_number, Index columns_number)
+      : statics(Eigen::MatrixXd::Zero(statics_number, statics_number)),
+        mixed(Eigen::MatrixXd::Zero(statics_number, columns_number)),
+        columns(Eigen::MatrixXd::Zero(columns_number, columns_number)),
+        static_reading(Eigen::VectorXd::Zero(statics_number)),
+        column_reading(Eigen::VectorXd::Zero(columns_number)) {}
+
+  void operator+=(const Products& other) {
+    statics += other.statics;
+    mixed += other.mixed;
+    columns += other.columns;
+    static_reading += other.static_reading;
+    column_reading += other.column_reading;
+  }
+};
+
+std::vector<HeldOutScores::Products> HeldOutScores::productsOfFolds() const {
+  std::vector<Products> of_fold(fold_number_, Products(model_.size(), cycles_.front().columns.cols()));
+  for (const Whitened& w : cycles_) {
+    Products& sums = of_fold[w.fold];
+    const Eigen::MatrixXd own = w.statics.transpose() * w.statics;
+    const Eigen::VectorXd right = w.statics.transpose() * w.reading;
+    for (std::size_t a = 0; a < w.places.size(); ++a) {
+      sums.static_reading[w.places[a]] += right[static_cast<Index>(a)];
+      for (std::size_t b = 0; b < w.places.size(); ++b)
+        sums.statics(w.places[a], w.places[b]) += own(static_cast<Index>(a), static_cast<Index>(b));
+    }
+    addTo(sums.mixed, w.places, w.statics.transpose() * w.columns);
+    sums.columns += w.columns.transpose() * w.columns;
+    sums.column_reading += w.columns.transpose() * w.reading;
+  }
+  return of_fold;
+}
+
+void HeldOutScores::solveFolds() {
+  const Index statics = model_.size(), columns = cycles_.front().columns.cols();
+  const std::vector<Products> of_fold = productsOfFolds();
+  const Eigen::MatrixXd prior = model_.prior();
+  folds_.resize(fold_number_);
+  for (std::size_t f = 0; f <= fold_number_; ++f) {
+    Fold& fold = f < fold_number_ ? folds_[f] : all_;
+    Products others(statics, columns);
+    for (std::size_t other = 0; other < fold_number_; ++other) {
+      if (other != f) others += of_fold[other];
+    }
+    const Eigen::MatrixXd gram_ss = others.statics + prior;
+    fold.inverse = gram_ss.llt().solve(Eigen::MatrixXd::Identity(statics, statics));
+    fold.solved = fold.inverse * others.mixed;
+    fold.gram = others.columns - others.mixed.transpose() * fold.solved;
+    fold.right = others.column_reading - fold.solved.transpose() * others.static_reading;
+    if (f == fold_number_) break;
+    const Eigen::VectorXd curve = fold.inverse * others.static_reading;
+    fold.test_gram = Eigen::MatrixXd::Zero(columns, columns);
+    fold.test_static = Eigen::MatrixXd::Zero(columns, statics);
+    for (Whitened& w : cycles_) {
+      if (w.fold != f || w.covered.empty()) continue;
+      Eigen::VectorXd own(static_cast<Index>(w.places.size()));
+      for (std::size_t a = 0; a < w.places.size(); ++a) own[static_cast<Index>(a)] = curve[w.places[a]];
+      w.test_net = w.test_columns - w.test_statics * rowsOf(fold.solved, w.places);
+      w.test_error = w.test_reading - w.test_statics * own;
+      fold.test_gram += w.test_net.transpose() * w.test_net;
+      const Eigen::MatrixXd with = w.test_net.transpose() * w.test_statics;
+      for (std::size_t a = 0; a < w.places.size(); ++a)
+        fold.test_static.col(w.places[a]) += with.col(static_cast<Index>(a));
+      loss_ += w.test_error.squaredNorm();
+      expected_loss_ += static_cast<double>(w.covered.size()) + uncertainty(w, fold.inverse);
+    }
+  }
+}
+
+Eigen::MatrixXd HeldOutScores::part(const Eigen::MatrixXd& gram, const Form& form) const {
+  const auto size = static_cast<Index>(form.columns.size());
+  Eigen::MatrixXd result(size, size);
+  for (Index a = 0; a < size; ++a) {
+    for (Index b = 0; b < size; ++b)
+      result(a, b) =
+          gram(columnOf(form, static_cast<std::size_t>(a)), columnOf(form, static_cast<std::size_t>(b)));
+  }
+  return result;
+}
+
+Eigen::VectorXd HeldOutScores::part(const Eigen::VectorXd& right, const Form& form) const {
+  Eigen::VectorXd result(static_cast<Index>(form.columns.size()));
+  for (Index a = 0; a < result.size(); ++a) result[a] = right[columnOf(form, static_cast<std::size_t>(a))];
+  return result;
+}
+
+void HeldOutScores::score() {
+  for (const Explaining& explanation : explanations_) {
+    HeldOutScore score;
+    score.nats.assign(cycles_.size(), 0.0);
+    for (std::size_t f = 0; f < fold_number_; ++f) {
+      FormFit best;
+      const Form* form = nullptr;
+      for (const Form& one : explanation.forms) {
+        const FormFit fit = fitForm(part(folds_[f].gram, one), part(folds_[f].right, one), one.free);
+        if (!form || fit.likelihood > best.likelihood) best = fit, form = &one;
+      }
+      if (best.variance == 0) continue;
+      for (std::size_t c = 0; c < cycles_.size(); ++c) {
+        const Whitened& w = cycles_[c];
+        if (w.fold != f || w.covered.empty()) continue;
+        Eigen::VectorXd predicted = Eigen::VectorXd::Zero(w.test_error.size());
+        for (std::size_t k = 0; k < form->columns.size(); ++k)
+          predicted += best.coefficients[static_cast<Index>(k)] * w.test_net.col(columnOf(*form, k));
+        score.nats[c] = predicted.dot(w.test_error) - 0.5 * predicted.squaredNorm();
+      }
+    }
+    for (std::size_t i = 0; i < explanation.forms.size(); ++i) {
+      const Form& one = explanation.forms[i];
+      const FormFit fit = fitForm(part(all_.gram, one), part(all_.right, one), one.free);
+      if (i == 0 || fit.likelihood > score.fit.likelihood) score.fit = fit, score.form = i;
+    }
+    for (const double nats : score.nats) score.total += nats;
+    scores_.push_back(score);
+  }
+}
+
+// Sums over the cycles of a fold, one column for each draw.
+struct HeldOutScores::Drawn {
+  Eigen::MatrixXd statics;  // products of the whitened statics with the noise
+  Eigen::MatrixXd columns;  // likewise, of the explanations' columns
+  Eigen::MatrixXd test;     // of the columns in the fold's own cycles
+};
+
+std::vector<HeldOutScores::Drawn> HeldOutScores::draw(Index draws, std::uint64_t seed) const {
+  const Index statics = all_.inverse.rows(), columns = all_.gram.rows();
+  Drawn nothing{Eigen::MatrixXd::Zero(statics, draws), Eigen::MatrixXd::Zero(columns, draws),
+                Eigen::MatrixXd::Zero(columns, draws)};
+  std::vector<Drawn> drawn(fold_number_, nothing);
+  for (std::size_t c = 0; c < cycles_.size(); ++c) {
+    const Whitened& w = cycles_[c];
+    const statistics::RandomStream stream = statistics::randomStream(seed, "discrepancy.null", c);
+    Eigen::MatrixXd z(w.root.rows(), draws);
+    for (Index i = 0; i < z.size(); ++i) z.data()[i] = stream.normal(static_cast<std::uint64_t>(i));
+    addTo(drawn[w.fold].statics, w.places, w.statics.transpose() * z);
+    drawn[w.fold].columns += w.columns.transpose() * z;
+    if (w.covered.empty()) continue;
+    const Eigen::MatrixXd noise = rowsOf(w.root * z, w.covered);
+    drawn[w.fold].test += w.test_net.transpose() * w.test_root.triangularView<Eigen::Lower>().solve(noise);
+  }
+  return drawn;
+}
+
+// What an explanation gains in the cycles of one fold, for each draw. `right`, `net`: products of the columns
+// with the noise of the other folds and with that of the fold itself.
+void HeldOutScores::addGains(const Fold& fold, const Explaining& explanation, const Eigen::MatrixXd& right,
+                             const Eigen::MatrixXd& net, std::vector<double>& totals) const {
+  std::vector<double> likelihood(totals.size(), 0.0), gained(totals.size(), 0.0);
+  for (const Form& form : explanation.forms) {
+    const FormFitter fitter(part(fold.gram, form), form.free);
+    const Eigen::MatrixXd own = part(fold.test_gram, form);
+    for (std::size_t d = 0; d < totals.size(); ++d) {
+      const auto at = static_cast<Index>(d);
+      const FormFit fit = fitter.fit(part(Eigen::VectorXd(right.col(at)), form));
+      if (fit.likelihood <= likelihood[d]) continue;
+      likelihood[d] = fit.likelihood;
+      const Eigen::VectorXd pull = part(Eigen::VectorXd(net.col(at)), form);
+      gained[d] = fit.coefficients.dot(pull) - 0.5 * fit.coefficients.dot(own * fit.coefficients);
+    }
+  }
+  for (std::size_t d = 0; d < totals.size(); ++d) totals[d] += gained[d];
+}
+
+NullScores HeldOutScores::nullScores(std::size_t draws, std::uint64_t seed, unsigned threads) const {
+  const std::vector<Drawn> drawn = draw(static_cast<Index>(draws), seed);
+  Drawn all = drawn.front();
+  for (std::size_t f = 1; f < fold_number_; ++f) {
+    all.statics += drawn[f].statics;
+    all.columns += drawn[f].columns;
+  }
+  NullScores null;
+  null.of.assign(explanations_.size(), std::vector<double>(draws, 0.0));
+  for (std::size_t f = 0; f < fold_number_; ++f) {
+    const Fold& fold = folds_[f];
+    const Eigen::MatrixXd statics = all.statics - drawn[f].statics;
+    const Eigen::MatrixXd right = all.columns - drawn[f].columns - fold.solved.transpose() * statics;
+    const Eigen::MatrixXd net = drawn[f].test - fold.test_static * (fold.inverse * statics);
+    matrix::forEachTaxel(explanations_.size(), threads,
+                         [&](std::size_t e) { addGains(fold, explanations_[e], right, net, null.of[e]); });
+  }
+  null.largest.assign(draws, 0.0);
+  for (std::vector<double>& totals : null.of) {
+    for (std::size_t d = 0; d < draws; ++d) null.largest[d] = std::max(null.largest[d], totals[d]);
+    std::sort(totals.begin(), totals.end());
+  }
+  std::sort(null.largest.begin(), null.largest.end());
+  return null;
+}
+
+FormFit HeldOutScores::fitAll(const Form& form) const {
+  return fitForm(part(all_.gram, form), part(all_.right, form), form.free);
+}
+
+double HeldOutScores::density(std::size_t cycle, double nats) const {
+  const Whitened& w = cycles_[cycle];
+  if (w.covered.empty()) return 0;
+  const auto bins = static_cast<double>(w.covered.size());
+  const double square = std::max(0.0, w.test_error.squaredNorm() - 2 * nats);
+  return -w.test_root.diagonal().array().log().sum() -
+         0.5 * (degrees_ + bins) * std::log(1 + square / degrees_);
+}
+
+double HeldOutScores::information(Index column) const {
+  const Index at = place_[static_cast<std::size_t>(column)];
+  return all_.gram(at, at);
+}
+
+}  // namespace fsr::discrepancy

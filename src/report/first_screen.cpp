@@ -1,0 +1,237 @@
+#include "report/first_screen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "settings/number_text.h"
+
+namespace fsr::report {
+
+namespace {
+
+using discrepancy::DiscrepancyReport;
+using discrepancy::Verdict;
+
+constexpr double kKilopascal = 1e3;  // [Pa]
+constexpr double kPercent = 100;
+
+std::string number(double value, int digits) {
+  return std::isfinite(value) ? settings::fixedText(value, digits) : "-";
+}
+
+// "1.3 kPa", of three digits at most.
+std::string pressureText(double pressure) {
+  return settings::roundedText(pressure / kKilopascal, 2) + " kPa";
+}
+
+std::string percentText(double share, int digits = 2) {
+  return settings::roundedText(kPercent * share, digits) + " %";
+}
+
+std::string joined(const std::vector<std::string>& items, const std::string& between = ", ") {
+  std::string all;
+  for (const std::string& item : items) all += (all.empty() ? "" : between) + item;
+  return all;
+}
+
+std::string setsText(const std::vector<std::vector<std::string>>& sets) {
+  std::vector<std::string> texts;
+  for (const auto& ids : sets) texts.push_back(joined(ids, " + "));
+  return joined(texts, " | ");
+}
+
+bool nothingFound(const DiscrepancyReport& report) {
+  return report.verdict == Verdict::kNone || report.verdict == Verdict::kNotIdentifiable;
+}
+
+std::string chanceText(const DiscrepancyReport& report) {
+  return "The probability of the best score by chance is " + settings::roundedText(report.p, 2) +
+         " (corrected for the search; level " + settings::roundedText(report.options.level, 2) + ").";
+}
+
+// Whether explanations of the mean trace competed and one of them is in the verdict.
+bool byCompetition(const DiscrepancyReport& report) {
+  return report.p <= report.options.level && !std::isnan(report.at_map) && report.too_small.empty();
+}
+
+std::string sureText(const DiscrepancyReport& report) {
+  const std::string credible = percentText(report.options.credible);
+  const std::string best =
+      "Best of these " + std::to_string(report.tested.size()) + " effects, under this protocol";
+  switch (report.verdict) {
+    case Verdict::kNone:
+    case Verdict::kNotIdentifiable:
+      return report.p > report.options.level
+                 ? chanceText(report)
+                 : chanceText(report) + " What is visible is too small to matter.";
+    case Verdict::kUnknown:
+      return (byCompetition(report) ? chanceText(report) + " " : "") + "No name is given.";
+    case Verdict::kNamed:
+    case Verdict::kWrongForm:
+    case Verdict::kAmbiguous:
+      break;
+  }
+  std::string text = "Not excluded: " + setsText(report.credible_set) + ". " + best;
+  if (!byCompetition(report)) return text + "; found by a test of its own.";
+  const bool alone = report.credible_set.size() == 1;
+  return text + (alone ? "; all others are excluded at " : "; the others are excluded at ") + credible +
+         ". " + chanceText(report);
+}
+
+// "Would have been seen, from this size at the map: 0.7 kPa: creep, drift; 1.2 kPa: wear."
+std::string seenText(const DiscrepancyReport& report) {
+  std::map<double, std::vector<std::string>> seen;
+  for (const discrepancy::SmallestSeen& one : report.smallest_seen) {
+    if (std::isfinite(one.at_map)) seen[one.at_map].push_back(one.id);
+  }
+  std::vector<std::string> texts;
+  for (const auto& [size, ids] : seen) texts.push_back(pressureText(size) + ": " + joined(ids));
+  std::string text =
+      texts.empty() ? "" : "Would have been seen, from this size at the map: " + joined(texts, "; ") + ".";
+  for (const discrepancy::TooSmall& one : report.too_small) {
+    text += (text.empty() ? "" : " ") + one.explanation + " is visible, but with " +
+            pressureText(one.at_map) + " it is below the least gap of " + pressureText(report.least_gap) +
+            ".";
+  }
+  return text;
+}
+
+std::string answersText(const DiscrepancyReport& report) {
+  std::vector<std::string> texts;
+  for (const discrepancy::Answer& answer : report.answers) {
+    std::string text = answer.id + ": " + answer.answer + ". " + answer.sentence;
+    if (std::isfinite(answer.at_map))
+      text += " From " + pressureText(answer.at_map) + " at the map it would have been seen.";
+    texts.push_back(text);
+  }
+  return joined(texts, " ");
+}
+
+std::string situationText(const std::string& situation) {
+  if (situation == "ramp") return "a ramp";
+  if (situation == "stance") return "a stance of 0.6 s";
+  return situation == "standing" ? "ten minutes of standing" : situation;
+}
+
+std::string useText(const std::vector<discrepancy::GapInUse>& costs) {
+  std::vector<std::string> parts;
+  for (const discrepancy::GapInUse& cost : costs) {
+    parts.push_back(
+        number(cost.before / kKilopascal, 1) + " kPa in " + situationText(cost.situation) +
+        (std::isfinite(cost.after) ? " (" + number(cost.after / kKilopascal, 1) + " with it)" : ""));
+  }
+  return parts.empty() ? "" : " Largest error in use: " + joined(parts) + ".";
+}
+
+std::string costText(const DiscrepancyReport& report) {
+  if (nothingFound(report)) return "";
+  if (std::isnan(report.at_map))
+    return useText(report.in_use).empty() ? "" : useText(report.in_use).substr(1);
+  return pressureText(report.at_map) + " at the map (rms) if it is left out; the least gap is " +
+         pressureText(report.least_gap) + "." + useText(report.in_use);
+}
+
+std::string scatterText(const discrepancy::Scatter& one) {
+  const std::string what = one.part == "cycle_gain"     ? "The gain changes from cycle to cycle"
+                           : one.part == "cycle_offset" ? "The zero changes from cycle to cycle"
+                                                        : "The reading wanders within a cycle";
+  const std::string unit = one.unit == "share" ? "" : " of full scale";
+  if (!one.seen()) return what + " by less than " + percentText(one.interval.high) + unit + ".";
+  return what + " by " + percentText(one.size) + unit + " (standard deviation, 95 % " +
+         settings::roundedText(kPercent * one.interval.low, 2) + " to " + percentText(one.interval.high) +
+         "): " + pressureText(one.at_map) + " at the map, " + percentText(one.of_noise) +
+         " of the variance of the noise.";
+}
+
+std::string scattersText(const DiscrepancyReport& report) {
+  std::vector<std::string> texts;
+  for (const discrepancy::Scatter& one : report.scatter) texts.push_back(scatterText(one));
+  return joined(texts, " ");
+}
+
+// "3.10 % FS (19.2 kPa)".
+std::string gapPart(double value, double pressure) {
+  return number(kPercent * value, 2) + " % FS" +
+         (std::isfinite(pressure) ? " (" + number(pressure / kKilopascal, 1) + " kPa)" : "");
+}
+
+std::string gapText(const DiscrepancyReport& report) {
+  const discrepancy::Gap& gap = report.gap;
+  if (!std::isfinite(gap.before)) return "Not measured, because nothing was held out.";
+  std::string text = gapPart(gap.before, gap.before_pressure) + " before, ";
+  text +=
+      report.effects.empty() ? "nothing was added, " : gapPart(gap.after, gap.after_pressure) + " after, ";
+  text += "floor " + gapPart(gap.floor, gap.floor_pressure) + " (neighbouring scans; between cycles " +
+          gapPart(gap.floor_bracket.high, NAN) + ")";
+  if (std::isfinite(gap.closed)) {
+    text += "; closed " + number(kPercent * gap.closed, 0) + " %";
+    if (std::isfinite(gap.closed_interval.low)) {
+      text += " (" + number(kPercent * gap.closed_interval.low, 0) + " to " +
+              number(kPercent * gap.closed_interval.high, 0) + " %)";
+    }
+  }
+  text += ".";
+  if (!report.effects.empty() && gap.after > gap.before) text += " The gap did not shrink.";
+  return text + (gap.held_out_by.empty() ? "" : " Held out by: " + joined(gap.held_out_by) + ".");
+}
+
+// Experiments that would show the effects of the credible set that these recordings cannot show.
+std::vector<std::string> needed(const DiscrepancyReport& report) {
+  std::vector<std::string> texts;
+  for (const discrepancy::NotIdentifiable& one : report.not_identifiable) {
+    const auto names_it = [&](const auto& ids) { return std::count(ids.begin(), ids.end(), one.id) > 0; };
+    const auto& sets = report.credible_set;
+    if (std::none_of(sets.begin(), sets.end(), names_it)) continue;
+    if (!one.experiment.empty() && one.experiment != "none")
+      texts.push_back(one.id + " needs the experiment " + one.experiment);
+  }
+  return texts;
+}
+
+std::string nextText(const DiscrepancyReport& report) {
+  std::vector<std::string> sentences;
+  for (const discrepancy::NextExperiment& next : report.next_experiment) sentences.push_back(next.sentence);
+  if (!sentences.empty()) return joined(sentences, " ");
+  if (!std::isfinite(report.gap.before))
+    return "Record at least 10 cycles on each surface, so that some can be held out.";
+  const std::vector<std::string> needs = needed(report);
+  if (!needs.empty()) return joined(needs) + ".";
+  switch (report.verdict) {
+    case Verdict::kNone:
+    case Verdict::kNotIdentifiable:
+      return "Nothing has to be told apart. The effects that are not testable here name their experiment.";
+    case Verdict::kNamed:
+    case Verdict::kWrongForm:
+      return report.prediction.effects.empty()
+                 ? "Nothing has to be told apart."
+                 : "Nothing has to be told apart. New bags of at least 10 cycles, under another protocol, "
+                   "can confirm it: discrepancy --confirm verdict.yaml NEWBAG.";
+    case Verdict::kAmbiguous:
+      return "No experiment that this rig can run tells the explanations apart.";
+    case Verdict::kUnknown:
+      return "No experiment is known that would lead to a name.";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<FirstScreenItem> firstScreen(const DiscrepancyReport& report) {
+  const std::vector<FirstScreenItem> all = {{"Missing", report.sentence},
+                                            {"How sure", sureText(report)},
+                                            {"Excluded", nothingFound(report) ? seenText(report) : ""},
+                                            {"Asked", answersText(report)},
+                                            {"Cost", costText(report)},
+                                            {"Scatter", scattersText(report)},
+                                            {"Gap, rms on hold-out data", gapText(report)},
+                                            {"Recompute the gap", report.recompute},
+                                            {"Next experiment", nextText(report)}};
+  std::vector<FirstScreenItem> items;
+  for (const FirstScreenItem& item : all) {
+    if (!item.answer.empty()) items.push_back(item);
+  }
+  return items;
+}
+
+}  // namespace fsr::report
