@@ -105,8 +105,10 @@ bool Investigation::humOfAll() const {
 }
 
 void Investigation::detectFaults() {
-  const bool hum = humOfAll();
   const Faults faults = findFaults(measured_, problem_.options);
+  const bool hum = std::any_of(faults.faults.begin(), faults.faults.end(),
+                               [](const Fault& fault) { return fault.isLine(); }) &&
+                   humOfAll();
   for (const Fault& fault : faults.faults) {
     if (!sought(fault.id) || (hum && fault.isLine())) continue;
     detections_.push_back(detectionOf(fault, faults.readings, 0));

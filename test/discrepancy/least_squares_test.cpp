@@ -1,4 +1,4 @@
-// Fits with gram matrices: columns that act only on bent surfaces together with columns that act everywhere.
+// Fits with Gram matrices: a column that acts only on bent surfaces together with one that acts everywhere.
 
 #include "discrepancy/fit/least_squares.h"
 
@@ -24,28 +24,31 @@ Eigen::MatrixXd columns() {
   return all;
 }
 
-TEST(ColumnSet, MayHoldAColumnThatActsWhereItIsBentBesideOneThatActsEverywhere) {
-  const CycleGrams grams(columns(), {{0, kMoments}, {kMoments, 2 * kMoments}}, 1);
-  const ColumnSet everywhere{{0}, {true}, {false}}, bent{{1}, {true}, {true}};
-  const ColumnSet both = together(everywhere, bent);
-  const Eigen::MatrixXd flat_part = partOf(grams.of(0), both, true),
-                        bent_part = partOf(grams.of(1), both, false);
-  const Eigen::VectorXd fitted = fitColumns(flat_part + bent_part, both);
-  EXPECT_NEAR(fitted[0], 1.5, 1e-7);
-  EXPECT_NEAR(fitted[1], 0.7, 1e-7);
-  EXPECT_NEAR(squaredError(flat_part, fitted), 0, 1e-9);
-  EXPECT_NEAR(squaredError(bent_part, fitted), 0, 1e-9);
-  const ColumnSet wrong{{0, 1}, {true, true}, {false, false}};
-  const Eigen::MatrixXd all = partOf(grams.of(0), wrong, true) + partOf(grams.of(1), wrong, false);
-  EXPECT_GT(squaredError(all, fitColumns(all, wrong)), 0.5);
+Eigen::VectorXd solved(const Eigen::MatrixXd& x, const Eigen::VectorXd& target,
+                       const std::vector<bool>& free) {
+  return solveSigned(x.transpose() * x, x.transpose() * target, free);
 }
 
-TEST(ColumnSet, KeepsTheSignThatIsNotFree) {
-  const CycleGrams grams(-columns(), {{0, 2 * kMoments}}, 1);
-  Eigen::MatrixXd part = partOf(grams.of(0), {{0}, {false}, {false}}, false);
-  part(0, 1) = part(1, 0) = -part(0, 1);  // the sign of the target is reversed
-  EXPECT_EQ(fitColumns(part, {{0}, {false}, {false}})[0], 0);
-  EXPECT_LT(fitColumns(part, {{0}, {true}, {false}})[0], 0);
+TEST(SolveSigned, FitsAColumnThatActsWhereItIsBentBesideOneThatActsEverywhere) {
+  const Eigen::MatrixXd all = columns();
+  const Eigen::VectorXd target = all.col(2);
+  Eigen::MatrixXd x = all.leftCols(2);
+  x.col(1).head(kMoments).setZero();
+  const Eigen::VectorXd fitted = solved(x, target, {true, true});
+  EXPECT_NEAR(fitted[0], 1.5, 1e-7);
+  EXPECT_NEAR(fitted[1], 0.7, 1e-7);
+  const Eigen::VectorXd left = target - x * fitted;
+  EXPECT_NEAR(left.head(kMoments).squaredNorm(), 0, 1e-9);
+  EXPECT_NEAR(left.tail(kMoments).squaredNorm(), 0, 1e-9);
+  const Eigen::MatrixXd wrong = all.leftCols(2);
+  EXPECT_GT((target - wrong * solved(wrong, target, {true, true})).squaredNorm(), 0.5);
+}
+
+TEST(SolveSigned, KeepsTheSignThatIsNotFree) {
+  const Eigen::MatrixXd x = columns().leftCols(1);
+  const Eigen::VectorXd reversed = -columns().col(2);
+  EXPECT_EQ(solved(x, reversed, {false})[0], 0);
+  EXPECT_LT(solved(x, reversed, {true})[0], 0);
 }
 
 }  // namespace

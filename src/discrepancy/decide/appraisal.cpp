@@ -252,7 +252,8 @@ class Appraiser {
   void improveNull(const CycleNoise& start) {
     StaticModel nothing = model_;
     const CycleNoise noise = fitNoise(design_, nothing, &start);
-    if (meanOf(densityOfNothing(scored(noise, model_, explanations_))) <= meanOf(null_density_)) return;
+    const std::vector<Explaining> any = {explanations_.front()};  // the density of nothing is that beside any
+    if (meanOf(densityOfNothing(scored(noise, model_, any))) <= meanOf(null_density_)) return;
     null_.best = noise;
     testNull();
   }

@@ -147,8 +147,7 @@ Trace freedOf(const Trace& common, double unloaded, const Changes& changes) {
 }
 
 Trace loadOf(const Measured& measured, const Changes& changes) {
-  const std::vector<double>& load = measured.load.empty() ? measured.pressure : measured.load;
-  return Eigen::Map<const Trace>(load.data(), changes.load.size()) + changes.load;
+  return Eigen::Map<const Trace>(measured.loads().data(), changes.load.size()) + changes.load;
 }
 
 class Refiner {

@@ -1,8 +1,7 @@
 #include "discrepancy/fit/least_squares.h"
 
 #include <algorithm>
-
-#include "matrix/for_each_taxel.h"
+#include <cmath>
 
 namespace fsr::discrepancy {
 
@@ -94,64 +93,6 @@ Eigen::VectorXd solveSigned(const Eigen::MatrixXd& gram, const Eigen::VectorXd& 
     members.push_back(best);
   }
   return solution;
-}
-
-CycleGrams::CycleGrams(const Eigen::MatrixXd& columns,
-                       const std::vector<std::pair<std::size_t, std::size_t>>& ranges, unsigned threads)
-    : target_(columns.cols() - 1), grams_(ranges.size()) {
-  matrix::forEachTaxel(ranges.size(), threads, [&](std::size_t c) {
-    const auto first = static_cast<Eigen::Index>(ranges[c].first);
-    const auto scans = static_cast<Eigen::Index>(ranges[c].second - ranges[c].first);
-    const auto part = columns.middleRows(first, scans);
-    grams_[c] = Eigen::MatrixXd::Zero(columns.cols(), columns.cols());
-    grams_[c].selfadjointView<Eigen::Lower>().rankUpdate(part.transpose());
-    grams_[c] = Eigen::MatrixXd(grams_[c].selfadjointView<Eigen::Lower>());
-  });
-}
-
-Eigen::MatrixXd CycleGrams::sum(const std::vector<bool>& wanted) const {
-  Eigen::MatrixXd total = Eigen::MatrixXd::Zero(target_ + 1, target_ + 1);
-  for (std::size_t c = 0; c < grams_.size(); ++c) {
-    if (wanted[c]) total += grams_[c];
-  }
-  return total;
-}
-
-ColumnSet together(const ColumnSet& a, const ColumnSet& b) {
-  ColumnSet both = a;
-  both.columns.insert(both.columns.end(), b.columns.begin(), b.columns.end());
-  both.free.insert(both.free.end(), b.free.begin(), b.free.end());
-  both.bent_only.insert(both.bent_only.end(), b.bent_only.begin(), b.bent_only.end());
-  return both;
-}
-
-Eigen::MatrixXd partOf(const Eigen::MatrixXd& gram, const ColumnSet& set, bool flat) {
-  const auto size = static_cast<Eigen::Index>(set.columns.size());
-  const auto at = [&](Eigen::Index i) {
-    return i < size ? set.columns[static_cast<std::size_t>(i)] : gram.cols() - 1;
-  };
-  const auto acts = [&](Eigen::Index i) {
-    return i == size || !flat || !set.bent_only[static_cast<std::size_t>(i)];
-  };
-  Eigen::MatrixXd part = Eigen::MatrixXd::Zero(size + 1, size + 1);
-  for (Eigen::Index i = 0; i <= size; ++i) {
-    if (!acts(i)) continue;
-    for (Eigen::Index j = 0; j <= size; ++j) {
-      if (acts(j)) part(i, j) = gram(at(i), at(j));
-    }
-  }
-  return part;
-}
-
-Eigen::VectorXd fitColumns(const Eigen::MatrixXd& part, const ColumnSet& set) {
-  const Eigen::Index size = part.cols() - 1;
-  return solveSigned(part.topLeftCorner(size, size), part.col(size).head(size), set.free);
-}
-
-double squaredError(const Eigen::MatrixXd& part, const Eigen::VectorXd& coefficients) {
-  const Eigen::Index size = part.cols() - 1;
-  return part(size, size) - 2 * coefficients.dot(part.col(size).head(size)) +
-         coefficients.dot(part.topLeftCorner(size, size) * coefficients);
 }
 
 }  // namespace fsr::discrepancy

@@ -231,10 +231,8 @@ void takeOut(const Mains& mains, const StaticFit& fit, CommonTraces& common) {
   Eigen::MatrixXd course(mains.cosine.size(), 2);
   course << mains.cosine, mains.sine;
   const Eigen::MatrixXd normal = course.transpose() * course;
-  for (Trace* trace : {&common.all, &common.halves[0], &common.halves[1]}) {
-    const Eigen::Vector2d weights = normal.ldlt().solve(course.transpose() * fit.residual(*trace));
-    *trace -= course * weights;
-  }
+  const Eigen::Vector2d weights = normal.ldlt().solve(course.transpose() * fit.residual(common.all));
+  common.all -= course * weights;
 }
 
 simulation::EnabledEffect asEffect(const Mains& mains, double full_scale) {

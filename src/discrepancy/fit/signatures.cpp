@@ -249,7 +249,7 @@ Trace throughCurve(const Measured& measured, const StaticFit& fit, const DrivenS
   Trace changed(gained.size());
   for (std::size_t i = 0; i < measured.samples(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    const double load = measured.load.empty() ? measured.pressure[i] : measured.load[i];
+    const double load = measured.loads()[i];
     changed[at] = (fit.curveAt(i, load + amplitude * derivative.load[at]) - fit.curveAt(i, load)) / amplitude;
   }
   return changed + gained;

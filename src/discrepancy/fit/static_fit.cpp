@@ -19,9 +19,6 @@ constexpr double kBends = 1e-8;
 // Least scatter of the cycle gains; smaller scatter does not matter [relative].
 constexpr double kLeastScatter = 1e-5;
 
-// Least weight by which withoutGainWeights() divides.
-constexpr double kLeastGainWeight = 0.02;
-
 std::vector<double> knotsOf(const Trace& load) {
   const double low = load.minCoeff(), high = std::max(load.maxCoeff(), low + 1);
   std::vector<double> knots;
@@ -30,8 +27,7 @@ std::vector<double> knotsOf(const Trace& load) {
 }
 
 Trace loadOf(const Measured& measured) {
-  const std::vector<double>& load = measured.load.empty() ? measured.pressure : measured.load;
-  return Eigen::Map<const Trace>(load.data(), static_cast<Eigen::Index>(measured.samples()));
+  return Eigen::Map<const Trace>(measured.loads().data(), static_cast<Eigen::Index>(measured.samples()));
 }
 
 template <typename Use>
@@ -79,25 +75,14 @@ std::vector<bool> fittedSamples(const Measured& measured, const std::vector<std:
 
 CommonTraces commonTraces(const Measured& measured) {
   CommonTraces traces;
-  const auto scans = static_cast<Eigen::Index>(measured.samples());
-  traces.all.setZero(scans);
-  for (Trace& half : traces.halves) half.setZero(scans);
-  std::vector<std::size_t> taxels[2];
-  for (std::size_t i = 0; i < measured.taxels(); ++i) {
-    if (measured.used[i]) taxels[(measured.layout.row({i}) + measured.layout.column({i})) % 2].push_back(i);
-  }
+  traces.all.setZero(static_cast<Eigen::Index>(measured.samples()));
   std::vector<double> readings;
   for (std::size_t scan = 0; scan < measured.samples(); ++scan) {
     measured.readings(scan, readings);
-    const auto at = static_cast<Eigen::Index>(scan);
-    for (int h = 0; h < 2; ++h) {
-      double sum = 0;
-      for (const std::size_t i : taxels[h]) sum += readings[i];
-      traces.all[at] += sum / static_cast<double>(measured.usedTaxels());
-      traces.halves[h][at] = taxels[h].empty() ? 0 : sum / static_cast<double>(taxels[h].size());
-    }
+    double sum = 0;
+    for (std::size_t i = 0; i < readings.size(); ++i) sum += measured.used[i] ? readings[i] : 0;
+    traces.all[static_cast<Eigen::Index>(scan)] = sum / static_cast<double>(measured.usedTaxels());
   }
-  if (taxels[0].empty() || taxels[1].empty()) traces.halves[0] = traces.halves[1] = traces.all;
   return traces;
 }
 
@@ -119,7 +104,6 @@ StaticFit::StaticFit(const StaticFit& like, const Trace& common, const Trace& lo
       fits_(like.fits_),
       groups_(like.groups_),
       per_(like.per_),
-      gain_scatter_(like.gain_scatter_),
       gain_weight_(like.gain_weight_) {
   fitCurves(common, load);
   prepare();
@@ -199,9 +183,8 @@ Trace StaticFit::residual(const Trace& trace) const {
   return trace - curveFrom(coefficientsOf(trace, plain_));
 }
 
-// Multiplies each cycle's component along its gain by factor(cycle).
-template <typename Factor>
-void StaticFit::scaleGains(Trace& trace, Factor factor) const {
+// Multiplies each cycle's component along its gain by the cycle's weight.
+void StaticFit::applyGainWeights(Trace& trace) const {
   for (std::size_t c = 0; c < measured_.cycles.size(); ++c) {
     const MeasuredCycle& cycle = measured_.cycles[c];
     const auto first = static_cast<Eigen::Index>(cycle.first);
@@ -209,18 +192,9 @@ void StaticFit::scaleGains(Trace& trace, Factor factor) const {
     const auto gain = net_curve_.segment(first, scans);
     const double square = gain.squaredNorm();
     if (square <= 0) continue;
-    trace.segment(first, scans) += (factor(c) - 1) * gain.dot(trace.segment(first, scans)) / square * gain;
+    trace.segment(first, scans) +=
+        (gain_weight_[c] - 1) * gain.dot(trace.segment(first, scans)) / square * gain;
   }
-}
-
-void StaticFit::applyGainWeights(Trace& trace) const {
-  scaleGains(trace, [&](std::size_t cycle) { return gain_weight_[cycle]; });
-}
-
-Trace StaticFit::withoutGainWeights(const Trace& projected) const {
-  Trace trace = projected;
-  scaleGains(trace, [&](std::size_t cycle) { return 1 / std::max(gain_weight_[cycle], kLeastGainWeight); });
-  return trace;
 }
 
 // The curves are shrunk in the same way: x' = W x, B' = W B, and B'^T x' = B^T W (W x).
@@ -253,7 +227,7 @@ void StaticFit::judgeGainScatter(const Trace& left) {
     before = c;
   }
   gain_weight_.resize(gain.size());
-  gain_scatter_ = std::max(
+  const double scatter = std::max(
       kLeastScatter, statistics::kDeviationPerMedian / std::sqrt(2.0) * statistics::upperMedian(steps, 0));
   double square = 0, samples = 0;
   for (std::size_t i = 0; i < fits_.size(); ++i) {
@@ -264,7 +238,7 @@ void StaticFit::judgeGainScatter(const Trace& left) {
   const double noise = square / std::max(1.0, samples);
   for (std::size_t c = 0; c < gain.size(); ++c) {
     const double by_noise = noise / std::max(weight[c], 1e-12);
-    gain_weight_[c] = std::sqrt(by_noise / (by_noise + gain_scatter_ * gain_scatter_));
+    gain_weight_[c] = std::sqrt(by_noise / (by_noise + scatter * scatter));
   }
   prepare();
 }

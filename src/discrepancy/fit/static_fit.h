@@ -15,7 +15,6 @@ using Trace = Eigen::VectorXd;
 /// Means of the readings over the used taxels [share of full scale]; no curve is subtracted.
 struct CommonTraces {
   Trace all;
-  Trace halves[2];  ///< over the white and over the black squares of a chessboard of taxels
 };
 CommonTraces commonTraces(const Measured& measured);
 
@@ -49,13 +48,8 @@ class StaticFit {
   /// Reading of a taxel without load: the lowest reading of the lowest curve [share of full scale].
   double unloaded() const { return zero_; }
 
-  /// Standard deviation of the gain from cycle to cycle by chance, relative.
-  double gainScatter() const { return gain_scatter_; }
-
   /// Shrinks the trace along the cycles' gains, then removes the static curves.
   Trace project(const Trace& trace) const;
-  /// Undoes the shrinking of what project() returned.
-  Trace withoutGainWeights(const Trace& projected) const;
   /// Removes the static curves without shrinking anything.
   Trace residual(const Trace& trace) const;
 
@@ -73,8 +67,6 @@ class StaticFit {
 
  private:
   using Normal = Eigen::LDLT<Eigen::MatrixXd>;
-  template <typename Factor>
-  void scaleGains(Trace& trace, Factor factor) const;
   void applyGainWeights(Trace& trace) const;
   Eigen::MatrixXd coefficientsOf(const Trace& trace, const std::vector<Normal>& normal) const;
   Trace curveFrom(const Eigen::MatrixXd& coefficients) const;
@@ -93,7 +85,6 @@ class StaticFit {
   Eigen::MatrixXd fitted_;                    // [coefficients x groups]
   Trace curve_, slope_, net_curve_;
   double zero_ = 0;
-  double gain_scatter_ = 0;
   std::vector<double> gain_weight_;  // of each cycle: factor along its gain in project()
 };
 

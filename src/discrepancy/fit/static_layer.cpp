@@ -82,11 +82,6 @@ double interpolate(const Eigen::VectorXd& values, double low, double step, doubl
   return values[i] + share * (values[i + 1] - values[i]);
 }
 
-// What the curves are functions of [Pa].
-const std::vector<double>& loadOf(const Measured& measured) {
-  return measured.load.empty() ? measured.pressure : measured.load;
-}
-
 // Loads of a class of curvature to which its curve is fitted [Pa].
 struct Covered {
   double low = INFINITY, high = -INFINITY;
@@ -97,8 +92,8 @@ std::vector<Covered> coveredBy(const Measured& measured, const StaticFit& fit) {
   for (std::size_t i = 0; i < measured.samples(); ++i) {
     if (!fit.isFitted(i)) continue;
     Covered& of = covered[measured.classOf(i)];
-    of.low = std::min(of.low, loadOf(measured)[i]);
-    of.high = std::max(of.high, loadOf(measured)[i]);
+    of.low = std::min(of.low, measured.loads()[i]);
+    of.high = std::max(of.high, measured.loads()[i]);
   }
   return covered;
 }
@@ -173,7 +168,7 @@ Eigen::MatrixXd chanceOf(const Measured& measured, const StaticFit& fit, const T
   Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(points, classes), number = squares;
   const Trace left = fit.residual(common);
   for (std::size_t i = 0; i < measured.samples(); ++i) {
-    const auto k = static_cast<Eigen::Index>(std::lround((loadOf(measured)[i] - low) / step));
+    const auto k = static_cast<Eigen::Index>(std::lround((measured.loads()[i] - low) / step));
     const auto c = static_cast<Eigen::Index>(measured.classOf(i));
     if (k < 0 || k >= points || !fit.isFitted(i)) continue;
     squares(k, c) += std::pow(left[static_cast<Eigen::Index>(i)], 2);
@@ -260,7 +255,7 @@ StaticMisfit findStaticMisfit(const Measured& measured, const StaticFit& fit, co
                               double square) {
   StaticMisfit result;
   if (measured.classes.size() < 2) return result;
-  const std::vector<double>& load = loadOf(measured);
+  const std::vector<double>& load = measured.loads();
   const auto [least, most] = std::minmax_element(load.begin(), load.end());
   const double low = std::max(0.0, *least), step = (*most - low) / (kPoints - 1);
   std::vector<std::size_t> sample_of(measured.classes.size(), measured.samples());

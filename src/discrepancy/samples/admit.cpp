@@ -155,7 +155,7 @@ void appendVisit(Measured& measured, double start, std::size_t pooled) {
   for (std::size_t c = 0; c < course.cycles.count(); ++c) {
     const bool last = c + 1 == course.cycles.count();
     const std::size_t end = last ? course.time.size() : course.cycles.first[c + 1];
-    measured.cycles.push_back({measured.visits.size() - 1, measured.samples(), 0, 0, CycleUse::kFit});
+    measured.cycles.push_back({measured.visits.size() - 1, measured.samples(), 0, CycleUse::kFit});
     for (std::size_t i = course.cycles.first[c]; i < end; i += pooled) {
       appendSample(measured, course, i, std::min(i + pooled, end));
     }
@@ -209,30 +209,22 @@ bool isStump(const Measured& measured, const MeasuredCycle& cycle) {
   return *(last - 1) - *low > kVented * (*high - *low);
 }
 
-// Chooses the hold-out cycles and assigns the other cycles to interleaved folds. The seed determines which
-// cycles are held out. Every visit gives about the same share of its cycles. A cycle that was cut off is
-// never held out.
+// Chooses the hold-out cycles by the seed. Every visit gives about the same share of its cycles. A cycle that
+// was cut off is never held out.
 void partCycles(Measured& measured, std::uint64_t seed) {
   const statistics::RandomStream stream = statistics::randomStream(seed, "discrepancy.split");
   std::vector<std::vector<std::size_t>> of_visit(measured.visits.size());
   for (std::size_t c = 0; c < measured.cycles.size(); ++c) of_visit[measured.cycles[c].visit].push_back(c);
-  std::uint32_t next = 0;
   double owed = 0;
   for (std::size_t v = 0; v < of_visit.size(); ++v) {
     std::vector<std::size_t>& cycles = of_visit[v];
     owed += kHoldOutShare * static_cast<double>(cycles.size());
-    std::vector<std::size_t> stump;
-    if (!cycles.empty() && isStump(measured, measured.cycles[cycles.back()])) {
-      stump.push_back(cycles.back());
-      cycles.pop_back();
-    }
+    if (!cycles.empty() && isStump(measured, measured.cycles[cycles.back()])) cycles.pop_back();
     for (; owed >= 1 && cycles.size() > 1; owed -= 1) {
       const std::size_t drawn = stream.bits(v * 1000 + cycles.size()) % cycles.size();
       measured.cycles[cycles[drawn]].use = CycleUse::kHoldOut;
       cycles.erase(cycles.begin() + static_cast<std::ptrdiff_t>(drawn));
     }
-    cycles.insert(cycles.end(), stump.begin(), stump.end());
-    for (const std::size_t c : cycles) measured.cycles[c].fold = next++ % Measured::kFolds;
   }
 }
 
@@ -315,6 +307,10 @@ const simulation::EffectLibrary& Measured::effects() const {
 
 std::size_t Measured::usedTaxels() const {
   return static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
+}
+
+const std::vector<double>& Measured::loads() const {
+  return load.empty() ? pressure : load;
 }
 
 std::size_t Measured::fitCycles() const {

@@ -30,14 +30,12 @@ struct MeasuredCycle {
   std::size_t visit = 0;
   std::size_t first = 0;
   std::size_t last = 0;
-  std::uint32_t fold = 0;  ///< for the comparison of explanations: 0 .. kFolds - 1, interleaved
   CycleUse use = CycleUse::kFit;
 };
 
 /// All recordings of a problem, in order of time. A sample is one scan or the mean of a few consecutive
 /// scans. Scans are pooled to save computing time; the effects of interest are slower than the scans.
 struct Measured {
-  static constexpr std::uint32_t kFolds = 4;
   static constexpr std::size_t kManySamples = 14000;  ///< with more, scans are pooled, up to kLongestSample
   static constexpr double kLongestSample = 0.5;       ///< longest time over which scans are pooled [s]
 
@@ -77,6 +75,9 @@ struct Measured {
   std::size_t taxels() const { return layout.size.taxels(); }
   std::size_t usedTaxels() const;
   std::size_t fitCycles() const;
+  /// What the static curves are functions of, at each sample: `load`, or `pressure` where nothing was
+  /// subtracted [Pa].
+  const std::vector<double>& loads() const;
   /// Number of times that each class of curvature was mounted. Visits with the same label of a mount are one
   /// mount; each visit without a label is a mount of its own.
   std::vector<std::size_t> mounts() const;
