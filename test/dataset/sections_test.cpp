@@ -51,6 +51,22 @@ TEST(Cycles, CountEachOfIncreasingPeaks) {
   EXPECT_EQ(findCycles(pressure).count(), 4u);
 }
 
+// Bits that flip in the reference: single readings beside the course, also two with one good reading between.
+TEST(Cycles, IgnoreSpikes) {
+  std::vector<double> pressure = triangles(4, 400, 600e3);
+  for (const std::size_t at : {37u, 250u, 252u, 611u, 900u}) pressure[at] += 40e3;
+  pressure[1210] -= 40e3;
+  EXPECT_EQ(findCycles(pressure).count(), 4u);
+  EXPECT_EQ(findCycles(pressure).first, findCycles(triangles(4, 400, 600e3)).first);
+  pressure[500] = 6e6;
+  EXPECT_EQ(findCycles(pressure).count(), 4u) << "a spike that widens the range";
+}
+
+TEST(Cycles, OfFewReadingsHaveNoSpikes) {
+  const std::vector<double> pressure = triangles(5, 6, 600e3);
+  EXPECT_EQ(findCycles(pressure).count(), 5u);
+}
+
 TEST(Cycles, AreNoneForAConstantPressure) {
   std::vector<double> pressure(100, 5e3);
   pressure[50] += 1e3;  // noise
