@@ -77,6 +77,14 @@ TEST(NextExperiment, IsNoneForOneExplanation) {
   EXPECT_TRUE(nextExperiment(rig(), contest({"wear"})).empty());
 }
 
+TEST(NextExperiment, IsForAllThatAreNotExcludedWhateverTheirWeights) {
+  Contest sure = contest({"hysteresis", "creep"});
+  sure.at_hand.two_rates = true;
+  sure.weights = {1 - 1e-12, 1e-12};
+  sure.unknown = 1e-12;
+  EXPECT_EQ(nextExperiment(rig(), sure).size(), 1u);
+}
+
 TEST(NextExperiment, FitsAChamberOf200kPa) {
   for (const std::string& name : protocolNames()) {
     const simulation::SimulationSettings small = runProtocol(name, rig(), 200e3);

@@ -473,7 +473,12 @@ ExpectedKnowledge expectedKnowledge(const Eigen::MatrixXd& gram, const Contest& 
 std::vector<NextExperiment> nextExperiment(const simulation::SimulationSettings& base,
                                            const Contest& contest) {
   if (contest.explanations.size() < 2) return {};
-  return Planner(base, contest).run();
+  const std::vector<NextExperiment> plan = Planner(base, contest).run();
+  if (!plan.empty()) return plan;
+  // The weights leave no doubt, but the explanations are not excluded: what they differ by may be chance.
+  Contest even = contest;
+  even.weights.assign(contest.explanations.size(), 1 / static_cast<double>(contest.explanations.size()));
+  return Planner(base, even).run();
 }
 
 std::vector<NextExperiment> experimentFor(const std::vector<std::string>& covariates, bool proved,
