@@ -132,6 +132,18 @@ TEST(MeasuredInsole, IsALoopOrARelaxationThatTheseCyclesDoNotTellApart) {
   }
 }
 
+// Gap of a plain smoothing spline for each taxel on the same hold-out scans [share of full scale]:
+//   test/data/insole_gap.py seed1/verdict.yaml seed2/verdict.yaml seed3/verdict.yaml seed4/verdict.yaml
+// (SciPy 1.10.1, make_smoothing_spline, fitted to all other cycles).
+TEST(MeasuredInsole, TheGapIsThatOfAPlainSplineForEverySeed) {
+  DiscrepancyProblem problem = insole({kStaircase, kFourCycles}, kAligned);
+  const double plain[] = {0.003838, 0.003838, 0.003797, 0.003797};
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    problem.options.seed = seed;
+    EXPECT_NEAR(investigate(problem).gap.before, plain[seed - 1], 0.05 * plain[seed - 1]) << seed;
+  }
+}
+
 // Beside its row the pressure is 0.9 s early at first and 1.7 s late at the end.
 TEST(MeasuredInsole, ALagThatDriftsIsNoConstantDelay) {
   const DiscrepancyReport report = investigate(insole({kStaircase, kFourCycles}, kAsReleased));
