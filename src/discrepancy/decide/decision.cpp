@@ -394,8 +394,8 @@ void Verdicts::addPartner(const std::string& id, bool lacks_the_same) {
     untold_.push_back(id);
 }
 
-// What is known of the sizes of effects decides where the score does not: an effect that would have to be
-// larger than its sources know does not come first.
+// What is known of the sizes of effects decides where the score does not: among the effects that the score
+// does not exclude, one that would have to be larger than its sources know does not come first.
 void Verdicts::putPlausibleFirst() {
   auto& set = appraisal_.credible;
   std::stable_partition(set.begin(), set.end(),
@@ -416,9 +416,9 @@ void Verdicts::dropSizesOfNone() {
 }
 
 void Verdicts::tellEffects() {
+  putPlausibleFirst();
   const std::size_t not_excluded = appraisal_.credible.size();
   addPartners();
-  putPlausibleFirst();
   const Weighed& first = preferred();
   decision_.closes = first.closes;
   decision_.z = first.z;
