@@ -4,7 +4,9 @@
 
 #include "discrepancy/decide/decision.h"
 #include "discrepancy/decide/detections.h"
+#include "discrepancy/decide/changes.h"
 #include "discrepancy/decide/refine.h"
+#include "discrepancy/decide/take_out.h"
 #include "discrepancy/fit/base_fit.h"
 #include "discrepancy/fit/odd_taxels.h"
 #include "discrepancy/fit/taxel_curves_fit.h"

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "discrepancy/planted.h"
-#include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
 namespace {
@@ -20,23 +19,8 @@ AvailableEvidence evidenceOf(const std::string& more) {
 }
 
 TEST(Evidence, HoursWithoutACycleSeparateClockTimeFromPathLength) {
-  EXPECT_FALSE(evidenceOf(kTwoSurfaces).apartFromClock(simulation::EffectLibrary::shipped().info("wear")));
-  EXPECT_TRUE(evidenceOf(kTwoSurfaces + kFlatAgainHoursLater)
-                  .apartFromClock(simulation::EffectLibrary::shipped().info("wear")));
-}
-
-TEST(Evidence, ARoomThatWarmsAndCoolsSeparatesTemperatureFromClockTime) {
-  const std::string thrice = kTwoSurfaces + kFlatAgainHoursLater +
-                             "  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 10000}\n";
-  EXPECT_FALSE(
-      evidenceOf(thrice + "climate: {room: [{time: 0, temperature: 23}, {time: 25000, temperature: 23}]}\n")
-          .apartFromClock(simulation::EffectLibrary::shipped().info("temperature")));
-  const AvailableEvidence warmed =
-      evidenceOf(thrice +
-                 "climate: {room: [{time: 0, temperature: 23}, {time: 5000, temperature: 23}, {time: 10500, "
-                 "temperature: 35}, {time: 11500, temperature: 35}, {time: 20000, temperature: 23}]}\n");
-  EXPECT_TRUE(warmed.temperature_moved);
-  EXPECT_TRUE(warmed.apartFromClock(simulation::EffectLibrary::shipped().info("temperature")));
+  EXPECT_FALSE(evidenceOf(kTwoSurfaces).has(simulation::Evidence::kUnevenPace));
+  EXPECT_TRUE(evidenceOf(kTwoSurfaces + kFlatAgainHoursLater).has(simulation::Evidence::kUnevenPace));
 }
 
 TEST(Evidence, AMountThatIsRecordedAgainAfterAPauseHasTwoSessions) {

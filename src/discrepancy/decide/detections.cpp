@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discrepancy/decide/refine.h"
+#include "discrepancy/decide/changes.h"
 #include "discrepancy/fit/base_fit.h"
 #include "discrepancy/thresholds.h"
 #include "simulation/effects/effect_library.h"

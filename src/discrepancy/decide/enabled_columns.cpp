@@ -4,7 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "discrepancy/decide/refine.h"
+#include "discrepancy/decide/changes.h"
+#include "discrepancy/decide/take_out.h"
 #include "discrepancy/fit/signatures.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
@@ -62,10 +63,9 @@ Eigen::MatrixXd enabledColumns(const Measured& measured, const StaticFit& fit,
       } catch (const settings::InputError&) {
         continue;  // the effect refuses this combination of parameters
       }
-      const double rms = std::sqrt(change.squaredNorm() / static_cast<double>(change.size()));
-      if (!(rms > 0)) continue;
+      if (change.isZero(0)) continue;
       columns.conservativeResize(Eigen::NoChange, columns.cols() + 1);
-      columns.col(columns.cols() - 1) = change / rms;
+      columns.col(columns.cols() - 1) = change;
     }
   }
   return columns;

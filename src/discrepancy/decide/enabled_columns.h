@@ -9,7 +9,7 @@
 namespace fsr::discrepancy {
 
 /// What a small change of each parameter of the enabled effects with a time course would add to the common
-/// trace, scaled to rms 1 [samples x parameters]. These parameters were fitted while other effects were
+/// trace [samples x parameters]. These parameters were fitted while other effects were
 /// missing, so they may be wrong by as much as the missing effects allow.
 Eigen::MatrixXd enabledColumns(const Measured& measured, const StaticFit& fit,
                                const simulation::SimulationSettings& settings);

@@ -7,11 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <optional>
+#include <utility>
 
-#include "discrepancy/decide/candidates.h"
+#include "discrepancy/decide/changes.h"
 #include "discrepancy/fit/levenberg.h"
-#include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
@@ -21,8 +21,7 @@ namespace {
 constexpr double kDifference = 0.02;  // of a parameter's scale
 constexpr double kBeyondTried = 3;    // factor by which a shape may exceed its plausible range
 constexpr int kMostHalved = 8;
-constexpr double kTwoSided = 1.96;              // 95 % of a normal distribution
-constexpr double kSmallest = -4, kLargest = 2;  // logarithm of the size of predicted effects
+constexpr double kTwoSided = 1.96;  // 95 % of a normal distribution
 
 // One fitted parameter. It is scaled so that a step of about 1 is large.
 struct Knob {
@@ -65,91 +64,6 @@ std::vector<Knob> knobsOf(const simulation::EffectLibrary& library,
   return knobs;
 }
 
-// Removes the added effects of the other kind. With `read_out` the effects of the read-out stay, otherwise
-// those up to the gain.
-simulation::SimulationSettings keepStages(simulation::SimulationSettings settings,
-                                          const simulation::SimulationSettings& base, bool read_out) {
-  auto& effects = settings.effects;
-  effects.erase(std::remove_if(effects.begin(), effects.end(),
-                               [&](const simulation::EnabledEffect& effect) {
-                                 const bool late = simulation::libraryOf(base).info(effect.id).stage >=
-                                                   simulation::ChainStage::kConductance;
-                                 return !base.effect(effect.id) && late != read_out;
-                               }),
-                effects.end());
-  return settings;
-}
-
-// A trace that is 0 in the hold-out cycles.
-Trace withoutHoldOut(const Measured& measured, Trace trace) {
-  for (const MeasuredCycle& cycle : measured.cycles) {
-    if (cycle.use == CycleUse::kFit) continue;
-    const auto samples = static_cast<Eigen::Index>(cycle.last - cycle.first);
-    trace.segment(static_cast<Eigen::Index>(cycle.first), samples).setZero();
-  }
-  return trace;
-}
-
-// Changes of load, gain and reading by effects.
-struct Changes {
-  Trace load, gain, reading;  // [Pa], factor, [share of full scale]
-};
-
-Changes changesBy(const Measured& measured, const simulation::SimulationSettings& base,
-                  const simulation::SimulationSettings& added, const DrivenSignals& without,
-                  bool state_kept) {
-  const simulation::SimulationSettings early = keepStages(added, base, false),
-                                       late = keepStages(added, base, true);
-  const auto samples = without.load.size();
-  Changes changes{Trace::Zero(samples), Trace::Ones(samples), Trace::Zero(samples)};
-  if (early.effects.size() > base.effects.size()) {
-    const DrivenSignals with = driven(measured, early, state_kept);
-    changes.load = with.load - without.load;
-    changes.gain = with.gain.cwiseQuotient(without.gain.cwiseMax(1e-9));
-  }
-  if (late.effects.size() > base.effects.size()) {
-    changes.reading = driven(measured, late, state_kept).reading - without.reading;
-  }
-  return changes;
-}
-
-// Replaces the changes on flat surfaces by those of `flat`.
-void onFlat(const Measured& measured, const Changes& flat, Changes& changes) {
-  for (std::size_t i = 0; i < measured.samples(); ++i) {
-    if (!dataset::isFlat(measured.classes[measured.classOf(i)])) continue;
-    const auto at = static_cast<Eigen::Index>(i);
-    changes.load[at] = flat.load[at];
-    changes.reading[at] = flat.reading[at];
-    changes.gain[at] = flat.gain[at];
-  }
-}
-
-// Scales the gain to a mean of 1 in each class of curvature. A gain that a whole class shares is part of its
-// static curve. Without the scaling the residual, including the noise, would be divided by this gain, and a
-// large gain would seem to explain it. With the scaling this cannot happen: where the mean of g is 1, the
-// mean of 1 / g^2 is at least 1.
-void levelGain(const Measured& measured, Changes& changes) {
-  const auto classes = static_cast<Eigen::Index>(measured.classes.size());
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(classes), number = sum;
-  for (std::size_t i = 0; i < measured.samples(); ++i) {
-    const auto c = static_cast<Eigen::Index>(measured.classOf(i));
-    sum[c] += changes.gain[static_cast<Eigen::Index>(i)];
-    number[c] += 1;
-  }
-  for (std::size_t i = 0; i < measured.samples(); ++i) {
-    const auto c = static_cast<Eigen::Index>(measured.classOf(i));
-    changes.gain[static_cast<Eigen::Index>(i)] *= number[c] / std::max(1e-9, sum[c]);
-  }
-}
-
-Trace freedOf(const Trace& common, double unloaded, const Changes& changes) {
-  return ((common - changes.reading).array() - unloaded) / changes.gain.array().max(0.05) + unloaded;
-}
-
-Trace loadOf(const Measured& measured, const Changes& changes) {
-  return Eigen::Map<const Trace>(measured.loads().data(), changes.load.size()) + changes.load;
-}
-
 class Refiner {
  public:
   Refiner(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
@@ -158,11 +72,10 @@ class Refiner {
       : measured_(measured),
         common_(common),
         fit_(fit),
-        base_(base),
         effects_(std::move(effects)),
         state_kept_(state_kept),
         bent_only_(std::move(bent_only)),
-        plain_(driven(measured, base, state_kept)) {
+        forward_(measured, common, fit, base, state_kept) {
     bent_only_.resize(effects_.size(), false);
     knobs_ = knobsOf(simulation::libraryOf(base), effects_);
     for (const Knob& knob : knobs_) at_.push_back(knob.read(effects_[knob.effect].values.at(knob.name)));
@@ -178,28 +91,8 @@ class Refiner {
     }
     return effects;
   }
-  Changes changesAt(const std::vector<double>& at) const {
-    simulation::SimulationSettings bent = base_, flat = base_;
-    const std::vector<simulation::EnabledEffect> effects = effectsAt(at);
-    for (std::size_t e = 0; e < effects.size(); ++e) {
-      bent = withEffect(bent, effects[e]);
-      if (!bent_only_[e]) flat = withEffect(flat, effects[e]);
-    }
-    Changes changes = changesBy(measured_, base_, bent, plain_, state_kept_);
-    if (flat.effects.size() < bent.effects.size())
-      onFlat(measured_, changesBy(measured_, base_, flat, plain_, state_kept_), changes);
-    levelGain(measured_, changes);
-    return changes;
-  }
-  // Variable projection: for given parameters the curves are fitted by least squares.
   std::optional<Eigen::VectorXd> error(const std::vector<double>& at) const {
-    try {
-      const Changes changes = changesAt(at);
-      const Trace freed = freedOf(common_.all, fit_.unloaded(), changes);
-      return withoutHoldOut(measured_, StaticFit(fit_, freed, loadOf(measured_, changes)).project(freed));
-    } catch (const settings::InputError&) {
-      return std::nullopt;
-    }
+    return forward_.left(effectsAt(at), bent_only_);
   }
   void makePermitted();
   Eigen::MatrixXd covariance(const Eigen::VectorXd& left) const;
@@ -208,13 +101,12 @@ class Refiner {
   const Measured& measured_;
   const CommonTraces& common_;
   const StaticFit& fit_;
-  const simulation::SimulationSettings& base_;
   std::vector<simulation::EnabledEffect> effects_;
   bool state_kept_;
   std::vector<bool> bent_only_;  // of each effect
   std::vector<Knob> knobs_;
   std::vector<double> at_;
-  DrivenSignals plain_;
+  Forward forward_;
 };
 
 // Covariance of the fitted parameters, clustered by cycle: residuals within one cycle are correlated. A shape
@@ -301,10 +193,7 @@ Refined Refiner::run() {
   refined.left = *left;
   refined.share =
       1 - left->squaredNorm() / withoutHoldOut(measured_, fit_.project(common_.all)).squaredNorm();
-  const Changes changes = changesAt(at_);
-  const Trace freed = freedOf(common_.all, fit_.unloaded(), changes);
-  const Trace after = StaticFit(fit_, freed, loadOf(measured_, changes)).residual(freed);
-  refined.trace = fit_.residual(common_.all) - after.cwiseProduct(changes.gain);
+  refined.trace = forward_.explained(refined.effects, bent_only_);
   const Eigen::MatrixXd spread = covariance(*left);
   refined.spread = spreadOf(spread);
   const Eigen::VectorXd deviation = spread.diagonal().cwiseMax(0.0).cwiseSqrt();
@@ -321,145 +210,6 @@ Refined Refiner::run() {
   return refined;
 }
 
-// Effects with fixed parameters in recordings that they were not fitted to. The first variable is the
-// logarithm of the common factor of all strengths; the parameters of the spread follow.
-class Predictor {
- public:
-  Predictor(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
-            const simulation::SimulationSettings& base, const std::vector<simulation::EnabledEffect>& effects,
-            const ParameterSpread& spread)
-      : measured_(measured),
-        common_(common),
-        fit_(fit),
-        base_(base),
-        effects_(effects),
-        spread_(spread),
-        plain_(driven(measured, base, true)) {}
-
-  Predicted run() const;
-
- private:
-  std::vector<simulation::EnabledEffect> effectsAt(const std::vector<double>& at) const;
-  Changes changesAt(const std::vector<double>& at) const {
-    simulation::SimulationSettings with = base_;
-    for (const simulation::EnabledEffect& effect : effectsAt(at)) with = withEffect(with, effect);
-    Changes changes = changesBy(measured_, base_, with, plain_, true);
-    levelGain(measured_, changes);
-    return changes;
-  }
-  std::optional<Eigen::VectorXd> error(const std::vector<double>& at) const {
-    try {
-      const Changes changes = changesAt(at);
-      const Trace freed = freedOf(common_.all, fit_.unloaded(), changes);
-      return withoutHoldOut(measured_, StaticFit(fit_, freed, loadOf(measured_, changes)).project(freed));
-    } catch (const settings::InputError&) {
-      return std::nullopt;
-    }
-  }
-  Trace traceAt(const std::vector<double>& at) const {
-    const Changes changes = changesAt(at);
-    const Trace freed = freedOf(common_.all, fit_.unloaded(), changes);
-    const Trace after = StaticFit(fit_, freed, loadOf(measured_, changes)).residual(freed);
-    return fit_.residual(common_.all) - after.cwiseProduct(changes.gain);
-  }
-  static double sizeOf(double logarithm) { return std::exp(std::clamp(logarithm, kSmallest, kLargest)); }
-  // Derivative of the error with respect to the size.
-  Eigen::VectorXd slopeAt(double logarithm) const {
-    const double inside = std::clamp(logarithm, kSmallest + kDifference, kLargest - kDifference);
-    const Residuals residuals = [this](const std::vector<double>& at) { return error(at); };
-    return derivatives(residuals, {inside}, *error({inside}), kDifference).col(0) / sizeOf(inside);
-  }
-  void judgeCycles(const Eigen::VectorXd& slope, const Eigen::VectorXd& left, Predicted& told) const;
-  double bySpread(const Eigen::VectorXd& slope, const Eigen::VectorXd& left) const;
-
-  const Measured& measured_;
-  const CommonTraces& common_;
-  const StaticFit& fit_;
-  const simulation::SimulationSettings& base_;
-  const std::vector<simulation::EnabledEffect>& effects_;
-  const ParameterSpread& spread_;
-  DrivenSignals plain_;
-};
-
-std::vector<simulation::EnabledEffect> Predictor::effectsAt(const std::vector<double>& at) const {
-  std::vector<simulation::EnabledEffect> effects = effects_;
-  for (std::size_t k = 1; k < at.size(); ++k) {
-    const ParameterSpread::Parameter& one = spread_.parameters[k - 1];
-    double& value = effects[one.effect].values[one.name];
-    const settings::Range& permitted =
-        simulation::parameter(measured_.info(effects[one.effect].id), one.name).permitted;
-    value =
-        std::clamp(one.logarithmic ? value * std::exp(at[k]) : value + at[k], permitted.low, permitted.high);
-  }
-  for (simulation::EnabledEffect& effect : effects) {
-    for (const simulation::EffectParameter& parameter : simulation::strengths(measured_.info(effect.id)))
-      effect.values[parameter.name] *= sizeOf(at[0]);
-  }
-  return effects;
-}
-
-// The size that each cycle gives, and the variance of the common one, clustered by cycle and corrected for
-// one fitted number.
-void Predictor::judgeCycles(const Eigen::VectorXd& slope, const Eigen::VectorXd& left,
-                            Predicted& told) const {
-  double squares = 0;
-  for (const MeasuredCycle& cycle : measured_.cycles) {
-    const auto first = static_cast<Eigen::Index>(cycle.first);
-    const auto samples = static_cast<Eigen::Index>(cycle.last - cycle.first);
-    const double pull = slope.segment(first, samples).dot(left.segment(first, samples));
-    told.information.push_back(slope.segment(first, samples).squaredNorm());
-    told.apart.push_back(-pull / std::max(1e-300, told.information.back()));
-    squares += pull * pull;
-  }
-  const auto cycles = static_cast<double>(measured_.fitCycles());
-  told.variance =
-      squares / std::max(1e-300, std::pow(slope.squaredNorm(), 2)) * cycles / std::max(1.0, cycles - 1);
-}
-
-// A parameter that is wrong by d changes the size that fits best by d times (its derivative along that of the
-// size). Each derivative is taken over a third of the parameter's standard deviation, at size 1.
-double Predictor::bySpread(const Eigen::VectorXd& slope, const Eigen::VectorXd& left) const {
-  const auto size = static_cast<Eigen::Index>(spread_.parameters.size());
-  Eigen::VectorXd along = Eigen::VectorXd::Zero(size);
-  Eigen::MatrixXd covariance(size, size);
-  for (Eigen::Index k = 0; k < size; ++k) {
-    const auto row = static_cast<std::size_t>(k);
-    for (Eigen::Index l = 0; l < size; ++l)
-      covariance(k, l) = spread_.covariance[row][static_cast<std::size_t>(l)];
-    const double step = std::sqrt(std::max(0.0, covariance(k, k))) / 3;
-    if (!(step > 0)) continue;
-    std::vector<double> moved(spread_.parameters.size() + 1, 0.0);
-    double width = 0;
-    Eigen::VectorXd change = Eigen::VectorXd::Zero(left.size());
-    for (const double side : {-1.0, 1.0}) {
-      moved[row + 1] = side * step;
-      const auto there = error(moved);
-      if (!there) continue;
-      change += side * (*there - left);
-      width += step;
-    }
-    if (width > 0) along[k] = slope.dot(change) / width / std::max(1e-300, slope.squaredNorm());
-  }
-  return std::max(0.0, along.dot(covariance * along));
-}
-
-Predicted Predictor::run() const {
-  Predicted told;
-  told.trace = Trace::Zero(common_.all.size());
-  const Residuals residuals = [this](const std::vector<double>& at) { return error(at); };
-  const double before = withoutHoldOut(measured_, fit_.project(common_.all)).squaredNorm();
-  const auto as_told = error({0});
-  if (!as_told || before <= 0) return told;
-  told.share = 1 - as_told->squaredNorm() / before;
-  const std::vector<double> at = levenberg(residuals, {0}, {12, 0.02, 1e-5});
-  const auto best = error(at);
-  told.size = sizeOf(at[0]);
-  judgeCycles(slopeAt(at[0]), *best, told);
-  told.of_spread = bySpread(slopeAt(0), *as_told);
-  told.trace = traceAt(at);
-  return told;
-}
-
 }  // namespace
 
 bool mayBeNone(const Refined& refined, const simulation::EffectLibrary& library) {
@@ -474,71 +224,6 @@ bool mayBeNone(const Refined& refined, const simulation::EffectLibrary& library)
     }
   }
   return any;
-}
-
-simulation::SimulationSettings withEffect(simulation::SimulationSettings settings,
-                                          const simulation::EnabledEffect& effect) {
-  const std::vector<std::string> order = simulation::libraryOf(settings).ids();
-  const auto place = [&](const std::string& id) { return std::find(order.begin(), order.end(), id); };
-  auto& effects = settings.effects;
-  effects.erase(std::remove_if(effects.begin(), effects.end(),
-                               [&](const simulation::EnabledEffect& e) { return e.id == effect.id; }),
-                effects.end());
-  const auto after = std::find_if(effects.begin(), effects.end(), [&](const simulation::EnabledEffect& e) {
-    return place(e.id) > place(effect.id);
-  });
-  effects.insert(after, effect);
-  return settings;
-}
-
-void takeOut(Measured& measured, const StaticFit& fit, const simulation::SimulationSettings& without,
-             const simulation::SimulationSettings& with) {
-  const Changes changes = changesBy(measured, without, with, driven(measured, without, true), true);
-  const Trace load = loadOf(measured, changes);
-  if (measured.gain.empty()) {
-    measured.unloaded = fit.unloaded();
-    measured.gain.assign(measured.samples(), 1.0);
-    measured.added.assign(measured.samples(), 0.0);
-  }
-  measured.load.assign(load.data(), load.data() + load.size());
-  for (std::size_t i = 0; i < measured.samples(); ++i) {
-    measured.gain[i] *= changes.gain[static_cast<Eigen::Index>(i)];
-    measured.added[i] += changes.reading[static_cast<Eigen::Index>(i)];
-  }
-}
-
-bool hasTimeCourse(const simulation::EffectInfo& info) {
-  return (info.kind == simulation::EffectKind::kAdditive || info.kind == simulation::EffectKind::kGrid) &&
-         !isStatic(info) && info.detector == simulation::Detector::kNone;
-}
-
-simulation::SimulationSettings takeOutEnabled(Measured& measured, const CommonTraces& common,
-                                              const StaticFit& fit,
-                                              const simulation::SimulationSettings& base, bool fit_sizes,
-                                              const std::vector<simulation::EnabledEffect>& beside) {
-  simulation::SimulationSettings still = base, with = base;
-  std::vector<simulation::EnabledEffect> moving;
-  still.effects.clear();
-  for (const simulation::EnabledEffect& effect : base.effects) {
-    const bool moves = hasTimeCourse(measured.info(effect.id));
-    (moves ? moving : still.effects).push_back(effect);
-  }
-  if (moving.empty()) return base;
-  const std::size_t enabled = moving.size();
-  moving.insert(moving.end(), beside.begin(), beside.end());
-  if (fit_sizes) {
-    const Refined refined = refine(measured, common, fit, still, moving, true, {});
-    for (std::size_t e = 0; refined.share > 0 && e < enabled; ++e)
-      with = withEffect(with, refined.effects[e]);
-  }
-  takeOut(measured, fit, still, with);
-  return with;
-}
-
-Predicted predict(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
-                  const simulation::SimulationSettings& base,
-                  const std::vector<simulation::EnabledEffect>& effects, const ParameterSpread& spread) {
-  return Predictor(measured, common, fit, base, effects, spread).run();
 }
 
 Refined refine(const Measured& measured, const CommonTraces& common, const StaticFit& fit,

@@ -8,7 +8,8 @@
 #include <memory>
 
 #include "discrepancy/decide/decision.h"
-#include "discrepancy/decide/refine.h"
+#include "discrepancy/decide/predict.h"
+#include "discrepancy/decide/take_out.h"
 #include "discrepancy/fit/base_fit.h"
 #include "discrepancy/prove/freeze.h"
 #include "discrepancy/prove/prediction_hash.h"

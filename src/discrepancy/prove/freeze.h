@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "discrepancy/decide/decision.h"
-#include "discrepancy/decide/refine.h"
+#include "discrepancy/decide/predict.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 
 namespace fsr::discrepancy {

@@ -5,7 +5,7 @@
 #include <set>
 #include <variant>
 
-#include "discrepancy/decide/refine.h"
+#include "discrepancy/decide/changes.h"
 #include "discrepancy/fit/cycle_design.h"
 #include "discrepancy/fit/signatures.h"
 #include "discrepancy/fit/static_fit.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discrepancy/decide/changes.h"
 #include "discrepancy/decide/refine.h"
 #include "discrepancy/prove/gap.h"
 #include "discrepancy/samples/held_out.h"

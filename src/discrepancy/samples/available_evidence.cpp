@@ -10,26 +10,19 @@ namespace fsr::discrepancy {
 
 namespace {
 
-// Share of a covariate's standard deviation that a linear function of clock time must leave unexplained.
+// Share of the path length's standard deviation that a linear function of clock time must leave unexplained.
 constexpr double kUnevenPace = 0.2;
-constexpr double kLongPause = 3600;      // [s]
-constexpr double kNewSession = 10;       // interruption after which the effects begin a new session [s]
-constexpr double kTemperatureMoved = 5;  // [K]
+constexpr double kLongPause = 3600;  // [s]
+constexpr double kNewSession = 10;   // interruption after which the effects begin a new session [s]
 
-bool temperatureMoved(const Measured& measured) {
-  if (measured.temperature.empty()) return false;
-  const auto [low, high] = std::minmax_element(measured.temperature.begin(), measured.temperature.end());
-  return *high - *low > kTemperatureMoved;
-}
-
-// Whether a covariate can be distinguished from clock time. This requires a long pause between two cycles,
-// and values at the starts of the cycles that are not a linear function of clock time.
-bool wentApart(const Measured& measured, const std::vector<double>& covariate) {
-  if (covariate.empty()) return false;
+// Whether the path length of the load can be distinguished from clock time. This requires a long pause
+// between two cycles, and path lengths at the starts of the cycles that are not a linear function of clock
+// time.
+bool unevenPace(const Measured& measured) {
   double sum_t = 0, sum_w = 0, tt = 0, ww = 0, tw = 0, longest = 0;
   for (std::size_t c = 0; c < measured.cycles.size(); ++c) {
     const std::size_t first = measured.cycles[c].first;
-    const double t = measured.time[first], w = covariate[first];
+    const double t = measured.time[first], w = measured.path_length[first];
     sum_t += t, sum_w += w, tt += t * t, ww += w * w, tw += t * w;
     if (c > 0) longest = std::max(longest, t - measured.time[measured.cycles[c - 1].last - 1]);
   }
@@ -107,9 +100,7 @@ bool AvailableEvidence::has(simulation::Evidence evidence) const {
 AvailableEvidence availableEvidence(const Measured& measured) {
   AvailableEvidence evidence;
   evidence.thermometer = !measured.temperature.empty();
-  evidence.uneven_pace = wentApart(measured, measured.path_length);
-  evidence.temperature_moved = temperatureMoved(measured);
-  evidence.uneven_warmth = evidence.temperature_moved && wentApart(measured, measured.temperature);
+  evidence.uneven_pace = unevenPace(measured);
   evidence.two_sessions = interrupted(measured);
   const std::vector<std::size_t> mounts = measured.mounts();
   evidence.remounted = *std::max_element(mounts.begin(), mounts.end()) > 1;

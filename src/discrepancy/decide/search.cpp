@@ -1,0 +1,275 @@
+#include "discrepancy/decide/search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "discrepancy/decide/enabled_columns.h"
+#include "matrix/for_each_taxel.h"
+#include "simulation/effects/effect_library.h"
+
+namespace fsr::discrepancy {
+
+namespace {
+
+constexpr double kLeastSlope = 0.05;  // of the mean one: below it a reading tells nothing of the pressure
+
+// The columns that the effects competed with are derivatives, or changes at a few strengths. The effects are
+// therefore fitted through the forward model, and the change that the fit gives is a column, too. The fit
+// begins at these multiples of the strength of the best column, or of the usual strength: a delay of seconds
+// is far from linear.
+constexpr double kStarts[] = {1, 3, 10};
+constexpr std::size_t kSeconds = 2;  // effects that are tried as a second one
+
+}  // namespace
+
+Search::Search(const Measured& measured, const CommonTraces& common, const StaticFit& fit,
+               const Candidates& candidates, const simulation::SimulationSettings& base,
+               const DiscrepancyOptions& options)
+    : measured_(measured),
+      common_(common),
+      fit_(fit),
+      candidates_(candidates),
+      base_(base),
+      options_(options),
+      explanations_(candidates.explanations()),
+      columns_(candidates.columns()),
+      always_(addEnabled()),
+      design_(cycleDesign(measured, fit, common.all, columns_, always_)),
+      least_slope_(kLeastSlope * meanSlope()) {}
+
+bool Search::matters() const {
+  double largest = appraisal_.all[appraisal_.best].at_map;
+  if (!appraisal_.credible.empty()) largest = std::max(largest, preferred().at_map);
+  return largest >= leastGap();
+}
+
+double Search::leastGap() const {
+  return std::isnan(options_.least_gap) ? options_.least_gap_share * design_.range : options_.least_gap;
+}
+
+// Where the fit of a single effect begins.
+std::vector<SingleColumn> Search::startsOf(const Weighed& weighed) const {
+  std::vector<SingleColumn> starts;
+  if (weighed.contends) {
+    for (const double multiple : kStarts) {
+      starts.push_back(weighed.beginning);
+      starts.back().coefficient *= multiple;
+    }
+    return starts;
+  }
+  const auto& all = candidates_.signatures();
+  const auto own = std::find_if(all.begin(), all.end(),
+                                [&](const Signature& s) { return s.id == weighed.explaining.ids.front(); });
+  const double usual =
+      simulation::parameter(measured_.info(own->id), own->strength).usual / std::abs(own->scale);
+  for (const double multiple : kStarts) starts.push_back({own - all.begin(), multiple * usual, false});
+  return starts;
+}
+
+simulation::EnabledEffect Search::begin(const SingleColumn& column) const {
+  const Signature& signature = candidates_.signatures()[static_cast<std::size_t>(column.column)];
+  simulation::EnabledEffect effect{signature.id, signature.values};
+  const simulation::EffectParameter& strength =
+      simulation::parameter(measured_.info(signature.id), signature.strength);
+  effect.values[signature.strength] =
+      std::clamp(column.coefficient * signature.scale, strength.permitted.low, strength.permitted.high);
+  return effect;
+}
+
+Fitted Search::fitSingle(const Weighed& weighed) const {
+  Fitted best{weighed.explaining.ids, {}, {false}};
+  bool any = false;
+  for (const SingleColumn& start : startsOf(weighed)) {
+    const Signature& signature = candidates_.signatures()[static_cast<std::size_t>(start.column)];
+    const std::vector<bool> bent = {start.bent_only};
+    const Refined now = refine(measured_, common_, fit_, base_, {begin(start)}, signature.state_kept, bent);
+    if (any && now.share <= best.refined.share) continue;
+    any = true;
+    best.refined = now;
+    best.bent_only = bent;
+  }
+  return best;
+}
+
+const Fitted& Search::fitted(const Weighed& weighed) {
+  for (const Fitted& one : fitted_) {
+    if (one.ids == weighed.explaining.ids) return one;
+  }
+  fitted_.push_back(fitSingle(weighed));
+  return fitted_.back();
+}
+
+// Adds the columns of the effects that the simulation has. Returns their indices.
+std::vector<Eigen::Index> Search::addEnabled() {
+  const Eigen::MatrixXd enabled = enabledColumns(measured_, fit_, base_);
+  std::vector<Eigen::Index> indices;
+  for (Eigen::Index k = 0; k < enabled.cols(); ++k) indices.push_back(addColumn(enabled.col(k)));
+  return indices;
+}
+
+// Adds a column, scaled to rms 1.
+Eigen::Index Search::addColumn(const Trace& trace) {
+  const double rms = std::sqrt(trace.squaredNorm() / static_cast<double>(trace.size()));
+  columns_.conservativeResize(Eigen::NoChange, columns_.cols() + 1);
+  columns_.col(columns_.cols() - 1) = rms > 0 ? Trace(trace / rms) : trace;
+  return columns_.cols() - 1;
+}
+
+void Search::sharpen() {
+  std::vector<std::size_t> effects;
+  for (std::size_t e = 0; e < explanations_.size(); ++e) {
+    if (explanations_[e].ids.size() == 1) effects.push_back(e);
+  }
+  std::vector<Fitted> fits(effects.size());
+  matrix::forEachTaxel(effects.size(), options_.threads,
+                       [&](std::size_t k) { fits[k] = fitSingle(appraisal_.all[effects[k]]); });
+  for (std::size_t k = 0; k < effects.size(); ++k) {
+    fitted_.push_back(fits[k]);
+    const Refined& refined = fitted_.back().refined;
+    if (refined.share > 0)
+      explanations_[effects[k]].forms.push_back({{addColumn(refined.trace)}, {false}, false, true});
+  }
+  design_ = cycleDesign(measured_, fit_, common_.all, columns_, always_);
+  appraisal_ = appraise(design_, null_, explanations_, options_);
+}
+
+// Effects that may be a second one beside the preferred effect, the one that adds most first. Each of the two
+// must add to any form of the other: the error of a form looks like a second effect.
+std::vector<std::size_t> Search::seconds() const {
+  std::vector<std::size_t> chosen;
+  for (std::size_t e = 0; e < appraisal_.additions.size(); ++e) {
+    const Addition& adds = appraisal_.additions[e];
+    const bool other = explanations_[e].ids.size() == 1 && explanations_[e].ids != preferred().explaining.ids;
+    if (other && adds.nats > appraisal_.null_score && adds.closes >= options_.second_adds)
+      chosen.push_back(e);
+  }
+  std::sort(chosen.begin(), chosen.end(), [&](std::size_t a, std::size_t b) {
+    return appraisal_.additions[a].nats > appraisal_.additions[b].nats;
+  });
+  chosen.resize(std::min(chosen.size(), kSeconds));
+  const std::size_t first = appraisal_.credible.front();
+  const auto error_of_form = [&](std::size_t e) {
+    const auto added = [&](std::size_t one, std::size_t to) {
+      return addedToAnyForm(design_, null_, explanations_, one, to, options_);
+    };
+    return std::min(added(e, first), added(first, e)) <= appraisal_.null_score;
+  };
+  chosen.erase(std::remove_if(chosen.begin(), chosen.end(), error_of_form), chosen.end());
+  return chosen;
+}
+
+// Pairs of the preferred effect with a second one. A pair must be better than the preferred effect with any
+// generic terms.
+void Search::pairUp() {
+  if (appraisal_.credible.empty() || !refuted()) return;
+  const Weighed first = preferred();
+  const std::size_t singles = explanations_.size();
+  const Fitted alone = fitted(first);
+  if (alone.refined.effects.empty()) return;
+  for (const std::size_t e : seconds()) {
+    const SingleColumn& more = appraisal_.additions[e].beginning;
+    const std::vector<bool> bent = {alone.bent_only.front(), more.bent_only};
+    const std::vector<std::string> ids = {first.explaining.ids.front(), explanations_[e].ids.front()};
+    const Refined both = refine(measured_, common_, fit_, base_, {alone.refined.effects.front(), begin(more)},
+                                alone.refined.state_kept, bent);
+    if (both.share <= alone.refined.share) continue;
+    fitted_.push_back({ids, both, bent});
+    Explaining pair{ids,
+                    {{{addColumn(both.trace)}, {false}, false, true}},
+                    first.explaining.covariates,
+                    first.explaining.slow && explanations_[e].slow};
+    for (const simulation::Covariate c : explanations_[e].covariates) {
+      if (!std::count(pair.covariates.begin(), pair.covariates.end(), c)) pair.covariates.push_back(c);
+    }
+    explanations_.push_back(pair);
+  }
+  if (explanations_.size() == singles) return;
+  double generic = 0;
+  for (std::size_t e = 0; e < singles; ++e) {
+    if (explanations_[e].generic()) generic = std::max(generic, appraisal_.additions[e].nats);
+  }
+  design_ = cycleDesign(measured_, fit_, common_.all, columns_, always_);
+  Appraisal with = appraise(design_, null_, explanations_, options_);
+  if (!with.credible.empty() && with.credible.front() >= singles &&
+      with.all[with.credible.front()].total >= first.total + generic)
+    appraisal_ = std::move(with);
+}
+
+void Search::run() {
+  null_ = fitNull(design_);
+  appraisal_ = appraise(design_, null_, explanations_, options_);
+  null_ = appraisal_.null;
+  measureSizes();
+  if (appraisal_.p > options_.level || !matters()) return;
+  sharpen();
+  if (appraisal_.p > options_.level) return measureSizes();
+  pairUp();
+  dropSizesOfNone();
+  measureSizes();
+}
+
+// What an explanation adds to the common trace, by its columns.
+Trace Search::explained(const Weighed& weighed) const {
+  const Form& form = weighed.explaining.forms[weighed.score.form];
+  Trace trace = Trace::Zero(columns_.rows());
+  for (std::size_t k = 0; k < form.columns.size(); ++k) {
+    const double coefficient = weighed.score.fit.coefficients[static_cast<Eigen::Index>(k)];
+    if (coefficient != 0) trace += coefficient * columns_.col(form.columns[k]);
+  }
+  if (!form.bent_only) return trace;
+  for (std::size_t i = 0; i < measured_.samples(); ++i) {
+    if (dataset::isFlat(measured_.classes[measured_.classOf(i)])) trace[static_cast<Eigen::Index>(i)] = 0;
+  }
+  return trace;
+}
+
+// Rise of the static curves over the range of the pressure [share of full scale / Pa].
+double Search::meanSlope() const {
+  double highest = -INFINITY, lowest = INFINITY;
+  for (std::size_t i = 0; i < measured_.samples(); ++i) {
+    if (!fit_.isFitted(i)) continue;
+    highest = std::max(highest, fit_.curve()[static_cast<Eigen::Index>(i)]);
+    lowest = std::min(lowest, fit_.curve()[static_cast<Eigen::Index>(i)]);
+  }
+  return (highest - lowest) / std::max(1.0, design_.range);
+}
+
+// Rms of what a trace adds and the static curves cannot take up, at the map: the change of the reading
+// divided by the slope of the static curve, over the fit cycles [Pa]. No error is larger than the range.
+double Search::atMap(const Trace& trace) const {
+  const Trace left = fit_.residual(trace);
+  double square = 0, number = 0;
+  for (Eigen::Index i = 0; i < left.size(); ++i) {
+    if (!(fit_.slope()[i] > least_slope_) || !fit_.isFitted(static_cast<std::size_t>(i))) continue;
+    square += std::pow(std::min(std::abs(left[i]) / fit_.slope()[i], design_.range), 2);
+    ++number;
+  }
+  return number > 0 ? std::sqrt(square / number) : 0;
+}
+
+void Search::measureSizes() {
+  for (Weighed& one : appraisal_.all) one.at_map = atMap(explained(one));
+}
+
+// What is known of the sizes of effects decides where the score does not: among the effects that the score
+// does not exclude, one that would have to be larger than its sources know does not come first.
+void Search::putPlausibleFirst() {
+  auto& set = appraisal_.credible;
+  std::stable_partition(set.begin(), set.end(),
+                        [&](std::size_t e) { return !fitted(appraisal_.all[e]).refined.implausible; });
+}
+
+// An effect explains nothing where its columns take up much more than its forward model does, whose size may
+// be none.
+void Search::dropSizesOfNone() {
+  constexpr double kMuch = 0.5;  // of the rms
+  const auto none = [&](std::size_t e) {
+    const Refined& refined = fitted(appraisal_.all[e]).refined;
+    return mayBeNone(refined, measured_.effects()) &&
+           refined.trace.norm() < kMuch * fit_.residual(explained(appraisal_.all[e])).norm();
+  };
+  auto& set = appraisal_.credible;
+  set.erase(std::remove_if(set.begin(), set.end(), none), set.end());
+}
+
+}  // namespace fsr::discrepancy
