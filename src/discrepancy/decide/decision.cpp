@@ -137,7 +137,7 @@ void Verdicts::addPartner(const std::string& id, bool lacks_the_same) {
 }
 
 void Verdicts::tellEffects() {
-  search_.putPlausibleFirst();
+  search_.putLikelyFirst();
   const std::size_t not_excluded = appraisal_.credible.size();
   credible_ = appraisal_.credible;
   addPartners();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "discrepancy/decide/enabled_columns.h"
+#include "discrepancy/samples/available_evidence.h"
 #include "matrix/for_each_taxel.h"
 #include "simulation/effects/effect_library.h"
 
@@ -251,10 +252,18 @@ void Search::measureSizes() {
   for (Weighed& one : appraisal_.all) one.at_map = atMap(explained(one));
 }
 
-// What is known of the sizes of effects decides where the score does not: among the effects that the score
-// does not exclude, one that would have to be larger than its sources know does not come first.
-void Search::putPlausibleFirst() {
+// Where the score does not decide, what is known beforehand does. An effect that would have to be larger than
+// its sources know comes last. Before it come effects that need evidence which was not recorded: nothing here
+// could have refuted them, while the others were put to the test.
+void Search::putLikelyFirst() {
+  const AvailableEvidence evidence = availableEvidence(measured_);
+  const auto tested = [&](std::size_t e) {
+    const auto& ids = appraisal_.all[e].explaining.ids;
+    return std::all_of(ids.begin(), ids.end(),
+                       [&](const std::string& id) { return evidence.hasAll(measured_.info(id).needs); });
+  };
   auto& set = appraisal_.credible;
+  std::stable_partition(set.begin(), set.end(), tested);
   std::stable_partition(set.begin(), set.end(),
                         [&](std::size_t e) { return !fitted(appraisal_.all[e]).refined.implausible; });
 }

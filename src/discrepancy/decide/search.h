@@ -45,7 +45,7 @@ class Search {
   Trace explained(const Weighed& weighed) const;
   Trace column(Eigen::Index index) const { return columns_.col(index); }
   double atMap(const Trace& trace) const;
-  void putPlausibleFirst();
+  void putLikelyFirst();
 
  private:
   void sharpen();

@@ -97,6 +97,10 @@ bool AvailableEvidence::has(simulation::Evidence evidence) const {
   }
 }
 
+bool AvailableEvidence::hasAll(const std::vector<simulation::Evidence>& evidence) const {
+  return std::all_of(evidence.begin(), evidence.end(), [this](simulation::Evidence e) { return has(e); });
+}
+
 AvailableEvidence availableEvidence(const Measured& measured) {
   AvailableEvidence evidence;
   evidence.thermometer = !measured.temperature.empty();

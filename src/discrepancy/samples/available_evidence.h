@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include <vector>
 
 #include "discrepancy/samples/measured.h"
 #include "fsr_pressure_map/simulation/effect_info.h"
@@ -16,6 +16,7 @@ struct AvailableEvidence {
   bool uneven_pace = false;   ///< many cycles at some times and none for hours at others
   bool two_sessions = false;  ///< some mount was recorded in two recordings with an interruption between them
   bool has(simulation::Evidence evidence) const;
+  bool hasAll(const std::vector<simulation::Evidence>& evidence) const;
 };
 AvailableEvidence availableEvidence(const Measured& measured);
 
