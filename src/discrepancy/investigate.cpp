@@ -2,9 +2,9 @@
 #include <cmath>
 #include <memory>
 
+#include "discrepancy/decide/changes.h"
 #include "discrepancy/decide/decision.h"
 #include "discrepancy/decide/detections.h"
-#include "discrepancy/decide/changes.h"
 #include "discrepancy/decide/refine.h"
 #include "discrepancy/decide/take_out.h"
 #include "discrepancy/fit/base_fit.h"
@@ -15,6 +15,7 @@
 #include "discrepancy/prove/freeze.h"
 #include "discrepancy/prove/next_experiment.h"
 #include "discrepancy/prove/report_gap.h"
+#include "discrepancy/prove/tell_of_others.h"
 #include "discrepancy/prove/wording.h"
 #include "discrepancy/samples/held_out.h"
 #include "discrepancy/thresholds.h"
@@ -43,10 +44,8 @@ class Investigation {
     if (progress_) progress_(step, share);
   }
   bool sought(simulation::Detector detector) const { return sought(simulation::foundBy(detector).id); }
-  bool sought(const std::string& id) const { return inLibrary(id) && !current_.effect(id); }
-  bool inLibrary(const std::string& id) const {
-    const auto& out = problem_.options.leave_out;
-    return !problem_.simulation.effect(id) && !std::count(out.begin(), out.end(), id);
+  bool sought(const std::string& id) const {
+    return mayBeFound(id, problem_.simulation, problem_.options.leave_out) && !current_.effect(id);
   }
   bool humOfAll() const;
   void detectFaults();
@@ -67,11 +66,6 @@ class Investigation {
   void show();
   simulation::SimulationSettings withFaults(simulation::SimulationSettings settings) const;
   void prove();
-  bool hidden(const std::string& id) const;
-  std::string notLookedFor(const simulation::EffectInfo& info) const;
-  void listNotIdentifiable();
-  void answerQuestions();
-  Answer answerTo(const std::string& id) const;
   void listDependences();
   void listDetections();
   void plan();
@@ -413,9 +407,8 @@ void Investigation::prove() {
   auto& missing = report_.gap.missing;
   if (by_chance)
     missing.push_back(
-        "A part of what was found is random, so no simulation repeats it as it was recorded. The gap after "
-        "it "
-        "was added may be larger than before.");
+        "A part of what was found is random, so no simulation repeats it as it was recorded. After it was "
+        "added, the gap may be larger than before.");
   if (hold_out.leftOut() > 0)
     missing.push_back(std::to_string(hold_out.leftOut()) +
                       (hold_out.leftOut() == 1 ? " scan of the hold-out cycles was"
@@ -425,87 +418,6 @@ void Investigation::prove() {
   missing = {"Nothing was held out, so no gap was measured and no effect is named: record more cycles."};
   report_.gap.held_out_by.clear();
   report_.gap.foretold.clear();
-}
-
-// Whether an effect competed although no plausible strength of it would have been found.
-bool Investigation::hidden(const std::string& id) const {
-  const auto& seen = decision_.smallest_seen;
-  return std::any_of(seen.begin(), seen.end(),
-                     [&](const SmallestSeen& one) { return one.id == id && std::isnan(one.at_map); });
-}
-
-std::string Investigation::notLookedFor(const simulation::EffectInfo& info) const {
-  const AvailableEvidence evidence = availableEvidence(measured_);
-  std::string lacking;
-  for (const simulation::Evidence need : info.needs) {
-    if (!evidence.has(need)) lacking += (lacking.empty() ? "" : ", ") + simulation::name(need);
-  }
-  std::replace(lacking.begin(), lacking.end(), '_', ' ');
-  return lacking.empty() ? "It is not looked for in this version." : "It needs " + lacking + ".";
-}
-
-void Investigation::listNotIdentifiable() {
-  for (const simulation::EffectEntry& entry : measured_.effects().entries()) {
-    const simulation::EffectInfo& info = entry.info;
-    if (!inLibrary(info.id) || info.kind == simulation::EffectKind::kBase) continue;
-    const auto& all = candidates_->signatures();
-    const bool tried =
-        std::any_of(all.begin(), all.end(), [&](const Signature& s) { return s.id == info.id; });
-    const std::vector<std::size_t> mounts = measured_.mounts();
-    const bool remounted = *std::max_element(mounts.begin(), mounts.end()) > 1;
-    std::string reason;
-    if (info.kind == simulation::EffectKind::kListed) reason = "A gas chamber cannot show it.";
-    if (tried && isStatic(info)) reason = "Under a uniform pressure the static curves absorb all of it.";
-    if (hidden(info.id)) reason = "Under this protocol no plausible strength of it would be seen.";
-    if (info.detector == simulation::Detector::kMounts && !remounted)
-      reason = "No surface was mounted twice.";
-    if (!info.looked_for) reason = notLookedFor(info);
-    const bool found = std::any_of(report_.effects.begin(), report_.effects.end(),
-                                   [&](const FoundEffect& effect) { return effect.id == info.id; });
-    if (reason.empty() || found) {
-      report_.tested.push_back(info.id);
-    } else {
-      report_.not_identifiable.push_back({info.id, simulation::name(info.experiment), reason});
-    }
-  }
-}
-
-// If nothing was found and the recordings cannot show an effect that the user asks about, this is the
-// verdict.
-void Investigation::answerQuestions() {
-  for (const std::string& id : problem_.options.ask) report_.answers.push_back(answerTo(id));
-  if (report_.verdict != Verdict::kNone) return;
-  Ids hidden;
-  for (const Answer& answer : report_.answers) {
-    if (answer.answer == "not_identifiable") hidden.push_back(answer.id);
-  }
-  if (hidden.empty()) return;
-  report_.verdict = Verdict::kNotIdentifiable;
-  for (const std::string& id : hidden) report_.credible_set.push_back({id});
-}
-
-Answer Investigation::answerTo(const std::string& id) const {
-  if (problem_.simulation.effect(id)) return {id, "in_simulation", NAN, "The simulation has it already."};
-  if (!inLibrary(id)) return {id, "left_out", NAN, "It was left out of the library."};
-  for (const FoundEffect& effect : report_.effects) {
-    if (effect.id == id) return {id, "found", NAN, "It is a part of the best explanation."};
-  }
-  const auto names_it = [&](const Ids& ids) { return std::count(ids.begin(), ids.end(), id) > 0; };
-  if (std::any_of(report_.credible_set.begin(), report_.credible_set.end(), names_it))
-    return {id, "not_excluded", NAN, "It is not excluded."};
-  for (const CandidateScore& candidate : report_.candidates) {
-    if (candidate.outcome == "required_data_missing" && names_it(candidate.ids))
-      return {id, "not_excluded", NAN, "It is not excluded, but nothing was held out to prove it."};
-  }
-  for (const NotIdentifiable& one : report_.not_identifiable) {
-    if (one.id == id) return {id, "not_identifiable", NAN, one.reason};
-  }
-  if (!std::count(report_.tested.begin(), report_.tested.end(), id))
-    return {id, "left_out", NAN, "It is not looked for."};
-  for (const SmallestSeen& seen : report_.smallest_seen) {
-    if (seen.id == id) return {id, "excluded", seen.at_map, "It was tested and not found."};
-  }
-  return {id, "excluded", NAN, "It was tested and not found."};
 }
 
 // Lists what detectors and later rounds found beside the explanations of the common trace.
@@ -608,8 +520,7 @@ DiscrepancyReport Investigation::run() {
   }
   putDetections();
   show();
-  listNotIdentifiable();
-  answerQuestions();
+  tellOfOthers(problem_, measured_, *candidates_, decision_, report_);
   listDetections();
   listDependences();
   tell("curves", 0.92);

@@ -129,9 +129,7 @@ void Verdicts::addPartner(const std::string& id, bool lacks_the_same) {
     competed = true;
     if (one.contends && !std::count(credible_.begin(), credible_.end(), e)) credible_.push_back(e);
   }
-  const auto& out = options_.leave_out;
-  const bool sought =
-      measured_.info(id).looked_for && !base_.effect(id) && !std::count(out.begin(), out.end(), id);
+  const bool sought = measured_.info(id).looked_for && mayBeFound(id, base_, options_.leave_out);
   if (!competed && lacks_the_same && sought && !std::count(untold_.begin(), untold_.end(), id))
     untold_.push_back(id);
 }

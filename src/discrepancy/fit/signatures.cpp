@@ -126,8 +126,7 @@ bool sought(const simulation::EffectEntry& entry, const simulation::SimulationSe
   const simulation::EffectKind kind = entry.info.kind;
   const bool by_derivative =
       kind == simulation::EffectKind::kAdditive || kind == simulation::EffectKind::kGrid;
-  const bool left_out = std::count(leave_out.begin(), leave_out.end(), entry.info.id) > 0;
-  return by_derivative && entry.info.looked_for && !left_out && !settings.effect(entry.info.id) &&
+  return by_derivative && entry.info.looked_for && mayBeFound(entry.info.id, settings, leave_out) &&
          entry.info.detector == simulation::Detector::kNone;
 }
 
@@ -253,6 +252,11 @@ Trace throughCurve(const Measured& measured, const StaticFit& fit, const DrivenS
     changed[at] = (fit.curveAt(i, load + amplitude * derivative.load[at]) - fit.curveAt(i, load)) / amplitude;
   }
   return changed + gained;
+}
+
+bool mayBeFound(const std::string& id, const simulation::SimulationSettings& settings,
+                const std::vector<std::string>& leave_out) {
+  return !settings.effect(id) && !std::count(leave_out.begin(), leave_out.end(), id);
 }
 
 std::vector<Signature> signatures(const Measured& measured, const StaticFit& fit,

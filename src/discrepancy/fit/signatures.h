@@ -52,6 +52,10 @@ DrivenSignals driven(const Measured& measured, const simulation::SimulationSetti
 Trace throughCurve(const Measured& measured, const StaticFit& fit, const DrivenSignals& derivative,
                    simulation::ChainStage stage, double amplitude);
 
+/// Whether the user lets an effect be found: `settings` does not enable it, and it is not left out.
+bool mayBeFound(const std::string& id, const simulation::SimulationSettings& settings,
+                const std::vector<std::string>& leave_out);
+
 /// Returns the signatures of all effects that `settings` does not enable and that act on all taxels alike,
 /// for each combination of the shapes' tried values, in the library's order. An effect with memory appears
 /// twice: with its state carried over between visits, and with each visit starting afresh.

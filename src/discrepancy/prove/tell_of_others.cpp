@@ -1,0 +1,131 @@
+#include "discrepancy/prove/tell_of_others.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "discrepancy/samples/available_evidence.h"
+#include "simulation/effects/effect_library.h"
+
+namespace fsr::discrepancy {
+
+namespace {
+
+using Ids = std::vector<std::string>;
+
+class Others {
+ public:
+  Others(const DiscrepancyProblem& problem, const Measured& measured, const Candidates& candidates,
+         const Decision& decision, DiscrepancyReport& report)
+      : problem_(problem),
+        measured_(measured),
+        candidates_(candidates),
+        decision_(decision),
+        report_(report) {}
+
+  void listNotIdentifiable();
+  void answerQuestions();
+
+ private:
+  bool inLibrary(const std::string& id) const {
+    return mayBeFound(id, problem_.simulation, problem_.options.leave_out);
+  }
+  bool hidden(const std::string& id) const;
+  std::string notLookedFor(const simulation::EffectInfo& info) const;
+  Answer answerTo(const std::string& id) const;
+
+  const DiscrepancyProblem& problem_;
+  const Measured& measured_;
+  const Candidates& candidates_;
+  const Decision& decision_;
+  DiscrepancyReport& report_;
+};
+
+// Whether an effect competed although no plausible strength of it would have been found.
+bool Others::hidden(const std::string& id) const {
+  const auto& seen = decision_.smallest_seen;
+  return std::any_of(seen.begin(), seen.end(),
+                     [&](const SmallestSeen& one) { return one.id == id && std::isnan(one.at_map); });
+}
+
+std::string Others::notLookedFor(const simulation::EffectInfo& info) const {
+  const AvailableEvidence evidence = availableEvidence(measured_);
+  std::string lacking;
+  for (const simulation::Evidence need : info.needs) {
+    if (!evidence.has(need)) lacking += (lacking.empty() ? "" : ", ") + simulation::name(need);
+  }
+  std::replace(lacking.begin(), lacking.end(), '_', ' ');
+  return lacking.empty() ? "It is not looked for in this version." : "It needs " + lacking + ".";
+}
+
+void Others::listNotIdentifiable() {
+  for (const simulation::EffectEntry& entry : measured_.effects().entries()) {
+    const simulation::EffectInfo& info = entry.info;
+    if (!inLibrary(info.id) || info.kind == simulation::EffectKind::kBase) continue;
+    const auto& all = candidates_.signatures();
+    const bool tried =
+        std::any_of(all.begin(), all.end(), [&](const Signature& s) { return s.id == info.id; });
+    const std::vector<std::size_t> mounts = measured_.mounts();
+    const bool remounted = *std::max_element(mounts.begin(), mounts.end()) > 1;
+    std::string reason;
+    if (info.kind == simulation::EffectKind::kListed) reason = "A gas chamber cannot show it.";
+    if (tried && isStatic(info)) reason = "Under a uniform pressure the static curves absorb all of it.";
+    if (hidden(info.id)) reason = "Under this protocol no plausible strength of it would be seen.";
+    if (info.detector == simulation::Detector::kMounts && !remounted)
+      reason = "No surface was mounted twice.";
+    if (!info.looked_for) reason = notLookedFor(info);
+    const bool found = std::any_of(report_.effects.begin(), report_.effects.end(),
+                                   [&](const FoundEffect& effect) { return effect.id == info.id; });
+    if (reason.empty() || found) {
+      report_.tested.push_back(info.id);
+    } else {
+      report_.not_identifiable.push_back({info.id, simulation::name(info.experiment), reason});
+    }
+  }
+}
+
+void Others::answerQuestions() {
+  for (const std::string& id : problem_.options.ask) report_.answers.push_back(answerTo(id));
+  if (report_.verdict != Verdict::kNone) return;
+  Ids hidden;
+  for (const Answer& answer : report_.answers) {
+    if (answer.answer == "not_identifiable") hidden.push_back(answer.id);
+  }
+  if (hidden.empty()) return;
+  report_.verdict = Verdict::kNotIdentifiable;
+  for (const std::string& id : hidden) report_.credible_set.push_back({id});
+}
+
+Answer Others::answerTo(const std::string& id) const {
+  if (problem_.simulation.effect(id)) return {id, "in_simulation", NAN, "The simulation has it already."};
+  if (!inLibrary(id)) return {id, "left_out", NAN, "It was left out of the library."};
+  for (const FoundEffect& effect : report_.effects) {
+    if (effect.id == id) return {id, "found", NAN, "It is a part of the best explanation."};
+  }
+  const auto names_it = [&](const Ids& ids) { return std::count(ids.begin(), ids.end(), id) > 0; };
+  if (std::any_of(report_.credible_set.begin(), report_.credible_set.end(), names_it))
+    return {id, "not_excluded", NAN, "It is not excluded."};
+  for (const CandidateScore& candidate : report_.candidates) {
+    if (candidate.outcome == "required_data_missing" && names_it(candidate.ids))
+      return {id, "not_excluded", NAN, "It is not excluded, but nothing was held out to prove it."};
+  }
+  for (const NotIdentifiable& one : report_.not_identifiable) {
+    if (one.id == id) return {id, "not_identifiable", NAN, one.reason};
+  }
+  if (!std::count(report_.tested.begin(), report_.tested.end(), id))
+    return {id, "left_out", NAN, "It is not looked for."};
+  for (const SmallestSeen& seen : report_.smallest_seen) {
+    if (seen.id == id) return {id, "excluded", seen.at_map, "It was tested and not found."};
+  }
+  return {id, "excluded", NAN, "It was tested and not found."};
+}
+
+}  // namespace
+
+void tellOfOthers(const DiscrepancyProblem& problem, const Measured& measured, const Candidates& candidates,
+                  const Decision& decision, DiscrepancyReport& report) {
+  Others others(problem, measured, candidates, decision, report);
+  others.listNotIdentifiable();
+  others.answerQuestions();
+}
+
+}  // namespace fsr::discrepancy
