@@ -35,6 +35,10 @@ std::vector<std::string> describeLosses(const RecordingLosses& losses) {
     sentences.push_back("left out " + std::to_string(losses.bad_reference) +
                         " chamber pressures that are not finite");
   }
+  if (losses.reference_spikes > 0) {
+    sentences.push_back("left out " + std::to_string(losses.reference_spikes) +
+                        " chamber pressures that jump away and back while the sheet feels nothing");
+  }
   if (losses.unknown_surface > 0) {
     sentences.push_back("dropped " + scans(losses.unknown_surface) + " on a surface of unknown curvature");
   }

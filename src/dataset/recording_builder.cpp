@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
+#include "dataset/reference_spikes.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr::dataset {
@@ -121,6 +123,27 @@ std::vector<RecordingBuilder::ScanEvent> RecordingBuilder::sortedScans(Recording
   return sorted;
 }
 
+// Places of the spikes in the reference. The sheet's reading at a chamber pressure is that of the scan before
+// or at it, if there is one within a second.
+std::vector<std::size_t> RecordingBuilder::spikesOf(const TimeSeries& reference,
+                                                    const std::vector<ScanEvent>& scans) const {
+  constexpr std::int64_t kNear = 1'000'000'000;  // [ns]
+  const auto taxels = static_cast<std::ptrdiff_t>(size_.taxels());
+  std::vector<double> time, pressure, reading;
+  auto scan = scans.begin();
+  for (const auto& [stamp, value] : reference.entries()) {
+    while (scan != scans.end() && scan + 1 != scans.end() && (scan + 1)->stamp_ns <= stamp) ++scan;
+    const bool near = scan != scans.end() && std::abs(scan->stamp_ns - stamp) <= kNear;
+    time.push_back(1e-9 * static_cast<double>(stamp - reference.entries().front().first));
+    pressure.push_back(value);
+    reading.push_back(NAN);
+    if (!near) continue;
+    const auto first = counts_.begin() + static_cast<std::ptrdiff_t>(scan->first_count);
+    reading.back() = std::accumulate(first, first + taxels, 0.0);
+  }
+  return referenceSpikes(time, pressure, reading);
+}
+
 const MatrixDescription* RecordingBuilder::description() const {
   const auto before = [](const DescriptionEvent& a, const DescriptionEvent& b) { return a.first < b.first; };
   const auto first = std::min_element(descriptions_.begin(), descriptions_.end(), before);
@@ -177,7 +200,11 @@ Recording RecordingBuilder::build(const RecordingOptions& options) const {
   temperature.sort();
 
   const std::int64_t gap = nanoseconds(options.longest_reference_gap);
-  for (const ScanEvent& scan : sortedScans(recording.losses)) {
+  const std::vector<ScanEvent> scans = sortedScans(recording.losses);
+  const std::vector<std::size_t> spikes = spikesOf(reference, scans);
+  reference.drop(spikes);
+  recording.losses.reference_spikes = spikes.size();
+  for (const ScanEvent& scan : scans) {
     const auto pressure = reference.between(scan.stamp_ns, gap);
     if (!onOneSurface(timeline, scan.stamp_ns, options, recording.losses)) continue;
     if (!reference.empty() && !pressure) {

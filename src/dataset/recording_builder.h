@@ -78,6 +78,7 @@ class RecordingBuilder {
   using DescriptionEvent = std::pair<std::int64_t, MatrixDescription>;
 
   std::vector<ScanEvent> sortedScans(RecordingLosses& losses) const;
+  std::vector<std::size_t> spikesOf(const TimeSeries& reference, const std::vector<ScanEvent>& scans) const;
   // The earliest description; null where there is none. Throws InputError where descriptions and scans
   // differ.
   const MatrixDescription* description() const;

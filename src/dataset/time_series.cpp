@@ -93,6 +93,11 @@ void TimeSeries::sort() {
   values_.erase(std::unique(values_.begin(), values_.end(), same_stamp), values_.end());
 }
 
+void TimeSeries::drop(const std::vector<std::size_t>& indices) {
+  for (auto index = indices.rbegin(); index != indices.rend(); ++index)
+    values_.erase(values_.begin() + static_cast<std::ptrdiff_t>(*index));
+}
+
 std::optional<double> TimeSeries::between(std::int64_t stamp_ns, std::int64_t longest_gap_ns) const {
   const auto before = [](const Entry& entry, std::int64_t stamp) { return entry.first < stamp; };
   const auto after = std::lower_bound(values_.begin(), values_.end(), stamp_ns, before);

@@ -12,6 +12,8 @@ namespace fsr::dataset {
 /// at the same stamp the smallest is kept, so that the series does not depend on the order of the calls.
 class TimeSeries {
  public:
+  using Entry = std::pair<std::int64_t, double>;  // stamp [ns], value
+
   void add(std::int64_t stamp_ns, double value);
   void clear();
   /// Call it after the last add() and before reading values.
@@ -20,6 +22,9 @@ class TimeSeries {
   bool empty() const { return values_.empty(); }
   std::size_t size() const { return values_.size(); }
   std::uint64_t notFinite() const { return not_finite_; }
+  const std::vector<Entry>& entries() const { return values_; }
+  /// Removes the entries at these indices, which ascend.
+  void drop(const std::vector<std::size_t>& indices);
 
   /// The value at `stamp_ns`, by monotone cubic interpolation (PCHIP): the curve passes through all values,
   /// and between two of them it stays in their range. None where the value before or after is missing, or
@@ -31,7 +36,6 @@ class TimeSeries {
   double nearby(std::int64_t stamp_ns) const;
 
  private:
-  using Entry = std::pair<std::int64_t, double>;
   std::vector<Entry> values_;
   std::uint64_t not_finite_ = 0;
 };

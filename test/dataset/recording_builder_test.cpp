@@ -185,6 +185,45 @@ TEST(RecordingBuilder, IgnoresAChamberPressureThatIsNotFinite) {
   EXPECT_EQ(recording.losses.bad_reference, 1u);
 }
 
+// Cycles of 20 s up to 100 kPa; reference and scans at 10 Hz. The sheet reads one count for 100 Pa.
+std::vector<Event> cycles(const std::function<double(int)>& wrong, const std::function<double(int)>& felt) {
+  std::vector<Event> events = {description(100e3), surface(ms(0), "flat", 0)};
+  for (int i = 0; i < 1000; ++i) {
+    const double load = 1e3 * std::min(i % 200, 200 - i % 200) + felt(i);
+    events.push_back(
+        scan(ms(100 * i), static_cast<std::uint32_t>(i), static_cast<std::uint16_t>(load / 100)));
+    events.push_back(chamber(ms(100 * i), 100e3 + load + wrong(i)));
+  }
+  return events;
+}
+
+double nothing(int) {
+  return 0;
+}
+
+TEST(RecordingBuilder, LeavesOutSpikesOfTheReferenceThatTheSheetDoesNotFeel) {
+  const auto spike = [](int i) {
+    return i == 130 ? 80e3 : i == 333 || i == 610 ? -30e3 : i == 720 ? 3e9 : 0;
+  };
+  const auto spell = [](int i) { return i >= 850 && i < 858 ? 40e3 : 0.0; };
+  const Recording expected = build(cycles(nothing, nothing));
+  const Recording recording = build(cycles([&](int i) { return spike(i) + spell(i); }, nothing));
+  EXPECT_EQ(expected.losses.reference_spikes, 0u);
+  EXPECT_EQ(recording.losses.reference_spikes, 12u);
+  ASSERT_EQ(recording.scans(), expected.scans());
+  for (std::size_t i = 0; i < recording.scans(); ++i)
+    EXPECT_NEAR(recording.pressure[i], expected.pressure[i], 1e3) << i;
+  EXPECT_EQ(recording.warnings.back(),
+            "left out 12 chamber pressures that jump away and back while the sheet feels nothing");
+}
+
+TEST(RecordingBuilder, KeepsPulsesThatTheSheetFeelsAndAReferenceThatIsNotOfTheSheet) {
+  const auto pulse = [](int i) { return i == 130 || (i >= 850 && i < 858) ? 40e3 : 0.0; };
+  EXPECT_EQ(build(cycles(nothing, pulse)).losses.reference_spikes, 0u);
+  const auto often = [](int i) { return i % 10 == 0 ? 40e3 : 0.0; };
+  EXPECT_EQ(build(cycles(often, nothing)).losses.reference_spikes, 0u);
+}
+
 TEST(RecordingBuilder, TakesAmbientPressureFromTheOptionThenTheMatrixThenTheStandard) {
   std::vector<Event> events = {scan(ms(0), 1, 5), chamber(ms(0), 150e3)};
   const Recording assumed = build(events);

@@ -22,13 +22,14 @@ struct SensorIdentity {
 
 /// What was lost between the board and the Recording.
 struct RecordingLosses {
-  std::uint64_t sequence_gaps = 0;    ///< places where the board's scan counter jumped
-  std::uint64_t lost_scans = 0;       ///< scans that those jumps skipped
-  std::uint64_t duplicates = 0;       ///< scans with the stamp of another one, dropped
-  std::uint64_t near_change = 0;      ///< scans within 1 s of a change of surface, dropped
-  std::uint64_t no_reference = 0;     ///< scans without a chamber pressure before and after them, dropped
-  std::uint64_t bad_reference = 0;    ///< chamber pressures that were not finite, left out
-  std::uint64_t unknown_surface = 0;  ///< scans on a surface of unknown curvature, dropped
+  std::uint64_t sequence_gaps = 0;     ///< places where the board's scan counter jumped
+  std::uint64_t lost_scans = 0;        ///< scans that those jumps skipped
+  std::uint64_t duplicates = 0;        ///< scans with the stamp of another one, dropped
+  std::uint64_t near_change = 0;       ///< scans within 1 s of a change of surface, dropped
+  std::uint64_t no_reference = 0;      ///< scans without a chamber pressure before and after them, dropped
+  std::uint64_t bad_reference = 0;     ///< chamber pressures that were not finite, left out
+  std::uint64_t reference_spikes = 0;  ///< chamber pressures that the sheet did not feel, left out
+  std::uint64_t unknown_surface = 0;   ///< scans on a surface of unknown curvature, dropped
   /// Places where the board's counter decreases along the stamps: the board started again, or stamps ran
   /// backwards.
   std::uint64_t counter_back = 0;
