@@ -8,7 +8,8 @@ namespace fsr::dataset {
 namespace {
 
 constexpr std::size_t kLeastReadings = 20;
-constexpr double kRare = 0.02;  // share of readings beyond each end of the usual range
+constexpr double kComesBack = 0.5;  // of the jump: the pressure may differ from that before by a ramp
+constexpr double kRare = 0.02;      // share of readings beyond each end of the usual range
 
 // Range of the values without the rarest ones, which may be spikes. NaN are left out.
 double usualRange(std::vector<double> values) {
@@ -49,6 +50,8 @@ std::vector<std::size_t> referenceSpikes(const std::vector<double>& time, const 
     const auto lasts = [&] { return back < pressure.size() && time[back] - time[first] <= options.longest; };
     while (lasts() && jumps[back] != -jumps[first]) ++back;
     if (!lasts()) continue;
+    const double away = std::abs(pressure[first] - pressure[first - 1]);
+    if (std::abs(pressure[back] - pressure[first - 1]) > kComesBack * away) continue;
     for (std::size_t i = first; i < back; ++i) spikes.push_back(i);
     first = back;
   }

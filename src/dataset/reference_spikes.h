@@ -14,8 +14,9 @@ struct ReferenceSpikeOptions {
   double most = 0.05;  ///< share of readings; with more, the reference has no spikes but is not of this sheet
 };
 
-/// Chamber pressures that the sheet did not feel: the pressure jumps away and back within a few seconds, and
-/// at neither jump the sheet's reading follows. A pulse that the sheet feels is none. `time` [s] ascends;
+/// Chamber pressures that the sheet did not feel: the pressure jumps away and back to where it was within a
+/// few seconds, and at neither jump the sheet's reading follows. Where it does not come back, a late clock
+/// may be the cause, and nothing is said. A pulse that the sheet feels is none. `time` [s] ascends;
 /// `pressure` is finite; `reading` is the sheet's mean reading at each time, NaN = none near. Returns the
 /// indices, ascending.
 std::vector<std::size_t> referenceSpikes(const std::vector<double>& time, const std::vector<double>& pressure,

@@ -19,6 +19,8 @@ constexpr double kPressureShows = 0.25;
 constexpr double kPressureBin = 25e3;
 /// Share of the highest pressure. Below it the sheet counts as unloaded.
 constexpr double kLoaded = 0.1;
+/// Smallest range of the chamber pressure [Pa].
+constexpr double kLeastRange = 10e3;
 
 /// At least half of the taxels must be usable: detectors compare a taxel with the others.
 constexpr bool enoughUsable(std::size_t usable, std::size_t taxels) {

@@ -222,6 +222,10 @@ TEST(RecordingBuilder, KeepsPulsesThatTheSheetFeelsAndAReferenceThatIsNotOfTheSh
   EXPECT_EQ(build(cycles(nothing, pulse)).losses.reference_spikes, 0u);
   const auto often = [](int i) { return i % 10 == 0 ? 40e3 : 0.0; };
   EXPECT_EQ(build(cycles(often, nothing)).losses.reference_spikes, 0u);
+  // A fast cycle that the sheet feels 0.3 s later: clocks that differ are no spikes.
+  const auto fast = [](int i) { return i >= 400 && i < 408 ? 15e3 * std::min(i - 399, 408 - i) : 0.0; };
+  const auto late = [&](int i) { return fast(i - 3); };
+  EXPECT_EQ(build(cycles([&](int i) { return fast(i) - late(i); }, late)).losses.reference_spikes, 0u);
 }
 
 TEST(RecordingBuilder, TakesAmbientPressureFromTheOptionThenTheMatrixThenTheStandard) {

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
+#include "discrepancy/planted.h"
 #include "discrepancy/prove/next_experiment.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "simulation/read_settings.h"
 #include "simulation/session.h"
 
 namespace {
@@ -17,63 +17,12 @@ using fsr::discrepancy::DiscrepancyProblem;
 using fsr::discrepancy::DiscrepancyReport;
 using fsr::discrepancy::Verdict;
 
-// Two speeds and dwells on three surfaces. A scan every 0.4 s keeps the test fast.
-const char* const kTwoSpeeds = R"(
-simulation: planted
-seed: 7
-matrix: {rows: 3, columns: 4}
-board: {scan_rate: 2.5, transducer_rate: 2.5}
-program:
-  - hold: {pressure: 310000, rate: 40000, duration: 8}
-  - hold: {pressure: 620000, rate: 40000, duration: 8}
-  - rest: {rate: 40000, duration: 4}
-  - hold: {pressure: 310000, rate: 8000, duration: 15}
-  - hold: {pressure: 620000, rate: 8000, duration: 15}
-  - rest: {rate: 8000, duration: 4}
-  - cycles: {peak: 620000, rate: 40000, dwell_peak: 8, cycles: 3}
-  - cycles: {peak: 620000, rate: 8000, dwell_peak: 8, cycles: 1}
-  - cycles: {peak: 620000, rate: 40000, dwell_peak: 8, cycles: 2}
-session:
-  - {surface: flat, flat: true}
-  - {surface: cylinder_9cm, cylinder: {radius: 0.09, axis: y}, pause: 300}
-  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}
-effects:
-  static_curve: {conductance: 3.2e-4, exponent: 0.85, conductance_scatter: 0.05}
-  bending_preload: {amplitude: 30000}
-  bending_gain: {change: -0.15}
-  white_noise: {absolute: 8}
-  converter: {}
-)";
+using fsr::discrepancy::planted::kOneSpeed;
+using fsr::discrepancy::planted::kTwoSpeeds;
+using fsr::discrepancy::planted::simulation;
 
-// The cycles of the paper: one speed, no dwells.
-const char* const kOneSpeed = R"(
-simulation: planted
-seed: 7
-matrix: {rows: 3, columns: 4}
-board: {scan_rate: 2.5, transducer_rate: 2.5}
-chamber: {cycles: 8}
-session:
-  - {surface: flat, flat: true}
-  - {surface: cylinder_5cm, cylinder: {radius: 0.05, axis: y}, pause: 300}
-effects:
-  static_curve: {conductance: 3.2e-4, exponent: 0.85, conductance_scatter: 0.05}
-  bending_preload: {amplitude: 30000}
-  bending_gain: {change: -0.15}
-  white_noise: {absolute: 8}
-  converter: {}
-)";
-
-fsr::simulation::SimulationSettings simulation(const std::string& text, const std::string& more = "") {
-  return fsr::simulation::readSimulation(fsr::settings::Settings::fromText(text + more, "planted.yaml"));
-}
-
-// Recordings of a rig with the effects in `more`, and a simulation without these effects.
 DiscrepancyProblem planted(const std::string& text, const std::string& more) {
-  DiscrepancyProblem problem;
-  problem.simulation = simulation(text);
-  problem.recordings = fsr::simulation::simulateSession(simulation(text, more));
-  problem.options.threads = 1;
-  return problem;
+  return fsr::discrepancy::planted::problem(text, more);
 }
 
 double valueOf(const DiscrepancyReport& report, const std::string& parameter) {
@@ -149,7 +98,8 @@ TEST(Investigate, SaysTheSameOnAnyNumberOfThreads) {
 }
 
 TEST(Investigate, FindsFaultsByTestsOfTheirOwn) {
-  // They fail while they are watched: where a taxel is silent on a surface from the start, the bend may silence it.
+  // They fail while they are watched: where a taxel is silent on a surface from the start, the bend may
+  // silence it.
   const DiscrepancyReport dead =
       investigate(planted(kTwoSpeeds, "  dead_taxel: {taxels: 1, first: 5, start: 1200}\n"));
   ASSERT_EQ(dead.verdict, Verdict::kNamed) << dead.sentence;
@@ -311,10 +261,17 @@ TEST(Investigate, RefusesWhatCannotBeJudged) {
   bad.simulation.layout.size = {7, 10};
   EXPECT_NE(refusal(bad).find("matrix is 7 x 10"), std::string::npos);
   bad = good;
-  // The least range is 10 kPa; it was 50 kPa.
   for (double& p : bad.recordings[0].pressure) p *= 0.01;
   bad.recordings.resize(1);
   EXPECT_NE(refusal(bad).find("at least 10 kPa"), std::string::npos) << refusal(bad);
+  bad = good;
+  for (double& p : bad.recordings[1].pressure) p *= 1e-3;
+  EXPECT_NE(refusal(bad).find("2_cylinder_5cm.bag: chamber pressure covers 0.6"), std::string::npos);
+  EXPECT_NE(refusal(bad).find("readings change as if it were much more"), std::string::npos) << refusal(bad);
+  bad = good;
+  for (std::uint16_t& count : bad.recordings[1].counts) count = static_cast<std::uint16_t>(4095 - count);
+  EXPECT_NE(refusal(bad).find("2_cylinder_5cm.bag: its readings fall while"), std::string::npos)
+      << refusal(bad);
   bad = good;
   bad.recordings[0].mask.assign(12, 1);
   EXPECT_NE(refusal(bad).find("at least half must be usable"), std::string::npos);

@@ -6,6 +6,7 @@
 #include "dataset/cycles.h"
 #include "dataset/time_order.h"
 #include "discrepancy/samples/measured.h"
+#include "discrepancy/samples/require_reference.h"
 #include "discrepancy/thresholds.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
@@ -22,7 +23,6 @@ constexpr std::uint64_t kFewRestarts = 2;  // restarts of the board that one bag
 // A taxel responds to the pressure if the standard deviation of its readings reaches both of these limits.
 constexpr double kAnswers = 0.05;        // share of the usual standard deviation
 constexpr double kLeastAnswer = 0.0005;  // [share of full scale]
-constexpr double kLeastRange = 10e3;     // smallest range of the chamber pressure [Pa]
 constexpr double kBetween = 60;          // pause that is assumed between bags whose stamps overlap [s]
 constexpr double kHoldOutShare = 0.2;    // share of the cycles that is held out
 constexpr double kVented = 0.25;         // of a cycle's height; a cycle that ends above it was cut off
@@ -275,13 +275,25 @@ void requireAnswers(const Measured& measured) {
       " taxels are masked or do not answer to the pressure, but at least half must be usable");
 }
 
+// An effect is told from the static curve of a surface by cycles that the curve was not fitted to.
+void requireComparedCycles(const Measured& measured) {
+  std::vector<std::size_t> cycles(measured.classes.size(), 0);
+  for (const MeasuredCycle& cycle : measured.cycles) {
+    if (++cycles[measured.visits[cycle.visit].curvature_class] > 1) return;
+  }
+  throw settings::InputError((*measured.recordings)[0].name +
+                             ": no surface has more than one cycle of filling and venting, but cycles on the "
+                             "same surface are compared; record at least 5 on each, better 10");
+}
+
 void requireJudgeable(const Measured& measured) {
   const std::string name = (*measured.recordings)[0].name;
   const auto [low, high] = std::minmax_element(measured.pressure.begin(), measured.pressure.end());
-  if (*high - *low < kLeastRange) {
+  if (*high - *low < thresholds::kLeastRange) {
     throw settings::InputError(name + ": chamber pressure covers " +
                                settings::roundedText((*high - *low) * 1e-3) + " kPa, but at least " +
-                               settings::roundedText(kLeastRange * 1e-3) + " kPa are needed");
+                               settings::roundedText(thresholds::kLeastRange * 1e-3) +
+                               " kPa are needed; chamber_pressure must be in Pa");
   }
   if (measured.cycles.size() < kFewestCycles) {
     throw settings::InputError(name + ": " + std::to_string(measured.cycles.size()) +
@@ -289,6 +301,7 @@ void requireJudgeable(const Measured& measured) {
                                " of filling and venting, but at least 3 are needed: some of them are "
                                "held out");
   }
+  requireComparedCycles(measured);
   if (measured.samples() < kFewestScans) {
     throw settings::InputError(name + ": " + std::to_string(measured.samples()) +
                                " scans, but at least 200 are needed");
@@ -389,6 +402,7 @@ Measured admit(const DiscrepancyProblem& problem) {
   maskTaxels(measured);
   requireJudgeable(measured);
   requireAnswers(measured);
+  requireReference(measured);
   return measured;
 }
 
