@@ -18,8 +18,20 @@ using fsr::discrepancy::DiscrepancyReport;
 using fsr::discrepancy::Verdict;
 
 using fsr::discrepancy::planted::kOneSpeed;
-using fsr::discrepancy::planted::kTwoSpeeds;
 using fsr::discrepancy::planted::simulation;
+
+// Two speeds with dwells, in fewer cycles than planted::kTwoSpeeds.
+const std::string kTwoSpeeds = fsr::discrepancy::planted::withProgram(
+    R"(  - hold: {pressure: 310000, rate: 40000, duration: 8}
+  - hold: {pressure: 620000, rate: 40000, duration: 8}
+  - rest: {rate: 40000, duration: 4}
+  - hold: {pressure: 310000, rate: 8000, duration: 15}
+  - hold: {pressure: 620000, rate: 8000, duration: 15}
+  - rest: {rate: 8000, duration: 4}
+  - cycles: {peak: 620000, rate: 40000, dwell_peak: 8, cycles: 3}
+  - cycles: {peak: 620000, rate: 8000, dwell_peak: 8, cycles: 1}
+  - cycles: {peak: 620000, rate: 40000, dwell_peak: 8, cycles: 2}
+)");
 
 DiscrepancyProblem planted(const std::string& text, const std::string& more) {
   return fsr::discrepancy::planted::problem(text, more);
@@ -33,7 +45,7 @@ double valueOf(const DiscrepancyReport& report, const std::string& parameter) {
 }
 
 TEST(Investigate, IsSilentWhereNothingIsHidden) {
-  for (const char* text : {kTwoSpeeds, kOneSpeed}) {
+  for (const std::string& text : {kTwoSpeeds, std::string(kOneSpeed)}) {
     const DiscrepancyReport report = investigate(planted(text, ""));
     EXPECT_EQ(report.verdict, Verdict::kNone) << report.sentence;
     EXPECT_TRUE(report.effects.empty());
@@ -264,14 +276,6 @@ TEST(Investigate, RefusesWhatCannotBeJudged) {
   for (double& p : bad.recordings[0].pressure) p *= 0.01;
   bad.recordings.resize(1);
   EXPECT_NE(refusal(bad).find("at least 10 kPa"), std::string::npos) << refusal(bad);
-  bad = good;
-  for (double& p : bad.recordings[1].pressure) p *= 1e-3;
-  EXPECT_NE(refusal(bad).find("2_cylinder_5cm.bag: chamber pressure covers 0.6"), std::string::npos);
-  EXPECT_NE(refusal(bad).find("readings change as if it were much more"), std::string::npos) << refusal(bad);
-  bad = good;
-  for (std::uint16_t& count : bad.recordings[1].counts) count = static_cast<std::uint16_t>(4095 - count);
-  EXPECT_NE(refusal(bad).find("2_cylinder_5cm.bag: its readings fall while"), std::string::npos)
-      << refusal(bad);
   bad = good;
   bad.recordings[0].mask.assign(12, 1);
   EXPECT_NE(refusal(bad).find("at least half must be usable"), std::string::npos);

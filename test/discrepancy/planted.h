@@ -43,6 +43,13 @@ inline std::string withMatrix(int rows, int columns) {
                      "{rows: " + std::to_string(rows) + ", columns: " + std::to_string(columns) + "}");
 }
 
+/// The same rig with another program of the chamber: YAML, one line for each step.
+inline std::string withProgram(const std::string& program) {
+  std::string rig = kTwoSpeeds;
+  const std::size_t first = rig.find("  - cycles:"), last = rig.find("session:");
+  return rig.replace(first, last - first, program);
+}
+
 /// The same rig with the cycles of the paper on one surface.
 inline const char* const kOneSurface = R"(
 simulation: planted
