@@ -245,6 +245,9 @@ TEST(Investigate, RepeatsUntilQuiet) {
   ASSERT_EQ(report.steps.size(), 2u);
   EXPECT_EQ(report.steps[0].added, "time_skew");
   EXPECT_TRUE(report.steps[1].added.empty());
+  constexpr double kNoise = 8.0 / 4095;  // white noise of the rig [share of full scale]
+  EXPECT_NEAR(report.gap.floor, kNoise, 0.15 * kNoise) << "that of the readings as they were recorded";
+  EXPECT_NE(report.gap.floor, report.gap.after);
   EXPECT_GT(report.gap.closed, 0.9);
   EXPECT_EQ(report.credible_set, (std::vector<std::vector<std::string>>{{"time_skew"}}));
 }
@@ -276,6 +279,20 @@ TEST(Investigate, RefusesWhatCannotBeJudged) {
   for (double& p : bad.recordings[0].pressure) p *= 0.01;
   bad.recordings.resize(1);
   EXPECT_NE(refusal(bad).find("at least 10 kPa"), std::string::npos) << refusal(bad);
+  bad = good;
+  for (double& p : bad.recordings[1].pressure) p *= 1e-3;
+  EXPECT_NE(refusal(bad).find("2_cylinder_5cm.bag: chamber pressure covers 0.6"), std::string::npos);
+  EXPECT_NE(refusal(bad).find("readings change as if it were much more"), std::string::npos) << refusal(bad);
+  bad = good;
+  for (std::uint16_t& count : bad.recordings[1].counts) count = static_cast<std::uint16_t>(4095 - count);
+  EXPECT_NE(refusal(bad).find("2_cylinder_5cm.bag: its readings fall while"), std::string::npos)
+      << refusal(bad);
+  bad = good;  // its clock is a third of a cycle late
+  std::rotate(bad.recordings[1].pressure.begin(), bad.recordings[1].pressure.begin() + 70,
+              bad.recordings[1].pressure.end());
+  EXPECT_NE(refusal(bad).find("2_cylinder_5cm.bag: its readings do not follow the chamber pressure"),
+            std::string::npos)
+      << refusal(bad);
   bad = good;
   bad.recordings[0].mask.assign(12, 1);
   EXPECT_NE(refusal(bad).find("at least half must be usable"), std::string::npos);

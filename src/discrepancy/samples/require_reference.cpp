@@ -12,8 +12,11 @@ namespace fsr::discrepancy {
 
 namespace {
 
-constexpr double kMoves = 0.5;   // share of the largest change of readings: the sheet was loaded
-constexpr double kFalls = -0.5;  // correlation of readings and pressure below which the readings fall
+constexpr double kMoves = 0.5;  // share of the largest change of readings: the sheet was loaded
+// Correlations of the mean reading with the pressure. A force sensitive resistor has more than 0.9, the
+// friction of a piston about 0.
+constexpr double kFollows = -0.3;
+constexpr double kFalls = -0.9;
 
 // Pressure and mean reading of one recording, over its samples.
 struct Course {
@@ -55,26 +58,29 @@ std::vector<Course> coursesOf(const Measured& measured) {
 }  // namespace
 
 void requireReference(const Measured& measured) {
+  const auto refuse = [&](std::size_t recording, const std::string& why) {
+    throw settings::InputError((*measured.recordings)[recording].name + ": " + why);
+  };
   const std::vector<Course> courses = coursesOf(measured);
   double most = 0;
   for (const Course& course : courses) most = std::max(most, Course::range(course.reading));
   for (std::size_t r = 0; r < courses.size(); ++r) {
     const double range = Course::range(courses[r].pressure);
-    const std::string covers = (*measured.recordings)[r].name + ": chamber pressure covers " +
-                               settings::roundedText(range * 1e-3) + " kPa";
-    if (range < thresholds::kLeastRange && Course::range(courses[r].reading) > kMoves * most) {
-      throw settings::InputError(
-          covers +
-          ", but its readings change as if it were much more; chamber_pressure must be "
-          "in Pa and come from a transducer on the chamber");
+    if (range < thresholds::kLeastRange) {
+      if (Course::range(courses[r].reading) <= kMoves * most) continue;  // at rest
+      refuse(r, "chamber pressure covers " + settings::roundedText(range * 1e-3) +
+                    " kPa, but its readings change as if it were much more; chamber_pressure must be in Pa "
+                    "and come from a transducer on the chamber");
     }
-    const double correlation = range < thresholds::kLeastRange ? 0 : courses[r].correlation();
-    if (correlation >= kFalls) continue;
-    throw settings::InputError((*measured.recordings)[r].name +
-                               ": its readings fall while the chamber pressure rises (correlation " +
-                               settings::fixedText(correlation, 2) +
-                               "), but must rise with it; record full scale minus counts, and the stamps of "
-                               "both by one clock");
+    const double correlation = courses[r].correlation();
+    if (correlation < kFalls)
+      refuse(r,
+             "its readings fall while the chamber pressure rises, but must rise with it; record full scale "
+             "minus counts");
+    if (correlation < kFollows)
+      refuse(r, "its readings do not follow the chamber pressure (correlation " +
+                    settings::fixedText(correlation, 2) +
+                    "); the sheet must lie in the chamber, and both stamps must come from one clock");
   }
 }
 

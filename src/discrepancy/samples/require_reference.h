@@ -5,8 +5,8 @@
 namespace fsr::discrepancy {
 
 /// Throws InputError where the reference of a recording does not belong to its readings: they change while it
-/// stays, or fall where it rises. Such a recording would make a static curve of its own, and nothing would be
-/// noticed.
+/// stays, fall where it rises, or do not follow it. Such a recording would make a static curve of its own,
+/// and nothing would be noticed.
 void requireReference(const Measured& measured);
 
 }  // namespace fsr::discrepancy
