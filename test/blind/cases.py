@@ -120,6 +120,16 @@ def read_json(path):
         return {}
 
 
+def generator_words(name):
+    """What the generator is told of a case, read off its name."""
+    match = re.fullmatch(r"[AB]\.(none|[a-z0-9_.+]+?)(?:\.(snr|kpa)([0-9.e+-]+?))?\.\d+", name)
+    if not match:
+        raise ValueError("%s is no name of a case; names are like A.hysteresis.duhem.snr1.0007" % name)
+    effects, kind, size = match.groups()
+    words = ["--name", name, "--effect", effects.replace(".", ":").replace("+", ",")]
+    return words + (["--" + kind, size] if kind else [])
+
+
 # --- the command under test -------------------------------------------------------------------------
 
 
