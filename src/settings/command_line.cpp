@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/foreign_error.h"
 
 namespace fsr::settings {
 
@@ -148,7 +149,7 @@ void keepFreedMemory() {
 int runTool(const std::string& tool, const std::function<int()>& run) {
   keepFreedMemory();
   try {
-    return run();
+    return inSentences(run);
   } catch (const InputError& error) {
     std::cerr << tool << ": " << error.what() << std::endl;
     return kUnusable;

@@ -49,8 +49,8 @@ class CommandLine {
   std::vector<std::string> files_;
 };
 
-/// Returns the exit status of a tool: that of run(), or 2 where it throws InputError, whose sentence is
-/// printed.
+/// Returns the exit status of a tool: that of run(), or 2 where it throws an exception, whose sentence
+/// (sentenceOf()) is printed.
 int runTool(const std::string& tool, const std::function<int()>& run);
 
 }  // namespace fsr::settings

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+
 #include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr::settings {
@@ -87,6 +91,24 @@ TEST(RunTool, ReturnsStatusTwoForUnusableInput) {
   testing::internal::CaptureStderr();
   EXPECT_EQ(runTool("train", []() -> int { throw InputError("a.bag: is empty"); }), 2);
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "train: a.bag: is empty\n");
+}
+
+// Exit status 2 and a sentence, never an abort.
+TEST(RunTool, TurnsEveryExceptionIntoASentence) {
+  const auto said = [](const std::function<int()>& run) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(runTool("train", run), 2);
+    return testing::internal::GetCapturedStderr();
+  };
+  const std::string name(300, 'x');
+  EXPECT_EQ(
+      said([&] { return std::filesystem::exists(name) ? 0 : 1; }),
+      "train: " + name +
+          ": cannot be used (File name too long); give the path of a file that exists and may be read\n");
+  EXPECT_EQ(said([]() -> int { throw std::bad_alloc(); }),
+            "train: this input needs more memory than the system gives; use a part of it\n");
+  EXPECT_EQ(said([]() -> int { throw std::runtime_error("Time is out of\nrange."); }),
+            "train: this input cannot be used (Time is out of range)\n");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/live/driver.h"
+#include "settings/foreign_error.h"
 
 namespace fsr_ros {
 
@@ -13,7 +14,8 @@ class DriverNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
     try {
-      driver_ = std::make_unique<Driver>(getNodeHandle(), getPrivateNodeHandle());
+      fsr::settings::inSentences(
+          [this] { driver_ = std::make_unique<Driver>(getNodeHandle(), getPrivateNodeHandle()); });
     } catch (const fsr::settings::InputError& error) {
       NODELET_FATAL_STREAM(error.what());
       throw;  // so that the manager reports that the nodelet did not load

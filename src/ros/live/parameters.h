@@ -9,6 +9,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/settings/range.h"
+#include "settings/foreign_error.h"
 
 namespace fsr_ros {
 
@@ -43,13 +44,13 @@ class Parameters {
   mutable std::set<std::string> asked_;  // full paths
 };
 
-/// Runs the main part of a node. An InputError is logged as one fatal line and gives exit status 2.
+/// Runs the main part of a node. An exception is logged as one fatal line and gives exit status 2.
 template <typename Run>
 int runNode(Run run) {
   const ros::NodeHandle
       keeps_the_log_open;  // destroying the last handle would close the log before the message
   try {
-    run();
+    fsr::settings::inSentences(run);
     return 0;
   } catch (const fsr::settings::InputError& error) {
     ROS_FATAL_STREAM(error.what());

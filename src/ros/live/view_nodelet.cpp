@@ -5,6 +5,7 @@
 
 #include "ros/live/parameters.h"
 #include "ros/live/view_server.h"
+#include "settings/foreign_error.h"
 
 namespace fsr_ros {
 
@@ -13,7 +14,8 @@ class ViewNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
     try {
-      server_ = std::make_unique<ViewServer>(getNodeHandle(), getPrivateNodeHandle());
+      fsr::settings::inSentences(
+          [this] { server_ = std::make_unique<ViewServer>(getNodeHandle(), getPrivateNodeHandle()); });
     } catch (const fsr::settings::InputError& error) {
       NODELET_FATAL_STREAM(error.what());
       throw;  // so that the manager reports that the nodelet did not load
