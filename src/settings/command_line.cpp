@@ -12,6 +12,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/foreign_error.h"
+#include "settings/replace_file.h"
 
 namespace fsr::settings {
 
@@ -41,8 +42,22 @@ CommandLine::CommandLine(const std::string& tool, const std::string& usage, cons
 
 CommandLine& CommandLine::option(const std::string& name, const std::string& placeholder,
                                  const std::string& help) {
+  return declare(name, {placeholder, help});
+}
+
+CommandLine& CommandLine::input(const std::string& name, const std::string& placeholder,
+                                const std::string& help) {
+  return declare(name, {placeholder, help, Use::kInput});
+}
+
+CommandLine& CommandLine::output(const std::string& name, const std::string& placeholder,
+                                 const std::string& help) {
+  return declare(name, {placeholder, help, Use::kOutput});
+}
+
+CommandLine& CommandLine::declare(const std::string& name, const Declared& option) {
   order_.push_back(name);
-  declared_[name] = {placeholder, help};
+  declared_[name] = option;
   return *this;
 }
 
@@ -60,7 +75,35 @@ void CommandLine::take(const std::string& name, const std::string* value) {
   if (is_flag && value != nullptr) throw InputError("--" + name + " takes no value");
   if (!is_flag && value == nullptr)
     throw InputError("--" + name + " needs a value: " + found->second.placeholder);
+  if (found->second.use != Use::kValue && value->empty())
+    throw InputError("--" + name + " is empty, but must be a path: " + found->second.placeholder);
   values_[name] = is_flag ? "" : *value;
+}
+
+std::vector<std::string> CommandLine::paths(Use use) const {
+  std::vector<std::string> paths;
+  if (use == Use::kInput) paths = files_;
+  for (const std::string& name : order_) {
+    if (declared_.at(name).use == use && has(name)) paths.push_back(values_.at(name));
+  }
+  return paths;
+}
+
+// Two outputs of one name would lose the first.
+void CommandLine::refuseLosses() const {
+  const std::vector<std::string> outputs = paths(Use::kOutput);
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    requireNoInput(outputs[i], paths(Use::kInput));
+    for (std::size_t k = 0; k < i; ++k) {
+      if (sameFile(outputs[i], outputs[k]))
+        throw InputError(outputs[i] + ": is given for two outputs; give two names");
+    }
+  }
+}
+
+void CommandLine::requireWritable(const std::string& path) const {
+  requireNoInput(path, paths(Use::kInput));
+  requireReplaceable(path);
 }
 
 bool CommandLine::parse(int argc, const char* const* argv) {
@@ -82,7 +125,9 @@ bool CommandLine::parse(int argc, const char* const* argv) {
       take(name, wants_value && i + 1 < words.size() ? &words[++i] : nullptr);
     }
   }
-  return !has("help");
+  if (has("help")) return false;
+  refuseLosses();
+  return true;
 }
 
 std::string CommandLine::help() const {

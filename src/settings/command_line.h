@@ -15,6 +15,8 @@ namespace fsr::settings {
 /// and error messages know all of them. `--option=VALUE` is accepted too, as are options before, between and
 /// after the files. `--` ends the options. Errors throw InputError, which names the option, the value and
 /// what would be right.
+///
+/// No output may be one of the inputs: parse() refuses it, however the two are spelled.
 class CommandLine {
  public:
   /// `usage`: text behind the tool's name in its help, e.g. "BAG... --output FILE".
@@ -22,12 +24,19 @@ class CommandLine {
 
   CommandLine& option(const std::string& name, const std::string& placeholder, const std::string& help);
   CommandLine& flag(const std::string& name, const std::string& help);
+  /// An option that names a file to read. The files without an option are read, too.
+  CommandLine& input(const std::string& name, const std::string& placeholder, const std::string& help);
+  /// An option that names a file or folder to write.
+  CommandLine& output(const std::string& name, const std::string& placeholder, const std::string& help);
 
   /// False where the user asked for help; then print `help()`.
   bool parse(int argc, const char* const* argv);
   std::string help() const;
 
   const std::vector<std::string>& files() const { return files_; }
+  /// Throws InputError where writing to `path`, e.g. a file in a folder of results, would destroy an input,
+  /// or where it cannot be written.
+  void requireWritable(const std::string& path) const;
   bool has(const std::string& name) const;
   std::string text(const std::string& name, const std::string& fallback) const;
   /// Throws InputError where the option is missing.
@@ -36,11 +45,16 @@ class CommandLine {
   std::int64_t integer(const std::string& name, std::int64_t fallback, const Range& range) const;
 
  private:
+  enum class Use { kValue, kInput, kOutput };
   struct Declared {
     std::string placeholder;  // empty = a flag
     std::string help;
+    Use use = Use::kValue;
   };
+  CommandLine& declare(const std::string& name, const Declared& option);
   void take(const std::string& name, const std::string* value);
+  std::vector<std::string> paths(Use use) const;
+  void refuseLosses() const;
 
   std::string tool_, usage_, purpose_;
   std::vector<std::string> order_;

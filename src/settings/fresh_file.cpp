@@ -33,6 +33,7 @@ FreshPath::~FreshPath() {
 }
 
 void FreshPath::finish() {
+  requireReplaceable(path_);  // again: the computation may have taken hours
   const int file = ::open(fresh_.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) throw cannotWrite(path_, errno);
   const int error = ::fsync(file) == 0 ? 0 : errno;

@@ -1,6 +1,7 @@
 #include "settings/replace_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -9,6 +10,8 @@
 #include <filesystem>
 
 namespace fsr::settings {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -39,6 +42,7 @@ InputError cannotWrite(const std::string& path, int error) {
 }
 
 void replaceFile(const std::string& path, const std::string& content) {
+  requireReplaceable(path);
   const std::string fresh = path + ".new-" + std::to_string(::getpid());
   int error = writeFresh(fresh, content);
   if (error == 0 && std::rename(fresh.c_str(), path.c_str()) != 0) error = errno;
@@ -48,10 +52,43 @@ void replaceFile(const std::string& path, const std::string& content) {
 }
 
 void requireReplaceable(const std::string& path) {
-  const std::filesystem::path parent = std::filesystem::absolute(path).parent_path();
-  std::error_code ignored;
-  if (path.empty() || std::filesystem::is_directory(path, ignored)) throw cannotWrite(path, EISDIR);
-  if (::access(parent.c_str(), W_OK | X_OK) != 0) throw cannotWrite(path, errno);
+  if (path.empty()) throw InputError("the name of a file to write is empty; give a path");
+  struct stat found {};
+  const bool exists = ::stat(path.c_str(), &found) == 0;
+  if (!exists && errno != ENOENT) throw cannotWrite(path, errno);
+  if (exists && S_ISDIR(found.st_mode)) throw cannotWrite(path, EISDIR);
+  if (exists && !S_ISREG(found.st_mode)) {
+    throw InputError(path +
+                     ": is a device or a pipe, and only files are replaced; give the path of a new or an "
+                     "existing file");
+  }
+  const std::string parent = fs::path(path).parent_path().string();
+  if (::access(parent.empty() ? "." : parent.c_str(), W_OK | X_OK) != 0) throw cannotWrite(path, errno);
+}
+
+bool sameFile(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error) && !error) return true;
+  const fs::path full_a = fs::weakly_canonical(fs::absolute(a, error), error);
+  if (error) return false;
+  const fs::path full_b = fs::weakly_canonical(fs::absolute(b, error), error);
+  return !error && full_a == full_b;
+}
+
+void requireNoInput(const std::string& output, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    if (!sameFile(output, input)) continue;
+    throw InputError(output + ": would be overwritten, but is one of the inputs" +
+                     (input == output ? "" : ", " + input) + "; give another name for the output");
+  }
+}
+
+int renameToNew(const std::string& from, const std::string& to) {
+  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
+  if (errno != EINVAL && errno != ENOSYS) return errno;
+  // A file system that cannot do this, e.g. NFS: a second name is made, which fails where it exists.
+  if (::link(from.c_str(), to.c_str()) != 0) return errno;
+  return ::unlink(from.c_str()) == 0 ? 0 : errno;
 }
 
 }  // namespace fsr::settings

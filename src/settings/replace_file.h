@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "fsr_pressure_map/settings/input_error.h"
 
@@ -11,9 +12,19 @@ namespace fsr::settings {
 /// names the path and the cause, and removes the temporary file.
 void replaceFile(const std::string& path, const std::string& content);
 
-/// Throws the InputError of replaceFile() where the directory or the permission to write is missing. Call it
-/// before a long computation.
+/// Throws the InputError of replaceFile() where the directory or the permission to write is missing, and
+/// where there is something else than a file at `path`: a directory, a device or a pipe is never replaced.
+/// Call it before a long computation.
 void requireReplaceable(const std::string& path);
+
+/// Whether two names, however they are spelled, stand for the same file. It need not exist.
+bool sameFile(const std::string& a, const std::string& b);
+
+/// Throws InputError where writing to `output` would destroy one of the `inputs`.
+void requireNoInput(const std::string& output, const std::vector<std::string>& inputs);
+
+/// Renames a file unless something has the name `to`. Returns 0, or an errno: EEXIST.
+int renameToNew(const std::string& from, const std::string& to);
 
 /// The InputError that both throw; `error` is an errno.
 InputError cannotWrite(const std::string& path, int error);

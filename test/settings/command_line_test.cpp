@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <new>
 #include <stdexcept>
 
@@ -91,6 +92,43 @@ TEST(RunTool, ReturnsStatusTwoForUnusableInput) {
   testing::internal::CaptureStderr();
   EXPECT_EQ(runTool("train", []() -> int { throw InputError("a.bag: is empty"); }), 2);
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "train: a.bag: is empty\n");
+}
+
+// Every way of giving an output that is an input, or two outputs of one name.
+TEST(CommandLine, RefusesAnOutputThatIsAnInputHoweverItIsSpelled) {
+  const std::string folder = testing::TempDir() + "command_line_losses";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directory(folder);
+  const std::string bag = folder + "/a.bag", link = folder + "/link", hard = folder + "/hard";
+  std::ofstream(bag) << "precious";
+  std::filesystem::create_symlink("a.bag", link);
+  std::filesystem::create_hard_link(bag, hard);
+  const auto complaint = [](const std::vector<std::string>& words) -> std::string {
+    CommandLine line("train", "BAG...", "Trains.");
+    line.output("output", "FILE", "").output("report", "FILE", "").input("calibration", "FILE", "");
+    std::vector<const char*> arguments = {"train"};
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    try {
+      line.parse(static_cast<int>(arguments.size()), arguments.data());
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(complaint({bag, "--output", bag}),
+            bag + ": would be overwritten, but is one of the inputs; give another name for the output");
+  for (const std::string& other : {link, hard, folder + "/../command_line_losses/./a.bag"}) {
+    EXPECT_EQ(complaint({bag, "--output", other}), other +
+                                                       ": would be overwritten, but is one of the inputs, " +
+                                                       bag + "; give another name for the output");
+    EXPECT_NE(complaint({bag, "--report", other}), "accepted");
+    EXPECT_NE(complaint({"--calibration", other, "--output=" + bag}), "accepted");
+  }
+  EXPECT_EQ(complaint({bag, "--output", "b", "--report", "./b"}),
+            "./b: is given for two outputs; give two names");
+  EXPECT_EQ(complaint({bag, "--output", ""}), "--output is empty, but must be a path: FILE");
+  EXPECT_EQ(complaint({bag, "--calibration", bag, "--output", folder + "/new"}), "accepted");
+  std::filesystem::remove_all(folder);
 }
 
 // Exit status 2 and a sentence, never an abort.

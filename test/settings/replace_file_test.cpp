@@ -1,7 +1,9 @@
 #include "settings/replace_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -64,6 +66,42 @@ TEST_F(ReplaceFile, RemovesTheTemporaryFileWhenTheRenameFails) {
   fs::create_directory(folder / "a.yaml");  // a file cannot replace a directory
   EXPECT_THROW(replaceFile(folder / "a.yaml", "x"), InputError);
   EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(ReplaceFile, ReplacesOnlyFiles) {
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  fs::create_symlink("pipe", folder / "link");
+  fs::create_symlink("round", folder / "round");
+  for (const fs::path& path : {folder / "pipe", folder / "link", folder / "round", fs::path("/dev/null"),
+                               folder / std::string(300, 'x'), fs::path()}) {
+    EXPECT_THROW(requireReplaceable(path), InputError) << path;
+    EXPECT_THROW(replaceFile(path, "x"), InputError) << path;
+  }
+  EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_EQ(files(), 3u);
+}
+
+TEST_F(ReplaceFile, RecognisesAFileByAnyOfItsNames) {
+  replaceFile(folder / "a", "x");
+  fs::create_symlink("a", folder / "link");
+  fs::create_hard_link(folder / "a", folder / "hard");
+  fs::create_directory_symlink(folder, folder / "here");
+  for (const fs::path& name : {folder / "a", folder / "." / "here" / "a", folder / "link",
+                               folder / "hard", folder / "here" / "a"}) {
+    EXPECT_TRUE(sameFile(name, folder / "a")) << name;
+  }
+  EXPECT_TRUE(sameFile(folder / "new", folder / "here" / "new")) << "neither exists";
+  EXPECT_FALSE(sameFile(folder / "a", folder / "b"));
+}
+
+TEST_F(ReplaceFile, GivesANewNameWithoutReplacingAnything) {
+  replaceFile(folder / "a", "a");
+  replaceFile(folder / "b", "b");
+  EXPECT_EQ(renameToNew(folder / "a", folder / "b"), EEXIST);
+  EXPECT_EQ(contentOf(folder / "b"), "b");
+  EXPECT_EQ(renameToNew(folder / "a", folder / "c"), 0);
+  EXPECT_EQ(contentOf(folder / "c"), "a");
 }
 
 }  // namespace

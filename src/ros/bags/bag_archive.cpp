@@ -7,16 +7,14 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <memory>
 
 #include "exports/archive.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/abandon_bag.h"
+#include "ros/bags/fresh_bag.h"
 #include "ros/bags/scan_context.h"
 #include "ros/bags/scan_source.h"
 #include "ros/bags/sensor_topics.h"
 #include "ros/messages/message_reader.h"
-#include "settings/fresh_file.h"
 #include "settings/sha256.h"
 
 namespace fsr_ros {
@@ -165,7 +163,7 @@ namespace {
 // Writes an archive's messages into a bag.
 class Restorer {
  public:
-  Restorer(fsr::exports::ArchiveReader& archive, rosbag::Bag& bag) : archive_(archive), bag_(bag) {
+  Restorer(fsr::exports::ArchiveReader& archive, FreshBag& bag) : archive_(archive), bag_(bag) {
     for (const fsr::exports::ArchivedConnection& connection : archive.connections()) {
       headers_.push_back(
           boost::make_shared<ros::M_string>(connection.header.begin(), connection.header.end()));
@@ -207,7 +205,7 @@ class Restorer {
   }
 
   fsr::exports::ArchiveReader& archive_;
-  rosbag::Bag& bag_;
+  FreshBag& bag_;
   std::vector<boost::shared_ptr<ros::M_string>> headers_;
   std::vector<fsr::exports::ArchivedMessage> together_;  // messages with the same time of reception
   std::uint64_t messages_ = 0;
@@ -217,21 +215,9 @@ class Restorer {
 
 std::uint64_t restoreBag(const std::string& path, const std::string& output) {
   fsr::exports::ArchiveReader archive(path);
-  fsr::settings::FreshPath fresh(output);
-  auto bag = std::make_unique<rosbag::Bag>();
-  std::uint64_t messages = 0;
-  try {
-    bag->open(fresh.name(), rosbag::bagmode::Write);
-    messages = Restorer(archive, *bag).run();
-    bag->close();
-  } catch (const rosbag::BagException& error) {
-    abandonBag(std::move(bag));
-    throw fsr::settings::InputError(output + ": the bag cannot be written (" + error.what() + ")");
-  } catch (const fsr::settings::InputError&) {
-    abandonBag(std::move(bag));
-    throw;
-  }
-  fresh.finish();
+  FreshBag bag(output);
+  const std::uint64_t messages = Restorer(archive, bag).run();
+  bag.finish();
   return messages;
 }
 

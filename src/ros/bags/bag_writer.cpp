@@ -1,19 +1,13 @@
 #include "ros/bags/bag_writer.h"
 
 #include <fsr_pressure_map/MatrixFrame.h>
-#include <rosbag/exceptions.h>
 #include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Temperature.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <limits>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/abandon_bag.h"
 #include "ros/messages/surface_message.h"
 
 namespace fsr_ros {
@@ -21,12 +15,6 @@ namespace fsr_ros {
 namespace {
 
 constexpr std::int64_t kSecond = 1000000000;  // [ns]
-
-fsr::settings::InputError cannotWrite(const std::string& path, const std::string& why) {
-  return fsr::settings::InputError(
-      path + ": the bag cannot be written (" + why +
-      "); give a path in a directory that exists and may be written to, on a disk with room");
-}
 
 ros::Time rosTime(std::int64_t stamp_ns, const std::string& path) {
   if (stamp_ns <= 0 || stamp_ns / kSecond > std::numeric_limits<std::uint32_t>::max()) {
@@ -97,19 +85,7 @@ class Repeater {
 }  // namespace
 
 BagWriter::BagWriter(const std::string& path, const std::string& topics, const std::string& frame_id)
-    : path_(path), fresh_(path + ".new-" + std::to_string(::getpid())), topics_(topics), frame_id_(frame_id) {
-  try {
-    bag_ = std::make_unique<rosbag::Bag>(fresh_, rosbag::bagmode::Write);
-  } catch (const rosbag::BagException& error) {
-    throw cannotWrite(path, error.what());
-  }
-}
-
-BagWriter::~BagWriter() {
-  if (bag_ == nullptr) return;
-  abandonBag(std::move(bag_));
-  ::unlink(fresh_.c_str());
-}
+    : path_(path), topics_(topics), frame_id_(frame_id), bag_(path) {}
 
 template <typename Message>
 void BagWriter::write(const std::string& topic, std::int64_t stamp_ns, Message& message) {
@@ -118,30 +94,19 @@ void BagWriter::write(const std::string& topic, std::int64_t stamp_ns, Message& 
   add(topic, message);
 }
 
-template <typename Write>
-void BagWriter::attempt(Write write) {
-  try {
-    write(*bag_);
-  } catch (const rosbag::BagException& error) {
-    throw cannotWrite(path_, error.what());
-  }
-}
-
 template <typename Message>
 void BagWriter::add(const std::string& topic, const Message& message) {
   const std::string name = "/" + topics_ + "/" + topic;
-  attempt([&](rosbag::Bag& bag) { bag.write(name, message.header.stamp, message, latched<Message>(topic)); });
+  bag_.write(name, message.header.stamp, message, latched<Message>(topic));
 }
 
 void BagWriter::copy(const rosbag::MessageInstance& instance) {
-  attempt([&](rosbag::Bag& bag) { bag.write(instance.getTopic(), instance.getTime(), instance); });
+  bag_.write(instance.getTopic(), instance.getTime(), instance);
 }
 
 template <typename Message>
 void BagWriter::replace(const rosbag::MessageInstance& instance, const Message& message) {
-  attempt([&](rosbag::Bag& bag) {
-    bag.write(instance.getTopic(), instance.getTime(), message, instance.getConnectionHeader());
-  });
+  bag_.write(instance.getTopic(), instance.getTime(), message, instance.getConnectionHeader());
 }
 
 template void BagWriter::replace(const rosbag::MessageInstance&, const fsr_pressure_map::MatrixFrame&);
@@ -191,13 +156,7 @@ void BagWriter::addSession(std::int64_t stamp_ns, fsr_pressure_map::Session sess
 }
 
 void BagWriter::close() {
-  try {
-    bag_->close();
-  } catch (const rosbag::BagException& error) {
-    throw cannotWrite(path_, error.what());
-  }
-  if (std::rename(fresh_.c_str(), path_.c_str()) != 0) throw cannotWrite(path_, std::strerror(errno));
-  bag_.reset();
+  bag_.finish();
 }
 
 void writeBag(const std::string& path, const fsr::dataset::Recording& recording, const BagOptions& options) {

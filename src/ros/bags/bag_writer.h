@@ -2,16 +2,15 @@
 
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <fsr_pressure_map/Session.h>
-#include <rosbag/bag.h>
 #include <rosbag/message_instance.h>
 
 #include <cstdint>
-#include <memory>
 #include <string>
 
 #include "fsr_pressure_map/dataset/recording.h"
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "fsr_pressure_map/matrix/scan.h"
+#include "ros/bags/fresh_bag.h"
 
 namespace fsr_ros {
 
@@ -23,8 +22,6 @@ class BagWriter {
   /// `topics` is the namespace of the topics, `frame_id` the TF frame of the matrix.
   explicit BagWriter(const std::string& path, const std::string& topics = "fsr",
                      const std::string& frame_id = "fsr_matrix");
-  /// Removes the temporary file if close() was not called.
-  ~BagWriter();
   BagWriter(const BagWriter&) = delete;
   BagWriter& operator=(const BagWriter&) = delete;
 
@@ -52,14 +49,11 @@ class BagWriter {
  private:
   template <typename Message>
   void write(const std::string& topic, std::int64_t stamp_ns, Message& message);
-  template <typename Write>
-  void attempt(Write write);
 
   std::string path_;
-  std::string fresh_;  // the temporary name
   std::string topics_;
   std::string frame_id_;
-  std::unique_ptr<rosbag::Bag> bag_;
+  FreshBag bag_;
 };
 
 /// Values that a bag holds in addition to a Recording.

@@ -32,8 +32,8 @@ fsr::settings::CommandLine options() {
       "read.");
   line.option("use", "NAME",
               "chamber (default), or socket: recorded without a reference, judged by the bag alone")
-      .option("calibration", "FILE",
-              "with --use socket: report what is outside the trained range of this calibration")
+      .input("calibration", "FILE",
+             "with --use socket: report what is outside the trained range of this calibration")
       .option("sections", "N",
               "sections of the cross-validation for which coverage is judged, 2 to 20; default 5")
       .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")

@@ -26,7 +26,7 @@ fsr::settings::CommandLine commandLine() {
       "each unit), curvature (1/m, 1/cm),\ntemperature (C, K, F), surface, mount. COLUMN is a name "
       "or a number from 1.");
   line.option("columns", "LIST", "e.g. time=1:ms,reading=force_V:V,reference=pressure:bar")
-      .option("output", "BAG", "file to write")
+      .output("output", "BAG", "file to write")
       .option("separator", "NAME", "comma, semicolon, tab or space (detected from the first row)")
       .option("header", "yes|no", "whether the first row names the columns (detected from the first row)")
       .option("skip-lines", "N", "number of lines before the table (0)")

@@ -47,6 +47,10 @@ std::string outputFolder(const std::string& path) {
   return folder;
 }
 
+std::vector<std::string> discrepancyFiles() {
+  return {"results.json", "base.yaml", "simulation.yaml", "prediction.yaml", "verdict.yaml"};
+}
+
 void writeDiscrepancy(const fsr::discrepancy::DiscrepancyReport& report, const std::string& folder) {
   const std::string figures = outputFolder(folder + "/figures");
   for (const auto& [name, table] : fsr::report::discrepancyTables(report))

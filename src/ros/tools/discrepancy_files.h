@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 #include "report/prediction_file.h"
@@ -10,6 +11,9 @@ namespace fsr_ros {
 /// Creates a folder if it does not exist, and returns its absolute path. Throws fsr::InputError if it cannot
 /// be created.
 std::string outputFolder(const std::string& path);
+
+/// The files at the top of the folder that writeDiscrepancy() replaces.
+std::vector<std::string> discrepancyFiles();
 
 /// Writes a report into a folder: verdict.yaml, simulation.yaml (with the effects found), base.yaml (fitted,
 /// without them), prediction.yaml, results.json, and the tables for the figures in figures/. Each file is

@@ -42,9 +42,9 @@ fsr::settings::CommandLine options() {
       "library explains the\ngap. A folder stands for the bags in it. The number of times that the hold-out "
       "cycles of a bag were "
       "used is kept in\nROS_HOME/fsr_pressure_map/show_opened.");
-  line.option("simulation", "FILE",
-              "simulation to start from (config/simulation/core.yaml, with the layout of the bags)")
-      .option("output", "DIR", "folder for verdict.yaml, simulation.yaml, results.json and report.html")
+  line.input("simulation", "FILE",
+             "simulation to start from (config/simulation/core.yaml, with the layout of the bags)")
+      .output("output", "DIR", "folder for verdict.yaml, simulation.yaml, results.json and report.html")
       .option(
           "ask", "ID,...",
           "effects to ask about: each gets an answer; if nothing is found and the bags cannot show one of "
@@ -53,7 +53,7 @@ fsr::settings::CommandLine options() {
               "rms at the map below which a discrepancy does not matter [kPa] (0.2 % of the range of the "
               "chamber's pressure)")
       .flag("repeat", "go on adding effects until no further effect is found")
-      .option("confirm", "FILE", "a verdict.yaml: test its prediction on these new bags")
+      .input("confirm", "FILE", "a verdict.yaml: test its prediction on these new bags")
       .option("without", "ID,...", "leave these effects out of the library")
       .option("seed", "N", "seed of the split into fit and hold-out cycles, and of the tests (1)")
       .option("threads", "N", "number of threads, 0 = one for each core (0); the results do not depend on it")
@@ -166,7 +166,7 @@ DrivingBags inOrderOfTime(const DrivingBags& bags, const std::vector<fsr::datase
 
 int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   const std::string folder = outputFolder(line.requiredText("output"));
-  fsr::settings::requireReplaceable(folder + "/verdict.yaml");
+  for (const std::string& file : discrepancyFiles()) line.requireWritable(folder + "/" + file);
   const fsr::discrepancy::DiscrepancyProgress progress = progressOnTerminal();
   fsr::discrepancy::DiscrepancyProblem problem;
   problem.options = discrepancyOptions(line);
@@ -216,6 +216,7 @@ int confirmVerdict(const fsr::settings::CommandLine& line, std::ostream& out) {
   for (const fsr::dataset::Recording& r : recordings) inputs.push_back({r.name, r.sha256, r.scans(), 0});
   const std::string folder =
       line.has("output") ? outputFolder(line.text("output", "")) : fs::absolute(path).parent_path().string();
+  line.requireWritable(folder + "/confirmation.yaml");
   fsr::settings::replaceFile(folder + "/confirmation.yaml",
                              fsr::report::confirmationYaml(answer, stored.frozen.prediction.hash, inputs));
   out << fsr::report::confirmationText(answer) << "Written: " << folder << "/confirmation.yaml" << std::endl;

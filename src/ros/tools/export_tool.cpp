@@ -38,8 +38,8 @@ fsr::settings::CommandLine options(const std::vector<ExportFormat>& formats) {
   fsr::settings::CommandLine line(
       "export", "BAG... --to FORMAT --output PATH, or ARCHIVE --to bag --output BAG", purpose.str());
   line.option("to", "FORMAT", "format to write")
-      .option("output", "PATH", "file to write; an existing file is replaced")
-      .option("calibration", "FILE", "compute the maps with this calibration instead of using recorded ones")
+      .output("output", "PATH", "file to write; an existing file is replaced")
+      .input("calibration", "FILE", "compute the maps with this calibration instead of using recorded ones")
       .option("from", "S", "start, in seconds since the first scan (0)")
       .option("until", "S", "end, in seconds since the first scan (all)")
       .option("topics", "A,B", "hdf5: only these topics, full names or names under the namespace (all)")
@@ -82,17 +82,6 @@ void refuseOthers(const fsr::settings::CommandLine& line, const std::vector<std:
   }
 }
 
-std::string outputOf(const fsr::settings::CommandLine& line) {
-  const std::string output = line.requiredText("output");
-  std::error_code error;
-  for (const std::string& input : line.files()) {
-    if (fs::equivalent(input, output, error)) {
-      throw fsr::settings::InputError("--output is " + input + " itself; give another name");
-    }
-  }
-  return output;
-}
-
 std::string fullPath(const std::string& path) {
   return fs::absolute(path).lexically_normal().string();
 }
@@ -124,7 +113,7 @@ void writeScans(const fsr::exports::ScanFormat& format, const fsr::settings::Com
     selection.rate = pictures.rate;
     selection.counts = false;
   }
-  const std::unique_ptr<fsr::exports::ScanSink> sink = format.open(outputOf(line), pictures);
+  const std::unique_ptr<fsr::exports::ScanSink> sink = format.open(line.requiredText("output"), pictures);
   sendAll(line, selection, *sink, out);
 }
 
@@ -141,7 +130,7 @@ void writeArchive(const fsr::settings::CommandLine& line, std::ostream& out) {
   refuseOthers(line, pictureOptionNames());
   const ScanSelection range = selectionOf(line);
   const ArchiveSelection selection{range.topics, split(line.text("topics", "")), range.from, range.until};
-  const ArchiveResult result = archiveBag(line.files().front(), selection, outputOf(line));
+  const ArchiveResult result = archiveBag(line.files().front(), selection, line.requiredText("output"));
   if (!result.complaint.empty())
     out << "Warning: the group /scans is incomplete: " << result.complaint << "\n";
   out << result.messages << " messages written to " << fullPath(line.text("output", "")) << std::endl;
@@ -151,7 +140,7 @@ void writeBag(const fsr::settings::CommandLine& line, std::ostream& out) {
   requireOne(line);
   refuseOthers(line, {"calibration", "rate", "map", "ambient", "topics", "from", "until", "namespace"});
   refuseOthers(line, pictureOptionNames());
-  const std::uint64_t messages = restoreBag(line.files().front(), outputOf(line));
+  const std::uint64_t messages = restoreBag(line.files().front(), line.requiredText("output"));
   out << messages << " messages, identical to those of the bag, written to "
       << fullPath(line.text("output", "")) << std::endl;
 }

@@ -32,19 +32,19 @@ fsr::settings::CommandLine options() {
       "simulation file, or those recorded in real bags. The true settings of the "
       "rig are in truth.yaml beside "
       "the bags, and not in the bags.");
-  line.option("simulation", "FILE", "settings of the rig, e.g. config/simulation/bench.yaml")
-      .option("output", "DIR", "folder to write to; it is created if it does not exist")
-      .option("drive", "BAG", "run the simulation on these bags, in time order, instead of the session")
-      .option("gap", "FILE",
-              "a verdict.yaml: recompute its gap on the bags of --drive, with base.yaml and simulation.yaml "
-              "beside "
-              "it; writes nothing")
+  line.input("simulation", "FILE", "settings of the rig, e.g. config/simulation/bench.yaml")
+      .output("output", "DIR", "folder to write to; it is created if it does not exist")
+      .input("drive", "BAG", "run the simulation on these bags, in time order, instead of the session")
+      .input("gap", "FILE",
+             "a verdict.yaml: recompute its gap on the bags of --drive, with base.yaml and simulation.yaml "
+             "beside "
+             "it; writes nothing")
       .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
       .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
       .option("seed", "N", "seed instead of the file's: another sheet and other noise")
       .option("effect", "ID", "enable this effect, with its usual values if the file does not set them")
-      .option("state", "FILE", "continue from the state of the sheet that another run saved")
-      .option("save-state", "FILE", "save the state of the sheet at the end")
+      .input("state", "FILE", "continue from the state of the sheet that another run saved")
+      .output("save-state", "FILE", "save the state of the sheet at the end")
       .flag("plot", "draw the effects of the rig, or --effect alone, instead of writing bags")
       .flag("list-effects", "describe every effect, or --effect alone, and exit");
   return line;
@@ -131,6 +131,7 @@ void writeBags(const fsr::settings::CommandLine& line, const fsr::simulation::Si
   const TidyFolder folder(line);
   bags.output = folder.path();
   refuseRecordedBags(bags.output);
+  line.requireWritable(fs::path(bags.output) / kTruth);
   bags.progress = [&](const std::string& path) { out << path << std::endl; };
   if (line.has("state")) {
     bags.state = fsr::simulation::readRigState(fsr::settings::Settings::fromFile(line.requiredText("state")));
@@ -156,6 +157,7 @@ int drawPlot(const fsr::settings::CommandLine& line, const fsr::simulation::Simu
   const auto before = id.empty() ? coreOf(settings) : withoutEffect(settings, id);
   fsr::simulation::Portrait portrait = portray(titled, before);
   if (!id.empty()) portrait.title += ": " + fsr::simulation::findEffect(id)->info.summary;
+  line.requireWritable(data);
   fsr::settings::replaceFile(data, fsr::report::portraitJson(portrait));
   out << data.string() << std::endl;
   try {

@@ -31,10 +31,10 @@ fsr::settings::CommandLine options() {
       "matrix in a pressure chamber, or on a simulated one: regression algorithms, flat against bent "
       "surfaces, "
       "compensation methods, statistical tests, and how far the results hold for other data.");
-  line.option("output", "DIR", "folder to write to; it is created if it does not exist")
-      .option("simulation", "FILE", "simulate these recordings, e.g. config/simulation/paper.yaml")
+  line.output("output", "DIR", "folder to write to; it is created if it does not exist")
+      .input("simulation", "FILE", "simulate these recordings, e.g. config/simulation/paper.yaml")
       .option("simulation-seed", "N", "seed instead of the simulation's: another sheet and other noise")
-      .option("plan", "FILE", "settings of the study, e.g. config/study/paper.yaml, which has the defaults")
+      .input("plan", "FILE", "settings of the study, e.g. config/study/paper.yaml, which has the defaults")
       .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
       .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
       .option("seed", "N", "seed of down-sampling, forest and bootstrap; default: the plan's")
@@ -87,7 +87,7 @@ fs::path folderOf(const fsr::settings::CommandLine& line) {
     throw fsr::settings::InputError(folder.string() + ": the folder cannot be created (" + error.message() +
                                     "); give another one with --output");
   }
-  fsr::settings::requireReplaceable((folder / "results.json").string());
+  line.requireWritable((folder / "results.json").string());
   return folder;
 }
 

@@ -34,8 +34,8 @@ fsr::settings::CommandLine options() {
       "train", "BAG... --output FILE, or --merge CALIBRATION... --output FILE, or --check FILE BAG...",
       "Trains a calibration from bags of a matrix in a pressure chamber. It uses the topics raw, "
       "chamber_pressure and curvature, and matrix_info and temperature if they were recorded.");
-  line.option("output", "FILE", "calibration file to write (HDF5)")
-      .option("check", "FILE", "test this calibration on the bags instead: is it still good?")
+  line.output("output", "FILE", "calibration file to write (HDF5)")
+      .input("check", "FILE", "test this calibration on the bags instead: is it still good?")
       .flag("merge",
             "merge calibration files: gives what training on all their bags would give, without scores")
       .option("scheme", "NAME",
@@ -65,7 +65,7 @@ fsr::settings::CommandLine options() {
       .option("threads", "N",
               "number of threads; default: one for each core; the results do not depend on it")
       .flag("no-scores", "do not compute the cross-validated scores")
-      .option("report", "FILE", "also write coverage, scores and provenance as JSON");
+      .output("report", "FILE", "also write coverage, scores and provenance as JSON");
   return line;
 }
 

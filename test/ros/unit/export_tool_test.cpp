@@ -495,7 +495,7 @@ TEST_F(ExportTool, RefusesUnusableInputInOneSentenceAndLeavesNothing) {
   EXPECT_NE(refusal({cut}).find("is not a complete bag"), std::string::npos);
   EXPECT_EQ(files(), 3u) << "the bags alone";
   EXPECT_EQ(run({bag_, "--to", "csv", "--output", bag_}),
-            "--output is " + bag_ + " itself; give another name");
+            bag_ + ": would be overwritten, but is one of the inputs; give another name for the output");
   EXPECT_NE(run({bag_, "--to", "csv", "--output", folder_.path("no/a.csv")}).find("cannot be written"),
             std::string::npos);
 }
