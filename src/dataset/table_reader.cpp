@@ -1,21 +1,26 @@
 #include "dataset/table_reader.h"
 
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <locale>
 #include <sstream>
+
+#include "settings/regular_file.h"
 
 namespace fsr::dataset {
 
 namespace {
 
 constexpr std::size_t kLongestLine = 1 << 20;  // [bytes]: a file with longer lines is not a table
+// Empty lines and comments that follow each other [bytes]. A packed file can hold any number of them.
+constexpr std::size_t kMostWithoutRow = 1 << 24;
+constexpr char kByteOrderMark[] = "\xEF\xBB\xBF";
 
 std::string trimmed(const std::string& text) {
   const char* const blank = " \t\r\"";
@@ -25,6 +30,9 @@ std::string trimmed(const std::string& text) {
 
 // The whole text as a number; `ok` is false where it is not one.
 double parsed(std::string text, bool decimal_comma, bool& ok) {
+  // 1.234 would be 1234 for some who write decimal commas, and 1.234 for others.
+  ok = !decimal_comma || text.find('.') == std::string::npos;
+  if (!ok) return NAN;
   if (decimal_comma) std::replace(text.begin(), text.end(), ',', '.');
   std::string lower = text;
   std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -68,9 +76,13 @@ struct TableReader::Source {
   std::string path;
   std::size_t line = 0;
 
-  explicit Source(const std::string& name) : file(gzopen(name.c_str(), "rb")), path(name) {
-    if (file == nullptr)
-      throw settings::InputError(path + ": cannot be opened (" + std::strerror(errno) + ")");
+  explicit Source(const std::string& name) : path(name) {
+    settings::RegularFile opened(path);
+    const int descriptor = opened.release();
+    file = gzdopen(descriptor, "rb");
+    if (file != nullptr) return;
+    close(descriptor);
+    throw settings::InputError(path + ": needs more memory than the system gives");
   }
   ~Source() { gzclose(file); }
   Source(const Source&) = delete;
@@ -94,6 +106,8 @@ struct TableReader::Source {
     }
     if (text.empty()) return false;
     ++line;
+    // Spreadsheets write such a mark before the first line.
+    if (line == 1 && text.rfind(kByteOrderMark, 0) == 0) text.erase(0, sizeof kByteOrderMark - 1);
     while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
     return true;
   }
@@ -108,8 +122,15 @@ TableReader::~TableReader() = default;
 
 bool TableReader::readCells() {
   std::string line;
+  std::size_t without_row = 0;  // [bytes]
   while (source_->getLine(line)) {
     const std::string content = trimmed(line);
+    without_row += line.size() + 1;
+    if (source_->line > format_.skip_lines && without_row > kMostWithoutRow) {
+      throw settings::InputError(
+          path_ + ", line " + std::to_string(source_->line) +
+          ": 16 MiB of empty lines and comments follow each other; this is not a table");
+    }
     if (source_->line <= format_.skip_lines || content.empty() || content[0] == '#') continue;
     if (format_.separator == 0) format_.separator = separatorOf(line, format_.decimal_comma);
     cells_ = split(line, format_.separator);
@@ -171,8 +192,11 @@ double TableReader::numberOrInfinity(std::size_t column) const {
   if (cells_[column].empty()) throw error(column, "is empty, but must be a number");
   bool is_number = false;
   const double value = parsed(cells_[column], format_.decimal_comma, is_number);
-  if (!is_number || std::isnan(value))
-    throw error(column, "is \"" + cells_[column] + "\", but must be a number");
+  if (!is_number || std::isnan(value)) {
+    const bool point = format_.decimal_comma && cells_[column].find('.') != std::string::npos;
+    throw error(column, "is \"" + cells_[column] + "\", but must be a number" +
+                            (point ? " with a comma and without a point, because of --decimal-comma" : ""));
+  }
   return value;
 }
 

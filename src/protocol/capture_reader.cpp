@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstring>
 #include <thread>
 #include <utility>
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "protocol/capture.h"
+#include "settings/regular_file.h"
 
 namespace fsr::protocol {
 namespace {
@@ -25,9 +25,9 @@ std::size_t readUpTo(std::ifstream& file, std::uint8_t* bytes, std::size_t size)
 
 }  // namespace
 
-CaptureReader::CaptureReader(const std::string& path) : path_(path), file_(path, std::ios::binary) {
-  if (!file_)
-    throw settings::InputError("capture " + path + " cannot be read (" + std::strerror(errno) + ")");
+CaptureReader::CaptureReader(const std::string& path) : path_(path) {
+  settings::requireRegularFile(path);
+  file_.open(path, std::ios::binary);
   std::array<std::uint8_t, capture::kFileHeader> header{};
   const std::size_t size = readUpTo(file_, header.data(), header.size());
   if (size < header.size() || std::memcmp(header.data(), capture::kMagic, 8) != 0) {

@@ -8,6 +8,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/verdict_file.h"
+#include "settings/regular_file.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::report {
@@ -74,12 +75,11 @@ class Mapping {
   YAML::Node node_;
 };
 
+constexpr std::uint64_t kLargestFile = 2 << 20;  // [bytes]
+
 YAML::Node load(const std::string& path) {
   try {
-    return YAML::LoadFile(path);
-  } catch (const YAML::BadFile&) {
-    throw settings::InputError(path +
-                               ": cannot be opened; give the verdict.yaml of an earlier discrepancy run");
+    return YAML::Load(settings::RegularFile(path, kLargestFile).rest());
   } catch (const YAML::Exception& error) {
     throw settings::InputError(path + ": is not valid YAML (" + error.what() + ")");
   }

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <sstream>
+
+#include "settings/regular_file.h"
 
 namespace fsr::settings {
 
@@ -23,8 +24,8 @@ struct Settings::Node {
 
 namespace {
 
-// A surface of 255 x 255 taxels takes 4 MiB [bytes].
-constexpr std::uintmax_t kLargestFile = 16 << 20;
+// A surface of 64 x 64 taxels takes 256 KiB. Each byte of a list of digits takes 230 bytes of memory [bytes].
+constexpr std::uint64_t kLargestFile = 2 << 20;
 
 std::string oneLine(const YAML::Node& node) {
   if (node.IsScalar()) return node.Scalar();
@@ -70,20 +71,7 @@ static YAML::Node topMapping(const std::string& origin, const YAML::Node& yaml) 
 }
 
 Settings Settings::fromFile(const std::string& path) {
-  std::error_code unknown;
-  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
-  if (!unknown && size > kLargestFile) {
-    throw InputError(path + ": is larger than 16 MiB; is it a settings file?");
-  }
-  YAML::Node yaml;
-  try {
-    yaml = YAML::LoadFile(path);
-  } catch (const YAML::BadFile&) {
-    throw InputError(path + ": the settings file cannot be opened; check that it exists and is readable");
-  } catch (const YAML::Exception& error) {
-    throw InputError(path + ": not valid YAML: " + error.what());
-  }
-  return Settings(std::make_shared<Node>(Node{topMapping(path, yaml), path, "", {}, {}}));
+  return fromText(RegularFile(path, kLargestFile).rest(), path);
 }
 
 Settings Settings::fromText(const std::string& text, const std::string& origin) {

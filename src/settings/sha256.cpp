@@ -2,15 +2,13 @@
 
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <memory>
 #include <stdexcept>
 #include <vector>
 
-#include "fsr_pressure_map/settings/input_error.h"
+#include "settings/regular_file.h"
 
 namespace fsr::settings {
 
@@ -56,17 +54,15 @@ std::string sha256(const void* bytes, std::size_t size) {
 }
 
 std::string sha256OfFile(const std::string& path, std::size_t skip) {
-  const std::unique_ptr<std::FILE, decltype(&std::fclose)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+  RegularFile file(path);
   Sha256 digest;
   std::vector<char> chunk(1 << 20);
-  if (file) std::fseek(file.get(), static_cast<long>(skip), SEEK_SET);
-  while (file) {
-    const std::size_t size = std::fread(chunk.data(), 1, chunk.size(), file.get());
+  for (std::size_t left = skip; left > 0;) {
+    const std::size_t size = file.read(chunk.data(), std::min(left, chunk.size()));
     if (size == 0) break;
-    digest.add(chunk.data(), size);
+    left -= size;
   }
-  if (!file || std::ferror(file.get()))
-    throw InputError(path + ": cannot be read (" + std::strerror(errno) + ")");
+  while (const std::size_t size = file.read(chunk.data(), chunk.size())) digest.add(chunk.data(), size);
   return digest.hexadecimal();
 }
 

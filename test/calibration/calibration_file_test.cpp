@@ -260,7 +260,7 @@ TEST_F(CalibrationFile, AForeignFileIsRefused) {
   EXPECT_EQ(complaint(), foreign);
   EXPECT_THROW(loadCalibration(testing::TempDir()), settings::InputError);
   std::remove(path_.c_str());
-  EXPECT_EQ(complaint(), path_ + ": cannot be opened (No such file or directory)");
+  EXPECT_EQ(complaint(), path_ + ": there is no such file");
 }
 
 TEST_F(CalibrationFile, AnUnknownSchemaIsRefusedByNumber) {

@@ -233,6 +233,35 @@ TEST_F(Table, SkipsALineOfOtherWhiteSpace) {
   expectComplaint("\v\n", "time=1,reading=2:V", {"has no row"});
 }
 
+// As spreadsheets write it. It is no part of the first column's name.
+TEST_F(Table, IgnoresAByteOrderMark) {
+  const TableRecording table = read(std::string("\xEF\xBB\xBF") + kPlain, "time=t,reading=left:V");
+  EXPECT_EQ(table.recording.scans(), 3u);
+}
+
+TEST_F(Table, RefusesADecimalPointWhereACommaIsTold) {
+  TablePlan plan;
+  plan.format.decimal_comma = true;
+  expectComplaint("0;1.234\n1;2.345\n", "time=1,reading=2:V",
+                  {"line 1, column 2", "\"1.234\"", "because of --decimal-comma"}, plan);
+}
+
+// A hundred kilobytes of gzip can hold a hundred megabytes of them.
+TEST_F(Table, RefusesPackedEmptyLinesEarly) {
+  gzFile file = gzopen(path_.c_str(), "wb");
+  const std::string lines(1 << 20, '\n');
+  for (int i = 0; i < 40; ++i) gzwrite(file, lines.data(), static_cast<unsigned>(lines.size()));
+  gzclose(file);
+  TablePlan plan;
+  plan.columns = parseColumns("time=1,reading=2:V");
+  try {
+    readTable(path_, plan);
+    FAIL() << "read";
+  } catch (const settings::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("16 MiB of empty lines"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(Table, RefusesALineThatBeginsWithAZeroByte) {
   expectComplaint(std::string("\0,1\n", 4), "time=1,reading=2:V", {"has a zero byte"});
 }

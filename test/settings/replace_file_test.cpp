@@ -87,8 +87,8 @@ TEST_F(ReplaceFile, RecognisesAFileByAnyOfItsNames) {
   fs::create_symlink("a", folder / "link");
   fs::create_hard_link(folder / "a", folder / "hard");
   fs::create_directory_symlink(folder, folder / "here");
-  for (const fs::path& name : {folder / "a", folder / "." / "here" / "a", folder / "link",
-                               folder / "hard", folder / "here" / "a"}) {
+  for (const fs::path& name :
+       {folder / "a", folder / "." / "here" / "a", folder / "link", folder / "hard", folder / "here" / "a"}) {
     EXPECT_TRUE(sameFile(name, folder / "a")) << name;
   }
   EXPECT_TRUE(sameFile(folder / "new", folder / "here" / "new")) << "neither exists";

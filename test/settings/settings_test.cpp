@@ -86,7 +86,7 @@ TEST(Settings, RefusesAFileThatIsNotAYamlMapping) {
   std::ofstream(large) << "a: 1\n";
   std::filesystem::resize_file(large, 20 << 20);
   EXPECT_EQ(messageOf([&] { Settings::fromFile(large); }),
-            large + ": is larger than 16 MiB; is it a settings file?");
+            large + ": has 20 MiB, but a file of this kind has 2 MiB at most; is it the right file?");
   std::filesystem::remove(large);
 }
 

@@ -31,7 +31,7 @@ TEST(Sha256, AFileThatIsNotThereIsNamed) {
     sha256OfFile("/nonexistent/file.bag");
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "/nonexistent/file.bag: cannot be read (No such file or directory)");
+    EXPECT_STREQ(error.what(), "/nonexistent/file.bag: there is no such file");
   }
 }
 

@@ -12,7 +12,9 @@
 
 #include "calibration/file/calibration_hdf5.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/foreign_error.h"
 #include "settings/fresh_file.h"
+#include "settings/regular_file.h"
 #include "settings/replace_file.h"
 #include "settings/sha256.h"
 
@@ -42,34 +44,21 @@ std::uint64_t schemaOf(const std::string& bytes) {
   return std::strtoull(bytes.c_str() + start.size(), nullptr, 10);
 }
 
-void readUpTo(std::uintmax_t size, std::ifstream& file, std::string& bytes) {
-  const std::size_t begin = bytes.size();
-  bytes.resize(size);
-  if (!file.read(bytes.data() + begin, static_cast<std::streamsize>(size - begin))) {
-    throw settings::InputError("cannot be read to its end; is it being written?");
-  }
+// The user block. Of a file that is not a calibration nothing else is read.
+std::string firstLine(const std::string& path) {
+  settings::RegularFile file(path);
+  std::string block(hdf5::kUserBlock, '\0');
+  block.resize(file.read(block.data(), block.size()));
+  schemaOf(block);
+  if (file.size() > kLargestFile) throw settings::InputError("is larger than 4 GiB, which no calibration is");
+  return block;
 }
 
-// The bytes of the file. Of a file that is not a calibration only the first line is read.
-std::string readWhole(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw settings::InputError("cannot be opened (" + std::string(std::strerror(errno)) + ")");
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) throw settings::InputError("is no file; give the path of a calibration file");
-  std::string bytes;
-  readUpTo(std::min<std::uintmax_t>(size, hdf5::kUserBlock), file, bytes);
-  schemaOf(bytes);
-  if (size > kLargestFile) throw settings::InputError("is larger than 4 GiB, which no calibration is");
-  readUpTo(size, file, bytes);
-  return bytes;
-}
-
-// The id. Refuses bytes that do not have the hash that the user block names.
-std::string verified(const std::string& bytes, std::uint64_t schema) {
-  const std::size_t content = bytes.size() - std::min(bytes.size(), hdf5::kUserBlock);
-  const std::string hash = settings::sha256(bytes.data() + bytes.size() - content, content);
-  if (content == 0 || bytes.compare(0, hdf5::kUserBlock, userBlock(schema, hash)) != 0) {
+// The id. Refuses bytes that do not have the hash that the user block names. They are read piece by piece, so
+// that a wrong file takes no memory, however large it is.
+std::string verified(const std::string& path, const std::string& block, std::uint64_t schema) {
+  const std::string hash = settings::sha256OfFile(path, hdf5::kUserBlock);
+  if (block != userBlock(schema, hash) || hash == settings::sha256(nullptr, 0)) {
     throw settings::InputError(
         "is damaged or cut short: its bytes do not have the SHA-256 that its first line names; "
         "copy the file again or train again");
@@ -84,8 +73,8 @@ struct VerifiedFile {
 
 // Reads a whole file. Refuses a schema that this version does not know.
 VerifiedFile verifiedFile(const std::string& path) {
-  const std::string bytes = readWhole(path);
-  const std::uint64_t schema = schemaOf(bytes);
+  const std::string block = firstLine(path);
+  const std::uint64_t schema = schemaOf(block);
   const std::string has = "has schema " + std::to_string(schema) + ", but this version reads ";
   if (schema > kCalibrationSchema) {
     throw settings::InputError(has + "up to " + std::to_string(kCalibrationSchema) + "; update the package");
@@ -94,7 +83,7 @@ VerifiedFile verifiedFile(const std::string& path) {
     throw settings::InputError(has + std::to_string(kOldestSchema) + " to " +
                                std::to_string(kCalibrationSchema) + "; train again");
   }
-  return {schema, verified(bytes, schema)};
+  return {schema, verified(path, block, schema)};
 }
 
 // Properties that change when a file is replaced or written to: inode, time, size. Zeros if it does not
@@ -138,8 +127,8 @@ Calibration loadCalibration(const std::string& path, CalibrationParts parts,
     if (stateOf(path) != before) throw settings::InputError("was replaced while it was read; read it again");
     calibration.id = file.id;
     return calibration;
-  } catch (const settings::InputError& error) {
-    throw settings::InputError(path + ": " + error.what());
+  } catch (const std::exception& error) {
+    throw settings::sentenceAbout(path, error);
   }
 }
 

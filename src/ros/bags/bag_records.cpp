@@ -9,6 +9,7 @@ namespace fsr_ros::bag_records {
 namespace {
 
 constexpr char kMagic[] = "#ROSBAG V2.0\n";
+constexpr std::uint64_t kLargestRecord = 1u << 28;  // [bytes]; rosbag record makes chunks of 768 KB
 
 }  // namespace
 
@@ -54,6 +55,7 @@ void RecordFile::next() {
 
 void RecordFile::take(std::uint64_t size, std::string& into) {
   if (size > size_ - position_) damaged("a record ends behind the file's end");
+  if (size > kLargestRecord) damaged("a record is larger than 256 MiB");
   into.resize(size);
   if (!file_.read(into.data(), static_cast<std::streamsize>(size))) damaged("it cannot be read to its end");
   position_ += size;

@@ -1,5 +1,7 @@
 #include "ros/bags/message_events.h"
 
+#include <algorithm>
+
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/messages/surface_message.h"
 
@@ -22,6 +24,9 @@ fsr::dataset::MatrixDescription toDescription(const fsr_pressure_map::MatrixInfo
   require(message.pitch_x > 0 && message.pitch_y > 0,
           "pitch_x and pitch_y are " + std::to_string(message.pitch_x) + " and " +
               std::to_string(message.pitch_y) + " m, but must be positive");
+  require(std::max(message.rows, message.columns) <= fsr::matrix::kMaxMatrixSide,
+          "rows and columns are " + std::to_string(message.rows) + " and " + std::to_string(message.columns) +
+              ", but must be " + std::to_string(fsr::matrix::kMaxMatrixSide) + " at most");
   require(message.mask.empty() || message.mask.size() == taxels,
           "mask has " + std::to_string(message.mask.size()) + " values, but must have none or " +
               std::to_string(taxels));

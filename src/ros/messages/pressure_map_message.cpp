@@ -1,5 +1,6 @@
 #include "fsr_pressure_map/ros/pressure_map_message.h"
 
+#include <algorithm>
 #include <string>
 
 #include "fsr_pressure_map/settings/input_error.h"
@@ -57,6 +58,12 @@ void fillMessage(const fsr::map::PressureMap& map, Message& message) {
 }
 
 fsr::map::PressureMap toPressureMap(const Message& message) {
+  if (std::max(message.rows, message.columns) > fsr::matrix::kMaxMatrixSide) {
+    throw fsr::settings::InputError("pressure map message: has " + std::to_string(message.rows) + " x " +
+                                    std::to_string(message.columns) + " taxels, but must have " +
+                                    std::to_string(fsr::matrix::kMaxMatrixSide) +
+                                    " rows and columns at most");
+  }
   requireTaxels("pressure", message.pressure.size(), message);
   requireTaxels("deviation", message.deviation.size(), message);
   requireTaxels("flags", message.flags.size(), message);

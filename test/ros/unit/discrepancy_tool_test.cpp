@@ -201,7 +201,7 @@ TEST_F(DiscrepancyTool, ConfirmsByBagsThatAreNewWhatItPredicted) {
   };
   const std::vector<std::string> nothing = session("nothing", 7, "");
   with({"--output", path("none"), "--no-report"}, nothing);
-  expectSaid(with({"--confirm", path("nowhere.yaml")}, nothing), {"nowhere.yaml", "cannot be opened"});
+  expectSaid(with({"--confirm", path("nowhere.yaml")}, nothing), {"nowhere.yaml", "there is no such file"});
   expectSaid(with({"--confirm", path("none/verdict.yaml")}, nothing),
              {"verdict is none", "predicts nothing"});
   const std::vector<std::string> first = session("loop", 7, loop);

@@ -47,6 +47,16 @@ TEST(PressureMapMessage, RefusesArraysOfAnotherSize) {
   EXPECT_THROW(toPressureMap(message), fsr::settings::InputError);
 }
 
+// The view node would draw a sheet of a million taxels.
+TEST(PressureMapMessage, RefusesAMatrixLargerThanAnyBoards) {
+  fsr_pressure_map::PressureMap message;
+  message.rows = message.columns = 1000;
+  message.pressure.resize(1000000);
+  message.deviation.resize(1000000);
+  message.flags.resize(1000000);
+  EXPECT_THROW(toPressureMap(message), fsr::settings::InputError);
+}
+
 TEST(PressureMapMessage, RefusesAnUnknownState) {
   auto message = someMessage();
   message.state = 6;
