@@ -11,6 +11,8 @@
 #include <map>
 #include <sstream>
 
+#include "ros/bags/sensor_topics.h"
+#include "ros/messages/message_reader.h"
 #include "settings/number_text.h"
 #include "statistics/median.h"
 
@@ -86,8 +88,9 @@ bool endsWith(const std::string& text, const std::string& end) {
 
 }  // namespace
 
-std::vector<TopicCourse> topicCourses(const std::string& path) {
-  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+namespace {
+
+std::vector<TopicCourse> coursesIn(const rosbag::Bag& bag) {
   rosbag::View view(bag);
   std::map<std::string, Course> courses;
   for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
@@ -98,6 +101,14 @@ std::vector<TopicCourse> topicCourses(const std::string& path) {
   const double start = view.size() > 0 ? view.getBeginTime().toSec() : 0;
   for (auto& [topic, course] : courses) result.push_back(course.finish(start));
   return result;
+}
+
+}  // namespace
+
+std::vector<TopicCourse> topicCourses(const std::string& path) {
+  std::vector<TopicCourse> courses;
+  withSoundBag(path, [&](const rosbag::Bag& bag) { courses = coursesIn(bag); });
+  return courses;
 }
 
 std::string topicsText(const std::vector<TopicCourse>& courses) {
@@ -121,17 +132,19 @@ std::string topicsText(const std::vector<TopicCourse>& courses) {
 }
 
 std::vector<std::int64_t> eventTimes(const std::string& path, const std::string& kind) {
-  const rosbag::Bag bag(path, rosbag::bagmode::Read);
-  const auto is_event = [](const rosbag::ConnectionInfo* connection) {
-    return endsWith(connection->topic, "events");
-  };
-  rosbag::View view(bag, is_event);
   std::vector<std::int64_t> times;
-  for (const rosbag::MessageInstance& instance : view) {
-    const auto event = instance.instantiate<fsr_pressure_map::Event>();
-    if (event == nullptr || event->kind != kind) continue;
-    times.push_back(static_cast<std::int64_t>(event->header.stamp.toNSec()));
-  }
+  withSoundBag(path, [&](const rosbag::Bag& bag) {
+    const auto is_event = [](const rosbag::ConnectionInfo* connection) {
+      return endsWith(connection->topic, "events") &&
+             connection->datatype == ros::message_traits::datatype<fsr_pressure_map::Event>();
+    };
+    rosbag::View view(bag, is_event);
+    MessageReader reader;
+    for (const rosbag::MessageInstance& instance : view) {
+      const auto event = reader.read<fsr_pressure_map::Event>(instance);
+      if (event.kind == kind) times.push_back(static_cast<std::int64_t>(event.header.stamp.toNSec()));
+    }
+  });
   std::sort(times.begin(), times.end());
   return times;
 }

@@ -11,7 +11,10 @@
 
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "ros/bags/bag_writer.h"
+#include "ros/bags/sensor_topics.h"
 #include "ros/bags/simulated_bags.h"
+#include "ros/messages/message_reader.h"
+#include "settings/replace_file.h"
 #include "simulation/driven_rig.h"
 
 namespace fsr_ros {
@@ -35,6 +38,8 @@ class SimulatedScans {
     if (found == stamps_.end() || *found > stamp_ns + kRounding) return nullptr;
     return counts_.data() + static_cast<std::size_t>(found - stamps_.begin()) * taxels_;
   }
+
+  std::size_t taxels() const { return taxels_; }
 
  private:
   static constexpr std::int64_t kRounding = 2;  // rounding error of times kept in seconds [ns]
@@ -69,35 +74,37 @@ class Copier {
 
  private:
   void copyScan(const rosbag::MessageInstance& instance) {
-    const auto message = instance.instantiate<fsr_pressure_map::MatrixFrame>();
-    const std::uint16_t* counts = scans_.find(static_cast<std::int64_t>(message->header.stamp.toNSec()));
-    if (counts == nullptr) return;
-    std::copy(counts, counts + message->counts.size(), message->counts.begin());
-    out_.replace(instance, *message);
+    auto message = reader_.read<fsr_pressure_map::MatrixFrame>(instance);
+    const std::uint16_t* counts = scans_.find(static_cast<std::int64_t>(message.header.stamp.toNSec()));
+    if (counts == nullptr || message.counts.size() != scans_.taxels()) return;
+    std::copy(counts, counts + message.counts.size(), message.counts.begin());
+    out_.replace(instance, message);
   }
 
   void copyInfo(const rosbag::MessageInstance& instance) {
-    const auto message = instance.instantiate<fsr_pressure_map::MatrixInfo>();
-    message->serial = message->sensor_id = settings_.board.serial;
-    message->firmware = settings_.board.firmware;
-    message->sensor_model = settings_.board.model;
-    out_.replace(instance, *message);
+    auto message = reader_.read<fsr_pressure_map::MatrixInfo>(instance);
+    message.serial = message.sensor_id = settings_.board.serial;
+    message.firmware = settings_.board.firmware;
+    message.sensor_model = settings_.board.model;
+    out_.replace(instance, message);
   }
 
   const fsr::simulation::SimulationSettings& settings_;
   std::string topics_;
   const SimulatedScans& scans_;
   BagWriter& out_;
+  MessageReader reader_;
 };
 
 void copyBag(const std::string& from, const std::string& to,
              const fsr::simulation::SimulationSettings& settings, const std::string& topics,
              const SimulatedScans& scans) {
-  const rosbag::Bag bag(from, rosbag::bagmode::Read);
   BagWriter out(to);
-  Copier copier(settings, topics, scans, out);
-  rosbag::View view(bag);
-  for (const rosbag::MessageInstance& instance : view) copier.copy(instance);
+  withSoundBag(from, [&](const rosbag::Bag& bag) {
+    Copier copier(settings, topics, scans, out);
+    rosbag::View view(bag);
+    for (const rosbag::MessageInstance& instance : view) copier.copy(instance);
+  });
   out.close();
 }
 
@@ -122,14 +129,20 @@ void warnOfSize(const fsr::dataset::Recording& recording, const fsr::simulation:
                      "; the simulation uses the bag's size");
 }
 
-std::string outputPath(const std::string& bag, const std::string& output) {
-  const auto path = std::filesystem::path(output) / std::filesystem::path(bag).filename();
-  std::error_code error;
-  if (std::filesystem::equivalent(path, bag, error)) {
-    throw fsr::settings::InputError(bag +
-                                    ": this bag would be overwritten; give another folder with --output");
+// The bag that is written for each driving bag. Throws before the first is written if one of them would
+// replace a driving bag or another output.
+std::vector<std::string> outputPaths(const std::vector<std::string>& driving, const std::string& output) {
+  std::vector<std::string> paths;
+  for (const std::string& bag : driving) {
+    const std::string path = std::filesystem::path(output) / std::filesystem::path(bag).filename();
+    fsr::settings::requireNoInput(path, driving);
+    if (std::find(paths.begin(), paths.end(), path) != paths.end()) {
+      throw fsr::settings::InputError(bag + ": another bag of --drive has the same name, and " + path +
+                                      " can be only one of them; rename one");
+    }
+    paths.push_back(path);
   }
-  return path;
+  return paths;
 }
 
 }  // namespace
@@ -143,8 +156,9 @@ SimulatedRun writeDrivenBags(const fsr::simulation::SimulationSettings& settings
                              const SimulatedBags& bags) {
   SimulatedRun run{settings, {}, {}};
   std::optional<fsr::simulation::DrivenRig> rig;
-  for (const std::string& bag : driving.paths) {
-    const std::string path = outputPath(bag, bags.output);
+  const std::vector<std::string> paths = outputPaths(driving.paths, bags.output);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const std::string &bag = driving.paths[i], &path = paths[i];
     const fsr::dataset::Recording recording = readWhole(bag, driving.how);
     if (bags.progress) bags.progress(path);
     warn(recording, run.warnings);

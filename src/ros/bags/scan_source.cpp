@@ -106,6 +106,7 @@ class Joiner {
     if (!first_ns_) first_ns_ = scan.stamp_ns;
     scan.since_ns = scan.stamp_ns - *first_ns_;
     scan.surface = surfaceAt(scan.stamp_ns);
+    if (scan.surface != nullptr) fsr::matrix::requireFit(*scan.surface, scan.layout.size);
     maker_.make(scan);  // also for scans that are not exported: the checks for dead taxels need every scan
     if (!wanted(scan.since_ns)) return;
     context_.complete(scan);

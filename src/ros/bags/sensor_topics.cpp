@@ -8,6 +8,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_walk.h"
+#include "settings/foreign_error.h"
 
 namespace fsr_ros {
 
@@ -57,8 +58,8 @@ void tellingOfDamage(const std::string& path, const std::function<void()>& read)
     throw fsr::settings::InputError(path + ": is not a complete bag (" + error.what() + ")" + remedy);
   } catch (const ros::serialization::StreamOverrunException&) {
     throw fsr::settings::InputError(path + ": a message in it is cut short" + remedy);
-  } catch (const fsr::settings::InputError& complaint) {
-    throw fsr::settings::InputError(path + ": " + complaint.what());
+  } catch (const std::exception& error) {
+    throw fsr::settings::sentenceAbout(path, error);
   }
 }
 

@@ -10,8 +10,8 @@
 namespace fsr_ros {
 
 /// Runs `read` on the bag's file. Throws fsr::InputError, one sentence that names the file and what would be
-/// right, if the file does not exist or is empty, if `read` throws a rosbag::BagException or fsr::InputError,
-/// or if a message is cut short.
+/// right, if the file does not exist or is empty, or if `read` throws an exception, e.g. of rosbag or of
+/// ros::serialization.
 void tellingOfDamage(const std::string& path, const std::function<void()>& read);
 
 /// Checks the structure of a bag (requireSoundBag), opens it and runs `use` on it. Throws likewise.

@@ -2,7 +2,9 @@
 
 #include <fsr_pressure_map/Event.h>
 #include <fsr_pressure_map/MatrixFrame.h>
+#include <fsr_pressure_map/MatrixInfo.h>
 #include <fsr_pressure_map/Session.h>
+#include <fsr_pressure_map/SurfaceCurvature.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -101,8 +103,62 @@ TEST_F(ScrubTool, RemovesIdentifyingDataAndKeepsTheScans) {
   }
 }
 
+TEST_F(ScrubTool, ListsTheTextsThatItKeeps) {
+  {
+    rosbag::Bag bag(path_, rosbag::bagmode::Append);
+    const ros::Time time(kNow);
+    fsr_pressure_map::MatrixInfo info;
+    info.serial = "FSR-0042";
+    info.transducer = "PX-3 no. 17";
+    info.header.frame_id = "left_leg_of_anna";
+    bag.write("/fsr/matrix_info", time, info);
+    fsr_pressure_map::SurfaceCurvature curvature;
+    curvature.surface = "/home/anna/limb.yaml";
+    bag.write("/fsr/curvature", time, curvature);
+    fsr_pressure_map::Session session;
+    session.trial = "3";
+    session.protocol = "stairs v2";
+    bag.write("/fsr/session", time, session);
+  }
+  const std::string said = run({path_, "--output", output_});
+  for (const char* kept :
+       {"\n  subject code: S012\n", "\n  trial: 3\n", "\n  protocol: stairs v2\n",
+        "\n  label of an event of kind step: stairs\n", "\n  surface: /home/anna/limb.yaml\n",
+        "\n  serial number: FSR-0042\n", "\n  transducer: PX-3 no. 17\n",
+        "\n  frame of /fsr/matrix_info: left_leg_of_anna\n"}) {
+    EXPECT_NE(said.find(kept), std::string::npos) << kept << " in:\n" << said;
+  }
+}
+
+// ros::Duration holds 68 years: stamps of another age are moved all the same, or refused.
+TEST_F(ScrubTool, MovesStampsOfAnyAge) {
+  for (const std::uint32_t start : {1u, 2500000000u, 4200000000u}) {
+    {
+      rosbag::Bag bag(path_, rosbag::bagmode::Write);
+      fsr_pressure_map::MatrixFrame frame;
+      frame.header.stamp = ros::Time(start, 250000000);
+      bag.write("/fsr/raw", frame.header.stamp, frame);
+    }
+    run({path_, "--output", output_});
+    rosbag::Bag bag(output_);
+    for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+      EXPECT_EQ(message.instantiate<fsr_pressure_map::MatrixFrame>()->header.stamp,
+                ros::Time(946684800, 250000000))
+          << start;
+    }
+  }
+  {
+    rosbag::Bag bag(path_, rosbag::bagmode::Write);
+    fsr_pressure_map::MatrixFrame frame;
+    frame.header.stamp = ros::Time(1);
+    bag.write("/fsr/raw", ros::Time(kNow), frame);
+  }
+  const std::string said = run({path_, "--output", output_});
+  EXPECT_NE(said.find("/fsr/raw: a stamp of 1 s"), std::string::npos) << said;
+}
+
 TEST_F(ScrubTool, RefusesToOverwriteTheBagAndFilesThatAreNoBags) {
-  EXPECT_EQ(run({path_, "--output", path_}), "--output is the bag itself; give another name");
+  EXPECT_NE(run({path_, "--output", path_}).find("would be overwritten"), std::string::npos);
   std::ofstream(folder_.path("text")) << "no bag";
   EXPECT_NE(run({folder_.path("text"), "--output", output_}).find("is not a complete bag"),
             std::string::npos);
