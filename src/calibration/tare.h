@@ -77,4 +77,8 @@ void saveTare(const Tare& tare, const std::string& path);
 /// Reads such a file. Throws InputError if a key is unknown, missing or out of range.
 Tare loadTare(const std::string& path);
 
+/// Throws InputError if there is something else than a tare at `path`: it may be neither replaced nor
+/// removed. A tare that was damaged behind its first line is a tare.
+void requireTareOrNothing(const std::string& path);
+
 }  // namespace fsr::calibration

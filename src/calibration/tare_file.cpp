@@ -12,6 +12,8 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include "calibration/tare.h"
@@ -23,6 +25,7 @@ namespace fsr::calibration {
 namespace {
 
 constexpr char kFormat[] = "fsr_pressure_map tare 1";
+constexpr char kFirstLine[] = "format: fsr_pressure_map tare ";
 const settings::Range kSide{1, matrix::kMaxMatrixSide, ""};
 const settings::Range kMount{0, std::numeric_limits<std::uint32_t>::max(), ""};
 const settings::Range kOffset{-1e6, 1e6, "Pa"};
@@ -44,6 +47,21 @@ void saveTare(const Tare& tare, const std::string& path) {
   out << YAML::Key << "offset" << YAML::Value << YAML::Flow << tare.offset;
   out << YAML::EndMap << YAML::Newline;
   settings::replaceFile(path, out.c_str());
+}
+
+void requireTareOrNothing(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::file_status found = std::filesystem::status(path, error);
+  if (found.type() == std::filesystem::file_type::not_found) return;
+  std::string line(sizeof kFirstLine - 1, '\0');
+  if (std::filesystem::is_regular_file(found)) {
+    std::ifstream file(path, std::ios::binary);
+    file.read(line.data(), static_cast<std::streamsize>(line.size()));
+  }
+  if (line == kFirstLine) return;
+  throw settings::InputError(path +
+                             ": is no tare, so it is neither replaced nor removed; give another file with "
+                             "~tare_file");
 }
 
 Tare loadTare(const std::string& path) {

@@ -98,7 +98,13 @@ void LiveCalibration::awaitWindow(std::unique_lock<std::mutex>& lock, double pat
 
 std::string LiveCalibration::clearTare() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const bool was = tare_.clear();
+  bool was = false;
+  try {
+    was = tare_.clear();
+  } catch (...) {
+    applyTare();
+    throw;
+  }
   applyTare();
   return was ? "the tare is cleared and its file removed: " + tare_.path() : "there was no tare";
 }

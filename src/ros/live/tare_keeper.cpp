@@ -11,7 +11,8 @@ namespace fsr_ros {
 namespace fs = std::filesystem;
 
 TareKeeper::TareKeeper(std::string path) : path_(std::move(path)) {
-  if (!fs::exists(path_)) return;
+  std::error_code failed;
+  if (!fs::exists(path_, failed) && !failed) return;
   try {
     tare_ = fsr::calibration::loadTare(path_);
   } catch (const fsr::settings::InputError& error) {
@@ -28,11 +29,16 @@ std::vector<float> TareKeeper::review(const std::string& id, const fsr::matrix::
   ROS_WARN_STREAM("the tare of " << tare_->date << " is dropped: it was measured with calibration "
                                  << tare_->calibration << " on surface \"" << tare_->surface << "\", mount "
                                  << tare_->mount << ", and one of these has changed");
-  clear();
+  try {
+    clear();
+  } catch (const fsr::settings::InputError& error) {
+    ROS_WARN_STREAM(error.what());  // another file took its place
+  }
   return {};
 }
 
 void TareKeeper::write(const fsr::calibration::Tare& tare, const std::string& path) {
+  fsr::calibration::requireTareOrNothing(path);
   std::error_code ignored;  // an error in the folder shows when the file is written
   fs::create_directories(fs::path(path).parent_path(), ignored);
   fsr::calibration::saveTare(tare, path);
@@ -41,9 +47,15 @@ void TareKeeper::write(const fsr::calibration::Tare& tare, const std::string& pa
 bool TareKeeper::clear() {
   const bool was = tare_.has_value();
   tare_.reset();
-  std::error_code ignored;
-  fs::remove(path_, ignored);
-  return was;
+  fsr::calibration::requireTareOrNothing(path_);
+  std::error_code error;
+  const bool removed = fs::remove(path_, error);
+  if (error) {
+    throw fsr::settings::InputError(path_ +
+                                    ": the tare is not used any more, but its file cannot be removed (" +
+                                    error.message() + "); remove it, or it returns with the next start");
+  }
+  return was || removed;
 }
 
 }  // namespace fsr_ros

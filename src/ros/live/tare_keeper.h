@@ -21,12 +21,14 @@ class TareKeeper {
   /// calibration, surface or mount are not those it was measured with.
   std::vector<float> review(const std::string& id, const fsr::matrix::Surface* surface);
 
-  /// Writes the file of a tare, which may take long, without using the tare. Throws fsr::InputError.
+  /// Writes the file of a tare, which may take long, without using the tare. Throws fsr::InputError, also if
+  /// the file that is there is no tare.
   static void write(const fsr::calibration::Tare& tare, const std::string& path);
   /// Uses a tare that was written.
   void adopt(const fsr::calibration::Tare& tare) { tare_ = tare; }
 
-  /// Drops the tare and its file. Returns false if there was no tare.
+  /// Drops the tare and its file, if that is a tare. Returns false if there was neither. Throws
+  /// fsr::InputError, after the tare was dropped, if the file is something else or cannot be removed.
   bool clear();
 
   const std::optional<fsr::calibration::Tare>& tare() const { return tare_; }

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "fsr_pressure_map/settings/input_error.h"
+
 namespace fsr_ros {
 namespace {
 
@@ -71,6 +73,35 @@ TEST_F(TareKeeperTest, DropsItForAnotherCalibrationWithoutWaitingForCurvature) {
 TEST_F(TareKeeperTest, LeavesADamagedFileAlone) {
   std::ofstream(path) << "format: something";
   TareKeeper keeper(path);
+  EXPECT_TRUE(keeper.review("id", &flat).empty());
+  EXPECT_TRUE(fs::exists(path));
+}
+
+TEST_F(TareKeeperTest, ClearsNothingButATare) {
+  const std::string bag = folder + "/recording.bag";
+  std::ofstream(bag) << "precious";
+  TareKeeper keeper(bag);
+  EXPECT_THROW(keeper.clear(), fsr::settings::InputError);
+  EXPECT_THROW(TareKeeper::write(tare, bag), fsr::settings::InputError);
+  EXPECT_EQ(fs::file_size(bag), 8u);
+  fs::create_directory(folder + "/empty");
+  EXPECT_THROW(TareKeeper(folder + "/empty").clear(), fsr::settings::InputError);
+  EXPECT_TRUE(fs::exists(folder + "/empty"));
+}
+
+TEST_F(TareKeeperTest, ClearsADamagedTareAndSaysSo) {
+  std::ofstream(path, std::ios::app) << "offset: twice";
+  TareKeeper keeper(path);
+  EXPECT_FALSE(keeper.tare().has_value());
+  EXPECT_TRUE(keeper.clear());
+  EXPECT_FALSE(fs::exists(path));
+  EXPECT_FALSE(keeper.clear());
+}
+
+TEST_F(TareKeeperTest, LeavesAFileThatTookTheTaresPlace) {
+  TareKeeper keeper(path);
+  std::ofstream(path) << "precious";
+  flat.mount = 4;
   EXPECT_TRUE(keeper.review("id", &flat).empty());
   EXPECT_TRUE(fs::exists(path));
 }
