@@ -2,6 +2,7 @@
 """record.launch writes bags that can be understood without other files and lose at most the last second on kill -9."""
 import os
 import pathlib
+import resource
 import shutil
 import signal
 import subprocess
@@ -176,6 +177,41 @@ class RecordTest(unittest.TestCase):
         self.assertGreater(len(kept), 0)
         self.assertLess(stamps[-1] - kept[-1], 1.0)
         self.assertEqual(len(kept), sum(stamp <= kept[-1] + 1e-6 for stamp in stamps), "a hole before the kill")
+
+    def end_node(self, bag, with_signal, full=False):
+        """Records without a launch file, then ends the node. Returns its status and error output."""
+        node = subprocess.Popen(["rosrun", "fsr_pressure_map", "recorder_node", "__name:=closing", f"_bag:={bag}",
+                                 "_topics:=/fsr/raw", "_min_space:=0"], stderr=subprocess.PIPE, text=True,
+                                preexec_fn=lambda: signal.signal(signal.SIGXFSZ, signal.SIG_IGN))
+        self.addCleanup(node.stderr.close)
+        active = pathlib.Path(f"{bag}.active")
+        for i in range(600):  # until some scans are in the file
+            self.scans.publish(MatrixFrame(sequence=i, rows=32, columns=32, full_scale=4095, counts=[i] * 1024))
+            if active.exists() and active.stat().st_size > 20000:
+                break
+            rospy.sleep(0.05)
+        uri = rosgraph.Master("/record_test").lookupNode("/closing")
+        pid = xmlrpc.client.ServerProxy(uri).getPid("/record_test")[2]
+        if full:  # the file cannot grow from now on, as on a full disk
+            resource.prlimit(pid, resource.RLIMIT_FSIZE, (active.stat().st_size,) * 2)
+        os.kill(pid, with_signal)
+        said = node.communicate(timeout=60)[1]
+        return node.returncode, said
+
+    def test_kill_and_a_closed_terminal_leave_a_closed_bag(self):
+        for with_signal in (signal.SIGTERM, signal.SIGHUP):
+            bag = pathlib.Path(self.folder.name) / f"{with_signal.name}.bag"
+            status, said = self.end_node(bag, with_signal)
+            self.assertEqual(status, 0, said)
+            self.assertFalse(pathlib.Path(f"{bag}.active").exists())
+            self.assertGreater(len(self.recorded(bag)), 5)
+
+    def test_a_disk_that_is_full_when_the_bag_is_closed_ends_with_an_error(self):
+        bag = pathlib.Path(self.folder.name) / "full.bag"
+        status, said = self.end_node(bag, signal.SIGTERM, full=True)
+        self.assertEqual(status, 1, said)
+        self.assertIn("NOT CLOSED", said)
+        self.assertFalse(bag.exists())
 
     def test_a_bag_can_be_understood_alone(self):
         self.record()

@@ -1,12 +1,18 @@
 #include "ros/bags/bag_sink.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <utility>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/bags/abandon_bag.h"
 #include "settings/number_text.h"
+#include "settings/replace_file.h"
 
 namespace fsr_ros {
 
@@ -34,6 +40,24 @@ void refuseExisting(const std::string& bag) {
   }
 }
 
+// Creates the file, so that of two recordings of the same name that begin together only one gets it.
+void createNew(const std::string& path) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  if (file < 0) throw fsr::settings::cannotWrite(path, errno);
+  ::close(file);
+}
+
+// Gives a closed bag its name, or the next that is free. Returns it.
+std::string giveName(const std::string& active, const std::string& wanted) {
+  std::string name = wanted;
+  int error = 0;
+  for (int number = 2; (error = fsr::settings::renameToNew(active, name)) == EEXIST; ++number) {
+    name = wanted.substr(0, wanted.size() - 4) + "_" + std::to_string(number) + ".bag";
+  }
+  if (error != 0) throw fsr::settings::cannotWrite(name, error);
+  return name;
+}
+
 }  // namespace
 
 BagSink::BagSink(const BagSinkOptions& options, std::function<void(const std::string&)> ended)
@@ -43,10 +67,14 @@ BagSink::BagSink(const BagSinkOptions& options, std::function<void(const std::st
       bag_(std::make_unique<rosbag::Bag>()) {
   refuseExisting(closed_name_);
   report_.file = closed_name_ + ".active";
+  createNew(report_.file);
   try {
     bag_->open(report_.file, rosbag::bagmode::Write);
     bag_->setChunkThreshold(options.chunk_size);
   } catch (const rosbag::BagException& error) {
+    abandonBag(std::move(bag_));
+    std::error_code ignored;
+    fs::remove(report_.file, ignored);
     throw fsr::settings::InputError(
         report_.file + ": cannot be written (" + error.what() +
         "); give a path in a directory that exists and may be written to, on a disk with room");
@@ -55,12 +83,16 @@ BagSink::BagSink(const BagSinkOptions& options, std::function<void(const std::st
 }
 
 BagSink::~BagSink() {
+  finish();
+}
+
+void BagSink::finish() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stopping_ = true;
   }
   changed_.notify_all();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 bool BagSink::add(std::uint64_t bytes, Write write) {
@@ -137,16 +169,23 @@ bool BagSink::writeAll(std::deque<Waiting>& batch) {
 }
 
 bool BagSink::close() {
+  std::string name;
   try {
     bag_->close();
-    fs::rename(closed_name_ + ".active", closed_name_);
+    name = giveName(closed_name_ + ".active", closed_name_);
   } catch (const std::exception& error) {
     static_cast<void>(bag_.release());
-    end(closed_name_ + ".active cannot be closed (" + error.what() + "); repair it with rosbag reindex");
+    end("the recording was NOT CLOSED: " + closed_name_ + ".active has no index (" + error.what() +
+        "); make room, then repair it with rosbag reindex, and compare the number of messages");
     return false;
   }
   const std::lock_guard<std::mutex> lock(mutex_);
-  report_.file = closed_name_;
+  report_.file = name;
+  if (name != closed_name_) {
+    report_.remark = closed_name_ +
+                     ": another program has made a bag of this name, which was not overwritten; " +
+                     "this recording is " + name;
+  }
   return true;
 }
 

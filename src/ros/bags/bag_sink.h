@@ -25,6 +25,7 @@ struct BagSinkOptions {
 struct BagSinkReport {
   std::string file;            ///< FILE.bag.active; FILE.bag after it is closed
   std::string complaint;       ///< why the recording stopped by itself; empty = it did not
+  std::string remark;          ///< why the closed bag has another name than it was given; empty = it has not
   std::uint64_t messages = 0;  ///< messages written
   std::uint64_t lost = 0;      ///< messages lost: the queue was full, or the recording had stopped
   std::uint64_t waiting = 0;   ///< size of the queue [bytes]
@@ -32,7 +33,8 @@ struct BagSinkReport {
 };
 
 /// Writes a bag in its own thread, so that a slow disk does not delay the thread that receives messages. The
-/// file is called FILE.bag.active until it is closed and has its index. When the disk is nearly full, the bag
+/// file is called FILE.bag.active until it is closed and has its index. If another bag has taken the name
+/// FILE.bag meanwhile, it is called FILE_2.bag. When the disk is nearly full, the bag
 /// is closed in time and the recording stops. When a write fails, the file stays under the name .active and
 /// can be repaired with `rosbag reindex`. Every message that was added is counted either as written or as
 /// lost.
@@ -46,6 +48,9 @@ class BagSink {
   BagSink(const BagSinkOptions& options, std::function<void(const std::string&)> ended);
   /// Writes the messages in the queue, then closes the bag.
   ~BagSink();
+  /// Writes the messages in the queue and closes the bag, before the destructor does. Call it once at the
+  /// end.
+  void finish();
   BagSink(const BagSink&) = delete;
   BagSink& operator=(const BagSink&) = delete;
 

@@ -3,6 +3,7 @@
 #include <ros/console.h>
 #include <topic_tools/shape_shifter.h>
 
+#include <iostream>
 #include <sstream>
 #include <utility>
 
@@ -41,6 +42,7 @@ Recorder::Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private
   }
   sink_ = std::make_unique<BagSink>(options, [this](const std::string& complaint) {
     ROS_FATAL_STREAM(complaint);
+    if (!ros::ok()) std::cerr << complaint << std::endl;  // ROS has closed the log
     failed_ = true;
     ros::requestShutdown();
   });
@@ -51,6 +53,13 @@ Recorder::Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private
   timer_ = handle_.createWallTimer(ros::WallDuration(1.0),
                                    [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
   ROS_INFO_STREAM("recording " << subscribers_.size() << " topics to " << sink_->report().file);
+}
+
+void Recorder::finish() {
+  subscribers_.clear();
+  sink_->finish();
+  const std::string remark = sink_->report().remark;
+  if (!remark.empty()) std::cerr << remark << std::endl;
 }
 
 void Recorder::subscribe(const std::string& topic) {

@@ -24,7 +24,10 @@ class Recorder {
   /// Throws fsr::InputError.
   Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
 
-  /// Whether the recording stopped by itself.
+  /// Writes what was received and closes the bag.
+  void finish();
+
+  /// Whether the recording stopped by itself, or could not be closed.
   bool failed() const { return failed_; }
 
  private:

@@ -5,7 +5,9 @@
 #include <std_msgs/String.h>
 
 #include <filesystem>
+#include <fstream>
 #include <future>
+#include <thread>
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/file_size_limit.h"
@@ -126,6 +128,42 @@ TEST_F(BagSinkTest, OverwritesNoRecording) {
   BagSinkOptions nowhere = options();
   nowhere.bag = folder_.path("none/run");
   EXPECT_THROW(BagSink(nowhere, nullptr), fsr::settings::InputError);
+}
+
+TEST_F(BagSinkTest, LeavesABagAloneThatTookItsNameMeanwhile) {
+  BagSink sink(options(), nullptr);
+  sink.add(1, text("kept"));
+  std::ofstream(folder_.path("run.bag")) << "precious";
+  std::ofstream(folder_.path("run_2.bag")) << "precious";
+  EXPECT_THROW(BagSink(options(), nullptr), fsr::settings::InputError);
+  sink.finish();
+  EXPECT_EQ(fs::file_size(folder_.path("run.bag")), 8u);
+  EXPECT_EQ(fs::file_size(folder_.path("run_2.bag")), 8u);
+  EXPECT_EQ(sink.report().file, folder_.path("run_3.bag"));
+  EXPECT_NE(sink.report().remark.find("this recording is " + folder_.path("run_3.bag")), std::string::npos);
+  rosbag::Bag bag(folder_.path("run_3.bag"));
+  EXPECT_EQ(rosbag::View(bag).size(), 1u);
+}
+
+// rosbag's destructor throws where the disk is full, which would end the process.
+TEST_F(BagSinkTest, RefusesToBeginOnAFullDisk) {
+  const test_support::FileSizeLimit disk(10);
+  EXPECT_THROW(BagSink(options(), nullptr), fsr::settings::InputError);
+  EXPECT_FALSE(fs::exists(folder_.path("run.bag.active")));
+}
+
+TEST_F(BagSinkTest, SaysThatItCouldNotCloseTheBag) {
+  std::string complaint;
+  BagSinkOptions large = options();
+  large.chunk_size = 1 << 20;  // nothing is written before the end
+  BagSink sink(large, [&](const std::string& why) { complaint = why; });
+  for (int i = 0; i < 100; ++i) sink.add(100, text(std::string(100, 'x')));
+  while (sink.report().messages < 100) std::this_thread::yield();
+  const test_support::FileSizeLimit disk(5000);
+  sink.finish();
+  EXPECT_NE(complaint.find("NOT CLOSED"), std::string::npos) << complaint;
+  EXPECT_EQ(sink.report().complaint, complaint);
+  EXPECT_FALSE(fs::exists(folder_.path("run.bag")));
 }
 
 }  // namespace
