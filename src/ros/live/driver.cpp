@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::uint32_t kQueue = 10000;  // queue of each topic [messages]: ten seconds at 1 kHz
 constexpr int kLooksPerSecond = 10;
-constexpr std::size_t kMostHeld = 4096;  // scans that wait for the identity of their board
+// Size of the scans that wait for the identity of their board [bytes]: seconds at any rate of a serial line.
+constexpr std::size_t kMostHeld = 64 << 20;
 
 std::int64_t rosTime() {
   return static_cast<std::int64_t>(ros::Time::now().toNSec());
@@ -101,20 +102,28 @@ void Driver::onScan(const fsr::protocol::PacketHeader& header, const fsr::protoc
   health_.clock_jumps = stamper_.clock().jumps();
 }
 
-// Publishes a scan at once, or holds it until the board has sent its identity.
+// Publishes a scan at once, or holds it until the board has sent its identity. Where too many scans wait
+// already, it is dropped and counted.
 void Driver::publishScan(const fsr_pressure_map::MatrixFramePtr& message) {
   const bool hold = gate_.scan(arrival_) == fsr::protocol::BoardGate::Verdict::kHold;
   if (gate_.gaveUp()) note({});
-  if (!hold) releaseHeld();
   if (!hold) {
+    releaseHeld();
     raw_.publish(message);
-  } else if (held_.size() < kMostHeld) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++health_.published;
+  } else if (held_.size() * (sizeof *message + 2 * message->counts.size()) < kMostHeld) {
     held_.push_back(message);
+  } else {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++health_.unclaimed_scans;
   }
 }
 
 void Driver::releaseHeld() {
   for (const auto& message : held_) raw_.publish(message);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  health_.published += held_.size();
   held_.clear();
 }
 

@@ -62,7 +62,7 @@ void summarizeRate(std::optional<double> rate, double expected, double tolerance
 void addCounts(const DriverHealth& now, Status& status) {
   const fsr::protocol::DecoderCounts& counts = now.link.counts;
   const fsr::protocol::SequenceCounts& scans = counts.of(fsr::protocol::PacketType::kScan);
-  status.add("scans published", now.scans);
+  status.add("scans published", now.published);
   status.add("scans lost", scans.lost);
   status.add("gaps in the scan counter", scans.gaps);
   status.add("duplicate scans", scans.duplicates);

@@ -15,10 +15,12 @@ namespace fsr_ros {
 struct DriverHealth {
   fsr::protocol::LinkReport link;
   Board board;
-  std::uint64_t scans = 0;            ///< published
-  std::uint64_t scan_time = 0;        ///< device time of the last of them [us]
-  std::uint64_t refused_scans = 0;    ///< scans of another size than the parameters say
-  std::uint64_t unclaimed_scans = 0;  ///< dropped: the port closed before the board sent its identity
+  std::uint64_t scans = 0;          ///< received, of the size that the parameters say
+  std::uint64_t scan_time = 0;      ///< device time of the last of them [us]
+  std::uint64_t published = 0;      ///< of these
+  std::uint64_t refused_scans = 0;  ///< scans of another size than the parameters say
+  std::uint64_t unclaimed_scans =
+      0;  ///< dropped: the port closed, or too many waited, before the identity came
   std::uint64_t clock_jumps = 0;
   double clock_drift = 0;  ///< how much faster the host's clock runs than the board's (relative)
 };
