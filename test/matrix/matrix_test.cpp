@@ -93,6 +93,12 @@ TEST(SurfaceFile, RefusesTwoFormsAndTooLargeACurvature) {
   EXPECT_THROW(readSurface(settings::Settings::fromText("surface: c", "c"), kPaper), settings::InputError);
 }
 
+TEST(SurfaceFile, AShippedSocketWallIsConcave) {
+  const Surface wall =
+      readSurfaceFile(test_support::sourceDir() + "/config/surfaces/socket_wall_5cm.yaml", kPaper);
+  EXPECT_EQ(wall.curvature.front().x, -20.0);
+}
+
 TEST(SurfaceFile, EveryShippedSurfaceLoadsUnderItsFileName) {
   int files = 0;
   for (const auto& entry :
@@ -101,7 +107,7 @@ TEST(SurfaceFile, EveryShippedSurfaceLoadsUnderItsFileName) {
     EXPECT_EQ(surface.name, entry.path().stem().string());
     ++files;
   }
-  EXPECT_GE(files, 7);
+  EXPECT_GE(files, 10);
 }
 
 }  // namespace
