@@ -54,4 +54,12 @@ std::string resolveResource(const std::string& text) {
   return rest;
 }
 
+std::string resolveLaunchPath(const std::string& text) {
+  const bool relative = !text.empty() && text.front() != '/' && text.front() != '~' && text.front() != '$' &&
+                        text.find("://") == std::string::npos;
+  const char* folder = std::getenv("PWD");
+  if (!relative || folder == nullptr || *folder != '/') return resolveResource(text);
+  return std::string(folder) + "/" + text;
+}
+
 }  // namespace fsr_ros

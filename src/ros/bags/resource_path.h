@@ -16,6 +16,10 @@ namespace fsr_ros {
 /// directory of a node) and for an unknown package, variable or scheme.
 std::string resolveResource(const std::string& text);
 
+/// The same for a parameter of a launch file: a relative path starts in the directory in which the user
+/// called roslaunch or rosrun ($PWD, which a node inherits).
+std::string resolveLaunchPath(const std::string& text);
+
 /// The directory of ROS for logs and state: $ROS_HOME, or ~/.ros if it is not set.
 std::string rosHome();
 

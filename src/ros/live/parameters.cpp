@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "ros/bags/resource_path.h"
+
 namespace fsr_ros {
 
 namespace {
@@ -25,6 +27,22 @@ fsr::settings::InputError Parameters::error(const std::string& name, const std::
                                    (set ? " is " + textOf(value) : " is not set") + ", but " + complaint);
 }
 
+Parameters::Parameters(const ros::NodeHandle& private_handle) : handle_(private_handle) {
+  std::string rig, launched;
+  if (handle_.getParam("rig", rig) && !rig.empty()) {
+    rig_ = fsr::settings::Settings::fromFile(resolveLaunchPath(rig));
+  }
+  handle_.getParam("launched", launched);
+  std::istringstream words(launched);
+  for (std::string word; words >> word;) given_.insert(word);
+}
+
+bool Parameters::isOfRig(const std::string& name) const {
+  const bool is = rig_ && rig_->has(name) && given_.count(name) == 0;
+  if (is) asked_.insert(handle_.resolveName(name));
+  return is;
+}
+
 bool Parameters::isSet(const std::string& name) const {
   asked_.insert(handle_.resolveName(name));
   return handle_.hasParam(name);
@@ -37,12 +55,15 @@ std::vector<std::string> Parameters::unknown() const {
   handle_.getParamNames(names);
   for (const std::string& name : names) {
     const bool is_own = name.compare(0, own.size(), own) == 0;
-    if (is_own && asked_.count(name) == 0 && name != own + "diagnostic_period") unknown.push_back(name);
+    const std::string rest = is_own ? name.substr(own.size()) : "";
+    const bool general = rest == "diagnostic_period" || rest == "rig" || rest == "launched";
+    if (is_own && asked_.count(name) == 0 && !general) unknown.push_back(name);
   }
   return unknown;
 }
 
 double Parameters::number(const std::string& name, double fallback, const fsr::settings::Range& range) const {
+  if (isOfRig(name)) return rig_->number(name, range);
   if (!isSet(name)) return fallback;
   double value = 0;
   if (!handle_.getParam(name, value) || !range.contains(value)) {
@@ -53,6 +74,7 @@ double Parameters::number(const std::string& name, double fallback, const fsr::s
 
 std::int64_t Parameters::integer(const std::string& name, std::int64_t fallback,
                                  const fsr::settings::Range& range) const {
+  if (isOfRig(name)) return rig_->integer(name, range);
   if (!isSet(name)) return fallback;
   int value = 0;
   if (!handle_.getParam(name, value) || !range.contains(value)) {
@@ -62,6 +84,7 @@ std::int64_t Parameters::integer(const std::string& name, std::int64_t fallback,
 }
 
 bool Parameters::flag(const std::string& name, bool fallback) const {
+  if (isOfRig(name)) return rig_->flag(name, fallback);
   if (!isSet(name)) return fallback;
   bool value = false;
   if (!handle_.getParam(name, value)) throw error(name, "must be true or false");
@@ -69,6 +92,7 @@ bool Parameters::flag(const std::string& name, bool fallback) const {
 }
 
 std::string Parameters::text(const std::string& name, const std::string& fallback) const {
+  if (isOfRig(name)) return rig_->text(name);
   Value value;
   if (!isSet(name) || !handle_.getParam(name, value)) return fallback;
   if (value.getType() == Value::TypeArray || value.getType() == Value::TypeStruct) {
@@ -81,6 +105,7 @@ std::string Parameters::choice(const std::string& name, const std::vector<std::s
                                const std::string& fallback) const {
   const std::string value = text(name, fallback);
   if (std::find(choices.begin(), choices.end(), value) != choices.end()) return value;
+  if (isOfRig(name)) return rig_->choice(name, choices);  // throws
   std::string list;
   for (const auto& choice : choices) list += (list.empty() ? "" : ", ") + choice;
   throw error(name, "must be one of " + list);

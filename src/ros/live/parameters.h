@@ -3,6 +3,7 @@
 #include <ros/node_handle.h>
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -10,15 +11,20 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/settings/range.h"
 #include "settings/foreign_error.h"
+#include "settings/settings.h"
 
 namespace fsr_ros {
 
 /// Reads and checks the private parameters of a node. A value of the wrong type or out of range raises
 /// fsr::InputError, which names the parameter with its full path, its value and what would be right. Every
 /// parameter has a default.
+///
+/// The parameter `~rig` may name a rig file, whose values then replace those of the launch file, except for
+/// the arguments that the user gave to roslaunch: `~launched`, which scripts/launch_check writes, lists them.
 class Parameters {
  public:
-  explicit Parameters(const ros::NodeHandle& private_handle) : handle_(private_handle) {}
+  /// Throws fsr::InputError if the rig file cannot be read.
+  explicit Parameters(const ros::NodeHandle& private_handle);
 
   double number(const std::string& name, double fallback, const fsr::settings::Range& range) const;
   std::int64_t integer(const std::string& name, std::int64_t fallback,
@@ -39,8 +45,11 @@ class Parameters {
 
  private:
   bool isSet(const std::string& name) const;
+  bool isOfRig(const std::string& name) const;
 
   ros::NodeHandle handle_;
+  std::optional<fsr::settings::Settings> rig_;
+  std::set<std::string> given_;          // arguments of the command line
   mutable std::set<std::string> asked_;  // full paths
 };
 

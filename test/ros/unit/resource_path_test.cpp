@@ -45,5 +45,14 @@ TEST_F(ResourcePath, RefusesRelativePathsAndUnknownSchemes) {
   }
 }
 
+TEST_F(ResourcePath, ARelativePathOfALaunchFileStartsWhereTheUserCalledIt) {
+  setenv("PWD", "/data/monday", 1);
+  EXPECT_EQ(resolveLaunchPath("c.h5"), "/data/monday/c.h5");
+  EXPECT_EQ(resolveLaunchPath("/c.h5"), "/c.h5");
+  EXPECT_EQ(resolveLaunchPath("~/c.h5"), "/home/rig/c.h5");
+  EXPECT_EQ(resolveLaunchPath(""), "");
+  EXPECT_THROW(resolveLaunchPath("http://rig/c.h5"), fsr::settings::InputError);
+}
+
 }  // namespace
 }  // namespace fsr_ros
