@@ -1,8 +1,7 @@
 #include "ros/live/calibration_settings.h"
 
-#include <algorithm>
-
 #include "ros/bags/resource_path.h"
+#include "ros/live/own_file.h"
 
 namespace fsr_ros {
 
@@ -10,20 +9,12 @@ namespace {
 
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
-// The default differs for each node: /fsr/calibration ->
-// ${ROS_HOME}/fsr_pressure_map/fsr_calibration_tare.yaml.
-std::string defaultTareFile(const std::string& node) {
-  std::string name = node.substr(node.find_first_not_of('/'));
-  std::replace(name.begin(), name.end(), '/', '_');
-  return "${ROS_HOME}/fsr_pressure_map/" + name + "_tare.yaml";
-}
-
 }  // namespace
 
 CalibrationSettings readCalibrationSettings(const ros::NodeHandle& private_handle) {
   const Parameters parameters(private_handle);
   CalibrationSettings s;
-  s.calibration = resolveResource(parameters.text("calibration", ""));
+  s.calibration = resolveLaunchPath(parameters.text("calibration", ""));
   s.calibrator.class_hysteresis =
       parameters.number("class_hysteresis", s.calibrator.class_hysteresis, {0, 1000, "1/m"});
   s.calibrator.curvature_step =
@@ -35,7 +26,8 @@ CalibrationSettings readCalibrationSettings(const ros::NodeHandle& private_handl
   s.tare.limit = parameters.number("tare_limit", s.tare.limit, {0, 1e6, "Pa"});
   s.tare.scatter = parameters.number("tare_scatter", s.tare.scatter, {0, 1e6, "Pa"});
   s.tare.window = parameters.number("tare_window", s.tare.window, {0.1, 60, "s"});
-  s.tare_file = resolveResource(parameters.text("tare_file", defaultTareFile(private_handle.getNamespace())));
+  s.tare_file = ownFile(parameters, "tare_file", private_handle.getNamespace(), "tare");
+  s.mask_file = ownFile(parameters, "mask_file", private_handle.getNamespace(), "mask");
   s.queue_size =
       static_cast<std::uint32_t>(parameters.integer("queue_size", s.queue_size, {1, 100000, "messages"}));
   return s;

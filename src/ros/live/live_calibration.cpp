@@ -6,6 +6,7 @@
 
 #include "fsr_pressure_map/ros/pressure_map_message.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/bags/mask_file.h"
 #include "ros/messages/surface_message.h"
 
 namespace fsr_ros {
@@ -30,6 +31,17 @@ LiveCalibration::LiveCalibration(const CalibrationSettings& settings)
     : settings_(settings), wanted_path_(settings.calibration), tare_(settings.tare_file) {
   complaint_ = wanted_path_.empty() ? "~calibration is empty: call ~load_calibration with the path of a file"
                                     : "loading " + wanted_path_;
+  try {
+    mask_ = loadMask(settings_.mask_file);
+  } catch (const fsr::settings::InputError& error) {
+    ROS_ERROR_STREAM("the stored mask is not used: " << error.what());
+  }
+  if (maskedTaxels() > 0)
+    ROS_INFO_STREAM(maskedTaxels() << " taxels are masked, as " << settings_.mask_file << " says");
+}
+
+std::size_t LiveCalibration::maskedTaxels() const {
+  return static_cast<std::size_t>(std::count(mask_.begin(), mask_.end(), 1));
 }
 
 void LiveCalibration::calibrate(const fsr_pressure_map::MatrixFrame& scan,
@@ -157,16 +169,20 @@ void LiveCalibration::applyTare() {
 }
 
 std::string LiveCalibration::setMask(const std::vector<std::uint8_t>& mask) {
-  const Lock lock(mutex_);
+  std::unique_lock<std::mutex> lock(mutex_);
   if (loaded_ && !mask.empty() && mask.size() != loaded_->calibrator.layout().size.taxels()) {
     throw fsr::settings::InputError(
         "the mask has " + std::to_string(mask.size()) + " values, but must have none, or " +
         std::to_string(loaded_->calibrator.layout().size.taxels()) + ", row-major");
   }
   mask_ = mask;
+  for (std::uint8_t& masked : mask_) masked = masked != 0 ? 1 : 0;
   applyMask();
-  const auto masked = std::count_if(mask.begin(), mask.end(), [](std::uint8_t m) { return m != 0; });
-  return std::to_string(masked) + " taxels are masked until the node ends";
+  const std::vector<std::uint8_t> kept = mask_;
+  const std::size_t masked_taxels = maskedTaxels();
+  lock.unlock();  // no scan waits for the disk
+  saveMask(kept, settings_.mask_file);
+  return std::to_string(masked_taxels) + " taxels are masked; stored in " + settings_.mask_file;
 }
 
 std::string LiveCalibration::wanted() const {

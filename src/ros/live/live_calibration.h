@@ -69,6 +69,7 @@ class LiveCalibration {
  private:
   void applySurface();
   void applyMask();
+  std::size_t maskedTaxels() const;
   void applyBoard();
   void applyTare();
   std::string id() const { return loaded_ ? loaded_->info.id : std::string(); }
@@ -87,7 +88,7 @@ class LiveCalibration {
   fsr::matrix::Surface surface_;
   double surface_time_ = 0;  // [s]
   fsr_pressure_map::MatrixInfo board_;
-  std::vector<std::uint8_t> mask_;  // set by the service
+  std::vector<std::uint8_t> mask_;  // set by the service, or stored by it
 
   TareKeeper tare_;
   std::optional<fsr::calibration::TareMeasurement> measurement_;  // set while tare() waits

@@ -1,0 +1,45 @@
+#include "ros/bags/mask_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "fsr_pressure_map/settings/input_error.h"
+
+namespace fsr_ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+class MaskFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "mask_file_XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder = name;
+    path = name + "/new/mask.yaml";
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  std::string folder, path;
+};
+
+TEST_F(MaskFile, IsReadAsItWasWritten) {
+  EXPECT_TRUE(loadMask(path).empty());
+  const std::vector<std::uint8_t> mask = {0, 1, 1, 0};
+  saveMask(mask, path);
+  EXPECT_EQ(loadMask(path), mask);
+  saveMask({}, path);
+  EXPECT_TRUE(loadMask(path).empty());
+}
+
+TEST_F(MaskFile, RefusesAnotherFile) {
+  fs::create_directories(folder + "/new");
+  std::ofstream(path) << "format: fsr_pressure_map tare 1\n";
+  EXPECT_THROW(loadMask(path), fsr::settings::InputError);
+}
+
+}  // namespace
+}  // namespace fsr_ros
