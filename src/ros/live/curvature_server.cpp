@@ -1,8 +1,11 @@
 #include "ros/live/curvature_server.h"
 
+#include <ros/console.h>
+
 #include <filesystem>
 
-#include "ros/live/parameters.h"
+#include "ros/bags/resource_path.h"
+#include "ros/live/own_file.h"
 #include "ros/messages/surface_message.h"
 
 namespace fsr_ros {
@@ -18,15 +21,42 @@ CurvatureServer::CurvatureServer(const ros::NodeHandle& handle, const ros::NodeH
   size.columns = static_cast<std::uint16_t>(parameters.integer("columns", 10, side));
   surfaces_ = SurfaceFolder(parameters.text("surfaces", SurfaceFolder::shipped()), size);
   frame_id_ = parameters.text("frame_id", "fsr_matrix");
-  const std::string initial = parameters.text("surface", "");
-  if (!initial.empty()) surface_ = surfaces_.load(initial);
-  surface_.mount = static_cast<std::uint32_t>(parameters.integer("mount", 1, {0, 1e9, ""}));
+  start(parameters, private_handle.getNamespace());
 
   publisher_ = handle_.advertise<fsr_pressure_map::SurfaceCurvature>("curvature", 10, true);
   ros::NodeHandle services(private_handle);
   service_ = services.advertiseService("set_surface", &CurvatureServer::setSurface, this);
   timer_ = handle_.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { publish(); });
   publish();
+}
+
+CurvatureServer::~CurvatureServer() {
+  try {
+    memory_->end();
+  } catch (const fsr::settings::InputError&) {
+    // The file could not be written before either, which setSurface() has logged.
+  }
+}
+
+void CurvatureServer::start(const Parameters& parameters, const std::string& node) {
+  LaidOn launched;
+  launched.surface = parameters.text("surface", "");
+  if (launched.surface.find('/') != std::string::npos) launched.surface = resolveLaunchPath(launched.surface);
+  launched.mount = static_cast<std::uint32_t>(parameters.integer("mount", 1, {0, 1e9, ""}));
+  if (!launched.surface.empty()) surface_ = surfaces_.load(launched.surface);
+  surface_.mount = launched.mount;
+  memory_ = std::make_unique<SurfaceMemory>(ownFile(parameters, "surface_file", node, "surface"), launched);
+  if (!memory_->remark().empty()) ROS_WARN_STREAM(node << ": " << memory_->remark());
+  if (memory_->start() == launched) return;
+  try {
+    fsr::matrix::Surface last = surfaces_.load(memory_->start().surface);
+    last.mount = memory_->start().mount;
+    surface_ = std::move(last);
+  } catch (const fsr::settings::InputError& error) {
+    surface_ = {};  // the launch file's would be wrong
+    ROS_ERROR_STREAM(node << ": the surface is unknown until ~set_surface is called, because "
+                          << error.what());
+  }
 }
 
 bool CurvatureServer::setSurface(fsr_pressure_map::SetSurface::Request& request,
@@ -39,12 +69,25 @@ bool CurvatureServer::setSurface(fsr_pressure_map::SetSurface::Request& request,
     response.success = true;
     response.message = "the matrix lies on " + surface_.name + " (mount " + std::to_string(surface_.mount) +
                        "), from " + fs::absolute(surfaces_.pathOf(request.surface)).string();
+    response.message += keptText({request.surface, surface_.mount});
   } catch (const fsr::settings::InputError& error) {
     response.success = false;
     response.message = std::string(error.what()) + "; the surface is still " +
                        (surface_.known() ? surface_.name : "unknown");
   }
   return true;
+}
+
+// Stores the surface; says what follows if that fails.
+std::string CurvatureServer::keptText(const LaidOn& now) {
+  try {
+    memory_->keep(now);
+    return "";
+  } catch (const fsr::settings::InputError& error) {
+    const std::string complaint = std::string("; it will be forgotten when the node ends: ") + error.what();
+    ROS_ERROR_STREAM("the matrix lies on " << now.text() << complaint);
+    return complaint;
+  }
 }
 
 void CurvatureServer::publish() {

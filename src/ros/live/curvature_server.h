@@ -3,10 +3,13 @@
 #include <fsr_pressure_map/SetSurface.h>
 #include <ros/node_handle.h>
 
+#include <memory>
 #include <string>
 
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "ros/bags/surface_folder.h"
+#include "ros/bags/surface_memory.h"
+#include "ros/live/parameters.h"
 
 namespace fsr_ros {
 
@@ -15,21 +18,28 @@ namespace fsr_ros {
 ///
 /// Parameters: `~surface` (name of a file in `~surfaces`, or path of a surface file; empty = unknown until
 /// the service is called), `~surfaces` (folder of surface files), `~mount`, `~rows` and `~columns` (surface
-/// files with one value for each taxel must fit them), `~frame_id`.
+/// files with one value for each taxel must fit them), `~frame_id`, `~surface_file` (keeps what ~set_surface
+/// said, for a node that died; see SurfaceMemory).
 class CurvatureServer {
  public:
   /// Throws fsr::InputError.
   CurvatureServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+  ~CurvatureServer();
+  CurvatureServer(const CurvatureServer&) = delete;
+  CurvatureServer& operator=(const CurvatureServer&) = delete;
 
  private:
   bool setSurface(fsr_pressure_map::SetSurface::Request& request,
                   fsr_pressure_map::SetSurface::Response& response);
   void publish();
+  std::string keptText(const LaidOn& now);
+  void start(const Parameters& parameters, const std::string& node);
 
   ros::NodeHandle handle_;
   SurfaceFolder surfaces_;
   std::string frame_id_;
   fsr::matrix::Surface surface_;
+  std::unique_ptr<SurfaceMemory> memory_;
   ros::Publisher publisher_;
   ros::ServiceServer service_;
   ros::Timer timer_;

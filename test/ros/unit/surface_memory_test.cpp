@@ -1,0 +1,71 @@
+#include "ros/bags/surface_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+namespace fsr_ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+const LaidOn kFlat{"flat", 1};
+const LaidOn kCylinder{"cylinder_7cm", 2};
+
+class SurfaceMemoryTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "surface_memory_XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder = name;
+    path = name + "/new/surface.yaml";
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  std::string folder, path;
+};
+
+TEST_F(SurfaceMemoryTest, ANodeThatWasToldNothingTakesTheLaunchFiles) {
+  SurfaceMemory memory(path, kFlat);
+  EXPECT_EQ(memory.start(), kFlat);
+  EXPECT_EQ(memory.remark(), "");
+  memory.end();
+  EXPECT_FALSE(fs::exists(path));
+}
+
+TEST_F(SurfaceMemoryTest, ANodeThatDiedGoesOnWithWhatItWasTold) {
+  SurfaceMemory(path, kFlat).keep(kCylinder);
+  const SurfaceMemory again(path, kFlat);
+  EXPECT_EQ(again.start(), kCylinder);
+  EXPECT_NE(again.remark().find("goes on with cylinder_7cm, mount 2"), std::string::npos) << again.remark();
+  EXPECT_NE(again.remark().find("not with flat, mount 1"), std::string::npos) << again.remark();
+}
+
+TEST_F(SurfaceMemoryTest, ANodeThatWasStoppedTakesTheLaunchFilesAndSaysTheConflict) {
+  SurfaceMemory memory(path, kFlat);
+  memory.keep(kCylinder);
+  memory.end();
+  const SurfaceMemory again(path, kFlat);
+  EXPECT_EQ(again.start(), kFlat);
+  EXPECT_NE(again.remark().find("lay last on cylinder_7cm, mount 2"), std::string::npos) << again.remark();
+}
+
+TEST_F(SurfaceMemoryTest, AnotherLaunchIsBelievedAndTheConflictSaid) {
+  SurfaceMemory(path, kFlat).keep(kCylinder);
+  const SurfaceMemory again(path, {"cylinder_5cm", 3});
+  EXPECT_EQ(again.start().surface, "cylinder_5cm");
+  EXPECT_NE(again.remark().find("the launch file says cylinder_5cm, mount 3"), std::string::npos);
+}
+
+TEST_F(SurfaceMemoryTest, ADamagedFileIsSaidAndNotUsed) {
+  SurfaceMemory(path, kFlat).keep(kCylinder);
+  std::ofstream(path) << "format: something else\n";
+  const SurfaceMemory again(path, kFlat);
+  EXPECT_EQ(again.start(), kFlat);
+  EXPECT_NE(again.remark().find(path), std::string::npos) << again.remark();
+}
+
+}  // namespace
+}  // namespace fsr_ros
