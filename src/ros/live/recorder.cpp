@@ -3,11 +3,15 @@
 #include <ros/console.h>
 #include <topic_tools/shape_shifter.h>
 
+#include <filesystem>
 #include <iostream>
 #include <sstream>
 #include <utility>
 
-#include "ros/live/parameters.h"
+#include "ros/bags/resource_path.h"
+#include "ros/bags/surface_folder.h"
+#include "ros/live/session_server.h"
+#include "settings/number_text.h"
 
 namespace fsr_ros {
 
@@ -17,11 +21,32 @@ using topic_tools::ShapeShifter;
 using Event = ros::MessageEvent<ShapeShifter const>;
 using Level = diagnostic_msgs::DiagnosticStatus;
 
-constexpr std::uint32_t kQueue = 10000;  // queue of each topic [messages]: ten seconds at 1 kHz
+constexpr std::uint32_t kQueue = 10000;    // queue of each topic [messages]: ten seconds at 1 kHz
+constexpr double kPatience = 10.0;         // time without a scan until an error, once scans have come [s]
+constexpr double kComplaintPeriod = 10.0;  // [s]
+
+bool isScan(const ShapeShifter& message) {
+  return message.getMD5Sum() == ros::message_traits::MD5Sum<fsr_pressure_map::MatrixFrame>::value();
+}
+
+double now() {
+  return ros::SteadyTime::now().toSec();
+}
+
+// The session and curvature nodes of record.launch refuse the same; they are started again, and would never
+// publish what a bag needs.
+void checkDescription(const ros::NodeHandle& handle, const Parameters& parameters) {
+  readSession(Parameters(ros::NodeHandle(handle, "session")));
+  std::string surface = parameters.text("surface", "");
+  const SurfaceFolder surfaces(parameters.text("surfaces", SurfaceFolder::shipped()), {});
+  if (surface.empty()) return;
+  if (surface.find('/') != std::string::npos) surface = resolveLaunchPath(surface);
+  surfaces.pathOf(surface);
+}
 
 BagSinkOptions readOptions(const Parameters& parameters) {
   BagSinkOptions options;
-  options.bag = parameters.text("bag", "recorded");
+  options.bag = resolveLaunchPath(parameters.text("bag", "recorded"));
   options.chunk_size = static_cast<std::uint32_t>(1024 * parameters.integer("chunk_kb", 1, {1, 1e5, "KB"}));
   options.least_space = static_cast<std::uint64_t>(1e6 * parameters.number("min_space", 200, {0, 1e9, "MB"}));
   options.buffer = static_cast<std::uint64_t>(1e6 * parameters.number("buffer", 256, {1, 1e6, "MB"}));
@@ -34,6 +59,10 @@ Recorder::Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private
     : handle_(handle), diagnostics_(handle, private_handle, private_handle.getNamespace()) {
   const Parameters parameters(private_handle);
   const BagSinkOptions options = readOptions(parameters);
+  checkDescription(handle, parameters);
+  scans_topic_ = parameters.text("scans", "");
+  if (!scans_topic_.empty()) scans_topic_ = handle_.resolveName(scans_topic_);
+  wait_ = parameters.number("wait", 10, {0.1, 3600, "s"});
   std::istringstream topics(parameters.text("topics", ""));
   for (const std::string& name : parameters.unknown()) {
     ROS_WARN_STREAM(
@@ -50,8 +79,11 @@ Recorder::Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private
   diagnostics_.add("recording", [this](auto& status) { judge(status); });
   for (std::string topic; topics >> topic;) subscribe(topic);
   if (subscribers_.empty()) throw parameters.error("topics", "must name at least one topic");
-  timer_ = handle_.createWallTimer(ros::WallDuration(1.0),
-                                   [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
+  last_scan_ = now();
+  timer_ = handle_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
+    watchScans();
+    diagnostics_.force_update();
+  });
   ROS_INFO_STREAM("recording " << subscribers_.size() << " topics to " << sink_->report().file);
 }
 
@@ -65,13 +97,17 @@ void Recorder::finish() {
 void Recorder::subscribe(const std::string& topic) {
   const std::string name = handle_.resolveName(topic);
   const boost::function<void(const Event&)> keep = [this, name](const Event& event) {
-    const ros::Time now = ros::Time::now();
-    if (now.isZero()) {
+    const ros::Time time = ros::Time::now();
+    if (time.isZero()) {
       ++without_time_;
       return;
     }
-    sink_->add(event.getConstMessage()->size(), [name, now, event](rosbag::Bag& bag) {
-      bag.write(name, now, *event.getConstMessage(), event.getConnectionHeaderPtr());
+    if (name == scans_topic_ && isScan(*event.getConstMessage())) {
+      tally_.add(*event.getConstMessage()->instantiate<fsr_pressure_map::MatrixFrame>());
+      last_scan_ = fsr_ros::now();
+    }
+    sink_->add(event.getConstMessage()->size(), [name, time, event](rosbag::Bag& bag) {
+      bag.write(name, time, *event.getConstMessage(), event.getConnectionHeaderPtr());
     });
   };
   ros::SubscribeOptions options;
@@ -80,15 +116,67 @@ void Recorder::subscribe(const std::string& topic) {
   subscribers_.push_back(handle_.subscribe(options));
 }
 
+Recorder::~Recorder() {
+  subscribers_.clear();
+  sink_->finish();
+  const BagSinkReport report = sink_->report();
+  if (refused_) {
+    std::error_code ignored;
+    std::filesystem::remove(report.file, ignored);  // this node has made it, and it holds no scan
+  } else {
+    // Not to the log, which ROS has closed by now.
+    std::cout << "recorded " << (scans_topic_.empty() ? "" : tally_.text() + ", ") << report.messages
+              << " messages (" << report.lost << " lost on the way to the disk) in " << report.file
+              << std::endl;
+  }
+}
+
+std::string Recorder::whyNoScan() const {
+  const std::string start = "no scan has come on " + scans_topic_ + " for " +
+                            fsr::settings::fixedText(fsr_ros::now() - last_scan_, 0) + " s: ";
+  for (const ros::Subscriber& subscriber : subscribers_) {
+    if (subscriber.getTopic() == scans_topic_ && subscriber.getNumPublishers() == 0) {
+      return start + "no driver runs; start driver.launch or calibrated.launch in another terminal";
+    }
+  }
+  if (without_time_ > 0 && ros::Time::now().isZero()) {
+    return start + "/use_sim_time is true, but no time comes on /clock; call `rosparam set /use_sim_time " +
+           "false` and start the driver and this recording again";
+  }
+  return start + "the driver says in its terminal what it waits for";
+}
+
+// Called once a second.
+void Recorder::watchScans() {
+  if (scans_topic_.empty() || failed_) return;
+  const double silence = fsr_ros::now() - last_scan_;
+  if (tally_.scans() == 0) {
+    if (silence > wait_) refuse();
+    return;
+  }
+  if (std::exchange(silent_, silence > kPatience) && !silent_) ROS_INFO("scans come again");
+  if (silent_) ROS_ERROR_STREAM_THROTTLE(kComplaintPeriod, whyNoScan());
+}
+
+void Recorder::refuse() {
+  ROS_FATAL_STREAM("the recording is refused, and no bag is left: " << whyNoScan());
+  refused_ = true;
+  failed_ = true;
+  ros::requestShutdown();
+}
+
 void Recorder::judge(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const BagSinkReport now = sink_->report();
   const std::uint64_t lost = now.lost - before_.lost;
   const std::uint64_t rate = now.messages - before_.messages;
   before_ = now;
+  const bool silent = silent_ || (!scans_topic_.empty() && tally_.scans() == 0);
   if (!now.complaint.empty()) {
     status.summary(Level::ERROR, now.complaint);
   } else if (lost > 0) {
     status.summary(Level::ERROR, std::to_string(lost) + " messages lost: the disk is slower than the data");
+  } else if (silent) {
+    status.summary(Level::ERROR, whyNoScan());
   } else if (rate == 0) {
     status.summary(Level::WARN, "no message to record to " + now.file);
   } else {

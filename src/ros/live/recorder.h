@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "ros/bags/bag_sink.h"
+#include "ros/bags/scan_tally.h"
+#include "ros/live/parameters.h"
 
 namespace fsr_ros {
 
@@ -17,12 +19,20 @@ namespace fsr_ros {
 /// older recording is never overwritten. Diagnostics report the messages written and lost. If recording
 /// stops, the node logs the reason and ends.
 ///
-/// Parameters: `~bag`, `~topics` (names, separated by spaces), `~chunk_kb`, `~min_space` [MB], `~buffer`
-/// [MB].
+/// With `~scans` (a topic of scans) the node ends with an error where no scan has come `~wait` [s] after the
+/// start, and reports an error while scans fail to come later. It says at the end what was recorded.
+///
+/// Parameters: `~bag`, `~topics` (names, separated by spaces), `~scans`, `~wait` [s], `~surface` and
+/// `~surfaces` (checked at the start, as are the parameters of the session node if there are any),
+/// `~chunk_kb`, `~min_space` [MB], `~buffer` [MB].
 class Recorder {
  public:
   /// Throws fsr::InputError.
   Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+  /// Closes the bag and prints what was recorded.
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
 
   /// Writes what was received and closes the bag.
   void finish();
@@ -33,11 +43,20 @@ class Recorder {
  private:
   void subscribe(const std::string& topic);
   void judge(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void watchScans();
+  void refuse();
+  std::string whyNoScan() const;
 
   ros::NodeHandle handle_;
   std::atomic<bool> failed_{false};
   std::atomic<std::uint64_t> without_time_{0};  // messages received before the first /clock
   std::unique_ptr<BagSink> sink_;
+  std::string scans_topic_;  // empty = no scans are expected
+  double wait_ = 0;          // [s]
+  ScanTally tally_;
+  double last_scan_ = 0;  // when the last scan came, or the recording began (monotonic clock [s])
+  bool silent_ = false;   // no scan has come for a while
+  bool refused_ = false;
   diagnostic_updater::Updater diagnostics_;
   BagSinkReport before_;
   std::vector<ros::Subscriber> subscribers_;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/live/parameters.h"
+#include "ros/bags/resource_path.h"
 
 namespace fsr_ros {
 
@@ -20,6 +20,14 @@ const std::vector<std::string> kUses = {"chamber", "socket", "bench"};
 const std::vector<std::string> kMounts = {"fixture", "mould", "limb", "liner", "socket_wall"};
 const std::vector<std::string> kKinds = {"cycle_start", "conditioning", "don",  "doff",
                                          "step",        "sync",         "note", "reject"};
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+}  // namespace
 
 fsr_pressure_map::Session readSession(const Parameters& parameters) {
   fsr_pressure_map::Session session;
@@ -44,14 +52,6 @@ fsr_pressure_map::Session readSession(const Parameters& parameters) {
   return session;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
-}  // namespace
-
 SessionServer::SessionServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
     : handle_(handle), session_(readSession(Parameters(private_handle))) {
   session_publisher_ = handle_.advertise<fsr_pressure_map::Session>("session", 10, true);
@@ -61,7 +61,7 @@ SessionServer::SessionServer(const ros::NodeHandle& handle, const ros::NodeHandl
   timer_ = handle_.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { publish(); });
   publish();
   const Parameters parameters(private_handle);
-  const std::string bag = parameters.text("bag", "");
+  const std::string bag = resolveLaunchPath(parameters.text("bag", ""));
   if (!bag.empty()) watchRecording(bag, parameters.number("min_space", 200, {0, 1e9, "MB"}));
 }
 

@@ -8,9 +8,13 @@
 #include <memory>
 #include <string>
 
+#include "ros/live/parameters.h"
 #include "ros/live/recording_watch.h"
 
 namespace fsr_ros {
+
+/// Reads the description of a recording from the parameters of a session node. Throws fsr::InputError.
+fsr_pressure_map::Session readSession(const Parameters& parameters);
 
 /// Publishes the description of a recording, so that a bag can be understood without other files. `session`
 /// is latched and repeated each second; its fields are the private parameters of the same names. `events`
