@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t kQueue = 10000;  // queue of each topic [messages]: ten seconds at 1 kHz
 constexpr int kLooksPerSecond = 10;
+constexpr double kComplaintPeriod = 30.0;  // [s]
 // Size of the scans that wait for the identity of their board [bytes]: seconds at any rate of a serial line.
 constexpr std::size_t kMostHeld = 64 << 20;
 
@@ -222,6 +223,19 @@ void Driver::look() {
   now_ = now;
   diagnostics_.setHardwareID(now_.board.serial.empty() ? sourceName(settings_) : now_.board.serial);
   diagnostics_.force_update();
+  if (second_passed) logComplaint();
+}
+
+// The same sentence as in the diagnostics, for users without a viewer of them.
+void Driver::logComplaint() {
+  const std::string complaint = complaintOf(before_, now_, settings_);
+  const double time = ros::SteadyTime::now().toSec();
+  if (complaint.empty()) {
+    if (std::exchange(complained_, 0) > 0) ROS_INFO_STREAM(private_handle_.getNamespace() << ": scans come");
+  } else if (complained_ == 0 || time - complained_ > kComplaintPeriod) {
+    complained_ = time;
+    ROS_ERROR_STREAM(private_handle_.getNamespace() << ": " << complaint);
+  }
 }
 
 Board Driver::board() const {

@@ -51,6 +51,7 @@ class Driver : private fsr::protocol::LinkHandler {
   void publishInfo();
   bool setEnabled(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   void look();
+  void logComplaint();
   Board board() const;
   DriverHealth health() const;
 
@@ -78,6 +79,7 @@ class Driver : private fsr::protocol::LinkHandler {
   DriverHealth last_second_;
   DriverHealth now_;
   int looks_ = 0;
+  double complained_ = 0;  // when the log last said why no scans come (monotonic clock [s]); 0 = scans come
   ros::ServiceServer service_;
   ros::WallTimer timer_;
   std::unique_ptr<fsr::protocol::BoardReader> reader_;  // last: its thread uses everything above

@@ -38,6 +38,17 @@ std::string silenceSentence(double silence, const DriverSettings& settings) {
          " s: does the board have power, and is its firmware running?";
 }
 
+// Packets whose checksum is right, but whose content cannot be.
+std::uint64_t impossible(const DriverHealth& health) {
+  return health.link.counts.bad_content;
+}
+
+std::string contentSentence(const DriverSettings& settings) {
+  return "no scan is published: " + sourceName(settings) +
+         " sends scans that cannot be, e.g. counts above the full scale that they state; correct the board's "
+         "firmware (docs/wire_format.md)";
+}
+
 double expectedRate(const Board& board, const DriverSettings& settings) {
   if (settings.expected_frequency > 0) return settings.expected_frequency;
   return board.scan_period > 0 ? 1 / board.scan_period : 0;
@@ -95,7 +106,9 @@ std::string linkSentence(const fsr::protocol::LinkReport& report, const DriverSe
     case LinkPhase::kReading:
       return "reading " + source;
     case LinkPhase::kNoTime:
-      return "waiting for /clock: use_sim_time is true, but no time has been published";
+      return "waiting for /clock: use_sim_time is true, but no time has been published; if no replay or demo "
+             "runs, "
+             "call `rosparam set /use_sim_time false` and launch again";
     case LinkPhase::kEnded:
       return source + " has ended" + (report.reason.empty() ? "" : ": " + report.reason);
   }
@@ -138,6 +151,8 @@ void judgeScans(const DriverHealth& before, const DriverHealth& now, const Drive
                                      sizeText(settings.expected) + ": no scan is published");
   } else if (now.scans > before.scans) {
     summarizeRate(rate, expected, settings.frequency_tolerance, status);
+  } else if (impossible(now) > impossible(before)) {
+    status.summary(Level::ERROR, contentSentence(settings));
   } else {
     const bool meant = now.link.phase == LinkPhase::kEnded || now.link.phase == LinkPhase::kDisabled;
     status.summary(meant ? Level::OK : Level::ERROR, "no scans: " + linkSentence(now.link, settings));
@@ -145,6 +160,17 @@ void judgeScans(const DriverHealth& before, const DriverHealth& now, const Drive
   status.add("rate [1/s]", rate.value_or(0));
   status.add("expected rate [1/s]", expected);
   addCounts(now, status);
+}
+
+std::string complaintOf(const DriverHealth& before, const DriverHealth& now, const DriverSettings& settings) {
+  if (now.link.phase != LinkPhase::kReading) return "";
+  Status link, scans;
+  judgeLink(before, now, settings, link);
+  judgeScans(before, now, settings, scans);
+  if (link.level == Level::ERROR) return link.message;
+  // Not where scans have not come yet: silence is an error of the link after ~read_timeout.
+  const bool dropped = impossible(now) > impossible(before) || now.refused_scans > before.refused_scans;
+  return dropped && scans.level == Level::ERROR ? scans.message : "";
 }
 
 }  // namespace fsr_ros

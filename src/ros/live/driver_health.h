@@ -40,4 +40,8 @@ void judgeLink(const DriverHealth& before, const DriverHealth& now, const Driver
 void judgeScans(const DriverHealth& before, const DriverHealth& now, const DriverSettings& settings,
                 diagnostic_updater::DiagnosticStatusWrapper& status);
 
+/// Why an open port gives no scans, for the log: the sentence of an error in the diagnostics above. Empty if
+/// scans come, or if the port is not open, which linkSentence() says.
+std::string complaintOf(const DriverHealth& before, const DriverHealth& now, const DriverSettings& settings);
+
 }  // namespace fsr_ros

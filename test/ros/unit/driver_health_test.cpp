@@ -70,6 +70,22 @@ TEST(DriverHealth, ComplainsAboutSilenceBeyondTheTimeout) {
   EXPECT_TRUE(contains(link(now, now), "/dev/ttyACM0 has sent nothing for 1.5 s")) << link(now, now).message;
 }
 
+TEST(DriverHealth, SaysToTheLogWhyAnOpenPortGivesNoScans) {
+  const DriverHealth before = reading();
+  const auto complaint = [&](const DriverHealth& now) { return fsr_ros::complaintOf(before, now, {}); };
+  EXPECT_EQ(complaint(before), "") << "the first scan may be on its way";
+  EXPECT_EQ(complaint(later(before, 100)), "");
+  DriverHealth silent = before, noise = before, impossible = before;
+  silent.link.silence = 2;
+  EXPECT_NE(complaint(silent).find("has sent nothing for 2 s"), std::string::npos) << complaint(silent);
+  noise.link.counts.bytes = noise.link.counts.skipped_bytes = 1000;
+  EXPECT_NE(complaint(noise).find("is serial_baud 115200 the baud rate"), std::string::npos)
+      << complaint(noise);
+  impossible.link.counts.bad_content = 20;
+  EXPECT_NE(complaint(impossible).find("counts above the full scale"), std::string::npos)
+      << complaint(impossible);
+}
+
 TEST(DriverHealth, BlamesTheDriverAndNotTheLinkForAFailingHandler) {
   const DriverHealth before = reading();
   DriverHealth now = reading();
