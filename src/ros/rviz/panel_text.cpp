@@ -44,6 +44,17 @@ QString number(double value, double unit, const char* name, int decimals) {
   return QString::number(value / unit, 'f', decimals) + " " + name;
 }
 
+std::vector<std::uint8_t> maskAfter(const std::vector<std::uint16_t>& flags,
+                                    const std::vector<std::size_t>& selected) {
+  std::vector<std::uint8_t> mask;
+  for (const std::uint16_t flag : flags)
+    mask.push_back((flag & fsr_pressure_map::PressureMap::FLAG_MASKED) != 0 ? 1 : 0);
+  for (const std::size_t taxel : selected) {
+    if (taxel < mask.size()) mask[taxel] = mask[taxel] == 0 ? 1 : 0;
+  }
+  return mask;
+}
+
 AlarmLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& statistics,
                     const fsr_pressure_map::PressureMapConstPtr& map) {
   QStringList alarm, unknown;

@@ -4,7 +4,9 @@
 #include <fsr_pressure_map/PressureStatisticsArray.h>
 
 #include <QString>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace fsr_rviz {
 
@@ -14,6 +16,11 @@ QString text(const std::string& words);
 /// `value` (SI) in the unit `name`, which is `unit` in SI, e.g. (0.0026, 1e-4, "cm²", 1) = "26.0 cm²". NaN
 /// gives "-".
 QString number(double value, double unit, const char* name, int decimals);
+
+/// The mask of ~set_mask after the user pressed "Mask selected": the taxels that `flags` call masked, without
+/// those of `selected` that were masked, and with those that were not.
+std::vector<std::uint8_t> maskAfter(const std::vector<std::uint16_t>& flags,
+                                    const std::vector<std::size_t>& selected);
 
 /// The line "Alarms" of the panel.
 struct AlarmLine {

@@ -1,7 +1,10 @@
 #include "ros/rviz/pressure_panel.h"
 
 #include <fsr_pressure_map/Mark.h>
+#include <fsr_pressure_map/SetMask.h>
 #include <ros/service.h>
+#include <rviz/selection/selection_manager.h>
+#include <rviz/visualization_manager.h>
 #include <std_srvs/Trigger.h>
 
 #include <QComboBox>
@@ -14,9 +17,11 @@
 #include <QVBoxLayout>
 #include <cmath>
 #include <pluginlib/class_list_macros.hpp>
+#include <set>
 
 #include "fsr_pressure_map/view/colour_map.h"
 #include "ros/rviz/panel_text.h"
+#include "ros/rviz/taxel_selection.h"
 
 namespace fsr_rviz {
 
@@ -81,6 +86,7 @@ void PressurePanel::addButtons(QVBoxLayout* column) {
   };
   button("Tare", SLOT(tare()), actions);
   button("Reload calibration", SLOT(reload()), actions);
+  button("Mask selected", SLOT(maskSelected()), actions);
   event_kind_ = new QComboBox;
   event_kind_->addItems({"note", "cycle_start", "conditioning", "don", "doff", "step", "sync", "reject"});
   event_label_ = new QLineEdit;
@@ -166,7 +172,11 @@ void PressurePanel::keep(const std::string& topic, Last<Message>& last) {
 
 void PressurePanel::listen() {
   subscribers_.clear();
+  complaints_.clear();
   try {
+    subscribers_.push_back(handle_.subscribe<diagnostic_msgs::DiagnosticArray>(
+        "/diagnostics", kQueueSize,
+        [this](const diagnostic_msgs::DiagnosticArrayConstPtr& all) { keepComplaints(*all); }));
     keep("chamber_pressure", last_chamber_);
     keep("curvature", last_surface_);
     keep("session", last_session_);
@@ -180,6 +190,19 @@ void PressurePanel::listen() {
     reply_->setText(text(error.what()));
   }
   Q_EMIT configChanged();
+}
+
+// Keeps the errors of the sensor's driver: why no scans come.
+void PressurePanel::keepComplaints(const diagnostic_msgs::DiagnosticArray& diagnostics) {
+  const std::string driver = handle_.resolveName(name("driver")).substr(1) + ":";
+  for (const auto& status : diagnostics.status) {
+    if (status.name.compare(0, driver.size(), driver) != 0) continue;
+    if (status.level == diagnostic_msgs::DiagnosticStatus::ERROR) {
+      complaints_[status.name] = {status.message, ros::WallTime::now()};
+    } else {
+      complaints_.erase(status.name);
+    }
+  }
 }
 
 void PressurePanel::refresh() {
@@ -216,6 +239,10 @@ void PressurePanel::showWaiting() {
   want(last_statistics_.fresh(), "statistics", "the numbers need the view node.");
   want(last_surface_.message != nullptr, "curvature", "the surface is unknown.");
   want(last_session_.fresh(), "session", "events can be marked while record.launch runs.");
+  for (const auto& [status, complaint] : complaints_) {
+    if ((ros::WallTime::now() - complaint.received).toSec() < kSilence)
+      lines << "Driver: " + text(complaint.sentence);
+  }
   waiting_->setText(lines.join("\n"));
 }
 
@@ -255,6 +282,31 @@ void PressurePanel::reload() {
     std_srvs::Trigger trigger;
     return answerOf(service, trigger);
   });
+}
+
+// Taxels that the tool Select has picked, each once, as row-major indices.
+std::vector<std::size_t> PressurePanel::selectedTaxels() const {
+  std::set<std::size_t> taxels;
+  if (vis_manager_ == nullptr) return {};
+  rviz::SelectionManager* manager = vis_manager_->getSelectionManager();
+  for (const auto& [handle, picked] : manager->getSelection()) {
+    const auto* sheet = dynamic_cast<const TaxelSelection*>(manager->getHandler(handle));
+    if (sheet == nullptr) continue;
+    for (const std::size_t taxel : sheet->taxelsOf(picked)) taxels.insert(taxel);
+  }
+  return {taxels.begin(), taxels.end()};
+}
+
+void PressurePanel::maskSelected() {
+  const std::vector<std::size_t> taxels = selectedTaxels();
+  if (taxels.empty() || !last_map_.fresh()) {
+    reply_->setText(taxels.empty() ? "Select taxels of the map with the tool Select first."
+                                   : "No map has come.");
+    return;
+  }
+  fsr_pressure_map::SetMask mask;
+  mask.request.mask = maskAfter(last_map_.message->flags, taxels);
+  call("mask", [service = name("calibration/set_mask"), mask]() mutable { return answerOf(service, mask); });
 }
 
 void PressurePanel::markEvent() {

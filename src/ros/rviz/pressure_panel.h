@@ -1,6 +1,7 @@
 #pragma once
 
 #ifndef Q_MOC_RUN
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <fsr_pressure_map/CalibrationInfo.h>
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <fsr_pressure_map/PressureMap.h>
@@ -12,6 +13,7 @@
 #include <sensor_msgs/FluidPressure.h>
 
 #include <functional>
+#include <map>
 #include <string>
 #include <thread>
 #include <vector>
@@ -27,10 +29,10 @@ class QVBoxLayout;
 
 namespace fsr_rviz {
 
-/// Panel with the numbers of one sensor and with buttons for tare, reload and marking an event. All topics
-/// are in the sensor's namespace. A number that has not come yet, or not for 3 s, is shown as "-", and a line
-/// below the buttons names the missing node. Services are called in another thread, so that the window never
-/// waits for them.
+/// Panel with the numbers of one sensor and with buttons for tare, reload, mask and marking an event. All
+/// topics are in the sensor's namespace. A number that has not come yet, or not for 3 s, is shown as "-", and
+/// a line below the buttons names the missing node. Services are called in another thread, so that the window
+/// never waits for them.
 class PressurePanel : public rviz::Panel {
   Q_OBJECT
 
@@ -47,6 +49,7 @@ class PressurePanel : public rviz::Panel {
   void refresh();
   void tare();
   void reload();
+  void maskSelected();
   void markEvent();
   void showReply(const QString& reply);
 
@@ -57,12 +60,18 @@ class PressurePanel : public rviz::Panel {
     ros::WallTime received;
     bool fresh() const;
   };
+  struct Complaint {
+    std::string sentence;
+    ros::WallTime received;
+  };
+  void keepComplaints(const diagnostic_msgs::DiagnosticArray& diagnostics);
   template <typename Message>
   void keep(const std::string& topic, Last<Message>& last);
   QLabel* addLine(QGridLayout* grid, const QString& name);
   void addNumbers(QGridLayout* grid);
   void addButtons(QVBoxLayout* column);
   static QLabel* addText(QVBoxLayout* column, const char* name);
+  std::vector<std::size_t> selectedTaxels() const;
   void showStatistics();
   void showAlarms();
   void showWaiting();
@@ -88,6 +97,7 @@ class PressurePanel : public rviz::Panel {
   Last<fsr_pressure_map::MatrixInfo> last_matrix_;
   Last<fsr_pressure_map::PressureStatisticsArray> last_statistics_;
   Last<fsr_pressure_map::PressureMap> last_map_;
+  std::map<std::string, Complaint> complaints_;  // of the driver's diagnostics, by the name of the status
   std::thread caller_;
 };
 

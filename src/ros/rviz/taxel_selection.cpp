@@ -24,6 +24,15 @@ bool TaxelSelection::taxelOf(uint64_t extra_handle, std::size_t& taxel) const {
   return shown_.mesh && taxel < shown_.picture.values.size();
 }
 
+std::vector<std::size_t> TaxelSelection::taxelsOf(const rviz::Picked& picked) const {
+  std::vector<std::size_t> taxels;
+  for (const uint64_t handle : picked.extra_handles) {
+    std::size_t taxel = 0;
+    if (taxelOf(handle, taxel)) taxels.push_back(taxel);
+  }
+  return taxels;
+}
+
 void TaxelSelection::preRenderPass(uint32_t pass) {
   SelectionHandler::preRenderPass(pass);
   if (pass == 1 && shown_.mesh) visual_.showIndices(*shown_.mesh);

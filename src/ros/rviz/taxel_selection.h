@@ -28,6 +28,9 @@ class TaxelSelection : public rviz::SelectionHandler {
   TaxelSelection(rviz::DisplayContext* context, SheetVisual& visual, const ShownSheet& shown,
                  std::function<ReadOut(std::size_t taxel)> read_out);
 
+  /// The taxels that were picked, as row-major indices.
+  std::vector<std::size_t> taxelsOf(const rviz::Picked& picked) const;
+
   void createProperties(const rviz::Picked& picked, rviz::Property* parent) override;
   bool needsAdditionalRenderPass(uint32_t pass) override { return pass == 1; }
   void preRenderPass(uint32_t pass) override;

@@ -1,5 +1,6 @@
 // The panel's numbers and buttons with the real calibration, view and session nodes of panel.test.
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <fsr_pressure_map/Event.h>
 #include <gtest/gtest.h>
 #include <rviz/panel.h>
@@ -93,6 +94,29 @@ TEST_F(Panel, ShowsTheNumbersOfTheRunningNodes) {
   EXPECT_TRUE(runUntil([&] { return label("waiting").empty(); })) << label("waiting");
 }
 
+TEST_F(Panel, SaysWhatTheDriverComplainsAbout) {
+  ros::NodeHandle handle;
+  const auto publisher = handle.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
+  diagnostic_msgs::DiagnosticArray array;
+  array.status.resize(2);
+  array.status[0].name = "fsr/driver: link";
+  array.status[0].level = diagnostic_msgs::DiagnosticStatus::ERROR;
+  array.status[0].message = "the board is silent";
+  array.status[1] = array.status[0];
+  array.status[1].name = "other/driver: link";
+  array.status[1].message = "another sensor";
+  EXPECT_TRUE(runUntil([&] {
+    publisher.publish(array);
+    return says("waiting", "Driver: the board is silent");
+  })) << label("waiting");
+  EXPECT_FALSE(says("waiting", "another sensor"));
+  array.status[0].level = diagnostic_msgs::DiagnosticStatus::OK;
+  EXPECT_TRUE(runUntil([&] {
+    publisher.publish(array);
+    return !says("waiting", "Driver");
+  })) << label("waiting");
+}
+
 TEST_F(Panel, SaysWhyAnAlarmIsUnknown) {
   EXPECT_TRUE(runUntil([&] { return says("Alarms", "UNKNOWN: whole matrix (12 saturated)"); },
                        test_support::kRigFullScale))
@@ -106,6 +130,11 @@ TEST_F(Panel, TaresTheSheet) {
   EXPECT_TRUE(runUntil([&] {
     return !rig.maps().empty() && rig.maps().back()->flags[0] == fsr_pressure_map::PressureMap::FLAG_TARED;
   }));
+}
+
+TEST_F(Panel, SaysHowToMaskTaxels) {
+  press("Mask selected");
+  EXPECT_TRUE(says("reply", "Select taxels of the map with the tool Select first.")) << label("reply");
 }
 
 TEST_F(Panel, ReloadsTheCalibration) {

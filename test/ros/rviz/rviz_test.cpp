@@ -5,6 +5,7 @@
 #include <OgreSceneNode.h>
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/PressureMap.h>
+#include <fsr_pressure_map/SetMask.h>
 #include <fsr_pressure_map/SurfaceCurvature.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -23,6 +24,7 @@
 #include <QImage>
 #include <QLabel>
 #include <QPixmap>
+#include <QPushButton>
 #include <QScreen>
 #include <QTimer>
 #include <algorithm>
@@ -318,6 +320,24 @@ TEST_F(Rviz, FReadsATaxelOutWhenItIsSelected) {
   EXPECT_EQ(readOut()->getName().toStdString(), "Taxel row 3, column 6");
   EXPECT_EQ(readOut()->subProp("Gauge pressure")->getValue().toString().toStdString(),
             fsr::view::pressureText(double(map->pressure[taxel]), fsr::view::PressureUnit::kKilopascal));
+}
+
+// The button's service is this test's own.
+TEST_F(Rviz, FMasksTheTaxelThatIsSelected) {
+  std::vector<std::uint8_t> mask;
+  const boost::function<bool(fsr_pressure_map::SetMask::Request&, fsr_pressure_map::SetMask::Response&)>
+      keep = [&](fsr_pressure_map::SetMask::Request& request, fsr_pressure_map::SetMask::Response&) {
+        mask = request.mask;
+        return true;
+      };
+  const ros::ServiceServer service = ros::NodeHandle().advertiseService("/fsr/calibration/set_mask", keep);
+  for (auto* button : frame->findChildren<QPushButton*>()) {
+    if (button->text() == "Mask selected") button->click();
+  }
+  ASSERT_TRUE(runUntil([&] { return !mask.empty(); }));
+  std::vector<std::uint8_t> expected(map->pressure.size(), 0);
+  expected[36] = 1;  // selected by the test before
+  EXPECT_EQ(mask, expected);
 }
 
 TEST_F(Rviz, GShowsTheNumbersAndTheWarningInItsPanel) {
