@@ -187,7 +187,7 @@ def run(arguments, output, logs):
 
     files = [f"{scheme}:={calibrations[scheme]}" for scheme in SCHEMES]
     log = logs / "compare.log"
-    with process(["roslaunch", "fsr_pressure_map", "compare.launch", *files], log) as child:
+    with process(["roslaunch", "fsr_pressure_map", "compare.launch", "driver:=false", *files], log) as child:
         nodes = ["calibration_flat_only", "calibration_baseline", "calibration_per_curvature", "calibration"]
         wait_until(lambda: all(rig.subscribed(node, "raw") for node in nodes), child, "compare.launch", log)
         say("four calibration nodes run; new cycles on every surface, and on one that was not used for training")

@@ -1,0 +1,211 @@
+#!/usr/bin/python3
+"""The shipped launch files as users start them: default parameters, relative paths, several terminals and one roscore."""
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import xmlrpc.client
+
+import rosbag
+import rosgraph
+import rospkg
+import rospy
+import rosservice
+import rostest
+from fsr_pressure_map.msg import MatrixInfo, PressureMap, SurfaceCurvature
+
+PACKAGE = pathlib.Path(rospkg.RosPack().get_path("fsr_pressure_map"))
+PROGRAMS = pathlib.Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]) / "lib" / "fsr_pressure_map"
+BENCH = PACKAGE / "config" / "simulation" / "bench.yaml"  # 3 x 4 taxels
+PATIENCE = 60  # [s]
+
+
+class Terminal:
+    """One terminal: roslaunch with a shipped launch file, called in `folder`."""
+
+    def __init__(self, folder, name, *arguments):
+        self.output = tempfile.TemporaryFile("w+")
+        environment = {**os.environ, "PWD": str(folder), "ROS_HOME": str(folder / "ros_home")}
+        self.launch = subprocess.Popen(["roslaunch", "fsr_pressure_map", f"{name}.launch", *arguments], cwd=folder,
+                                       env=environment, stdout=self.output, stderr=subprocess.STDOUT)
+
+    def said(self):
+        self.output.seek(0)
+        return self.output.read()
+
+    def end(self):
+        """Ctrl-C; what the terminal then shows."""
+        if self.launch.poll() is None:
+            self.launch.send_signal(signal.SIGINT)
+        self.launch.wait(PATIENCE)
+        return self.said()
+
+
+def master():
+    return rosgraph.Master("/launch_files_test")
+
+
+def pid_of(node):
+    """0 if there is no such node."""
+    try:
+        return xmlrpc.client.ServerProxy(master().lookupNode(node)).getPid("/launch_files_test")[2]
+    except (rosgraph.MasterException, OSError):
+        return 0
+
+
+class LaunchFilesTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.port = self.folder / "board"
+        self.board = None
+
+    def connect_board(self):
+        """A board in a chamber at rest."""
+        self.board = subprocess.Popen([str(PROGRAMS / "rig_emulator_node"), "__ns:=bench", f"_simulation:={BENCH}", f"_link:={self.port}",
+                                       "_scan_rate:=100", "_autostart:=false"])
+        self.addCleanup(self.board.wait)
+        self.addCleanup(self.board.terminate)
+
+    def start(self, name, *arguments):
+        terminal = Terminal(self.folder, name, *arguments)
+        self.addCleanup(terminal.end)
+        return terminal
+
+    def start_with_board(self, name, *arguments):
+        return self.start(name, f"serial_port:={self.port}", "serial_baud:=0", *arguments)
+
+    def wait_for(self, condition, terminal=None):
+        give_up = time.monotonic() + PATIENCE
+        while not condition():
+            self.assertLess(time.monotonic(), give_up, terminal.said() if terminal else "")
+            time.sleep(0.02)
+
+    def train(self):
+        """A calibration of the emulated board, calibration.h5."""
+        subprocess.run([str(PROGRAMS / "simulate"), "--simulation", str(BENCH), "--output", "."], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([str(PROGRAMS / "train"), "1_flat.bag", "2_cylinder_5cm.bag", "--output", "calibration.h5"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+
+    def wait_for_maps(self, terminal, topic="/fsr/pressure_map"):
+        maps = []
+        subscriber = rospy.Subscriber(topic, PressureMap, maps.append)
+        self.wait_for(lambda: any(one.state == PressureMap.STATE_OK for one in maps), terminal)
+        subscriber.unregister()
+        return [one for one in maps if one.state == PressureMap.STATE_OK]
+
+    def press(self, service, *arguments):
+        """What a button or `rosservice call` does; the service's sentence."""
+        rospy.wait_for_service(service, PATIENCE)
+        reply = rosservice.get_service_class_by_name(service)
+        answer = rospy.ServiceProxy(service, reply)(*arguments)
+        self.assertTrue(answer.success, f"{service}: {answer.message}")
+        return answer.message
+
+    def refused(self, name, *arguments):
+        """The terminal's text of a launch that is refused."""
+        terminal = Terminal(self.folder, name, *arguments)
+        self.wait_for(lambda: terminal.launch.poll() is not None, terminal)
+        return terminal.said()
+
+    def test_every_service_works_as_the_launch_files_start_it(self):
+        self.train()
+        self.connect_board()
+        (self.folder / "rig.yaml").write_text(f"serial_port: {self.port}\nserial_baud: 0\npitch_x: 0.02\npitch_y: 0.03\n"
+                                              "sealing: pdms\ncalibration: calibration.h5\n")
+        rig = self.start("calibrated", "rig:=rig.yaml", "surface:=flat", "unit:=mmHg", "pitch_x:=0.010")
+        self.wait_for_maps(rig)
+        self.assertEqual(rospy.get_param("/fsr/view/unit"), "mmHg")
+        info = rospy.wait_for_message("/fsr/matrix_info", MatrixInfo, PATIENCE)
+        self.assertEqual((round(info.pitch_x, 6), round(info.pitch_y, 6), info.sealing), (0.01, 0.03, "pdms"))
+        self.assertIn("fsr_calibration_tare.yaml", self.press("/fsr/calibration/tare"))
+        self.press("/fsr/calibration/clear_tare")
+        self.assertIn("1 taxels are masked; stored in ", self.press("/fsr/calibration/set_mask", [1] + 11 * [0]))
+        self.press("/fsr/calibration/reload")
+        self.press("/fsr/calibration/load_calibration", str(self.folder / "calibration.h5"))
+        self.press("/fsr/curvature/set_surface", "cylinder_5cm", 0)
+        self.press("/fsr/driver/set_enabled", False)
+        self.press("/fsr/driver/set_enabled", True)
+        self.killed_and_started_again(rig)
+        self.recorded_beside(rig)
+
+    def killed_and_started_again(self, rig):
+        """Mask, surface and mount are those that were set, and not those of the launch file."""
+        for node in ("/fsr/calibration", "/fsr/curvature"):
+            pid = pid_of(node)
+            os.kill(pid, signal.SIGKILL)
+            self.wait_for(lambda: pid_of(node) not in (0, pid), rig)
+        surface = rospy.wait_for_message("/fsr/curvature", SurfaceCurvature, PATIENCE)
+        self.assertEqual((surface.surface, surface.mount), ("cylinder_5cm", 2))
+        maps = self.wait_for_maps(rig)
+        self.assertTrue(maps[-1].flags[0] & PressureMap.FLAG_MASKED)
+        self.assertFalse(maps[-1].flags[1] & PressureMap.FLAG_MASKED)
+        self.assertIn("goes on with cylinder_5cm, mount 2", rig.said())
+
+    def recorded_beside(self, rig):
+        """A recording beside calibrated.launch, its button, its end, and its replay on the same roscore."""
+        refusal = self.refused("record", "bag:=monday", "surface:=flat")
+        self.assertIn("the node /fsr/curvature runs", refusal)
+        self.assertIn("or leave out surface:=", refusal)
+        record = self.start("record", "bag:=monday")
+        self.assertIn("marked note", self.press("/fsr/session/mark", "note", "first"))
+        written = self.folder / "monday.bag.active"
+        self.wait_for(lambda: written.exists() and written.stat().st_size > 20_000, record)
+        said = record.end()
+        with rosbag.Bag(str(self.folder / "monday.bag")) as bag:
+            scans = bag.get_message_count("/fsr/raw")
+        self.assertIn(f"recorded {scans} scans in ", said)
+        self.assertIn(f"in {self.folder}/monday.bag", said)
+        self.assertIn("while the node /fsr/driver runs", self.refused("replay", "bag:=monday.bag"))
+        rig.end()
+        self.replayed()
+
+    def replayed(self):
+        replay = self.start("replay", "bag:=monday.bag", "rate:=5", "calibration:=calibration.h5")
+        self.wait_for(lambda: rospy.get_param("/use_sim_time", False) or replay.launch.poll() is not None, replay)
+        self.wait_for(lambda: replay.launch.poll() is not None, replay)
+        self.assertIn("loaded ", replay.said())
+        self.assertFalse(rospy.get_param("/use_sim_time", False), replay.said())
+        rospy.set_param("/use_sim_time", True)  # as a replay that was killed leaves it
+        self.addCleanup(rospy.delete_param, "/use_sim_time")
+        self.assertIn("rosparam set /use_sim_time false", self.refused("driver"))
+
+    def test_launch_files_notice_each_other(self):
+        self.connect_board()
+        driver = self.start_with_board("driver")
+        self.wait_for(lambda: pid_of("/fsr/driver"), driver)
+        before = pid_of("/fsr/driver")
+        refusal = self.refused("calibrated", f"serial_port:={self.port}")
+        self.assertIn("the node /fsr/driver runs", refusal)
+        self.assertIn("`roslaunch fsr_pressure_map driver.launch serial_port", refusal)
+        self.assertIn(f"(process {driver.launch.pid})", refusal)
+        self.assertEqual(pid_of("/fsr/driver"), before)
+        self.assertIsNone(driver.launch.poll())
+        refusal = self.refused("calibrated", "ns:=other", "pitchx:=0.02")
+        self.assertIn("calibrated.launch has no argument pitchx (pitchx:=0.02); did you mean pitch_x?", refusal)
+
+    def test_a_recording_that_would_be_useless_is_refused(self):
+        for arguments, sentence in [
+                (["wait:=1"], "no scan has come on /fsr/raw"),
+                (["surface:=cylinder_6cm"], "surface cylinder_6cm: there is no file"),
+                (["subject:=bob"], "must be a code of one to three capitals")]:
+            said = self.refused("record", "bag:=useless", *arguments)
+            self.assertIn(sentence, said)
+            self.assertEqual(list(self.folder.glob("useless*")), [], said)
+
+    def test_four_calibrations_are_compared_as_documented(self):
+        self.train()
+        self.connect_board()
+        compare = self.start_with_board("compare", *(f"{name}:=calibration.h5" for name in ("flat_only", "baseline", "per_curvature", "interpolated")),
+                                        "surface:=cylinder_5cm")
+        for topic in ("/fsr/pressure_map", "/fsr/flat_only/pressure_map", "/fsr/baseline/pressure_map", "/fsr/per_curvature/pressure_map"):
+            self.wait_for_maps(compare, topic)
+
+
+if __name__ == "__main__":
+    rospy.init_node("launch_files_test")
+    rostest.rosrun("fsr_pressure_map", "launch_files_test", LaunchFilesTest, sys.argv)
