@@ -23,10 +23,11 @@ std::string timeText(std::int64_t since_ns) {
   return "t = " + settings::fixedText(1e-9 * static_cast<double>(since_ns), 2) + " s";
 }
 
-double peakOf(const map::PressureMap& map) {
+std::string peakText(const map::PressureMap& map, view::PressureUnit unit) {
   double peak = ScanRecord::kUnknown;
   for (const float pressure : map.pressure) peak = std::fmax(peak, double(pressure));
-  return peak;
+  return "peak " +
+         view::limitText(peak, unit, std::any_of(map.flags.begin(), map.flags.end(), map::isLowerLimit));
 }
 
 std::string surfaceText(const matrix::Surface* surface) {
@@ -79,7 +80,7 @@ void PictureSink::add(const ScanRecord& scan) {
       name_,
       surfaceText(scan.surface.get()),
       timeText(scan.since_ns) + "   chamber " + view::pressureText(scan.chamber_pressure, unit),
-      "peak " + view::pressureText(peakOf(*scan.map), unit) + "   state " + stateWord(scan.map->state),
+      peakText(*scan.map, unit) + "   state " + stateWord(scan.map->state),
   };
   std::vector<std::string> shown;
   for (const std::string& line : lines) shown.push_back(fitted(line));

@@ -19,7 +19,7 @@ enum class Trust { kNobodysQuestion, kSure, kAtLeast, kLessThan, kNone };
 Trust trustIn(float pressure, std::uint16_t flags) {
   if ((flags & kMasked) != 0) return Trust::kNobodysQuestion;
   if (std::isnan(pressure) || (flags & kFailed) != 0) return Trust::kNone;
-  if ((flags & kSaturated) != 0) return Trust::kAtLeast;
+  if (isLowerLimit(flags)) return Trust::kAtLeast;
   const bool bent_as_trained = (flags & kCurvatureExtrapolated) == 0;
   if ((flags & kBelowRange) != 0 && bent_as_trained) return Trust::kLessThan;
   return (flags & kUnsure) != 0 ? Trust::kNone : Trust::kSure;
@@ -46,7 +46,7 @@ AlarmEvidence evidence(const PressureMap& map, const Region& region) {
 }
 
 AlarmState Alarm::update(double time, const AlarmEvidence& evidence) {
-  if (!options_.used()) return withoutAlarm(evidence);
+  if (!options_.used()) return AlarmState::kNotSet;
   if (evidence.sure >= options_.threshold) {
     if (!above_ || time < above_since_) above_since_ = time;
     above_ = true;
@@ -67,7 +67,7 @@ AlarmState Alarm::withoutAlarm(const AlarmEvidence& evidence) const {
 
 AlarmState Alarm::stale() {
   above_ = false;
-  return AlarmState::kUnknown;
+  return options_.used() ? AlarmState::kUnknown : AlarmState::kNotSet;
 }
 
 }  // namespace fsr::map

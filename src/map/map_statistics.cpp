@@ -47,7 +47,8 @@ void finish(const ContactSums& sums, bool any_reading, RegionStatistics& result)
 
 AlarmState worse(AlarmState a, AlarmState b) {
   const auto rank = [](AlarmState s) {
-    return s == AlarmState::kAlarm ? 2 : s == AlarmState::kUnknown ? 1 : 0;
+    if (s == AlarmState::kAlarm) return 3;
+    return s == AlarmState::kUnknown ? 2 : s == AlarmState::kNotSet ? 1 : 0;
   };
   return rank(a) >= rank(b) ? a : b;
 }
@@ -68,7 +69,7 @@ RegionStatistics regionStatistics(const PressureMap& map, const Region& region,
       ++result.bad;
       continue;
     }
-    if ((map.flags[i] & taxel_flag::kSaturated) != 0) ++result.saturated;
+    if (isLowerLimit(map.flags[i])) ++result.at_least;
     if (!(pressure <= result.peak)) {  // true for the first reading, when peak is NaN
       result.peak = pressure;
       result.peak_taxel = {i};
@@ -125,7 +126,7 @@ RegionStatistics sumOfSheets(const std::string& region, const std::vector<Region
     sum.contact_area += sheet.contact_area;
     sum.total_area += sheet.total_area;
     sum.bad += sheet.bad;
-    sum.saturated += sheet.saturated;
+    sum.at_least += sheet.at_least;
     sum.pressure_time_integral = std::max(sum.pressure_time_integral, sheet.pressure_time_integral);
     sum.duration = std::max(sum.duration, sheet.duration);
     sum.alarm = worse(sum.alarm, sheet.alarm);
@@ -145,6 +146,16 @@ RegionStatistics sumOfSheets(const std::string& region, const std::vector<Region
 MapStatistics::MapStatistics(std::vector<Region> regions, double contact_threshold)
     : regions_(std::move(regions)), contact_threshold_(contact_threshold) {
   for (const Region& region : regions_) alarms_.emplace_back(region.alarm);
+}
+
+bool MapStatistics::setAlarm(const std::string& region, const AlarmOptions& options) {
+  for (std::size_t i = 0; i < regions_.size(); ++i) {
+    if (regions_[i].name != region) continue;
+    regions_[i].alarm = options;
+    alarms_[i] = Alarm(options);
+    return true;
+  }
+  return false;
 }
 
 const std::vector<RegionStatistics>& MapStatistics::update(double time, const PressureMap& map,

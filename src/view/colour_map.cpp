@@ -93,6 +93,10 @@ std::string pressureText(double pressure, PressureUnit unit) {
          " " + name(unit);
 }
 
+std::string limitText(double pressure, PressureUnit unit, bool at_least) {
+  return (at_least && std::isfinite(pressure) ? ">= " : "") + pressureText(pressure, unit);
+}
+
 std::vector<Tick> ticks(const PressureScale& scale, int most) {
   const double unit = pascals(scale.unit);
   const double low = scale.low / unit;

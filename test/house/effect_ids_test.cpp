@@ -25,6 +25,7 @@ std::string codeOf(const fs::path& path) {
 // Words that are also the name of a topic, a key of a file or a covariate. Elsewhere they would be ids.
 const std::set<std::pair<std::string, std::string>> kOtherMeanings = {
     {"hysteresis", "src/map/region.cpp"},
+    {"hysteresis", "src/ros/live/alarm_desk.cpp"},
     {"temperature", "src/calibration/file/calibration_hdf5.cpp"},
     {"temperature", "src/dataset/table_columns.cpp"},
     {"temperature", "src/exports/scan_table.cpp"},

@@ -62,10 +62,11 @@ TEST(Alarm, RestartsTheDwellTimeWhenTimeRunsBackwards) {
   EXPECT_EQ(alarm.update(3, sure(120e3)), AlarmState::kAlarm);
 }
 
-TEST(Alarm, WithoutAThresholdStillShowsWhetherTheMapCanAnswer) {
+TEST(Alarm, IsNeverOkWithoutAThreshold) {
   Alarm alarm;
-  EXPECT_EQ(alarm.update(0, sure(500e3)), AlarmState::kOk);
-  EXPECT_EQ(alarm.update(1, {500e3, false, NAN}), AlarmState::kUnknown);
+  EXPECT_EQ(alarm.update(0, sure(500e3)), AlarmState::kNotSet);
+  EXPECT_EQ(alarm.update(1, {500e3, false, NAN}), AlarmState::kNotSet);
+  EXPECT_EQ(alarm.stale(), AlarmState::kNotSet);
 }
 
 PressureMap soundMap() {
@@ -74,6 +75,35 @@ PressureMap soundMap() {
   map.state = MapState::kOk;
   map.pressure = {10e3f, 20e3f, 30e3f};
   return map;
+}
+
+TEST(Alarm, StaysWhenThePressureGoesOnRisingBeyondTraining) {
+  Alarm alarm({300e3, 0, 20e3});
+  PressureMap map;
+  map.reset({{1, 3}, 0.01, 0.01});
+  map.state = MapState::kOk;
+  map.pressure = {10e3f, 20e3f, 402e3f};
+  EXPECT_EQ(alarm.update(0, evidence(map, {})), AlarmState::kAlarm);
+  map.pressure[2] = 500e3f;  // the highest of training, at a chamber pressure of 700 kPa
+  map.flags[2] = taxel_flag::kReadingExtrapolated;
+  EXPECT_EQ(alarm.update(1, evidence(map, {})), AlarmState::kAlarm);
+}
+
+TEST(AlarmEvidence, OfAReadingAboveTrainingIsAtLeastThatReading) {
+  using namespace taxel_flag;
+  PressureMap map;
+  map.reset({{1, 2}, 0.01, 0.01});
+  map.state = MapState::kOk;
+  map.pressure = {10e3f, 500e3f};
+  map.flags[1] = kReadingExtrapolated;
+  EXPECT_DOUBLE_EQ(evidence(map, {}).sure, 500e3);
+  EXPECT_FALSE(evidence(map, {}).whole);  // the pressure may be above any threshold
+  // A curvature or temperature beyond training may hide a lower pressure.
+  for (const std::uint16_t flag : {kCurvatureExtrapolated, kTemperatureExtrapolated, kFilled}) {
+    map.flags[1] = static_cast<std::uint16_t>(kReadingExtrapolated | flag);
+    EXPECT_DOUBLE_EQ(evidence(map, {}).sure, 10e3) << flag;
+    EXPECT_FALSE(evidence(map, {}).whole) << flag;
+  }
 }
 
 TEST(AlarmEvidence, OfAValidMapIsItsPeak) {
@@ -97,7 +127,9 @@ TEST(AlarmEvidence, IsNotWholeWithAFlagThatHidesPressure) {
     PressureMap map = soundMap();
     map.flags[2] = flag;
     EXPECT_FALSE(evidence(map, {}).whole) << flag;
-    EXPECT_DOUBLE_EQ(evidence(map, {}).sure, flag == kSaturated ? 30e3 : 20e3) << flag;
+    EXPECT_DOUBLE_EQ(evidence(map, {}).sure,
+                     (flag == kSaturated || flag == kReadingExtrapolated) ? 30e3 : 20e3)
+        << flag;
   }
   for (const std::uint16_t flag : {kTared, kBetweenClasses, kBelowRange}) {
     PressureMap map = soundMap();

@@ -42,7 +42,7 @@ TEST(MapStatistics, AgreeWithACalculationByHand) {
   EXPECT_NEAR(s.total_area, 12e-4, 1e-15);
   EXPECT_NEAR(s.force, 40.0, 1e-9);
   EXPECT_EQ(s.bad, 1u);
-  EXPECT_EQ(s.saturated, 0u);
+  EXPECT_EQ(s.at_least, 0u);
   // x: (-10 x 20 + 0 x 50 + 0 x 30 + 10 x 100) / 200 = 4 mm; y: (-10 x 70 + 10 x 130) / 200 = 3 mm
   ASSERT_TRUE(s.centre);
   EXPECT_NEAR(s.centre->x, 0.004, 1e-12);
@@ -73,8 +73,19 @@ TEST(MapStatistics, IgnoreMaskedTaxelsAndCountSaturatedOnes) {
   map.flags[5] = taxel_flag::kSaturated;
   const RegionStatistics s = whole(map);
   EXPECT_EQ(s.bad, 0u);
-  EXPECT_EQ(s.saturated, 1u);
+  EXPECT_EQ(s.at_least, 1u);
   EXPECT_NEAR(s.total_area, 10e-4, 1e-15);
+}
+
+TEST(MapStatistics, CountTaxelsWhosePressureIsAtLeastTheirReading) {
+  using namespace taxel_flag;
+  PressureMap map = handMap();
+  map.flags[0] = kReadingExtrapolated;                // above training
+  map.flags[1] = kReadingExtrapolated | kBelowRange;  // below training: "less than"
+  map.flags[4] = kSaturated | kReadingExtrapolated;
+  map.flags[5] = kCurvatureExtrapolated;
+  EXPECT_EQ(whole(map).at_least, 2u);
+  EXPECT_EQ(sumOfSheets("limb", {whole(map), whole(map)}).at_least, 4u);
 }
 
 TEST(MapStatistics, ExcludeATaxelBelowItsTurnOnFromTheContact) {
@@ -170,12 +181,15 @@ TEST(MapStatistics, UpdateRegionsIntegralsAndAlarmsOverTime) {
   const auto& now = statistics.update(10.6, map, flatAreas());
   ASSERT_EQ(now.size(), 2u);
   EXPECT_EQ(now[0].alarm, AlarmState::kAlarm);
-  EXPECT_EQ(now[1].alarm, AlarmState::kOk);
+  EXPECT_EQ(now[1].alarm, AlarmState::kNotSet);
   EXPECT_NEAR(now[1].pressure_time_integral, 0.6 * 20e3, 1e-3);
   for (const RegionStatistics& region : statistics.stale()) {
-    EXPECT_EQ(region.alarm, AlarmState::kUnknown);
+    EXPECT_EQ(region.alarm, region.region.empty() ? AlarmState::kUnknown : AlarmState::kNotSet);
     EXPECT_TRUE(std::isnan(region.peak));
   }
+  EXPECT_FALSE(statistics.setAlarm("right", {10e3, 0, 0}));
+  ASSERT_TRUE(statistics.setAlarm("left", {10e3, 0, 0}));
+  EXPECT_EQ(statistics.update(11.0, map, flatAreas())[1].alarm, AlarmState::kAlarm);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
+#include <fsr_pressure_map/Event.h>
 #include <fsr_pressure_map/PressureMap.h>
 #include <fsr_pressure_map/PressureStatisticsArray.h>
+#include <fsr_pressure_map/SetAlarm.h>
 #include <fsr_pressure_map/SurfaceCurvature.h>
 #include <geometry_msgs/PointStamped.h>
 #include <gtest/gtest.h>
@@ -58,6 +60,15 @@ class View : public testing::Test {
 
   ros::Subscriber look() {
     return handle.subscribe<PointCloud2>("points", 10, [this](const PointCloud2::ConstPtr& m) { cloud = m; });
+  }
+
+  static bool setAlarm(double threshold, const std::string& region = "") {
+    fsr_pressure_map::SetAlarm alarm;
+    alarm.request.threshold = threshold;
+    alarm.request.region = region;
+    EXPECT_TRUE(ros::service::call("view/set_alarm", alarm));
+    EXPECT_FALSE(alarm.response.message.empty());
+    return alarm.response.success;
   }
 
   float heightOfCorner() const { return *sensor_msgs::PointCloud2ConstIterator<float>(*cloud, "z"); }
@@ -144,7 +155,9 @@ TEST_F(View, CountsAndThenSaysUnknownWhenMapsStop) {
   EXPECT_EQ(whole.peak_column, 4);
   EXPECT_NEAR(whole.force, 6.0, 1e-3);
   EXPECT_NEAR(whole.contact_area, 5e-4, 1e-8);
-  EXPECT_EQ(whole.alarm, PressureStatistics::OK);
+  EXPECT_EQ(whole.alarm, 3) << "no threshold is set, so it must not be OK";
+  EXPECT_TRUE(setAlarm(1e6));
+  EXPECT_TRUE(publishUntil([&] { return array->regions.at(0).alarm == PressureStatistics::OK; }));
   EXPECT_NEAR(centre->point.y, 0.010, 1e-6);  // all of row 2
   const auto unknown = [&] { return array->regions.at(0).alarm == PressureStatistics::UNKNOWN; };
   const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(30);
@@ -153,6 +166,28 @@ TEST_F(View, CountsAndThenSaysUnknownWhenMapsStop) {
   }
   EXPECT_TRUE(unknown());
   EXPECT_TRUE(std::isnan(array->regions.at(0).peak));
+  EXPECT_TRUE(setAlarm(0));
+}
+
+TEST_F(View, RaisesAnAlarmAsAnEventThoughNobodyLooks) {
+  std::vector<fsr_pressure_map::Event> events;
+  const ros::Subscriber ears = handle.subscribe<fsr_pressure_map::Event>(
+      "events", 10, [&](const fsr_pressure_map::Event::ConstPtr& event) { events.push_back(*event); });
+  ASSERT_TRUE(publishUntil([&] { return ears.getNumPublishers() > 0; }));
+  EXPECT_FALSE(setAlarm(10e3, "knee")) << "there is no such region";
+  EXPECT_FALSE(setAlarm(-1));
+  ASSERT_TRUE(setAlarm(13e3));
+  ASSERT_TRUE(publishUntil([&] { return !events.empty(); }));
+  EXPECT_EQ(events[0].kind, "note");
+  EXPECT_EQ(events[0].label, "ALARM: the whole matrix, peak 14 kPa");
+  EXPECT_EQ(events[0].header.stamp, ros::Time(1234, 5));
+  double kept = 0;
+  EXPECT_TRUE(handle.getParam("view/alarm_threshold", kept));  // survives a crash of the node
+  EXPECT_EQ(kept, 13e3);
+  ASSERT_TRUE(setAlarm(100e3));
+  ASSERT_TRUE(publishUntil([&] { return events.size() > 1; }));
+  EXPECT_EQ(events[1].label, "alarm ended: the whole matrix");
+  EXPECT_TRUE(setAlarm(0));
 }
 
 TEST_F(View, ReceivesMapsOnlyWhileSomebodyLooks) {

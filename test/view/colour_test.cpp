@@ -69,6 +69,9 @@ TEST(PressureScale, WritesPressuresWithTheirUnit) {
   EXPECT_EQ(pressureText(-20, PressureUnit::kKilopascal), "0.0 kPa");
   EXPECT_EQ(pressureText(13332.2387415, PressureUnit::kMillimetreOfMercury), "100 mmHg");
   EXPECT_EQ(pressureText(NAN, PressureUnit::kKilopascal), "-");
+  EXPECT_EQ(limitText(500e3, PressureUnit::kKilopascal, true), ">= 500 kPa");
+  EXPECT_EQ(limitText(500e3, PressureUnit::kKilopascal, false), "500 kPa");
+  EXPECT_EQ(limitText(NAN, PressureUnit::kKilopascal, true), "-");
 }
 
 TEST(PressureScale, RefusesAnEmptyRange) {

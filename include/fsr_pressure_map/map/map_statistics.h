@@ -14,18 +14,18 @@ namespace fsr::map {
 struct RegionStatistics {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-  std::string region;                 ///< "" = the whole matrix
-  double peak = kNone;                ///< highest reading [Pa]
-  matrix::TaxelIndex peak_taxel;      ///< taxel of the peak; undefined while peak is NaN
-  double mean = kNone;                ///< over the contact area, weighted by area [Pa]
-  double standard_deviation = kNone;  ///< over the contact area, weighted by area [Pa]
-  double contact_area = 0;            ///< of the taxels in contact [m^2]
-  double total_area = 0;              ///< of the region's taxels without masked ones [m^2]
-  double force = kNone;               ///< sum of normal force over the contact area [N]
-  double pressure_time_integral = 0;  ///< largest of the taxels [Pa s]
-  double duration = 0;                ///< of the integral [s]
-  std::size_t bad = 0;                ///< taxels without a reading; masked ones are not counted
-  std::size_t saturated = 0;
+  std::string region;                      ///< "" = the whole matrix
+  double peak = kNone;                     ///< highest reading [Pa]
+  matrix::TaxelIndex peak_taxel;           ///< taxel of the peak; undefined while peak is NaN
+  double mean = kNone;                     ///< over the contact area, weighted by area [Pa]
+  double standard_deviation = kNone;       ///< over the contact area, weighted by area [Pa]
+  double contact_area = 0;                 ///< of the taxels in contact [m^2]
+  double total_area = 0;                   ///< of the region's taxels without masked ones [m^2]
+  double force = kNone;                    ///< sum of normal force over the contact area [N]
+  double pressure_time_integral = 0;       ///< largest of the taxels [Pa s]
+  double duration = 0;                     ///< of the integral [s]
+  std::size_t bad = 0;                     ///< taxels without a reading; masked ones are not counted
+  std::size_t at_least = 0;                ///< taxels whose pressure is at least their reading (isLowerLimit)
   std::optional<matrix::Position> centre;  ///< centre of pressure on the flat sheet [m]; none without contact
   AlarmState alarm = AlarmState::kUnknown;
 };
@@ -62,7 +62,7 @@ class PressureIntegral {
 
 /// Statistics of several sheets around one limb, as one. Areas, forces and counts are added. Peak and
 /// integral are the largest. Mean and deviation are over the contact area of all sheets. There is no centre,
-/// because the sheets have no common plane. The alarm is the worst: alarm, then unknown, then OK. The peak's
+/// because the sheets have no common plane. The alarm is the worst: alarm, unknown, not set, OK. The peak's
 /// taxel is an index on its own sheet.
 RegionStatistics sumOfSheets(const std::string& region, const std::vector<RegionStatistics>& sheets);
 
@@ -77,6 +77,9 @@ class MapStatistics {
   /// The statistics where no map has come for too long: names, and alarms that are unknown.
   std::vector<RegionStatistics> stale();
   void resetIntegral() { integral_.reset(); }
+  /// Replaces the alarm of a region, which starts anew. Returns false if there is no region of that name.
+  bool setAlarm(const std::string& region, const AlarmOptions& options);
+  const std::vector<Region>& regions() const { return regions_; }
 
  private:
   std::vector<Region> regions_;

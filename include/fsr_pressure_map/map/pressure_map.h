@@ -33,6 +33,16 @@ constexpr std::uint16_t kBelowRange = 1024;
 constexpr std::uint16_t kTemperatureExtrapolated = 2048;
 }  // namespace taxel_flag
 
+/// Whether the pressure of a taxel with these flags is at least its reading: at full scale, or a code above
+/// those of training on a trained curvature and temperature. A masked or failed taxel gives no limit.
+constexpr bool isLowerLimit(std::uint16_t flags) {
+  using namespace taxel_flag;
+  constexpr std::uint16_t kNoReading = kMasked | kDead | kStuck | kLineFault | kFilled;
+  constexpr std::uint16_t kOther = kBelowRange | kCurvatureExtrapolated | kTemperatureExtrapolated;
+  if ((flags & kNoReading) != 0) return false;
+  return (flags & kSaturated) != 0 || ((flags & kReadingExtrapolated) != 0 && (flags & kOther) == 0);
+}
+
 /// Calibrated gauge pressure of each taxel.
 struct PressureMap {
   matrix::Layout layout;

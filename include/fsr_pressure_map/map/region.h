@@ -11,8 +11,8 @@ namespace fsr::map {
 
 struct PressureMap;
 
-/// The numbers are those of PressureStatistics.msg.
-enum class AlarmState : std::uint8_t { kOk = 0, kAlarm = 1, kUnknown = 2 };
+/// The numbers are those of PressureStatistics.msg. kNotSet: the region has no threshold.
+enum class AlarmState : std::uint8_t { kOk = 0, kAlarm = 1, kUnknown = 2, kNotSet = 3 };
 
 /// Conditions of an alarm. The default never alarms.
 struct AlarmOptions {
@@ -54,8 +54,8 @@ std::vector<Region> readRegions(const std::string& yaml, const std::string& orig
 
 /// What one map shows of an alarm's region.
 struct AlarmEvidence {
-  /// Highest pressure that is certain [Pa]: of taxels with a valid reading, and of saturated ones, whose
-  /// pressure is at least their reading. NaN = none.
+  /// Highest pressure that is certain [Pa]: of taxels with a valid reading, and of those whose pressure is at
+  /// least their reading (isLowerLimit). NaN = none.
   double sure = std::numeric_limits<double>::quiet_NaN();
   /// Whether every taxel of the region has a reading within the range of training. A taxel below its turn-on
   /// pressure counts as read, a masked one is ignored, a filled one does not count as read.
@@ -71,7 +71,8 @@ AlarmEvidence evidence(const PressureMap& map, const Region& region);
 /// It is raised where a certain pressure stays at or above the threshold for the dwell time, and ends only
 /// below threshold - hysteresis. Where the map cannot answer (stale, uncalibrated, curvature unknown,
 /// extrapolated, saturated or failed taxels, "less than" a pressure above the threshold) the state is
-/// kUnknown, never kOk. An alarm that is certain stays an alarm.
+/// kUnknown, never kOk. An alarm that is certain stays an alarm: a reading above training, or at full scale,
+/// is "at least" and holds it. Without a threshold the state is kNotSet, never kOk.
 class Alarm {
  public:
   explicit Alarm(const AlarmOptions& options = {}) : options_(options) {}

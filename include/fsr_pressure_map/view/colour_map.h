@@ -68,6 +68,8 @@ void requireSound(const PressureScale& scale);
 
 /// A pressure [Pa] as text in a unit, e.g. "312 kPa". NaN and infinity give "-".
 std::string pressureText(double pressure, PressureUnit unit);
+/// The same with ">= " in front where the pressure is a lower limit.
+std::string limitText(double pressure, PressureUnit unit, bool at_least);
 
 /// A tick of a colour bar.
 struct Tick {

@@ -88,7 +88,7 @@ void LimbServer::publish() {
   for (const std::string& name : names) {
     fsr::map::RegionStatistics sum = sumOf(name, heard);
     const bool silent_sheet = heard.size() < sheets_.size();
-    if (silent_sheet && sum.alarm == fsr::map::AlarmState::kOk) sum.alarm = fsr::map::AlarmState::kUnknown;
+    if (silent_sheet && sum.alarm != fsr::map::AlarmState::kAlarm) sum.alarm = fsr::map::AlarmState::kUnknown;
     array.regions.push_back(toMessage(sum, {}));
   }
   sum_.publish(array);

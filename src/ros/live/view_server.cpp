@@ -30,6 +30,7 @@ ViewServer::ViewServer(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       settings_(private_handle),
       shape_(settings_.fineness),
       statistics_({}, 0),
+      alarms_(handle, private_handle, settings_, [this] { onAlarmSet(); }),
       auto_range_(std::max(10e3, 1.5 * settings_.style.scale.low)) {
   const ros::SubscriberStatusCallback follow = [this](const auto&) { followSubscribers(); };
   const std::uint32_t queue = settings_.queue_size;
@@ -42,16 +43,22 @@ ViewServer::ViewServer(const ros::NodeHandle& handle, const ros::NodeHandle& pri
       handle_.advertise<geometry_msgs::PointStamped>("centre_of_pressure", queue, follow, follow);
   silence_ = handle_.createWallTimer(ros::WallDuration(0.5 * settings_.stale_after),
                                      [this](const ros::WallTimerEvent&) { reportSilence(); });
+  followSubscribers();
+}
+
+void ViewServer::onAlarmSet() {
+  alarms_.apply(statistics_);
+  followSubscribers();
 }
 
 void ViewServer::followSubscribers() {
   const bool anybody = std::any_of(outputs_.begin(), outputs_.end(), [](const auto& output) {
     return output.second && output.second.getNumSubscribers() > 0;
   });
-  if (!anybody) {
+  if (!anybody) statistics_.resetIntegral();
+  if (!anybody && !alarms_.any()) {
     maps_.shutdown();
     curvature_.shutdown();
-    statistics_.resetIntegral();
   } else if (!maps_) {
     last_map_ = ros::WallTime::now();
     curvature_ = handle_.subscribe("curvature", settings_.queue_size, &ViewServer::onCurvature, this);
@@ -77,6 +84,7 @@ void ViewServer::onMap(const fsr_pressure_map::PressureMapConstPtr& message) {
     shape_.setLayout(map.layout);
     if (map.layout.size != size_) prepare(map.layout);
     now_ = statistics_.update(message->header.stamp.toSec(), map, shape_.areas());
+    alarms_.note(message->header, now_);
     publish(*message, map);
   } catch (const fsr::settings::InputError& error) {
     ROS_WARN_STREAM_THROTTLE(kComplaintPeriod, error.what());
@@ -94,6 +102,9 @@ void ViewServer::prepare(const fsr::matrix::Layout& layout) {
   }
   statistics_ = fsr::map::MapStatistics(std::move(regions), settings_.contact_threshold);
   size_ = layout.size;
+  alarms_.learn(statistics_.regions());
+  alarms_.apply(statistics_);
+  followSubscribers();  // the file may set no alarm
 }
 
 void ViewServer::publish(const fsr_pressure_map::PressureMap& message, const fsr::map::PressureMap& map) {
@@ -124,8 +135,10 @@ void ViewServer::publishPictures(const fsr_pressure_map::PressureMap& message,
   if (wanted("image")) {
     const std::string calibration =
         message.scheme.empty() ? "no calibration" : "calibration " + message.scheme;
-    const std::string numbers = "peak " + fsr::view::pressureText(whole().peak, settings_.style.scale.unit) +
-                                "  mean " + fsr::view::pressureText(whole().mean, settings_.style.scale.unit);
+    const fsr::view::PressureUnit unit = settings_.style.scale.unit;
+    const bool at_least = whole().at_least > 0;
+    const std::string numbers = "peak " + fsr::view::limitText(whole().peak, unit, at_least) + "  mean " +
+                                fsr::view::limitText(whole().mean, unit, at_least);
     const fsr::view::HeatMap painter(settings_.style);
     outputs_["image"].publish(
         toMessage(message.header, painter.draw(map, {calibration, numbers, stateText(map.state)})));
@@ -153,14 +166,18 @@ void ViewServer::publishCentre(const std_msgs::Header& header, const fsr::map::R
 
 // Without maps the alarms are published as UNKNOWN, so that a subscriber does not take silence for OK.
 void ViewServer::reportSilence() {
-  if (!maps_ || !wanted("statistics")) return;
+  if (!maps_) return;
   if ((ros::WallTime::now() - last_map_).toSec() < settings_.stale_after) return;
-  if (size_.taxels() == 0)
+  if (statistics_.regions().empty()) {
     statistics_ = fsr::map::MapStatistics({fsr::map::Region{}}, settings_.contact_threshold);
+    alarms_.apply(statistics_);
+  }
   std_msgs::Header header;
   header.stamp = ros::Time::now();
   header.frame_id = frame_id_;
-  publishStatistics(header, statistics_.stale());
+  const std::vector<fsr::map::RegionStatistics> stale = statistics_.stale();
+  alarms_.note(header, stale);
+  if (wanted("statistics")) publishStatistics(header, stale);
 }
 
 }  // namespace fsr_ros

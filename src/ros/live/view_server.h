@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/map/map_statistics.h"
+#include "ros/live/alarm_desk.h"
 #include "ros/live/view_settings.h"
 #include "ros/messages/sheet_shape.h"
 #include "view/auto_range.h"
@@ -17,9 +18,10 @@ namespace fsr_ros {
 
 /// Publishes pictures and statistics of the pressure map in the frame of the scan: `points`, `surface`,
 /// `image`, `statistics`, `centre_of_pressure`. The sheet is bent as `curvature` says, and flat while the
-/// curvature is unknown. The node receives maps only while one of its topics has a subscriber. `surface` and
-/// `image` are published at most at `~rate`, the other topics for every map. The pressure-time integral
-/// begins with the first subscriber. When maps stop, all alarms become UNKNOWN. Parameters: ViewSettings.
+/// curvature is unknown. The node receives maps only while one of its topics has a subscriber or an alarm is
+/// set. `surface` and `image` are published at most at `~rate`, the other topics for every map. The
+/// pressure-time integral begins with the first subscriber. When maps stop, all alarms become UNKNOWN. The
+/// service `~set_alarm` sets alarms; they are logged and published on `events`. Parameters: ViewSettings.
 class ViewServer {
  public:
   /// Throws fsr::InputError.
@@ -37,6 +39,7 @@ class ViewServer {
   void publishCentre(const std_msgs::Header& header, const fsr::map::RegionStatistics& whole);
   void reportSilence();
   void prepare(const fsr::matrix::Layout& layout);
+  void onAlarmSet();
   const fsr::map::RegionStatistics& whole() const { return now_.front(); }
 
   ros::NodeHandle handle_;
@@ -50,6 +53,7 @@ class ViewServer {
   fsr::matrix::MatrixSize size_;  // matrix size of statistics_
   fsr::map::MapStatistics statistics_;
   std::vector<fsr::map::RegionStatistics> now_;
+  AlarmDesk alarms_;
   fsr::view::AutoRange auto_range_;
   std::string frame_id_;
   ros::WallTime last_map_;

@@ -36,6 +36,20 @@ fsr::view::HeatMapStyle styleOf(const Parameters& parameters) {
   return style;
 }
 
+fsr::map::AlarmOptions alarmOf(const Parameters& parameters) {
+  fsr::map::AlarmOptions alarm;
+  const double threshold = parameters.number("alarm_threshold", 0, {0, kMaxPressure, "Pa"});
+  alarm.dwell = parameters.number("alarm_dwell", alarm.dwell, {0, 3600, "s"});
+  alarm.hysteresis = parameters.number("alarm_hysteresis", alarm.hysteresis, {0, kMaxPressure, "Pa"});
+  if (!(threshold > 0)) return alarm;
+  if (alarm.hysteresis > threshold) {
+    throw parameters.error("alarm_hysteresis",
+                           "must not be above alarm_threshold, " + std::to_string(threshold) + " Pa");
+  }
+  alarm.threshold = threshold;
+  return alarm;
+}
+
 }  // namespace
 
 ViewSettings::ViewSettings(const ros::NodeHandle& private_handle) {
@@ -47,6 +61,7 @@ ViewSettings::ViewSettings(const ros::NodeHandle& private_handle) {
   rate = parameters.number("rate", 20, {0.1, 1000, "Hz"});
   contact_threshold = parameters.number("contact_threshold", 10e3, {0, kMaxPressure, "Pa"});
   regions = resolveResource(parameters.text("regions", ""));
+  alarm = alarmOf(parameters);
   stale_after = parameters.number("stale_after", 1.0, {0.05, 3600, "s"});
   for (const std::string& name : parameters.unknown()) {
     ROS_WARN_STREAM(

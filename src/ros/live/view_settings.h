@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "fsr_pressure_map/map/region.h"
 #include "fsr_pressure_map/view/heat_map.h"
 
 namespace fsr_ros {
@@ -22,7 +23,10 @@ struct ViewSettings {
   double rate;               ///< `~rate`: largest rate of images and meshes [Hz]
   double contact_threshold;  ///< `~contact_threshold` [Pa]
   std::string regions;       ///< `~regions`: region file, resolved; empty = the whole matrix only
-  double stale_after;        ///< `~stale_after`: time without a map until alarms are UNKNOWN [s]
+  /// Of the whole matrix: `~alarm_threshold` [Pa], `~alarm_dwell` [s], `~alarm_hysteresis` [Pa]. Threshold 0
+  /// = as in the region file.
+  fsr::map::AlarmOptions alarm;
+  double stale_after;  ///< `~stale_after`: time without a map until alarms are UNKNOWN [s]
 };
 
 }  // namespace fsr_ros

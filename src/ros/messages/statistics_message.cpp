@@ -28,7 +28,7 @@ fsr_pressure_map::PressureStatistics toMessage(const fsr::map::RegionStatistics&
     message.peak_column = layout.column(statistics.peak_taxel);
   }
   message.bad = static_cast<std::uint16_t>(std::min<std::size_t>(statistics.bad, 65535));
-  message.saturated = static_cast<std::uint16_t>(std::min<std::size_t>(statistics.saturated, 65535));
+  message.saturated = static_cast<std::uint16_t>(std::min<std::size_t>(statistics.at_least, 65535));
   message.centre.x = statistics.centre ? statistics.centre->x : kNone;
   message.centre.y = statistics.centre ? statistics.centre->y : kNone;
   message.centre.z = statistics.centre ? 0 : kNone;
@@ -38,6 +38,10 @@ fsr_pressure_map::PressureStatistics toMessage(const fsr::map::RegionStatistics&
 
 fsr::map::RegionStatistics toStatistics(const fsr_pressure_map::PressureStatistics& message) {
   using Message = fsr_pressure_map::PressureStatistics;
+  using fsr::map::AlarmState;
+  static_assert(static_cast<std::uint8_t>(AlarmState::kOk) == Message::OK);
+  static_assert(static_cast<std::uint8_t>(AlarmState::kAlarm) == Message::ALARM);
+  static_assert(static_cast<std::uint8_t>(AlarmState::kUnknown) == Message::UNKNOWN);
   fsr::map::RegionStatistics statistics;
   statistics.region = message.region;
   statistics.peak = message.peak;
@@ -49,10 +53,9 @@ fsr::map::RegionStatistics toStatistics(const fsr_pressure_map::PressureStatisti
   statistics.pressure_time_integral = message.pressure_time_integral;
   statistics.duration = message.duration;
   statistics.bad = message.bad;
-  statistics.saturated = message.saturated;
-  statistics.alarm = message.alarm == Message::OK      ? fsr::map::AlarmState::kOk
-                     : message.alarm == Message::ALARM ? fsr::map::AlarmState::kAlarm
-                                                       : fsr::map::AlarmState::kUnknown;
+  statistics.at_least = message.saturated;
+  const bool known = message.alarm <= static_cast<std::uint8_t>(AlarmState::kNotSet);
+  statistics.alarm = known ? static_cast<AlarmState>(message.alarm) : AlarmState::kUnknown;
   return statistics;
 }
 

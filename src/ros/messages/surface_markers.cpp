@@ -99,8 +99,9 @@ std::string legendText(const fsr::map::PressureMap& map, const fsr::view::HeatMa
   std::string text = std::string(fsr::view::name(style.layer)) + ", " +
                      fsr::view::pressureText(style.scale.low, unit) + " (dark) to " +
                      fsr::view::pressureText(style.scale.high, unit) + " (bright)";
-  text += "\npeak " + fsr::view::pressureText(whole.peak, unit) + ", mean over contact " +
-          fsr::view::pressureText(whole.mean, unit);
+  const bool at_least = whole.at_least > 0;
+  text += "\npeak " + fsr::view::limitText(whole.peak, unit, at_least) + ", mean over contact " +
+          fsr::view::limitText(whole.mean, unit, at_least);
   return state.empty() ? text : text + "\n" + state;
 }
 

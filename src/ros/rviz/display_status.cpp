@@ -1,6 +1,8 @@
 #include "ros/rviz/display_status.h"
 
+#include <algorithm>
 #include <map>
+#include <utility>
 
 #include "ros/messages/surface_markers.h"
 
@@ -11,6 +13,23 @@ namespace {
 using rviz::StatusProperty;
 
 constexpr double kSilence = 2.0;  // time without a message after which the status reports it [s]
+
+// " (reading, temperature)": what is extrapolated on the taxels of that look; empty without flags.
+std::string extrapolatedText(const std::vector<fsr::view::TaxelLook>& looks,
+                             const std::vector<std::uint16_t>& flags) {
+  using namespace fsr::map::taxel_flag;
+  std::uint16_t found = 0;
+  for (std::size_t i = 0; i < std::min(looks.size(), flags.size()); ++i) {
+    if (looks[i] == fsr::view::TaxelLook::kExtrapolated) found |= flags[i];
+  }
+  std::string text;
+  for (const auto& [flag, word] :
+       {std::pair{kReadingExtrapolated, "reading"}, std::pair{kCurvatureExtrapolated, "curvature"},
+        std::pair{kTemperatureExtrapolated, "temperature"}}) {
+    if ((found & flag) != 0) text += (text.empty() ? " (" : ", ") + std::string(word);
+  }
+  return text.empty() ? text : text + ")";
+}
 
 }  // namespace
 
@@ -67,13 +86,15 @@ StatusLine curvatureStatus(const fsr::matrix::Surface& surface, const std::strin
   return {StatusProperty::Ok, surface.name.empty() ? "received" : surface.name};
 }
 
-StatusLine taxelStatus(const std::vector<fsr::view::TaxelLook>& looks) {
+StatusLine taxelStatus(const std::vector<fsr::view::TaxelLook>& looks,
+                       const std::vector<std::uint16_t>& flags) {
   std::map<fsr::view::TaxelLook, int> counts;
   for (const fsr::view::TaxelLook look : looks) ++counts[look];
   std::string text;
   for (const fsr::view::TaxelLook look : fsr::view::markedLooks()) {
     if (counts[look] == 0) continue;
     text += (text.empty() ? "" : ", ") + std::to_string(counts[look]) + " " + fsr::view::name(look);
+    if (look == fsr::view::TaxelLook::kExtrapolated) text += extrapolatedText(looks, flags);
   }
   if (text.empty()) return {StatusProperty::Ok, "all readings are within range"};
   const bool harmless = counts[fsr::view::TaxelLook::kGood] + counts[fsr::view::TaxelLook::kBelowRange] ==

@@ -34,7 +34,9 @@ std::string stateHeadline(fsr::map::MapState state);
 StatusLine curvatureStatus(const fsr::matrix::Surface& surface, const std::string& error,
                            const std::string& topic);
 
-/// Number of taxels with an unreliable reading, by kind.
-StatusLine taxelStatus(const std::vector<fsr::view::TaxelLook>& looks);
+/// Number of taxels with an unreliable reading, by kind. With `flags` [taxels] it also says what is
+/// extrapolated: reading, curvature or temperature.
+StatusLine taxelStatus(const std::vector<fsr::view::TaxelLook>& looks,
+                       const std::vector<std::uint16_t>& flags = {});
 
 }  // namespace fsr_rviz

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "fsr_pressure_map/map/region.h"
 #include "fsr_pressure_map/ros/pressure_map_message.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/messages/surface_markers.h"
@@ -14,6 +15,8 @@ namespace fsr_rviz {
 namespace {
 
 using fsr_pressure_map::PressureStatistics;
+
+constexpr auto kNotSet = static_cast<std::uint8_t>(fsr::map::AlarmState::kNotSet);
 
 // Why the alarm of the whole matrix is unknown, in brackets; empty if the map gives no reason.
 QString reasonOfUnknown(const fsr_pressure_map::PressureMapConstPtr& message) {
@@ -26,7 +29,7 @@ QString reasonOfUnknown(const fsr_pressure_map::PressureMapConstPtr& message) {
     for (std::size_t i = 0; i < map.flags.size(); ++i) {
       looks.push_back(fsr::view::lookOf(map.pressure[i], map.flags[i]));
     }
-    const StatusLine taxels = taxelStatus(looks);
+    const StatusLine taxels = taxelStatus(looks, map.flags);
     return taxels.level == rviz::StatusProperty::Ok ? "" : " (" + text(taxels.text) + ")";
   } catch (const fsr::settings::InputError&) {
     return "";  // the display shows what is wrong with the message
@@ -55,9 +58,21 @@ std::vector<std::uint8_t> maskAfter(const std::vector<std::uint16_t>& flags,
   return mask;
 }
 
+QString peakText(const PressureStatistics& whole, const fsr_pressure_map::PressureMapConstPtr& map,
+                 fsr::view::PressureUnit unit) {
+  QString peak = text(fsr::view::limitText(whole.peak, unit, whole.saturated > 0));
+  if (!std::isfinite(whole.peak)) return peak;
+  const std::size_t taxel = map ? std::size_t{whole.peak_row} * map->columns + whole.peak_column : 0;
+  const bool known = map && taxel < map->deviation.size() && std::isfinite(map->deviation[taxel]);
+  if (whole.saturated == 0 && known) {
+    peak += " \u00b1 " + text(fsr::view::pressureText(double(map->deviation[taxel]), unit));
+  }
+  return peak + QString(", row %1, column %2").arg(whole.peak_row).arg(whole.peak_column);
+}
+
 AlarmLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& statistics,
                     const fsr_pressure_map::PressureMapConstPtr& map) {
-  QStringList alarm, unknown;
+  QStringList alarm, unknown, unset;
   if (!statistics) {
     unknown << "no statistics";
   } else {
@@ -67,6 +82,7 @@ AlarmLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& sta
       if (region.alarm == PressureStatistics::ALARM) alarm << name;
       if (region.alarm == PressureStatistics::UNKNOWN)
         unknown << (whole ? name + reasonOfUnknown(map) : name);
+      if (region.alarm == kNotSet) unset << name;
     }
   }
   QStringList lines;
@@ -74,7 +90,8 @@ AlarmLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& sta
   if (!unknown.empty()) lines << "UNKNOWN: " + unknown.join(", ");
   if (!alarm.empty()) return {lines.join("\n"), "background: #b00020; color: white; font-weight: bold"};
   if (!unknown.empty()) return {lines.join("\n"), "background: #606060; color: white"};
-  return {"OK", ""};
+  if (unset.size() == static_cast<int>(statistics->regions.size())) return {"no alarm set", ""};
+  return {unset.empty() ? QString("OK") : "OK (no alarm set: " + unset.join(", ") + ")", ""};
 }
 
 }  // namespace fsr_rviz

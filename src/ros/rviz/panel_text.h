@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "fsr_pressure_map/view/colour_map.h"
+
 namespace fsr_rviz {
 
 /// The text, or "-" if it is empty.
@@ -21,6 +23,11 @@ QString number(double value, double unit, const char* name, int decimals);
 /// those of `selected` that were masked, and with those that were not.
 std::vector<std::uint8_t> maskAfter(const std::vector<std::uint16_t>& flags,
                                     const std::vector<std::size_t>& selected);
+
+/// Peak of the whole matrix with its place, e.g. "402 kPa ± 12 kPa, row 3, column 4", or ">= 500 kPa, ..."
+/// where a reading is a lower limit. The deviation is that of the taxel in `map`, which may be null.
+QString peakText(const fsr_pressure_map::PressureStatistics& whole,
+                 const fsr_pressure_map::PressureMapConstPtr& map, fsr::view::PressureUnit unit);
 
 /// The line "Alarms" of the panel.
 struct AlarmLine {

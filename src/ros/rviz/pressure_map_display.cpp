@@ -94,14 +94,15 @@ fsr::view::Legend PressureMapDisplay::legend() const {
 
 ReadOut PressureMapDisplay::readOut(std::size_t taxel) const {
   const fsr::view::PressureUnit unit = picture().scale.unit;
-  return {{"Gauge pressure", fsr::view::pressureText(double(map_.pressure[taxel]), unit)},
+  return {{"Gauge pressure", fsr::view::limitText(double(map_.pressure[taxel]), unit,
+                                                  fsr::map::isLowerLimit(map_.flags[taxel]))},
           {"Standard deviation", fsr::view::pressureText(double(map_.deviation[taxel]), unit)},
           {"Flags", flagsText(map_.flags[taxel])}};
 }
 
 void PressureMapDisplay::sayState() {
   say("State", stateStatus(map_.state));
-  say("Taxels", taxelStatus(picture().looks));
+  say("Taxels", taxelStatus(picture().looks, map_.flags));
 }
 
 std::string flagsText(std::uint16_t flags) {

@@ -1,6 +1,7 @@
 #include "ros/rviz/pressure_panel.h"
 
 #include <fsr_pressure_map/Mark.h>
+#include <fsr_pressure_map/SetAlarm.h>
 #include <fsr_pressure_map/SetMask.h>
 #include <ros/service.h>
 #include <rviz/selection/selection_manager.h>
@@ -95,8 +96,19 @@ void PressurePanel::addButtons(QVBoxLayout* column) {
   events->addWidget(event_kind_);
   events->addWidget(event_label_);
   button("Mark event", SLOT(markEvent()), events);
+  auto* alarms = new QHBoxLayout;
+  alarm_region_ = new QComboBox;
+  alarm_region_->setObjectName("alarm region");
+  alarm_region_->addItem("whole matrix");
+  alarm_threshold_ = new QLineEdit;
+  alarm_threshold_->setObjectName("alarm threshold");
+  alarm_threshold_->setPlaceholderText("threshold, 0 = none");
+  alarms->addWidget(alarm_region_);
+  alarms->addWidget(alarm_threshold_);
+  button("Set alarm", SLOT(setAlarm()), alarms);
   column->addLayout(actions);
   column->addLayout(events);
+  column->addLayout(alarms);
 }
 
 QLabel* PressurePanel::addText(QVBoxLayout* column, const char* name) {
@@ -252,22 +264,51 @@ void PressurePanel::showStatistics() {
   if (fresh) whole = last_statistics_.message->regions.front();
   const fsr::view::PressureUnit unit = fsr::view::pressureUnitOf(unit_->currentText().toStdString());
   const double none = std::nan("");
-  const QString place = fresh && std::isfinite(whole.peak)
-                            ? QString(", row %1, column %2").arg(whole.peak_row).arg(whole.peak_column)
-                            : QString();
-  peak_->setText(text(fsr::view::pressureText(fresh ? whole.peak : none, unit)) + place);
-  mean_->setText(text(fsr::view::pressureText(fresh ? whole.mean : none, unit)));
+  const bool at_least = whole.saturated > 0;
+  if (!fresh) whole.peak = none;
+  peak_->setText(peakText(whole, last_map_.fresh() ? last_map_.message : nullptr, unit));
+  mean_->setText(text(fsr::view::limitText(fresh ? whole.mean : none, unit, at_least)));
   area_->setText(number(fresh ? whole.contact_area : none, 1e-4, "cm\u00b2", 1));
-  force_->setText(number(fresh ? whole.force : none, 1, "N", 1));
+  force_->setText((fresh && at_least ? ">= " : "") + number(fresh ? whole.force : none, 1, "N", 1));
   integral_->setText(number(fresh ? whole.pressure_time_integral : none, 1000, "kPa s", 0) +
                      (fresh ? QString(" in %1 s").arg(whole.duration, 0, 'f', 0) : QString()));
 }
 
 void PressurePanel::showAlarms() {
+  if (last_statistics_.fresh()) listRegions();
   const AlarmLine line = alarmLine(last_statistics_.fresh() ? last_statistics_.message : nullptr,
                                    last_map_.fresh() ? last_map_.message : nullptr);
   alarms_->setText(line.text);
   alarms_->setStyleSheet(line.style);
+}
+
+// Regions that an alarm can be set for: the first one is the whole matrix.
+void PressurePanel::listRegions() {
+  QStringList names("whole matrix");
+  for (std::size_t i = 1; i < last_statistics_.message->regions.size(); ++i) {
+    names << QString::fromStdString(last_statistics_.message->regions[i].region);
+  }
+  QStringList shown;
+  for (int i = 0; i < alarm_region_->count(); ++i) shown << alarm_region_->itemText(i);
+  if (names == shown) return;
+  alarm_region_->clear();
+  alarm_region_->addItems(names);
+}
+
+void PressurePanel::setAlarm() {
+  bool number = false;
+  const double threshold = alarm_threshold_->text().trimmed().toDouble(&number);
+  if (!number) {
+    reply_->setText("\"" + alarm_threshold_->text() + "\" is no threshold; give a number in " +
+                    unit_->currentText() + ", 0 = no alarm");
+    return;
+  }
+  fsr_pressure_map::SetAlarm alarm;
+  if (alarm_region_->currentIndex() > 0) alarm.request.region = alarm_region_->currentText().toStdString();
+  alarm.request.threshold =
+      threshold * fsr::view::pascals(fsr::view::pressureUnitOf(unit_->currentText().toStdString()));
+  alarm.request.dwell = alarm.request.hysteresis = -1;  // as before
+  call("set alarm", [service = name("view/set_alarm"), alarm]() mutable { return answerOf(service, alarm); });
 }
 
 void PressurePanel::tare() {

@@ -29,10 +29,10 @@ class QVBoxLayout;
 
 namespace fsr_rviz {
 
-/// Panel with the numbers of one sensor and with buttons for tare, reload, mask and marking an event. All
-/// topics are in the sensor's namespace. A number that has not come yet, or not for 3 s, is shown as "-", and
-/// a line below the buttons names the missing node. Services are called in another thread, so that the window
-/// never waits for them.
+/// Panel with the numbers of one sensor and with buttons for tare, reload, mask, marking an event and setting
+/// an alarm. All topics are in the sensor's namespace. A number that has not come yet, or not for 3 s, is shown
+/// as "-", and a line below the buttons names the missing node. Services are called in another thread, so
+/// that the window never waits for them.
 class PressurePanel : public rviz::Panel {
   Q_OBJECT
 
@@ -51,6 +51,7 @@ class PressurePanel : public rviz::Panel {
   void reload();
   void maskSelected();
   void markEvent();
+  void setAlarm();
   void showReply(const QString& reply);
 
  private:
@@ -74,6 +75,7 @@ class PressurePanel : public rviz::Panel {
   std::vector<std::size_t> selectedTaxels() const;
   void showStatistics();
   void showAlarms();
+  void listRegions();
   void showWaiting();
   void call(const std::string& what, const std::function<std::string()>& service);
   std::string name(const std::string& relative) const;
@@ -83,8 +85,8 @@ class PressurePanel : public rviz::Panel {
   QComboBox* unit_;
   QLabel *chamber_, *surface_, *session_, *calibration_, *peak_, *mean_, *area_, *force_, *integral_,
       *alarms_;
-  QComboBox* event_kind_;
-  QLineEdit* event_label_;
+  QComboBox *event_kind_, *alarm_region_;
+  QLineEdit *event_label_, *alarm_threshold_;
   std::vector<QPushButton*> buttons_;
   QLabel *reply_, *waiting_;
   QTimer* timer_;

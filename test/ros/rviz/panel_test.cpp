@@ -89,6 +89,7 @@ TEST_F(Panel, SaysWhichNodesItWaitsFor) {
 TEST_F(Panel, ShowsTheNumbersOfTheRunningNodes) {
   ASSERT_TRUE(runUntil([&] { return says("Contact area", "14.4 cm"); }, 500)) << label("waiting");
   EXPECT_TRUE(says("Surface, mount", "flat, 3"));
+  EXPECT_TRUE(runUntil([&] { return says("Peak", "50 kPa \u00b1 1.0 kPa, row "); }, 500)) << label("Peak");
   EXPECT_TRUE(runUntil([&] { return says("Session", "2026-03-01"); }));
   EXPECT_TRUE(runUntil([&] { return says("Calibration", "per_curvature"); })) << label("Calibration");
   EXPECT_TRUE(runUntil([&] { return label("waiting").empty(); })) << label("waiting");
@@ -117,10 +118,26 @@ TEST_F(Panel, SaysWhatTheDriverComplainsAbout) {
   })) << label("waiting");
 }
 
+TEST_F(Panel, SaysThatNoAlarmIsSetAndSetsOne) {
+  EXPECT_TRUE(runUntil([&] { return says("Alarms", "no alarm set"); }, 500)) << label("Alarms");
+  panel->findChild<QLineEdit*>("alarm threshold")->setText("forty");
+  press("Set alarm");
+  EXPECT_TRUE(says("reply", "\"forty\" is no threshold")) << label("reply");
+  panel->findChild<QLineEdit*>("alarm threshold")->setText("40");
+  press("Set alarm");
+  EXPECT_TRUE(runUntil([&] { return says("reply", "alarm of the whole matrix at 40 kPa"); }, 500));
+  EXPECT_TRUE(runUntil([&] { return says("Alarms", "ALARM: whole matrix"); }, 500)) << label("Alarms");
+}
+
+// The alarm of the test before is set.
 TEST_F(Panel, SaysWhyAnAlarmIsUnknown) {
+  panel->findChild<QLineEdit*>("alarm threshold")->setText("400");
+  press("Set alarm");
   EXPECT_TRUE(runUntil([&] { return says("Alarms", "UNKNOWN: whole matrix (12 saturated)"); },
                        test_support::kRigFullScale))
       << label("Alarms");
+  EXPECT_TRUE(says("Peak", ">= ")) << label("Peak");
+  EXPECT_TRUE(says("Force", ">= ")) << label("Force");
 }
 
 TEST_F(Panel, TaresTheSheet) {
