@@ -87,6 +87,7 @@ class Calibrator::Impl {
   void setSurface(const matrix::Surface& surface, double time);
   void setMask(const std::vector<std::uint8_t>& mask);
   void setTare(const std::vector<float>& offset);
+  void setTemperature(double temperature, double trained_low, double trained_high);
   void setWrongSensor(bool wrong) { wrong_sensor_ = wrong; }
   void calibrate(const matrix::ScanView& scan, double time, map::PressureMap& out) noexcept;
 
@@ -98,6 +99,7 @@ class Calibrator::Impl {
  private:
   void selectTables(const matrix::Surface& surface);
   void selectTable(std::size_t taxel, double curvature);
+  std::uint16_t highestOfNeighbours(std::size_t taxel, double curvature) const;
   const compensation::TableEntry* blended(std::size_t taxel, double curvature);
   void refreshConstantFlags() noexcept;
   void noteTime(double time) noexcept;
@@ -119,6 +121,7 @@ class Calibrator::Impl {
   double surface_time_ = 0;  // [s]
   double last_time_ = 0;     // [s]
   bool wrong_sensor_ = false;
+  bool temperature_beyond_ = false;  // that of training
   std::vector<std::uint8_t> mask_;   // [taxels]
   std::vector<std::uint8_t> model_;  // [taxels], 0 = the table in use is empty
 
@@ -142,6 +145,7 @@ class Calibrator::Impl {
   std::vector<std::uint16_t> constant_flags_;  // flags that do not depend on the code
   std::vector<std::size_t> masked_;            // taxels without a reading, never filled
   std::vector<std::size_t> failed_;            // dead or stuck taxels that are not masked
+  std::vector<std::size_t> undetermined_;      // taxels whose deviation is unknown
 };
 
 Calibrator::Impl::Impl(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
@@ -165,6 +169,7 @@ Calibrator::Impl::Impl(const compensation::CurvatureTables& tables, const matrix
     throw settings::InputError("calibration: its layout is not the size of its tables");
   masked_.reserve(tables.size.taxels());
   failed_.reserve(tables.size.taxels());
+  undetermined_.reserve(tables.size.taxels());
   selectTables({});
 }
 
@@ -195,6 +200,14 @@ void Calibrator::Impl::setTare(const std::vector<float>& offset) {
   refreshConstantFlags();
 }
 
+void Calibrator::Impl::setTemperature(double temperature, double trained_low, double trained_high) {
+  const double margin = options_.temperature_margin;
+  const bool beyond = temperature < trained_low - margin || temperature > trained_high + margin;
+  if (beyond == temperature_beyond_) return;
+  temperature_beyond_ = beyond;
+  refreshConstantFlags();
+}
+
 // For an unknown surface the curvature is that of the class that the switch has chosen.
 void Calibrator::Impl::selectTables(const matrix::Surface& surface) {
   for (std::size_t taxel = 0; taxel < table_.size(); ++taxel) {
@@ -215,8 +228,16 @@ void Calibrator::Impl::selectTable(std::size_t taxel, double curvature) {
                       (rule_.blend == compensation::BlendRule::kInterpolate && !on_class));
   table_[taxel] = blend ? blended(taxel, curvature) : tables_.table(taxel, chosen);
   lowest_[taxel] = trained.lowest;
-  highest_[taxel] = trained.highest;
+  highest_[taxel] = blend ? highestOfNeighbours(taxel, curvature) : trained.highest;
   model_[taxel] = trained.model && (!blend || blended_for_[taxel].finite);
+}
+
+// Above the highest code of one of the classes that are blended, that class knows no higher pressure, and the
+// blend is too low.
+std::uint16_t Calibrator::Impl::highestOfNeighbours(std::size_t taxel, double curvature) const {
+  const compensation::CurvaturePlace place =
+      compensation::placeOf(curvature, tables_.tables(taxel).curvature);
+  return std::min(tables_.trained(taxel, place.below).highest, tables_.trained(taxel, place.above).highest);
 }
 
 const compensation::TableEntry* Calibrator::Impl::blended(std::size_t taxel, double curvature) {
@@ -241,14 +262,19 @@ const compensation::TableEntry* Calibrator::Impl::blended(std::size_t taxel, dou
 void Calibrator::Impl::refreshConstantFlags() noexcept {
   masked_.clear();
   failed_.clear();
+  undetermined_.clear();
+  const std::uint16_t warm = flagWhere(temperature_beyond_, map::taxel_flag::kTemperatureExtrapolated);
   for (std::size_t taxel = 0; taxel < constant_flags_.size(); ++taxel) {
     const bool masked = mask_[taxel] != 0 || model_[taxel] == 0;
     const std::uint16_t health = watch_.flags()[taxel];
     if (masked) masked_.push_back(taxel);
     if (!masked && health != 0) failed_.push_back(taxel);
+    // From one surface nothing can be known of the error on another one.
+    const bool elsewhere = (switch_.choices()[taxel].flags & map::taxel_flag::kCurvatureExtrapolated) != 0;
+    if (elsewhere && tables_.classes() == 1) undetermined_.push_back(taxel);
     constant_flags_[taxel] = static_cast<std::uint16_t>(switch_.choices()[taxel].flags | health |
                                                         (masked ? map::taxel_flag::kMasked : 0) |
-                                                        (tared_ ? map::taxel_flag::kTared : 0));
+                                                        (tared_ ? map::taxel_flag::kTared : 0) | warm);
   }
 }
 
@@ -323,6 +349,7 @@ void Calibrator::Impl::flagCodes(map::PressureMap& out) const noexcept {
 }
 
 void Calibrator::Impl::removeBad(map::PressureMap& out) const noexcept {
+  for (const std::size_t taxel : undetermined_) out.deviation[taxel] = kNoReading;
   if (masked_.empty() && failed_.empty()) return;
   for (const auto* taxels : {&masked_, &failed_}) {
     for (const std::size_t taxel : *taxels) {
@@ -358,6 +385,10 @@ void Calibrator::setMask(const std::vector<std::uint8_t>& mask) {
 
 void Calibrator::setTare(const std::vector<float>& offset) {
   impl_->setTare(offset);
+}
+
+void Calibrator::setTemperature(double temperature, double trained_low, double trained_high) {
+  impl_->setTemperature(temperature, trained_low, trained_high);
 }
 
 void Calibrator::setWrongSensor(bool wrong) {

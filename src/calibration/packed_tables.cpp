@@ -84,6 +84,7 @@ PackedTables::PackedTables(const compensation::CurvatureTables& tables)
       compensation::TableEntry* entry = entries_.data() + taxel * stride() + slot_of_class_[k] * entries();
       own.curvature.push_back(tables.classes[k].at(taxel));
       own.table.push_back(entry);
+      own.highest.push_back(packed.highest >> shift_);
       for (std::size_t i = 0; i < entries(); ++i) {
         entry[i] = {packed.pressure[codeOf(i)], packed.deviation[codeOf(i)]};
       }

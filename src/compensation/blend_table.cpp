@@ -111,14 +111,19 @@ void spreadDeviation(const UnseenDeviation& unseen, const TaxelTables& tables, c
   const TableEntry* const inner = tables.table[place.inner];
   const auto share = static_cast<float>(place.share), beyond = static_cast<float>(place.beyond);
   const bool known = !unseen.pressure.empty();
+  const auto missing = [&](std::size_t k, std::size_t code, float weight) {
+    const bool beyond_training = !tables.highest.empty() && code > tables.highest[k];
+    return beyond_training ? weight * (above[code].pressure - below[code].pressure) : 0.0F;
+  };
   const float between = 4 * share * (1 - share), outside = std::min(1.0f, 2 * beyond);
   for (std::size_t code = 0; code < tables.codes; ++code) {
     const float low = below[code].deviation, high = above[code].deviation;
     const float half = 0.5f * (above[code].pressure - below[code].pressure);
     const float off = known ? static_cast<float>(unseen.at(out[code].pressure)) : half;
+    const float lack = missing(place.below, code, 1 - share) + missing(place.above, code, share);
     const float away = beyond * (below[code].pressure - inner[code].pressure);
     out[code].deviation = std::sqrt((1 - share) * low * low + share * high * high +
-                                    (between + outside * outside) * off * off + away * away);
+                                    (between + outside * outside) * off * off + away * away + lack * lack);
   }
 }
 

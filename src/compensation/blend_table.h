@@ -37,6 +37,7 @@ struct TaxelTables {
   std::vector<double> curvature;         ///< of each class at this taxel [1/m]; NaN = ignore the class
   std::vector<const TableEntry*> table;  ///< of each class
   std::vector<const float*> log_weight;  ///< kKernel: logarithm of the kernel sum of each class at each code
+  std::vector<std::size_t> highest;      ///< entry of the highest code of training of each class; empty = all
 };
 
 /// Computes the table of a taxel for the curvature `at` [1/m]. `out` has room for tables.codes entries. The
@@ -45,8 +46,9 @@ struct TaxelTables {
 ///
 /// The deviation is interpolated between the neighbouring classes and is larger between them: midway the
 /// error of predictions for left-out curvatures is added in quadrature, or, if that is not known, half the
-/// difference of the neighbours. Beyond the outer classes it increases with the distance, by the difference
-/// between the last two classes.
+/// difference of the neighbours. Above the highest code of training of one of them, the part of their
+/// difference that its table may lack is added. Beyond the outer classes it increases with the distance, by
+/// the difference between the last two classes.
 ///
 /// Allocates nothing.
 void blendTable(const CurvatureRule& rule, double length_scale, const TaxelTables& tables, double at,

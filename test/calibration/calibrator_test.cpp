@@ -112,6 +112,48 @@ TEST_F(CalibratorTest, FlagsACurvatureOutsideTheRangeOfTraining) {
   EXPECT_EQ(map.pressure[0], knownPressure(0, 0, 500));  // the nearest class, not the one of opposite sign
 }
 
+// The peak of the flat surface was half that of the bent one. Between them, readings above it are too low.
+TEST(Calibrator, FlagsAReadingAboveThePeakOfEitherNeighbour) {
+  compensation::CurvatureTables tables = smallTables(kSize, {0.0, 10.0});
+  tables.rule.blend = compensation::BlendRule::kInterpolate;
+  for (std::size_t taxel = 0; taxel < kSize.taxels(); ++taxel) {
+    regression::CodeTable& flat = tables.tables[2 * taxel];
+    flat.highest = 400;
+    for (std::size_t code = 400; code <= kFullScale; ++code) flat.pressure[code] = flat.pressure[400];
+  }
+  Calibrator calibrator(tables, {kSize, 0.010, 0.012});
+  map::PressureMap map;
+  const auto at = [&](std::uint16_t code, double curvature) {
+    const std::vector<std::uint16_t> counts(kSize.taxels(), code);
+    calibrator.setSurface(bent(curvature), 0);
+    calibrator.calibrate({kSize, kFullScale, counts.data(), counts.size()}, 0, map);
+  };
+  at(300, 5);
+  EXPECT_EQ(map.flags[0], flag::kBetweenClasses);
+  at(800, 5);
+  EXPECT_EQ(map.flags[0], flag::kBetweenClasses | flag::kReadingExtrapolated);
+  EXPECT_TRUE(map::isLowerLimit(map.flags[0]));
+  const double error = knownPressure(0, 0, 800) + 5.0 - double(map.pressure[0]);
+  EXPECT_GT(error, 15e3);
+  EXPECT_GT(double(map.deviation[0]), 0.9 * error);
+  at(800, 10);
+  EXPECT_EQ(map.flags[0], 0);
+}
+
+TEST(Calibrator, DoesNotKnowTheDeviationOnAnotherSurfaceThanItsOnlyOne) {
+  Calibrator calibrator(smallTables(kSize, {0.0}), {kSize, 0.010, 0.012});
+  const std::vector<std::uint16_t> counts(kSize.taxels(), 500);
+  map::PressureMap map;
+  calibrator.setSurface(bent(20), 0);
+  calibrator.calibrate({kSize, kFullScale, counts.data(), counts.size()}, 0, map);
+  EXPECT_EQ(map.flags[0], flag::kCurvatureExtrapolated);
+  EXPECT_FALSE(std::isnan(map.pressure[0]));
+  EXPECT_TRUE(std::isnan(map.deviation[0]));
+  calibrator.setSurface(bent(0), 0);
+  calibrator.calibrate({kSize, kFullScale, counts.data(), counts.size()}, 0, map);
+  EXPECT_EQ(map.deviation[0], knownDeviation(0, 0, 500));
+}
+
 TEST_F(CalibratorTest, UsesThePrincipalCurvatureOfTwoPlanes) {
   calibrator.setSurface({"saddle", 1, {{6, 6, 4}}, {}}, 0);  // principal curvatures 2 and 10
   EXPECT_EQ(run().pressure[0], knownPressure(0, 1, 500));
@@ -181,6 +223,21 @@ TEST_F(CalibratorTest, ReportsAnotherBoard) {
   calibrator.setWrongSensor(true);
   EXPECT_EQ(run().state, map::MapState::kWrongSensor);
   EXPECT_EQ(map.pressure[0], knownPressure(0, 1, 500));
+}
+
+TEST_F(CalibratorTest, FlagsATemperatureOutsideTheRangeOfTraining) {
+  calibrator.setSurface(bent(10), 0);
+  const auto flagged = [&](double temperature, double low, double high) {
+    calibrator.setTemperature(temperature, low, high);
+    run();
+    return flagsOf(0) == flag::kTemperatureExtrapolated && flagsOf(11) == flag::kTemperatureExtrapolated;
+  };
+  EXPECT_TRUE(flagged(40, 22, 23));
+  EXPECT_TRUE(flagged(16.9, 22, 23));
+  EXPECT_FALSE(flagged(28, 22, 23));  // within the margin of 5 K
+  EXPECT_EQ(flagsOf(0), 0);
+  EXPECT_FALSE(flagged(40, NAN, NAN));  // training recorded no temperature
+  EXPECT_FALSE(flagged(NAN, 22, 23));
 }
 
 TEST_F(CalibratorTest, AMaskedTaxelHasNoReading) {

@@ -4,6 +4,7 @@
 #include <fsr_pressure_map/SetMask.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <sensor_msgs/Temperature.h>
 #include <std_srvs/Trigger.h>
 
 #include <cmath>
@@ -194,6 +195,29 @@ TEST_F(CalibrationNode, BlendsItsTablesByTheRuleOfTheFile) {
 TEST_F(CalibrationNode, SaysWhenCurvatureIsUnknown) {
   rig.lieOn({});
   reach([](const PressureMap& m) { return m.state == PressureMap::STATE_CURVATURE_UNKNOWN; });
+}
+
+TEST_F(CalibrationNode, TreatsACurvatureNoSheetCanHaveAsUnknown) {
+  rig.lieOn({1e30f});
+  const PressureMap map =
+      reach([](const PressureMap& m) { return m.state == PressureMap::STATE_CURVATURE_UNKNOWN; });
+  EXPECT_EQ(map.pressure[3], knownPressure(3, 0, 500));
+}
+
+TEST_F(CalibrationNode, FlagsATemperatureBeyondTraining) {
+  auto warm = test_support::smallCalibration(kSize, {0.0, 10.0, 20.0});
+  warm.trained.temperature = {22, 24};
+  fsr::calibration::saveCalibration(warm, kFile);
+  ASSERT_TRUE(load(kFile).success);
+  ros::Publisher thermometer = ros::NodeHandle().advertise<sensor_msgs::Temperature>("temperature", 10, true);
+  sensor_msgs::Temperature message;
+  message.temperature = 40;
+  thermometer.publish(message);
+  reach([](const PressureMap& m) { return m.flags[5] == PressureMap::FLAG_TEMPERATURE_EXTRAPOLATED; });
+  message.temperature = 23;
+  thermometer.publish(message);
+  reach([](const PressureMap& m) { return m.flags[5] == 0; });
+  save(kFile, {0.0, 10.0, 20.0});
 }
 
 TEST_F(CalibrationNode, TreatsACurvatureOfAnotherSizeAsUnknown) {

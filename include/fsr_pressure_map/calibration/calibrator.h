@@ -21,6 +21,9 @@ struct CalibratorOptions {
   double curvature_timeout = 0;  ///< a surface older than this is stale [s]; 0 = never
   /// A taxel's blended table is computed again when its curvature has changed by more than this [1/m].
   double curvature_step = 0.02;
+  /// Temperatures up to this far outside those of training are not flagged [K]. FSRs change by about 0.3 % a
+  /// kelvin.
+  double temperature_margin = 5;
   bool fill_bad_taxels = false;  ///< give dead and stuck taxels the mean of their neighbours, flagged
   health::TaxelWatchOptions watch;
 };
@@ -39,13 +42,16 @@ struct ClassChoice {
 ///
 /// Flags of a taxel:
 ///   kSaturated              code at full scale: the pressure is a lower limit
-///   kReadingExtrapolated    code outside the codes of training, low or high
+///   kReadingExtrapolated    code outside the codes of training, low or high; between two classes above the
+///                           highest code of either
 ///   kBelowRange             code 0, no conductance: every pressure below the turn-on pressure reads so, and
 ///   the
 ///                           pressure is an upper limit; likewise a code below those of training, e.g. of a
 ///                           taxel at rest beside a load
-///   kCurvatureExtrapolated  curvature outside the range of training
+///   kCurvatureExtrapolated  curvature outside the range of training; if training had one surface only, the
+///                           deviation is NaN, because it is unknown
 ///   kBetweenClasses         curvature farther than the class tolerance from the class in use
+///   kTemperatureExtrapolated  temperature outside the range of training by more than temperature_margin
 ///   kDead, kStuck           see TaxelWatch; no reading (NaN) unless filled (kFilled)
 ///   kMasked                 masked, or without a model: no reading, and never filled, because there may be
 ///   no
@@ -74,6 +80,10 @@ class Calibrator {
   /// Subtracted from the pressure of the tables [rows x columns] [Pa]; empty = no tare. Throws InputError if
   /// it does not fit the matrix.
   void setTare(const std::vector<float>& offset);
+
+  /// The temperature of the sheet and the range of training [degree Celsius]. NaN = not known, and then no
+  /// taxel is flagged.
+  void setTemperature(double temperature, double trained_low, double trained_high);
 
   /// Whether the board is known to be another than the calibration's.
   void setWrongSensor(bool wrong);

@@ -15,6 +15,11 @@ namespace fsr_ros {
 struct LoadedCalibration {
   fsr_pressure_map::CalibrationInfo info;  ///< without header
   fsr::calibration::Calibrator calibrator;
+
+  /// The temperature of the sheet [degree Celsius]; NaN = not known.
+  void setTemperature(double temperature) {
+    calibrator.setTemperature(temperature, info.temperature_low, info.temperature_high);
+  }
 };
 
 /// Loads a calibration file. Throws fsr::InputError that names the file and what is wrong with it.

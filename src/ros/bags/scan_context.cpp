@@ -147,11 +147,14 @@ void ScanContext::describe(const fsr_pressure_map::CalibrationInfo& info,
   subject.trained_high = info.pressure_high;
 }
 
+double ScanContext::temperatureAt(std::int64_t stamp_ns) const {
+  return temperature_.empty() ? fsr::exports::ScanRecord::kUnknown : temperature_.nearby(stamp_ns);
+}
+
 void ScanContext::complete(fsr::exports::ScanRecord& scan) const {
   if (const auto pressure = chamber_.between(scan.stamp_ns, kLongestGap)) {
     scan.chamber_pressure = *pressure - ambient_;
   }
-  if (!temperature_.empty()) scan.temperature = temperature_.nearby(scan.stamp_ns);
   scan.session = at(sessions_, scan.stamp_ns, true);
   scan.event = at(events_, scan.stamp_ns, false);
   const auto cycle = std::upper_bound(cycles_.begin(), cycles_.end(), scan.stamp_ns) - cycles_.begin();

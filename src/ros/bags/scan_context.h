@@ -36,7 +36,9 @@ class ScanContext {
   fsr::exports::ExportSubject subject() const;
   static void describe(const fsr_pressure_map::CalibrationInfo& info, fsr::exports::ExportSubject& subject);
 
-  /// Fills in chamber pressure, temperature, session, cycle and event.
+  /// Interpolated to a stamp [degree Celsius]; NaN = not known.
+  double temperatureAt(std::int64_t stamp_ns) const;
+  /// Fills in chamber pressure, session, cycle and event.
   void complete(fsr::exports::ScanRecord& scan) const;
 
  private:

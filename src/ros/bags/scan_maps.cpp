@@ -23,6 +23,7 @@ void MapMaker::make(fsr::exports::ScanRecord& scan) {
     surface_ = scan.surface;
     loaded_->calibrator.setSurface(*surface_, time);
   }
+  loaded_->setTemperature(scan.temperature);
   fsr::map::PressureMap map;
   loaded_->calibrator.calibrate({scan.layout.size, scan.full_scale, scan.counts.data(), scan.counts.size()},
                                 time, map);

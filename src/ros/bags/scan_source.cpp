@@ -107,6 +107,7 @@ class Joiner {
     scan.since_ns = scan.stamp_ns - *first_ns_;
     scan.surface = surfaceAt(scan.stamp_ns);
     if (scan.surface != nullptr) fsr::matrix::requireFit(*scan.surface, scan.layout.size);
+    scan.temperature = context_.temperatureAt(scan.stamp_ns);
     maker_.make(scan);  // also for scans that are not exported: the checks for dead taxels need every scan
     if (!wanted(scan.since_ns)) return;
     context_.complete(scan);

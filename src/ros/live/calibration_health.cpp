@@ -54,7 +54,15 @@ void addFlags(const fsr::map::PressureMap& map, Status& status) {
   status.add("taxels below range", flagged(map, flag::kBelowRange));
   status.add("taxels with a reading beyond training", flagged(map, flag::kReadingExtrapolated));
   status.add("taxels with a curvature beyond training", flagged(map, flag::kCurvatureExtrapolated));
+  status.add("taxels with a temperature beyond training", flagged(map, flag::kTemperatureExtrapolated));
   status.add("taxels between curvature classes", flagged(map, flag::kBetweenClasses));
+}
+
+std::string temperatureSentence(const CalibrationHealth& health) {
+  if (flagged(health.map, flag::kTemperatureExtrapolated) == 0) return "";
+  return "the temperature is beyond that of training, " +
+         fsr::settings::roundedText(health.info.temperature_low, 3) + " to " +
+         fsr::settings::roundedText(health.info.temperature_high, 3) + " degrees Celsius";
 }
 
 bool isError(MapState state) {
@@ -67,7 +75,7 @@ bool isError(MapState state) {
 std::string stateSentence(const CalibrationHealth& health) {
   switch (health.map.state) {
     case MapState::kOk:
-      return "";
+      return temperatureSentence(health);
     case MapState::kUncalibrated:
       return "maps are empty because no calibration is loaded: " + health.complaint;
     case MapState::kCurvatureUnknown:
@@ -119,6 +127,7 @@ void judgeMaps(const CalibrationHealth& before, const CalibrationHealth& now, do
   status.add("maps a second of wall time", fsr::settings::roundedText(double(scans) / seconds, 4));
   status.add("maps", now.scans);
   status.add("dead taxels that recovered", now.revivals);
+  status.add("temperature [degree Celsius]", fsr::settings::roundedText(now.temperature, 4));
   addFlags(now.map, status);
   addPressures(now.map, contact_threshold, status);
 }

@@ -17,7 +17,7 @@ void judgeMaps(const CalibrationHealth& before, const CalibrationHealth& now, do
                const std::string& scan_topic, double contact_threshold,
                diagnostic_updater::DiagnosticStatusWrapper& status);
 
-/// What a map's state means and what to do about it; empty for the state OK.
+/// What a map's state means and what to do about it, or that the temperature is beyond training; else empty.
 std::string stateSentence(const CalibrationHealth& health);
 
 }  // namespace fsr_ros

@@ -1,5 +1,7 @@
 #include "ros/live/calibration_server.h"
 
+#include <sensor_msgs/Temperature.h>
+
 #include <boost/make_shared.hpp>
 #include <filesystem>
 
@@ -70,6 +72,10 @@ void CalibrationServer::subscribe() {
   curvature_ = handle_.subscribe("curvature", 10, &CalibrationServer::onCurvature, this, at_once);
   board_ = handle_.subscribe<fsr_pressure_map::MatrixInfo>(
       "matrix_info", 10, [this](const fsr_pressure_map::MatrixInfoConstPtr& info) { live_.setBoard(*info); });
+  temperature_ = handle_.subscribe<sensor_msgs::Temperature>(
+      "temperature", 10, [this](const sensor_msgs::TemperatureConstPtr& message) {
+        live_.setTemperature(message->temperature);
+      });
   scans_ = handle_.subscribe("raw", settings_.queue_size, &CalibrationServer::onScan, this, at_once);
 }
 

@@ -15,7 +15,8 @@
 
 namespace fsr_ros {
 
-/// Converts each scan on `raw` to a map on `pressure_map`, using `curvature` and `matrix_info`. Publishes
+/// Converts each scan on `raw` to a map on `pressure_map`, using `curvature`, `temperature` and
+/// `matrix_info`. Publishes
 /// `calibration_info` (latched and repeated each second) and diagnostics. Parameters: CalibrationSettings.
 ///
 /// Services: `~load_calibration`, `~reload`, `~set_mask`, `~tare`, `~clear_tare`. Each reply says what was
@@ -59,6 +60,7 @@ class CalibrationServer {
   ros::Subscriber scans_;
   ros::Subscriber curvature_;
   ros::Subscriber board_;
+  ros::Subscriber temperature_;
 
   diagnostic_updater::Updater diagnostics_;
   CalibrationHealth before_;  // one second before now_

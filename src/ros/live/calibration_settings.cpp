@@ -22,6 +22,8 @@ CalibrationSettings readCalibrationSettings(const ros::NodeHandle& private_handl
   s.calibrator.curvature_timeout =
       parameters.number("curvature_timeout", s.calibrator.curvature_timeout, {0, kNoBound, "s"});
   s.calibrator.fill_bad_taxels = parameters.flag("fill_bad_taxels", s.calibrator.fill_bad_taxels);
+  s.calibrator.temperature_margin =
+      parameters.number("temperature_margin", s.calibrator.temperature_margin, {0, 1000, "K"});
   s.contact_threshold = parameters.number("contact_threshold", s.contact_threshold, {0, 1e6, "Pa"});
   s.tare.limit = parameters.number("tare_limit", s.tare.limit, {0, 1e6, "Pa"});
   s.tare.scatter = parameters.number("tare_scatter", s.tare.scatter, {0, 1e6, "Pa"});

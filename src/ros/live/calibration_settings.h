@@ -15,7 +15,8 @@ namespace fsr_ros {
 struct CalibrationSettings {
   std::string calibration;  ///< resolved path; empty = wait for ~load_calibration
   fsr::calibration::CalibratorOptions
-      calibrator;  ///< ~class_hysteresis, ~curvature_step, ~curvature_timeout, ~fill_bad_taxels
+      calibrator;  ///< ~class_hysteresis, ~curvature_step, ~curvature_timeout, ~temperature_margin,
+                   ///< ~fill_bad_taxels
   fsr::calibration::TareOptions tare;  ///< ~tare_limit, ~tare_scatter, ~tare_window
   std::string tare_file;               ///< resolved path; empty = a file in ${ROS_HOME}, named after the node
   std::string mask_file;               ///< likewise

@@ -82,6 +82,12 @@ void LiveCalibration::setSurface(const fsr_pressure_map::SurfaceCurvature& messa
   applyTare();
 }
 
+void LiveCalibration::setTemperature(double temperature) {
+  const Lock lock(mutex_);
+  temperature_ = temperature;
+  if (loaded_) loaded_->setTemperature(temperature_);
+}
+
 void LiveCalibration::setBoard(const fsr_pressure_map::MatrixInfo& message) {
   const Lock lock(mutex_);
   board_ = message;
@@ -105,6 +111,7 @@ std::string LiveCalibration::load(const std::string& path) {
     wanted_path_ = path;
     complaint_.clear();
     if (surface_received_) applySurface();
+    loaded_->setTemperature(temperature_);
     applyBoard();
     applyMask();
     applyTare();
@@ -206,6 +213,7 @@ CalibrationHealth LiveCalibration::health() const {
   }
   health.surface = surface_;
   health.board = board_.serial;
+  health.temperature = temperature_;
   health.tare = tare_.tare();
   health.scans = scans_;
   health.map = map_;

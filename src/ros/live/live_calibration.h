@@ -7,6 +7,7 @@
 #include <fsr_pressure_map/SurfaceCurvature.h>
 
 #include <condition_variable>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -27,7 +28,8 @@ struct CalibrationHealth {
   std::string surface_complaint;           ///< what is wrong with the last curvature message; empty = nothing
   fsr_pressure_map::CalibrationInfo info;  ///< id empty = none loaded
   fsr::matrix::Surface surface;
-  std::string board;  ///< serial number; empty = unknown
+  std::string board;                                              ///< serial number; empty = unknown
+  double temperature = std::numeric_limits<double>::quiet_NaN();  ///< [degree Celsius]; NaN = unknown
   std::optional<fsr::calibration::Tare> tare;
   std::uint64_t scans = 0;
   std::uint64_t revivals = 0;  ///< dead taxels that recovered
@@ -44,6 +46,7 @@ class LiveCalibration {
   /// Fills the map of one scan, header included.
   void calibrate(const fsr_pressure_map::MatrixFrame& scan, fsr_pressure_map::PressureMap& map);
   void setSurface(const fsr_pressure_map::SurfaceCurvature& message);
+  void setTemperature(double temperature);  ///< [degree Celsius]
   void setBoard(const fsr_pressure_map::MatrixInfo& message);
 
   // Actions of the services. Each returns a sentence that says what was done, or throws fsr::InputError.
@@ -86,7 +89,8 @@ class LiveCalibration {
 
   bool surface_received_ = false;
   fsr::matrix::Surface surface_;
-  double surface_time_ = 0;  // [s]
+  double surface_time_ = 0;                                        // [s]
+  double temperature_ = std::numeric_limits<double>::quiet_NaN();  // [degree Celsius]
   fsr_pressure_map::MatrixInfo board_;
   std::vector<std::uint8_t> mask_;  // set by the service, or stored by it
 

@@ -5,10 +5,14 @@
 #include <string>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "matrix/surface_file.h"
+#include "settings/number_text.h"
 
 namespace fsr_ros {
 
 namespace {
+
+constexpr auto kMaxCurvature = static_cast<float>(fsr::matrix::kMaxCurvature);
 
 double valueAt(const std::vector<float>& values, std::size_t i) {
   if (values.empty()) return 0.0;
@@ -31,6 +35,11 @@ void checkArray(const std::vector<float>& values, const char* field, std::size_t
       throw fsr::settings::InputError(
           std::string("curvature message: ") + field +
           " holds a value that is not finite, but must be in 1/m; leave it empty where unknown");
+    }
+    if (std::abs(value) > kMaxCurvature) {
+      throw fsr::settings::InputError(std::string("curvature message: ") + field + " holds " +
+                                      fsr::settings::roundedText(double(value)) +
+                                      ", but must be -100 to 100 1/m (a bend radius of 10 mm or more)");
     }
   }
 }

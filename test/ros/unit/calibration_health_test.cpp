@@ -45,6 +45,18 @@ TEST(CalibrationHealth, IsOkWhenMapsAreCalibrated) {
   EXPECT_EQ(valueOf(status, "peak in contact, gauge [kPa]"), "30");
 }
 
+TEST(CalibrationHealth, WarnsOfATemperatureBeyondTraining) {
+  CalibrationHealth health = healthy();
+  health.temperature = 40;
+  health.info.temperature_low = 22;
+  health.info.temperature_high = 23.5;
+  health.map.flags.assign(6, fsr::map::taxel_flag::kTemperatureExtrapolated);
+  const Status status = maps(health);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_EQ(status.message, "the temperature is beyond that of training, 22 to 23.5 degrees Celsius");
+  EXPECT_EQ(valueOf(status, "temperature [degree Celsius]"), "40");
+}
+
 TEST(CalibrationHealth, NamesTheTopicWithoutScans) {
   const Status status = maps(healthy(), 100);
   EXPECT_EQ(status.level, Level::ERROR);
