@@ -5,6 +5,7 @@
 #include "calibration/bandwidth_choice.h"
 #include "calibration/curvature_rule_learning.h"
 #include "calibration/held_out_scoring.h"
+#include "calibration/remount_errors.h"
 #include "calibration/sources.h"
 #include "calibration/taxel_training.h"
 #include "calibration/trained_ranges.h"
@@ -41,18 +42,22 @@ class Training {
     findTaxelsWithoutModel(plan_, problem_.recordings.front().name, calibration);
 
     const compensation::FoldRegressors regressors = choose(problem_.options, calibration, plan_);
+    RemountErrors remount(problem_.recordings, classes_, sections_);
     HeldOutScoring scoring(scans_, plan_, problem_.options.folds, taxels);
     std::mutex reporting;
     std::size_t done = 0;
     matrix::forEachTaxel(taxels, problem_.options.threads, [&](std::size_t taxel) {
       train(taxel, regressors, calibration, scoring);
+      if (calibration.no_model[taxel] == 0) remount.measure(plan_, taxel, regressors.whole, calibration);
       const std::lock_guard<std::mutex> lock(reporting);
       if (progress) progress(++done, taxels);
     });
+    const RemountScore remounted = remount.apply(calibration);
     const UnseenScore unseen = learnRule(plan_, problem_.options.threads, calibration);
     if (problem_.options.scores) {
       calibration.scores = scoring.summarise(classes_.classes);
       calibration.scores.unseen = unseen;
+      calibration.scores.remount = remounted;
     }
     return calibration;
   }

@@ -43,23 +43,6 @@ std::vector<double> lengthScales(const compensation::SchemePlan& plan,
   return scales;
 }
 
-UnseenScore scoreOf(const std::vector<compensation::UnseenErrors>& taxels) {
-  UnseenScore score;
-  std::vector<double> percent;
-  double squares = 0, readings = 0;
-  for (const compensation::UnseenErrors& taxel : taxels) {
-    if (taxel.readings() == 0) continue;
-    readings += taxel.readings();
-    squares += taxel.rmse() * taxel.rmse() * taxel.readings();
-    percent.push_back(100 * taxel.rmse() / (taxel.highest - taxel.lowest));
-  }
-  if (readings == 0) return score;
-  score.readings = static_cast<std::uint64_t>(readings);
-  score.rmse = std::sqrt(squares / readings);
-  score.rmse_percent = statistics::spreadOf(percent);
-  return score;
-}
-
 }  // namespace
 
 UnseenScore learnRule(const compensation::SchemePlan& plan, unsigned threads, Calibration& calibration) {
@@ -87,7 +70,8 @@ UnseenScore learnRule(const compensation::SchemePlan& plan, unsigned threads, Ca
     errors[taxel] = compensation::leaveClassesOut(tables, taxel, statistics, law_without);
   });
   tables.rule.unseen = compensation::unseenDeviation(errors);
-  return scoreOf(errors);
+  const compensation::UnseenSummary summary = compensation::summaryOf(errors);
+  return {summary.readings, summary.rmse_percent, summary.rmse};
 }
 
 }  // namespace fsr::calibration

@@ -78,6 +78,16 @@ void requireSameMatrix(const dataset::Recording& first, const dataset::Recording
   }
 }
 
+// Tables say how their readings became counts, e.g. "65535 counts = 0.2 S" (dataset/table_recording.h).
+void requireSameScale(const dataset::Recording& first, const dataset::Recording& other) {
+  const std::string &scale = first.sensor.model, &own = other.sensor.model;
+  const bool tables =
+      scale.find("counts =") != std::string::npos || own.find("counts =") != std::string::npos;
+  if (!tables || scale == own || scale.empty() || own.empty()) return;
+  throw settings::InputError(other.name + ": the scale of the readings is \"" + own + "\", but that of " +
+                             first.name + " is \"" + scale + "\"; convert both with the same --range");
+}
+
 // The same readings given twice would count as independent.
 void requireDifferentBags(const std::vector<dataset::Recording>& recordings) {
   for (auto later = recordings.begin(); later != recordings.end(); ++later) {
@@ -116,6 +126,7 @@ void validate(const CalibrationProblem& problem) {
     throw settings::InputError("there is no recording to train on; give one bag or more");
   for (const dataset::Recording& recording : recordings) requireWhole(recording);
   for (const dataset::Recording& recording : recordings) requireSameMatrix(recordings.front(), recording);
+  for (const dataset::Recording& recording : recordings) requireSameScale(recordings.front(), recording);
   for (const dataset::Recording& recording : recordings) requirePressures(recording);
   requireChange(recordings);
   compensation::planScheme(

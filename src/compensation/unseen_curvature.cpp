@@ -41,8 +41,10 @@ double spreadOf(const regression::CodeSums& sums) {
          regression::kFixedPressureUnit;
 }
 
-void addReadings(const regression::CodeStatistics& readings, const std::vector<TableEntry>& answer,
-                 const std::vector<TableEntry>& own, UnseenErrors& errors) {
+}  // namespace
+
+void addErrors(const regression::CodeStatistics& readings, const std::vector<TableEntry>& answer,
+               const std::vector<TableEntry>& own, UnseenErrors& errors) {
   readings.forEach([&](const regression::CodeSums& sums) {
     const double count = sums.count, mean = sums.count == 1 ? regression::fromFixed(sums.sum)
                                                             : regression::fromFixed(sums.sum) / count;
@@ -56,8 +58,6 @@ void addReadings(const regression::CodeStatistics& readings, const std::vector<T
     errors.highest = std::max(errors.highest, mean);
   });
 }
-
-}  // namespace
 
 double UnseenErrors::readings() const {
   double sum = 0;
@@ -75,8 +75,6 @@ UnseenErrors leaveClassesOut(const CurvatureTables& tables, std::size_t taxel,
                              const TrainingStatistics& statistics,
                              const std::vector<EffectLaw>& law_without) {
   UnseenErrors errors;
-  errors.lowest = INFINITY;
-  errors.highest = -INFINITY;
   Entries entries(tables, taxel);
   const std::vector<double> curvature = entries.tables.curvature;
   const double scale = tables.rule.blend == BlendRule::kKernel ? tables.rule.lengthScale(taxel) : 0;
@@ -92,10 +90,27 @@ UnseenErrors leaveClassesOut(const CurvatureTables& tables, std::size_t taxel,
                answer.data());
     entries.tables.curvature[k] = curvature[k];
     for (std::size_t section = 0; section < statistics.sections; ++section) {
-      addReadings(statistics.cell(taxel, k, section), answer, entries.of_class[k], errors);
+      addErrors(statistics.cell(taxel, k, section), answer, entries.of_class[k], errors);
     }
   }
   return errors;
+}
+
+UnseenSummary summaryOf(const std::vector<UnseenErrors>& taxels) {
+  UnseenSummary summary;
+  std::vector<double> percent;
+  double squares = 0, readings = 0;
+  for (const UnseenErrors& taxel : taxels) {
+    if (taxel.readings() == 0) continue;
+    readings += taxel.readings();
+    squares += taxel.rmse() * taxel.rmse() * taxel.readings();
+    percent.push_back(100 * taxel.rmse() / (taxel.highest - taxel.lowest));
+  }
+  if (readings == 0) return summary;
+  summary.readings = static_cast<std::uint64_t>(readings);
+  summary.rmse = std::sqrt(squares / readings);
+  summary.rmse_percent = statistics::spreadOf(percent);
+  return summary;
 }
 
 UnseenDeviation unseenDeviation(const std::vector<UnseenErrors>& taxels) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "compensation/blend_table.h"
@@ -20,11 +22,26 @@ struct UnseenErrors {
     double pressure = 0;  ///< sum of the answers [Pa]
   };
   std::array<Bin, statistics::kPressureBins> bins;  ///< by predicted pressure
-  double lowest = 0, highest = 0;                   ///< pressures of the readings, means of a code [Pa]
+  /// Pressures of the readings, means of a code [Pa].
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
 
   double readings() const;
   double rmse() const;  ///< [Pa]; NaN where there is no inner class
 };
+
+/// Adds the errors of the readings of one taxel. `answer` and `own` have one entry for each code: the
+/// prediction, and the deviation that the taxel states itself.
+void addErrors(const regression::CodeStatistics& readings, const std::vector<TableEntry>& answer,
+               const std::vector<TableEntry>& own, UnseenErrors& errors);
+
+/// Errors of all taxels together.
+struct UnseenSummary {
+  std::uint64_t readings = 0;
+  statistics::Spread rmse_percent{};                       ///< over taxels, % of the range of pressure
+  double rmse = std::numeric_limits<double>::quiet_NaN();  ///< of all readings [Pa]
+};
+UnseenSummary summaryOf(const std::vector<UnseenErrors>& taxels);
 
 /// `law_without` [classes] is the law learned without each class; empty = no law. `tables` has one class or
 /// more with a model at this taxel.

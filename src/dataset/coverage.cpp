@@ -38,6 +38,9 @@ void addCondition(const Recording& recording, const Sections& sections, std::siz
   coverage.cycles += sections.cycles[condition];
 }
 
+// A surface with a peak below this share of the highest one lacks data.
+constexpr double kEqualPeaks = 0.9;
+
 struct Thin {
   std::uint64_t scans;
   std::string sentence;
@@ -66,6 +69,27 @@ void judgeCells(const ConditionCoverage& coverage, double highest, std::uint64_t
   }
 }
 
+std::string kilopascals(double pressure) {
+  std::ostringstream text;
+  text << pressure * 1e-3 << " kPa";
+  return text.str();
+}
+
+// What the surfaces as a whole lack.
+void judgeSurfaces(const std::vector<ConditionCoverage>& conditions, double highest,
+                   std::vector<std::string>& sentences) {
+  if (conditions.size() == 1) {
+    sentences.push_back(
+        "there is one surface only: the error on any other one is unknown and can be many times as large");
+  }
+  for (const ConditionCoverage& condition : conditions) {
+    if (condition.pressure_high >= kEqualPeaks * highest) continue;
+    sentences.push_back(condition.condition.surface + " was loaded to " +
+                        kilopascals(condition.pressure_high) + " only, others to " + kilopascals(highest) +
+                        ": above that, readings on it and between it and its neighbours are lower limits");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> thinPlaces(const std::vector<ConditionCoverage>& conditions, std::size_t sections) {
@@ -83,10 +107,9 @@ std::vector<std::string> thinPlaces(const std::vector<ConditionCoverage>& condit
   std::stable_sort(thin.begin(), thin.end(), [](const Thin& a, const Thin& b) { return a.scans < b.scans; });
   std::vector<std::string> sentences;
   if (highest < statistics::kPressureBinEdges.back()) {
-    std::ostringstream sentence;
-    sentence << "no surface was loaded above " << highest * 1e-3 << " kPa";
-    sentences.push_back(sentence.str());
+    sentences.push_back("no surface was loaded above " + kilopascals(highest));
   }
+  judgeSurfaces(conditions, highest, sentences);
   for (const Thin& entry : thin) sentences.push_back(entry.sentence);
   return sentences;
 }

@@ -40,7 +40,12 @@ Json json(const calibration::CalibrationScores& scores) {
            {{"readings", scores.unseen.readings},
             {"rmse", scores.unseen.rmse},
             {"rmse_percent_mean", scores.unseen.rmse_percent.mean},
-            {"rmse_percent_deviation", scores.unseen.rmse_percent.deviation}}}};
+            {"rmse_percent_deviation", scores.unseen.rmse_percent.deviation}}},
+          {"another_mount",
+           {{"readings", scores.remount.readings},
+            {"rmse", scores.remount.rmse},
+            {"rmse_percent_mean", scores.remount.rmse_percent.mean},
+            {"rmse_percent_deviation", scores.remount.rmse_percent.deviation}}}};
 }
 
 Json json(const std::array<dataset::CoverageCell, statistics::kPressureBins>& cells) {

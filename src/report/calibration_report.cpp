@@ -58,7 +58,8 @@ void coverageRow(std::ostream& out, const dataset::ConditionCoverage& row) {
   out << '\n';
 }
 
-void scoreRow(std::ostream& out, const std::string& name, const calibration::Score& score) {
+void scoreRow(std::ostream& out, const std::string& name, const calibration::Score& score,
+              const matrix::Layout& layout) {
   const statistics::ErrorSummary& errors = score.errors.whole.all;
   nameCell(out, name);
   cell(out, spread(score.r2, 4), 20);
@@ -67,8 +68,11 @@ void scoreRow(std::ostream& out, const std::string& name, const calibration::Sco
   cell(out, kilopascal(errors.bias), 8);
   cell(out, kilopascal(errors.limit_low) + ".." + kilopascal(errors.limit_high), 16);
   cell(out, kilopascal(errors.p95_absolute), 8);
-  cell(out, settings::cellText(score.worst_rmse_percent, 2) + " (" + std::to_string(score.worst_taxel) + ")",
-       14);
+  cell(out,
+       settings::cellText(score.worst_rmse_percent, 2) + " (" +
+           std::to_string(layout.row({score.worst_taxel})) + ", " +
+           std::to_string(layout.column({score.worst_taxel})) + ")",
+       16);
   cell(out, settings::cellText(100 * score.within_one_deviation, 1) + " %", 13);
   out << '\n';
 }
@@ -106,7 +110,7 @@ std::string coverageText(const dataset::Coverage& coverage) {
   return out.str();
 }
 
-std::string scoresText(const calibration::CalibrationScores& scores) {
+std::string scoresText(const calibration::CalibrationScores& scores, const matrix::Layout& layout) {
   if (scores.conditions.empty()) return "Scores were not computed.\n";
   std::ostringstream out;
   out << "Held-out readings, predicted without their section; R2 and RMSE%: mean +- standard deviation over "
@@ -118,7 +122,7 @@ std::string scoresText(const calibration::CalibrationScores& scores) {
   cell(out, "bias", 8);
   cell(out, "95 % limits", 16);
   cell(out, "p95", 8);
-  cell(out, "worst taxel", 14);
+  cell(out, "worst taxel", 16);
   cell(out, "within 1 dev", 13);
   out << '\n';
   nameCell(out, " ");
@@ -127,10 +131,11 @@ std::string scoresText(const calibration::CalibrationScores& scores) {
   cell(out, "kPa", 8);
   cell(out, "kPa", 16);
   cell(out, "kPa", 8);
-  cell(out, "RMSE% (no.)", 14);
+  cell(out, "% (row, col.)", 16);
   out << '\n';
-  forEachRow(scores,
-             [&](const std::string& name, const calibration::Score& score) { scoreRow(out, name, score); });
+  forEachRow(scores, [&](const std::string& name, const calibration::Score& score) {
+    scoreRow(out, name, score, layout);
+  });
   out << "RMSE [kPa] during loading/unloading\n";
   nameCell(out, "surface");
   binHeads(out);
@@ -140,6 +145,14 @@ std::string scoresText(const calibration::CalibrationScores& scores) {
   if (scores.unseen.readings > 0) {
     out << "Curvature not used for training (each inner surface left out in turn): RMSE "
         << kilopascal(scores.unseen.rmse) << " kPa, " << spread(scores.unseen.rmse_percent, 2) << " %\n";
+  }
+  if (scores.remount.readings > 0) {
+    out << "Another mount (each mount left out in turn; part of the stated deviation): RMSE "
+        << kilopascal(scores.remount.rmse) << " kPa, " << spread(scores.remount.rmse_percent, 2) << " %\n";
+  } else {
+    out << "Another mount: not assessed, because no surface was mounted more than once. Errors after putting "
+           "the matrix on again\nare larger than those above and than the stated deviation. Record each "
+           "surface on two mounts or more.\n";
   }
   if (std::any_of(scores.conditions.begin(), scores.conditions.end(), untrained)) {
     out << "* the model used for this surface was not trained on it\n";

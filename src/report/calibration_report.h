@@ -14,8 +14,8 @@ namespace fsr::report {
 std::string coverageText(const dataset::Coverage& coverage);
 
 /// Tables for the terminal: R2 and RMSE% over taxels, errors in kPa for each class, then RMSE by pressure
-/// bin and direction. One sentence if there are no scores.
-std::string scoresText(const calibration::CalibrationScores& scores);
+/// bin and direction. One sentence if there are no scores. The worst taxel is named by row and column.
+std::string scoresText(const calibration::CalibrationScores& scores, const matrix::Layout& layout);
 
 /// Warnings, one a line; "" if there are none.
 std::string warningsText(const calibration::Calibration& calibration);

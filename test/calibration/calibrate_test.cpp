@@ -60,6 +60,46 @@ TEST(Calibrate, RecoversTheCurveOfEachTaxelAndSurface) {
   }
 }
 
+// Putting the matrix on again changes its gain: the deviation must cover it where training saw two mounts.
+TEST(Calibrate, PutsTheErrorOfAnotherMountIntoTheDeviation) {
+  const auto mounted = [](std::uint32_t mount, double gain) {
+    SyntheticRig rig = threeSurfaces();
+    rig.cycles = 6;
+    rig.seed = mount;
+    dataset::Recording recording = syntheticRecording(rig);
+    recording.name = "mount_" + std::to_string(mount) + ".bag";
+    for (matrix::Surface& surface : recording.conditions) surface.mount = mount;
+    for (std::uint16_t& count : recording.counts) count = static_cast<std::uint16_t>(gain * count);
+    return recording;
+  };
+  const auto deviation = [](const Calibration& calibration) {
+    return double(calibration.tables.table(0, 1).deviation[2000]);
+  };
+  const Calibration one = train({mounted(1, 1.0)}, compensation::Scheme::kInterpolated);
+  EXPECT_EQ(one.scores.remount.readings, 0u);  // not assessed
+  const Calibration two = train({mounted(1, 1.0), mounted(2, 0.95)}, compensation::Scheme::kInterpolated);
+  EXPECT_EQ(two.scores.remount.readings, 2u * 3 * 600 * 6);
+  // 5 % of the reading are 10 % of the pressure, about 35 kPa (rms).
+  EXPECT_GT(two.scores.remount.rmse, 20e3);
+  EXPECT_LT(two.scores.remount.rmse, 50e3);
+  EXPECT_GT(two.scores.remount.rmse, 1.3 * two.scores.whole.errors.whole.all.rmse);
+  EXPECT_GT(deviation(two), 3 * deviation(one));
+  // A third mount, between them in size: two thirds of its readings are within one deviation or more.
+  const dataset::Recording third = mounted(3, 0.96);
+  std::size_t within = 0;
+  for (std::size_t i = 0; i < third.scans(); ++i) {
+    const regression::CodeTable& table = two.tables.table(0, third.condition[i]);
+    const std::uint16_t code = third.scan(i)[0];
+    within += std::abs(double(table.pressure[code]) - third.pressure[i]) <= double(table.deviation[code]);
+  }
+  EXPECT_GT(double(within), 0.6 * double(third.scans()));
+  // A surface with one mount gets the deviation of the others.
+  dataset::Recording flat = mounted(2, 0.95);
+  for (matrix::Surface& surface : flat.conditions) surface.mount = surface.name == "flat" ? 2 : 1;
+  const Calibration some = train({mounted(1, 1.0), flat}, compensation::Scheme::kInterpolated);
+  EXPECT_EQ(some.scores.remount.readings, 2u * 600 * 6);
+}
+
 TEST(Calibrate, PerCurvatureIsBestOnABentSurface) {
   const dataset::Recording recording = syntheticRecording(threeSurfaces());
   const auto rmse = [&](compensation::Scheme scheme, std::size_t condition) {
@@ -350,6 +390,14 @@ TEST(Calibrate, UnusableRecordingsAreRefusedInOneSentence) {
   other.losses.near_change = 12;
   EXPECT_EQ(refusal(other),
             "bad.bag: no scan is left to train on: 12 were made within 1 s of a change of surface");
+  dataset::Recording one = good, half = good;
+  one.sensor.model = "65535 counts = 0.2 S";
+  half.sensor.model = "65535 counts = 0.1 S";
+  half.name = "bad.bag";
+  half.sha256 = "";
+  EXPECT_EQ(complaint({{one, half}, {}}),
+            "bad.bag: the scale of the readings is \"65535 counts = 0.1 S\", but that of " + good.name +
+                " is \"65535 counts = 0.2 S\"; convert both with the same --range");
 }
 
 TEST(Calibrate, OptionsOutOfRangeAreRefused) {

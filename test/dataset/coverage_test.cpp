@@ -89,9 +89,26 @@ TEST(Coverage, ListsThinCellsWorstFirst) {
   low.peak = 150e3;
   low.cycles = 20;
   const Coverage coverage = coverageOf({bag("a", {{"flat", 0.0}}, 20), syntheticRecording(low)}, 5);
-  ASSERT_EQ(coverage.thin.size(), 4u);
-  EXPECT_EQ(coverage.thin[0], "bent, 200-400 kPa loading: no scan");
-  EXPECT_EQ(coverage.thin[1], "bent, 400+ kPa loading: no scan");
+  ASSERT_EQ(coverage.thin.size(), 5u);
+  EXPECT_EQ(coverage.thin[1], "bent, 200-400 kPa loading: no scan");
+  EXPECT_EQ(coverage.thin[2], "bent, 400+ kPa loading: no scan");
+}
+
+TEST(Coverage, SaysThatThereIsOneSurfaceOnlyOrThatPeaksDiffer) {
+  EXPECT_EQ(
+      coverageOf({bag("a", {{"flat", 0.0}}, 20)}, 5).thin.at(0),
+      "there is one surface only: the error on any other one is unknown and can be many times as large");
+  SyntheticRig low;
+  low.name = "b";
+  low.surfaces = {{"bent", 10.0}};
+  low.peak = 300e3;
+  EXPECT_EQ(
+      coverageOf({bag("a", {{"flat", 0.0}}), syntheticRecording(low)}, 5).thin.at(0),
+      "bent was loaded to 300 kPa only, others to 600 kPa: above that, readings on it and between it and "
+      "its neighbours are lower limits");
+  low.peak = 580e3;
+  low.cycles = 20;
+  EXPECT_TRUE(coverageOf({bag("a", {{"flat", 0.0}}, 20), syntheticRecording(low)}, 5).thin.empty());
 }
 
 TEST(Coverage, ReportsTheRangeOfPressure) {

@@ -45,7 +45,14 @@ TEST(CalibrationReport, ShowsCoverageInBothUnitsOfCurvature) {
 
 TEST(CalibrationReport, ShowsScoresOfEachSurface) {
   const calibration::Calibration calibration = trained(compensation::Scheme::kPerCurvature);
-  const std::string text = scoresText(calibration.scores);
+  const std::string text = scoresText(calibration.scores, calibration.layout);
+  EXPECT_NE(text.find("Another mount: not assessed"), std::string::npos);
+  const std::size_t columns = calibration.layout.size.columns;
+  const std::size_t taxel = calibration.scores.whole.worst_taxel;
+  EXPECT_NE(lineOf(text, "all together")
+                .find("(" + std::to_string(taxel / columns) + ", " + std::to_string(taxel % columns) + ")"),
+            std::string::npos)
+      << text;
   const calibration::Score& score = calibration.scores.conditions[1].score;
   char rmse[32];
   std::snprintf(rmse, sizeof(rmse), "%.1f", score.errors.whole.all.rmse / 1e3);
@@ -56,10 +63,11 @@ TEST(CalibrationReport, ShowsScoresOfEachSurface) {
 }
 
 TEST(CalibrationReport, MarksSurfacesThatTheModelWasNotTrainedOn) {
-  const std::string text = scoresText(trained(compensation::Scheme::kFlatOnly).scores);
+  const std::string text = scoresText(trained(compensation::Scheme::kFlatOnly).scores, {{2, 3}});
   EXPECT_NE(text.find("cylinder_5cm *"), std::string::npos);
   EXPECT_NE(text.find("* the model used for this surface was not trained on it"), std::string::npos);
-  EXPECT_EQ(scoresText(trained(compensation::Scheme::kBaseline).scores).find('*'), std::string::npos);
+  EXPECT_EQ(scoresText(trained(compensation::Scheme::kBaseline).scores, {{2, 3}}).find('*'),
+            std::string::npos);
 }
 
 TEST(CalibrationReport, PrintsTheLearnedParametersOfTheScheme) {
@@ -76,7 +84,7 @@ TEST(CalibrationReport, PrintsTheLearnedParametersOfTheScheme) {
 }
 
 TEST(CalibrationReport, SaysThatScoresWereNotComputed) {
-  EXPECT_EQ(scoresText({}), "Scores were not computed.\n");
+  EXPECT_EQ(scoresText({}, {}), "Scores were not computed.\n");
 }
 
 TEST(CalibrationReport, PrintsWarningsLineByLine) {

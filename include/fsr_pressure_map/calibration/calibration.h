@@ -88,10 +88,19 @@ struct UnseenScore {
   double rmse = std::numeric_limits<double>::quiet_NaN();  ///< of all readings together [Pa]
 };
 
+/// Errors on another mount: each mount of a surface that was mounted more than once is predicted by models
+/// that were trained without it.
+struct RemountScore {
+  std::uint64_t readings = 0;         ///< scans x taxels; 0 = each surface was mounted once: not assessed
+  statistics::Spread rmse_percent{};  ///< mean and standard deviation over taxels, % of the range of pressure
+  double rmse = std::numeric_limits<double>::quiet_NaN();  ///< of all readings together [Pa]
+};
+
 struct CalibrationScores {
   std::vector<ConditionScore> conditions;  ///< empty = not computed
   Score whole;                             ///< all conditions together
   UnseenScore unseen;
+  RemountScore remount;
 };
 
 struct SourceBag {

@@ -77,6 +77,25 @@ UnseenScore readUnseen(const hdf5::Reader& reader) {
           reader.numbers("/scores/unseen", "rmse", 1)[0]};
 }
 
+// Versions before this score have no group.
+void writeRemount(const RemountScore& remount, hdf5::Writer& writer) {
+  writer.group("/scores/remount");
+  writer.attribute("/scores/remount", "meaning", "each mount of a surface in turn answered from the others");
+  writer.attribute("/scores/remount", "readings", remount.readings);
+  writer.attribute("/scores/remount", "rmse_percent",
+                   std::vector<double>{remount.rmse_percent.mean, remount.rmse_percent.deviation});
+  writer.attribute("/scores/remount", "rmse", std::vector<double>{remount.rmse});
+  writer.attribute("/scores/remount", "unit", "Pa");
+}
+
+RemountScore readRemount(const hdf5::Reader& reader) {
+  if (!reader.has("/scores/remount")) return {};
+  const std::vector<double> percent = reader.numbers("/scores/remount", "rmse_percent", 2);
+  return {reader.integer("/scores/remount", "readings"),
+          {percent[0], percent[1]},
+          reader.numbers("/scores/remount", "rmse", 1)[0]};
+}
+
 }  // namespace
 
 void writeScores(const CalibrationScores& scores, hdf5::Writer& writer) {
@@ -106,6 +125,7 @@ void writeScores(const CalibrationScores& scores, hdf5::Writer& writer) {
                  "[class][whole, then bins of 0, 50, 100, 200, 400 kPa and more][both, loading, unloading]"
                  "[count, bias, RMSE, lower and upper 95 % limit, 95th percentile of the absolute error]");
   writeUnseen(scores.unseen, writer);
+  writeRemount(scores.remount, writer);
 }
 
 CalibrationScores readScores(const hdf5::Reader& reader,
@@ -126,6 +146,7 @@ CalibrationScores readScores(const hdf5::Reader& reader,
   }
   scores.whole = columns.row(classes.size());
   scores.unseen = readUnseen(reader);
+  scores.remount = readRemount(reader);
   return scores;
 }
 

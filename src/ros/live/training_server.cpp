@@ -177,7 +177,8 @@ std::string TrainingServer::trainNow() {
                   << fsr::report::coverageText(fsr::dataset::coverageOf(problem.recordings, options_.folds)));
   fsr::calibration::Calibration calibration = fsr::calibration::calibrate(problem);
   ROS_INFO_STREAM('\n'
-                  << fsr::report::warningsText(calibration) << fsr::report::scoresText(calibration.scores)
+                  << fsr::report::warningsText(calibration)
+                  << fsr::report::scoresText(calibration.scores, calibration.layout)
                   << fsr::report::learnedText(calibration));
   calibration.id = fsr::calibration::saveCalibration(calibration, output_);
   if (!report_.empty()) fsr::settings::replaceFile(report_, fsr::report::calibrationJson(calibration));

@@ -166,7 +166,8 @@ fsr::calibration::Calibration merge(const fsr::settings::CommandLine& line, std:
   options.threads = threadsOf(line);
   fsr::calibration::Calibration calibration = fsr::calibration::mergeCalibrations(parts, options);
   out << fsr::report::coverageText(calibration.coverage) << '\n' << fsr::report::warningsText(calibration);
-  out << "A merged calibration has no scores; train on all the bags to get them.\n";
+  out << "A merged calibration has no scores, and the error of another mount is not part of its stated "
+         "deviation;\ntrain on all the bags to get both.\n";
   return calibration;
 }
 
@@ -178,7 +179,8 @@ fsr::calibration::Calibration train(const fsr::settings::CommandLine& line, std:
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
   fsr::calibration::Calibration calibration =
       fsr::calibration::calibrate(problem, terminal ? showProgress : fsr::calibration::CalibrationProgress{});
-  out << fsr::report::warningsText(calibration) << fsr::report::scoresText(calibration.scores)
+  out << fsr::report::warningsText(calibration)
+      << fsr::report::scoresText(calibration.scores, calibration.layout)
       << fsr::report::learnedText(calibration);
   return calibration;
 }

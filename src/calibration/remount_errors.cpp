@@ -1,0 +1,109 @@
+#include "calibration/remount_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "regression/regressors.h"
+
+namespace fsr::calibration {
+
+namespace {
+
+// The pressures of a model that was trained without a mount, in the form of the tables.
+std::vector<compensation::TableEntry> entriesOf(const std::vector<double>& pressure) {
+  std::vector<compensation::TableEntry> entries;
+  for (const double value : pressure) entries.push_back({static_cast<float>(value), 0.0F});
+  return entries;
+}
+
+std::vector<compensation::TableEntry> entriesOf(const regression::CodeTable& table) {
+  std::vector<compensation::TableEntry> entries;
+  for (std::size_t code = 0; code < table.pressure.size(); ++code) {
+    entries.push_back({table.pressure[code], table.deviation[code]});
+  }
+  return entries;
+}
+
+}  // namespace
+
+RemountErrors::RemountErrors(const std::vector<dataset::Recording>& recordings,
+                             const dataset::ConditionClasses& classes,
+                             const std::vector<dataset::Sections>& sections)
+    : mounts_(classes.classes.size()) {
+  // [classes], from mount number to 0, 1, ...
+  std::vector<std::map<std::uint32_t, std::uint32_t>> number(classes.classes.size());
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    for (std::size_t c = 0; c < recordings[r].conditions.size(); ++c) {
+      auto& own = number[classes.class_of[r][c]];
+      own.emplace(recordings[r].conditions[c].mount, static_cast<std::uint32_t>(own.size()));
+    }
+  }
+  for (std::size_t k = 0; k < number.size(); ++k) {
+    mounts_[k] = number[k].size();
+    most_mounts_ = std::max(most_mounts_, mounts_[k]);
+  }
+  if (!assessable()) return;
+  std::vector<dataset::Sections> by_mount = sections;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    for (std::size_t i = 0; i < recordings[r].scans(); ++i) {
+      std::uint32_t& section = by_mount[r].section[i];
+      if (section == dataset::kNoSection) continue;
+      const std::size_t condition = recordings[r].condition[i], k = classes.class_of[r][condition];
+      section = mounts_[k] > 1 ? number[k].at(recordings[r].conditions[condition].mount)
+                               : static_cast<std::uint32_t>(most_mounts_);
+    }
+  }
+  scans_ = gatherScans(recordings, classes, by_mount);
+  errors_.resize(recordings.front().layout.size.taxels());
+}
+
+void RemountErrors::measure(const compensation::SchemePlan& plan, std::size_t taxel,
+                            const regression::RegressorOptions& regressor, const Calibration& calibration) {
+  if (!assessable()) return;
+  const std::size_t sections = most_mounts_ + 1;
+  const std::uint16_t full_scale = calibration.tables.full_scale;
+  const std::vector<regression::CodeStatistics> cells =
+      statisticsOfTaxel(scans_, sections, full_scale, taxel);
+  compensation::SectionedReadings readings;
+  readings.full_scale = full_scale;
+  for (std::size_t k = 0; k < mounts_.size(); ++k) {
+    const auto first = cells.begin() + static_cast<std::ptrdiff_t>(k * sections);
+    readings.sums.emplace_back(first, first + static_cast<std::ptrdiff_t>(sections));
+  }
+  if (!regression::makeRegressor(regressor)->mergeable()) {
+    readings.samples = samplesOfTaxel(scans_, sections, full_scale, taxel);
+  }
+  const auto models =
+      compensation::crossValidateScheme(plan, taxel, readings, regressor, regression::HeldOutDeviation::kNo);
+  compensation::UnseenErrors& errors = errors_[taxel];
+  for (std::size_t k = 0; k < mounts_.size(); ++k) {
+    const std::size_t model = plan.model_of_class[k];
+    const auto& trained_on = plan.models[model].trained_on;
+    if (mounts_[k] < 2 || std::find(trained_on.begin(), trained_on.end(), k) == trained_on.end()) continue;
+    const std::vector<compensation::TableEntry> own =
+        entriesOf(calibration.tables.table(taxel, calibration.tables.classes.size() == 1 ? 0 : k));
+    for (std::size_t mount = 0; mount < mounts_[k]; ++mount) {
+      const std::vector<double>& answer = models[model].held_out[mount].pressure;
+      if (!answer.empty()) addErrors(readings.sums[k][mount], entriesOf(answer), own, errors);
+    }
+  }
+}
+
+RemountScore RemountErrors::apply(Calibration& calibration) const {
+  if (!assessable()) return {};
+  const compensation::UnseenDeviation more = compensation::unseenDeviation(errors_);
+  if (more.pressure.empty()) return {};
+  for (regression::CodeTable& table : calibration.tables.tables) {
+    for (std::size_t code = 0; code < table.deviation.size(); ++code) {
+      const double pressure = double(table.pressure[code]);
+      if (std::isnan(pressure)) continue;
+      table.deviation[code] =
+          static_cast<float>(std::hypot(double(table.deviation[code]), more.at(pressure)));
+    }
+  }
+  const compensation::UnseenSummary summary = compensation::summaryOf(errors_);
+  return {summary.readings, summary.rmse_percent, summary.rmse};
+}
+
+}  // namespace fsr::calibration

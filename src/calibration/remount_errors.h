@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "calibration/training_scans.h"
+#include "compensation/fit_scheme.h"
+#include "compensation/unseen_curvature.h"
+#include "fsr_pressure_map/calibration/calibration.h"
+
+namespace fsr::calibration {
+
+/// The errors on another mount: each mount of a surface that was mounted more than once is predicted by
+/// models that were trained without it. A mount of a surface is identified by its number, in all recordings.
+/// Recordings without a mount number (0) count as one mount, because nothing is known of them.
+class RemountErrors {
+ public:
+  /// The recordings must outlive the object.
+  RemountErrors(const std::vector<dataset::Recording>& recordings, const dataset::ConditionClasses& classes,
+                const std::vector<dataset::Sections>& sections);
+
+  /// Whether a surface was mounted more than once.
+  bool assessable() const { return most_mounts_ > 1; }
+  /// Predicts the mounts of one taxel, whose tables are in `calibration`. Different taxels may be measured at
+  /// the same time.
+  void measure(const compensation::SchemePlan& plan, std::size_t taxel,
+               const regression::RegressorOptions& regressor, const Calibration& calibration);
+  /// Adds what the stated deviation does not explain to the deviation of all tables, by pressure. Returns the
+  /// error of another mount.
+  RemountScore apply(Calibration& calibration) const;
+
+ private:
+  std::vector<std::size_t> mounts_;  // [classes], number of mounts
+  std::size_t most_mounts_ = 1;
+  /// The section of a scan is its mount. Scans of a surface with one mount are in the last section, which is
+  /// never left out.
+  TrainingScans scans_;
+  std::vector<compensation::UnseenErrors> errors_;  // [taxels]
+};
+
+}  // namespace fsr::calibration
