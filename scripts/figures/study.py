@@ -356,7 +356,8 @@ def write_report(folder, results, pictures):
         comparison_section(comparisons["flat_against_all"], []),
         comparison_section(comparisons["methods"], [pictures["methods"], pictures["prediction"]]),
         *([comparison_section(comparisons["one_hot"], [])] if "one_hot" in comparisons else []),
-        ("Numbers of the paper that cannot be reproduced", [style.paragraph(text) for text in results["unmatchable"]]),
+        *([("Numbers of the paper that cannot be reproduced",
+            [style.paragraph(text) for text in results["unmatchable"]])] if results["unmatchable"] else []),
         ("Bandwidth", [pictures["bandwidths"]]),
         *beyond_sections(results, pictures),
         ("Choices that the paper leaves open", [style.table(

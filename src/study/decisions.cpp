@@ -1,5 +1,7 @@
 #include "study/decisions.h"
 
+#include <algorithm>
+
 #include "settings/number_text.h"
 #include "study/fold.h"
 
@@ -25,6 +27,29 @@ std::string kernelText(const StudyPlan& plan) {
   return plan.grnn.distance == regression::KernelDistance::kSquared
              ? "The squared distance, as in Specht's GRNN."
              : "The distance itself, as printed.";
+}
+
+// What follows where surfaces were mounted once; empty if each was mounted more often.
+std::string mountedOnce(const StudyData& data) {
+  const Grouping mounts = byMount(data);
+  std::size_t number = 0;
+  std::string names;
+  for (std::size_t c = 0; c < data.classes.size(); ++c) {
+    const auto used = [](const std::vector<std::uint32_t>& scans) { return !scans.empty(); };
+    if (std::count_if(mounts.scans[c].begin(), mounts.scans[c].end(), used) > 1) continue;
+    ++number;
+    names += (names.empty() ? "" : ", ") + data.classes[c].surface;
+  }
+  if (number == 0) return "";
+  if (number == data.classes.size()) {
+    return "Each surface was mounted once. A difference between curvatures is therefore a condition effect: "
+           "the effects of curvature and of that mount together. It holds for this mount only.";
+  }
+  return std::to_string(number) + " of " + std::to_string(data.classes.size()) +
+         " surfaces were mounted once (" + names +
+         "). A difference between one of them and another surface is therefore a condition effect: the "
+         "effects "
+         "of curvature and of that mount together. Leaving mounts out needs two mounts of each surface.";
 }
 
 std::string rangeText(const StudyPlan& plan) {
@@ -113,12 +138,8 @@ std::vector<std::string> limitations(const StudyData& data, const std::string& s
                                                  "therefore validates neither the simulation nor the paper."
                                                : ""));
   }
-  const bool remounted = !leaveMountOut(data).folds.empty();
-  if (!remounted) {
-    sentences.push_back(
-        "Each surface was mounted once. A difference between curvatures is therefore a condition effect: the "
-        "effects of curvature and of that mount together. It holds for this mount only.");
-  }
+  const std::string once = mountedOnce(data);
+  if (!once.empty()) sentences.push_back(once);
   sentences.push_back(
       "One sheet (n = 1): intervals and p values do not apply to another sheet. Units: taxel, n = " +
       std::to_string(data.taxels.size()) + "; cycle, n = " + std::to_string(data.cycles) +

@@ -8,6 +8,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/session.h"
+#include "study/decisions.h"
 #include "study/evaluation.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
@@ -130,6 +131,18 @@ TEST(Study, SaysThatOneMountIsAConditionEffect) {
     return text.find("condition effect") != std::string::npos;
   };
   EXPECT_TRUE(std::any_of(result.holds_for.begin(), result.holds_for.end(), says));
+  EXPECT_TRUE(result.unmatchable.empty()) << "these are about the rig that was fitted to the paper";
+}
+
+TEST(Study, NamesTheSurfacesThatWereMountedOnce) {
+  test_support::SyntheticRig again = bentRig();
+  again.surfaces.pop_back();
+  again.seed = 2;
+  std::vector<dataset::Recording> recordings = {test_support::syntheticRecording(bentRig()),
+                                                test_support::syntheticRecording(again)};
+  for (matrix::Surface& surface : recordings[1].conditions) surface.mount = 2;
+  const std::string first = limitations(gatherStudyData(recordings, 5), "").front();
+  EXPECT_EQ(first.rfind("1 of 3 surfaces were mounted once (cylinder_5cm).", 0), 0u) << first;
 }
 
 TEST(Study, RefusesRecordingsWithoutAFlatSurface) {
