@@ -28,6 +28,9 @@ std::vector<std::string> describeLosses(const RecordingLosses& losses) {
   if (losses.duplicates > 0) {
     sentences.push_back("dropped " + scans(losses.duplicates) + " with the stamp of another one");
   }
+  if (losses.near_change > 0) {
+    sentences.push_back("dropped " + scans(losses.near_change) + " within 1 s of a change of surface");
+  }
   if (losses.no_reference > kScansAtTheEnds) {
     sentences.push_back("dropped " + scans(losses.no_reference) + " in gaps of chamber_pressure");
   }

@@ -9,18 +9,17 @@ namespace fsr::dataset {
 
 namespace {
 
-const std::map<std::string, ColumnRole> kRoles = {{"time", ColumnRole::kTime},
-                                                  {"reading", ColumnRole::kReading},
-                                                  {"reference", ColumnRole::kReference},
-                                                  {"curvature", ColumnRole::kCurvature},
-                                                  {"temperature", ColumnRole::kTemperature},
-                                                  {"surface", ColumnRole::kSurface},
-                                                  {"mount", ColumnRole::kMount}};
+const std::map<std::string, ColumnRole> kRoles = {
+    {"time", ColumnRole::kTime},           {"reading", ColumnRole::kReading},
+    {"reference", ColumnRole::kReference}, {"reference_time", ColumnRole::kReferenceTime},
+    {"curvature", ColumnRole::kCurvature}, {"temperature", ColumnRole::kTemperature},
+    {"surface", ColumnRole::kSurface},     {"mount", ColumnRole::kMount}};
 
 // Units of a role; the first is the default. SI value = factor * (value + offset).
 const std::vector<std::pair<std::string, TableUnit>>& unitsOf(ColumnRole role) {
   static const std::map<ColumnRole, std::vector<std::pair<std::string, TableUnit>>> units = {
       {ColumnRole::kTime, {{"s", {1}}, {"ms", {1e-3}}, {"us", {1e-6}}, {"min", {60}}}},
+      {ColumnRole::kReferenceTime, {{"s", {1}}, {"ms", {1e-3}}, {"us", {1e-6}}, {"min", {60}}}},
       {ColumnRole::kReading,
        {{"counts", {1, 0, "counts"}},
         {"V", {1, 0, "V"}},

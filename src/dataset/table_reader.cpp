@@ -20,7 +20,6 @@ namespace {
 constexpr std::size_t kLongestLine = 1 << 20;  // [bytes]: a file with longer lines is not a table
 // Empty lines and comments that follow each other [bytes]. A packed file can hold any number of them.
 constexpr std::size_t kMostWithoutRow = 1 << 24;
-constexpr char kByteOrderMark[] = "\xEF\xBB\xBF";
 
 std::string trimmed(const std::string& text) {
   const char* const blank = " \t\r\"";
@@ -88,6 +87,14 @@ struct TableReader::Source {
   Source(const Source&) = delete;
   Source& operator=(const Source&) = delete;
 
+  // Spreadsheets begin UTF-8 with a byte-order mark.
+  void removeMark(std::string& text) const {
+    if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
+    if (text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0) {
+      throw settings::InputError(path + ": is UTF-16 text, but must be UTF-8 or ASCII; save it as CSV UTF-8");
+    }
+  }
+
   bool getLine(std::string& text) {
     text.clear();
     std::array<char, 4096> part{};
@@ -106,8 +113,7 @@ struct TableReader::Source {
     }
     if (text.empty()) return false;
     ++line;
-    // Spreadsheets write such a mark before the first line.
-    if (line == 1 && text.rfind(kByteOrderMark, 0) == 0) text.erase(0, sizeof kByteOrderMark - 1);
+    if (line == 1) removeMark(text);
     while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
     return true;
   }

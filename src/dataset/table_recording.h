@@ -12,7 +12,16 @@
 namespace fsr::dataset {
 
 /// Meaning of a column of a table.
-enum class ColumnRole { kTime, kReading, kReference, kCurvature, kTemperature, kSurface, kMount };
+enum class ColumnRole {
+  kTime,
+  kReading,
+  kReference,
+  kReferenceTime,
+  kCurvature,
+  kTemperature,
+  kSurface,
+  kMount
+};
 
 struct TableColumn {
   ColumnRole role = ColumnRole::kTime;
@@ -26,14 +35,15 @@ struct TableColumn {
 ///     time         s, ms, us, min
 ///     reading      counts, V, mV, S, mS, uS, ohm, kohm, Mohm; each is one taxel, row-major
 ///     reference    kPa, Pa, MPa, bar, mbar, psi, mmHg; N (by the area); e.g. 2500Pa for each unit
+///     reference_time  s, ms, us, min: of a reference that was recorded by itself
 ///     curvature    1/m, 1/cm
 ///     temperature  C, K, F
 ///     surface      its name, as text
 ///     mount        its number
 std::vector<TableColumn> parseColumns(const std::string& text);
 
-/// Conversion of readings to counts: counts = 65535 (reading - low) / (high - low). Counts are not converted.
-/// For readings that fall with increasing pressure, low is above high.
+/// Conversion of readings to counts: counts = 65535 (reading - low) / (high - low). Counts are not converted,
+/// unless a range is given. For readings that fall with increasing pressure, low is above high.
 struct ReadingScale {
   double low = 0;
   double high = 0;
@@ -49,21 +59,28 @@ struct TablePlan {
   matrix::MatrixSize matrix;  ///< 0 x 0 = one row of all readings
   double pitch = 0.010;       ///< [m]
   std::optional<std::pair<double, double>>
-      range;  ///< range of the readings [V or S]; none = 0 to a round number above the largest
+      range;  ///< range of the readings [counts, V or S]; none = 0 to a round number above the largest
   std::optional<std::uint16_t>
       full_scale;      ///< of readings in counts; none = 4095, or 65535 where a reading is larger
   double area = 1e-4;  ///< on which a force acts [m^2]
-  std::optional<double> ambient_pressure;      ///< if given, the reference is absolute [Pa]
-  std::optional<double> curvature;             ///< of the surface, where no column contains it [1/m]
-  std::string surface;                         ///< its name
-  std::int64_t start_ns = 946684800000000000;  ///< stamp of time 0: 2000-01-01 [ns]
-  bool skip_bad_rows = false;                  ///< skip rows that would be refused
+  std::optional<double> ambient_pressure;  ///< if given, the reference is absolute [Pa]
+  std::optional<double> curvature;         ///< of the surface, where no column contains it [1/m]
+  std::string surface;                     ///< its name
+  /// Stamp of time 0 [ns]; none = 2000-01-01, or 1970-01-01 if the first time is a Unix time.
+  std::optional<std::int64_t> start_ns;
+  std::optional<double>
+      reference_rate;           ///< of a reference that has no time [1/s]; it begins with the first row
+  double reference_offset = 0;  ///< added to the times of the reference [s]
+  bool skip_bad_rows = false;   ///< skip rows that would be refused
 };
 
 struct TableRecording {
   Recording recording;
   ReadingScale scale;
   std::uint64_t skipped = 0;  ///< skipped rows
+  std::uint64_t no_reference =
+      0;                   ///< scans before or after a reference that was recorded by itself, left out
+  bool unix_time = false;  ///< the times are seconds since 1970
 };
 
 /// Reads a table as a recording. Throws InputError, with file, line and column, where a cell is not a number

@@ -153,6 +153,66 @@ TEST_F(Table, CountsItsTimeFromTheFirstRow) {
   EXPECT_EQ(recording.time, (std::vector<double>{0, 1}));
 }
 
+TEST_F(Table, TakesALateTimeAsUnixTime) {
+  const TableRecording table = read("t,u\n1700000000,1\n1700000001,2\n", "time=t,reading=u");
+  EXPECT_TRUE(table.unix_time);
+  EXPECT_EQ(table.recording.start_ns, 1700000000000000000);
+  TablePlan plan;
+  plan.start_ns = 1000000000;  // the user's word goes first
+  const TableRecording told = read("t,u\n1700000000,1\n1700000001,2\n", "time=t,reading=u", plan);
+  EXPECT_FALSE(told.unix_time);
+  EXPECT_EQ(told.recording.start_ns, 1700000001000000000);
+}
+
+TEST_F(Table, TurnsFallingCountsRound) {
+  TablePlan plan;
+  plan.range = {{4095, 0}};
+  const TableRecording table = read("t,u\n0,4095\n1,4000\n2,95\n", "time=t,reading=u", plan);
+  EXPECT_EQ(table.recording.full_scale, 4095);
+  EXPECT_EQ(table.recording.counts, (std::vector<std::uint16_t>{0, 95, 4000}));
+  EXPECT_EQ(table.scale.text(), "0 counts = 4095 and 4095 counts = 0 of the table");
+  plan.range = {{1000, 2000}};
+  EXPECT_EQ(read("t,u\n0,1000\n1,1500\n", "time=t,reading=u", plan).recording.counts,
+            (std::vector<std::uint16_t>{0, 500}));
+  expectComplaint("t,u\n0,1000\n1,999\n", "time=t,reading=u", {"line 3", "widen --range"}, plan);
+}
+
+// The reference was recorded by itself, twice as often as the readings and for a shorter time.
+TEST_F(Table, InterpolatesAReferenceWithTimesOfItsOwn) {
+  const std::string text = "t,u,tp,p\n0,1,0.25,10\n0.5,2,0.5,20\n1.0,3,1.0,40\n1.5,4,,\n,,,\n";
+  const std::string columns = "time=t,reading=u,reference=p:kPa,reference_time=tp";
+  const TableRecording table = read(text, columns);
+  EXPECT_EQ(table.recording.time, (std::vector<double>{0, 0.5}));
+  EXPECT_EQ(table.recording.pressure, (std::vector<double>{20e3, 40e3}));
+  EXPECT_EQ(table.no_reference, 2u);
+  EXPECT_EQ(table.recording.counts.size(), 2u);
+  TablePlan plan;
+  plan.reference_offset = -0.25;
+  EXPECT_EQ(read(text, columns, plan).recording.pressure.front(), 10e3);
+  expectComplaint("t,u,tp\n0,1,0\n1,2,1\n", "time=t,reading=u,reference_time=tp", {"names no reference"});
+  expectComplaint("t,u,tp,p\n0,1,1,0\n1,2,1,1\n", columns, {"line 3", "not later"});
+}
+
+TEST_F(Table, InterpolatesAReferenceWithoutTimesByItsRate) {
+  TablePlan plan;
+  plan.reference_rate = 4;
+  const TableRecording table =
+      read("t,u,p\n10,1,0\n10.5,2,10\n11,3,20\n,,30\n,,40\n", "time=t,reading=u,reference=p:kPa", plan);
+  EXPECT_EQ(table.recording.pressure, (std::vector<double>{0, 20e3, 40e3}));
+  EXPECT_EQ(table.no_reference, 0u);
+}
+
+TEST_F(Table, ReadsUtf8WithAByteOrderMarkAndRefusesUtf16) {
+  EXPECT_EQ(read("\xEF\xBB\xBFt,u\n0,1\n1,2\n", "time=t,reading=u").recording.scans(), 2u);
+  expectComplaint(std::string("\xFF\xFEt\0,\0u\0\n\0", 12), "time=t,reading=u", {"UTF-16", "UTF-8"});
+}
+
+TEST_F(Table, RefusesAPointAmongDecimalCommas) {
+  TablePlan plan;
+  plan.format.decimal_comma = true;
+  expectComplaint("t;u\n0;1.234\n1;2,5\n", "time=t,reading=u", {"line 2", "1.234", "without a point"}, plan);
+}
+
 TEST_F(Table, NamesLineAndColumnOfACellThatIsNotANumber) {
   const std::string head = "t,x\n0,1\n1,2\n";
   expectComplaint(head + "2,nan\n", "time=t,reading=x:V", {path_, "line 4, column x", "nan"});

@@ -82,7 +82,7 @@ CycleSums sumsOf(const GapGround& ground, const Trace& left, const MeasuredCycle
       sum.before += before + within;
       sum.after += after + within;
       ++sum.number;
-      if (slope < 0.05 * steepest) continue;
+      if (!(slope > 0) || slope < 0.05 * steepest) continue;
       sum.before_pressure += (before + within) / (slope * slope);
       sum.after_pressure += (after + within) / (slope * slope);
       ++sum.in_pressure;
@@ -104,7 +104,8 @@ Gap gapOf(const std::vector<CycleSums>& sums, const std::vector<std::size_t>& ch
     total.in_pressure += sums[c].in_pressure;
   }
   Gap gap;
-  const double n = std::max(1.0, total.number), np = std::max(1.0, total.in_pressure);
+  // Where the curve rises nowhere, an error tells no pressure.
+  const double n = std::max(1.0, total.number), np = total.in_pressure > 0 ? total.in_pressure : NAN;
   const double common = total.before / n, before = common + extras.before_more;
   const double after = std::max(0.0, total.after / n - extras.after_less);
   const double floor = std::min(after, common * (1 - explainable));

@@ -23,7 +23,8 @@ fsr::settings::CommandLine commandLine() {
       "write it, to a bag.\nRoles: time (s, ms, us, min), reading (counts, V, mV, S, mS, uS, ohm, kohm, "
       "Mohm; "
       "one for each taxel),\nreference (kPa, Pa, MPa, bar, mbar, psi, mmHg, N, or e.g. 2500Pa for "
-      "each unit), curvature (1/m, 1/cm),\ntemperature (C, K, F), surface, mount. COLUMN is a name "
+      "each unit), reference_time (as time),\ncurvature (1/m, 1/cm), temperature (C, K, F), surface, mount. "
+      "COLUMN is a name "
       "or a number from 1.");
   line.option("columns", "LIST", "e.g. time=1:ms,reading=force_V:V,reference=pressure:bar")
       .output("output", "BAG", "file to write")
@@ -34,16 +35,23 @@ fsr::settings::CommandLine commandLine() {
       .flag("skip-bad-rows", "leave out rows with errors, and print how many")
       .option("matrix", "ROWSxCOLUMNS", "size of the matrix; the readings are row-major (one row)")
       .option("pitch", "M", "distance of neighbouring taxels [m] (0.010)")
-      .option("range", "LOW,HIGH",
-              "readings [V or S] at counts 0 and 65535 (0 and a round number); 5,0 if the reading falls with "
-              "pressure")
+      .option(
+          "range", "LOW,HIGH",
+          "readings [counts, V or S] at count 0 and at full scale (0 and a round number); 5,0 if the reading "
+          "falls with pressure")
       .option("full-scale", "N", "largest count, if the readings are counts (4095, or 65535)")
       .option("area", "M2", "area on which a reference in N acts [m^2] (1e-4)")
       .flag("absolute", "the reference is absolute pressure, not gauge")
       .option("ambient", "PA", "ambient pressure [Pa] (101325)")
       .option("curvature", "1/M", "curvature of the surface, if no column holds it [1/m]; 0 = flat (unknown)")
       .option("surface", "NAME", "name of the surface, if no column holds it")
-      .option("start", "SECONDS", "stamp of time 0, in seconds since 1970 (946684800 = 2000-01-01)")
+      .option("start", "SECONDS",
+              "stamp of time 0, in seconds since 1970 (946684800 = 2000-01-01; 0 if the times are seconds "
+              "since 1970)")
+      .option("reference-rate", "HZ",
+              "rate of a reference without times, which begins with the first row [1/s]; without it, the "
+              "reference is of the scan in its row, or has the column reference_time")
+      .option("reference-offset", "SECONDS", "added to the times of the reference [s] (0)")
       .option("namespace", "NAME", "namespace of the topics (fsr)")
       .option("sensor-id", "ID", "sensor_id of matrix_info")
       .option("serial", "TEXT", "serial number in matrix_info");
@@ -108,7 +116,11 @@ fsr::dataset::TablePlan planFrom(const fsr::settings::CommandLine& line) {
   plan.pitch = line.number("pitch", plan.pitch, {1e-4, 1, "m"});
   plan.area = line.number("area", plan.area, {1e-9, 100, "m^2"});
   plan.surface = line.text("surface", "");
-  plan.start_ns = std::llround(1e9 * line.number("start", 946684800, {0, 4e9, "s"}));
+  if (line.has("start")) plan.start_ns = std::llround(1e9 * line.number("start", 0, {0, 4e9, "s"}));
+  if (line.has("reference-rate")) {
+    plan.reference_rate = line.number("reference-rate", 1, {1e-6, 1e6, "1/s"});
+  }
+  plan.reference_offset = line.number("reference-offset", 0, {-1e9, 1e9, "s"});
   plan.skip_bad_rows = line.has("skip-bad-rows");
   if (line.has("absolute"))
     plan.ambient_pressure = line.number("ambient", kStandardAmbient, {3e4, 2e5, "Pa"});
@@ -132,7 +144,7 @@ BagOptions bagOptions(const fsr::settings::CommandLine& line, const fsr::dataset
   options.ambient_pressure = line.number("ambient", kStandardAmbient, {3e4, 2e5, "Pa"});
   if (scale.unit == "V") options.reference_voltage = std::abs(scale.high - scale.low);
   // The resistance with which the output is full scale at the largest conductance.
-  if (scale.unit == "S") options.feedback_resistance = 1 / scale.high;
+  if (scale.unit == "S") options.feedback_resistance = 1 / std::max(scale.low, scale.high);
   options.session.session_id = "table";
   options.session.use = "bench";
   return options;
@@ -147,6 +159,10 @@ void report(const fsr::dataset::TableRecording& table, const std::string& output
       << recording.time.back() << " s, " << recording.conditions.size() << " surface(s); longest step "
       << longest << " s\n"
       << table.scale.text() << "\n";
+  if (table.unix_time) out << "the times are taken as seconds since 1970; give --start if they are not\n";
+  if (table.no_reference > 0) {
+    out << table.no_reference << " scans left out, which are before or after the reference\n";
+  }
   if (table.skipped > 0) out << table.skipped << " rows left out\n";
   out << "written: " << std::filesystem::absolute(output).string() << "\n";
 }
