@@ -15,6 +15,7 @@ namespace fsr::calibration {
 namespace {
 
 constexpr double kAtTheEnds = 0.25;     // share of the recording: rest is searched in its first and last part
+constexpr double kFarBelowLoad = 0.5;   // share of the usual load
 constexpr double kShortestCell = 0.25;  // loads are averaged over this time: short compared with a step [s],
 constexpr double kScansOfCell = 2.5;    // and long compared with the time between scans
 
@@ -35,6 +36,7 @@ class SocketChecker {
       if (recording.mask.empty() || recording.mask[t] == 0) used_.push_back(t);
     }
     for (std::size_t i = 0; i < recording.scans(); ++i) mean_.push_back(sheetMean(i));
+    rest_limit_ = restLimit();
   }
 
   SocketCheck run(const DonDoff& events) {
@@ -47,7 +49,7 @@ class SocketChecker {
     check_.dead = health.dead;
     check_.stuck = health.stuck;
     if (calibration_ != nullptr) calibrate();
-    findStaticLoad();
+    findStaticLoad(events);
     judge();
     return check_;
   }
@@ -72,11 +74,33 @@ class SocketChecker {
     return statistics::upperMedian(loaded);
   }
 
+  // The lowest mean reading of the sheet over rest_time; infinite if the recording is shorter.
+  double lowestStretch() const {
+    const std::vector<double>& time = recording_.time;
+    double lowest = INFINITY, sum = 0;
+    for (std::size_t first = 0, i = 0; i < time.size(); ++i) {
+      sum += mean_[i];
+      if (time[i] - time[first] < options_.rest_time) continue;
+      lowest = std::min(lowest, sum / double(i - first + 1));
+      while (time[i] - time[first] >= options_.rest_time) sum -= mean_[first++];
+    }
+    return lowest;
+  }
+
+  // The largest mean reading of the sheet at rest: a share of the way from the lowest reading to the usual
+  // load. A sheet that is bent or has been loaded for long does not return to zero. Without a reading far
+  // below the load nothing is known of the rest, and the share is that of the load.
+  double restLimit() const {
+    const double usual = usualLoad(), low = lowestStretch();
+    const double limit = options_.rest_share * usual;
+    return low <= kFarBelowLoad * usual ? std::max(limit, low + options_.rest_share * (usual - low)) : limit;
+  }
+
   // The lowest stretch of rest_time within [from, to] [s].
   std::optional<SocketRest> restWithin(double from, double to) const {
     const std::vector<double>& time = recording_.time;
     std::optional<std::pair<std::size_t, std::size_t>> best;
-    double least = options_.rest_share * usualLoad(), sum = 0;
+    double least = rest_limit_, sum = 0;
     for (std::size_t first = 0, end = 0; first < time.size(); ++first) {
       while (end < time.size() && (end <= first || time[end - 1] - time[first] < options_.rest_time)) {
         sum += mean_[end++];
@@ -105,6 +129,9 @@ class SocketChecker {
     const double end = recording_.time.back(), part = kAtTheEnds * end;
     check_.before = restWithin(0, events.don.value_or(part));
     check_.after = restWithin(events.doff.value_or(end - part), end);
+    // An event that was marked late leaves too little of the rest.
+    if (!check_.before) check_.before = restWithin(0, part);
+    if (!check_.after) check_.after = restWithin(end - part, end);
   }
 
   void compareRests() {
@@ -209,11 +236,14 @@ class SocketChecker {
     return std::max(kShortestCell, kScansOfCell * period);
   }
 
-  // Mean reading of a taxel in each cell; NaN where there is no scan.
-  std::vector<double> byCell(std::size_t taxel, double span) const {
+  // Mean reading of a taxel in each cell; NaN where no scan is under load.
+  std::vector<double> byCell(std::size_t taxel, double span, const DonDoff& events) const {
     const auto cells = static_cast<std::size_t>(recording_.time.back() / span) + 1;
     std::vector<double> sums(cells, 0.0), counts(cells, 0.0);
     for (std::size_t i = 0; i < recording_.scans(); ++i) {
+      const double time = recording_.time[i];
+      const bool worn = time >= events.don.value_or(time) && time <= events.doff.value_or(time);
+      if (!worn || mean_[i] <= rest_limit_) continue;
       const auto c = static_cast<std::size_t>(recording_.time[i] / span);
       sums[c] += reading(i, taxel);
       counts[c] += 1;
@@ -224,8 +254,8 @@ class SocketChecker {
 
   // The longest period in which a taxel stays loaded and its reading varies by no more than static_range of
   // its largest reading. Both ends only move forward; deques hold the extremes between them.
-  void followLoad(std::size_t taxel, double span) {
-    const std::vector<double> load = byCell(taxel, span);
+  void followLoad(std::size_t taxel, double span, const DonDoff& events) {
+    const std::vector<double> load = byCell(taxel, span, events);
     std::deque<std::size_t> high, low;
     for (std::size_t from = 0, to = 0; to < load.size(); ++to) {
       if (!(load[to] >= options_.contact_share)) {  // also NaN
@@ -248,8 +278,8 @@ class SocketChecker {
     }
   }
 
-  void findStaticLoad() {
-    for (const std::size_t t : used_) followLoad(t, cell());
+  void findStaticLoad(const DonDoff& events) {
+    for (const std::size_t t : used_) followLoad(t, cell(), events);
   }
 
   void judge() {
@@ -289,6 +319,7 @@ class SocketChecker {
   const SocketCheckOptions& options_;
   std::vector<std::size_t> used_;  // taxels that are not masked
   std::vector<double> mean_;       // of each scan over them [share of full scale]
+  double rest_limit_ = 0;          // the same, at rest at most
   SocketCheck check_;
 };
 

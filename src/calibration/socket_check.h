@@ -13,8 +13,9 @@ namespace fsr::calibration {
 
 /// Limits beyond which a recording in a socket should be examined, with all defaults.
 struct SocketCheckOptions {
-  double rest_time = 2.0;         ///< shortest rest before and after [s]
-  double rest_share = 0.25;       ///< largest reading at rest, as a share of the usual load (ratio)
+  double rest_time = 2.0;  ///< shortest rest before and after [s]
+  double rest_share =
+      0.25;  ///< largest reading at rest, on the way from the lowest reading to the usual load (ratio)
   double rest_change = 0.02;      ///< change of a taxel from rest before to rest after [share of full scale]
   double changed_share = 0.05;    ///< share of taxels that may change by more (ratio)
   double saturated_share = 0.01;  ///< readings at full scale (ratio)
@@ -33,7 +34,7 @@ struct SocketRest {
       pressure;  ///< likewise, converted by the calibration [Pa]; empty = no calibration; NaN = no reading
 };
 
-/// The longest time for which a taxel carried a nearly constant load.
+/// The longest time between putting on and taking off for which a taxel carried a nearly constant load.
 struct StaticLoad {
   double seconds = 0;
   double from = 0;  ///< [s] since the first scan

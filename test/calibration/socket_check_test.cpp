@@ -93,6 +93,39 @@ TEST(SocketCheck, FindsTheLongestStaticLoad) {
   EXPECT_EQ(checkSocket(recording, {}, nullptr, options).reasons.size(), 1u);
 }
 
+// A sheet that stays bent over a liner reads 30 % of its load after it was taken off.
+dataset::Recording restingBent() {
+  dataset::Recording recording = worn();
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    if (recording.time[i] >= 10 && recording.time[i] < 70) continue;
+    for (std::size_t t = 0; t < kTaxels; ++t) recording.counts[i * kTaxels + t] = 450;
+  }
+  return recording;
+}
+
+TEST(SocketCheck, FindsTheRestOfASheetThatIsStillBent) {
+  const SocketCheck result = check(restingBent());
+  ASSERT_TRUE(result.before && result.after);
+  EXPECT_GE(result.after->from, 69.0);
+}
+
+TEST(SocketCheck, TakesNoRestAfterTakingOffForAStaticLoad) {
+  DonDoff events;
+  events.don = 10.0;
+  events.doff = 70.0;
+  const SocketCheck result = checkSocket(restingBent(), events, nullptr);
+  EXPECT_LT(result.longest.seconds, 5);
+  EXPECT_LT(check(restingBent()).longest.seconds, 5);  // nor without events
+}
+
+TEST(SocketCheck, FindsTheRestAlthoughTakingOffWasMarkedLate) {
+  DonDoff events;
+  events.doff = 79.5;
+  const SocketCheck result = checkSocket(worn(), events, nullptr);
+  ASSERT_TRUE(result.after);
+  EXPECT_GE(result.after->from, 70.0);
+}
+
 TEST(SocketCheck, CountsReadingsAtFullScale) {
   dataset::Recording recording = worn();
   for (std::size_t i = 0; i < recording.scans(); ++i) {

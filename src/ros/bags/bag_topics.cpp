@@ -1,6 +1,7 @@
 #include "ros/bags/bag_topics.h"
 
 #include <fsr_pressure_map/Event.h>
+#include <fsr_pressure_map/Session.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
@@ -129,6 +130,18 @@ std::string topicsText(const std::vector<TopicCourse>& courses) {
          course.stamped ? fsr::settings::cellText(course.latest, 3) : "-"});
   }
   return out.str();
+}
+
+std::string sessionUse(const std::string& path) {
+  const rosbag::Bag bag(path, rosbag::bagmode::Read);
+  rosbag::View view(bag, [](const rosbag::ConnectionInfo* connection) {
+    return connection->datatype == ros::message_traits::datatype<fsr_pressure_map::Session>();
+  });
+  for (const rosbag::MessageInstance& instance : view) {
+    const auto session = instance.instantiate<fsr_pressure_map::Session>();
+    if (session != nullptr) return session->use;
+  }
+  return "";
 }
 
 std::vector<std::int64_t> eventTimes(const std::string& path, const std::string& kind) {

@@ -27,6 +27,9 @@ std::vector<TopicCourse> topicCourses(const std::string& path);
 /// The topics as a table for the terminal.
 std::string topicsText(const std::vector<TopicCourse>& courses);
 
+/// The use that the first session message of the bag names, e.g. "socket"; empty without one.
+std::string sessionUse(const std::string& path);
+
 /// Stamps of the events of one kind [ns], ascending, from topics whose name ends with `events`.
 std::vector<std::int64_t> eventTimes(const std::string& path, const std::string& kind);
 

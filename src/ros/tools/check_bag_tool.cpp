@@ -75,8 +75,14 @@ int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {
     for (const std::string& remark : remarksOn(courses)) warnings.push_back(remark);
     out << recordings.back().name << '\n' << topicsText(courses) << '\n';
   }
-  const fsr::discrepancy::Admission admission =
-      fsr::discrepancy::inspectRecordings(std::move(recordings), chosen);
+  fsr::discrepancy::Admission admission = fsr::discrepancy::inspectRecordings(std::move(recordings), chosen);
+  for (const std::string& path : line.files()) {
+    if (sessionUse(path) != "socket") continue;
+    admission.problems.insert(
+        admission.problems.begin(),
+        path.substr(path.find_last_of('/') + 1) +
+            " was recorded in a socket, where no chamber tells the pressure; check it with --use socket");
+  }
   out << fsr::report::admissionText(admission) << std::flush;
   return line.has("strict") && !admission.fit() ? kNotFit : 0;
 }

@@ -84,6 +84,24 @@ TEST_F(CheckBagTool, JudgesASocketWithoutReference) {
   EXPECT_TRUE(says("Longest static load"));
 }
 
+TEST_F(CheckBagTool, DoesNotCallASocketBagFitForTraining) {
+  test_support::SyntheticRig rig;
+  rig.surfaces = {{"flat", 0.0}, {"bent", 10.0}};
+  fsr::dataset::Recording recording = test_support::syntheticRecording(rig);
+  recording.start_ns = kStart;
+  const std::string path = (folder_ / "worn.bag").string();
+  BagOptions options;
+  writeBag(path, recording, options);
+  EXPECT_EQ(run({"--strict", path}), 0) << said_;
+  options.session.session_id = "2026-03-01";
+  options.session.use = "socket";
+  fs::remove(path);
+  writeBag(path, recording, options);
+  EXPECT_EQ(run({"--strict", path}), 1);
+  EXPECT_TRUE(says("worn.bag was recorded in a socket")) << said_;
+  EXPECT_TRUE(ends("check it with --use socket.\n")) << said_;
+}
+
 TEST_F(CheckBagTool, TakesDonAndDoffFromTheEvents) {
   const std::string path = record(false);
   {
