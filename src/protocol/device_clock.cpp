@@ -26,7 +26,6 @@ std::uint64_t DeviceClock::observe(std::uint32_t device_time, std::int64_t recei
   if (!started_) {
     start(wide, arrival);
   } else if (jumped(wide, arrival)) {
-    ++jumps_;
     wide = device_time;
     start(wide, arrival);
   }
@@ -72,13 +71,42 @@ double DeviceClock::lateness(std::uint64_t device_time, std::int64_t arrival) co
 }
 
 bool DeviceClock::jumped(std::uint64_t device_time, std::int64_t arrival) {
-  if (static_cast<double>(difference(newest_, device_time)) * 1e-6 > options_.backward_limit) return true;
+  const double back = static_cast<double>(difference(newest_, device_time)) * 1e-6;
+  if (back > options_.backward_limit) {
+    noteJump(back, 0);
+    ++jumps_;
+    return true;
+  }
   const double late = lateness(device_time, arrival);
-  if (late < -options_.early_limit) return true;
-  const bool was_late = std::exchange(late_, late > options_.late_limit);
+  const bool settled = !options_.host_ticks && secondsSinceStart(device_time) > options_.settling;
+  if (late < -(settled ? options_.small_limit : options_.early_limit)) {
+    noteJump(late, 0);
+    ++(late < -options_.early_limit ? jumps_ : small_jumps_);
+    return true;
+  }
+  if (!isLate(late, arrival)) return false;
+  noteJump(late, late_packets_);
+  ++(late > options_.late_limit ? jumps_ : small_jumps_);
+  return true;
+}
+
+// Whether all packets have been late for so long that a clock must have jumped.
+bool DeviceClock::isLate(double late, std::int64_t arrival) {
+  const double limit = options_.host_ticks ? options_.late_limit : options_.small_limit;
+  const bool was_late = std::exchange(late_, late > limit);
   if (!late_) return false;
-  if (!was_late) late_since_ = arrival;
-  return static_cast<double>(arrival - late_since_) / kSecond > options_.late_patience;
+  if (!was_late) {
+    late_since_ = arrival;
+    late_packets_ = 0;
+  }
+  if (static_cast<double>(arrival - late_since_) / kSecond > options_.late_patience) return true;
+  ++late_packets_;
+  return false;
+}
+
+void DeviceClock::noteJump(double seconds, std::uint64_t packets) {
+  last_jump_ = {seconds, packets};
+  doubtful_ += packets;
 }
 
 void DeviceClock::start(std::uint64_t device_time, std::int64_t arrival) {

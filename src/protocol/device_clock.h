@@ -15,9 +15,19 @@ struct DeviceClockOptions {
   double max_drift = 0.02;  ///< largest of a board's oscillator: RC 2 %, ceramic 0.5 %, quartz 0.01 % (ratio)
   double early_limit =
       0.5;  ///< a packet that is earlier than possible by more than this shows that a clock jumped [s]
-  double late_limit = 1.0;    ///< a packet that is later than this is late for another reason than jitter [s]
+  double late_limit = 1.0;  ///< a packet that is later than this is late for another reason than jitter [s]
+  /// Smaller jumps count, too, where host times do not tick: from this on, and for early packets once the
+  /// estimate has settled [s].
+  double small_limit = 0.1;
+  double settling = 5;        ///< after a start, buffers of the link may still be emptied [s]
   double late_patience = 5;   ///< if all packets are that late for this long, a clock jumped [s]
   double backward_limit = 1;  ///< device time may be this much smaller in a packet of another type [s]
+};
+
+/// The last jump of a clock.
+struct ClockJump {
+  double seconds = 0;         ///< by which packets then seemed later; negative = earlier
+  std::uint64_t packets = 0;  ///< packets before it was noticed, whose host times are wrong by as much
 };
 
 /// Converts the board's clock to the host's. It extends the board's 32 bits of microseconds to 64, and
@@ -50,7 +60,11 @@ class DeviceClock {
   /// Call it at a new connection: the next packet restarts the estimate, and no jump is counted.
   void forget();
 
+  /// Resets of the board, and jumps by so much that another board may be at the port.
   std::uint64_t jumps() const { return jumps_; }
+  std::uint64_t smallJumps() const { return small_jumps_; }
+  const ClockJump& lastJump() const { return last_jump_; }
+  std::uint64_t doubtfulPackets() const { return doubtful_; }  ///< sum of ClockJump::packets
   /// How much faster the host's clock runs than the board's (ratio, 1e-6 = 1 ppm).
   double drift() const { return options_.host_ticks ? 0 : envelope_.drift(); }
 
@@ -58,6 +72,8 @@ class DeviceClock {
   double secondsSinceStart(std::uint64_t device_time) const;
   double lateness(std::uint64_t device_time, std::int64_t arrival) const;
   bool jumped(std::uint64_t device_time, std::int64_t arrival);
+  bool isLate(double late, std::int64_t arrival);
+  void noteJump(double seconds, std::uint64_t packets);
   void start(std::uint64_t device_time, std::int64_t arrival);
   void learn(double x, double y);
 
@@ -70,7 +86,11 @@ class DeviceClock {
   std::int64_t start_host_ = 0;     // approximate host time of that origin [ns]
   std::int64_t late_since_ = 0;     // arrival of the first of a run of late packets [ns]
   bool late_ = false;
+  std::uint64_t late_packets_ = 0;  // of that run
   std::uint64_t jumps_ = 0;
+  std::uint64_t small_jumps_ = 0;
+  std::uint64_t doubtful_ = 0;
+  ClockJump last_jump_;
 };
 
 /// Makes the stamps of one topic strictly increasing. Where a better estimate of the clock would make a stamp

@@ -1,14 +1,40 @@
 #include "protocol/packet_stamper.h"
 
+#include <algorithm>
+
 namespace fsr::protocol {
+
+namespace {
+
+constexpr double kLongestFirstScan = 1e6;  // of the first scan, when the period is not known yet [us]
+constexpr double kUnevenness = 1.1;        // a board's timer may be this uneven (ratio)
+constexpr double kSlowestPeriod = 60e6;    // a longer time between scans is a pause or a reset [us]
+
+}  // namespace
 
 void PacketStamper::startLine(std::uint32_t baud) {
   baud_ = baud;
   clock_.forget();
+  scanned_ = false;
+}
+
+std::uint32_t PacketStamper::possibleDuration(const PacketHeader& header, std::uint32_t duration) {
+  double longest = kLongestFirstScan;
+  if (scanned_) {
+    const double elapsed = header.device_time - last_scan_.device_time;  // wraps as the counters do
+    const double scans = header.sequence - last_scan_.sequence;
+    if (elapsed <= kSlowestPeriod && scans >= 1) longest = kUnevenness * elapsed / scans;
+  }
+  scanned_ = true;
+  last_scan_ = header;
+  if (duration <= longest) return last_duration_ = duration;
+  ++impossible_durations_;
+  return last_duration_ <= longest ? last_duration_ : 0;
 }
 
 PacketTime PacketStamper::scan(const PacketHeader& header, std::uint32_t duration) {
-  const std::int64_t known_delay = timeOnTheLine(header.size) + std::int64_t{duration} * 500;
+  const std::int64_t known_delay =
+      timeOnTheLine(header.size) + std::int64_t{possibleDuration(header, duration)} * 500;
   return finish(PacketType::kScan, clock_.observe(header.device_time, receive_time_, known_delay));
 }
 

@@ -25,22 +25,30 @@ class PacketStamper {
   void setArrival(std::int64_t receive_time) { receive_time_ = receive_time; }
 
   /// `duration` of the scan [us]. A board sends a scan after its last taxel at the earliest. So half of the
-  /// duration lies between the middle of the scan and its arrival, in addition to the time on the line.
+  /// duration lies between the middle of the scan and its arrival, in addition to the time on the line. Scans
+  /// do not overlap: a duration longer than the time since the scan before is replaced by the last good one.
   PacketTime scan(const PacketHeader& header, std::uint32_t duration);
   PacketTime transducer(const PacketHeader& header);
   /// Does not update the clock, because a temperature may be sent long after it was measured.
   PacketTime temperature(const PacketHeader& header);
 
   const DeviceClock& clock() const { return clock_; }
+  /// Scans whose duration was longer than the time from scan to scan, and so was not used.
+  std::uint64_t impossibleDurations() const { return impossible_durations_; }
 
  private:
   std::int64_t timeOnTheLine(std::size_t bytes) const;
+  std::uint32_t possibleDuration(const PacketHeader& header, std::uint32_t duration);
   PacketTime finish(PacketType type, std::uint64_t device_time);
 
   DeviceClock clock_;
   std::array<StampSequence, 3> sequences_;  // by PacketType
   std::uint32_t baud_ = 0;
   std::int64_t receive_time_ = 0;
+  bool scanned_ = false;  // a scan has come over this line
+  PacketHeader last_scan_;
+  std::uint32_t last_duration_ = 0;  // [us]
+  std::uint64_t impossible_durations_ = 0;
 };
 
 }  // namespace fsr::protocol

@@ -203,6 +203,21 @@ TEST(DeviceClock, RestartsWhenTheHostsClockIsSetBackOrAhead) {
   }
 }
 
+TEST(DeviceClock, NoticesASmallJumpWithinSecondsAndCountsWhatItMadeWrong) {
+  for (const int step_us : {-300'000, -120'000, 120'000, 300'000}) {  // of the board's clock
+    fsr::protocol::DeviceClock clock;
+    feed(clock, 2000, 0, 0);
+    const auto device = static_cast<std::uint32_t>(20'000'000 + step_us);
+    const std::int64_t last = feed(clock, 1000, device, 20'000'000'000);
+    EXPECT_EQ(last, 29'990'000'000) << step_us;
+    EXPECT_EQ(clock.smallJumps(), 1U) << step_us;
+    EXPECT_EQ(clock.jumps(), 0U) << step_us;
+    EXPECT_NEAR(clock.lastJump().seconds, -1e-6 * step_us, 1e-3);
+    // A clock that jumped ahead is noticed with the first packet, one that jumped back after 5 s.
+    EXPECT_EQ(clock.doubtfulPackets(), step_us > 0 ? 0U : 501U) << step_us;
+  }
+}
+
 TEST(DeviceClock, RestartsAtOnceWhenABoardWasResetSoonAfterItsStart) {
   fsr::protocol::DeviceClock clock;
   feed(clock, 300, 0, 0);

@@ -49,6 +49,22 @@ TEST(PacketStamper, GivesPacketsOfOneReadDifferentStamps) {
   EXPECT_EQ(stamper.transducer(at(20'000, 24)).stamp, 1000 * kMs);
 }
 
+TEST(PacketStamper, IsNotMisledByADurationThatCannotBe) {
+  fsr::protocol::PacketStamper stamper;
+  stamper.startLine(0);
+  const auto scan = [&](std::uint32_t number, std::uint32_t duration) {
+    stamper.setArrival((1000 + 10 * number) * kMs);
+    return stamper.scan({number, number * 10'000, 168}, duration).stamp;
+  };
+  EXPECT_EQ(scan(0, 4'294'000'000U), 1000 * kMs);  // the period is not known yet: no duration is used
+  for (std::uint32_t number = 1; number < 100; ++number) scan(number, 8000);
+  EXPECT_EQ(scan(100, 8000), 1996 * kMs);
+  EXPECT_EQ(scan(101, 4'294'000'000U), 2006 * kMs);  // as the scans before it
+  EXPECT_EQ(scan(102, 8000), 2016 * kMs);
+  EXPECT_EQ(stamper.impossibleDurations(), 2U);
+  EXPECT_EQ(stamper.clock().jumps() + stamper.clock().smallJumps(), 0U);
+}
+
 TEST(PacketStamper, StampsATemperatureWithoutUpdatingTheClock) {
   fsr::protocol::PacketStamper stamper;
   stamper.startLine(0);

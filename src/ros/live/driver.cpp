@@ -1,7 +1,10 @@
 #include "ros/live/driver.h"
 
+#include <fsr_pressure_map/Event.h>
 #include <ros/console.h>
 
+#include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "protocol/serial_port.h"
@@ -76,6 +79,7 @@ Driver::Driver(const ros::NodeHandle& handle, const ros::NodeHandle& private_han
   raw_ = handle_.advertise<fsr_pressure_map::MatrixFrame>("raw", kQueue);
   pressure_ = handle_.advertise<sensor_msgs::FluidPressure>("chamber_pressure", kQueue);
   temperature_ = handle_.advertise<sensor_msgs::Temperature>("temperature", kQueue);
+  events_ = handle_.advertise<fsr_pressure_map::Event>("events", kQueue);
   info_ = handle_.advertise<fsr_pressure_map::MatrixInfo>("matrix_info", 10, true);
   service_ = private_handle_.advertiseService("set_enabled", &Driver::setEnabled, this);
   diagnostics_.add("link", [this](auto& status) { judgeLink(before_, now_, settings_, status); });
@@ -90,7 +94,10 @@ Driver::Driver(const ros::NodeHandle& handle, const ros::NodeHandle& private_han
 
 void Driver::onScan(const fsr::protocol::PacketHeader& header, const fsr::protocol::ScanPacket& scan) {
   const fsr::protocol::PacketTime time = stamper_.scan(header, scan.duration);
-  if (std::exchange(jumps_, stamper_.clock().jumps()) != stamper_.clock().jumps()) doubtBoard();
+  const fsr::protocol::DeviceClock& clock = stamper_.clock();
+  if (std::exchange(jumps_, clock.jumps()) != clock.jumps()) doubtBoard();
+  const std::uint64_t jumps = clock.jumps() + clock.smallJumps();
+  if (std::exchange(all_jumps_, jumps) != jumps) reportJump(clock.lastJump());
   const bool expected = isExpected(scan.size);
   const auto message = scanMessage(header, scan, time, settings_);
   if (expected && !message->header.stamp.isZero()) publishScan(message);
@@ -99,8 +106,10 @@ void Driver::onScan(const fsr::protocol::PacketHeader& header, const fsr::protoc
   health_.board.full_scale = scan.full_scale;
   ++(expected ? health_.scans : health_.refused_scans);
   health_.scan_time = time.device_time;
-  health_.clock_drift = stamper_.clock().drift();
-  health_.clock_jumps = stamper_.clock().jumps();
+  health_.clock_drift = clock.drift();
+  health_.clock_jumps = jumps;
+  health_.doubtful_stamps = clock.doubtfulPackets();
+  health_.impossible_durations = stamper_.impossibleDurations();
 }
 
 // Publishes a scan at once, or holds it until the board has sent its identity. Where too many scans wait
@@ -126,6 +135,20 @@ void Driver::releaseHeld() {
   const std::lock_guard<std::mutex> lock(mutex_);
   health_.published += held_.size();
   held_.clear();
+}
+
+// Into the recording, too: nothing else there shows which stamps are wrong.
+void Driver::reportJump(const fsr::protocol::ClockJump& jump) {
+  std::ostringstream sentence;
+  sentence << "the clock of the board or of the computer jumped: packets came " << std::abs(jump.seconds)
+           << " s " << (jump.seconds > 0 ? "later" : "earlier") << " than before; the stamps of "
+           << jump.packets << " packets before this are wrong by as much";
+  ROS_WARN_STREAM(private_handle_.getNamespace() << ": " << sentence.str());
+  fsr_pressure_map::Event event;
+  event.header.stamp = ros::Time::now();
+  event.kind = "note";
+  event.label = sentence.str();
+  events_.publish(event);
 }
 
 void Driver::doubtBoard() {

@@ -46,6 +46,7 @@ class Driver : private fsr::protocol::LinkHandler {
   bool isExpected(fsr::matrix::MatrixSize size) const;
   void publishScan(const fsr_pressure_map::MatrixFramePtr& message);
   void releaseHeld();
+  void reportJump(const fsr::protocol::ClockJump& jump);
   void doubtBoard();
   void note(const Board& board);
   void publishInfo();
@@ -61,11 +62,13 @@ class Driver : private fsr::protocol::LinkHandler {
   ros::Publisher raw_;
   ros::Publisher pressure_;
   ros::Publisher temperature_;
+  ros::Publisher events_;
   ros::Publisher info_;
   // Used by the thread of the link only:
   fsr::protocol::PacketStamper stamper_;
   fsr::protocol::BoardGate gate_;
   std::vector<fsr_pressure_map::MatrixFramePtr> held_;  // scans of a board that has not sent its identity
+  std::uint64_t all_jumps_ = 0;                         // small ones included
   std::uint64_t jumps_ = 0;                             // jumps of the board's clock so far
   bool fault_logged_ = false;                           // an exception of this handler was logged
   std::int64_t arrival_ = 0;                            // time of arrival of the current bytes [ns]

@@ -139,6 +139,8 @@ void judgeLink(const DriverHealth& before, const DriverHealth& now, const Driver
   status.add("captured bytes", link.captured_bytes);
   status.add("clock drift [ppm]", now.clock_drift * 1e6);
   status.add("clock jumps", now.clock_jumps);
+  status.add("packets stamped wrongly before a clock jump was noticed", now.doubtful_stamps);
+  status.add("scans with an impossible duration", now.impossible_durations);
 }
 
 void judgeScans(const DriverHealth& before, const DriverHealth& now, const DriverSettings& settings,
