@@ -8,6 +8,7 @@ namespace fsr::dataset {
 namespace {
 
 constexpr std::size_t kLeastReadings = 20;
+constexpr double kFollows = 0.5;    // correlation of reading and pressure
 constexpr double kComesBack = 0.5;  // of the jump: the pressure may differ from that before by a ramp
 constexpr double kRare = 0.02;      // share of readings beyond each end of the usual range
 
@@ -19,6 +20,23 @@ double usualRange(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const auto rare = static_cast<std::size_t>(kRare * static_cast<double>(values.size()));
   return values[values.size() - 1 - rare] - values[rare];
+}
+
+// Whether the reading goes with the pressure at all. Pressures beyond the middle of their range count as at
+// its ends: spikes have little weight.
+bool followsPressure(const std::vector<double>& pressure, const std::vector<double>& reading) {
+  std::vector<double> sorted = pressure;
+  std::sort(sorted.begin(), sorted.end());
+  const auto rare = static_cast<std::size_t>(kRare * static_cast<double>(sorted.size()));
+  const double low = sorted[rare], high = sorted[sorted.size() - 1 - rare];
+  double n = 0, p = 0, r = 0, pp = 0, rr = 0, pr = 0;
+  for (std::size_t i = 0; i < pressure.size(); ++i) {
+    if (std::isnan(reading[i])) continue;
+    const double x = std::clamp(pressure[i], low, high) - low, y = reading[i];
+    n += 1, p += x, r += y, pp += x * x, rr += y * y, pr += x * y;
+  }
+  const double both = (pp - p * p / n) * (rr - r * r / n);
+  return both > 0 && (pr - p * r / n) / std::sqrt(both) >= kFollows;
 }
 
 // For each value but the first: +1 or -1 where the pressure jumps up or down and the reading stays, else 0.
@@ -42,7 +60,7 @@ std::vector<std::size_t> referenceSpikes(const std::vector<double>& time, const 
                                          const std::vector<double>& reading,
                                          const ReferenceSpikeOptions& options) {
   std::vector<std::size_t> spikes;
-  if (pressure.size() < kLeastReadings) return spikes;
+  if (pressure.size() < kLeastReadings || !followsPressure(pressure, reading)) return spikes;
   const std::vector<int> jumps = unfeltJumps(pressure, reading, options);
   for (std::size_t first = 1; first < pressure.size(); ++first) {
     if (jumps[first] == 0) continue;

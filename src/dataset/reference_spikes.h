@@ -11,7 +11,8 @@ struct ReferenceSpikeOptions {
   double follows =
       0.25;  ///< the sheet follows if its reading moves this share of what the pressure does (ratio)
   double longest = 10;  ///< of a spell [s]
-  double most = 0.05;  ///< share of readings; with more, the reference has no spikes but is not of this sheet
+  double most =
+      0.006;  ///< share of readings; with more, the reference has no spikes but is not of this sheet
 };
 
 /// Chamber pressures that the sheet did not feel: the pressure jumps away and back to where it was within a

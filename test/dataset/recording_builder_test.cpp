@@ -188,7 +188,7 @@ TEST(RecordingBuilder, IgnoresAChamberPressureThatIsNotFinite) {
 // Cycles of 20 s up to 100 kPa; reference and scans at 10 Hz. The sheet reads one count for 100 Pa.
 std::vector<Event> cycles(const std::function<double(int)>& wrong, const std::function<double(int)>& felt) {
   std::vector<Event> events = {description(100e3), surface(ms(0), "flat", 0)};
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 3000; ++i) {
     const double load = 1e3 * std::min(i % 200, 200 - i % 200) + felt(i);
     events.push_back(
         scan(ms(100 * i), static_cast<std::uint32_t>(i), static_cast<std::uint16_t>(load / 100)));
