@@ -151,7 +151,7 @@ class LaunchFilesTest(unittest.TestCase):
         refusal = self.refused("record", "bag:=monday", "surface:=flat")
         self.assertIn("the node /fsr/curvature runs", refusal)
         self.assertIn("or leave out surface:=", refusal)
-        record = self.start("record", "bag:=monday")
+        record = self.start("record", "bag:=monday", "extra_topics:=/fsr/nobody")
         self.assertIn("marked note", self.press("/fsr/session/mark", "note", "first"))
         written = self.folder / "monday.bag.active"
         self.wait_for(lambda: written.exists() and written.stat().st_size > 20_000, record)
@@ -159,7 +159,7 @@ class LaunchFilesTest(unittest.TestCase):
         with rosbag.Bag(str(self.folder / "monday.bag")) as bag:
             scans = bag.get_message_count("/fsr/raw")
         self.assertIn(f"recorded {scans} scans in ", said)
-        self.assertIn(f"in {self.folder}/monday.bag", said)
+        self.assertIn(f"in {self.folder}/monday.bag; nothing came on /fsr/nobody\n", said)
         self.assertIn("while the node /fsr/driver runs", self.refused("replay", "bag:=monday.bag"))
         rig.end()
         self.replayed()

@@ -79,7 +79,7 @@ Recorder::Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private
   diagnostics_.add("recording", [this](auto& status) { judge(status); });
   for (std::string topic; topics >> topic;) subscribe(topic);
   if (subscribers_.empty()) throw parameters.error("topics", "must name at least one topic");
-  last_scan_ = now();
+  start_ = last_scan_ = now();
   timer_ = handle_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
     watchScans();
     diagnostics_.force_update();
@@ -102,6 +102,7 @@ void Recorder::subscribe(const std::string& topic) {
       ++without_time_;
       return;
     }
+    ++received_[name];
     if (name == scans_topic_ && isScan(*event.getConstMessage())) {
       tally_.add(*event.getConstMessage()->instantiate<fsr_pressure_map::MatrixFrame>());
       last_scan_ = fsr_ros::now();
@@ -110,6 +111,7 @@ void Recorder::subscribe(const std::string& topic) {
       bag.write(name, time, *event.getConstMessage(), event.getConnectionHeaderPtr());
     });
   };
+  received_[name] = 0;
   ros::SubscribeOptions options;
   options.initByFullCallbackType<const Event&>(name, kQueue, keep);
   options.transport_hints = ros::TransportHints().tcpNoDelay();
@@ -127,8 +129,19 @@ Recorder::~Recorder() {
     // Not to the log, which ROS has closed by now.
     std::cout << "recorded " << (scans_topic_.empty() ? "" : tally_.text() + ", ") << report.messages
               << " messages (" << report.lost << " lost on the way to the disk) in " << report.file
-              << std::endl;
+              << (missingTopics().empty() ? "" : "; nothing came on" + missingTopics()) << std::endl;
   }
+}
+
+// Topics on which nothing has come, but should: " /fsr/curvature". Events come when they are marked, and not
+// every board measures the temperature.
+std::string Recorder::missingTopics() const {
+  std::string missing;
+  for (const auto& [topic, messages] : received_) {
+    const std::string last = topic.substr(topic.rfind('/') + 1);
+    if (messages == 0 && last != "events" && last != "temperature") missing += " " + topic;
+  }
+  return missing;
 }
 
 std::string Recorder::whyNoScan() const {
@@ -153,6 +166,9 @@ void Recorder::watchScans() {
   if (tally_.scans() == 0) {
     if (silence > wait_) refuse();
     return;
+  }
+  if (now() - start_ > wait_ && !std::exchange(looked_, true) && !missingTopics().empty()) {
+    ROS_WARN_STREAM("the recording goes on, but nothing has come yet on" << missingTopics());
   }
   if (std::exchange(silent_, silence > kPatience) && !silent_) ROS_INFO("scans come again");
   if (silent_) ROS_ERROR_STREAM_THROTTLE(kComplaintPeriod, whyNoScan());

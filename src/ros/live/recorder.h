@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 
 #include <atomic>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -46,6 +47,7 @@ class Recorder {
   void watchScans();
   void refuse();
   std::string whyNoScan() const;
+  std::string missingTopics() const;
 
   ros::NodeHandle handle_;
   std::atomic<bool> failed_{false};
@@ -54,6 +56,9 @@ class Recorder {
   std::string scans_topic_;  // empty = no scans are expected
   double wait_ = 0;          // [s]
   ScanTally tally_;
+  std::map<std::string, std::uint64_t> received_;  // messages of each topic
+  double start_ = 0;                               // (monotonic clock [s])
+  bool looked_ = false;                            // at the topics on which nothing has come
   double last_scan_ = 0;  // when the last scan came, or the recording began (monotonic clock [s])
   bool silent_ = false;   // no scan has come for a while
   bool refused_ = false;

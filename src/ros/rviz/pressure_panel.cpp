@@ -87,7 +87,8 @@ void PressurePanel::addButtons(QVBoxLayout* column) {
   };
   button("Tare", SLOT(tare()), actions);
   button("Reload calibration", SLOT(reload()), actions);
-  button("Mask selected", SLOT(maskSelected()), actions);
+  auto* taxels = new QHBoxLayout;  // a row of its own keeps the panel narrow
+  button("Mask selected", SLOT(maskSelected()), taxels);
   event_kind_ = new QComboBox;
   event_kind_->addItems({"note", "cycle_start", "conditioning", "don", "doff", "step", "sync", "reject"});
   event_label_ = new QLineEdit;
@@ -107,6 +108,7 @@ void PressurePanel::addButtons(QVBoxLayout* column) {
   alarms->addWidget(alarm_threshold_);
   button("Set alarm", SLOT(setAlarm()), alarms);
   column->addLayout(actions);
+  column->addLayout(taxels);
   column->addLayout(events);
   column->addLayout(alarms);
 }
