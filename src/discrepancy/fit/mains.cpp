@@ -223,7 +223,8 @@ Mains findMains(const Measured& measured, const StaticFit& fit, const TaxelFit& 
     }
     before = z;
   }
-  mains.beat = steps > 0 ? std::arg(turned) / (2 * M_PI) / (seconds / steps) : 0;
+  mains.rate = seconds > 0 ? steps / seconds : 0;
+  mains.beat = std::arg(turned) / (2 * M_PI) * mains.rate;
   return mains;
 }
 
@@ -241,7 +242,9 @@ simulation::EnabledEffect asEffect(const Mains& mains, double full_scale) {
     effect.values[parameter.name] = parameter.usual;
   }
   effect.values["amplitude"] = mains.amplitude * full_scale;
-  effect.values["frequency"] = kMainsFrequency + mains.beat;
+  // All frequencies that differ by the sample rate look the same; the hum is the one nearest to the mains.
+  const double turns = mains.rate > 0 ? std::round((kMainsFrequency - mains.beat) / mains.rate) : 0;
+  effect.values["frequency"] = mains.rate > 0 ? mains.beat + turns * mains.rate : kMainsFrequency;
   effect.values["taxel_time"] = std::abs(mains.turn) / (2 * M_PI * kMainsFrequency);
   return effect;
 }

@@ -16,6 +16,7 @@ struct Mains {
   double amplitude = 0;  ///< [share of full scale]
   double turn = 0;       ///< phase from one taxel of the scan to the next [rad]
   double beat = 0;       ///< its apparent frequency after sampling [Hz]
+  double rate = 0;       ///< of the samples [Hz]
   Trace cosine, sine;    ///< its time course, to subtract it from the common traces
 };
 
