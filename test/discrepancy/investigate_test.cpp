@@ -50,6 +50,11 @@ TEST(Investigate, IsSilentWhereNothingIsHidden) {
     EXPECT_EQ(report.verdict, Verdict::kNone) << report.sentence;
     EXPECT_TRUE(report.effects.empty());
     EXPECT_EQ(report.gap.before, report.gap.after);
+    const auto& seen = report.smallest_seen;
+    const auto loop =
+        std::find_if(seen.begin(), seen.end(), [](const auto& s) { return s.id == "hysteresis"; });
+    ASSERT_NE(loop, seen.end());
+    EXPECT_GT(loop->at_map, 0) << "a loop narrower than any in a data sheet would be seen as well";
   }
 }
 

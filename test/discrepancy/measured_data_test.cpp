@@ -20,10 +20,12 @@ DiscrepancyProblem problemOf(const std::vector<std::string>& tables, const std::
   plan.columns = dataset::parseColumns(columns);
   plan.curvature = 0;
   DiscrepancyProblem problem;
+  std::int64_t start_ns = plan.start_ns.value_or(0);
   for (const std::string& table : tables) {
+    plan.start_ns = start_ns;
     problem.recordings.push_back(
         dataset::readTable(test_support::sourceDir() + "/test/data/measured/" + table, plan).recording);
-    plan.start_ns += kHour;
+    start_ns += kHour;
   }
   problem.simulation = simulation::fitted(
       simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/core.yaml"),

@@ -225,7 +225,7 @@ void Verdicts::listCovariates() {
 }
 
 // Of each effect: the size from which it would have been found. It is the median over the forms, and not
-// known where no form of it needs a plausible strength to be found.
+// known where every form of it needs more than a plausible strength to be found.
 void Verdicts::listSmallestSeen() {
   for (const Weighed& one : appraisal_.all) {
     if (one.explaining.ids.size() != 1) continue;
@@ -239,7 +239,7 @@ void Verdicts::listSmallestSeen() {
         const double strength = std::abs(*least * signature.scale);
         const settings::Range& range =
             simulation::parameter(measured_.info(signature.id), signature.strength).plausible;
-        plausible = plausible || range.contains(strength) || range.contains(-strength);
+        plausible = plausible || strength <= std::max(std::abs(range.low), std::abs(range.high));
         sizes.push_back(std::max(search_.atMap(*least * search_.column(column)), decision_.least_gap));
       }
     }
