@@ -116,6 +116,7 @@ TEST_F(CalibratorTest, FlagsACurvatureOutsideTheRangeOfTraining) {
 TEST(Calibrator, FlagsAReadingAboveThePeakOfEitherNeighbour) {
   compensation::CurvatureTables tables = smallTables(kSize, {0.0, 10.0});
   tables.rule.blend = compensation::BlendRule::kInterpolate;
+  tables.rule.unseen = {{0}, {0}};
   for (std::size_t taxel = 0; taxel < kSize.taxels(); ++taxel) {
     regression::CodeTable& flat = tables.tables[2 * taxel];
     flat.highest = 400;
@@ -128,12 +129,12 @@ TEST(Calibrator, FlagsAReadingAboveThePeakOfEitherNeighbour) {
     calibrator.setSurface(bent(curvature), 0);
     calibrator.calibrate({kSize, kFullScale, counts.data(), counts.size()}, 0, map);
   };
-  at(300, 5);
+  at(300, 6);  // nearer to the bent surface
   EXPECT_EQ(map.flags[0], flag::kBetweenClasses);
-  at(800, 5);
+  at(800, 6);
   EXPECT_EQ(map.flags[0], flag::kBetweenClasses | flag::kReadingExtrapolated);
   EXPECT_TRUE(map::isLowerLimit(map.flags[0]));
-  const double error = knownPressure(0, 0, 800) + 5.0 - double(map.pressure[0]);
+  const double error = knownPressure(0, 0, 800) + 6.0 - double(map.pressure[0]);
   EXPECT_GT(error, 15e3);
   EXPECT_GT(double(map.deviation[0]), 0.9 * error);
   at(800, 10);

@@ -19,13 +19,12 @@ DiscrepancyProblem problemOf(const std::vector<std::string>& tables, const std::
                              dataset::TablePlan plan) {
   plan.columns = dataset::parseColumns(columns);
   plan.curvature = 0;
+  plan.start_ns = 946684800'000'000'000;  // 2000-01-01
   DiscrepancyProblem problem;
-  std::int64_t start_ns = plan.start_ns.value_or(0);
   for (const std::string& table : tables) {
-    plan.start_ns = start_ns;
     problem.recordings.push_back(
         dataset::readTable(test_support::sourceDir() + "/test/data/measured/" + table, plan).recording);
-    start_ns += kHour;
+    plan.start_ns = *plan.start_ns + kHour;
   }
   problem.simulation = simulation::fitted(
       simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/core.yaml"),

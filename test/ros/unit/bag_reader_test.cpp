@@ -79,7 +79,7 @@ TEST_F(BagReader, GivesBackTheRecordingThatWasWritten) {
   EXPECT_EQ(read.layout.pitch_x, 0.015625);
   EXPECT_EQ(read.mask, written.mask);
   EXPECT_EQ(read.start_ns, written.start_ns);
-  EXPECT_TRUE(read.warnings.empty());
+  EXPECT_EQ(read.warnings, std::vector<std::string>{"dropped 21 scans within 1 s of a change of surface"});
   ASSERT_EQ(read.conditions.size(), 2u);
   EXPECT_EQ(read.conditions[1].name, "cylinder_7cm");
   EXPECT_EQ(read.conditions[1].curvature.at(0).x, 14.25);
