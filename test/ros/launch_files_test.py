@@ -28,14 +28,13 @@ class Terminal:
     """One terminal: roslaunch with a shipped launch file, called in `folder`."""
 
     def __init__(self, folder, name, *arguments):
-        self.output = tempfile.TemporaryFile("w+")
+        self.output = tempfile.NamedTemporaryFile("a")
         environment = {**os.environ, "PWD": str(folder), "ROS_HOME": str(folder / "ros_home")}
         self.launch = subprocess.Popen(["roslaunch", "fsr_pressure_map", f"{name}.launch", *arguments], cwd=folder,
                                        env=environment, stdout=self.output, stderr=subprocess.STDOUT)
 
     def said(self):
-        self.output.seek(0)
-        return self.output.read()
+        return pathlib.Path(self.output.name).read_text()  # not by the descriptor, which has the place where roslaunch writes
 
     def end(self):
         """Ctrl-C; what the terminal then shows."""
@@ -83,7 +82,8 @@ class LaunchFilesTest(unittest.TestCase):
     def wait_for(self, condition, terminal=None):
         give_up = time.monotonic() + PATIENCE
         while not condition():
-            self.assertLess(time.monotonic(), give_up, terminal.said() if terminal else "")
+            if time.monotonic() > give_up:
+                self.fail(terminal.said() if terminal else "did not happen")
             time.sleep(0.02)
 
     def train(self):
