@@ -3,7 +3,7 @@
 #include <csignal>
 
 #include "ros/live/parameters.h"
-#include "ros/live/recorder.h"
+#include "ros/recording/recorder.h"
 
 namespace {
 

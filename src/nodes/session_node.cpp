@@ -1,7 +1,7 @@
 #include <ros/ros.h>
 
 #include "ros/live/parameters.h"
-#include "ros/live/session_server.h"
+#include "ros/recording/session_server.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "session");

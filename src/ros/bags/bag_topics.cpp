@@ -133,15 +133,15 @@ std::string topicsText(const std::vector<TopicCourse>& courses) {
 }
 
 std::string sessionUse(const std::string& path) {
-  const rosbag::Bag bag(path, rosbag::bagmode::Read);
-  rosbag::View view(bag, [](const rosbag::ConnectionInfo* connection) {
-    return connection->datatype == ros::message_traits::datatype<fsr_pressure_map::Session>();
+  std::string use;
+  withSoundBag(path, [&](const rosbag::Bag& bag) {
+    rosbag::View view(bag, [](const rosbag::ConnectionInfo* connection) {
+      return connection->datatype == ros::message_traits::datatype<fsr_pressure_map::Session>() &&
+             connection->md5sum == ros::message_traits::md5sum<fsr_pressure_map::Session>();
+    });
+    if (view.size() > 0) use = MessageReader().read<fsr_pressure_map::Session>(*view.begin()).use;
   });
-  for (const rosbag::MessageInstance& instance : view) {
-    const auto session = instance.instantiate<fsr_pressure_map::Session>();
-    if (session != nullptr) return session->use;
-  }
-  return "";
+  return use;
 }
 
 std::vector<std::int64_t> eventTimes(const std::string& path, const std::string& kind) {

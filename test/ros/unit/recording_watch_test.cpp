@@ -1,4 +1,4 @@
-#include "ros/live/recording_watch.h"
+#include "ros/recording/recording_watch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "ros/live/recorder.h"
+#include "ros/recording/recorder.h"
 
 #include <ros/console.h>
 #include <topic_tools/shape_shifter.h>
@@ -10,7 +10,7 @@
 
 #include "ros/bags/resource_path.h"
 #include "ros/bags/surface_folder.h"
-#include "ros/live/session_server.h"
+#include "ros/recording/session_server.h"
 #include "settings/number_text.h"
 
 namespace fsr_ros {

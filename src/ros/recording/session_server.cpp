@@ -1,4 +1,4 @@
-#include "ros/live/session_server.h"
+#include "ros/recording/session_server.h"
 
 #include <fsr_pressure_map/Event.h>
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "ros/live/parameters.h"
-#include "ros/live/recording_watch.h"
+#include "ros/recording/recording_watch.h"
 
 namespace fsr_ros {
 
