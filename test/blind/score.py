@@ -198,9 +198,9 @@ def parameter_intervals(key, verdict):
             found = told.get((effect["id"], true.get("library_parameter")))
             if not found or not found.get("interval") or (found.get("unit") or "") != (true.get("unit") or ""):
                 continue
-            low, high = found["interval"]
+            low, high = found["interval"]  # null = without end
             held.append({"id": effect["id"], "parameter": found["name"], "true": true["value"], "low": low, "high": high,
-                         "held": low <= true["value"] <= high})
+                         "held": (low is None or low <= true["value"]) and (high is None or true["value"] <= high)})
     return held
 
 

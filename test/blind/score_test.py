@@ -155,6 +155,9 @@ class Parameters(unittest.TestCase):
                 {"name": "time", "value": 3, "unit": "ms", "interval": [2, 4]}]
         row = score.score_case(k, {"verdict": "named", "effects": [{"id": "creep", "parameters": told}], "credible_set": [["creep"]]})
         self.assertEqual([(i["parameter"], i["held"]) for i in row["intervals"]], [("per_decade", False)])
+        told[0]["interval"] = [0.03, None]
+        row = score.score_case(k, {"verdict": "named", "effects": [{"id": "creep", "parameters": told}], "credible_set": [["creep"]]})
+        self.assertEqual([(i["parameter"], i["held"]) for i in row["intervals"]], [("per_decade", True)], "no upper end")
 
 
 class Rates(unittest.TestCase):

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "discrepancy/planted.h"
@@ -65,6 +66,23 @@ TEST(DrivenGap, OfAnEffectThatActsInSomePlacesOnly) {
     expectRecomputable(problem, report);
     EXPECT_LT(report.gap.after, 0.7 * report.gap.before) << where;
   }
+}
+
+// The widest loop that its formula permits, on one taxel. What was fitted to the mean taxel, times the number
+// of taxels, is a little wider than that.
+TEST(DrivenGap, OfALoopAsWideAsItsFormulaPermits) {
+  const DiscrepancyProblem problem = planted::problem(
+      planted::kTwoSpeeds, "  hysteresis: {loop_width: 0.1505, reach: 80000, only_taxels: [4]}\n");
+  const DiscrepancyReport report = investigate(problem);
+  ASSERT_EQ(report.effects.at(0).id, "hysteresis") << report.sentence;
+  expectRecomputable(problem, report);
+  EXPECT_LT(report.gap.after, 0.7 * report.gap.before);
+  const auto& said = report.limitations;
+  EXPECT_EQ(std::count_if(said.begin(), said.end(),
+                          [](const std::string& text) {
+                            return text.find("than its formula permits") != std::string::npos;
+                          }),
+            1);
 }
 
 // Nothing is hidden. The gap is the noise, the floor as well, and no share of it is closed.

@@ -5,8 +5,10 @@
 
 #include "discrepancy/decide/changes.h"
 #include "discrepancy/decide/refine.h"
+#include "discrepancy/fit/signatures.h"
 #include "discrepancy/prove/gap.h"
 #include "discrepancy/samples/held_out.h"
+#include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
@@ -15,6 +17,7 @@ namespace {
 
 // Share of what is closed on all hold-out cycles. A part with less is reported as a limitation.
 constexpr double kHoldsElsewhere = 0.5;
+constexpr int kHalvings = 12;  // of the largest size that an effect's formula permits
 
 double squareOf(const Trace& trace) {
   return trace.squaredNorm() / static_cast<double>(trace.size());
@@ -28,6 +31,8 @@ class GapReporter {
 
  private:
   void confine(double amplitude);
+  simulation::SimulationSettings confined(double amplitude) const;
+  bool isPermitted(const simulation::SimulationSettings& settings) const;
   double explainedShare() const;
   std::vector<Part> surfacesWhereItShows() const;
   Trace leftWithout(const Part& part) const;
@@ -39,21 +44,50 @@ class GapReporter {
   Gap of_traces_;
 };
 
-// Confines the effects found to the taxels and surfaces where they show. If these are not all taxels, the
-// strengths are multiplied by `amplitude`, because the common trace is a mean over all taxels.
-void GapReporter::confine(double amplitude) {
+// The simulation with the effects found, confined to the taxels and surfaces where they show. If these are
+// not all taxels, the strengths are multiplied by `amplitude`, because the common trace is a mean over all
+// taxels.
+simulation::SimulationSettings GapReporter::confined(double amplitude) const {
+  simulation::SimulationSettings settings = report_.added;
   for (const simulation::EnabledEffect& found : found_.decision.refined.effects) {
-    simulation::EnabledEffect effect = *report_.added.effect(found.id);
+    simulation::EnabledEffect effect = *settings.effect(found.id);
     effect.only_taxels = report_.where.taxels;
     effect.only_surfaces = report_.where.conditions;
     for (const simulation::EffectParameter& strength :
          simulation::strengths(found_.measured.info(found.id))) {
       double& value = effect.values.at(strength.name);
-      if (!effect.only_taxels.empty() && amplitude > 1)
+      if (!effect.only_taxels.empty())
         value = std::clamp(amplitude * value, strength.permitted.low, strength.permitted.high);
     }
-    report_.added = withEffect(report_.added, effect);
+    settings = withEffect(settings, effect);
   }
+  return settings;
+}
+
+bool GapReporter::isPermitted(const simulation::SimulationSettings& settings) const {
+  try {
+    driven(found_.measured, settings, true);
+    return true;
+  } catch (const settings::InputError&) {
+    return false;
+  }
+}
+
+// On a few taxels an effect may have to be larger than its other parameters permit. It then gets the largest
+// size that they do.
+void GapReporter::confine(double amplitude) {
+  double least = 1, most = std::max(1.0, amplitude);
+  simulation::SimulationSettings added = confined(most);
+  if (!isPermitted(added)) {
+    for (int halved = 0; halved < kHalvings; ++halved) {
+      const double between = (least + most) / 2;
+      (isPermitted(confined(between)) ? least : most) = between;
+    }
+    added = confined(least);
+    report_.limitations.push_back(
+        "On the taxels where the effect shows it would have to be larger than its formula permits.");
+  }
+  report_.added = added;
 }
 
 // Share of the common trace's squared error that the findings explain.
