@@ -34,6 +34,13 @@ class LaunchCheck(unittest.TestCase):
         for launch in (PACKAGE / "launch").glob("*.launch"):
             self.assertTrue(arguments(launch.stem), launch)
 
+    def test_every_launch_file_is_checked(self):
+        checked = {launch.stem for launch in (PACKAGE / "launch").glob("*.launch") if "scripts/launch_check" in launch.read_text()}
+        for launch in (PACKAGE / "launch").glob("*.launch"):
+            included = {pathlib.PurePath(include.get("file")).stem for include in launch_check.ElementTree.parse(launch).getroot().iter("include")
+                        if include.get("if") is None}
+            self.assertTrue({launch.stem, *included} & checked, launch)
+
     def test_an_unknown_argument_is_refused_by_name(self):
         call = launch_check.Call(["-p", "11411", "fsr_pressure_map", "driver.launch", "__log:=x", "sealling:=pdms"])
         self.assertEqual(call.master(), "http://localhost:11411")

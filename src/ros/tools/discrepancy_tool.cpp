@@ -241,7 +241,11 @@ int discrepancyTool(int argc, const char* const* argv, std::ostream& out) {
     out << line.help();
     return 0;
   }
-  return line.has("confirm") ? confirmVerdict(line, out) : find(line, out);
+  const int status = line.has("confirm") ? confirmVerdict(line, out) : find(line, out);
+  const bool launched = words.size() < static_cast<std::size_t>(argc);
+  if (launched)
+    out << "All is done. roslaunch now ends and calls this the death of a required process." << std::endl;
+  return status;
 }
 
 }  // namespace fsr_ros

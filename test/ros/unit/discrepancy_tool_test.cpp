@@ -84,7 +84,8 @@ TEST_F(DiscrepancyTool, TakesAFolderAndCountsEveryUse) {
   bag("session/2_bend.bag", recording("bend", 14.25));
   const std::vector<std::string> words = {path("session"), "--simulation", simulation(),         "--output",
                                           path("out"),     "--no-report",  "__name:=discrepancy"};
-  expectSaid(run(words), {"Gap, rms", "Written: " + path("out/verdict.yaml")});
+  expectSaid(run(words),
+             {"Gap, rms", "Written: " + path("out/verdict.yaml"), "All is done. roslaunch now ends"});
   const fsr::report::VerdictFile first = fsr::report::readVerdict(path("out/verdict.yaml"));
   ASSERT_EQ(first.inputs.size(), 2u);
   EXPECT_EQ(first.inputs[0].file, "1_flat.bag");
