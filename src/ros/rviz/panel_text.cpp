@@ -1,6 +1,7 @@
 #include "ros/rviz/panel_text.h"
 
 #include <QStringList>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -68,6 +69,12 @@ QString peakText(const PressureStatistics& whole, const fsr_pressure_map::Pressu
     peak += " \u00b1 " + text(fsr::view::pressureText(double(map->deviation[taxel]), unit));
   }
   return peak + QString(", row %1, column %2").arg(whole.peak_row).arg(whole.peak_column);
+}
+
+bool isTared(const fsr_pressure_map::PressureMap& map) {
+  return std::any_of(map.flags.begin(), map.flags.end(), [](std::uint16_t flags) {
+    return (flags & fsr_pressure_map::PressureMap::FLAG_TARED) != 0;
+  });
 }
 
 AlarmLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& statistics,

@@ -31,6 +31,7 @@ namespace {
 using fsr_pressure_map::PressureStatistics;
 
 constexpr double kSilence = 3.0;         // age after which a number is no longer shown [s]
+constexpr double kReplyShown = 60.0;     // age after which the answer of a service is no longer shown [s]
 constexpr int kRefresh = 200;            // [ms]
 constexpr double kStandardAir = 101325;  // ambient pressure without matrix_info [Pa]
 constexpr std::uint32_t kQueueSize = 10;
@@ -201,7 +202,7 @@ void PressurePanel::listen() {
     reply_->clear();
   } catch (const ros::Exception& error) {
     subscribers_.clear();
-    reply_->setText(text(error.what()));
+    say(text(error.what()));
   }
   Q_EMIT configChanged();
 }
@@ -220,6 +221,8 @@ void PressurePanel::keepComplaints(const diagnostic_msgs::DiagnosticArray& diagn
 }
 
 void PressurePanel::refresh() {
+  if ((ros::WallTime::now() - replied_).toSec() > kReplyShown && buttons_.front()->isEnabled())
+    reply_->clear();
   const fsr::view::PressureUnit unit = fsr::view::pressureUnitOf(unit_->currentText().toStdString());
   const double air = last_matrix_.message ? last_matrix_.message->ambient_pressure : kStandardAir;
   chamber_->setText(last_chamber_.fresh()
@@ -235,7 +238,8 @@ void PressurePanel::refresh() {
                             : QString("-"));
   const auto& calibration = last_calibration_.message;
   calibration_->setText(calibration && !calibration->id.empty()
-                            ? text(calibration->scheme) + ", " + text(calibration->id.substr(0, 12))
+                            ? text(calibration->scheme) + ", " + text(calibration->id.substr(0, 12)) +
+                                  (last_map_.fresh() && isTared(*last_map_.message) ? ", tared" : "")
                             : QString("none"));
   calibration_->setToolTip(calibration ? QString::fromStdString(calibration->id) : QString());
   showStatistics();
@@ -301,8 +305,8 @@ void PressurePanel::setAlarm() {
   bool number = false;
   const double threshold = alarm_threshold_->text().trimmed().toDouble(&number);
   if (!number) {
-    reply_->setText("\"" + alarm_threshold_->text() + "\" is no threshold; give a number in " +
-                    unit_->currentText() + ", 0 = no alarm");
+    say("\"" + alarm_threshold_->text() + "\" is no threshold; give a number in " + unit_->currentText() +
+        ", 0 = no alarm");
     return;
   }
   fsr_pressure_map::SetAlarm alarm;
@@ -343,8 +347,7 @@ std::vector<std::size_t> PressurePanel::selectedTaxels() const {
 void PressurePanel::maskSelected() {
   const std::vector<std::size_t> taxels = selectedTaxels();
   if (taxels.empty() || !last_map_.fresh()) {
-    reply_->setText(taxels.empty() ? "Select taxels of the map with the tool Select first."
-                                   : "No map has come.");
+    say(taxels.empty() ? "Select taxels of the map with the tool Select first." : "No map has come.");
     return;
   }
   fsr_pressure_map::SetMask mask;
@@ -362,7 +365,7 @@ void PressurePanel::markEvent() {
 void PressurePanel::call(const std::string& what, const std::function<std::string()>& service) {
   if (caller_.joinable()) caller_.join();  // the last call has ended, or the buttons would be disabled
   for (QPushButton* button : buttons_) button->setEnabled(false);
-  reply_->setText(text(what) + " ...");
+  say(text(what) + " ...");
   caller_ = std::thread([this, service] {
     const QString reply = QString::fromStdString(service());
     QMetaObject::invokeMethod(this, "showReply", Qt::QueuedConnection, Q_ARG(QString, reply));
@@ -371,7 +374,12 @@ void PressurePanel::call(const std::string& what, const std::function<std::strin
 
 void PressurePanel::showReply(const QString& reply) {
   for (QPushButton* button : buttons_) button->setEnabled(true);
+  say(reply);
+}
+
+void PressurePanel::say(const QString& reply) {
   reply_->setText(reply);
+  replied_ = ros::WallTime::now();
 }
 
 }  // namespace fsr_rviz

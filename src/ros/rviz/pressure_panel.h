@@ -30,9 +30,9 @@ class QVBoxLayout;
 namespace fsr_rviz {
 
 /// Panel with the numbers of one sensor and with buttons for tare, reload, mask, marking an event and setting
-/// an alarm. All topics are in the sensor's namespace. A number that has not come yet, or not for 3 s, is shown
-/// as "-", and a line below the buttons names the missing node. Services are called in another thread, so
-/// that the window never waits for them.
+/// an alarm. All topics are in the sensor's namespace. A number that has not come yet, or not for 3 s, is
+/// shown as "-", and a line below the buttons names the missing node. Services are called in another thread,
+/// so that the window never waits for them.
 class PressurePanel : public rviz::Panel {
   Q_OBJECT
 
@@ -73,6 +73,7 @@ class PressurePanel : public rviz::Panel {
   void addButtons(QVBoxLayout* column);
   static QLabel* addText(QVBoxLayout* column, const char* name);
   std::vector<std::size_t> selectedTaxels() const;
+  void say(const QString& reply);
   void showStatistics();
   void showAlarms();
   void listRegions();
@@ -99,6 +100,7 @@ class PressurePanel : public rviz::Panel {
   Last<fsr_pressure_map::MatrixInfo> last_matrix_;
   Last<fsr_pressure_map::PressureStatisticsArray> last_statistics_;
   Last<fsr_pressure_map::PressureMap> last_map_;
+  ros::WallTime replied_;                        // when a service answered last
   std::map<std::string, Complaint> complaints_;  // of the driver's diagnostics, by the name of the status
   std::thread caller_;
 };

@@ -147,6 +147,7 @@ TEST_F(Panel, TaresTheSheet) {
   EXPECT_TRUE(runUntil([&] {
     return !rig.maps().empty() && rig.maps().back()->flags[0] == fsr_pressure_map::PressureMap::FLAG_TARED;
   }));
+  EXPECT_TRUE(runUntil([&] { return says("Calibration", ", tared"); })) << label("Calibration");
 }
 
 TEST_F(Panel, SaysHowToMaskTaxels) {
