@@ -36,6 +36,7 @@ void addCondition(const Recording& recording, const Sections& sections, std::siz
     ++coverage.scans;
   }
   coverage.cycles += sections.cycles[condition];
+  coverage.mounts.insert(recording.conditions[condition].mount);
 }
 
 // A surface with a peak below this share of the highest one lacks data.

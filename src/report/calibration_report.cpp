@@ -52,6 +52,7 @@ void coverageRow(std::ostream& out, const dataset::ConditionCoverage& row) {
   cell(out, curvature(row.condition, 100.0, 3), 12);
   cell(out, std::to_string(row.scans), 8);
   cell(out, std::to_string(row.cycles), 7);
+  cell(out, row.mounts.empty() ? "-" : std::to_string(row.mounts.size()), 7);
   for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin) {
     cell(out, std::to_string(row.loading[bin].scans) + "/" + std::to_string(row.unloading[bin].scans));
   }
@@ -103,6 +104,7 @@ std::string coverageText(const dataset::Coverage& coverage) {
   cell(out, "1/cm", 12);
   cell(out, "scans", 8);
   cell(out, "cycles", 7);
+  cell(out, "mounts", 7);
   binHeads(out);
   for (const dataset::ConditionCoverage& row : coverage.conditions) coverageRow(out, row);
   out << (coverage.thin.empty() ? "Coverage is complete.\n" : "Few or no data:\n");

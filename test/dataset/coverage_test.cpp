@@ -82,6 +82,14 @@ TEST(Coverage, CountsScansAndCyclesByBinAndDirection) {
   EXPECT_EQ(coverage.conditions[1].cycles, 5u);
 }
 
+TEST(Coverage, CountsTheMountsOfEachSurface) {
+  std::vector<Recording> bags = {bag("a", {{"flat", 0.0}}), bag("b", {{"flat", 0.0}, {"bent", 10.0}})};
+  bags[1].conditions[0].mount = bags[0].conditions[0].mount + 1;
+  const Coverage coverage = coverageOf(bags, 5);
+  EXPECT_EQ(coverage.conditions[0].mounts.size(), 2u);
+  EXPECT_EQ(coverage.conditions[1].mounts.size(), 1u);
+}
+
 TEST(Coverage, ListsThinCellsWorstFirst) {
   SyntheticRig low;
   low.name = "b";

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -83,6 +84,8 @@ struct ConditionCoverage {
   double pressure_high = 0;  ///< gauge [Pa]
   std::array<CoverageCell, statistics::kPressureBins> loading;
   std::array<CoverageCell, statistics::kPressureBins> unloading;
+  std::set<std::uint32_t> mounts =
+      {};  ///< numbers of the mounts, 0 = not given; empty in a loaded calibration
 };
 
 /// Amount of data for each curvature class, pressure bin and direction of load.
