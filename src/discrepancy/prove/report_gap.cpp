@@ -5,11 +5,11 @@
 
 #include "discrepancy/decide/changes.h"
 #include "discrepancy/decide/refine.h"
-#include "discrepancy/fit/signatures.h"
 #include "discrepancy/prove/gap.h"
 #include "discrepancy/samples/held_out.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
+#include "simulation/sensor_chain.h"
 
 namespace fsr::discrepancy {
 
@@ -32,7 +32,6 @@ class GapReporter {
  private:
   void confine(double amplitude);
   simulation::SimulationSettings confined(double amplitude) const;
-  bool isPermitted(const simulation::SimulationSettings& settings) const;
   double explainedShare() const;
   std::vector<Part> surfacesWhereItShows() const;
   Trace leftWithout(const Part& part) const;
@@ -64,9 +63,10 @@ simulation::SimulationSettings GapReporter::confined(double amplitude) const {
   return settings;
 }
 
-bool GapReporter::isPermitted(const simulation::SimulationSettings& settings) const {
+// Whether the effects take their parameters together.
+bool isPermitted(const simulation::SimulationSettings& settings) {
   try {
-    driven(found_.measured, settings, true);
+    simulation::SensorChain chain(settings);
     return true;
   } catch (const settings::InputError&) {
     return false;

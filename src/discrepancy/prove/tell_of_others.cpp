@@ -20,7 +20,8 @@ class Others {
         measured_(measured),
         candidates_(candidates),
         decision_(decision),
-        report_(report) {}
+        report_(report),
+        evidence_(availableEvidence(measured)) {}
 
   void listNotIdentifiable();
   void answerQuestions();
@@ -38,6 +39,7 @@ class Others {
   const Candidates& candidates_;
   const Decision& decision_;
   DiscrepancyReport& report_;
+  AvailableEvidence evidence_;
 };
 
 // Whether an effect competed although no plausible strength of it would have been found.
@@ -48,10 +50,9 @@ bool Others::hidden(const std::string& id) const {
 }
 
 std::string Others::notLookedFor(const simulation::EffectInfo& info) const {
-  const AvailableEvidence evidence = availableEvidence(measured_);
   std::string lacking;
   for (const simulation::Evidence need : info.needs) {
-    if (!evidence.has(need)) lacking += (lacking.empty() ? "" : ", ") + simulation::name(need);
+    if (!evidence_.has(need)) lacking += (lacking.empty() ? "" : ", ") + simulation::name(need);
   }
   std::replace(lacking.begin(), lacking.end(), '_', ' ');
   return lacking.empty() ? "It is not looked for in this version." : "It needs " + lacking + ".";
@@ -64,13 +65,11 @@ void Others::listNotIdentifiable() {
     const auto& all = candidates_.signatures();
     const bool tried =
         std::any_of(all.begin(), all.end(), [&](const Signature& s) { return s.id == info.id; });
-    const std::vector<std::size_t> mounts = measured_.mounts();
-    const bool remounted = *std::max_element(mounts.begin(), mounts.end()) > 1;
     std::string reason;
     if (info.kind == simulation::EffectKind::kListed) reason = "A gas chamber cannot show it.";
     if (tried && isStatic(info)) reason = "Under a uniform pressure the static curves absorb all of it.";
     if (hidden(info.id)) reason = "Under this protocol no plausible strength of it would be seen.";
-    if (info.detector == simulation::Detector::kMounts && !remounted)
+    if (info.detector == simulation::Detector::kMounts && !evidence_.remounted)
       reason = "No surface was mounted twice.";
     if (!info.looked_for) reason = notLookedFor(info);
     const bool found = std::any_of(report_.effects.begin(), report_.effects.end(),
