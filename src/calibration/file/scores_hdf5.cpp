@@ -59,41 +59,27 @@ struct Columns {
   }
 };
 
-void writeUnseen(const UnseenScore& unseen, hdf5::Writer& writer) {
-  writer.group("/scores/unseen");
-  writer.attribute("/scores/unseen", "meaning", "inner surfaces, each in turn answered from the others");
-  writer.attribute("/scores/unseen", "readings", unseen.readings);
-  writer.attribute("/scores/unseen", "rmse_percent",
-                   std::vector<double>{unseen.rmse_percent.mean, unseen.rmse_percent.deviation});
-  writer.attribute("/scores/unseen", "rmse", std::vector<double>{unseen.rmse});
-  writer.attribute("/scores/unseen", "unit", "Pa");
+constexpr const char* kUnseen = "/scores/unseen";
+constexpr const char* kRemount = "/scores/remount";
+
+// Errors of readings that took no part: UnseenScore or RemountScore.
+template <typename LeftOut>
+void writeLeftOut(const LeftOut& score, const char* group, const char* meaning, hdf5::Writer& writer) {
+  writer.group(group);
+  writer.attribute(group, "meaning", meaning);
+  writer.attribute(group, "readings", score.readings);
+  writer.attribute(group, "rmse_percent",
+                   std::vector<double>{score.rmse_percent.mean, score.rmse_percent.deviation});
+  writer.attribute(group, "rmse", std::vector<double>{score.rmse});
+  writer.attribute(group, "unit", "Pa");
 }
 
-UnseenScore readUnseen(const hdf5::Reader& reader) {
-  if (!reader.has("/scores/unseen")) return {};  // a file of schema 1
-  const std::vector<double> percent = reader.numbers("/scores/unseen", "rmse_percent", 2);
-  return {reader.integer("/scores/unseen", "readings"),
-          {percent[0], percent[1]},
-          reader.numbers("/scores/unseen", "rmse", 1)[0]};
-}
-
-// Versions before this score have no group.
-void writeRemount(const RemountScore& remount, hdf5::Writer& writer) {
-  writer.group("/scores/remount");
-  writer.attribute("/scores/remount", "meaning", "each mount of a surface in turn answered from the others");
-  writer.attribute("/scores/remount", "readings", remount.readings);
-  writer.attribute("/scores/remount", "rmse_percent",
-                   std::vector<double>{remount.rmse_percent.mean, remount.rmse_percent.deviation});
-  writer.attribute("/scores/remount", "rmse", std::vector<double>{remount.rmse});
-  writer.attribute("/scores/remount", "unit", "Pa");
-}
-
-RemountScore readRemount(const hdf5::Reader& reader) {
-  if (!reader.has("/scores/remount")) return {};
-  const std::vector<double> percent = reader.numbers("/scores/remount", "rmse_percent", 2);
-  return {reader.integer("/scores/remount", "readings"),
-          {percent[0], percent[1]},
-          reader.numbers("/scores/remount", "rmse", 1)[0]};
+// Files of schema 1 have neither group, and those before the error of another mount have no kRemount.
+template <typename LeftOut>
+LeftOut readLeftOut(const hdf5::Reader& reader, const char* group) {
+  if (!reader.has(group)) return {};
+  const std::vector<double> percent = reader.numbers(group, "rmse_percent", 2);
+  return {reader.integer(group, "readings"), {percent[0], percent[1]}, reader.numbers(group, "rmse", 1)[0]};
 }
 
 }  // namespace
@@ -124,8 +110,8 @@ void writeScores(const CalibrationScores& scores, hdf5::Writer& writer) {
                  {rows, 1 + statistics::kPressureBins, kDirections, kMeasures}, "Pa",
                  "[class][whole, then bins of 0, 50, 100, 200, 400 kPa and more][both, loading, unloading]"
                  "[count, bias, RMSE, lower and upper 95 % limit, 95th percentile of the absolute error]");
-  writeUnseen(scores.unseen, writer);
-  writeRemount(scores.remount, writer);
+  writeLeftOut(scores.unseen, kUnseen, "inner surfaces, each in turn answered from the others", writer);
+  writeLeftOut(scores.remount, kRemount, "each mount of a surface in turn answered from the others", writer);
 }
 
 CalibrationScores readScores(const hdf5::Reader& reader,
@@ -145,8 +131,8 @@ CalibrationScores readScores(const hdf5::Reader& reader,
     scores.conditions.push_back({classes[c], trained[c] != 0, columns.row(c)});
   }
   scores.whole = columns.row(classes.size());
-  scores.unseen = readUnseen(reader);
-  scores.remount = readRemount(reader);
+  scores.unseen = readLeftOut<UnseenScore>(reader, kUnseen);
+  scores.remount = readLeftOut<RemountScore>(reader, kRemount);
   return scores;
 }
 
