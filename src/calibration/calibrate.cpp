@@ -5,6 +5,7 @@
 #include "calibration/bandwidth_choice.h"
 #include "calibration/curvature_rule_learning.h"
 #include "calibration/held_out_scoring.h"
+#include "calibration/history_training.h"
 #include "calibration/remount_errors.h"
 #include "calibration/sources.h"
 #include "calibration/taxel_training.h"
@@ -59,6 +60,8 @@ class Training {
       calibration.scores.unseen = unseen;
       calibration.scores.remount = remounted;
     }
+    trainHistory({problem_.recordings, classes_, sections_, plan_, regressors.whole}, problem_.options,
+                 calibration);
     return calibration;
   }
 

@@ -89,7 +89,7 @@ class Checker {
       : calibration_(calibration), taxels_(calibration.layout.size.taxels()) {}
 
   void take(const dataset::Recording& recording) {
-    Calibrator calibrator(calibration_.tables, calibration_.layout);
+    Calibrator calibrator(calibration_);
     calibrator.setMask(recording.mask);
     std::size_t surface = recording.conditions.size();
     for (std::size_t i = 0; i < recording.scans(); ++i) {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
+#include <tuple>
 
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -11,6 +13,7 @@
 
 #include "calibration/class_switch.h"
 #include "calibration/packed_tables.h"
+#include "compensation/history_state.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "map/fill.h"
 
@@ -20,6 +23,10 @@ namespace {
 
 constexpr double kOnClass = 1e-6;  // [1/m]
 constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
+// A reading that says nothing of the load, or only a limit of it.
+constexpr std::uint16_t kFrozen = map::taxel_flag::kSaturated | map::taxel_flag::kDead |
+                                  map::taxel_flag::kStuck | map::taxel_flag::kLineFault |
+                                  map::taxel_flag::kMasked;
 constexpr std::uint16_t kBelowTraining = map::taxel_flag::kReadingExtrapolated | map::taxel_flag::kBelowRange;
 
 // The flag if the condition is true, else 0.
@@ -80,13 +87,16 @@ void requireEach(const char* what, std::size_t values, matrix::MatrixSize size) 
 class Calibrator::Impl {
  public:
   Impl(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
-       const CalibratorOptions& options);
+       const compensation::HistoryModel& history, const CalibratorOptions& options);
   Impl(const Impl&) = delete;  // table_ points into the object's own tables
   Impl& operator=(const Impl&) = delete;
 
   void setSurface(const matrix::Surface& surface, double time);
   void setMask(const std::vector<std::uint8_t>& mask);
   void setTare(const std::vector<float>& offset);
+  void markRest() {
+    if (history_ != nullptr) history_->rest();
+  }
   void setTemperature(double temperature, double trained_low, double trained_high);
   void setWrongSensor(bool wrong) { wrong_sensor_ = wrong; }
   void calibrate(const matrix::ScanView& scan, double time, map::PressureMap& out) noexcept;
@@ -97,8 +107,12 @@ class Calibrator::Impl {
   const std::vector<ClassChoice>& choices() const { return switch_.choices(); }
 
  private:
+  // Table, and where it is a blended one: its curvature and class.
+  using TableInUse = std::tuple<const compensation::TableEntry*, double, std::size_t>;
+
   void selectTables(const matrix::Surface& surface);
   void selectTable(std::size_t taxel, double curvature);
+  TableInUse inUse(std::size_t taxel) const;
   std::uint16_t highestOfNeighbours(std::size_t taxel, double curvature) const;
   const compensation::TableEntry* blended(std::size_t taxel, double curvature);
   void refreshConstantFlags() noexcept;
@@ -106,6 +120,7 @@ class Calibrator::Impl {
   void clip(const std::uint16_t* counts) noexcept;
   void lookUp(map::PressureMap& out) const noexcept;
   void flagCodes(map::PressureMap& out) const noexcept;
+  void correctHistory(double time, map::PressureMap& out) noexcept;
   void removeBad(map::PressureMap& out) const noexcept;
   map::MapState state(double time) const noexcept;
 
@@ -146,10 +161,12 @@ class Calibrator::Impl {
   std::vector<std::size_t> masked_;            // taxels without a reading, never filled
   std::vector<std::size_t> failed_;            // dead or stuck taxels that are not masked
   std::vector<std::size_t> undetermined_;      // taxels whose deviation is unknown
+
+  std::unique_ptr<compensation::HistoryState> history_;  // null = the tables alone answer
 };
 
 Calibrator::Impl::Impl(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
-                       const CalibratorOptions& options)
+                       const compensation::HistoryModel& history, const CalibratorOptions& options)
     : tables_(tables),
       layout_(layout),
       options_(options),
@@ -170,6 +187,9 @@ Calibrator::Impl::Impl(const compensation::CurvatureTables& tables, const matrix
   masked_.reserve(tables.size.taxels());
   failed_.reserve(tables.size.taxels());
   undetermined_.reserve(tables.size.taxels());
+  if (history.present()) {
+    history_ = std::make_unique<compensation::HistoryState>(history, tables.size.taxels());
+  }
   selectTables({});
 }
 
@@ -195,8 +215,10 @@ void Calibrator::Impl::setMask(const std::vector<std::uint8_t>& mask) {
 void Calibrator::Impl::setTare(const std::vector<float>& offset) {
   requireEach("tare", offset.size(), layout_.size);
   tared_ = !offset.empty();
+  const std::vector<float> before = offset_;
   std::fill(offset_.begin(), offset_.end(), 0.0f);
   std::copy(offset.begin(), offset.end(), offset_.begin());
+  if (history_ != nullptr && offset_ != before) history_->forget();
   refreshConstantFlags();
 }
 
@@ -218,6 +240,14 @@ void Calibrator::Impl::selectTables(const matrix::Surface& surface) {
   refreshConstantFlags();
 }
 
+Calibrator::Impl::TableInUse Calibrator::Impl::inUse(std::size_t taxel) const {
+  const compensation::TableEntry* const table = table_[taxel];
+  const bool blend =
+      !blended_.empty() && table >= blended_.data() && table < blended_.data() + blended_.size();
+  if (!blend) return {table, 0, 0};
+  return {table, blended_for_[taxel].curvature, blended_for_[taxel].chosen};
+}
+
 void Calibrator::Impl::selectTable(std::size_t taxel, double curvature) {
   const ClassChoice& choice = switch_.choices()[taxel];
   const std::size_t chosen = choice.curvature_class;
@@ -226,7 +256,10 @@ void Calibrator::Impl::selectTable(std::size_t taxel, double curvature) {
   const bool blend = trained.model && tables_.classes() > 1 &&
                      (rule_.blend == compensation::BlendRule::kKernel || choice.flags != 0 ||
                       (rule_.blend == compensation::BlendRule::kInterpolate && !on_class));
+  const TableInUse before = inUse(taxel);
   table_[taxel] = blend ? blended(taxel, curvature) : tables_.table(taxel, chosen);
+  // Another table gives another answer to the same reading, which is no change of load.
+  if (history_ != nullptr && inUse(taxel) != before) history_->forget(taxel);
   lowest_[taxel] = trained.lowest;
   highest_[taxel] = blend ? highestOfNeighbours(taxel, curvature) : trained.highest;
   model_[taxel] = trained.model && (!blend || blended_for_[taxel].finite);
@@ -294,6 +327,7 @@ void Calibrator::Impl::calibrate(const matrix::ScanView& scan, double time, map:
   clip(scan.counts);
   lookUp(out);
   flagCodes(out);
+  if (history_ != nullptr) correctHistory(time, out);
   removeBad(out);
   out.state = state(time);
 }
@@ -348,6 +382,17 @@ void Calibrator::Impl::flagCodes(map::PressureMap& out) const noexcept {
   }
 }
 
+void Calibrator::Impl::correctHistory(double time, map::PressureMap& out) noexcept {
+  history_->beginScan(time);
+  const std::size_t n = layout_.size.taxels();
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool frozen = (out.flags[i] & kFrozen) != 0;
+    const bool corrected = history_->correct(i, frozen, out.pressure[i], out.deviation[i]);
+    out.flags[i] =
+        static_cast<std::uint16_t>(out.flags[i] | flagWhere(!corrected, map::taxel_flag::kHistoryShort));
+  }
+}
+
 void Calibrator::Impl::removeBad(map::PressureMap& out) const noexcept {
   for (const std::size_t taxel : undetermined_) out.deviation[taxel] = kNoReading;
   if (masked_.empty() && failed_.empty()) return;
@@ -370,7 +415,10 @@ map::MapState Calibrator::Impl::state(double time) const noexcept {
 
 Calibrator::Calibrator(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
                        const CalibratorOptions& options)
-    : impl_(std::make_unique<Impl>(tables, layout, options)) {}
+    : impl_(std::make_unique<Impl>(tables, layout, compensation::HistoryModel{}, options)) {}
+
+Calibrator::Calibrator(const Calibration& calibration, const CalibratorOptions& options)
+    : impl_(std::make_unique<Impl>(calibration.tables, calibration.layout, calibration.history, options)) {}
 
 Calibrator::~Calibrator() = default;
 Calibrator::Calibrator(Calibrator&& other) noexcept = default;
@@ -385,6 +433,10 @@ void Calibrator::setMask(const std::vector<std::uint8_t>& mask) {
 
 void Calibrator::setTare(const std::vector<float>& offset) {
   impl_->setTare(offset);
+}
+
+void Calibrator::markRest() {
+  impl_->markRest();
 }
 
 void Calibrator::setTemperature(double temperature, double trained_low, double trained_high) {

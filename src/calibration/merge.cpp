@@ -77,6 +77,12 @@ void requireMergeable(const MergePart& part) {
   if (!calibration.statistics || calibration.statistics->cells.empty()) {
     throw settings::InputError(part.name + ": holds no statistics to merge" + kInstead);
   }
+  if (calibration.history.present()) {
+    throw settings::InputError(part.name +
+                               ": has a model of the sheet's memory, whose sums depend on the tables and "
+                               "change with them" +
+                               kInstead + ", or merge calibrations of --history none");
+  }
   if (regression::makeRegressor(calibration.regressor)->mergeable()) return;
   const bool grnn = calibration.regressor.name == "grnn";
   throw settings::InputError(part.name + ": the model " + calibration.regressor.name +

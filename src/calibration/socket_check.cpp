@@ -163,7 +163,7 @@ class SocketChecker {
 
   void calibrate() {
     requireFit();
-    Calibrator calibrator(calibration_->tables, calibration_->layout);
+    Calibrator calibrator(*calibration_);
     calibrator.setMask(recording_.mask);
     std::size_t surface = recording_.conditions.size(), readings = 0, beyond = 0, bent = 0;
     map::PressureMap map;

@@ -1,5 +1,6 @@
 #include "regression/option_names.h"
 #include "report/calibration_report.h"
+#include "report/history_report.h"
 #include "report/result_json.h"
 
 namespace fsr::report {
@@ -116,7 +117,8 @@ std::string calibrationJson(const calibration::Calibration& calibration) {
                          {"provenance", json(calibration.provenance)},
                          {"warnings", calibration.warnings},
                          {"coverage", json(calibration.coverage)},
-                         {"scores", json(calibration.scores)}};
+                         {"scores", json(calibration.scores)},
+                         {"history", historyJson(calibration)}};
   return dump(document);
 }
 

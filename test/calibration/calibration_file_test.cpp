@@ -268,10 +268,10 @@ TEST_F(CalibrationFile, AnUnknownSchemaIsRefusedByNumber) {
   std::string content = bytes();
   content.replace(content.find("schema=2"), 8, "schema=7");
   write(content);
-  EXPECT_EQ(complaint(), path_ + ": has schema 7, but this version reads up to 2; update the package");
+  EXPECT_EQ(complaint(), path_ + ": has schema 7, but this version reads up to 3; update the package");
   content.replace(content.find("schema=7"), 8, "schema=0");
   write(content);
-  EXPECT_EQ(complaint(), path_ + ": has schema 0, but this version reads 1 to 2; train again");
+  EXPECT_EQ(complaint(), path_ + ": has schema 0, but this version reads 1 to 3; train again");
 }
 
 // The hash covers the content, not the first line.

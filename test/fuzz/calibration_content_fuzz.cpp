@@ -66,7 +66,7 @@ void tryMaps(fsr::calibration::Calibrator& calibrator) {
 }
 
 void use(const fsr::calibration::Calibration& calibration) {
-  fsr::calibration::Calibrator calibrator(calibration.tables, calibration.layout);
+  fsr::calibration::Calibrator calibrator(calibration);
   tryMaps(calibrator);
   for (const double curvature : {0.0, 9.9, 17.0, -40.0, 90.0}) {
     calibrator.setSurface({"cylinder_10cm", 1, {{curvature, 0, 0}}, {}}, 0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/compensation/curvature_tables.h"
+#include "fsr_pressure_map/compensation/history.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
 #include "fsr_pressure_map/regression/regressor_options.h"
@@ -19,6 +21,13 @@ struct TrainingStatistics;
 }
 
 namespace fsr::calibration {
+
+/// How the model of the sheet's memory is chosen.
+struct HistoryChoice {
+  bool automatic = true;  ///< by leaving out whole protocols
+  /// The family to take where `automatic` is false; otherwise one to try first, kNone = try all.
+  compensation::HistoryFamily family = compensation::HistoryFamily::kNone;
+};
 
 struct CalibrationOptions {
   compensation::Scheme scheme =
@@ -31,6 +40,7 @@ struct CalibrationOptions {
   std::uint64_t seed = 1;  ///< of the forest; stored in the file
   unsigned threads = 0;    ///< 0 = one for each core; the results do not depend on it
   std::string date;        ///< ISO 8601, UTC; empty = now
+  HistoryChoice history = {};
 };
 
 /// Input of calibrate().
@@ -96,11 +106,32 @@ struct RemountScore {
   double rmse = std::numeric_limits<double>::quiet_NaN();  ///< of all readings together [Pa]
 };
 
+/// Errors on protocols that training left out, of the static answer and with a model of the sheet's memory.
+struct HistoryScore {
+  struct Protocol {
+    std::string name;  ///< e.g. "ramps of 17 kPa/s"
+    /// Of means over half a second, by compensation::HistoryFamily [Pa]; that of kNone is the static answer.
+    std::array<double, 4> rmse = {};
+  };
+  /// Readings of all protocols together, one by one.
+  struct Part {
+    std::string name;                                                        ///< e.g. "unloading"
+    std::uint64_t readings = 0;                                              ///< scans x taxels
+    double static_rmse = std::numeric_limits<double>::quiet_NaN();           ///< [Pa]
+    double rmse = std::numeric_limits<double>::quiet_NaN();                  ///< with the model [Pa]
+    double within_one_deviation = std::numeric_limits<double>::quiet_NaN();  ///< with the model
+  };
+  std::string choice;  ///< a sentence: what was chosen and why; empty = not asked for
+  std::vector<Protocol> protocols;
+  std::vector<Part> parts;  ///< whole, by direction, and by time since the last reversal; empty = no model
+};
+
 struct CalibrationScores {
   std::vector<ConditionScore> conditions;  ///< empty = not computed
   Score whole;                             ///< all conditions together
   UnseenScore unseen;
   RemountScore remount;
+  HistoryScore history;
 };
 
 struct SourceBag {
@@ -130,6 +161,7 @@ struct Calibration {
   std::vector<std::uint8_t> no_model;
   std::vector<std::uint8_t> masked;  ///< [taxels], 1 = masked in the bags
   compensation::CurvatureTables tables;
+  compensation::HistoryModel history;  ///< of the sheet's memory; family kNone = the tables alone answer
   TrainedRanges trained;
   dataset::Coverage coverage;
   CalibrationScores scores;

@@ -5,7 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
+#include "fsr_pressure_map/compensation/history.h"
 #include "fsr_pressure_map/health/taxel_watch.h"
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/matrix/curvature.h"
@@ -57,13 +59,19 @@ struct ClassChoice {
 ///   no
 ///                           sheet at all
 ///   kTared                  an offset was subtracted
+///   kHistoryShort           the calibration has a model of the sheet's memory, but the readings do not yet
+///                           go back far enough (start, gap, time that ran back, another curvature), or the
+///                           reading is saturated: static answer and deviation
 ///
 /// State of the map is the first of these that applies: kSizeMismatch (rows, columns or full scale differ
 /// from the calibration's), kWrongSensor, kCurvatureUnknown, kCurvatureStale, kOk. A baseline calibration
 /// does not depend on curvature, so its maps are never kCurvatureUnknown or kCurvatureStale.
 class Calibrator {
  public:
-  /// Throws InputError if tables are missing or incomplete, or the layout has another size.
+  /// With the calibration's model of the sheet's memory, if it has one. Throws InputError if tables are
+  /// missing or incomplete.
+  explicit Calibrator(const Calibration& calibration, const CalibratorOptions& options = {});
+  /// Of tables alone. Throws InputError if tables are missing or incomplete, or the layout has another size.
   Calibrator(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
              const CalibratorOptions& options = {});
   ~Calibrator();
@@ -78,8 +86,13 @@ class Calibrator {
   void setMask(const std::vector<std::uint8_t>& mask);
 
   /// Subtracted from the pressure of the tables [rows x columns] [Pa]; empty = no tare. Throws InputError if
-  /// it does not fit the matrix.
+  /// it does not fit the matrix. With other offsets a
+  /// model of the sheet's memory starts anew.
   void setTare(const std::vector<float>& offset);
+
+  /// The sheet has lain without load for long, as after a tare: a model of its memory is settled with the
+  /// next scan.
+  void markRest();
 
   /// The temperature of the sheet and the range of training [degree Celsius]. NaN = not known, and then no
   /// taxel is flagged.

@@ -125,7 +125,10 @@ Provenance readProvenance(const hdf5::Reader& reader) {
 
 // The hash of the file does not cover the schema's number, so the content has to agree with it.
 void requireSchema(const hdf5::Reader& reader, std::uint64_t schema) {
-  if (reader.has("/rule") == (schema >= kFirstSchemaWithRule)) return;
+  const bool history = reader.has("/history");
+  if (reader.has("/rule") == (schema >= kFirstSchemaWithRule) &&
+      history == (schema >= kFirstSchemaWithHistory))
+    return;
   throw settings::InputError("is damaged: its first line names schema " + std::to_string(schema) +
                              ", but its content is of another; copy the file again or train again");
 }
@@ -146,8 +149,10 @@ void writeCalibration(const Calibration& calibration, hdf5::Writer& writer) {
   writeProvenance(calibration, writer);
   writeTables(calibration.tables, writer);
   writeRule(calibration.tables, writer);
+  writeHistory(calibration.history, writer);
   writeCoverage(calibration.coverage, writer);
   if (!calibration.scores.conditions.empty()) writeScores(calibration.scores, writer);
+  if (!calibration.scores.conditions.empty()) writeHistoryScores(calibration.scores.history, writer);
   writeStatistics(calibration.statistics ? *calibration.statistics : compensation::TrainingStatistics{},
                   writer);
 }
@@ -176,7 +181,11 @@ Calibration readCalibration(const hdf5::Reader& reader, std::uint64_t schema, Ca
   compensation::TrainingStatistics statistics =
       readStatistics(reader, calibration.layout.size, parts == CalibrationParts::kAll);
   calibration.coverage = readCoverage(reader, statistics.classes);
-  if (reader.integer("/", "scored") != 0) calibration.scores = readScores(reader, statistics.classes);
+  calibration.history = readHistory(reader);
+  if (reader.integer("/", "scored") != 0) {
+    calibration.scores = readScores(reader, statistics.classes);
+    calibration.scores.history = readHistoryScores(reader);
+  }
   statistics.full_scale = calibration.tables.full_scale;
   if (parts == CalibrationParts::kAll) {
     calibration.statistics = std::make_shared<const compensation::TrainingStatistics>(std::move(statistics));

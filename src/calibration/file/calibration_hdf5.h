@@ -7,7 +7,7 @@
 
 namespace fsr::calibration {
 
-// The content of a calibration file, schema 2:
+// The content of a calibration file, schema 3; without /history it is one of schema 2:
 //
 //     /            attributes scheme, model, bandwidth, folds, full_scale, curvature_rule, use
 //     /model       attributes bandwidth_chosen, spread, distance, weighting, trees, minimum_leaf, leaf_rule
@@ -22,6 +22,9 @@ namespace fsr::calibration {
 //     /rule        attribute blend; model_of_class, length_scale, law_curvature, law_gain, law_offset,
 //                  unseen_pressure, unseen_deviation, log_weight where the scheme has them (absent in schema
 //                  1: nearest)
+//     /history     attribute family; knot, correction, radius, play_weight, time_constant, memory_weight,
+//                  deviation_knot, loading_deviation, unloading_deviation (absent without a model of
+//                  the sheet's memory)
 //     /coverage    scans, cycles [classes x bins x 2], totals, pressure, thin
 //     /scores      see scores_hdf5 (absent where not asked for)
 //     /statistics  surfaces, curvature of the classes; first [taxels x classes x sections + 1] and the rows
@@ -30,9 +33,11 @@ namespace fsr::calibration {
 // Taxels are row-major. Numbers carry `unit`, everything says its `meaning`.
 //
 // The number of the schema is in the user block (see calibration_file.h).
-constexpr std::uint64_t kCalibrationSchema = 2;
+constexpr std::uint64_t kCalibrationSchema = 3;
 constexpr std::uint64_t kOldestSchema = 1;
 constexpr std::uint64_t kFirstSchemaWithRule = 2;
+/// An older version would leave the history out in silence, so a file with one has a schema of its own.
+constexpr std::uint64_t kFirstSchemaWithHistory = 3;
 
 void writeCalibration(const Calibration& calibration, hdf5::Writer& writer);
 
@@ -48,6 +53,10 @@ void writeTables(const compensation::CurvatureTables& tables, hdf5::Writer& writ
 compensation::CurvatureTables readTables(const hdf5::Reader& reader, matrix::MatrixSize size);
 void writeRule(const compensation::CurvatureTables& tables, hdf5::Writer& writer);
 void readRule(const hdf5::Reader& reader, compensation::CurvatureTables& tables);
+void writeHistory(const compensation::HistoryModel& model, hdf5::Writer& writer);
+compensation::HistoryModel readHistory(const hdf5::Reader& reader);
+void writeHistoryScores(const HistoryScore& score, hdf5::Writer& writer);
+HistoryScore readHistoryScores(const hdf5::Reader& reader);
 void writeCoverage(const dataset::Coverage& coverage, hdf5::Writer& writer);
 dataset::Coverage readCoverage(const hdf5::Reader& reader,
                                const std::vector<dataset::CurvatureClass>& classes);

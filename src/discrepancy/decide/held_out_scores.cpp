@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "discrepancy/fit/least_squares.h"
 #include "matrix/for_each_taxel.h"
 #include "statistics/random_stream.h"
+#include "statistics/signed_least_squares.h"
 
 namespace fsr::discrepancy {
 
@@ -104,7 +104,7 @@ class FormFitter {
     Eigen::MatrixXd gram = gram_;
     gram.diagonal() *= 1 + 1e-6;
     gram.diagonal().array() += 1e-300;
-    const Eigen::VectorXd fitted = solveSigned(gram, right, free_);
+    const Eigen::VectorXd fitted = statistics::solveSigned(gram, right, free_);
     std::vector<Index> support;
     for (Index k = 0; k < fitted.size(); ++k) {
       if (fitted[k] != 0) support.push_back(k);

@@ -22,7 +22,7 @@ std::unique_ptr<LoadedCalibration> loadForUse(const std::string& path,
                                               const fsr::calibration::CalibratorOptions& options) {
   const fsr::calibration::Calibration calibration = fsr::calibration::loadCalibration(path);
   try {
-    fsr::calibration::Calibrator calibrator(calibration.tables, calibration.layout, options);
+    fsr::calibration::Calibrator calibrator(calibration, options);
     return std::make_unique<LoadedCalibration>(
         LoadedCalibration{toMessage(calibration, path), std::move(calibrator)});
   } catch (const fsr::settings::InputError& error) {

@@ -48,6 +48,7 @@ std::string LiveCalibration::tare(double patience) {
   tare_.adopt(tare);
   applyTare();
   if (!tare_.tare()) throw changedMeanwhile();
+  loaded_->calibrator.markRest();
   return "the sheet is tared on surface \"" + tare.surface + "\", mount " + std::to_string(tare.mount) +
          "; stored in " + settings_.tare_file;
 }

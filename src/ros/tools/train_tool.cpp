@@ -15,6 +15,7 @@
 #include "regression/regressors.h"
 #include "report/calibration_check_report.h"
 #include "report/calibration_report.h"
+#include "report/history_report.h"
 #include "ros/tools/bag_options.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
@@ -42,6 +43,10 @@ fsr::settings::CommandLine options() {
               fsr::compensation::schemeList() + "; default " +
                   fsr::compensation::schemeName(fsr::calibration::CalibrationOptions{}.scheme))
       .option("model", "NAME", list(fsr::regression::regressorNames()) + "; default grnn")
+      .option("history", "NAME",
+              "model of the sheet's memory: auto (chosen on protocols that were left out), none, plays (a "
+              "loop), memories (creep), both, or a verdict.yaml whose named effect is tried first; default "
+              "auto")
       .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
       .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
       .option(
@@ -99,6 +104,11 @@ fsr::regression::RegressorOptions regressorOptions(const fsr::settings::CommandL
   return options;
 }
 
+fsr::calibration::HistoryChoice historyChoice(const std::string& name) {
+  if (name == "auto") return {};
+  return {false, fsr::compensation::historyFromName(name)};
+}
+
 unsigned threadsOf(const fsr::settings::CommandLine& line) {
   return static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
 }
@@ -115,6 +125,7 @@ fsr::calibration::CalibrationOptions calibrationOptions(const fsr::settings::Com
   options.seed = static_cast<std::uint64_t>(line.integer("seed", 1, {0, 1e15, ""}));
   options.threads = threadsOf(line);
   options.scores = !line.has("no-scores");
+  options.history = historyChoice(line.text("history", "auto"));
   return options;
 }
 
@@ -147,8 +158,8 @@ int check(const fsr::settings::CommandLine& line, std::ostream& out) {
 // Throws if an option is given that merging takes from the files.
 void refuseOptionsOfTraining(const fsr::settings::CommandLine& line) {
   for (const char* const option :
-       {"scheme", "model", "bandwidth", "spread", "distance", "equal-bins", "trees", "minimum-leaf",
-        "leaf-rule", "folds", "seed", "ambient", "namespace"}) {
+       {"scheme", "history", "model", "bandwidth", "spread", "distance", "equal-bins", "trees",
+        "minimum-leaf", "leaf-rule", "folds", "seed", "ambient", "namespace"}) {
     if (!line.has(option)) continue;
     throw fsr::settings::InputError("--" + std::string(option) +
                                     " cannot be used with --merge, because the files determine it");
@@ -181,7 +192,7 @@ fsr::calibration::Calibration train(const fsr::settings::CommandLine& line, std:
       fsr::calibration::calibrate(problem, terminal ? showProgress : fsr::calibration::CalibrationProgress{});
   out << fsr::report::warningsText(calibration)
       << fsr::report::scoresText(calibration.scores, calibration.layout)
-      << fsr::report::learnedText(calibration);
+      << fsr::report::historyText(calibration) << fsr::report::learnedText(calibration);
   return calibration;
 }
 

@@ -1,12 +1,12 @@
 // Fits with Gram matrices: a column that acts only on bent surfaces together with one that acts everywhere.
 
-#include "discrepancy/fit/least_squares.h"
+#include "statistics/signed_least_squares.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace fsr::discrepancy {
+namespace fsr::statistics {
 namespace {
 
 constexpr Eigen::Index kMoments = 40;
@@ -52,4 +52,4 @@ TEST(SolveSigned, KeepsTheSignThatIsNotFree) {
 }
 
 }  // namespace
-}  // namespace fsr::discrepancy
+}  // namespace fsr::statistics

@@ -1,9 +1,9 @@
-#include "discrepancy/fit/least_squares.h"
+#include "statistics/signed_least_squares.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace fsr::discrepancy {
+namespace fsr::statistics {
 
 namespace {
 
@@ -95,4 +95,4 @@ Eigen::VectorXd solveSigned(const Eigen::MatrixXd& gram, const Eigen::VectorXd& 
   return solution;
 }
 
-}  // namespace fsr::discrepancy
+}  // namespace fsr::statistics

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-namespace fsr::discrepancy {
+namespace fsr::statistics {
 
 /// Returns the coefficients b that minimise b' G b - 2 b' r. Coefficients that are not `free` must not be
 /// negative. G (`gram`) is symmetric and positive semidefinite; r is `right`. The method works on the normal
@@ -11,4 +11,4 @@ namespace fsr::discrepancy {
 Eigen::VectorXd solveSigned(const Eigen::MatrixXd& gram, const Eigen::VectorXd& right,
                             const std::vector<bool>& free);
 
-}  // namespace fsr::discrepancy
+}  // namespace fsr::statistics

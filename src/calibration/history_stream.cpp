@@ -1,0 +1,69 @@
+#include "calibration/history_stream.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compensation/history_state.h"
+
+namespace fsr::calibration {
+
+namespace {
+
+// Readings are compared in means over this time. White noise, which no memory can remove, then counts less
+// [s].
+constexpr double kRow = 0.5;
+
+}  // namespace
+
+HistoryStream::HistoryStream(const dataset::Recording& recording, const std::vector<std::size_t>& classes,
+                             const dataset::Sections& sections, const std::vector<std::uint32_t>& protocol,
+                             const compensation::HistoryGrid& grid)
+    : recording_(&recording), sections_(&sections), operators_(compensation::operatorsOf(grid)) {
+  std::uint32_t row = 0;
+  double row_begins = 0, turned = 0, duration = 0;
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    if (sections.section[i] == dataset::kNoSection) continue;
+    Scan scan;
+    scan.number = i;
+    scan.curvature_class = static_cast<std::uint32_t>(classes[recording.condition[i]]);
+    scan.protocol = protocol[i];
+    const double time = recording.time[i];
+    if (scans_.empty()) {
+      scan.starts = true;
+    } else {
+      const std::size_t before = scans_.back().number;
+      duration = time - recording.time[before];
+      scan.starts = recording.condition[i] != recording.condition[before] || duration < 0 ||
+                    duration > compensation::HistoryState::kLongestGap;
+    }
+    const bool turns = scan.starts || sections.direction[i] != sections.direction[scans_.back().number];
+    if (turns) turned = time;
+    scan.since_reversal = time - turned;
+    if (scan.starts || protocol[i] != scans_.back().protocol || time >= row_begins + kRow) {
+      ++row;
+      row_begins = time;
+    }
+    scan.row = row;
+    scans_.push_back(scan);
+    steps_.resize(steps_.size() + operators_.memories());
+    if (!scan.starts) operators_.stepsOver(duration, steps_.data() + steps_.size() - operators_.memories());
+  }
+  const auto& times = grid.time_constants;
+  markSettled(3 * (times.empty() ? 0 : *std::max_element(times.begin(), times.end())));
+}
+
+// The scans after the settling time of a stay on a surface count, but at least two thirds of the stay.
+void HistoryStream::markSettled(double settling_time) {
+  for (std::size_t first = 0; first < scans_.size();) {
+    std::size_t last = first + 1;
+    while (last < scans_.size() && !scans_[last].starts) ++last;
+    const double begin = recording_->time[scans_[first].number];
+    const double length = recording_->time[scans_[last - 1].number] - begin;
+    const double counts = begin + std::min(settling_time, length / 3);
+    for (std::size_t k = first; k < last; ++k)
+      scans_[k].settled = recording_->time[scans_[k].number] >= counts;
+    first = last;
+  }
+}
+
+}  // namespace fsr::calibration

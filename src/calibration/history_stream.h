@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "compensation/history_fit.h"
+#include "dataset/protocols.h"
+#include "dataset/sections.h"
+#include "fsr_pressure_map/dataset/condition_classes.h"
+#include "fsr_pressure_map/dataset/recording.h"
+
+namespace fsr::calibration {
+
+/// The scans of one recording in the order of time, as the operators of a history model meet them.
+class HistoryStream {
+ public:
+  struct Scan {
+    std::size_t number = 0;  ///< in the recording
+    std::uint32_t curvature_class = 0;
+    std::uint32_t protocol = 0;  ///< dataset::Protocols::kOther: of none
+    std::uint32_t row = 0;       ///< scans of one row lie within half a second of one protocol
+    bool starts = false;         ///< nothing is known of the readings before
+    bool settled = false;        ///< counts: the memories no longer depend on the start
+    double since_reversal = 0;   ///< time since the chamber changed its direction [s]
+  };
+
+  /// The arguments but `grid` must outlive the object. `classes`: of the conditions of this recording.
+  HistoryStream(const dataset::Recording& recording, const std::vector<std::size_t>& classes,
+                const dataset::Sections& sections, const std::vector<std::uint32_t>& protocol,
+                const compensation::HistoryGrid& grid);
+
+  const std::vector<Scan>& scans() const { return scans_; }
+  const dataset::Recording& recording() const { return *recording_; }
+  const dataset::Sections& sections() const { return *sections_; }
+
+  /// Drives the operators with the static answers of one taxel and calls visit(scan, x, state) for each scan
+  /// that counts. `answer` [classes]: pressure of each code [Pa], empty = the class has no answer. Codes at
+  /// full scale are left out.
+  template <typename Visit>
+  void run(std::size_t taxel, const std::vector<std::vector<double>>& answer, Visit&& visit) const {
+    std::vector<double> state(operators_.size());
+    double last = 0;
+    bool known = false;
+    for (std::size_t k = 0; k < scans_.size(); ++k) {
+      const Scan& scan = scans_[k];
+      known = known && !scan.starts;
+      const std::uint16_t code = recording_->scan(scan.number)[taxel];
+      const std::vector<double>& table = answer[scan.curvature_class];
+      if (table.empty() || code >= recording_->full_scale) continue;
+      const double x = table[code];
+      if (known) {
+        operators_.advance(last, x, steps_.data() + k * operators_.memories(), state.data());
+      } else {
+        operators_.start(x, state.data());
+      }
+      known = true;
+      last = x;
+      if (scan.settled) visit(scan, x, state.data());
+    }
+  }
+
+ private:
+  void markSettled(double settling_time);
+
+  const dataset::Recording* recording_;
+  const dataset::Sections* sections_;
+  compensation::HistoryOperators operators_;
+  std::vector<Scan> scans_;
+  std::vector<rheology::ExponentialMemory::Step> steps_;  // [scans x memories]
+};
+
+}  // namespace fsr::calibration

@@ -1,0 +1,72 @@
+#include "compensation/history_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fsr::compensation {
+
+HistoryState::HistoryState(const HistoryModel& model, std::size_t taxels)
+    : operators_(model.radius, model.time_constant),
+      weights_(model.play_weight),
+      correction_(model.knot, model.correction),
+      loading_deviation_(model.deviation_knot, model.loading_deviation),
+      unloading_deviation_(model.deviation_knot, model.unloading_deviation),
+      settling_time_(model.settlingTime()),
+      settling_span_(model.settlingSpan()),
+      longest_gap_(model.time_constant.empty() ? kLongestGap : settling_time_),
+      steps_(operators_.memories()),
+      known_(taxels, Known::kNothing),
+      taxels_(taxels),
+      states_(taxels * operators_.size()) {
+  weights_.insert(weights_.end(), model.memory_weight.begin(), model.memory_weight.end());
+  for (const double weight : weights_) weight_sum_ += weight;
+}
+
+void HistoryState::forget() noexcept {
+  std::fill(known_.begin(), known_.end(), Known::kNothing);
+}
+
+void HistoryState::rest() noexcept {
+  std::fill(known_.begin(), known_.end(), Known::kRest);
+}
+
+void HistoryState::beginScan(double time) noexcept {
+  if (!std::isfinite(time)) return;
+  const double duration = time - time_;
+  if (started_ && (duration < 0 || duration > longest_gap_)) forget();
+  started_ = true;
+  time_ = time;
+  if (duration == duration_ || !(duration >= 0)) return;
+  operators_.stepsOver(duration, steps_.data());
+  duration_ = duration;
+}
+
+bool HistoryState::correct(std::size_t taxel, bool frozen, float& pressure, float& deviation) noexcept {
+  const double x = static_cast<double>(pressure);
+  if (frozen || !std::isfinite(x)) return false;
+  Taxel& own = taxels_[taxel];
+  double* const state = &states_[taxel * operators_.size()];
+  if (known_[taxel] != Known::kReadings) {
+    operators_.start(x, state);
+    own = {x, x, x, time_, known_[taxel] == Known::kRest};
+    known_[taxel] = Known::kReadings;
+  } else {
+    operators_.advance(own.last, x, steps_.data(), state);
+    own.last = x;
+    if (!own.settled) {
+      own.lowest = std::min(own.lowest, x);
+      own.highest = std::max(own.highest, x);
+      own.settled = time_ - own.since >= settling_time_ && own.highest - own.lowest >= settling_span_;
+    }
+  }
+  if (!own.settled) return false;
+  double sum = 0;
+  for (std::size_t k = 0; k < weights_.size(); ++k) sum += weights_[k] * state[k];
+  const double corrected = x + correction_(x) + (sum - weight_sum_ * x);
+  pressure = static_cast<float>(corrected);
+  const bool unloading = !weights_.empty() && state[0] > x;
+  deviation = static_cast<float>(unloading ? unloading_deviation_(corrected) : loading_deviation_(corrected));
+  return true;
+}
+
+}  // namespace fsr::compensation

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "compensation/even_line.h"
+#include "compensation/history_operators.h"
+#include "fsr_pressure_map/compensation/history.h"
+
+namespace fsr::compensation {
+
+/// The memory of every taxel of a live map. All memory is allocated by the constructor.
+///
+/// A taxel is settled once its operators no longer depend on the time before the first reading: after
+/// HistoryModel::settlingTime(), and after its readings covered HistoryModel::settlingSpan(). Until then the
+/// static answer stands.
+class HistoryState {
+ public:
+  /// `model` must be present().
+  HistoryState(const HistoryModel& model, std::size_t taxels);
+
+  /// Forgets the readings of all taxels, or of one.
+  void forget() noexcept;
+  void forget(std::size_t taxel) noexcept { known_[taxel] = Known::kNothing; }
+  /// The sheet has lain at rest for long: with their next reading all taxels are settled there.
+  void rest() noexcept;
+
+  /// Begins the scan of `time` [s]. Time that runs back, or a gap longer than the settling time of the
+  /// memories (without memories: than kLongestGap), forgets all readings.
+  void beginScan(double time) noexcept;
+
+  /// Corrects the static answer of one taxel in the scan that was begun; `pressure` and `deviation` [Pa] are
+  /// changed only if the taxel is settled. Returns whether it is. `frozen`, or a pressure that is not finite:
+  /// the reading is none, the state stays as it is and the taxel is not settled.
+  bool correct(std::size_t taxel, bool frozen, float& pressure, float& deviation) noexcept;
+
+  static constexpr double kLongestGap = 60;  ///< [s]
+
+ private:
+  enum class Known : std::uint8_t { kNothing, kRest, kReadings };
+  struct Taxel {
+    double last = 0;     // x of the scan before [Pa]
+    double lowest = 0;   // x since the first reading [Pa]
+    double highest = 0;  // likewise
+    double since = 0;    // time of the first reading [s]
+    bool settled = false;
+  };
+
+  HistoryOperators operators_;
+  std::vector<double> weights_;  // of the operators
+  double weight_sum_ = 0;
+  EvenLine correction_;
+  EvenLine loading_deviation_;
+  EvenLine unloading_deviation_;
+  double settling_time_;  // [s]
+  double settling_span_;  // [Pa]
+  double longest_gap_;    // [s]
+
+  bool started_ = false;
+  double time_ = 0;       // of the scan [s]
+  double duration_ = -1;  // that steps_ are for [s]
+  std::vector<rheology::ExponentialMemory::Step> steps_;
+  std::vector<Known> known_;    // [taxels]
+  std::vector<Taxel> taxels_;   // [taxels]
+  std::vector<double> states_;  // [taxels x operators]
+};
+
+}  // namespace fsr::compensation

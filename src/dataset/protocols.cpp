@@ -1,0 +1,213 @@
+#include "dataset/protocols.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "settings/number_text.h"
+#include "statistics/median.h"
+
+namespace fsr::dataset {
+
+namespace {
+
+constexpr double kStill = 0.05;       // share of the fastest rate; below it the chamber holds its pressure
+constexpr double kLoaded = 0.1;       // share of the highest pressure; below it the sheet is unloaded
+constexpr double kLeastDwell = 2;     // shorter dwells count as corners [s]
+constexpr double kRateWindow = 2;     // over which the rate of pressure is found [s]
+constexpr double kLeastShare = 0.05;  // of the scans; a smaller group is no protocol
+
+// One cycle of one recording.
+struct Cycle {
+  std::size_t recording = 0;
+  std::vector<std::size_t> scans;  // in the order of time
+};
+
+// Slope of the pressure at each scan: a straight line through the scans within half a window [Pa/s]. A window
+// does not reach beyond the surface on which the scan was taken.
+std::vector<double> ratesOf(const Recording& recording) {
+  const std::size_t n = recording.scans();
+  std::vector<double> rate(n, 0);
+  std::size_t first = 0, last = 0;
+  double count = 0, t = 0, p = 0, tt = 0, tp = 0;
+  const auto add = [&](std::size_t i, double weight) {
+    // Relative to the first scan, so that the sums keep their digits.
+    const double time = recording.time[i] - recording.time[0];
+    count += weight, t += weight * time, p += weight * recording.pressure[i];
+    tt += weight * time * time, tp += weight * time * recording.pressure[i];
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i == 0 || recording.condition[i] != recording.condition[i - 1]) {
+      first = last = i;
+      count = t = p = tt = tp = 0;
+    }
+    while (last < n && recording.condition[last] == recording.condition[i] &&
+           recording.time[last] <= recording.time[i] + kRateWindow / 2) {
+      add(last++, 1);
+    }
+    while (recording.time[first] < recording.time[i] - kRateWindow / 2) add(first++, -1);
+    const double spread = tt - t * t / count;
+    rate[i] = spread > 1e-9 ? (tp - t * p / count) / spread : 0;
+  }
+  return rate;
+}
+
+std::vector<Cycle> cyclesOf(const std::vector<Recording>& recordings, const std::vector<Sections>& sections) {
+  std::vector<Cycle> cycles;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> place;  // of condition and cycle
+    for (std::size_t i = 0; i < recordings[r].scans(); ++i) {
+      if (sections[r].section[i] == kNoSection) continue;
+      const auto [entry, fresh] =
+          place.emplace(std::pair(recordings[r].condition[i], sections[r].cycle[i]), cycles.size());
+      if (fresh) cycles.push_back({r, {}});
+      cycles[entry->second].scans.push_back(i);
+    }
+  }
+  return cycles;
+}
+
+// A feature of the course, and how a protocol is named by it.
+struct Feature {
+  double CycleCourse::*value;
+  double factor;
+  const char* before;
+  const char* after;
+  double unit;
+};
+
+const std::array<Feature, 3> kFeatures = {{{&CycleCourse::speed, kOtherSpeed, "ramps of ", " kPa/s", 1e3},
+                                           {&CycleCourse::dwell, kOtherDwell, "dwells of ", " s", 1},
+                                           {&CycleCourse::peak, kOtherPeak, "peaks of ", " kPa", 1e3}}};
+
+// Groups where the feature jumps. Where it does not jump but varies by more than the factor between its lower
+// and its upper tenth: two halves.
+std::vector<std::vector<std::size_t>> groupsOf(const std::vector<double>& feature, double factor) {
+  std::vector<std::vector<std::size_t>> groups = groupsByJump(feature, factor);
+  if (groups.size() != 1 || groups.front().size() < 4) return groups;
+  std::vector<std::size_t> order = groups.front();
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return feature[a] < feature[b]; });
+  const std::size_t tenth = order.size() / 10, half = order.size() / 2;
+  if (feature[order[order.size() - 1 - tenth]] <= factor * feature[order[tenth]]) return groups;
+  const auto middle = order.begin() + static_cast<std::ptrdiff_t>(half);
+  return {{order.begin(), middle}, {middle, order.end()}};
+}
+
+// The group of each cycle by each feature.
+std::vector<std::array<std::size_t, 3>> keysOf(const std::vector<CycleCourse>& courses) {
+  std::vector<std::array<std::size_t, 3>> keys(courses.size(), {0, 0, 0});
+  for (std::size_t f = 0; f < kFeatures.size(); ++f) {
+    std::vector<double> feature;
+    for (const CycleCourse& course : courses) feature.push_back(course.*kFeatures[f].value);
+    const auto groups = groupsOf(feature, kFeatures[f].factor);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      for (const std::size_t c : groups[g]) keys[c][f] = g + 1;
+    }
+  }
+  return keys;
+}
+
+// The features in which the protocols differ, with the median of the group.
+std::string nameOf(const std::vector<std::size_t>& members, const std::vector<CycleCourse>& courses,
+                   const std::vector<std::array<std::size_t, 3>>& keys) {
+  std::string name;
+  for (std::size_t f = 0; f < kFeatures.size(); ++f) {
+    const auto same = [&](const auto& key) { return key[f] == keys.front()[f]; };
+    if (std::all_of(keys.begin(), keys.end(), same)) continue;
+    std::vector<double> values;
+    for (const std::size_t c : members) values.push_back(courses[c].*kFeatures[f].value / kFeatures[f].unit);
+    name += (name.empty() ? "" : ", ") + std::string(kFeatures[f].before) +
+            settings::roundedText(statistics::upperMedian(values, 0), 3) + kFeatures[f].after;
+  }
+  return name.empty() ? "all cycles" : name;
+}
+
+// The longest time at which the rate stays below kStill of the fastest [s].
+double longestHold(const Recording& recording, const std::vector<double>& rate, double fastest) {
+  double longest = 0, hold = 0;
+  for (std::size_t i = 1; i < recording.scans(); ++i) {
+    const bool goes_on = recording.condition[i] == recording.condition[i - 1] &&
+                         std::abs(rate[i]) <= kStill * fastest && std::abs(rate[i - 1]) <= kStill * fastest;
+    hold = goes_on ? hold + (recording.time[i] - recording.time[i - 1]) : 0;
+    longest = std::max(longest, hold);
+  }
+  return longest;
+}
+
+}  // namespace
+
+CycleCourse courseOf(const double* time, const double* pressure, const double* rate, std::size_t scans,
+                     const CourseScale& scale) {
+  CycleCourse course;
+  std::vector<double> speeds;
+  for (std::size_t i = 0; i < scans; ++i) {
+    course.peak = std::max(course.peak, pressure[i]);
+    const double speed = std::abs(rate[i]);
+    if (speed > kStill * scale.fastest) speeds.push_back(speed);
+    const bool holds = speed <= kStill * scale.fastest && pressure[i] > kLoaded * scale.highest;
+    if (holds && i + 1 < scans) course.dwell += time[i + 1] - time[i];
+  }
+  course.speed = statistics::upperMedian(std::move(speeds), 0);
+  course.dwell = std::max(course.dwell, kLeastDwell);
+  return course;
+}
+
+std::vector<std::vector<std::size_t>> groupsByJump(const std::vector<double>& feature, double factor) {
+  std::vector<std::size_t> order;
+  for (std::size_t c = 0; c < feature.size(); ++c) {
+    if (feature[c] > 0) order.push_back(c);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return feature[a] < feature[b]; });
+  std::vector<std::vector<std::size_t>> groups;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool jumps = k > 0 && feature[order[k]] > factor * feature[order[k - 1]];
+    if (k == 0 || jumps) groups.emplace_back();
+    groups.back().push_back(order[k]);
+  }
+  for (auto& group : groups) std::sort(group.begin(), group.end());
+  return groups;
+}
+
+Protocols protocolsOf(const std::vector<Recording>& recordings, const std::vector<Sections>& sections) {
+  Protocols protocols;
+  CourseScale scale;
+  std::vector<std::vector<double>> rates;
+  for (const Recording& recording : recordings) {
+    rates.push_back(ratesOf(recording));
+    for (const double rate : rates.back()) scale.fastest = std::max(scale.fastest, std::abs(rate));
+    for (const double pressure : recording.pressure) scale.highest = std::max(scale.highest, pressure);
+    protocols.of_scan.emplace_back(recording.scans(), Protocols::kOther);
+  }
+  protocols.highest = scale.highest;
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    protocols.longest_hold =
+        std::max(protocols.longest_hold, longestHold(recordings[r], rates[r], scale.fastest));
+  }
+  const std::vector<Cycle> cycles = cyclesOf(recordings, sections);
+  std::vector<CycleCourse> courses;
+  std::size_t scans = 0;
+  for (const Cycle& cycle : cycles) {
+    const Recording& recording = recordings[cycle.recording];
+    const std::size_t first = cycle.scans.front(), length = cycle.scans.back() + 1 - first;
+    courses.push_back(courseOf(&recording.time[first], &recording.pressure[first],
+                               &rates[cycle.recording][first], length, scale));
+    scans += cycle.scans.size();
+  }
+  const auto keys = keysOf(courses);
+  std::map<std::array<std::size_t, 3>, std::vector<std::size_t>> groups;
+  for (std::size_t c = 0; c < cycles.size(); ++c) groups[keys[c]].push_back(c);
+  for (const auto& [key, members] : groups) {
+    std::size_t own = 0;
+    for (const std::size_t c : members) own += cycles[c].scans.size();
+    if (static_cast<double>(own) < kLeastShare * static_cast<double>(scans)) continue;
+    const auto number = static_cast<std::uint32_t>(protocols.names.size());
+    protocols.names.push_back(nameOf(members, courses, keys));
+    for (const std::size_t c : members) {
+      for (const std::size_t i : cycles[c].scans) protocols.of_scan[cycles[c].recording][i] = number;
+    }
+  }
+  return protocols;
+}
+
+}  // namespace fsr::dataset

@@ -1,0 +1,91 @@
+#include "report/history_report.h"
+
+#include <iomanip>
+#include <sstream>
+
+#include "settings/number_text.h"
+
+namespace fsr::report {
+
+namespace {
+
+constexpr int kNameWidth = 52;
+constexpr double kKilopascal = 1e3;  // [Pa]
+constexpr const char* kFamilyNames[] = {"static", "plays", "memories", "both"};
+
+std::string kilopascal(double pressure) {
+  return settings::cellText(pressure / kKilopascal, 2);
+}
+
+void head(std::ostream& out, const std::string& name) {
+  out << std::left << std::setw(kNameWidth) << name << std::right;
+}
+
+void protocolTable(std::ostream& out, const std::vector<calibration::HistoryScore::Protocol>& protocols) {
+  out << "RMSE [kPa] of means over half a second; each protocol was predicted without it\n";
+  head(out, "protocol");
+  for (const char* name : kFamilyNames) out << std::setw(10) << name;
+  out << '\n';
+  for (const auto& protocol : protocols) {
+    head(out, protocol.name);
+    for (const double rmse : protocol.rmse) out << std::setw(10) << kilopascal(rmse);
+    out << '\n';
+  }
+}
+
+void partTable(std::ostream& out, const std::vector<calibration::HistoryScore::Part>& parts) {
+  out << "RMSE [kPa] of all readings of protocols that were left out\n";
+  head(out, "readings");
+  out << std::setw(10) << "static" << std::setw(10) << "history" << std::setw(14) << "within 1 dev" << '\n';
+  for (const auto& part : parts) {
+    head(out, part.name);
+    out << std::setw(10) << kilopascal(part.static_rmse) << std::setw(10) << kilopascal(part.rmse)
+        << std::setw(12) << settings::cellText(100 * part.within_one_deviation, 1) << " %\n";
+  }
+}
+
+}  // namespace
+
+std::string historyText(const calibration::Calibration& calibration) {
+  const calibration::HistoryScore& score = calibration.scores.history;
+  if (score.choice.empty()) return "";
+  std::ostringstream out;
+  out << score.choice << '\n';
+  if (!score.protocols.empty()) protocolTable(out, score.protocols);
+  if (!score.parts.empty()) partTable(out, score.parts);
+  return out.str();
+}
+
+Json historyJson(const calibration::Calibration& calibration) {
+  const calibration::HistoryScore& score = calibration.scores.history;
+  if (score.choice.empty()) return nullptr;
+  Json protocols = Json::array(), parts = Json::array();
+  for (const auto& protocol : score.protocols) {
+    Json rmse = Json::object();
+    for (std::size_t f = 0; f < protocol.rmse.size(); ++f) rmse[kFamilyNames[f]] = protocol.rmse[f];
+    protocols.push_back({{"protocol", protocol.name}, {"rmse", rmse}});
+  }
+  for (const auto& part : score.parts) {
+    parts.push_back({{"readings", part.name},
+                     {"count", part.readings},
+                     {"static_rmse", part.static_rmse},
+                     {"rmse", part.rmse},
+                     {"within_one_deviation", part.within_one_deviation}});
+  }
+  const compensation::HistoryModel& model = calibration.history;
+  return {{"choice", score.choice},
+          {"family", compensation::historyName(model.family)},
+          {"radius", model.radius},
+          {"play_weight", model.play_weight},
+          {"time_constant", model.time_constant},
+          {"memory_weight", model.memory_weight},
+          {"knot", model.knot},
+          {"correction", model.correction},
+          {"deviation_knot", model.deviation_knot},
+          {"loading_deviation", model.loading_deviation},
+          {"unloading_deviation", model.unloading_deviation},
+          {"protocols", protocols},
+          {"parts", parts}};
+}
+
+}  // namespace fsr::report

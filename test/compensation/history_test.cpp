@@ -1,0 +1,203 @@
+// The model of the sheet's memory: its operators, its fit, and the state of a live map.
+
+#include "fsr_pressure_map/compensation/history.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "compensation/history_fit.h"
+#include "compensation/history_state.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "support/allocation_guard.h"
+
+namespace fsr::compensation {
+namespace {
+
+// Coefficients as a fit would give them.
+HistoryModel model() {
+  HistoryModel model;
+  model.family = HistoryFamily::kBoth;
+  model.knot = {0, 200e3, 400e3};
+  model.correction = {1e3, -2e3, 3e3};
+  model.radius = {10e3, 50e3};
+  model.play_weight = {-0.2, -0.1};
+  model.time_constant = {0.5, 4};
+  model.memory_weight = {0.05, 0.02};
+  model.deviation_knot = {0, 400e3};
+  model.loading_deviation = {2e3, 2e3};
+  model.unloading_deviation = {3e3, 3e3};
+  return model;
+}
+
+TEST(HistoryModel, NamesItsFamilies) {
+  EXPECT_EQ(historyName(historyFromName("plays")), "plays");
+  EXPECT_THROW(historyFromName("loop"), settings::InputError);
+}
+
+TEST(HistoryModel, IsSettledAfterThreeTimeConstantsAndTheWidestPlayThatMatters) {
+  HistoryModel own = model();
+  EXPECT_DOUBLE_EQ(own.settlingTime(), 12);
+  // 0.1 x 50 kPa is more than the smallest deviation.
+  EXPECT_DOUBLE_EQ(own.settlingSpan(), 100e3);
+  own.loading_deviation = own.unloading_deviation = {6e3, 6e3};
+  EXPECT_DOUBLE_EQ(own.settlingSpan(), 20e3) << "the wide play owes less than the deviation";
+  own.loading_deviation = own.unloading_deviation = {9e3, 9e3};
+  EXPECT_DOUBLE_EQ(own.settlingSpan(), 0);
+}
+
+// Answer of a taxel that gets these static answers, `step` seconds apart.
+std::vector<float> answers(HistoryState& state, const std::vector<double>& x, double step) {
+  std::vector<float> result;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    float pressure = float(x[i]), deviation = 1;
+    state.beginScan(double(i) * step);
+    state.correct(0, false, pressure, deviation);
+    result.push_back(pressure);
+  }
+  return result;
+}
+
+// /usr/bin/python3 -c "
+// import numpy as np
+// x=np.array([0,100e3,250e3,250e3,120e3,180e3]); dt=1.0
+// def play(r):
+//     o=x[0]; out=[]
+//     for v in x: o=min(max(o,v-r),v+r); out.append(o)
+//     return np.array(out)
+// def ema(tau):
+//     m=x[0]; out=[m]
+//     for a,b in zip(x,x[1:]):  # 1000 small steps of a line, implicit midpoint
+//         for k in range(1000):
+//             u=a+(b-a)*(k+.5)/1000; h=dt/1000/tau; m=(m*(1-h/2)+h*u)/(1+h/2)
+//         out.append(m)
+//     return np.array(out)
+// c=np.interp(x,[0,200e3,400e3],[1e3,-2e3,3e3])
+// p=x+c-.2*(play(10e3)-x)-.1*(play(50e3)-x)+.05*(ema(.5)-x)+.02*(ema(4)-x)
+// print(np.round(p,1))"
+TEST(HistoryState, AnswersAsNumpyDoes) {
+  HistoryState state(model(), 1);
+  state.rest();
+  const std::vector<float> own = answers(state, {0, 100e3, 250e3, 250e3, 120e3, 180e3}, 1.0);
+  const std::vector<double> expected = {1000.0, 102568.7, 248682.4, 252631.0, 114800.0, 179199.6};
+  for (std::size_t i = 0; i < own.size(); ++i) EXPECT_NEAR(own[i], expected[i], 0.2) << i;
+}
+
+TEST(HistoryState, GivesTheStaticAnswerUntilItIsSettled) {
+  HistoryState state(model(), 1);
+  float pressure = 100e3, deviation = 7;
+  state.beginScan(0);
+  EXPECT_FALSE(state.correct(0, false, pressure, deviation));
+  EXPECT_EQ(pressure, 100e3f);
+  EXPECT_EQ(deviation, 7);
+  const auto corrected = [&](double time, float x) {
+    pressure = x, deviation = 7;
+    state.beginScan(time);
+    return state.correct(0, false, pressure, deviation);
+  };
+  EXPECT_FALSE(corrected(6, 250e3)) << "the span is covered, the time is short";
+  EXPECT_TRUE(corrected(13, 250e3));
+  EXPECT_NE(pressure, 250e3f);
+  EXPECT_EQ(deviation, 2e3f) << "loading";
+  EXPECT_TRUE(corrected(14, 100e3));
+  EXPECT_EQ(deviation, 3e3f) << "unloading";
+  EXPECT_FALSE(corrected(13.5, 100e3)) << "time ran back";
+}
+
+TEST(HistoryState, ForgetsAfterAGapAndOnRequest) {
+  HistoryState state(model(), 2);
+  const auto corrected = [&](double time, std::size_t taxel, bool frozen = false) {
+    float pressure = 100e3, deviation = 7;
+    state.beginScan(time);
+    return state.correct(taxel, frozen, pressure, deviation);
+  };
+  state.rest();
+  EXPECT_TRUE(corrected(0, 0));
+  EXPECT_TRUE(corrected(0, 1));
+  EXPECT_FALSE(corrected(1, 1, true)) << "a saturated reading";
+  EXPECT_TRUE(corrected(2, 1)) << "its state was kept";
+  state.forget(1);
+  EXPECT_TRUE(corrected(3, 0));
+  EXPECT_FALSE(corrected(3, 1));
+  EXPECT_FALSE(corrected(16, 0)) << "a gap longer than the settling time";
+}
+
+// Whatever the readings, the answer stays within what the weights permit; a reading that is not finite is
+// none.
+TEST(HistoryState, IsBoundedForAnyReadings) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any(-1e5, 7e5);
+  const HistoryModel own = model();
+  // |c| <= 3 kPa, plays <= sum |w| r = 7 kPa, memories <= 0.07 x 800 kPa
+  const double bound = 3e3 + 7e3 + 0.07 * 8e5;
+  HistoryState state(own, 1);
+  double time = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const int kind = int(random() % 50);
+    time += kind == 0 ? -1.0 : kind == 1 ? 100.0 : kind == 2 ? 0.0 : 1e-3 * double(random() % 3000);
+    const double x = kind == 3 ? std::numeric_limits<double>::quiet_NaN() : kind == 4 ? 1e38 : any(random);
+    if (kind == 5) state.rest();
+    float pressure = float(x), deviation = 7;
+    state.beginScan(kind == 6 ? std::numeric_limits<double>::quiet_NaN() : time);
+    const bool corrected = state.correct(0, kind == 4, pressure, deviation);
+    if (corrected) {
+      ASSERT_LE(std::abs(double(pressure) - x), bound) << i;
+      ASSERT_GT(deviation, 0);
+    } else if (kind != 3) {
+      ASSERT_EQ(pressure, float(x));
+    }
+  }
+}
+
+TEST(HistoryState, AllocatesNothing) {
+  HistoryState state(model(), 70);
+  const test_support::AllocationGuard guard;
+  for (int i = 0; i < 100; ++i) {
+    state.beginScan(0.013 * i * i);
+    for (std::size_t taxel = 0; taxel < 70; ++taxel) {
+      float pressure = float(1000 * i), deviation = 1;
+      state.correct(taxel, false, pressure, deviation);
+    }
+  }
+  EXPECT_EQ(guard.allocations(), 0u);
+}
+
+// x as a Prandtl-Ishlinskii loop reads it, on the radii of the grid: the inverse is of the model's form.
+TEST(HistoryFit, RecoversALoopThatItsFormContains) {
+  const HistoryGrid grid = historyGrid(600e3, 30);
+  const HistoryOperators operators = operatorsOf(grid);
+  std::vector<double> state(operators.size()), features(grid.features());
+  std::vector<rheology::ExponentialMemory::Step> steps(operators.memories());
+  operators.stepsOver(0.1, steps.data());
+  operators.start(0, state.data());
+  HistorySums sums(grid.features());
+  double last = 0;
+  for (int i = 0; i < 8000; ++i) {
+    const double x = 300e3 * (1 - std::cos(i * 0.004)) * (0.6 + 0.4 * std::sin(i * 0.0007));
+    operators.advance(last, x, steps.data(), state.data());
+    last = x;
+    historyFeatures(grid, x, state.data(), features.data());
+    const std::size_t plays = grid.knots.size();
+    sums.add(features.data(), -0.3 * features[plays + 1] - 0.1 * features[plays + 3]);
+  }
+  sums.finish();
+  const Eigen::VectorXd fitted = fitHistory(HistoryFamily::kPlays, grid, sums);
+  const HistoryModel own = historyModel(HistoryFamily::kPlays, grid, fitted);
+  ASSERT_EQ(own.radius, (std::vector<double>{grid.radii[1], grid.radii[3]}));
+  EXPECT_NEAR(own.play_weight[0], -0.3, 1e-3);
+  EXPECT_NEAR(own.play_weight[1], -0.1, 1e-3);
+  EXPECT_TRUE(own.time_constant.empty());
+  EXPECT_LT(std::sqrt(sums.meanSquare(fitted)), 20);
+}
+
+TEST(HistoryGrid, HasNoMemoryLongerThanAThirdOfTheLongestHold) {
+  EXPECT_EQ(historyGrid(600e3, 0).time_constants, (std::vector<double>{0.3}));
+  const HistoryGrid grid = historyGrid(600e3, 90);
+  EXPECT_EQ(grid.time_constants.size(), 6u);
+  EXPECT_NEAR(grid.time_constants.back(), 30, 1e-9);
+}
+
+}  // namespace
+}  // namespace fsr::compensation

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "fsr_pressure_map/dataset/recording.h"
+
+namespace test_support {
+
+/// Cycles of one protocol.
+struct MemoryCycles {
+  int cycles = 2;
+  double peak = 600e3;    // [Pa]
+  double rate = 20e3;     // [Pa/s]
+  double dwell_peak = 2;  // [s]
+  double dwell_rest = 2;  // [s]
+};
+
+/// A sheet of straight sensors, some 3,500 of 4,095 counts at 600 kPa, that remember. The formulas are not
+/// those of the package: the loop is one of Bouc and Wen, the creep a stretched exponential of time.
+struct MemoryRig {
+  fsr::matrix::MatrixSize size{1, 3};
+  std::vector<MemoryCycles> program;
+  double loop = 0;        // width, share of 600 kPa
+  double creep = 0;       // final rise under a constant load, share of the load
+  double noise = 4;       // standard deviation [counts]
+  double frequency = 10;  // of the scans [Hz]
+  unsigned seed = 1;
+};
+
+/// Two paces, short and long dwells, and partial cycles.
+std::vector<MemoryCycles> variedProgram();
+
+/// The recording of the rig on a flat surface.
+fsr::dataset::Recording memoryRecording(const MemoryRig& rig);
+
+}  // namespace test_support
