@@ -17,6 +17,7 @@
 #include "report/calibration_report.h"
 #include "report/history_report.h"
 #include "ros/tools/bag_options.h"
+#include "ros/tools/history_option.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
 
@@ -104,16 +105,12 @@ fsr::regression::RegressorOptions regressorOptions(const fsr::settings::CommandL
   return options;
 }
 
-fsr::calibration::HistoryChoice historyChoice(const std::string& name) {
-  if (name == "auto") return {};
-  return {false, fsr::compensation::historyFromName(name)};
-}
-
 unsigned threadsOf(const fsr::settings::CommandLine& line) {
   return static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
 }
 
-fsr::calibration::CalibrationOptions calibrationOptions(const fsr::settings::CommandLine& line) {
+fsr::calibration::CalibrationOptions calibrationOptions(const fsr::settings::CommandLine& line,
+                                                        std::ostream& out) {
   fsr::calibration::CalibrationOptions options;
   options.scheme =
       fsr::compensation::schemeFromName(line.text("scheme", fsr::compensation::schemeName(options.scheme)));
@@ -125,7 +122,9 @@ fsr::calibration::CalibrationOptions calibrationOptions(const fsr::settings::Com
   options.seed = static_cast<std::uint64_t>(line.integer("seed", 1, {0, 1e15, ""}));
   options.threads = threadsOf(line);
   options.scores = !line.has("no-scores");
-  options.history = historyChoice(line.text("history", "auto"));
+  std::string remark;
+  options.history = historyOption(line.text("history", "auto"), remark);
+  if (!remark.empty()) out << remark << '\n';
   return options;
 }
 
@@ -183,7 +182,7 @@ fsr::calibration::Calibration merge(const fsr::settings::CommandLine& line, std:
 }
 
 fsr::calibration::Calibration train(const fsr::settings::CommandLine& line, std::ostream& out) {
-  const fsr::calibration::CalibrationOptions chosen = calibrationOptions(line);
+  const fsr::calibration::CalibrationOptions chosen = calibrationOptions(line, out);
   const fsr::calibration::CalibrationProblem problem{readBags(line), chosen};
   fsr::calibration::validate(problem);
   out << fsr::report::coverageText(fsr::dataset::coverageOf(problem.recordings, chosen.folds)) << std::endl;

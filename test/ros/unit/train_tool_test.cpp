@@ -9,7 +9,10 @@
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "report/verdict_file.h"
 #include "ros/bags/bag_writer.h"
+#include "support/example_discrepancy.h"
+#include "support/memory_rig.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr_ros {
@@ -122,6 +125,43 @@ TEST_F(TrainTool, TrainsEachModelWithItsOptions) {
   EXPECT_TRUE(grnn.bandwidth_chosen);
   EXPECT_EQ(trained({"--distance=literal"}).regressor.grnn.distance,
             fsr::regression::KernelDistance::kLiteral);
+}
+
+// A sheet with a loop, recorded with two paces, dwells and peaks.
+TEST_F(TrainTool, TakesTheSheetsMemoryOut) {
+  test_support::MemoryRig rig;
+  rig.program = test_support::variedProgram();
+  rig.loop = 0.08;
+  fsr::dataset::Recording recording = test_support::memoryRecording(rig);
+  recording.start_ns = 1500000000000000000;
+  const std::string bag = (folder_ / "memory.bag").string(), output = (folder_ / "c.h5").string();
+  const std::string verdict = (folder_ / "verdict.yaml").string();
+  writeBag(bag, recording);
+  const auto chosen = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> all = {bag, "--output", output};
+    all.insert(all.end(), words.begin(), words.end());
+    const std::string text = run(all);
+    return text.substr(std::min(text.size(), text.find("History: ")));
+  };
+  const std::string automatic = chosen({});
+  EXPECT_EQ(automatic.find("History: "), 0u) << automatic;
+  EXPECT_NE(automatic.find("the best on protocols that were left out."), std::string::npos) << automatic;
+  EXPECT_NE(automatic.find("unloading"), std::string::npos) << automatic;
+  EXPECT_TRUE(fsr::calibration::loadCalibration(output).history.present());
+  EXPECT_EQ(chosen({"--history", "memories"}).find("History: memories, as asked for"), 0u);
+  EXPECT_EQ(chosen({"--history", "none"}), "");
+  EXPECT_FALSE(fsr::calibration::loadCalibration(output).history.present());
+  EXPECT_NE(
+      run({bag, "--output", output, "--history", "loop"}).find("--history is \"loop\", but must be auto"),
+      std::string::npos);
+  EXPECT_NE(run({bend_, "--output", output, "--history", "plays"}).find("record cycles with two paces"),
+            std::string::npos);
+
+  fsr::discrepancy::DiscrepancyReport report = test_support::exampleDiscrepancy();
+  std::ofstream(verdict) << fsr::report::verdictText(report);
+  const std::string proposed = chosen({"--history", verdict});
+  EXPECT_NE(proposed.find("as proposed; it wins on protocols that were left out."), std::string::npos)
+      << proposed;
 }
 
 TEST_F(TrainTool, MergesCalibrations) {

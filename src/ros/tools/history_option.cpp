@@ -1,0 +1,58 @@
+#include "ros/tools/history_option.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "report/verdict_file.h"
+#include "simulation/effects/effect_library.h"
+
+namespace fsr_ros {
+
+namespace {
+
+using fsr::compensation::HistoryFamily;
+using fsr::simulation::Covariate;
+
+// An effect of earlier extremes is a loop; one of the time since the last reversal fades.
+HistoryFamily familyOf(const std::vector<std::string>& effects) {
+  bool plays = false, memories = false;
+  for (const fsr::simulation::EffectEntry& entry : fsr::simulation::effectLibrary()) {
+    if (std::find(effects.begin(), effects.end(), entry.info.id) == effects.end()) continue;
+    plays |= dependsOn(entry.info, Covariate::kPreviousExtremes);
+    memories |= dependsOn(entry.info, Covariate::kTimeSinceReversal);
+  }
+  if (plays && memories) return HistoryFamily::kBoth;
+  if (plays) return HistoryFamily::kPlays;
+  return memories ? HistoryFamily::kMemories : HistoryFamily::kNone;
+}
+
+std::string listed(const std::vector<std::string>& effects) {
+  std::string text;
+  for (const std::string& effect : effects) text += (text.empty() ? "" : ", ") + effect;
+  return text.empty() ? "no effect" : text;
+}
+
+}  // namespace
+
+fsr::calibration::HistoryChoice historyOption(const std::string& text, std::string& remark) {
+  if (text == "auto") return {};
+  if (!std::filesystem::exists(text)) {
+    try {
+      return {false, fsr::compensation::historyFromName(text)};
+    } catch (const fsr::settings::InputError&) {
+      throw fsr::settings::InputError(
+          "--history is \"" + text +
+          "\", but must be auto, none, plays, memories, both, or the path of a verdict.yaml");
+    }
+  }
+  const fsr::report::VerdictFile verdict = fsr::report::readVerdict(text);
+  const HistoryFamily family = familyOf(verdict.effects);
+  if (family == HistoryFamily::kNone) {
+    remark = text + " names " + listed(verdict.effects) +
+             ", which no model of memory describes; the history is chosen as with auto.";
+  }
+  return {true, family};
+}
+
+}  // namespace fsr_ros
