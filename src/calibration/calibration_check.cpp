@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "calibration/history_check.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
@@ -196,6 +197,7 @@ CalibrationCheck checkCalibration(const Calibration& calibration,
   CalibrationCheck check = checker.result(options);
   if (check.whole.readings == 0)
     throw settings::InputError("no reading of the bags gives a pressure; is every taxel masked?");
+  if (calibration.history.present()) check.history = checkHistory(calibration, recordings);
   const double range = calibration.trained.pressure.high - calibration.trained.pressure.low;
   const matrix::Layout& layout = calibration.layout;
   judgeClass(check.whole, range, options, check.reasons);

@@ -39,6 +39,9 @@ struct CalibrationCheck {
   std::vector<CheckedClass> classes;     ///< of each surface of the bags, in their order
   std::vector<std::size_t> suspicious;   ///< taxels with much larger errors than in training
   std::vector<std::size_t> dead, stuck;  ///< taxels, as TaxelWatch finds them
+  /// Errors of the static answer and with the model of the sheet's memory: all readings, those before the
+  /// model was settled, by direction, by time since the last reversal, by protocol. Empty without a model.
+  std::vector<HistoryScore::Part> history;
 };
 
 /// Scores a stored calibration on new recordings with a pressure reference, through the same live path as the

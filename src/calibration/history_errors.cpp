@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "settings/number_text.h"
+#include "calibration/history_parts.h"
 
 namespace fsr::calibration {
 
@@ -11,26 +11,10 @@ namespace {
 
 constexpr double kWithin = 0.682689492;  // of a normal distribution within one deviation
 constexpr double kSmallest = 1e-6;       // of the absolute errors that are told apart, share of `highest`
-constexpr std::array<double, 6> kTimes = {0.3, 1, 3, 10, 30, 100};  // since the last reversal [s]
-constexpr std::size_t kLoading = 1, kUnloading = 2, kFirstTime = 3;
-
-std::string timeName(std::size_t place) {
-  const std::string unit = " s since the reversal";
-  if (place == 0) return "up to " + settings::roundedText(kTimes.front()) + unit;
-  if (place == kTimes.size()) return "over " + settings::roundedText(kTimes.back()) + unit;
-  return settings::roundedText(kTimes[place - 1]) + " to " + settings::roundedText(kTimes[place]) + unit;
-}
-
-std::string nameOf(std::size_t part) {
-  if (part == 0) return "all readings";
-  if (part == kLoading) return "loading";
-  if (part == kUnloading) return "unloading";
-  return timeName(part - kFirstTime);
-}
 
 }  // namespace
 
-HistoryErrors::HistoryErrors(double highest) : highest_(highest), parts_(kParts) {}
+HistoryErrors::HistoryErrors(double highest) : highest_(highest), parts_(kHistoryParts) {}
 
 std::size_t HistoryErrors::bin(const Reading& reading) const {
   const double at = reading.answer / highest_ * static_cast<double>(kBins);
@@ -50,18 +34,15 @@ void HistoryErrors::add(const Reading& reading) {
   const double at = std::log(share) / std::log(1 / kSmallest) * static_cast<double>(kLevels - 1);
   const auto place = static_cast<std::size_t>(std::min(at, static_cast<double>(kLevels - 1)));
   const std::size_t own = bin(reading);
-  const auto add_to = [&](std::size_t part) {
-    Sum& sum = parts_[part];
+  const std::array<std::size_t, 3> parts = historyPartsOf(reading.direction, reading.since_reversal);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (k > 0 && parts[k] == parts[k - 1]) continue;
+    Sum& sum = parts_[parts[k]];
     ++sum.readings;
     sum.static_square += before * before;
     sum.square += error * error;
     ++sum.errors[own][place];
-  };
-  add_to(0);
-  if (reading.direction == statistics::LoadDirection::kLoading) add_to(kLoading);
-  if (reading.direction == statistics::LoadDirection::kUnloading) add_to(kUnloading);
-  const auto time = std::upper_bound(kTimes.begin(), kTimes.end(), reading.since_reversal) - kTimes.begin();
-  add_to(kFirstTime + static_cast<std::size_t>(time));
+  }
 }
 
 void HistoryErrors::merge(const HistoryErrors& other) {
@@ -121,7 +102,7 @@ std::vector<HistoryScore::Part> HistoryErrors::parts() const {
       const double deviation = quantile(b);
       for (std::size_t l = 0; l < kLevels && level(l) <= deviation; ++l) within += sum.errors[b][l];
     }
-    parts.push_back({nameOf(p), sum.readings, std::sqrt(sum.static_square / readings),
+    parts.push_back({historyPartName(p), sum.readings, std::sqrt(sum.static_square / readings),
                      std::sqrt(sum.square / readings), static_cast<double>(within) / readings});
   }
   return parts;

@@ -36,7 +36,6 @@ class HistoryErrors {
  private:
   static constexpr std::size_t kBins = 12;     // of the answer, in each direction
   static constexpr std::size_t kLevels = 256;  // of the absolute error, evenly spaced in its logarithm
-  static constexpr std::size_t kParts = 10;    // see parts()
 
   struct Sum {
     std::uint64_t readings = 0;

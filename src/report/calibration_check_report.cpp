@@ -4,6 +4,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "report/history_report.h"
+
 namespace fsr::report {
 
 namespace {
@@ -29,6 +31,7 @@ std::string checkText(const calibration::CalibrationCheck& check) {
       << "[kPa]" << std::setw(14) << "1 deviation %" << std::setw(12) << "training %" << '\n';
   for (const calibration::CheckedClass& row : check.classes) addRow(row, width, out);
   addRow(check.whole, width, out);
+  out << historyTable(check.history);
   for (const std::string& remark : check.remarks) out << "Note: " << remark << '\n';
   if (check.still_good) {
     out << "Still good.\n";

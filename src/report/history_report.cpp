@@ -33,18 +33,23 @@ void protocolTable(std::ostream& out, const std::vector<calibration::HistoryScor
   }
 }
 
-void partTable(std::ostream& out, const std::vector<calibration::HistoryScore::Part>& parts) {
-  out << "RMSE [kPa] of all readings of protocols that were left out\n";
+}  // namespace
+
+std::string historyTable(const std::vector<calibration::HistoryScore::Part>& parts) {
+  if (parts.empty()) return "";
+  std::ostringstream out;
+  out << "RMSE [kPa] of the static answer and with the history, by part of the readings\n";
   head(out, "readings");
-  out << std::setw(10) << "static" << std::setw(10) << "history" << std::setw(14) << "within 1 dev" << '\n';
+  out << std::setw(10) << "static" << std::setw(10) << "history" << std::setw(14) << "within 1 dev"
+      << std::setw(12) << "number" << '\n';
   for (const auto& part : parts) {
     head(out, part.name);
     out << std::setw(10) << kilopascal(part.static_rmse) << std::setw(10) << kilopascal(part.rmse)
-        << std::setw(12) << settings::cellText(100 * part.within_one_deviation, 1) << " %\n";
+        << std::setw(12) << settings::cellText(100 * part.within_one_deviation, 1) << " %" << std::setw(12)
+        << part.readings << '\n';
   }
+  return out.str();
 }
-
-}  // namespace
 
 std::string historyText(const calibration::Calibration& calibration) {
   const calibration::HistoryScore& score = calibration.scores.history;
@@ -52,7 +57,7 @@ std::string historyText(const calibration::Calibration& calibration) {
   std::ostringstream out;
   out << score.choice << '\n';
   if (!score.protocols.empty()) protocolTable(out, score.protocols);
-  if (!score.parts.empty()) partTable(out, score.parts);
+  if (!score.parts.empty()) out << "Protocols that were left out. " << historyTable(score.parts);
   return out.str();
 }
 

@@ -12,6 +12,9 @@ namespace fsr::report {
 /// was asked for.
 std::string historyText(const calibration::Calibration& calibration);
 
+/// A table of errors of the static answer and with a model of the sheet's memory; "" if there are none.
+std::string historyTable(const std::vector<calibration::HistoryScore::Part>& parts);
+
 /// The model and its scores; null if no model was asked for. Numbers are SI.
 Json historyJson(const calibration::Calibration& calibration);
 

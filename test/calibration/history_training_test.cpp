@@ -115,6 +115,27 @@ TEST(HistoryTraining, GivesTheSameOnAnyNumberOfThreads) {
   EXPECT_EQ(one.history.loading_deviation, three.history.loading_deviation);
 }
 
+// train --check: static beside history, in the live map.
+TEST(HistoryCheck, StatesPartsAndWhatWasNotSettled) {
+  const MemoryRig rig = rigWith(0.08, 0);
+  const Calibration calibration = trained(rig);
+  const CalibrationCheck check = checkCalibration(calibration, {another(rig)});
+  const auto part = [&](const std::string& name) {
+    for (const HistoryScore::Part& own : check.history)
+      if (own.name.rfind(name, 0) == 0) return own;
+    ADD_FAILURE() << "no part " << name;
+    return HistoryScore::Part{};
+  };
+  EXPECT_DOUBLE_EQ(part("all readings").rmse, check.whole.rmse);
+  EXPECT_EQ(part("loading").readings + part("unloading").readings, part("all readings").readings);
+  const HistoryScore::Part start = part("not settled: static answer");
+  EXPECT_GT(start.readings, 0u);
+  EXPECT_DOUBLE_EQ(start.rmse, start.static_rmse);
+  EXPECT_LT(part("unloading").rmse, 0.5 * part("unloading").static_rmse);
+  EXPECT_LT(part("ramps of 35").rmse, 10e3);
+  EXPECT_TRUE(checkCalibration(trained(rig, {false, HistoryFamily::kNone}), {another(rig)}).history.empty());
+}
+
 class HistoryFile : public testing::Test {
  protected:
   ~HistoryFile() override { std::remove(path_.c_str()); }
