@@ -5,6 +5,12 @@
 
 namespace fsr::compensation {
 
+namespace {
+
+constexpr double kLargest = 1e30;  // answer [Pa]; a map holds no infinite pressure
+
+}  // namespace
+
 HistoryState::HistoryState(const HistoryModel& model, std::size_t taxels)
     : operators_(model.radius, model.time_constant),
       weights_(model.play_weight),
@@ -63,6 +69,7 @@ bool HistoryState::correct(std::size_t taxel, bool frozen, float& pressure, floa
   double sum = 0;
   for (std::size_t k = 0; k < weights_.size(); ++k) sum += weights_[k] * state[k];
   const double corrected = x + correction_(x) + (sum - weight_sum_ * x);
+  if (!(std::abs(corrected) < kLargest)) return false;
   pressure = static_cast<float>(corrected);
   const bool unloading = !weights_.empty() && state[0] > x;
   deviation = static_cast<float>(unloading ? unloading_deviation_(corrected) : loading_deviation_(corrected));

@@ -90,6 +90,40 @@ void CalibrateBlended(benchmark::State& state) {
   }
 }
 
+/// With a model of the sheet's memory of five plays and six memories.
+void CalibrateWithHistory(benchmark::State& state) {
+  const fsr::matrix::MatrixSize matrix = size(state);
+  fsr::calibration::Calibration calibration;
+  calibration.tables = test_support::smallTables(matrix, kCurvatures, kFullScale);
+  calibration.layout = {matrix};
+  fsr::compensation::HistoryModel& model = calibration.history;
+  model.family = fsr::compensation::HistoryFamily::kBoth;
+  for (int k = 0; k <= 16; ++k) model.knot.push_back(40e3 * k);
+  model.correction.assign(model.knot.size(), 100);
+  model.radius = {12e3, 30e3, 60e3, 120e3, 210e3};
+  model.play_weight = {-0.3, -0.2, -0.1, -0.05, -0.02};
+  model.time_constant = {0.3, 0.7, 1.8, 4, 9, 20};
+  model.memory_weight = {-0.02, -0.02, -0.02, -0.02, -0.02, -0.02};
+  model.deviation_knot = {0, 640e3};
+  model.loading_deviation = model.unloading_deviation = {50e3, 50e3};
+  fsr::calibration::Calibrator calibrator(calibration);
+  calibrator.setSurface({"bend", 1, {{kCurvatures[3], 0, 0}}, {}}, 0);
+  calibrator.markRest();
+  const auto counts = loadCycles(matrix.taxels());
+  fsr::map::PressureMap map;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const std::uint16_t* scan = counts.data() + (i % kScans) * matrix.taxels();
+    // Stamps jitter, so that the steps of the memories are computed for each scan.
+    const double time = (double(i) + 0.1 * double(i % 3)) / kRate;
+    calibrator.calibrate({matrix, kFullScale, scan, matrix.taxels()}, time, map);
+    benchmark::DoNotOptimize(map.pressure.data());
+    benchmark::ClobberMemory();
+    ++i;
+  }
+  state.counters["settled"] = (map.flags[0] & fsr::map::taxel_flag::kHistoryShort) == 0;
+}
+
 /// Cost of one change of curvature, by rule: 0 nearest, 1 kernel, 2 interpolate.
 void CompileTables(benchmark::State& state) {
   const fsr::matrix::MatrixSize matrix = size(state);
@@ -124,5 +158,6 @@ BENCHMARK_CAPTURE(Calibrate, load_cycles, kScans)->Args({7, 10})->Args({16, 10})
 BENCHMARK_CAPTURE(Calibrate, standing_load, 1)->Args({7, 10})->Args({16, 10})->Args({32, 32});
 BENCHMARK(FineConverter)->Args({16, 10});
 BENCHMARK(CalibrateBlended)->Args({7, 10})->Args({16, 10})->Args({32, 32});
+BENCHMARK(CalibrateWithHistory)->Args({7, 10})->Args({16, 10})->Args({32, 32});
 BENCHMARK(CompileTables)->Unit(benchmark::kMillisecond)->Args({7, 10, 0})->Args({7, 10, 1})->Args({7, 10, 2});
 BENCHMARK(CopyScanToFloat)->Args({7, 10})->Args({16, 10})->Args({32, 32});

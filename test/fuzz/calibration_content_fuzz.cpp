@@ -19,8 +19,22 @@ namespace {
 
 constexpr std::uint16_t kFullScale = 31;
 
+// A model of the sheet's memory with every operator.
+fsr::compensation::HistoryModel someHistory() {
+  fsr::compensation::HistoryModel model;
+  model.family = fsr::compensation::HistoryFamily::kBoth;
+  model.knot = model.deviation_knot = {0, 300e3, 600e3};
+  model.correction = {1e3, 0, -1e3};
+  model.radius = {10e3, 60e3};
+  model.play_weight = {-0.3, -0.1};
+  model.time_constant = {0.3, 5};
+  model.memory_weight = {-0.05, -0.02};
+  model.loading_deviation = model.unloading_deviation = {2e3, 3e3, 4e3};
+  return model;
+}
+
 // The bytes of a valid file with all that training writes, one for each rule of handling curvature.
-std::string soundFile(fsr::compensation::Scheme scheme) {
+std::string soundFile(fsr::compensation::Scheme scheme, const fsr::compensation::HistoryModel& history = {}) {
   test_support::SyntheticRig rig;
   rig.size = {1, 2};
   rig.full_scale = kFullScale;
@@ -29,26 +43,34 @@ std::string soundFile(fsr::compensation::Scheme scheme) {
   fsr::calibration::CalibrationProblem problem{{test_support::syntheticRecording(rig)}, {}};
   problem.options.scheme = scheme;
   const std::string path = "/dev/shm/fsr_fuzz_" + std::to_string(getpid()) + ".h5";
-  fsr::calibration::saveCalibration(fsr::calibration::calibrate(problem), path);
+  fsr::calibration::Calibration calibration = fsr::calibration::calibrate(problem);
+  calibration.history = history;
+  fsr::calibration::saveCalibration(calibration, path);
   std::ifstream file(path, std::ios::binary);
   std::filesystem::remove(path);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
 const std::vector<std::string>& soundFiles() {
-  static const std::vector<std::string> files = {soundFile(fsr::compensation::Scheme::kPerCurvature),
-                                                 soundFile(fsr::compensation::Scheme::kScaledCurvature),
-                                                 soundFile(fsr::compensation::Scheme::kCurvatureMap),
-                                                 soundFile(fsr::compensation::Scheme::kPerSurface)};
+  static const std::vector<std::string> files = {
+      soundFile(fsr::compensation::Scheme::kPerCurvature),
+      soundFile(fsr::compensation::Scheme::kScaledCurvature),
+      soundFile(fsr::compensation::Scheme::kCurvatureMap), soundFile(fsr::compensation::Scheme::kPerSurface),
+      soundFile(fsr::compensation::Scheme::kInterpolated, someHistory())};
   return files;
 }
 
-void seal(std::string& file) {
+// The number of the schema must fit the content, or nothing behind it is read.
+std::uint64_t schemaOf(const std::string& file) {
+  const std::size_t place = file.find("schema=");
+  return static_cast<std::uint64_t>(file.at(place + 7) - '0');
+}
+
+void seal(std::string& file, std::uint64_t schema) {
   const std::string hash =
       fsr::settings::sha256(file.data() + fsr::hdf5::kUserBlock, file.size() - fsr::hdf5::kUserBlock);
   const std::string line =
-      "fsr_pressure_map calibration schema=" + std::to_string(fsr::calibration::kCalibrationSchema) +
-      " sha256=" + hash + "\n";
+      "fsr_pressure_map calibration schema=" + std::to_string(schema) + " sha256=" + hash + "\n";
   file.replace(0, line.size(), line);
 }
 
@@ -79,8 +101,9 @@ void use(const fsr::calibration::Calibration& calibration) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   fuzz::Numbers numbers(bytes, size);
   std::string file = soundFiles()[numbers.next<std::uint8_t>() % soundFiles().size()];
+  const std::uint64_t schema = schemaOf(file);
   file = std::string(fsr::hdf5::kUserBlock, '\0') + fuzz::damaged(file, numbers);
-  seal(file);
+  seal(file, schema);
   const fuzz::MemoryFile written(reinterpret_cast<const std::uint8_t*>(file.data()), file.size());
   try {
     use(fsr::calibration::loadCalibration(written.path(), fsr::calibration::CalibrationParts::kAll));

@@ -10,8 +10,10 @@ namespace {
 
 constexpr const char* kGroup = "/history";
 constexpr const char* kScores = "/scores/history";
-constexpr double kShortest = 1e-6;  // of a time constant [s]
-constexpr std::size_t kMost = 64;   // knots or operators
+constexpr double kShortest = 1e-6;        // of a time constant [s]
+constexpr double kLargestPressure = 1e9;  // [Pa]
+constexpr double kLargestWeight = 100;
+constexpr std::size_t kMost = 64;  // knots or operators
 
 std::vector<double> column(const std::string& name, const hdf5::Reader& reader) {
   const std::string path = std::string(kGroup) + "/" + name;
@@ -21,6 +23,15 @@ std::vector<double> column(const std::string& name, const hdf5::Reader& reader) 
   if (values.size() > kMost || !std::all_of(values.begin(), values.end(), finite))
     throw settings::InputError("its " + path + " has a value that is not finite, or too many");
   return values;
+}
+
+// A finite weight of 1e300 would make no finite pressure.
+void requireSmall(const std::vector<double>& values, double limit, const char* name) {
+  for (const double value : values) {
+    if (std::abs(value) > limit)
+      throw settings::InputError("its " + std::string(kGroup) + "/" + name + " has a value of " +
+                                 std::to_string(value) + ", which is too large");
+  }
 }
 
 void requireAbove(const std::vector<double>& values, double limit, const char* name) {
@@ -91,6 +102,11 @@ compensation::HistoryModel readHistory(const hdf5::Reader& reader) {
   requireAbove(model.time_constant, kShortest, "time_constant");
   requireAbove(model.loading_deviation, 0, "loading_deviation");
   requireAbove(model.unloading_deviation, 0, "unloading_deviation");
+  requireSmall(model.correction, kLargestPressure, "correction");
+  requireSmall(model.loading_deviation, kLargestPressure, "loading_deviation");
+  requireSmall(model.unloading_deviation, kLargestPressure, "unloading_deviation");
+  requireSmall(model.play_weight, kLargestWeight, "play_weight");
+  requireSmall(model.memory_weight, kLargestWeight, "memory_weight");
   if (model.radius.size() != model.play_weight.size() ||
       model.time_constant.size() != model.memory_weight.size()) {
     throw settings::InputError("its /history has another number of weights than of operators");
