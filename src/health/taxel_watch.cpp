@@ -26,7 +26,8 @@ TaxelWatch::TaxelWatch(matrix::MatrixSize size, std::uint16_t full_scale, const 
       travel_(codes(options.travel_share, full_scale)),
       next_row_(size.rows),
       flags_(size.taxels(), 0),
-      evidence_(size.taxels(), 0) {
+      evidence_(size.taxels(), 0),
+      in_line_(size.taxels(), 0) {
   for (Window* window : {&current_, &closed_}) {
     window->low.resize(size.taxels());
     window->high.resize(size.taxels());
@@ -80,14 +81,19 @@ bool TaxelWatch::judge(std::uint16_t row, std::uint16_t column) noexcept {
   const Neighbours around = neighbours(row, column);
   noteFullScale(taxel, around);
   const std::uint16_t before = flags_[taxel] & kVerdict;
-  std::uint16_t verdict = before;
+  std::uint16_t verdict = before, in_line = 0;
   if (high <= floor_) {
-    if (2 * around.loaded > around.count) verdict = map::taxel_flag::kDead;
+    if (2 * around.loaded > around.count) in_line = map::taxel_flag::kDead;
+    if (around.loaded >= around.needed) verdict = in_line;
   } else if (low != high) {
     verdict = 0;
-  } else if (high < full_scale_ ? 2 * around.moved > around.count : isShort(taxel)) {
-    verdict = map::taxel_flag::kStuck;
+  } else if (high == full_scale_) {
+    if (isShort(taxel)) verdict = map::taxel_flag::kStuck;
+  } else {
+    if (2 * around.moved > around.count) in_line = map::taxel_flag::kStuck;
+    if (around.moved >= around.needed) verdict = in_line;
   }
+  in_line_[taxel] = in_line;
   if (verdict == before) return false;
   if (verdict == 0) ++revivals_;
   flags_[taxel] = verdict;
@@ -128,9 +134,19 @@ bool TaxelWatch::flagLine(const Line& line) noexcept {
 
 // kDead or kStuck where the whole line is dead or stuck, else 0.
 std::uint16_t TaxelWatch::lineVerdict(const Line& line) const noexcept {
-  std::uint16_t common = kVerdict;
-  for (std::size_t i = 0; i < line.count; ++i) common &= flags_[line.first + i * line.step];
+  const bool outermost = !line.has_before || !line.has_behind;
+  const std::uint16_t common = commonVerdict(line, outermost);
   if (common == 0 && isShorted(line)) return map::taxel_flag::kStuck;
+  return common;
+}
+
+std::uint16_t TaxelWatch::commonVerdict(const Line& line, bool with_line) const noexcept {
+  std::uint16_t common = kVerdict;
+  for (std::size_t i = 0; i < line.count; ++i) {
+    const std::size_t taxel = line.first + i * line.step;
+    const int verdict = with_line ? flags_[taxel] | in_line_[taxel] : flags_[taxel];
+    common = static_cast<std::uint16_t>(common & verdict);
+  }
   return common;
 }
 
@@ -159,6 +175,8 @@ TaxelWatch::Neighbours TaxelWatch::neighbours(std::uint16_t row, std::uint16_t c
       result.moved += closed_.high[taxel] - closed_.low[taxel] >= travel_;
     }
   }
+  const bool inside = result.count == 8;
+  result.needed = inside ? 5 : std::min(result.count, result.count / 2 + 2);
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include "fsr_pressure_map/health/taxel_watch.h"
 #include "fsr_pressure_map/simulation/simulation_settings.h"
+#include "simulation/effects/enabled_effects.h"
 #include "simulation/sensor_chain.h"
 #include "support/source_dir.h"
 
@@ -42,6 +43,42 @@ TEST(TaxelWatchAlarms, NoHealthyTaxelIsFlaggedInAHundredThousandWindows) {
   for (const std::string file : {"paper.yaml", "demo.yaml", "hot.yaml"}) {
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
       EXPECT_EQ(alarms(file, seed, seed % 2 == 0 ? flat : bent), 0u) << file << ", seed " << seed;
+    }
+  }
+}
+
+// Number of verdicts on a sheet without noise: at rest its taxels keep one code for minutes. The load acts in
+// `pattern` only. A bent sheet reads a preload at rest, a flat one reads zero.
+std::size_t quietAlarms(const fsr::simulation::LoadPattern& pattern, double curvature) {
+  const fsr::simulation::SimulationSettings settings = fsr::simulation::withoutNoise(
+      fsr::simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/demo.yaml"));
+  fsr::simulation::SensorChain chain(settings);
+  chain.mount({"sheet", 1, {fsr::matrix::Curvature{curvature, 0, 0}}, {}}, pattern);
+  fsr::health::TaxelWatch watch(settings.layout.size, chain.fullScale());
+  std::uint64_t number = 0;
+  std::size_t found = 0;
+  for (double time = 0; time < 2 * kCycle; time += 1 / kRate) {
+    const double pressure = kPeak * 0.5 * (1 - std::cos(2 * M_PI * time / kCycle));
+    watch.observe(chain.read({time, pressure, number++}).data(), time);
+    for (const std::uint16_t flags : watch.flags()) found += flags != 0;
+  }
+  return found;
+}
+
+// Gas, and indenters with a straight edge or a round foot that leave a part of the sheet without load.
+TEST(TaxelWatchAlarms, NoTaxelOfAQuietBoardIsCalledDeadOrStuckBesideALoad) {
+  using fsr::simulation::LoadPattern;
+  for (const double curvature : {0.0, 20.0}) {
+    EXPECT_EQ(quietAlarms({}, curvature), 0u) << "gas";
+    for (const double x : {-0.03, -0.018, -0.005, 0.0, 0.011, 0.02, 0.04}) {
+      for (const double angle : {0.0, 0.5, M_PI / 4, M_PI / 2}) {
+        EXPECT_EQ(quietAlarms({LoadPattern::Kind::kEdge, {x, x / 2}, 0, angle}, curvature), 0u)
+            << "edge at " << x << " m, " << angle << " rad, curvature " << curvature;
+      }
+      for (const double radius : {0.012, 0.02, 0.033}) {
+        EXPECT_EQ(quietAlarms({LoadPattern::Kind::kDisc, {x, x / 2}, radius, 0}, curvature), 0u)
+            << "disc at " << x << " m, radius " << radius << " m, curvature " << curvature;
+      }
     }
   }
 }

@@ -85,6 +85,18 @@ TEST(TaxelWatch, FindsAWholeDeadRowAndColumn) {
   }
 }
 
+TEST(TaxelWatch, FindsAStuckRowAndSingleStuckTaxelsAtTheBorder) {
+  Sheet sheet;
+  for (std::size_t column = 0; column < 10; ++column) sheet.overruled.push_back({column, 812});
+  sheet.overruled.insert(sheet.overruled.end(), {{39, 812}, {60, 812}, {65, 812}});
+  sheet.run(kCycle, cycles);
+  for (const auto& [taxel, value] : sheet.overruled) {
+    const int line = taxel < 10 ? map::taxel_flag::kLineFault : 0;
+    EXPECT_EQ(sheet.watch.flags()[taxel], map::taxel_flag::kStuck | line) << "taxel " << taxel;
+  }
+  EXPECT_EQ(flagged(sheet.watch), 13);
+}
+
 TEST(TaxelWatch, FindsATaxelThatDoesNotFollowItsNeighbours) {
   Sheet sheet;
   sheet.overruled = {{47, 812}};

@@ -29,13 +29,20 @@ struct TaxelWatchOptions {
 ///     alive  it rose above the floor and changed
 ///     else   the window shows nothing, and the taxel keeps its verdict
 ///
+/// A taxel at the border of the sheet needs more: four of its five neighbours, and all three in a corner. The
+/// foot of an indenter can load three of five neighbours without touching the taxel between them.
+///
 /// A row or column is a line fault (a broken or shorted wire) where all its taxels are dead, or all are
-/// stuck, or all stay at full scale while no taxel of the neighbouring lines rose to travel_share.
+/// stuck, or all stay at full scale while no taxel of the neighbouring lines rose to travel_share. For the
+/// outermost lines more than half of the neighbours suffice, if that holds for all their taxels.
 ///
 /// False alarms are rare. For one, pressure would have to fall from a quarter of full scale (about 100 kPa on
 /// a 620 kPa sheet, far above a turn-on pressure of 5 to 30 kPa) to nothing within one pitch on more than
 /// half of a taxel's sides. Or a taxel would have to change by less than one code where most of its
-/// neighbours change by 410 codes of 4,096, although the taxels of a sheet differ by a few percent only.
+/// neighbours change by 410 codes of 4,096, although the taxels of a sheet differ by a few percent only. A
+/// board without noise keeps the code of a taxel at rest, so a load beside it must not be enough: gas, edges
+/// and round feet raised no alarm on such a board (TaxelWatchAlarms). One remains: a load that ends between
+/// the outermost line and the next one along its whole length reads like a line fault.
 /// Rest, constant load and an empty matrix are no evidence and raise nothing. A whole dead row is found,
 /// because its taxels have more neighbours outside the row than inside. Simulated sheets (scatter,
 /// hysteresis, creep, crosstalk, noise, uneven loads) raised no false alarm in 100,000 windows of a taxel:
@@ -77,6 +84,7 @@ class TaxelWatch {
   enum Evidence : std::uint8_t { kLoadSeen = 1, kRestSeen = 2 };
   struct Neighbours {
     int count = 0;
+    int needed = 0;  // number of them that is evidence against a single taxel
     int loaded = 0;
     int moved = 0;   // changed by travel_share
     int rested = 0;  // fell below travel_share
@@ -95,6 +103,7 @@ class TaxelWatch {
   };
   bool judgeLines() noexcept;
   std::uint16_t lineVerdict(const Line& line) const noexcept;
+  std::uint16_t commonVerdict(const Line& line, bool with_line) const noexcept;
   bool isShorted(const Line& line) const noexcept;
   bool flagLine(const Line& line) noexcept;
   Neighbours neighbours(std::uint16_t row, std::uint16_t column) const noexcept;
@@ -112,6 +121,7 @@ class TaxelWatch {
   std::size_t scans_ = 0;   // in current_
   std::vector<std::uint16_t> flags_;
   std::vector<std::uint8_t> evidence_;  // of each taxel
+  std::vector<std::uint16_t> in_line_;  // verdict of each taxel that holds only with its whole line
   bool line_fault_ = false;             // flags_ has kLineFault somewhere
   std::uint64_t revivals_ = 0;
 };
