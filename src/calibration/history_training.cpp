@@ -26,10 +26,18 @@ constexpr double kWorse = 1.01;
 constexpr double kWins = 0.98;
 
 constexpr char kWhatToRecord[] =
-    "record cycles with two paces, with short and long dwells and with partial cycles";
+    "record cycles with two paces, with short and long dwells and with partial cycles on each surface";
 
 // The answers of one taxel, [classes][codes] [Pa].
 using Answers = std::vector<std::vector<double>>;
+
+// No protocol can be left out. A family that the user asked for cannot be tested, so it is refused.
+void refuse(const std::string& why, const HistoryChoice& choice, Calibration& calibration) {
+  const std::string reason = why + ", so that no protocol can be left out; " + kWhatToRecord;
+  if (!choice.automatic)
+    throw settings::InputError("history " + compensation::historyName(choice.family) + ": " + reason);
+  calibration.scores.history.choice = "History: none, since " + reason + ".";
+}
 
 class HistoryTraining {
  public:
@@ -170,6 +178,8 @@ void HistoryTraining::scoreFamilies() {
     coefficients_.emplace_back(4, Eigen::VectorXd::Zero(Eigen::Index(grid_.features())));
     for (const HistoryFamily family : kFamilies)
       coefficients_.back()[std::size_t(family)] = compensation::fitHistory(family, grid_, sums.trained);
+    // A surface that was recorded with this protocol only has no answer without it.
+    if (sums.left_out.samples() == 0) continue;
     for (std::size_t f = 0; f < score.rmse.size(); ++f)
       score.rmse[f] = std::sqrt(sums.left_out.meanSquare(coefficients_.back()[f]));
     score_.protocols.push_back(score);
@@ -262,6 +272,10 @@ HistoryErrors HistoryTraining::errorsOf(const compensation::HistoryModel& model)
 
 void HistoryTraining::run(const HistoryChoice& choice, Calibration& calibration) {
   scoreFamilies();
+  if (score_.protocols.empty()) {
+    refuse("no surface was recorded with two protocols", choice, calibration);
+    return;
+  }
   const HistoryFamily family = choose(choice);
   if (family != HistoryFamily::kNone) {
     const Sums sums = sumsWithout(protocols());
@@ -282,12 +296,7 @@ void trainHistory(const HistoryProblem& problem, const CalibrationOptions& optio
   if (!choice.automatic && choice.family == HistoryFamily::kNone) return;
   const dataset::Protocols protocols = dataset::protocolsOf(problem.recordings, problem.sections);
   if (protocols.names.size() < 2) {
-    const std::string one =
-        "all cycles of the bags have one protocol, so that no protocol can be left out; " +
-        std::string(kWhatToRecord);
-    if (!choice.automatic)
-      throw settings::InputError("history " + compensation::historyName(choice.family) + ": " + one);
-    calibration.scores.history.choice = "History: none, since " + one + ".";
+    refuse("all cycles of the bags have one protocol", choice, calibration);
     return;
   }
   HistoryTraining(problem, protocols, options.threads, calibration).run(choice, calibration);

@@ -104,6 +104,19 @@ TEST(HistoryTraining, NeedsTwoProtocols) {
   EXPECT_THROW(trained(rig, {false, HistoryFamily::kPlays}), settings::InputError);
 }
 
+TEST(HistoryTraining, NeedsTwoProtocolsOnOneSurface) {
+  MemoryRig slow = rigWith(0.08, 0), fast = slow;
+  slow.program = {{6, 600e3, 20e3, 2, 2}};
+  fast.program = {{6, 600e3, 60e3, 2, 2}};
+  CalibrationProblem problem{{test_support::memoryRecording(slow), test_support::memoryRecording(fast)}, {}};
+  problem.recordings[1].conditions = {{"cylinder_5cm", 1, {{20, 0, 0}}, {}}};
+  const Calibration calibration = calibrate(problem);
+  EXPECT_FALSE(calibration.history.present());
+  EXPECT_EQ(calibration.scores.history.choice.find("History: none, since no surface was recorded with two"),
+            0u)
+      << calibration.scores.history.choice;
+}
+
 TEST(HistoryTraining, GivesTheSameOnAnyNumberOfThreads) {
   CalibrationProblem problem{{test_support::memoryRecording(rigWith(0.08, 0.02))}, {}};
   problem.options.threads = 1;
