@@ -6,7 +6,7 @@
 namespace fsr::exports {
 
 std::string flagWords(std::uint16_t flags) {
-  static const std::array<std::pair<std::uint16_t, const char*>, 12> kWords = {{
+  static const std::array<std::pair<std::uint16_t, const char*>, 13> kWords = {{
       {map::taxel_flag::kSaturated, "SATURATED"},
       {map::taxel_flag::kDead, "DEAD"},
       {map::taxel_flag::kStuck, "STUCK"},
@@ -19,6 +19,7 @@ std::string flagWords(std::uint16_t flags) {
       {map::taxel_flag::kTared, "TARED"},
       {map::taxel_flag::kBelowRange, "BELOW_RANGE"},
       {map::taxel_flag::kTemperatureExtrapolated, "TEMPERATURE_EXTRAPOLATED"},
+      {map::taxel_flag::kHistoryShort, "HISTORY_SHORT"},
   }};
   std::string words;
   for (const auto& [bit, word] : kWords) {

@@ -52,6 +52,13 @@ TEST_F(CsvTable, HasARowForEachTaxelAndScan) {
   EXPECT_EQ(rows[5], head + "1,1,17,NA,NA,DEAD" + tail);
 }
 
+TEST_F(CsvTable, NamesAHistoryThatIsNotSettled) {
+  fsr::exports::ScanRecord scan = exampleScan();
+  scan.map->flags[0] = fsr::map::taxel_flag::kSaturated | fsr::map::taxel_flag::kHistoryShort;
+  write({scan});
+  EXPECT_NE(lines().at(1).find(",SATURATED|HISTORY_SHORT,OK,"), std::string::npos) << lines().at(1);
+}
+
 TEST_F(CsvTable, WritesNaForUnknownValues) {
   write({bareScan()});
   EXPECT_EQ(lines().at(1),

@@ -131,11 +131,23 @@ TEST(AlarmEvidence, IsNotWholeWithAFlagThatHidesPressure) {
                      (flag == kSaturated || flag == kReadingExtrapolated) ? 30e3 : 20e3)
         << flag;
   }
-  for (const std::uint16_t flag : {kTared, kBetweenClasses, kBelowRange}) {
+  for (const std::uint16_t flag : {kTared, kBetweenClasses, kBelowRange, kHistoryShort}) {
     PressureMap map = soundMap();
     map.flags[2] = flag;
     EXPECT_TRUE(evidence(map, {}).whole) << flag;
   }
+}
+
+// After a start every taxel has the flag: an alarm then counts as at any other time.
+TEST(Alarm, IsRaisedAndEndsWhileTheHistoryIsNotSettled) {
+  Alarm alarm({100e3, 0, 10e3});
+  PressureMap map = soundMap();
+  map.flags.assign(3, taxel_flag::kHistoryShort);
+  EXPECT_EQ(alarm.update(0, evidence(map, {})), AlarmState::kOk);
+  map.pressure[1] = 120e3f;
+  EXPECT_EQ(alarm.update(1, evidence(map, {})), AlarmState::kAlarm);
+  map.pressure[1] = 20e3f;
+  EXPECT_EQ(alarm.update(2, evidence(map, {})), AlarmState::kOk);
 }
 
 TEST(AlarmEvidence, OfAReadingBelowTrainingIsLessThanThatReading) {

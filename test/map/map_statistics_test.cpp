@@ -88,6 +88,30 @@ TEST(MapStatistics, CountTaxelsWhosePressureIsAtLeastTheirReading) {
   EXPECT_EQ(sumOfSheets("limb", {whole(map), whole(map)}).at_least, 4u);
 }
 
+TEST(MapStatistics, AreTheSameWhileTheHistoryIsNotSettled) {
+  PressureMap map = handMap();
+  for (std::uint16_t& flags : map.flags) flags = taxel_flag::kHistoryShort;
+  const RegionStatistics settled = whole(handMap()), s = whole(map);
+  EXPECT_EQ(s.peak, settled.peak);
+  EXPECT_EQ(s.force, settled.force);
+  EXPECT_EQ(s.contact_area, settled.contact_area);
+  EXPECT_EQ(s.bad, settled.bad);
+  EXPECT_EQ(s.at_least, 0u);
+}
+
+TEST(PressureMap, KnowsWhichPartOfItsReadingsIsNotSettled) {
+  using namespace taxel_flag;
+  PressureMap map = handMap();  // five readings: taxel 2 has none
+  EXPECT_EQ(unsettledShare(map.pressure, map.flags), 0);
+  map.flags = {kHistoryShort, kHistoryShort, kHistoryShort, 0, 0, 0};
+  EXPECT_DOUBLE_EQ(unsettledShare(map.pressure, map.flags), 2.0 / 5);
+  map.flags = {kHistoryShort, kHistoryShort | kSaturated, kDead | kHistoryShort, kMasked, kStuck, kLineFault};
+  EXPECT_DOUBLE_EQ(unsettledShare(map.pressure, map.flags), 1);
+  map.pressure.assign(6, kNaN);
+  EXPECT_EQ(unsettledShare(map.pressure, map.flags), 0);
+  EXPECT_EQ(unsettledShare({}, {}), 0);
+}
+
 TEST(MapStatistics, ExcludeATaxelBelowItsTurnOnFromTheContact) {
   PressureMap map = handMap();
   map.flags[0] = taxel_flag::kBelowRange;

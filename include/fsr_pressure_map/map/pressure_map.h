@@ -31,7 +31,7 @@ constexpr std::uint16_t kLineFault = 256;
 constexpr std::uint16_t kTared = 512;
 constexpr std::uint16_t kBelowRange = 1024;
 constexpr std::uint16_t kTemperatureExtrapolated = 2048;
-constexpr std::uint16_t kHistoryShort = 4096;
+constexpr std::uint16_t kHistoryShort = 4096;  ///< not settled: the static answer with its deviation
 }  // namespace taxel_flag
 
 /// Whether the pressure of a taxel with these flags is at least its reading: at full scale, or a code above
@@ -43,6 +43,13 @@ constexpr bool isLowerLimit(std::uint16_t flags) {
   if ((flags & kNoReading) != 0) return false;
   return (flags & kSaturated) != 0 || ((flags & kReadingExtrapolated) != 0 && (flags & kOther) == 0);
 }
+
+/// Whether a taxel has a reading of its own: a pressure, and neither masked nor failed.
+bool hasReading(float pressure, std::uint16_t flags);
+
+/// Part of the taxels with a reading that carry kHistoryShort, 0 to 1; 0 without readings. Both arrays have
+/// one value for each taxel.
+double unsettledShare(const std::vector<float>& pressure, const std::vector<std::uint16_t>& flags);
 
 /// Calibrated gauge pressure of each taxel.
 struct PressureMap {

@@ -11,13 +11,23 @@
 
 #include "exports/message_type.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/messages/earlier_definitions.h"
 
 namespace fsr_ros {
 
-/// Throws fsr::InputError if the topic was recorded with another definition of its message type.
+/// Whether messages that were recorded with this definition can be read as `Message`: the definition is the
+/// present one, or an earlier one with the same fields.
+template <typename Message>
+bool isReadable(const std::string& md5sum) {
+  return md5sum == ros::message_traits::md5sum<Message>() ||
+         hadDefinition(ros::message_traits::datatype<Message>(), md5sum);
+}
+
+/// Throws fsr::InputError if the topic was recorded with another definition of its message type, unless it is
+/// readable.
 template <typename Message>
 void requireDefinition(const std::string& topic, const std::string& md5sum) {
-  if (md5sum == ros::message_traits::md5sum<Message>()) return;
+  if (isReadable<Message>(md5sum)) return;
   throw fsr::settings::InputError(topic + " was recorded with another definition of " +
                                   ros::message_traits::datatype<Message>() +
                                   "; convert the bag with rosbag fix");

@@ -30,6 +30,7 @@ static_assert(flag::kBetweenClasses == Message::FLAG_BETWEEN_CLASSES);
 static_assert(flag::kMasked == Message::FLAG_MASKED && flag::kLineFault == Message::FLAG_LINE_FAULT);
 static_assert(flag::kTared == Message::FLAG_TARED && flag::kBelowRange == Message::FLAG_BELOW_RANGE);
 static_assert(flag::kTemperatureExtrapolated == Message::FLAG_TEMPERATURE_EXTRAPOLATED);
+static_assert(flag::kHistoryShort == Message::FLAG_HISTORY_SHORT);
 
 void requireTaxels(const char* field, std::size_t values, const Message& message) {
   const std::size_t taxels = std::size_t{message.rows} * message.columns;

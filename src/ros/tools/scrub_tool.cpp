@@ -63,7 +63,7 @@ class Scrubber {
  private:
   template <typename Message>
   bool copy(const rosbag::MessageInstance& instance) {
-    if (instance.getMD5Sum() != ros::message_traits::md5sum<Message>()) return false;
+    if (!isReadable<Message>(instance.getMD5Sum())) return false;
     auto message = reader_.read<Message>(instance);
     const std::string& topic = instance.getTopic();
     if (!message.header.stamp.isZero()) message.header.stamp = moved(message.header.stamp, topic);

@@ -35,6 +35,7 @@
 #include <typeinfo>
 
 #include "fsr_pressure_map/view/colour_map.h"
+#include "ros/messages/message_reader.h"
 #include "support/source_dir.h"
 #include "view/taxel_look.h"
 
@@ -50,9 +51,10 @@ const QString kConfigs = QString::fromStdString(test_support::sourceDir() + "/co
 template <typename Message>
 typename Message::ConstPtr lastOf(const std::string& topic) {
   rosbag::Bag bag(kBag);
-  typename Message::ConstPtr last;
+  boost::shared_ptr<Message> last;
+  fsr_ros::MessageReader reader;  // the bag has an earlier definition of PressureMap
   for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topic))) {
-    last = instance.instantiate<Message>();
+    last = boost::make_shared<Message>(reader.read<Message>(instance));
   }
   return last;
 }

@@ -33,6 +33,7 @@
 #include "support/program_output.h"
 #include "support/pty.h"
 #include "support/small_calibration.h"
+#include "support/source_dir.h"
 #include "support/synthetic_recording.h"
 
 namespace {
@@ -285,6 +286,36 @@ TEST_F(ExportTool, AnArchiveTurnsBackIntoTheBagByteForByte) {
             std::to_string(before.size()) + " messages written to " + archive + "\n");
   run({archive, "--to", "bag", "--output", back});
   expectSame(messagesOf(back), before);
+}
+
+// The bag was recorded before the PressureMap had FLAG_HISTORY_SHORT.
+TEST_F(ExportTool, ReadsMapsOfTheEarlierDefinition) {
+  const std::string old = test_support::sourceDir() + "/test/data/indenter_map.bag";
+  rosbag::Bag bag(old);
+  rosbag::View view(bag, rosbag::TopicQuery("/fsr/pressure_map"));
+  ASSERT_EQ(view.begin()->getMD5Sum(), "50c65025fc4b01118cf4b0ef3469834e");
+  ASSERT_NE(view.begin()->getMD5Sum(), ros::message_traits::md5sum<fsr_pressure_map::PressureMap>());
+  run({old, "--to", "csv", "--output", csv_});
+  const auto columns = table(csv_);
+  EXPECT_EQ(columns.at("state").front(), "OK");
+  std::vector<float> exported, recorded;
+  for (const std::string& pressure : columns.at("pressure_Pa")) exported.push_back(std::stof(pressure));
+  for (Held& held : messagesOf(old)) {
+    if (std::get<1>(held) != ros::message_traits::datatype<fsr_pressure_map::PressureMap>()) continue;
+    std::string& bytes = std::get<3>(held);
+    ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(bytes.data()),
+                                       static_cast<std::uint32_t>(bytes.size()));
+    fsr_pressure_map::PressureMap map;
+    ros::serialization::deserialize(stream, map);
+    recorded.insert(recorded.end(), map.pressure.begin(), map.pressure.end());
+  }
+  EXPECT_EQ(exported, recorded);
+
+  const std::string archive = folder_.path("old.h5"), back = folder_.path("back.bag");
+  const std::string said = run({old, "--to", "hdf5", "--output", archive});
+  EXPECT_EQ(said.find("incomplete"), std::string::npos) << said;
+  run({archive, "--to", "bag", "--output", back});
+  expectSame(messagesOf(back), messagesOf(old));
 }
 
 TEST_F(ExportTool, AnArchiveIsReadPlainlyByH5py) {

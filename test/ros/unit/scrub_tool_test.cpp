@@ -3,6 +3,7 @@
 #include <fsr_pressure_map/Event.h>
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/MatrixInfo.h>
+#include <fsr_pressure_map/PressureMap.h>
 #include <fsr_pressure_map/Session.h>
 #include <fsr_pressure_map/SurfaceCurvature.h>
 #include <gtest/gtest.h>
@@ -17,6 +18,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/pty.h"
+#include "support/source_dir.h"
 
 namespace {
 
@@ -155,6 +157,20 @@ TEST_F(ScrubTool, MovesStampsOfAnyAge) {
   }
   const std::string said = run({path_, "--output", output_});
   EXPECT_NE(said.find("/fsr/raw: a stamp of 1 s"), std::string::npos) << said;
+}
+
+// Another definition of the PressureMap, without FLAG_HISTORY_SHORT. The copy has the present one.
+TEST_F(ScrubTool, KeepsMapsOfTheEarlierDefinition) {
+  const std::string old = test_support::sourceDir() + "/test/data/indenter_map.bag";
+  const std::string said = run({old, "--output", output_});
+  EXPECT_EQ(said.find("messages of /fsr/pressure_map"), std::string::npos) << said;
+  rosbag::Bag from(old), bag(output_);
+  rosbag::View before(from, rosbag::TopicQuery("/fsr/pressure_map")),
+      after(bag, rosbag::TopicQuery("/fsr/pressure_map"));
+  ASSERT_EQ(after.size(), before.size());
+  const auto map = after.begin()->instantiate<fsr_pressure_map::PressureMap>();
+  ASSERT_NE(map, nullptr);
+  EXPECT_EQ(map->pressure.size(), 70u);
 }
 
 TEST_F(ScrubTool, RefusesToOverwriteTheBagAndFilesThatAreNoBags) {
