@@ -56,6 +56,8 @@ void addFlags(const fsr::map::PressureMap& map, Status& status) {
   status.add("taxels with a curvature beyond training", flagged(map, flag::kCurvatureExtrapolated));
   status.add("taxels with a temperature beyond training", flagged(map, flag::kTemperatureExtrapolated));
   status.add("taxels between curvature classes", flagged(map, flag::kBetweenClasses));
+  status.add("share of taxels whose history is not settled [%]",
+             fsr::settings::roundedText(100 * fsr::map::unsettledShare(map.pressure, map.flags), 3));
 }
 
 std::string temperatureSentence(const CalibrationHealth& health) {

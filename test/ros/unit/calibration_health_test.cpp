@@ -57,6 +57,16 @@ TEST(CalibrationHealth, WarnsOfATemperatureBeyondTraining) {
   EXPECT_EQ(valueOf(status, "temperature [degree Celsius]"), "40");
 }
 
+// After each start it is so: no warning.
+TEST(CalibrationHealth, SaysWhichShareIsNotSettled) {
+  const char* const key = "share of taxels whose history is not settled [%]";
+  CalibrationHealth health = healthy();
+  EXPECT_EQ(valueOf(maps(health), key), "0");
+  health.map.flags[1] = health.map.flags[5] = fsr::map::taxel_flag::kHistoryShort;
+  EXPECT_EQ(valueOf(maps(health), key), "40");  // taxel 4 has no reading
+  EXPECT_EQ(maps(health).level, Level::OK);
+}
+
 TEST(CalibrationHealth, NamesTheTopicWithoutScans) {
   const Status status = maps(healthy(), 100);
   EXPECT_EQ(status.level, Level::ERROR);
