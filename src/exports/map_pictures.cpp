@@ -6,6 +6,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
+#include "view/taxel_look.h"
 
 namespace fsr::exports {
 
@@ -35,6 +36,11 @@ std::string surfaceText(const matrix::Surface* surface) {
   std::string text = surface->name.empty() ? "surface without name" : surface->name;
   if (surface->mount != 0) text += ", mount " + std::to_string(surface->mount);
   return text;
+}
+
+std::string settlingPart(const map::PressureMap& map) {
+  const std::string word = view::settlingWord(map::unsettledShare(map.pressure, map.flags));
+  return word.empty() ? "" : ", " + word;
 }
 
 }  // namespace
@@ -80,7 +86,7 @@ void PictureSink::add(const ScanRecord& scan) {
       name_,
       surfaceText(scan.surface.get()),
       timeText(scan.since_ns) + "   chamber " + view::pressureText(scan.chamber_pressure, unit),
-      peakText(*scan.map, unit) + "   state " + stateWord(scan.map->state),
+      peakText(*scan.map, unit) + "   state " + stateWord(scan.map->state) + settlingPart(*scan.map),
   };
   std::vector<std::string> shown;
   for (const std::string& line : lines) shown.push_back(fitted(line));

@@ -1,21 +1,25 @@
 #include "view/taxel_look.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fsr::view {
 
 namespace {
 
-constexpr std::uint16_t kBad =
-    map::taxel_flag::kDead | map::taxel_flag::kStuck | map::taxel_flag::kMasked | map::taxel_flag::kLineFault;
 constexpr std::uint16_t kBeyondTraining = map::taxel_flag::kReadingExtrapolated |
                                           map::taxel_flag::kCurvatureExtrapolated |
                                           map::taxel_flag::kTemperatureExtrapolated;
 
+// "12 %": 1 to 99, because neither none nor all are meant.
+std::string partText(double share) {
+  return std::to_string(std::clamp(std::lround(100 * share), 1L, 99L)) + " %";
+}
+
 }  // namespace
 
 TaxelLook lookOf(float pressure, std::uint16_t flags) {
-  if (std::isnan(pressure) || (flags & kBad) != 0) return TaxelLook::kNoReading;
+  if (!map::hasReading(pressure, flags)) return TaxelLook::kNoReading;
   if ((flags & map::taxel_flag::kSaturated) != 0) return TaxelLook::kSaturated;
   // A code below the lowest of training is extrapolated, too, but kBelowRange says more: the pressure is
   // small.
@@ -45,6 +49,17 @@ std::string name(TaxelLook look) {
       break;
   }
   return "";
+}
+
+std::string settlingWord(double share) {
+  if (share <= 0) return "";
+  return share < 1 ? "settling: " + partText(share) + " of taxels" : "settling: static answer";
+}
+
+std::string settlingText(double share) {
+  if (share <= 0) return "";
+  return "history not settled" + (share < 1 ? " on " + partText(share) + " of taxels" : "") +
+         ": static answer";
 }
 
 const std::vector<Stroke>& mark(TaxelLook look) {

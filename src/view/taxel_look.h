@@ -28,6 +28,13 @@ TaxelLook lookOf(float pressure, std::uint16_t flags);
 const std::vector<TaxelLook>& markedLooks();
 std::string name(TaxelLook look);
 
+/// What pictures and panels say while part of the taxels (0 to 1, see map::unsettledShare()) is not settled.
+/// These taxels have no mark, because after each start it would be on all of them. The word fits a legend,
+/// e.g. "settling: static answer"; the text is e.g. "history not settled on 12 % of taxels: static answer".
+/// Both are empty at 0.
+std::string settlingWord(double share);
+std::string settlingText(double share);
+
 /// A straight line within a taxel's square: coordinates from -0.5 to 0.5 along the row (x) and the column
 /// (y).
 struct Stroke {

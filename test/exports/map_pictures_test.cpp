@@ -70,6 +70,13 @@ TEST(MapPictures, ShowTheMapsColoursOnTheRangeOfTheCalibration) {
               fsr::view::colourAt(fsr::view::ColourMap::kViridis, 1));
 }
 
+TEST(MapPictures, SayThatTheHistoryIsNotSettled) {
+  fsr::exports::ScanRecord first = evenScan(1e5f, 1), settling = first;
+  settling.map->flags.assign(6, fsr::map::taxel_flag::kHistoryShort);
+  const auto pictures = drawn({first, settling});
+  EXPECT_NE(pictures[0].bytes(), pictures[1].bytes());
+}
+
 TEST(MapPictures, ShowTimeAndChamberPressure) {
   fsr::exports::ScanRecord first = evenScan(1e5f, 1), later = first, higher = first;
   later.since_ns += 1000000000;

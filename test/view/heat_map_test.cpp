@@ -85,6 +85,28 @@ TEST(HeatMap, MarksUnreliableTaxels) {
   }
 }
 
+// After each start all taxels have this flag: a mark on each would hide the map.
+TEST(HeatMap, HasNoMarkForAHistoryThatIsNotSettled) {
+  map::PressureMap map = ramp({3, 3});
+  map.flags.assign(9, map::taxel_flag::kHistoryShort);
+  const HeatMap painter(HeatMapStyle{});
+  EXPECT_EQ(painter.draw(map).bytes(), painter.draw(ramp({3, 3})).bytes());
+  map.flags[4] = map::taxel_flag::kHistoryShort | map::taxel_flag::kSaturated;
+  EXPECT_EQ(lookOf(map.pressure[4], map.flags[4]), TaxelLook::kSaturated);
+}
+
+TEST(Legend, SaysHowManyTaxelsAreNotSettledInOneLine) {
+  EXPECT_EQ(settlingWord(0) + settlingText(0), "");
+  EXPECT_EQ(settlingWord(1), "settling: static answer");
+  EXPECT_EQ(settlingText(1), "history not settled: static answer");
+  EXPECT_EQ(settlingText(0.12), "history not settled on 12 % of taxels: static answer");
+  for (const double share : {1.0 / 4096, 0.12, 1 - 1.0 / 4096}) {
+    EXPECT_LE(Image::textWidth(settlingWord(share)), 186) << settlingWord(share);  // width of a line [pixels]
+  }
+  EXPECT_EQ(settlingWord(1.0 / 4096), "settling: 1 % of taxels");
+  EXPECT_EQ(settlingWord(1 - 1.0 / 4096), "settling: 99 % of taxels");
+}
+
 TEST(HeatMap, HasOneSizeForAllMapsOfAMatrix) {
   const HeatMap painter(HeatMapStyle{});
   map::PressureMap dark = ramp({16, 10});

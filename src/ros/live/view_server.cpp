@@ -141,7 +141,7 @@ void ViewServer::publishPictures(const fsr_pressure_map::PressureMap& message,
                                 fsr::view::limitText(whole().mean, unit, at_least);
     const fsr::view::HeatMap painter(settings_.style);
     outputs_["image"].publish(
-        toMessage(message.header, painter.draw(map, {calibration, numbers, stateText(map.state)})));
+        toMessage(message.header, painter.draw(map, {calibration, numbers, remarkText(map)})));
   }
 }
 

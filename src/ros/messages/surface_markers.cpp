@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "view/taxel_look.h"
+
 namespace fsr_ros {
 
 namespace {
@@ -95,14 +97,14 @@ Marker dot(const std_msgs::Header& header, const char* space, const fsr::view::S
 std::string legendText(const fsr::map::PressureMap& map, const fsr::view::HeatMapStyle& style,
                        const fsr::map::RegionStatistics& whole) {
   const fsr::view::PressureUnit unit = style.scale.unit;
-  const std::string state = stateText(map.state);
+  const std::string remark = remarkText(map);
   std::string text = std::string(fsr::view::name(style.layer)) + ", " +
                      fsr::view::pressureText(style.scale.low, unit) + " (dark) to " +
                      fsr::view::pressureText(style.scale.high, unit) + " (bright)";
   const bool at_least = whole.at_least > 0;
   text += "\npeak " + fsr::view::limitText(whole.peak, unit, at_least) + ", mean over contact " +
           fsr::view::limitText(whole.mean, unit, at_least);
-  return state.empty() ? text : text + "\n" + state;
+  return remark.empty() ? text : text + "\n" + remark;
 }
 
 Marker legend(const std_msgs::Header& header, const fsr::map::PressureMap& map,
@@ -132,6 +134,12 @@ std::string stateText(fsr::map::MapState state) {
       return "the calibration belongs to another sensor";
   }
   return "unknown state";
+}
+
+std::string remarkText(const fsr::map::PressureMap& map) {
+  const std::string state = stateText(map.state);
+  const std::string settling = fsr::view::settlingText(fsr::map::unsettledShare(map.pressure, map.flags));
+  return state + (state.empty() || settling.empty() ? "" : "; ") + settling;
 }
 
 visualization_msgs::MarkerArray toMarkers(const std_msgs::Header& header, const fsr::map::PressureMap& map,

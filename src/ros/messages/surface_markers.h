@@ -13,6 +13,10 @@ namespace fsr_ros {
 /// The state of a map in words; "" for the state OK.
 std::string stateText(fsr::map::MapState state);
 
+/// The state of a map in words and whether its history is not settled, joined by "; "; "" if there is nothing
+/// to say.
+std::string remarkText(const fsr::map::PressureMap& map);
+
 /// The map on its bent sheet for the MarkerArray display of rviz, in the frame of `header`. Namespaces:
 /// `sheet` (the coloured mesh), `marks` (strokes on taxels with an unreliable reading, see taxel_look.h),
 /// `centre_of_pressure` (white), `peak` (black) and `legend` (text with quantity, range, peak and mean).

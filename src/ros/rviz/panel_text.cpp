@@ -71,10 +71,13 @@ QString peakText(const PressureStatistics& whole, const fsr_pressure_map::Pressu
   return peak + QString(", row %1, column %2").arg(whole.peak_row).arg(whole.peak_column);
 }
 
-bool isTared(const fsr_pressure_map::PressureMap& map) {
-  return std::any_of(map.flags.begin(), map.flags.end(), [](std::uint16_t flags) {
+QString mapRemark(const fsr_pressure_map::PressureMapConstPtr& map) {
+  if (!map) return "";
+  const bool tared = std::any_of(map->flags.begin(), map->flags.end(), [](std::uint16_t flags) {
     return (flags & fsr_pressure_map::PressureMap::FLAG_TARED) != 0;
   });
+  const std::string settling = fsr::view::settlingText(fsr::map::unsettledShare(map->pressure, map->flags));
+  return (tared ? QString(", tared") : QString()) + (settling.empty() ? QString() : ", " + text(settling));
 }
 
 AlarmLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& statistics,

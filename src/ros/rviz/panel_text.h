@@ -29,8 +29,9 @@ std::vector<std::uint8_t> maskAfter(const std::vector<std::uint16_t>& flags,
 QString peakText(const fsr_pressure_map::PressureStatistics& whole,
                  const fsr_pressure_map::PressureMapConstPtr& map, fsr::view::PressureUnit unit);
 
-/// Whether a tare is subtracted from any taxel.
-bool isTared(const fsr_pressure_map::PressureMap& map);
+/// What the line "Calibration" says about the map: ", tared" if a tare is subtracted from any taxel, and
+/// ", history not settled: static answer" while that is so. Empty without a map.
+QString mapRemark(const fsr_pressure_map::PressureMapConstPtr& map);
 
 /// The line "Alarms" of the panel.
 struct AlarmLine {

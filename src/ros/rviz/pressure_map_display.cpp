@@ -89,6 +89,8 @@ fsr::view::Legend PressureMapDisplay::legend() const {
                         : "waiting for maps"};
   const std::string state = last_ ? stateHeadline(map_.state) : "";
   if (!state.empty()) legend.lines.push_back(state);
+  const std::string settling = fsr::view::settlingWord(unsettledShare());
+  if (!settling.empty()) legend.lines.push_back(settling);
   return legend;
 }
 
@@ -103,6 +105,16 @@ ReadOut PressureMapDisplay::readOut(std::size_t taxel) const {
 void PressureMapDisplay::sayState() {
   say("State", stateStatus(map_.state));
   say("Taxels", taxelStatus(picture().looks, map_.flags));
+  // No warning: after each start it is so on all taxels.
+  if (unsettledShare() > 0) {
+    say("History", {rviz::StatusProperty::Ok, fsr::view::settlingText(unsettledShare())});
+  } else {
+    deleteStatus("History");
+  }
+}
+
+double PressureMapDisplay::unsettledShare() const {
+  return last_ ? fsr::map::unsettledShare(map_.pressure, map_.flags) : 0;
 }
 
 std::string flagsText(std::uint16_t flags) {
@@ -120,6 +132,7 @@ std::string flagsText(std::uint16_t flags) {
       {kTared, "tared"},
       {kBelowRange, "below range"},
       {kTemperatureExtrapolated, "temperature beyond training"},
+      {kHistoryShort, "history not settled"},
   };
   std::string result;
   for (const auto& [flag, words] : names) {

@@ -30,6 +30,8 @@ class PressureMapDisplay : public SheetDisplay {
   fsr::view::MapLayer layer() const;
   fsr::view::PressureScale scale() const;
   void followPeaks();
+  /// Part of the taxels of the last map whose history is not settled; 0 without a map.
+  double unsettledShare() const;
 
   rviz::EnumProperty* layer_;
   rviz::EnumProperty* unit_;

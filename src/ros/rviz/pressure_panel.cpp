@@ -239,7 +239,7 @@ void PressurePanel::refresh() {
   const auto& calibration = last_calibration_.message;
   calibration_->setText(calibration && !calibration->id.empty()
                             ? text(calibration->scheme) + ", " + text(calibration->id.substr(0, 12)) +
-                                  (last_map_.fresh() && isTared(*last_map_.message) ? ", tared" : "")
+                                  mapRemark(last_map_.fresh() ? last_map_.message : nullptr)
                             : QString("none"));
   calibration_->setToolTip(calibration ? QString::fromStdString(calibration->id) : QString());
   showStatistics();

@@ -1,7 +1,9 @@
 // The panel's numbers and buttons with the real calibration, view and session nodes of panel.test.
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <fsr_pressure_map/CalibrationInfo.h>
 #include <fsr_pressure_map/Event.h>
+#include <fsr_pressure_map/PressureMap.h>
 #include <gtest/gtest.h>
 #include <rviz/panel.h>
 #include <pluginlib/class_loader.hpp>
@@ -148,6 +150,34 @@ TEST_F(Panel, TaresTheSheet) {
     return !rig.maps().empty() && rig.maps().back()->flags[0] == fsr_pressure_map::PressureMap::FLAG_TARED;
   }));
   EXPECT_TRUE(runUntil([&] { return says("Calibration", ", tared"); })) << label("Calibration");
+}
+
+TEST_F(Panel, SaysThatTheHistoryIsNotSettled) {
+  ros::NodeHandle handle;
+  const auto maps = handle.advertise<fsr_pressure_map::PressureMap>("/settling/pressure_map", 10);
+  const auto infos = handle.advertise<fsr_pressure_map::CalibrationInfo>("/settling/calibration_info", 10);
+  listenTo("/settling");
+  fsr_pressure_map::CalibrationInfo info;
+  info.id = "0123456789abcdef";
+  info.scheme = "per_curvature";
+  fsr_pressure_map::PressureMap map;
+  map.rows = 1;
+  map.columns = 4;
+  map.pressure.assign(4, 1e3f);
+  map.deviation.assign(4, 1e2f);
+  map.flags.assign(4, fsr_pressure_map::PressureMap::FLAG_HISTORY_SHORT);
+  const auto shown = [&](const std::string& words) {
+    maps.publish(map);
+    infos.publish(info);
+    return label("Calibration") == "per_curvature, 0123456789ab" + words;
+  };
+  EXPECT_TRUE(runUntil([&] { return shown(", history not settled: static answer"); }))
+      << label("Calibration");
+  map.flags = {0, 0, fsr_pressure_map::PressureMap::FLAG_HISTORY_SHORT, 0};
+  EXPECT_TRUE(runUntil([&] { return shown(", history not settled on 25 % of taxels: static answer"); }))
+      << label("Calibration");
+  map.flags.assign(4, 0);
+  EXPECT_TRUE(runUntil([&] { return shown(""); })) << label("Calibration");
 }
 
 TEST_F(Panel, SaysHowToMaskTaxels) {

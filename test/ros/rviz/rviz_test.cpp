@@ -223,6 +223,17 @@ TEST_F(Rviz, A6SaysThatASurfaceIsOfAnotherMatrix) {
   EXPECT_TRUE(runUntil([] { return says("Curvature", "3"); })) << status("Curvature");
 }
 
+TEST_F(Rviz, A7SaysThatTheHistoryIsNotSettled) {
+  PressureMap settling = *map;
+  settling.flags.assign(settling.flags.size(), PressureMap::FLAG_HISTORY_SHORT);
+  const auto shown = [&] {
+    return maps.publish(settling), says("History", "history not settled: static answer");
+  };
+  EXPECT_TRUE(runUntil(shown, false)) << status("History");
+  EXPECT_EQ(status("Taxels"), "all readings are within range");  // no marks
+  EXPECT_TRUE(runUntil([] { return status("History").empty(); })) << status("History");
+}
+
 TEST_F(Rviz, BShowsTheRecordedMapInTheColoursOfItsScale) {
   curvature.publish(surface);
   displayNamed("Matrix frame")->setEnabled(false);  // it would hide some taxels, as would the legend

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/messages/surface_markers.h"
 
 namespace fsr_ros {
 namespace {
@@ -36,6 +37,17 @@ TEST(PressureMapMessage, ConvertsAMapThereAndBack) {
   EXPECT_EQ(map.pressure, someMap().pressure);
   EXPECT_EQ(map.deviation, someMap().deviation);
   EXPECT_EQ(map.flags, someMap().flags);
+}
+
+TEST(PressureMapMessage, RemarksOnStateAndHistory) {
+  fsr::map::PressureMap map = someMap();
+  EXPECT_EQ(remarkText(map), "curvature stale");
+  map.flags.assign(6, fsr::map::taxel_flag::kHistoryShort);
+  EXPECT_EQ(remarkText(map), "curvature stale; history not settled: static answer");
+  map.state = fsr::map::MapState::kOk;
+  EXPECT_EQ(remarkText(map), "history not settled: static answer");
+  map.flags.assign(6, 0);
+  EXPECT_EQ(remarkText(map), "");
 }
 
 TEST(PressureMapMessage, RefusesArraysOfAnotherSize) {
