@@ -40,7 +40,8 @@ struct CalibrationCheck {
   std::vector<std::size_t> suspicious;   ///< taxels with much larger errors than in training
   std::vector<std::size_t> dead, stuck;  ///< taxels, as TaxelWatch finds them
   /// Errors of the static answer and with the model of the sheet's memory: all readings, those before the
-  /// model was settled, by direction, by time since the last reversal, by protocol. Empty without a model.
+  /// model was settled, and of the others by direction, by time since the last reversal, by protocol. Empty
+  /// without a model.
   std::vector<HistoryScore::Part> history;
 };
 

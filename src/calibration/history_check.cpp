@@ -80,10 +80,14 @@ class HistoryChecker {
         sums_[part].static_square += before * before;
         sums_[part].square += error * error;
       };
-      for (std::size_t k = 0; k < parts.size(); ++k) {
-        if (k == 0 || parts[k] != parts[k - 1]) add_to(parts[k]);
+      add_to(0);
+      if ((map_.flags[i] & map::taxel_flag::kHistoryShort) != 0) {
+        add_to(kUnsettled);
+        continue;
       }
-      if ((map_.flags[i] & map::taxel_flag::kHistoryShort) != 0) add_to(kUnsettled);
+      for (std::size_t k = 1; k < parts.size(); ++k) {
+        if (parts[k] != parts[k - 1]) add_to(parts[k]);
+      }
       if (protocol != dataset::Protocols::kOther) add_to(kFirstProtocol + protocol);
     }
   }

@@ -12,6 +12,13 @@
 
 namespace fsr::calibration {
 
+/// The static answers of one taxel on one curvature class.
+struct StaticAnswer {
+  std::vector<double> pressure;  ///< of each code [Pa]; empty = the class has no answer
+  std::uint16_t lowest = 0;      ///< code of training
+  std::uint16_t highest = 0xffff;
+};
+
 /// The scans of one recording in the order of time, as the operators of a history model meet them.
 class HistoryStream {
  public:
@@ -35,10 +42,10 @@ class HistoryStream {
   const dataset::Sections& sections() const { return *sections_; }
 
   /// Drives the operators with the static answers of one taxel and calls visit(scan, x, state) for each scan
-  /// that counts. `answer` [classes]: pressure of each code [Pa], empty = the class has no answer. Codes at
-  /// full scale are left out.
+  /// that counts. Codes at full scale are left out. Codes beyond those of training drive the operators, but
+  /// do not count: a table says nothing there.
   template <typename Visit>
-  void run(std::size_t taxel, const std::vector<std::vector<double>>& answer, Visit&& visit) const {
+  void run(std::size_t taxel, const std::vector<StaticAnswer>& answers, Visit&& visit) const {
     std::vector<double> state(operators_.size());
     double last = 0;
     bool known = false;
@@ -46,9 +53,9 @@ class HistoryStream {
       const Scan& scan = scans_[k];
       known = known && !scan.starts;
       const std::uint16_t code = recording_->scan(scan.number)[taxel];
-      const std::vector<double>& table = answer[scan.curvature_class];
-      if (table.empty() || code >= recording_->full_scale) continue;
-      const double x = table[code];
+      const StaticAnswer& answer = answers[scan.curvature_class];
+      if (answer.pressure.empty() || code >= recording_->full_scale) continue;
+      const double x = answer.pressure[code];
       if (known) {
         operators_.advance(last, x, steps_.data() + k * operators_.memories(), state.data());
       } else {
@@ -56,7 +63,8 @@ class HistoryStream {
       }
       known = true;
       last = x;
-      if (scan.settled) visit(scan, x, state.data());
+      const bool trained = code >= answer.lowest && code <= answer.highest;
+      if (scan.settled && trained) visit(scan, x, state.data());
     }
   }
 

@@ -28,8 +28,21 @@ constexpr double kWins = 0.98;
 constexpr char kWhatToRecord[] =
     "record cycles with two paces, with short and long dwells and with partial cycles on each surface";
 
-// The answers of one taxel, [classes][codes] [Pa].
-using Answers = std::vector<std::vector<double>>;
+using Answers = std::vector<StaticAnswer>;  // of one taxel, [classes]
+
+// Lowest and highest code of the sections but one.
+void setTrainedCodes(const std::vector<regression::CodeStatistics>& sections, std::size_t left_out,
+                     StaticAnswer& answer) {
+  answer.lowest = 0xffff;
+  answer.highest = 0;
+  for (std::size_t s = 0; s < sections.size(); ++s) {
+    if (s == left_out) continue;
+    sections[s].forEach([&](const regression::CodeSums& sums) {
+      answer.lowest = std::min(answer.lowest, sums.code);
+      answer.highest = std::max(answer.highest, sums.code);
+    });
+  }
+}
 
 // No protocol can be left out. A family that the user asked for cannot be tested, so it is refused.
 void refuse(const std::string& why, const HistoryChoice& choice, Calibration& calibration) {
@@ -105,8 +118,8 @@ Answers HistoryTraining::answersWithout(std::size_t protocol, std::size_t taxel)
     for (std::size_t k = 0; k < classes; ++k) {
       const auto& table =
           calibration_.tables.table(taxel, calibration_.tables.classes.size() == 1 ? 0 : k).pressure;
-      answers[k].assign(table.begin(), table.end());
-      if (!answers[k].empty() && std::isnan(answers[k].front())) answers[k].clear();
+      if (!table.empty() && !std::isnan(table.front()))
+        answers[k].pressure.assign(table.begin(), table.end());
     }
     return answers;
   }
@@ -121,8 +134,10 @@ Answers HistoryTraining::answersWithout(std::size_t protocol, std::size_t taxel)
     readings.samples = samplesOfTaxel(scans_, sections, readings.full_scale, taxel);
   const auto models = compensation::crossValidateScheme(problem_.plan, taxel, readings, problem_.regressor,
                                                         regression::HeldOutDeviation::kNo);
-  for (std::size_t k = 0; k < classes; ++k)
-    answers[k] = models[problem_.plan.model_of_class[k]].held_out[protocol].pressure;
+  for (std::size_t k = 0; k < classes; ++k) {
+    answers[k].pressure = models[problem_.plan.model_of_class[k]].held_out[protocol].pressure;
+    setTrainedCodes(readings.sums[k], protocol, answers[k]);
+  }
   return answers;
 }
 

@@ -215,6 +215,7 @@ std::string discrepancyJson(const discrepancy::DiscrepancyReport& report) {
                     {"where", json(report.where)},
                     {"gap", json(report.gap)},
                     {"recompute", report.recompute},
+                    {"map_gain", report.map_gain},
                     {"in_use", list(report.in_use)},
                     {"next_experiment",
                      report.next_experiment.empty() ? Json(nullptr) : json(report.next_experiment.front())},

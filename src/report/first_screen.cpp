@@ -223,6 +223,7 @@ std::vector<FirstScreenItem> firstScreen(const DiscrepancyReport& report) {
                                             {"Excluded", nothingFound(report) ? seenText(report) : ""},
                                             {"Asked", answersText(report)},
                                             {"Cost", costText(report)},
+                                            {"Gain for the map", report.map_gain},
                                             {"Scatter", scattersText(report)},
                                             {"Gap, rms on hold-out data", gapText(report)},
                                             {"Recompute the gap", report.recompute},

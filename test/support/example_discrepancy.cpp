@@ -76,6 +76,9 @@ fsr::discrepancy::DiscrepancyReport exampleDiscrepancy() {
   report.gap = gap();
   report.recompute =
       "rosrun fsr_pressure_map simulate --gap found/verdict.yaml --drive 1_flat.bag 2_bent.bag";
+  report.map_gain =
+      "On protocols that were left out, the error of the map falls from 21.00 to 7.50 kPa with a model of "
+      "plays.";
   report.hold_out = {
       {"1_flat.bag", {{946684875100000000, 946684950000000000}}},
       {"2_bent.bag", {{946685000000000001, 946685074900000000}, {946685150000000000, 946685224900000000}}}};

@@ -318,6 +318,7 @@ struct DiscrepancyReport {
   WhereItShows where;
   Gap gap;
   std::string recompute;                ///< command that recomputes the gap; empty = the gap is not known
+  std::string map_gain;                 ///< sentences, from training with and without; empty = no effect
   std::vector<HoldOutCycles> hold_out;  ///< in time order; bags without a hold-out cycle are left out
   std::vector<GapInUse> in_use;
   std::vector<NextExperiment> next_experiment;  ///< none, one, or two where one is not enough

@@ -18,6 +18,7 @@
 #include "ros/tools/bag_options.h"
 #include "ros/tools/discrepancy_files.h"
 #include "ros/tools/figure_script.h"
+#include "ros/tools/map_gain.h"
 #include "ros/tools/recompute_gap_tool.h"
 #include "ros/tools/show_ledger.h"
 #include "settings/command_line.h"
@@ -164,6 +165,13 @@ DrivingBags inOrderOfTime(const DrivingBags& bags, const std::vector<fsr::datase
   return sorted;
 }
 
+std::string gainForTheMap(const fsr::discrepancy::DiscrepancyProblem& problem,
+                          const fsr::discrepancy::DiscrepancyReport& report) {
+  std::vector<std::string> effects;
+  for (const fsr::discrepancy::FoundEffect& effect : report.effects) effects.push_back(effect.id);
+  return mapGain(problem.recordings, effects, problem.options.threads);
+}
+
 int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   const std::string folder = outputFolder(line.requiredText("output"));
   for (const std::string& file : discrepancyFiles()) line.requireWritable(folder + "/" + file);
@@ -181,6 +189,7 @@ int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   const std::string verdict = (fs::path(line.requiredText("output")) / "verdict.yaml").string();
   if (!report.hold_out.empty())
     report.recompute = recomputeCommand(verdict, inOrderOfTime(bags, problem.recordings));
+  report.map_gain = gainForTheMap(problem, report);
   writeDiscrepancy(report, folder);
   out << fsr::report::discrepancyText(report) << "Written: " << folder << "/verdict.yaml" << std::endl;
   return line.has("no-report") ? 0 : drawReport(folder, out);

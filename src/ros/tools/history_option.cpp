@@ -14,8 +14,15 @@ namespace {
 using fsr::compensation::HistoryFamily;
 using fsr::simulation::Covariate;
 
-// An effect of earlier extremes is a loop; one of the time since the last reversal fades.
-HistoryFamily familyOf(const std::vector<std::string>& effects) {
+std::string listed(const std::vector<std::string>& effects) {
+  std::string text;
+  for (const std::string& effect : effects) text += (text.empty() ? "" : ", ") + effect;
+  return text.empty() ? "no effect" : text;
+}
+
+}  // namespace
+
+HistoryFamily historyFamilyOf(const std::vector<std::string>& effects) {
   bool plays = false, memories = false;
   for (const fsr::simulation::EffectEntry& entry : fsr::simulation::effectLibrary()) {
     if (std::find(effects.begin(), effects.end(), entry.info.id) == effects.end()) continue;
@@ -26,14 +33,6 @@ HistoryFamily familyOf(const std::vector<std::string>& effects) {
   if (plays) return HistoryFamily::kPlays;
   return memories ? HistoryFamily::kMemories : HistoryFamily::kNone;
 }
-
-std::string listed(const std::vector<std::string>& effects) {
-  std::string text;
-  for (const std::string& effect : effects) text += (text.empty() ? "" : ", ") + effect;
-  return text.empty() ? "no effect" : text;
-}
-
-}  // namespace
 
 fsr::calibration::HistoryChoice historyOption(const std::string& text, std::string& remark) {
   if (text == "auto") return {};
@@ -47,7 +46,7 @@ fsr::calibration::HistoryChoice historyOption(const std::string& text, std::stri
     }
   }
   const fsr::report::VerdictFile verdict = fsr::report::readVerdict(text);
-  const HistoryFamily family = familyOf(verdict.effects);
+  const HistoryFamily family = historyFamilyOf(verdict.effects);
   if (family == HistoryFamily::kNone) {
     remark = text + " names " + listed(verdict.effects) +
              ", which no model of memory describes; the history is chosen as with auto.";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "fsr_pressure_map/calibration/calibration.h"
 
@@ -11,5 +12,9 @@ namespace fsr_ros {
 /// without an effect that memory describes proposes nothing, and `remark` receives a sentence that says so.
 /// Throws InputError if the text is none of these.
 fsr::calibration::HistoryChoice historyOption(const std::string& text, std::string& remark);
+
+/// The family that describes these effects: one that depends on earlier extremes is a loop, one that depends
+/// on the time since the last reversal fades. kNone if none of them does.
+fsr::compensation::HistoryFamily historyFamilyOf(const std::vector<std::string>& effects);
 
 }  // namespace fsr_ros

@@ -11,6 +11,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/verdict_file.h"
 #include "ros/bags/bag_writer.h"
+#include "ros/tools/map_gain.h"
 #include "support/example_discrepancy.h"
 #include "support/memory_rig.h"
 #include "support/synthetic_recording.h"
@@ -162,6 +163,24 @@ TEST_F(TrainTool, TakesTheSheetsMemoryOut) {
   const std::string proposed = chosen({"--history", verdict});
   EXPECT_NE(proposed.find("as proposed; it wins on protocols that were left out."), std::string::npos)
       << proposed;
+}
+
+// What discrepancy says of its verdict, from the same training.
+TEST(MapGain, IsThatOfTrainingWithAndWithout) {
+  test_support::MemoryRig rig;
+  rig.program = test_support::variedProgram();
+  rig.loop = 0.08;
+  const std::string gain = mapGain({test_support::memoryRecording(rig)}, {"hysteresis"}, 1);
+  EXPECT_EQ(gain.find("On protocols that were left out, the error of the map falls from "), 0u) << gain;
+  rig.loop = 0;
+  EXPECT_EQ(mapGain({test_support::memoryRecording(rig)}, {"hysteresis"}, 1).find("Nothing. On protocols"),
+            0u);
+  EXPECT_EQ(mapGain({test_support::memoryRecording(rig)}, {"wear"}, 1).find("Nothing from this name"), 0u);
+  rig.program = {{6, 600e3, 20e3, 2, 2}};
+  EXPECT_EQ(
+      mapGain({test_support::memoryRecording(rig)}, {"creep"}, 1).find("Not known. History: none, since all"),
+      0u);
+  EXPECT_EQ(mapGain({}, {}, 1), "");
 }
 
 TEST_F(TrainTool, MergesCalibrations) {
