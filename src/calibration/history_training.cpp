@@ -20,8 +20,9 @@ using compensation::HistoryFamily;
 using compensation::HistorySums;
 
 constexpr HistoryFamily kFamilies[] = {HistoryFamily::kPlays, HistoryFamily::kMemories, HistoryFamily::kBoth};
-// A model may be worse than the static answer by this much on no protocol, and must be better by kWins on
-// all together, in root mean square.
+// A model may be worse than the static answer by this much on no protocol. On all together it must be better
+// by kWins in root mean square, both than the static answer and than the correction c without any memory:
+// what c alone mends is no memory.
 constexpr double kWorse = 1.01;
 constexpr double kWins = 0.98;
 
@@ -70,6 +71,7 @@ class HistoryTraining {
   void addSums(std::size_t protocol, std::size_t taxel, Sums& sums) const;
   void scoreFamilies();
   double squareOf(HistoryFamily family) const;
+  double correctedSquare() const;
   bool nowhereWorse(HistoryFamily family) const;
   HistoryFamily choose(const HistoryChoice& choice);
   std::size_t firstOperator(const compensation::HistoryModel& model) const;
@@ -197,6 +199,8 @@ void HistoryTraining::scoreFamilies() {
     if (sums.left_out.samples() == 0) continue;
     for (std::size_t f = 0; f < score.rmse.size(); ++f)
       score.rmse[f] = std::sqrt(sums.left_out.meanSquare(coefficients_.back()[f]));
+    score.corrected_rmse =
+        std::sqrt(sums.left_out.meanSquare(compensation::fitCorrection(grid_, sums.trained)));
     score_.protocols.push_back(score);
   }
 }
@@ -211,6 +215,13 @@ double HistoryTraining::squareOf(HistoryFamily family) const {
   return sum;
 }
 
+double HistoryTraining::correctedSquare() const {
+  double sum = 0;
+  for (const HistoryScore::Protocol& protocol : score_.protocols)
+    sum += protocol.corrected_rmse * protocol.corrected_rmse;
+  return sum;
+}
+
 bool HistoryTraining::nowhereWorse(HistoryFamily family) const {
   return std::all_of(score_.protocols.begin(), score_.protocols.end(), [&](const auto& protocol) {
     return protocol.rmse[std::size_t(family)] <= kWorse * protocol.rmse[0];
@@ -218,10 +229,8 @@ bool HistoryTraining::nowhereWorse(HistoryFamily family) const {
 }
 
 HistoryFamily HistoryTraining::choose(const HistoryChoice& choice) {
-  const double still = squareOf(HistoryFamily::kNone);
-  const auto wins = [&](HistoryFamily family) {
-    return nowhereWorse(family) && squareOf(family) <= kWins * kWins * still;
-  };
+  const double allowed = kWins * kWins * std::min(squareOf(HistoryFamily::kNone), correctedSquare());
+  const auto wins = [&](HistoryFamily family) { return nowhereWorse(family) && squareOf(family) <= allowed; };
   const auto told = [&](HistoryFamily family, const std::string& why) {
     score_.choice = "History: " + compensation::historyName(family) + ", " + why + ".";
     return family;
@@ -239,9 +248,8 @@ HistoryFamily HistoryTraining::choose(const HistoryChoice& choice) {
     if (wins(family) && squareOf(family) < squareOf(best)) best = family;
   }
   if (best != HistoryFamily::kNone) return told(best, "the best on protocols that were left out");
-  const bool none_wins = std::none_of(std::begin(kFamilies), std::end(kFamilies), [&](HistoryFamily family) {
-    return squareOf(family) <= kWins * kWins * still;
-  });
+  const bool none_wins = std::none_of(std::begin(kFamilies), std::end(kFamilies),
+                                      [&](HistoryFamily family) { return squareOf(family) <= allowed; });
   return told(best, none_wins
                         ? "since no model of memory is better by 2 % on protocols that were left out"
                         : "since every model of memory is worse by more than 1 % on a protocol that was "

@@ -130,6 +130,10 @@ double HistorySums::meanSquare(const Eigen::VectorXd& coefficients) const {
   return std::max(0.0, sum) / samples_;
 }
 
+Eigen::VectorXd fitCorrection(const HistoryGrid& grid, const HistorySums& sums) {
+  return fitColumns(columnsOf(HistoryFamily::kNone, grid, 0, 0), sums);
+}
+
 Eigen::VectorXd fitHistory(HistoryFamily family, const HistoryGrid& grid, const HistorySums& sums) {
   Eigen::VectorXd best = Eigen::VectorXd::Zero(Index(grid.features()));
   if (family == HistoryFamily::kNone) return best;

@@ -56,6 +56,9 @@ class HistorySums {
   double samples_ = 0;
 };
 
+/// The coefficients of the correction c alone, 0 for all operators.
+Eigen::VectorXd fitCorrection(const HistoryGrid& grid, const HistorySums& sums);
+
 /// The coefficients of a family, [features] of the grid, 0 for operators that it does not have. Least squares
 /// with a small ridge on the weights. All weights of plays have one sign, and all of memories: the sign with
 /// which the fit is better.

@@ -25,11 +25,11 @@ void protocolTable(std::ostream& out, const std::vector<calibration::HistoryScor
   out << "RMSE [kPa] of means over half a second; each protocol was predicted without it\n";
   head(out, "protocol");
   for (const char* name : kFamilyNames) out << std::setw(10) << name;
-  out << '\n';
+  out << std::setw(10) << "c alone" << '\n';
   for (const auto& protocol : protocols) {
     head(out, protocol.name);
     for (const double rmse : protocol.rmse) out << std::setw(10) << kilopascal(rmse);
-    out << '\n';
+    out << std::setw(10) << kilopascal(protocol.corrected_rmse) << '\n';
   }
 }
 
@@ -68,6 +68,7 @@ Json historyJson(const calibration::Calibration& calibration) {
   for (const auto& protocol : score.protocols) {
     Json rmse = Json::object();
     for (std::size_t f = 0; f < protocol.rmse.size(); ++f) rmse[kFamilyNames[f]] = protocol.rmse[f];
+    rmse["correction_alone"] = protocol.corrected_rmse;
     protocols.push_back({{"protocol", protocol.name}, {"rmse", rmse}});
   }
   for (const auto& part : score.parts) {

@@ -112,6 +112,7 @@ struct HistoryScore {
     std::string name;  ///< e.g. "ramps of 17 kPa/s"
     /// Of means over half a second, by compensation::HistoryFamily [Pa]; that of kNone is the static answer.
     std::array<double, 4> rmse = {};
+    double corrected_rmse = 0;  ///< with the correction c alone, without operators [Pa]
   };
   /// Readings of all protocols together, one by one.
   struct Part {

@@ -124,6 +124,7 @@ void writeHistoryScores(const HistoryScore& score, hdf5::Writer& writer) {
   for (const HistoryScore::Protocol& protocol : score.protocols) {
     names.push_back(protocol.name);
     rmse.insert(rmse.end(), protocol.rmse.begin(), protocol.rmse.end());
+    rmse.push_back(protocol.corrected_rmse);
   }
   for (const HistoryScore::Part& part : score.parts) {
     parts.push_back(part.name);
@@ -133,8 +134,8 @@ void writeHistoryScores(const HistoryScore& score, hdf5::Writer& writer) {
   const std::string group = kScores;
   if (!names.empty()) {
     writer.texts(group + "/protocols", names, "each was left out in turn");
-    writer.dataset(group + "/protocol_rmse", rmse, {names.size(), 4}, "Pa",
-                   "of means over half a second: static, plays, memories, both");
+    writer.dataset(group + "/protocol_rmse", rmse, {names.size(), 5}, "Pa",
+                   "of means over half a second: static, plays, memories, both, correction c alone");
   }
   if (parts.empty()) return;
   writer.texts(group + "/parts", parts, "readings of all protocols that were left out");
@@ -150,9 +151,11 @@ HistoryScore readHistoryScores(const hdf5::Reader& reader) {
   const std::string group = kScores;
   if (reader.has(group + "/protocols")) {
     const std::vector<std::string> names = reader.texts(group + "/protocols");
-    const auto rmse = reader.dataset<double>(group + "/protocol_rmse", {names.size(), 4});
-    for (std::size_t g = 0; g < names.size(); ++g)
-      score.protocols.push_back({names[g], {rmse[4 * g], rmse[4 * g + 1], rmse[4 * g + 2], rmse[4 * g + 3]}});
+    const auto rmse = reader.dataset<double>(group + "/protocol_rmse", {names.size(), 5});
+    for (std::size_t g = 0; g < names.size(); ++g) {
+      const double* const row = &rmse[5 * g];
+      score.protocols.push_back({names[g], {row[0], row[1], row[2], row[3]}, row[4]});
+    }
   }
   if (!reader.has(group + "/parts")) return score;
   const std::vector<std::string> parts = reader.texts(group + "/parts");
