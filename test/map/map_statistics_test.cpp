@@ -103,7 +103,7 @@ TEST(PressureMap, KnowsWhichPartOfItsReadingsIsNotSettled) {
   using namespace taxel_flag;
   PressureMap map = handMap();  // five readings: taxel 2 has none
   EXPECT_EQ(unsettledShare(map.pressure, map.flags), 0);
-  map.flags = {kHistoryShort, kHistoryShort, kHistoryShort, 0, 0, 0};
+  map.flags = {kHistoryShort, kHistoryShort, kHistoryShort, kTared, kSaturated, 0};
   EXPECT_DOUBLE_EQ(unsettledShare(map.pressure, map.flags), 2.0 / 5);
   map.flags = {kHistoryShort, kHistoryShort | kSaturated, kDead | kHistoryShort, kMasked, kStuck, kLineFault};
   EXPECT_DOUBLE_EQ(unsettledShare(map.pressure, map.flags), 1);

@@ -29,11 +29,13 @@
 #include <QTimer>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <memory>
 #include <typeinfo>
 
+#include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/view/colour_map.h"
 #include "ros/messages/message_reader.h"
 #include "support/source_dir.h"
@@ -48,13 +50,20 @@ using fsr_pressure_map::SurfaceCurvature;
 const std::string kBag = test_support::sourceDir() + "/test/data/indenter_map.bag";
 const QString kConfigs = QString::fromStdString(test_support::sourceDir() + "/config/rviz");
 
+/// The last message of a topic; null, with a sentence on the terminal, if it cannot be read. (A test suite
+/// whose set-up fails is skipped, which rostest takes for success.)
 template <typename Message>
 typename Message::ConstPtr lastOf(const std::string& topic) {
   rosbag::Bag bag(kBag);
   boost::shared_ptr<Message> last;
   fsr_ros::MessageReader reader;  // the bag has an earlier definition of PressureMap
   for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topic))) {
-    last = boost::make_shared<Message>(reader.read<Message>(instance));
+    try {
+      last = boost::make_shared<Message>(reader.read<Message>(instance));
+    } catch (const fsr::settings::InputError& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      return nullptr;
+    }
   }
   return last;
 }
