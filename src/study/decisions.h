@@ -18,6 +18,9 @@ struct StudyDecision {
 
 std::vector<StudyDecision> studyDecisions(const StudyPlan& plan, const StudyData& data);
 
+/// Whether the simulated rig of this name was fitted to the paper's tables.
+bool fittedToThePaper(const std::string& simulation);
+
 /// Numbers of the paper that no rig can match, and the reasons. One sentence or paragraph each.
 std::vector<std::string> unmatchable();
 

@@ -47,7 +47,7 @@ StudyResult describe(const StudyProblem& problem, const StudyData& data) {
   result.mounts = data.mounts;
   result.taxels = data.taxels;
   result.decisions = studyDecisions(problem.plan, data);
-  if (problem.simulation == "paper") result.unmatchable = unmatchable();
+  if (fittedToThePaper(problem.simulation)) result.unmatchable = unmatchable();
   result.holds_for = limitations(data, problem.simulation);
   result.warnings = data.warnings;
   return result;

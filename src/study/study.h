@@ -129,7 +129,7 @@ struct StudyResult {
   StudyHeadline headline;
   TaxelResponse response;
   std::vector<StudyDecision> decisions;
-  std::vector<std::string> unmatchable;  ///< only of the simulated rig that was fitted to the paper
+  std::vector<std::string> unmatchable;  ///< only of the simulated rigs that were fitted to the paper
   std::vector<std::string> holds_for;    ///< sentences on the limits of the results
   std::vector<std::string> warnings;
 };

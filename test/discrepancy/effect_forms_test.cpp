@@ -1,5 +1,5 @@
-// Plants the forms of effects that a parameter selects, with the noise of config/simulation/demo.yaml, and
-// checks that discrepancy finds the effect.
+// Plants the forms of effects that a parameter selects, with the noise of config/simulation/demo_noisy.yaml,
+// and checks that discrepancy finds the effect.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace fsr::discrepancy {
 namespace {
 
-// Two speeds and dwells on two surfaces. White noise: config/simulation/demo.yaml.
+// Two speeds and dwells on two surfaces. White noise: config/simulation/demo_noisy.yaml.
 const char* const kNoisyRig = R"(
 simulation: planted
 seed: 7

@@ -131,7 +131,9 @@ TEST(Study, SaysThatOneMountIsAConditionEffect) {
     return text.find("condition effect") != std::string::npos;
   };
   EXPECT_TRUE(std::any_of(result.holds_for.begin(), result.holds_for.end(), says));
-  EXPECT_TRUE(result.unmatchable.empty()) << "these are about the rig that was fitted to the paper";
+  EXPECT_TRUE(result.unmatchable.empty()) << "these are about the rigs that were fitted to the paper";
+  EXPECT_TRUE(fittedToThePaper("paper") && fittedToThePaper("paper_noisy"));
+  EXPECT_FALSE(fittedToThePaper("demo"));
 }
 
 TEST(Study, NamesTheSurfacesThatWereMountedOnce) {

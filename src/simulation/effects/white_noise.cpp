@@ -4,8 +4,8 @@
 //
 // a: noise of the electronics [counts]. r: noise of the contacts, as a share of the reading. N: a standard
 // normal number.
-// Size: together with the hysteresis loop it makes the RMSE of 3.5 % on the flat in Ahmadizadeh and Menon
-// 2019. Data sheets give the repeatability of a single part as 2 % (Interlink FSR 400).
+// Size: boards of 12 bits read to a few counts. Data sheets give the repeatability of a single part as 2 %
+// (Interlink FSR 400).
 
 #include <cmath>
 
