@@ -54,7 +54,7 @@ std::vector<std::string> remarksOn(const std::vector<TopicCourse>& courses) {
        {std::pair{"temperature", "slow drift cannot be distinguished from effects of temperature"},
         std::pair{"session", "the bag does not say to which session it belongs"}}) {
     const auto is_it = [&](const TopicCourse& course) {
-      const std::string end = std::string("/") + base;
+    const std::string end = std::string("/") + base;
       return course.topic.size() >= end.size() &&
              course.topic.compare(course.topic.size() - end.size(), end.size(), end) == 0;
     };
