@@ -47,11 +47,11 @@ void scoreHeads(std::ostream& out) {
   for (const char* const head : {"R2", "paper", "RMSE%", "paper"}) cell(out, head, 18);
   for (const char* const head : {"RMSE", "bias", "p95", "worst taxel"}) cell(out, head, 12);
   out << '\n' << std::setw(kNameWidth + 4 * 18) << "";
-  for (const char* const unit : {"kPa", "kPa", "kPa", "RMSE% (no.)"}) cell(out, unit, 12);
+  for (const char* const unit : {"kPa", "kPa", "kPa", "RMSE%"}) cell(out, unit, 12);
   out << '\n';
 }
 
-void scoreRow(std::ostream& out, const study::StudyScore& score) {
+void scoreRow(std::ostream& out, const study::StudyScore& score, const matrix::Layout& layout) {
   const study::PaperScore paper =
       study::paperScore(score.id == "grnn" ? "baseline" : score.id).value_or(study::PaperScore{});
   const statistics::ErrorSummary& errors = score.errors.whole.all;
@@ -63,14 +63,16 @@ void scoreRow(std::ostream& out, const study::StudyScore& score) {
   for (const double value : {errors.rmse, errors.bias, errors.p95_absolute}) {
     cell(out, number(value / kKilopascal, 1), 12);
   }
-  cell(out, number(score.worst_rmse_percent, 2) + " (" + std::to_string(score.worst_taxel) + ")", 14);
-  out << '\n';
+  cell(out, number(score.worst_rmse_percent, 2), 12);
+  out << "  row " << layout.row({score.worst_taxel}) << ", column " << layout.column({score.worst_taxel})
+      << " (taxel " << score.worst_taxel << ")\n";
 }
 
-void comparisonText(std::ostream& out, const study::StudyComparison& comparison) {
+void comparisonText(std::ostream& out, const study::StudyComparison& comparison,
+                    const matrix::Layout& layout) {
   out << '\n' << comparison.title << '\n';
   scoreHeads(out);
-  for (const study::StudyScore& score : comparison.scores) scoreRow(out, score);
+  for (const study::StudyScore& score : comparison.scores) scoreRow(out, score, layout);
   out << "As published, taxels treated as independent:\n";
   out << "  R2:    " << testText(comparison.r2.test, comparison.r2.p) << '\n';
   out << "  RMSE%: " << testText(comparison.rmse_percent.test, comparison.rmse_percent.p) << '\n';
@@ -114,7 +116,8 @@ std::string studyText(const study::StudyResult& result) {
   out << result.scans << " scans of " << result.taxels.size() << " taxels on " << result.classes.size()
       << " conditions, " << result.cycles << " cycles, " << result.mounts << " mounts\n";
   for (const std::string& warning : result.warnings) out << "Warning: " << warning << '\n';
-  for (const study::StudyComparison& comparison : result.comparisons) comparisonText(out, comparison);
+  for (const study::StudyComparison& comparison : result.comparisons)
+    comparisonText(out, comparison, result.layout);
   if (!result.plan.beyond_the_paper) return out.str() + '\n' + sentences(result.holds_for);
   out << "\nAll scans, bandwidth chosen by nested cross-validation: RMSE with 95 % interval\n";
   for (const study::SplitResult& split : result.splits) splitText(out, split);

@@ -91,6 +91,13 @@ TEST(StudyText, ShowsThePapersNumbersBesideOursAndStatesTheLimits) {
   EXPECT_TRUE(contains(text, "n = 3 taxels")) << text;
 }
 
+TEST(StudyText, NamesTheWorstTaxelByRowAndColumn) {
+  fsr::study::StudyResult result = smallStudy();
+  result.layout.size = {2, 2};
+  result.comparisons.front().scores.front().worst_taxel = 3;
+  EXPECT_TRUE(contains(fsr::report::studyText(result), "  row 1, column 1 (taxel 3)\n"));
+}
+
 TEST(StudyJson, HasThePublishedTestsAndEveryDecision) {
   const fsr::study::StudyResult& result = smallStudy();
   const std::string json = fsr::report::studyJson(result);
