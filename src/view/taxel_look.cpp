@@ -30,8 +30,8 @@ TaxelLook lookOf(float pressure, std::uint16_t flags) {
 }
 
 const std::vector<TaxelLook>& markedLooks() {
-  static const std::vector<TaxelLook> looks = {TaxelLook::kBelowRange, TaxelLook::kExtrapolated,
-                                               TaxelLook::kSaturated, TaxelLook::kNoReading};
+  static const std::vector<TaxelLook> looks = {TaxelLook::kExtrapolated, TaxelLook::kSaturated,
+                                               TaxelLook::kNoReading};
   return looks;
 }
 
@@ -64,7 +64,6 @@ std::string settlingText(double share) {
 
 const std::vector<Stroke>& mark(TaxelLook look) {
   static const std::vector<Stroke> none;
-  static const std::vector<Stroke> dash = {{{-0.15, 0}, {0.15, 0}}};
   static const std::vector<Stroke> diagonals = {{{-0.3, 0.1}, {0.1, -0.3}}, {{-0.1, 0.3}, {0.3, -0.1}}};
   static const std::vector<Stroke> square = {{{-0.28, -0.28}, {0.28, -0.28}},
                                              {{0.28, -0.28}, {0.28, 0.28}},
@@ -72,14 +71,13 @@ const std::vector<Stroke>& mark(TaxelLook look) {
                                              {{-0.28, 0.28}, {-0.28, -0.28}}};
   static const std::vector<Stroke> cross = {{{-0.3, -0.3}, {0.3, 0.3}}, {{-0.3, 0.3}, {0.3, -0.3}}};
   switch (look) {
-    case TaxelLook::kBelowRange:
-      return dash;
     case TaxelLook::kExtrapolated:
       return diagonals;
     case TaxelLook::kSaturated:
       return square;
     case TaxelLook::kNoReading:
       return cross;
+    case TaxelLook::kBelowRange:
     case TaxelLook::kGood:
       break;
   }

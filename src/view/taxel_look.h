@@ -10,11 +10,11 @@
 
 namespace fsr::view {
 
-/// How reliable a taxel's colour is. All but kGood have a mark, which is the same in pictures and meshes and
-/// does not depend on colour.
+/// How reliable a taxel's colour is. All but kGood and kBelowRange have a mark, which is the same in pictures
+/// and meshes and does not depend on colour.
 enum class TaxelLook {
   kGood,
-  kBelowRange,    ///< "less than": below the turn-on pressure
+  kBelowRange,    ///< "less than": below the turn-on pressure, as every taxel at rest
   kExtrapolated,  ///< reading, curvature or temperature outside the range of training
   kSaturated,     ///< "at least": the converter is at full scale
   kNoReading,     ///< dead, stuck, masked or uncalibrated
@@ -42,8 +42,8 @@ struct Stroke {
   matrix::Position to;
 };
 
-/// The mark of a look: cross = no reading, open square = saturated, two diagonals = extrapolated, dash =
-/// below range, nothing = good.
+/// The mark of a look: cross = no reading, open square = saturated, two diagonals = extrapolated,
+/// nothing = good or below range.
 const std::vector<Stroke>& mark(TaxelLook look);
 
 /// Colour of a taxel without a pressure: a grey that is in no colour map.

@@ -76,7 +76,6 @@ TEST(HeatMap, MarksUnreliableTaxels) {
     if (look == TaxelLook::kNoReading) map.pressure[4] = NAN;
     if (look == TaxelLook::kSaturated) map.flags[4] = map::taxel_flag::kSaturated;
     if (look == TaxelLook::kExtrapolated) map.flags[4] = map::taxel_flag::kReadingExtrapolated;
-    if (look == TaxelLook::kBelowRange) map.flags[4] = map::taxel_flag::kBelowRange;
     EXPECT_EQ(lookOf(map.pressure[4], map.flags[4]), look);
     const HeatMap painter(HeatMapStyle{});
     const Image plain = painter.draw(ramp({3, 3}));
@@ -105,6 +104,15 @@ TEST(Legend, SaysHowManyTaxelsAreNotSettledInOneLine) {
   }
   EXPECT_EQ(settlingWord(1.0 / 4096), "settling: 1 % of taxels");
   EXPECT_EQ(settlingWord(1 - 1.0 / 4096), "settling: 99 % of taxels");
+}
+
+TEST(HeatMap, DoesNotMarkTaxelsAtRest) {
+  const map::PressureMap plain = ramp({3, 3});
+  map::PressureMap at_rest = plain;
+  at_rest.flags[4] = map::taxel_flag::kBelowRange;
+  at_rest.flags[5] = map::taxel_flag::kBelowRange | map::taxel_flag::kReadingExtrapolated;
+  const HeatMap painter(HeatMapStyle{});
+  EXPECT_EQ(painter.draw(plain).bytes(), painter.draw(at_rest).bytes());
 }
 
 TEST(HeatMap, HasOneSizeForAllMapsOfAMatrix) {

@@ -33,8 +33,8 @@ struct HeatMapStyle {
 
 /// Draws heat maps. Row 0 is on top, as arrays are printed (the sheet seen from its back). Taxels whose value
 /// is not reliable have a mark: a cross for no reading, an open square for saturated, two diagonals for
-/// extrapolated, a dash for below range. A picture also has a colour bar with unit and range, the key of the
-/// marks, and lines of text above.
+/// extrapolated. A picture also has a colour bar with unit and range, the key of the marks, and lines of text
+/// above.
 class HeatMap {
  public:
   explicit HeatMap(const HeatMapStyle& style) : style_(style) {}

@@ -91,9 +91,9 @@ StatusLine taxelStatus(const std::vector<fsr::view::TaxelLook>& looks,
   std::map<fsr::view::TaxelLook, int> counts;
   for (const fsr::view::TaxelLook look : looks) ++counts[look];
   std::string text;
-  for (const fsr::view::TaxelLook look : fsr::view::markedLooks()) {
-    if (counts[look] == 0) continue;
-    text += (text.empty() ? "" : ", ") + std::to_string(counts[look]) + " " + fsr::view::name(look);
+  for (const auto& [look, count] : counts) {
+    if (look == fsr::view::TaxelLook::kGood || count == 0) continue;
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + fsr::view::name(look);
     if (look == fsr::view::TaxelLook::kExtrapolated) text += extrapolatedText(looks, flags);
   }
   if (text.empty()) return {StatusProperty::Ok, "all readings are within range"};
