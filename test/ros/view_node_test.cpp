@@ -39,6 +39,15 @@ class View : public testing::Test {
     return done();
   }
 
+  /// Waits for `done` without publishing maps, at most 30 s.
+  static bool waitFor(const std::function<bool()>& done) {
+    const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(30);
+    while (!done() && ros::WallTime::now() < give_up) {
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
+    }
+    return done();
+  }
+
   static PressureMap map() {
     PressureMap message;
     message.header.frame_id = "left_sheet";
@@ -139,6 +148,13 @@ TEST_F(View, PaintsAnImageForAnyViewer) {
   EXPECT_EQ(image->encoding, "rgb8");
   EXPECT_EQ(image->header.stamp, ros::Time(1234, 5));
   EXPECT_EQ(image->data.size(), std::size_t(image->height) * image->width * 3);
+  // The maps stop: grey, the same value in all three channels, where there was a colour.
+  const auto isGrey = [&] {
+    const std::size_t middle = 3 * (image->height / 2 * image->width + image->width / 2 + 40);
+    return image->data[middle] == 128 && image->data[middle + 1] == 128 && image->data[middle + 2] == 128;
+  };
+  EXPECT_FALSE(isGrey());
+  EXPECT_TRUE(waitFor(isGrey));
 }
 
 // 10, 11, 12, 13, 14 kPa are in contact (10 kPa and more), 1e-4 m^2 each: 60 kPa x 1e-4 m^2 = 6 N.
@@ -163,11 +179,7 @@ TEST_F(View, CountsAndThenSaysUnknownWhenMapsStop) {
   EXPECT_TRUE(publishUntil([&] { return array->regions.at(0).alarm == PressureStatistics::OK; }));
   EXPECT_NEAR(centre->point.y, 0.010, 1e-6);  // all of row 2
   const auto unknown = [&] { return array->regions.at(0).alarm == PressureStatistics::UNKNOWN; };
-  const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(30);
-  while (!unknown() && ros::WallTime::now() < give_up) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
-  }
-  EXPECT_TRUE(unknown());
+  EXPECT_TRUE(waitFor(unknown));
   EXPECT_TRUE(std::isnan(array->regions.at(0).peak));
   EXPECT_TRUE(setAlarm(0));
 }

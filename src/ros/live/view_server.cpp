@@ -77,6 +77,7 @@ void ViewServer::onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& m
 
 void ViewServer::onMap(const fsr_pressure_map::PressureMapConstPtr& message) {
   last_map_ = ros::WallTime::now();
+  last_map_ros_ = ros::Time::now();
   frame_id_ = message->header.frame_id;
   try {
     const fsr::map::PressureMap map = toPressureMap(*message);
@@ -86,6 +87,7 @@ void ViewServer::onMap(const fsr_pressure_map::PressureMapConstPtr& message) {
     now_ = statistics_.update(message->header.stamp.toSec(), map, shape_.areas());
     alarms_.note(message->header, now_);
     publish(*message, map);
+    shown_ = message;
   } catch (const fsr::settings::InputError& error) {
     ROS_WARN_STREAM_THROTTLE(kComplaintPeriod, error.what());
   }
@@ -124,13 +126,14 @@ void ViewServer::publish(const fsr_pressure_map::PressureMap& message, const fsr
   const ros::WallTime now = ros::WallTime::now();
   if (now < next_picture_ || !(wanted("surface") || wanted("image"))) return;
   next_picture_ = std::max(next_picture_ + ros::WallDuration(1 / settings_.rate), now);
-  publishPictures(message, map);
+  publishPictures(message, map, remarkText(map));
 }
 
 void ViewServer::publishPictures(const fsr_pressure_map::PressureMap& message,
-                                 const fsr::map::PressureMap& map) {
+                                 const fsr::map::PressureMap& map, const std::string& state) {
   if (wanted("surface")) {
-    outputs_["surface"].publish(toMarkers(message.header, map, shape_.mesh(), settings_.style, whole()));
+    outputs_["surface"].publish(
+        toMarkers(message.header, map, shape_.mesh(), settings_.style, whole(), state));
   }
   if (wanted("image")) {
     const std::string calibration =
@@ -140,8 +143,7 @@ void ViewServer::publishPictures(const fsr_pressure_map::PressureMap& message,
     const std::string numbers = "peak " + fsr::view::limitText(whole().peak, unit, at_least) + "  mean " +
                                 fsr::view::limitText(whole().mean, unit, at_least);
     const fsr::view::HeatMap painter(settings_.style);
-    outputs_["image"].publish(
-        toMessage(message.header, painter.draw(map, {calibration, numbers, remarkText(map)})));
+    outputs_["image"].publish(toMessage(message.header, painter.draw(map, {calibration, numbers, state})));
   }
 }
 
@@ -164,6 +166,17 @@ void ViewServer::publishCentre(const std_msgs::Header& header, const fsr::map::R
   outputs_["centre_of_pressure"].publish(message);
 }
 
+// Takes the colours from the pictures of the last map, once. The ROS time stands still in a paused replay.
+void ViewServer::publishStopped() {
+  if (!shown_ || (ros::Time::now() - last_map_ros_).toSec() < settings_.stale_after) return;
+  fsr::map::PressureMap map = toPressureMap(*shown_);
+  const auto none = static_cast<float>(fsr::map::RegionStatistics::kNone);
+  map.pressure.assign(map.pressure.size(), none);
+  map.deviation.assign(map.deviation.size(), none);
+  publishPictures(*shown_, map, "STOPPED: no more maps");
+  shown_.reset();
+}
+
 // Without maps the alarms are published as UNKNOWN, so that a subscriber does not take silence for OK.
 void ViewServer::reportSilence() {
   if (!maps_) return;
@@ -175,9 +188,10 @@ void ViewServer::reportSilence() {
   std_msgs::Header header;
   header.stamp = ros::Time::now();
   header.frame_id = frame_id_;
-  const std::vector<fsr::map::RegionStatistics> stale = statistics_.stale();
-  alarms_.note(header, stale);
-  if (wanted("statistics")) publishStatistics(header, stale);
+  now_ = statistics_.stale();
+  alarms_.note(header, now_);
+  if (wanted("statistics")) publishStatistics(header, now_);
+  publishStopped();
 }
 
 }  // namespace fsr_ros

@@ -20,7 +20,8 @@ namespace fsr_ros {
 /// `image`, `statistics`, `centre_of_pressure`. The sheet is bent as `curvature` says, and flat while the
 /// curvature is unknown. The node receives maps only while one of its topics has a subscriber or an alarm is
 /// set. `surface` and `image` are published at most at `~rate`, the other topics for every map. The
-/// pressure-time integral begins with the first subscriber. When maps stop, all alarms become UNKNOWN. The
+/// pressure-time integral begins with the first subscriber. When maps stop, all alarms become UNKNOWN, and
+/// `surface` and `image` lose their colours unless the ROS time stands still, as in a paused replay. The
 /// service `~set_alarm` sets alarms; they are logged and published on `events`. Parameters: ViewSettings.
 class ViewServer {
  public:
@@ -33,7 +34,9 @@ class ViewServer {
   void onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& message);
   void onMap(const fsr_pressure_map::PressureMapConstPtr& message);
   void publish(const fsr_pressure_map::PressureMap& message, const fsr::map::PressureMap& map);
-  void publishPictures(const fsr_pressure_map::PressureMap& message, const fsr::map::PressureMap& map);
+  void publishPictures(const fsr_pressure_map::PressureMap& message, const fsr::map::PressureMap& map,
+                       const std::string& state);
+  void publishStopped();
   void publishStatistics(const std_msgs::Header& header,
                          const std::vector<fsr::map::RegionStatistics>& regions);
   void publishCentre(const std_msgs::Header& header, const fsr::map::RegionStatistics& whole);
@@ -57,6 +60,8 @@ class ViewServer {
   fsr::view::AutoRange auto_range_;
   std::string frame_id_;
   ros::WallTime last_map_;
+  ros::Time last_map_ros_;
+  fsr_pressure_map::PressureMapConstPtr shown_;  // the last map, until the pictures have said that it is old
   ros::WallTime next_picture_;
 };
 

@@ -94,25 +94,23 @@ Marker dot(const std_msgs::Header& header, const char* space, const fsr::view::S
   return result;
 }
 
-std::string legendText(const fsr::map::PressureMap& map, const fsr::view::HeatMapStyle& style,
-                       const fsr::map::RegionStatistics& whole) {
+std::string legendText(const fsr::view::HeatMapStyle& style, const fsr::map::RegionStatistics& whole,
+                       const std::string& state) {
   const fsr::view::PressureUnit unit = style.scale.unit;
-  const std::string remark = remarkText(map);
   std::string text = std::string(fsr::view::name(style.layer)) + ", " +
                      fsr::view::pressureText(style.scale.low, unit) + " (dark) to " +
                      fsr::view::pressureText(style.scale.high, unit) + " (bright)";
   const bool at_least = whole.at_least > 0;
   text += "\npeak " + fsr::view::limitText(whole.peak, unit, at_least) + ", mean over contact " +
           fsr::view::limitText(whole.mean, unit, at_least);
-  return remark.empty() ? text : text + "\n" + remark;
+  return state.empty() ? text : text + "\n" + state;
 }
 
-Marker legend(const std_msgs::Header& header, const fsr::map::PressureMap& map,
-              const fsr::view::HeatMapStyle& style, const fsr::map::RegionStatistics& whole) {
+Marker legend(const std_msgs::Header& header, const fsr::matrix::Layout& layout, const std::string& text) {
   Marker result = marker(header, "legend", Marker::TEXT_VIEW_FACING);
-  result.text = legendText(map, style, whole);
+  result.text = text;
   result.scale.z = 0.005;  // height of a capital letter [m]
-  result.pose.position.y = -0.5 * map.layout.pitch_y * map.layout.size.rows - 0.012;
+  result.pose.position.y = -0.5 * layout.pitch_y * layout.size.rows - 0.012;
   return result;
 }
 
@@ -145,7 +143,7 @@ std::string remarkText(const fsr::map::PressureMap& map) {
 visualization_msgs::MarkerArray toMarkers(const std_msgs::Header& header, const fsr::map::PressureMap& map,
                                           const fsr::view::SheetMesh& mesh,
                                           const fsr::view::HeatMapStyle& style,
-                                          const fsr::map::RegionStatistics& whole) {
+                                          const fsr::map::RegionStatistics& whole, const std::string& state) {
   const fsr::matrix::Layout& layout = map.layout;
   const double nowhere = fsr::map::RegionStatistics::kNone;
   const fsr::matrix::Position centre = whole.centre.value_or(fsr::matrix::Position{nowhere, nowhere});
@@ -158,7 +156,7 @@ visualization_msgs::MarkerArray toMarkers(const std_msgs::Header& header, const 
                               centre.x / layout.pitch_x + 0.5 * (layout.size.columns - 1), {255, 255, 255}));
   array.markers.push_back(dot(header, "peak", mesh, peak ? layout.row(whole.peak_taxel) : nowhere,
                               peak ? layout.column(whole.peak_taxel) : nowhere, {0, 0, 0}));
-  array.markers.push_back(legend(header, map, style, whole));
+  array.markers.push_back(legend(header, layout, legendText(style, whole, state)));
   return array;
 }
 

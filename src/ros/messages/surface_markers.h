@@ -3,6 +3,8 @@
 #include <std_msgs/Header.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <string>
+
 #include "fsr_pressure_map/map/map_statistics.h"
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/view/heat_map.h"
@@ -20,10 +22,10 @@ std::string remarkText(const fsr::map::PressureMap& map);
 /// The map on its bent sheet for the MarkerArray display of rviz, in the frame of `header`. Namespaces:
 /// `sheet` (the coloured mesh), `marks` (strokes on taxels with an unreliable reading, see taxel_look.h),
 /// `centre_of_pressure` (white), `peak` (black) and `legend` (text with quantity, range, peak and mean).
-/// `whole` are the statistics of the whole matrix.
+/// `whole` are the statistics of the whole matrix, `state` is the legend's last line; empty = none.
 visualization_msgs::MarkerArray toMarkers(const std_msgs::Header& header, const fsr::map::PressureMap& map,
                                           const fsr::view::SheetMesh& mesh,
                                           const fsr::view::HeatMapStyle& style,
-                                          const fsr::map::RegionStatistics& whole);
+                                          const fsr::map::RegionStatistics& whole, const std::string& state);
 
 }  // namespace fsr_ros

@@ -49,8 +49,15 @@ StatusLine stateStatus(fsr::map::MapState state) {
   }
 }
 
-bool isSilent(double seconds) {
-  return seconds < 0 || seconds >= kSilence;
+Flow flowOf(double seconds, double ros_seconds) {
+  if (seconds < 0) return Flow::kNone;
+  if (seconds < kSilence) return Flow::kComing;
+  return ros_seconds < kSilence ? Flow::kPaused : Flow::kStopped;
+}
+
+std::string flowHeadline(Flow flow, const std::string& noun) {
+  if (flow == Flow::kStopped) return "STOPPED: no more " + noun + "s";
+  return flow == Flow::kPaused ? "PAUSED: the last " + noun : "";
 }
 
 std::string stateHeadline(fsr::map::MapState state) {
@@ -71,12 +78,14 @@ std::string stateHeadline(fsr::map::MapState state) {
   return "";
 }
 
-StatusLine messageStatus(double seconds, const std::string& noun, const std::string& topic) {
+StatusLine messageStatus(Flow flow, double seconds, const std::string& noun, const std::string& topic) {
   if (topic.empty()) return {StatusProperty::Warn, "no topic is selected"};
-  if (seconds < 0) return {StatusProperty::Warn, "no " + noun + " has come on " + topic};
-  if (!isSilent(seconds)) return {StatusProperty::Ok, noun + "s are coming"};
-  return {StatusProperty::Warn, "no " + noun + " for " + std::to_string(static_cast<long>(seconds)) +
-                                    " s on " + topic + ": the last one is shown"};
+  if (flow == Flow::kNone) return {StatusProperty::Warn, "no " + noun + " has come on " + topic};
+  if (flow == Flow::kComing) return {StatusProperty::Ok, noun + "s are coming"};
+  return {StatusProperty::Warn,
+          "no " + noun + " for " + std::to_string(static_cast<long>(seconds)) + " s on " + topic +
+              (flow == Flow::kPaused ? ", but the clock stands still: the last one is shown"
+                                     : ": the sheet is grey")};
 }
 
 StatusLine curvatureStatus(const fsr::matrix::Surface& surface, const std::string& error,

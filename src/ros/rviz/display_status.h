@@ -20,12 +20,23 @@ struct StatusLine {
 /// State of a map: why no pressure is shown, or how far the pressure can be trusted.
 StatusLine stateStatus(fsr::map::MapState state);
 
-/// `seconds`: time since the last message; below 0 = no message has come on `topic`. `noun`: name of the
-/// data, e.g. "map".
-StatusLine messageStatus(double seconds, const std::string& noun, const std::string& topic);
+/// Whether messages come.
+enum class Flow {
+  kNone,     ///< no message has come
+  kComing,   ///< the last one is the present state
+  kPaused,   ///< none for some seconds, while the ROS time has stood still: a replay is paused, or has ended
+  kStopped,  ///< none for some seconds, also of ROS time: the last one is not the present state
+};
 
-/// Whether data of this age [s] are too old to be the present state; also true below 0, without data.
-bool isSilent(double seconds);
+/// `seconds`: time since the last message; below 0 = no message has come. `ros_seconds`: likewise, in ROS
+/// time.
+Flow flowOf(double seconds, double ros_seconds);
+
+/// `seconds`: time since the last message on `topic`. `noun`: name of the data, e.g. "map".
+StatusLine messageStatus(Flow flow, double seconds, const std::string& noun, const std::string& topic);
+
+/// `flow` for a legend; empty while messages come.
+std::string flowHeadline(Flow flow, const std::string& noun);
 
 /// The state for a legend, in capitals so that it is not overlooked; empty for the state OK.
 std::string stateHeadline(fsr::map::MapState state);

@@ -25,6 +25,7 @@ constexpr std::uint32_t kQueueSize = 10;  // [messages]
 // A title with the mean of all taxels that have a value, e.g. "flat only: mean 329 kPa"; empty without one.
 std::string titleLine(const std::string& title, const SheetPicture& picture) {
   if (title.empty()) return title;
+  if (picture.stopped) return title + ": stopped";
   double sum = 0, count = 0;
   for (const float value : picture.values) {
     if (std::isnan(value)) continue;
@@ -170,6 +171,7 @@ void SheetDisplay::onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr&
 void SheetDisplay::received(const std_msgs::Header& header) {
   last_ = header;
   last_time_ = ros::WallTime::now();
+  last_ros_time_ = ros::Time::now();
   fresh_ = true;
 }
 
@@ -206,15 +208,20 @@ bool SheetDisplay::repaint() {
 
 void SheetDisplay::redraw() {
   fresh_ = false;
-  if (!repaint()) return;
+  shown_.picture.stopped = flow() == Flow::kStopped;
+  const bool painted = repaint();
+  if (!painted && !shown_.mesh) return;
   if (!shown_.mesh) makeMesh();
   visual_->show(shown_.picture, *shown_.mesh);
   if (!selection_) {
-    selection_ = std::make_unique<TaxelSelection>(context_, *visual_, shown_,
-                                                  [this](std::size_t taxel) { return readOut(taxel); });
+    selection_ = std::make_unique<TaxelSelection>(context_, *visual_, shown_, [this](std::size_t taxel) {
+      ReadOut values = readOut(taxel);
+      if (shown_.picture.stopped) values.insert(values.begin(), {"STOPPED", "the last values"});
+      return values;
+    });
     selection_->addTrackedObject(visual_->sheet());
   }
-  sayState();
+  if (painted) sayState();
 }
 
 void SheetDisplay::placeSheet() {
@@ -253,7 +260,8 @@ void SheetDisplay::updateLegend() {
   if (!isEnabled() || !legend_->getBool()) return overlay_->hide();
   fsr::view::Legend now = legend();
   now.marks = marks_->getBool();
-  if (last_ && isSilent(age())) now.lines.push_back("STOPPED: no more " + std::string(noun_) + "s");
+  const std::string headline = flowHeadline(flow(), noun_);
+  if (!headline.empty()) now.lines.push_back(headline);
   now.lines.push_back(surface_.name.empty() ? "surface not named" : "surface " + surface_.name);
   overlay_->moveTo(left_->getInt(), top_->getInt());
   overlay_->show(now);
@@ -267,6 +275,10 @@ double SheetDisplay::age() const {
   return last_ ? (ros::WallTime::now() - last_time_).toSec() : -1;
 }
 
+Flow SheetDisplay::flow() const {
+  return flowOf(age(), last_ ? (ros::Time::now() - last_ros_time_).toSec() : -1);
+}
+
 // Expands the status once; afterwards the user decides.
 void SheetDisplay::openStatus() {
   for (int i = 0; i < numChildren() && !status_opened_; ++i) {
@@ -278,8 +290,9 @@ void SheetDisplay::openStatus() {
 
 void SheetDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
   const std::string topic = topic_->getTopicStd();  // shown with the remappings of the launch file
-  say("Messages", messageStatus(age(), noun_, topic.empty() ? topic : update_nh_.resolveName(topic)));
+  say("Messages", messageStatus(flow(), age(), noun_, topic.empty() ? topic : update_nh_.resolveName(topic)));
   openStatus();
+  if (last_ && shown_.picture.stopped != (flow() == Flow::kStopped)) fresh_ = true;
   if (fresh_) redraw();
   updateLegend();
   say("Curvature", curvatureStatus(surface_, surface_error_, update_nh_.resolveName(curvatureTopic())));

@@ -97,6 +97,7 @@ class SheetDisplay : public rviz::Display {
   void placeSheet();
   void openStatus();
   double age() const;  // time since the last message [s]; below 0 = no message has come
+  Flow flow() const;
 
   const char* noun_;
   rviz::RosTopicProperty* topic_ = nullptr;
@@ -117,7 +118,8 @@ class SheetDisplay : public rviz::Display {
   std::string surface_error_;
   std::optional<std_msgs::Header> last_;  // header of the last message; none = no message has come
   ros::WallTime last_time_;
-  bool fresh_ = false;  // something has changed since the last drawing
+  ros::Time last_ros_time_;  // stands still in a paused replay
+  bool fresh_ = false;       // something has changed since the last drawing
   bool status_opened_ = false;
   ShownSheet shown_;
 

@@ -14,8 +14,9 @@ struct SheetPicture {
   std::vector<float> values;  ///< [rows x columns], row-major, in the unit of the scale; NaN = no reading
   std::vector<fsr::view::TaxelLook> looks;  ///< [rows x columns], row-major
   fsr::view::PressureScale scale;
-  bool smooth = true;  ///< colours are interpolated between taxels; false: one square for each taxel
-  bool marks = true;   ///< marks on taxels with an unreliable reading
+  bool smooth = true;    ///< colours are interpolated between taxels; false: one square for each taxel
+  bool marks = true;     ///< marks on taxels with an unreliable reading
+  bool stopped = false;  ///< the values are old: the sheet is drawn in grey, without marks
 };
 
 }  // namespace fsr_rviz

@@ -87,14 +87,16 @@ void SheetVisual::setVisible(bool visible) {
 }
 
 void SheetVisual::show(const SheetPicture& picture, const fsr::view::SheetMesh& mesh) {
-  if (picture.smooth) {
+  if (picture.stopped) {
+    colours_.assign(mesh.corners().size(), fsr::view::kNoReadingColour);
+  } else if (picture.smooth) {
     mesh.colourSmoothly(picture.values, picture.scale, colours_);
   } else {
     mesh.colourCells(picture.values, picture.scale, colours_);
   }
   draw(mesh, colours_);
   marks_->clear();
-  if (picture.marks) drawMarks(picture, mesh);
+  if (picture.marks && !picture.stopped) drawMarks(picture, mesh);
 }
 
 void SheetVisual::showIndices(const fsr::view::SheetMesh& mesh) {

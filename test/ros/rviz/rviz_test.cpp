@@ -165,6 +165,15 @@ class Rviz : public testing::Test {
     return right;
   }
 
+  static std::size_t greyTaxels() {
+    const QImage image = picture();
+    std::size_t grey = 0;
+    for (std::size_t i = 0; i < map->pressure.size(); ++i) {
+      grey += hasColour(image, place(i, image), fsr::view::kNoReadingColour, 2);
+    }
+    return grey;
+  }
+
   static rviz::VisualizationFrame* frame;
   static ros::NodeHandle* handle;
   static ros::Publisher maps, curvature;
@@ -297,6 +306,18 @@ TEST_F(Rviz, CShowsItSmoothlyToo) {
   const auto all = map->pressure.size();
   EXPECT_TRUE(runUntil([&] { return picture() != cells && rightTaxels(map->pressure, {}, 16) == all; }))
       << rightTaxels(map->pressure, {}, 16) << " of " << all << " taxels have their colour";
+}
+
+TEST_F(Rviz, DGreysTheSheetWhenMapsStopButNotWhileAReplayIsPaused) {
+  const auto all = map->pressure.size();
+  ros::Time::setNow(ros::Time::now());  // the clock of a replay that is paused
+  EXPECT_TRUE(runUntil([] { return says("Messages", "the clock stands still"); }, false))
+      << status("Messages");
+  EXPECT_EQ(rightTaxels(map->pressure, {}, 16), all);
+  ros::Time::init();  // the clock runs
+  EXPECT_TRUE(runUntil([&] { return greyTaxels() == all; }, false)) << greyTaxels() << " taxels are grey";
+  EXPECT_TRUE(says("Messages", "the sheet is grey")) << status("Messages");
+  EXPECT_TRUE(runUntil([&] { return rightTaxels(map->pressure, {}, 16) == all; }));
 }
 
 TEST_F(Rviz, DShowsTheDeviationOnItsOwnScale) {
