@@ -31,7 +31,6 @@ namespace {
 using fsr_pressure_map::PressureStatistics;
 
 constexpr double kSilence = 3.0;         // age after which a number is no longer shown [s]
-constexpr double kReplyShown = 60.0;     // age after which the answer of a service is no longer shown [s]
 constexpr int kRefresh = 200;            // [ms]
 constexpr double kStandardAir = 101325;  // ambient pressure without matrix_info [Pa]
 constexpr std::uint32_t kQueueSize = 10;
@@ -160,6 +159,7 @@ void PressurePanel::load(const rviz::Config& config) {
   QString value;
   if (config.mapGetString("Sensor", &value)) namespace_->setText(value);
   if (config.mapGetString("Unit", &value)) unit_->setCurrentText(value);
+  config.mapGetFloat("Answers Shown (s)", &reply_shown_);
   listen();
 }
 
@@ -167,6 +167,7 @@ void PressurePanel::save(rviz::Config config) const {
   Panel::save(config);
   config.mapSetValue("Sensor", namespace_->text());
   config.mapSetValue("Unit", unit_->currentText());
+  config.mapSetValue("Answers Shown (s)", reply_shown_);
 }
 
 std::string PressurePanel::name(const std::string& relative) const {
@@ -221,7 +222,7 @@ void PressurePanel::keepComplaints(const diagnostic_msgs::DiagnosticArray& diagn
 }
 
 void PressurePanel::refresh() {
-  if ((ros::WallTime::now() - replied_).toSec() > kReplyShown && buttons_.front()->isEnabled())
+  if ((ros::WallTime::now() - replied_).toSec() > double(reply_shown_) && buttons_.front()->isEnabled())
     reply_->clear();
   const fsr::view::PressureUnit unit = fsr::view::pressureUnitOf(unit_->currentText().toStdString());
   const double air = last_matrix_.message ? last_matrix_.message->ambient_pressure : kStandardAir;

@@ -101,6 +101,7 @@ class PressurePanel : public rviz::Panel {
   Last<fsr_pressure_map::PressureStatisticsArray> last_statistics_;
   Last<fsr_pressure_map::PressureMap> last_map_;
   ros::WallTime replied_;                        // when a service answered last
+  float reply_shown_ = 60;                       // time for which its answer is shown [s]
   std::map<std::string, Complaint> complaints_;  // of the driver's diagnostics, by the name of the status
   std::thread caller_;
 };

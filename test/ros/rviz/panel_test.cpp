@@ -87,6 +87,20 @@ TEST_F(Panel, SaysWhichNodesItWaitsFor) {
   EXPECT_TRUE(runUntil([&] { return says("reply", "there is no service /nobody/session/mark"); }));
 }
 
+TEST_F(Panel, ForgetsOldAnswers) {
+  rviz::Config config;
+  config.mapSetValue("Sensor", "/nobody");
+  config.mapSetValue("Answers Shown (s)", 0.5F);
+  panel->load(config);
+  press("Tare");
+  EXPECT_TRUE(runUntil([&] { return says("reply", "there is no service"); }));
+  EXPECT_TRUE(runUntil([&] { return label("reply").empty(); }));
+  press("Mask selected");  // another sensor's answer goes at once
+  EXPECT_FALSE(label("reply").empty());
+  listenTo("/fsr");
+  EXPECT_EQ(label("reply"), "");
+}
+
 // 12 taxels of 1 cm x 1.2 cm.
 TEST_F(Panel, ShowsTheNumbersOfTheRunningNodes) {
   ASSERT_TRUE(runUntil([&] { return says("Contact area", "14.4 cm"); }, 500)) << label("waiting");
