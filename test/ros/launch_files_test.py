@@ -16,7 +16,7 @@ import rospkg
 import rospy
 import rosservice
 import rostest
-from fsr_pressure_map.msg import MatrixInfo, PressureMap, SurfaceCurvature
+from fsr_pressure_map.msg import MatrixInfo, PressureMap, PressureStatisticsArray, SurfaceCurvature
 
 PACKAGE = pathlib.Path(rospkg.RosPack().get_path("fsr_pressure_map"))
 PROGRAMS = pathlib.Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]) / "lib" / "fsr_pressure_map"
@@ -115,8 +115,10 @@ class LaunchFilesTest(unittest.TestCase):
     def test_every_service_works_as_the_launch_files_start_it(self):
         self.train()
         self.connect_board()
+        (self.folder / "regions.yaml").write_text("regions:\n  - {name: toe, rows: [0, 1], columns: [0, 1]}\n")
         (self.folder / "rig.yaml").write_text(f"serial_port: {self.port}\nserial_baud: 0\npitch_x: 0.02\npitch_y: 0.03\n"
-                                              "sealing: pdms\ncalibration: calibration.h5\n")
+                                              "sealing: pdms\ncalibration: calibration.h5\nregions: regions.yaml\n"
+                                              "alarm_threshold: 500000\n")
         rig = self.start("calibrated", "rig:=rig.yaml", "surface:=flat", "unit:=mmHg", "pitch_x:=0.010")
         self.wait_for_maps(rig)
         self.assertEqual(rospy.get_param("/fsr/view/unit"), "mmHg")
@@ -128,14 +130,16 @@ class LaunchFilesTest(unittest.TestCase):
         self.press("/fsr/calibration/reload")
         self.press("/fsr/calibration/load_calibration", str(self.folder / "calibration.h5"))
         self.press("/fsr/curvature/set_surface", "cylinder_5cm", 0)
+        self.press("/fsr/view/set_alarm", "toe", 40e3, -1, -1)
+        self.press("/fsr/view/set_alarm", "", 123e3, 2, 10e3)
         self.press("/fsr/driver/set_enabled", False)
         self.press("/fsr/driver/set_enabled", True)
         self.killed_and_started_again(rig)
         self.recorded_beside(rig)
 
     def killed_and_started_again(self, rig):
-        """Mask, surface and mount are those that were set, and not those of the launch file."""
-        for node in ("/fsr/calibration", "/fsr/curvature"):
+        """Mask, surface, mount and alarms are those that were set, and not those of the launch file."""
+        for node in ("/fsr/calibration", "/fsr/curvature", "/fsr/view"):
             pid = pid_of(node)
             os.kill(pid, signal.SIGKILL)
             self.wait_for(lambda: pid_of(node) not in (0, pid), rig)
@@ -145,6 +149,12 @@ class LaunchFilesTest(unittest.TestCase):
         self.assertTrue(maps[-1].flags[0] & PressureMap.FLAG_MASKED)
         self.assertFalse(maps[-1].flags[1] & PressureMap.FLAG_MASKED)
         self.assertIn("goes on with cylinder_5cm, mount 2", rig.said())
+        self.wait_for(lambda: "the alarms that were set last: the whole matrix at 123 kPa, region toe at 40 kPa" in rig.said(), rig)
+        arrays = []
+        subscriber = rospy.Subscriber("/fsr/statistics", PressureStatisticsArray, arrays.append)
+        self.wait_for(lambda: arrays and len(arrays[-1].regions) == 2, rig)  # the regions are known from the first map on
+        subscriber.unregister()
+        self.assertNotIn(3, [region.alarm for region in arrays[-1].regions], "3: no alarm set")
 
     def recorded_beside(self, rig):
         """A recording beside calibrated.launch, its button, its end, and its replay on the same roscore."""

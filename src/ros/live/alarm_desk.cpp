@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 #include "fsr_pressure_map/settings/input_error.h"
@@ -28,6 +29,12 @@ std::string kilopascals(double pressure) {
   return fsr::settings::roundedText(pressure / 1000, 4) + " kPa";
 }
 
+// "region toe at 40 kPa", or "no alarm for region toe".
+std::string alarmText(const std::string& region, const AlarmOptions& alarm) {
+  return alarm.used() ? nameOf(region) + " at " + kilopascals(alarm.threshold)
+                      : "no alarm for " + nameOf(region);
+}
+
 void require(const char* field, double value, double highest, const char* unit) {
   if (value >= 0 && value <= highest) return;  // false for NaN
   throw fsr::settings::InputError(std::string("set_alarm: ") + field + " is " +
@@ -41,6 +48,7 @@ AlarmDesk::AlarmDesk(const ros::NodeHandle& handle, const ros::NodeHandle& priva
                      const ViewSettings& settings, std::function<void()> changed)
     : private_handle_(private_handle), region_file_(settings.regions), changed_(std::move(changed)) {
   if (settings.alarm.used()) set_[""] = settings.alarm;
+  takeKept(settings.kept_alarms);
   events_ = ros::NodeHandle(handle).advertise<fsr_pressure_map::Event>("events", 100);
   service_ = private_handle_.advertiseService("set_alarm", &AlarmDesk::serve, this);
 }
@@ -88,16 +96,43 @@ std::string AlarmDesk::set(const Request& request) {
   require("dwell", alarm.dwell, kMaxDwell, "s");
   if (alarm.used()) require("hysteresis", alarm.hysteresis, alarm.threshold, "Pa");
   set_[request.region] = alarm;
-  if (request.region.empty()) {  // kept for a restart after a crash
-    private_handle_.setParam("alarm_threshold", request.threshold);
-    private_handle_.setParam("alarm_dwell", alarm.dwell);
-    private_handle_.setParam("alarm_hysteresis", alarm.hysteresis);
-  }
+  by_service_.insert(request.region);
+  keep();
   changed_();
   if (!alarm.used()) return "no alarm is set for " + name;
   return "alarm of " + name + " at " + kilopascals(alarm.threshold) + " after " +
          fsr::settings::roundedText(alarm.dwell, 4) + " s, until below " +
          kilopascals(alarm.threshold - alarm.hysteresis);
+}
+
+// One line for each alarm that the service set: threshold [Pa], 0 = none; dwell [s]; hysteresis [Pa]; region.
+void AlarmDesk::keep() const {
+  std::ostringstream lines;
+  lines.precision(std::numeric_limits<double>::max_digits10);
+  for (const std::string& region : by_service_) {
+    const AlarmOptions& alarm = set_.at(region);
+    lines << (alarm.used() ? alarm.threshold : 0) << ' ' << alarm.dwell << ' ' << alarm.hysteresis << ' '
+          << region << '\n';
+  }
+  private_handle_.setParam("kept_alarms", lines.str());
+}
+
+void AlarmDesk::takeKept(const std::string& kept) {
+  std::istringstream lines(kept);
+  std::string said;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    AlarmOptions alarm;
+    std::string region;
+    if (!(words >> alarm.threshold >> alarm.dwell >> alarm.hysteresis)) continue;
+    std::getline(words.ignore(), region);
+    if (!(alarm.threshold > 0)) alarm.threshold = std::numeric_limits<double>::infinity();
+    set_[region] = alarm;
+    by_service_.insert(region);
+    said += (said.empty() ? "" : ", ") + alarmText(region, alarm);
+  }
+  if (said.empty()) return;
+  ROS_WARN_STREAM(private_handle_.getNamespace() << " goes on with the alarms that were set last: " << said);
 }
 
 void AlarmDesk::note(const std_msgs::Header& header, const std::vector<fsr::map::RegionStatistics>& regions) {

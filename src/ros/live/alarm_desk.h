@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace fsr_ros {
 
 /// The alarms of the view node: which are set (`~alarm_threshold`, the region file and the service
 /// `~set_alarm`), and the record of what they did. An alarm that is raised or ends is logged and published on
-/// `events` as a note, so that a recording contains it.
+/// `events` as a note, so that a recording contains it. What the service sets is kept in the parameter
+/// `~kept_alarms`, for a node that is started again after a crash.
 class AlarmDesk {
  public:
   /// `changed` is called after the service has set an alarm.
@@ -37,6 +39,8 @@ class AlarmDesk {
 
   bool serve(Request& request, Response& response);
   std::string set(const Request& request);
+  void keep() const;
+  void takeKept(const std::string& kept);
   fsr::map::AlarmOptions present(const std::string& region) const;
 
   ros::NodeHandle private_handle_;
@@ -45,6 +49,7 @@ class AlarmDesk {
   bool known_ = false;                                  // the regions, with the first map
   std::map<std::string, fsr::map::AlarmOptions> file_;  // by region, as the region file sets them
   std::map<std::string, fsr::map::AlarmOptions> set_;   // by region, by parameter and service
+  std::set<std::string> by_service_;                    // regions whose alarm the service has set
   std::map<std::string, fsr::map::AlarmState> states_;  // by region, at the last note()
   ros::Publisher events_;
   ros::ServiceServer service_;

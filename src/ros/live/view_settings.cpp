@@ -60,8 +60,9 @@ ViewSettings::ViewSettings(const ros::NodeHandle& private_handle) {
   fineness = static_cast<int>(parameters.integer("fineness", 3, {1, 16}));
   rate = parameters.number("rate", 20, {0.1, 1000, "Hz"});
   contact_threshold = parameters.number("contact_threshold", 10e3, {0, kMaxPressure, "Pa"});
-  regions = resolveResource(parameters.text("regions", ""));
+  regions = resolveLaunchPath(parameters.text("regions", ""));
   alarm = alarmOf(parameters);
+  kept_alarms = parameters.text("kept_alarms", "");
   stale_after = parameters.number("stale_after", 1.0, {0.05, 3600, "s"});
   for (const std::string& name : parameters.unknown()) {
     ROS_WARN_STREAM(

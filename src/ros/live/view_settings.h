@@ -26,7 +26,8 @@ struct ViewSettings {
   /// Of the whole matrix: `~alarm_threshold` [Pa], `~alarm_dwell` [s], `~alarm_hysteresis` [Pa]. Threshold 0
   /// = as in the region file.
   fsr::map::AlarmOptions alarm;
-  double stale_after;  ///< `~stale_after`: time without a map until alarms are UNKNOWN [s]
+  std::string kept_alarms;  ///< `~kept_alarms`: what the service set, for a restart after a crash (AlarmDesk)
+  double stale_after;       ///< `~stale_after`: time without a map until alarms are UNKNOWN [s]
 };
 
 }  // namespace fsr_ros
