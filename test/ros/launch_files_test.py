@@ -118,7 +118,7 @@ class LaunchFilesTest(unittest.TestCase):
         (self.folder / "regions.yaml").write_text("regions:\n  - {name: toe, rows: [0, 1], columns: [0, 1]}\n")
         (self.folder / "rig.yaml").write_text(f"serial_port: {self.port}\nserial_baud: 0\npitch_x: 0.02\npitch_y: 0.03\n"
                                               "sealing: pdms\ncalibration: calibration.h5\nregions: regions.yaml\n"
-                                              "alarm_threshold: 500000\n")
+                                              "alarm_threshold: 500000\nprotocol: wire\nuse: bench\nsubject: S012\noperator: OP1\ntrial: 1\n")
         rig = self.start("calibrated", "rig:=rig.yaml", "surface:=flat", "unit:=mmHg", "pitch_x:=0.010")
         self.wait_for_maps(rig)
         self.assertEqual(rospy.get_param("/fsr/view/unit"), "mmHg")
@@ -161,13 +161,16 @@ class LaunchFilesTest(unittest.TestCase):
         refusal = self.refused("record", "bag:=monday", "surface:=flat")
         self.assertIn("the node /fsr/curvature runs", refusal)
         self.assertIn("or leave out surface:=", refusal)
-        record = self.start("record", "bag:=monday", "extra_topics:=/fsr/nobody")
+        record = self.start("record", "bag:=monday", "extra_topics:=/fsr/nobody", "rig:=rig.yaml", "trial:=2")
         self.assertIn("marked note", self.press("/fsr/session/mark", "note", "first"))
         written = self.folder / "monday.bag.active"
         self.wait_for(lambda: written.exists() and written.stat().st_size > 20_000, record)
         said = record.end()
         with rosbag.Bag(str(self.folder / "monday.bag")) as bag:
             scans = bag.get_message_count("/fsr/raw")
+            session = next(message for _, message, _ in bag.read_messages(["/fsr/session"]))
+        self.assertEqual((session.use, session.subject_code, session.operator_code, session.trial, session.protocol),
+                         ("bench", "S012", "OP1", "2", ""))
         self.assertIn(f"recorded {scans} scans in ", said)
         self.assertIn(f"in {self.folder}/monday.bag; nothing came on /fsr/nobody\n", said)
         self.assertIn("while the node /fsr/driver runs", self.refused("replay", "bag:=monday.bag"))

@@ -52,6 +52,9 @@ class LaunchCheck(unittest.TestCase):
     def test_the_example_of_a_rig_file_is_right(self):
         launch_check.check_rig(str(PACKAGE / "config" / "rig" / "example.yaml"))
 
+    def test_a_rig_file_may_describe_the_session_of_a_recording(self):
+        self.assertLessEqual(launch_check.OF_A_SESSION, arguments("record"))
+
     def test_a_wrong_rig_file_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
             rig = pathlib.Path(folder) / "rig.yaml"

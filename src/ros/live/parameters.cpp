@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "ros/bags/resource_path.h"
 
@@ -21,13 +22,15 @@ std::string textOf(const Value& value) {
 }  // namespace
 
 fsr::settings::InputError Parameters::error(const std::string& name, const std::string& complaint) const {
+  if (isOfRig(name)) return rig_->error(argumentOf(name), complaint);
   Value value;
   const bool set = handle_.getParam(name, value);
   return fsr::settings::InputError("parameter " + handle_.resolveName(name) +
                                    (set ? " is " + textOf(value) : " is not set") + ", but " + complaint);
 }
 
-Parameters::Parameters(const ros::NodeHandle& private_handle) : handle_(private_handle) {
+Parameters::Parameters(const ros::NodeHandle& private_handle, std::map<std::string, std::string> arguments)
+    : handle_(private_handle), arguments_(std::move(arguments)) {
   std::string rig, launched;
   if (handle_.getParam("rig", rig) && !rig.empty()) {
     rig_ = fsr::settings::Settings::fromFile(resolveLaunchPath(rig));
@@ -37,8 +40,14 @@ Parameters::Parameters(const ros::NodeHandle& private_handle) : handle_(private_
   for (std::string word; words >> word;) given_.insert(word);
 }
 
+std::string Parameters::argumentOf(const std::string& name) const {
+  const auto found = arguments_.find(name);
+  return found == arguments_.end() ? name : found->second;
+}
+
 bool Parameters::isOfRig(const std::string& name) const {
-  const bool is = rig_ && rig_->has(name) && given_.count(name) == 0;
+  const std::string argument = argumentOf(name);
+  const bool is = rig_ && rig_->has(argument) && given_.count(argument) == 0;
   if (is) asked_.insert(handle_.resolveName(name));
   return is;
 }
@@ -63,7 +72,7 @@ std::vector<std::string> Parameters::unknown() const {
 }
 
 double Parameters::number(const std::string& name, double fallback, const fsr::settings::Range& range) const {
-  if (isOfRig(name)) return rig_->number(name, range);
+  if (isOfRig(name)) return rig_->number(argumentOf(name), range);
   if (!isSet(name)) return fallback;
   double value = 0;
   if (!handle_.getParam(name, value) || !range.contains(value)) {
@@ -74,7 +83,7 @@ double Parameters::number(const std::string& name, double fallback, const fsr::s
 
 std::int64_t Parameters::integer(const std::string& name, std::int64_t fallback,
                                  const fsr::settings::Range& range) const {
-  if (isOfRig(name)) return rig_->integer(name, range);
+  if (isOfRig(name)) return rig_->integer(argumentOf(name), range);
   if (!isSet(name)) return fallback;
   int value = 0;
   if (!handle_.getParam(name, value) || !range.contains(value)) {
@@ -84,7 +93,7 @@ std::int64_t Parameters::integer(const std::string& name, std::int64_t fallback,
 }
 
 bool Parameters::flag(const std::string& name, bool fallback) const {
-  if (isOfRig(name)) return rig_->flag(name, fallback);
+  if (isOfRig(name)) return rig_->flag(argumentOf(name), fallback);
   if (!isSet(name)) return fallback;
   bool value = false;
   if (!handle_.getParam(name, value)) throw error(name, "must be true or false");
@@ -92,7 +101,7 @@ bool Parameters::flag(const std::string& name, bool fallback) const {
 }
 
 std::string Parameters::text(const std::string& name, const std::string& fallback) const {
-  if (isOfRig(name)) return rig_->text(name);
+  if (isOfRig(name)) return rig_->text(argumentOf(name));
   Value value;
   if (!isSet(name) || !handle_.getParam(name, value)) return fallback;
   if (value.getType() == Value::TypeArray || value.getType() == Value::TypeStruct) {
@@ -105,7 +114,7 @@ std::string Parameters::choice(const std::string& name, const std::vector<std::s
                                const std::string& fallback) const {
   const std::string value = text(name, fallback);
   if (std::find(choices.begin(), choices.end(), value) != choices.end()) return value;
-  if (isOfRig(name)) return rig_->choice(name, choices);  // throws
+  if (isOfRig(name)) return rig_->choice(argumentOf(name), choices);  // throws
   std::string list;
   for (const auto& choice : choices) list += (list.empty() ? "" : ", ") + choice;
   throw error(name, "must be one of " + list);

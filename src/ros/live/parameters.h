@@ -3,6 +3,7 @@
 #include <ros/node_handle.h>
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -23,8 +24,10 @@ namespace fsr_ros {
 /// the arguments that the user gave to roslaunch: `~launched`, which scripts/launch_check writes, lists them.
 class Parameters {
  public:
-  /// Throws fsr::InputError if the rig file cannot be read.
-  explicit Parameters(const ros::NodeHandle& private_handle);
+  /// `arguments`: the argument of the launch file for each parameter that has another name; "" = the rig file
+  /// does not set this parameter. Throws fsr::InputError if the rig file cannot be read.
+  explicit Parameters(const ros::NodeHandle& private_handle,
+                      std::map<std::string, std::string> arguments = {});
 
   double number(const std::string& name, double fallback, const fsr::settings::Range& range) const;
   std::int64_t integer(const std::string& name, std::int64_t fallback,
@@ -40,15 +43,18 @@ class Parameters {
   /// message.
   std::vector<std::string> unknown() const;
 
-  /// An InputError about a parameter: "parameter /fsr/driver/rows is 90, but " + `complaint`.
+  /// An InputError about a parameter: "parameter /fsr/driver/rows is 90, but " + `complaint`; or about the
+  /// rig file, where the value is in it.
   [[nodiscard]] fsr::settings::InputError error(const std::string& name, const std::string& complaint) const;
 
  private:
   bool isSet(const std::string& name) const;
+  std::string argumentOf(const std::string& name) const;
   bool isOfRig(const std::string& name) const;
 
   ros::NodeHandle handle_;
   std::optional<fsr::settings::Settings> rig_;
+  std::map<std::string, std::string> arguments_;
   std::set<std::string> given_;          // arguments of the command line
   mutable std::set<std::string> asked_;  // full paths
 };

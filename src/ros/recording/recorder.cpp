@@ -36,7 +36,7 @@ double now() {
 // The session and curvature nodes of record.launch refuse the same; they are started again, and would never
 // publish what a bag needs.
 void checkDescription(const ros::NodeHandle& handle, const Parameters& parameters) {
-  readSession(Parameters(ros::NodeHandle(handle, "session")));
+  readSession(ros::NodeHandle(handle, "session"));
   std::string surface = parameters.text("surface", "");
   const SurfaceFolder surfaces(parameters.text("surfaces", SurfaceFolder::shipped()), {});
   if (surface.empty()) return;

@@ -29,7 +29,12 @@ std::string joined(const std::vector<std::string>& words) {
 
 }  // namespace
 
-fsr_pressure_map::Session readSession(const Parameters& parameters) {
+fsr_pressure_map::Session readSession(const ros::NodeHandle& session_node) {
+  // `protocol` of a rig file is the board's.
+  const Parameters parameters(session_node, {{"session_id", "session"},
+                                             {"subject_code", "subject"},
+                                             {"operator_code", "operator"},
+                                             {"protocol", ""}});
   fsr_pressure_map::Session session;
   session.session_id = parameters.text("session_id", "");
   session.subject_code = parameters.text("subject_code", "");
@@ -53,7 +58,7 @@ fsr_pressure_map::Session readSession(const Parameters& parameters) {
 }
 
 SessionServer::SessionServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
-    : handle_(handle), session_(readSession(Parameters(private_handle))) {
+    : handle_(handle), session_(readSession(private_handle)) {
   session_publisher_ = handle_.advertise<fsr_pressure_map::Session>("session", 10, true);
   event_publisher_ = handle_.advertise<fsr_pressure_map::Event>("events", 100);
   ros::NodeHandle services(private_handle);

@@ -13,8 +13,9 @@
 
 namespace fsr_ros {
 
-/// Reads the description of a recording from the parameters of a session node. Throws fsr::InputError.
-fsr_pressure_map::Session readSession(const Parameters& parameters);
+/// Reads the description of a recording from the parameters of a session node, whose namespace is that of
+/// `session_node`. Throws fsr::InputError.
+fsr_pressure_map::Session readSession(const ros::NodeHandle& session_node);
 
 /// Publishes the description of a recording, so that a bag can be understood without other files. `session`
 /// is latched and repeated each second; its fields are the private parameters of the same names. `events`
