@@ -2,6 +2,8 @@
 
 #include <ctime>
 
+#include "dataset/mount_remarks.h"
+
 namespace fsr::calibration {
 
 namespace {
@@ -62,6 +64,9 @@ std::vector<std::string> warningsOf(const std::vector<dataset::Recording>& recor
       warnings.push_back(recordings[r].name + ": " + warning);
     }
     warnings.insert(warnings.end(), sections[r].warnings.begin(), sections[r].warnings.end());
+  }
+  for (const dataset::MountRemark& remark : dataset::remarksOnMounts(recordings)) {
+    warnings.push_back(remark.sentence);
   }
   return warnings;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "dataset/mount_remarks.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -53,8 +54,8 @@ std::vector<std::string> remarksOn(const std::vector<TopicCourse>& courses) {
   for (const auto& [base, why] :
        {std::pair{"temperature", "slow drift cannot be distinguished from effects of temperature"},
         std::pair{"session", "the bag does not say to which session it belongs"}}) {
-    const auto is_it = [&](const TopicCourse& course) {
     const std::string end = std::string("/") + base;
+    const auto is_it = [&](const TopicCourse& course) {
       return course.topic.size() >= end.size() &&
              course.topic.compare(course.topic.size() - end.size(), end.size(), end) == 0;
     };
@@ -74,6 +75,9 @@ int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {
     std::vector<std::string>& warnings = recordings.back().warnings;
     for (const std::string& remark : remarksOn(courses)) warnings.push_back(remark);
     out << recordings.back().name << '\n' << topicsText(courses) << '\n';
+  }
+  for (const fsr::dataset::MountRemark& remark : fsr::dataset::remarksOnMounts(recordings)) {
+    recordings[remark.recording].warnings.push_back(remark.sentence);
   }
   fsr::discrepancy::Admission admission = fsr::discrepancy::inspectRecordings(std::move(recordings), chosen);
   for (const std::string& path : line.files()) {
