@@ -86,9 +86,13 @@ class LaunchFilesTest(unittest.TestCase):
                 self.fail(terminal.said() if terminal else "did not happen")
             time.sleep(0.02)
 
+    def simulate(self):
+        """Bags of the emulated board in its chamber, 1_flat.bag and 2_cylinder_5cm.bag."""
+        subprocess.run([str(PROGRAMS / "simulate"), "--simulation", str(BENCH), "--output", "."], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+
     def train(self):
         """A calibration of the emulated board, calibration.h5."""
-        subprocess.run([str(PROGRAMS / "simulate"), "--simulation", str(BENCH), "--output", "."], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
+        self.simulate()
         subprocess.run([str(PROGRAMS / "train"), "1_flat.bag", "2_cylinder_5cm.bag", "--output", "calibration.h5"], cwd=self.folder, check=True, stdout=subprocess.DEVNULL)
 
     def wait_for_maps(self, terminal, topic="/fsr/pressure_map"):
@@ -178,10 +182,16 @@ class LaunchFilesTest(unittest.TestCase):
         self.replayed()
 
     def replayed(self):
-        replay = self.start("replay", "bag:=monday.bag", "rate:=5", "calibration:=calibration.h5")
+        alarms = set()
+        subscriber = rospy.Subscriber("/fsr/statistics", PressureStatisticsArray, lambda array: alarms.update(region.alarm for region in array.regions))
+        replay = self.start("replay", "bag:=monday.bag", "rate:=5", "calibration:=calibration.h5", "alarm_threshold:=400e3")
         self.wait_for(lambda: rospy.get_param("/use_sim_time", False) or replay.launch.poll() is not None, replay)
         self.wait_for(lambda: replay.launch.poll() is not None, replay)
+        subscriber.unregister()
+        self.assertTrue(alarms)
+        self.assertNotIn(3, alarms, "3: no alarm set")
         self.assertIn("loaded ", replay.said())
+        self.assertNotIn("has died", replay.said())
         self.assertFalse(rospy.get_param("/use_sim_time", False), replay.said())
         rospy.set_param("/use_sim_time", True)  # as a replay that was killed leaves it
         self.addCleanup(rospy.delete_param, "/use_sim_time")
@@ -209,6 +219,15 @@ class LaunchFilesTest(unittest.TestCase):
             said = self.refused("record", "bag:=useless", *arguments)
             self.assertIn(sentence, said)
             self.assertEqual(list(self.folder.glob("useless*")), [], said)
+
+    def test_a_search_for_a_discrepancy_that_succeeds_ends_its_launch_without_an_error(self):
+        self.simulate()
+        search = self.start("discrepancy", f"bags:={self.folder}", f"output:={self.folder}/found", "least_gap:=0.7")
+        self.wait_for(lambda: search.launch.poll() is not None, search)
+        self.assertIn("the least gap is 0.7 kPa", search.said())
+        self.assertTrue((self.folder / "found" / "verdict.yaml").exists())
+        self.assertNotIn("has died", search.said())
+        self.assertIn("has died", self.refused("discrepancy", f"bags:={self.folder}", f"output:={self.folder}/again", "least_gap:=-1"))
 
     def test_four_calibrations_are_compared_as_documented(self):
         self.train()
