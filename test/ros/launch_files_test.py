@@ -16,7 +16,7 @@ import rospkg
 import rospy
 import rosservice
 import rostest
-from fsr_pressure_map.msg import MatrixInfo, PressureMap, PressureStatisticsArray, SurfaceCurvature
+from fsr_pressure_map.msg import CalibrationInfo, MatrixInfo, PressureMap, PressureStatisticsArray, SurfaceCurvature
 
 PACKAGE = pathlib.Path(rospkg.RosPack().get_path("fsr_pressure_map"))
 PROGRAMS = pathlib.Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]) / "lib" / "fsr_pressure_map"
@@ -229,13 +229,16 @@ class LaunchFilesTest(unittest.TestCase):
         self.assertNotIn("has died", search.said())
         self.assertIn("has died", self.refused("discrepancy", f"bags:={self.folder}", f"output:={self.folder}/again", "least_gap:=-1"))
 
-    def test_four_calibrations_are_compared_as_documented(self):
+    def test_four_calibrations_are_compared_as_documented_and_a_fifth_if_given(self):
         self.train()
         self.connect_board()
-        compare = self.start_with_board("compare", *(f"{name}:=calibration.h5" for name in ("flat_only", "baseline", "per_curvature", "interpolated")),
-                                        "surface:=cylinder_5cm")
-        for topic in ("/fsr/pressure_map", "/fsr/flat_only/pressure_map", "/fsr/baseline/pressure_map", "/fsr/per_curvature/pressure_map"):
-            self.wait_for_maps(compare, topic)
+        four = [f"{name}:=calibration.h5" for name in ("flat_only", "baseline", "per_curvature", "interpolated")]
+        nodes = subprocess.check_output(["roslaunch", "--nodes", "fsr_pressure_map", "compare.launch", *four], text=True)
+        self.assertNotIn("calibration_history", nodes)
+        compare = self.start_with_board("compare", *four, "history:=calibration.h5", "surface:=cylinder_5cm")
+        for topic in ("pressure_map", "flat_only/pressure_map", "baseline/pressure_map", "per_curvature/pressure_map", "history/pressure_map"):
+            self.wait_for_maps(compare, f"/fsr/{topic}")
+        rospy.wait_for_message("/fsr/history/calibration_info", CalibrationInfo, PATIENCE)
 
 
 if __name__ == "__main__":
