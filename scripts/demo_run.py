@@ -11,13 +11,33 @@ import sys
 import time
 
 import demo_discrepancy
+import demo_floor
+import demo_history
 import demo_options
 import demo_score
+from demo_tools import Failure, run_tool
 
 NAMESPACE = "fsr"
+SIMULATION = pathlib.Path(__file__).resolve().parent.parent / "config/simulation/demo.yaml"
 TRAINED = ["flat", "cylinder_13cm", "cylinder_11cm", "cylinder_9cm", "cylinder_7cm", "cylinder_5cm"]
 UNSEEN = "cylinder_8cm"
-SCHEMES = ["flat_only", "baseline", "per_curvature", "interpolated"]
+# Scheme and history of each calibration, and the topic of its maps.
+CALIBRATIONS = {
+    "flat_only": ("flat_only", "none", "flat_only/pressure_map"),
+    "baseline": ("baseline", "none", "baseline/pressure_map"),
+    "per_curvature": ("per_curvature", "none", "per_curvature/pressure_map"),
+    "interpolated": ("interpolated", "none", "pressure_map"),
+    "history": ("interpolated", "auto", "history/pressure_map"),
+}
+MAPS = {name: topic for name, (_, _, topic) in CALIBRATIONS.items()}
+# What the chamber does in training: two paces, short and long dwells, full and partial cycles; and in the live runs: a pace and
+# dwells that took no part in training. Gauge pressure [Pa], rate [Pa/s], dwells [s].
+TRAINING = [
+    {"peak": 620e3, "rate": 17e3, "dwell_peak": 1.0, "dwell_rest": 1.0},
+    {"peak": 620e3, "rate": 60e3, "dwell_peak": 15.0, "dwell_rest": 15.0},
+    {"peak": 350e3, "rate": 60e3, "dwell_peak": 2.0, "dwell_rest": 5.0},
+]
+LIVE = [{"peak": 620e3, "rate": 30e3, "dwell_peak": 8.0, "dwell_rest": 8.0}]
 START_LIMIT = 60.0  # time for a process to start before the demo gives up [s]
 SHOW_PRESSURE = 300e3  # the picture is taken above this gauge pressure [Pa]
 
@@ -27,10 +47,6 @@ def say(text):
 
 
 STARTED = time.monotonic()
-
-
-class Failure(Exception):
-    """The demo cannot go on. The text says why and where to look."""
 
 
 @contextlib.contextmanager
@@ -105,8 +121,9 @@ class Rig:
         subscribers = dict(self.master.getSystemState()[1])
         return f"/{NAMESPACE}/{node}" in subscribers.get(f"/{NAMESPACE}/{topic}", [])
 
-    def run_cycles(self, cycles, limit):
-        self.rospy.set_param(f"/{NAMESPACE}/rig_emulator/chamber/cycles", cycles)
+    def run_cycles(self, protocol, cycles, limit):
+        rates = {"fill_rate": protocol["rate"], "vent_rate": protocol["rate"]}
+        self.rospy.set_param(f"/{NAMESPACE}/rig_emulator/chamber", {**protocol, **rates, "cycles": cycles})
         self.status = ""
         reply = self.call_start()
         if not reply.success:
@@ -117,30 +134,27 @@ class Rig:
                 raise Failure(f"the chamber cycles did not end within {limit:.0f} s; the logs are in {self.logs}")
             time.sleep(0.02)
 
-    def record(self, bag, surface, trial, cycles, limit, topics=()):
-        """Records one run of chamber cycles with record.launch and returns the path of the bag."""
+    def record(self, bag, surface, trial, protocols, cycles, limit, topics=()):
+        """Records `cycles` chamber cycles of each protocol with record.launch and returns the path of the bag."""
         log = self.logs / f"record_{bag.name}.log"
         command = ["roslaunch", "fsr_pressure_map", "record.launch", f"bag:={bag}", f"trial:={trial}",
-                   "protocol:=paper_cycles", f"session:=demo_{surface}", "use:=chamber", "mounted_on:=fixture"]
+                   "protocol:=demo_cycles", f"session:=demo_{surface}", "use:=chamber", "mounted_on:=fixture"]
         if topics:
             command.append("extra_topics:=" + " ".join(f"/{NAMESPACE}/{topic}" for topic in topics))
         with process(command, log) as child:
             wait_until(lambda: self.subscribed("record", "raw") and self.subscribed("record", "chamber_pressure"),
                        child, "the recorder", log)
-            self.run_cycles(cycles, limit)
+            for protocol in protocols:
+                self.run_cycles(protocol, cycles, limit)
         path = bag.with_suffix(".bag")
         if not path.exists():
             raise Failure(f"the recorder left no {path}; its log is {log}")
         return path
 
 
-def train(scheme, bags, output, logs):
-    log = logs / f"train_{scheme}.log"
-    command = ["rosrun", "fsr_pressure_map", "train", *map(str, bags), "--scheme", scheme, "--output", str(output)]
-    with open(log, "w") as file:
-        if subprocess.run(command, stdout=file, stderr=subprocess.STDOUT).returncode != 0:
-            raise Failure(f"train failed: {log.read_text().strip().splitlines()[-1]}")
-    return log.read_text()
+def train(name, bags, output, logs):
+    scheme, history, _ = CALIBRATIONS[name]
+    return run_tool(logs / f"train_{name}.log", "train", *bags, "--scheme", scheme, "--history", history, "--output", output)
 
 
 def show(rig, output, logs, limit):
@@ -168,38 +182,63 @@ def show(rig, output, logs, limit):
         return picture if taken else None
 
 
-def run(arguments, output, logs):
-    cycle_limit = 60 + 200 * max(arguments.cycles, arguments.live_cycles) / arguments.time_scale
-    rig = Rig(logs)
-    say(f"the rig runs at {arguments.time_scale:g} x real time; recording {len(TRAINED)} surfaces")
+def record_training(rig, arguments, output, limit):
+    say(f"the rig runs at {arguments.time_scale:g} x real time; recording {len(TRAINED)} surfaces, {len(TRAINING)} protocols on each")
     bags = []
     for mount, surface in enumerate(TRAINED, start=1):
         rig.mount(surface, mount)
-        bags.append(rig.record(output / f"{mount}_{surface}", surface, mount, arguments.cycles, cycle_limit))
+        bags.append(rig.record(output / f"{mount}_{surface}", surface, mount, TRAINING, arguments.cycles, limit))
         say(f"recorded {bags[-1]}")
+    return bags
 
+
+def train_all(bags, output, logs):
     calibrations = {}
-    for scheme in SCHEMES:
-        calibrations[scheme] = output / f"{scheme}.h5"
-        report = train(scheme, bags, calibrations[scheme], logs)
-        say(f"trained {calibrations[scheme]}")
+    for name in CALIBRATIONS:
+        calibrations[name] = output / f"{name}.h5"
+        report = train(name, bags, calibrations[name], logs)
+        say(f"trained {calibrations[name]}")
     print(report)
+    return calibrations
 
-    files = [f"{scheme}:={calibrations[scheme]}" for scheme in SCHEMES]
+
+def run_live(rig, arguments, calibrations, output, logs, limit):
+    """The bags of the live runs by surface, and the picture of rviz."""
+    files = [f"{name}:={file}" for name, file in calibrations.items()]
     log = logs / "compare.log"
     with process(["roslaunch", "fsr_pressure_map", "compare.launch", "driver:=false", *files], log) as child:
-        nodes = ["calibration_flat_only", "calibration_baseline", "calibration_per_curvature", "calibration"]
+        nodes = ["calibration" if name == "interpolated" else f"calibration_{name}" for name in calibrations]
         wait_until(lambda: all(rig.subscribed(node, "raw") for node in nodes), child, "compare.launch", log)
-        say("four calibration nodes run; new cycles on every surface, and on one that was not used for training")
+        say("five calibration nodes run; cycles of another pace and dwell on every surface, and on one that was not used for training")
         live = {}
-        maps = ["flat_only/pressure_map", "baseline/pressure_map", "per_curvature/pressure_map", "pressure_map"]
         for mount, surface in enumerate(TRAINED + [UNSEEN], start=len(TRAINED) + 1):
             rig.mount(surface, mount)
-            live[surface] = rig.record(output / f"live_{surface}", surface, mount, arguments.live_cycles, cycle_limit, maps)
+            live[surface] = rig.record(output / f"live_{surface}", surface, mount, LIVE, arguments.live_cycles, limit, MAPS.values())
             say(f"live run recorded in {live[surface]}")
-        picture = None if arguments.no_rviz else show(rig, output, logs, cycle_limit)
-    scores = {surface: demo_score.score(path, NAMESPACE, dict(zip(SCHEMES, maps))) for surface, path in live.items()}
-    return bags, calibrations, picture, scores
+        return live, None if arguments.no_rviz else show(rig, output, logs, limit)
+
+
+def run(arguments, output, logs):
+    limit = 60 + 200 * max(arguments.cycles, arguments.live_cycles) / arguments.time_scale
+    rig = Rig(logs)
+    bags = record_training(rig, arguments, output, limit)
+    calibrations = train_all(bags, output, logs)
+    live, picture = run_live(rig, arguments, calibrations, output, logs, limit)
+    return bags, calibrations, picture, live
+
+
+def score_live(arguments, bags, live, output, logs):
+    """The scores of every live run, and the picture of errors against time since the last reversal."""
+    say("the floor: the same rig without loop and creep, driven by the pressure of these bags")
+    floor = demo_floor.Floor(SIMULATION, arguments.seed, bags, list(live.values()), output / "floor", logs)
+    runs = {}
+    for surface, path in live.items():
+        run_of = demo_score.read_run(path, NAMESPACE, MAPS)
+        run_of.series["floor"] = floor.maps(path)
+        runs[surface] = run_of
+    scores = {surface: demo_score.score(run_of) for surface, run_of in runs.items()}
+    drawing = demo_history.draw([runs[surface] for surface in TRAINED], output / "history")
+    return scores, drawing
 
 
 def main():
@@ -215,13 +254,14 @@ def main():
     port = os.environ["ROS_MASTER_URI"].rsplit(":", 1)[1]
     log = logs / "rig.log"
     rig_launch = ["roslaunch", "-p", port, "fsr_pressure_map", "demo.launch", f"link:={output / 'board'}",
-                  f"time_scale:={arguments.time_scale}", f"seed:={arguments.seed}", "autostart:=false"]
+                  f"time_scale:={arguments.time_scale}", f"seed:={arguments.seed}", f"simulation:={SIMULATION}", "autostart:=false"]
     say(f"starting roscore on 127.0.0.1:{port}, the emulated rig and the driver; all files go to {output}")
     try:
         with process(rig_launch, log) as child:
             import rosgraph
             wait_until(rosgraph.is_master_online, child, "roscore", log)
-            bags, calibrations, picture, scores = run(arguments, output, logs)
+            bags, calibrations, picture, live = run(arguments, output, logs)
+        scores, drawing = score_live(arguments, bags, live, output, logs)
     except Failure as failure:
         print(f"demo: {failure}", file=sys.stderr)
         return 1
@@ -229,6 +269,7 @@ def main():
     print("bags         " + "\n             ".join(map(str, bags)))
     print("calibrations " + "\n             ".join(map(str, calibrations.values())))
     print(f"screenshot   {picture or 'none'}")
+    print(f"errors       {drawing}")
     try:
         print(demo_discrepancy.find_hidden(output / "discrepancy", say))
     except (OSError, subprocess.CalledProcessError) as error:
@@ -239,7 +280,9 @@ def main():
         complaints.append("no picture of the map could be taken")
     for complaint in complaints:
         print(f"demo: {complaint}", file=sys.stderr)
-    say("the demo " + ("FAILED" if complaints else "is done: calibrations that know the curvature have the smaller error on every bent surface"))
+    say("the demo FAILED" if complaints else
+        "the demo is done: calibrations that know the curvature have the smaller error on every bent surface, and history has no "
+        "larger one than the static answer")
     return 1 if complaints else 0
 
 

@@ -1,71 +1,118 @@
 """Scores of the demo's live runs against the chamber pressure, and the demo's picture."""
+import dataclasses
 import functools
 import subprocess
 import time
 
 import numpy
-import rosbag
 
 UNDER_PRESSURE = 2e3  # gauge pressure at which the first cycle of a run begins and the last ends [Pa]
+HISTORY_SHORT = 4096  # flag of a reading for which the static answer stands
+WORSE = 1.01  # history may be worse than the static answer by this factor on no surface that was trained
+COLUMNS = {"flat_only": "flat-only", "baseline": "one for all", "per_curvature": "per curvature", "interpolated": "interpolated",
+           "history": "history", "floor": "floor"}
+
+
+@dataclasses.dataclass
+class Run:
+    """A live run. Stamps are in ns."""
+    reference: numpy.ndarray  # [samples x 2], stamp and gauge pressure [Pa]
+    series: dict  # of each map: stamps and pressures [scans x taxels] [Pa]
+    settled: numpy.ndarray  # [scans of history x taxels], readings without the flag HISTORY_SHORT
+
+    def truth(self, stamps):
+        return numpy.interp(stamps, self.reference[:, 0], self.reference[:, 1])
+
+    def under_pressure(self, stamps):
+        """Which stamps lie in the cycles, without the rest before and after."""
+        under = self.reference[self.reference[:, 1] > UNDER_PRESSURE, 0]
+        return (stamps >= under[0]) & (stamps <= under[-1])
+
+    def common_stamps(self):
+        """Of the cycles, the scans that every map has. The recorder may receive the first map of one node later than that of
+        another."""
+        common = functools.reduce(numpy.intersect1d, [stamps for stamps, _ in self.series.values()])
+        return common[self.under_pressure(common)]
+
+    def common_settled(self):
+        """Of the common scans, [scans x taxels]."""
+        return self.settled[numpy.isin(self.series["history"][0], self.common_stamps())]
+
+    def errors(self, name):
+        """Of a map in the common scans [Pa], [scans x taxels]."""
+        common = self.common_stamps()
+        stamps, pressures = self.series[name]
+        return pressures[numpy.isin(stamps, common)] - self.truth(common)[:, None]
 
 
 def read_run(path, namespace, maps):
-    """The reference (stamps [s], gauge pressure [Pa]), and for each scheme (stamps [s], maps [scans x taxels])."""
+    """`maps`: topic of each map."""
+    import rosbag
     reference, ambient = [], 101325.0
-    series = {scheme: ([], []) for scheme in maps}
-    scheme_of = {f"/{namespace}/{topic}": scheme for scheme, topic in maps.items()}
+    read = {name: ([], [], []) for name in maps}
+    name_of = {f"/{namespace}/{topic}": name for name, topic in maps.items()}
     with rosbag.Bag(str(path)) as bag:
         for topic, message, _ in bag.read_messages():
-            if topic in scheme_of:
-                stamps, pressures = series[scheme_of[topic]]
-                stamps.append(message.header.stamp.to_sec())
+            if topic in name_of:
+                stamps, pressures, flags = read[name_of[topic]]
+                stamps.append(message.header.stamp.to_nsec())
                 pressures.append(message.pressure)
+                flags.append(message.flags)
             elif topic.endswith("/chamber_pressure"):
-                reference.append((message.header.stamp.to_sec(), message.fluid_pressure))
+                reference.append((message.header.stamp.to_nsec(), message.fluid_pressure))
             elif topic.endswith("/matrix_info"):
                 ambient = message.ambient_pressure
     reference = numpy.array(sorted(reference))
     reference[:, 1] -= ambient
-    return reference, {scheme: tuple(map(numpy.array, values)) for scheme, values in series.items()}
+    series = {name: (numpy.array(stamps), numpy.array(pressures)) for name, (stamps, pressures, _) in read.items()}
+    return Run(reference, series, numpy.array(read["history"][2]) & HISTORY_SHORT == 0)
 
 
-def score(path, namespace, maps):
-    """For each scheme: RMSE in % of the run's range and in kPa, and bias [kPa], as means over taxels; number of missing readings
-    and of scans. Counts the cycles of the run without the rest before and after. Schemes are compared on scans that all of them
-    have a map of, because the recorder may receive the first map of one node later than that of another."""
-    reference, series = read_run(path, namespace, maps)
-    under = reference[reference[:, 1] > UNDER_PRESSURE, 0]
-    common = functools.reduce(numpy.intersect1d, [stamps for stamps, _ in series.values()])
+def score(run):
+    """For each map: RMSE in % of the run's range and in kPa, and bias [kPa], as means over taxels; the same RMSE in kPa of the
+    readings for which history is settled; number of missing readings and of scans, share of readings that are not settled.
+    Counts the cycles of the run without the rest before and after."""
+    settled = run.common_settled()
     result = {}
-    for scheme, (stamps, pressures) in series.items():
-        inside = (stamps >= under[0]) & (stamps <= under[-1]) & numpy.isin(stamps, common)
-        truth = numpy.interp(stamps[inside], reference[:, 0], reference[:, 1])[:, None]
-        error = pressures[inside] - truth
+    for name in run.series:
+        error = run.errors(name)
         rmse = numpy.sqrt(numpy.nanmean(error**2, axis=0))  # of each taxel
-        result[scheme] = {
-            "rmse_percent": 100 * rmse.mean() / numpy.ptp(truth),
+        result[name] = {
+            "rmse_percent": 100 * rmse.mean() / numpy.ptp(run.truth(run.common_stamps())),
             "rmse_kpa": rmse.mean() / 1e3,
+            "settled_kpa": numpy.sqrt(numpy.nanmean(error[settled]**2)) / 1e3 if settled.any() else float("nan"),
             "bias_kpa": numpy.nanmean(error) / 1e3,
             "missing": int(numpy.isnan(error).sum()),
-            "scans": int(inside.sum()),
+            "scans": len(error),
+            "unsettled": float(1 - settled.mean()),
         }
     return result
 
 
+def settled_line(scores, trained):
+    static, history, floor = (numpy.mean([scores[surface][name]["settled_kpa"] for surface in trained])
+                              for name in ("interpolated", "history", "floor"))
+    return (f"Settled readings alone, mean over the surfaces of training: interpolated {static:.1f} kPa, history {history:.1f} kPa, "
+            f"floor {floor:.1f} kPa.")
+
+
 def table(scores, trained, unseen):
-    lines = ["", "Live error against the chamber's pressure (mean over taxels of the RMSE over new cycles)", "",
-             f"{'surface':24s}{'flat-only':>20s}{'one for all':>20s}{'per curvature':>20s}{'interpolated':>20s}{'scans':>8s}",
-             " " * 24 + f"{'% of range    kPa':>20s}" * 4]
+    width = 16
+    lines = ["", "Live error against the chamber's pressure: mean over taxels of the RMSE over cycles of a pace and dwell that took no part in training.",
+             "interpolated is the static answer, history the same with the sheet's memory; floor: a static map on the same rig without loop and creep.",
+             "not settled: readings for which history gave the static answer, because it had not seen enough yet; they count.", "",
+             f"{'surface':26s}" + "".join(f"{title:>{width}s}" for title in COLUMNS.values()) + f"{'not settled':>13s}{'scans':>7s}",
+             " " * 26 + f"{'% of range  kPa':>{width}s}" * len(COLUMNS)]
     for surface in trained + [unseen]:
         name = surface + (" (not trained)" if surface == unseen else "")
-        cells = [scores[surface][scheme] for scheme in ("flat_only", "baseline", "per_curvature", "interpolated")]
-        lines.append(f"{name:24s}" + "".join(f"{cell['rmse_percent']:12.2f}{cell['rmse_kpa']:8.1f}" for cell in cells)
-                     + f"{cells[0]['scans']:8d}")
-    return "\n".join(lines) + "\n"
+        cells = [scores[surface][column] for column in COLUMNS]
+        lines.append(f"{name:26s}" + "".join(f"{cell['rmse_percent']:9.2f}{cell['rmse_kpa']:7.1f}" for cell in cells)
+                     + f"{100 * cells[0]['unsettled']:11.1f} %{cells[0]['scans']:7d}")
+    return "\n".join([*lines, "", settled_line(scores, trained)]) + "\n"
 
 
 def complaints(scores, trained):
-    """Sentences that contradict "knowing the curvature reduces the error"; empty = none."""
+    """Sentences that contradict "knowing the curvature, and the sheet's memory, reduces the error"; empty = none."""
     result = []
     for surface in trained:
         rmse = {scheme: values["rmse_percent"] for scheme, values in scores[surface].items()}
@@ -77,6 +124,8 @@ def complaints(scores, trained):
         elif rmse["per_curvature"] >= min(rmse["flat_only"], rmse["baseline"]):
             result.append(f"{surface}: per-curvature ({rmse['per_curvature']:.2f} %) does not have a smaller error than flat-only "
                           "and one-for-all")
+        if rmse["history"] > WORSE * rmse["interpolated"]:
+            result.append(f"{surface}: history ({rmse['history']:.2f} %) is worse than the static answer ({rmse['interpolated']:.2f} %)")
     return result
 
 
