@@ -100,7 +100,7 @@ def table(scores, trained, unseen):
     width = 16
     lines = ["", "Live error against the chamber's pressure: mean over taxels of the RMSE over cycles of a pace and dwell that took no part in training.",
              "interpolated is the static answer, history the same with the sheet's memory; floor: a static map on the same rig without loop and creep.",
-             "not settled: readings for which history gave the static answer, because it had not seen enough yet; they count.", "",
+             "not settled: readings with the flag HISTORY_SHORT, for which history gave the static answer; they count.", "",
              f"{'surface':26s}" + "".join(f"{title:>{width}s}" for title in COLUMNS.values()) + f"{'not settled':>13s}{'scans':>7s}",
              " " * 26 + f"{'% of range  kPa':>{width}s}" * len(COLUMNS)]
     for surface in trained + [unseen]:
