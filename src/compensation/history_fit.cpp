@@ -109,13 +109,18 @@ void HistorySums::add(const double* features, double target) {
   rows_.col(waiting_).head(n) = Eigen::Map<const Eigen::VectorXd>(features, n);
   rows_(n, waiting_) = target;
   samples_ += 1;
-  if (++waiting_ == kBlock) finish();
+  if (++waiting_ == kBlock) addBlock();
 }
 
-void HistorySums::finish() {
+void HistorySums::addBlock() {
   if (waiting_ == 0) return;
   gram_.noalias() += rows_.leftCols(waiting_) * rows_.leftCols(waiting_).transpose();
   waiting_ = 0;
+}
+
+void HistorySums::finish() {
+  addBlock();
+  rows_.resize(rows_.rows(), 0);
 }
 
 void HistorySums::merge(const HistorySums& other) {

@@ -36,7 +36,7 @@ class HistorySums {
       : gram_(Eigen::MatrixXd::Zero(Eigen::Index(features + 1), Eigen::Index(features + 1))),
         rows_(Eigen::Index(features + 1), kBlock) {}
 
-  /// Adds a sample. finish() must follow the last one.
+  /// Adds a sample. finish() must follow the last one; after it no sample can be added.
   void add(const double* features, double target);
   void finish();
   /// Both must be finished.
@@ -50,6 +50,7 @@ class HistorySums {
 
  private:
   static constexpr Eigen::Index kBlock = 128;
+  void addBlock();
   Eigen::MatrixXd gram_;
   Eigen::MatrixXd rows_;  // samples that are not added yet, one in each column
   Eigen::Index waiting_ = 0;

@@ -1,0 +1,194 @@
+#include "calibration/history_folds.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "matrix/for_each_taxel.h"
+#include "regression/regressors.h"
+
+namespace fsr::calibration {
+
+namespace {
+
+using compensation::HistorySums;
+
+// Lowest and highest code of the sections but one.
+void setTrainedCodes(const std::vector<regression::CodeStatistics>& sections, std::size_t left_out,
+                     StaticAnswer& answer) {
+  answer.lowest = 0xffff;
+  answer.highest = 0;
+  for (std::size_t s = 0; s < sections.size(); ++s) {
+    if (s == left_out) continue;
+    sections[s].forEach([&](const regression::CodeSums& sums) {
+      answer.lowest = std::min(answer.lowest, sums.code);
+      answer.highest = std::max(answer.highest, sums.code);
+    });
+  }
+}
+
+}  // namespace
+
+HistoryFolds::HistoryFolds(const HistoryProblem& problem, const dataset::Protocols& protocols,
+                           unsigned threads, const Calibration& calibration)
+    : problem_(problem),
+      protocols_(protocols),
+      threads_(threads),
+      calibration_(calibration),
+      grid_(compensation::historyGrid(protocols.highest, protocols.longest_hold)) {
+  std::vector<dataset::Sections> by_protocol = problem.sections;
+  for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
+    streams_.emplace_back(problem.recordings[r], problem.classes.class_of[r], problem.sections[r],
+                          protocols.of_scan[r], grid_);
+    for (std::size_t i = 0; i < problem.recordings[r].scans(); ++i) {
+      std::uint32_t& section = by_protocol[r].section[i];
+      if (section == dataset::kNoSection) continue;
+      const std::uint32_t own = protocols.of_scan[r][i];
+      section = own == dataset::Protocols::kOther ? static_cast<std::uint32_t>(count()) : own;
+    }
+  }
+  scans_ = gatherScans(problem.recordings, problem.classes, by_protocol);
+}
+
+template <typename Work>
+void HistoryFolds::forEachModelledTaxel(Work&& work) const {
+  matrix::forEachTaxel(calibration_.no_model.size(), threads_, [&](std::size_t taxel) {
+    if (calibration_.no_model[taxel] == 0) work(taxel);
+  });
+}
+
+// [classes][protocols and the rest]
+compensation::SectionedReadings HistoryFolds::readingsOf(std::size_t taxel) const {
+  const std::size_t sections = count() + 1;
+  const auto cells = statisticsOfTaxel(scans_, sections, calibration_.tables.full_scale, taxel);
+  compensation::SectionedReadings readings;
+  readings.full_scale = calibration_.tables.full_scale;
+  for (std::size_t k = 0; k < problem_.classes.classes.size(); ++k) {
+    const auto first = cells.begin() + static_cast<std::ptrdiff_t>(k * sections);
+    readings.sums.emplace_back(first, first + static_cast<std::ptrdiff_t>(sections));
+  }
+  if (!regression::makeRegressor(problem_.regressor)->mergeable())
+    readings.samples = samplesOfTaxel(scans_, sections, readings.full_scale, taxel);
+  return readings;
+}
+
+std::vector<HistoryFolds::Answers> HistoryFolds::answersWithoutEach(std::size_t taxel) const {
+  const compensation::SectionedReadings readings = readingsOf(taxel);
+  const auto models = compensation::crossValidateScheme(problem_.plan, taxel, readings, problem_.regressor,
+                                                        regression::HeldOutDeviation::kNo);
+  std::vector<Answers> answers(count(), Answers(readings.sums.size()));
+  for (std::size_t g = 0; g < count(); ++g) {
+    for (std::size_t k = 0; k < readings.sums.size(); ++k) {
+      answers[g][k].pressure = models[problem_.plan.model_of_class[k]].held_out[g].pressure;
+      setTrainedCodes(readings.sums[k], g, answers[g][k]);
+    }
+  }
+  return answers;
+}
+
+HistoryFolds::Answers HistoryFolds::answersOfTables(std::size_t taxel) const {
+  Answers answers(problem_.classes.classes.size());
+  const bool one = calibration_.tables.classes.size() == 1;
+  for (std::size_t k = 0; k < answers.size(); ++k) {
+    const auto& table = calibration_.tables.table(taxel, one ? 0 : k).pressure;
+    if (!table.empty() && !std::isnan(table.front())) answers[k].pressure.assign(table.begin(), table.end());
+  }
+  return answers;
+}
+
+// A row is the mean of the scans within half a second.
+void HistoryFolds::addRows(std::size_t taxel, const Answers& answers, std::size_t left_out,
+                           Sums& sums) const {
+  const std::size_t n = grid_.features();
+  std::vector<double> features(n), mean(n);
+  for (const HistoryStream& stream : streams_) {
+    double target = 0, count = 0;
+    HistoryStream::Scan row;
+    const auto close = [&] {
+      if (count == 0) return;
+      for (double& value : mean) value /= count;
+      (row.protocol == left_out ? sums.left_out : sums.trained).add(mean.data(), target / count);
+      std::fill(mean.begin(), mean.end(), 0.0);
+      target = count = 0;
+    };
+    stream.run(taxel, answers, [&](const HistoryStream::Scan& scan, double x, const double* state) {
+      if (scan.row != row.row) close();
+      row = scan;
+      compensation::historyFeatures(grid_, x, state, features.data());
+      for (std::size_t k = 0; k < n; ++k) mean[k] += features[k];
+      target += stream.recording().pressure[scan.number] - x;
+      count += 1;
+    });
+    close();
+  }
+  sums.trained.finish();
+  sums.left_out.finish();
+}
+
+// Taxels are added in their order, so that the result does not depend on the number of threads.
+std::vector<HistoryFolds::Sums> HistoryFolds::leaveOneOut() const {
+  std::vector<std::vector<Sums>> each(calibration_.no_model.size());
+  forEachModelledTaxel([&](std::size_t taxel) {
+    const std::vector<Answers> answers = answersWithoutEach(taxel);
+    for (std::size_t g = 0; g < count(); ++g) {
+      each[taxel].push_back({HistorySums(grid_.features()), HistorySums(grid_.features())});
+      addRows(taxel, answers[g], g, each[taxel].back());
+    }
+  });
+  std::vector<Sums> all(count(), {HistorySums(grid_.features()), HistorySums(grid_.features())});
+  for (const std::vector<Sums>& own : each) {
+    for (std::size_t g = 0; g < own.size(); ++g) {
+      all[g].trained.merge(own[g].trained);
+      all[g].left_out.merge(own[g].left_out);
+    }
+  }
+  return all;
+}
+
+HistorySums HistoryFolds::whole() const {
+  std::vector<Sums> each(calibration_.no_model.size(),
+                         {HistorySums(grid_.features()), HistorySums(grid_.features())});
+  forEachModelledTaxel(
+      [&](std::size_t taxel) { addRows(taxel, answersOfTables(taxel), count(), each[taxel]); });
+  HistorySums all(grid_.features());
+  for (const Sums& own : each) all.merge(own.trained);
+  return all;
+}
+
+// The first operator of the model, among those of the grid.
+std::size_t HistoryFolds::firstOperator(const compensation::HistoryModel& model) const {
+  const bool plays = !model.radius.empty();
+  const std::vector<double>& all = plays ? grid_.radii : grid_.time_constants;
+  const std::vector<double>& own = plays ? model.radius : model.time_constant;
+  const auto place = own.empty() ? all.begin() : std::find(all.begin(), all.end(), own.front());
+  return (plays ? 0 : grid_.radii.size()) + static_cast<std::size_t>(place - all.begin());
+}
+
+void HistoryFolds::addErrors(std::size_t taxel, const Answers& answers, std::size_t protocol,
+                             std::size_t first_operator, const Eigen::VectorXd& coefficients,
+                             HistoryErrors& errors) const {
+  Eigen::VectorXd features(Eigen::Index(grid_.features()));
+  for (const HistoryStream& stream : streams_) {
+    stream.run(taxel, answers, [&](const HistoryStream::Scan& scan, double x, const double* state) {
+      if (scan.protocol != protocol) return;
+      compensation::historyFeatures(grid_, x, state, features.data());
+      errors.add({x, x + coefficients.dot(features), stream.recording().pressure[scan.number],
+                  state[first_operator] > x, stream.sections().direction[scan.number], scan.since_reversal});
+    });
+  }
+}
+
+HistoryErrors HistoryFolds::errors(const compensation::HistoryModel& model,
+                                   const std::vector<Eigen::VectorXd>& coefficients) const {
+  const std::size_t first = firstOperator(model);
+  std::vector<HistoryErrors> each(calibration_.no_model.size(), HistoryErrors(protocols_.highest));
+  forEachModelledTaxel([&](std::size_t taxel) {
+    const std::vector<Answers> answers = answersWithoutEach(taxel);
+    for (std::size_t g = 0; g < count(); ++g)
+      addErrors(taxel, answers[g], g, first, coefficients[g], each[taxel]);
+  });
+  HistoryErrors all(protocols_.highest);
+  for (const HistoryErrors& own : each) all.merge(own);
+  return all;
+}
+
+}  // namespace fsr::calibration
