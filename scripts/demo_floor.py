@@ -25,41 +25,36 @@ def without_memory(simulation):
 
 
 def read_maps(table):
-    """Stamps [ns] and pressures [scans x taxels] of a table that `export --to csv` wrote."""
-    stamps, pressures = [], []
+    """For each bag in a table that `export --to csv` wrote: stamps [ns] and pressures [scans x taxels]."""
+    maps = {}
     with open(table, newline="") as file:
         rows = csv.reader(file)
         columns = next(rows)
-        stamp, pressure = columns.index("stamp_s"), columns.index("pressure_Pa")
+        bag, stamp, pressure = (columns.index(name) for name in ("bag", "stamp_s", "pressure_Pa"))
         last = None
         for row in rows:
-            if row[stamp] != last:
-                last = row[stamp]
-                stamps.append(int(last.replace(".", "")))
+            stamps, pressures = maps.setdefault(row[bag], ([], []))
+            if (row[bag], row[stamp]) != last:
+                last = row[bag], row[stamp]
+                stamps.append(int(row[stamp].replace(".", "")))
                 pressures.append([])
             pressures[-1].append(float("nan") if row[pressure] == "NA" else float(row[pressure]))
-    return numpy.array(stamps), numpy.array(pressures)
+    return {name: tuple(map(numpy.array, values)) for name, values in maps.items()}
 
 
-class Floor:
-    def __init__(self, simulation, seed, training, live, folder, logs):
-        """`training` and `live`: bags of the demo in time order."""
-        self.folder, self.logs = folder, logs
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(parents=True)
-        settings = folder / "simulation.yaml"
-        settings.write_text(yaml.safe_dump(without_memory(simulation)))
-        demo_tools.run_tool(logs / "floor_simulate.log", "simulate", "--simulation", settings, "--seed", seed, "--output", folder,
-                            "--drive", *training, *live)
-        self.calibration = folder / "static.h5"
-        demo_tools.run_tool(logs / "floor_train.log", "train", *(folder / bag.name for bag in training), "--scheme", "interpolated",
-                            "--history", "none", "--no-scores", "--output", self.calibration)
-
-    def maps(self, bag):
-        """Stamps [ns] and pressures [scans x taxels] of the static map in a live run of the demo."""
-        table = self.folder / f"{bag.stem}.csv"
-        demo_tools.run_tool(self.logs / f"floor_{bag.stem}.log", "export", self.folder / bag.name, "--calibration", self.calibration,
-                            "--to", "csv", "--output", table)
-        maps = read_maps(table)
-        table.unlink()  # 14 MB
-        return maps
+def floor_maps(simulation, seed, training, live, folder, logs):
+    """For each live run, by the name of its bag: stamps [ns] and pressures [scans x taxels] of the static map. `training` and
+    `live`: bags of the demo in time order."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    settings, calibration, table = (folder / name for name in ("simulation.yaml", "static.h5", "maps.csv"))
+    settings.write_text(yaml.safe_dump(without_memory(simulation)))
+    demo_tools.run_tool(logs / "floor_simulate.log", "simulate", "--simulation", settings, "--seed", seed, "--output", folder,
+                        "--drive", *training, *live)
+    demo_tools.run_tool(logs / "floor_train.log", "train", *(folder / bag.name for bag in training), "--scheme", "interpolated",
+                        "--history", "none", "--no-scores", "--output", calibration)
+    demo_tools.run_tool(logs / "floor_export.log", "export", *(folder / bag.name for bag in live), "--calibration", calibration,
+                        "--to", "csv", "--output", table)
+    maps = read_maps(table)
+    table.unlink()  # 100 MB
+    return maps

@@ -230,11 +230,11 @@ def run(arguments, output, logs):
 def score_live(arguments, bags, live, output, logs):
     """The scores of every live run, and the picture of errors against time since the last reversal."""
     say("the floor: the same rig without loop and creep, driven by the pressure of these bags")
-    floor = demo_floor.Floor(SIMULATION, arguments.seed, bags, list(live.values()), output / "floor", logs)
+    floor = demo_floor.floor_maps(SIMULATION, arguments.seed, bags, list(live.values()), output / "floor", logs)
     runs = {}
     for surface, path in live.items():
         run_of = demo_score.read_run(path, NAMESPACE, MAPS)
-        run_of.series["floor"] = floor.maps(path)
+        run_of.series["floor"] = floor[path.name]
         runs[surface] = run_of
     scores = {surface: demo_score.score(run_of) for surface, run_of in runs.items()}
     drawing = demo_history.draw([runs[surface] for surface in TRAINED], output / "history")

@@ -105,12 +105,14 @@ class Floor(unittest.TestCase):
         table = self.folder / "maps.csv"
         with open(table, "w", newline="") as file:
             rows = csv.writer(file)
-            rows.writerow(["time_s", "pressure_Pa", "stamp_s"])
-            rows.writerows([["0", "1.5", "1704099600.941176471"], ["0", "NA", "1704099600.941176471"],
-                            ["1", "2", "1704099601.000000001"], ["1", "3", "1704099601.000000001"]])
-        stamps, maps = demo_floor.read_maps(table)
-        self.assertEqual(stamps.tolist(), [START + 941176471, START + 10**9 + 1])
-        numpy.testing.assert_array_equal(maps, [[1.5, float("nan")], [2, 3]])
+            rows.writerow(["bag", "pressure_Pa", "stamp_s"])
+            rows.writerows([["a.bag", "1.5", "1704099600.941176471"], ["a.bag", "NA", "1704099600.941176471"],
+                            ["a.bag", "2", "1704099601.000000001"], ["a.bag", "3", "1704099601.000000001"],
+                            ["b.bag", "4", "1704099601.000000001"], ["b.bag", "5", "1704099601.000000001"]])
+        maps = demo_floor.read_maps(table)
+        self.assertEqual(maps["a.bag"][0].tolist(), [START + 941176471, START + 10**9 + 1])
+        numpy.testing.assert_array_equal(maps["a.bag"][1], [[1.5, float("nan")], [2, 3]])
+        numpy.testing.assert_array_equal(maps["b.bag"][1], [[4, 5]])
 
 
 class Picture(unittest.TestCase):
