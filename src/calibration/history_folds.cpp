@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "matrix/for_each_taxel.h"
-#include "regression/regressors.h"
 
 namespace fsr::calibration {
 
@@ -56,23 +55,9 @@ void HistoryFolds::forEachModelledTaxel(Work&& work) const {
   });
 }
 
-// [classes][protocols and the rest]
-compensation::SectionedReadings HistoryFolds::readingsOf(std::size_t taxel) const {
-  const std::size_t sections = count() + 1;
-  const auto cells = statisticsOfTaxel(scans_, sections, calibration_.tables.full_scale, taxel);
-  compensation::SectionedReadings readings;
-  readings.full_scale = calibration_.tables.full_scale;
-  for (std::size_t k = 0; k < problem_.classes.classes.size(); ++k) {
-    const auto first = cells.begin() + static_cast<std::ptrdiff_t>(k * sections);
-    readings.sums.emplace_back(first, first + static_cast<std::ptrdiff_t>(sections));
-  }
-  if (!regression::makeRegressor(problem_.regressor)->mergeable())
-    readings.samples = samplesOfTaxel(scans_, sections, readings.full_scale, taxel);
-  return readings;
-}
-
 std::vector<HistoryFolds::Answers> HistoryFolds::answersWithoutEach(std::size_t taxel) const {
-  const compensation::SectionedReadings readings = readingsOf(taxel);
+  const compensation::SectionedReadings readings =
+      sectionedReadings(scans_, count() + 1, calibration_.tables.full_scale, taxel, problem_.regressor);
   const auto models = compensation::crossValidateScheme(problem_.plan, taxel, readings, problem_.regressor,
                                                         regression::HeldOutDeviation::kNo);
   std::vector<Answers> answers(count(), Answers(readings.sums.size()));

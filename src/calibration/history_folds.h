@@ -41,7 +41,6 @@ class HistoryFolds {
   using Answers = std::vector<StaticAnswer>;  // of one taxel, [classes]
 
   std::size_t count() const { return protocols_.names.size(); }
-  compensation::SectionedReadings readingsOf(std::size_t taxel) const;
   std::vector<Answers> answersWithoutEach(std::size_t taxel) const;
   Answers answersOfTables(std::size_t taxel) const;
   void addRows(std::size_t taxel, const Answers& answers, std::size_t left_out, Sums& sums) const;

@@ -48,8 +48,7 @@ HistoryStream::HistoryStream(const dataset::Recording& recording, const std::vec
     steps_.resize(steps_.size() + operators_.memories());
     if (!scan.starts) operators_.stepsOver(duration, steps_.data() + steps_.size() - operators_.memories());
   }
-  const auto& times = grid.time_constants;
-  markSettled(3 * (times.empty() ? 0 : *std::max_element(times.begin(), times.end())));
+  markSettled(compensation::settlingTime(grid.time_constants));
 }
 
 // The scans after the settling time of a stay on a surface count, but at least two thirds of the stay.

@@ -13,7 +13,6 @@ namespace fsr::calibration {
 namespace {
 
 using compensation::HistoryFamily;
-using compensation::HistorySums;
 
 constexpr HistoryFamily kFamilies[] = {HistoryFamily::kPlays, HistoryFamily::kMemories, HistoryFamily::kBoth};
 // A model may be worse than the static answer by this much on no protocol. On all together it must be better
@@ -81,7 +80,7 @@ std::vector<Eigen::VectorXd> FamilyChoice::coefficients(HistoryFamily family) co
   return own;
 }
 
-// Mean over the protocols, each with the same weight.
+// Sum over the protocols, each with the same weight [Pa^2].
 double FamilyChoice::squareOf(HistoryFamily family) const {
   double sum = 0;
   for (const HistoryScore::Protocol& protocol : score_.protocols) {

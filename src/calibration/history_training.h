@@ -19,8 +19,9 @@ struct HistoryProblem {
 
 /// Chooses and trains the model of the sheet's memory. Each protocol in turn is predicted by tables and
 /// models that were trained without it. `calibration` must have its tables; it receives the model and its
-/// scores. With HistoryChoice::kAuto a family is taken only if it is nowhere worse than the static answer by
-/// more than 1 %. Throws InputError if a family is asked for and the bags hold one protocol only.
+/// scores. If the choice is automatic, a family is taken only if it is worse than the static answer by more
+/// than 1 % on no protocol, and better by 2 % over all of them than the static answer and than c(x) alone.
+/// Throws InputError if a family is asked for and no protocol can be left out.
 void trainHistory(const HistoryProblem& problem, const CalibrationOptions& options, Calibration& calibration);
 
 }  // namespace fsr::calibration

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "regression/regressors.h"
-
 namespace fsr::calibration {
 
 namespace {
@@ -61,19 +59,8 @@ RemountErrors::RemountErrors(const std::vector<dataset::Recording>& recordings,
 void RemountErrors::measure(const compensation::SchemePlan& plan, std::size_t taxel,
                             const regression::RegressorOptions& regressor, const Calibration& calibration) {
   if (!assessable()) return;
-  const std::size_t sections = most_mounts_ + 1;
-  const std::uint16_t full_scale = calibration.tables.full_scale;
-  const std::vector<regression::CodeStatistics> cells =
-      statisticsOfTaxel(scans_, sections, full_scale, taxel);
-  compensation::SectionedReadings readings;
-  readings.full_scale = full_scale;
-  for (std::size_t k = 0; k < mounts_.size(); ++k) {
-    const auto first = cells.begin() + static_cast<std::ptrdiff_t>(k * sections);
-    readings.sums.emplace_back(first, first + static_cast<std::ptrdiff_t>(sections));
-  }
-  if (!regression::makeRegressor(regressor)->mergeable()) {
-    readings.samples = samplesOfTaxel(scans_, sections, full_scale, taxel);
-  }
+  const compensation::SectionedReadings readings =
+      sectionedReadings(scans_, most_mounts_ + 1, calibration.tables.full_scale, taxel, regressor);
   const auto models =
       compensation::crossValidateScheme(plan, taxel, readings, regressor, regression::HeldOutDeviation::kNo);
   compensation::UnseenErrors& errors = errors_[taxel];

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "regression/regressors.h"
+
 namespace fsr::calibration {
 
 TrainingScans gatherScans(const std::vector<dataset::Recording>& recordings,
@@ -51,6 +53,21 @@ std::vector<std::vector<regression::CodeSamples>> samplesOfTaxel(const TrainingS
       readings.back()[scan.section].add(scan.counts[taxel], scan.pressure);
     }
   }
+  return readings;
+}
+
+compensation::SectionedReadings sectionedReadings(const TrainingScans& scans, std::size_t sections,
+                                                  std::uint16_t full_scale, std::size_t taxel,
+                                                  const regression::RegressorOptions& regressor) {
+  const std::vector<regression::CodeStatistics> cells = statisticsOfTaxel(scans, sections, full_scale, taxel);
+  compensation::SectionedReadings readings;
+  readings.full_scale = full_scale;
+  for (std::size_t k = 0; k < scans.size(); ++k) {
+    const auto first = cells.begin() + static_cast<std::ptrdiff_t>(k * sections);
+    readings.sums.emplace_back(first, first + static_cast<std::ptrdiff_t>(sections));
+  }
+  if (!regression::makeRegressor(regressor)->mergeable())
+    readings.samples = samplesOfTaxel(scans, sections, full_scale, taxel);
   return readings;
 }
 

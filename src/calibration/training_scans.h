@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "compensation/fit_scheme.h"
 #include "compensation/training_statistics.h"
 #include "dataset/sections.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
@@ -38,5 +39,11 @@ std::vector<regression::CodeStatistics> statisticsOfTaxel(const TrainingScans& s
 std::vector<std::vector<regression::CodeSamples>> samplesOfTaxel(const TrainingScans& scans,
                                                                  std::size_t sections,
                                                                  std::uint16_t full_scale, std::size_t taxel);
+
+/// The readings of one taxel in the form that crossValidateScheme() takes: sums, and single readings where
+/// the regressor needs them.
+compensation::SectionedReadings sectionedReadings(const TrainingScans& scans, std::size_t sections,
+                                                  std::uint16_t full_scale, std::size_t taxel,
+                                                  const regression::RegressorOptions& regressor);
 
 }  // namespace fsr::calibration

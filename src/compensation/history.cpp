@@ -26,8 +26,9 @@ HistoryFamily historyFromName(const std::string& name) {
   return static_cast<HistoryFamily>(place - kNames.begin());
 }
 
-double HistoryModel::settlingTime() const {
-  return time_constant.empty() ? 0 : kSettled * *std::max_element(time_constant.begin(), time_constant.end());
+double settlingTime(const std::vector<double>& time_constants) {
+  if (time_constants.empty()) return 0;
+  return kSettled * *std::max_element(time_constants.begin(), time_constants.end());
 }
 
 double HistoryModel::settlingSpan() const {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kKnots = 17;
 // Of the plays, shares of the range. A loop of a smooth form needs no more: twice as many changed the error
-// on other protocols by less than 2 %.
+// on other protocols by less than 4 %.
 constexpr double kRadii[] = {0.02, 0.05, 0.1, 0.2, 0.35};
 constexpr std::size_t kMostMemories = 6;
 constexpr double kShortest = 0.3;         // time constant [s]

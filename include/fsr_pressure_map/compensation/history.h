@@ -21,6 +21,10 @@ std::string historyName(HistoryFamily family);
 /// Throws InputError that lists the names.
 HistoryFamily historyFromName(const std::string& name);
 
+/// Time after which memories no longer depend on what was before: three of the longest time constant [s]; 0
+/// without memories.
+double settlingTime(const std::vector<double>& time_constants);
+
 /// The part of the pressure that depends on earlier readings, the same for all taxels:
 ///
 ///     p = x + c(x) + sum_j w_j (play_{r_j}(x) - x) + sum_k v_k (ema_{tau_k}(x) - x)
@@ -46,9 +50,7 @@ struct HistoryModel {
   std::vector<double> unloading_deviation;  ///< [Pa]
 
   bool present() const { return family != HistoryFamily::kNone; }
-  /// Time after which the memories no longer depend on what was before: three of the longest time constant
-  /// [s]; 0 without memories.
-  double settlingTime() const;
+  double settlingTime() const { return compensation::settlingTime(time_constant); }  ///< [s]
   /// Span of x after which what the plays still owe to the time before is less than the smallest deviation
   /// [Pa]; 0 without plays. A play of radius r depends on nothing before once x has covered a span of 2 r.
   double settlingSpan() const;
