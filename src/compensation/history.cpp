@@ -11,7 +11,8 @@ namespace fsr::compensation {
 namespace {
 
 constexpr std::array<const char*, 4> kNames = {"none", "plays", "memories", "both"};
-constexpr double kSettled = 3;  // time constants; e^-3 = 5 % of a step is left
+constexpr double kSettled = 3;      // time constants; e^-3 = 5 % of a step is left
+constexpr double kTimeStep = 1e-3;  // of a settling time [s]
 
 }  // namespace
 
@@ -31,20 +32,38 @@ double settlingTime(const std::vector<double>& time_constants) {
   return kSettled * *std::max_element(time_constants.begin(), time_constants.end());
 }
 
-double HistoryModel::settlingSpan() const {
-  double allowed = loading_deviation.empty() ? 0 : loading_deviation.front();
+double HistoryModel::smallestDeviation() const {
+  double smallest = loading_deviation.empty() ? 0 : loading_deviation.front();
   for (const auto* deviation : {&loading_deviation, &unloading_deviation}) {
-    for (const double value : *deviation) allowed = std::min(allowed, value);
+    for (const double value : *deviation) smallest = std::min(smallest, value);
   }
-  std::vector<std::size_t> widest(radius.size());
-  for (std::size_t j = 0; j < widest.size(); ++j) widest[j] = j;
-  std::sort(widest.begin(), widest.end(), [&](auto a, auto b) { return radius[a] > radius[b]; });
-  double owed = 0;  // by the plays that need not have settled [Pa]
-  for (const std::size_t j : widest) {
-    owed += std::abs(play_weight[j]) * radius[j];
-    if (owed > allowed) return 2 * radius[j];
+  return smallest;
+}
+
+double HistoryModel::settlingTime() const {
+  const double longest = compensation::settlingTime(time_constant), allowed = smallestDeviation();
+  const auto owed = [&](double time) {
+    double sum = 0;  // [Pa]
+    for (std::size_t k = 0; k < time_constant.size(); ++k)
+      sum += std::abs(memory_weight[k]) * (knot.back() - knot.front()) * std::exp(-time / time_constant[k]);
+    return sum;
+  };
+  double above = 0, below = longest;
+  if (longest == 0 || owed(above) <= allowed) return 0;
+  if (owed(below) > allowed) return longest;
+  while (below - above > kTimeStep) {
+    const double middle = (above + below) / 2;
+    (owed(middle) > allowed ? above : below) = middle;
   }
-  return 0;
+  return below;
+}
+
+double HistoryModel::playsOwe(double lowest, double highest) const noexcept {
+  const double never_below = std::max(lowest, 0.0), covered = highest - lowest;
+  double owed = 0;  // [Pa]
+  for (std::size_t j = 0; j < radius.size(); ++j)
+    owed += std::abs(play_weight[j]) * std::max(std::min(never_below, 2 * radius[j] - covered), 0.0) / 2;
+  return owed;
 }
 
 }  // namespace fsr::compensation

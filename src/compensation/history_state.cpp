@@ -12,14 +12,15 @@ constexpr double kLargest = 1e30;  // answer [Pa]; a map holds no infinite press
 }  // namespace
 
 HistoryState::HistoryState(const HistoryModel& model, std::size_t taxels)
-    : operators_(model.radius, model.time_constant),
+    : model_(model),
+      operators_(model.radius, model.time_constant),
       weights_(model.play_weight),
       correction_(model.knot, model.correction),
       loading_deviation_(model.deviation_knot, model.loading_deviation),
       unloading_deviation_(model.deviation_knot, model.unloading_deviation),
       settling_time_(model.settlingTime()),
-      settling_span_(model.settlingSpan()),
-      longest_gap_(model.time_constant.empty() ? kLongestGap : settling_time_),
+      allowed_(model.smallestDeviation()),
+      longest_gap_(model.time_constant.empty() ? kLongestGap : settlingTime(model.time_constant)),
       steps_(operators_.memories()),
       known_(taxels, Known::kNothing),
       taxels_(taxels),
@@ -47,6 +48,10 @@ void HistoryState::beginScan(double time) noexcept {
   duration_ = duration;
 }
 
+bool HistoryState::settled(const Taxel& taxel) const noexcept {
+  return time_ - taxel.since >= settling_time_ && model_.playsOwe(taxel.lowest, taxel.highest) <= allowed_;
+}
+
 bool HistoryState::correct(std::size_t taxel, bool frozen, float& pressure, float& deviation) noexcept {
   const double x = static_cast<double>(pressure);
   if (frozen || !std::isfinite(x)) return false;
@@ -54,7 +59,8 @@ bool HistoryState::correct(std::size_t taxel, bool frozen, float& pressure, floa
   double* const state = &states_[taxel * operators_.size()];
   if (known_[taxel] != Known::kReadings) {
     operators_.start(x, state);
-    own = {x, x, x, time_, known_[taxel] == Known::kRest};
+    own = {x, x, x, time_, false};
+    own.settled = known_[taxel] == Known::kRest || settled(own);
     known_[taxel] = Known::kReadings;
   } else {
     operators_.advance(own.last, x, steps_.data(), state);
@@ -62,7 +68,7 @@ bool HistoryState::correct(std::size_t taxel, bool frozen, float& pressure, floa
     if (!own.settled) {
       own.lowest = std::min(own.lowest, x);
       own.highest = std::max(own.highest, x);
-      own.settled = time_ - own.since >= settling_time_ && own.highest - own.lowest >= settling_span_;
+      own.settled = settled(own);
     }
   }
   if (!own.settled) return false;

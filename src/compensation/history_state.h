@@ -12,9 +12,10 @@ namespace fsr::compensation {
 
 /// The memory of every taxel of a live map. All memory is allocated by the constructor.
 ///
-/// A taxel is settled once its operators no longer depend on the time before the first reading: after
-/// HistoryModel::settlingTime(), and after its readings covered HistoryModel::settlingSpan(). Until then the
-/// static answer stands.
+/// A taxel is settled once what is not known of the time before its first reading no longer matters: after
+/// HistoryModel::settlingTime(), and once HistoryModel::playsOwe() less than the smallest deviation. That is
+/// so after a wide change of load, and at rest, where the plays cannot be elsewhere. Until then the static
+/// answer stands.
 class HistoryState {
  public:
   /// `model` must be present().
@@ -47,6 +48,9 @@ class HistoryState {
     bool settled = false;
   };
 
+  bool settled(const Taxel& taxel) const noexcept;
+
+  HistoryModel model_;
   HistoryOperators operators_;
   std::vector<double> weights_;  // of the operators
   double weight_sum_ = 0;
@@ -54,7 +58,7 @@ class HistoryState {
   EvenLine loading_deviation_;
   EvenLine unloading_deviation_;
   double settling_time_;  // [s]
-  double settling_span_;  // [Pa]
+  double allowed_;        // that the plays may owe [Pa]
   double longest_gap_;    // [s]
 
   bool started_ = false;

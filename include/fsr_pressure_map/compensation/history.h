@@ -50,10 +50,16 @@ struct HistoryModel {
   std::vector<double> unloading_deviation;  ///< [Pa]
 
   bool present() const { return family != HistoryFamily::kNone; }
-  double settlingTime() const { return compensation::settlingTime(time_constant); }  ///< [s]
-  /// Span of x after which what the plays still owe to the time before is less than the smallest deviation
-  /// [Pa]; 0 without plays. A play of radius r depends on nothing before once x has covered a span of 2 r.
-  double settlingSpan() const;
+  /// The smallest of the stated deviations [Pa]; 0 if there is none.
+  double smallestDeviation() const;
+  /// Time after which the readings before the first one move the memories by less than the smallest
+  /// deviation, whatever they were between 0 and the last knot: at most three of the longest time constant
+  /// [s]; 0 without memories.
+  double settlingTime() const;
+  /// The largest error of the plays from what is not known of the time before the first reading, after
+  /// readings between `lowest` and `highest` [Pa]. A play of radius r then lies within a span of
+  /// min(lowest, 2 r - (highest - lowest)): see HistoryOperators::start().
+  double playsOwe(double lowest, double highest) const noexcept;
 };
 
 }  // namespace fsr::compensation
