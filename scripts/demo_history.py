@@ -74,6 +74,8 @@ def draw(runs, stem):
     rows = []
     for axes, (direction, (title, word)) in zip(both, DIRECTIONS.items()):
         for name, label, colour, line, settled_only in LINES:
+            if settled_only and all(run.common_settled().all() for run in runs):
+                continue  # the line above is the same
             times, errors = error_by_time(runs, name, direction, settled_only)
             axes.plot(times, errors, line, color=colour, label=label, linewidth=1.5)
             rows += [(word, label, time, error) for time, error in zip(times, errors)]
