@@ -107,14 +107,20 @@ class Calibrator::Impl {
   const std::vector<ClassChoice>& choices() const { return switch_.choices(); }
 
  private:
+  struct CurvatureInUse {
+    double value;
+    double deviation;  // 0 = unknown
+  };
   // Table, and where it is a blended one: its curvature and class.
   using TableInUse = std::tuple<const compensation::TableEntry*, double, std::size_t>;
 
   void selectTables(const matrix::Surface& surface);
-  void selectTable(std::size_t taxel, double curvature);
+  void selectTable(std::size_t taxel, CurvatureInUse now);
+  bool isBlended(const compensation::TableEntry* table) const noexcept;
   TableInUse inUse(std::size_t taxel) const;
   std::uint16_t highestOfNeighbours(std::size_t taxel, double curvature) const;
-  const compensation::TableEntry* blended(std::size_t taxel, double curvature);
+  const compensation::TableEntry* blended(std::size_t taxel, CurvatureInUse now);
+  float beyondClass(std::size_t taxel, float deviation) const noexcept;
   void refreshConstantFlags() noexcept;
   void noteTime(double time) noexcept;
   void clip(const std::uint16_t* counts) noexcept;
@@ -144,6 +150,7 @@ class Calibrator::Impl {
   // one.
   struct Blended {
     double curvature;
+    double deviation;
     std::size_t chosen;
     bool finite;
   };
@@ -234,34 +241,38 @@ void Calibrator::Impl::setTemperature(double temperature, double trained_low, do
 void Calibrator::Impl::selectTables(const matrix::Surface& surface) {
   for (std::size_t taxel = 0; taxel < table_.size(); ++taxel) {
     const std::size_t chosen = switch_.choices()[taxel].curvature_class;
-    selectTable(taxel, surface.known() ? matrix::principalCurvature(surface.at({taxel}))
-                                       : tables_.tables(taxel).curvature[chosen]);
+    selectTable(taxel, surface.known() ? CurvatureInUse{matrix::principalCurvature(surface.at({taxel})),
+                                                        surface.deviationAt({taxel})}
+                                       : CurvatureInUse{tables_.tables(taxel).curvature[chosen], 0});
   }
   refreshConstantFlags();
 }
 
+bool Calibrator::Impl::isBlended(const compensation::TableEntry* table) const noexcept {
+  return !blended_.empty() && table >= blended_.data() && table < blended_.data() + blended_.size();
+}
+
 Calibrator::Impl::TableInUse Calibrator::Impl::inUse(std::size_t taxel) const {
   const compensation::TableEntry* const table = table_[taxel];
-  const bool blend =
-      !blended_.empty() && table >= blended_.data() && table < blended_.data() + blended_.size();
-  if (!blend) return {table, 0, 0};
+  if (!isBlended(table)) return {table, 0, 0};
   return {table, blended_for_[taxel].curvature, blended_for_[taxel].chosen};
 }
 
-void Calibrator::Impl::selectTable(std::size_t taxel, double curvature) {
+void Calibrator::Impl::selectTable(std::size_t taxel, CurvatureInUse now) {
   const ClassChoice& choice = switch_.choices()[taxel];
   const std::size_t chosen = choice.curvature_class;
   const PackedTables::TrainedCodes trained = tables_.trained(taxel, chosen);
-  const bool on_class = std::abs(curvature - tables_.tables(taxel).curvature[chosen]) <= kOnClass;
-  const bool blend = trained.model && tables_.classes() > 1 &&
-                     (rule_.blend == compensation::BlendRule::kKernel || choice.flags != 0 ||
-                      (rule_.blend == compensation::BlendRule::kInterpolate && !on_class));
+  const bool on_class = std::abs(now.value - tables_.tables(taxel).curvature[chosen]) <= kOnClass;
+  const bool blend =
+      trained.model && tables_.classes() > 1 &&
+      (rule_.blend == compensation::BlendRule::kKernel || choice.flags != 0 || now.deviation > 0 ||
+       (rule_.blend == compensation::BlendRule::kInterpolate && !on_class));
   const TableInUse before = inUse(taxel);
-  table_[taxel] = blend ? blended(taxel, curvature) : tables_.table(taxel, chosen);
+  table_[taxel] = blend ? blended(taxel, now) : tables_.table(taxel, chosen);
   // Another table gives another answer to the same reading, which is no change of load.
   if (history_ != nullptr && inUse(taxel) != before) history_->forget(taxel);
   lowest_[taxel] = trained.lowest;
-  highest_[taxel] = blend ? highestOfNeighbours(taxel, curvature) : trained.highest;
+  highest_[taxel] = blend ? highestOfNeighbours(taxel, now.value) : trained.highest;
   model_[taxel] = trained.model && (!blend || blended_for_[taxel].finite);
 }
 
@@ -273,22 +284,26 @@ std::uint16_t Calibrator::Impl::highestOfNeighbours(std::size_t taxel, double cu
   return std::min(tables_.trained(taxel, place.below).highest, tables_.trained(taxel, place.above).highest);
 }
 
-const compensation::TableEntry* Calibrator::Impl::blended(std::size_t taxel, double curvature) {
+const compensation::TableEntry* Calibrator::Impl::blended(std::size_t taxel, CurvatureInUse asked) {
   const std::size_t stride = tables_.entries() + PackedTables::kPadding;
   if (blended_.empty()) {
     blended_.resize(table_.size() * stride);
-    blended_for_.assign(table_.size(), {std::numeric_limits<double>::quiet_NaN(), 0, false});
+    blended_for_.assign(table_.size(), {std::numeric_limits<double>::quiet_NaN(), 0, 0, false});
   }
   const std::size_t chosen = switch_.choices()[taxel].curvature_class;
   compensation::TableEntry* const table = blended_.data() + taxel * stride;
   Blended& now = blended_for_[taxel];
-  if (now.chosen == chosen && std::abs(now.curvature - curvature) <= options_.curvature_step) return table;
+  if (now.chosen == chosen && now.deviation == asked.deviation &&
+      std::abs(now.curvature - asked.value) <= options_.curvature_step)
+    return table;
   compensation::blendTable(rule_,
                            rule_.blend == compensation::BlendRule::kKernel ? rule_.lengthScale(taxel) : 0,
-                           tables_.tables(taxel), curvature, chosen, table);
+                           tables_.tables(taxel), asked.value, chosen, table);
+  if (asked.deviation > 0)
+    compensation::addCurvatureDeviation(tables_.tables(taxel), asked.value, asked.deviation, table);
   // A faulty rule, or a class without a model, may give a value that is not a pressure. Then the taxel has no
   // model.
-  now = {curvature, chosen, allFinite(table, tables_.entries())};
+  now = {asked.value, asked.deviation, chosen, allFinite(table, tables_.entries())};
   return table;
 }
 
@@ -387,10 +402,21 @@ void Calibrator::Impl::correctHistory(double time, map::PressureMap& out) noexce
   const std::size_t n = layout_.size.taxels();
   for (std::size_t i = 0; i < n; ++i) {
     const bool frozen = (out.flags[i] & kFrozen) != 0;
+    const float before = out.deviation[i];
     const bool corrected = history_->correct(i, frozen, out.pressure[i], out.deviation[i]);
+    if (corrected && isBlended(table_[i]))
+      out.deviation[i] = std::hypot(out.deviation[i], beyondClass(i, before));
     out.flags[i] =
         static_cast<std::uint16_t>(out.flags[i] | flagWhere(!corrected, map::taxel_flag::kHistoryShort));
   }
+}
+
+// The part of a blended table's deviation that its class does not have: from the curvature [Pa]. A model of
+// the sheet's memory, which was scored on the classes, does not have it either.
+float Calibrator::Impl::beyondClass(std::size_t taxel, float deviation) const noexcept {
+  const std::size_t chosen = switch_.choices()[taxel].curvature_class;
+  const float own = tables_.table(taxel, chosen)[codes_[taxel] >> tables_.shift()].deviation;
+  return std::sqrt(std::max(deviation * deviation - own * own, 0.0F));
 }
 
 void Calibrator::Impl::removeBad(map::PressureMap& out) const noexcept {

@@ -127,6 +127,23 @@ void spreadDeviation(const UnseenDeviation& unseen, const TaxelTables& tables, c
   }
 }
 
+// The pressure of a code at a curvature as a sum of two classes.
+struct TwoClasses {
+  const TableEntry* first;
+  const TableEntry* second;
+  float weight;  // of the second one
+
+  TwoClasses(const TaxelTables& tables, double at) {
+    const CurvaturePlace place = placeOf(at, tables.curvature);
+    first = tables.table[place.below];
+    second = tables.table[place.beyond != 0 ? place.inner : place.above];
+    weight = static_cast<float>(place.beyond != 0 ? -place.beyond : place.share);
+  }
+  float pressure(std::size_t code) const {
+    return first[code].pressure + weight * (second[code].pressure - first[code].pressure);
+  }
+};
+
 }  // namespace
 
 CurvaturePlace placeOf(double at, const std::vector<double>& curvature) {
@@ -159,6 +176,14 @@ void blendTable(const CurvatureRule& rule, double length_scale, const TaxelTable
     chosenPressure(tables.table[chosen], tables.codes, out);
   }
   spreadDeviation(rule.unseen, tables, place, out);
+}
+
+void addCurvatureDeviation(const TaxelTables& tables, double at, double deviation, TableEntry* out) {
+  const TwoClasses flatter(tables, at - deviation), rounder(tables, at + deviation);
+  for (std::size_t code = 0; code < tables.codes; ++code) {
+    const float half = (rounder.pressure(code) - flatter.pressure(code)) / 2;
+    out[code].deviation = std::hypot(out[code].deviation, half);
+  }
 }
 
 }  // namespace fsr::compensation

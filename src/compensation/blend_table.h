@@ -54,4 +54,10 @@ struct TaxelTables {
 void blendTable(const CurvatureRule& rule, double length_scale, const TaxelTables& tables, double at,
                 std::size_t chosen, TableEntry* out);
 
+/// Adds to the deviations of a table for the curvature `at` what a curvature with the standard deviation
+/// `deviation` contributes [1/m]: half the difference of the pressures at either side of it, linear between
+/// the classes and beyond them, in quadrature (JCGM 100:2008, eq. 10). With one class nothing is known, and
+/// nothing is added. Allocates nothing.
+void addCurvatureDeviation(const TaxelTables& tables, double at, double deviation, TableEntry* out);
+
 }  // namespace fsr::compensation

@@ -130,6 +130,38 @@ TEST(BlendedTables, TheDeviationIsLargerOffTheCurvatureOfTheClass) {
   EXPECT_GT(read(less_sure).deviation, 3e3 * std::sqrt(4 * 0.6 * 0.4));
 }
 
+// Neighbouring classes differ by 10 Pa in 10 1/m: by 1 Pa in 1 1/m.
+TEST(BlendedTables, AnUncertainCurvatureIsPartOfTheDeviation) {
+  for (const compensation::BlendRule blend :
+       {compensation::BlendRule::kNearest, compensation::BlendRule::kInterpolate,
+        compensation::BlendRule::kByName}) {
+    Calibrator calibrator(tablesWith(blend), {kSize});
+    for (const double curvature : {0.0, 10.0, 20.0}) {
+      matrix::Surface surface = bent(curvature);
+      calibrator.setSurface(surface, 0);
+      const Reading sure = read(calibrator);
+      EXPECT_EQ(sure.deviation, knownDeviation(kTaxel, std::size_t(curvature / 10), 500));
+      surface.deviation = {2000};
+      calibrator.setSurface(surface, 1);
+      EXPECT_NEAR(read(calibrator).deviation, std::hypot(sure.deviation, 2000.0), 0.5);
+      EXPECT_EQ(read(calibrator).pressure, sure.pressure);
+      EXPECT_EQ(read(calibrator).flags, sure.flags);
+      surface.deviation.assign(kSize.taxels(), 0);
+      surface.deviation[kTaxel] = 500;
+      calibrator.setSurface(surface, 2);
+      EXPECT_NEAR(read(calibrator).deviation, std::hypot(sure.deviation, 500.0), 0.5) << "of each taxel";
+    }
+  }
+}
+
+TEST(BlendedTables, WithOneClassAnUncertainCurvatureAddsNothing) {
+  Calibrator calibrator(smallTables(kSize, {10.0}), {kSize});
+  matrix::Surface surface = bent(10);
+  surface.deviation = {5};
+  calibrator.setSurface(surface, 0);
+  EXPECT_EQ(read(calibrator).deviation, knownDeviation(kTaxel, 0, 500));
+}
+
 TEST(BlendedTables, ASmallStepOfCurvatureKeepsTheTable) {
   CalibratorOptions options;
   options.curvature_step = 0.1;

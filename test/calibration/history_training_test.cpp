@@ -262,6 +262,33 @@ TEST_F(LiveHistory, SurvivesTheSameSurfaceAgain) {
   EXPECT_EQ(flags(41, 200), 0);
 }
 
+// The model's deviation was measured on surfaces that were known.
+TEST(LiveHistoryOnTwoSurfaces, AnUncertainCurvatureIsPartOfTheDeviation) {
+  Calibration two = trained(rigWith(0.08, 0));
+  ASSERT_EQ(two.tables.classes.size(), 1u);
+  two.tables.classes.push_back({"bent", {10.0}});
+  two.tables.curvature_high = 10;
+  std::vector<regression::CodeTable> tables;
+  for (const regression::CodeTable& flat : two.tables.tables) {
+    tables.push_back(flat);
+    tables.push_back(flat);
+    for (float& pressure : tables.back().pressure) pressure += 20e3f;
+  }
+  two.tables.tables = tables;
+  const auto deviation = [&](double curvature_deviation) {
+    Calibrator calibrator(two);
+    calibrator.setSurface({"flat", 1, {{0, 0, 0}}, {curvature_deviation}}, 0);
+    map::PressureMap map;
+    for (int i = 0; i <= 400; ++i) {
+      const std::vector<std::uint16_t> counts(3, std::uint16_t(200 + 15 * std::min(i, 400 - i)));
+      calibrator.calibrate({{1, 3}, 4095, counts.data(), 3}, 0.1 * i, map);
+    }
+    EXPECT_EQ(map.flags[1] & map::taxel_flag::kHistoryShort, 0);
+    return map.deviation[1];
+  };
+  EXPECT_NEAR(deviation(3), std::hypot(deviation(0), 3 * 2e3), 1);
+}
+
 TEST_F(LiveHistory, IsShortWhileSaturated) {
   settle(0);
   EXPECT_NE(flags(41, 4095), 0);

@@ -34,6 +34,11 @@ struct Surface {
   const Curvature& at(TaxelIndex taxel) const {
     return curvature.size() == 1 ? curvature.front() : curvature.at(taxel.value);
   }
+  /// [1/m]; 0 if unknown.
+  double deviationAt(TaxelIndex taxel) const {
+    if (deviation.empty()) return 0;
+    return deviation.size() == 1 ? deviation.front() : deviation.at(taxel.value);
+  }
 };
 
 /// Throws InputError unless the surface has no, one or `size` curvatures, and no, one or `size` deviations.
