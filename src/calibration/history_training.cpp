@@ -17,7 +17,8 @@ using compensation::HistoryFamily;
 constexpr HistoryFamily kFamilies[] = {HistoryFamily::kPlays, HistoryFamily::kMemories, HistoryFamily::kBoth};
 // A model may be worse than the static answer by this much on no protocol. On all together it must be better
 // by kWins in root mean square, both than the static answer and than the correction c without any memory:
-// what c alone mends is no memory.
+// what c alone mends is no memory. Both families are taken only if one of them is better by itself: plays
+// and memories that are of use only together, with opposite signs, are a filter of noise.
 constexpr double kWorse = 1.01;
 constexpr double kWins = 0.98;
 
@@ -105,7 +106,12 @@ bool FamilyChoice::nowhereWorse(HistoryFamily family) const {
 
 HistoryFamily FamilyChoice::choose(const HistoryChoice& choice) {
   const double allowed = kWins * kWins * std::min(squareOf(HistoryFamily::kNone), correctedSquare());
-  const auto wins = [&](HistoryFamily family) { return nowhereWorse(family) && squareOf(family) <= allowed; };
+  const auto better = [&](HistoryFamily family) {
+    const bool part =
+        squareOf(HistoryFamily::kPlays) <= allowed || squareOf(HistoryFamily::kMemories) <= allowed;
+    return squareOf(family) <= allowed && (family != HistoryFamily::kBoth || part);
+  };
+  const auto wins = [&](HistoryFamily family) { return nowhereWorse(family) && better(family); };
   const auto told = [&](HistoryFamily family, const std::string& why) {
     score_.choice = "History: " + compensation::historyName(family) + ", " + why + ".";
     return family;
@@ -123,8 +129,7 @@ HistoryFamily FamilyChoice::choose(const HistoryChoice& choice) {
     if (wins(family) && squareOf(family) < squareOf(best)) best = family;
   }
   if (best != HistoryFamily::kNone) return told(best, "the best on protocols that were left out");
-  const bool none_wins = std::none_of(std::begin(kFamilies), std::end(kFamilies),
-                                      [&](HistoryFamily family) { return squareOf(family) <= allowed; });
+  const bool none_wins = std::none_of(std::begin(kFamilies), std::end(kFamilies), better);
   return told(best, none_wins
                         ? "since no model of memory is better by 2 % on protocols that were left out"
                         : "since every model of memory is worse by more than 1 % on a protocol that was "
