@@ -161,9 +161,9 @@ def draw_bandwidths(stem, table, chosen):
     return style.save(drawing, stem, table)
 
 
-def draw_bins(stem, split):
-    """RMSE by pressure and direction of the methods on all scans."""
-    scores = [score for score in split["scores"] if score["id"] in SHOWN_BY_PRESSURE]
+def draw_bins(stem, split, shown):
+    """RMSE by pressure and direction of some methods on all scans."""
+    scores = [score for score in split["scores"] if score["id"] in shown]
     names = list(scores[0]["errors_pa"]["bins"])
     drawing, axes = style.figure(style.PAGE, 2.8)
     columns = {"method": [], "pressure [kPa]": [], "direction": [], "RMSE [kPa]": []}
@@ -193,13 +193,13 @@ def draw_bins(stem, split):
 def draw_splits(stem, splits):
     drawing, axes = style.figure(style.PAGE, 3.4)
     columns = {"split": [], "method": [], "RMSE [kPa]": [], "low [kPa]": [], "high [kPa]": []}
-    labels = [plain_name(score) for score in splits[-1]["scores"]]
+    labels = list(dict.fromkeys(plain_name(score) for split in splits for score in split["scores"]))
     for number, split in enumerate(splits):
         places, heights, errors = [], [], [[], []]
         for score in split["scores"]:
             interval = score["rmse_pa_interval"]
             rmse = score["errors_pa"]["whole"]["all"]["rmse"]
-            if rmse is None or plain_name(score) not in labels:
+            if rmse is None:
                 continue
             low, high = interval["interval_95"] if interval else (rmse, rmse)
             places.append(labels.index(plain_name(score)) + (number - (len(splits) - 1) / 2) * 0.2)
@@ -330,6 +330,13 @@ def condition_rows(results):
             for row in results["conditions"]]
 
 
+def history_table(history):
+    families = ("static", "plays", "memories", "both", "correction_alone")
+    rows = [[protocol["protocol"]] + [kilopascal(protocol["rmse"][family], 2) for family in families] for protocol in history["protocols"]]
+    return style.table(["RMSE [kPa]", "static", "plays", "memories", "both", "correction alone"], rows,
+                       f"{history['choice']} Errors of means over half a second; each protocol was predicted without it.")
+
+
 def beyond_sections(results, pictures):
     if not results["plan"]["beyond_the_paper"]:
         return []
@@ -338,6 +345,10 @@ def beyond_sections(results, pictures):
         name = split["id"].replace("_", " ")
         pieces.append(use_table(split["scores"], f"{name}: {split['description']}"))
         pieces.append(bin_table(split["scores"], f"{name}, by chamber pressure"))
+        if split["scores"][-1]["id"] == "history":
+            pieces += [pictures["history"], history_table(results["history"])]
+    if not results["history"]["assessable"]:
+        pieces.append(style.paragraph(f"history: {results['history']['choice']}"))
     return [("Beyond the paper: all scans, bandwidth chosen by nested cross-validation, harder splits", pieces)]
 
 
@@ -410,8 +421,12 @@ def main():
                        "RMSE% over the bandwidth, on the same data as the tables."),
     }
     if results["plan"]["beyond_the_paper"]:
-        pictures["bins"] = (draw_bins(stem("errors_by_pressure"), results["splits"][0]),
+        pictures["bins"] = (draw_bins(stem("errors_by_pressure"), results["splits"][0], SHOWN_BY_PRESSURE),
                             "All scans, five sections: RMSE by chamber pressure and direction.")
+        for split in results["splits"]:
+            if split["scores"][-1]["id"] == "history":
+                pictures["history"] = (draw_bins(stem("history_by_pressure"), split, ("per_curvature", "history")),
+                                       "Other protocols than trained: RMSE of the static answer and with the sheet's memory.")
         pictures["splits"] = (draw_splits(stem("splits"), results["splits"]),
                               "All scans: RMSE by how the held-out readings were chosen; bars: 95 % intervals.")
     write_report(folder, results, {name: style.picture(*made) for name, made in pictures.items()})

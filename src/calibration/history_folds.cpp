@@ -83,28 +83,7 @@ HistoryFolds::Answers HistoryFolds::answersOfTables(std::size_t taxel) const {
 // A row is the mean of the scans within half a second.
 void HistoryFolds::addRows(std::size_t taxel, const Answers& answers, std::size_t left_out,
                            Sums& sums) const {
-  const std::size_t n = grid_.features();
-  std::vector<double> features(n), mean(n);
-  for (const HistoryStream& stream : streams_) {
-    double target = 0, count = 0;
-    HistoryStream::Scan row;
-    const auto close = [&] {
-      if (count == 0) return;
-      for (double& value : mean) value /= count;
-      (row.protocol == left_out ? sums.left_out : sums.trained).add(mean.data(), target / count);
-      std::fill(mean.begin(), mean.end(), 0.0);
-      target = count = 0;
-    };
-    stream.run(taxel, answers, [&](const HistoryStream::Scan& scan, double x, const double* state) {
-      if (scan.row != row.row) close();
-      row = scan;
-      compensation::historyFeatures(grid_, x, state, features.data());
-      for (std::size_t k = 0; k < n; ++k) mean[k] += features[k];
-      target += stream.recording().pressure[scan.number] - x;
-      count += 1;
-    });
-    close();
-  }
+  for (const HistoryStream& stream : streams_) addHistoryRows(stream, grid_, taxel, answers, left_out, sums);
   sums.trained.finish();
   sums.left_out.finish();
 }

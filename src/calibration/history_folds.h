@@ -23,11 +23,8 @@ class HistoryFolds {
   const compensation::HistoryGrid& grid() const { return grid_; }
   const dataset::Protocols& protocols() const { return protocols_; }
 
-  /// Sums of all taxels: of the protocols that the tables were trained on, and of the one left out.
-  struct Sums {
-    compensation::HistorySums trained, left_out;
-  };
-  /// [protocols]
+  using Sums = LeftOutSums;
+  /// Of all taxels, [protocols].
   std::vector<Sums> leaveOneOut() const;
   /// With the tables of the calibration, which were trained on all protocols.
   compensation::HistorySums whole() const;

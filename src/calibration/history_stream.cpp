@@ -65,4 +65,28 @@ void HistoryStream::markSettled(double settling_time) {
   }
 }
 
+void addHistoryRows(const HistoryStream& stream, const compensation::HistoryGrid& grid, std::size_t taxel,
+                    const std::vector<StaticAnswer>& answers, std::size_t left_out, LeftOutSums& sums) {
+  const std::size_t n = grid.features();
+  std::vector<double> features(n), mean(n);
+  double target = 0, count = 0;
+  HistoryStream::Scan row;
+  const auto close = [&] {
+    if (count == 0) return;
+    for (double& value : mean) value /= count;
+    (row.protocol == left_out ? sums.left_out : sums.trained).add(mean.data(), target / count);
+    std::fill(mean.begin(), mean.end(), 0.0);
+    target = count = 0;
+  };
+  stream.run(taxel, answers, [&](const HistoryStream::Scan& scan, double x, const double* state) {
+    if (scan.row != row.row) close();
+    row = scan;
+    compensation::historyFeatures(grid, x, state, features.data());
+    for (std::size_t k = 0; k < n; ++k) mean[k] += features[k];
+    target += stream.recording().pressure[scan.number] - x;
+    count += 1;
+  });
+  close();
+}
+
 }  // namespace fsr::calibration

@@ -78,4 +78,14 @@ class HistoryStream {
   std::vector<rheology::ExponentialMemory::Step> steps_;  // [scans x memories]
 };
 
+/// Sums of readings of the protocols that the tables were trained on, and of the protocol that was left out.
+struct LeftOutSums {
+  compensation::HistorySums trained, left_out;
+};
+
+/// Adds the readings of one taxel in one recording, in means over half a second. `answers` [classes] were
+/// trained without the protocol `left_out`. finish() must follow the last recording.
+void addHistoryRows(const HistoryStream& stream, const compensation::HistoryGrid& grid, std::size_t taxel,
+                    const std::vector<StaticAnswer>& answers, std::size_t left_out, LeftOutSums& sums);
+
 }  // namespace fsr::calibration

@@ -26,8 +26,8 @@ constexpr char kWhatToRecord[] =
     "record cycles with two paces, with short and long dwells and with partial cycles on each surface";
 
 // No protocol can be left out. A family that the user asked for cannot be tested, so it is refused.
-void refuse(const std::string& why, const HistoryChoice& choice, Calibration& calibration) {
-  const std::string reason = why + ", so that no protocol can be left out; " + kWhatToRecord;
+void refuse(std::size_t protocols, const HistoryChoice& choice, Calibration& calibration) {
+  const std::string reason = whyNoProtocolIsLeftOut(protocols);
   if (!choice.automatic)
     throw settings::InputError("history " + compensation::historyName(choice.family) + ": " + reason);
   calibration.scores.history.choice = "History: none, since " + reason + ".";
@@ -36,7 +36,11 @@ void refuse(const std::string& why, const HistoryChoice& choice, Calibration& ca
 // The choice of a family, by its errors on protocols that were left out.
 class FamilyChoice {
  public:
-  explicit FamilyChoice(const HistoryFolds& folds) : folds_(folds) { scoreFamilies(); }
+  /// `names` and `sums`: of each protocol that was left out.
+  FamilyChoice(const compensation::HistoryGrid& grid, const std::vector<std::string>& names,
+               const std::vector<LeftOutSums>& sums) {
+    scoreFamilies(grid, names, sums);
+  }
 
   bool assessable() const { return !score_.protocols.empty(); }
   HistoryFamily choose(const HistoryChoice& choice);
@@ -45,28 +49,27 @@ class FamilyChoice {
   const HistoryScore& score() const { return score_; }
 
  private:
-  void scoreFamilies();
+  void scoreFamilies(const compensation::HistoryGrid& grid, const std::vector<std::string>& names,
+                     const std::vector<LeftOutSums>& all);
   double squareOf(HistoryFamily family) const;
   double correctedSquare() const;
   bool nowhereWorse(HistoryFamily family) const;
 
-  const HistoryFolds& folds_;
   std::vector<std::vector<Eigen::VectorXd>> coefficients_;  // [protocols][families]
   HistoryScore score_;
 };
 
-void FamilyChoice::scoreFamilies() {
-  const compensation::HistoryGrid& grid = folds_.grid();
-  const std::vector<HistoryFolds::Sums> all = folds_.leaveOneOut();
+void FamilyChoice::scoreFamilies(const compensation::HistoryGrid& grid, const std::vector<std::string>& names,
+                                 const std::vector<LeftOutSums>& all) {
   for (std::size_t g = 0; g < all.size(); ++g) {
-    const HistoryFolds::Sums& sums = all[g];
+    const LeftOutSums& sums = all[g];
     coefficients_.emplace_back(4, Eigen::VectorXd::Zero(Eigen::Index(grid.features())));
     for (const HistoryFamily family : kFamilies)
       coefficients_.back()[std::size_t(family)] = compensation::fitHistory(family, grid, sums.trained);
     // A surface that was recorded with this protocol only has no answer without it.
     if (sums.left_out.samples() == 0) continue;
     HistoryScore::Protocol score;
-    score.name = folds_.protocols().names[g];
+    score.name = names[g];
     for (std::size_t f = 0; f < score.rmse.size(); ++f)
       score.rmse[f] = std::sqrt(sums.left_out.meanSquare(coefficients_.back()[f]));
     score.corrected_rmse =
@@ -138,27 +141,43 @@ HistoryFamily FamilyChoice::choose(const HistoryChoice& choice) {
 
 }  // namespace
 
+std::string whyNoProtocolIsLeftOut(std::size_t protocols) {
+  const std::string why = protocols < 2 ? "all cycles of the bags have one protocol"
+                                        : "no surface was recorded with two protocols";
+  return why + ", so that no protocol can be left out; " + kWhatToRecord;
+}
+
+HistoryVerdict chooseHistory(const HistoryChoice& choice, const compensation::HistoryGrid& grid,
+                             const std::vector<std::string>& names, const std::vector<LeftOutSums>& sums) {
+  FamilyChoice families(grid, names, sums);
+  HistoryVerdict verdict;
+  if (!families.assessable()) return verdict;
+  verdict.family = families.choose(choice);
+  verdict.score = families.score();
+  verdict.coefficients = families.coefficients(verdict.family);
+  return verdict;
+}
+
 void trainHistory(const HistoryProblem& problem, const CalibrationOptions& options,
                   Calibration& calibration) {
   const HistoryChoice& choice = options.history;
   if (!choice.automatic && choice.family == HistoryFamily::kNone) return;
   const dataset::Protocols protocols = dataset::protocolsOf(problem.recordings, problem.sections);
   if (protocols.names.size() < 2) {
-    refuse("all cycles of the bags have one protocol", choice, calibration);
+    refuse(protocols.names.size(), choice, calibration);
     return;
   }
   const HistoryFolds folds(problem, protocols, options.threads, calibration);
-  FamilyChoice families(folds);
-  if (!families.assessable()) {
-    refuse("no surface was recorded with two protocols", choice, calibration);
+  const HistoryVerdict verdict = chooseHistory(choice, folds.grid(), protocols.names, folds.leaveOneOut());
+  if (verdict.score.protocols.empty()) {
+    refuse(protocols.names.size(), choice, calibration);
     return;
   }
-  const HistoryFamily family = families.choose(choice);
-  calibration.scores.history = families.score();
-  if (family == HistoryFamily::kNone) return;
+  calibration.scores.history = verdict.score;
+  if (verdict.family == HistoryFamily::kNone) return;
   calibration.history = compensation::historyModel(
-      family, folds.grid(), compensation::fitHistory(family, folds.grid(), folds.whole()));
-  const HistoryErrors errors = folds.errors(calibration.history, families.coefficients(family));
+      verdict.family, folds.grid(), compensation::fitHistory(verdict.family, folds.grid(), folds.whole()));
+  const HistoryErrors errors = folds.errors(calibration.history, verdict.coefficients);
   errors.setDeviation(calibration.history);
   calibration.scores.history.parts = errors.parts();
 }

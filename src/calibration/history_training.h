@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "calibration/history_stream.h"
 #include "compensation/fit_scheme.h"
 #include "dataset/sections.h"
 #include "fsr_pressure_map/calibration/calibration.h"
@@ -23,5 +24,20 @@ struct HistoryProblem {
 /// than 1 % on no protocol, and better by 2 % over all of them than the static answer and than c(x) alone.
 /// Throws InputError if a family is asked for and no protocol can be left out.
 void trainHistory(const HistoryProblem& problem, const CalibrationOptions& options, Calibration& calibration);
+
+/// A family, chosen by the errors on protocols that were left out.
+struct HistoryVerdict {
+  compensation::HistoryFamily family = compensation::HistoryFamily::kNone;
+  HistoryScore score;                         ///< its choice and protocols
+  std::vector<Eigen::VectorXd> coefficients;  ///< [protocols] of the family, trained without the protocol
+};
+
+/// The choice of trainHistory(). `names` and `sums` have one entry for each protocol that was left out.
+/// score.protocols is empty if none of them has a reading that counts.
+HistoryVerdict chooseHistory(const HistoryChoice& choice, const compensation::HistoryGrid& grid,
+                             const std::vector<std::string>& names, const std::vector<LeftOutSums>& sums);
+
+/// Why no protocol can be left out, and what to record. `protocols`: number of them in the recordings.
+std::string whyNoProtocolIsLeftOut(std::size_t protocols);
 
 }  // namespace fsr::calibration

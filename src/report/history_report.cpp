@@ -51,26 +51,37 @@ std::string historyTable(const std::vector<calibration::HistoryScore::Part>& par
   return out.str();
 }
 
+std::string historyChoiceText(const calibration::HistoryScore& score) {
+  std::ostringstream out;
+  out << score.choice << '\n';
+  if (!score.protocols.empty()) protocolTable(out, score.protocols);
+  return out.str();
+}
+
 std::string historyText(const calibration::Calibration& calibration) {
   const calibration::HistoryScore& score = calibration.scores.history;
   if (score.choice.empty()) return "";
   std::ostringstream out;
-  out << score.choice << '\n';
-  if (!score.protocols.empty()) protocolTable(out, score.protocols);
+  out << historyChoiceText(score);
   if (!score.parts.empty()) out << "Protocols that were left out. " << historyTable(score.parts);
   return out.str();
 }
 
-Json historyJson(const calibration::Calibration& calibration) {
-  const calibration::HistoryScore& score = calibration.scores.history;
-  if (score.choice.empty()) return nullptr;
-  Json protocols = Json::array(), parts = Json::array();
+Json historyProtocolsJson(const calibration::HistoryScore& score) {
+  Json protocols = Json::array();
   for (const auto& protocol : score.protocols) {
     Json rmse = Json::object();
     for (std::size_t f = 0; f < protocol.rmse.size(); ++f) rmse[kFamilyNames[f]] = protocol.rmse[f];
     rmse["correction_alone"] = protocol.corrected_rmse;
     protocols.push_back({{"protocol", protocol.name}, {"rmse", rmse}});
   }
+  return protocols;
+}
+
+Json historyJson(const calibration::Calibration& calibration) {
+  const calibration::HistoryScore& score = calibration.scores.history;
+  if (score.choice.empty()) return nullptr;
+  Json parts = Json::array();
   for (const auto& part : score.parts) {
     parts.push_back({{"readings", part.name},
                      {"count", part.readings},
@@ -90,7 +101,7 @@ Json historyJson(const calibration::Calibration& calibration) {
           {"deviation_knot", model.deviation_knot},
           {"loading_deviation", model.loading_deviation},
           {"unloading_deviation", model.unloading_deviation},
-          {"protocols", protocols},
+          {"protocols", historyProtocolsJson(score)},
           {"parts", parts}};
 }
 

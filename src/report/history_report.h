@@ -12,8 +12,14 @@ namespace fsr::report {
 /// was asked for.
 std::string historyText(const calibration::Calibration& calibration);
 
+/// What was chosen and why, and the errors of each family on each protocol.
+std::string historyChoiceText(const calibration::HistoryScore& score);
+
 /// A table of errors of the static answer and with a model of the sheet's memory; "" if there are none.
 std::string historyTable(const std::vector<calibration::HistoryScore::Part>& parts);
+
+/// The errors of each family on each protocol that was left out [Pa].
+Json historyProtocolsJson(const calibration::HistoryScore& score);
 
 /// The model and its scores; null if no model was asked for. Numbers are SI.
 Json historyJson(const calibration::Calibration& calibration);

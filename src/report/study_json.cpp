@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "report/history_report.h"
 #include "report/result_json.h"
 #include "report/study_report.h"
 #include "study/paper_numbers.h"
@@ -153,6 +154,13 @@ Json splitsJson(const study::StudyResult& result) {
   return list;
 }
 
+Json historyChoiceJson(const calibration::HistoryScore& score) {
+  if (score.choice.empty()) return nullptr;
+  return {{"assessable", !score.protocols.empty()},
+          {"choice", score.choice},
+          {"protocols", historyProtocolsJson(score)}};
+}
+
 Json decisionsJson(const study::StudyResult& result) {
   Json list = Json::array();
   for (const study::StudyDecision& decision : result.decisions) {
@@ -192,6 +200,7 @@ std::string studyJson(const study::StudyResult& result) {
                 }()},
                {"bandwidth_grid", bandwidthsJson(result)},
                {"splits", splitsJson(result)},
+               {"history", historyChoiceJson(result.history)},
                {"figure_taxel", result.response.taxel},
                {"decisions", decisionsJson(result)},
                {"unmatchable", result.unmatchable}});

@@ -2,6 +2,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "report/history_report.h"
 #include "report/study_report.h"
 #include "settings/number_text.h"
 #include "study/paper_numbers.h"
@@ -120,7 +121,11 @@ std::string studyText(const study::StudyResult& result) {
     comparisonText(out, comparison, result.layout);
   if (!result.plan.beyond_the_paper) return out.str() + '\n' + sentences(result.holds_for);
   out << "\nAll scans, bandwidth chosen by nested cross-validation: RMSE with 95 % interval\n";
-  for (const study::SplitResult& split : result.splits) splitText(out, split);
+  for (const study::SplitResult& split : result.splits) {
+    splitText(out, split);
+    if (split.scores.back().id == "history") out << historyChoiceText(result.history);
+  }
+  if (result.history.protocols.empty()) out << "\nhistory: " << result.history.choice << '\n';
   out << '\n' << result.headline.text << '\n';
   return out.str() + sentences(result.holds_for);
 }

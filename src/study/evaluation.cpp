@@ -118,8 +118,7 @@ std::size_t FoldParts::placeOf(std::size_t curvature_class) const {
 }
 
 Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Validation& validation,
-                    const std::vector<FoldModel>& models, const StudyPlan& plan,
-                    const std::function<void()>& done) {
+                    const HeldOutAnswers& answers, const StudyPlan& plan, const std::function<void()>& done) {
   const Grouping& grouping = validation.grouping;
   const std::vector<Fold>& folds = validation.folds;
   Evaluation result;
@@ -134,21 +133,19 @@ Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Vali
   result.errors.resize(data.taxels.size());
   result.r2.resize(data.taxels.size());
   result.rmse_percent.resize(data.taxels.size());
-  const bool by_samples = !regression::makeRegressor(models.front().regressor)->mergeable();
   matrix::forEachTaxel(data.taxels.size(), plan.threads, [&](std::size_t t) {
     const std::size_t taxel = data.taxels[t];
     const TaxelReadings readings(data, grouping, taxel);
     TaxelScoring scoring(data, plan);
     scoring.errors.reserve(result.scans.size());
     for (const FoldParts& fold : partsByFold(result.parts)) {
-      const auto tables = tablesFor(models[models.size() == 1 ? 0 : fold.fold], taxel,
-                                    readings.training(folds[fold.fold].train, by_samples), fold.classes);
+      const HeldOutAnswer answer = answers(t, readings, fold);
       for (std::size_t p = fold.first; p < fold.end; ++p) {
         scoring.begin();
-        forEachTested(
-            data, grouping, folds[fold.fold], result.parts[p], [&](std::size_t c, const StudyScan& scan) {
-              scoring.add(tables[fold.placeOf(c)][scan.counts[taxel]], regression::fromFixed(scan.pressure));
-            });
+        forEachTested(data, grouping, folds[fold.fold], result.parts[p],
+                      [&](std::size_t c, const StudyScan& scan) {
+                        scoring.add(answer(c, scan), regression::fromFixed(scan.pressure));
+                      });
         scoring.end();
       }
     }
@@ -158,6 +155,21 @@ Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Vali
     if (done) done();
   });
   return result;
+}
+
+Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Validation& validation,
+                    const std::vector<FoldModel>& models, const StudyPlan& plan,
+                    const std::function<void()>& done) {
+  const bool by_samples = !regression::makeRegressor(models.front().regressor)->mergeable();
+  const auto answers = [&](std::size_t t, const TaxelReadings& readings, const FoldParts& fold) {
+    const std::size_t taxel = data.taxels[t];
+    auto tables = tablesFor(models[models.size() == 1 ? 0 : fold.fold], taxel,
+                            readings.training(validation.folds[fold.fold].train, by_samples), fold.classes);
+    return [&fold, taxel, tables = std::move(tables)](std::size_t c, const StudyScan& scan) {
+      return tables[fold.placeOf(c)][scan.counts[taxel]];
+    };
+  };
+  return evaluate(data, method, validation, HeldOutAnswers(answers), plan, done);
 }
 
 }  // namespace fsr::study

@@ -58,6 +58,16 @@ struct Evaluation {
   std::vector<double> rmse_percent;
 };
 
+/// Pressure of a held-out reading on a class [Pa].
+using HeldOutAnswer = std::function<double(std::size_t curvature_class, const StudyScan& scan)>;
+/// The answers of data.taxels[t] in one fold, trained without it.
+using HeldOutAnswers =
+    std::function<HeldOutAnswer(std::size_t t, const TaxelReadings& readings, const FoldParts& fold)>;
+
+/// Scores the answers of a method. `done` is called after each taxel, from any thread.
+Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Validation& validation,
+                    const HeldOutAnswers& answers, const StudyPlan& plan, const std::function<void()>& done);
+
 /// Trains and scores a method. `models` has one entry for each fold, or one for all folds. `done` is called
 /// after each taxel, from any thread.
 Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Validation& validation,

@@ -61,6 +61,29 @@ Split pastToFuture(const StudyData& data) {
   return split;
 }
 
+Split leaveProtocolOut(const StudyData& data) {
+  Split split{kProtocolSplit,
+              "each protocol (pace, dwell and peak of the cycles) is predicted by the other protocols",
+              byHalfProtocol(data),
+              {}};
+  const std::vector<Cell> cells = occupied(split.grouping);
+  for (std::size_t p = 0; p < data.protocols.names.size(); ++p) {
+    Fold fold = foldOf(data.protocols.names[p], cells, [&](const Cell& cell) { return cell.group / 2 == p; });
+    // A class that was recorded with this protocol only would be another curvature that is left out.
+    const auto alone = [&](const Cell& cell) {
+      return std::none_of(fold.train.begin(), fold.train.end(),
+                          [&](const Cell& other) { return other.curvature_class == cell.curvature_class; });
+    };
+    fold.test.erase(std::remove_if(fold.test.begin(), fold.test.end(), alone), fold.test.end());
+    if (!fold.test.empty()) split.folds.push_back(fold);
+  }
+  return split;
+}
+
+std::size_t protocolOf(const Fold& fold) {
+  return fold.test.front().group / 2;
+}
+
 Split leaveCurvatureOut(const StudyData& data) {
   Split split{"leave_curvature_out",
               "each curvature is predicted by models trained on the other curvatures",

@@ -26,7 +26,7 @@ struct Fold {
 
 /// One way to hold data out.
 struct Split {
-  std::string id;           ///< five_sections, past_to_future, leave_curvature_out, leave_mount_out, ...
+  std::string id;           ///< five_sections, past_to_future, leave_protocol_out, leave_curvature_out, ...
   std::string description;  ///< a clause, e.g. "each mount is predicted by the other mounts of the matrix"
   Grouping grouping;        ///< of all scans
   std::vector<Fold> folds;
@@ -36,6 +36,13 @@ struct Split {
 Split leaveSectionOut(const StudyData& data);
 /// The first three fifths of the sections of each class predict the rest. One fold.
 Split pastToFuture(const StudyData& data);
+/// The id of leaveProtocolOut().
+constexpr char kProtocolSplit[] = "leave_protocol_out";
+/// Each protocol, i.e. the cycles of one pace, dwell and peak, is predicted by the other protocols. No folds
+/// unless a class was recorded with two protocols. Fold k holds out one protocol: Fold::test has no other.
+Split leaveProtocolOut(const StudyData& data);
+/// The protocol that a fold of leaveProtocolOut() holds out.
+std::size_t protocolOf(const Fold& fold);
 /// Each class is predicted by the other classes. No folds if there are fewer than three classes.
 Split leaveCurvatureOut(const StudyData& data);
 /// Each mount is predicted by the other mounts. No folds unless each class was mounted more than once;

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <optional>
 #include <sstream>
 
+#include "study/history_study.h"
 #include "study/paper_numbers.h"
 #include "study/study_context.h"
 #include "study/study_score.h"
@@ -15,8 +17,9 @@ bool isFurther(const StudyMethod& method) {
 
 std::vector<Split> splitsOf(const StudyContext& study) {
   std::vector<Split> possible;
-  for (const Split& split : {leaveSectionOut(study.data), pastToFuture(study.data),
-                             leaveCurvatureOut(study.data), leaveMountOut(study.data)}) {
+  for (const Split& split :
+       {leaveSectionOut(study.data), pastToFuture(study.data), leaveProtocolOut(study.data),
+        leaveCurvatureOut(study.data), leaveMountOut(study.data)}) {
     if (!split.folds.empty()) possible.push_back(split);
     if (!study.plan.beyond_the_paper) break;
   }
@@ -49,12 +52,30 @@ std::vector<double> bandwidthsFor(const StudyContext& study, const StudyMethod& 
   return chooseBandwidths(study.data, method, validation, study.plan);
 }
 
+// The static answer of per_curvature with a model of the sheet's memory. None if no reading counts.
+std::optional<StudyScore> withHistory(const StudyContext& study, const StudyMethod& method,
+                                      const Split& split, const std::vector<FoldModel>& models,
+                                      HeldOut& result) {
+  const std::string stage = split.id + ", history";
+  study.say(stage, 0, study.data.taxels.size());
+  const HistoryStudy history(study.data, split, models, study.plan);
+  if (history.verdict().score.protocols.empty()) return std::nullopt;
+  result.history = history.verdict().score;
+  const Evaluation evaluation = history.evaluate(method, study.counting(stage));
+  StudyScore score = scoreOf(study.data, method, evaluation);
+  score.id = "history";
+  score.label = "History";
+  score.rmse_interval = rmseInterval(CycleSums(study.data, evaluation), study.data, study.plan);
+  return score;
+}
+
 SplitResult holdOutOne(const StudyContext& study, const Split& split, HeldOut& result) {
   SplitResult held_out{split.id, split.description, {}, {}};
   for (const Fold& fold : split.folds) held_out.folds.push_back(fold.name);
   const Validation validation{split.grouping, split.folds, Scoring::kPooled};
   const std::vector<StudyMethod> methods = methodsOf(study);
   std::vector<Evaluation> kept;
+  std::optional<StudyScore> history;
   for (const StudyMethod& method : methods) {
     const std::string stage = split.id + ", " + method.id;
     study.say(stage, 0, study.data.taxels.size());
@@ -71,7 +92,11 @@ SplitResult holdOutOne(const StudyContext& study, const Split& split, HeldOut& r
     held_out.scores.push_back(score);
     const bool drawn = method.id == "baseline" || method.id == "per_curvature";
     if (result.splits.empty() && drawn) kept.push_back(std::move(evaluation));
+    if (split.id != kProtocolSplit || method.id != "per_curvature") continue;
+    history = withHistory(study, method, split, models, result);
+    if (history) history->bandwidth = bandwidth;
   }
+  if (history) held_out.scores.push_back(*history);
   if (kept.size() == 2) {
     const std::size_t place = figureTaxel(study.data, study.plan, kept[1].rmse_percent);
     result.response = taxelResponse(study.data, place, kept[0], kept[1]);
@@ -93,6 +118,10 @@ const StudyScore& best(const SplitResult& split) {
 HeldOut holdOut(const StudyContext& study) {
   HeldOut result;
   for (const Split& split : splitsOf(study)) result.splits.push_back(holdOutOne(study, split, result));
+  if (study.plan.beyond_the_paper && result.history.protocols.empty()) {
+    result.history.choice =
+        "not assessable: " + calibration::whyNoProtocolIsLeftOut(study.data.protocols.names.size()) + ".";
+  }
   return result;
 }
 

@@ -1,6 +1,7 @@
 #include "study/study.h"
 
 #include <algorithm>
+#include <memory>
 #include <mutex>
 
 #include "calibration/sources.h"
@@ -55,15 +56,21 @@ StudyResult describe(const StudyProblem& problem, const StudyData& data) {
 
 }  // namespace
 
+std::function<void()> StudyContext::counting(const std::string& stage) const {
+  struct Count {
+    std::mutex reporting;
+    std::size_t done = 0;
+  };
+  return [this, stage, count = std::make_shared<Count>()] {
+    const std::lock_guard<std::mutex> lock(count->reporting);
+    say(stage, ++count->done, data.taxels.size());
+  };
+}
+
 Evaluation StudyContext::evaluateMethod(const StudyMethod& method, const Validation& validation,
                                         const std::vector<FoldModel>& models,
                                         const std::string& stage) const {
-  std::mutex reporting;
-  std::size_t done = 0;
-  return evaluate(data, method, validation, models, plan, [&] {
-    const std::lock_guard<std::mutex> lock(reporting);
-    say(stage, ++done, data.taxels.size());
-  });
+  return evaluate(data, method, validation, models, plan, counting(stage));
 }
 
 StudyResult study(const StudyProblem& problem, const StudyProgress& progress) {
@@ -77,6 +84,7 @@ StudyResult study(const StudyProblem& problem, const StudyProgress& progress) {
   result.bandwidths = gridOfBandwidths(context);
   HeldOut held_out = holdOut(context);
   result.splits = std::move(held_out.splits);
+  result.history = std::move(held_out.history);
   result.response = std::move(held_out.response);
   if (problem.plan.beyond_the_paper) result.headline = headlineOf(result.splits);
   return result;

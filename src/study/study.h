@@ -126,6 +126,10 @@ struct StudyResult {
   std::vector<StudyComparison> comparisons;
   std::vector<BandwidthCurve> bandwidths;
   std::vector<SplitResult> splits;  ///< easiest first
+  /// How the model of the sheet's memory was chosen for the score `history` of leave_protocol_out, and the
+  /// errors of all families on each protocol. Without protocols: `choice` says why it is not assessable; "" =
+  /// not asked for.
+  calibration::HistoryScore history;
   StudyHeadline headline;
   TaxelResponse response;
   std::vector<StudyDecision> decisions;

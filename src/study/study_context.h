@@ -18,6 +18,8 @@ struct StudyContext {
   void say(const std::string& stage, std::size_t done, std::size_t total) const {
     if (progress) progress(stage, done, total);
   }
+  /// Counts the taxels of a stage; can be called from any thread.
+  std::function<void()> counting(const std::string& stage) const;
   /// evaluate() with progress reports.
   Evaluation evaluateMethod(const StudyMethod& method, const Validation& validation,
                             const std::vector<FoldModel>& models, const std::string& stage) const;
@@ -30,9 +32,11 @@ std::vector<StudyComparison> reproduce(const StudyContext& study);
 /// curvature_input.
 std::vector<BandwidthCurve> gridOfBandwidths(const StudyContext& study);
 
-/// All methods on all scans for each split, easiest first, and the data for the figures of one taxel.
+/// All methods on all scans for each split, easiest first, the choice of a model of the sheet's memory, and
+/// the data for the figures of one taxel.
 struct HeldOut {
   std::vector<SplitResult> splits;
+  calibration::HistoryScore history;
   TaxelResponse response;
 };
 HeldOut holdOut(const StudyContext& study);

@@ -110,6 +110,8 @@ void addRecording(const dataset::Recording& recording, std::size_t number, const
     scan.first_cycle = sections.cycle[i] == 0;
     scan.mount = mounts.of(number, condition, recording.conditions[condition]);
     scan.recording = static_cast<std::uint32_t>(number);
+    scan.number = static_cast<std::uint32_t>(i);
+    scan.protocol = data.protocols.of_scan[number][i];
     scan.direction = sections.direction[i];
     data.scans[class_of[condition]].push_back(scan);
   }
@@ -121,7 +123,8 @@ Grouping grouped(const StudyData& data, std::size_t groups, GroupOf group_of) {
   for (const auto& scans : data.scans) {
     std::vector<std::vector<std::uint32_t>> lists(groups);
     for (std::size_t i = 0; i < scans.size(); ++i) {
-      lists[group_of(scans[i])].push_back(static_cast<std::uint32_t>(i));
+      const std::size_t group = group_of(scans[i]);
+      if (group < groups) lists[group].push_back(static_cast<std::uint32_t>(i));
     }
     grouping.scans.push_back(std::move(lists));
   }
@@ -154,14 +157,16 @@ StudyData gatherStudyData(const std::vector<dataset::Recording>& recordings, std
   data.sections = sections;
   data.full_scale = recordings.front().full_scale;
   data.matrix_taxels = recordings.front().layout.size.taxels();
+  data.recordings = &recordings;
+  data.class_of = pooled.class_of;
+  for (const dataset::Recording& recording : recordings)
+    data.divided.push_back(dataset::divideIntoSections(recording, sections));
+  data.protocols = dataset::protocolsOf(recordings, data.divided);
   MountNumbers mounts;
-  std::vector<dataset::Sections> divided;
-  for (std::size_t r = 0; r < recordings.size(); ++r) {
-    divided.push_back(dataset::divideIntoSections(recordings[r], sections));
-    addRecording(recordings[r], r, divided.back(), pooled.class_of[r], mounts, data);
-  }
+  for (std::size_t r = 0; r < recordings.size(); ++r)
+    addRecording(recordings[r], r, data.divided[r], pooled.class_of[r], mounts, data);
   data.mounts = mounts.count();
-  data.warnings = calibration::warningsOf(recordings, divided);
+  data.warnings = calibration::warningsOf(recordings, data.divided);
   findRange(data);
   chooseTaxels(recordings, data);
   return data;
@@ -173,6 +178,12 @@ Grouping bySection(const StudyData& data) {
 
 Grouping byMount(const StudyData& data) {
   return grouped(data, data.mounts, [](const StudyScan& scan) { return scan.mount; });
+}
+
+Grouping byHalfProtocol(const StudyData& data) {
+  return grouped(data, 2 * data.protocols.names.size(), [](const StudyScan& scan) -> std::size_t {
+    return 2 * std::size_t{scan.protocol} + scan.cycle % 2;
+  });
 }
 
 }  // namespace fsr::study

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dataset/protocols.h"
 #include "dataset/sections.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
@@ -23,6 +24,8 @@ struct StudyScan {
   bool first_cycle = false;     ///< whether it belongs to the first cycle of its condition
   std::uint32_t mount = 0;      ///< numbered through all recordings, by surface and mount
   std::uint32_t recording = 0;  ///< index
+  std::uint32_t number = 0;     ///< index in its recording
+  std::uint32_t protocol = 0;   ///< index into StudyData::protocols, or dataset::Protocols::kOther
   statistics::LoadDirection direction = statistics::LoadDirection::kNone;
 };
 
@@ -39,6 +42,11 @@ struct StudyData {
   double lowest = 0;                ///< lowest pressure of all scans [Pa]
   double highest = 0;               ///< highest pressure of all scans [Pa]
   std::vector<std::string> warnings;
+  /// The recordings as a whole, for models that are driven by the course of time.
+  const std::vector<dataset::Recording>* recordings = nullptr;
+  std::vector<dataset::Sections> divided;          ///< [recordings]
+  std::vector<std::vector<std::size_t>> class_of;  ///< [recordings][conditions]
+  dataset::Protocols protocols;
 
   std::size_t scanCount() const;
   /// Index of the flat class. Throws InputError if there is none.
@@ -49,8 +57,8 @@ struct StudyData {
 /// curvature, or if fewer than three taxels vary.
 StudyData gatherStudyData(const std::vector<dataset::Recording>& recordings, std::size_t sections);
 
-/// The scans of each class, divided into groups (sections or mounts) that are held out together. Indices into
-/// StudyData::scans, ascending. A scan may be in no group.
+/// The scans of each class, divided into groups (sections, mounts or halves of protocols) that are held out
+/// together. Indices into StudyData::scans, ascending. A scan may be in no group.
 struct Grouping {
   std::size_t groups = 0;
   std::vector<std::vector<std::vector<std::uint32_t>>> scans;  ///< [class][group][...]
@@ -58,6 +66,9 @@ struct Grouping {
 
 Grouping bySection(const StudyData& data);
 Grouping byMount(const StudyData& data);
+/// Groups 2 p and 2 p + 1: every second cycle of protocol p, and the others. A bandwidth can then be chosen
+/// by holding out half of the cycles where all but one protocol are held out.
+Grouping byHalfProtocol(const StudyData& data);
 
 /// Keeps one of `one_of[class]` scans of each group of `whole`; 0 = none of that class. The draw depends only
 /// on seed, class, group and share, so that methods of equal share use the same scans.

@@ -91,6 +91,30 @@ TEST(StudyText, ShowsThePapersNumbersBesideOursAndStatesTheLimits) {
   EXPECT_TRUE(contains(text, "n = 3 taxels")) << text;
 }
 
+TEST(StudyText, SaysWhyTheMemoryOfTheSheetIsNotAssessable) {
+  const std::string text = fsr::report::studyText(smallStudy());
+  EXPECT_TRUE(contains(text, "\nhistory: not assessable: all cycles of the bags have one protocol")) << text;
+  const std::string json = fsr::report::studyJson(smallStudy());
+  EXPECT_TRUE(contains(json, "\"assessable\": false")) << json;
+}
+
+TEST(StudyText, ShowsTheHistoryBesideTheStaticAnswerAndByProtocol) {
+  fsr::study::StudyResult result = smallStudy();
+  fsr::study::StudyScore score = result.splits.front().scores.front();
+  score.id = "history";
+  result.splits.push_back({"leave_protocol_out", "by protocol", {"slow"}, {score}});
+  result.history.choice = "History: plays, the best on protocols that were left out.";
+  result.history.protocols = {{"slow", {8e3, 4e3, 7e3, 5e3}, 6e3}};
+  const std::string text = fsr::report::studyText(result);
+  EXPECT_TRUE(contains(text, "leave_protocol_out: by protocol\n  history ")) << text;
+  EXPECT_TRUE(contains(text, "History: plays, the best")) << text;
+  EXPECT_TRUE(contains(text, "8.00      4.00      7.00      5.00      6.00")) << text;
+  EXPECT_FALSE(contains(text, "not assessable")) << text;
+  EXPECT_TRUE(contains(fsr::report::studyJson(result), "\"correction_alone\": 6000")) << text;
+  EXPECT_TRUE(
+      contains(fsr::report::studyTables(result).at("scores.csv"), "\"leave_protocol_out\",\"history\""));
+}
+
 TEST(StudyText, NamesTheWorstTaxelByRowAndColumn) {
   fsr::study::StudyResult result = smallStudy();
   result.layout.size = {2, 2};

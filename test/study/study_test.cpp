@@ -10,6 +10,8 @@
 #include "simulation/session.h"
 #include "study/decisions.h"
 #include "study/evaluation.h"
+#include "study/history_study.h"
+#include "support/memory_rig.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
 
@@ -79,6 +81,93 @@ double plainRmsePercent(const StudyData& data, const Grouping& kept, std::size_t
 }
 
 }  // namespace
+
+namespace {
+
+StudyProblem memoryProblem(const std::vector<test_support::MemoryCycles>& program) {
+  test_support::MemoryRig rig;
+  rig.program = program;
+  rig.loop = 0.08;
+  StudyProblem problem = smallProblem();
+  problem.recordings = {test_support::memoryRecording(rig)};
+  return problem;
+}
+
+const SplitResult* splitOf(const StudyResult& result, const std::string& id) {
+  for (const SplitResult& split : result.splits)
+    if (split.id == id) return &split;
+  return nullptr;
+}
+
+const StudyScore* scoreOf(const SplitResult& split, const std::string& id) {
+  for (const StudyScore& score : split.scores)
+    if (score.id == id) return &score;
+  return nullptr;
+}
+
+}  // namespace
+
+TEST(StudyHistory, IsBetterThanTheStaticAnswerOnProtocolsThatWereLeftOut) {
+  StudyProblem problem = memoryProblem(test_support::variedProgram());
+  const StudyResult result = study(problem);
+  const SplitResult* const split = splitOf(result, "leave_protocol_out");
+  ASSERT_NE(split, nullptr);
+  EXPECT_EQ(split->folds.size(), 4u);
+  const StudyScore* const fixed = scoreOf(*split, "per_curvature");
+  const StudyScore* const history = scoreOf(*split, "history");
+  ASSERT_NE(history, nullptr);
+  EXPECT_EQ(history->scans, fixed->scans);
+  EXPECT_EQ(history->errors.whole.all.count, fixed->errors.whole.all.count);
+  EXPECT_LT(history->errors.whole.all.rmse, 0.6 * fixed->errors.whole.all.rmse);
+  EXPECT_LT(history->rmse_interval.high, fixed->rmse_interval.low);
+  EXPECT_EQ(result.history.choice.find("History: plays"), 0u) << result.history.choice;
+  EXPECT_EQ(result.history.protocols.size(), 4u);
+  problem.plan.threads = 3;
+  EXPECT_EQ(study(problem).splits.back().scores.back().rmse_percent, history->rmse_percent);
+}
+
+TEST(StudyHistory, IsNotAssessableOnOneProtocol) {
+  const StudyResult result = study(memoryProblem({{8, 600e3, 20e3, 2, 2}}));
+  EXPECT_EQ(splitOf(result, "leave_protocol_out"), nullptr);
+  EXPECT_EQ(
+      result.history.choice,
+      "not assessable: all cycles of the bags have one protocol, so that no protocol can be left out; "
+      "record cycles with two paces, with short and long dwells and with partial cycles on each surface.");
+}
+
+// The chamber's pressure in a protocol has no part in what predicts the protocol.
+TEST(StudyHistory, LearnsNothingFromTheProtocolThatIsLeftOut) {
+  const StudyProblem problem = memoryProblem(test_support::variedProgram());
+  const StudyData data = gatherStudyData(problem.recordings, 5);
+  const Split split = leaveProtocolOut(data);
+  const auto slow = [](const Fold& fold) {
+    return fold.name.find("ramps of 20") != std::string::npos &&
+           fold.name.find("dwells of 2 s") != std::string::npos;
+  };
+  const auto spoilt_fold = std::find_if(split.folds.begin(), split.folds.end(), slow) - split.folds.begin();
+  ASSERT_LT(spoilt_fold, 4);
+  std::vector<dataset::Recording> recordings = problem.recordings;
+  for (std::size_t i = 0; i < recordings[0].scans(); ++i) {
+    if (data.protocols.of_scan[0][i] == protocolOf(split.folds[std::size_t(spoilt_fold)]))
+      recordings[0].pressure[i] *= 0.98;
+  }
+  const StudyData other = gatherStudyData(recordings, 5);
+  const auto weights = [&](const StudyData& of) {
+    const Split own = leaveProtocolOut(of);
+    const auto methods = paperMethods(of, BinaryShare::kFullFlat);
+    const std::vector<FoldModel> models(4,
+                                        plainModel(methodOf(methods, "per_curvature"), grnnOf({}, 1.0 / 16)));
+    const HistoryStudy history(of, own, models, problem.plan);
+    std::vector<std::vector<double>> each;
+    for (const Eigen::VectorXd& own_fold : history.verdict().coefficients)
+      each.emplace_back(own_fold.data(), own_fold.data() + own_fold.size());
+    return each;
+  };
+  const auto plain = weights(data), spoilt = weights(other);
+  ASSERT_EQ(plain.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_EQ(plain[k] == spoilt[k], k == std::size_t(spoilt_fold)) << split.folds[k].name;
+}
 
 TEST(Study, AnotherSeedDrawsOtherScans) {
   StudyProblem problem = smallProblem();
