@@ -7,6 +7,8 @@
 #include "calibration/held_out_scoring.h"
 #include "calibration/history_training.h"
 #include "calibration/remount_errors.h"
+#include "calibration/session/session_rests.h"
+#include "calibration/session/session_zero.h"
 #include "calibration/sources.h"
 #include "calibration/taxel_training.h"
 #include "calibration/trained_ranges.h"
@@ -33,7 +35,8 @@ class Training {
       sections_.push_back(dataset::divideIntoSections(recording, problem.options.folds));
     }
     plan_ = compensation::planScheme(problem.options.scheme, classes_.classes);
-    scans_ = gatherScans(problem.recordings, classes_, sections_);
+    sessions_ = findSessions(problem.recordings, classes_);
+    scans_ = gatherScans(problem.recordings, classes_, sections_, zeros_);
   }
 
   Calibration run(const CalibrationProgress& progress) {
@@ -42,8 +45,8 @@ class Training {
     matrix::forEachTaxel(taxels, problem_.options.threads, [&](std::size_t taxel) { sum(taxel); });
     findTaxelsWithoutModel(plan_, problem_.recordings.front().name, calibration);
 
-    const compensation::FoldRegressors regressors = choose(problem_.options, calibration, plan_);
-    RemountErrors remount(problem_.recordings, classes_, sections_);
+    const compensation::FoldRegressors regressors = chooseWithZeros(calibration);
+    RemountErrors remount(problem_.recordings, classes_, sections_, zeros_);
     HeldOutScoring scoring(scans_, plan_, problem_.options.folds, taxels);
     std::mutex reporting;
     std::size_t done = 0;
@@ -56,12 +59,15 @@ class Training {
     const RemountScore remounted = remount.apply(calibration);
     const UnseenScore unseen = learnRule(plan_, problem_.options.threads, calibration);
     if (problem_.options.scores) {
+      const SessionScore session = calibration.scores.session;
       calibration.scores = scoring.summarise(classes_.classes);
+      calibration.scores.session = session;
       calibration.scores.unseen = unseen;
       calibration.scores.remount = remounted;
     }
-    trainHistory({problem_.recordings, classes_, sections_, plan_, regressors.whole}, problem_.options,
-                 calibration);
+    trainHistory({problem_.recordings, classes_, sections_, plan_, regressors.whole, zeros_,
+                  calibration.session_zero.expected() ? &sessions_ : nullptr},
+                 problem_.options, calibration);
     return calibration;
   }
 
@@ -70,6 +76,7 @@ class Training {
   Calibration describe();
   std::shared_ptr<compensation::TrainingStatistics> emptyStatistics() const;
   void sum(std::size_t taxel);
+  compensation::FoldRegressors chooseWithZeros(Calibration& calibration);
   void train(std::size_t taxel, const compensation::FoldRegressors& regressors, Calibration& calibration,
              HeldOutScoring& scoring) const;
 
@@ -77,6 +84,8 @@ class Training {
   dataset::ConditionClasses classes_;
   std::vector<dataset::Sections> sections_;
   compensation::SchemePlan plan_;
+  Sessions sessions_;
+  SessionZeros zeros_;  // empty = none
   TrainingScans scans_;
   std::shared_ptr<compensation::TrainingStatistics> statistics_;  // filled by sum()
 };
@@ -124,6 +133,18 @@ void Training::sum(std::size_t taxel) {
       statisticsOfTaxel(scans_, statistics_->sections, statistics_->full_scale, taxel);
   std::move(cells.begin(), cells.end(),
             statistics_->cells.begin() + static_cast<std::ptrdiff_t>(taxel * cells.size()));
+}
+
+// The choice of zeros needs a regressor. If there are zeros, the regressor is chosen again with them.
+compensation::FoldRegressors Training::chooseWithZeros(Calibration& calibration) {
+  const compensation::FoldRegressors regressors = choose(problem_.options, calibration, plan_);
+  zeros_ = chooseSessionZero({problem_.recordings, classes_, sections_, plan_, regressors.whole, zeros_},
+                             sessions_, problem_.options, calibration);
+  if (zeros_.empty()) return regressors;
+  scans_ = gatherScans(problem_.recordings, classes_, sections_, zeros_);
+  matrix::forEachTaxel(statistics_->taxels, problem_.options.threads, [&](std::size_t taxel) { sum(taxel); });
+  plan_ = compensation::planScheme(problem_.options.scheme, classes_.classes);
+  return choose(problem_.options, calibration, plan_);
 }
 
 void Training::train(std::size_t taxel, const compensation::FoldRegressors& regressors,

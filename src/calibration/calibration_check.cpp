@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "calibration/history_check.h"
+#include "calibration/session/session_check.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
@@ -86,8 +88,9 @@ void requireFitting(const Calibration& calibration, const dataset::Recording& re
 
 class Checker {
  public:
-  explicit Checker(const Calibration& calibration)
-      : calibration_(calibration), taxels_(calibration.layout.size.taxels()) {}
+  /// `tared`: with a tare at the start of each session, if the calibration expects one.
+  Checker(const Calibration& calibration, bool tared)
+      : calibration_(calibration), tared_(tared), taxels_(calibration.layout.size.taxels()) {}
 
   void take(const dataset::Recording& recording) {
     Calibrator calibrator(calibration_);
@@ -97,6 +100,7 @@ class Checker {
       if (recording.condition[i] != surface) {
         surface = recording.condition[i];
         calibrator.setSurface(recording.conditions[surface], recording.time[i]);
+        if (tared_) tare(recording, surface, calibrator);
       }
       calibrator.calibrate({recording.layout.size, recording.full_scale, recording.scan(i), taxels_.size()},
                            recording.time[i], map_);
@@ -117,6 +121,11 @@ class Checker {
     }
     check.dead = dead_;
     check.stuck = stuck_;
+    for (const std::string& session : without_rest_) {
+      check.remarks.push_back(session +
+                              ": does not start with 2 s at rest at the lowest pressure, so that the session "
+                              "is checked without the tare that the calibration expects");
+    }
     return check;
   }
 
@@ -125,6 +134,14 @@ class Checker {
     const auto [place, fresh] = surfaces_.try_emplace(surface.name);
     if (fresh) order_.push_back(surface.name);
     return place->second;
+  }
+
+  void tare(const dataset::Recording& recording, std::size_t surface, Calibrator& calibrator) {
+    const std::vector<float> offset = tareAtStart(calibration_, recording, surface);
+    calibrator.setTare(offset);
+    if (!offset.empty()) calibrator.markRest();
+    if (offset.empty() && calibration_.session_zero.expected())
+      without_rest_.insert(recording.name + ", " + recording.conditions[surface].name);
   }
 
   // A reading without conductance is an upper limit and a saturated one a lower limit; neither has an error.
@@ -151,13 +168,28 @@ class Checker {
   }
 
   const Calibration& calibration_;
+  bool tared_;
   map::PressureMap map_;
   Sums whole_;
   std::map<std::string, Sums> surfaces_;
   std::vector<std::string> order_;
   std::vector<Sums> taxels_;
   std::vector<std::size_t> dead_, stuck_;
+  std::set<std::string> without_rest_;  // sessions
 };
+
+void noteTare(const Calibration& calibration, const std::vector<dataset::Recording>& recordings,
+              CalibrationCheck& check) {
+  if (!calibration.session_zero.expected()) return;
+  Checker without(calibration, false);
+  for (const dataset::Recording& recording : recordings) without.take(recording);
+  check.rmse_without_tare = without.result({}).whole.rmse;
+  check.remarks.insert(
+      check.remarks.begin(),
+      "each session is checked with a tare at its start, as the calibration expects; without "
+      "it the RMSE is " +
+          kilopascals(check.rmse_without_tare));
+}
 
 void judgeClass(const CheckedClass& checked, double range, const CalibrationCheckOptions& options,
                 std::vector<std::string>& reasons) {
@@ -189,7 +221,7 @@ CalibrationCheck checkCalibration(const Calibration& calibration,
                                   const CalibrationCheckOptions& options) {
   if (recordings.empty())
     throw settings::InputError("there is no bag to check the calibration on; give one at least");
-  Checker checker(calibration);
+  Checker checker(calibration, true);
   for (const dataset::Recording& recording : recordings) {
     requireFitting(calibration, recording);
     checker.take(recording);
@@ -197,6 +229,7 @@ CalibrationCheck checkCalibration(const Calibration& calibration,
   CalibrationCheck check = checker.result(options);
   if (check.whole.readings == 0)
     throw settings::InputError("no reading of the bags gives a pressure; is every taxel masked?");
+  noteTare(calibration, recordings, check);
   if (calibration.history.present()) check.history = checkHistory(calibration, recordings);
   const double range = calibration.trained.pressure.high - calibration.trained.pressure.low;
   const matrix::Layout& layout = calibration.layout;

@@ -43,6 +43,9 @@ struct CalibrationCheck {
   /// model was settled, and of the others by direction, by time since the last reversal, by protocol. Empty
   /// without a model.
   std::vector<HistoryScore::Part> history;
+  /// Where the calibration expects a tare, each session was checked with the zero of the rest at its start
+  /// (where it has one). RMSE of all readings without it [Pa]; NaN = no tare is expected.
+  double rmse_without_tare = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Scores a stored calibration on new recordings with a pressure reference, through the same live path as the

@@ -48,9 +48,10 @@ void HeldOutScoring::scoreTaxel(std::size_t taxel,
       if (held_out.pressure.empty()) continue;
       const std::uint16_t code = scan.counts[taxel];
       const double truth = regression::fromFixed(scan.pressure);
-      const double error = held_out.pressure[code] - truth;
-      of_class[scan.section].add(held_out.pressure[code], truth);
-      all[scan.section].add(held_out.pressure[code], truth);
+      const double answer = held_out.pressure[code] - regression::fromFixed(scan.zeroOf(taxel));
+      const double error = answer - truth;
+      of_class[scan.section].add(answer, truth);
+      all[scan.section].add(answer, truth);
       within += std::abs(error) <= held_out.deviation[code];
       errors[i] = static_cast<float>(error);
     }

@@ -10,6 +10,12 @@
 
 namespace fsr::calibration {
 
+// When a part of the model is taken because it wins on protocols or sessions that were left out. It may be
+// worse than the static answer by 1 % on none of them, and must be better by 2 % in root mean square on all
+// of them together.
+constexpr double kWorse = 1.01;
+constexpr double kWins = 0.98;
+
 /// Scores the held-out readings of a calibration, taxel by taxel: each reading is predicted by the model of
 /// its class that was trained without the section of the reading.
 class HeldOutScoring {

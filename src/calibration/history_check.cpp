@@ -4,6 +4,7 @@
 #include <map>
 
 #include "calibration/history_parts.h"
+#include "calibration/session/session_check.h"
 #include "dataset/protocols.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 
@@ -36,11 +37,15 @@ class HistoryChecker {
         turned = time;
       const matrix::ScanView scan{recording.layout.size, recording.full_scale, recording.scan(i),
                                   recording.layout.size.taxels()};
-      for (Calibrator* calibrator : {&with, &without}) {
-        if (recording.condition[i] != surface)
-          calibrator->setSurface(recording.conditions[recording.condition[i]], time);
+      if (recording.condition[i] != surface) {
+        surface = recording.condition[i];
+        const std::vector<float> tare = tareAtStart(calibration_, recording, surface);
+        for (Calibrator* calibrator : {&with, &without}) {
+          calibrator->setSurface(recording.conditions[surface], time);
+          calibrator->setTare(tare);
+          if (!tare.empty()) calibrator->markRest();
+        }
       }
-      surface = recording.condition[i];
       with.calibrate(scan, time, map_);
       without.calibrate(scan, time, static_map_);
       const auto parts = historyPartsOf(sections.direction[i], time - turned);

@@ -25,6 +25,16 @@ void setTrainedCodes(const std::vector<regression::CodeStatistics>& sections, st
   }
 }
 
+// Those that a tare belongs to.
+std::vector<Session> sessionsOf(const HistoryProblem& problem, std::size_t recording) {
+  std::vector<Session> own;
+  if (problem.sessions == nullptr) return own;
+  for (const Session& session : problem.sessions->all) {
+    if (session.recording == recording) own.push_back(session);
+  }
+  return own;
+}
+
 }  // namespace
 
 HistoryFolds::HistoryFolds(const HistoryProblem& problem, const dataset::Protocols& protocols,
@@ -37,7 +47,7 @@ HistoryFolds::HistoryFolds(const HistoryProblem& problem, const dataset::Protoco
   std::vector<dataset::Sections> by_protocol = problem.sections;
   for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
     streams_.emplace_back(problem.recordings[r], problem.classes.class_of[r], problem.sections[r],
-                          protocols.of_scan[r], grid_);
+                          protocols.of_scan[r], grid_, sessionsOf(problem, r));
     for (std::size_t i = 0; i < problem.recordings[r].scans(); ++i) {
       std::uint32_t& section = by_protocol[r].section[i];
       if (section == dataset::kNoSection) continue;
@@ -45,7 +55,7 @@ HistoryFolds::HistoryFolds(const HistoryProblem& problem, const dataset::Protoco
       section = own == dataset::Protocols::kOther ? static_cast<std::uint32_t>(count()) : own;
     }
   }
-  scans_ = gatherScans(problem.recordings, problem.classes, by_protocol);
+  scans_ = gatherScans(problem.recordings, problem.classes, by_protocol, problem.zeros);
 }
 
 template <typename Work>

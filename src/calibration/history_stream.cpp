@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "compensation/history_state.h"
 
@@ -17,8 +18,11 @@ constexpr double kRow = 0.5;
 
 HistoryStream::HistoryStream(const dataset::Recording& recording, const std::vector<std::size_t>& classes,
                              const dataset::Sections& sections, const std::vector<std::uint32_t>& protocol,
-                             const compensation::HistoryGrid& grid)
-    : recording_(&recording), sections_(&sections), operators_(compensation::operatorsOf(grid)) {
+                             const compensation::HistoryGrid& grid, std::vector<Session> sessions)
+    : recording_(&recording),
+      sections_(&sections),
+      operators_(compensation::operatorsOf(grid)),
+      sessions_(std::move(sessions)) {
   std::uint32_t row = 0;
   double row_begins = 0, turned = 0, duration = 0;
   for (std::size_t i = 0; i < recording.scans(); ++i) {
@@ -49,6 +53,17 @@ HistoryStream::HistoryStream(const dataset::Recording& recording, const std::vec
     if (!scan.starts) operators_.stepsOver(duration, steps_.data() + steps_.size() - operators_.memories());
   }
   markSettled(compensation::settlingTime(grid.time_constants));
+}
+
+// [conditions]
+std::vector<double> HistoryStream::zerosOf(std::size_t taxel,
+                                           const std::vector<StaticAnswer>& answers) const {
+  std::vector<double> zeros(recording_->conditions.size(), 0.0);
+  for (const Session& session : sessions_) {
+    const std::vector<double>& table = answers[session.curvature_class].pressure;
+    zeros[session.condition] = zeroAtRest(*recording_, session.rest, taxel, table).value_or(0);
+  }
+  return zeros;
 }
 
 // The scans after the settling time of a stay on a surface count, but at least two thirds of the stay.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "calibration/session/session_rests.h"
 #include "compensation/history_fit.h"
 #include "dataset/protocols.h"
 #include "dataset/sections.h"
@@ -33,9 +34,10 @@ class HistoryStream {
   };
 
   /// The arguments but `grid` must outlive the object. `classes`: of the conditions of this recording.
+  /// `sessions`: where the operators meet the static answer after a tare, those of this recording.
   HistoryStream(const dataset::Recording& recording, const std::vector<std::size_t>& classes,
                 const dataset::Sections& sections, const std::vector<std::uint32_t>& protocol,
-                const compensation::HistoryGrid& grid);
+                const compensation::HistoryGrid& grid, std::vector<Session> sessions = {});
 
   const std::vector<Scan>& scans() const { return scans_; }
   const dataset::Recording& recording() const { return *recording_; }
@@ -47,6 +49,7 @@ class HistoryStream {
   template <typename Visit>
   void run(std::size_t taxel, const std::vector<StaticAnswer>& answers, Visit&& visit) const {
     std::vector<double> state(operators_.size());
+    const std::vector<double> zeros = zerosOf(taxel, answers);
     double last = 0;
     bool known = false;
     for (std::size_t k = 0; k < scans_.size(); ++k) {
@@ -55,7 +58,7 @@ class HistoryStream {
       const std::uint16_t code = recording_->scan(scan.number)[taxel];
       const StaticAnswer& answer = answers[scan.curvature_class];
       if (answer.pressure.empty() || code >= recording_->full_scale) continue;
-      const double x = answer.pressure[code];
+      const double x = answer.pressure[code] - zeros[recording_->condition[scan.number]];
       if (known) {
         operators_.advance(last, x, steps_.data() + k * operators_.memories(), state.data());
       } else {
@@ -70,10 +73,12 @@ class HistoryStream {
 
  private:
   void markSettled(double settling_time);
+  std::vector<double> zerosOf(std::size_t taxel, const std::vector<StaticAnswer>& answers) const;
 
   const dataset::Recording* recording_;
   const dataset::Sections* sections_;
   compensation::HistoryOperators operators_;
+  std::vector<Session> sessions_;
   std::vector<Scan> scans_;
   std::vector<rheology::ExponentialMemory::Step> steps_;  // [scans x memories]
 };

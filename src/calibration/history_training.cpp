@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/held_out_scoring.h"
 #include "calibration/history_errors.h"
 #include "calibration/history_folds.h"
 #include "dataset/protocols.h"
@@ -15,13 +16,6 @@ namespace {
 using compensation::HistoryFamily;
 
 constexpr HistoryFamily kFamilies[] = {HistoryFamily::kPlays, HistoryFamily::kMemories, HistoryFamily::kBoth};
-// A model may be worse than the static answer by this much on no protocol. On all together it must be better
-// by kWins in root mean square, both than the static answer and than the correction c without any memory:
-// what c alone mends is no memory. Both families are taken only if one of them is better by itself: plays
-// and memories that are of use only together, with opposite signs, are a filter of noise.
-constexpr double kWorse = 1.01;
-constexpr double kWins = 0.98;
-
 constexpr char kWhatToRecord[] =
     "record cycles with two paces, with short and long dwells and with partial cycles on each surface";
 
@@ -107,6 +101,9 @@ bool FamilyChoice::nowhereWorse(HistoryFamily family) const {
   });
 }
 
+// A model must be better by kWins both than the static answer and than the correction c without any memory:
+// what c alone mends is no memory. Both families are taken only if one of them is better by itself: plays
+// and memories that are of use only together, with opposite signs, are a filter of noise.
 HistoryFamily FamilyChoice::choose(const HistoryChoice& choice) {
   const double allowed = kWins * kWins * std::min(squareOf(HistoryFamily::kNone), correctedSquare());
   const auto better = [&](HistoryFamily family) {

@@ -3,6 +3,8 @@
 #include <vector>
 
 #include "calibration/history_stream.h"
+#include "calibration/session/session_rests.h"
+#include "calibration/training_scans.h"
 #include "compensation/fit_scheme.h"
 #include "dataset/sections.h"
 #include "fsr_pressure_map/calibration/calibration.h"
@@ -16,6 +18,10 @@ struct HistoryProblem {
   const std::vector<dataset::Sections>& sections;
   const compensation::SchemePlan& plan;
   const regression::RegressorOptions& regressor;
+  const SessionZeros& zeros;  ///< with which the tables were trained
+  /// With their rests if the calibration expects a tare at the start of a session: the model then corrects
+  /// the answer after the tare. Null = no tare.
+  const Sessions* sessions = nullptr;
 };
 
 /// Chooses and trains the model of the sheet's memory. Each protocol in turn is predicted by tables and

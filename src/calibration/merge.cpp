@@ -83,6 +83,11 @@ void requireMergeable(const MergePart& part) {
                                "change with them" +
                                kInstead + ", or merge calibrations of --history none");
   }
+  if (calibration.session_zero.expected()) {
+    throw settings::InputError(part.name +
+                               ": expects a tare at the start of a session, which its sums depend on" +
+                               kInstead + ", or merge calibrations of --zero none");
+  }
   if (regression::makeRegressor(calibration.regressor)->mergeable()) return;
   const bool grnn = calibration.regressor.name == "grnn";
   throw settings::InputError(part.name + ": the model " + calibration.regressor.name +

@@ -27,7 +27,7 @@ std::vector<compensation::TableEntry> entriesOf(const regression::CodeTable& tab
 
 RemountErrors::RemountErrors(const std::vector<dataset::Recording>& recordings,
                              const dataset::ConditionClasses& classes,
-                             const std::vector<dataset::Sections>& sections)
+                             const std::vector<dataset::Sections>& sections, const SessionZeros& zeros)
     : mounts_(classes.classes.size()) {
   // [classes], from mount number to 0, 1, ...
   std::vector<std::map<std::uint32_t, std::uint32_t>> number(classes.classes.size());
@@ -52,7 +52,7 @@ RemountErrors::RemountErrors(const std::vector<dataset::Recording>& recordings,
                                : static_cast<std::uint32_t>(most_mounts_);
     }
   }
-  scans_ = gatherScans(recordings, classes, by_mount);
+  scans_ = gatherScans(recordings, classes, by_mount, zeros);
   errors_.resize(recordings.front().layout.size.taxels());
 }
 

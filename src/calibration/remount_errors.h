@@ -15,9 +15,9 @@ namespace fsr::calibration {
 /// Recordings without a mount number (0) count as one mount, because nothing is known of them.
 class RemountErrors {
  public:
-  /// The recordings must outlive the object.
+  /// Recordings and zeros must outlive the object.
   RemountErrors(const std::vector<dataset::Recording>& recordings, const dataset::ConditionClasses& classes,
-                const std::vector<dataset::Sections>& sections);
+                const std::vector<dataset::Sections>& sections, const SessionZeros& zeros);
 
   /// Whether a surface was mounted more than once.
   bool assessable() const { return most_mounts_ > 1; }

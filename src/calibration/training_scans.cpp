@@ -8,7 +8,11 @@ namespace fsr::calibration {
 
 TrainingScans gatherScans(const std::vector<dataset::Recording>& recordings,
                           const dataset::ConditionClasses& classes,
-                          const std::vector<dataset::Sections>& sections) {
+                          const std::vector<dataset::Sections>& sections, const SessionZeros& zeros) {
+  const auto zeroOf = [&](std::size_t r, std::size_t condition) -> const regression::FixedPressure* {
+    const bool known = !zeros.empty() && !zeros[r].empty() && !zeros[r][condition].empty();
+    return known ? zeros[r][condition].data() : nullptr;
+  };
   TrainingScans scans(classes.classes.size());
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     const dataset::Recording& recording = recordings[r];
@@ -16,7 +20,7 @@ TrainingScans gatherScans(const std::vector<dataset::Recording>& recordings,
       if (sections[r].section[i] == dataset::kNoSection) continue;
       scans[classes.class_of[r][recording.condition[i]]].push_back(
           {recording.scan(i), regression::toFixed(recording.pressure[i]), sections[r].section[i],
-           sections[r].direction[i]});
+           sections[r].direction[i], zeroOf(r, recording.condition[i])});
     }
   }
   const auto by_section = [](const TrainingScan& a, const TrainingScan& b) { return a.section < b.section; };
@@ -32,7 +36,7 @@ std::vector<regression::CodeStatistics> statisticsOfTaxel(const TrainingScans& s
     auto scan = of_class.begin();
     for (std::size_t section = 0; section < sections; ++section) {
       for (; scan != of_class.end() && scan->section == section; ++scan) {
-        accumulator.add(scan->counts[taxel], scan->pressure);
+        accumulator.add(scan->counts[taxel], scan->target(taxel));
       }
       cells.push_back(accumulator.take());
     }
@@ -50,7 +54,7 @@ std::vector<std::vector<regression::CodeSamples>> samplesOfTaxel(const TrainingS
   for (const std::vector<TrainingScan>& of_class : scans) {
     readings.emplace_back(sections, none);
     for (const TrainingScan& scan : of_class) {
-      readings.back()[scan.section].add(scan.counts[taxel], scan.pressure);
+      readings.back()[scan.section].add(scan.counts[taxel], scan.target(taxel));
     }
   }
   return readings;

@@ -29,6 +29,13 @@ struct HistoryChoice {
   compensation::HistoryFamily family = compensation::HistoryFamily::kNone;
 };
 
+/// Whether the calibration expects a tare at the start of a session.
+enum class ZeroChoice {
+  kAuto,    ///< by leaving out whole sessions
+  kNone,    ///< no
+  kSession  ///< yes
+};
+
 struct CalibrationOptions {
   compensation::Scheme scheme =
       compensation::Scheme::kInterpolated;  ///< as kPerCurvature on trained surfaces, better between them
@@ -41,6 +48,7 @@ struct CalibrationOptions {
   unsigned threads = 0;    ///< 0 = one for each core; the results do not depend on it
   std::string date;        ///< ISO 8601, UTC; empty = now
   HistoryChoice history = {};
+  ZeroChoice zero = ZeroChoice::kAuto;
 };
 
 /// Input of calibrate().
@@ -127,12 +135,27 @@ struct HistoryScore {
   std::vector<Part> parts;  ///< whole, by direction, and by time since the last reversal; empty = no model
 };
 
+/// Errors on sessions that training left out, without and with a tare at their start. A session is one stay
+/// of the sheet: a recording, a surface and a mount.
+struct SessionScore {
+  struct Session {
+    std::string name;            ///< e.g. "a.bag, flat, mount 2"
+    std::uint64_t readings = 0;  ///< scans x taxels after the rest at the start
+    /// Of the static tables; of the same after a tare; of tables that were trained with the zero of each
+    /// session, after a tare [Pa].
+    std::array<double, 3> rmse = {};
+  };
+  std::string choice;             ///< a sentence: what was chosen and why; empty = not asked for
+  std::vector<Session> sessions;  ///< empty = no session could be left out
+};
+
 struct CalibrationScores {
   std::vector<ConditionScore> conditions;  ///< empty = not computed
   Score whole;                             ///< all conditions together
   UnseenScore unseen;
   RemountScore remount;
   HistoryScore history;
+  SessionScore session;
 };
 
 struct SourceBag {
@@ -149,6 +172,24 @@ struct Provenance {
   std::vector<SourceBag> bags;
 };
 
+/// What a calibration expects of a tare.
+enum class SessionTare {
+  kNone,         ///< nothing; a tare may be set all the same
+  kTablesAlone,  ///< one at the start of a session; the tables are those of kNone
+  kTrained       ///< likewise; the tables were trained with the zero of each session
+};
+
+/// A tare at rest at the start of a session as part of the model. The zero of a taxel is what its table
+/// answers at rest.
+struct SessionZero {
+  SessionTare tare = SessionTare::kNone;
+  /// On sessions that training left out, each with the same weight, without and with the tare [Pa].
+  double rmse_without = std::numeric_limits<double>::quiet_NaN();
+  double rmse = std::numeric_limits<double>::quiet_NaN();
+
+  bool expected() const { return tare != SessionTare::kNone; }
+};
+
 /// Everything that converts scans to pressure, with its accuracy.
 struct Calibration {
   std::string id;  ///< first hex digits of the hash of its file; empty until it is saved or loaded
@@ -163,6 +204,7 @@ struct Calibration {
   std::vector<std::uint8_t> masked;  ///< [taxels], 1 = masked in the bags
   compensation::CurvatureTables tables;
   compensation::HistoryModel history;  ///< of the sheet's memory; family kNone = the tables alone answer
+  SessionZero session_zero;
   TrainedRanges trained;
   dataset::Coverage coverage;
   CalibrationScores scores;

@@ -150,9 +150,11 @@ void writeCalibration(const Calibration& calibration, hdf5::Writer& writer) {
   writeTables(calibration.tables, writer);
   writeRule(calibration.tables, writer);
   writeHistory(calibration.history, writer);
+  writeSessionZero(calibration.session_zero, writer);
   writeCoverage(calibration.coverage, writer);
   if (!calibration.scores.conditions.empty()) writeScores(calibration.scores, writer);
   if (!calibration.scores.conditions.empty()) writeHistoryScores(calibration.scores.history, writer);
+  if (!calibration.scores.conditions.empty()) writeSessionScores(calibration.scores.session, writer);
   writeStatistics(calibration.statistics ? *calibration.statistics : compensation::TrainingStatistics{},
                   writer);
 }
@@ -182,9 +184,11 @@ Calibration readCalibration(const hdf5::Reader& reader, std::uint64_t schema, Ca
       readStatistics(reader, calibration.layout.size, parts == CalibrationParts::kAll);
   calibration.coverage = readCoverage(reader, statistics.classes);
   calibration.history = readHistory(reader);
+  calibration.session_zero = readSessionZero(reader);
   if (reader.integer("/", "scored") != 0) {
     calibration.scores = readScores(reader, statistics.classes);
     calibration.scores.history = readHistoryScores(reader);
+    calibration.scores.session = readSessionScores(reader);
   }
   statistics.full_scale = calibration.tables.full_scale;
   if (parts == CalibrationParts::kAll) {

@@ -25,6 +25,7 @@ namespace fsr::calibration {
 //     /history     attribute family; knot, correction, radius, play_weight, time_constant, memory_weight,
 //                  deviation_knot, loading_deviation, unloading_deviation (absent without a model of
 //                  the sheet's memory)
+//     /session     attributes tare, rmse_without, rmse (absent where no tare is expected)
 //     /coverage    scans, cycles [classes x bins x 2], totals, pressure, thin
 //     /scores      see scores_hdf5 (absent where not asked for)
 //     /statistics  surfaces, curvature of the classes; first [taxels x classes x sections + 1] and the rows
@@ -57,6 +58,10 @@ void writeHistory(const compensation::HistoryModel& model, hdf5::Writer& writer)
 compensation::HistoryModel readHistory(const hdf5::Reader& reader);
 void writeHistoryScores(const HistoryScore& score, hdf5::Writer& writer);
 HistoryScore readHistoryScores(const hdf5::Reader& reader);
+void writeSessionZero(const SessionZero& zero, hdf5::Writer& writer);
+SessionZero readSessionZero(const hdf5::Reader& reader);
+void writeSessionScores(const SessionScore& score, hdf5::Writer& writer);
+SessionScore readSessionScores(const hdf5::Reader& reader);
 void writeCoverage(const dataset::Coverage& coverage, hdf5::Writer& writer);
 dataset::Coverage readCoverage(const hdf5::Reader& reader,
                                const std::vector<dataset::CurvatureClass>& classes);

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "calibration/history_training.h"
+#include "calibration/session/session_rests.h"
+#include "calibration/training_scans.h"
+
+namespace fsr::calibration {
+
+/// How the readings of a session are predicted.
+enum class SessionAnswer {
+  kPlain,  ///< by the static tables
+  kTared,  ///< by the same tables after a tare at the start of the session
+  kZeroed  ///< by tables that were trained with the zero of each session, after a tare
+};
+constexpr std::size_t kSessionAnswers = 3;
+
+/// Errors of one session, by SessionAnswer.
+struct SessionErrors {
+  double readings = 0;
+  std::array<double, kSessionAnswers> squares = {};  // [Pa^2]
+};
+
+/// Tables of one taxel that are trained with the zeros of its sessions: a table is trained on the chamber
+/// pressure plus the zeros, and the zeros are what it answers too much at rest. The zeros of the sessions
+/// behind one table have the mean 0, so that the table stays where it was.
+class SessionTables {
+ public:
+  /// The arguments must outlive the object. `scans`: the section of a scan is the number of its session.
+  SessionTables(const HistoryProblem& problem, const Sessions& sessions, const TrainingScans& scans,
+                std::uint16_t full_scale, std::size_t taxel);
+
+  /// [sessions], each predicted without the session; those that are not assessable are empty.
+  std::vector<SessionErrors> leaveEachOut() const;
+  /// [sessions], from all sessions.
+  std::vector<regression::FixedPressure> zeros() const;
+
+ private:
+  using Zeros = std::vector<regression::FixedPressure>;  // [sessions]
+  using Tables = std::vector<std::vector<double>>;       // [classes][codes] [Pa]; empty = no answer
+
+  bool leftOut(const Session& session, std::optional<std::uint32_t> number) const;
+  Tables train(std::optional<std::uint32_t> left_out, const Zeros& zeros) const;
+  std::optional<double> zeroOf(const Session& session, const Tables& tables) const;
+  std::vector<std::vector<std::size_t>> trainedSessions(std::optional<std::uint32_t> left_out) const;
+  /// `tables`: with `zeros`.
+  void improve(std::optional<std::uint32_t> left_out, const Tables& tables, Zeros& zeros) const;
+  /// `tables`: first without zeros, then with the zeros returned.
+  Zeros solve(std::optional<std::uint32_t> left_out, Tables& tables) const;
+  void addErrors(const Session& session, const Tables& plain, const Tables& zeroed,
+                 SessionErrors& errors) const;
+  std::array<std::uint16_t, 2> codesWithout(const Session& session) const;
+
+  const HistoryProblem& problem_;
+  const Sessions& sessions_;
+  std::size_t taxel_;
+  compensation::SectionedReadings readings_;  // the sections are the sessions
+};
+
+}  // namespace fsr::calibration
