@@ -2,6 +2,7 @@
 #include "report/calibration_report.h"
 #include "report/history_report.h"
 #include "report/result_json.h"
+#include "report/session_report.h"
 
 namespace fsr::report {
 
@@ -118,7 +119,8 @@ std::string calibrationJson(const calibration::Calibration& calibration) {
                          {"warnings", calibration.warnings},
                          {"coverage", json(calibration.coverage)},
                          {"scores", json(calibration.scores)},
-                         {"history", historyJson(calibration)}};
+                         {"history", historyJson(calibration)},
+                         {"session", sessionJson(calibration)}};
   return dump(document);
 }
 

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <iterator>
 
 #include "calibration/calibration_check.h"
 #include "calibration/merge.h"
@@ -22,31 +21,13 @@ namespace {
 
 using test_support::MemoryRig;
 
-constexpr double kOffset = 10e3;  // root mean square of the offsets of taxels and sessions, about [Pa]
-// A session whose zero is beyond those of all others cannot be predicted well: a table is constant beyond its
-// training. So the largest offsets occur twice.
-constexpr double kOffsets[] = {1.2, -1.2, 0.4, 1.15, -0.3, -1.15, 0.9};
+using test_support::memorySession;
 
-// One stay of the sheet that starts with 4 s at rest. Each taxel reads the load plus an offset of its own.
-dataset::Recording session(std::size_t seed, double offset, MemoryRig rig = {}) {
-  rig.size = {2, 3};
-  rig.seed = static_cast<unsigned>(seed);
-  rig.program = {{1, 0, 20e3, 2, 2}, {2, 500e3, 30e3, 2, 2}, {1, 400e3, 60e3, 8, 3}};
-  dataset::Recording recording = test_support::memoryRecording(rig);
-  recording.name = "session_" + std::to_string(seed) + ".bag";
-  for (std::size_t taxel = 0; taxel < rig.size.taxels(); ++taxel) {
-    const double counts = offset * 5e-3 * kOffsets[(seed + 3 * taxel) % std::size(kOffsets)];
-    for (std::size_t i = 0; i < recording.scans(); ++i) {
-      std::uint16_t& count = recording.counts[i * rig.size.taxels() + taxel];
-      count = static_cast<std::uint16_t>(std::max(0.0, count + counts));
-    }
-  }
-  return recording;
-}
+constexpr double kOffset = 10e3;  // [Pa]
 
 std::vector<dataset::Recording> sessions(std::size_t number, double offset, const MemoryRig& rig = {}) {
   std::vector<dataset::Recording> all;
-  for (std::size_t s = 1; s <= number; ++s) all.push_back(session(s, offset, rig));
+  for (std::size_t s = 1; s <= number; ++s) all.push_back(memorySession(s, offset, rig));
   return all;
 }
 
@@ -151,7 +132,7 @@ TEST(SessionZero, NeedsARestAtTheStart) {
 }
 
 TEST(SessionZero, TakesTheWindowOfATare) {
-  const dataset::Recording recording = session(1, 0);
+  const dataset::Recording recording = memorySession(1, 0);
   const std::vector<std::size_t> rest = restAtStart(recording, 0);
   ASSERT_EQ(rest.size(), 21u);
   EXPECT_DOUBLE_EQ(recording.time[rest.back()], 2.0);
@@ -177,7 +158,7 @@ TEST(SessionZero, LeavesTheMemoryToTheHistory) {
   const Calibration zero = trained(sessions(5, kOffset, rig), ZeroChoice::kSession);
   ASSERT_TRUE(both.history.present()) << both.scores.history.choice;
   const auto error = [&](const Calibration& calibration) {
-    return checkCalibration(calibration, {session(6, kOffset, rig)}).whole.rmse;
+    return checkCalibration(calibration, {memorySession(6, kOffset, rig)}).whole.rmse;
   };
   EXPECT_LT(error(both), 0.85 * error(history));
   EXPECT_LT(error(both), 0.6 * error(zero));
@@ -185,17 +166,17 @@ TEST(SessionZero, LeavesTheMemoryToTheHistory) {
 
 TEST(SessionZeroCheck, TakesTheTareAtTheStart) {
   const Calibration calibration = trained(sessions(7, kOffset));
-  const CalibrationCheck check = checkCalibration(calibration, {session(8, kOffset)});
+  const CalibrationCheck check = checkCalibration(calibration, {memorySession(8, kOffset)});
   EXPECT_LT(check.whole.rmse, 0.3 * check.rmse_without_tare);
   ASSERT_FALSE(check.remarks.empty());
   EXPECT_EQ(check.remarks[0].find("each session is checked with a tare at its start, as the calibration "
                                   "expects; without it the RMSE is "),
             0u)
       << check.remarks[0];
-  const CalibrationCheck blind = checkCalibration(calibration, {withoutItsRest(session(8, kOffset))});
+  const CalibrationCheck blind = checkCalibration(calibration, {withoutItsRest(memorySession(8, kOffset))});
   EXPECT_DOUBLE_EQ(blind.whole.rmse, blind.rmse_without_tare);
   EXPECT_EQ(blind.remarks[1].find("session_8.bag, flat: does not start with 2 s at rest"), 0u);
-  const CalibrationCheck none = checkCalibration(trained(sessions(3, 0)), {session(8, 0)});
+  const CalibrationCheck none = checkCalibration(trained(sessions(3, 0)), {memorySession(8, 0)});
   EXPECT_TRUE(std::isnan(none.rmse_without_tare));
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <random>
+#include <string>
 
 namespace test_support {
 
@@ -78,6 +80,22 @@ fsr::dataset::Recording memoryRecording(const MemoryRig& rig) {
       const double counts = load * kCountsPerPascal * (0.9 + 0.05 * double(taxel)) + noise(random);
       recording.counts.push_back(std::uint16_t(std::clamp(counts, 0.0, 4095.0)));
     }
+  }
+  return recording;
+}
+
+fsr::dataset::Recording memorySession(std::size_t number, double offset, MemoryRig rig) {
+  constexpr double kOffsets[] = {1.2, -1.2, 0.4, 1.15, -0.3, -1.15, 0.9};  // times `offset`
+  rig.size = {2, 3};
+  rig.seed = static_cast<unsigned>(number);
+  rig.program = {{1, 0, 20e3, 2, 2}, {2, 500e3, 30e3, 2, 2}, {1, 400e3, 60e3, 8, 3}};
+  fsr::dataset::Recording recording = memoryRecording(rig);
+  recording.name = "session_" + std::to_string(number) + ".bag";
+  const std::size_t taxels = rig.size.taxels();
+  for (std::size_t i = 0; i < recording.counts.size(); ++i) {
+    const double share = kOffsets[(number + 3 * (i % taxels)) % std::size(kOffsets)];
+    const double counts = recording.counts[i] + share * offset * 5e-3;
+    recording.counts[i] = static_cast<std::uint16_t>(std::max(0.0, counts));
   }
   return recording;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "fsr_pressure_map/dataset/recording.h"
@@ -32,5 +33,11 @@ std::vector<MemoryCycles> variedProgram();
 
 /// The recording of the rig on a flat surface.
 fsr::dataset::Recording memoryRecording(const MemoryRig& rig);
+
+/// One stay of a sheet of 2 x 3 taxels that starts with 4 s at rest, followed by two protocols (`rig.program`
+/// is not used). Each taxel reads the load plus an offset of its own, by some 0.9 `offset` in root mean
+/// square [Pa]. Seven sessions repeat: the largest offsets occur twice, so that none of them is beyond all
+/// others, where a table is constant and a session cannot be predicted.
+fsr::dataset::Recording memorySession(std::size_t number, double offset, MemoryRig rig = {});
 
 }  // namespace test_support

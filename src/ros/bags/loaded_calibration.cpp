@@ -24,7 +24,7 @@ std::unique_ptr<LoadedCalibration> loadForUse(const std::string& path,
   try {
     fsr::calibration::Calibrator calibrator(calibration, options);
     return std::make_unique<LoadedCalibration>(
-        LoadedCalibration{toMessage(calibration, path), std::move(calibrator)});
+        LoadedCalibration{toMessage(calibration, path), std::move(calibrator), calibration.session_zero});
   } catch (const fsr::settings::InputError& error) {
     throw fsr::settings::InputError(path + ": " + error.what());
   }

@@ -15,6 +15,7 @@ namespace fsr_ros {
 struct LoadedCalibration {
   fsr_pressure_map::CalibrationInfo info;  ///< without header
   fsr::calibration::Calibrator calibrator;
+  fsr::calibration::SessionZero session_zero;  ///< whether a tare is expected, and what it is worth
 
   /// The temperature of the sheet [degree Celsius]; NaN = not known.
   void setTemperature(double temperature) {

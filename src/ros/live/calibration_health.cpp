@@ -96,11 +96,23 @@ std::string stateSentence(const CalibrationHealth& health) {
   return "";
 }
 
+std::string tareSentence(const CalibrationHealth& health) {
+  const fsr::calibration::SessionZero& zero = health.session_zero;
+  if (!zero.expected() || health.tare) return "";
+  const auto kilopascal = [](double pressure) { return fsr::settings::roundedText(pressure / 1000, 3); };
+  return "a tare at rest is due: the calibration expects one at the start of a session, which made the error "
+         "of sessions that training left out " +
+         kilopascal(zero.rmse) + " instead of " + kilopascal(zero.rmse_without) +
+         " kPa; unload the sheet and call ~tare";
+}
+
 void judgeCalibration(const CalibrationHealth& health, Status& status) {
   if (health.info.id.empty()) {
     status.summary(Level::ERROR, "waiting for a calibration: " + health.complaint);
   } else {
     status.summary(Level::OK, health.info.scheme + " from " + health.info.path);
+    const std::string due = tareSentence(health);
+    if (!due.empty()) status.summary(Level::WARN, due);
   }
   status.add("id", health.info.id);
   status.add("file", health.info.path);

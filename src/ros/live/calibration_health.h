@@ -20,4 +20,7 @@ void judgeMaps(const CalibrationHealth& before, const CalibrationHealth& now, do
 /// What a map's state means and what to do about it, or that the temperature is beyond training; else empty.
 std::string stateSentence(const CalibrationHealth& health);
 
+/// That a tare is due and what it is worth, if the calibration expects one and none is set; else empty.
+std::string tareSentence(const CalibrationHealth& health);
+
 }  // namespace fsr_ros

@@ -209,6 +209,7 @@ CalibrationHealth LiveCalibration::health() const {
   health.surface_complaint = surface_complaint_;
   if (loaded_) {
     health.info = loaded_->info;
+    health.session_zero = loaded_->session_zero;
     health.revivals = loaded_->calibrator.watch().revivals();
   }
   health.surface = surface_;

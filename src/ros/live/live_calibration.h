@@ -31,6 +31,7 @@ struct CalibrationHealth {
   std::string board;                                              ///< serial number; empty = unknown
   double temperature = std::numeric_limits<double>::quiet_NaN();  ///< [degree Celsius]; NaN = unknown
   std::optional<fsr::calibration::Tare> tare;
+  fsr::calibration::SessionZero session_zero;  ///< of the calibration in use
   std::uint64_t scans = 0;
   std::uint64_t revivals = 0;  ///< dead taxels that recovered
   fsr::map::PressureMap map;   ///< the last map

@@ -9,6 +9,7 @@
 #include "regression/option_names.h"
 #include "regression/regressors.h"
 #include "report/calibration_report.h"
+#include "report/session_report.h"
 #include "ros/bags/message_events.h"
 #include "ros/bags/resource_path.h"
 #include "ros/live/parameters.h"
@@ -179,6 +180,7 @@ std::string TrainingServer::trainNow() {
   ROS_INFO_STREAM('\n'
                   << fsr::report::warningsText(calibration)
                   << fsr::report::scoresText(calibration.scores, calibration.layout)
+                  << fsr::report::sessionText(calibration.scores.session)
                   << fsr::report::learnedText(calibration));
   calibration.id = fsr::calibration::saveCalibration(calibration, output_);
   if (!report_.empty()) fsr::settings::replaceFile(report_, fsr::report::calibrationJson(calibration));

@@ -54,6 +54,7 @@ std::string mapGain(const std::vector<fsr::dataset::Recording>& recordings,
   problem.options.scores = false;
   problem.options.threads = threads;
   problem.options.history = {true, proposed};
+  problem.options.zero = fsr::calibration::ZeroChoice::kNone;  // the gain is that of the history alone
   try {
     return gainOf(fsr::calibration::calibrate(problem), proposed);
   } catch (const fsr::settings::InputError& error) {

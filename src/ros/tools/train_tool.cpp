@@ -16,6 +16,7 @@
 #include "report/calibration_check_report.h"
 #include "report/calibration_report.h"
 #include "report/history_report.h"
+#include "report/session_report.h"
 #include "ros/tools/bag_options.h"
 #include "ros/tools/history_option.h"
 #include "settings/command_line.h"
@@ -48,6 +49,9 @@ fsr::settings::CommandLine options() {
               "model of the sheet's memory: auto (chosen on protocols that were left out), none, plays (a "
               "loop), memories (creep), both, or a verdict.yaml whose named effect is tried first; default "
               "auto")
+      .option("zero", "NAME",
+              "tare at rest at the start of a session: auto (expected if it wins on sessions that were left "
+              "out), none, session (expected in any case); default auto")
       .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
       .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
       .option(
@@ -105,6 +109,13 @@ fsr::regression::RegressorOptions regressorOptions(const fsr::settings::CommandL
   return options;
 }
 
+fsr::calibration::ZeroChoice zeroChoice(const std::string& text) {
+  if (text == "auto") return fsr::calibration::ZeroChoice::kAuto;
+  if (text == "none") return fsr::calibration::ZeroChoice::kNone;
+  if (text == "session") return fsr::calibration::ZeroChoice::kSession;
+  throw fsr::settings::InputError("--zero is \"" + text + "\", but must be auto, none or session");
+}
+
 unsigned threadsOf(const fsr::settings::CommandLine& line) {
   return static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
 }
@@ -122,6 +133,7 @@ fsr::calibration::CalibrationOptions calibrationOptions(const fsr::settings::Com
   options.seed = static_cast<std::uint64_t>(line.integer("seed", 1, {0, 1e15, ""}));
   options.threads = threadsOf(line);
   options.scores = !line.has("no-scores");
+  options.zero = zeroChoice(line.text("zero", "auto"));
   std::string remark;
   options.history = historyOption(line.text("history", "auto"), remark);
   if (!remark.empty()) out << remark << '\n';
@@ -157,7 +169,7 @@ int check(const fsr::settings::CommandLine& line, std::ostream& out) {
 // Throws if an option is given that merging takes from the files.
 void refuseOptionsOfTraining(const fsr::settings::CommandLine& line) {
   for (const char* const option :
-       {"scheme", "history", "model", "bandwidth", "spread", "distance", "equal-bins", "trees",
+       {"scheme", "history", "zero", "model", "bandwidth", "spread", "distance", "equal-bins", "trees",
         "minimum-leaf", "leaf-rule", "folds", "seed", "ambient", "namespace"}) {
     if (!line.has(option)) continue;
     throw fsr::settings::InputError("--" + std::string(option) +
@@ -191,7 +203,8 @@ fsr::calibration::Calibration train(const fsr::settings::CommandLine& line, std:
       fsr::calibration::calibrate(problem, terminal ? showProgress : fsr::calibration::CalibrationProgress{});
   out << fsr::report::warningsText(calibration)
       << fsr::report::scoresText(calibration.scores, calibration.layout)
-      << fsr::report::historyText(calibration) << fsr::report::learnedText(calibration);
+      << fsr::report::sessionText(calibration.scores.session) << fsr::report::historyText(calibration)
+      << fsr::report::learnedText(calibration);
   return calibration;
 }
 

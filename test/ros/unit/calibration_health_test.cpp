@@ -108,5 +108,21 @@ TEST(CalibrationHealth, SaysWhatItWaitsForWithoutACalibration) {
   EXPECT_EQ(status.message, "waiting for a calibration: " + health.complaint);
 }
 
+TEST(CalibrationHealth, SaysThatATareIsDueAndWhatItIsWorth) {
+  CalibrationHealth health = healthy();
+  health.session_zero = {fsr::calibration::SessionTare::kTrained, 9060, 1210};
+  Status status;
+  judgeCalibration(health, status);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_EQ(status.message,
+            "a tare at rest is due: the calibration expects one at the start of a session, which made the "
+            "error of sessions that training left out 1.21 instead of 9.06 kPa; unload the sheet and call "
+            "~tare");
+  health.tare.emplace();
+  judgeCalibration(health, status);
+  EXPECT_EQ(status.level, Level::OK);
+  EXPECT_EQ(tareSentence(healthy()), "") << "a calibration that expects none";
+}
+
 }  // namespace
 }  // namespace fsr_ros

@@ -165,6 +165,39 @@ TEST_F(TrainTool, TakesTheSheetsMemoryOut) {
       << proposed;
 }
 
+// Sheets with an offset of each taxel that changes from session to session.
+TEST_F(TrainTool, ExpectsATareAtTheStartOfASession) {
+  std::vector<std::string> words;
+  for (std::size_t number = 1; number <= 4; ++number) {
+    fsr::dataset::Recording recording = test_support::memorySession(number, 10e3);
+    recording.start_ns = 1500000000000000000;
+    words.push_back((folder_ / recording.name).string());
+    writeBag(words.back(), recording);
+  }
+  const std::string fresh = words.back(), output = (folder_ / "c.h5").string();
+  const std::string report = (folder_ / "report.json").string();
+  words.back() = "--history=none";
+  words.insert(words.end(), {"--output", output, "--report", report});
+  const std::string text = run(words);
+  EXPECT_NE(
+      text.find("Tare at the start of a session: expected, since it wins on sessions that were left out"),
+      std::string::npos)
+      << text;
+  EXPECT_NE(text.find("\nsession_3.bag, flat, mount 1 "), std::string::npos) << text;
+  std::ifstream file(report);
+  const std::string json{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(json.find("\"tare_expected\": true"), std::string::npos);
+  EXPECT_NE(run({"--check", output, fresh}).find("Note: each session is checked with a tare at its start"),
+            std::string::npos);
+  words.insert(words.end(), {"--zero", "none"});
+  EXPECT_EQ(run(words).find("Tare at the start"), std::string::npos);
+  EXPECT_FALSE(fsr::calibration::loadCalibration(output).session_zero.expected());
+  EXPECT_EQ(run({bend_, "--output", output, "--zero", "yes"}),
+            "--zero is \"yes\", but must be auto, none or session");
+  EXPECT_EQ(run({bend_, "--output", output, "--zero", "session"}).find("zero session: no surface has two"),
+            0u);
+}
+
 // What discrepancy says of its verdict, from the same training.
 TEST(MapGain, IsThatOfTrainingWithAndWithout) {
   test_support::MemoryRig rig;
