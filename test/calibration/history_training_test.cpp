@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <random>
 
 #include "calibration/calibration_check.h"
+#include "calibration/history_training.h"
 #include "calibration/merge.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
@@ -217,6 +219,44 @@ TEST_F(HistoryFile, IsRefusedWhereItsModelCannotBeUsed) {
 }
 
 // Of a live map: the flag, what starts the memory anew, and what does not.
+// The play and the memory of these samples follow the same slow course, each with noise of its own. The
+// target is `noise` times the difference of the two, and `loop` times the play's.
+LeftOutSums sumsOf(const compensation::HistoryGrid& grid, double noise, double loop) {
+  LeftOutSums sums{compensation::HistorySums(grid.features()), compensation::HistorySums(grid.features())};
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(0, 1e3);
+  std::vector<double> features(grid.features());
+  for (int i = 0; i < 20000; ++i) {
+    const double x = 600e3 * (i % 100) / 100, course = 20 * normal(random);
+    std::vector<double> state(grid.radii.size() + grid.time_constants.size(), x);
+    double& play = state[1];
+    double& memory = state[grid.radii.size()];
+    play += course + normal(random);
+    memory += course + normal(random);
+    compensation::historyFeatures(grid, x, state.data(), features.data());
+    const double target = noise * (play - memory) + loop * (play - x) + 0.5 * normal(random);
+    (i % 2 == 0 ? sums.trained : sums.left_out).add(features.data(), target);
+  }
+  sums.trained.finish();
+  sums.left_out.finish();
+  return sums;
+}
+
+TEST(HistoryChoiceRule, PlaysAndMemoriesOfUseOnlyTogetherAreNone) {
+  const compensation::HistoryGrid grid = compensation::historyGrid(600e3, 30);
+  const std::vector<std::string> names = {"one", "other"};
+  const auto chosen = [&](double noise, double loop) {
+    return chooseHistory({}, grid, names, {sumsOf(grid, noise, loop), sumsOf(grid, noise, loop)});
+  };
+  const HistoryVerdict filter = chosen(0.8, 0);
+  EXPECT_EQ(filter.family, compensation::HistoryFamily::kNone);
+  ASSERT_EQ(filter.score.protocols.size(), 2u);
+  const auto& rmse = filter.score.protocols[0].rmse;
+  EXPECT_LT(rmse[std::size_t(compensation::HistoryFamily::kBoth)], 0.8 * rmse[0]) << "it would have won";
+  EXPECT_EQ(chosen(0, 0.2).family, compensation::HistoryFamily::kPlays);
+  EXPECT_EQ(chosen(0.8, 0.2).family, compensation::HistoryFamily::kBoth);
+}
+
 class LiveHistory : public testing::Test {
  protected:
   static Calibration calibration() {
