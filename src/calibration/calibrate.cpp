@@ -11,6 +11,8 @@
 #include "calibration/session/session_zero.h"
 #include "calibration/sources.h"
 #include "calibration/taxel_training.h"
+#include "calibration/temperature/temperature_course.h"
+#include "calibration/temperature/temperature_training.h"
 #include "calibration/trained_ranges.h"
 #include "calibration/training_scans.h"
 #include "compensation/fit_scheme.h"
@@ -65,9 +67,15 @@ class Training {
       calibration.scores.unseen = unseen;
       calibration.scores.remount = remounted;
     }
-    trainHistory({problem_.recordings, classes_, sections_, plan_, regressors.whole, zeros_,
-                  calibration.session_zero.expected() ? &sessions_ : nullptr},
-                 problem_.options, calibration);
+    const HistoryProblem problem{problem_.recordings,
+                                 classes_,
+                                 sections_,
+                                 plan_,
+                                 regressors.whole,
+                                 zeros_,
+                                 calibration.session_zero.expected() ? &sessions_ : nullptr};
+    trainHistory(problem, problem_.options, calibration);
+    calibration.temperature = chooseTemperature(problem, problem_.options, calibration);
     return calibration;
   }
 
@@ -165,11 +173,24 @@ void Training::train(std::size_t taxel, const compensation::FoldRegressors& regr
   fillTables(plan_, taxel, models, calibration);
 }
 
+// Trains everything again for the temperature T_0 of the model that was chosen.
+Calibration trainAtReference(const CalibrationProblem& problem, const Calibration& chosen,
+                             const CalibrationProgress& progress) {
+  CalibrationProblem at_reference{atReference(problem.recordings, chosen.temperature), problem.options};
+  at_reference.options.temperature = false;
+  Calibration calibration = Training(at_reference).run(progress);
+  calibration.temperature = chosen.temperature;
+  calibration.scores.temperature = chosen.scores.temperature;
+  calibration.trained = chosen.trained;  // of the recorded pressures
+  return calibration;
+}
+
 }  // namespace
 
 Calibration calibrate(const CalibrationProblem& problem, const CalibrationProgress& progress) {
   validate(problem);
-  return Training(problem).run(progress);
+  Calibration calibration = Training(problem).run(progress);
+  return calibration.temperature.present() ? trainAtReference(problem, calibration, progress) : calibration;
 }
 
 }  // namespace fsr::calibration

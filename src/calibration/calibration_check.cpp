@@ -7,6 +7,7 @@
 
 #include "calibration/history_check.h"
 #include "calibration/session/session_check.h"
+#include "calibration/temperature/temperature_course.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
@@ -102,6 +103,7 @@ class Checker {
         calibrator.setSurface(recording.conditions[surface], recording.time[i]);
         if (tared_) tare(recording, surface, calibrator);
       }
+      setTemperatureOf(recording, i, calibration_, calibrator);
       calibrator.calibrate({recording.layout.size, recording.full_scale, recording.scan(i), taxels_.size()},
                            recording.time[i], map_);
       add(recording.scan(i), recording.pressure[i], sumsOf(recording.conditions[surface]));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <tuple>
 
@@ -14,6 +15,7 @@
 #include "calibration/class_switch.h"
 #include "calibration/packed_tables.h"
 #include "compensation/history_state.h"
+#include "compensation/temperature_state.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "map/fill.h"
 
@@ -87,7 +89,8 @@ void requireEach(const char* what, std::size_t values, matrix::MatrixSize size) 
 class Calibrator::Impl {
  public:
   Impl(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
-       const compensation::HistoryModel& history, const CalibratorOptions& options);
+       const compensation::HistoryModel& history, const compensation::TemperatureModel& temperature,
+       const CalibratorOptions& options);
   Impl(const Impl&) = delete;  // table_ points into the object's own tables
   Impl& operator=(const Impl&) = delete;
 
@@ -127,6 +130,7 @@ class Calibrator::Impl {
   void lookUp(map::PressureMap& out) const noexcept;
   void flagCodes(map::PressureMap& out) const noexcept;
   void correctHistory(double time, map::PressureMap& out) noexcept;
+  void correctTemperature(double time, map::PressureMap& out) noexcept;
   void removeBad(map::PressureMap& out) const noexcept;
   map::MapState state(double time) const noexcept;
 
@@ -169,11 +173,13 @@ class Calibrator::Impl {
   std::vector<std::size_t> failed_;            // dead or stuck taxels that are not masked
   std::vector<std::size_t> undetermined_;      // taxels whose deviation is unknown
 
-  std::unique_ptr<compensation::HistoryState> history_;  // null = the tables alone answer
+  std::unique_ptr<compensation::HistoryState> history_;        // null = the tables alone answer
+  std::optional<compensation::TemperatureState> temperature_;  // none = the pressure does not depend on it
 };
 
 Calibrator::Impl::Impl(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
-                       const compensation::HistoryModel& history, const CalibratorOptions& options)
+                       const compensation::HistoryModel& history,
+                       const compensation::TemperatureModel& temperature, const CalibratorOptions& options)
     : tables_(tables),
       layout_(layout),
       options_(options),
@@ -197,6 +203,7 @@ Calibrator::Impl::Impl(const compensation::CurvatureTables& tables, const matrix
   if (history.present()) {
     history_ = std::make_unique<compensation::HistoryState>(history, tables.size.taxels());
   }
+  if (temperature.present()) temperature_.emplace(temperature);
   selectTables({});
 }
 
@@ -231,6 +238,7 @@ void Calibrator::Impl::setTare(const std::vector<float>& offset) {
 
 void Calibrator::Impl::setTemperature(double temperature, double trained_low, double trained_high) {
   const double margin = options_.temperature_margin;
+  if (temperature_) temperature_->setTemperature(temperature, margin);
   const bool beyond = temperature < trained_low - margin || temperature > trained_high + margin;
   if (beyond == temperature_beyond_) return;
   temperature_beyond_ = beyond;
@@ -343,6 +351,7 @@ void Calibrator::Impl::calibrate(const matrix::ScanView& scan, double time, map:
   lookUp(out);
   flagCodes(out);
   if (history_ != nullptr) correctHistory(time, out);
+  if (temperature_) correctTemperature(time, out);
   removeBad(out);
   out.state = state(time);
 }
@@ -419,6 +428,12 @@ float Calibrator::Impl::beyondClass(std::size_t taxel, float deviation) const no
   return std::sqrt(std::max(deviation * deviation - own * own, 0.0F));
 }
 
+void Calibrator::Impl::correctTemperature(double time, map::PressureMap& out) noexcept {
+  temperature_->beginScan(time);
+  const std::size_t n = layout_.size.taxels();
+  for (std::size_t i = 0; i < n; ++i) temperature_->correct(out.pressure[i], out.deviation[i]);
+}
+
 void Calibrator::Impl::removeBad(map::PressureMap& out) const noexcept {
   for (const std::size_t taxel : undetermined_) out.deviation[taxel] = kNoReading;
   if (masked_.empty() && failed_.empty()) return;
@@ -441,10 +456,12 @@ map::MapState Calibrator::Impl::state(double time) const noexcept {
 
 Calibrator::Calibrator(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
                        const CalibratorOptions& options)
-    : impl_(std::make_unique<Impl>(tables, layout, compensation::HistoryModel{}, options)) {}
+    : impl_(std::make_unique<Impl>(tables, layout, compensation::HistoryModel{},
+                                   compensation::TemperatureModel{}, options)) {}
 
 Calibrator::Calibrator(const Calibration& calibration, const CalibratorOptions& options)
-    : impl_(std::make_unique<Impl>(calibration.tables, calibration.layout, calibration.history, options)) {}
+    : impl_(std::make_unique<Impl>(calibration.tables, calibration.layout, calibration.history,
+                                   calibration.temperature, options)) {}
 
 Calibrator::~Calibrator() = default;
 Calibrator::Calibrator(Calibrator&& other) noexcept = default;

@@ -5,6 +5,7 @@
 
 #include "calibration/history_parts.h"
 #include "calibration/session/session_check.h"
+#include "calibration/temperature/temperature_course.h"
 #include "dataset/protocols.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 
@@ -27,7 +28,9 @@ class HistoryChecker {
 
   void take(const dataset::Recording& recording, const dataset::Sections& sections,
             const std::vector<std::uint32_t>& protocol) {
-    Calibrator with(calibration_), without(calibration_.tables, calibration_.layout);
+    Calibration of_tables = calibration_;
+    of_tables.history = {};
+    Calibrator with(calibration_), without(of_tables);
     for (Calibrator* calibrator : {&with, &without}) calibrator->setMask(recording.mask);
     std::size_t surface = recording.conditions.size();
     double turned = 0;
@@ -46,6 +49,8 @@ class HistoryChecker {
           if (!tare.empty()) calibrator->markRest();
         }
       }
+      for (Calibrator* calibrator : {&with, &without})
+        setTemperatureOf(recording, i, calibration_, *calibrator);
       with.calibrate(scan, time, map_);
       without.calibrate(scan, time, static_map_);
       const auto parts = historyPartsOf(sections.direction[i], time - turned);

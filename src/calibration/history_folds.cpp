@@ -38,11 +38,13 @@ std::vector<Session> sessionsOf(const HistoryProblem& problem, std::size_t recor
 }  // namespace
 
 HistoryFolds::HistoryFolds(const HistoryProblem& problem, const dataset::Protocols& protocols,
-                           unsigned threads, const Calibration& calibration)
+                           unsigned threads, const Calibration& calibration,
+                           std::vector<std::vector<double>> judged)
     : problem_(problem),
       protocols_(protocols),
       threads_(threads),
       calibration_(calibration),
+      judged_(std::move(judged)),
       grid_(compensation::historyGrid(protocols.highest, protocols.longest_hold)) {
   std::vector<dataset::Sections> by_protocol = problem.sections;
   for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
@@ -93,7 +95,9 @@ HistoryFolds::Answers HistoryFolds::answersOfTables(std::size_t taxel) const {
 // A row is the mean of the scans within half a second.
 void HistoryFolds::addRows(std::size_t taxel, const Answers& answers, std::size_t left_out,
                            Sums& sums) const {
-  for (const HistoryStream& stream : streams_) addHistoryRows(stream, grid_, taxel, answers, left_out, sums);
+  for (std::size_t r = 0; r < streams_.size(); ++r)
+    addHistoryRows(streams_[r], grid_, taxel, answers, left_out, sums,
+                   judged_.empty() ? nullptr : &judged_[r]);
   sums.trained.finish();
   sums.left_out.finish();
 }

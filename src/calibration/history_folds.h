@@ -16,9 +16,11 @@ namespace fsr::calibration {
 /// without it. The results do not depend on the number of threads.
 class HistoryFolds {
  public:
-  /// All arguments must outlive the object. `calibration` must have its tables.
+  /// All arguments but `judged` must outlive the object. `calibration` must have its tables. `judged`: the
+  /// pressures that scans have where their protocol is left out [recordings][scans] [Pa]; empty = those of
+  /// the recordings.
   HistoryFolds(const HistoryProblem& problem, const dataset::Protocols& protocols, unsigned threads,
-               const Calibration& calibration);
+               const Calibration& calibration, std::vector<std::vector<double>> judged = {});
 
   const compensation::HistoryGrid& grid() const { return grid_; }
   const dataset::Protocols& protocols() const { return protocols_; }
@@ -51,6 +53,7 @@ class HistoryFolds {
   const dataset::Protocols& protocols_;
   unsigned threads_;
   const Calibration& calibration_;
+  std::vector<std::vector<double>> judged_;
   compensation::HistoryGrid grid_;
   std::vector<HistoryStream> streams_;
   TrainingScans scans_;  // the section of a scan is its protocol; the last one is of no protocol

@@ -81,7 +81,8 @@ void HistoryStream::markSettled(double settling_time) {
 }
 
 void addHistoryRows(const HistoryStream& stream, const compensation::HistoryGrid& grid, std::size_t taxel,
-                    const std::vector<StaticAnswer>& answers, std::size_t left_out, LeftOutSums& sums) {
+                    const std::vector<StaticAnswer>& answers, std::size_t left_out, LeftOutSums& sums,
+                    const std::vector<double>* judged) {
   const std::size_t n = grid.features();
   std::vector<double> features(n), mean(n);
   double target = 0, count = 0;
@@ -98,7 +99,8 @@ void addHistoryRows(const HistoryStream& stream, const compensation::HistoryGrid
     row = scan;
     compensation::historyFeatures(grid, x, state, features.data());
     for (std::size_t k = 0; k < n; ++k) mean[k] += features[k];
-    target += stream.recording().pressure[scan.number] - x;
+    const bool is_judged = judged != nullptr && scan.protocol == left_out;
+    target += (is_judged ? *judged : stream.recording().pressure)[scan.number] - x;
     count += 1;
   });
   close();

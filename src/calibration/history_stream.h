@@ -89,8 +89,10 @@ struct LeftOutSums {
 };
 
 /// Adds the readings of one taxel in one recording, in means over half a second. `answers` [classes] were
-/// trained without the protocol `left_out`. finish() must follow the last recording.
+/// trained without the protocol `left_out`. `judged` [scans]: the pressures of that protocol [Pa]; null =
+/// those of the recording. finish() must follow the last recording.
 void addHistoryRows(const HistoryStream& stream, const compensation::HistoryGrid& grid, std::size_t taxel,
-                    const std::vector<StaticAnswer>& answers, std::size_t left_out, LeftOutSums& sums);
+                    const std::vector<StaticAnswer>& answers, std::size_t left_out, LeftOutSums& sums,
+                    const std::vector<double>* judged = nullptr);
 
 }  // namespace fsr::calibration

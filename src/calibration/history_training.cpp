@@ -155,6 +155,10 @@ HistoryVerdict chooseHistory(const HistoryChoice& choice, const compensation::Hi
   return verdict;
 }
 
+std::vector<HistoryScore::Protocol> familyErrors(const HistoryFolds& folds) {
+  return FamilyChoice(folds.grid(), folds.protocols().names, folds.leaveOneOut()).score().protocols;
+}
+
 void trainHistory(const HistoryProblem& problem, const CalibrationOptions& options,
                   Calibration& calibration) {
   const HistoryChoice& choice = options.history;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 
+#include "calibration/temperature/temperature_course.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "health/recording_health.h"
@@ -174,6 +175,7 @@ class SocketChecker {
         surface = recording_.condition[i];
         calibrator.setSurface(recording_.conditions[surface], time);
       }
+      setTemperatureOf(recording_, i, *calibration_, calibrator);
       calibrator.calibrate({recording_.layout.size, recording_.full_scale, recording_.scan(i), taxels()},
                            time, map);
       for (const std::size_t t : used_) {

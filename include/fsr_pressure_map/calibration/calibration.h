@@ -11,6 +11,7 @@
 
 #include "fsr_pressure_map/compensation/curvature_tables.h"
 #include "fsr_pressure_map/compensation/history.h"
+#include "fsr_pressure_map/compensation/temperature.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
 #include "fsr_pressure_map/regression/regressor_options.h"
@@ -49,6 +50,8 @@ struct CalibrationOptions {
   std::string date;        ///< ISO 8601, UTC; empty = now
   HistoryChoice history = {};
   ZeroChoice zero = ZeroChoice::kAuto;
+  /// Whether a model of the temperature is tried where all recordings have temperatures.
+  bool temperature = true;
 };
 
 /// Input of calibrate().
@@ -149,6 +152,17 @@ struct SessionScore {
   std::vector<Session> sessions;  ///< empty = no session could be left out
 };
 
+/// Errors on protocols and recordings that training left out, without and with a model of the temperature.
+struct TemperatureScore {
+  struct Group {
+    std::string name;    ///< e.g. "ramps of 17 kPa/s", "recording 1_flat.bag"
+    double without = 0;  ///< RMSE of means over half a second [Pa]
+    double with = 0;
+  };
+  std::string choice;  ///< a sentence: what was chosen and why; empty = not asked for, or no thermometer
+  std::vector<Group> groups;  ///< empty = not assessed
+};
+
 struct CalibrationScores {
   std::vector<ConditionScore> conditions;  ///< empty = not computed
   Score whole;                             ///< all conditions together
@@ -156,6 +170,7 @@ struct CalibrationScores {
   RemountScore remount;
   HistoryScore history;
   SessionScore session;
+  TemperatureScore temperature;
 };
 
 struct SourceBag {
@@ -205,6 +220,7 @@ struct Calibration {
   compensation::CurvatureTables tables;
   compensation::HistoryModel history;  ///< of the sheet's memory; family kNone = the tables alone answer
   SessionZero session_zero;
+  compensation::TemperatureModel temperature;  ///< of the sheet; tables and history are those at T_0
   TrainedRanges trained;
   dataset::Coverage coverage;
   CalibrationScores scores;

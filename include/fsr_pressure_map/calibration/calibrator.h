@@ -94,8 +94,10 @@ class Calibrator {
   /// next scan.
   void markRest();
 
-  /// The temperature of the sheet and the range of training [degree Celsius]. NaN = not known, and then no
-  /// taxel is flagged.
+  /// The measured temperature and the range of training [degree Celsius]. NaN = not known: no taxel is
+  /// flagged, and a calibration with a model of the temperature does not correct for it; its deviations then
+  /// contain the effect of the temperatures of training. Outside the range, the correction is that of the
+  /// nearest temperature that is not flagged.
   void setTemperature(double temperature, double trained_low, double trained_high);
 
   /// Whether the board is known to be another than the calibration's.
