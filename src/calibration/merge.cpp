@@ -88,6 +88,11 @@ void requireMergeable(const MergePart& part) {
                                ": expects a tare at the start of a session, which its sums depend on" +
                                kInstead + ", or merge calibrations of --zero none");
   }
+  if (calibration.temperature.present()) {
+    throw settings::InputError(part.name +
+                               ": has a model of the temperature, and its sums are those of its T_0" +
+                               kInstead + ", or merge calibrations of --temperature none");
+  }
   if (regression::makeRegressor(calibration.regressor)->mergeable()) return;
   const bool grnn = calibration.regressor.name == "grnn";
   throw settings::InputError(part.name + ": the model " + calibration.regressor.name +

@@ -6,11 +6,16 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <functional>
+#include <tuple>
 
 #include "calibration/calibration_check.h"
+#include "calibration/merge.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
+#include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/simulate.h"
 #include "simulation/read_settings.h"
 #include "support/simulated_rig.h"
@@ -198,6 +203,66 @@ TEST(TemperatureTraining, NeedsSomethingThatCanBeLeftOut) {
   EXPECT_FALSE(calibration.temperature.present());
   EXPECT_NE(calibration.scores.temperature.choice.find("one protocol and one recording"), std::string::npos)
       << calibration.scores.temperature.choice;
+}
+
+class TemperatureFile : public testing::Test {
+ protected:
+  ~TemperatureFile() override { std::remove(path_.c_str()); }
+  const std::string path_ = testing::TempDir() + "temperature_" + std::to_string(::getpid()) + ".h5";
+};
+
+TEST_F(TemperatureFile, KeepsTheModelAndItsScores) {
+  const Calibration calibration = trained(recordingsOf(warmRig()));
+  saveCalibration(calibration, path_);
+  const Calibration loaded = loadCalibration(path_, CalibrationParts::kAll);
+  const compensation::TemperatureModel &own = calibration.temperature, &read = loaded.temperature;
+  EXPECT_EQ(std::tie(own.sensitivity, own.reference, own.lag, own.low, own.high, own.spread),
+            std::tie(read.sensitivity, read.reference, read.lag, read.low, read.high, read.spread));
+  EXPECT_EQ(loaded.scores.temperature.choice, calibration.scores.temperature.choice);
+  ASSERT_EQ(loaded.scores.temperature.groups.size(), calibration.scores.temperature.groups.size());
+  EXPECT_EQ(loaded.scores.temperature.groups.back().name, "recording 3_flat.bag");
+  EXPECT_EQ(loaded.scores.temperature.groups.back().with, calibration.scores.temperature.groups.back().with);
+  try {
+    mergeCalibrations({{"a.h5", loaded}, {"b.h5", loaded}}, {});
+    FAIL();
+  } catch (const settings::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("a.h5: has a model of the temperature"), std::string::npos);
+  }
+}
+
+// An older version would leave the model out in silence; without one it reads the file.
+TEST_F(TemperatureFile, HasASchemaOfItsOwn) {
+  const auto schema = [&](const Calibration& calibration) {
+    saveCalibration(calibration, path_);
+    std::string line;
+    std::ifstream file(path_, std::ios::binary);
+    std::getline(file, line);
+    return line.substr(line.find("schema="), 8);
+  };
+  Calibration calibration = trained(recordingsOf(warmRig()), {false, HistoryFamily::kNone});
+  EXPECT_EQ(schema(calibration), "schema=3");
+  calibration.temperature = {};
+  EXPECT_EQ(schema(calibration), "schema=2");
+}
+
+TEST_F(TemperatureFile, IsRefusedWhereItsModelCannotBeUsed) {
+  const Calibration whole = trained(recordingsOf(warmRig()));
+  const auto complaint = [&](const std::function<void(compensation::TemperatureModel&)>& spoil) {
+    Calibration spoiled = whole;
+    spoil(spoiled.temperature);
+    saveCalibration(spoiled, path_);
+    try {
+      loadCalibration(path_);
+    } catch (const settings::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(complaint([](auto&) {}), "accepted");
+  EXPECT_NE(complaint([](auto& model) { model.sensitivity = 7; }).find("/temperature has a sensitivity of 7"),
+            std::string::npos);
+  EXPECT_NE(complaint([](auto& model) { model.lag = NAN; }).find("a lag of nan"), std::string::npos);
+  EXPECT_NE(complaint([](auto& model) { model.high = -20; }).find("a high of -20"), std::string::npos);
 }
 
 // Of a live map.

@@ -45,6 +45,7 @@ std::string soundFile(fsr::compensation::Scheme scheme, const fsr::compensation:
   const std::string path = "/dev/shm/fsr_fuzz_" + std::to_string(getpid()) + ".h5";
   fsr::calibration::Calibration calibration = fsr::calibration::calibrate(problem);
   calibration.history = history;
+  if (history.present()) calibration.temperature = {-0.004, 25, 60, 20, 30, 3};
   fsr::calibration::saveCalibration(calibration, path);
   std::ifstream file(path, std::ios::binary);
   std::filesystem::remove(path);
@@ -79,6 +80,7 @@ void tryMaps(fsr::calibration::Calibrator& calibrator) {
   const fsr::matrix::MatrixSize size = calibrator.layout().size;
   for (unsigned code = 0; code <= kFullScale; ++code) {
     const std::vector<std::uint16_t> counts(size.taxels(), static_cast<std::uint16_t>(code));
+    if (code > 3) calibrator.setTemperature(10.0 * code, 20, 30);
     calibrator.calibrate({size, kFullScale, counts.data(), counts.size()}, 0.1 * code, map);
     if (map.state == fsr::map::MapState::kSizeMismatch) return;
     for (std::size_t i = 0; i < map.pressure.size(); ++i) {

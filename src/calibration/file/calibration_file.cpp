@@ -109,7 +109,8 @@ std::string saveCalibration(const Calibration& calibration, const std::string& p
     throw settings::cannotWrite(path, errno == 0 ? EIO : errno);
   }
   const std::string hash = settings::sha256OfFile(fresh.name(), hdf5::kUserBlock);
-  const std::uint64_t schema = calibration.history.present() ? kFirstSchemaWithHistory : kFirstSchemaWithRule;
+  const bool history = calibration.history.present() || calibration.temperature.present();
+  const std::uint64_t schema = history ? kFirstSchemaWithHistory : kFirstSchemaWithRule;
   const std::string first_line = userBlock(schema, hash);
   std::fstream file(fresh.name(), std::ios::in | std::ios::out | std::ios::binary);
   if (!file.write(first_line.data(), static_cast<std::streamsize>(first_line.size())).flush()) {

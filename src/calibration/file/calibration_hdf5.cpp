@@ -125,7 +125,7 @@ Provenance readProvenance(const hdf5::Reader& reader) {
 
 // The hash of the file does not cover the schema's number, so the content has to agree with it.
 void requireSchema(const hdf5::Reader& reader, std::uint64_t schema) {
-  const bool history = reader.has("/history");
+  const bool history = reader.has("/history") || reader.has("/temperature");
   if (reader.has("/rule") == (schema >= kFirstSchemaWithRule) &&
       history == (schema >= kFirstSchemaWithHistory))
     return;
@@ -151,10 +151,14 @@ void writeCalibration(const Calibration& calibration, hdf5::Writer& writer) {
   writeRule(calibration.tables, writer);
   writeHistory(calibration.history, writer);
   writeSessionZero(calibration.session_zero, writer);
+  writeTemperature(calibration.temperature, writer);
   writeCoverage(calibration.coverage, writer);
-  if (!calibration.scores.conditions.empty()) writeScores(calibration.scores, writer);
-  if (!calibration.scores.conditions.empty()) writeHistoryScores(calibration.scores.history, writer);
-  if (!calibration.scores.conditions.empty()) writeSessionScores(calibration.scores.session, writer);
+  if (!calibration.scores.conditions.empty()) {
+    writeScores(calibration.scores, writer);
+    writeHistoryScores(calibration.scores.history, writer);
+    writeSessionScores(calibration.scores.session, writer);
+    writeTemperatureScores(calibration.scores.temperature, writer);
+  }
   writeStatistics(calibration.statistics ? *calibration.statistics : compensation::TrainingStatistics{},
                   writer);
 }
@@ -185,10 +189,12 @@ Calibration readCalibration(const hdf5::Reader& reader, std::uint64_t schema, Ca
   calibration.coverage = readCoverage(reader, statistics.classes);
   calibration.history = readHistory(reader);
   calibration.session_zero = readSessionZero(reader);
+  calibration.temperature = readTemperature(reader);
   if (reader.integer("/", "scored") != 0) {
     calibration.scores = readScores(reader, statistics.classes);
     calibration.scores.history = readHistoryScores(reader);
     calibration.scores.session = readSessionScores(reader);
+    calibration.scores.temperature = readTemperatureScores(reader);
   }
   statistics.full_scale = calibration.tables.full_scale;
   if (parts == CalibrationParts::kAll) {

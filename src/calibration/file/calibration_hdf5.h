@@ -7,7 +7,7 @@
 
 namespace fsr::calibration {
 
-// The content of a calibration file, schema 3; without /history it is one of schema 2:
+// The content of a calibration file, schema 3; without /history and /temperature it is one of schema 2:
 //
 //     /            attributes scheme, model, bandwidth, folds, full_scale, curvature_rule, use
 //     /model       attributes bandwidth_chosen, spread, distance, weighting, trees, minimum_leaf, leaf_rule
@@ -26,6 +26,8 @@ namespace fsr::calibration {
 //                  deviation_knot, loading_deviation, unloading_deviation (absent without a model of
 //                  the sheet's memory)
 //     /session     attributes tare, rmse_without, rmse (absent where no tare is expected)
+//     /temperature attributes sensitivity, reference, lag, low, high, spread (absent without a model of the
+//                  temperature)
 //     /coverage    scans, cycles [classes x bins x 2], totals, pressure, thin
 //     /scores      see scores_hdf5 (absent where not asked for)
 //     /statistics  surfaces, curvature of the classes; first [taxels x classes x sections + 1] and the rows
@@ -37,7 +39,8 @@ namespace fsr::calibration {
 constexpr std::uint64_t kCalibrationSchema = 3;
 constexpr std::uint64_t kOldestSchema = 1;
 constexpr std::uint64_t kFirstSchemaWithRule = 2;
-/// An older version would leave the history out in silence, so a file with one has a schema of its own.
+/// An older version would leave history and temperature out in silence, so a file with one of them has a
+/// schema of its own.
 constexpr std::uint64_t kFirstSchemaWithHistory = 3;
 
 void writeCalibration(const Calibration& calibration, hdf5::Writer& writer);
@@ -62,6 +65,10 @@ void writeSessionZero(const SessionZero& zero, hdf5::Writer& writer);
 SessionZero readSessionZero(const hdf5::Reader& reader);
 void writeSessionScores(const SessionScore& score, hdf5::Writer& writer);
 SessionScore readSessionScores(const hdf5::Reader& reader);
+void writeTemperature(const compensation::TemperatureModel& model, hdf5::Writer& writer);
+compensation::TemperatureModel readTemperature(const hdf5::Reader& reader);
+void writeTemperatureScores(const TemperatureScore& score, hdf5::Writer& writer);
+TemperatureScore readTemperatureScores(const hdf5::Reader& reader);
 void writeCoverage(const dataset::Coverage& coverage, hdf5::Writer& writer);
 dataset::Coverage readCoverage(const hdf5::Reader& reader,
                                const std::vector<dataset::CurvatureClass>& classes);
