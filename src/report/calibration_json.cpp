@@ -120,7 +120,8 @@ std::string calibrationJson(const calibration::Calibration& calibration) {
                          {"coverage", json(calibration.coverage)},
                          {"scores", json(calibration.scores)},
                          {"history", historyJson(calibration)},
-                         {"session", sessionJson(calibration)}};
+                         {"session", sessionJson(calibration)},
+                         {"temperature", temperatureJson(calibration)}};
   return dump(document);
 }
 

@@ -67,6 +67,43 @@ std::string historyText(const calibration::Calibration& calibration) {
   return out.str();
 }
 
+std::string temperatureText(const calibration::Calibration& calibration) {
+  const calibration::TemperatureScore& score = calibration.scores.temperature;
+  if (score.choice.empty()) return "";
+  std::ostringstream out;
+  out << score.choice << '\n';
+  if (calibration.temperature.present()) {
+    out << "Tables, scores and history are those of "
+        << settings::roundedText(calibration.temperature.reference, 3) << " degrees Celsius.\n";
+  }
+  if (score.groups.empty()) return out.str();
+  out << "RMSE [kPa] of means over half a second; each protocol and recording was predicted without it\n";
+  head(out, "left out");
+  out << std::setw(20) << "without temperature" << std::setw(10) << "with" << '\n';
+  for (const auto& group : score.groups) {
+    head(out, group.name);
+    out << std::setw(20) << kilopascal(group.without) << std::setw(10) << kilopascal(group.with) << '\n';
+  }
+  return out.str();
+}
+
+Json temperatureJson(const calibration::Calibration& calibration) {
+  const calibration::TemperatureScore& score = calibration.scores.temperature;
+  if (score.choice.empty()) return nullptr;
+  Json groups = Json::array();
+  for (const auto& group : score.groups)
+    groups.push_back({{"left_out", group.name}, {"rmse_without", group.without}, {"rmse_with", group.with}});
+  const compensation::TemperatureModel& model = calibration.temperature;
+  return {{"choice", score.choice},
+          {"sensitivity", model.sensitivity},
+          {"reference", model.reference},
+          {"lag", model.lag},
+          {"low", model.low},
+          {"high", model.high},
+          {"spread", model.spread},
+          {"groups", groups}};
+}
+
 Json historyProtocolsJson(const calibration::HistoryScore& score) {
   Json protocols = Json::array();
   for (const auto& protocol : score.protocols) {

@@ -18,6 +18,13 @@ std::string historyChoiceText(const calibration::HistoryScore& score);
 /// A table of errors of the static answer and with a model of the sheet's memory; "" if there are none.
 std::string historyTable(const std::vector<calibration::HistoryScore::Part>& parts);
 
+/// Likewise what was chosen as the model of the temperature; "" without a thermometer or if none was asked
+/// for.
+std::string temperatureText(const calibration::Calibration& calibration);
+
+/// The model of the temperature and its scores; null where temperatureText() is "".
+Json temperatureJson(const calibration::Calibration& calibration);
+
 /// The errors of each family on each protocol that was left out [Pa].
 Json historyProtocolsJson(const calibration::HistoryScore& score);
 

@@ -24,7 +24,8 @@ std::unique_ptr<LoadedCalibration> loadForUse(const std::string& path,
   try {
     fsr::calibration::Calibrator calibrator(calibration, options);
     return std::make_unique<LoadedCalibration>(
-        LoadedCalibration{toMessage(calibration, path), std::move(calibrator), calibration.session_zero});
+        LoadedCalibration{toMessage(calibration, path), std::move(calibrator), calibration.session_zero,
+                          calibration.temperature.present()});
   } catch (const fsr::settings::InputError& error) {
     throw fsr::settings::InputError(path + ": " + error.what());
   }

@@ -16,6 +16,7 @@ struct LoadedCalibration {
   fsr_pressure_map::CalibrationInfo info;  ///< without header
   fsr::calibration::Calibrator calibrator;
   fsr::calibration::SessionZero session_zero;  ///< whether a tare is expected, and what it is worth
+  bool corrects_temperature;                   ///< it has a model of the temperature
 
   /// The temperature of the sheet [degree Celsius]; NaN = not known.
   void setTemperature(double temperature) {

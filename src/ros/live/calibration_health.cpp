@@ -1,6 +1,7 @@
 #include "ros/live/calibration_health.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "settings/number_text.h"
 
@@ -61,6 +62,11 @@ void addFlags(const fsr::map::PressureMap& map, Status& status) {
 }
 
 std::string temperatureSentence(const CalibrationHealth& health) {
+  if (health.corrects_temperature && std::isnan(health.temperature)) {
+    return "the temperature is unknown, so the maps are not corrected for it and their deviation is larger: "
+           "does "
+           "the board publish temperature?";
+  }
   if (flagged(health.map, flag::kTemperatureExtrapolated) == 0) return "";
   return "the temperature is beyond that of training, " +
          fsr::settings::roundedText(health.info.temperature_low, 3) + " to " +

@@ -17,7 +17,8 @@ void judgeMaps(const CalibrationHealth& before, const CalibrationHealth& now, do
                const std::string& scan_topic, double contact_threshold,
                diagnostic_updater::DiagnosticStatusWrapper& status);
 
-/// What a map's state means and what to do about it, or that the temperature is beyond training; else empty.
+/// What a map's state means and what to do about it, or that the temperature is beyond training, or unknown
+/// and needed; else empty.
 std::string stateSentence(const CalibrationHealth& health);
 
 /// That a tare is due and what it is worth, if the calibration expects one and none is set; else empty.

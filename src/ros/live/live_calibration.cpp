@@ -210,6 +210,7 @@ CalibrationHealth LiveCalibration::health() const {
   if (loaded_) {
     health.info = loaded_->info;
     health.session_zero = loaded_->session_zero;
+    health.corrects_temperature = loaded_->corrects_temperature;
     health.revivals = loaded_->calibrator.watch().revivals();
   }
   health.surface = surface_;

@@ -28,7 +28,8 @@ struct CalibrationHealth {
   std::string surface_complaint;           ///< what is wrong with the last curvature message; empty = nothing
   fsr_pressure_map::CalibrationInfo info;  ///< id empty = none loaded
   fsr::matrix::Surface surface;
-  std::string board;                                              ///< serial number; empty = unknown
+  std::string board;                  ///< serial number; empty = unknown
+  bool corrects_temperature = false;  ///< the calibration has a model of the temperature
   double temperature = std::numeric_limits<double>::quiet_NaN();  ///< [degree Celsius]; NaN = unknown
   std::optional<fsr::calibration::Tare> tare;
   fsr::calibration::SessionZero session_zero;  ///< of the calibration in use

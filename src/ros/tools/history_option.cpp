@@ -54,4 +54,10 @@ fsr::calibration::HistoryChoice historyOption(const std::string& text, std::stri
   return {true, family};
 }
 
+bool temperatureOption(const std::string& text, const fsr::calibration::HistoryChoice& history) {
+  if (text.empty()) return history.automatic || history.family != HistoryFamily::kNone;
+  if (text == "auto" || text == "none") return text == "auto";
+  throw fsr::settings::InputError("--temperature is \"" + text + "\", but must be auto or none");
+}
+
 }  // namespace fsr_ros

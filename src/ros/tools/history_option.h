@@ -17,4 +17,8 @@ fsr::calibration::HistoryChoice historyOption(const std::string& text, std::stri
 /// on the time since the last reversal fades. kNone if none of them does.
 fsr::compensation::HistoryFamily historyFamilyOf(const std::vector<std::string>& effects);
 
+/// Whether a model of the temperature is tried: "auto", "none", or "" = as the history, which is not static.
+/// Throws InputError for another text.
+bool temperatureOption(const std::string& text, const fsr::calibration::HistoryChoice& history);
+
 }  // namespace fsr_ros

@@ -52,6 +52,10 @@ fsr::settings::CommandLine options() {
       .option("zero", "NAME",
               "tare at rest at the start of a session: auto (expected if it wins on sessions that were left "
               "out), none, session (expected in any case); default auto")
+      .option(
+          "temperature", "NAME",
+          "factor for the temperature of the sheet, with a lag: auto (with a thermometer, where it wins on "
+          "protocols and bags that were left out) or none; default auto, and none with --history none")
       .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
       .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
       .option(
@@ -137,6 +141,7 @@ fsr::calibration::CalibrationOptions calibrationOptions(const fsr::settings::Com
   std::string remark;
   options.history = historyOption(line.text("history", "auto"), remark);
   if (!remark.empty()) out << remark << '\n';
+  options.temperature = temperatureOption(line.text("temperature", ""), options.history);
   return options;
 }
 
@@ -169,8 +174,8 @@ int check(const fsr::settings::CommandLine& line, std::ostream& out) {
 // Throws if an option is given that merging takes from the files.
 void refuseOptionsOfTraining(const fsr::settings::CommandLine& line) {
   for (const char* const option :
-       {"scheme", "history", "zero", "model", "bandwidth", "spread", "distance", "equal-bins", "trees",
-        "minimum-leaf", "leaf-rule", "folds", "seed", "ambient", "namespace"}) {
+       {"scheme", "history", "zero", "temperature", "model", "bandwidth", "spread", "distance", "equal-bins",
+        "trees", "minimum-leaf", "leaf-rule", "folds", "seed", "ambient", "namespace"}) {
     if (!line.has(option)) continue;
     throw fsr::settings::InputError("--" + std::string(option) +
                                     " cannot be used with --merge, because the files determine it");
@@ -203,8 +208,8 @@ fsr::calibration::Calibration train(const fsr::settings::CommandLine& line, std:
       fsr::calibration::calibrate(problem, terminal ? showProgress : fsr::calibration::CalibrationProgress{});
   out << fsr::report::warningsText(calibration)
       << fsr::report::scoresText(calibration.scores, calibration.layout)
-      << fsr::report::sessionText(calibration.scores.session) << fsr::report::historyText(calibration)
-      << fsr::report::learnedText(calibration);
+      << fsr::report::sessionText(calibration.scores.session) << fsr::report::temperatureText(calibration)
+      << fsr::report::historyText(calibration) << fsr::report::learnedText(calibration);
   return calibration;
 }
 

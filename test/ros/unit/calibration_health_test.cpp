@@ -57,6 +57,17 @@ TEST(CalibrationHealth, WarnsOfATemperatureBeyondTraining) {
   EXPECT_EQ(valueOf(status, "temperature [degree Celsius]"), "40");
 }
 
+TEST(CalibrationHealth, WarnsOfAnUnknownTemperatureWhereItIsNeeded) {
+  CalibrationHealth health = healthy();
+  EXPECT_EQ(maps(health).level, Level::OK);
+  health.corrects_temperature = true;
+  const Status status = maps(health);
+  EXPECT_EQ(status.level, Level::WARN);
+  EXPECT_EQ(status.message.find("the temperature is unknown, so the maps are not corrected for it"), 0u);
+  health.temperature = 23;
+  EXPECT_EQ(maps(health).level, Level::OK);
+}
+
 // After each start it is so: no warning.
 TEST(CalibrationHealth, SaysWhichShareIsNotSettled) {
   const char* const key = "share of taxels whose history is not settled [%]";

@@ -128,6 +128,40 @@ TEST_F(TrainTool, TrainsEachModelWithItsOptions) {
             fsr::regression::KernelDistance::kLiteral);
 }
 
+// A sheet that reads 0.4 % a kelvin more in a room that warms and cools.
+TEST_F(TrainTool, TakesTheTemperatureOut) {
+  test_support::MemoryRig rig;
+  rig.program = test_support::variedProgram();
+  fsr::dataset::Recording recording = test_support::memoryRecording(rig);
+  recording.start_ns = 1500000000000000000;
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    const double temperature = 25 + 4 * std::sin(recording.time[i] / 40);
+    recording.temperature.push_back(temperature);
+    for (std::size_t taxel = 0; taxel < 3; ++taxel) {
+      std::uint16_t& count = recording.counts[3 * i + taxel];
+      count = std::uint16_t(std::lround(count * (1 + 0.004 * (temperature - 25))));
+    }
+  }
+  const std::string bag = (folder_ / "warm.bag").string(), output = (folder_ / "c.h5").string();
+  writeBag(bag, recording);
+  const std::string text = run({bag, "--output", output});
+  EXPECT_NE(text.find("Temperature: -0.4 % a kelvin with a lag of 0 s"), std::string::npos) << text;
+  EXPECT_NE(text.find("without temperature"), std::string::npos) << text;
+  EXPECT_TRUE(fsr::calibration::loadCalibration(output).temperature.present());
+  const std::string checked = run({"--check", output, bag});
+  EXPECT_NE(checked.find("Still good."), std::string::npos) << checked;
+  for (const auto& words : {std::vector<std::string>{"--temperature", "none"}, {"--history", "none"}}) {
+    std::vector<std::string> all = {bag, "--output", output};
+    all.insert(all.end(), words.begin(), words.end());
+    EXPECT_EQ(run(all).find("Temperature"), std::string::npos);
+    EXPECT_FALSE(fsr::calibration::loadCalibration(output).temperature.present());
+  }
+  run({bag, "--output", output, "--history", "none", "--temperature", "auto"});
+  EXPECT_TRUE(fsr::calibration::loadCalibration(output).temperature.present());
+  EXPECT_NE(run({bag, "--output", output, "--temperature", "warm"}).find("must be auto or none"),
+            std::string::npos);
+}
+
 // A sheet with a loop, recorded with two paces, dwells and peaks.
 TEST_F(TrainTool, TakesTheSheetsMemoryOut) {
   test_support::MemoryRig rig;
