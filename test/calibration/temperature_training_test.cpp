@@ -38,12 +38,16 @@ struct Rig {
   unsigned seed = 1;
   int bags = 3;
   bool one_protocol = false;
+  bool bent = false;  // each bag on another surface
 };
 
 Recordings recordingsOf(const Rig& rig) {
   std::string session;
   for (int k = 0; k < rig.bags; ++k)
-    session += std::string(k == 0 ? "" : ", ") + "{surface: flat, flat: true}";
+    session += std::string(k == 0 ? "" : ", ") +
+               (rig.bent ? "{surface: c" + std::to_string(k) + ", cylinder: {radius: 0.0" +
+                               std::to_string(5 + 2 * k) + ", axis: y}}"
+                         : "{surface: flat, flat: true}");
   const std::string one =
       "  - cycles: {peak: 600000, rate: 30000, dwell_peak: 8, dwell_rest: 8, cycles: 9}\n";
   const std::string varied =
@@ -201,8 +205,18 @@ TEST(TemperatureTraining, NeedsSomethingThatCanBeLeftOut) {
   rig.bags = 1;
   const Calibration calibration = trained(recordingsOf(rig));
   EXPECT_FALSE(calibration.temperature.present());
-  EXPECT_NE(calibration.scores.temperature.choice.find("one protocol and one recording"), std::string::npos)
+  EXPECT_NE(calibration.scores.temperature.choice.find("no protocol and no recording can be left out"),
+            std::string::npos)
       << calibration.scores.temperature.choice;
+}
+
+// Each bag is another surface: protocols alone can be left out.
+TEST(TemperatureTraining, LeavesOutProtocolsWhereEachSurfaceHasOneBag) {
+  Rig rig = warmRig(0.0036, 30);
+  rig.bent = true;
+  const Calibration calibration = trained(recordingsOf(rig));
+  EXPECT_NEAR(calibration.temperature.sensitivity, -0.0035, 0.0004) << calibration.scores.temperature.choice;
+  EXPECT_EQ(calibration.scores.temperature.groups.size(), 4u);
 }
 
 class TemperatureFile : public testing::Test {

@@ -71,6 +71,8 @@ class TemperatureTraining {
 void TemperatureTraining::addTrial(dataset::Protocols groups) {
   if (groups.names.size() < 2) return;
   auto estimates = fitTemperature(problem_, grid_, groups, calibration_.no_model, options_.threads);
+  // Where each surface has one group only, nothing can be predicted without it.
+  if (!(estimates.front().square_without_temperature > 0)) return;
   trials_.push_back({std::move(groups), std::move(estimates)});
 }
 
@@ -79,7 +81,9 @@ bool TemperatureTraining::findLag() {
   addTrial(protocols);
   addTrial(eachRecording(problem_.recordings, protocols));
   if (trials_.empty())
-    return told("the bags have one protocol and one recording, so that none can be left out");
+    return told(
+        "no protocol and no recording can be left out; record each surface with two paces and dwells, or in "
+        "two bags");
   double least = 0;
   bool found = false;
   for (std::size_t l = 0; l < grid_.lags.size(); ++l) {
@@ -152,7 +156,7 @@ bool TemperatureTraining::winsOn(const Trial& trial, const TemperatureModel& mod
 bool TemperatureTraining::wins(const TemperatureModel& model) {
   bool wins = true;
   for (const Trial& trial : trials_) wins = winsOn(trial, model) && wins;
-  return wins && (!score().groups.empty() || told("no protocol and no recording can be left out"));
+  return wins;
 }
 
 TemperatureModel TemperatureTraining::choose() {
