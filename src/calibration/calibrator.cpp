@@ -130,7 +130,6 @@ class Calibrator::Impl {
   void lookUp(map::PressureMap& out) const noexcept;
   void flagCodes(map::PressureMap& out) const noexcept;
   void correctHistory(double time, map::PressureMap& out) noexcept;
-  void correctTemperature(double time, map::PressureMap& out) noexcept;
   void removeBad(map::PressureMap& out) const noexcept;
   map::MapState state(double time) const noexcept;
 
@@ -351,7 +350,10 @@ void Calibrator::Impl::calibrate(const matrix::ScanView& scan, double time, map:
   lookUp(out);
   flagCodes(out);
   if (history_ != nullptr) correctHistory(time, out);
-  if (temperature_) correctTemperature(time, out);
+  if (temperature_) {
+    temperature_->beginScan(time);
+    temperature_->correct(taxels, out.pressure.data(), out.deviation.data());
+  }
   removeBad(out);
   out.state = state(time);
 }
@@ -426,12 +428,6 @@ float Calibrator::Impl::beyondClass(std::size_t taxel, float deviation) const no
   const std::size_t chosen = switch_.choices()[taxel].curvature_class;
   const float own = tables_.table(taxel, chosen)[codes_[taxel] >> tables_.shift()].deviation;
   return std::sqrt(std::max(deviation * deviation - own * own, 0.0F));
-}
-
-void Calibrator::Impl::correctTemperature(double time, map::PressureMap& out) noexcept {
-  temperature_->beginScan(time);
-  const std::size_t n = layout_.size.taxels();
-  for (std::size_t i = 0; i < n; ++i) temperature_->correct(out.pressure[i], out.deviation[i]);
 }
 
 void Calibrator::Impl::removeBad(map::PressureMap& out) const noexcept {

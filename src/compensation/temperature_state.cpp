@@ -2,8 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fsr::compensation {
+
+namespace {
+
+constexpr float kLargestPressure =
+    std::numeric_limits<float>::max();  // a map holds no infinite pressure [Pa]
+
+}  // namespace
 
 double temperatureFactor(const TemperatureModel& model, double sheet_temperature) {
   constexpr double kLargest = 2;
@@ -33,14 +41,16 @@ void TemperatureState::beginScan(double time) noexcept {
   unknown_ = known ? 0 : std::abs(model_.sensitivity) * model_.spread;
 }
 
-void TemperatureState::correct(float& pressure, float& deviation) const noexcept {
-  if (unknown_ > 0) {
-    deviation = static_cast<float>(std::hypot(static_cast<double>(deviation), unknown_ * pressure));
+void TemperatureState::correct(std::size_t taxels, float* pressure, float* deviation) const noexcept {
+  const auto factor = static_cast<float>(factor_), unknown = static_cast<float>(unknown_);
+  if (unknown > 0) {
+    for (std::size_t i = 0; i < taxels; ++i) deviation[i] = std::hypot(deviation[i], unknown * pressure[i]);
     return;
   }
-  const auto factor = static_cast<float>(factor_);
-  pressure *= factor;
-  deviation *= factor;
+  for (std::size_t i = 0; i < taxels; ++i) {
+    pressure[i] = std::min(std::max(pressure[i] * factor, -kLargestPressure), kLargestPressure);  // keeps NaN
+    deviation[i] *= factor;
+  }
 }
 
 }  // namespace fsr::compensation

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <optional>
 
@@ -24,9 +25,9 @@ class TemperatureState {
   /// Begins the scan of `time` [s]. Only time that runs back starts the low-pass anew.
   void beginScan(double time) noexcept;
 
-  /// Corrects the answer of one taxel in the scan that was begun. While the temperature is not known the
+  /// Corrects the answers of the taxels in the scan that was begun. While the temperature is not known the
   /// pressure stays, and the deviation contains the effect of the temperatures of training.
-  void correct(float& pressure, float& deviation) const noexcept;
+  void correct(std::size_t taxels, float* pressure, float* deviation) const noexcept;
 
   double factor() const { return factor_; }
 

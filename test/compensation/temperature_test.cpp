@@ -40,7 +40,6 @@ TEST(TemperatureState, StartsAtTheFirstTemperatureAndFollows) {
   EXPECT_NEAR(state.factor(), 1 - 0.004 * (5 - 10 * std::exp(-1)), 1e-9);
 }
 
-
 TEST(TemperatureState, KeepsTheAnswerOfAnUnknownTemperature) {
   TemperatureState state(model());
   float pressure = 100e3, deviation = 500;
@@ -48,7 +47,7 @@ TEST(TemperatureState, KeepsTheAnswerOfAnUnknownTemperature) {
     state.setTemperature(temperature, 5);
     state.beginScan(1);
     pressure = 100e3, deviation = 500;
-    state.correct(pressure, deviation);
+    state.correct(1, &pressure, &deviation);
     if (std::isnan(temperature)) {
       EXPECT_EQ(pressure, 100e3f);
       EXPECT_NEAR(deviation, std::hypot(500, 0.004 * 3 * 100e3), 0.1);
@@ -72,11 +71,22 @@ TEST(TemperatureState, IsBoundedForAnyInput) {
       state.setTemperature(any[random() % 10], 5);
       state.beginScan(random() % 4 == 0 ? any[random() % 10] : 0.01 * i);
       float pressure = 100e3, deviation = 500;
-      state.correct(pressure, deviation);
+      state.correct(1, &pressure, &deviation);
       ASSERT_TRUE(pressure >= 50e3f && pressure <= 200e3f) << i;
       ASSERT_TRUE(deviation > 0 && std::isfinite(deviation)) << i;
     }
   }
+}
+
+TEST(TemperatureState, MakesNoInfinitePressureAndKeepsNoReading) {
+  TemperatureModel own = model();
+  own.sensitivity = 1;
+  TemperatureState state(own);
+  state.setTemperature(30, 0);
+  state.beginScan(0);
+  float pressure[] = {3e38f, -3e38f, std::numeric_limits<float>::quiet_NaN()}, deviation[] = {1, 1, 1};
+  state.correct(3, pressure, deviation);
+  EXPECT_TRUE(std::isfinite(pressure[0]) && std::isfinite(pressure[1]) && std::isnan(pressure[2]));
 }
 
 TEST(TemperatureState, AllocatesNothing) {
@@ -86,7 +96,7 @@ TEST(TemperatureState, AllocatesNothing) {
     float pressure = 100e3, deviation = 500;
     state.setTemperature(20 + 0.1 * i, 5);
     state.beginScan(i);
-    state.correct(pressure, deviation);
+    state.correct(1, &pressure, &deviation);
   }
   EXPECT_EQ(guard.allocations(), 0u);
 }
