@@ -65,6 +65,7 @@ Calibration train(const std::vector<dataset::Recording>& recordings, const Setti
   problem.options.choose_bandwidth = set.choose_bandwidth;
   problem.options.scores = false;
   problem.options.date = "2024-05-06T07:08:09Z";
+  problem.options.temperature = false;  // a model of the temperature does not merge
   return calibrate(problem);
 }
 
