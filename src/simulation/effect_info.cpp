@@ -53,6 +53,13 @@ EffectParameter EffectParameter::fromTaxelDeviation() const {
   return changed;
 }
 
+EffectParameter EffectParameter::walking(Walk what, std::string shape) const {
+  EffectParameter changed = *this;
+  changed.walk = what;
+  changed.fades_over = std::move(shape);
+  return changed;
+}
+
 EffectParameter strength(std::string name, std::string meaning, const settings::Range& permitted,
                          double usual) {
   return make(std::move(name), std::move(meaning), ParameterRole::kStrength, permitted, usual);
@@ -80,6 +87,23 @@ std::vector<EffectParameter> strengths(const EffectInfo& info) {
     if (candidate.role == ParameterRole::kStrength) result.push_back(candidate);
   }
   return result;
+}
+
+std::vector<EffectParameter> walks(const EffectInfo& info) {
+  std::vector<EffectParameter> result;
+  for (const EffectParameter& candidate : info.parameters) {
+    if (candidate.walk != Walk::kNone) result.push_back(candidate);
+  }
+  return result;
+}
+
+bool isByChance(const EffectInfo& info, const EffectValues& values) {
+  if (info.by_chance) return true;
+  const std::vector<EffectParameter> steps = walks(info);
+  return std::any_of(steps.begin(), steps.end(), [&](const EffectParameter& step) {
+    const auto value = values.find(step.name);
+    return value != values.end() && value->second != step.neutral;
+  });
 }
 
 bool dependsOn(const EffectInfo& info, Covariate covariate) {

@@ -491,4 +491,23 @@ TEST(Drift, MovesByItsShareAnHourAndEndsWhereItIsTold) {
   EXPECT_EQ(readingAt(zero, 3600).counts, 600);
 }
 
+// The steps of a walk over 10 s, and of one that is pulled back within 60 s.
+TEST(Drift, WalksByItsStepAndIsPulledBackWithinItsTimeConstant) {
+  constexpr double kStep = 6000, kPeriod = 10, kFades = 60;  // [counts/sqrt(h)], [s], [s]
+  const auto course = profile({{0, 310e3}, {20000, 310e3}});
+  const auto stepsOf = [&](const std::string& more) {
+    const auto readings =
+        along("  drift: {rate_per_hour: 0, zero_walk: 6000" + more + "}\n", course, kPeriod);
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < readings.size(); ++i)
+      steps.push_back(double(readings[i].counts) - double(readings[i - 1].counts));
+    return steps;
+  };
+  const double endless = kStep * std::sqrt(kPeriod / 3600);
+  EXPECT_NEAR(test_support::deviation(stepsOf("")), endless, 0.06 * endless);
+  const double fading = kStep * std::sqrt(kFades / 3600 * (1 - std::exp(-kPeriod / kFades)));
+  EXPECT_NEAR(test_support::deviation(stepsOf(", time_constant: 60")), fading, 0.06 * fading);
+  EXPECT_EQ(test_support::deviation(stepsOf(", only_surfaces: [elsewhere]")), 0);
+}
+
 }  // namespace

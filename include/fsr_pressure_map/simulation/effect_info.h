@@ -120,6 +120,9 @@ enum class ParameterRole {
   kScatter,   ///< standard deviation between taxels or mounts, drawn by the seed; off at `neutral`
 };
 
+/// What a random walk over clock time moves.
+enum class Walk { kNone, kZero, kGain };
+
 /// One parameter of an effect.
 struct EffectParameter {
   std::string name;
@@ -139,12 +142,17 @@ struct EffectParameter {
   int place_in_base_fit = 0;
   /// This scatter is set to the relative deviation of the taxels' readings that was measured.
   bool from_taxel_deviation = false;
+  /// This scatter is the standard deviation of the step that a random walk takes in an hour: of the zero
+  /// [counts], or of the reading as a share of itself. No simulation repeats the walk of a recording.
+  Walk walk = Walk::kNone;
+  std::string fades_over = {};  ///< of a walk: the shape that is its time constant [s]; .inf = it never fades
 
-  EffectParameter within(double low, double high) const;     ///< sets `plausible`
-  EffectParameter offAt(double value) const;                 ///< sets `neutral`
-  EffectParameter trying(std::vector<double> values) const;  ///< sets `tried` and, by it, `plausible`
-  EffectParameter inBaseFit(int place) const;                ///< sets `place_in_base_fit`
-  EffectParameter fromTaxelDeviation() const;                ///< sets `from_taxel_deviation`
+  EffectParameter within(double low, double high) const;             ///< sets `plausible`
+  EffectParameter offAt(double value) const;                         ///< sets `neutral`
+  EffectParameter trying(std::vector<double> values) const;          ///< sets `tried` and, by it, `plausible`
+  EffectParameter inBaseFit(int place) const;                        ///< sets `place_in_base_fit`
+  EffectParameter fromTaxelDeviation() const;                        ///< sets `from_taxel_deviation`
+  EffectParameter walking(Walk what, std::string fades_over) const;  ///< sets `walk` and `fades_over`
 };
 
 /// Make a parameter. Strengths and scatters are off at 0. `plausible` is the permitted range until within()
@@ -194,6 +202,10 @@ struct EffectInfo {
 /// The parameter of that name; throws std::out_of_range.
 const EffectParameter& parameter(const EffectInfo& info, const std::string& name);
 std::vector<EffectParameter> strengths(const EffectInfo& info);
+/// The parameters that are the steps of a random walk.
+std::vector<EffectParameter> walks(const EffectInfo& info);
+/// Whether the course of the effect is random with these values: always, or because it walks.
+bool isByChance(const EffectInfo& info, const EffectValues& values);
 bool dependsOn(const EffectInfo& info, Covariate covariate);
 
 /// Names as files and reports spell them, e.g. "time_since_reversal".

@@ -33,8 +33,13 @@ SimulationSettings withoutNoise(SimulationSettings settings) {
 }
 
 SimulationSettings withoutChance(SimulationSettings settings) {
-  return without(std::move(settings),
-                 [](const EffectInfo& info) { return info.stochastic || info.by_chance; });
+  settings =
+      without(std::move(settings), [](const EffectInfo& info) { return info.stochastic || info.by_chance; });
+  for (EnabledEffect& effect : settings.effects) {
+    for (const EffectParameter& step : walks(libraryOf(settings).info(effect.id)))
+      effect.values[step.name] = step.neutral;
+  }
+  return settings;
 }
 
 }  // namespace fsr::simulation
