@@ -13,6 +13,7 @@
 #include "discrepancy/prove/costs_in_use.h"
 #include "discrepancy/prove/driven_gap.h"
 #include "discrepancy/prove/freeze.h"
+#include "discrepancy/prove/gap.h"
 #include "discrepancy/prove/next_experiment.h"
 #include "discrepancy/prove/report_gap.h"
 #include "discrepancy/prove/tell_of_others.h"
@@ -67,6 +68,8 @@ class Investigation {
   simulation::SimulationSettings withFaults(simulation::SimulationSettings settings) const;
   void prove();
   void listDependences();
+  void takeInCourse();
+  void addPartners();
   void listDetections();
   void plan();
   double squareOfReadings() const {
@@ -243,6 +246,20 @@ void Investigation::lookAtStaticCurves() {
   }
 }
 
+// A random course stands beside what the detectors found. It is common to all surfaces, because it is one of
+// the clock.
+void Investigation::takeInCourse() {
+  if (!decision_.course) return;
+  const RandomFinding& course = *decision_.course;
+  const Trace left = fit_->residual(course.filtered);
+  const Spread spread = spreadOf(measured_, *taxels_, left);
+  WhereItShows where = placeOf(measured_, left, spread);
+  where.conditions.clear();
+  const double amplitude = where.taxels.empty() ? 1 : maskOf(measured_, where, spread).maxCoeff();
+  detections_.push_back(detectionOf(course, measured_.info(course.effect.id), where, amplitude));
+  decision_.limitations.push_back(courseText(course.effect.id, course.a_cycle, course.alone));
+}
+
 // Looks for effects on single taxels or lines where neither the common trace nor a detector shows an effect.
 void Investigation::lookAtTaxels() {
   const bool else_found = unknown_statics_ || !detections_.empty() || decision_.verdict != Verdict::kNone;
@@ -261,6 +278,7 @@ void Investigation::abstainWithoutProof() {
     }
   }
   detections_.clear();
+  decision_.course.reset();
   decision_.verdict = Verdict::kUnknown;
   decision_.credible.clear();
   decision_.rivals.clear();
@@ -354,6 +372,19 @@ void Investigation::putDetections() {
       if (!std::count(told.begin(), told.end(), covariate)) told.push_back(covariate);
     }
   }
+  addPartners();
+}
+
+// The lack of evidence does not exclude that a random course is that of another effect.
+void Investigation::addPartners() {
+  if (!decision_.course || decision_.course->partners.empty()) return;
+  report_.verdict = Verdict::kAmbiguous;
+  const Ids with = report_.credible_set.front();
+  for (const std::string& partner : decision_.course->partners) {
+    report_.credible_set.push_back(with);
+    std::replace(report_.credible_set.back().begin(), report_.credible_set.back().end(),
+                 decision_.course->effect.id, partner);
+  }
 }
 
 void Investigation::show() {
@@ -393,9 +424,12 @@ void Investigation::prove() {
   } else {
     report_.added = withTaxelCurves(fit, report_.added, "simulation_curves.csv");
   }
-  const bool by_chance =
-      std::any_of(report_.effects.begin(), report_.effects.end(),
-                  [&](const FoundEffect& effect) { return measured_.info(effect.id).by_chance; });
+  const auto& found = report_.effects;
+  const bool by_chance = std::any_of(found.begin(), found.end(), [&](const FoundEffect& effect) {
+    const simulation::EnabledEffect* added = report_.added.effect(effect.id);
+    return simulation::isByChance(measured_.info(effect.id),
+                                  added ? added->values : simulation::EffectValues());
+  });
   tell("gap", 0.97);
   measureDrivenGap(fit, hold_out, report_.base, report_.added, fit_->slope(),
                    !report_.effects.empty() && !by_chance, problem_.options.seed, report_.gap);
@@ -429,7 +463,7 @@ void Investigation::listDetections() {
     const auto competed = std::find_if(all.begin(), all.end(),
                                        [&](const CandidateScore& candidate) { return candidate.ids == ids; });
     if (competed != all.end()) {
-      competed->outcome = "named";
+      competed->outcome = report_.verdict == Verdict::kAmbiguous && decision_.course ? "credible" : "named";
       continue;
     }
     CandidateScore candidate;
@@ -480,6 +514,14 @@ void Investigation::plan() {
     report_.next_experiment = experimentFor(report_.depends_on, !report_.hold_out.empty(), peak);
     return;
   }
+  if (decision_.course && report_.verdict == Verdict::kAmbiguous) {
+    std::vector<std::string> covariates;
+    for (const std::string& partner : decision_.course->partners) {
+      for (const simulation::Covariate c : measured_.info(partner).depends_on)
+        covariates.push_back(simulation::name(c));
+    }
+    report_.next_experiment = experimentFor(covariates, true, peak);
+  }
   if (decision_.credible.empty()) return;
   report_.prediction = freeze(decision_, measured_, common_, *fit_, report_.base, problem_.options);
   Contest contest;
@@ -509,6 +551,7 @@ DiscrepancyReport Investigation::run() {
   takeOutMains();
   compete();
   sizeTogether();
+  takeInCourse();
   lookAtStaticCurves();
   lookAtTaxels();
   abstainWithoutProof();

@@ -80,6 +80,14 @@ SingleColumn beginningOf(const HeldOutScores& scores, const Explaining& explaini
   return best;
 }
 
+// The same explanations in the same order; random courses have no form.
+std::vector<Explaining> withoutCourses(std::vector<Explaining> explanations) {
+  for (Explaining& one : explanations) {
+    if (one.by_chance) one.forms.clear();
+  }
+  return explanations;
+}
+
 class Appraiser {
  public:
   Appraiser(const CycleDesign& design, const NullFit& null, const std::vector<Explaining>& explanations,
@@ -87,6 +95,7 @@ class Appraiser {
       : design_(design),
         options_(options),
         explanations_(explanations),
+        competing_(withoutCourses(explanations)),
         null_(null),
         model_(modelWith(always(design))) {}
 
@@ -106,6 +115,7 @@ class Appraiser {
       listAdditions();
       compareGeneric();
     }
+    weighCourses();
     result_.null = null_;
     return std::move(result_);
   }
@@ -155,13 +165,24 @@ class Appraiser {
     return HeldOutScores(design_, noise, model, explanations, options_.folds, options_.degrees);
   }
 
-  static std::size_t bestOf(const std::vector<HeldOutScore>& scores) {
-    const auto less = [](const HeldOutScore& a, const HeldOutScore& b) { return a.total < b.total; };
-    return static_cast<std::size_t>(std::max_element(scores.begin(), scores.end(), less) - scores.begin());
+  // Of the explanations that have a course of their own.
+  std::size_t bestOf(const std::vector<HeldOutScore>& scores) const {
+    std::size_t best = 0;
+    for (std::size_t e = 1; e < scores.size(); ++e) {
+      if (!explanations_[e].by_chance && scores[e].total > scores[best].total) best = e;
+    }
+    return best;
   }
   static double chance(const std::vector<double>& sorted, double score) {
     const auto above = sorted.end() - std::lower_bound(sorted.begin(), sorted.end(), score);
     return (1 + static_cast<double>(above)) / (1 + static_cast<double>(sorted.size()));
+  }
+
+  // A random course has a null of its own, because it is scored in another way. Each of the two tests gets
+  // its share (Bonferroni).
+  double correctedChance(const NullScores& null, std::size_t e, double score) const {
+    if (!explanations_[e].by_chance) return chance(null.largest, score);
+    return std::min(1.0, 2 * chance(null.of[e], score));
   }
 
   void testNull() {
@@ -174,7 +195,7 @@ class Appraiser {
     const auto at = static_cast<std::size_t>((1 - options_.level) * static_cast<double>(null.largest.size()));
     result_.null_score = null.largest[std::min(at, null.largest.size() - 1)];
     for (std::size_t e = 0; e < first_.size(); ++e) {
-      result_.all[e].p = chance(null.largest, first_[e].total);
+      result_.all[e].p = correctedChance(null, e, first_[e].total);
       result_.all[e].p_alone = chance(null.of[e], first_[e].total);
     }
     listLeastSeen(scores);
@@ -187,7 +208,7 @@ class Appraiser {
     result_.least_seen.resize(static_cast<std::size_t>(design_.columns));
     for (const Explaining& explaining : explanations_) {
       for (const Form& form : explaining.forms) {
-        if (form.bent_only || explaining.ids.size() != 1) continue;
+        if (form.bent_only || !explaining.single()) continue;
         for (std::size_t k = 0; k < form.columns.size(); ++k) {
           const double information = scores.information(form.columns[k]);
           if (!(information > 0)) continue;
@@ -205,8 +226,7 @@ class Appraiser {
     std::vector<HeldOutScore> scores = first_;
     std::size_t best = result_.best;
     for (int round = 0; round < kNoiseRounds; ++round) {
-      const HeldOutScores under =
-          scored(noiseUnder(explanations_[best], scores[best]), model_, explanations_);
+      const HeldOutScores under = scored(noiseUnder(explanations_[best], scores[best]), model_, competing_);
       scores = under.scores();
       // What the best explanation closes can be closed.
       closable_ = std::max({under.loss() - under.expectedLoss(), 2 * scores[bestOf(scores)].total, 1e-9});
@@ -218,7 +238,8 @@ class Appraiser {
     for (std::size_t e = 0; e < explanations_.size(); ++e) {
       Weighed& one = result_.all[e];
       one.closes = 2 * scores[e].total / closable_;
-      one.contends = scores[e].total > 0 && scores[e].total >= least && scores[e].fit.variance > 0;
+      one.contends = !one.explaining.by_chance && scores[e].total > 0 && scores[e].total >= least &&
+                     scores[e].fit.variance > 0;
       if (one.contends) contenders.push_back(e);
     }
     matrix::forEachTaxel(contenders.size(), options_.threads, [&](std::size_t k) {
@@ -258,6 +279,46 @@ class Appraiser {
     testNull();
   }
 
+  // Noise with the covariance of a random course, against that of independent cycles. Both noises begin at
+  // each other's, because the likelihood has several maxima.
+  void weighCourses() {
+    for (std::size_t e = 0; e < explanations_.size(); ++e) {
+      Weighed& one = result_.all[e];
+      if (!explanations_[e].by_chance || one.p > options_.level || first_[e].fit.variance == 0) continue;
+      weighAlone(one, first_[e], null_.noise);
+      StaticModel nothing = model_;
+      const HeldOutScores under = scored(fitNoise(design_, nothing, &one.noise), model_, explanations_);
+      std::vector<double> plain = densityOfNothing(under);
+      if (meanOf(plain) > meanOf(null_density_)) {
+        const NullScores null = under.nullScores(options_.null_draws, options_.seed, options_.threads);
+        one.p = correctedChance(null, e, under.scores()[e].total);
+      } else {
+        plain = null_density_;
+      }
+      const std::vector<double> more = difference(one.density, plain);
+      one.total = meanOf(more) * static_cast<double>(more.size());
+      one.z = studentised(more);
+      if (one.total > 0 && one.p <= options_.level) tellCourse(e);
+    }
+  }
+
+  // A trend is no random course: the odds against it must be those of `credible`.
+  void tellCourse(std::size_t e) {
+    Weighed& one = result_.all[e];
+    const Form& chosen = one.explaining.forms[one.score.form];
+    const std::vector<Explaining> alone = {one.explaining};
+    const HeldOutScores own = scored(one.noise, model_, alone);
+    double trend = 0;
+    for (const Form& form : one.explaining.forms) {
+      if (form.trend) trend = std::max(trend, own.fitAll(form).likelihood);
+    }
+    const double odds = std::log(options_.credible / (1 - options_.credible));
+    if (chosen.trend || one.score.fit.likelihood < trend + odds) return;
+    if (result_.course && result_.all[result_.course->explanation].total >= one.total) return;
+    one.contends = true;
+    result_.course = {e, own.varianceOf(chosen), chanceBeyond(beyond(one, always(design_)))};
+  }
+
   std::vector<double> densityOfNothing(const HeldOutScores& scores) const {
     std::vector<double> density;
     for (std::size_t c = 0; c < design_.cycles.size(); ++c) density.push_back(scores.density(c, 0));
@@ -272,7 +333,7 @@ class Appraiser {
     one.density.clear();
     for (std::size_t c = 0; c < design_.cycles.size(); ++c)
       one.density.push_back(own.density(c, one.score.nats[c]));
-    if (one.explaining.ids.size() == 1) one.beginning = beginningOf(own, one.explaining);
+    if (one.explaining.single()) one.beginning = beginningOf(own, one.explaining);
   }
 
   void compareToNull(const std::vector<std::size_t>& contenders) {
@@ -359,7 +420,7 @@ class Appraiser {
   // What is left under the best explanation by effects, against its own null.
   HeldOutScores beyond(const Weighed& first, Chosen chosen) const {
     chosen.add(first.explaining.forms[first.score.form], first.score.fit);
-    return scored(first.noise, modelWith(chosen), explanations_);
+    return scored(first.noise, modelWith(chosen), competing_);
   }
   double chanceBeyond(const HeldOutScores& left) const {
     const NullScores null = left.nullScores(options_.null_draws, options_.seed + 1, options_.threads);
@@ -405,6 +466,7 @@ class Appraiser {
   const CycleDesign& design_;
   const DiscrepancyOptions& options_;
   const std::vector<Explaining>& explanations_;
+  const std::vector<Explaining> competing_;
   NullFit null_;
   StaticModel model_;
   Appraisal result_;

@@ -49,6 +49,13 @@ struct Addition {
   SingleColumn beginning;  ///< of an effect that adds something
 };
 
+/// A random course that is more than chance: the best one, as an index of the explanations.
+struct FoundCourse {
+  std::size_t explanation = 0;
+  PriorVariance variance;  ///< square of the step in one hour
+  double p_beyond = 1;     ///< probability of the best score beyond it if nothing else were missing
+};
+
 /// What the cycles say of each explanation.
 struct Appraisal {
   double p = 1;                       ///< probability of the best score if nothing were missing
@@ -61,6 +68,9 @@ struct Appraisal {
   std::vector<Addition> additions;    ///< of each explanation; empty where nothing is left beyond the best
   bool own_form_better = false;  ///< generic terms of the best effects' own covariates are better than these
   bool generic_better = false;   ///< generic terms of other covariates are better than both
+  /// Set where a random course scores beyond chance and a smooth course is excluded with the probability
+  /// `credible`. It does not compete with the others.
+  std::optional<FoundCourse> course;
   /// Smallest coefficient of each column that would be found; none = no effect uses the column.
   std::vector<std::optional<double>> least_seen;
 };

@@ -109,6 +109,7 @@ Candidates::Candidates(const Measured& measured, const StaticFit& fit, std::vect
     if (!effect.generic() && measured.info(effect.ids.front()).any_course)
       addAnyCourse(effect, explanations_);
   }
+  gatherCourses(fit);
 }
 
 void Candidates::gatherEffects() {
@@ -144,6 +145,28 @@ void Candidates::gatherColumns(const StaticFit& fit) {
       form.free.push_back(true);
       columns_.col(next++) = column;
     }
+  }
+}
+
+void Candidates::gatherCourses(const StaticFit& fit) {
+  const std::vector<Explaining> effects = explanations_;
+  for (const Explaining& effect : effects) {
+    if (effect.generic()) continue;
+    std::vector<RandomCourse> courses = randomCourses(measured_, fit, measured_.info(effect.ids.front()));
+    if (courses.empty()) continue;
+    explanations_.push_back({effect.ids, {}, effect.covariates, effect.slow, true});
+    for (RandomCourse& course : courses) {
+      const auto number = static_cast<Eigen::Index>(course.columns.size());
+      Form form{{}, std::vector<bool>(course.columns.size(), true), false, true, course.step.empty()};
+      columns_.conservativeResize(Eigen::NoChange, columns_.cols() + number);
+      for (Eigen::Index k = 0; k < number; ++k) {
+        form.columns.push_back(columns_.cols() - number + k);
+        columns_.col(form.columns.back()) = course.columns[static_cast<std::size_t>(k)];
+      }
+      explanations_.back().forms.push_back(std::move(form));
+      course.columns.clear();
+    }
+    courses_[effect.ids.front()] = std::move(courses);
   }
 }
 

@@ -14,6 +14,8 @@ namespace fsr::discrepancy {
 
 namespace {
 
+constexpr double kHour = 3600;  // [s]
+
 using Ids = std::vector<std::string>;
 
 class Verdicts {
@@ -22,6 +24,7 @@ class Verdicts {
            const Candidates& candidates, const simulation::SimulationSettings& base,
            const DiscrepancyOptions& options)
       : measured_(measured),
+        fit_(fit),
         candidates_(candidates),
         base_(base),
         options_(options),
@@ -37,9 +40,11 @@ class Verdicts {
   bool wrongForm();
   const Weighed* withFewestCovariates(const Weighed* best) const;
   void tellUnknown();
+  bool courseIsBest();
+  void tellCourse();
   void tellEffects();
   void tellRest();
-  void addPartners();
+  void addPartners(const Ids& ids);
   void addPartner(const std::string& id, bool lacks_the_same);
   void listCandidates();
   void listCovariates();
@@ -48,6 +53,7 @@ class Verdicts {
   const CycleNoise& noise() const;
 
   const Measured& measured_;
+  const StaticFit& fit_;
   const Candidates& candidates_;
   const simulation::SimulationSettings& base_;
   const DiscrepancyOptions& options_;
@@ -103,20 +109,70 @@ void Verdicts::tellUnknown() {
     decision_.depends_on.push_back(simulation::name(c));
 }
 
+// Whether a random course takes the place of what is found: where this is no good explanation, or the same
+// effect with another course, and everything scores lower than the random course.
+bool Verdicts::courseIsBest() {
+  const Weighed* course = search_.course();
+  if (!course || appraisal_.course->p_beyond <= options_.level) return false;
+  const bool best = std::all_of(appraisal_.all.begin(), appraisal_.all.end(), [&](const Weighed& one) {
+    return !one.contends || one.total <= course->total;
+  });
+  return best && (unknown() || wrongForm() || search_.preferred().explaining.ids == course->explaining.ids);
+}
+
+void Verdicts::tellCourse() {
+  const Weighed& found = *search_.course();
+  told_ = &found;
+  const std::string& id = found.explaining.ids.front();
+  const simulation::EffectInfo& info = measured_.info(id);
+  const RandomCourse& course = candidates_.courses(id)[found.score.form];
+  const simulation::EffectParameter& step = search_.courseParameter();
+  const simulation::EffectParameter& fades = simulation::parameter(info, step.fades_over);
+  const PriorVariance& variance = appraisal_.course->variance;
+  const double size = search_.courseStep(variance.best);
+  RandomFinding finding;
+  finding.effect.id = id;
+  for (const simulation::EffectParameter& one : info.parameters)
+    finding.effect.values[one.name] = std::isnan(one.neutral) ? one.usual : one.neutral;
+  finding.effect.values[fades.name] = course.shape.at(fades.name);
+  finding.effect.values[step.name] = size;
+  finding.parameters = {{step.name,
+                         size,
+                         step.permitted.unit,
+                         {search_.courseStep(variance.low), search_.courseStep(variance.high)}},
+                        {fades.name, course.shape.at(fades.name), fades.permitted.unit, {NAN, NAN}}};
+  finding.filtered = search_.explained(found);
+  finding.z = found.z;
+  finding.alone = appraisal_.course->p_beyond > options_.level;
+  finding.a_cycle = std::sqrt(variance.best * search_.design().cycle_time / kHour);
+  if (step.walk == simulation::Walk::kGain)
+    finding.a_cycle *= std::sqrt(fit_.curve().squaredNorm() / static_cast<double>(fit_.curve().size()));
+  for (const std::size_t e : appraisal_.credible) {
+    const Ids& other = appraisal_.all[e].explaining.ids;
+    if (!unknown() && !wrongForm() && other.size() == 1 && other != Ids{id})
+      finding.partners.push_back(other.front());
+  }
+  addPartners({id});
+  finding.partners.insert(finding.partners.end(), untold_.begin(), untold_.end());
+  decision_.p = found.p;
+  decision_.at_map = found.at_map;
+  for (const simulation::Covariate c : found.explaining.covariates)
+    decision_.depends_on.push_back(simulation::name(c));
+  decision_.course = finding;
+}
+
 // An effect that needs evidence which was not recorded cannot be told from the effects with similar traces.
 // Those that come near it stay credible, and those that could not compete for lack of the same evidence.
-void Verdicts::addPartners() {
+void Verdicts::addPartners(const Ids& ids) {
   const AvailableEvidence evidence = availableEvidence(measured_);
   const auto lacks = [&](const simulation::EffectInfo& info, simulation::Evidence need) {
     return std::count(info.needs.begin(), info.needs.end(), need) > 0 && !evidence.has(need);
   };
-  for (const std::size_t e : appraisal_.credible) {
-    for (const std::string& id : appraisal_.all[e].explaining.ids) {
-      const simulation::EffectInfo& info = measured_.info(id);
-      for (const simulation::Evidence need : info.needs) {
-        if (!lacks(info, need)) continue;
-        for (const std::string& other : info.collinear) addPartner(other, lacks(measured_.info(other), need));
-      }
+  for (const std::string& id : ids) {
+    const simulation::EffectInfo& info = measured_.info(id);
+    for (const simulation::Evidence need : info.needs) {
+      if (!lacks(info, need)) continue;
+      for (const std::string& other : info.collinear) addPartner(other, lacks(measured_.info(other), need));
     }
   }
 }
@@ -125,7 +181,7 @@ void Verdicts::addPartner(const std::string& id, bool lacks_the_same) {
   bool competed = false;
   for (std::size_t e = 0; e < appraisal_.all.size(); ++e) {
     const Weighed& one = appraisal_.all[e];
-    if (one.explaining.ids != Ids{id}) continue;
+    if (one.explaining.ids != Ids{id} || one.explaining.by_chance) continue;
     competed = true;
     if (one.contends && !std::count(credible_.begin(), credible_.end(), e)) credible_.push_back(e);
   }
@@ -138,7 +194,7 @@ void Verdicts::tellEffects() {
   search_.putLikelyFirst();
   const std::size_t not_excluded = appraisal_.credible.size();
   credible_ = appraisal_.credible;
-  addPartners();
+  for (const std::size_t e : appraisal_.credible) addPartners(appraisal_.all[e].explaining.ids);
   const Weighed& first = search_.preferred();
   decision_.closes = first.closes;
   decision_.z = first.z;
@@ -180,6 +236,9 @@ void Verdicts::tellRest() {
 
 void Verdicts::listCandidates() {
   for (const Weighed& one : appraisal_.all) {
+    // An effect is listed once: with its random course where that is told.
+    const bool same = told_ && told_->explaining.by_chance && told_->explaining.ids == one.explaining.ids;
+    if (same ? &one != told_ : one.explaining.by_chance) continue;
     CandidateScore candidate;
     candidate.ids = one.explaining.generic() ? Ids{nameOf(one.explaining)} : one.explaining.ids;
     candidate.generic = one.explaining.generic();
@@ -228,7 +287,7 @@ void Verdicts::listCovariates() {
 // known where every form of it needs more than a plausible strength to be found.
 void Verdicts::listSmallestSeen() {
   for (const Weighed& one : appraisal_.all) {
-    if (one.explaining.ids.size() != 1) continue;
+    if (!one.explaining.single()) continue;
     std::vector<double> sizes;
     bool plausible = false;
     for (const Form& form : one.explaining.forms) {
@@ -269,14 +328,13 @@ Decision Verdicts::run() {
   if (search_.empty()) return decision_;
   search_.run();
   decision_.p = appraisal_.p;
-  if (search_.found()) {
-    if (!search_.matters()) {
-      listTooSmall();
-    } else if (unknown()) {
-      tellUnknown();
-    } else {
-      tellEffects();
-    }
+  const bool matters = search_.found() && search_.matters();
+  if (matters ? courseIsBest() : search_.course() != nullptr) {
+    tellCourse();
+  } else if (matters) {
+    unknown() ? tellUnknown() : tellEffects();
+  } else if (search_.found()) {
+    listTooSmall();
   }
   decision_.scatter = scatterOf(search_.design(), noise());
   decision_.noise = noiseOf(search_.design(), noise());

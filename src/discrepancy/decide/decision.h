@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,17 @@
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 
 namespace fsr::discrepancy {
+
+/// Effect whose course is random, as far as the common trace tells it.
+struct RandomFinding {
+  simulation::EnabledEffect effect;
+  std::vector<FittedParameter> parameters;  ///< the step first
+  std::vector<std::string> partners;        ///< effects that the lack of evidence does not exclude
+  Trace filtered;                           ///< the part of the common trace that belongs to it
+  double z = 0;                             ///< mean of the nats that it adds by cycle, in standard errors
+  double a_cycle = 0;  ///< step of the mean reading from one cycle to the next [share of full scale]
+  bool alone = true;   ///< nothing else is left beyond chance
+};
 
 /// Result of the comparison of explanations on the common trace.
 struct Decision {
@@ -26,6 +38,8 @@ struct Decision {
   double closes = 0;     ///< share of what can be closed
   double at_map = NAN;   ///< see DiscrepancyReport::at_map [Pa]
   double least_gap = 0;  ///< [Pa]
+  /// Where the verdict is none but for a random course. `p` and `at_map` are then those of the course.
+  std::optional<RandomFinding> course;
   std::vector<CandidateScore> candidates;
   std::vector<CovariateTest> covariates;
   std::vector<SmallestSeen> smallest_seen;

@@ -19,15 +19,18 @@ constexpr double kMisfitBeside =
 constexpr double kByCode = 0.4;        // share of a misfit that one function of the reading explains
 constexpr double kHighReadings = 0.6;  // of the highest reading: saturation is visible above it
 
-Detection plain(simulation::Detector detector, double z) {
+Detection plain(const simulation::EffectInfo& info, double z) {
   Detection detection;
-  const simulation::EffectInfo& info = simulation::foundBy(detector);
   detection.effect.id = info.id;
   detection.effect.summary = info.summary;
   detection.effect.z = z;
   detection.effect.share_of_explainable = 1;
   for (const simulation::Covariate c : info.depends_on) detection.depends_on.push_back(simulation::name(c));
   return detection;
+}
+
+Detection plain(simulation::Detector detector, double z) {
+  return plain(simulation::foundBy(detector), z);
 }
 
 // Standard normal score that is exceeded with probability p.
@@ -85,6 +88,20 @@ Detection detectionOf(const Repositioning& repositioning, double square) {
   tellParameters(detection, {"offset", "gain"});
   detection.where = repositioning.where;
   detection.before_more = repositioning.share * square;
+  return detection;
+}
+
+Detection detectionOf(const RandomFinding& finding, const simulation::EffectInfo& info,
+                      const WhereItShows& where, double amplitude) {
+  Detection detection = plain(info, finding.z);
+  detection.enable = {finding.effect};
+  detection.effect.parameters = finding.parameters;
+  FittedParameter& step = detection.effect.parameters.front();
+  for (double* size : {&step.value, &step.interval.low, &step.interval.high}) *size *= amplitude;
+  step.value = std::min(step.value, simulation::parameter(info, step.name).permitted.high);
+  detection.enable.front().values[step.name] = step.value;
+  detection.enable.front().only_taxels = where.taxels;
+  detection.where = where;
   return detection;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "discrepancy/decide/decision.h"
 #include "discrepancy/fit/mains.h"
 #include "discrepancy/fit/static_layer.h"
 #include "discrepancy/samples/faults.h"
@@ -23,6 +24,10 @@ struct Detection {
 Detection detectionOf(const Fault& fault, const FaultyReadings& readings, double square);
 Detection detectionOf(const Mains& mains, double square, const Measured& measured);
 Detection detectionOf(const Repositioning& repositioning, double square);
+/// An effect that wanders at random. On some taxels only, it is stronger there than in the common trace, by
+/// `amplitude`.
+Detection detectionOf(const RandomFinding& finding, const simulation::EffectInfo& info,
+                      const WhereItShows& where, double amplitude);
 /// Saturation. Its level is fitted to the static curves.
 Detection saturationOf(const StaticMisfit& misfit, const Measured& measured, const StaticFit& fit,
                        const simulation::SimulationSettings& base);

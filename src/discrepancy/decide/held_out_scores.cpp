@@ -16,6 +16,8 @@ using Index = Eigen::Index;
 
 // Exponents of ten of the prior variances that are tried [share of full scale, squared].
 constexpr double kLowest = -14, kHighest = 1, kStep = 0.5;
+constexpr double kFineStep = 0.02;       // likewise, for the interval of a prior variance
+constexpr double kWithin95 = 3.841 / 2;  // nats below the largest likelihood: chi-squared of one degree
 
 // Fits columns whose coefficients may have either sign.
 class FreeFitter {
@@ -32,9 +34,7 @@ class FreeFitter {
     const Eigen::VectorXd turned = vectors_.transpose() * right;
     const Eigen::ArrayXd pull = turned.array().square();
     for (double e = kLowest; e <= kHighest; e += kStep) {
-      const double variance = std::pow(10, e);
-      const Eigen::ArrayXd grown = 1 + variance * values_;
-      const double likelihood = 0.5 * (variance * pull / grown - grown.log()).sum();
+      const double variance = std::pow(10, e), likelihood = likelihoodAt(variance, pull);
       if (likelihood > fit.likelihood) fit.likelihood = likelihood, fit.variance = variance;
     }
     if (fit.variance == 0) return fit;
@@ -42,7 +42,31 @@ class FreeFitter {
     return fit;
   }
 
+  PriorVariance variance(const Eigen::VectorXd& right) const {
+    const Eigen::ArrayXd pull = (vectors_.transpose() * right).array().square();
+    PriorVariance found;
+    double most = 0;
+    for (double e = kLowest; e <= kHighest; e += kFineStep) {
+      const double likelihood = likelihoodAt(std::pow(10, e), pull);
+      if (likelihood > most) most = likelihood, found.best = std::pow(10, e);
+    }
+    found.low = most < kWithin95 ? 0 : found.best;
+    for (double e = kLowest; e <= kHighest; e += kFineStep) {
+      const double variance = std::pow(10, e);
+      if (likelihoodAt(variance, pull) < most - kWithin95) continue;
+      found.low = std::min(found.low, variance);
+      found.high = variance;
+    }
+    return found;
+  }
+
  private:
+  // Above that of nothing [nats].
+  double likelihoodAt(double variance, const Eigen::ArrayXd& pull) const {
+    const Eigen::ArrayXd grown = 1 + variance * values_;
+    return 0.5 * (variance * pull / grown - grown.log()).sum();
+  }
+
   Eigen::ArrayXd values_;
   Eigen::MatrixXd vectors_;
 };
@@ -120,6 +144,17 @@ class FormFitter {
 
 void addTo(Eigen::MatrixXd& sum, const std::vector<Index>& rows, const Eigen::MatrixXd& part) {
   for (std::size_t a = 0; a < rows.size(); ++a) sum.row(rows[a]) += part.row(static_cast<Index>(a));
+}
+
+// What a random course adds to the predictive density because its course in the cycle is not known: the
+// covariance of what is predicted, given the other cycles. `left`: whitened error less the prediction.
+double natsOfCovariance(Eigen::MatrixXd gram, double variance, const Eigen::MatrixXd& columns,
+                        const Eigen::VectorXd& left) {
+  gram.diagonal().array() += 1 / variance;
+  const Eigen::LLT<Eigen::MatrixXd> before(gram), after(gram + columns.transpose() * columns);
+  const Eigen::VectorXd pull = after.matrixL().solve(columns.transpose() * left);
+  return 0.5 * pull.squaredNorm() + before.matrixLLT().diagonal().array().log().sum() -
+         after.matrixLLT().diagonal().array().log().sum();
 }
 
 Eigen::MatrixXd rowsOf(const Eigen::MatrixXd& matrix, const std::vector<Index>& rows) {
@@ -343,10 +378,14 @@ void HeldOutScores::score() {
       for (std::size_t c = 0; c < cycles_.size(); ++c) {
         const Whitened& w = cycles_[c];
         if (w.fold != f || w.covered.empty()) continue;
-        Eigen::VectorXd predicted = Eigen::VectorXd::Zero(w.test_error.size());
+        Eigen::MatrixXd columns(w.test_net.rows(), static_cast<Index>(form->columns.size()));
         for (std::size_t k = 0; k < form->columns.size(); ++k)
-          predicted += best.coefficients[static_cast<Index>(k)] * w.test_net.col(columnOf(*form, k));
+          columns.col(static_cast<Index>(k)) = w.test_net.col(columnOf(*form, k));
+        const Eigen::VectorXd predicted = columns * best.coefficients;
         score.nats[c] = predicted.dot(w.test_error) - 0.5 * predicted.squaredNorm();
+        if (explanation.by_chance)
+          score.nats[c] +=
+              natsOfCovariance(part(folds_[f].gram, *form), best.variance, columns, w.test_error - predicted);
       }
     }
     for (std::size_t i = 0; i < explanation.forms.size(); ++i) {
@@ -355,6 +394,7 @@ void HeldOutScores::score() {
       if (i == 0 || fit.likelihood > score.fit.likelihood) score.fit = fit, score.form = i;
     }
     for (const double nats : score.nats) score.total += nats;
+    if (explanation.by_chance) score.total = score.fit.likelihood;
     scores_.push_back(score);
   }
 }
@@ -405,6 +445,20 @@ void HeldOutScores::addGains(const Fold& fold, const Explaining& explanation, co
   for (std::size_t d = 0; d < totals.size(); ++d) totals[d] += gained[d];
 }
 
+// The largest marginal likelihood of the forms of an explanation, for each draw.
+std::vector<double> HeldOutScores::likelihoods(const Explaining& explanation,
+                                               const Eigen::MatrixXd& right) const {
+  std::vector<double> largest(static_cast<std::size_t>(right.cols()), 0.0);
+  for (const Form& form : explanation.forms) {
+    const FormFitter fitter(part(all_.gram, form), form.free);
+    for (std::size_t d = 0; d < largest.size(); ++d) {
+      const Eigen::VectorXd own = right.col(static_cast<Index>(d));
+      largest[d] = std::max(largest[d], fitter.fit(part(own, form)).likelihood);
+    }
+  }
+  return largest;
+}
+
 NullScores HeldOutScores::nullScores(std::size_t draws, std::uint64_t seed, unsigned threads) const {
   const std::vector<Drawn> drawn = draw(static_cast<Index>(draws), seed);
   Drawn all = drawn.front();
@@ -419,12 +473,19 @@ NullScores HeldOutScores::nullScores(std::size_t draws, std::uint64_t seed, unsi
     const Eigen::MatrixXd statics = all.statics - drawn[f].statics;
     const Eigen::MatrixXd right = all.columns - drawn[f].columns - fold.solved.transpose() * statics;
     const Eigen::MatrixXd net = drawn[f].test - fold.test_static * (fold.inverse * statics);
-    matrix::forEachTaxel(explanations_.size(), threads,
-                         [&](std::size_t e) { addGains(fold, explanations_[e], right, net, null.of[e]); });
+    matrix::forEachTaxel(explanations_.size(), threads, [&](std::size_t e) {
+      if (!explanations_[e].by_chance) addGains(fold, explanations_[e], right, net, null.of[e]);
+    });
   }
+  const Eigen::MatrixXd right = all.columns - all_.solved.transpose() * all.statics;
+  matrix::forEachTaxel(explanations_.size(), threads, [&](std::size_t e) {
+    if (explanations_[e].by_chance) null.of[e] = likelihoods(explanations_[e], right);
+  });
   null.largest.assign(draws, 0.0);
-  for (std::vector<double>& totals : null.of) {
-    for (std::size_t d = 0; d < draws; ++d) null.largest[d] = std::max(null.largest[d], totals[d]);
+  for (std::size_t e = 0; e < explanations_.size(); ++e) {
+    std::vector<double>& totals = null.of[e];
+    for (std::size_t d = 0; d < draws && !explanations_[e].by_chance; ++d)
+      null.largest[d] = std::max(null.largest[d], totals[d]);
     std::sort(totals.begin(), totals.end());
   }
   std::sort(null.largest.begin(), null.largest.end());
@@ -433,6 +494,10 @@ NullScores HeldOutScores::nullScores(std::size_t draws, std::uint64_t seed, unsi
 
 FormFit HeldOutScores::fitAll(const Form& form) const {
   return fitForm(part(all_.gram, form), part(all_.right, form), form.free);
+}
+
+PriorVariance HeldOutScores::varianceOf(const Form& form) const {
+  return FreeFitter(part(all_.gram, form)).variance(part(all_.right, form));
 }
 
 double HeldOutScores::density(std::size_t cycle, double nats) const {

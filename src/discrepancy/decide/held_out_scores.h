@@ -18,6 +18,11 @@ struct FormFit {
   double likelihood = 0;  ///< logarithm of the marginal likelihood above that of nothing [nats]
 };
 
+/// The prior variance of a form's coefficients, with the 95 % interval of its marginal likelihood.
+struct PriorVariance {
+  double best = 0, low = 0, high = 0;
+};
+
 /// Fits a form by empirical Bayes: the prior variance maximises the marginal likelihood; then the
 /// coefficients are the posterior mode, never negative where they are not free. `gram` and `right` are the
 /// normal equations after the static model was eliminated. Source: D. MacKay, Bayesian interpolation, Neural
@@ -27,6 +32,7 @@ FormFit fitForm(const Eigen::MatrixXd& gram, const Eigen::VectorXd& right, const
 /// What an explanation adds to the logarithm of the predictive density of cycles that it was not fitted to.
 struct HeldOutScore {
   std::vector<double> nats;  ///< of each cycle of the design
+  /// Their sum. Of a random course: the logarithm of its marginal likelihood above that of nothing.
   double total = 0;
   std::size_t form = 0;  ///< the one that counts when all cycles are fitted
   FormFit fit;           ///< likewise
@@ -34,7 +40,7 @@ struct HeldOutScore {
 
 /// Scores of explanations in recordings that hold the static model and the noise alone, sorted.
 struct NullScores {
-  std::vector<double> largest;          ///< over all explanations, one of each draw [nats]
+  std::vector<double> largest;          ///< over all explanations but random courses, one of each draw [nats]
   std::vector<std::vector<double>> of;  ///< of each explanation
 };
 
@@ -59,6 +65,8 @@ class HeldOutScores {
 
   /// Fit of a form to all cycles. Its columns must be columns of some explanation.
   FormFit fitAll(const Form& form) const;
+  /// The prior variance that all cycles give a form whose signs are free.
+  PriorVariance varianceOf(const Form& form) const;
 
   /// Squared whitened error of the static model in cycles that it was not fitted to, and its expectation.
   double loss() const { return loss_; }
@@ -99,6 +107,7 @@ class HeldOutScores {
   std::vector<Drawn> draw(Eigen::Index draws, std::uint64_t seed) const;
   void addGains(const Fold& fold, const Explaining& explanation, const Eigen::MatrixXd& right,
                 const Eigen::MatrixXd& net, std::vector<double>& totals) const;
+  std::vector<double> likelihoods(const Explaining& explanation, const Eigen::MatrixXd& right) const;
   void chooseColumns();
   void whiten(const CycleNoise& noise, const StaticModel& model);
   void assignFolds();

@@ -44,6 +44,24 @@ bool Search::matters() const {
   return largest >= leastGap();
 }
 
+const Weighed* Search::course() const {
+  if (!appraisal_.course) return nullptr;
+  const Weighed& course = appraisal_.all[appraisal_.course->explanation];
+  const bool plausible = courseStep(appraisal_.course->variance.high) <= courseParameter().plausible.high;
+  return plausible && course.at_map >= leastGap() ? &course : nullptr;
+}
+
+const simulation::EffectParameter& Search::courseParameter() const {
+  const Weighed& course = appraisal_.all[appraisal_.course->explanation];
+  const std::string& id = course.explaining.ids.front();
+  return simulation::parameter(measured_.info(id), candidates_.courses(id)[course.score.form].step);
+}
+
+double Search::courseStep(double variance) const {
+  const bool zero = courseParameter().walk == simulation::Walk::kZero;
+  return std::sqrt(variance) * (zero ? measured_.full_scale : 1);
+}
+
 double Search::leastGap() const {
   return std::isnan(options_.least_gap) ? options_.least_gap_share * design_.range : options_.least_gap;
 }
@@ -119,7 +137,7 @@ Eigen::Index Search::addColumn(const Trace& trace) {
 void Search::sharpen() {
   std::vector<std::size_t> effects;
   for (std::size_t e = 0; e < explanations_.size(); ++e) {
-    if (explanations_[e].ids.size() == 1) effects.push_back(e);
+    if (explanations_[e].single()) effects.push_back(e);
   }
   std::vector<Fitted> fits(effects.size());
   matrix::forEachTaxel(effects.size(), options_.threads,
@@ -140,7 +158,7 @@ std::vector<std::size_t> Search::seconds() const {
   std::vector<std::size_t> chosen;
   for (std::size_t e = 0; e < appraisal_.additions.size(); ++e) {
     const Addition& adds = appraisal_.additions[e];
-    const bool other = explanations_[e].ids.size() == 1 && explanations_[e].ids != preferred().explaining.ids;
+    const bool other = explanations_[e].single() && explanations_[e].ids != preferred().explaining.ids;
     if (other && adds.nats > appraisal_.null_score && adds.closes >= options_.second_adds)
       chosen.push_back(e);
   }

@@ -37,6 +37,11 @@ class Search {
   /// Whether what was found is at least as large as the least gap.
   bool matters() const;
   double leastGap() const;  ///< [Pa]
+  /// A random course that is at least as large as the least gap and not larger than its sources know;
+  /// nullptr = none.
+  const Weighed* course() const;
+  const simulation::EffectParameter& courseParameter() const;  ///< its step
+  double courseStep(double variance) const;                    ///< in the parameter's unit
   /// Best explanation by effects that the score does not exclude.
   const Weighed& preferred() const { return appraisal_.all[appraisal_.credible.front()]; }
   /// Whether more is left beside the preferred explanation than chance gives.

@@ -89,4 +89,15 @@ std::string sentenceOf(const DiscrepancyReport& report) {
   return "";
 }
 
+std::string courseText(const std::string& id, double a_cycle, bool alone) {
+  std::ostringstream text;
+  text.precision(2);
+  text << "Here " << id << " is a random walk: the mean reading moves by " << 100 * a_cycle
+       << " % of full scale (standard deviation) from one cycle to the next. The scatter that is stated is "
+          "what "
+          "remains after the walk is filtered out.";
+  if (!alone) text << " Something else remains beside it that chance does not explain.";
+  return text.str();
+}
+
 }  // namespace fsr::discrepancy

@@ -13,4 +13,8 @@ std::string listText(const std::vector<std::string>& items, const std::string& l
 /// The verdict in one sentence, with the number of effects tested.
 std::string sentenceOf(const DiscrepancyReport& report);
 
+/// What a random course is. `a_cycle`: its step from one cycle to the next [share of full scale]. `alone`:
+/// nothing else is left beyond chance.
+std::string courseText(const std::string& id, double a_cycle, bool alone);
+
 }  // namespace fsr::discrepancy
