@@ -15,11 +15,19 @@
 namespace fsr::discrepancy {
 namespace {
 
-// Thirty cycles on two surfaces, with a thermometer.
+constexpr double kScanRate = 0.6;  // [Hz]; 44 scans a cycle, about as many as a cycle has bins
+
+// Twenty-four cycles on two surfaces, with a thermometer.
 std::string rigOf(int seed) {
+  const std::string rate = std::to_string(kScanRate);
   std::string text = planted::kOneSpeed;
-  text.replace(text.find("seed: 7"), 7, "seed: " + std::to_string(seed));
-  text.replace(text.find("{cycles: 8}"), 11, "{cycles: 15}");
+  const auto replace = [&](const std::string& old, const std::string& by) {
+    text.replace(text.find(old), old.size(), by);
+  };
+  replace("seed: 7", "seed: " + std::to_string(seed));
+  replace("{scan_rate: 2.5, transducer_rate: 2.5}",
+          "{scan_rate: " + rate + ", transducer_rate: " + rate + "}");
+  replace("{cycles: 8}", "{cycles: 12}");
   return text + "climate: {room: [{time: 0, temperature: 23}]}\n";
 }
 
@@ -30,6 +38,7 @@ DiscrepancyProblem problemOf(int seed, const std::string& effects) {
   problem.simulation = planted::simulation(rigOf(seed));
   problem.recordings = simulation::simulateSession(planted::simulation(with));
   problem.options.threads = 1;
+  problem.options.null_draws = 199;  // the fewest by which twice the least p is the level
   return problem;
 }
 
@@ -48,10 +57,9 @@ void scatterGains(DiscrepancyProblem& problem, double deviation, std::uint64_t s
   }
 }
 
-// Rms of the steps of the mean reading, beyond a quiet simulation, from each window of some scans to the
-// next.
+// Rms of the steps of the mean reading, beyond a quiet simulation, from each window of 20 s to the next.
 double stepOf(const std::vector<double>& beyond) {
-  constexpr std::size_t kWindow = 50;
+  constexpr auto kWindow = static_cast<std::size_t>(20 * kScanRate);
   std::vector<double> means;
   for (std::size_t i = 0; i + kWindow <= beyond.size(); i += kWindow) {
     double sum = 0;
@@ -106,8 +114,11 @@ TEST(RandomCourses, HaveTheCovarianceOfAWalk) {
     return course.step == "zero_walk" && std::isinf(course.shape.at("time_constant"));
   });
   ASSERT_NE(walk, courses.end());
-  const auto early = static_cast<Eigen::Index>(measured.samples() / 3);
-  const auto late = static_cast<Eigen::Index>(measured.samples() - 1);
+  const auto loadedFrom = [&](std::size_t sample) {
+    while (measured.pressure[sample] < 300e3) ++sample;
+    return static_cast<Eigen::Index>(sample);
+  };
+  const Eigen::Index early = loadedFrom(measured.samples() / 3), late = loadedFrom(measured.samples() - 50);
   const auto covariance = [&](Eigen::Index a, Eigen::Index b) {
     double sum = 0;
     for (const Trace& column : walk->columns) sum += column[a] * column[b];
@@ -122,10 +133,32 @@ TEST(RandomCourses, HaveTheCovarianceOfAWalk) {
   EXPECT_TRUE(randomCourses(measured, fit, simulation::findEffect("creep")->info).empty());
 }
 
-// The step, its interval, and what the written simulation does with other random numbers.
+// Without load the taxels read 0, and the zero is not seen.
+TEST(RandomCourses, OfTheZeroDoNotShowWhereTheReadingsAreAtTheEndOfTheRange) {
+  DiscrepancyProblem problem = problemOf(7, "");
+  dataset::Recording& flat = problem.recordings.front();
+  const std::size_t taxels = flat.counts.size() / flat.scans();
+  const Measured before = admit(problem);
+  const std::size_t at_rest = before.samples() / 4;
+  for (std::size_t t = 0; t < taxels; ++t)
+    flat.counts[before.first_scan[at_rest] * taxels + t] = t < taxels / 4 ? 100 : 0;
+  const Measured measured = admit(problem);
+  const CommonTraces common = commonTraces(measured);
+  const StaticFit fit(measured, CurvePer::kClass, common.all);
+  const auto sample = static_cast<Eigen::Index>(at_rest);
+  for (const RandomCourse& course : randomCourses(measured, fit, simulation::findEffect("drift")->info)) {
+    if (course.step != "zero_walk") continue;
+    for (const Trace& column : course.columns)
+      EXPECT_NEAR(column[sample], 0.25 * (column[sample - 1] + column[sample + 1]) / 2, 0.02);
+  }
+}
+
+// The step, its interval, and what the written simulation does with other random numbers. The zero goes down
+// so far that taxels at rest read 0, which would look like a leak if the walk were thought to show there,
+// too.
 TEST(RandomWalk, IsNamedLocatedAndReproduced) {
   constexpr double kStep = 120;  // [counts/sqrt(h)]
-  for (const int seed : {1, 3}) {
+  for (const int seed : {2, 4}) {
     const DiscrepancyProblem problem = problemOf(seed, "  drift: {rate_per_hour: 0, zero_walk: 120}\n");
     const DiscrepancyReport report = investigate(problem);
     ASSERT_EQ(report.verdict, Verdict::kNamed) << report.sentence;

@@ -316,7 +316,8 @@ class Appraiser {
     if (chosen.trend || one.score.fit.likelihood < trend + odds) return;
     if (result_.course && result_.all[result_.course->explanation].total >= one.total) return;
     one.contends = true;
-    result_.course = {e, own.varianceOf(chosen), chanceBeyond(beyond(one, always(design_)))};
+    result_.course = {e, own.varianceOf(chosen), chanceBeyond(beyond(one, always(design_))),
+                      notExcluded(result_.credible, e)};
   }
 
   std::vector<double> densityOfNothing(const HeldOutScores& scores) const {
@@ -354,7 +355,19 @@ class Appraiser {
     if (best) result_.best = *best;
   }
 
-  // Step-down by the largest studentised difference to the best effect, bootstrapped over cycles.
+  // Rivals that the best explanation does not exclude: step-down by the largest studentised difference,
+  // bootstrapped over cycles.
+  std::vector<std::size_t> notExcluded(std::vector<std::size_t> rivals, std::size_t best) const {
+    std::size_t before = 0;
+    while (!rivals.empty() && rivals.size() != before) {
+      before = rivals.size();
+      const double limit = largestByChance(best, rivals);
+      const auto out = [&](std::size_t rival) { return studentised(behind(rival, best)) > limit; };
+      rivals.erase(std::remove_if(rivals.begin(), rivals.end(), out), rivals.end());
+    }
+    return rivals;
+  }
+
   void gatherSet() {
     std::vector<std::size_t> rivals;
     for (std::size_t e = 0; e < result_.all.size(); ++e) {
@@ -365,13 +378,7 @@ class Appraiser {
     if (rivals.empty()) return;
     const std::size_t best = rivals.front();
     rivals.erase(rivals.begin());
-    std::size_t before = 0;
-    while (!rivals.empty() && rivals.size() != before) {
-      before = rivals.size();
-      const double limit = largestByChance(best, rivals);
-      const auto out = [&](std::size_t rival) { return studentised(behind(rival, best)) > limit; };
-      rivals.erase(std::remove_if(rivals.begin(), rivals.end(), out), rivals.end());
-    }
+    rivals = notExcluded(rivals, best);
     result_.credible = {best};
     result_.credible.insert(result_.credible.end(), rivals.begin(), rivals.end());
     keepMinimal();

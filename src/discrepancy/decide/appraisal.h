@@ -52,8 +52,9 @@ struct Addition {
 /// A random course that is more than chance: the best one, as an index of the explanations.
 struct FoundCourse {
   std::size_t explanation = 0;
-  PriorVariance variance;  ///< square of the step in one hour
-  double p_beyond = 1;     ///< probability of the best score beyond it if nothing else were missing
+  PriorVariance variance;           ///< square of the step in one hour
+  double p_beyond = 1;              ///< probability of the best score beyond it if nothing else were missing
+  std::vector<std::size_t> rivals;  ///< members of Appraisal::credible that it does not exclude
 };
 
 /// What the cycles say of each explanation.

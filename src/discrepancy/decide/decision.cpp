@@ -109,15 +109,17 @@ void Verdicts::tellUnknown() {
     decision_.depends_on.push_back(simulation::name(c));
 }
 
-// Whether a random course takes the place of what is found: where this is no good explanation, or the same
-// effect with another course, and everything scores lower than the random course.
+// Whether a random course takes the place of what is found: where this is no good explanation, leaves
+// something that the random course does not leave, or is the same effect with another course, and everything
+// scores lower than the random course.
 bool Verdicts::courseIsBest() {
   const Weighed* course = search_.course();
   if (!course || appraisal_.course->p_beyond <= options_.level) return false;
   const bool best = std::all_of(appraisal_.all.begin(), appraisal_.all.end(), [&](const Weighed& one) {
     return !one.contends || one.total <= course->total;
   });
-  return best && (unknown() || wrongForm() || search_.preferred().explaining.ids == course->explaining.ids);
+  return best && (unknown() || search_.refuted() || wrongForm() ||
+                  search_.preferred().explaining.ids == course->explaining.ids);
 }
 
 void Verdicts::tellCourse() {
@@ -147,9 +149,10 @@ void Verdicts::tellCourse() {
   finding.a_cycle = std::sqrt(variance.best * search_.design().cycle_time / kHour);
   if (step.walk == simulation::Walk::kGain)
     finding.a_cycle *= std::sqrt(fit_.curve().squaredNorm() / static_cast<double>(fit_.curve().size()));
-  for (const std::size_t e : appraisal_.credible) {
+  for (const std::size_t e : appraisal_.course->rivals) {
     const Ids& other = appraisal_.all[e].explaining.ids;
-    if (!unknown() && !wrongForm() && other.size() == 1 && other != Ids{id})
+    const bool credible = std::count(appraisal_.credible.begin(), appraisal_.credible.end(), e) > 0;
+    if (credible && !unknown() && !wrongForm() && other.size() == 1 && other != Ids{id})
       finding.partners.push_back(other.front());
   }
   addPartners({id});

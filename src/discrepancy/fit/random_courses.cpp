@@ -77,12 +77,25 @@ class Clock {
   std::vector<double> nodes_;  // rising
 };
 
-std::vector<Trace> columnsOf(const Eigen::MatrixXd& modes, simulation::Walk what, const StaticFit& fit) {
-  std::vector<Trace> columns;
-  for (Eigen::Index k = 0; k < modes.cols(); ++k) {
-    columns.push_back(what == simulation::Walk::kGain ? Trace(modes.col(k).cwiseProduct(fit.curve()))
-                                                      : Trace(modes.col(k)));
+// Share of the taxels in use that are at no end of the converter's range, where a reading does not follow its
+// zero.
+Trace shareWithinRange(const Measured& measured) {
+  Trace share(static_cast<Eigen::Index>(measured.samples()));
+  std::vector<double> readings;
+  for (std::size_t i = 0; i < measured.samples(); ++i) {
+    measured.recorded(i, readings);
+    double within = 0;
+    for (std::size_t t = 0; t < readings.size(); ++t)
+      within += measured.used[t] && readings[t] > 0 && readings[t] < 1 ? 1 : 0;
+    share[static_cast<Eigen::Index>(i)] = within / static_cast<double>(measured.usedTaxels());
   }
+  return share;
+}
+
+// `moved`: change of the mean reading by the walk.
+std::vector<Trace> columnsOf(const Eigen::MatrixXd& modes, const Trace& moved) {
+  std::vector<Trace> columns;
+  for (Eigen::Index k = 0; k < modes.cols(); ++k) columns.push_back(modes.col(k).cwiseProduct(moved));
   return columns;
 }
 
@@ -96,13 +109,13 @@ std::vector<RandomCourse> randomCourses(const Measured& measured, const StaticFi
   const Clock clock(measured);
   if (!(clock.whole() > 0)) return courses;
   for (const simulation::EffectParameter& step : steps) {
+    const Trace moved = step.walk == simulation::Walk::kGain ? fit.curve() : shareWithinRange(measured);
     const simulation::EffectParameter& fades = simulation::parameter(info, step.fades_over);
     for (const double seconds : fades.tried) {
-      courses.push_back({step.name,
-                         {{fades.name, seconds}},
-                         columnsOf(clock.modes(walk(seconds / kHour)), step.walk, fit)});
+      courses.push_back(
+          {step.name, {{fades.name, seconds}}, columnsOf(clock.modes(walk(seconds / kHour)), moved)});
     }
-    courses.push_back({"", {}, columnsOf(clock.modes(trend(clock.whole())), step.walk, fit)});
+    courses.push_back({"", {}, columnsOf(clock.modes(trend(clock.whole())), moved)});
   }
   return courses;
 }
