@@ -8,7 +8,13 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
+
+import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import random_effects  # noqa: E402
 
 PROVE = pathlib.Path(__file__).resolve().parent.parent.parent / "scripts" / "prove_effects"
 TOOLS = []
@@ -27,6 +33,16 @@ class Proof(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             rows = [line for line in pathlib.Path(folder, "proof.md").read_text().split("\n") if line.endswith("| yes |")]
             self.assertEqual(len(rows), 2, done.stdout)
+
+    def test_the_step_of_a_walk_is_measured_between_loaded_cycles(self):
+        draw = numpy.random.RandomState(1)
+        stamps = numpy.arange(40000) * 10**9  # one scan a second
+        pressure = numpy.maximum(0, numpy.sin(stamps * numpy.pi / 30e9))  # a cycle a minute, half of it at rest
+        walk = numpy.cumsum(draw.normal(size=(stamps.size, 1)), axis=0)  # 1 count in a root second
+        base = types.SimpleNamespace(stamps=stamps, counts=2000 * pressure[:, None] * numpy.ones((1, 3)))
+        at_rest = 1e6 * (pressure == 0)[:, None]  # counts for nothing
+        step = random_effects.rms_step([walk + at_rest + numpy.zeros((1, 3))], [base], [0, 2])
+        self.assertAlmostEqual(step, 60**0.5, delta=0.12 * 60**0.5)  # means over part of a minute lose some of it
 
     def test_an_effect_without_a_case_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
