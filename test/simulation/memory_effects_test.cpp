@@ -495,18 +495,25 @@ TEST(Drift, MovesByItsShareAnHourAndEndsWhereItIsTold) {
 TEST(Drift, WalksByItsStepAndIsPulledBackWithinItsTimeConstant) {
   constexpr double kStep = 6000, kPeriod = 10, kFades = 60;  // [counts/sqrt(h)], [s], [s]
   const auto course = profile({{0, 310e3}, {20000, 310e3}});
+  const auto countsOf = [&](const std::string& more) {
+    std::vector<double> counts;
+    for (const auto& reading :
+         along("  drift: {rate_per_hour: 0, zero_walk: 6000" + more + "}\n", course, kPeriod))
+      counts.push_back(reading.counts);
+    return counts;
+  };
   const auto stepsOf = [&](const std::string& more) {
-    const auto readings =
-        along("  drift: {rate_per_hour: 0, zero_walk: 6000" + more + "}\n", course, kPeriod);
+    const std::vector<double> counts = countsOf(more);
     std::vector<double> steps;
-    for (std::size_t i = 1; i < readings.size(); ++i)
-      steps.push_back(double(readings[i].counts) - double(readings[i - 1].counts));
+    for (std::size_t i = 1; i < counts.size(); ++i) steps.push_back(counts[i] - counts[i - 1]);
     return steps;
   };
   const double endless = kStep * std::sqrt(kPeriod / 3600);
   EXPECT_NEAR(test_support::deviation(stepsOf("")), endless, 0.06 * endless);
   const double fading = kStep * std::sqrt(kFades / 3600 * (1 - std::exp(-kPeriod / kFades)));
   EXPECT_NEAR(test_support::deviation(stepsOf(", time_constant: 60")), fading, 0.06 * fading);
+  const double level = kStep * std::sqrt(kFades / 2 / 3600);  // where the walk is pulled back as it goes
+  EXPECT_NEAR(test_support::deviation(countsOf(", time_constant: 60")), level, 0.15 * level);
   EXPECT_EQ(test_support::deviation(stepsOf(", only_surfaces: [elsewhere]")), 0);
 }
 
