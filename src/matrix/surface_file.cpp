@@ -5,6 +5,7 @@ namespace fsr::matrix {
 namespace {
 
 const settings::Range kCurvatureRange{-kMaxCurvature, kMaxCurvature, "1/m (a bend radius of 10 mm or more)"};
+const settings::Range kDeviationRange{0.0, kMaxCurvature, "1/m"};
 
 Curvature cylinder(const settings::Settings& settings) {
   const double radius = settings.number("radius", {1.0 / kMaxCurvature, 1000.0, "m"});
@@ -20,8 +21,8 @@ Curvature twoPlanes(const settings::Settings& settings) {
 }
 
 std::vector<double> oneForEachTaxel(const settings::Settings& settings, const std::string& key,
-                                    MatrixSize size) {
-  const std::vector<double> values = settings.numbers(key, kCurvatureRange);
+                                    MatrixSize size, const settings::Range& range = kCurvatureRange) {
+  const std::vector<double> values = settings.numbers(key, range);
   if (values.size() != size.taxels()) {
     throw settings.error(key, "must have one value for each of the " + std::to_string(size.taxels()) +
                                   " taxels of a " + sizeText(size) + " matrix, row after row");
@@ -29,15 +30,17 @@ std::vector<double> oneForEachTaxel(const settings::Settings& settings, const st
   return values;
 }
 
-std::vector<Curvature> taxelByTaxel(const settings::Settings& settings, MatrixSize size) {
-  std::vector<Curvature> result(size.taxels());
+// Sets curvature and, where it is given, the deviation of each taxel.
+void readTaxels(const settings::Settings& settings, MatrixSize size, Surface& surface) {
+  surface.curvature.resize(size.taxels());
   const auto x = oneForEachTaxel(settings, "x", size);
   const auto y =
       settings.has("y") ? oneForEachTaxel(settings, "y", size) : std::vector<double>(x.size(), 0.0);
   const auto xy =
       settings.has("xy") ? oneForEachTaxel(settings, "xy", size) : std::vector<double>(x.size(), 0.0);
-  for (std::size_t i = 0; i < result.size(); ++i) result[i] = {x[i], y[i], xy[i]};
-  return result;
+  for (std::size_t i = 0; i < x.size(); ++i) surface.curvature[i] = {x[i], y[i], xy[i]};
+  if (settings.has("deviation"))
+    surface.deviation = oneForEachTaxel(settings, "deviation", size, kDeviationRange);
 }
 
 int countForms(const settings::Settings& settings) {
@@ -45,17 +48,22 @@ int countForms(const settings::Settings& settings) {
          int{settings.has("taxels")};
 }
 
-std::vector<Curvature> readForm(const settings::Settings& settings, MatrixSize size) {
+void readForm(const settings::Settings& settings, MatrixSize size, Surface& surface) {
   if (countForms(settings) != 1) {
     throw settings::InputError(settings.origin() + ": the surface has " +
                                std::to_string(countForms(settings)) +
                                " forms, but exactly one of flat, cylinder, two_planes, taxels must be given");
   }
-  if (settings.has("cylinder")) return {cylinder(settings.section("cylinder"))};
-  if (settings.has("two_planes")) return {twoPlanes(settings.section("two_planes"))};
-  if (settings.has("taxels")) return taxelByTaxel(settings.section("taxels"), size);
-  if (!settings.flag("flat", true)) throw settings.error("flat", "must be true or left out");
-  return {Curvature{}};
+  if (settings.has("taxels")) return readTaxels(settings.section("taxels"), size, surface);
+  if (settings.has("cylinder")) {
+    surface.curvature = {cylinder(settings.section("cylinder"))};
+  } else if (settings.has("two_planes")) {
+    surface.curvature = {twoPlanes(settings.section("two_planes"))};
+  } else if (settings.flag("flat", true)) {
+    surface.curvature = {Curvature{}};
+  } else {
+    throw settings.error("flat", "must be true or left out");
+  }
 }
 
 }  // namespace
@@ -63,9 +71,11 @@ std::vector<Curvature> readForm(const settings::Settings& settings, MatrixSize s
 Surface readSurface(const settings::Settings& settings, MatrixSize size) {
   Surface surface;
   surface.name = settings.text("surface");
-  surface.curvature = readForm(settings, size);
+  readForm(settings, size, surface);
   if (settings.has("deviation")) {
-    surface.deviation = {settings.number("deviation", {0.0, kMaxCurvature, "1/m"})};
+    if (!surface.deviation.empty())
+      throw settings.error("deviation", "taxels.deviation is given, too; keep one of them");
+    surface.deviation = {settings.number("deviation", kDeviationRange)};
   }
   return surface;
 }

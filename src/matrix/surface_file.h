@@ -19,8 +19,9 @@ constexpr double kMaxCurvature = 100.0;  // [1/m]
 ///       side: outside   # or inside    xy: 0.0                      xy: [...]  # optional
 ///
 /// or `flat: true`. A cylinder with its axis along y bends the rows (curvature x); `inside` makes the
-/// curvature negative. `deviation` [1/m] is optional. `size`: the number of values that a `taxels` form must
-/// have. Throws InputError. readSurface() ignores other keys of the caller, readSurfaceFile() refuses them.
+/// curvature negative. `deviation` [1/m] is optional; `taxels` may have one for each taxel instead. `size`:
+/// the number of values that a `taxels` form must have. Throws InputError. readSurface() ignores other keys
+/// of the caller, readSurfaceFile() refuses them.
 Surface readSurface(const settings::Settings& settings, MatrixSize size);
 /// Whether the settings contain one of these forms and not only a name.
 bool hasSurfaceForm(const settings::Settings& settings);

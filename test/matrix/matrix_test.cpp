@@ -69,6 +69,21 @@ TEST(SurfaceFile, ReadsOneValueForEachTaxel) {
   EXPECT_EQ(surface.at({3}), (Curvature{4, 0, 1}));
 }
 
+TEST(SurfaceFile, ReadsOneDeviationForEachTaxelOrForAll) {
+  const auto read = [](const std::string& text) {
+    const auto settings = settings::Settings::fromText(text, "limb.yaml");
+    const Surface surface = readSurface(settings, {1, 2});
+    settings.refuseUnknown();
+    return surface.deviation;
+  };
+  const std::string each = "surface: limb\ntaxels: {x: [1, 2], deviation: [0.3, 0.4]}";
+  EXPECT_EQ(read(each), (std::vector<double>{0.3, 0.4}));
+  EXPECT_EQ(read("surface: limb\ntaxels: {x: [1, 2]}\ndeviation: 0.5"), std::vector<double>{0.5});
+  EXPECT_THROW(read(each + "\ndeviation: 0.5"), settings::InputError);
+  EXPECT_THROW(read("surface: limb\ntaxels: {x: [1, 2], deviation: [0.3]}"), settings::InputError);
+  EXPECT_THROW(read("surface: limb\ntaxels: {x: [1, 2], deviation: [0.3, -0.1]}"), settings::InputError);
+}
+
 TEST(SurfaceFile, RefusesTheWrongNumberOfTaxels) {
   const auto settings = settings::Settings::fromText("surface: limb\ntaxels: {x: [1, 2, 3]}", "limb.yaml");
   try {
