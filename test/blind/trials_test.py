@@ -174,7 +174,8 @@ class Trials(unittest.TestCase):
     def test_the_proof_has_a_case_of_every_effect_that_can_be_named(self):
         effects = {path.stem for path in (HERE.parent.parent / "src" / "simulation" / "effects").glob("*.cpp")}
         cases = [n for n in (HERE / "proof_campaign.txt").read_text().split("\n") if n and not n.startswith("#")]
-        self.assertEqual(sorted(name.split(".")[1] for name in cases), sorted(effects - NOT_NAMED))
+        self.assertEqual(sorted({name.split(".")[1] for name in cases}), sorted(effects - NOT_NAMED))
+        self.assertEqual(len(cases), len(set(cases)))
 
 
 if __name__ == "__main__":
