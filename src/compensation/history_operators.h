@@ -20,16 +20,19 @@ class HistoryOperators {
   std::size_t plays() const { return radii_.size(); }
   std::size_t memories() const { return memories_.size(); }
 
-  /// Sets the state for a first input `x` of which the past is unknown. The memories: as after a long time at
-  /// x. The plays: in the middle of what is possible, where no input is ever below 0 and there was one above
-  /// 2 r before, as on a sheet that was conditioned. Then a play is never below r, and it lies between
-  /// max(r, x - r) and x + r. At x = 0 this is x + r: the branch of unloading.
+  /// Sets the state as after a long time at the input `x`.
   void start(double x, double* state) const {
-    for (std::size_t j = 0; j < radii_.size(); ++j) {
-      const double r = radii_[j];
-      state[j] = std::max(x, std::min(r + x / 2, r + x));
-    }
-    for (std::size_t k = 0; k < memories_.size(); ++k) state[radii_.size() + k] = x;
+    for (std::size_t k = 0; k < size(); ++k) state[k] = x;
+  }
+
+  /// Sets the state for a first input `x` on a sheet that was conditioned: no input is ever below 0, and
+  /// there was one above 2 r before. Then a play is never below r, and it lies between max(r, x - r) and x +
+  /// r; it starts in the middle. At x = 0 this is x + r: the branch of unloading. Memories start as after a
+  /// long time at x.
+  void startConditioned(double x, double* state) const {
+    start(x, state);
+    for (std::size_t j = 0; j < radii_.size(); ++j)
+      state[j] = std::max(x, std::min(radii_[j] + x / 2, radii_[j] + x));
   }
 
   /// The steps of the memories over `duration` [s], 0 or more; `steps` has memories() entries.

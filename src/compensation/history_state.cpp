@@ -58,7 +58,7 @@ bool HistoryState::correct(std::size_t taxel, bool frozen, float& pressure, floa
   Taxel& own = taxels_[taxel];
   double* const state = &states_[taxel * operators_.size()];
   if (known_[taxel] != Known::kReadings) {
-    operators_.start(x, state);
+    operators_.startConditioned(x, state);
     own = {x, x, x, time_, false};
     own.settled = known_[taxel] == Known::kRest || settled(own);
     known_[taxel] = Known::kReadings;

@@ -68,7 +68,7 @@ TEST(HistoryOperators, StartInTheMiddleOfWhatIsPossible) {
   const HistoryOperators operators({10e3, 50e3}, {4});
   std::vector<double> state(3);
   const auto started = [&](double x) {
-    operators.start(x, state.data());
+    operators.startConditioned(x, state.data());
     return state;
   };
   EXPECT_EQ(started(0), (std::vector<double>{10e3, 50e3, 0}));

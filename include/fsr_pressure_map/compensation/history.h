@@ -58,7 +58,7 @@ struct HistoryModel {
   double settlingTime() const;
   /// The largest error of the plays from what is not known of the time before the first reading, after
   /// readings between `lowest` and `highest` [Pa]. A play of radius r then lies within a span of
-  /// min(lowest, 2 r - (highest - lowest)): see HistoryOperators::start().
+  /// min(lowest, 2 r - (highest - lowest)): see HistoryOperators::startConditioned().
   double playsOwe(double lowest, double highest) const noexcept;
 };
 
