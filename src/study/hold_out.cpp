@@ -2,6 +2,7 @@
 #include <optional>
 #include <sstream>
 
+#include "study/curvature_error.h"
 #include "study/history_study.h"
 #include "study/paper_numbers.h"
 #include "study/study_context.h"
@@ -13,6 +14,10 @@ namespace {
 
 bool isFurther(const StudyMethod& method) {
   return paperScore(method.id) == std::nullopt;
+}
+
+bool bent(const StudyData& data) {
+  return !std::all_of(data.classes.begin(), data.classes.end(), dataset::isFlat);
 }
 
 std::vector<Split> splitsOf(const StudyContext& study) {
@@ -92,6 +97,8 @@ SplitResult holdOutOne(const StudyContext& study, const Split& split, HeldOut& r
     held_out.scores.push_back(score);
     const bool drawn = method.id == "baseline" || method.id == "per_curvature";
     if (result.splits.empty() && drawn) kept.push_back(std::move(evaluation));
+    if (result.splits.empty() && study.plan.beyond_the_paper && bent(study.data))
+      result.curvature_errors.push_back(curvatureErrorsOf(study, method, validation, models));
     if (split.id != kProtocolSplit || method.id != "per_curvature") continue;
     history = withHistory(study, method, split, models, result);
     if (history) history->bandwidth = bandwidth;

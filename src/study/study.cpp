@@ -85,6 +85,7 @@ StudyResult study(const StudyProblem& problem, const StudyProgress& progress) {
   HeldOut held_out = holdOut(context);
   result.splits = std::move(held_out.splits);
   result.history = std::move(held_out.history);
+  result.curvature_errors = std::move(held_out.curvature_errors);
   result.response = std::move(held_out.response);
   if (problem.plan.beyond_the_paper) result.headline = headlineOf(result.splits);
   return result;

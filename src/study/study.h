@@ -74,6 +74,34 @@ struct SplitResult {
   std::vector<StudyScore> scores;
 };
 
+/// How a curvature that a method is told differs from the true one.
+struct CurvatureError {
+  double relative = 0;  ///< of the true curvature
+  double absolute = 0;  ///< [1/m]; positive = rounder
+
+  double told(double curvature) const { return curvature + relative * curvature + absolute; }  ///< [1/m]
+};
+
+/// Held-out errors of a method that is told wrong curvatures.
+struct CurvatureErrorScore {
+  CurvatureError error;
+  double rmse_percent = 0;                    ///< mean over taxels
+  double rmse = 0;                            ///< of all readings [Pa]
+  statistics::BootstrapResult rmse_interval;  ///< [Pa]
+  std::vector<double> rmse_of_class;          ///< likewise of each class [classes] [Pa]
+  double moved = 0;                           ///< RMS difference from the answers at the true curvature [Pa]
+  /// RMS of what the live map adds to the standard deviation of a reading if the message states a deviation
+  /// of curvature as large as the error [Pa].
+  double stated = 0;
+};
+
+/// Error of the map against error of the curvature, for one method.
+struct CurvatureErrorCurve {
+  std::string id;
+  std::string label;
+  std::vector<CurvatureErrorScore> scores;
+};
+
 /// The result to quote: the best method in the hardest split, i.e. the split where the best method has the
 /// largest error.
 struct StudyHeadline {
@@ -130,6 +158,9 @@ struct StudyResult {
   /// errors of all families on each protocol. Without protocols: `choice` says why it is not assessable; "" =
   /// not asked for.
   calibration::HistoryScore history;
+  /// All methods in the first split, each told wrong curvatures; empty without bent classes, or if not asked
+  /// for.
+  std::vector<CurvatureErrorCurve> curvature_errors;
   StudyHeadline headline;
   TaxelResponse response;
   std::vector<StudyDecision> decisions;

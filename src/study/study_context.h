@@ -32,11 +32,12 @@ std::vector<StudyComparison> reproduce(const StudyContext& study);
 /// curvature_input.
 std::vector<BandwidthCurve> gridOfBandwidths(const StudyContext& study);
 
-/// All methods on all scans for each split, easiest first, the choice of a model of the sheet's memory, and
-/// the data for the figures of one taxel.
+/// All methods on all scans for each split, easiest first, the choice of a model of the sheet's memory, the
+/// errors with wrong curvatures, and the data for the figures of one taxel.
 struct HeldOut {
   std::vector<SplitResult> splits;
   calibration::HistoryScore history;
+  std::vector<CurvatureErrorCurve> curvature_errors;
   TaxelResponse response;
 };
 HeldOut holdOut(const StudyContext& study);

@@ -116,6 +116,22 @@ statistics::BootstrapResult rmseInterval(const CycleSums& sums, const StudyData&
                   [&](const std::vector<std::size_t>& cycles) { return sums.rmse(cycles); });
 }
 
+statistics::BootstrapResult rmseInterval(const std::vector<double>& squares,
+                                         const std::vector<double>& readings, const StudyData& data,
+                                         const StudyPlan& plan) {
+  std::vector<std::size_t> scored;
+  for (std::size_t cycle = 0; cycle < readings.size(); ++cycle)
+    if (readings[cycle] > 0) scored.push_back(cycle);
+  return interval(data, plan, scored, [&](const std::vector<std::size_t>& cycles) {
+    double square = 0, number = 0;
+    for (const std::size_t cycle : cycles) {
+      square += squares[cycle];
+      number += readings[cycle];
+    }
+    return std::sqrt(square / number);
+  });
+}
+
 statistics::BootstrapResult differenceInterval(const CycleSums& first, const CycleSums& second,
                                                const StudyData& data, const StudyPlan& plan) {
   std::vector<std::size_t> either;

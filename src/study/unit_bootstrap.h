@@ -38,6 +38,10 @@ class CycleSums {
 statistics::BootstrapResult rmsePercentInterval(const CycleSums& sums, const StudyData& data,
                                                 const StudyPlan& plan);
 statistics::BootstrapResult rmseInterval(const CycleSums& sums, const StudyData& data, const StudyPlan& plan);
+/// The same from squared errors [Pa^2] and numbers of readings, each summed by cycle [data.cycles].
+statistics::BootstrapResult rmseInterval(const std::vector<double>& squares,
+                                         const std::vector<double>& readings, const StudyData& data,
+                                         const StudyPlan& plan);
 /// Interval of first - second, both computed from the same draws.
 statistics::BootstrapResult differenceInterval(const CycleSums& first, const CycleSums& second,
                                                const StudyData& data, const StudyPlan& plan);
