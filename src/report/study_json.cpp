@@ -161,6 +161,28 @@ Json historyChoiceJson(const calibration::HistoryScore& score) {
           {"protocols", historyProtocolsJson(score)}};
 }
 
+// Scores of each error of curvature.
+Json json(const study::CurvatureErrorCurve& curve) {
+  Json list = Json::array();
+  for (const study::CurvatureErrorScore& score : curve.scores) {
+    list.push_back({{"relative", score.error.relative},
+                    {"absolute", score.error.absolute},
+                    {"rmse_percent", score.rmse_percent},
+                    {"rmse_pa", score.rmse},
+                    {"rmse_pa_interval", json(score.rmse_interval)},
+                    {"rmse_pa_of_condition", score.rmse_of_class},
+                    {"moved_pa", score.moved},
+                    {"stated_pa", score.stated}});
+  }
+  return {{"id", curve.id}, {"label", curve.label}, {"scores", list}};
+}
+
+Json curvatureErrorsJson(const study::StudyResult& result) {
+  Json list = Json::array();
+  for (const study::CurvatureErrorCurve& curve : result.curvature_errors) list.push_back(json(curve));
+  return list;
+}
+
 Json decisionsJson(const study::StudyResult& result) {
   Json list = Json::array();
   for (const study::StudyDecision& decision : result.decisions) {
@@ -201,6 +223,7 @@ std::string studyJson(const study::StudyResult& result) {
                {"bandwidth_grid", bandwidthsJson(result)},
                {"splits", splitsJson(result)},
                {"history", historyChoiceJson(result.history)},
+               {"curvature_errors", curvatureErrorsJson(result)},
                {"figure_taxel", result.response.taxel},
                {"decisions", decisionsJson(result)},
                {"unmatchable", result.unmatchable}});

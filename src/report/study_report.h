@@ -16,7 +16,7 @@ std::string studyText(const study::StudyResult& result);
 std::string studyJson(const study::StudyResult& result);
 
 /// CSV files by name: scores, taxel_scores, errors_by_bin, tests, differences, bandwidths, response,
-/// prediction. Headings include the unit.
+/// prediction, curvature_errors, curvature_errors_by_surface. Headings include the unit.
 std::map<std::string, std::string> studyTables(const study::StudyResult& result);
 
 }  // namespace fsr::report

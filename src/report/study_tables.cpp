@@ -174,6 +174,40 @@ std::string bandwidthTable(const study::StudyResult& result) {
   return table.text();
 }
 
+Table& addError(Table& table, const study::CurvatureErrorCurve& curve, const study::CurvatureError& error) {
+  return table.row() << curve.id << curve.label << 100 * error.relative << error.absolute;
+}
+
+std::string curvatureErrorTable(const study::StudyResult& result) {
+  Table table(
+      "method,label,relative error of the curvature [%],absolute error of the curvature [1/m],RMSE [%],RMSE "
+      "[kPa],change of the answers [kPa],stated for the curvature [kPa],RMSE low [kPa],RMSE high "
+      "[kPa],unit,units");
+  for (const study::CurvatureErrorCurve& curve : result.curvature_errors) {
+    for (const study::CurvatureErrorScore& score : curve.scores) {
+      addError(table, curve, score.error) << score.rmse_percent << score.rmse / kKilopascal
+                                          << score.moved / kKilopascal << score.stated / kKilopascal;
+      addInterval(table, score.rmse_interval, kKilopascal);
+    }
+  }
+  return table.text();
+}
+
+std::string curvatureErrorsBySurface(const study::StudyResult& result) {
+  Table table(
+      "method,label,relative error of the curvature [%],absolute error of the curvature [1/m],surface,RMSE "
+      "[kPa]");
+  for (const study::CurvatureErrorCurve& curve : result.curvature_errors) {
+    for (const study::CurvatureErrorScore& score : curve.scores) {
+      for (std::size_t c = 0; c < result.classes.size(); ++c) {
+        addError(table, curve, score.error)
+            << result.classes[c].condition.surface << score.rmse_of_class[c] / kKilopascal;
+      }
+    }
+  }
+  return table.text();
+}
+
 std::string responseTable(const study::StudyResult& result) {
   Table table("surface,curvature [1/m],time [s],pressure [kPa],reading [counts]");
   for (const study::TaxelResponse::Curve& curve : result.response.curves) {
@@ -199,10 +233,16 @@ std::string predictionTable(const study::StudyResult& result) {
 }  // namespace
 
 std::map<std::string, std::string> studyTables(const study::StudyResult& result) {
-  return {{"scores.csv", scoresTable(result)},          {"taxel_scores.csv", taxelTable(result)},
-          {"errors_by_bin.csv", binTable(result)},      {"tests.csv", testTable(result)},
-          {"differences.csv", differenceTable(result)}, {"bandwidths.csv", bandwidthTable(result)},
-          {"response.csv", responseTable(result)},      {"prediction.csv", predictionTable(result)}};
+  return {{"scores.csv", scoresTable(result)},
+          {"taxel_scores.csv", taxelTable(result)},
+          {"errors_by_bin.csv", binTable(result)},
+          {"tests.csv", testTable(result)},
+          {"differences.csv", differenceTable(result)},
+          {"bandwidths.csv", bandwidthTable(result)},
+          {"response.csv", responseTable(result)},
+          {"prediction.csv", predictionTable(result)},
+          {"curvature_errors.csv", curvatureErrorTable(result)},
+          {"curvature_errors_by_surface.csv", curvatureErrorsBySurface(result)}};
 }
 
 }  // namespace fsr::report

@@ -2,6 +2,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "report/curvature_error_report.h"
 #include "report/history_report.h"
 #include "report/study_report.h"
 #include "settings/number_text.h"
@@ -126,7 +127,7 @@ std::string studyText(const study::StudyResult& result) {
     if (split.scores.back().id == "history") out << historyChoiceText(result.history);
   }
   if (result.history.protocols.empty()) out << "\nhistory: " << result.history.choice << '\n';
-  out << '\n' << result.headline.text << '\n';
+  out << curvatureErrorText(result.curvature_errors) << '\n' << result.headline.text << '\n';
   return out.str() + sentences(result.holds_for);
 }
 

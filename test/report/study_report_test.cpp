@@ -46,7 +46,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 TEST(StudyTables, HaveAsManyCellsInEachRowAsHeadings) {
   const auto tables = fsr::report::studyTables(smallStudy());
-  EXPECT_EQ(tables.size(), 8u);
+  EXPECT_EQ(tables.size(), 10u);
   for (const auto& [name, content] : tables) {
     std::istringstream lines(content);
     std::string headings, line;
@@ -113,6 +113,39 @@ TEST(StudyText, ShowsTheHistoryBesideTheStaticAnswerAndByProtocol) {
   EXPECT_TRUE(contains(fsr::report::studyJson(result), "\"correction_alone\": 6000")) << text;
   EXPECT_TRUE(
       contains(fsr::report::studyTables(result).at("scores.csv"), "\"leave_protocol_out\",\"history\""));
+}
+
+TEST(StudyText, ShowsTheErrorOfTheMapAgainstTheErrorOfTheCurvature) {
+  fsr::study::StudyResult result = smallStudy();
+  fsr::study::CurvatureErrorScore right, shorter, step;
+  right.rmse = 20e3;
+  right.rmse_percent = 3.5;
+  right.rmse_of_class = {10e3, 20e3, 30e3};
+  shorter = step = right;
+  shorter.error.relative = -0.05;
+  shorter.rmse = 25e3;
+  shorter.moved = 8e3;
+  shorter.stated = 6e3;
+  step.error.absolute = 2;
+  step.rmse = 31e3;
+  result.curvature_errors = {{"interpolated", "Interpolated", {shorter, right, step}}};
+  const std::string text = fsr::report::studyText(result);
+  EXPECT_TRUE(contains(text,
+                       "RMSE [kPa]\n"
+                       "  curvature is             -5 %    right   +2 1/m\n"
+                       "  interpolated             25.0     20.0     31.0\n"))
+      << text;
+  EXPECT_TRUE(contains(text, "  interpolated               75        -        -\n")) << text;
+  const auto tables = fsr::report::studyTables(result);
+  EXPECT_TRUE(
+      contains(tables.at("curvature_errors.csv"), "\"interpolated\",\"Interpolated\",-5,0,3.5,25,8,6,"))
+      << tables.at("curvature_errors.csv");
+  EXPECT_TRUE(contains(tables.at("curvature_errors_by_surface.csv"),
+                       "\"interpolated\",\"Interpolated\",0,2,\"cylinder_5cm\",30\n"));
+  const std::string json = fsr::report::studyJson(result);
+  EXPECT_TRUE(contains(json, "\"moved_pa\": 8000")) << json;
+  result.curvature_errors.clear();
+  EXPECT_FALSE(contains(fsr::report::studyText(result), "error of the curvature"));
 }
 
 TEST(StudyText, NamesTheWorstTaxelByRowAndColumn) {
