@@ -13,6 +13,7 @@ import os
 import figure_style as style
 
 SHOWN_BY_PRESSURE = ("baseline", "per_curvature", "flat_or_curved", "curvature_map")
+ONE_LINE = 200  # schemes whose RMSE differs by less than this share a line in the figure of curvature errors [Pa]
 PAPER_ALGORITHM = {"linear": "LR", "grnn": "GRNN", "forest": "RF"}
 PAPER = ("\"The paper\": C. Ahmadizadeh, C. Menon, \"Investigation of Regression Methods for Reduction of Errors Caused by "
          "Bending of FSR-Based Pressure Sensing Systems Used for Prosthetic Applications\", Sensors 2019, 19(24), 5519, "
@@ -218,6 +219,54 @@ def draw_splits(stem, splits):
     return style.save(drawing, stem, columns)
 
 
+def error_points(curve, kind):
+    """[(error of the curvature, score)] of one kind, "relative" [%] or "absolute" [1/m], ascending; 0 is in both."""
+    other = "absolute" if kind == "relative" else "relative"
+    factor = 100 if kind == "relative" else 1
+    points = [(factor * score[kind], score) for score in curve["scores"] if score[other] == 0]
+    return sorted(points, key=lambda point: point[0])
+
+
+def curve_name(curve):
+    """As plain_name()."""
+    name = curve["id"].replace("_", " ")
+    return f"{name} ({curve['label']})" if curve["label"].startswith("Method") else name
+
+
+def alike(curve, other):
+    """Whether two schemes have nearly the same errors, so that their lines would hide each other."""
+    return all(abs(a["rmse_pa"] - b["rmse_pa"]) < ONE_LINE for a, b in zip(curve["scores"], other["scores"]))
+
+
+def draw_curvature_errors(stem, curves):
+    drawing, pair = style.figure(style.PAGE, 3.2, ncols=2, sharey=True)
+    columns = {"method": [], "error of the curvature": [], "unit": [], "RMSE [kPa]": []}
+    lines = []  # lists of schemes that share a line
+    for curve in curves:
+        line = next((line for line in lines if alike(curve, line[0])), None)
+        if line is None:
+            lines.append([curve])
+        else:
+            line.append(curve)
+    for axes, kind, unit in zip(pair, ("relative", "absolute"), ("%", "1/m")):
+        for number, line in enumerate(lines):
+            reference = line[0]["id"] in ("baseline", "flat_only")
+            points = error_points(line[0], kind)
+            axes.plot([error for error, _ in points], [score["rmse_pa"] / 1e3 for _, score in points],
+                      "--" if reference else ("o-", "s-", "^-", "v-", "D-", "x-", "+-")[number % 7], markersize=3.5,
+                      color=("0.2" if line[0]["id"] == "baseline" else "0.6") if reference else style.COLOURS[number % 6],
+                      label="\n".join(curve_name(curve) for curve in line))
+        for curve in curves:
+            for error, score in error_points(curve, kind):
+                for name, value in zip(columns, (curve["id"], error, unit, score["rmse_pa"] / 1e3)):
+                    columns[name].append(value)
+        axes.set_xlabel(f"error of the curvature [{unit}]")
+        axes.set_ylim(bottom=0)
+    pair[0].set_ylabel("RMSE [kPa]")
+    pair[1].legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    return style.save(drawing, stem, columns)
+
+
 # --- the report ---------------------------------------------------------------------------------------
 
 
@@ -337,6 +386,37 @@ def history_table(history):
                        f"{history['choice']} Errors of means over half a second; each protocol was predicted without it.")
 
 
+def error_text(score):
+    """The error of a curvature: "right", "-40 %", "+2 1/m"."""
+    if score["absolute"]:
+        return f"{score['absolute']:+g} 1/m"
+    return f"{100 * score['relative']:+.0f} %" if score["relative"] else "right"
+
+
+def curvature_error_table(curves, caption, cell):
+    rows = [[curve_name(curve)] + [cell(score) for score in curve["scores"]] for curve in curves]
+    return style.table(["curvature is"] + [error_text(score) for score in curves[0]["scores"]], rows, caption)
+
+
+def stated_share(score):
+    return number(100 * score["stated_pa"] / score["moved_pa"], 0) if score["moved_pa"] else "–"
+
+
+def curvature_error_sections(results, pictures):
+    curves = results["curvature_errors"]
+    if not curves:
+        return []
+    return [("Error of the map against error of the curvature", [
+        style.paragraph("Trained with the right curvatures, told wrong ones. Same held-out readings as in the split five "
+                        "sections. A positive error is a curvature that is too large. A share leaves the flat surface as it is."),
+        pictures["curvature_errors"],
+        curvature_error_table(curves, "RMSE [kPa]", lambda score: kilopascal(score["rmse_pa"])),
+        curvature_error_table(curves, "RMSE [% of range], mean over taxels", lambda score: number(score["rmse_percent"])),
+        curvature_error_table(curves, "Where the curvature message states a deviation as large as the error: what this adds to "
+                              "the map's deviation, in % of the change of the pressures (root mean squares). –: the pressures "
+                              "do not change.", stated_share)])]
+
+
 def beyond_sections(results, pictures):
     if not results["plan"]["beyond_the_paper"]:
         return []
@@ -371,6 +451,7 @@ def write_report(folder, results, pictures):
             [style.paragraph(text) for text in results["unmatchable"]])] if results["unmatchable"] else []),
         ("Bandwidth", [pictures["bandwidths"]]),
         *beyond_sections(results, pictures),
+        *curvature_error_sections(results, pictures),
         ("Choices that the paper leaves open", [style.table(
             ["", "the paper", "this study"],
             [[row["subject"], row["paper"], row["study"]] for row in results["decisions"]])]),
@@ -429,6 +510,10 @@ def main():
                                        "Other protocols than trained: RMSE of the static answer and with the sheet's memory.")
         pictures["splits"] = (draw_splits(stem("splits"), results["splits"]),
                               "All scans: RMSE by how the held-out readings were chosen; bars: 95 % intervals.")
+    if results["curvature_errors"]:
+        pictures["curvature_errors"] = (draw_curvature_errors(stem("curvature_errors"), results["curvature_errors"]),
+                                        "RMSE by the error of the curvature that each scheme was told; dashed: schemes that "
+                                        f"take no curvature. Schemes that differ by less than {ONE_LINE / 1e3} kPa share a line.")
     write_report(folder, results, {name: style.picture(*made) for name, made in pictures.items()})
 
 

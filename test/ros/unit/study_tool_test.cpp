@@ -70,9 +70,12 @@ TEST_F(StudyTool, WritesResultsTablesFiguresAndAReportThatNeedsNoNetwork) {
   const std::string report = contentOf(output / "report.html");
   EXPECT_NE(report.find("data:image/png;base64"), std::string::npos);
   EXPECT_EQ(report.find("http"), std::string::npos);
+  EXPECT_NE(report.find("<h2>Error of the map against error of the curvature</h2>"), std::string::npos);
+  EXPECT_NE(text.find("Error of the map against error of the curvature"), std::string::npos) << text;
+  EXPECT_NE(contentOf(output / "results.json").find("\"curvature_errors\": [\n"), std::string::npos);
   EXPECT_NE(contentOf(output / "results.json").find("\"headline\""), std::string::npos);
   for (const std::string name : {"fig5_response", "fig6_algorithms", "fig7_methods", "fig8_low_pressure",
-                                 "fig9_prediction", "fig10_all_curvatures", "splits"}) {
+                                 "fig9_prediction", "fig10_all_curvatures", "splits", "curvature_errors"}) {
     for (const std::string ending : {".png", ".pdf", ".csv"}) {
       EXPECT_GT(fs::file_size(output / "figures" / (name + ending)), 100u) << name << ending;
     }
