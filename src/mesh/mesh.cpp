@@ -12,14 +12,20 @@ namespace {
 
 constexpr double kSamePoint = 1e-6;  // distance of equal corners, as a share of the mesh's diameter
 
-double boxDiagonal(const std::vector<Point>& points) {
-  if (points.empty()) return 0;
-  Point low = points.front(), high = points.front();
+struct Box {
+  Point low = Point::Zero(), high = Point::Zero();
+
+  double diagonal() const { return (high - low).norm(); }
+};
+
+Box boxAround(const std::vector<Point>& points) {
+  if (points.empty()) return {};
+  Box box{points.front(), points.front()};
   for (const Point& point : points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
+    box.low = box.low.cwiseMin(point);
+    box.high = box.high.cwiseMax(point);
   }
-  return (high - low).norm();
+  return box;
 }
 
 using Cell = std::array<std::int64_t, 3>;
@@ -39,7 +45,7 @@ struct CellHash {
 // distance of equal points, so an equal point is in the same cell or in a neighbour of it.
 class Welder {
  public:
-  explicit Welder(double distance) : distance_(distance) {}
+  Welder(double distance, const Point& low) : distance_(distance), low_(low) {}
 
   std::uint32_t number(const Point& point) {
     const Cell centre = cellOf(point);
@@ -58,12 +64,13 @@ class Welder {
 
  private:
   Cell cellOf(const Point& point) const {
-    const Eigen::Vector3d cell = (point / distance_).array().floor();
+    const Eigen::Vector3d cell = ((point - low_) / distance_).array().floor();
     return {static_cast<std::int64_t>(cell.x()), static_cast<std::int64_t>(cell.y()),
             static_cast<std::int64_t>(cell.z())};
   }
 
   double distance_;
+  Point low_;  // corner of the box around the points: a cell's number is at most 1 / kSamePoint
   std::vector<Point> points_;
   std::unordered_map<Cell, std::uint32_t, CellHash> cells_;
 };
@@ -104,14 +111,15 @@ Point closestOfTriangle(const Point& p, const Point& a, const Point& b, const Po
 }  // namespace
 
 double Mesh::diameter() const {
-  return boxDiagonal(vertices);
+  return boxAround(vertices).diagonal();
 }
 
 Mesh weld(const std::vector<Point>& corners) {
   Mesh mesh;
-  const double size = boxDiagonal(corners);
-  if (!(size > 0)) return mesh;
-  Welder welder(kSamePoint * size);
+  const Box box = boxAround(corners);
+  const double same = kSamePoint * box.diagonal();
+  if (!(same > 0)) return mesh;
+  Welder welder(same, box.low);
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
     const Triangle triangle{welder.number(corners[i]), welder.number(corners[i + 1]),
                             welder.number(corners[i + 2])};

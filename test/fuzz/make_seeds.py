@@ -66,6 +66,44 @@ def calibration_content():
     write("calibration_content", "gone", b"\0" + change(gone, 9))
 
 
+def saddle():
+    """Triangles of a small saddle with edges of 0.5 mm, three corners each [mm]."""
+    def corner(i, j):
+        u, v = 0.5 * (i - 6), 0.5 * (j - 6)
+        return (u, v, 0.01 * (u * u - v * v))
+
+    for i in range(12):
+        for j in range(12):
+            a, b, c, d = corner(i, j), corner(i + 1, j), corner(i, j + 1), corner(i + 1, j + 1)
+            yield a, b, d
+            yield a, d, c
+
+
+def mesh():
+    """Inputs as mesh_fuzz.cpp reads them: a byte that chooses the ending, then the file."""
+    stl, ply, obj = b"\0", b"\1", b"\2"
+    faces = list(saddle())
+    points = sorted({corner for face in faces for corner in face})
+    numbers = [[points.index(corner) for corner in face] for face in faces]
+    binary = struct.pack("<80xI", len(faces))
+    for face in faces:
+        binary += struct.pack("<12f2x", 0, 0, 0, *(value for corner in face for value in corner))
+    write("mesh", "binary_stl", stl + binary)
+    facets = "".join("facet normal 0 0 1\nouter loop\n" + "".join("vertex %g %g %g\n" % corner for corner in face)
+                     + "endloop\nendfacet\n" for face in faces[:4])
+    write("mesh", "text_stl", stl + f"solid part\n{facets}endsolid part\n".encode())
+    head = (f"ply\nformat %s 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\nproperty float z\n"
+            f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
+    write("mesh", "binary_ply", ply + (head % "binary_little_endian").encode()
+          + b"".join(struct.pack("<3f", *point) for point in points)
+          + b"".join(struct.pack("<B3i", 3, *face) for face in numbers))
+    write("mesh", "text_ply", ply + (head % "ascii" + "".join("%g %g %g\n" % point for point in points)
+                                     + "".join("3 %d %d %d\n" % tuple(face) for face in numbers)).encode())
+    write("mesh", "obj", obj + ("".join("v %g %g %g\n" % point for point in points)
+                                + "".join("f %d %d %d\n" % tuple(n + 1 for n in face) for face in numbers)).encode())
+    write("mesh", "obj_with_polygon", obj + b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1 -1//1\n")
+
+
 def bag(name, packing="none"):
     folder = SEEDS / "bag"
     folder.mkdir(parents=True, exist_ok=True)
@@ -96,6 +134,7 @@ write("tools", "table", b"\x08t,a,p\n0,100,1\n0.1,200,2\n0.2,4095,3\n")
 write("table", "comma", b"\x01time,a,b\n0.1,2,3\n0.2,4,5\n")
 write("table", "semicolon_and_decimal_comma", b"\x84t;p\r\n0,1;\"2,5\"\r\n# note\n0,2;3\r\n")
 calibration_content()
+mesh()
 write("tare", "two_taxels", b"format: fsr_pressure_map tare 1\ncalibration: 3f2a\nsurface: flat\nmount: 2\ncurvature: 0\n"
       b"date: 2024-05-17T09:30:00Z\nrows: 1\ncolumns: 2\noffset: [1.5, -20]\n")
 write("recording", "three_columns", b"\x00t,a,p\n0,100,1\n0.1,200,2\n0.2,4095,3\n")
