@@ -1,5 +1,7 @@
 #include "matrix/surface_file.h"
 
+#include "matrix/mesh_place.h"
+
 namespace fsr::matrix {
 
 namespace {
@@ -87,6 +89,7 @@ bool hasSurfaceForm(const settings::Settings& settings) {
 Surface readSurfaceFile(const std::string& path, MatrixSize size) {
   const settings::Settings settings = settings::Settings::fromFile(path);
   const Surface surface = readSurface(settings, size);
+  readMeshPlace(settings);
   settings.refuseUnknown();
   return surface;
 }

@@ -21,7 +21,7 @@ constexpr double kMaxCurvature = 100.0;  // [1/m]
 /// or `flat: true`. A cylinder with its axis along y bends the rows (curvature x); `inside` makes the
 /// curvature negative. `deviation` [1/m] is optional; `taxels` may have one for each taxel instead. `size`:
 /// the number of values that a `taxels` form must have. Throws InputError. readSurface() ignores other keys
-/// of the caller, readSurfaceFile() refuses them.
+/// of the caller; readSurfaceFile() refuses them, except a sound section `mesh` (mesh_place.h).
 Surface readSurface(const settings::Settings& settings, MatrixSize size);
 /// Whether the settings contain one of these forms and not only a name.
 bool hasSurfaceForm(const settings::Settings& settings);

@@ -59,6 +59,7 @@ class SheetLayer {
     const int rows = place_.layout.size.rows;
     const int columns = place_.layout.size.columns;
     const Start middle = start();
+    sheet_.middle = middle.fit.frame;
     sheet_.taxels.resize(place_.layout.size.taxels());
     patches_.resize(sheet_.taxels.size());
     const double y = place_.layout.pitch_y, x = place_.layout.pitch_x;

@@ -33,6 +33,7 @@ constexpr double kLargestDistance = 0.005;
 
 /// A matrix on a mesh.
 struct LaidSheet {
+  Frame middle;                  ///< of the matrix, on the mesh: the matrix frame in the frame of the mesh
   std::vector<SheetFit> taxels;  ///< [rows x columns], row-major
   int degree = kLowestDegree;    ///< of the polynomials
   /// Root mean square over the taxels of the error that the polynomials' degree makes in the curvature [1/m].

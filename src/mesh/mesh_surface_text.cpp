@@ -69,6 +69,14 @@ void addValues(std::ostringstream& out, const std::string& key, const matrix::La
   out << "]\n";
 }
 
+// A point [m] or direction, rounded to 1e-6.
+std::string vectorText(const Point& vector) {
+  std::string result;
+  for (const double value : {vector.x(), vector.y(), vector.z()})
+    result += (result.empty() ? "[" : ", ") + settings::numberText(std::round(1e6 * value) / 1e6 + 0.0);
+  return result + "]";
+}
+
 void addRow(std::ostringstream& out, const std::string& what, const Spread& values) {
   out << std::left << std::setw(44) << what << std::right;
   for (const double value : {values.low, values.median, values.high})
@@ -104,6 +112,13 @@ std::string surfaceFileText(const MeshSurface& surface, const SheetPlace& place,
   addValues(out, "y", place.layout, [&](std::size_t i) { return curvature[i].y; });
   addValues(out, "xy", place.layout, [&](std::size_t i) { return curvature[i].xy; });
   addValues(out, "deviation", place.layout, [&](std::size_t i) { return surface.surface.deviation[i]; });
+  const Frame& middle = surface.sheet.middle;
+  out << "mesh:  # where the matrix lies on it, for rviz\n"
+      << "  file: " << settings::quotedText(origin.path) << "\n"
+      << "  unit: " << settings::numberText(origin.unit.length) << "  # [m]\n"
+      << "  middle: " << vectorText(middle.origin) << "  # [m]\n"
+      << "  row: " << vectorText(middle.axes.col(0)) << "\n"
+      << "  normal: " << vectorText(middle.axes.col(2)) << "\n";
   return out.str();
 }
 

@@ -1,13 +1,16 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "fsr_pressure_map/view/bent_sheet.h"
 #include "mesh/mesh_file.h"
 #include "mesh/mesh_surface.h"
 #include "mesh/mesh_surface_text.h"
 #include "settings/command_line.h"
+#include "settings/number_text.h"
 #include "settings/replace_file.h"
 
 namespace {
@@ -72,6 +75,28 @@ mesh::SheetPlace placeIn(const CommandLine& line, double unit) {
   return place;
 }
 
+// The path of the mesh as seen from the surface file, so that both can be moved together.
+std::string pathBeside(const std::filesystem::path& file, const std::filesystem::path& output) {
+  return std::filesystem::absolute(file)
+      .lexically_normal()
+      .lexically_proximate(std::filesystem::absolute(output).lexically_normal().parent_path())
+      .string();
+}
+
+// How far rviz, which bends the sheet by the curvatures of the file, draws a taxel from its place on the mesh
+// [m].
+double drawnGap(const mesh::MeshSurface& made, const fsr::matrix::Layout& layout) {
+  const std::vector<fsr::view::TaxelPose> poses = fsr::view::bendSheet(layout, made.surface);
+  const mesh::Frame& middle = made.sheet.middle;
+  double largest = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const auto& [x, y, z] = poses[i].position;
+    const mesh::Point drawn = middle.origin + middle.axes * mesh::Point(x, y, z);
+    largest = std::max(largest, (drawn - made.sheet.taxels[i].fit.frame.origin).norm());
+  }
+  return largest;
+}
+
 int surfaceFromMeshTool(int argc, const char* const* argv) {
   CommandLine line = commandLine();
   if (!line.parse(argc, argv)) {
@@ -87,9 +112,9 @@ int surfaceFromMeshTool(int argc, const char* const* argv) {
   line.requireWritable(output.string());
 
   const mesh::Mesh triangles = mesh::readMesh(file.string(), unit.length);
-  const mesh::MeshOrigin origin{file.filename().string(),  unit,
-                                place.at / unit.length,    place.row_direction,
-                                triangles.vertices.size(), triangles.triangles.size()};
+  const mesh::MeshOrigin origin{
+      file.filename().string(),  pathBeside(file, output),  unit, place.at / unit.length, place.row_direction,
+      triangles.vertices.size(), triangles.triangles.size()};
   const mesh::MeshSurface surface = [&] {
     try {
       return mesh::surfaceFromMesh(triangles, place, output.stem().string());
@@ -98,7 +123,9 @@ int surfaceFromMeshTool(int argc, const char* const* argv) {
     }
   }();
   fsr::settings::replaceFile(output.string(), mesh::surfaceFileText(surface, place, origin));
-  std::cout << mesh::surfaceReport(surface, place, origin)
+  std::cout << mesh::surfaceReport(surface, place, origin) << "rviz draws each taxel within "
+            << fsr::settings::roundedText(1e3 * drawnGap(surface, place.layout), 2)
+            << " mm of its place on the mesh\n"
             << "\nwritten: " << std::filesystem::absolute(output).lexically_normal().string() << "\n";
   return 0;
 }

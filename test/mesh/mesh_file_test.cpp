@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "matrix/mesh_place.h"
 #include "matrix/surface_file.h"
 #include "mesh/example_meshes.h"
 #include "mesh/mesh_surface.h"
@@ -112,7 +115,7 @@ TEST_F(MeshFile, TheSurfaceFileIsReadBack) {
   rough.noise = 0.00005;
   const Mesh mesh = weld(triangles(test_support::cylinder(kRadius), rough));
   const MeshSurface surface = surfaceFromMesh(mesh, place, "limb");
-  const MeshOrigin origin{"limb.stl", meshUnit("mm"), {50, 0, 0}, {0, 1, 0.2}, 1, 2};
+  const MeshOrigin origin{"limb.stl", "scans/limb.stl", meshUnit("mm"), {50, 0, 0}, {0, 1, 0.2}, 1, 2};
   const matrix::Surface read =
       matrix::readSurfaceFile(written("limb.yaml", surfaceFileText(surface, place, origin)), {3, 4});
   EXPECT_EQ(read.name, "limb");
@@ -123,6 +126,39 @@ TEST_F(MeshFile, TheSurfaceFileIsReadBack) {
     EXPECT_NEAR(read.curvature[i].xy, surface.surface.curvature[i].xy, 5e-5);
     EXPECT_NEAR(read.deviation[i], surface.surface.deviation[i], 5e-5);
     EXPECT_GT(read.deviation[i], 0);
+  }
+}
+
+// The frame of the matrix has its origin in the middle of the sheet, x along the rows, y along the columns
+// and z out of the loaded face; also in the wall, where z points to the axis.
+TEST_F(MeshFile, TheSurfaceFilePlacesTheFrameOfTheMatrix) {
+  const Mesh mesh = weld(triangles(test_support::cylinder(kRadius)));
+  for (const bool outside : {true, false}) {
+    SheetPlace place;
+    place.layout = {{3, 3}, 0.010, 0.010};
+    place.at = {kRadius, 0, 0};
+    place.row_direction = {0, 1, 0.2};
+    place.along_normals = outside;
+    const MeshSurface made = surfaceFromMesh(mesh, place, "placed");
+    const MeshOrigin origin{"a.stl", "../a.stl", meshUnit("mm"), place.at, place.row_direction, 1, 2};
+    const auto read = matrix::readMeshPlaceFile(written("placed.yaml", surfaceFileText(made, place, origin)));
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->file, std::filesystem::path(folder_).parent_path().string() + "/a.stl");
+    EXPECT_EQ(read->unit, 0.001);
+    const auto& [x, y, z, w] = read->matrix.quaternion;
+    const auto& [px, py, pz] = read->matrix.position;
+    const auto inMatrixFrame = [&](std::size_t taxel) {
+      const Point& on_mesh = made.sheet.taxels[taxel].fit.frame.origin;
+      return Point(Eigen::Quaterniond(w, x, y, z).conjugate() * (on_mesh - Point(px, py, pz)));
+    };
+    const double close = 0.05e-3;  // the fits of the walk and of the taxel differ [m]
+    EXPECT_LT(inMatrixFrame(4).norm(), close);
+    const double side = outside ? -1 : 1;  // the rows are nearly around the cylinder
+    EXPECT_NEAR(inMatrixFrame(5).x(), 0.010, 0.1e-3);
+    EXPECT_NEAR(inMatrixFrame(5).y(), 0, close);
+    EXPECT_NEAR(inMatrixFrame(5).z(), side * 0.010 * 0.010 / (2 * kRadius), 0.1e-3);
+    EXPECT_NEAR(inMatrixFrame(7).x(), 0, close);
+    EXPECT_NEAR(inMatrixFrame(7).y(), 0.010, 0.1e-3);
   }
 }
 
@@ -149,9 +185,29 @@ TEST_F(SurfaceFromMesh, WritesASurfaceFileAndSaysWhatItMeans) {
   EXPECT_NE(done.text.find("concave towards the load at every taxel"), std::string::npos) << done.text;
   EXPECT_NE(done.text.find("principal curvature of largest magnitude"), std::string::npos);
   EXPECT_NE(done.text.find("written: " + path("wall.yaml")), std::string::npos);
+  EXPECT_EQ(matrix::readMeshPlaceFile(path("wall.yaml"))->file, path("socket.stl"));
   const matrix::Surface wall = matrix::readSurfaceFile(path("wall.yaml"), {7, 10});
   EXPECT_EQ(wall.name, "wall");
   EXPECT_NEAR(wall.curvature[33].x, -1 / kRadius, 0.02 / kRadius);
+}
+
+// rviz bends the sheet by the curvatures of the file. Every taxel must then be where the sheet was laid: on
+// surfaces that wrinkle it, too, because both walk along the same lines.
+TEST_F(SurfaceFromMesh, SaysHowFarTheDrawnSheetIsFromTheMesh) {
+  const std::vector<std::pair<test_support::Surface, std::string>> cases = {
+      {test_support::cylinder(kRadius), "50,0,0 --row-direction 0,1,0.2"},
+      {test_support::cylinder(kRadius), "50,0,0 --row-direction 0,1,0.2 --side inside"},
+      {test_support::sphere(0.08), "80,0,0 --row-direction 0,1,0"},
+      {test_support::saddle(8, -6), "0,0,0 --row-direction 0,1,0"}};
+  for (const auto& [surface, options] : cases) {
+    test_support::writeBinaryStl(path("drawn.stl"), triangles(surface), 0.001);
+    const auto done = run("drawn.stl --units mm --output drawn.yaml --columns 8 --at " + options);
+    EXPECT_EQ(done.status, 0) << done.text;
+    const std::string words = "rviz draws each taxel within ";
+    const std::size_t at = done.text.find(words);
+    ASSERT_NE(at, std::string::npos) << done.text;
+    EXPECT_LT(std::stod(done.text.substr(at + words.size())), 0.05) << options;  // [mm]; seen 0.004 to 0.014
+  }
 }
 
 TEST_F(SurfaceFromMesh, RefusesWrongOptionsInASentenceAndWritesNothing) {

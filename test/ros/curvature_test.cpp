@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/Marker.h>
 
 #include <filesystem>
 #include <fstream>
@@ -58,6 +60,53 @@ TEST(CurvatureNode, TakesAFileWithAValueForEachTaxel) {
   ASSERT_EQ(message.x.size(), 70u);
   EXPECT_FLOAT_EQ(message.x[69], 17.25f);
   std::filesystem::remove(path);
+}
+
+// A surface file as surface_from_mesh writes it, and an empty file in the place of the scan.
+class ScannedSurface : public testing::Test {
+ protected:
+  ScannedSurface() : folder_(std::filesystem::temp_directory_path() / "fsr_scanned_surface") {
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ / "limb.yaml")
+        << "surface: limb\nflat: true\nmesh:\n  file: limb.stl\n  unit: 0.001\n"
+           "  middle: [0.05, 0, 0]\n  row: [0, 1, 0]\n  normal: [1, 0, 0]\n";
+    std::ofstream(folder_ / "limb.stl") << "";
+  }
+  ~ScannedSurface() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path folder_;
+};
+
+visualization_msgs::Marker meshNow() {
+  const auto marker = ros::topic::waitForMessage<visualization_msgs::Marker>("mesh", ros::Duration(30));
+  return marker ? *marker : visualization_msgs::Marker();
+}
+
+TEST_F(ScannedSurface, IsDrawnInTheFrameOfTheMatrixUntilTheNextSurface) {
+  setSurface((folder_ / "limb.yaml").string(), 1);
+  const visualization_msgs::Marker scan = meshNow();
+  EXPECT_EQ(scan.action, visualization_msgs::Marker::ADD);
+  EXPECT_EQ(scan.mesh_resource, "file://" + (folder_ / "limb.stl").string());
+  EXPECT_EQ(scan.header.frame_id, "fsr_matrix");
+  EXPECT_NEAR(scan.pose.position.z, -0.051, 1e-12);
+  setSurface("flat", 2);
+  EXPECT_EQ(meshNow().action, visualization_msgs::Marker::DELETE);
+}
+
+TEST_F(ScannedSurface, PlacesTheMatrixInTheFrameOfTheScan) {
+  setSurface((folder_ / "limb.yaml").string(), 1);
+  const auto message = ros::topic::waitForMessage<tf2_msgs::TFMessage>("/tf_static", ros::Duration(30));
+  ASSERT_TRUE(message);
+  ASSERT_EQ(message->transforms.size(), 1u);
+  EXPECT_EQ(message->transforms[0].header.frame_id, "socket");
+  EXPECT_EQ(message->transforms[0].child_frame_id, "fsr_matrix");
+  EXPECT_EQ(message->transforms[0].transform.translation.x, 0.05);
+}
+
+TEST_F(ScannedSurface, StillGivesItsCurvatureWhereTheScanIsMissing) {
+  std::filesystem::remove(folder_ / "limb.stl");
+  EXPECT_EQ(setSurface((folder_ / "limb.yaml").string(), 1).surface, "limb");
+  EXPECT_EQ(meshNow().action, visualization_msgs::Marker::DELETE);
 }
 
 TEST(CurvatureNode, RepeatsItselfForRecorders) {

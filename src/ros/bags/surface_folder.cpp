@@ -40,4 +40,8 @@ fsr::matrix::Surface SurfaceFolder::load(const std::string& surface) const {
   return fsr::matrix::readSurfaceFile(pathOf(surface), size_);
 }
 
+std::optional<fsr::matrix::MeshPlace> SurfaceFolder::meshOf(const std::string& surface) const {
+  return fsr::matrix::readMeshPlaceFile(pathOf(surface));
+}
+
 }  // namespace fsr_ros

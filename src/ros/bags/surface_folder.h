@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "fsr_pressure_map/matrix/layout.h"
+#include "matrix/mesh_place.h"
 
 namespace fsr_ros {
 
@@ -24,6 +26,8 @@ class SurfaceFolder {
 
   /// Reads a surface file. Throws fsr::InputError.
   fsr::matrix::Surface load(const std::string& surface) const;
+  /// The scan that a surface file was made from, if it names one. Throws fsr::InputError.
+  std::optional<fsr::matrix::MeshPlace> meshOf(const std::string& surface) const;
 
  private:
   std::string folder_;

@@ -24,10 +24,12 @@ CurvatureServer::CurvatureServer(const ros::NodeHandle& handle, const ros::NodeH
   start(parameters, private_handle.getNamespace());
 
   publisher_ = handle_.advertise<fsr_pressure_map::SurfaceCurvature>("curvature", 10, true);
+  mesh_publisher_.emplace(handle_, parameters.text("mesh_frame", ""));
   ros::NodeHandle services(private_handle);
   service_ = services.advertiseService("set_surface", &CurvatureServer::setSurface, this);
   timer_ = handle_.createTimer(ros::Duration(1.0), [this](const ros::TimerEvent&) { publish(); });
   publish();
+  mesh_publisher_->show(headerNow(), mesh_);
 }
 
 CurvatureServer::~CurvatureServer() {
@@ -43,29 +45,35 @@ void CurvatureServer::start(const Parameters& parameters, const std::string& nod
   launched.surface = parameters.text("surface", "");
   if (launched.surface.find('/') != std::string::npos) launched.surface = resolveLaunchPath(launched.surface);
   launched.mount = static_cast<std::uint32_t>(parameters.integer("mount", 1, {0, 1e9, ""}));
-  if (!launched.surface.empty()) surface_ = surfaces_.load(launched.surface);
+  if (!launched.surface.empty()) lay(launched);
   surface_.mount = launched.mount;
   memory_ = std::make_unique<SurfaceMemory>(ownFile(parameters, "surface_file", node, "surface"), launched);
   if (!memory_->remark().empty()) ROS_WARN_STREAM(node << ": " << memory_->remark());
   if (memory_->start() == launched) return;
   try {
-    fsr::matrix::Surface last = surfaces_.load(memory_->start().surface);
-    last.mount = memory_->start().mount;
-    surface_ = std::move(last);
+    lay(memory_->start());
   } catch (const fsr::settings::InputError& error) {
     surface_ = {};  // the launch file's would be wrong
+    mesh_.reset();
     ROS_ERROR_STREAM(node << ": the surface is unknown until ~set_surface is called, because "
                           << error.what());
   }
 }
 
+// Takes over a surface, or leaves the old one and throws.
+void CurvatureServer::lay(const LaidOn& next) {
+  fsr::matrix::Surface surface = surfaces_.load(next.surface);
+  mesh_ = surfaces_.meshOf(next.surface);
+  surface_ = std::move(surface);
+  surface_.mount = next.mount;
+}
+
 bool CurvatureServer::setSurface(fsr_pressure_map::SetSurface::Request& request,
                                  fsr_pressure_map::SetSurface::Response& response) {
   try {
-    fsr::matrix::Surface next = surfaces_.load(request.surface);
-    next.mount = request.mount != 0 ? request.mount : surface_.mount + 1;
-    surface_ = std::move(next);
+    lay({request.surface, request.mount != 0 ? request.mount : surface_.mount + 1});
     publish();
+    mesh_publisher_->show(headerNow(), mesh_);
     response.success = true;
     response.message = "the matrix lies on " + surface_.name + " (mount " + std::to_string(surface_.mount) +
                        "), from " + fs::absolute(surfaces_.pathOf(request.surface)).string();
@@ -90,10 +98,16 @@ std::string CurvatureServer::keptText(const LaidOn& now) {
   }
 }
 
+std_msgs::Header CurvatureServer::headerNow() const {
+  std_msgs::Header header;
+  header.stamp = ros::Time::now();
+  header.frame_id = frame_id_;
+  return header;
+}
+
 void CurvatureServer::publish() {
   fsr_pressure_map::SurfaceCurvature message = toMessage(surface_);
-  message.header.stamp = ros::Time::now();
-  message.header.frame_id = frame_id_;
+  message.header = headerNow();
   publisher_.publish(message);
 }
 

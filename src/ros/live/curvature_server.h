@@ -4,22 +4,26 @@
 #include <ros/node_handle.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "ros/bags/surface_folder.h"
 #include "ros/bags/surface_memory.h"
+#include "ros/live/mesh_publisher.h"
 #include "ros/live/parameters.h"
 
 namespace fsr_ros {
 
 /// Publishes the surface under the matrix on `curvature`, latched and repeated each second of ROS time, so
-/// that every part of a bag contains it. The service `~set_surface` changes the surface.
+/// that every part of a bag contains it. The service `~set_surface` changes the surface. Where the surface
+/// file names a scan, the scan is published on `mesh` (MeshPublisher).
 ///
 /// Parameters: `~surface` (name of a file in `~surfaces`, or path of a surface file; empty = unknown until
 /// the service is called), `~surfaces` (folder of surface files), `~mount`, `~rows` and `~columns` (surface
-/// files with one value for each taxel must fit them), `~frame_id`, `~surface_file` (keeps what ~set_surface
-/// said, for a node that died; see SurfaceMemory).
+/// files with one value for each taxel must fit them), `~frame_id` (of the matrix), `~mesh_frame` (of scans;
+/// empty = no transform),
+/// `~surface_file` (keeps what ~set_surface said, for a node that died; see SurfaceMemory).
 class CurvatureServer {
  public:
   /// Throws fsr::InputError.
@@ -32,15 +36,19 @@ class CurvatureServer {
   bool setSurface(fsr_pressure_map::SetSurface::Request& request,
                   fsr_pressure_map::SetSurface::Response& response);
   void publish();
+  std_msgs::Header headerNow() const;
   std::string keptText(const LaidOn& now);
+  void lay(const LaidOn& next);
   void start(const Parameters& parameters, const std::string& node);
 
   ros::NodeHandle handle_;
   SurfaceFolder surfaces_;
   std::string frame_id_;
   fsr::matrix::Surface surface_;
+  std::optional<fsr::matrix::MeshPlace> mesh_;  // under the matrix
   std::unique_ptr<SurfaceMemory> memory_;
   ros::Publisher publisher_;
+  std::optional<MeshPublisher> mesh_publisher_;
   ros::ServiceServer service_;
   ros::Timer timer_;
 };
