@@ -29,14 +29,17 @@
 #include <QTimer>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <typeinfo>
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/view/colour_map.h"
+#include "ros/messages/mesh_messages.h"
 #include "ros/messages/message_reader.h"
 #include "support/source_dir.h"
 #include "view/taxel_look.h"
@@ -140,8 +143,13 @@ class Rviz : public testing::Test {
     const double k = double(surface->x.front());  // [1/m]
     const double along = double(map->pitch_x) * (double(taxel % map->columns) - 0.5 * (map->columns - 1));
     const double y = double(map->pitch_y) * (double(taxel / map->columns) - 0.5 * (map->rows - 1));
-    const Ogre::Vector4 point(static_cast<float>(std::sin(k * along) / k), static_cast<float>(y),
-                              static_cast<float>((std::cos(k * along) - 1) / k), 1);
+    return onScreen({static_cast<float>(std::sin(k * along) / k), static_cast<float>(y),
+                     static_cast<float>((std::cos(k * along) - 1) / k)},
+                    image);
+  }
+
+  static QPoint onScreen(const Ogre::Vector3& position, const QImage& image) {
+    const Ogre::Vector4 point(position.x, position.y, position.z, 1);
     const Ogre::Camera* camera = frame->getManager()->getRenderPanel()->getCamera();
     const Ogre::Vector4 clip = camera->getProjectionMatrix() * (camera->getViewMatrix() * point);
     return {static_cast<int>(0.5 * double(1 + clip.x / clip.w) * image.width()),
@@ -347,6 +355,46 @@ TEST_F(Rviz, EShowsItsLegendFromTheHighEndDown) {
     return right;
   };
   EXPECT_TRUE(runUntil([&] { return bar() == 10; })) << bar() << " of 10 places of the bar are right";
+}
+
+// A scan of the plane x = 30 mm, with the matrix on it, in mm. In the frame of the matrix it is the plane
+// z = -1 mm: it is seen beside the sheet, and goes again.
+TEST_F(Rviz, EShowsTheScanUnderTheSheet) {
+  const std::string folder = QDir::tempPath().toStdString() + "/fsr scan";  // with a space
+  QDir().mkpath(QString::fromStdString(folder));
+  std::ofstream stl(folder + "/plane.stl", std::ios::binary);
+  const float low = -100, high = 100, x = 30;
+  const float corners[2][9] = {{x, low, low, x, high, low, x, high, high},
+                               {x, low, low, x, high, high, x, low, high}};
+  const std::uint32_t count = 2;
+  stl << std::string(80, ' ');
+  stl.write(reinterpret_cast<const char*>(&count), 4);
+  for (const auto& triangle : corners) {
+    const float normal[3] = {1, 0, 0};
+    stl.write(reinterpret_cast<const char*>(normal), 12).write(reinterpret_cast<const char*>(triangle), 36);
+    stl.write("\0\0", 2);
+  }
+  stl.close();
+  std_msgs::Header header;
+  header.frame_id = "fsr_matrix";
+  // Rows along the mesh's y axis, normal along its x axis: a turn by 120 degrees about (1, 1, 1).
+  const fsr::matrix::MeshPlace scan{folder + "/plane.stl", 0.001, {{0.03, 0, 0}, {0.5, 0.5, 0.5, 0.5}}};
+  ros::Publisher mesh = handle->advertise<visualization_msgs::Marker>("/fsr/mesh", 1, true);
+  const auto beside = [] {  // behind the last row
+    const QImage image = picture();
+    const QPoint at = onScreen({0, 0.06F, -0.001F}, image);
+    return image.rect().contains(at) ? image.pixelColor(at) : QColor();
+  };
+  displayNamed("Grid 1 cm")->setEnabled(false);
+  ASSERT_TRUE(runUntil([&] { return beside() == QColor(48, 48, 48); })) << beside().name().toStdString();
+  const QColor before = beside();
+  mesh.publish(fsr_ros::toMarker(header, scan));
+  EXPECT_TRUE(runUntil([&] { return beside().lightness() > before.lightness() + 10; }))
+      << before.lightness() << " without, " << beside().lightness() << " with the scan";
+  mesh.publish(fsr_ros::noMesh(header));
+  EXPECT_TRUE(runUntil([&] { return beside() == before; }));
+  displayNamed("Grid 1 cm")->setEnabled(true);
+  QDir(QString::fromStdString(folder)).removeRecursively();
 }
 
 TEST_F(Rviz, FReadsATaxelOutWhenItIsSelected) {
