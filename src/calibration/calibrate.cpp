@@ -9,6 +9,7 @@
 #include "calibration/remount_errors.h"
 #include "calibration/session/session_rests.h"
 #include "calibration/session/session_zero.h"
+#include "calibration/shape/shape_training.h"
 #include "calibration/sources.h"
 #include "calibration/taxel_training.h"
 #include "calibration/temperature/temperature_course.h"
@@ -76,6 +77,7 @@ class Training {
                                  calibration.session_zero.expected() ? &sessions_ : nullptr};
     trainHistory(problem, problem_.options, calibration);
     calibration.temperature = chooseTemperature(problem, problem_.options, calibration);
+    trainShape(problem_.recordings, sessions_, calibration);
     return calibration;
   }
 

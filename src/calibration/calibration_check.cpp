@@ -71,22 +71,6 @@ std::string places(const std::vector<std::size_t>& taxels, const matrix::Layout&
   return taxels.size() > kListed ? list + ", ..." : list;
 }
 
-void requireFitting(const Calibration& calibration, const dataset::Recording& recording) {
-  if (recording.pressure.empty()) {
-    throw settings::InputError(recording.name +
-                               ": has no chamber_pressure, so there is no reference for the maps; "
-                               "without a chamber use check_bag --use socket");
-  }
-  const matrix::MatrixSize size = recording.layout.size;
-  if (size.rows != calibration.layout.size.rows || size.columns != calibration.layout.size.columns ||
-      recording.full_scale != calibration.tables.full_scale) {
-    throw settings::InputError(recording.name + ": has " + matrix::sizeText(size) + " taxels up to " +
-                               std::to_string(recording.full_scale) + " counts, but the calibration is for " +
-                               matrix::sizeText(calibration.layout.size) + " up to " +
-                               std::to_string(calibration.tables.full_scale));
-  }
-}
-
 class Checker {
  public:
   /// `tared`: with a tare at the start of each session, if the calibration expects one.
@@ -218,6 +202,22 @@ void judgeClass(const CheckedClass& checked, double range, const CalibrationChec
 
 }  // namespace
 
+void requireFit(const Calibration& calibration, const dataset::Recording& recording) {
+  if (recording.pressure.empty()) {
+    throw settings::InputError(recording.name +
+                               ": has no chamber_pressure, so there is no reference for the maps; "
+                               "without a chamber use check_bag --use socket");
+  }
+  const matrix::MatrixSize size = recording.layout.size;
+  if (size.rows != calibration.layout.size.rows || size.columns != calibration.layout.size.columns ||
+      recording.full_scale != calibration.tables.full_scale) {
+    throw settings::InputError(recording.name + ": has " + matrix::sizeText(size) + " taxels up to " +
+                               std::to_string(recording.full_scale) + " counts, but the calibration is for " +
+                               matrix::sizeText(calibration.layout.size) + " up to " +
+                               std::to_string(calibration.tables.full_scale));
+  }
+}
+
 CalibrationCheck checkCalibration(const Calibration& calibration,
                                   const std::vector<dataset::Recording>& recordings,
                                   const CalibrationCheckOptions& options) {
@@ -225,7 +225,7 @@ CalibrationCheck checkCalibration(const Calibration& calibration,
     throw settings::InputError("there is no bag to check the calibration on; give one at least");
   Checker checker(calibration, true);
   for (const dataset::Recording& recording : recordings) {
-    requireFitting(calibration, recording);
+    requireFit(calibration, recording);
     checker.take(recording);
   }
   CalibrationCheck check = checker.result(options);

@@ -56,4 +56,8 @@ CalibrationCheck checkCalibration(const Calibration& calibration,
                                   const std::vector<dataset::Recording>& recordings,
                                   const CalibrationCheckOptions& options = {});
 
+/// Throws InputError if the recording has no chamber pressure, or another matrix or converter than the
+/// calibration.
+void requireFit(const Calibration& calibration, const dataset::Recording& recording);
+
 }  // namespace fsr::calibration

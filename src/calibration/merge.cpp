@@ -238,6 +238,8 @@ Calibration Merging::run(const MergeOptions& options) {
   }
   whole.coverage.thin = dataset::thinPlaces(whole.coverage.conditions, whole.folds);
   whole.statistics = std::make_shared<const compensation::TrainingStatistics>(mergeStatistics());
+  whole.shape.missing =
+      "a merged calibration has no model of the shape, because that needs the bags; train on all of them";
   trainOnStatistics(training, parts_.front().name, whole);
   return whole;
 }

@@ -11,6 +11,7 @@
 
 #include "fsr_pressure_map/compensation/curvature_tables.h"
 #include "fsr_pressure_map/compensation/history.h"
+#include "fsr_pressure_map/compensation/shape.h"
 #include "fsr_pressure_map/compensation/temperature.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
@@ -221,6 +222,7 @@ struct Calibration {
   compensation::HistoryModel history;  ///< of the sheet's memory; family kNone = the tables alone answer
   SessionZero session_zero;
   compensation::TemperatureModel temperature;  ///< of the sheet; tables and history are those at T_0
+  compensation::ShapeModel shape;              ///< how the unloaded sheet reads on each surface
   TrainedRanges trained;
   dataset::Coverage coverage;
   CalibrationScores scores;

@@ -152,6 +152,7 @@ void writeCalibration(const Calibration& calibration, hdf5::Writer& writer) {
   writeHistory(calibration.history, writer);
   writeSessionZero(calibration.session_zero, writer);
   writeTemperature(calibration.temperature, writer);
+  writeShape(calibration.shape, writer);
   writeCoverage(calibration.coverage, writer);
   if (!calibration.scores.conditions.empty()) {
     writeScores(calibration.scores, writer);
@@ -190,6 +191,7 @@ Calibration readCalibration(const hdf5::Reader& reader, std::uint64_t schema, Ca
   calibration.history = readHistory(reader);
   calibration.session_zero = readSessionZero(reader);
   calibration.temperature = readTemperature(reader);
+  calibration.shape = readShape(reader, calibration.layout, calibration.tables.full_scale);
   if (reader.integer("/", "scored") != 0) {
     calibration.scores = readScores(reader, statistics.classes);
     calibration.scores.history = readHistoryScores(reader);

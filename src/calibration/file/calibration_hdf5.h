@@ -28,6 +28,10 @@ namespace fsr::calibration {
 //     /session     attributes tare, rmse_without, rmse (absent where no tare is expected)
 //     /temperature attributes sensitivity, reference, lag, low, high, spread (absent without a model of the
 //                  temperature)
+//     /shape       attributes missing, family, ...; curvature, mounts, gain, zero_share, error_between
+//     [surfaces],
+//                  surfaces, used, scale, history [taxels], rest [surfaces x taxels] (absent in earlier
+//                  files)
 //     /coverage    scans, cycles [classes x bins x 2], totals, pressure, thin
 //     /scores      see scores_hdf5 (absent where not asked for)
 //     /statistics  surfaces, curvature of the classes; first [taxels x classes x sections + 1] and the rows
@@ -69,6 +73,9 @@ void writeTemperature(const compensation::TemperatureModel& model, hdf5::Writer&
 compensation::TemperatureModel readTemperature(const hdf5::Reader& reader);
 void writeTemperatureScores(const TemperatureScore& score, hdf5::Writer& writer);
 TemperatureScore readTemperatureScores(const hdf5::Reader& reader);
+void writeShape(const compensation::ShapeModel& model, hdf5::Writer& writer);
+compensation::ShapeModel readShape(const hdf5::Reader& reader, const matrix::Layout& layout,
+                                   std::uint16_t full_scale);
 void writeCoverage(const dataset::Coverage& coverage, hdf5::Writer& writer);
 dataset::Coverage readCoverage(const hdf5::Reader& reader,
                                const std::vector<dataset::CurvatureClass>& classes);

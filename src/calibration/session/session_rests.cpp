@@ -15,27 +15,54 @@ namespace {
 constexpr double kShareOfRange = 0.01;
 constexpr double kLeast = 2e3;  // [Pa]
 
+// The scans of a session, and the pressure up to which the chamber is at rest [Pa].
+struct SessionScans {
+  SessionScans(const dataset::Recording& recording, std::size_t condition) {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (std::size_t i = 0; i < recording.scans(); ++i) {
+      if (recording.condition[i] != condition || !std::isfinite(recording.pressure[i])) continue;
+      scans.push_back(i);
+      lowest = std::min(lowest, recording.pressure[i]);
+      highest = std::max(highest, recording.pressure[i]);
+    }
+    allowed = lowest + std::max(kLeast, kShareOfRange * (highest - lowest));
+  }
+
+  std::vector<std::size_t> scans;
+  double allowed = 0;
+};
+
 }  // namespace
 
 std::vector<std::size_t> restAtStart(const dataset::Recording& recording, std::size_t condition) {
-  std::vector<std::size_t> scans;
-  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-  for (std::size_t i = 0; i < recording.scans(); ++i) {
-    if (recording.condition[i] != condition || !std::isfinite(recording.pressure[i])) continue;
-    scans.push_back(i);
-    lowest = std::min(lowest, recording.pressure[i]);
-    highest = std::max(highest, recording.pressure[i]);
-  }
-  const double allowed = lowest + std::max(kLeast, kShareOfRange * (highest - lowest));
+  const SessionScans session(recording, condition);
   const TareOptions window;
   std::vector<std::size_t> rest;
-  for (const std::size_t scan : scans) {
-    if (recording.pressure[scan] > allowed) return {};
+  for (const std::size_t scan : session.scans) {
+    if (recording.pressure[scan] > session.allowed) return {};
     rest.push_back(scan);
     const double duration = recording.time[scan] - recording.time[rest.front()];
     if (rest.size() >= window.least_scans && duration >= window.window) return rest;
   }
   return {};
+}
+
+std::vector<std::size_t> restAfterLoad(const dataset::Recording& recording, std::size_t condition) {
+  const SessionScans session(recording, condition);
+  const TareOptions window;
+  std::vector<std::size_t> rest, last;
+  bool loaded = false;
+  for (const std::size_t scan : session.scans) {
+    if (recording.pressure[scan] > session.allowed) {
+      loaded = true;
+      rest.clear();
+    } else if (loaded &&
+               (rest.empty() || recording.time[scan] - recording.time[rest.front()] <= window.window)) {
+      rest.push_back(scan);
+      if (rest.size() >= window.least_scans) last = rest;
+    }
+  }
+  return last;
 }
 
 std::optional<double> zeroAtRest(const dataset::Recording& recording, const std::vector<std::size_t>& rest,

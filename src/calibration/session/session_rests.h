@@ -16,6 +16,10 @@ namespace fsr::calibration {
 /// does not start with a rest. `condition`: of the recording; a session is one condition of one recording.
 std::vector<std::size_t> restAtStart(const dataset::Recording& recording, std::size_t condition);
 
+/// The first scans of the last rest after a load, which last at most as long as those of restAtStart(). Empty
+/// = there is no such rest.
+std::vector<std::size_t> restAfterLoad(const dataset::Recording& recording, std::size_t condition);
+
 /// What the table of a taxel answers too much at rest, mean over `rest` [Pa]. Nothing where the reading is at
 /// full scale throughout or the table is empty. `table`: pressure of each code [Pa].
 std::optional<double> zeroAtRest(const dataset::Recording& recording, const std::vector<std::size_t>& rest,

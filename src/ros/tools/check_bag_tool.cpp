@@ -6,11 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "calibration/shape/shape_training.h"
 #include "dataset/mount_remarks.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/admission_report.h"
+#include "report/shape_report.h"
 #include "ros/bags/bag_topics.h"
 #include "ros/tools/bag_options.h"
 #include "settings/command_line.h"
@@ -23,7 +25,7 @@ constexpr int kNotFit = 1;  // exit status with --strict
 
 fsr::settings::CommandLine options() {
   fsr::settings::CommandLine line(
-      "check_bag", "[--use socket [--calibration FILE]] BAG...",
+      "check_bag", "[--use socket] [--calibration FILE] BAG...",
       "Checks recordings before they are used: topics, rates, gaps and stamps; lag between matrix and "
       "chamber; "
       "dead, stuck and clipped taxels and failing lines; coverage of pressure, curvature and direction. The "
@@ -34,7 +36,9 @@ fsr::settings::CommandLine options() {
   line.option("use", "NAME",
               "chamber (default), or socket: recorded without a reference, judged by the bag alone")
       .input("calibration", "FILE",
-             "with --use socket: report what is outside the trained range of this calibration")
+             "compare the surface of each bag with how the sheet rests before the first load, by this "
+             "calibration; "
+             "with --use socket also report what is outside its trained range")
       .option("sections", "N",
               "sections of the cross-validation for which coverage is judged, 2 to 20; default 5")
       .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
@@ -65,6 +69,15 @@ std::vector<std::string> remarksOn(const std::vector<TopicCourse>& courses) {
   return remarks;
 }
 
+// How the sheet rests in each bag, if a calibration is given.
+std::optional<std::string> shapesText(const fsr::settings::CommandLine& line,
+                                      const std::vector<fsr::dataset::Recording>& recordings) {
+  if (!line.has("calibration")) return std::nullopt;
+  const fsr::calibration::Calibration calibration = fsr::calibration::loadCalibration(
+      line.text("calibration", ""), fsr::calibration::CalibrationParts::kWithoutStatistics);
+  return fsr::report::shapeText(fsr::calibration::checkShapes(calibration, recordings));
+}
+
 int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {
   fsr::discrepancy::AdmissionOptions chosen;
   chosen.sections = static_cast<std::size_t>(line.integer("sections", 5, {2, 20, ""}));
@@ -79,6 +92,7 @@ int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {
   for (const fsr::dataset::MountRemark& remark : fsr::dataset::remarksOnMounts(recordings)) {
     recordings[remark.recording].warnings.push_back(remark.sentence);
   }
+  const std::optional<std::string> shapes = shapesText(line, recordings);
   fsr::discrepancy::Admission admission = fsr::discrepancy::inspectRecordings(std::move(recordings), chosen);
   for (const std::string& path : line.files()) {
     if (sessionUse(path) != "socket") continue;
@@ -87,6 +101,7 @@ int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {
         path.substr(path.find_last_of('/') + 1) +
             " was recorded in a socket, where no chamber tells the pressure; check it with --use socket");
   }
+  if (shapes) out << *shapes << '\n';
   out << fsr::report::admissionText(admission) << std::flush;
   return line.has("strict") && !admission.fit() ? kNotFit : 0;
 }
@@ -131,8 +146,6 @@ int checkBagTool(int argc, const char* const* argv, std::ostream& out) {
   if (use == "socket") return checkSockets(line, out);
   if (use != "chamber")
     throw fsr::settings::InputError("--use is '" + use + "', but must be chamber or socket");
-  if (line.has("calibration"))
-    throw fsr::settings::InputError("--calibration goes with --use socket; see train --check");
   return checkChamber(line, out);
 }
 

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fsr_pressure_map/compensation/shape.h"
+#include "fsr_pressure_map/matrix/curvature.h"
+
+namespace fsr::calibration {
+
+/// What the readings of the unloaded sheet say of the surface that is declared.
+enum class ShapeVerdict {
+  kAgrees,     ///< the sheet rests as the surface says
+  kDisagrees,  ///< it rests as on another surface
+  kUnknown     ///< it abstains
+};
+
+struct ShapeCheck {
+  ShapeVerdict verdict = ShapeVerdict::kUnknown;
+  std::string sentence;  ///< for the user: what was found, or why nothing can be said
+  compensation::ShapeEstimate estimate;
+  std::vector<std::string> possible;  ///< names of the surfaces of training that would agree
+  bool estimated = false;             ///< the estimate may be used
+};
+
+/// Largest probability with which a correct surface is called wrong.
+constexpr double kShapeAlarm = 0.005;
+
+/// Compares a declared surface with the readings of the sheet, which must be unloaded. `alarm`: probability
+/// with which a correct surface may be called wrong.
+ShapeCheck checkShape(const compensation::ShapeModel& model, const compensation::RestReading& rest,
+                      const matrix::Surface& declared, double alarm = kShapeAlarm);
+
+/// "5.0 cm", for a principal curvature; "flat" up to dataset::kFlatCurvature.
+std::string bendText(double curvature);
+
+}  // namespace fsr::calibration

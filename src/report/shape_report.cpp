@@ -1,0 +1,63 @@
+#include "report/shape_report.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+
+#include "settings/number_text.h"
+
+namespace fsr::report {
+
+namespace {
+
+using calibration::ShapeVerdict;
+
+const char* verdictName(ShapeVerdict verdict) {
+  if (verdict == ShapeVerdict::kAgrees) return "agrees";
+  return verdict == ShapeVerdict::kDisagrees ? "disagrees" : "unknown";
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + (name.empty() ? "?" : name);
+  return text.empty() ? "-" : text;
+}
+
+double declaredCurvature(const matrix::Surface& surface) {
+  return matrix::principalCurvature(surface.curvature.front());
+}
+
+}  // namespace
+
+std::string shapeText(const std::vector<calibration::CheckedMount>& mounts) {
+  std::ostringstream out;
+  if (mounts.empty()) {
+    return "How the sheet lies cannot be told: no bag starts with a rest before the first load\n";
+  }
+  std::size_t width = 6;
+  for (const auto& mount : mounts) width = std::max(width, mount.mount.name.size() + 2);
+  const auto left = static_cast<int>(width);
+  out << "How the sheet rests before the first load: principal curvature [1/m]\n"
+      << std::left << std::setw(left) << "mount" << std::right << std::setw(9) << "declared" << std::setw(9)
+      << "rests as" << std::setw(9) << "low" << std::setw(9) << "high"
+      << "  " << std::left << std::setw(10) << "verdict"
+      << "surfaces of training that agree\n";
+  for (const auto& [mount, check] : mounts) {
+    const bool told = check.estimated;
+    const auto number = [&](double value) {
+      out << std::setw(9) << (told ? settings::fixedText(value, 2) : "-");
+    };
+    out << std::left << std::setw(left) << mount.name << std::right << std::setw(9)
+        << settings::fixedText(declaredCurvature(mount.surface), 2);
+    number(check.estimate.curvature);
+    number(check.estimate.low);
+    number(check.estimate.high);
+    out << "  " << std::left << std::setw(10) << verdictName(check.verdict) << joined(check.possible) << '\n';
+  }
+  for (const auto& [mount, check] : mounts) {
+    if (check.verdict != ShapeVerdict::kAgrees) out << mount.name << ": " << check.sentence << '\n';
+  }
+  return out.str();
+}
+
+}  // namespace fsr::report
