@@ -25,7 +25,8 @@ std::unique_ptr<LoadedCalibration> loadForUse(const std::string& path,
     fsr::calibration::Calibrator calibrator(calibration, options);
     return std::make_unique<LoadedCalibration>(
         LoadedCalibration{toMessage(calibration, path), std::move(calibrator), calibration.session_zero,
-                          calibration.temperature.present()});
+                          calibration.temperature.present(),
+                          std::make_shared<const fsr::compensation::ShapeModel>(calibration.shape)});
   } catch (const fsr::settings::InputError& error) {
     throw fsr::settings::InputError(path + ": " + error.what());
   }

@@ -112,6 +112,11 @@ std::string tareSentence(const CalibrationHealth& health) {
          " kPa; unload the sheet and call ~tare";
 }
 
+std::string shapeSentence(const CalibrationHealth& health) {
+  if (health.shape.verdict != fsr::calibration::ShapeVerdict::kDisagrees) return "";
+  return health.shape.sentence + ": correct the surface, or lay the sheet on it again";
+}
+
 void judgeCalibration(const CalibrationHealth& health, Status& status) {
   if (health.info.id.empty()) {
     status.summary(Level::ERROR, "waiting for a calibration: " + health.complaint);
@@ -119,6 +124,8 @@ void judgeCalibration(const CalibrationHealth& health, Status& status) {
     status.summary(Level::OK, health.info.scheme + " from " + health.info.path);
     const std::string due = tareSentence(health);
     if (!due.empty()) status.summary(Level::WARN, due);
+    const std::string misplaced = shapeSentence(health);
+    if (!misplaced.empty()) status.summary(Level::WARN, misplaced);
   }
   status.add("id", health.info.id);
   status.add("file", health.info.path);
@@ -127,6 +134,7 @@ void judgeCalibration(const CalibrationHealth& health, Status& status) {
   status.add("board serial number", health.board);
   status.add("surface", health.surface.name);
   status.add("mount", health.surface.mount);
+  status.add("sheet at rest", health.shape.sentence.empty() ? "not compared yet" : health.shape.sentence);
   status.add("tare", health.tare ? health.tare->date : "none");
 }
 

@@ -21,6 +21,9 @@ void judgeMaps(const CalibrationHealth& before, const CalibrationHealth& now, do
 /// and needed; else empty.
 std::string stateSentence(const CalibrationHealth& health);
 
+/// That the surface is not the one that the sheet rests on; else empty.
+std::string shapeSentence(const CalibrationHealth& health);
+
 /// That a tare is due and what it is worth, if the calibration expects one and none is set; else empty.
 std::string tareSentence(const CalibrationHealth& health);
 

@@ -1,5 +1,6 @@
 #include "ros/live/calibration_server.h"
 
+#include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Temperature.h>
 
 #include <boost/make_shared.hpp>
@@ -8,6 +9,7 @@
 #include "ros/bags/resource_path.h"
 #include "ros/live/calibration_health.h"
 #include "ros/live/service_answer.h"
+#include "ros/messages/surface_message.h"
 
 namespace fsr_ros {
 
@@ -51,6 +53,8 @@ void CalibrationServer::advertise() {
   diagnostics_.add("maps", [this](auto& status) {
     judgeMaps(before_, now_, kSecond, scans_.getTopic(), settings_.contact_threshold, status);
   });
+  if (settings_.estimates_curvature)
+    estimated_ = handle_.advertise<fsr_pressure_map::SurfaceCurvature>("curvature", 10, true);
   second_ = handle_.createWallTimer(ros::WallDuration(kSecond),
                                     [this](const ros::WallTimerEvent&) { everySecond(); });
 }
@@ -62,9 +66,13 @@ void CalibrationServer::serve() {
                slow.advertiseService("reload", &CalibrationServer::reload, this),
                slow.advertiseService("set_mask", &CalibrationServer::setMask, this),
                slow.advertiseService("tare", &CalibrationServer::tare, this),
+               slow.advertiseService("check_surface", &CalibrationServer::checkSurface, this),
+               slow.advertiseService("estimate_surface", &CalibrationServer::estimateSurface, this),
                slow.advertiseService("clear_tare", &CalibrationServer::clearTare, this)};
-  watch_ = slow.createWallTimer(ros::WallDuration(kWatchPeriod),
-                                [this](const ros::WallTimerEvent&) { tryWanted(); });
+  watch_ = slow.createWallTimer(ros::WallDuration(kWatchPeriod), [this](const ros::WallTimerEvent&) {
+    tryWanted();
+    live_.compareAtRest();
+  });
 }
 
 void CalibrationServer::subscribe() {
@@ -75,6 +83,10 @@ void CalibrationServer::subscribe() {
   temperature_ = handle_.subscribe<sensor_msgs::Temperature>(
       "temperature", 10, [this](const sensor_msgs::TemperatureConstPtr& message) {
         live_.setTemperature(message->temperature);
+      });
+  chamber_ = handle_.subscribe<sensor_msgs::FluidPressure>(
+      "chamber_pressure", 10, [this](const sensor_msgs::FluidPressureConstPtr& message) {
+        live_.setChamber(message->fluid_pressure);
       });
   scans_ = handle_.subscribe("raw", settings_.queue_size, &CalibrationServer::onScan, this, at_once);
 }
@@ -167,6 +179,30 @@ bool CalibrationServer::setMask(fsr_pressure_map::SetMask::Request& request,
 
 bool CalibrationServer::tare(Trigger::Request& /*request*/, Trigger::Response& response) {
   return answer(response, [&] { return live_.tare(kPatience); });
+}
+
+bool CalibrationServer::checkSurface(Trigger::Request& /*request*/, Trigger::Response& response) {
+  return answer(response, [&] { return live_.checkSurface(kPatience); });
+}
+
+bool CalibrationServer::estimateSurface(Trigger::Request& /*request*/, Trigger::Response& response) {
+  return answer(response, [&] { return useEstimate(); });
+}
+
+// The estimate is published, and comes back as any other curvature.
+std::string CalibrationServer::useEstimate() {
+  std::string sentence;
+  fsr::matrix::Surface surface = live_.estimateSurface(kPatience, sentence);
+  if (!settings_.estimates_curvature) {
+    return sentence +
+           "; it is not used, because another node publishes the curvature: start with curvature:=estimated "
+           "to use it";
+  }
+  surface.mount = ++estimates_;
+  fsr_pressure_map::SurfaceCurvature message = toMessage(surface);
+  message.header.stamp = ros::Time::now();
+  estimated_.publish(message);
+  return sentence + "; it is used from now on, as mount " + std::to_string(surface.mount);
 }
 
 bool CalibrationServer::clearTare(Trigger::Request& /*request*/, Trigger::Response& response) {

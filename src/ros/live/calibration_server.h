@@ -38,6 +38,7 @@ class CalibrationServer {
   void onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& message);
   void everySecond();
   void tryWanted();
+  std::string useEstimate();
   void publishInfo();
   void logChange();
 
@@ -46,6 +47,8 @@ class CalibrationServer {
   bool reload(Trigger::Request& request, Trigger::Response& response);
   bool setMask(fsr_pressure_map::SetMask::Request& request, fsr_pressure_map::SetMask::Response& response);
   bool tare(Trigger::Request& request, Trigger::Response& response);
+  bool checkSurface(Trigger::Request& request, Trigger::Response& response);
+  bool estimateSurface(Trigger::Request& request, Trigger::Response& response);
   bool clearTare(Trigger::Request& request, Trigger::Response& response);
 
   ros::NodeHandle handle_;
@@ -61,6 +64,9 @@ class CalibrationServer {
   ros::Subscriber curvature_;
   ros::Subscriber board_;
   ros::Subscriber temperature_;
+  ros::Subscriber chamber_;
+  ros::Publisher estimated_;     // of the curvature, if this node is its source
+  std::uint32_t estimates_ = 0;  // number of the mount that was estimated last
 
   diagnostic_updater::Updater diagnostics_;
   CalibrationHealth before_;  // one second before now_

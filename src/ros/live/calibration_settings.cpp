@@ -1,5 +1,6 @@
 #include "ros/live/calibration_settings.h"
 
+#include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/resource_path.h"
 #include "ros/live/own_file.h"
 
@@ -24,6 +25,10 @@ CalibrationSettings readCalibrationSettings(const ros::NodeHandle& private_handl
   s.calibrator.fill_bad_taxels = parameters.flag("fill_bad_taxels", s.calibrator.fill_bad_taxels);
   s.calibrator.temperature_margin =
       parameters.number("temperature_margin", s.calibrator.temperature_margin, {0, 1000, "K"});
+  const std::string curvature = parameters.text("curvature", "published");
+  if (curvature != "published" && curvature != "estimated")
+    throw fsr::settings::InputError("~curvature is '" + curvature + "', but must be published or estimated");
+  s.estimates_curvature = curvature == "estimated";
   s.contact_threshold = parameters.number("contact_threshold", s.contact_threshold, {0, 1e6, "Pa"});
   s.tare.limit = parameters.number("tare_limit", s.tare.limit, {0, 1e6, "Pa"});
   s.tare.scatter = parameters.number("tare_scatter", s.tare.scatter, {0, 1e6, "Pa"});

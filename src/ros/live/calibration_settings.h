@@ -20,6 +20,7 @@ struct CalibrationSettings {
   fsr::calibration::TareOptions tare;  ///< ~tare_limit, ~tare_scatter, ~tare_window
   std::string tare_file;               ///< resolved path; empty = a file in ${ROS_HOME}, named after the node
   std::string mask_file;               ///< likewise
+  bool estimates_curvature = false;    ///< ~curvature is "estimated": this node publishes it
   double contact_threshold = 10e3;     ///< diagnostics count a taxel as in contact from this pressure on [Pa]
   std::uint32_t queue_size =
       10000;  ///< length of the queues of scans and maps [messages]: ten seconds at 1 kHz

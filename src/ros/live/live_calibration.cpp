@@ -58,6 +58,7 @@ void LiveCalibration::calibrate(const fsr_pressure_map::MatrixFrame& scan,
     map_.state = fsr::map::MapState::kUncalibrated;
   }
   ++scans_;
+  watchShape(view, time);
   if (measurement_) {
     measured_ |= measurement_->add(map_, time);
     progress_.notify_all();
@@ -72,12 +73,14 @@ void LiveCalibration::setSurface(const fsr_pressure_map::SurfaceCurvature& messa
   // Messages sent by hand (rostopic pub) have no stamp: the time of reception is used.
   surface_time_ = (message.header.stamp.isZero() ? ros::Time::now() : message.header.stamp).toSec();
   surface_complaint_.clear();
+  const fsr::matrix::Surface before = surface_;
   try {
     surface_ = toSurface(message);
   } catch (const fsr::settings::InputError& error) {
     surface_ = {};
     surface_complaint_ = error.what();
   }
+  if (!fsr::matrix::sameCondition(before, surface_)) forgetShape();
   applySurface();
   applyTare();
 }
@@ -110,6 +113,7 @@ std::string LiveCalibration::load(const std::string& path) {
     loaded_.swap(next);  // the old calibration is freed after the lock is released
     wanted_path_ = path;
     complaint_.clear();
+    forgetShape();
     if (surface_received_) applySurface();
     loaded_->setTemperature(temperature_);
     applyBoard();
@@ -217,6 +221,7 @@ CalibrationHealth LiveCalibration::health() const {
   health.board = board_.serial;
   health.temperature = temperature_;
   health.tare = tare_.tare();
+  health.shape = shape_;
   health.scans = scans_;
   health.map = map_;
   return health;

@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "calibration/shape/rest_window.h"
+#include "calibration/shape/shape_check.h"
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "ros/bags/loaded_calibration.h"
@@ -33,6 +35,7 @@ struct CalibrationHealth {
   double temperature = std::numeric_limits<double>::quiet_NaN();  ///< [degree Celsius]; NaN = unknown
   std::optional<fsr::calibration::Tare> tare;
   fsr::calibration::SessionZero session_zero;  ///< of the calibration in use
+  fsr::calibration::ShapeCheck shape;          ///< of the surface in use; sentence empty = not compared yet
   std::uint64_t scans = 0;
   std::uint64_t revivals = 0;  ///< dead taxels that recovered
   fsr::map::PressureMap map;   ///< the last map
@@ -63,6 +66,17 @@ class LiveCalibration {
   std::string tare(double patience);
   std::string clearTare();
 
+  /// Compares the surface with the sheet, which must be unloaded; waits for a window of scans as tare().
+  std::string checkSurface(double patience);
+  /// Likewise, and gives the surface as the sheet tells it. Throws if it cannot be told. `sentence`: what was
+  /// found.
+  fsr::matrix::Surface estimateSurface(double patience, std::string& sentence);
+  /// The gauge pressure of a chamber round the sheet [Pa]. While it is at ambient and no load has come since
+  /// the sheet was laid on its surface, the surface is compared once.
+  void setChamber(double absolute);
+  /// Does the slow part of that comparison; to be called again and again from a thread that may wait.
+  void compareAtRest();
+
   /// The file that was requested, but is not loaded; empty if there is none.
   std::string wanted() const;
   fsr_pressure_map::CalibrationInfo info() const;
@@ -81,6 +95,11 @@ class LiveCalibration {
   void startTare();
   fsr::calibration::Tare measureTare(std::unique_lock<std::mutex>& lock, double patience);
   void awaitWindow(std::unique_lock<std::mutex>& lock, double patience);
+  void watchShape(const fsr::matrix::ScanView& scan, double time);
+  void forgetShape();
+  void startComparison();
+  fsr::calibration::ShapeCheck measureShape(double patience);
+  fsr::compensation::RestReading awaitRest(std::unique_lock<std::mutex>& lock, double patience);
 
   const CalibrationSettings settings_;
   mutable std::mutex mutex_;  // guards the following members
@@ -102,6 +121,15 @@ class LiveCalibration {
   bool measured_ = false;
   bool stopping_ = false;
   std::condition_variable progress_;  // notified by a new map, and by stop()
+
+  // The comparison of the surface with the sheet at rest, see live_shape.cpp.
+  std::optional<fsr::calibration::RestWindow> rest_;  // scans are being collected
+  bool rest_full_ = false;
+  bool rest_asked_ = false;  // by a service, which waits
+  bool ambient_ = false;     // the chamber is at ambient
+  bool load_seen_ = false;   // since the sheet was laid on its surface
+  fsr::calibration::ShapeCheck shape_;
+  std::vector<std::uint8_t> ignored_;  // taxels of the last map without a sound reading
 
   fsr::map::PressureMap map_;
   std::uint64_t scans_ = 0;

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "calibration/tare.h"
+#include "fsr_pressure_map/compensation/shape.h"
+#include "fsr_pressure_map/matrix/scan.h"
+
+namespace fsr::calibration {
+
+/// Collects scans of the unloaded sheet until their mean can be compared with a model of its shape.
+class RestWindow {
+ public:
+  /// `options`: the window and its limit of scatter. `model` must be present.
+  RestWindow(const compensation::ShapeModel& model, const TareOptions& options);
+
+  /// `ignored`: [taxels], 1 = dead, stuck or masked. True once the window is full. If time runs backwards,
+  /// the window starts again. A scan of another size or full scale is left out.
+  bool add(const matrix::ScanView& scan, const std::vector<std::uint8_t>& ignored, double time);
+
+  /// The means. Throws InputError that names the taxel whose reading scatters most, if it is more than a
+  /// sheet at rest does.
+  compensation::RestReading reading() const;
+
+ private:
+  /// Running mean and sum of squared differences (Welford 1962).
+  struct Moments {
+    double count = 0, mean = 0, squares = 0, zeros = 0;
+  };
+
+  matrix::Layout layout_;
+  std::uint16_t full_scale_;
+  std::vector<double> scale_;  // [taxels], see ShapeModel [Pa]
+  TareOptions options_;
+  std::vector<Moments> moments_;  // [taxels]
+  std::size_t scans_ = 0;
+  double start_ = 0, last_ = 0;  // [s]
+};
+
+}  // namespace fsr::calibration

@@ -1,0 +1,150 @@
+// How the sheet lies, in LiveCalibration: services wait while scans of the unloaded sheet fill a window. In a
+// chamber at ambient the surface is compared once without being asked.
+
+#include <chrono>
+#include <cmath>
+
+#include "fsr_pressure_map/settings/input_error.h"
+#include "ros/live/live_calibration.h"
+
+namespace fsr_ros {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kStandardAmbient = 101325;       // [Pa], without one in matrix_info
+constexpr double kAmbient = 2e3;                  // a chamber within this is at ambient [Pa]
+constexpr std::chrono::seconds kLongestWait{60};  // if the stamps do not advance
+const std::string kRefused = "how the sheet lies cannot be told: ";
+
+}  // namespace
+
+void LiveCalibration::setChamber(double absolute) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const double gauge = absolute - (board_.ambient_pressure > 0 ? board_.ambient_pressure : kStandardAmbient);
+  ambient_ = std::abs(gauge) <= kAmbient;
+  if (!ambient_) {
+    load_seen_ = true;
+    if (!rest_asked_) rest_.reset();
+  }
+  startComparison();
+}
+
+// A window that nobody asked for: only before the first load, because a sheet creeps back after one.
+void LiveCalibration::startComparison() {
+  if (rest_ || !loaded_ || !loaded_->shape->present() || !surface_.known()) return;
+  if (!ambient_ || load_seen_ || !shape_.sentence.empty()) return;
+  rest_.emplace(*loaded_->shape, settings_.tare);
+  rest_full_ = false;
+}
+
+void LiveCalibration::forgetShape() {
+  shape_ = {};
+  load_seen_ = false;
+  if (!rest_asked_) rest_.reset();
+}
+
+void LiveCalibration::watchShape(const fsr::matrix::ScanView& scan, double time) {
+  if (!rest_ || rest_full_) return;
+  constexpr std::uint16_t kUnsound = fsr::map::taxel_flag::kDead | fsr::map::taxel_flag::kStuck |
+                                     fsr::map::taxel_flag::kMasked | fsr::map::taxel_flag::kLineFault;
+  ignored_.assign(map_.flags.size(), 0);
+  for (std::size_t t = 0; t < ignored_.size(); ++t) ignored_[t] = (map_.flags[t] & kUnsound) != 0 ? 1 : 0;
+  rest_full_ = rest_->add(scan, ignored_, time);
+  if (rest_full_) progress_.notify_all();
+}
+
+void LiveCalibration::compareAtRest() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (!rest_ || !rest_full_ || rest_asked_ || !loaded_) return;
+  const fsr::matrix::Surface surface = surface_;
+  const std::shared_ptr<const fsr::compensation::ShapeModel> model = loaded_->shape;
+  fsr::calibration::ShapeCheck check;
+  try {
+    const fsr::compensation::RestReading reading = rest_->reading();
+    rest_.reset();
+    lock.unlock();  // no scan waits for the comparison
+    check = fsr::calibration::checkShape(*model, reading, surface);
+    lock.lock();
+  } catch (const fsr::settings::InputError& error) {
+    rest_.reset();
+    check.sentence = error.what();
+  }
+  if (fsr::matrix::sameCondition(surface, surface_) && loaded_ && loaded_->shape == model) shape_ = check;
+}
+
+fsr::calibration::ShapeCheck LiveCalibration::measureShape(double patience) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (!loaded_) throw fsr::settings::InputError(kRefused + "no calibration is loaded (" + complaint_ + ")");
+  if (!loaded_->shape->present()) throw fsr::settings::InputError(kRefused + loaded_->shape->missing);
+  if (!ambient_ && load_seen_)
+    throw fsr::settings::InputError(kRefused + "the chamber is not at ambient pressure; unload the sheet");
+  if (rest_asked_) throw fsr::settings::InputError(kRefused + "another call is measuring");
+  const std::shared_ptr<const fsr::compensation::ShapeModel> model = loaded_->shape;
+  rest_.emplace(*model, settings_.tare);
+  rest_full_ = false;
+  rest_asked_ = true;
+  fsr::compensation::RestReading reading;
+  try {
+    reading = awaitRest(lock, patience);
+  } catch (...) {
+    rest_asked_ = false;
+    rest_.reset();
+    throw;
+  }
+  rest_asked_ = false;
+  rest_.reset();
+  const fsr::matrix::Surface surface = surface_;
+  lock.unlock();
+  const fsr::calibration::ShapeCheck check = fsr::calibration::checkShape(*model, reading, surface);
+  lock.lock();
+  if (fsr::matrix::sameCondition(surface, surface_)) shape_ = check;
+  return check;
+}
+
+fsr::compensation::RestReading LiveCalibration::awaitRest(std::unique_lock<std::mutex>& lock,
+                                                          double patience) {
+  const auto give_up = Clock::now() + kLongestWait;
+  while (!rest_full_) {
+    const std::uint64_t seen = scans_;
+    const bool came = progress_.wait_for(lock, std::chrono::duration<double>(patience),
+                                         [&] { return rest_full_ || scans_ != seen || stopping_; });
+    if (stopping_) throw fsr::settings::InputError(kRefused + "the node is ending");
+    if (!came)
+      throw fsr::settings::InputError(kRefused + "no scan has come for a while; is the driver running?");
+    if (Clock::now() > give_up)
+      throw fsr::settings::InputError(kRefused +
+                                      "there were not enough scans of its matrix; do the stamps advance?");
+  }
+  return rest_->reading();
+}
+
+std::string LiveCalibration::checkSurface(double patience) {
+  const fsr::calibration::ShapeCheck check = measureShape(patience);
+  if (check.verdict == fsr::calibration::ShapeVerdict::kUnknown && !check.estimated)
+    throw fsr::settings::InputError(check.sentence);
+  return check.sentence;
+}
+
+fsr::matrix::Surface LiveCalibration::estimateSurface(double patience, std::string& sentence) {
+  const fsr::calibration::ShapeCheck check = measureShape(patience);
+  if (!check.estimated) throw fsr::settings::InputError(check.sentence);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!loaded_ || !loaded_->shape->one_direction) {
+    throw fsr::settings::InputError(
+        kRefused +
+        "training bent the sheet in several directions, which its readings at rest do "
+        "not tell apart");
+  }
+  const fsr::matrix::Curvature& direction = loaded_->shape->direction;
+  const double k = check.estimate.curvature;
+  fsr::matrix::Surface surface;
+  surface.name = "estimated";
+  surface.curvature = {{k * direction.x, k * direction.y, k * direction.xy}};
+  surface.deviation = {check.estimate.deviation};
+  sentence = check.sentence;
+  return surface;
+}
+
+}  // namespace fsr_ros
