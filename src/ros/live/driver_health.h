@@ -20,8 +20,8 @@ struct DriverHealth {
   std::uint64_t published = 0;      ///< of these
   std::uint64_t refused_scans = 0;  ///< scans of another size than the parameters say
   std::uint64_t unclaimed_scans =
-      0;                          ///< dropped: the port closed, or too many waited, before the identity came
-  std::uint64_t clock_jumps = 0;  ///< small ones included
+      0;  ///< dropped: the port closed, or too many waited, before the identity came
+  std::uint64_t clock_jumps = 0;      ///< small ones included
   std::uint64_t doubtful_stamps = 0;  ///< packets whose stamps a jump made wrong before it was noticed
   std::uint64_t impossible_durations = 0;
   double clock_drift = 0;  ///< how much faster the host's clock runs than the board's (relative)
