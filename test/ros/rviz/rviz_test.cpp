@@ -324,7 +324,7 @@ TEST_F(Rviz, DGreysTheSheetWhenMapsStopButNotWhileAReplayIsPaused) {
   EXPECT_EQ(rightTaxels(map->pressure, {}, 16), all);
   ros::Time::init();  // the clock runs
   EXPECT_TRUE(runUntil([&] { return greyTaxels() == all; }, false)) << greyTaxels() << " taxels are grey";
-  EXPECT_TRUE(says("Messages", "the sheet is grey")) << status("Messages");
+  EXPECT_TRUE(runUntil([] { return says("Messages", "the sheet is grey"); }, false)) << status("Messages");
   EXPECT_TRUE(runUntil([&] { return rightTaxels(map->pressure, {}, 16) == all; }));
 }
 
