@@ -12,6 +12,7 @@ namespace fsr::calibration {
 
 namespace {
 
+constexpr double kWidest = 0.5;   // share of the range of training: a wider interval tells too little
 constexpr double kBadFit = 1e-3;  // a fit that is worse with this probability says that something else acts
 
 std::string declaredText(const matrix::Surface& surface) {
@@ -36,6 +37,11 @@ std::string bendText(double curvature) {
   return (curvature < 0 ? "concave, " : "") + settings::fixedText(100 / std::abs(curvature), 1) + " cm";
 }
 
+std::string openText(const compensation::ShapeEstimate& estimate) {
+  return abstention("the readings at rest leave " + bendText(estimate.high) + " to " +
+                    bendText(estimate.low) + " open");
+}
+
 namespace {
 
 std::vector<double> principalCurvatures(const matrix::Surface& surface) {
@@ -50,9 +56,10 @@ void judge(const compensation::ShapeModel& model, const matrix::Surface& declare
   const compensation::ShapeEstimate& estimate = check.estimate;
   const std::string found = "the sheet rests as on " + bendText(estimate.curvature) + " (" +
                             bendText(estimate.high) + " to " + bendText(estimate.low) + ")";
-  check.estimated = !estimate.beyond;
+  const double range = model.curvature.back() - model.curvature.front();
+  check.estimated = !estimate.beyond && estimate.high - estimate.low <= kWidest * range;
   if (!declared.known()) {
-    check.sentence = found + "; no surface is declared";
+    check.sentence = check.estimated ? found + "; no surface is declared" : openText(estimate);
   } else if (agrees) {
     check.verdict = ShapeVerdict::kAgrees;
     check.sentence = found + ", which agrees with " + declaredText(declared);

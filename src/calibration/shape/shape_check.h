@@ -20,7 +20,8 @@ struct ShapeCheck {
   std::string sentence;  ///< for the user: what was found, or why nothing can be said
   compensation::ShapeEstimate estimate;
   std::vector<std::string> possible;  ///< names of the surfaces of training that would agree
-  bool estimated = false;             ///< the estimate may be used
+  /// The estimate may be used: it is within training, and its interval is at most half of the training.
+  bool estimated = false;
 };
 
 /// Largest probability with which a correct surface is called wrong.
@@ -30,6 +31,9 @@ constexpr double kShapeAlarm = 0.005;
 /// with which a correct surface may be called wrong.
 ShapeCheck checkShape(const compensation::ShapeModel& model, const compensation::RestReading& rest,
                       const matrix::Surface& declared, double alarm = kShapeAlarm);
+
+/// That the readings do not tell the curvature, and what they leave open.
+std::string openText(const compensation::ShapeEstimate& estimate);
 
 /// "5.0 cm", for a principal curvature; "flat" up to dataset::kFlatCurvature.
 std::string bendText(double curvature);

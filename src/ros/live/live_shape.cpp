@@ -129,7 +129,11 @@ std::string LiveCalibration::checkSurface(double patience) {
 
 fsr::matrix::Surface LiveCalibration::estimateSurface(double patience, std::string& sentence) {
   const fsr::calibration::ShapeCheck check = measureShape(patience);
-  if (!check.estimated) throw fsr::settings::InputError(check.sentence);
+  if (!check.estimated) {
+    throw fsr::settings::InputError(check.verdict == fsr::calibration::ShapeVerdict::kUnknown
+                                        ? check.sentence
+                                        : fsr::calibration::openText(check.estimate));
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!loaded_ || !loaded_->shape->one_direction) {
     throw fsr::settings::InputError(

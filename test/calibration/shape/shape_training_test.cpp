@@ -304,13 +304,23 @@ TEST_F(CheckShapes, SaysHowManyTaxelsAreMissing) {
             "sheet lies");
 }
 
+// An estimate is used only where its interval is at most half of the training, 10 of 20 1/m.
 TEST_F(CheckShapes, EstimatesWhereNoSurfaceIsDeclared) {
-  const compensation::RestReading rest = readingAtRest(fresh()[2], restAtStart(fresh()[2], 0));
-  const ShapeCheck check = checkShape(calibration().shape, rest, {});
-  EXPECT_EQ(check.verdict, ShapeVerdict::kUnknown);
-  EXPECT_TRUE(check.estimated);
-  EXPECT_NE(check.sentence.find("; no surface is declared"), std::string::npos) << check.sentence;
-  EXPECT_NEAR(check.estimate.curvature, 1 / 0.11, 4 * check.estimate.deviation);
+  std::size_t told = 0;
+  for (const dataset::Recording& recording : fresh()) {
+    const ShapeCheck check =
+        checkShape(calibration().shape, readingAtRest(recording, restAtStart(recording, 0)), {});
+    EXPECT_EQ(check.verdict, ShapeVerdict::kUnknown);
+    EXPECT_EQ(check.estimated, check.estimate.high - check.estimate.low <= 10) << check.sentence;
+    const char* const said =
+        check.estimated ? "; no surface is declared" : "how the sheet lies cannot be told: ";
+    EXPECT_NE(check.sentence.find(said), std::string::npos) << check.sentence;
+    if (!check.estimated) continue;
+    ++told;
+    const double curvature = matrix::principalCurvature(recording.conditions.front().curvature.front());
+    EXPECT_NEAR(check.estimate.curvature, curvature, 4 * check.estimate.deviation + 0.5) << recording.name;
+  }
+  EXPECT_GT(told, 0u);
 }
 
 TEST(BendText, IsARadius) {
