@@ -10,6 +10,7 @@
 #include "calibration/calibration_check.h"
 #include "compensation/shape/learn_shape.h"
 #include "compensation/shape/read_shape.h"
+#include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr::calibration {
 
@@ -271,18 +272,24 @@ class ShapeTraining {
     model_.scatter.white = std::hypot(model_.scatter.white, std::sqrt(rest / used / double(changes.size())));
   }
 
-  // The error on each inner surface, estimated by the law of the others.
-  std::vector<double> errorsBetween() const {
-    std::vector<double> on_surface(groups_.size(), kNaN);
-    for (std::size_t g = 1; g + 1 < groups_.size(); ++g) {
-      const ShapeModel without = compensation::withoutSurface(model_, g);
-      const compensation::ShapeReader reader(without);
-      double squares = 0;
-      for (const std::size_t m : groups_[g])
-        squares += std::pow(reader.estimate(mounts_[m].rest).curvature - model_.curvature[g], 2);
-      on_surface[g] = std::sqrt(squares / double(groups_[g].size()));
+  // The root mean square of the errors on an inner surface that the model does not know; NaN = not known.
+  double errorWithout(std::size_t group) const {
+    const ShapeModel without = compensation::withoutSurface(model_, group);
+    const compensation::ShapeReader reader(without);
+    double squares = 0;
+    try {
+      for (const std::size_t m : groups_[group])
+        squares += std::pow(reader.estimate(mounts_[m].rest).curvature - model_.curvature[group], 2);
+    } catch (const settings::InputError&) {
+      return kNaN;
     }
-    std::vector<double> between;
+    return std::sqrt(squares / double(groups_[group].size()));
+  }
+
+  // The larger of the errors on the two surfaces at the ends of each gap.
+  std::vector<double> errorsBetween() const {
+    std::vector<double> on_surface(groups_.size(), kNaN), between;
+    for (std::size_t g = 1; g + 1 < groups_.size(); ++g) on_surface[g] = errorWithout(g);
     for (std::size_t g = 0; g + 1 < groups_.size(); ++g)
       between.push_back(std::fmax(on_surface[g], on_surface[g + 1]));
     return between;

@@ -86,7 +86,8 @@ ShapeReader::Likelihood ShapeReader::likelihood(const Sample& sample,
   result.distance = root.matrixL().solve(difference).squaredNorm();
   result.logarithm =
       -lower.diagonal().array().log().sum() - (freedom + size) / 2 * std::log1p(result.distance / freedom);
-  return result;
+  if (root.info() == Eigen::Success && std::isfinite(result.logarithm)) return result;
+  return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 }
 
 ShapeReader::Likelihood ShapeReader::likelihood(const Sample& sample, double curvature) const {
@@ -102,6 +103,8 @@ ShapeEstimate ShapeReader::estimate(const RestReading& rest) const {
     found.push_back(likelihood(sample, curvature));
     if (found.back().logarithm > found[best].logarithm) best = found.size() - 1;
   }
+  if (!std::isfinite(found[best].logarithm))
+    throw settings::InputError("its model of the shape has no finite likelihood; train again");
   double least = found.front().distance, whole = 0, first = 0, second = 0;
   std::vector<double> weights;
   for (std::size_t g = 0; g < grid_.size(); ++g) {

@@ -129,6 +129,12 @@ TEST_F(ReadShape, SaysThatTheSheetIsBentMoreThanInTraining) {
   EXPECT_FALSE(reader_.estimate(mountOn(9)).beyond);
 }
 
+TEST_F(ReadShape, RefusesAModelThatGivesNoLikelihood) {
+  ShapeModel broken = model_;
+  broken.scatter.deviation = std::nan("");
+  EXPECT_THROW(ShapeReader(broken).estimate(mountOn(9)), settings::InputError);
+}
+
 TEST_F(ReadShape, TakesASurfaceOutOfAModelAndStillFindsIt) {
   const ShapeModel without = withoutSurface(model_, 2);
   EXPECT_EQ(without.curvature, (std::vector<double>{0, 5, 14, 20}));
