@@ -77,9 +77,11 @@ class Training {
                                  calibration.session_zero.expected() ? &sessions_ : nullptr};
     trainHistory(problem, problem_.options, calibration);
     calibration.temperature = chooseTemperature(problem, problem_.options, calibration);
-    trainShape(problem_.recordings, sessions_, calibration);
     return calibration;
   }
+
+  /// `calibration`: of run(), with its ranges of training.
+  void addShape(Calibration& calibration) const { trainShape(problem_.recordings, sessions_, calibration); }
 
  private:
   // Everything except the results of each taxel.
@@ -180,7 +182,9 @@ Calibration trainAtReference(const CalibrationProblem& problem, const Calibratio
                              const CalibrationProgress& progress) {
   CalibrationProblem at_reference{atReference(problem.recordings, chosen.temperature), problem.options};
   at_reference.options.temperature = false;
-  Calibration calibration = Training(at_reference).run(progress);
+  Training training(at_reference);
+  Calibration calibration = training.run(progress);
+  training.addShape(calibration);
   calibration.temperature = chosen.temperature;
   calibration.scores.temperature = chosen.scores.temperature;
   calibration.trained = chosen.trained;  // of the recorded pressures
@@ -191,8 +195,11 @@ Calibration trainAtReference(const CalibrationProblem& problem, const Calibratio
 
 Calibration calibrate(const CalibrationProblem& problem, const CalibrationProgress& progress) {
   validate(problem);
-  Calibration calibration = Training(problem).run(progress);
-  return calibration.temperature.present() ? trainAtReference(problem, calibration, progress) : calibration;
+  Training training(problem);
+  Calibration calibration = training.run(progress);
+  if (calibration.temperature.present()) return trainAtReference(problem, calibration, progress);
+  training.addShape(calibration);
+  return calibration;
 }
 
 }  // namespace fsr::calibration

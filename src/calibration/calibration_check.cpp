@@ -202,20 +202,23 @@ void judgeClass(const CheckedClass& checked, double range, const CalibrationChec
 
 }  // namespace
 
+void requireMatrix(const Calibration& calibration, const dataset::Recording& recording) {
+  if (recording.layout.size == calibration.layout.size &&
+      recording.full_scale == calibration.tables.full_scale)
+    return;
+  throw settings::InputError(
+      recording.name + ": has " + matrix::sizeText(recording.layout.size) + " taxels up to " +
+      std::to_string(recording.full_scale) + " counts, but the calibration is for " +
+      matrix::sizeText(calibration.layout.size) + " up to " + std::to_string(calibration.tables.full_scale));
+}
+
 void requireFit(const Calibration& calibration, const dataset::Recording& recording) {
   if (recording.pressure.empty()) {
     throw settings::InputError(recording.name +
                                ": has no chamber_pressure, so there is no reference for the maps; "
                                "without a chamber use check_bag --use socket");
   }
-  const matrix::MatrixSize size = recording.layout.size;
-  if (size.rows != calibration.layout.size.rows || size.columns != calibration.layout.size.columns ||
-      recording.full_scale != calibration.tables.full_scale) {
-    throw settings::InputError(recording.name + ": has " + matrix::sizeText(size) + " taxels up to " +
-                               std::to_string(recording.full_scale) + " counts, but the calibration is for " +
-                               matrix::sizeText(calibration.layout.size) + " up to " +
-                               std::to_string(calibration.tables.full_scale));
-  }
+  requireMatrix(calibration, recording);
 }
 
 CalibrationCheck checkCalibration(const Calibration& calibration,

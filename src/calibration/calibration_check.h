@@ -56,6 +56,9 @@ CalibrationCheck checkCalibration(const Calibration& calibration,
                                   const std::vector<dataset::Recording>& recordings,
                                   const CalibrationCheckOptions& options = {});
 
+/// Throws InputError if the recording has another matrix or converter than the calibration.
+void requireMatrix(const Calibration& calibration, const dataset::Recording& recording);
+
 /// Throws InputError if the recording has no chamber pressure, or another matrix or converter than the
 /// calibration.
 void requireFit(const Calibration& calibration, const dataset::Recording& recording);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 
+#include "calibration/calibration_check.h"
 #include "calibration/temperature/temperature_course.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -149,21 +150,8 @@ class SocketChecker {
     check_.median_change = statistics::upperMedian(changes);
   }
 
-  void requireFit() const {
-    const Calibration& calibration = *calibration_;
-    if (calibration.layout.size == recording_.layout.size &&
-        calibration.tables.full_scale == recording_.full_scale) {
-      return;
-    }
-    throw settings::InputError(recording_.name + ": has " + matrix::sizeText(recording_.layout.size) +
-                               " taxels up to " + std::to_string(recording_.full_scale) +
-                               " counts, but the calibration is for " +
-                               matrix::sizeText(calibration.layout.size) + " up to " +
-                               std::to_string(calibration.tables.full_scale));
-  }
-
   void calibrate() {
-    requireFit();
+    requireMatrix(*calibration_, recording_);
     Calibrator calibrator(*calibration_);
     calibrator.setMask(recording_.mask);
     std::size_t surface = recording_.conditions.size(), readings = 0, beyond = 0, bent = 0;

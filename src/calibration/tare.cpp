@@ -42,12 +42,7 @@ bool TareMeasurement::add(const map::PressureMap& map, double time) noexcept {
     start_ = time;
   }
   for (std::size_t taxel = 0; taxel < moments_.size(); ++taxel) {
-    if (!hasReading(map, taxel)) continue;
-    Moments& m = moments_[taxel];
-    const double step = map.pressure[taxel] - m.mean;
-    m.count += 1;
-    m.mean += step / m.count;
-    m.squares += step * (map.pressure[taxel] - m.mean);
+    if (hasReading(map, taxel)) moments_[taxel].add(map.pressure[taxel]);
   }
   ++scans_;
   return scans_ >= options_.least_scans && time - start_ >= options_.window;
@@ -57,7 +52,7 @@ std::vector<float> TareMeasurement::offset(const std::vector<float>& standing) c
   std::vector<float> result = standing.empty() ? std::vector<float>(moments_.size(), 0.0f) : standing;
   std::size_t read = 0;
   for (std::size_t taxel = 0; taxel < moments_.size(); ++taxel) {
-    const Moments& m = moments_[taxel];
+    const statistics::RunningMoments& m = moments_[taxel];
     if (m.count == 0) continue;
     ++read;
     const double offset = result[taxel] + m.mean;
@@ -66,7 +61,7 @@ std::vector<float> TareMeasurement::offset(const std::vector<float>& standing) c
                                  " at rest, but must be within " + kilopascal(options_.limit) +
                                  " (~tare_limit)");
     }
-    const double scatter = m.count > 1 ? std::sqrt(m.squares / (m.count - 1)) : 0.0;
+    const double scatter = m.deviation();
     if (scatter > options_.scatter) {
       throw settings::InputError("the tare is refused: " + place(taxel) + " scatters by " +
                                  kilopascal(scatter) + " as on a limb, but must be within " +

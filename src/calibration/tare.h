@@ -7,6 +7,7 @@
 
 #include "fsr_pressure_map/map/pressure_map.h"
 #include "fsr_pressure_map/matrix/curvature.h"
+#include "statistics/running_moments.h"
 
 namespace fsr::calibration {
 
@@ -55,18 +56,11 @@ class TareMeasurement {
   std::vector<float> offset(const std::vector<float>& standing) const;
 
  private:
-  /// Running mean and sum of squared differences (Welford 1962).
-  struct Moments {
-    double count = 0;
-    double mean = 0;     // [Pa]
-    double squares = 0;  // [Pa^2]
-  };
-
   std::string place(std::size_t taxel) const;
 
   matrix::Layout layout_;
   TareOptions options_;
-  std::vector<Moments> moments_;  // [taxels]
+  std::vector<statistics::RunningMoments> moments_;  // [taxels], of pressures [Pa]
   std::size_t scans_ = 0;
   double start_ = 0;  // [s]
 };

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/shape/shape_training.h"
+#include "calibration/shape/mount_checks.h"
 
 namespace fsr::report {
 

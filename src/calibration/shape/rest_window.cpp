@@ -1,6 +1,5 @@
 #include "calibration/shape/rest_window.h"
 
-#include <cmath>
 #include <limits>
 
 #include "fsr_pressure_map/settings/input_error.h"
@@ -8,24 +7,20 @@
 
 namespace fsr::calibration {
 
-namespace {
-
-constexpr double kCutShare = 0.1;  // a reading with more zeros than this is cut by the converter's lower end
-
-}  // namespace
-
 RestWindow::RestWindow(const compensation::ShapeModel& model, const TareOptions& options)
     : layout_(model.layout),
       full_scale_(model.full_scale),
       scale_(model.scale),
       options_(options),
-      moments_(model.used.size()) {}
+      moments_(model.used.size()),
+      zeros_(model.used.size(), 0.0) {}
 
 bool RestWindow::add(const matrix::ScanView& scan, const std::vector<std::uint8_t>& ignored, double time) {
   if (scan.size != layout_.size || scan.full_scale != full_scale_ || scan.count != moments_.size())
     return false;
   if (scans_ == 0 || time < last_) {
     moments_.assign(moments_.size(), {});
+    zeros_.assign(zeros_.size(), 0.0);
     scans_ = 0;
     start_ = time;
   }
@@ -33,13 +28,8 @@ bool RestWindow::add(const matrix::ScanView& scan, const std::vector<std::uint8_
   ++scans_;
   for (std::size_t t = 0; t < moments_.size(); ++t) {
     if (t < ignored.size() && ignored[t] != 0) continue;
-    Moments& m = moments_[t];
-    const double reading = scan.counts[t];
-    const double step = reading - m.mean;
-    m.count += 1;
-    m.mean += step / m.count;
-    m.squares += step * (reading - m.mean);
-    m.zeros += reading == 0 ? 1 : 0;
+    moments_[t].add(scan.counts[t]);
+    zeros_[t] += scan.counts[t] == 0 ? 1 : 0;
   }
   return scans_ >= options_.least_scans && time - start_ >= options_.window;
 }
@@ -49,10 +39,10 @@ compensation::RestReading RestWindow::reading() const {
   double widest = 0;
   std::size_t worst = 0;
   for (std::size_t t = 0; t < moments_.size(); ++t) {
-    const Moments& m = moments_[t];
+    const statistics::RunningMoments& m = moments_[t];
     rest.reading.push_back(m.count > 0 ? m.mean : std::numeric_limits<double>::quiet_NaN());
-    rest.zero.push_back(m.zeros > kCutShare * m.count ? 1 : 0);
-    const double deviation = m.count > 1 ? std::sqrt(m.squares / (m.count - 1)) * scale_[t] / full_scale_ : 0;
+    rest.zero.push_back(zeros_[t] > kCutShare * m.count ? 1 : 0);
+    const double deviation = m.deviation() * scale_[t] / full_scale_;
     if (deviation <= widest) continue;
     widest = deviation;
     worst = t;

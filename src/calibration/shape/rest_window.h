@@ -7,8 +7,14 @@
 #include "calibration/tare.h"
 #include "fsr_pressure_map/compensation/shape.h"
 #include "fsr_pressure_map/matrix/scan.h"
+#include "statistics/running_moments.h"
 
 namespace fsr::calibration {
+
+/// A chamber within this of ambient puts no load on the sheet [Pa].
+constexpr double kUnloaded = 2e3;
+/// A reading that is 0 in a larger share of the scans is cut by the converter's lower end.
+constexpr double kCutShare = 0.1;
 
 /// Collects scans of the unloaded sheet until their mean can be compared with a model of its shape.
 class RestWindow {
@@ -25,16 +31,12 @@ class RestWindow {
   compensation::RestReading reading() const;
 
  private:
-  /// Running mean and sum of squared differences (Welford 1962).
-  struct Moments {
-    double count = 0, mean = 0, squares = 0, zeros = 0;
-  };
-
   matrix::Layout layout_;
   std::uint16_t full_scale_;
   std::vector<double> scale_;  // [taxels], see ShapeModel [Pa]
   TareOptions options_;
-  std::vector<Moments> moments_;  // [taxels]
+  std::vector<statistics::RunningMoments> moments_;  // [taxels], of readings [counts]
+  std::vector<double> zeros_;                        // [taxels], number of readings that are 0
   std::size_t scans_ = 0;
   double start_ = 0, last_ = 0;  // [s]
 };

@@ -37,6 +37,11 @@ std::string bendText(double curvature) {
   return (curvature < 0 ? "concave, " : "") + settings::fixedText(100 / std::abs(curvature), 1) + " cm";
 }
 
+std::string restText(const compensation::ShapeEstimate& estimate) {
+  return "the sheet rests as on " + bendText(estimate.curvature) + " (" + bendText(estimate.high) + " to " +
+         bendText(estimate.low) + ")";
+}
+
 std::string openText(const compensation::ShapeEstimate& estimate) {
   return abstention("the readings at rest leave " + bendText(estimate.high) + " to " +
                     bendText(estimate.low) + " open");
@@ -54,8 +59,7 @@ std::vector<double> principalCurvatures(const matrix::Surface& surface) {
 void judge(const compensation::ShapeModel& model, const matrix::Surface& declared, bool agrees,
            ShapeCheck& check) {
   const compensation::ShapeEstimate& estimate = check.estimate;
-  const std::string found = "the sheet rests as on " + bendText(estimate.curvature) + " (" +
-                            bendText(estimate.high) + " to " + bendText(estimate.low) + ")";
+  const std::string found = restText(estimate);
   const double range = model.curvature.back() - model.curvature.front();
   check.estimated = !estimate.beyond && estimate.high - estimate.low <= kWidest * range;
   if (!declared.known()) {

@@ -35,6 +35,9 @@ ShapeCheck checkShape(const compensation::ShapeModel& model, const compensation:
 /// That the readings do not tell the curvature, and what they leave open.
 std::string openText(const compensation::ShapeEstimate& estimate);
 
+/// "the sheet rests as on 5.0 cm (4.9 cm to 5.1 cm)".
+std::string restText(const compensation::ShapeEstimate& estimate);
+
 /// "5.0 cm", for a principal curvature; "flat" up to dataset::kFlatCurvature.
 std::string bendText(double curvature);
 

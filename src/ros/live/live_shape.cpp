@@ -14,7 +14,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kStandardAmbient = 101325;       // [Pa], without one in matrix_info
-constexpr double kAmbient = 2e3;                  // a chamber within this is at ambient [Pa]
 constexpr std::chrono::seconds kLongestWait{60};  // if the stamps do not advance
 const std::string kRefused = "how the sheet lies cannot be told: ";
 
@@ -23,7 +22,7 @@ const std::string kRefused = "how the sheet lies cannot be told: ";
 void LiveCalibration::setChamber(double absolute) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const double gauge = absolute - (board_.ambient_pressure > 0 ? board_.ambient_pressure : kStandardAmbient);
-  ambient_ = std::abs(gauge) <= kAmbient;
+  ambient_ = std::abs(gauge) <= fsr::calibration::kUnloaded;
   if (!ambient_) {
     load_seen_ = true;
     if (!rest_asked_) rest_.reset();

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "calibration/shape/shape_training.h"
+#include "calibration/shape/mount_checks.h"
 #include "dataset/mount_remarks.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/ros/bag_reader.h"

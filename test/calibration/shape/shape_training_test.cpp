@@ -10,6 +10,7 @@
 #include <string>
 
 #include "calibration/merge.h"
+#include "calibration/shape/mount_checks.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/simulation/simulate.h"

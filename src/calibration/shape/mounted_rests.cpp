@@ -1,0 +1,96 @@
+#include "calibration/shape/mounted_rests.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+
+#include "calibration/shape/rest_window.h"
+
+namespace fsr::calibration {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// The mean of several readings of one mount.
+compensation::RestReading meanOf(const std::vector<compensation::RestReading>& readings) {
+  compensation::RestReading mean = readings.front();
+  for (std::size_t t = 0; t < mean.reading.size(); ++t) {
+    double sum = 0, count = 0;
+    for (const compensation::RestReading& one : readings) {
+      mean.zero[t] = std::max(mean.zero[t], one.zero[t]);
+      if (std::isnan(one.reading[t])) continue;
+      sum += one.reading[t];
+      count += 1;
+    }
+    mean.reading[t] = count > 0 ? sum / count : kNaN;
+  }
+  return mean;
+}
+
+// Whether the chamber is at ambient during the rest, so that there is no load on the sheet.
+bool unloaded(const dataset::Recording& recording, const std::vector<std::size_t>& rest) {
+  return !rest.empty() && std::all_of(rest.begin(), rest.end(), [&](std::size_t scan) {
+    return std::abs(recording.pressure[scan]) <= kUnloaded;
+  });
+}
+
+// Of the readings of each taxel [counts].
+std::vector<double> difference(const compensation::RestReading& after,
+                               const compensation::RestReading& before) {
+  std::vector<double> change(after.reading.size());
+  std::transform(after.reading.begin(), after.reading.end(), before.reading.begin(), change.begin(),
+                 std::minus<>());
+  return change;
+}
+
+}  // namespace
+
+compensation::RestReading readingAtRest(const dataset::Recording& recording,
+                                        const std::vector<std::size_t>& scans) {
+  const std::size_t taxels = recording.layout.size.taxels();
+  compensation::RestReading rest{std::vector<double>(taxels, kNaN), std::vector<std::uint8_t>(taxels, 0)};
+  for (std::size_t t = 0; t < taxels; ++t) {
+    if (scans.empty() || (!recording.mask.empty() && recording.mask[t] != 0)) continue;
+    double sum = 0, zeros = 0;
+    for (const std::size_t scan : scans) {
+      sum += recording.scan(scan)[t];
+      zeros += recording.scan(scan)[t] == 0 ? 1 : 0;
+    }
+    rest.reading[t] = sum / double(scans.size());
+    rest.zero[t] = zeros > kCutShare * double(scans.size()) ? 1 : 0;
+  }
+  return rest;
+}
+
+std::vector<MountedRest> mountedRests(const std::vector<dataset::Recording>& recordings,
+                                      const Sessions& sessions) {
+  std::map<std::pair<std::size_t, std::uint32_t>, std::vector<const Session*>> by_mount;
+  for (const Session& session : sessions.all) {
+    const matrix::Surface& surface = recordings[session.recording].conditions[session.condition];
+    if (unloaded(recordings[session.recording], session.rest))
+      by_mount[{session.curvature_class, surface.mount}].push_back(&session);
+  }
+  std::vector<MountedRest> mounts;
+  for (const auto& [key, members] : by_mount) {
+    std::vector<compensation::RestReading> readings;
+    for (const Session* session : members)
+      readings.push_back(readingAtRest(recordings[session->recording], session->rest));
+    const Session& first = *members.front();
+    MountedRest mount{first.name(recordings),
+                      recordings[first.recording].conditions[first.condition],
+                      key.first,
+                      meanOf(readings),
+                      {}};
+    const std::vector<std::size_t> end = restAfterLoad(recordings[first.recording], first.condition);
+    if (!end.empty())
+      mount.left_behind = difference(readingAtRest(recordings[first.recording], end),
+                                     readingAtRest(recordings[first.recording], first.rest));
+    mounts.push_back(std::move(mount));
+  }
+  return mounts;
+}
+
+}  // namespace fsr::calibration
