@@ -7,21 +7,17 @@ import csv
 import json
 import pathlib
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 
 import yaml
 
-SCRIPTS = pathlib.Path(__file__).resolve().parent.parent.parent / "scripts"
+sys.dont_write_bytecode = True
+from bare_shell import SCRIPTS, run  # noqa: E402
+
 PROGRAMS = None
 MEASURED = None  # what measure_history left, made once
-
-
-def run(*words, **more):
-    return subprocess.run([str(word) for word in words], capture_output=True, text=True,
-                          env={"PATH": "/usr/bin:/bin", "PYTHONDONTWRITEBYTECODE": "1"}, **more)
 
 
 def setUpModule():

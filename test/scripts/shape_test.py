@@ -5,21 +5,17 @@ shape_test.py PROGRAMS: the folder of the tools. Everything runs in a shell with
 """
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
 
 import yaml
 
-SCRIPTS = pathlib.Path(__file__).resolve().parent.parent.parent / "scripts"
+sys.dont_write_bytecode = True
+from bare_shell import SCRIPTS, run  # noqa: E402
+
 PROGRAMS = None
 MEASURED = None  # what measure_shape left, made once
-
-
-def run(*words, **more):
-    return subprocess.run([str(word) for word in words], capture_output=True, text=True,
-                          env={"PATH": "/usr/bin:/bin", "PYTHONDONTWRITEBYTECODE": "1"}, **more)
 
 
 def setUpModule():
