@@ -23,13 +23,38 @@ std::string joined(const std::vector<std::string>& names) {
   return text.empty() ? "-" : text;
 }
 
-double declaredCurvature(const matrix::Surface& surface) {
-  return matrix::principalCurvature(surface.curvature.front());
+std::string declaredCurvature(const matrix::Surface& surface) {
+  if (surface.curvature.size() > 1) return "varies";
+  return settings::fixedText(matrix::principalCurvature(surface.curvature.front()), 2);
+}
+
+// "8.0 +- 0.8", or "-" if the readings do not bound it.
+std::string changeText(const compensation::ShapeModel& model, const compensation::BendChange& change) {
+  if (!calibration::isKnown(model, change)) return "-";
+  return settings::fixedText(change.change, 2) + " +- " + settings::fixedText(change.deviation, 2);
+}
+
+std::string changeTable(const compensation::ShapeModel& model,
+                        const std::vector<calibration::CheckedMount>& mounts, int left) {
+  std::ostringstream out;
+  out << "\nChange of the bend along the sheet, from the first to the last column and row [1/m]; - = not "
+         "known\n"
+      << std::left << std::setw(left) << "mount" << std::setw(18) << "along a row" << std::setw(18)
+      << "along a column"
+      << "changes\n";
+  for (const auto& [mount, check] : mounts) {
+    if (check.estimate.taxels == 0) continue;  // no estimate was made
+    out << std::setw(left) << mount.name << std::setw(18) << changeText(model, check.change.along_x)
+        << std::setw(18) << changeText(model, check.change.along_y) << (check.changes ? "yes" : "no") << '\n';
+  }
+  out << calibration::fixedText(model) << "\n\n";
+  return out.str();
 }
 
 }  // namespace
 
-std::string shapeText(const std::vector<calibration::CheckedMount>& mounts) {
+std::string shapeText(const compensation::ShapeModel& model,
+                      const std::vector<calibration::CheckedMount>& mounts) {
   std::ostringstream out;
   if (mounts.empty()) {
     return "How the sheet lies cannot be told: no bag starts with a rest before the first load\n";
@@ -48,12 +73,13 @@ std::string shapeText(const std::vector<calibration::CheckedMount>& mounts) {
       out << std::setw(9) << (told ? settings::fixedText(value, 2) : "-");
     };
     out << std::left << std::setw(left) << mount.name << std::right << std::setw(9)
-        << settings::fixedText(declaredCurvature(mount.surface), 2);
+        << declaredCurvature(mount.surface);
     number(check.estimate.curvature);
     number(check.estimate.low);
     number(check.estimate.high);
     out << "  " << std::left << std::setw(10) << verdictName(check.verdict) << joined(check.possible) << '\n';
   }
+  out << changeTable(model, mounts, left);
   for (const auto& [mount, check] : mounts) {
     if (check.verdict != ShapeVerdict::kAgrees) out << mount.name << ": " << check.sentence << '\n';
   }

@@ -94,4 +94,22 @@ struct ShapeEstimate {
   std::size_t taxels = 0;  ///< number of taxels that took part
 };
 
+/// How much the curvature changes along the sheet, between its outermost taxels.
+struct BendChange {
+  double change = 0;     ///< principal, last column or row minus first [1/m]
+  double deviation = 0;  ///< [1/m]; infinite = not at a maximum of the likelihood
+  double low = 0;        ///< 95 % interval [1/m]
+  double high = 0;
+};
+
+/// A bend that changes linearly along the sheet, as on a cone. See tellBendChange().
+struct ChangingBend {
+  double centre = 0;              ///< principal curvature in the middle of the sheet [1/m]
+  BendChange along_x, along_y;    ///< along a row, along a column
+  double probability = 1;         ///< that a constant bend looks as changing as this or more
+  double likelihood = 0;          ///< logarithm, up to the constant of ShapeEstimate::likelihood
+  double fit = 0;                 ///< probability of a fit as bad as this or worse
+  std::vector<double> curvature;  ///< [taxels] [1/m]
+};
+
 }  // namespace fsr::compensation

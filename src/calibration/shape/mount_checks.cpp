@@ -29,10 +29,12 @@ std::optional<double> disagreement(const std::vector<MountedRest>& mounts, std::
   const auto beside = [&](const MountedRest& other) { return other.curvature_class == own.curvature_class; };
   if (!bentAlike(own.surface) || std::count_if(mounts.begin(), mounts.end(), beside) < 2) return {};
   const compensation::ShapeModel model = learnShape(without(mounts, mount), calibration, false);
+  if (agreesIfConstant(model, own.rest, own.surface, alarm)) return {};
   const ShapeCheck check = checkShape(model, own.rest, own.surface, alarm);
   if (check.verdict != ShapeVerdict::kDisagrees) return {};
   const double declared = matrix::principalCurvature(own.surface.curvature.front());
-  return check.estimate.likelihood - compensation::ShapeReader(model).likelihood(own.rest, {declared});
+  return check.estimate.likelihood -
+         compensation::ShapeReader(model).likelihood(own.rest, {declared}).logarithm;
 }
 
 }  // namespace

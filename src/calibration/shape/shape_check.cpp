@@ -1,8 +1,10 @@
 #include "calibration/shape/shape_check.h"
 
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
+#include "compensation/shape/bend_change.h"
 #include "compensation/shape/read_shape.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -15,9 +17,18 @@ namespace {
 constexpr double kWidest = 0.5;   // share of the range of training: a wider interval tells too little
 constexpr double kBadFit = 1e-3;  // a fit that is worse with this probability says that something else acts
 
+std::vector<double> principalCurvatures(const matrix::Surface& surface) {
+  std::vector<double> curvatures;
+  for (const matrix::Curvature& c : surface.curvature) curvatures.push_back(matrix::principalCurvature(c));
+  return curvatures;
+}
+
+// "cylinder_9cm (9.0 cm)", "cone (12.5 cm to 8.3 cm)".
 std::string declaredText(const matrix::Surface& surface) {
+  const std::vector<double> bends = principalCurvatures(surface);
+  const auto [low, high] = std::minmax_element(bends.begin(), bends.end());
   const std::string name = surface.name.empty() ? "the declared surface" : surface.name;
-  return name + " (" + bendText(matrix::principalCurvature(surface.curvature.front())) + ")";
+  return name + " (" + bendText(*low) + (*low == *high ? "" : " to " + bendText(*high)) + ")";
 }
 
 std::string abstention(const std::string& why) {
@@ -49,31 +60,92 @@ std::string openText(const compensation::ShapeEstimate& estimate) {
 
 namespace {
 
-std::vector<double> principalCurvatures(const matrix::Surface& surface) {
-  std::vector<double> curvatures;
-  for (const matrix::Curvature& c : surface.curvature) curvatures.push_back(matrix::principalCurvature(c));
-  return curvatures;
+double rangeOf(const compensation::ShapeModel& model) {
+  return model.curvature.back() - model.curvature.front();
 }
 
-// Judges an estimate that fits.
-void judge(const compensation::ShapeModel& model, const matrix::Surface& declared, bool agrees,
-           ShapeCheck& check) {
-  const compensation::ShapeEstimate& estimate = check.estimate;
-  const std::string found = restText(estimate);
-  const double range = model.curvature.back() - model.curvature.front();
-  check.estimated = !estimate.beyond && estimate.high - estimate.low <= kWidest * range;
-  if (!declared.known()) {
-    check.sentence = check.estimated ? found + "; no surface is declared" : openText(estimate);
-  } else if (agrees) {
-    check.verdict = ShapeVerdict::kAgrees;
-    check.sentence = found + ", which agrees with " + declaredText(declared);
-  } else if (estimate.beyond) {
-    check.sentence = abstention(unfit(model));
-  } else {
-    check.verdict = ShapeVerdict::kDisagrees;
-    check.sentence = found + ", but the surface file says " + declaredText(declared);
-  }
+// "a bend that changes from 12.5 cm to 8.3 cm along a row": along the axis of the larger change.
+std::string changeText(const compensation::ChangingBend& bend) {
+  const bool row = std::abs(bend.along_x.change) >= std::abs(bend.along_y.change);
+  const double half = (row ? bend.along_x : bend.along_y).change / 2;
+  return "a bend that changes from " + bendText(bend.centre - half) + " to " + bendText(bend.centre + half) +
+         " along a " + (row ? "row" : "column");
 }
+
+double limitOf(double alarm, int parameters) {
+  return boost::math::quantile(boost::math::complement(boost::math::chi_squared(parameters), alarm));
+}
+
+/// Compares the readings of one rest with declared surfaces.
+class Comparison {
+ public:
+  Comparison(const compensation::ShapeModel& model, const compensation::RestReading& rest, double alarm)
+      : model_(model), rest_(rest), reader_(model), alarm_(alarm), estimate_(reader_.estimate(rest)) {}
+
+  const compensation::ShapeEstimate& estimate() const { return estimate_; }
+
+  bool agrees(const std::vector<double>& curvature) const {
+    return 2 * (estimate_.likelihood - logarithm(curvature)) <= limitOf(alarm_, 1);
+  }
+
+  void check(const matrix::Surface& declared, ShapeCheck& check) const {
+    check.estimate = estimate_;
+    check.change = compensation::tellBendChange(reader_, model_, rest_, estimate_);
+    check.changes = check.change.probability < alarm_ && check.change.fit >= kBadFit;
+    if (check.changes) {
+      judgeChanging(declared, check);
+    } else if (estimate_.fit < kBadFit) {
+      check.sentence = abstention(unfit(model_));
+    } else {
+      judgeConstant(declared, check);
+    }
+  }
+
+ private:
+  double logarithm(const std::vector<double>& curvature) const {
+    return reader_.likelihood(rest_, curvature).logarithm;
+  }
+
+  // A strap over a part of the sheet reads like a bend that changes: only a surface file that says so is
+  // believed. The best of three numbers is compared.
+  void judgeChanging(const matrix::Surface& declared, ShapeCheck& check) const {
+    const bool varies = declared.curvature.size() > 1;
+    if (varies &&
+        2 * (check.change.likelihood - logarithm(principalCurvatures(declared))) <= limitOf(alarm_, 3)) {
+      check.verdict = ShapeVerdict::kAgrees;
+      check.sentence = "the sheet rests as on " + changeText(check.change) + ", which agrees with " +
+                       declaredText(declared);
+    } else {
+      check.sentence = abstention("the readings at rest fit no single bend; " + changeText(check.change) +
+                                  " would explain them, and so would a load on a part of the sheet");
+    }
+  }
+
+  void judgeConstant(const matrix::Surface& declared, ShapeCheck& check) const {
+    for (std::size_t s = 0; s < model_.curvature.size(); ++s) {
+      if (agrees({model_.curvature[s]})) check.possible.push_back(model_.surfaces[s]);
+    }
+    const std::string found = restText(estimate_);
+    check.estimated = !estimate_.beyond && estimate_.high - estimate_.low <= kWidest * rangeOf(model_);
+    if (!declared.known()) {
+      check.sentence = check.estimated ? found + "; no surface is declared" : openText(estimate_);
+    } else if (agrees(principalCurvatures(declared))) {
+      check.verdict = ShapeVerdict::kAgrees;
+      check.sentence = found + ", which agrees with " + declaredText(declared);
+    } else if (estimate_.beyond) {
+      check.sentence = abstention(unfit(model_));
+    } else {
+      check.verdict = ShapeVerdict::kDisagrees;
+      check.sentence = found + ", but the surface file says " + declaredText(declared);
+    }
+  }
+
+  const compensation::ShapeModel& model_;
+  const compensation::RestReading& rest_;
+  compensation::ShapeReader reader_;
+  double alarm_;
+  compensation::ShapeEstimate estimate_;
+};
 
 }  // namespace
 
@@ -82,23 +154,38 @@ ShapeCheck checkShape(const compensation::ShapeModel& model, const compensation:
   ShapeCheck check;
   check.sentence = abstention(model.missing);
   if (!model.present()) return check;
-  const double limit = boost::math::quantile(boost::math::complement(boost::math::chi_squared(1), alarm));
   try {
-    const compensation::ShapeReader reader(model);
-    check.estimate = reader.estimate(rest);
-    const auto agrees = [&](const std::vector<double>& curvature) {
-      return 2 * (check.estimate.likelihood - reader.likelihood(rest, curvature)) <= limit;
-    };
-    check.sentence = abstention(unfit(model));
-    if (check.estimate.fit < kBadFit) return check;
-    for (std::size_t s = 0; s < model.curvature.size(); ++s) {
-      if (agrees({model.curvature[s]})) check.possible.push_back(model.surfaces[s]);
-    }
-    judge(model, declared, declared.known() && agrees(principalCurvatures(declared)), check);
+    Comparison(model, rest, alarm).check(declared, check);
   } catch (const settings::InputError& error) {
     check.sentence = abstention(error.what());
   }
   return check;
+}
+
+bool agreesIfConstant(const compensation::ShapeModel& model, const compensation::RestReading& rest,
+                      const matrix::Surface& declared, double alarm) {
+  if (!model.present()) return true;
+  try {
+    return Comparison(model, rest, alarm).agrees(principalCurvatures(declared));
+  } catch (const settings::InputError&) {
+    return true;
+  }
+}
+
+bool isKnown(const compensation::ShapeModel& model, const compensation::BendChange& change) {
+  return change.high - change.low <= kWidest * rangeOf(model);
+}
+
+std::string fixedText(const compensation::ShapeModel& model) {
+  if (!model.one_direction)
+    return "Direction of the bend, second curvature and twist are unknown: training bends the sheet in "
+           "several directions.";
+  const matrix::Curvature& bend = model.direction;
+  const std::string along = std::abs(bend.x - 1) < 0.02   ? "rows"
+                            : std::abs(bend.y - 1) < 0.02 ? "columns"
+                                                          : "oblique lines";
+  return "Fixed by the surfaces of training: the bend is along the " + along +
+         ", its second curvature and twist are as there.";
 }
 
 }  // namespace fsr::calibration

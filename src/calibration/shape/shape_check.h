@@ -19,6 +19,9 @@ struct ShapeCheck {
   ShapeVerdict verdict = ShapeVerdict::kUnknown;
   std::string sentence;  ///< for the user: what was found, or why nothing can be said
   compensation::ShapeEstimate estimate;
+  compensation::ChangingBend change;
+  /// A bend that changes along the sheet explains the readings far better than a constant one.
+  bool changes = false;
   std::vector<std::string> possible;  ///< names of the surfaces of training that would agree
   /// The estimate may be used: it is within training, and its interval is at most half of the training.
   bool estimated = false;
@@ -28,9 +31,21 @@ struct ShapeCheck {
 constexpr double kShapeAlarm = 0.005;
 
 /// Compares a declared surface with the readings of the sheet, which must be unloaded. `alarm`: probability
-/// with which a correct surface may be called wrong.
+/// with which a correct surface may be called wrong. If the bend seems to change along the sheet, it
+/// abstains: a load on a part of the sheet reads alike.
 ShapeCheck checkShape(const compensation::ShapeModel& model, const compensation::RestReading& rest,
                       const matrix::Surface& declared, double alarm = kShapeAlarm);
+
+/// Whether the declared surface agrees as far as constant bends tell, or nothing can be told. Much faster
+/// than checkShape().
+bool agreesIfConstant(const compensation::ShapeModel& model, const compensation::RestReading& rest,
+                      const matrix::Surface& declared, double alarm);
+
+/// Whether the readings bound the change: its interval is at most half of the training.
+bool isKnown(const compensation::ShapeModel& model, const compensation::BendChange& change);
+
+/// What is fixed by the training, and so not told by the readings: a sentence.
+std::string fixedText(const compensation::ShapeModel& model);
 
 /// That the readings do not tell the curvature, and what they leave open.
 std::string openText(const compensation::ShapeEstimate& estimate);

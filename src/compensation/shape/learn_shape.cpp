@@ -1,11 +1,10 @@
 #include "compensation/shape/learn_shape.h"
 
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <functional>
 #include <limits>
 
+#include "compensation/shape/coordinate_search.h"
 #include "compensation/shape/rest_means.h"
 
 namespace fsr::compensation {
@@ -14,39 +13,9 @@ namespace {
 
 constexpr double kMostZeros =
     0.02;                         // share of readings that are 0 on a surface that the scatter is learnt from
-constexpr int kRounds = 6;        // of the search along each parameter in turn
-constexpr int kBits = 14;         // precision of each search: a ten-thousandth of the range
 constexpr double kRidge = 1e-12;  // keeps covariances definite, relative to the variance
 // A few surfaces do not tell lengths well: each is drawn to this share of the range, by a factor of e.
 constexpr double kUnitsOfSpan = 7;
-
-/// A parameter that is searched on a logarithmic scale.
-struct Searched {
-  double* value;
-  double low, high;
-};
-
-// Minimises `cost` along each parameter in turn (R. P. Brent, Algorithms for Minimization Without
-// Derivatives, 1973).
-double search(const std::vector<Searched>& parameters, const std::function<double()>& cost) {
-  double best = cost();
-  for (int round = 0; round < kRounds; ++round) {
-    const double before = best;
-    for (const Searched& parameter : parameters) {
-      const double kept = *parameter.value;
-      const auto along = [&](double logarithm) {
-        *parameter.value = std::exp(logarithm);
-        return cost();
-      };
-      const auto [at, least] = boost::math::tools::brent_find_minima(along, std::log(parameter.low),
-                                                                     std::log(parameter.high), kBits);
-      *parameter.value = least < best ? std::exp(at) : kept;
-      best = std::min(best, least);
-    }
-    if (before - best < 1e-3) break;
-  }
-  return best;
-}
 
 // Minus the logarithm of the likelihood of the rows of `samples` under the covariance.
 double minusLogLikelihood(const Eigen::MatrixXd& samples, Eigen::MatrixXd covariance) {

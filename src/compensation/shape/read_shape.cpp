@@ -73,8 +73,7 @@ ShapeReader::Sample ShapeReader::sampleOf(const RestReading& rest) const {
   return sample;
 }
 
-ShapeReader::Likelihood ShapeReader::likelihood(const Sample& sample,
-                                                const Eigen::VectorXd& curvature) const {
+RestLikelihood ShapeReader::likelihood(const Sample& sample, const Eigen::VectorXd& curvature) const {
   const RestPrediction prediction = law_.predict(curvature);
   Eigen::MatrixXd covariance = prediction.covariance(sample.at, sample.at);
   covariance.diagonal() += sample.further_variance;
@@ -82,7 +81,7 @@ ShapeReader::Likelihood ShapeReader::likelihood(const Sample& sample,
   const Eigen::LLT<Eigen::MatrixXd> root(covariance);
   const Eigen::MatrixXd lower = root.matrixL();
   const double size = double(difference.size()), freedom = law_.means().freedom;
-  Likelihood result;
+  RestLikelihood result;
   result.distance = root.matrixL().solve(difference).squaredNorm();
   result.logarithm =
       -lower.diagonal().array().log().sum() - (freedom + size) / 2 * std::log1p(result.distance / freedom);
@@ -90,14 +89,14 @@ ShapeReader::Likelihood ShapeReader::likelihood(const Sample& sample,
   return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 }
 
-ShapeReader::Likelihood ShapeReader::likelihood(const Sample& sample, double curvature) const {
+RestLikelihood ShapeReader::likelihood(const Sample& sample, double curvature) const {
   const auto size = static_cast<Eigen::Index>(law_.means().taxels.size());
   return likelihood(sample, Eigen::VectorXd::Constant(size, curvature));
 }
 
 ShapeEstimate ShapeReader::estimate(const RestReading& rest) const {
   const Sample sample = sampleOf(rest);
-  std::vector<Likelihood> found;
+  std::vector<RestLikelihood> found;
   std::size_t best = 0;
   for (const double curvature : grid_) {
     found.push_back(likelihood(sample, curvature));
@@ -132,9 +131,7 @@ ShapeEstimate ShapeReader::estimate(const RestReading& rest) const {
   estimate.low = (grid_[low] + grid_[low == 0 ? 0 : low - 1]) / 2;
   estimate.high = (grid_[high] + grid_[std::min(high + 1, grid_.size() - 1)]) / 2;
   estimate.deviation = std::max(estimate.deviation, (estimate.high - estimate.low) / std::sqrt(12.0) / 2);
-  const double taxels = double(estimate.taxels);
-  const boost::math::fisher_f distribution(taxels, law_.means().freedom);
-  estimate.fit = boost::math::cdf(boost::math::complement(distribution, least / taxels));
+  estimate.fit = fit(least, estimate.taxels);
   addErrorBetween(estimate);
   return estimate;
 }
@@ -157,12 +154,17 @@ void ShapeReader::addErrorBetween(ShapeEstimate& estimate) const {
   estimate.high = std::max(estimate.high, estimate.curvature + kNormal * error);
 }
 
-double ShapeReader::likelihood(const RestReading& rest, const std::vector<double>& curvature) const {
+double ShapeReader::fit(double distance, std::size_t taxels) const {
+  const boost::math::fisher_f distribution(double(taxels), law_.means().freedom);
+  return boost::math::cdf(boost::math::complement(distribution, distance / double(taxels)));
+}
+
+RestLikelihood ShapeReader::likelihood(const RestReading& rest, const std::vector<double>& curvature) const {
   const std::vector<std::size_t>& taxels = law_.means().taxels;
   Eigen::VectorXd declared(static_cast<Eigen::Index>(taxels.size()));
   for (std::size_t i = 0; i < taxels.size(); ++i)
     declared(Eigen::Index(i)) = curvature.size() == 1 ? curvature.front() : curvature.at(taxels[i]);
-  return likelihood(sampleOf(rest), declared).logarithm;
+  return likelihood(sampleOf(rest), declared);
 }
 
 }  // namespace fsr::compensation

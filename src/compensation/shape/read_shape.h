@@ -8,6 +8,12 @@
 
 namespace fsr::compensation {
 
+/// Of readings at rest, for an assumed curvature.
+struct RestLikelihood {
+  double logarithm = 0;  ///< up to the constant of ShapeEstimate::likelihood
+  double distance = 0;   ///< between readings and prediction (Mahalanobis), squared
+};
+
 /// Tells the curvature of the sheet from its readings at rest: likelihood of the readings under RestLaw on a
 /// grid of curvatures, with a flat prior over the training and a quarter of its range on both sides. The
 /// likelihood is Student's, because the scatter of mounts was learnt from few (degrees: RestMeans::freedom).
@@ -20,9 +26,15 @@ class ShapeReader {
   /// a reading.
   ShapeEstimate estimate(const RestReading& rest) const;
 
-  /// Logarithm of the likelihood of a declared surface, up to the constant of ShapeEstimate::likelihood.
-  /// `curvature`: principal, one or one for each taxel [1/m].
-  double likelihood(const RestReading& rest, const std::vector<double>& curvature) const;
+  /// Likelihood of a declared surface. `curvature`: principal, one or one for each taxel [1/m]. Throws as
+  /// estimate().
+  RestLikelihood likelihood(const RestReading& rest, const std::vector<double>& curvature) const;
+
+  /// Probability of a distance as large as this or larger, if the curvature is true.
+  double fit(double distance, std::size_t taxels) const;
+
+  /// The curvatures that are compared, ascending [1/m].
+  const std::vector<double>& grid() const { return grid_; }
 
  private:
   struct Sample {
@@ -30,13 +42,9 @@ class ShapeReader {
     Eigen::VectorXd further_variance;  // where the reading is cut [Pa^2]
     std::vector<Eigen::Index> at;      // their places among the taxels of the law
   };
-  struct Likelihood {
-    double logarithm = 0;
-    double distance = 0;  // Mahalanobis, squared
-  };
   Sample sampleOf(const RestReading& rest) const;
-  Likelihood likelihood(const Sample& sample, const Eigen::VectorXd& curvature) const;
-  Likelihood likelihood(const Sample& sample, double curvature) const;
+  RestLikelihood likelihood(const Sample& sample, const Eigen::VectorXd& curvature) const;
+  RestLikelihood likelihood(const Sample& sample, double curvature) const;
   void addErrorBetween(ShapeEstimate& estimate) const;
 
   const ShapeModel& model_;

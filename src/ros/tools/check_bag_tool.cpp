@@ -75,7 +75,7 @@ std::optional<std::string> shapesText(const fsr::settings::CommandLine& line,
   if (!line.has("calibration")) return std::nullopt;
   const fsr::calibration::Calibration calibration = fsr::calibration::loadCalibration(
       line.text("calibration", ""), fsr::calibration::CalibrationParts::kWithoutStatistics);
-  return fsr::report::shapeText(fsr::calibration::checkShapes(calibration, recordings));
+  return fsr::report::shapeText(calibration.shape, fsr::calibration::checkShapes(calibration, recordings));
 }
 
 int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {

@@ -276,6 +276,30 @@ TEST_F(CheckShapes, AbstainsUnderALoad) {
   }
 }
 
+// A strap over a part of the sheet: whatever it presses with, no surface is blamed for it.
+TEST_F(CheckShapes, BlamesNoSurfaceForALoadOnHalfTheSheet) {
+  std::size_t abstained = 0;
+  for (const dataset::Recording& recording : fresh()) {
+    for (const double load : {10e3, 20e3, 30e3}) {
+      const matrix::Surface& declared = recording.conditions.front();
+      const ShapeCheck check = checkShape(calibration().shape, under(recording, load, true), declared);
+      EXPECT_NE(check.verdict, ShapeVerdict::kDisagrees)
+          << recording.name << ", " << load << " Pa: " << check.sentence;
+      if (!check.changes) continue;
+      ++abstained;
+      EXPECT_FALSE(check.estimated);
+      EXPECT_EQ(
+          check.sentence.find("how the sheet lies cannot be told: the readings at rest fit no single bend; a "
+                              "bend that changes from "),
+          0u)
+          << check.sentence;
+      EXPECT_NE(check.sentence.find(" would explain them, and so would a load on a part of the sheet"),
+                std::string::npos);
+    }
+  }
+  EXPECT_GT(abstained, 0u);
+}
+
 TEST_F(CheckShapes, AbstainsOnAnotherSheet) {
   Rig other;
   other.seed = 9;

@@ -85,7 +85,7 @@ TEST(RestLaw, AgreesWithNumPy) {
   EXPECT_NEAR(prediction.covariance(0, 3), 12561373.742191676, 0.01);
   const ShapeReader reader(model);
   const RestReading rest{{26, 31, 22, 27}, {0, 0, 0, 0}};
-  EXPECT_NEAR(reader.likelihood(rest, {12}) - reader.likelihood(rest, {5}), 2.857994079076363, 1e-6);
+  EXPECT_NEAR(reader.likelihood(rest, {12}).logarithm - reader.likelihood(rest, {5}).logarithm, 2.857994079076363, 1e-6);
 }
 
 // What was measured there is predicted there, within the error of the mean of the mounts.
