@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Tests of scripts/measure_shape and of check_bag --calibration on a small rig.
+"""Tests of scripts/measure_shape and measure_shape_limits, and of check_bag --calibration on a small rig.
 
 shape_test.py PROGRAMS: the folder of the tools. Everything runs in a shell without any environment.
 """
@@ -48,6 +48,31 @@ class MeasureShape(unittest.TestCase):
             self.assertEqual(done.returncode, 1)
             self.assertIn(sentence, done.stderr)
             self.assertNotIn("Traceback", done.stderr)
+
+
+class MeasureShapeLimits(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = MEASURED[0] / "limits"
+        cls.done = run(SCRIPTS / "measure_shape_limits", "--short", "--output", cls.folder, "--programs", PROGRAMS)
+        cls.result, = json.loads((cls.folder / "limits.json").read_text()) if cls.done.returncode == 0 else [{}]
+
+    def test_blames_no_surface_for_a_strap(self):
+        self.assertEqual((self.done.returncode, self.done.stderr), (0, ""))
+        straps = [row for row in self.result["loads"] if row["where"] != "whole"]
+        self.assertEqual([row["outcome"] for row in straps], ["abstains"] * 2)
+        self.assertIn("load of   20 kPa, half the rows     agrees 0, abstains 1", self.done.stdout)
+
+    def test_sees_a_cone_and_believes_its_file(self):
+        cone, = self.result["cones"]
+        self.assertEqual((cone["changes"], cone["verdict"]), (True, "agrees"))
+
+    def test_scores_the_map_with_three_surfaces(self):
+        """Each row is of the same readings: a wrong surface costs much, the estimated one little."""
+        self.assertEqual(len(self.result["maps"]), 2)
+        for row in self.result["maps"]:
+            self.assertGreater(row["wrong"], 1.5 * row["true"])
+            self.assertLess(abs(row["estimated"] - row["true"]), 0.5 * (row["wrong"] - row["true"]))
 
 
 class CheckBag(unittest.TestCase):
