@@ -68,8 +68,12 @@ std::vector<CheckedMount> checkShapes(const Calibration& calibration,
   for (const dataset::Recording& recording : recordings) requireFit(calibration, recording);
   const Sessions sessions = findSessions(recordings, dataset::poolConditions(recordings));
   std::vector<CheckedMount> checked;
-  for (const MountedRest& mount : mountedRests(recordings, sessions))
-    checked.push_back({mount, checkShape(calibration.shape, mount.rest, mount.surface)});
+  const TrainedInterval& trained = calibration.trained.temperature;
+  for (const MountedRest& mount : mountedRests(recordings, sessions)) {
+    const std::string obstacle = temperatureObstacle(mount.temperature, trained.low, trained.high);
+    checked.push_back({mount, obstacle.empty() ? checkShape(calibration.shape, mount.rest, mount.surface)
+                                               : abstainsBecause(obstacle)});
+  }
   return checked;
 }
 

@@ -37,6 +37,14 @@ bool unloaded(const dataset::Recording& recording, const std::vector<std::size_t
   });
 }
 
+// Mean over the scans [degree Celsius]; NaN = not recorded.
+double temperatureAt(const dataset::Recording& recording, const std::vector<std::size_t>& scans) {
+  if (recording.temperature.empty()) return kNaN;
+  double sum = 0;
+  for (const std::size_t scan : scans) sum += recording.temperature[scan];
+  return sum / double(scans.size());
+}
+
 // Of the readings of each taxel [counts].
 std::vector<double> difference(const compensation::RestReading& after,
                                const compensation::RestReading& before) {
@@ -79,11 +87,9 @@ std::vector<MountedRest> mountedRests(const std::vector<dataset::Recording>& rec
     for (const Session* session : members)
       readings.push_back(readingAtRest(recordings[session->recording], session->rest));
     const Session& first = *members.front();
-    MountedRest mount{first.name(recordings),
-                      recordings[first.recording].conditions[first.condition],
-                      key.first,
-                      meanOf(readings),
-                      {}};
+    MountedRest mount{
+        first.name(recordings), recordings[first.recording].conditions[first.condition], key.first,
+        meanOf(readings),       temperatureAt(recordings[first.recording], first.rest),  {}};
     const std::vector<std::size_t> end = restAfterLoad(recordings[first.recording], first.condition);
     if (!end.empty())
       mount.left_behind = difference(readingAtRest(recordings[first.recording], end),

@@ -14,8 +14,10 @@ namespace fsr::calibration {
 
 namespace {
 
-constexpr double kWidest = 0.5;   // share of the range of training: a wider interval tells too little
-constexpr double kBadFit = 1e-3;  // a fit that is worse with this probability says that something else acts
+constexpr double kWidest = 0.5;  // share of the range of training: a wider interval tells too little
+// A model allows for 3 % of sensitivity; sheets change by some 0.4 to 0.6 % a kelvin.
+constexpr double kTemperatureMargin = 5;  // [K]
+constexpr double kBadFit = 0.05;  // a fit that is worse with this probability says that something else acts
 
 std::vector<double> principalCurvatures(const matrix::Surface& surface) {
   std::vector<double> curvatures;
@@ -151,15 +153,27 @@ class Comparison {
 
 ShapeCheck checkShape(const compensation::ShapeModel& model, const compensation::RestReading& rest,
                       const matrix::Surface& declared, double alarm) {
+  if (!model.present()) return abstainsBecause(model.missing);
   ShapeCheck check;
-  check.sentence = abstention(model.missing);
-  if (!model.present()) return check;
   try {
     Comparison(model, rest, alarm).check(declared, check);
   } catch (const settings::InputError& error) {
-    check.sentence = abstention(error.what());
+    return abstainsBecause(error.what());
   }
   return check;
+}
+
+ShapeCheck abstainsBecause(const std::string& why) {
+  ShapeCheck check;
+  check.sentence = abstention(why);
+  return check;
+}
+
+std::string temperatureObstacle(double temperature, double low, double high) {
+  if (!(temperature < low - kTemperatureMargin) && !(temperature > high + kTemperatureMargin)) return "";
+  return "the sheet is at " + settings::fixedText(temperature, 1) + " degrees Celsius, but was trained at " +
+         settings::fixedText(low, 1) + " to " + settings::fixedText(high, 1) +
+         "; another sensitivity reads like another bend";
 }
 
 bool agreesIfConstant(const compensation::ShapeModel& model, const compensation::RestReading& rest,

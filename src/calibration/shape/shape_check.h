@@ -36,6 +36,13 @@ constexpr double kShapeAlarm = 0.005;
 ShapeCheck checkShape(const compensation::ShapeModel& model, const compensation::RestReading& rest,
                       const matrix::Surface& declared, double alarm = kShapeAlarm);
 
+/// Why a sheet at this temperature cannot be compared with a training between `low` and `high` [degree
+/// Celsius]; empty = it can, or one of them is not known (NaN).
+std::string temperatureObstacle(double temperature, double low, double high);
+
+/// A check that abstains for this reason.
+ShapeCheck abstainsBecause(const std::string& why);
+
 /// Whether the declared surface agrees as far as constant bends tell, or nothing can be told. Much faster
 /// than checkShape().
 bool agreesIfConstant(const compensation::ShapeModel& model, const compensation::RestReading& rest,

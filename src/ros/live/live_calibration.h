@@ -98,6 +98,7 @@ class LiveCalibration {
   void watchShape(const fsr::matrix::ScanView& scan, double time);
   void forgetShape();
   void startComparison();
+  std::string temperatureObstacle() const;
   fsr::calibration::ShapeCheck measureShape(double patience);
   fsr::compensation::RestReading awaitRest(std::unique_lock<std::mutex>& lock, double patience);
 

@@ -54,6 +54,12 @@ void LiveCalibration::watchShape(const fsr::matrix::ScanView& scan, double time)
   if (rest_full_) progress_.notify_all();
 }
 
+// Of the sheet now; `loaded_` must be set.
+std::string LiveCalibration::temperatureObstacle() const {
+  return fsr::calibration::temperatureObstacle(temperature_, loaded_->info.temperature_low,
+                                               loaded_->info.temperature_high);
+}
+
 void LiveCalibration::compareAtRest() {
   std::unique_lock<std::mutex> lock(mutex_);
   if (!rest_ || !rest_full_ || rest_asked_ || !loaded_) return;
@@ -61,6 +67,8 @@ void LiveCalibration::compareAtRest() {
   const std::shared_ptr<const fsr::compensation::ShapeModel> model = loaded_->shape;
   fsr::calibration::ShapeCheck check;
   try {
+    const std::string obstacle = temperatureObstacle();
+    if (!obstacle.empty()) throw fsr::settings::InputError(kRefused + obstacle);
     const fsr::compensation::RestReading reading = rest_->reading();
     rest_.reset();
     lock.unlock();  // no scan waits for the comparison
@@ -77,6 +85,8 @@ fsr::calibration::ShapeCheck LiveCalibration::measureShape(double patience) {
   std::unique_lock<std::mutex> lock(mutex_);
   if (!loaded_) throw fsr::settings::InputError(kRefused + "no calibration is loaded (" + complaint_ + ")");
   if (!loaded_->shape->present()) throw fsr::settings::InputError(kRefused + loaded_->shape->missing);
+  const std::string obstacle = temperatureObstacle();
+  if (!obstacle.empty()) throw fsr::settings::InputError(kRefused + obstacle);
   if (!ambient_ && load_seen_)
     throw fsr::settings::InputError(kRefused + "the chamber is not at ambient pressure; unload the sheet");
   if (rest_asked_) throw fsr::settings::InputError(kRefused + "another call is measuring");
