@@ -73,6 +73,21 @@ std::string temperatureSentence(const CalibrationHealth& health) {
          fsr::settings::roundedText(health.info.temperature_high, 3) + " degrees Celsius";
 }
 
+// The comparison of the surface with the sheet at rest: what is known of it and its sentence.
+void addShape(const CalibrationHealth& health, Status& status) {
+  using fsr::calibration::ShapeVerdict;
+  const bool compared = !health.shape.sentence.empty();
+  std::string verdict = compared || !health.no_shape.empty() ? kRestUnknown : kRestOpen;
+  if (compared && health.shape.verdict == ShapeVerdict::kAgrees) verdict = kRestAgrees;
+  if (compared && health.shape.verdict == ShapeVerdict::kDisagrees) verdict = kRestDisagrees;
+  std::string sentence = health.shape.sentence;
+  if (!compared)
+    sentence = health.no_shape.empty() ? kRestOpen : "how the sheet lies cannot be told: " + health.no_shape;
+  status.add(kRestVerdictKey, verdict);
+  status.add(kRestKey, sentence);
+  status.add(kCurvatureSourceKey, health.estimates_curvature ? kCurvatureEstimated : kCurvaturePublished);
+}
+
 bool isError(MapState state) {
   return state == MapState::kUncalibrated || state == MapState::kSizeMismatch ||
          state == MapState::kWrongSensor;
@@ -134,7 +149,7 @@ void judgeCalibration(const CalibrationHealth& health, Status& status) {
   status.add("board serial number", health.board);
   status.add("surface", health.surface.name);
   status.add("mount", health.surface.mount);
-  status.add("sheet at rest", health.shape.sentence.empty() ? "not compared yet" : health.shape.sentence);
+  addShape(health, status);
   status.add("tare", health.tare ? health.tare->date : "none");
 }
 

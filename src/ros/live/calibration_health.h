@@ -8,7 +8,18 @@
 
 namespace fsr_ros {
 
-/// Diagnostics of the calibration in use and its tare.
+// Values of the diagnostics of the calibration that the panel reads, by their keys.
+constexpr char kRestKey[] = "sheet at rest";           ///< the sentence of the last comparison
+constexpr char kRestVerdictKey[] = "surface at rest";  ///< one of the following
+constexpr char kRestAgrees[] = "agrees";               ///< the sheet rests as the surface says
+constexpr char kRestDisagrees[] = "disagrees";         ///< it rests as on another surface
+constexpr char kRestUnknown[] = "cannot be told";      ///< compared, or never possible
+constexpr char kRestOpen[] = "not compared yet";       ///< since the surface changed
+constexpr char kCurvatureSourceKey[] = "curvature";    ///< one of the following
+constexpr char kCurvatureEstimated[] = "estimated";    ///< this node publishes it
+constexpr char kCurvaturePublished[] = "published";    ///< another node publishes it
+
+/// Diagnostics of the calibration in use, its tare and the comparison of its surface with the sheet.
 void judgeCalibration(const CalibrationHealth& health, diagnostic_updater::DiagnosticStatusWrapper& status);
 
 /// Diagnostics of the maps between two samples `seconds` apart: rate, state, and taxels by flag. `scan_topic`

@@ -215,6 +215,7 @@ CalibrationHealth LiveCalibration::health() const {
     health.info = loaded_->info;
     health.session_zero = loaded_->session_zero;
     health.corrects_temperature = loaded_->corrects_temperature;
+    if (!loaded_->shape->present()) health.no_shape = loaded_->shape->missing;
     health.revivals = loaded_->calibrator.watch().revivals();
   }
   health.surface = surface_;
@@ -222,6 +223,7 @@ CalibrationHealth LiveCalibration::health() const {
   health.temperature = temperature_;
   health.tare = tare_.tare();
   health.shape = shape_;
+  health.estimates_curvature = settings_.estimates_curvature;
   health.scans = scans_;
   health.map = map_;
   return health;

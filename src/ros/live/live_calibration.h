@@ -36,6 +36,8 @@ struct CalibrationHealth {
   std::optional<fsr::calibration::Tare> tare;
   fsr::calibration::SessionZero session_zero;  ///< of the calibration in use
   fsr::calibration::ShapeCheck shape;          ///< of the surface in use; sentence empty = not compared yet
+  std::string no_shape;              ///< why nothing can be compared with this calibration; empty = it can
+  bool estimates_curvature = false;  ///< this node publishes the curvature
   std::uint64_t scans = 0;
   std::uint64_t revivals = 0;  ///< dead taxels that recovered
   fsr::map::PressureMap map;   ///< the last map

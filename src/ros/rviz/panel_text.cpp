@@ -8,6 +8,7 @@
 #include "fsr_pressure_map/map/region.h"
 #include "fsr_pressure_map/ros/pressure_map_message.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/live/calibration_health.h"
 #include "ros/messages/surface_markers.h"
 #include "ros/rviz/display_status.h"
 
@@ -80,7 +81,7 @@ QString mapRemark(const fsr_pressure_map::PressureMapConstPtr& map) {
   return (tared ? QString(", tared") : QString()) + (settling.empty() ? QString() : ", " + text(settling));
 }
 
-AlarmLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& statistics,
+PanelLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& statistics,
                     const fsr_pressure_map::PressureMapConstPtr& map) {
   QStringList alarm, unknown, unset;
   if (!statistics) {
@@ -102,6 +103,14 @@ AlarmLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& sta
   if (!unknown.empty()) return {lines.join("\n"), "background: #606060; color: white"};
   if (unset.size() == static_cast<int>(statistics->regions.size())) return {"no alarm set", ""};
   return {unset.empty() ? QString("OK") : "OK (no alarm set: " + unset.join(", ") + ")", ""};
+}
+
+PanelLine restLine(const DiagnosticValues& values) {
+  const auto sentence = values.find(fsr_ros::kRestKey);
+  const auto verdict = values.find(fsr_ros::kRestVerdictKey);
+  if (sentence == values.end() || verdict == values.end()) return {"-", ""};
+  if (verdict->second != fsr_ros::kRestDisagrees) return {text(sentence->second), ""};
+  return {"DISAGREES: " + text(sentence->second), "background: #8a5200; color: white; font-weight: bold"};
 }
 
 }  // namespace fsr_rviz

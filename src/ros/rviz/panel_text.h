@@ -5,12 +5,16 @@
 
 #include <QString>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "fsr_pressure_map/view/colour_map.h"
 
 namespace fsr_rviz {
+
+/// Values of a status of /diagnostics, by their keys.
+using DiagnosticValues = std::map<std::string, std::string>;
 
 /// The text, or "-" if it is empty.
 QString text(const std::string& words);
@@ -33,15 +37,19 @@ QString peakText(const fsr_pressure_map::PressureStatistics& whole,
 /// ", history not settled: static answer" while that is so. Empty without a map.
 QString mapRemark(const fsr_pressure_map::PressureMapConstPtr& map);
 
-/// The line "Alarms" of the panel.
-struct AlarmLine {
+/// A line of the panel that may catch the eye.
+struct PanelLine {
   QString text;
   QString style;  ///< Qt style sheet
 };
 
-/// The alarms of all regions. A message is null if none has come recently: without statistics the alarm is
-/// UNKNOWN, and without a map the reason is not known.
-AlarmLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& statistics,
+/// The line "Alarms": the alarms of all regions. A message is null if none has come recently: without
+/// statistics the alarm is UNKNOWN, and without a map the reason is not known.
+PanelLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& statistics,
                     const fsr_pressure_map::PressureMapConstPtr& map);
+
+/// The line "Sheet at rest": whether the sheet rests as the surface says, as the calibration node's
+/// diagnostics do. "-" without values.
+PanelLine restLine(const DiagnosticValues& values);
 
 }  // namespace fsr_rviz

@@ -21,7 +21,7 @@
 #include <set>
 
 #include "fsr_pressure_map/view/colour_map.h"
-#include "ros/rviz/panel_text.h"
+#include "ros/live/calibration_health.h"
 #include "ros/rviz/taxel_selection.h"
 
 namespace fsr_rviz {
@@ -84,11 +84,16 @@ void PressurePanel::addButtons(QVBoxLayout* column) {
     buttons_.push_back(new QPushButton(label));
     row->addWidget(buttons_.back());
     connect(buttons_.back(), SIGNAL(clicked()), this, slot);
+    return buttons_.back();
   };
   button("Tare", SLOT(tare()), actions);
   button("Reload calibration", SLOT(reload()), actions);
   auto* taxels = new QHBoxLayout;  // a row of its own keeps the panel narrow
   button("Mask selected", SLOT(maskSelected()), taxels);
+  button("Check surface", SLOT(checkSurface()), taxels);
+  auto* estimate = new QHBoxLayout;
+  estimate_ = button("Estimate surface", SLOT(estimateSurface()), estimate);
+  estimate_->hide();
   event_kind_ = new QComboBox;
   event_kind_->addItems({"note", "cycle_start", "conditioning", "don", "doff", "step", "sync", "reject"});
   event_label_ = new QLineEdit;
@@ -109,6 +114,7 @@ void PressurePanel::addButtons(QVBoxLayout* column) {
   button("Set alarm", SLOT(setAlarm()), alarms);
   column->addLayout(actions);
   column->addLayout(taxels);
+  column->addLayout(estimate);
   column->addLayout(events);
   column->addLayout(alarms);
 }
@@ -134,6 +140,7 @@ QLabel* PressurePanel::addLine(QGridLayout* grid, const QString& name) {
 void PressurePanel::addNumbers(QGridLayout* grid) {
   chamber_ = addLine(grid, "Chamber");
   surface_ = addLine(grid, "Surface, mount");
+  rest_ = addLine(grid, "Sheet at rest");
   session_ = addLine(grid, "Session");
   calibration_ = addLine(grid, "Calibration");
   peak_ = addLine(grid, "Peak");
@@ -189,10 +196,13 @@ void PressurePanel::keep(const std::string& topic, Last<Message>& last) {
 void PressurePanel::listen() {
   subscribers_.clear();
   complaints_.clear();
+  rest_values_.clear();
   try {
     subscribers_.push_back(handle_.subscribe<diagnostic_msgs::DiagnosticArray>(
-        "/diagnostics", kQueueSize,
-        [this](const diagnostic_msgs::DiagnosticArrayConstPtr& all) { keepComplaints(*all); }));
+        "/diagnostics", kQueueSize, [this](const diagnostic_msgs::DiagnosticArrayConstPtr& all) {
+          keepComplaints(*all);
+          keepRest(*all);
+        }));
     keep("chamber_pressure", last_chamber_);
     keep("curvature", last_surface_);
     keep("session", last_session_);
@@ -221,6 +231,26 @@ void PressurePanel::keepComplaints(const diagnostic_msgs::DiagnosticArray& diagn
   }
 }
 
+// Keeps what the sensor's calibration node says of the surface, and who publishes it.
+void PressurePanel::keepRest(const diagnostic_msgs::DiagnosticArray& diagnostics) {
+  const std::string calibration = handle_.resolveName(name("calibration")).substr(1) + ": calibration";
+  for (const auto& status : diagnostics.status) {
+    if (status.name != calibration) continue;
+    rest_values_.clear();
+    for (const auto& pair : status.values) rest_values_[pair.key] = pair.value;
+    rest_received_ = ros::WallTime::now();
+  }
+}
+
+void PressurePanel::showRest() {
+  if ((ros::WallTime::now() - rest_received_).toSec() > kSilence) rest_values_.clear();
+  const PanelLine line = restLine(rest_values_);
+  rest_->setText(line.text);
+  rest_->setStyleSheet(line.style);
+  const auto source = rest_values_.find(fsr_ros::kCurvatureSourceKey);
+  estimate_->setVisible(source != rest_values_.end() && source->second == fsr_ros::kCurvatureEstimated);
+}
+
 void PressurePanel::refresh() {
   if ((ros::WallTime::now() - replied_).toSec() > double(reply_shown_) && buttons_.front()->isEnabled())
     reply_->clear();
@@ -245,6 +275,7 @@ void PressurePanel::refresh() {
   calibration_->setToolTip(calibration ? QString::fromStdString(calibration->id) : QString());
   showStatistics();
   showAlarms();
+  showRest();
   showWaiting();
 }
 
@@ -283,7 +314,7 @@ void PressurePanel::showStatistics() {
 
 void PressurePanel::showAlarms() {
   if (last_statistics_.fresh()) listRegions();
-  const AlarmLine line = alarmLine(last_statistics_.fresh() ? last_statistics_.message : nullptr,
+  const PanelLine line = alarmLine(last_statistics_.fresh() ? last_statistics_.message : nullptr,
                                    last_map_.fresh() ? last_map_.message : nullptr);
   alarms_->setText(line.text);
   alarms_->setStyleSheet(line.style);
@@ -318,18 +349,27 @@ void PressurePanel::setAlarm() {
   call("set alarm", [service = name("view/set_alarm"), alarm]() mutable { return answerOf(service, alarm); });
 }
 
-void PressurePanel::tare() {
-  call("tare", [service = name("calibration/tare")] {
+void PressurePanel::trigger(const std::string& what, const std::string& service) {
+  call(what, [service = name(service)] {
     std_srvs::Trigger trigger;
     return answerOf(service, trigger);
   });
 }
 
+void PressurePanel::tare() {
+  trigger("tare", "calibration/tare");
+}
+
 void PressurePanel::reload() {
-  call("reload", [service = name("calibration/reload")] {
-    std_srvs::Trigger trigger;
-    return answerOf(service, trigger);
-  });
+  trigger("reload", "calibration/reload");
+}
+
+void PressurePanel::checkSurface() {
+  trigger("check surface", "calibration/check_surface");
+}
+
+void PressurePanel::estimateSurface() {
+  trigger("estimate surface", "calibration/estimate_surface");
 }
 
 // Taxels that the tool Select has picked, each once, as row-major indices.

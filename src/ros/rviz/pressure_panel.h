@@ -17,6 +17,8 @@
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "ros/rviz/panel_text.h"
 #endif
 
 class QComboBox;
@@ -29,10 +31,10 @@ class QVBoxLayout;
 
 namespace fsr_rviz {
 
-/// Panel with the numbers of one sensor and with buttons for tare, reload, mask, marking an event and setting
-/// an alarm. All topics are in the sensor's namespace. A number that has not come yet, or not for 3 s, is
-/// shown as "-", and a line below the buttons names the missing node. Services are called in another thread,
-/// so that the window never waits for them.
+/// Panel with the numbers of one sensor and with buttons for tare, reload, mask, checking the surface,
+/// marking an event and setting an alarm. All topics are in the sensor's namespace. A number that has not
+/// come yet, or not for 3 s, is shown as "-", and a line below the buttons names the missing node. Services
+/// are called in another thread, so that the window never waits for them.
 class PressurePanel : public rviz::Panel {
   Q_OBJECT
 
@@ -49,6 +51,8 @@ class PressurePanel : public rviz::Panel {
   void refresh();
   void tare();
   void reload();
+  void checkSurface();
+  void estimateSurface();
   void maskSelected();
   void markEvent();
   void setAlarm();
@@ -66,6 +70,7 @@ class PressurePanel : public rviz::Panel {
     ros::WallTime received;
   };
   void keepComplaints(const diagnostic_msgs::DiagnosticArray& diagnostics);
+  void keepRest(const diagnostic_msgs::DiagnosticArray& diagnostics);
   template <typename Message>
   void keep(const std::string& topic, Last<Message>& last);
   QLabel* addLine(QGridLayout* grid, const QString& name);
@@ -76,6 +81,8 @@ class PressurePanel : public rviz::Panel {
   void say(const QString& reply);
   void showStatistics();
   void showAlarms();
+  void showRest();
+  void trigger(const std::string& what, const std::string& service);
   void listRegions();
   void showWaiting();
   void call(const std::string& what, const std::function<std::string()>& service);
@@ -85,10 +92,11 @@ class PressurePanel : public rviz::Panel {
   QLineEdit* namespace_;
   QComboBox* unit_;
   QLabel *chamber_, *surface_, *session_, *calibration_, *peak_, *mean_, *area_, *force_, *integral_,
-      *alarms_;
+      *alarms_, *rest_;
   QComboBox *event_kind_, *alarm_region_;
   QLineEdit *event_label_, *alarm_threshold_;
   std::vector<QPushButton*> buttons_;
+  QPushButton* estimate_;  // one of them, shown where the calibration node publishes the curvature
   QLabel *reply_, *waiting_;
   QTimer* timer_;
 
@@ -103,6 +111,8 @@ class PressurePanel : public rviz::Panel {
   ros::WallTime replied_;                        // when a service answered last
   float reply_shown_ = 60;                       // time for which its answer is shown [s]
   std::map<std::string, Complaint> complaints_;  // of the driver's diagnostics, by the name of the status
+  DiagnosticValues rest_values_;                 // of the calibration's diagnostics
+  ros::WallTime rest_received_;
   std::thread caller_;
 };
 

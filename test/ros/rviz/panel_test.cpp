@@ -17,6 +17,7 @@
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "ros/bags/resource_path.h"
+#include "ros/live/calibration_health.h"
 #include "support/calibration_rig.h"
 #include "support/small_calibration.h"
 #include "support/small_tables.h"
@@ -59,6 +60,13 @@ class Panel : public testing::Test {
     for (auto* button : panel->findChildren<QPushButton*>()) {
       if (button->text() == name) button->click();
     }
+  }
+
+  bool isHidden(const QString& name) {
+    for (const auto* button : panel->findChildren<QPushButton*>()) {
+      if (button->text() == name) return button->isHidden();
+    }
+    return false;
   }
 
   /// Runs the panel while scans of `code` are published, until `done`; false after 30 s.
@@ -132,6 +140,74 @@ TEST_F(Panel, SaysWhatTheDriverComplainsAbout) {
     publisher.publish(array);
     return !says("waiting", "Driver");
   })) << label("waiting");
+}
+
+// The diagnostics of a calibration node of the sensor /bent.
+diagnostic_msgs::DiagnosticArray comparison(const std::string& verdict, const std::string& sentence,
+                                            const std::string& source) {
+  diagnostic_msgs::DiagnosticArray array;
+  array.status.resize(1);
+  array.status[0].name = "bent/calibration: calibration";
+  for (const auto& [key, value] : {std::pair{fsr_ros::kRestVerdictKey, verdict},
+                                   {fsr_ros::kRestKey, sentence},
+                                   {fsr_ros::kCurvatureSourceKey, source}}) {
+    diagnostic_msgs::KeyValue pair;
+    pair.key = key;
+    pair.value = value;
+    array.status[0].values.push_back(pair);
+  }
+  return array;
+}
+
+TEST_F(Panel, SaysWhetherTheSheetRestsAsTheSurfaceSays) {
+  ros::NodeHandle handle;
+  const auto publisher = handle.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
+  listenTo("/bent");
+  const auto shown = [&](const std::string& words, const diagnostic_msgs::DiagnosticArray& array) {
+    return runUntil([&] {
+      publisher.publish(array);
+      return label("Sheet at rest") == words;
+    });
+  };
+  const std::string agrees =
+      "the sheet rests as on 5.0 cm (4.9 cm to 5.1 cm), which agrees with cylinder_5cm";
+  EXPECT_TRUE(shown(agrees, comparison(fsr_ros::kRestAgrees, agrees, fsr_ros::kCurvaturePublished)));
+  EXPECT_TRUE(panel->findChild<QLabel*>("Sheet at rest")->styleSheet().isEmpty());
+  const std::string wrong = "the sheet rests as on 5.0 cm, but the surface file says cylinder_9cm (9.0 cm)";
+  EXPECT_TRUE(
+      shown("DISAGREES: " + wrong, comparison(fsr_ros::kRestDisagrees, wrong, fsr_ros::kCurvaturePublished)));
+  EXPECT_FALSE(panel->findChild<QLabel*>("Sheet at rest")->styleSheet().isEmpty());
+  const std::string open = "how the sheet lies cannot be told: the readings at rest fit none of the bends";
+  EXPECT_TRUE(shown(open, comparison(fsr_ros::kRestUnknown, open, fsr_ros::kCurvaturePublished)));
+  EXPECT_TRUE(panel->findChild<QLabel*>("Sheet at rest")->styleSheet().isEmpty());
+  EXPECT_TRUE(runUntil([&] { return label("Sheet at rest") == "-"; })) << "a node that has died says nothing";
+}
+
+TEST_F(Panel, OffersToEstimateTheSurfaceWhereTheCalibrationNodeIsItsSource) {
+  ros::NodeHandle handle;
+  const auto publisher = handle.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
+  listenTo("/bent");
+  EXPECT_TRUE(isHidden("Estimate surface"));
+  const auto hidden = [&](bool expected, const char* source) {
+    return runUntil([&] {
+      publisher.publish(comparison(fsr_ros::kRestOpen, fsr_ros::kRestOpen, source));
+      return isHidden("Estimate surface") == expected;
+    });
+  };
+  EXPECT_TRUE(hidden(false, fsr_ros::kCurvatureEstimated));
+  press("Estimate surface");
+  EXPECT_TRUE(
+      runUntil([&] { return says("reply", "there is no service /bent/calibration/estimate_surface"); }));
+  EXPECT_TRUE(hidden(true, fsr_ros::kCurvaturePublished));
+}
+
+// The calibration of this test has learnt no shape.
+TEST_F(Panel, SaysWhyTheRunningNodeCannotCompareTheSurface) {
+  EXPECT_TRUE(runUntil([&] { return says("Sheet at rest", "how the sheet lies cannot be told: "); }))
+      << label("Sheet at rest");
+  press("Check surface");
+  EXPECT_TRUE(runUntil([&] { return says("reply", "how the sheet lies cannot be told: "); }))
+      << label("reply");
 }
 
 TEST_F(Panel, SaysThatNoAlarmIsSetAndSetsOne) {

@@ -135,5 +135,42 @@ TEST(CalibrationHealth, SaysThatATareIsDueAndWhatItIsWorth) {
   EXPECT_EQ(tareSentence(healthy()), "") << "a calibration that expects none";
 }
 
+// What the panel reads.
+TEST(CalibrationHealth, SaysWhetherTheSurfaceAgreesWithTheSheetAtRest) {
+  const auto judged = [](const CalibrationHealth& health) {
+    Status status;
+    judgeCalibration(health, status);
+    return status;
+  };
+  using fsr::calibration::ShapeVerdict;
+  CalibrationHealth health = healthy();
+  EXPECT_EQ(valueOf(judged(health), kRestVerdictKey), kRestOpen);
+  EXPECT_EQ(valueOf(judged(health), kRestKey), "not compared yet");
+  health.no_shape = "train again";
+  EXPECT_EQ(valueOf(judged(health), kRestVerdictKey), kRestUnknown);
+  EXPECT_EQ(valueOf(judged(health), kRestKey), "how the sheet lies cannot be told: train again");
+  health.no_shape = "";
+  health.shape.sentence = "so it rests";
+  EXPECT_EQ(valueOf(judged(health), kRestVerdictKey), kRestUnknown);
+  health.shape.verdict = ShapeVerdict::kAgrees;
+  EXPECT_EQ(valueOf(judged(health), kRestVerdictKey), kRestAgrees);
+  EXPECT_EQ(valueOf(judged(health), kRestKey), "so it rests");
+  EXPECT_EQ(judged(health).level, Level::OK);
+  health.shape.verdict = ShapeVerdict::kDisagrees;
+  EXPECT_EQ(valueOf(judged(health), kRestVerdictKey), kRestDisagrees);
+  EXPECT_EQ(judged(health).level, Level::WARN);
+}
+
+TEST(CalibrationHealth, SaysWhoPublishesTheCurvature) {
+  Status status;
+  CalibrationHealth health = healthy();
+  judgeCalibration(health, status);
+  EXPECT_EQ(valueOf(status, kCurvatureSourceKey), kCurvaturePublished);
+  health.estimates_curvature = true;
+  Status estimated;
+  judgeCalibration(health, estimated);
+  EXPECT_EQ(valueOf(estimated, kCurvatureSourceKey), kCurvatureEstimated);
+}
+
 }  // namespace
 }  // namespace fsr_ros
