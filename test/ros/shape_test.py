@@ -8,14 +8,17 @@ import sys
 import tempfile
 import time
 import unittest
+import xmlrpc.client
 
+import rosgraph
 import rospkg
 import rospy
 import rostest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from fsr_pressure_map.msg import PressureMap, SurfaceCurvature
-from fsr_pressure_map.srv import SetSurface
+from fsr_pressure_map.srv import Mark, SetSurface
+from sensor_msgs.msg import FluidPressure
 from std_srvs.srv import Trigger
 
 PACKAGE = pathlib.Path(rospkg.RosPack().get_path("fsr_pressure_map"))
@@ -88,6 +91,38 @@ class ShapeTest(unittest.TestCase):
                     return
         self.fail(f"the last diagnostics are {last}")
 
+    def await_mark(self, words):
+        """Diagnostics in which the sentence on the last marked rest contains `words`."""
+        end = time.monotonic() + PATIENCE
+        last = None
+        while time.monotonic() < end:
+            for status in rospy.wait_for_message("/diagnostics", DiagnosticArray, PATIENCE).status:
+                if "calibration: calibration" in status.name:
+                    last = {pair.key: pair.value for pair in status.values}["marked rest"]
+                    if words in last:
+                        return last
+        self.fail(f"the last mark says '{last}'")
+
+    def start_session(self):
+        session = subprocess.Popen([str(PROGRAMS / "session_node"), "__ns:=fsr", "__name:=session"])
+
+        def stop():
+            session.send_signal(signal.SIGINT)
+            session.wait(PATIENCE)
+        self.addCleanup(stop)
+        rospy.wait_for_service("/fsr/session/mark", PATIENCE)
+        node = xmlrpc.client.ServerProxy(rosgraph.Master("/shape_test").lookupNode("/fsr/session"))
+        end = time.monotonic() + PATIENCE
+        while not any(link[1] == "/fsr/calibration" for link in node.getBusInfo("/shape_test")[2]):
+            self.assertLess(time.monotonic(), end, "the calibration node does not listen to events")
+            time.sleep(0.1)
+        self.mark = lambda kind: self.assertTrue(rospy.ServiceProxy("/fsr/session/mark", Mark)(kind, "").success)
+
+    def await_pressure(self, gauge):
+        end = time.monotonic() + PATIENCE
+        while rospy.wait_for_message("/fsr/chamber_pressure", FluidPressure, PATIENCE).fluid_pressure < 101325 + gauge:
+            self.assertLess(time.monotonic(), end)
+
     def await_state(self, state):
         end = time.monotonic() + PATIENCE
         while rospy.wait_for_message("/fsr/pressure_map", PressureMap, PATIENCE).state != state:
@@ -103,17 +138,32 @@ class ShapeTest(unittest.TestCase):
         self.assertTrue(reply.success and "agrees with cylinder_5cm" in reply.message, reply.message)
         reply = self.call("/fsr/calibration/estimate_surface")
         self.assertTrue(reply.success and "curvature:=estimated" in reply.message, reply.message)
+        self.start_session()
+        self.mark("doff")
+        self.assertIn("agrees with cylinder_5cm", self.await_mark("doff: the sheet rests as on "))
 
     def test_the_estimated_surface_is_used_with_its_deviation(self):
         self.launch("curvature:=estimated")
         self.await_state(PressureMap.STATE_CURVATURE_UNKNOWN)
-        reply = self.call("/fsr/calibration/estimate_surface")
-        self.assertTrue(reply.success and "it is used from now on" in reply.message, reply.message)
+        self.start_session()
+        self.mark("doff")
+        self.await_mark("it is used from now on, as mount 1")
         surface = rospy.wait_for_message("/fsr/curvature", SurfaceCurvature, PATIENCE)
         self.assertEqual(surface.surface, "estimated")
         self.assertAlmostEqual(surface.x[0], 20, delta=1)
         self.assertGreater(surface.deviation[0], 0)
         self.await_state(PressureMap.STATE_OK)
+        self.mark("don")
+        reply = self.call("/fsr/calibration/estimate_surface")
+        self.assertTrue(not reply.success and "don was marked" in reply.message, reply.message)
+        self.mark("doff")
+        self.await_mark("the curvature in use stays")
+        reply = self.call("/fsr/calibration/estimate_surface")
+        self.assertTrue(reply.success and "it is used from now on, as mount 2" in reply.message, reply.message)
+        self.assertTrue(self.call("/bench/rig_emulator/start").success)
+        self.await_pressure(100e3)
+        self.mark("doff")
+        self.await_mark("doff: how the sheet lies cannot be told: the chamber is not at ambient pressure")
 
 
 if __name__ == "__main__":

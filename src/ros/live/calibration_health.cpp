@@ -85,6 +85,7 @@ void addShape(const CalibrationHealth& health, Status& status) {
     sentence = health.no_shape.empty() ? kRestOpen : "how the sheet lies cannot be told: " + health.no_shape;
   status.add(kRestVerdictKey, verdict);
   status.add(kRestKey, sentence);
+  status.add(kMarkedRestKey, health.marked.empty() ? kNoMarkedRest : health.marked);
   status.add(kCurvatureSourceKey, health.estimates_curvature ? kCurvatureEstimated : kCurvaturePublished);
 }
 

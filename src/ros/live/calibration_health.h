@@ -15,9 +15,11 @@ constexpr char kRestAgrees[] = "agrees";               ///< the sheet rests as t
 constexpr char kRestDisagrees[] = "disagrees";         ///< it rests as on another surface
 constexpr char kRestUnknown[] = "cannot be told";      ///< compared, or never possible
 constexpr char kRestOpen[] = "not compared yet";       ///< since the surface changed
-constexpr char kCurvatureSourceKey[] = "curvature";    ///< one of the following
-constexpr char kCurvatureEstimated[] = "estimated";    ///< this node publishes it
-constexpr char kCurvaturePublished[] = "published";    ///< another node publishes it
+constexpr char kMarkedRestKey[] = "marked rest";  ///< what was done at the last event doff, or the following
+constexpr char kNoMarkedRest[] = "none";
+constexpr char kCurvatureSourceKey[] = "curvature";  ///< one of the following
+constexpr char kCurvatureEstimated[] = "estimated";  ///< this node publishes it
+constexpr char kCurvaturePublished[] = "published";  ///< another node publishes it
 
 /// Diagnostics of the calibration in use, its tare and the comparison of its surface with the sheet.
 void judgeCalibration(const CalibrationHealth& health, diagnostic_updater::DiagnosticStatusWrapper& status);

@@ -19,7 +19,8 @@ namespace {
 
 constexpr double kPatience = 5.0;      // a tare gives up after this time without a scan [s]
 constexpr double kWatchPeriod = 0.25;  // period of looking for a file that could not be loaded [s]
-constexpr double kSecond = 1.0;        // [s]
+constexpr std::uint32_t kEventQueue = 100;
+constexpr double kSecond = 1.0;  // [s]
 
 // A text that changes when the file changes.
 std::string fingerprint(const std::string& path) {
@@ -72,6 +73,7 @@ void CalibrationServer::serve() {
   watch_ = slow.createWallTimer(ros::WallDuration(kWatchPeriod), [this](const ros::WallTimerEvent&) {
     tryWanted();
     live_.compareAtRest();
+    compareAtMark();
   });
 }
 
@@ -88,6 +90,7 @@ void CalibrationServer::subscribe() {
       "chamber_pressure", 10, [this](const sensor_msgs::FluidPressureConstPtr& message) {
         live_.setChamber(message->fluid_pressure);
       });
+  events_ = handle_.subscribe("events", kEventQueue, &CalibrationServer::onEvent, this);
   scans_ = handle_.subscribe("raw", settings_.queue_size, &CalibrationServer::onScan, this, at_once);
 }
 
@@ -104,6 +107,18 @@ void CalibrationServer::onScan(const fsr_pressure_map::MatrixFrameConstPtr& scan
 
 void CalibrationServer::onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& message) {
   live_.setSurface(*message);
+}
+
+void CalibrationServer::onEvent(const fsr_pressure_map::EventConstPtr& event) {
+  if (event->kind == "don") live_.markLoaded();
+  if (event->kind == "doff") live_.markUnloaded();
+}
+
+// A rest that the operator marked: compared, and estimated if this node is the source of the curvature.
+void CalibrationServer::compareAtMark() {
+  const std::string done = live_.answerMark(
+      [this] { return settings_.estimates_curvature ? useEstimate(true) : live_.checkSurface(kPatience); });
+  if (!done.empty()) ROS_INFO_STREAM(private_handle_.getNamespace() << ": " << done);
 }
 
 void CalibrationServer::everySecond() {
@@ -186,11 +201,12 @@ bool CalibrationServer::checkSurface(Trigger::Request& /*request*/, Trigger::Res
 }
 
 bool CalibrationServer::estimateSurface(Trigger::Request& /*request*/, Trigger::Response& response) {
-  return answer(response, [&] { return useEstimate(); });
+  return answer(response, [&] { return useEstimate(false); });
 }
 
-// The estimate is published, and comes back as any other curvature.
-std::string CalibrationServer::useEstimate() {
+// The estimate is published, and comes back as any other curvature. `only_if_it_differs`: where the sheet
+// agrees with the curvature in use, that one stays, and with it the number of the mount and the tare.
+std::string CalibrationServer::useEstimate(bool only_if_it_differs) {
   std::string sentence;
   fsr::matrix::Surface surface = live_.estimateSurface(kPatience, sentence);
   if (!settings_.estimates_curvature) {
@@ -198,6 +214,7 @@ std::string CalibrationServer::useEstimate() {
            "; it is not used, because another node publishes the curvature: start with curvature:=estimated "
            "to use it";
   }
+  if (only_if_it_differs && live_.restAgrees()) return sentence + "; the curvature in use stays";
   surface.mount = ++estimates_;
   fsr_pressure_map::SurfaceCurvature message = toMessage(surface);
   message.header.stamp = ros::Time::now();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <fsr_pressure_map/Event.h>
 #include <fsr_pressure_map/LoadFile.h>
 #include <fsr_pressure_map/SetMask.h>
 #include <ros/callback_queue.h>
@@ -16,12 +17,14 @@
 namespace fsr_ros {
 
 /// Converts each scan on `raw` to a map on `pressure_map`, using `curvature`, `temperature` and
-/// `matrix_info`. Publishes
-/// `calibration_info` (latched and repeated each second) and diagnostics. Parameters: CalibrationSettings.
+/// `matrix_info`. Publishes `calibration_info` (latched and repeated each second) and diagnostics. Compares
+/// the surface with the sheet at rest: by itself with `chamber_pressure` and at each event doff on `events`.
+/// Parameters: CalibrationSettings.
 ///
-/// Services: `~load_calibration`, `~reload`, `~set_mask`, `~tare`, `~clear_tare`. Each reply says what was
-/// done. The services and the first load run in a separate thread, so that no scan waits for a file. If the
-/// file in `~calibration` does not exist or cannot be read, the node tries again when the file changes.
+/// Services: `~load_calibration`, `~reload`, `~set_mask`, `~tare`, `~clear_tare`, `~check_surface`,
+/// `~estimate_surface`. Each reply says what was done. The services and the first load run in a separate
+/// thread, so that no scan waits for a file. If the file in `~calibration` does not exist or cannot be read,
+/// the node tries again when the file changes.
 class CalibrationServer {
  public:
   /// Throws fsr::InputError for parameters that cannot be used.
@@ -38,7 +41,9 @@ class CalibrationServer {
   void onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& message);
   void everySecond();
   void tryWanted();
-  std::string useEstimate();
+  void onEvent(const fsr_pressure_map::EventConstPtr& event);
+  void compareAtMark();
+  std::string useEstimate(bool only_if_it_differs);
   void publishInfo();
   void logChange();
 
@@ -65,6 +70,7 @@ class CalibrationServer {
   ros::Subscriber board_;
   ros::Subscriber temperature_;
   ros::Subscriber chamber_;
+  ros::Subscriber events_;
   ros::Publisher estimated_;     // of the curvature, if this node is its source
   std::uint32_t estimates_ = 0;  // number of the mount that was estimated last
 

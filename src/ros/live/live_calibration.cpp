@@ -223,6 +223,7 @@ CalibrationHealth LiveCalibration::health() const {
   health.temperature = temperature_;
   health.tare = tare_.tare();
   health.shape = shape_;
+  health.marked = marked_;
   health.estimates_curvature = settings_.estimates_curvature;
   health.scans = scans_;
   health.map = map_;

@@ -7,6 +7,7 @@
 #include <fsr_pressure_map/SurfaceCurvature.h>
 
 #include <condition_variable>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -36,6 +37,7 @@ struct CalibrationHealth {
   std::optional<fsr::calibration::Tare> tare;
   fsr::calibration::SessionZero session_zero;  ///< of the calibration in use
   fsr::calibration::ShapeCheck shape;          ///< of the surface in use; sentence empty = not compared yet
+  std::string marked;                ///< what was done at the last marked rest; empty = none was marked
   std::string no_shape;              ///< why nothing can be compared with this calibration; empty = it can
   bool estimates_curvature = false;  ///< this node publishes the curvature
   std::uint64_t scans = 0;
@@ -76,7 +78,17 @@ class LiveCalibration {
   /// The gauge pressure of a chamber round the sheet [Pa]. While it is at ambient and no load has come since
   /// the sheet was laid on its surface, the surface is compared once.
   void setChamber(double absolute);
-  /// Does the slow part of that comparison; to be called again and again from a thread that may wait.
+  /// The operator says that a load comes (event don): nothing is compared from now on.
+  void markLoaded();
+  /// The operator says that the sheet is unloaded (event doff), until markLoaded().
+  void markUnloaded();
+  /// Calls `measure`, which is checkSurface() or uses estimateSurface(), if the sheet was marked as unloaded
+  /// since the last call. Returns a sentence on what was done for diagnostics; empty without a mark.
+  std::string answerMark(const std::function<std::string()>& measure);
+  /// The last comparison found that the sheet rests as the surface says.
+  bool restAgrees() const;
+  /// Does the slow part of the comparison in a chamber; to be called again and again from a thread that may
+  /// wait.
   void compareAtRest();
 
   /// The file that was requested, but is not loaded; empty if there is none.
@@ -101,6 +113,7 @@ class LiveCalibration {
   void forgetShape();
   void startComparison();
   std::string temperatureObstacle() const;
+  void interruptRest(const std::string& why);
   fsr::calibration::ShapeCheck measureShape(double patience);
   fsr::compensation::RestReading awaitRest(std::unique_lock<std::mutex>& lock, double patience);
 
@@ -128,9 +141,13 @@ class LiveCalibration {
   // The comparison of the surface with the sheet at rest, see live_shape.cpp.
   std::optional<fsr::calibration::RestWindow> rest_;  // scans are being collected
   bool rest_full_ = false;
-  bool rest_asked_ = false;  // by a service, which waits
-  bool ambient_ = false;     // the chamber is at ambient
-  bool load_seen_ = false;   // since the sheet was laid on its surface
+  bool rest_asked_ = false;   // by a service, which waits
+  bool ambient_ = false;      // the chamber is at ambient
+  bool load_seen_ = false;    // since the sheet was laid on its surface
+  bool worn_ = false;         // don was marked, and no doff since
+  bool rest_marked_ = false;  // doff was marked, and is not answered yet
+  std::string marked_;        // what was done at the last doff
+  std::string interruption_;  // why a window that a service waits for is not at rest
   fsr::calibration::ShapeCheck shape_;
   std::vector<std::uint8_t> ignored_;  // taxels of the last map without a sound reading
 

@@ -25,7 +25,7 @@ void LiveCalibration::setChamber(double absolute) {
   ambient_ = std::abs(gauge) <= fsr::calibration::kUnloaded;
   if (!ambient_) {
     load_seen_ = true;
-    if (!rest_asked_) rest_.reset();
+    interruptRest("the chamber left ambient pressure");
   }
   startComparison();
 }
@@ -33,13 +33,14 @@ void LiveCalibration::setChamber(double absolute) {
 // A window that nobody asked for: only before the first load, because a sheet creeps back after one.
 void LiveCalibration::startComparison() {
   if (rest_ || !loaded_ || !loaded_->shape->present() || !surface_.known()) return;
-  if (!ambient_ || load_seen_ || !shape_.sentence.empty()) return;
+  if (!ambient_ || load_seen_ || worn_ || !shape_.sentence.empty()) return;
   rest_.emplace(*loaded_->shape, settings_.tare);
   rest_full_ = false;
 }
 
 void LiveCalibration::forgetShape() {
   shape_ = {};
+  if (!settings_.estimates_curvature) marked_.clear();  // else it says what this node made of it
   load_seen_ = false;
   if (!rest_asked_) rest_.reset();
 }
@@ -89,11 +90,15 @@ fsr::calibration::ShapeCheck LiveCalibration::measureShape(double patience) {
   if (!obstacle.empty()) throw fsr::settings::InputError(kRefused + obstacle);
   if (!ambient_ && load_seen_)
     throw fsr::settings::InputError(kRefused + "the chamber is not at ambient pressure; unload the sheet");
+  if (worn_)
+    throw fsr::settings::InputError(kRefused +
+                                    "don was marked, so a load may be on; mark doff when it is off");
   if (rest_asked_) throw fsr::settings::InputError(kRefused + "another call is measuring");
   const std::shared_ptr<const fsr::compensation::ShapeModel> model = loaded_->shape;
   rest_.emplace(*model, settings_.tare);
   rest_full_ = false;
   rest_asked_ = true;
+  interruption_.clear();
   fsr::compensation::RestReading reading;
   try {
     reading = awaitRest(lock, patience);
@@ -109,6 +114,7 @@ fsr::calibration::ShapeCheck LiveCalibration::measureShape(double patience) {
   const fsr::calibration::ShapeCheck check = fsr::calibration::checkShape(*model, reading, surface);
   lock.lock();
   if (fsr::matrix::sameCondition(surface, surface_)) shape_ = check;
+  marked_.clear();
   return check;
 }
 
@@ -117,9 +123,11 @@ fsr::compensation::RestReading LiveCalibration::awaitRest(std::unique_lock<std::
   const auto give_up = Clock::now() + kLongestWait;
   while (!rest_full_) {
     const std::uint64_t seen = scans_;
-    const bool came = progress_.wait_for(lock, std::chrono::duration<double>(patience),
-                                         [&] { return rest_full_ || scans_ != seen || stopping_; });
+    const bool came = progress_.wait_for(lock, std::chrono::duration<double>(patience), [&] {
+      return rest_full_ || scans_ != seen || stopping_ || !interruption_.empty();
+    });
     if (stopping_) throw fsr::settings::InputError(kRefused + "the node is ending");
+    if (!interruption_.empty()) throw fsr::settings::InputError(kRefused + interruption_);
     if (!came)
       throw fsr::settings::InputError(kRefused + "no scan has come for a while; is the driver running?");
     if (Clock::now() > give_up)

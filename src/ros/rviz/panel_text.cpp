@@ -109,8 +109,14 @@ PanelLine restLine(const DiagnosticValues& values) {
   const auto sentence = values.find(fsr_ros::kRestKey);
   const auto verdict = values.find(fsr_ros::kRestVerdictKey);
   if (sentence == values.end() || verdict == values.end()) return {"-", ""};
-  if (verdict->second != fsr_ros::kRestDisagrees) return {text(sentence->second), ""};
-  return {"DISAGREES: " + text(sentence->second), "background: #8a5200; color: white; font-weight: bold"};
+  const bool disagrees = verdict->second == fsr_ros::kRestDisagrees;
+  PanelLine line{(disagrees ? "DISAGREES: " : "") + text(sentence->second),
+                 disagrees ? "background: #8a5200; color: white; font-weight: bold" : ""};
+  const auto marked = values.find(fsr_ros::kMarkedRestKey);
+  const bool told = marked == values.end() || marked->second == fsr_ros::kNoMarkedRest ||
+                    marked->second.find(sentence->second) != std::string::npos;
+  if (!told) line.text += "\n" + text(marked->second);
+  return line;
 }
 
 }  // namespace fsr_rviz

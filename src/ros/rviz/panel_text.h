@@ -48,8 +48,8 @@ struct PanelLine {
 PanelLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& statistics,
                     const fsr_pressure_map::PressureMapConstPtr& map);
 
-/// The line "Sheet at rest": whether the sheet rests as the surface says, as the calibration node's
-/// diagnostics do. "-" without values.
+/// The line "Sheet at rest": whether the sheet rests as the surface says, as the diagnostics of the
+/// calibration node do, and what was done at the last doff if that is something else. "-" without values.
 PanelLine restLine(const DiagnosticValues& values);
 
 }  // namespace fsr_rviz

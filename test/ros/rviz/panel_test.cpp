@@ -183,6 +183,27 @@ TEST_F(Panel, SaysWhetherTheSheetRestsAsTheSurfaceSays) {
   EXPECT_TRUE(runUntil([&] { return label("Sheet at rest") == "-"; })) << "a node that has died says nothing";
 }
 
+TEST_F(Panel, SaysWhatWasDoneAtTheLastDoff) {
+  ros::NodeHandle handle;
+  const auto publisher = handle.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
+  listenTo("/bent");
+  const auto shown = [&](const std::string& words, const std::string& marked) {
+    auto array = comparison(fsr_ros::kRestAgrees, "it agrees", fsr_ros::kCurvaturePublished);
+    diagnostic_msgs::KeyValue pair;
+    pair.key = fsr_ros::kMarkedRestKey;
+    pair.value = marked;
+    array.status[0].values.push_back(pair);
+    return runUntil([&] {
+      publisher.publish(array);
+      return label("Sheet at rest") == words;
+    });
+  };
+  EXPECT_TRUE(shown("it agrees\ndoff: being measured", "doff: being measured"));
+  EXPECT_TRUE(shown("it agrees", "doff: it agrees")) << "nothing is said twice";
+  EXPECT_TRUE(shown("it agrees\ndoff: refused", "doff: refused"));
+  EXPECT_TRUE(shown("it agrees", fsr_ros::kNoMarkedRest));
+}
+
 TEST_F(Panel, OffersToEstimateTheSurfaceWhereTheCalibrationNodeIsItsSource) {
   ros::NodeHandle handle;
   const auto publisher = handle.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);

@@ -172,5 +172,16 @@ TEST(CalibrationHealth, SaysWhoPublishesTheCurvature) {
   EXPECT_EQ(valueOf(estimated, kCurvatureSourceKey), kCurvatureEstimated);
 }
 
+TEST(CalibrationHealth, SaysWhatWasDoneAtTheLastMarkedRest) {
+  CalibrationHealth health = healthy();
+  Status none;
+  judgeCalibration(health, none);
+  EXPECT_EQ(valueOf(none, kMarkedRestKey), kNoMarkedRest);
+  health.marked = "doff: compared";
+  Status marked;
+  judgeCalibration(health, marked);
+  EXPECT_EQ(valueOf(marked, kMarkedRestKey), "doff: compared");
+}
+
 }  // namespace
 }  // namespace fsr_ros
