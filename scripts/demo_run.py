@@ -15,7 +15,8 @@ import demo_floor
 import demo_history
 import demo_options
 import demo_score
-from demo_tools import Failure, run_tool
+import demo_shape
+from demo_tools import START_LIMIT, Failure, process, run_tool, wait_until
 
 NAMESPACE = "fsr"
 SIMULATION = pathlib.Path(__file__).resolve().parent.parent / "config/simulation/demo.yaml"
@@ -38,7 +39,6 @@ TRAINING = [
     {"peak": 350e3, "rate": 60e3, "dwell_peak": 2.0, "dwell_rest": 5.0},
 ]
 LIVE = [{"peak": 620e3, "rate": 30e3, "dwell_peak": 8.0, "dwell_rest": 8.0}]
-START_LIMIT = 60.0  # time for a process to start before the demo gives up [s]
 SHOW_PRESSURE = 300e3  # the picture is taken above this gauge pressure [Pa]
 
 
@@ -47,34 +47,6 @@ def say(text):
 
 
 STARTED = time.monotonic()
-
-
-@contextlib.contextmanager
-def process(command, log, stop_signal=signal.SIGINT, **keywords):
-    """A child process with its output in `log`. It is ended when the block is left."""
-    with open(log, "w") as output:
-        child = subprocess.Popen(command, stdout=output, stderr=subprocess.STDOUT, start_new_session=True, **keywords)
-        try:
-            yield child
-        finally:
-            if child.poll() is None:
-                child.send_signal(stop_signal)
-            try:
-                child.wait(30)
-            except subprocess.TimeoutExpired:
-                child.kill()
-                child.wait()
-
-
-def wait_until(condition, child, what, log):
-    """Polls `condition` while `child` runs. (The ROS graph sends no events to wait for.)"""
-    give_up = time.monotonic() + START_LIMIT
-    while not condition():
-        if child.poll() is not None:
-            raise Failure(f"{what} ended unexpectedly; its log is {log}")
-        if time.monotonic() > give_up:
-            raise Failure(f"{what} did not start within {START_LIMIT:.0f} s; its log is {log}")
-        time.sleep(0.05)
 
 
 def free_port():
@@ -121,6 +93,10 @@ class Rig:
         subscribers = dict(self.master.getSystemState()[1])
         return f"/{NAMESPACE}/{node}" in subscribers.get(f"/{NAMESPACE}/{topic}", [])
 
+    def serves(self, service):
+        """Whether a node offers the service."""
+        return any(name == f"/{NAMESPACE}/{service}" for name, _ in self.master.getSystemState()[2])
+
     def run_cycles(self, protocol, cycles, limit):
         rates = {"fill_rate": protocol["rate"], "vent_rate": protocol["rate"]}
         self.rospy.set_param(f"/{NAMESPACE}/rig_emulator/chamber", {**protocol, **rates, "cycles": cycles})
@@ -134,8 +110,9 @@ class Rig:
                 raise Failure(f"the chamber cycles did not end within {limit:.0f} s; the logs are in {self.logs}")
             time.sleep(0.02)
 
-    def record(self, bag, surface, trial, protocols, cycles, limit, topics=()):
-        """Records `cycles` chamber cycles of each protocol with record.launch and returns the path of the bag."""
+    @contextlib.contextmanager
+    def recording(self, bag, surface, trial, topics=()):
+        """record.launch, from the time on at which it receives scans. Its bag is complete when the block is left."""
         log = self.logs / f"record_{bag.name}.log"
         command = ["roslaunch", "fsr_pressure_map", "record.launch", f"bag:={bag}", f"trial:={trial}",
                    "protocol:=demo_cycles", f"session:=demo_{surface}", "use:=chamber", "mounted_on:=fixture"]
@@ -144,12 +121,16 @@ class Rig:
         with process(command, log) as child:
             wait_until(lambda: self.subscribed("record", "raw") and self.subscribed("record", "chamber_pressure"),
                        child, "the recorder", log)
+            yield child
+        if not bag.with_suffix(".bag").exists():
+            raise Failure(f"the recorder left no {bag.with_suffix('.bag')}; its log is {log}")
+
+    def record(self, bag, surface, trial, protocols, cycles, limit, topics=()):
+        """Records `cycles` chamber cycles of each protocol with record.launch and returns the path of the bag."""
+        with self.recording(bag, surface, trial, topics):
             for protocol in protocols:
                 self.run_cycles(protocol, cycles, limit)
-        path = bag.with_suffix(".bag")
-        if not path.exists():
-            raise Failure(f"the recorder left no {path}; its log is {log}")
-        return path
+        return bag.with_suffix(".bag")
 
 
 def train(name, bags, output, logs):
@@ -218,13 +199,32 @@ def run_live(rig, arguments, calibrations, output, logs, limit):
         return live, None if arguments.no_rviz else show(rig, output, logs, limit)
 
 
-def run(arguments, output, logs):
-    limit = 60 + 200 * max(arguments.cycles, arguments.live_cycles) / arguments.time_scale
-    rig = Rig(logs)
+def run(rig, arguments, output, logs, limit):
+    say("the sheet is mounted twice on each surface, and recorded at rest before its first load")
+    mounts = demo_shape.record_mounts(rig, TRAINED, output / "0_mounts")
     bags = record_training(rig, arguments, output, limit)
     calibrations = train_all(bags, output, logs)
     live, picture = run_live(rig, arguments, calibrations, output, logs, limit)
-    return bags, calibrations, picture, live
+    return mounts, bags, calibrations, picture, live
+
+
+def run_mistake(rig, arguments, board, mounts, bags, output, logs, limit):
+    """On an emulator that starts anew, with a sheet that was not loaded yet: answers of the sheet that lies on another surface than
+    its file says, and the rows of the table of errors."""
+    calibration, folder, log = output / "shape.h5", output / "shape", logs / "rig_shape.log"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    # No scores: mounts without a load do not tell the error of another mount.
+    run_tool(logs / "train_shape.log", "train", mounts, *bags, "--no-scores", "--output", calibration)
+    say(f"trained {calibration}, with the mounts at rest; the sheet is mounted on {demo_shape.TRUE}, but the launch file says {demo_shape.WRONG}")
+    rig_launch = ["roslaunch", "fsr_pressure_map", "rig_emulator.launch", f"link:={board}", f"time_scale:={arguments.time_scale}",
+                  f"seed:={arguments.seed}", f"simulation:={SIMULATION}", "autostart:=false", f"surface:={demo_shape.TRUE}",
+                  f"mount:={demo_shape.MOUNT}"]
+    with process(rig_launch, log) as child:
+        wait_until(lambda: rig.serves("rig_emulator/start"), child, "the rig", log)
+        answers = demo_shape.mistake(rig, board, calibration, folder, logs, LIVE, arguments.live_cycles, limit)
+    say(f"the sheet was asked, and a loading recorded in {folder / 'load.bag'}")
+    return answers, *demo_shape.errors(folder, calibration, logs)
 
 
 def score_live(arguments, bags, live, output, logs):
@@ -253,21 +253,28 @@ def main():
                       ROS_HOME=str(output / "ros_home"), ROS_LOG_DIR=str(logs / "ros"))
     port = os.environ["ROS_MASTER_URI"].rsplit(":", 1)[1]
     log = logs / "rig.log"
-    rig_launch = ["roslaunch", "-p", port, "fsr_pressure_map", "demo.launch", f"link:={output / 'board'}",
+    board = output / "board"
+    limit = 60 + 200 * max(arguments.cycles, arguments.live_cycles) / arguments.time_scale
+    rig_launch = ["roslaunch", "fsr_pressure_map", "demo.launch", f"link:={board}",
                   f"time_scale:={arguments.time_scale}", f"seed:={arguments.seed}", f"simulation:={SIMULATION}", "autostart:=false"]
     say(f"starting roscore on 127.0.0.1:{port}, the emulated rig and the driver; all files go to {output}")
     try:
-        with process(rig_launch, log) as child:
+        with process(["roscore", "-p", port], logs / "roscore.log") as core:
             import rosgraph
-            wait_until(rosgraph.is_master_online, child, "roscore", log)
-            bags, calibrations, picture, live = run(arguments, output, logs)
+            wait_until(rosgraph.is_master_online, core, "roscore", logs / "roscore.log")
+            with process(rig_launch, log):
+                rig = Rig(logs)
+                mounts, bags, calibrations, picture, live = run(rig, arguments, output, logs, limit)
+            answers, rows, live_error = run_mistake(rig, arguments, board, mounts, bags, output, logs, limit)
         scores, drawing = score_live(arguments, bags, live, output, logs)
     except Failure as failure:
         print(f"demo: {failure}", file=sys.stderr)
         return 1
     print(demo_score.table(scores, TRAINED, UNSEEN))
-    print("bags         " + "\n             ".join(map(str, bags)))
-    print("calibrations " + "\n             ".join(map(str, calibrations.values())))
+    print(demo_shape.sentences(answers))
+    print(demo_shape.table(rows, live_error, output) + "\n")
+    print("bags         " + "\n             ".join(map(str, [mounts, *bags])))
+    print("calibrations " + "\n             ".join(map(str, [*calibrations.values(), output / "shape.h5"])))
     print(f"screenshot   {picture or 'none'}")
     print(f"errors       {drawing}")
     try:
@@ -275,14 +282,14 @@ def main():
     except (OSError, subprocess.CalledProcessError) as error:
         print(f"demo: discrepancy: {error}", file=sys.stderr)
         return 1
-    complaints = demo_score.complaints(scores, TRAINED)
+    complaints = demo_score.complaints(scores, TRAINED) + demo_shape.complaints(answers, rows)
     if not arguments.no_rviz and picture is None:
         complaints.append("no picture of the map could be taken")
     for complaint in complaints:
         print(f"demo: {complaint}", file=sys.stderr)
     say("the demo FAILED" if complaints else
-        "the demo is done: calibrations that know the curvature have the smaller error on every bent surface, and history has no "
-        "larger one than the static answer")
+        "the demo is done: calibrations that know the curvature have the smaller error on every bent surface, history has no "
+        "larger one than the static answer, and the sheet at rest found the wrong surface file")
     return 1 if complaints else 0
 
 
