@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""The demo's scores, its floor, its picture and its verdict, on runs that are made up."""
+"""The demo's scores, its floor, its picture, its wrong surface and its verdict, on runs that are made up."""
 import csv
+import importlib.util
 import pathlib
 import sys
 import tempfile
@@ -14,6 +15,7 @@ sys.path.insert(0, str(PACKAGE / "scripts"))
 import demo_floor  # noqa: E402
 import demo_history  # noqa: E402
 import demo_score  # noqa: E402
+import demo_shape  # noqa: E402
 import demo_tools  # noqa: E402
 
 START = 1704099600 * 10**9  # [ns]
@@ -148,6 +150,73 @@ class Picture(unittest.TestCase):
         unloading = [float(row["RMSE [kPa]"]) for row in rows if (row["map"], row["direction"]) == ("history", "unloading")]
         self.assertGreater(unloading[1], 10)
         self.assertAlmostEqual(unloading[-3], 5)
+
+
+def answers_of(check="the sheet rests as on 5.0 cm (4.8 cm to 5.1 cm), but the surface file says cylinder_9cm (9.0 cm)", given=True):
+    said = demo_shape.Answer(True, "something")
+    return {"check": demo_shape.Answer(given, check), "check_true": said, "estimate": said}
+
+
+def rows_of(**rmse):
+    return {use: demo_shape.Row(20.0, 0.2 if use == "estimated" else float("nan"),
+                                {"rmse_percent": kpa / 6, "rmse_kpa": kpa, "bias_kpa": -kpa / 2, "scans": 492})
+            for use, kpa in rmse.items()}
+
+
+class WrongSurface(unittest.TestCase):
+    def test_the_table_shows_the_error_with_each_surface_and_how_to_compute_it_again(self):
+        lines = demo_shape.table(rows_of(wrong=75, estimated=21, true=20), 21.04, "folder").splitlines()
+        rows = [line.split() for line in lines[6:9]]
+        self.assertEqual([row[0] for row in rows], ["wrong:", "estimated", "true:"])
+        self.assertEqual(rows[0][-5:], ["20.00", "12.50", "75.0", "-37.5", "3.75"])
+        self.assertEqual(rows[1][1:], ["20.00", "+-", "0.20", "3.50", "21.0", "-10.5", "1.05"])
+        self.assertIn("492 scans", lines[2])
+        self.assertIn("an error of 21.0 kPa", lines[-3])
+        self.assertIn("scripts/demo_shape.py folder", lines[-1])
+
+    def test_an_estimate_that_was_not_given_has_no_error(self):
+        text = demo_shape.table(rows_of(wrong=75, true=20), float("nan"), "folder")
+        self.assertEqual(text.splitlines()[7].split(), ["estimated", "none"])
+        self.assertNotIn("nan", text)
+
+    def test_prints_what_the_sheet_said(self):
+        said = demo_shape.sentences(answers_of(check="how the sheet lies cannot be told: why", given=False)).splitlines()
+        self.assertEqual(said[0], "~check_surface, cylinder_9cm: how the sheet lies cannot be told: why")
+        self.assertEqual(len(said), 3)
+
+    def test_a_wrong_file_must_be_found(self):
+        rows = rows_of(wrong=75, estimated=21, true=20)
+        self.assertEqual(demo_shape.complaints(answers_of(), rows), [])
+        for given, said in [(False, "how the sheet lies cannot be told: why"), (True, "the sheet rests as on 5.0 cm, which agrees with it")]:
+            self.assertEqual(demo_shape.complaints(answers_of(said, given), rows), [f"the wrong surface file was not found: {said}"])
+
+    def test_the_estimated_surface_must_help(self):
+        said = "the map does not have a smaller error with the estimated surface than with the wrong one"
+        for error in (75, float("nan")):
+            self.assertEqual(demo_shape.complaints(answers_of(), rows_of(wrong=75, estimated=error, true=20)), [said])
+
+    @unittest.skipUnless(importlib.util.find_spec("rosbag") and importlib.util.find_spec("fsr_pressure_map"), "needs ROS")
+    def test_the_readings_get_another_surface(self):
+        import rosbag
+        import rospy
+        from fsr_pressure_map.msg import MatrixFrame, PressureMap, SurfaceCurvature
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        load, wrong = (pathlib.Path(folder.name) / name for name in ("load.bag", "wrong.bag"))
+        with rosbag.Bag(str(load), "w") as bag:
+            for second in (10, 11, 12):
+                for topic, message in [("curvature", SurfaceCurvature(surface="estimated", x=[20], deviation=[0.2])), ("raw", MatrixFrame()),
+                                       ("pressure_map", PressureMap())]:
+                    message.header.stamp = rospy.Time(second)
+                    bag.write(f"/fsr/{topic}", message, rospy.Time(second + 0.5))
+        demo_shape.exchange(load, SurfaceCurvature(surface="cylinder_9cm", x=[11]), wrong)
+        with rosbag.Bag(str(wrong)) as bag:
+            messages = list(bag.read_messages())
+        self.assertEqual([topic for topic, _, _ in messages], ["/fsr/curvature"] + 3 * ["/fsr/raw"])
+        self.assertEqual((messages[0][1].surface, messages[0][1].header.stamp), ("cylinder_9cm", rospy.Time(10)))
+        self.assertEqual([message.header.stamp.secs for _, message, _ in messages[1:]], [10, 11, 12])
+        self.assertEqual(demo_shape.curvature_of(load)[0], 20)
+        self.assertNotEqual(demo_shape.curvature_of(wrong)[1], demo_shape.curvature_of(wrong)[1])
 
 
 if __name__ == "__main__":
