@@ -23,6 +23,7 @@ MOUNT = 101  # of the sheet on TRUE; took no part in training
 REMOUNTED = range(21, 33)  # numbers of the mounts that are recorded at rest only, two of each surface
 REST = 5.0  # of each [s]; 2 s are used
 HAS_SCANS = 10000  # size of a bag that has begun to receive scans [bytes]
+SETUP = "out/devel/setup.bash"
 USES = {"wrong": f"wrong: {WRONG}", "estimated": "estimated", "true": f"true: {TRUE}"}
 FOUND = "but the surface file says"  # in the answer of check_surface to a surface that disagrees
 
@@ -151,7 +152,7 @@ def table(rows, live, folder):
                      f"{score['rmse_kpa'] / true:8.2f}")
     if "estimated" in rows:
         lines += ["", f"The node that used its estimate published maps of this run with an error of {live:.1f} kPa."]
-    return "\n".join([*lines, "", f"recompute    . out/devel/setup.bash; scripts/demo_shape.py {folder}"])
+    return "\n".join([*lines, "", f"recompute    . {SETUP}; scripts/demo_shape.py {folder}"])
 
 
 def sentences(answers):
@@ -178,7 +179,7 @@ def main():
         print(f"demo_shape.py: {output}: there is no shape/load.bag; give the folder that scripts/demo wrote", file=sys.stderr)
         return 1
     if importlib.util.find_spec("fsr_pressure_map") is None:
-        print("demo_shape.py: the package is not known to this shell; source out/devel/setup.bash before", file=sys.stderr)
+        print(f"demo_shape.py: the package is not known to this shell; call `. {SETUP}` before", file=sys.stderr)
         return 1
     try:
         print(table(*errors(output / "shape", output / "shape.h5", output / "logs"), output))
