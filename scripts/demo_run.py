@@ -16,7 +16,7 @@ import demo_history
 import demo_options
 import demo_score
 import demo_shape
-from demo_tools import START_LIMIT, Failure, process, run_tool, wait_until
+from demo_tools import START_LIMIT, Failure, process, run_tool, serves, wait_until
 
 NAMESPACE = "fsr"
 SIMULATION = pathlib.Path(__file__).resolve().parent.parent / "config/simulation/demo.yaml"
@@ -92,10 +92,6 @@ class Rig:
         """Whether `node` is registered at the master as a subscriber of `topic`."""
         subscribers = dict(self.master.getSystemState()[1])
         return f"/{NAMESPACE}/{node}" in subscribers.get(f"/{NAMESPACE}/{topic}", [])
-
-    def serves(self, service):
-        """Whether a node offers the service."""
-        return any(name == f"/{NAMESPACE}/{service}" for name, _ in self.master.getSystemState()[2])
 
     def run_cycles(self, protocol, cycles, limit):
         rates = {"fill_rate": protocol["rate"], "vent_rate": protocol["rate"]}
@@ -221,7 +217,7 @@ def run_mistake(rig, arguments, board, mounts, bags, output, logs, limit):
                   f"seed:={arguments.seed}", f"simulation:={SIMULATION}", "autostart:=false", f"surface:={demo_shape.TRUE}",
                   f"mount:={demo_shape.MOUNT}"]
     with process(rig_launch, log) as child:
-        wait_until(lambda: rig.serves("rig_emulator/start"), child, "the rig", log)
+        wait_until(lambda: serves(f"/{NAMESPACE}/rig_emulator/start"), child, "the rig", log)
         answers = demo_shape.mistake(rig, board, calibration, folder, logs, LIVE, arguments.live_cycles, limit)
     say(f"the sheet was asked, and a loading recorded in {folder / 'load.bag'}")
     return answers, *demo_shape.errors(folder, calibration, logs)
@@ -262,7 +258,8 @@ def main():
         with process(["roscore", "-p", port], logs / "roscore.log") as core:
             import rosgraph
             wait_until(rosgraph.is_master_online, core, "roscore", logs / "roscore.log")
-            with process(rig_launch, log):
+            with process(rig_launch, log) as child:
+                wait_until(lambda: serves(f"/{NAMESPACE}/rig_emulator/start"), child, "the rig", log)
                 rig = Rig(logs)
                 mounts, bags, calibrations, picture, live = run(rig, arguments, output, logs, limit)
             answers, rows, live_error = run_mistake(rig, arguments, board, mounts, bags, output, logs, limit)

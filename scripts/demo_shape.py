@@ -12,11 +12,12 @@ import contextlib
 import importlib.util
 import pathlib
 import sys
+import time
 
 sys.dont_write_bytecode = True
 import demo_floor  # noqa: E402
 import demo_score  # noqa: E402
-from demo_tools import START_LIMIT, Failure, process, run_tool, wait_until  # noqa: E402
+from demo_tools import START_LIMIT, Failure, process, run_tool, serves, wait_until  # noqa: E402
 
 WRONG, TRUE = "cylinder_9cm", "cylinder_5cm"
 MOUNT = 101  # of the sheet on TRUE; took no part in training
@@ -49,24 +50,27 @@ def record_mounts(rig, surfaces, bag):
 
 @contextlib.contextmanager
 def calibrated(rig, board, calibration, log, *arguments):
-    """calibrated.launch on the board, as a user starts it, from its first map on."""
+    """calibrated.launch on the board, as a user starts it, from the first map on that is made with the calibration."""
     from fsr_pressure_map.msg import PressureMap
     command = ["roslaunch", "fsr_pressure_map", "calibrated.launch", f"serial_port:={board}", "serial_baud:=0", f"calibration:={calibration}",
                *arguments]
     with process(command, log) as child:
-        wait_until(lambda: rig.serves("calibration/estimate_surface"), child, "calibrated.launch", log)
-        latest(rig, "pressure_map", PressureMap)
+        wait_until(lambda: serves("/fsr/calibration/estimate_surface"), child, "calibrated.launch", log)
+        latest(rig, "pressure_map", PressureMap, lambda message: message.state != PressureMap.STATE_UNCALIBRATED)
         yield child
 
 
 def latest(rig, topic, kind, right=lambda message: True):
+    """A message of the topic for which `right` holds."""
+    give_up = time.monotonic() + START_LIMIT
     try:
-        while True:
+        while time.monotonic() < give_up:
             message = rig.rospy.wait_for_message(f"/fsr/{topic}", kind, START_LIMIT)
             if right(message):
                 return message
-    except rig.rospy.ROSException as error:
-        raise Failure(f"nothing came on {topic}: {error}; the logs are in {rig.logs}") from error
+    except rig.rospy.ROSException:
+        pass
+    raise Failure(f"nothing that is expected came on {topic} within {START_LIMIT:.0f} s; the logs are in {rig.logs}")
 
 
 def ask(rig, service):
@@ -107,9 +111,9 @@ def exchange(bag, surface, target):
         _, first, start = next(source.read_messages(topics=["/fsr/raw"]))
         surface.header.stamp = first.header.stamp
         copy.write("/fsr/curvature", surface, start)
-        for topic, message, time in source.read_messages():
+        for topic, message, received in source.read_messages():
             if topic not in ("/fsr/curvature", "/fsr/pressure_map"):
-                copy.write(topic, message, time)
+                copy.write(topic, message, received)
 
 
 def curvature_of(bag):
@@ -136,8 +140,7 @@ def errors(folder, calibration, logs):
 
 def table(rows, live, folder):
     """`rows`, `live`: of errors(); `folder`: of the demo."""
-    true = rows["true"].score["rmse_kpa"]
-    scans = rows["true"].score["scans"]
+    true, scans = (rows["true"].score[name] for name in ("rmse_kpa", "scans"))
     lines = ["", f"Error of the map on a new mount of {TRUE} whose surface file said {WRONG}: mean over taxels of the RMSE over cycles of a pace",
              f"and dwell that took no part in training. The readings are the same in all rows ({scans} scans); the map is computed anew for each",
              "with the curvature that its row says. The sheet was never loaded before.", "",

@@ -39,6 +39,12 @@ def wait_until(condition, child, what, log):
         time.sleep(0.05)
 
 
+def serves(service):
+    """Whether a node offers the service, a full name."""
+    import rosgraph
+    return any(name == service for name, _ in rosgraph.Master("/demo").getSystemState()[2])
+
+
 def run_tool(log, tool, *words):
     """Runs `rosrun fsr_pressure_map TOOL WORDS...` with its output in the file `log`, and returns the output."""
     with open(log, "w") as file:
