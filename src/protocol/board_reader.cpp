@@ -33,7 +33,7 @@ BoardReader::BoardReader(Open open, LinkHandler& handler, const Options& options
       handler_(handler),
       options_(options),
       guard_(handler),
-      decoder_(options.make_decoder(guard_)),
+      decoder_(options.make_decoder(guard_, options.decoder)),
       capture_(captureTo(options.capture_file)),
       buffer_(kBufferSize),
       last_byte_(SteadyClock::now()),

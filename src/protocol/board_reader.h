@@ -62,9 +62,11 @@ class BoardReader {
     std::chrono::milliseconds reconnect_delay{1000};
     std::string capture_file;                              ///< where raw bytes are kept; empty = nowhere
     DecoderMaker make_decoder = protocols().front().make;  ///< of the protocol that the board speaks
+    DecoderOptions decoder{};                              ///< for a protocol that needs them
   };
 
-  /// `handler` must outlive the link. Throws InputError where the capture file cannot be made.
+  /// `handler` must outlive the link. Throws InputError where the capture file cannot be made, or the decoder
+  /// needs an option that is not set.
   BoardReader(Open open, LinkHandler& handler, const Options& options);
   ~BoardReader();
   BoardReader(const BoardReader&) = delete;

@@ -5,16 +5,15 @@
 namespace fsr::protocol {
 namespace {
 
-template <typename D>
-std::unique_ptr<Decoder> make(PacketHandler& handler) {
-  return std::make_unique<D>(handler);
+std::unique_ptr<Decoder> makeWire(PacketHandler& handler, const DecoderOptions& /*options*/) {
+  return std::make_unique<WireDecoder>(handler);
 }
 
 }  // namespace
 
 const std::vector<Protocol>& protocols() {
   static const std::vector<Protocol> all = {
-      {"wire", "binary packets with checks, docs/wire_format.md", make<WireDecoder>},
+      {"wire", "binary packets with checks, docs/wire_format.md", makeWire, true},
   };
   return all;
 }

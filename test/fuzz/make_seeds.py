@@ -124,6 +124,9 @@ def bag(name, packing="none"):
 
 write("decoder", "every_type", wire())
 write("decoder", "cut_and_again", wire()[:40] + wire())
+write("text", "comma_and_header", b"\x000,1\r\ntime,a,b,c\r\n# note\r\n12,0,512,1023\r\n13,9,8,7\r\n")
+write("text", "blanks_and_transducer", b"\x02\n12 0  512 1023 -70000 \n13\t9\t8\t7\t6\n14; 1; 2; 3; 4;\n")
+write("text", "seven_by_ten", b"\x01\n" + b"".join(b"%d," % number for number in range(71)) + b"\n")
 write("capture", "every_type", capture(wire()))
 bag("every_topic.bag")
 bag("packed_by_bz2.bag", "bz2")

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <string>
 #include <vector>
 
 #include "protocol/device_clock.h"
+#include "protocol/text_decoder.h"
 #include "protocol/wire_decoder.h"
 #include "support/allocation_guard.h"
 
@@ -52,6 +54,25 @@ TEST(Protocol, AllocatesNothingFromBytesToStampedScans) {
   }
   EXPECT_EQ(guard.allocations(), 0U);
   EXPECT_GT(handler.scans, 125'000);
+}
+
+TEST(Protocol, AllocatesNothingFromLinesOfTextToStampedScans) {
+  std::string line = "1000";
+  for (int i = 0; i < 160; ++i) line += ",512";
+  line += "\r\n";
+  StampingHandler handler;
+  fsr::protocol::TextDecoder decoder(handler, {{16, 10}, 1023, 1, false});
+
+  const test_support::AllocationGuard guard;
+  for (std::uint32_t i = 0; i < 20'000; ++i) {
+    const std::size_t hit = i % line.size();
+    if (i % 7 == 0) line[hit] = static_cast<char>(line[hit] ^ 0x40);
+    decoder.feed(reinterpret_cast<const std::uint8_t*>(line.data()), line.size());
+    if (i % 7 == 0) line[hit] = static_cast<char>(line[hit] ^ 0x40);
+  }
+  EXPECT_EQ(guard.allocations(), 0U);
+  EXPECT_GT(handler.scans, 17'000);
+  EXPECT_GT(decoder.counts().lines.not_numbers, 0U);
 }
 
 }  // namespace

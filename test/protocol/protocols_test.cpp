@@ -25,7 +25,7 @@ TEST(Protocols, MakeTheDecoderOfTheWireFormatByItsNameAndByDefault) {
   for (const auto make :
        {fsr::protocol::protocols().front().make, fsr::protocol::protocolNamed("wire").make}) {
     test_support::PacketRecorder recorder;
-    make(recorder)->feed(bytes.data(), bytes.size());
+    make(recorder, {})->feed(bytes.data(), bytes.size());
     EXPECT_EQ(recorder.lines, std::vector<std::string>{"transducer #7 @1000 -2"});
   }
 }

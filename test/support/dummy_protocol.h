@@ -15,7 +15,8 @@ class DummyDecoder final : public fsr::protocol::Decoder {
  public:
   explicit DummyDecoder(fsr::protocol::PacketHandler& handler) : handler_(handler) {}
 
-  static std::unique_ptr<fsr::protocol::Decoder> make(fsr::protocol::PacketHandler& handler) {
+  static std::unique_ptr<fsr::protocol::Decoder> make(fsr::protocol::PacketHandler& handler,
+                                                      const fsr::protocol::DecoderOptions& /*options*/) {
     return std::make_unique<DummyDecoder>(handler);
   }
 

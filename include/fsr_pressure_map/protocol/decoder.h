@@ -64,6 +64,19 @@ struct SequenceCounts {
   std::uint64_t restarts = 0;    ///< the counter went backwards: the board started again
 };
 
+/// Lines of a protocol of text lines that gave no scan, by cause.
+struct LineCounts {
+  std::uint64_t cut = 0;               ///< the start or the end of the stream cut them
+  std::uint64_t without_numbers = 0;   ///< comments, headers and empty lines: no damage
+  std::uint64_t too_long = 0;          ///< longer than a line of this matrix can be
+  std::uint64_t not_ascii = 0;         ///< with a byte that is no printable ASCII
+  std::uint64_t not_numbers = 0;       ///< with a field that is no whole number, or two separators
+  std::uint64_t wrong_number = 0;      ///< whole numbers, but not as many as the matrix has
+  std::uint64_t above_full_scale = 0;  ///< with a count above the full scale
+  std::uint64_t last_number = 0;       ///< behind the time, in the last line with a wrong number of them
+  std::uint64_t highest_count = 0;     ///< highest one above the full scale
+};
+
 /// What a decoder has met since it was made. Each cause counts the places where it occurred; a cause that a
 /// protocol does not have stays 0.
 struct DecoderCounts {
@@ -75,6 +88,7 @@ struct DecoderCounts {
   std::uint64_t bad_length = 0;        ///< valid header with a length that its type cannot have
   std::uint64_t bad_packet_check = 0;  ///< valid header, but the check of the whole packet is wrong
   std::uint64_t bad_content = 0;  ///< valid packet with impossible content (0 rows, count above full scale)
+  LineCounts lines;               ///< of a protocol of text lines
   std::array<SequenceCounts, kPacketTypes> sequences;  ///< by PacketType
 
   const SequenceCounts& of(PacketType type) const { return sequences.at(static_cast<std::size_t>(type)); }
@@ -101,14 +115,24 @@ class Decoder {
   virtual const DecoderCounts& counts() const = 0;
 };
 
-/// Makes a decoder. `handler` must outlive it.
-using DecoderMaker = std::unique_ptr<Decoder> (*)(PacketHandler& handler);
+/// What the user says about a board, for protocols whose bytes do not say it.
+struct DecoderOptions {
+  matrix::MatrixSize size;          ///< 0 x 0 = unknown
+  std::uint16_t full_scale = 1023;  ///< largest count that the converter can give, 1 or more
+  std::uint32_t tick = 1000;        ///< unit of the board's times [us]
+  bool transducer = false;          ///< a reading of the pressure transducer follows the counts of each scan
+};
+
+/// Makes a decoder. `handler` must outlive it. Throws InputError where the protocol needs an option that is
+/// not set.
+using DecoderMaker = std::unique_ptr<Decoder> (*)(PacketHandler& handler, const DecoderOptions& options);
 
 /// A protocol that boards may speak.
 struct Protocol {
   std::string name;
   std::string summary;  ///< one line
   DecoderMaker make;
+  bool tells_size = true;  ///< the bytes say how many rows and columns the matrix has
 };
 
 /// All protocols. The first one is the default.
