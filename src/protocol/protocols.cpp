@@ -1,5 +1,6 @@
 #include "fsr_pressure_map/protocol/decoder.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "protocol/text_decoder.h"
 #include "protocol/wire_decoder.h"
 
 namespace fsr::protocol {
@@ -9,11 +10,16 @@ std::unique_ptr<Decoder> makeWire(PacketHandler& handler, const DecoderOptions& 
   return std::make_unique<WireDecoder>(handler);
 }
 
+std::unique_ptr<Decoder> makeText(PacketHandler& handler, const DecoderOptions& options) {
+  return std::make_unique<TextDecoder>(handler, options);
+}
+
 }  // namespace
 
 const std::vector<Protocol>& protocols() {
   static const std::vector<Protocol> all = {
       {"wire", "binary packets with checks, docs/wire_format.md", makeWire, true},
+      {"text", "lines time,count,count,... of a sketch, docs/text_format.md", makeText, false},
   };
   return all;
 }

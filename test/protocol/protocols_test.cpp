@@ -42,7 +42,7 @@ TEST(Protocols, AreListedWhereANameIsUnknown) {
     fsr::protocol::protocolNamed("morse");
     FAIL() << "accepted";
   } catch (const fsr::settings::InputError& error) {
-    EXPECT_STREQ(error.what(), "there is no protocol morse: set one of wire");
+    EXPECT_STREQ(error.what(), "there is no protocol morse: set one of wire, text");
   }
 }
 

@@ -85,7 +85,8 @@ Driver::Driver(const ros::NodeHandle& handle, const ros::NodeHandle& private_han
   diagnostics_.add("link", [this](auto& status) { judgeLink(before_, now_, settings_, status); });
   diagnostics_.add("scans", [this](auto& status) { judgeScans(before_, now_, settings_, status); });
   const fsr::protocol::BoardReader::Options options = {settings_.reconnect_delay, settings_.capture_file,
-                                                       fsr::protocol::protocolNamed(settings_.protocol).make};
+                                                       fsr::protocol::protocolNamed(settings_.protocol).make,
+                                                       settings_.decoder};
   fsr::protocol::LinkHandler& handler = *this;
   reader_ = std::make_unique<fsr::protocol::BoardReader>(opener(settings_), handler, options);
   timer_ = handle_.createWallTimer(ros::WallDuration(1.0 / kLooksPerSecond),
@@ -106,6 +107,7 @@ void Driver::onScan(const fsr::protocol::PacketHeader& header, const fsr::protoc
   health_.board.full_scale = scan.full_scale;
   ++(expected ? health_.scans : health_.refused_scans);
   health_.scan_time = time.device_time;
+  health_.scan_arrival = arrival_;
   health_.clock_drift = clock.drift();
   health_.clock_jumps = jumps;
   health_.doubtful_stamps = clock.doubtfulPackets();

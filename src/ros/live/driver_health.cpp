@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "ros/live/text_health.h"
 #include "settings/number_text.h"
 
 namespace fsr_ros {
@@ -29,7 +30,8 @@ bool onlyNoise(const DriverHealth& before, const DriverHealth& now) {
 }
 
 std::string noiseSentence(const DriverSettings& settings) {
-  return sourceName(settings) + " sends bytes, but no valid packet: is serial_baud " +
+  return sourceName(settings) + " sends bytes, but no valid " +
+         (speaksText(settings) ? "line of numbers" : "packet") + ": is serial_baud " +
          std::to_string(settings.serial_baud) + " the baud rate of the board, and is this its port?";
 }
 
@@ -43,7 +45,9 @@ std::uint64_t impossible(const DriverHealth& health) {
   return health.link.counts.bad_content;
 }
 
-std::string contentSentence(const DriverSettings& settings) {
+std::string contentSentence(const DriverHealth& before, const DriverHealth& now,
+                            const DriverSettings& settings) {
+  if (speaksText(settings)) return "no scan is published: " + lineSentence(before, now, settings);
   return "no scan is published: " + sourceName(settings) +
          " sends scans that cannot be, e.g. counts above the full scale that they state; correct the board's "
          "firmware (docs/wire_format.md)";
@@ -70,7 +74,16 @@ void summarizeRate(std::optional<double> rate, double expected, double tolerance
   }
 }
 
-void addCounts(const DriverHealth& now, Status& status) {
+void addPacketCounts(const fsr::protocol::DecoderCounts& counts, Status& status) {
+  status.add("dropped: packet check", counts.bad_packet_check);
+  status.add("dropped: header check", counts.bad_header_check);
+  status.add("dropped: length", counts.bad_length);
+  status.add("dropped: unknown version", counts.unknown_version);
+  status.add("dropped: unknown type", counts.unknown_type);
+  status.add("dropped: impossible content", counts.bad_content);
+}
+
+void addCounts(const DriverHealth& now, const DriverSettings& settings, Status& status) {
   const fsr::protocol::DecoderCounts& counts = now.link.counts;
   const fsr::protocol::SequenceCounts& scans = counts.of(fsr::protocol::PacketType::kScan);
   status.add("scans published", now.published);
@@ -80,12 +93,11 @@ void addCounts(const DriverHealth& now, Status& status) {
   status.add("restarts of the board", scans.restarts);
   status.add("scans of another size", now.refused_scans);
   status.add("dropped: board sent no identity", now.unclaimed_scans);
-  status.add("dropped: packet check", counts.bad_packet_check);
-  status.add("dropped: header check", counts.bad_header_check);
-  status.add("dropped: length", counts.bad_length);
-  status.add("dropped: unknown version", counts.unknown_version);
-  status.add("dropped: unknown type", counts.unknown_type);
-  status.add("dropped: impossible content", counts.bad_content);
+  if (speaksText(settings)) {
+    addLineCounts(counts.lines, status);
+  } else {
+    addPacketCounts(counts, status);
+  }
   status.add("skipped bytes", counts.skipped_bytes);
   status.add("failures of the driver", now.link.handler_faults);
 }
@@ -153,15 +165,16 @@ void judgeScans(const DriverHealth& before, const DriverHealth& now, const Drive
                                      sizeText(settings.expected) + ": no scan is published");
   } else if (now.scans > before.scans) {
     summarizeRate(rate, expected, settings.frequency_tolerance, status);
+    if (speaksText(settings)) judgeLines(before, now, settings, status);
   } else if (impossible(now) > impossible(before)) {
-    status.summary(Level::ERROR, contentSentence(settings));
+    status.summary(Level::ERROR, contentSentence(before, now, settings));
   } else {
     const bool meant = now.link.phase == LinkPhase::kEnded || now.link.phase == LinkPhase::kDisabled;
     status.summary(meant ? Level::OK : Level::ERROR, "no scans: " + linkSentence(now.link, settings));
   }
   status.add("rate [1/s]", rate.value_or(0));
   status.add("expected rate [1/s]", expected);
-  addCounts(now, status);
+  addCounts(now, settings, status);
 }
 
 std::string complaintOf(const DriverHealth& before, const DriverHealth& now, const DriverSettings& settings) {
@@ -171,8 +184,9 @@ std::string complaintOf(const DriverHealth& before, const DriverHealth& now, con
   judgeScans(before, now, settings, scans);
   if (link.level == Level::ERROR) return link.message;
   // Not where scans have not come yet: silence is an error of the link after ~read_timeout.
-  const bool dropped = impossible(now) > impossible(before) || now.refused_scans > before.refused_scans;
-  return dropped && scans.level == Level::ERROR ? scans.message : "";
+  const bool sent = now.scans > before.scans || impossible(now) > impossible(before) ||
+                    now.refused_scans > before.refused_scans;
+  return sent && scans.level == Level::ERROR ? scans.message : "";
 }
 
 }  // namespace fsr_ros

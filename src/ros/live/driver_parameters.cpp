@@ -1,6 +1,7 @@
 #include "ros/live/driver_parameters.h"
 
 #include <limits>
+#include <utility>
 
 #include "fsr_pressure_map/protocol/decoder.h"
 #include "ros/bags/resource_path.h"
@@ -39,6 +40,23 @@ void readLink(const Parameters& parameters, DriverSettings& settings) {
   if (settings.serial_port.empty()) throw parameters.error("serial_port", "must name the port of the board");
 }
 
+// What the bytes of some protocols do not say.
+fsr::protocol::DecoderOptions readDecoder(const Parameters& parameters, const DriverSettings& settings) {
+  fsr::protocol::DecoderOptions options;
+  options.size = settings.expected;
+  options.full_scale = static_cast<std::uint16_t>(
+      parameters.integer("text_full_scale", options.full_scale, {1, 65535, "counts"}));
+  options.tick = parameters.choice("text_time", {"ms", "us"}, "ms") == "ms" ? 1000 : 1;
+  options.transducer = parameters.flag("text_transducer", options.transducer);
+  const bool tells_size = fsr::protocol::protocolNamed(settings.protocol).tells_size;
+  for (const auto& [name, side] : {std::pair("rows", options.size.rows), {"columns", options.size.columns}}) {
+    if (tells_size || side > 0) continue;
+    throw parameters.error(name, "must be 1 or more with the protocol " + settings.protocol +
+                                     ", whose lines do not say the size of the matrix");
+  }
+  return options;
+}
+
 void readIdentity(const Parameters& parameters, DriverSettings& settings) {
   settings.frame_id = parameters.text("frame_id", settings.frame_id);
   settings.sensor_id = parameters.text("sensor_id", "");
@@ -58,6 +76,7 @@ DriverSettings readDriverSettings(const Parameters& parameters) {
   readLink(parameters, settings);
   readIdentity(parameters, settings);
   settings.expected = readSize(parameters);
+  settings.decoder = readDecoder(parameters, settings);
   settings.transducer_line = readLine(parameters);
   settings.time_offset = parameters.number("time_offset", 0, {-3600, 3600, "s"});
   settings.ambient_pressure =

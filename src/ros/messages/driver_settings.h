@@ -5,6 +5,7 @@
 #include <string>
 
 #include "fsr_pressure_map/matrix/layout.h"
+#include "fsr_pressure_map/protocol/decoder.h"
 
 namespace fsr_ros {
 
@@ -24,6 +25,7 @@ struct DriverSettings {
   std::uint32_t serial_baud = 115200;  ///< [1/s]; 0 = native USB, which has no baud rate
   std::string protocol =
       "wire";  ///< name of the protocol that the board speaks, see fsr::protocol::protocols()
+  fsr::protocol::DecoderOptions decoder{};  ///< for a protocol whose bytes do not say it
   std::string frame_id = "fsr_matrix";
   std::string sensor_id;             ///< empty = the board's serial number
   fsr::matrix::MatrixSize expected;  ///< expected matrix size; 0 = accept what the board reports

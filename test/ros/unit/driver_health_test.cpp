@@ -173,4 +173,93 @@ TEST(DriverHealth, ListsLossesAndDamageByCause) {
   EXPECT_EQ(found, 2);
 }
 
+DriverSettings textSettings(std::uint32_t tick = 1000) {
+  DriverSettings settings;
+  settings.protocol = "text";
+  settings.decoder = {{7, 10}, 1023, tick, false};
+  return settings;
+}
+
+std::string valueOf(const Status& status, const std::string& key) {
+  for (const auto& value : status.values) {
+    if (value.key == key) return value.value;
+  }
+  return "";
+}
+
+TEST(TextHealth, ListsDamagedLinesByCauseInPlaceOfPackets) {
+  DriverHealth now = reading();
+  now.link.counts.lines = {1, 2, 3, 4, 5, 6, 7, 71, 2000};
+  const Status status = scans(reading(), now, textSettings());
+  EXPECT_EQ(valueOf(status, "dropped: line cut by start or end"), "1");
+  EXPECT_EQ(valueOf(status, "lines without numbers"), "2");
+  EXPECT_EQ(valueOf(status, "dropped: line too long"), "3");
+  EXPECT_EQ(valueOf(status, "dropped: line not in ASCII"), "4");
+  EXPECT_EQ(valueOf(status, "dropped: line not of whole numbers"), "5");
+  EXPECT_EQ(valueOf(status, "dropped: wrong number of counts"), "6");
+  EXPECT_EQ(valueOf(status, "dropped: count above full scale"), "7");
+  EXPECT_EQ(valueOf(status, "dropped: packet check"), "");
+  EXPECT_EQ(valueOf(scans(reading(), now), "dropped: line too long"), "");
+}
+
+TEST(TextHealth, SaysThatRowsAndColumnsAreNotThoseOfTheLines) {
+  DriverHealth now = reading();
+  now.link.counts.bad_content = now.link.counts.lines.wrong_number = 100;
+  now.link.counts.lines.last_number = 160;
+  const std::string sentence =
+      "no scan is published: /dev/ttyACM0 sends lines with 160 numbers behind the time, but rows x columns "
+      "is "
+      "7 x 10 = 70 counts: set rows and columns to those of the matrix";
+  EXPECT_EQ(scans(reading(), now, textSettings()).level, Level::ERROR);
+  EXPECT_EQ(scans(reading(), now, textSettings()).message, sentence);
+  EXPECT_EQ(fsr_ros::complaintOf(reading(), now, textSettings()), sentence);
+}
+
+// An unloaded sheet may stay below the full scale that is set, so that its scans come.
+TEST(TextHealth, SaysThatTheFullScaleIsTooSmallWhetherScansComeOrNot) {
+  DriverHealth now = reading();
+  now.link.counts.bad_content = now.link.counts.lines.above_full_scale = 50;
+  now.link.counts.lines.highest_count = 4095;
+  const std::string sentence =
+      "/dev/ttyACM0 sends counts up to 4095, but text_full_scale is 1023: set it to the largest count that "
+      "the "
+      "board's converter can give";
+  EXPECT_EQ(scans(reading(), now, textSettings()).level, Level::ERROR);
+  EXPECT_EQ(scans(reading(), now, textSettings()).message, "no scan is published: " + sentence);
+  now = later(now, 50);
+  EXPECT_EQ(scans(reading(), now, textSettings()).level, Level::WARN);
+  EXPECT_TRUE(contains(scans(reading(), now, textSettings()), "some scans are not published: " + sentence))
+      << scans(reading(), now, textSettings()).message;
+}
+
+// 100 scans at 100 Hz: the host's clock advances by 1 s, that of the board by what its unit makes of it.
+TEST(TextHealth, SaysThatTheTimesHaveTheOtherUnit) {
+  const auto judged = [](std::uint64_t board_us, std::uint32_t tick) {
+    DriverHealth before = later(reading(), 1);
+    before.scan_time = 5'000;
+    DriverHealth now = later(before, 100);
+    now.scan_time = before.scan_time + board_us;
+    now.scan_arrival = 1'000'000'000;
+    return scans(before, now, textSettings(tick));
+  };
+  EXPECT_EQ(judged(1'000'000, 1000).level, Level::OK);
+  EXPECT_EQ(judged(1'000'000, 1).level, Level::OK);
+  EXPECT_EQ(judged(1'000'000'000, 1000).level, Level::ERROR);
+  EXPECT_EQ(
+      judged(1'000'000'000, 1000).message,
+      "all stamps are wrong, because the times that /dev/ttyACM0 sends do not run as this computer's clock "
+      "does: set text_time to us");
+  EXPECT_EQ(judged(1'000, 1).level, Level::ERROR);
+  EXPECT_TRUE(contains(judged(1'000, 1), "set text_time to ms")) << judged(1'000, 1).message;
+}
+
+TEST(TextHealth, SuspectsAWrongBaudRateWhereNoLineHasNumbers) {
+  DriverHealth now = reading();
+  now.link.counts.bytes = now.link.counts.skipped_bytes = 1000;
+  EXPECT_EQ(
+      link(reading(), now, textSettings()).message,
+      "/dev/ttyACM0 sends bytes, but no valid line of numbers: is serial_baud 115200 the baud rate of the "
+      "board, and is this its port?");
+}
+
 }  // namespace
