@@ -126,6 +126,17 @@ TEST_F(TextDriver, SaysHowManyCountsALineShouldHave) {
   }));
 }
 
+// A board that prints microseconds where the parameter says milliseconds.
+TEST_F(TextDriver, SaysThatTheTimesHaveTheOtherUnit) {
+  const auto sketch = plugIn();
+  const ros::WallTime start = ros::WallTime::now();
+  EXPECT_TRUE(await([&] {
+    const auto time = static_cast<std::int64_t>((ros::WallTime::now() - start).toSec() * 1e6);
+    sketch->print(std::to_string(time) + ",1,2,3,4,5,6,0\n");
+    return diagnostics_.says("fsr/driver: scans", "set text_time to us");
+  }));
+}
+
 // The sentence with which the node ends on `arguments`.
 std::string refusal(const std::string& arguments) {
   ros::param::del("/refused");
