@@ -4,7 +4,7 @@
     scripts/demo_shape.py DIR    # prints the table of errors again, from the bags and the calibration in DIR (the demo's --output)
 
 The rig emulator has the sheet on a cylinder of 5 cm, and calibrated.launch is told 9 cm. The services of the calibration node are asked
-what the unloaded sheet says. Then the map of one loading is computed with the wrong, the estimated and the true surface.
+what the unloaded sheet says. Then the map of one run is computed with the wrong, the estimated and the true surface.
 """
 import argparse
 import collections
