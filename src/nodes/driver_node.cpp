@@ -1,6 +1,6 @@
 #include <ros/ros.h>
 
-#include "ros/live/driver.h"
+#include "ros/driver/driver.h"
 #include "ros/live/parameters.h"
 
 int main(int argc, char** argv) {

@@ -13,7 +13,7 @@
 #include <memory>
 #include <string>
 
-#include "ros/live/driver.h"
+#include "ros/driver/driver.h"
 #include "support/board_packets.h"
 #include "support/pty.h"
 #include "support/ros_listener.h"

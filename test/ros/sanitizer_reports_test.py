@@ -4,7 +4,7 @@ import unittest
 
 from sanitizer_reports import counts
 
-OURS = "    #0 fsr::Driver::onScan(int) /p/build/tsan/../../src/ros/live/driver.cpp:90:22 (libfsr_pressure_map_ros.so+0x10ce5c) (BuildId: 13)"
+OURS = "    #0 fsr::Driver::onScan(int) /p/build/tsan/../../src/ros/driver/driver.cpp:90:22 (libfsr_pressure_map_ros.so+0x10ce5c) (BuildId: 13)"
 HEADER = "    #0 ~shared_array /usr/include/boost/shared_array.hpp:45:25 (libfsr_pressure_map_ros.so+0xe5792)"
 RUNTIME = "    #0 memcpy <null> (driver_node+0x63a8e) (BuildId: 48)"
 ROS = "    #1 ros::Connection::writeTransport() <null> (libroscpp.so.4d+0xa8b71) (BuildId: 4e)"

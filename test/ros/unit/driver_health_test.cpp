@@ -1,4 +1,4 @@
-#include "ros/live/driver_health.h"
+#include "ros/driver/driver_health.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "ros/live/driver_parameters.h"
+#include "ros/driver/driver_parameters.h"
 
 #include <limits>
 #include <utility>

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "ros/live/driver_health.h"
+#include "ros/driver/driver_health.h"
 #include "ros/messages/driver_settings.h"
 
 /// Diagnostics of a board that sends lines of text. Such lines say neither the matrix nor the full scale nor

@@ -1,9 +1,9 @@
-#include "ros/live/driver_health.h"
+#include "ros/driver/driver_health.h"
 
 #include <cmath>
 #include <optional>
 
-#include "ros/live/text_health.h"
+#include "ros/driver/text_health.h"
 #include "settings/number_text.h"
 
 namespace fsr_ros {

@@ -12,7 +12,7 @@
 #include "protocol/board_gate.h"
 #include "protocol/board_reader.h"
 #include "protocol/packet_stamper.h"
-#include "ros/live/driver_health.h"
+#include "ros/driver/driver_health.h"
 #include "ros/messages/driver_messages.h"
 #include "ros/messages/driver_settings.h"
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/live/driver.h"
+#include "ros/driver/driver.h"
 #include "settings/foreign_error.h"
 
 namespace fsr_ros {

@@ -1,4 +1,4 @@
-#include "ros/live/driver.h"
+#include "ros/driver/driver.h"
 
 #include <fsr_pressure_map/Event.h>
 #include <ros/console.h>
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "protocol/serial_port.h"
-#include "ros/live/driver_parameters.h"
+#include "ros/driver/driver_parameters.h"
 
 namespace fsr_ros {
 namespace {
