@@ -2,16 +2,15 @@
 
 #include <fsr_pressure_map/Event.h>
 #include <fsr_pressure_map/Session.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <iomanip>
 #include <map>
+#include <optional>
 #include <sstream>
 
+#include "ros/bags/bag_walk.h"
 #include "ros/bags/sensor_topics.h"
 #include "ros/messages/message_reader.h"
 #include "settings/number_text.h"
@@ -32,55 +31,69 @@ bool beginsWithHeader(const std::string& definition) {
   return false;
 }
 
+ros::Time receptionOf(MessageBytes message) {
+  return {message.seconds, message.nanoseconds};
+}
+
 // Collects the times of one topic.
 class Course {
  public:
-  explicit Course(const rosbag::ConnectionInfo& connection) {
+  explicit Course(const BagConnection& connection) {
     course_.topic = connection.topic;
-    course_.type = connection.datatype;
-    course_.stamped = beginsWithHeader(connection.msg_def);
+    course_.type = connection.type;
+    course_.stamped = beginsWithHeader(connection.definition);
   }
 
-  void add(const rosbag::MessageInstance& instance) {
-    ++course_.messages;
-    const double arrival = instance.getTime().toSec();
-    const double time = course_.stamped ? stampOf(instance) : arrival;
-    if (time <= 0) return;  // the publisher set no stamp
-    if (!times_.empty() && time < times_.back()) ++course_.backwards;
-    if (!times_.empty() && time == times_.back()) ++course_.repeated;
-    if (course_.stamped) course_.latest = std::max(course_.latest, arrival - time);
-    times_.push_back(time);
+  void add(MessageBytes message) {
+    const double arrival = receptionOf(message).toSec();
+    messages_.push_back({arrival, course_.stamped ? stampOf(message) : arrival});
   }
 
+  /// `start`: time of the bag's first message [s].
   TopicCourse finish(double start) {
-    std::sort(times_.begin(), times_.end());
+    // Chunks of a bag may overlap in time.
+    const auto earlier = [](const Times& a, const Times& b) { return a.arrival < b.arrival; };
+    if (!std::is_sorted(messages_.begin(), messages_.end(), earlier))
+      std::stable_sort(messages_.begin(), messages_.end(), earlier);
+    course_.messages = messages_.size();
+    std::vector<double> times;
+    for (const Times& message : messages_) follow(message, times);
+    std::sort(times.begin(), times.end());
     std::vector<double> steps;
-    for (std::size_t i = 1; i < times_.size(); ++i) steps.push_back(times_[i] - times_[i - 1]);
+    for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
     if (steps.empty()) return course_;
     const auto longest = std::max_element(steps.begin(), steps.end());
     course_.longest_gap = *longest;
-    course_.gap_at = times_[static_cast<std::size_t>(longest - steps.begin())] - start;
+    course_.gap_at = times[static_cast<std::size_t>(longest - steps.begin())] - start;
     const double usual = fsr::statistics::upperMedian(steps);
     if (usual > 0) course_.rate = 1 / usual;
     return course_;
   }
 
  private:
+  struct Times {
+    double arrival, time;  // [s]
+  };
+
+  void follow(const Times& message, std::vector<double>& times) {
+    if (message.time <= 0) return;  // the publisher set no stamp
+    if (!times.empty() && message.time < times.back()) ++course_.backwards;
+    if (!times.empty() && message.time == times.back()) ++course_.repeated;
+    if (course_.stamped) course_.latest = std::max(course_.latest, message.arrival - message.time);
+    times.push_back(message.time);
+  }
+
   // A header is serialised as seq, secs and nsecs, 32 bits each.
-  double stampOf(const rosbag::MessageInstance& instance) {
-    bytes_.resize(instance.size());
-    if (bytes_.size() < 12) return 0;
-    ros::serialization::OStream into(bytes_.data(), static_cast<std::uint32_t>(bytes_.size()));
-    instance.write(into);
+  static double stampOf(MessageBytes message) {
+    if (message.size < 12) return 0;
     std::uint32_t seconds = 0, nanoseconds = 0;
-    std::memcpy(&seconds, bytes_.data() + 4, sizeof(seconds));
-    std::memcpy(&nanoseconds, bytes_.data() + 8, sizeof(nanoseconds));
+    std::memcpy(&seconds, message.data + 4, sizeof(seconds));
+    std::memcpy(&nanoseconds, message.data + 8, sizeof(nanoseconds));
     return seconds + 1e-9 * nanoseconds;
   }
 
   TopicCourse course_;
-  std::vector<double> times_;  // [s]
-  std::vector<std::uint8_t> bytes_;
+  std::vector<Times> messages_;
 };
 
 bool endsWith(const std::string& text, const std::string& end) {
@@ -89,27 +102,25 @@ bool endsWith(const std::string& text, const std::string& end) {
 
 }  // namespace
 
-namespace {
-
-std::vector<TopicCourse> coursesIn(const rosbag::Bag& bag) {
-  rosbag::View view(bag);
-  std::map<std::string, Course> courses;
-  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
-    courses.try_emplace(connection->topic, *connection);
-  }
-  for (const rosbag::MessageInstance& instance : view) courses.at(instance.getTopic()).add(instance);
-  std::vector<TopicCourse> result;
-  const double start = view.size() > 0 ? view.getBeginTime().toSec() : 0;
-  for (auto& [topic, course] : courses) result.push_back(course.finish(start));
-  return result;
-}
-
-}  // namespace
-
 std::vector<TopicCourse> topicCourses(const std::string& path) {
-  std::vector<TopicCourse> courses;
-  withSoundBag(path, [&](const rosbag::Bag& bag) { courses = coursesIn(bag); });
-  return courses;
+  std::vector<TopicCourse> result;
+  tellingOfDamage(path, [&] {
+    const BagWalk bag(path);
+    std::map<std::string, Course> courses;
+    std::optional<ros::Time> start;
+    bag.run([&](std::uint32_t id, MessageBytes message) {
+      const auto connection = bag.connections().find(id);
+      if (connection == bag.connections().end()) return;
+      const ros::Time arrival = receptionOf(message);
+      if (!start || arrival < *start) start = arrival;
+      courses.try_emplace(connection->second.topic, connection->second).first->second.add(message);
+    });
+    for (auto& [topic, course] : courses) {
+      result.push_back(course.finish(start->toSec()));
+      course = Course({});  // the times of one topic at a time
+    }
+  });
+  return result;
 }
 
 std::string topicsText(const std::vector<TopicCourse>& courses) {
@@ -134,29 +145,41 @@ std::string topicsText(const std::vector<TopicCourse>& courses) {
 
 std::string sessionUse(const std::string& path) {
   std::string use;
-  withSoundBag(path, [&](const rosbag::Bag& bag) {
-    rosbag::View view(bag, [](const rosbag::ConnectionInfo* connection) {
-      return connection->datatype == ros::message_traits::datatype<fsr_pressure_map::Session>() &&
-             connection->md5sum == ros::message_traits::md5sum<fsr_pressure_map::Session>();
+  tellingOfDamage(path, [&] {
+    const BagWalk bag(path);
+    std::optional<ros::Time> first;
+    bag.run([&](std::uint32_t id, MessageBytes message) {
+      const auto connection = bag.connections().find(id);
+      if (connection == bag.connections().end() ||
+          connection->second.type != ros::message_traits::datatype<fsr_pressure_map::Session>() ||
+          connection->second.md5sum != ros::message_traits::md5sum<fsr_pressure_map::Session>()) {
+        return;
+      }
+      if (first && receptionOf(message) >= *first) return;
+      first = receptionOf(message);
+      fsr_pressure_map::Session session;
+      readMessage(message.data, message.size, session);
+      use = session.use;
     });
-    if (view.size() > 0) use = MessageReader().read<fsr_pressure_map::Session>(*view.begin()).use;
   });
   return use;
 }
 
 std::vector<std::int64_t> eventTimes(const std::string& path, const std::string& kind) {
   std::vector<std::int64_t> times;
-  withSoundBag(path, [&](const rosbag::Bag& bag) {
-    const auto is_event = [](const rosbag::ConnectionInfo* connection) {
-      return endsWith(connection->topic, "events") &&
-             connection->datatype == ros::message_traits::datatype<fsr_pressure_map::Event>();
-    };
-    rosbag::View view(bag, is_event);
-    MessageReader reader;
-    for (const rosbag::MessageInstance& instance : view) {
-      const auto event = reader.read<fsr_pressure_map::Event>(instance);
+  tellingOfDamage(path, [&] {
+    const BagWalk bag(path);
+    bag.run([&](std::uint32_t id, MessageBytes message) {
+      const auto connection = bag.connections().find(id);
+      if (connection == bag.connections().end() || !endsWith(connection->second.topic, "events") ||
+          connection->second.type != ros::message_traits::datatype<fsr_pressure_map::Event>()) {
+        return;
+      }
+      requireDefinition<fsr_pressure_map::Event>(connection->second.topic, connection->second.md5sum);
+      fsr_pressure_map::Event event;
+      readMessage(message.data, message.size, event);
       if (event.kind == kind) times.push_back(static_cast<std::int64_t>(event.header.stamp.toNSec()));
-    }
+    });
   });
   std::sort(times.begin(), times.end());
   return times;

@@ -20,8 +20,7 @@ struct TopicCourse {
   double latest = 0;            ///< longest time from the stamp to the reception by the recorder [s]
 };
 
-/// The topics of a bag, sorted by name. The bag must have passed requireSoundBag(). Throws
-/// rosbag::BagException if it cannot be read.
+/// The topics of a bag, sorted by name. Throws fsr::settings::InputError if it cannot be read.
 std::vector<TopicCourse> topicCourses(const std::string& path);
 
 /// The topics as a table for the terminal.

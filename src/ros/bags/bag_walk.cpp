@@ -43,7 +43,8 @@ std::map<std::uint32_t, BagConnection> indexedConnections(const std::string& pat
     connections[field<std::uint32_t>(header, rosbag::CONNECTION_FIELD_NAME)] = {
         std::string(field<std::string_view>(header, rosbag::TOPIC_FIELD_NAME)),
         std::string(field<std::string_view>(file.data(), rosbag::TYPE_FIELD_NAME)),
-        std::string(field<std::string_view>(file.data(), "md5sum"))};
+        std::string(field<std::string_view>(file.data(), "md5sum")),
+        std::string(field<std::string_view>(file.data(), "message_definition"))};
   }
   return connections;
 }
@@ -158,6 +159,8 @@ class Walk {
       if (found == messages_.end() || wanted < *found) damaged("an index points to no message");
       // Otherwise a small file could contain a large message any number of times.
       if (std::exchange(found->indexed, true)) damaged("an index points to a message twice");
+      found->bytes.seconds = number<std::uint32_t>(data);
+      found->bytes.nanoseconds = number<std::uint32_t>(data.substr(4));
       visit_(id, found->bytes);
     }
   }

@@ -10,12 +10,14 @@ namespace fsr_ros {
 /// A connection of a bag: topic and message type of one publisher.
 struct BagConnection {
   std::string topic, type, md5sum;
+  std::string definition;  ///< of the message type, as text
 };
 
 /// A serialised message, in memory that belongs to the walk.
 struct MessageBytes {
   std::uint8_t* data;
   std::uint32_t size;
+  std::uint32_t seconds = 0, nanoseconds = 0;  ///< time of reception
 };
 
 /// Reads the records of a bag once, from its beginning to its end. rosbag trusts every length and offset in
