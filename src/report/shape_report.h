@@ -7,8 +7,8 @@
 
 namespace fsr::report {
 
-/// A table of the mounts and what the sheet says of each, with a sentence where a surface disagrees or
-/// nothing can be told.
+/// Tables of the mounts: what the sheet says of each, and how its bend changes along it; what training fixes;
+/// and a sentence where a surface disagrees or nothing can be told.
 std::string shapeText(const compensation::ShapeModel& model,
                       const std::vector<calibration::CheckedMount>& mounts);
 
