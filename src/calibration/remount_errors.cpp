@@ -8,6 +8,8 @@ namespace fsr::calibration {
 
 namespace {
 
+constexpr double kLoaded = 0.5;  // of the highest pressure on a surface: a mount at rest tells nothing
+
 // The pressures of a model that was trained without a mount, in the form of the tables.
 std::vector<compensation::TableEntry> entriesOf(const std::vector<double>& pressure) {
   std::vector<compensation::TableEntry> entries;
@@ -23,6 +25,32 @@ std::vector<compensation::TableEntry> entriesOf(const regression::CodeTable& tab
   return entries;
 }
 
+// By mount number.
+using Peaks = std::map<std::uint32_t, double>;
+
+// The highest pressure of each mount of each class, in the scans that are used [Pa].
+std::vector<Peaks> peaksOf(const std::vector<dataset::Recording>& recordings,
+                           const dataset::ConditionClasses& classes,
+                           const std::vector<dataset::Sections>& sections) {
+  std::vector<Peaks> peaks(classes.classes.size());
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    for (std::size_t i = 0; i < recordings[r].scans(); ++i) {
+      if (sections[r].section[i] == dataset::kNoSection) continue;
+      const std::size_t condition = recordings[r].condition[i];
+      double& peak = peaks[classes.class_of[r][condition]][recordings[r].conditions[condition].mount];
+      peak = std::max(peak, recordings[r].pressure[i]);
+    }
+  }
+  return peaks;
+}
+
+bool isLoaded(const Peaks& peaks, std::uint32_t mount) {
+  double highest = 0;
+  for (const auto& [other, peak] : peaks) highest = std::max(highest, peak);
+  const auto own = peaks.find(mount);
+  return own != peaks.end() && own->second >= kLoaded * highest;
+}
+
 }  // namespace
 
 RemountErrors::RemountErrors(const std::vector<dataset::Recording>& recordings,
@@ -31,10 +59,12 @@ RemountErrors::RemountErrors(const std::vector<dataset::Recording>& recordings,
     : mounts_(classes.classes.size()) {
   // [classes], from mount number to 0, 1, ...
   std::vector<std::map<std::uint32_t, std::uint32_t>> number(classes.classes.size());
+  const std::vector<Peaks> peaks = peaksOf(recordings, classes, sections);
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     for (std::size_t c = 0; c < recordings[r].conditions.size(); ++c) {
-      auto& own = number[classes.class_of[r][c]];
-      own.emplace(recordings[r].conditions[c].mount, static_cast<std::uint32_t>(own.size()));
+      const std::size_t k = classes.class_of[r][c];
+      const std::uint32_t mount = recordings[r].conditions[c].mount;
+      if (isLoaded(peaks[k], mount)) number[k].emplace(mount, static_cast<std::uint32_t>(number[k].size()));
     }
   }
   for (std::size_t k = 0; k < number.size(); ++k) {
@@ -48,8 +78,9 @@ RemountErrors::RemountErrors(const std::vector<dataset::Recording>& recordings,
       std::uint32_t& section = by_mount[r].section[i];
       if (section == dataset::kNoSection) continue;
       const std::size_t condition = recordings[r].condition[i], k = classes.class_of[r][condition];
-      section = mounts_[k] > 1 ? number[k].at(recordings[r].conditions[condition].mount)
-                               : static_cast<std::uint32_t>(most_mounts_);
+      const auto own = number[k].find(recordings[r].conditions[condition].mount);
+      section =
+          mounts_[k] > 1 && own != number[k].end() ? own->second : static_cast<std::uint32_t>(most_mounts_);
     }
   }
   scans_ = gatherScans(recordings, classes, by_mount, zeros);

@@ -12,7 +12,9 @@ namespace fsr::calibration {
 
 /// The errors on another mount: each mount of a surface that was mounted more than once is predicted by
 /// models that were trained without it. A mount of a surface is identified by its number, in all recordings.
-/// Recordings without a mount number (0) count as one mount, because nothing is known of them.
+/// Recordings without a mount number (0) count as one mount, because nothing is known of them. A mount that
+/// was loaded to less than half of the highest pressure on its surface, e.g. one at rest, is never left out
+/// and never asked for: others cannot be predicted from it alone.
 class RemountErrors {
  public:
   /// Recordings and zeros must outlive the object.

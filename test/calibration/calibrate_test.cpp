@@ -100,6 +100,24 @@ TEST(Calibrate, PutsTheErrorOfAnotherMountIntoTheDeviation) {
   EXPECT_EQ(some.scores.remount.readings, 2u * 600 * 6);
 }
 
+// Mounts are also recorded at rest only, for the shape of the sheet. Without a loaded one, they predict
+// nothing.
+TEST(Calibrate, AsksNoErrorOfMountsAtRest) {
+  SyntheticRig rig = threeSurfaces();
+  rig.cycles = 6;
+  dataset::Recording loaded = syntheticRecording(rig);
+  rig.seed = 2;
+  dataset::Recording rest = syntheticRecording(rig);
+  rest.name = "rest.bag";
+  for (matrix::Surface& surface : loaded.conditions) surface.mount = 1;
+  for (matrix::Surface& surface : rest.conditions) surface.mount = 2;
+  for (double& pressure : rest.pressure) pressure *= 0.4;
+  const Calibration calibration = train({loaded, rest}, compensation::Scheme::kInterpolated);
+  EXPECT_EQ(calibration.scores.remount.readings, 0u);
+  for (double& pressure : rest.pressure) pressure *= 1.5;
+  EXPECT_GT(train({loaded, rest}, compensation::Scheme::kInterpolated).scores.remount.readings, 0u);
+}
+
 TEST(Calibrate, PerCurvatureIsBestOnABentSurface) {
   const dataset::Recording recording = syntheticRecording(threeSurfaces());
   const auto rmse = [&](compensation::Scheme scheme, std::size_t condition) {
