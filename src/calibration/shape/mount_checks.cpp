@@ -63,14 +63,24 @@ std::vector<MisplacedMount> findMisplacedMounts(std::vector<MountedRest> mounts,
   }
 }
 
+namespace {
+
+// Why the mount cannot be compared; empty = it can.
+std::string obstacleTo(const MountedRest& mount, const Calibration& calibration) {
+  const std::string sensor = sensorObstacle(mount.serial, calibration.sensor.serial);
+  const TrainedInterval& trained = calibration.trained.temperature;
+  return sensor.empty() ? temperatureObstacle(mount.temperature, trained.low, trained.high) : sensor;
+}
+
+}  // namespace
+
 std::vector<CheckedMount> checkShapes(const Calibration& calibration,
                                       const std::vector<dataset::Recording>& recordings) {
   for (const dataset::Recording& recording : recordings) requireFit(calibration, recording);
   const Sessions sessions = findSessions(recordings, dataset::poolConditions(recordings));
   std::vector<CheckedMount> checked;
-  const TrainedInterval& trained = calibration.trained.temperature;
   for (const MountedRest& mount : mountedRests(recordings, sessions)) {
-    const std::string obstacle = temperatureObstacle(mount.temperature, trained.low, trained.high);
+    const std::string obstacle = obstacleTo(mount, calibration);
     checked.push_back({mount, obstacle.empty() ? checkShape(calibration.shape, mount.rest, mount.surface)
                                                : abstainsBecause(obstacle)});
   }

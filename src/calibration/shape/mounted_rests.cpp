@@ -87,9 +87,13 @@ std::vector<MountedRest> mountedRests(const std::vector<dataset::Recording>& rec
     for (const Session* session : members)
       readings.push_back(readingAtRest(recordings[session->recording], session->rest));
     const Session& first = *members.front();
-    MountedRest mount{
-        first.name(recordings), recordings[first.recording].conditions[first.condition], key.first,
-        meanOf(readings),       temperatureAt(recordings[first.recording], first.rest),  {}};
+    MountedRest mount{first.name(recordings),
+                      recordings[first.recording].conditions[first.condition],
+                      key.first,
+                      meanOf(readings),
+                      recordings[first.recording].sensor.serial,
+                      temperatureAt(recordings[first.recording], first.rest),
+                      {}};
     const std::vector<std::size_t> end = restAfterLoad(recordings[first.recording], first.condition);
     if (!end.empty())
       mount.left_behind = difference(readingAtRest(recordings[first.recording], end),

@@ -20,6 +20,7 @@ struct MountedRest {
   matrix::Surface surface;
   std::size_t curvature_class = 0;
   compensation::RestReading rest;
+  std::string serial;      ///< of the board; empty = unknown
   double temperature = 0;  ///< at the rest of its first bag [degree Celsius]; NaN = not recorded
   /// [taxels] What the loads of its first bag left behind: the last rest after them minus the rest before
   /// [counts]; NaN = no reading; empty = there is no such rest.

@@ -169,6 +169,12 @@ ShapeCheck abstainsBecause(const std::string& why) {
   return check;
 }
 
+std::string sensorObstacle(const std::string& serial, const std::string& trained) {
+  if (serial.empty() || trained.empty() || serial == trained) return "";
+  return "the board is " + serial + ", but the calibration was trained on " + trained +
+         "; each sheet has its own rest";
+}
+
 std::string temperatureObstacle(double temperature, double low, double high) {
   if (!(temperature < low - kTemperatureMargin) && !(temperature > high + kTemperatureMargin)) return "";
   return "the sheet is at " + settings::fixedText(temperature, 1) + " degrees Celsius, but was trained at " +

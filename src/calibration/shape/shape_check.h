@@ -40,6 +40,10 @@ ShapeCheck checkShape(const compensation::ShapeModel& model, const compensation:
 /// Celsius]; empty = it can, or one of them is not known (NaN).
 std::string temperatureObstacle(double temperature, double low, double high);
 
+/// Why a sheet on a board with this serial number cannot be compared with a training on that of `trained`;
+/// empty = it can, or one of them is not known (empty).
+std::string sensorObstacle(const std::string& serial, const std::string& trained);
+
 /// A check that abstains for this reason.
 ShapeCheck abstainsBecause(const std::string& why);
 

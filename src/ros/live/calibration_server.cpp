@@ -114,10 +114,13 @@ void CalibrationServer::onEvent(const fsr_pressure_map::EventConstPtr& event) {
   if (event->kind == "doff") live_.markUnloaded();
 }
 
-// A rest that the operator marked: compared, and estimated if this node is the source of the curvature.
+// A rest that the operator marked: compared, and estimated if this node is the source of the curvature. After
+// a tare only compared: another surface would end the tare.
 void CalibrationServer::compareAtMark() {
-  const std::string done = live_.answerMark(
-      [this] { return settings_.estimates_curvature ? useEstimate(true) : live_.checkSurface(kPatience); });
+  const std::string done = live_.answerMark([this](RestMark mark) {
+    const bool estimates = settings_.estimates_curvature && mark == RestMark::kDoff;
+    return estimates ? useEstimate(true) : live_.checkSurface(kPatience);
+  });
   if (!done.empty()) ROS_INFO_STREAM(private_handle_.getNamespace() << ": " << done);
 }
 

@@ -45,6 +45,9 @@ struct CalibrationHealth {
   fsr::map::PressureMap map;   ///< the last map
 };
 
+/// What says that the sheet is unloaded.
+enum class RestMark { kNone, kDoff, kTare };
+
 /// The calibration node without its topics: holds calibration, surface, board, mask and tare, and applies
 /// them to each scan. Every method may be called from any thread. None delays a scan for longer than it takes
 /// to copy data.
@@ -83,8 +86,8 @@ class LiveCalibration {
   /// The operator says that the sheet is unloaded (event doff), until markLoaded().
   void markUnloaded();
   /// Calls `measure`, which is checkSurface() or uses estimateSurface(), if the sheet was marked as unloaded
-  /// since the last call. Returns a sentence on what was done for diagnostics; empty without a mark.
-  std::string answerMark(const std::function<std::string()>& measure);
+  /// or tared since the last call. Returns a sentence on what was done for diagnostics; empty without a mark.
+  std::string answerMark(const std::function<std::string(RestMark)>& measure);
   /// The last comparison found that the sheet rests as the surface says.
   bool restAgrees() const;
   /// Does the slow part of the comparison in a chamber; to be called again and again from a thread that may
@@ -112,8 +115,9 @@ class LiveCalibration {
   void watchShape(const fsr::matrix::ScanView& scan, double time);
   void forgetShape();
   void startComparison();
-  std::string temperatureObstacle() const;
+  std::string obstacleToShape() const;
   void interruptRest(const std::string& why);
+  void markRest(RestMark mark);
   fsr::calibration::ShapeCheck measureShape(double patience);
   fsr::compensation::RestReading awaitRest(std::unique_lock<std::mutex>& lock, double patience);
 
@@ -141,13 +145,13 @@ class LiveCalibration {
   // The comparison of the surface with the sheet at rest, see live_shape.cpp.
   std::optional<fsr::calibration::RestWindow> rest_;  // scans are being collected
   bool rest_full_ = false;
-  bool rest_asked_ = false;   // by a service, which waits
-  bool ambient_ = false;      // the chamber is at ambient
-  bool load_seen_ = false;    // since the sheet was laid on its surface
-  bool worn_ = false;         // don was marked, and no doff since
-  bool rest_marked_ = false;  // doff was marked, and is not answered yet
-  std::string marked_;        // what was done at the last doff
-  std::string interruption_;  // why a window that a service waits for is not at rest
+  bool rest_asked_ = false;                 // by a service, which waits
+  bool ambient_ = false;                    // the chamber is at ambient
+  bool load_seen_ = false;                  // since the sheet was laid on its surface
+  bool worn_ = false;                       // don was marked, and no doff since
+  RestMark rest_marked_ = RestMark::kNone;  // not answered yet
+  std::string marked_;                      // what was done at the last mark
+  std::string interruption_;                // why a window that a service waits for is not at rest
   fsr::calibration::ShapeCheck shape_;
   std::vector<std::uint8_t> ignored_;  // taxels of the last map without a sound reading
 

@@ -1,10 +1,20 @@
-// Marks of the operator in LiveCalibration: `don` says that a load comes, `doff` that the sheet is unloaded
-// again. A marked rest is compared as if a service had asked for it.
+// Marks of the operator in LiveCalibration: `don` says that a load comes, `doff` and a tare that the sheet is
+// unloaded. A marked rest is compared as if a service had asked for it.
+
+#include <utility>
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/live/live_calibration.h"
 
 namespace fsr_ros {
+
+namespace {
+
+std::string nameOf(RestMark mark) {
+  return mark == RestMark::kTare ? "tare" : "doff";
+}
+
+}  // namespace
 
 void LiveCalibration::markLoaded() {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -15,23 +25,27 @@ void LiveCalibration::markLoaded() {
 void LiveCalibration::markUnloaded() {
   const std::lock_guard<std::mutex> lock(mutex_);
   worn_ = false;
-  rest_marked_ = true;
-  marked_ = "doff: being measured";
+  markRest(RestMark::kDoff);
 }
 
-std::string LiveCalibration::answerMark(const std::function<std::string()>& measure) {
+void LiveCalibration::markRest(RestMark mark) {
+  rest_marked_ = mark;
+  marked_ = nameOf(mark) + ": being measured";
+}
+
+std::string LiveCalibration::answerMark(const std::function<std::string(RestMark)>& measure) {
   std::unique_lock<std::mutex> lock(mutex_);
-  if (!rest_marked_) return "";
-  rest_marked_ = false;
+  const RestMark mark = std::exchange(rest_marked_, RestMark::kNone);
+  if (mark == RestMark::kNone) return "";
   lock.unlock();
   std::string sentence;
   try {
-    sentence = measure();
+    sentence = measure(mark);
   } catch (const fsr::settings::InputError& error) {
     sentence = error.what();
   }
   lock.lock();
-  marked_ = "doff: " + sentence;
+  marked_ = nameOf(mark) + ": " + sentence;
   return marked_;
 }
 

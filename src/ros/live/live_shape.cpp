@@ -55,10 +55,12 @@ void LiveCalibration::watchShape(const fsr::matrix::ScanView& scan, double time)
   if (rest_full_) progress_.notify_all();
 }
 
-// Of the sheet now; `loaded_` must be set.
-std::string LiveCalibration::temperatureObstacle() const {
-  return fsr::calibration::temperatureObstacle(temperature_, loaded_->info.temperature_low,
-                                               loaded_->info.temperature_high);
+// Why the sheet cannot be compared now; empty = it can. `loaded_` must be set.
+std::string LiveCalibration::obstacleToShape() const {
+  const fsr_pressure_map::CalibrationInfo& info = loaded_->info;
+  const std::string sensor = fsr::calibration::sensorObstacle(board_.serial, info.sensor_serial);
+  if (!sensor.empty()) return sensor;
+  return fsr::calibration::temperatureObstacle(temperature_, info.temperature_low, info.temperature_high);
 }
 
 void LiveCalibration::compareAtRest() {
@@ -68,7 +70,7 @@ void LiveCalibration::compareAtRest() {
   const std::shared_ptr<const fsr::compensation::ShapeModel> model = loaded_->shape;
   fsr::calibration::ShapeCheck check;
   try {
-    const std::string obstacle = temperatureObstacle();
+    const std::string obstacle = obstacleToShape();
     if (!obstacle.empty()) throw fsr::settings::InputError(kRefused + obstacle);
     const fsr::compensation::RestReading reading = rest_->reading();
     rest_.reset();
@@ -86,7 +88,7 @@ fsr::calibration::ShapeCheck LiveCalibration::measureShape(double patience) {
   std::unique_lock<std::mutex> lock(mutex_);
   if (!loaded_) throw fsr::settings::InputError(kRefused + "no calibration is loaded (" + complaint_ + ")");
   if (!loaded_->shape->present()) throw fsr::settings::InputError(kRefused + loaded_->shape->missing);
-  const std::string obstacle = temperatureObstacle();
+  const std::string obstacle = obstacleToShape();
   if (!obstacle.empty()) throw fsr::settings::InputError(kRefused + obstacle);
   if (!ambient_ && load_seen_)
     throw fsr::settings::InputError(kRefused + "the chamber is not at ambient pressure; unload the sheet");

@@ -49,6 +49,7 @@ std::string LiveCalibration::tare(double patience) {
   applyTare();
   if (!tare_.tare()) throw changedMeanwhile();
   loaded_->calibrator.markRest();
+  if (loaded_->shape->present()) markRest(RestMark::kTare);
   return "the sheet is tared on surface \"" + tare.surface + "\", mount " + std::to_string(tare.mount) +
          "; stored in " + settings_.tare_file;
 }

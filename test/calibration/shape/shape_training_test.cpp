@@ -325,6 +325,18 @@ TEST_F(CheckShapes, ComparesNothingAtAnotherTemperature) {
       "23.0; another sensitivity reads like another bend");
 }
 
+TEST_F(CheckShapes, ComparesNothingOnAnotherBoard) {
+  Recordings recordings = fresh();
+  recordings.resize(1);
+  recordings[0].sensor.serial = "SIM-0002";
+  const std::vector<CheckedMount> checked = checkShapes(calibration(), recordings);
+  ASSERT_EQ(checked.size(), 1u);
+  EXPECT_EQ(checked[0].check.sentence,
+            "how the sheet lies cannot be told: the board is SIM-0002, but the calibration was trained on "
+            "SIM-0001; "
+            "each sheet has its own rest");
+}
+
 TEST(TemperatureObstacle, IsNoneWhereATemperatureIsNotKnown) {
   EXPECT_EQ(temperatureObstacle(NAN, 20, 25), "");
   EXPECT_EQ(temperatureObstacle(60, NAN, NAN), "");

@@ -41,6 +41,7 @@ class LiveMarks : public testing::Test {
   static CalibrationSettings settings() {
     CalibrationSettings settings;
     settings.tare.window = 0.5;
+    settings.tare.limit = 100e3;  // the tables of the small calibration are not those of the planted sheet
     settings.tare_file = testing::TempDir() + "marks_tare.yaml";
     settings.mask_file = testing::TempDir() + "marks_mask.yaml";
     return settings;
@@ -74,8 +75,9 @@ class LiveMarks : public testing::Test {
   }
 
   std::future<std::string> answer() {
-    return std::async(std::launch::async,
-                      [this] { return live.answerMark([this] { return live.checkSurface(kPatience); }); });
+    return std::async(std::launch::async, [this] {
+      return live.answerMark([this](RestMark) { return live.checkSurface(kPatience); });
+    });
   }
 
   /// The answer to the mark; scans come meanwhile.
@@ -112,6 +114,28 @@ TEST_F(LiveMarks, AMarkedRestIsComparedOnce) {
   EXPECT_EQ(live.health().shape.verdict, fsr::calibration::ShapeVerdict::kAgrees);
   EXPECT_TRUE(live.restAgrees());
   EXPECT_EQ(answered(), "") << "the mark is answered";
+}
+
+TEST_F(LiveMarks, ATareIsARestToo) {
+  std::future<std::string> tare = std::async(std::launch::async, [this] { return live.tare(kPatience); });
+  while (tare.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) feed(1);
+  EXPECT_EQ(tare.get().rfind("the sheet is tared on surface", 0), 0u);
+  const std::string said = answered();
+  EXPECT_EQ(said.rfind("tare: the sheet rests as on ", 0), 0u) << said;
+  EXPECT_EQ(live.health().shape.verdict, fsr::calibration::ShapeVerdict::kAgrees);
+  fs::remove(settings().tare_file);
+}
+
+TEST_F(LiveMarks, NothingIsComparedOnAnotherBoard) {
+  fsr_pressure_map::MatrixInfo board;
+  board.serial = "board-2";
+  board.ambient_pressure = kAmbient;
+  live.setBoard(board);
+  live.markUnloaded();
+  EXPECT_EQ(
+      answered(),
+      "doff: how the sheet lies cannot be told: the board is board-2, but the calibration was trained on "
+      "board-1; each sheet has its own rest");
 }
 
 TEST_F(LiveMarks, AMarkedRestFindsAWrongSurface) {
