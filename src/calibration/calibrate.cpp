@@ -163,6 +163,7 @@ void Training::train(std::size_t taxel, const compensation::FoldRegressors& regr
                      Calibration& calibration, HeldOutScoring& scoring) const {
   if (calibration.no_model[taxel] != 0) {
     fillTables(plan_, taxel, {}, calibration);
+    scoring.leaveOut(taxel);
     return;
   }
   compensation::SectionedReadings readings = readingsOf(*calibration.statistics, taxel);

@@ -2,27 +2,46 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 namespace fsr::calibration {
 
 namespace {
 
-// Predictions and truth of one section [Pa].
-struct Predictions {
-  std::vector<double> predicted;
-  std::vector<double> reference;
-
-  void add(double prediction, double truth) {
-    predicted.push_back(prediction);
-    reference.push_back(truth);
+// The answers to one section of the readings, with the measures of rSquared() and rmsePercent().
+class SectionScore {
+ public:
+  // Both in Pa.
+  void add(double answer, double truth) {
+    truth_.add(truth);
+    squares_ += (answer - truth) * (answer - truth);
+    low_ = std::min(low_, truth);
+    high_ = std::max(high_, truth);
   }
+  void merge(const SectionScore& other) {
+    truth_.merge(other.truth_);
+    squares_ += other.squares_;
+    low_ = std::min(low_, other.low_);
+    high_ = std::max(high_, other.high_);
+  }
+  double rSquared() const {
+    return truth_.count > 1 && truth_.squares > 0 ? 1.0 - squares_ / truth_.squares : kNone;
+  }
+  double rmsePercent() const {
+    return high_ > low_ ? 100.0 * std::sqrt(squares_ / truth_.count) / (high_ - low_) : kNone;
+  }
+
+ private:
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  statistics::RunningMoments truth_;
+  double squares_ = 0;
+  double low_ = std::numeric_limits<double>::infinity();
+  double high_ = -std::numeric_limits<double>::infinity();
 };
 
-double meanOverSections(const std::vector<Predictions>& sections,
-                        double (*score)(const std::vector<double>&, const std::vector<double>&)) {
+double meanOverSections(const std::vector<SectionScore>& sections, double (SectionScore::*score)() const) {
   std::vector<double> scores;
-  for (const Predictions& section : sections) scores.push_back(score(section.predicted, section.reference));
+  for (const SectionScore& section : sections) scores.push_back((section.*score)());
   return statistics::spreadOf(scores).mean;
 }
 
@@ -30,20 +49,23 @@ double meanOverSections(const std::vector<Predictions>& sections,
 
 HeldOutScoring::HeldOutScoring(const TrainingScans& scans, const compensation::SchemePlan& plan,
                                std::size_t sections, std::size_t taxels)
-    : scans_(scans), plan_(plan), sections_(sections), taxels_(taxels) {}
+    : scans_(scans), plan_(plan), sections_(sections), taxels_(taxels), errors_(scans.size()) {}
 
 void HeldOutScoring::scoreTaxel(std::size_t taxel,
                                 const std::vector<regression::CrossValidatedModel>& models) {
   TaxelScores scored;
-  std::vector<Predictions> all(sections_);
+  scored.errors.resize(scans_.size());
+  std::vector<SectionScore> all(sections_);
+  const auto add = [&](const std::vector<SectionScore>& sections, std::size_t within) {
+    scored.scores.push_back({meanOverSections(sections, &SectionScore::rSquared),
+                             meanOverSections(sections, &SectionScore::rmsePercent), within});
+  };
   std::size_t all_within = 0;
   for (std::size_t c = 0; c < scans_.size(); ++c) {
     const regression::CrossValidatedModel& model = models[plan_.model_of_class[c]];
-    std::vector<Predictions> of_class(sections_);
-    std::vector<float> errors(scans_[c].size(), std::numeric_limits<float>::quiet_NaN());
+    std::vector<SectionScore> of_class(sections_);
     std::size_t within = 0;
-    for (std::size_t i = 0; i < scans_[c].size(); ++i) {
-      const TrainingScan& scan = scans_[c][i];
+    for (const TrainingScan& scan : scans_[c]) {
       const regression::HeldOutModel& held_out = model.held_out[scan.section];
       if (held_out.pressure.empty()) continue;
       const std::uint16_t code = scan.counts[taxel];
@@ -51,29 +73,39 @@ void HeldOutScoring::scoreTaxel(std::size_t taxel,
       const double answer = held_out.pressure[code] - regression::fromFixed(scan.zeroOf(taxel));
       const double error = answer - truth;
       of_class[scan.section].add(answer, truth);
-      all[scan.section].add(answer, truth);
       within += std::abs(error) <= held_out.deviation[code];
-      errors[i] = static_cast<float>(error);
+      scored.errors[c].add(static_cast<float>(error), truth, scan.direction);
     }
+    for (std::size_t s = 0; s < sections_; ++s) all[s].merge(of_class[s]);
     all_within += within;
-    scored.scores.push_back({meanOverSections(of_class, statistics::rSquared),
-                             meanOverSections(of_class, statistics::rmsePercent), within});
-    scored.errors.push_back(std::move(errors));
+    add(of_class, within);
   }
-  scored.scores.push_back({meanOverSections(all, statistics::rSquared),
-                           meanOverSections(all, statistics::rmsePercent), all_within});
-  taxels_[taxel] = std::move(scored);
+  add(all, all_within);
+  addErrors(taxel, std::move(scored));
 }
 
-// Pools entry `entry` of the scores of all taxels and the errors of `classes`.
-Score HeldOutScoring::pool(const std::vector<std::size_t>& classes, std::size_t entry) const {
+void HeldOutScoring::leaveOut(std::size_t taxel) {
+  addErrors(taxel, {});
+}
+
+// The errors are added in the order of the taxels, so that the sums do not depend on the number of threads.
+void HeldOutScoring::addErrors(std::size_t taxel, TaxelScores scored) {
+  const std::lock_guard<std::mutex> lock(adding_);
+  taxels_[taxel] = std::move(scored);
+  for (; next_ < taxels_.size() && taxels_[next_]; ++next_) {
+    std::vector<statistics::ErrorBins> own = std::move(taxels_[next_]->errors);
+    for (std::size_t c = 0; c < own.size(); ++c) errors_[c].merge(own[c]);
+  }
+}
+
+// Pools entry `entry` of the scores of all taxels, with their errors.
+Score HeldOutScoring::pool(const statistics::ErrorBins& errors, std::size_t entry) const {
   Score score;
   std::vector<double> r2, rmse_percent;
   std::size_t within = 0;
-  statistics::ErrorBins bins;
   for (std::size_t taxel = 0; taxel < taxels_.size(); ++taxel) {
-    if (taxels_[taxel].scores.empty()) continue;
-    const TaxelScore& own = taxels_[taxel].scores[entry];
+    if (!taxels_[taxel] || taxels_[taxel]->scores.empty()) continue;
+    const TaxelScore& own = taxels_[taxel]->scores[entry];
     r2.push_back(own.r2);
     rmse_percent.push_back(own.rmse_percent);
     within += own.within;
@@ -81,32 +113,25 @@ Score HeldOutScoring::pool(const std::vector<std::size_t>& classes, std::size_t 
       score.worst_rmse_percent = own.rmse_percent;
       score.worst_taxel = taxel;
     }
-    for (const std::size_t c : classes) {
-      for (std::size_t i = 0; i < scans_[c].size(); ++i) {
-        const float error = taxels_[taxel].errors[c][i];
-        if (!std::isnan(error))
-          bins.add(error, regression::fromFixed(scans_[c][i].pressure), scans_[c][i].direction);
-      }
-    }
   }
-  score.readings = bins.count();
+  score.readings = errors.count();
   score.r2 = statistics::spreadOf(r2);
   score.rmse_percent = statistics::spreadOf(rmse_percent);
-  score.errors = bins.summarise();
+  score.errors = errors.summarise();
   score.within_one_deviation = static_cast<double>(within) / static_cast<double>(score.readings);
   return score;
 }
 
 CalibrationScores HeldOutScoring::summarise(const std::vector<dataset::CurvatureClass>& classes) const {
   CalibrationScores scores;
+  statistics::ErrorBins whole;
   for (std::size_t c = 0; c < classes.size(); ++c) {
     const auto& trained_on = plan_.models[plan_.model_of_class[c]].trained_on;
     const bool trained = std::find(trained_on.begin(), trained_on.end(), c) != trained_on.end();
-    scores.conditions.push_back({classes[c], trained, pool({c}, c)});
+    scores.conditions.push_back({classes[c], trained, pool(errors_[c], c)});
+    whole.merge(errors_[c]);
   }
-  std::vector<std::size_t> all(classes.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  scores.whole = pool(all, classes.size());
+  scores.whole = pool(whole, classes.size());
   return scores;
 }
 

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <mutex>
+#include <optional>
 #include <vector>
 
 #include "calibration/training_scans.h"
 #include "compensation/scheme_plan.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "regression/cross_validation.h"
+#include "statistics/error_bins.h"
 
 namespace fsr::calibration {
 
@@ -25,9 +28,12 @@ class HeldOutScoring {
                  std::size_t taxels);
 
   /// `models` are those of crossValidateScheme() with held-out deviations. Different taxels may be scored at
-  /// the same time. A taxel that is never scored is not part of the scores.
+  /// the same time.
   void scoreTaxel(std::size_t taxel, const std::vector<regression::CrossValidatedModel>& models);
+  /// The taxel has no model and is not part of the scores.
+  void leaveOut(std::size_t taxel);
 
+  /// After each taxel was scored or left out.
   CalibrationScores summarise(const std::vector<dataset::CurvatureClass>& classes) const;
 
  private:
@@ -38,16 +44,20 @@ class HeldOutScoring {
     std::size_t within;  // readings within one deviation
   };
   struct TaxelScores {
-    std::vector<TaxelScore> scores;          // of each class, then of all together
-    std::vector<std::vector<float>> errors;  // [class][scan of the class] [Pa]; NaN = not scored
+    std::vector<TaxelScore> scores;             // of each class, then of all together; empty = left out
+    std::vector<statistics::ErrorBins> errors;  // [classes]; empty once they are added to those of all taxels
   };
 
-  Score pool(const std::vector<std::size_t>& classes, std::size_t entry) const;
+  void addErrors(std::size_t taxel, TaxelScores scored);
+  Score pool(const statistics::ErrorBins& errors, std::size_t entry) const;
 
   const TrainingScans& scans_;
   const compensation::SchemePlan& plan_;
   std::size_t sections_;
-  std::vector<TaxelScores> taxels_;  // empty members: not scored
+  std::mutex adding_;
+  std::vector<std::optional<TaxelScores>> taxels_;
+  std::size_t next_ = 0;                       // taxel whose errors are added next
+  std::vector<statistics::ErrorBins> errors_;  // [classes], of the taxels before `next_`
 };
 
 }  // namespace fsr::calibration

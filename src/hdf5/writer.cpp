@@ -1,7 +1,9 @@
 #include "hdf5/writer.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <type_traits>
 
@@ -32,15 +34,46 @@ void writeAttribute(hid_t file, const std::string& path, const std::string& name
   require(H5Awrite(attribute, type, values), name);
 }
 
-void writeDataset(hid_t file, const std::string& path, hid_t type, const std::vector<std::size_t>& shape,
-                  const void* values) {
-  const std::vector<hsize_t> size = dimensions(shape);
-  const Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose, path);
+// A new dataset without values.
+hid_t createDataset(hid_t file, const std::string& path, hid_t type, hid_t space) {
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, path);
   require(H5Pset_obj_track_times(creation, false), path);  // so that equal content gives equal bytes
-  const Handle dataset(H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-                       H5Dclose, path);
+  return H5Dcreate2(file, path.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+}
+
+hid_t createSpace(const std::vector<hsize_t>& size) {
+  return H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr);
+}
+
+void writeDataset(hid_t file, const std::string& path, hid_t type, const std::vector<std::size_t>& shape,
+                  const void* values) {
+  const Handle space(createSpace(dimensions(shape)), H5Sclose, path);
+  const Handle dataset(createDataset(file, path, type, space), H5Dclose, path);
   if (elements(shape) > 0) require(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), path);
+}
+
+template <typename T>
+using Piece = std::function<std::vector<T>(std::size_t)>;
+
+// Each piece fills the slabs behind those of the piece before it.
+template <typename Stored, typename T>
+void writePieces(hid_t file, const std::string& path, std::size_t pieces, const Piece<T>& piece,
+                 const std::vector<std::size_t>& shape) {
+  const std::vector<hsize_t> size = dimensions(shape);
+  const hsize_t slab = std::accumulate(size.begin() + 1, size.end(), hsize_t{1}, std::multiplies<>());
+  const Handle space(createSpace(size), H5Sclose, path);
+  const Handle dataset(createDataset(file, path, typeOf<Stored>(), space), H5Dclose, path);
+  std::vector<hsize_t> start(size.size(), 0), count = size;
+  for (std::size_t i = 0; i < pieces; ++i) {
+    const std::vector<T> values = piece(i);
+    if (values.empty()) continue;
+    const std::vector<Stored> stored(values.begin(), values.end());
+    count[0] = stored.size() / slab;
+    require(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), path);
+    const Handle memory(createSpace({stored.size()}), H5Sclose, path);
+    require(H5Dwrite(dataset, typeOf<Stored>(), memory, space, H5P_DEFAULT, stored.data()), path);
+    start[0] += count[0];
+  }
 }
 
 hid_t createFile(const std::string& name) {
@@ -93,6 +126,32 @@ bool fits(const std::vector<T>& values) {
                             *high <= static_cast<T>(std::numeric_limits<Narrow>::max()));
 }
 
+template <typename Narrow, typename T>
+bool fits(std::size_t pieces, const Piece<T>& piece) {
+  for (std::size_t i = 0; i < pieces; ++i) {
+    if (!fits<Narrow>(piece(i))) return false;
+  }
+  return true;
+}
+
+// The type of half the bytes.
+template <typename T>
+using Half = std::conditional_t<sizeof(T) == 8, std::uint32_t,
+                                std::conditional_t<sizeof(T) == 4, std::uint16_t, std::uint8_t>>;
+
+// In the narrowest type that holds all values, beginning with Stored.
+template <typename Stored, typename T>
+void writeNarrowest(hid_t file, const std::string& path, std::size_t pieces, const Piece<T>& piece,
+                    const std::vector<std::size_t>& shape) {
+  if constexpr (std::is_integral_v<Stored> && sizeof(Stored) > 1) {
+    if (fits<Half<Stored>>(pieces, piece)) {
+      writeNarrowest<Half<Stored>>(file, path, pieces, piece, shape);
+      return;
+    }
+  }
+  writePieces<Stored>(file, path, pieces, piece, shape);
+}
+
 }  // namespace
 
 template <typename T>
@@ -101,14 +160,24 @@ void Writer::dataset(const std::string& path, const std::vector<T>& values,
                      const std::string& meaning) {
   if (elements(shape) != values.size()) throw std::logic_error(path + " is not " + shapeText(shape));
   if constexpr (std::is_integral_v<T> && sizeof(T) > 1) {
-    using OfHalf = std::conditional_t<sizeof(T) == 4, std::uint16_t, std::uint8_t>;
-    using Narrower = std::conditional_t<sizeof(T) == 8, std::uint32_t, OfHalf>;
-    if (fits<Narrower>(values)) {
-      dataset(path, std::vector<Narrower>(values.begin(), values.end()), shape, unit, meaning);
+    if (fits<Half<T>>(values)) {
+      dataset(path, std::vector<Half<T>>(values.begin(), values.end()), shape, unit, meaning);
       return;
     }
   }
   writeDataset(file_, path, typeOf<T>(), shape, values.data());
+  describe(path, unit, meaning);
+}
+
+template <typename T>
+void Writer::dataset(const std::string& path, std::size_t pieces, const Piece<T>& piece,
+                     const std::vector<std::size_t>& shape, const std::string& unit,
+                     const std::string& meaning) {
+  writeNarrowest<T>(file_, path, pieces, piece, shape);
+  describe(path, unit, meaning);
+}
+
+void Writer::describe(const std::string& path, const std::string& unit, const std::string& meaning) {
   if (!unit.empty()) attribute(path, "unit", unit);
   if (!meaning.empty()) attribute(path, "meaning", meaning);
 }
@@ -144,5 +213,16 @@ template void Writer::dataset(const std::string&, const std::vector<float>&, con
                               const std::string&, const std::string&);
 template void Writer::dataset(const std::string&, const std::vector<double>&, const std::vector<std::size_t>&,
                               const std::string&, const std::string&);
+
+template void Writer::dataset(const std::string&, std::size_t, const Piece<std::uint16_t>&,
+                              const std::vector<std::size_t>&, const std::string&, const std::string&);
+template void Writer::dataset(const std::string&, std::size_t, const Piece<std::uint32_t>&,
+                              const std::vector<std::size_t>&, const std::string&, const std::string&);
+template void Writer::dataset(const std::string&, std::size_t, const Piece<std::uint64_t>&,
+                              const std::vector<std::size_t>&, const std::string&, const std::string&);
+template void Writer::dataset(const std::string&, std::size_t, const Piece<std::int64_t>&,
+                              const std::vector<std::size_t>&, const std::string&, const std::string&);
+template void Writer::dataset(const std::string&, std::size_t, const Piece<float>&,
+                              const std::vector<std::size_t>&, const std::string&, const std::string&);
 
 }  // namespace fsr::hdf5

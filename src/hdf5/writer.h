@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -33,12 +34,20 @@ class Writer {
   template <typename T>
   void dataset(const std::string& path, const std::vector<T>& values, const std::vector<std::size_t>& shape,
                const std::string& unit, const std::string& meaning);
+  /// The same from `pieces` pieces, slabs of the first dimension one behind the other, so that only one is in
+  /// memory at a time. piece(i) is called twice and must give the same values.
+  template <typename T>
+  void dataset(const std::string& path, std::size_t pieces,
+               const std::function<std::vector<T>(std::size_t)>& piece, const std::vector<std::size_t>& shape,
+               const std::string& unit, const std::string& meaning);
   void texts(const std::string& path, const std::vector<std::string>& texts, const std::string& meaning);
 
   /// Closes the file. No call may follow.
   void finish();
 
  private:
+  void describe(const std::string& path, const std::string& unit, const std::string& meaning);
+
   std::lock_guard<std::mutex> lock_;
   std::int64_t file_;
 };

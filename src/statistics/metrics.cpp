@@ -36,14 +36,6 @@ double sampleDeviation(const std::vector<double>& values, double mean) {
   return std::sqrt(squaresAbout(values, mean) / static_cast<double>(values.size() - 1));
 }
 
-using Lists = std::vector<const std::vector<float>*>;
-
-ErrorSummary summaryOf(const Lists& lists) {
-  std::vector<double> errors;
-  for (const std::vector<float>* list : lists) errors.insert(errors.end(), list->begin(), list->end());
-  return summariseErrors(errors);
-}
-
 }  // namespace
 
 double rSquared(const std::vector<double>& predicted, const std::vector<double>& reference) {
@@ -85,30 +77,6 @@ ErrorSummary summariseErrors(const std::vector<double>& errors) {
                  [](double error) { return std::abs(error); });
   summary.p95_absolute = quantile(absolute, 0.95);
   return summary;
-}
-
-std::size_t ErrorBins::count() const {
-  std::size_t count = 0;
-  for (const auto& bin : errors_) {
-    for (const auto& list : bin) count += list.size();
-  }
-  return count;
-}
-
-BinnedErrors ErrorBins::summarise() const {
-  BinnedErrors binned;
-  Lists all, loading, unloading;
-  for (std::size_t bin = 0; bin < kPressureBins; ++bin) {
-    const auto& none = errors_[bin][static_cast<std::size_t>(LoadDirection::kNone)];
-    const auto& up = errors_[bin][static_cast<std::size_t>(LoadDirection::kLoading)];
-    const auto& down = errors_[bin][static_cast<std::size_t>(LoadDirection::kUnloading)];
-    binned.bins[bin] = {summaryOf({&none, &up, &down}), summaryOf({&up}), summaryOf({&down})};
-    all.insert(all.end(), {&none, &up, &down});
-    loading.push_back(&up);
-    unloading.push_back(&down);
-  }
-  binned.whole = {summaryOf(all), summaryOf(loading), summaryOf(unloading)};
-  return binned;
 }
 
 Spread spreadOf(const std::vector<double>& values) {

@@ -16,6 +16,15 @@ struct RunningMoments {
     squares += step * (value - mean);
   }
 
+  /// As if the values of `other` had been added (T. F. Chan, G. H. Golub, R. J. LeVeque, COMPSTAT 1982).
+  void merge(const RunningMoments& other) {
+    if (other.count == 0) return;
+    const double step = other.mean - mean, share = other.count / (count + other.count);
+    squares += other.squares + step * step * count * share;
+    mean += step * share;
+    count += other.count;
+  }
+
   /// With the divisor n - 1; 0 for fewer than two values.
   double deviation() const { return count > 1 ? std::sqrt(squares / (count - 1)) : 0.0; }
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "statistics/error_bins.h"
+
 namespace fsr::study {
 
 namespace {

@@ -92,23 +92,5 @@ TEST(PressureBins, AreNamedInKilopascal) {
   EXPECT_EQ(pressureBinName(4), "400+");
 }
 
-TEST(ErrorBins, SeparateBinsAndDirections) {
-  ErrorBins bins;
-  bins.add(1e3f, 10e3, LoadDirection::kLoading);
-  bins.add(-1e3f, 20e3, LoadDirection::kUnloading);
-  bins.add(3e3f, 60e3, LoadDirection::kLoading);
-  bins.add(7e3f, 500e3, LoadDirection::kNone);
-  EXPECT_EQ(bins.count(), 4u);
-  const BinnedErrors binned = bins.summarise();
-  EXPECT_EQ(binned.whole.all.count, 4u);
-  EXPECT_EQ(binned.whole.loading.count, 2u);
-  EXPECT_EQ(binned.whole.unloading.bias, -1e3);
-  EXPECT_EQ(binned.bins[0].all.bias, 0.0);
-  EXPECT_EQ(binned.bins[0].loading.bias, 1e3);
-  EXPECT_EQ(binned.bins[1].loading.bias, 3e3);
-  EXPECT_EQ(binned.bins[1].unloading.count, 0u);
-  EXPECT_EQ(binned.bins[4].all.count, 1u);
-}
-
 }  // namespace
 }  // namespace fsr::statistics

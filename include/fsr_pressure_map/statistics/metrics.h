@@ -69,21 +69,6 @@ struct BinnedErrors {
   std::array<Directions, kPressureBins> bins;
 };
 
-/// Collects errors by pressure bin and direction of load.
-class ErrorBins {
- public:
-  /// `error` and `reference` in Pa.
-  void add(float error, double reference, LoadDirection direction) {
-    errors_[pressureBin(reference)][static_cast<std::size_t>(direction)].push_back(error);
-  }
-  std::size_t count() const;
-  BinnedErrors summarise() const;
-
- private:
-  static constexpr std::size_t kDirections = 3;
-  std::array<std::array<std::vector<float>, kDirections>, kPressureBins> errors_;
-};
-
 /// Mean and sample standard deviation over taxels. NaN values are left out. The mean of no value and the
 /// deviation of fewer than two values are NaN.
 struct Spread {

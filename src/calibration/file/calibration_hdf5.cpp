@@ -160,8 +160,8 @@ void writeCalibration(const Calibration& calibration, hdf5::Writer& writer) {
     writeSessionScores(calibration.scores.session, writer);
     writeTemperatureScores(calibration.scores.temperature, writer);
   }
-  writeStatistics(calibration.statistics ? *calibration.statistics : compensation::TrainingStatistics{},
-                  writer);
+  static const compensation::TrainingStatistics none;
+  writeStatistics(calibration.statistics ? *calibration.statistics : none, writer);
 }
 
 Calibration readCalibration(const hdf5::Reader& reader, std::uint64_t schema, CalibrationParts parts,

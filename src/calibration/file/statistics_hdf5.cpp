@@ -1,3 +1,6 @@
+#include <functional>
+#include <type_traits>
+
 #include "calibration/file/calibration_hdf5.h"
 #include "compensation/training_statistics.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -6,7 +9,7 @@ namespace fsr::calibration {
 
 namespace {
 
-// The rows of all cells, one cell after the other.
+// The rows of all cells, one cell after the other, as they are read.
 struct Rows {
   std::vector<std::uint64_t> first = {0};  // index of the first row of each cell, and the number of rows
   std::vector<std::uint16_t> code;
@@ -16,34 +19,51 @@ struct Rows {
   std::vector<std::uint64_t> square_low;
 };
 
-template <typename T>
-void append(std::vector<T>& all, const std::vector<T>& more) {
-  all.insert(all.end(), more.begin(), more.end());
+using Cells = std::vector<regression::CodeStatistics>;
+
+// Index of the first row of each cell, and the number of rows.
+std::vector<std::uint64_t> firstRows(const Cells& cells) {
+  std::vector<std::uint64_t> first = {0};
+  for (const regression::CodeStatistics& cell : cells) first.push_back(first.back() + cell.codes());
+  return first;
 }
 
-Rows rowsOf(const std::vector<regression::CodeStatistics>& cells) {
-  Rows rows;
-  std::size_t number = 0, repeated = 0;
-  for (const regression::CodeStatistics& cell : cells) {
-    number += cell.codes();
-    repeated += cell.square().size();
-  }
-  rows.code.reserve(number);
-  rows.count.reserve(number);
-  rows.sum.reserve(number);
-  rows.square_high.reserve(repeated);
-  rows.square_low.reserve(repeated);
-  for (const regression::CodeStatistics& cell : cells) {
-    append(rows.code, cell.code());
-    append(rows.count, cell.count());
-    append(rows.sum, cell.sum());
-    for (const regression::Int128 square : cell.square()) {
-      rows.square_high.push_back(static_cast<std::int64_t>(square >> 64));
-      rows.square_low.push_back(static_cast<std::uint64_t>(square));
-    }
-    rows.first.push_back(rows.code.size());
-  }
-  return rows;
+// One value for each code that occurs more than once, of type T.
+template <typename T>
+std::vector<T> squaresOf(const regression::CodeStatistics& cell, int shift) {
+  std::vector<T> values;
+  values.reserve(cell.square().size());
+  for (const regression::Int128 square : cell.square()) values.push_back(static_cast<T>(square >> shift));
+  return values;
+}
+
+// The rows of all cells, one cell after the other.
+void writeRows(const Cells& cells, hdf5::Writer& writer) {
+  const std::vector<std::uint64_t> first = firstRows(cells);
+  std::size_t repeated = 0;
+  for (const regression::CodeStatistics& cell : cells) repeated += cell.square().size();
+  writer.dataset("/statistics/first", first, {first.size()}, "",
+                 "row where each cell [taxels x classes x sections] begins, and the number of rows");
+  const auto write = [&](const char* name, auto column, std::size_t rows, const char* unit,
+                         const char* meaning) {
+    using Values = std::decay_t<decltype(column(cells.front()))>;
+    const std::function<Values(std::size_t)> piece = [&](std::size_t cell) { return column(cells[cell]); };
+    writer.dataset("/statistics/" + std::string(name), cells.size(), piece, {rows}, unit, meaning);
+  };
+  using Cell = const regression::CodeStatistics&;
+  write(
+      "code", [](Cell cell) { return cell.code(); }, first.back(), "counts", "reading, ascending in a cell");
+  write(
+      "count", [](Cell cell) { return cell.count(); }, first.back(), "", "scans with this reading");
+  write(
+      "sum", [](Cell cell) { return cell.sum(); }, first.back(), "2^-20 Pa",
+      "sum of their chamber pressures, gauge");
+  write(
+      "square_high", [](Cell cell) { return squaresOf<std::int64_t>(cell, 64); }, repeated, "2^24 Pa^2",
+      "sum of their squares, upper 64 bits, of the rows with count > 1");
+  write(
+      "square_low", [](Cell cell) { return squaresOf<std::uint64_t>(cell, 0); }, repeated, "2^-40 Pa^2",
+      "lower 64 bits, likewise");
 }
 
 regression::Int128 squareAt(const Rows& rows, std::size_t i) {
@@ -96,22 +116,12 @@ std::vector<dataset::RecordedCondition> readConditions(matrix::MatrixSize size, 
 }  // namespace
 
 void writeStatistics(const compensation::TrainingStatistics& statistics, hdf5::Writer& writer) {
-  const Rows rows = rowsOf(statistics.cells);
   writer.group("/statistics");
   writeClasses("/statistics", statistics.classes, writer);
   writeConditions(statistics.conditions, writer);
   writer.attribute("/statistics", "taxels", statistics.taxels);
   writer.attribute("/statistics", "sections", statistics.sections);
-  writer.dataset("/statistics/first", rows.first, {rows.first.size()}, "",
-                 "row where each cell [taxels x classes x sections] begins, and the number of rows");
-  writer.dataset("/statistics/code", rows.code, {rows.code.size()}, "counts", "reading, ascending in a cell");
-  writer.dataset("/statistics/count", rows.count, {rows.count.size()}, "", "scans with this reading");
-  writer.dataset("/statistics/sum", rows.sum, {rows.sum.size()}, "2^-20 Pa",
-                 "sum of their chamber pressures, gauge");
-  writer.dataset("/statistics/square_high", rows.square_high, {rows.square_high.size()}, "2^24 Pa^2",
-                 "sum of their squares, upper 64 bits, of the rows with count > 1");
-  writer.dataset("/statistics/square_low", rows.square_low, {rows.square_low.size()}, "2^-40 Pa^2",
-                 "lower 64 bits, likewise");
+  writeRows(statistics.cells, writer);
 }
 
 compensation::TrainingStatistics readStatistics(const hdf5::Reader& reader, matrix::MatrixSize size,

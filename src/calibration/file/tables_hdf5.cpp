@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "calibration/file/calibration_hdf5.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -50,13 +51,18 @@ std::vector<dataset::CurvatureClass> readClasses(const std::string& group, matri
 void writeTables(const compensation::CurvatureTables& tables, hdf5::Writer& writer) {
   const std::vector<std::size_t> shape = {tables.size.taxels(), tables.classes.size(),
                                           tables.full_scale + 1u};
-  const auto gathered = [&](std::vector<float> regression::CodeTable::*column) {
-    std::vector<float> values;
-    values.reserve(shape[0] * shape[1] * shape[2]);
-    for (const regression::CodeTable& table : tables.tables) {
-      values.insert(values.end(), (table.*column).begin(), (table.*column).end());
-    }
-    return values;
+  using Column = std::vector<float> regression::CodeTable::*;
+  const auto write = [&](const char* name, Column column, const char* unit, const char* meaning) {
+    const std::function<std::vector<float>(std::size_t)> of_taxel = [&](std::size_t taxel) {
+      std::vector<float> values;
+      values.reserve(shape[1] * shape[2]);
+      for (std::size_t model = 0; model < shape[1]; ++model) {
+        const std::vector<float>& own = tables.tables[taxel * shape[1] + model].*column;
+        values.insert(values.end(), own.begin(), own.end());
+      }
+      return values;
+    };
+    writer.dataset("/tables/" + std::string(name), shape[0], of_taxel, shape, unit, meaning);
   };
   std::vector<std::uint16_t> codes;
   for (const regression::CodeTable& table : tables.tables)
@@ -65,12 +71,11 @@ void writeTables(const compensation::CurvatureTables& tables, hdf5::Writer& writ
   writeClasses("/tables", tables.classes, writer);
   writer.attribute("/tables", "class_tolerance", std::vector<double>{tables.class_tolerance});
   writer.attribute("/tables", "class_tolerance_unit", "1/m");
-  writer.dataset("/tables/pressure", gathered(&regression::CodeTable::pressure), shape, "Pa",
-                 "[taxels x models x codes], gauge pressure of each reading; NaN = no model");
-  writer.dataset("/tables/deviation", gathered(&regression::CodeTable::deviation), shape, "Pa",
-                 "one standard deviation of a held-out reading, likewise");
-  writer.dataset("/tables/support", gathered(&regression::CodeTable::support), shape, "",
-                 "effective number of training samples, likewise");
+  write("pressure", &regression::CodeTable::pressure, "Pa",
+        "[taxels x models x codes], gauge pressure of each reading; NaN = no model");
+  write("deviation", &regression::CodeTable::deviation, "Pa",
+        "one standard deviation of a held-out reading, likewise");
+  write("support", &regression::CodeTable::support, "", "effective number of training samples, likewise");
   writer.dataset("/tables/trained_codes", codes, {shape[0], shape[1], 2}, "counts",
                  "smallest and largest reading of training");
 }
