@@ -46,6 +46,11 @@ class LaunchCheck(unittest.TestCase):
         self.assertEqual(call.master(), "http://localhost:11411")
         self.assertIn("driver.launch has no argument sealling (sealling:=pdms); did you mean sealing?", self.refusal(launch_check.check_arguments, call))
 
+    def test_a_value_that_is_no_choice_is_refused(self):
+        call = launch_check.Call(["fsr_pressure_map", "rig_emulator.launch", "board:=uno"])
+        self.assertEqual(self.refusal(launch_check.check_arguments, call), "rig_emulator.launch: board:=uno must be emulated or avr")
+        launch_check.check_arguments(launch_check.Call(["fsr_pressure_map", "rig_emulator.launch", "board:=avr"]))
+
     def test_a_launch_file_of_somebody_else_is_let_alone(self):
         launch_check.check_arguments(launch_check.Call(["my_rig", "driver.launch", "anything:=1"]))
 
