@@ -80,7 +80,7 @@ bool Detectors::isLoop(const std::map<std::size_t, Flags>& flags) const {
       std::map<long, Sums> bins;
       eachScan(v, [&](std::size_t i, std::size_t sample) {
         const double deviation = courses_[v].deviation(taxel, i);
-        Sums& bin = bins[std::lround(static_cast<double>(courses_[v].expected[taxel][i]) / kReadingBin)];
+        Sums& bin = bins[std::lround(static_cast<double>(courses_[v].expected(taxel, i)) / kReadingBin)];
         const bool rises = measured_.direction[sample] > 0;
         bin.number[rises] += 1;
         bin.sum[rises] += deviation;
@@ -109,14 +109,14 @@ void Detectors::keep(Fault fault, const std::map<std::size_t, Flags>& flags) {
         now = true;
         square += std::pow(visit.deviation(t, i), 2);
         lost -= visit.deviation(t, i);
-        lost_of += static_cast<double>(visit.expected[t][i]);
+        lost_of += static_cast<double>(visit.expected(t, i));
       }
       ++all;
       if (now) {
         ++hit;
-        if (!before) fault.times.emplace_back(visit.time[i], visit.time[i]);
-        fault.times.back().second = visit.time[i];
-        fault.longest = std::max(fault.longest, visit.time[i] - fault.times.back().first);
+        if (!before) fault.times.emplace_back(visit.time(i), visit.time(i));
+        fault.times.back().second = visit.time(i);
+        fault.longest = std::max(fault.longest, visit.time(i) - fault.times.back().first);
       }
       before = now;
     }

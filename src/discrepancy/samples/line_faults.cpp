@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "statistics/median.h"
 #include "statistics/random_stream.h"
@@ -16,18 +17,35 @@ constexpr std::size_t kSpans[] = {2, 8, 32};                // scans on each sid
 constexpr std::size_t kFewestLines = 3, kFewestTaxels = 3;  // fewer have no neighbours, or are no line
 constexpr float kMostDeviation = 1;  // a deviation beyond the taxel's range says no more
 
+constexpr std::size_t kLongestSpan = kSpans[std::size(kSpans) - 1];
+constexpr std::size_t kScansOfBlock = 4096;  // steps are computed for so many scans at a time
+
 std::size_t strideOf(std::size_t span) {
   return std::max<std::size_t>(1, span / 4);
 }
 
-// Steps of the taxels: mean deviation over the scans after a place less the mean over those before it.
+// A place in time where a step is looked for.
+struct Place {
+  std::size_t span = 0;  // index into kSpans
+  std::size_t visit = 0, scan = 0;
+
+  bool operator<(const Place& other) const {
+    return std::tie(span, visit, scan) < std::tie(other.span, other.visit, other.scan);
+  }
+};
+
+// Steps of the taxels at places of one span and visit: mean deviation over the scans after a place less the
+// mean over those before it.
 struct Steps {
-  struct Place {
-    std::size_t visit, scan, span;
-  };
   std::vector<Place> places;
-  Eigen::MatrixXf of;         // [places x taxels], in units of the usual largest step of that span
-  std::vector<double> usual;  // by span [unit of the courses]
+  Eigen::MatrixXf of;  // [places x taxels], in units of the usual largest step of that span
+};
+
+// The largest step of a line, and where it is.
+struct LargestStep {
+  float size = -1;
+  Place place;
+  std::vector<double> of;  // steps of the line's taxels there
 };
 
 class LineTest {
@@ -47,9 +65,15 @@ class LineTest {
     return rows_ ? measured_.layout.row({taxel}) : measured_.layout.column({taxel});
   }
   bool prepare();
-  void step();
-  Eigen::MatrixXf contrast(const std::vector<std::size_t>& order) const;
-  bool together(Eigen::Index place, std::size_t line) const;
+  template <typename Use>
+  void eachBlock(Use use) const;
+  void findUsual();
+  void divideByUsual(Steps& steps) const;
+  Eigen::MatrixXf contrast(const Steps& steps, const std::vector<std::size_t>& order) const;
+  std::vector<LargestStep> largestSteps() const;
+  std::vector<float> largestOf(const std::vector<std::vector<std::size_t>>& orders) const;
+  double byChance(float largest, const DiscrepancyOptions& options) const;
+  bool together(const LargestStep& step, std::size_t line) const;
   std::vector<double> courseOf(std::size_t visit, std::size_t line) const;
   std::vector<bool> failing(std::size_t visit, std::size_t line, double least) const;
 
@@ -62,7 +86,7 @@ class LineTest {
   std::vector<double> members_;  // sound taxels of each line
   std::vector<std::vector<std::size_t>> beside_;
   std::vector<double> noise_;  // of each line's contrast, per noise of a taxel
-  Steps steps_;
+  std::vector<double> usual_;  // largest step of the taxels, [spans] [unit of the courses]
 };
 
 bool LineTest::prepare() {
@@ -85,56 +109,90 @@ bool LineTest::prepare() {
   return whole.size() >= kFewestLines;
 }
 
-void LineTest::step() {
-  for (const std::size_t span : kSpans) {
-    for (std::size_t v = 0; v < courses_.size(); ++v) {
-      for (std::size_t at = span; at + span <= courses_[v].scans(); at += strideOf(span))
-        steps_.places.push_back({v, at, span});
-    }
-  }
-  const auto places = static_cast<Eigen::Index>(steps_.places.size());
-  steps_.of.resize(places, static_cast<Eigen::Index>(taxels_.size()));
-  std::vector<std::vector<double>> sums(courses_.size());
-  for (std::size_t k = 0; k < taxels_.size(); ++k) {
-    for (std::size_t v = 0; v < courses_.size(); ++v) {
-      sums[v].assign(courses_[v].scans() + 1, 0);
-      for (std::size_t i = 0; i < courses_[v].scans(); ++i) {
-        const double now =
-            std::clamp(courses_[v].deviation(taxels_[k], i), -double{kMostDeviation}, double{kMostDeviation});
-        sums[v][i + 1] = sums[v][i] + now;
+// Calls use(steps) for all places, block by block: the steps of all places would take three times the memory
+// of the counts. Places of one span and visit ascend.
+template <typename Use>
+void LineTest::eachBlock(Use use) const {
+  const auto taxels = static_cast<Eigen::Index>(taxels_.size());
+  Steps steps;
+  std::vector<double> deviations;
+  for (std::size_t v = 0; v < courses_.size(); ++v) {
+    const std::size_t scans = courses_[v].scans();
+    // Sums of the deviations before each scan, from first - kLongestSpan on.
+    Eigen::MatrixXd sums(static_cast<Eigen::Index>(kScansOfBlock + 2 * kLongestSpan + 1), taxels);
+    std::size_t known = 0;  // scans whose deviations are in the sums
+    for (std::size_t first = 0; first <= scans; first += kScansOfBlock) {
+      const std::size_t last = std::min(scans + 1, first + kScansOfBlock);  // of the places, excluded
+      const std::size_t origin = first - std::min(first, kLongestSpan);     // scan of the first sum
+      if (first == 0) {
+        sums.row(0).setZero();
+      } else {  // the end of the last block is the beginning of this one
+        const std::size_t before = first - kScansOfBlock - std::min(first - kScansOfBlock, kLongestSpan);
+        for (std::size_t i = origin; i <= known; ++i)
+          sums.row(static_cast<Eigen::Index>(i - origin)) = sums.row(static_cast<Eigen::Index>(i - before));
+      }
+      const std::size_t end = std::min(scans, last + kLongestSpan);
+      deviations.resize(end - known);
+      for (std::size_t k = 0; k < taxels_.size(); ++k) {
+        courses_[v].deviations(taxels_[k], known, end, deviations.data());
+        double* sum = &sums(static_cast<Eigen::Index>(known - origin), static_cast<Eigen::Index>(k));
+        for (const double deviation : deviations) {
+          const double now = std::clamp(deviation, -double{kMostDeviation}, double{kMostDeviation});
+          sum[1] = sum[0] + now;
+          ++sum;
+        }
+      }
+      known = end;
+      for (std::size_t s = 0; s < std::size(kSpans); ++s) {
+        const std::size_t span = kSpans[s], stride = strideOf(span);
+        steps.places.clear();
+        std::size_t at = span;
+        if (first > span) at += (first - span + stride - 1) / stride * stride;
+        for (; at < last && at + span <= scans; at += stride) steps.places.push_back({s, v, at});
+        if (steps.places.empty()) continue;
+        steps.of.resize(static_cast<Eigen::Index>(steps.places.size()), taxels);
+        const auto reach = static_cast<std::ptrdiff_t>(span);
+        for (Eigen::Index k = 0; k < taxels; ++k) {
+          for (std::size_t p = 0; p < steps.places.size(); ++p) {
+            const double* middle = &sums(static_cast<Eigen::Index>(steps.places[p].scan - origin), k);
+            steps.of(static_cast<Eigen::Index>(p), k) = static_cast<float>(
+                (middle[reach] - 2 * *middle + middle[-reach]) / static_cast<double>(span));
+          }
+        }
+        use(steps);
       }
     }
-    for (Eigen::Index p = 0; p < places; ++p) {
-      const Steps::Place& at = steps_.places[static_cast<std::size_t>(p)];
-      const std::vector<double>& sum = sums[at.visit];
-      steps_.of(p, static_cast<Eigen::Index>(k)) =
-          static_cast<float>((sum[at.scan + at.span] - 2 * sum[at.scan] + sum[at.scan - at.span]) /
-                             static_cast<double>(at.span));
+  }
+}
+
+// The taxels' usual largest step of each span.
+void LineTest::findUsual() {
+  std::vector<std::vector<double>> largest(std::size(kSpans));
+  eachBlock([&](const Steps& steps) {
+    std::vector<double>& of_span = largest[steps.places.front().span];
+    of_span.resize(taxels_.size(), 0);
+    for (std::size_t k = 0; k < taxels_.size(); ++k) {
+      const float most = steps.of.col(static_cast<Eigen::Index>(k)).cwiseAbs().maxCoeff();
+      of_span[k] = std::max(of_span[k], static_cast<double>(most));
     }
-  }
-  // Steps of each span in units of the taxels' usual largest one.
-  Eigen::Index from = 0;
-  for (const std::size_t span : kSpans) {
-    Eigen::Index to = from;
-    while (to < places && steps_.places[static_cast<std::size_t>(to)].span == span) ++to;
-    std::vector<double> largest;
-    for (Eigen::Index k = 0; k < steps_.of.cols() && to > from; ++k)
-      largest.push_back(static_cast<double>(steps_.of.col(k).segment(from, to - from).cwiseAbs().maxCoeff()));
-    steps_.usual.push_back(std::max(1e-9, statistics::upperMedian(largest, 0)));
-    steps_.of.middleRows(from, to - from) /= static_cast<float>(steps_.usual.back());
-    from = to;
-  }
+  });
+  for (const std::vector<double>& of_span : largest)
+    usual_.push_back(std::max(1e-9, statistics::upperMedian(of_span, 0)));
+}
+
+void LineTest::divideByUsual(Steps& steps) const {
+  steps.of /= static_cast<float>(usual_[steps.places.front().span]);
 }
 
 // Steps of each line less those of the lines beside it, in units of their noise. `order`: which taxel stands
 // at the place of each one.
-Eigen::MatrixXf LineTest::contrast(const std::vector<std::size_t>& order) const {
+Eigen::MatrixXf LineTest::contrast(const Steps& steps, const std::vector<std::size_t>& order) const {
   const auto lines = static_cast<Eigen::Index>(lines_);
-  Eigen::MatrixXf mean = Eigen::MatrixXf::Zero(steps_.of.rows(), lines);
+  Eigen::MatrixXf mean = Eigen::MatrixXf::Zero(steps.of.rows(), lines);
   for (std::size_t k = 0; k < taxels_.size(); ++k) {
     const std::size_t line = lineOf(taxels_[k]);
     mean.col(static_cast<Eigen::Index>(line)) +=
-        steps_.of.col(static_cast<Eigen::Index>(order[k])) / static_cast<float>(members_[line]);
+        steps.of.col(static_cast<Eigen::Index>(order[k])) / static_cast<float>(members_[line]);
   }
   Eigen::MatrixXf contrast = Eigen::MatrixXf::Zero(mean.rows(), lines);
   for (std::size_t l = 0; l < lines_; ++l) {
@@ -148,15 +206,73 @@ Eigen::MatrixXf LineTest::contrast(const std::vector<std::size_t>& order) const 
   return contrast;
 }
 
-// Whether the taxels of a line make the step together: their median step is at least half the mean.
-bool LineTest::together(Eigen::Index place, std::size_t line) const {
-  std::vector<double> own;
-  double mean = 0;
-  for (std::size_t k = 0; k < taxels_.size(); ++k) {
-    if (lineOf(taxels_[k]) != line) continue;
-    own.push_back(static_cast<double>(steps_.of(place, static_cast<Eigen::Index>(k))));
-    mean += own.back() / members_[line];
+// The largest step of each line; of equal ones the first.
+std::vector<LargestStep> LineTest::largestSteps() const {
+  std::vector<std::size_t> order(taxels_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<LargestStep> largest(lines_);
+  eachBlock([&](Steps& steps) {
+    divideByUsual(steps);
+    const Eigen::MatrixXf sizes = contrast(steps, order).cwiseAbs();
+    for (std::size_t l = 0; l < lines_; ++l) {
+      Eigen::Index at = 0;
+      const float size = sizes.col(static_cast<Eigen::Index>(l)).maxCoeff(&at);
+      const Place& place = steps.places[static_cast<std::size_t>(at)];
+      LargestStep& best = largest[l];
+      if (size < best.size || (size == best.size && !(place < best.place))) continue;
+      best = {size, place, {}};
+      for (std::size_t k = 0; k < taxels_.size(); ++k) {
+        if (lineOf(taxels_[k]) == l)
+          best.of.push_back(static_cast<double>(steps.of(at, static_cast<Eigen::Index>(k))));
+      }
+    }
+  });
+  return largest;
+}
+
+// The largest step of any line with the taxels in each of these orders.
+std::vector<float> LineTest::largestOf(const std::vector<std::vector<std::size_t>>& orders) const {
+  std::vector<float> largest(orders.size(), -1);
+  eachBlock([&](Steps& steps) {
+    divideByUsual(steps);
+    for (std::size_t o = 0; o < orders.size(); ++o)
+      largest[o] = std::max(largest[o], contrast(steps, orders[o]).cwiseAbs().maxCoeff());
+  });
+  return largest;
+}
+
+// Share of random orders of the taxels with a step as large as `largest`.
+double LineTest::byChance(float largest, const DiscrepancyOptions& options) const {
+  std::vector<std::size_t> order(taxels_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::size_t draws = 0, beyond = 0;
+  const auto share = [&] { return static_cast<double>(1 + beyond) / static_cast<double>(draws + 1); };
+  // Every batch of orders reads all scans once. Often few orders are enough.
+  for (std::size_t batch = 2; draws < options.null_draws; batch *= 2) {
+    std::vector<std::vector<std::size_t>> orders;
+    for (std::size_t draw = draws; draw < std::min(options.null_draws, draws + batch); ++draw) {
+      const statistics::RandomStream stream =
+          statistics::randomStream(options.seed, rows_ ? "rows" : "columns", draw);
+      for (std::size_t k = order.size(); k-- > 1;)
+        std::swap(order[k], order[static_cast<std::size_t>(stream.uniform(k) * static_cast<double>(k + 1))]);
+      orders.push_back(order);
+    }
+    for (const float drawn : largestOf(orders)) {
+      ++draws;
+      beyond += drawn >= largest;
+      // No further draw can bring it below the level.
+      if (2 * static_cast<double>(1 + beyond) > options.level * static_cast<double>(options.null_draws + 1))
+        return share();
+    }
   }
+  return share();
+}
+
+// Whether the taxels of a line make the step together: their median step is at least half the mean.
+bool LineTest::together(const LargestStep& step, std::size_t line) const {
+  double mean = 0;
+  for (const double own : step.of) mean += own / members_[line];
+  std::vector<double> own = step.of;
   return statistics::upperMedian(own) / mean >= 0.5;
 }
 
@@ -185,7 +301,7 @@ std::vector<bool> LineTest::failing(std::size_t visit, std::size_t line, double 
   std::vector<std::size_t> cuts = {0};
   for (std::size_t s = 0; s < std::size(kSpans); ++s) {
     const std::size_t span = kSpans[s];
-    const double limit = least * steps_.usual[s];
+    const double limit = least * usual_[s];
     const auto size = [&](std::size_t at) {
       return std::abs(sum[at + span] - 2 * sum[at] + sum[at - span]) / static_cast<double>(span);
     };
@@ -209,7 +325,7 @@ std::vector<bool> LineTest::failing(std::size_t visit, std::size_t line, double 
     std::size_t s = 0;
     while (s + 1 < std::size(kSpans) && kSpans[s + 1] <= length) ++s;
     const double mean = (sum[cuts[c + 1]] - sum[cuts[c]]) / static_cast<double>(length);
-    if (std::abs(mean - usual) < least * steps_.usual[s] / 2) continue;
+    if (std::abs(mean - usual) < least * usual_[s] / 2) continue;
     std::fill(failing.begin() + static_cast<std::ptrdiff_t>(cuts[c]),
               failing.begin() + static_cast<std::ptrdiff_t>(cuts[c + 1]), true);
   }
@@ -219,36 +335,22 @@ std::vector<bool> LineTest::failing(std::size_t visit, std::size_t line, double 
 LineFault LineTest::run(const DiscrepancyOptions& options) {
   LineFault fault;
   if (!prepare()) return fault;
-  step();
-  if (steps_.places.empty()) return fault;
-  std::vector<std::size_t> order(taxels_.size());
-  std::iota(order.begin(), order.end(), 0);
-  const Eigen::MatrixXf steps = contrast(order).cwiseAbs();
-  Eigen::Index place = 0, line = 0;
-  const float largest = steps.maxCoeff(&place, &line);
-  std::vector<float> by_chance;
-  std::size_t beyond = 0;
-  for (std::size_t draw = 0; draw < options.null_draws; ++draw) {
-    const statistics::RandomStream stream =
-        statistics::randomStream(options.seed, rows_ ? "rows" : "columns", draw);
-    for (std::size_t k = order.size(); k-- > 1;)
-      std::swap(order[k], order[static_cast<std::size_t>(stream.uniform(k) * static_cast<double>(k + 1))]);
-    by_chance.push_back(contrast(order).cwiseAbs().maxCoeff());
-    beyond += by_chance.back() >= largest;
-    // No further draw can bring it below the level.
-    if (2 * static_cast<double>(1 + beyond) > options.level * static_cast<double>(options.null_draws + 1))
-      break;
-  }
+  findUsual();
+  const std::vector<LargestStep> steps = largestSteps();
+  const auto smaller = [](const LargestStep& a, const LargestStep& b) { return a.size < b.size; };
+  const auto line = std::max_element(steps.begin(), steps.end(), smaller);
+  const float largest = line->size;
+  if (largest < 0) return fault;  // too few scans
   // Rows and columns are two tests.
-  fault.p = std::min(1.0, 2 * static_cast<double>(1 + beyond) / static_cast<double>(by_chance.size() + 1));
-  fault.line = static_cast<std::size_t>(line);
-  if (fault.p > options.level || !together(place, fault.line)) return fault;
+  fault.p = std::min(1.0, 2 * byChance(largest, options));
+  fault.line = static_cast<std::size_t>(line - steps.begin());
+  if (fault.p > options.level || !together(*line, fault.line)) return fault;
   // Largest step of the lines that are not beside it. Permuted taxels would hold the fault.
   float others = 0;
   for (std::size_t l = 0; l < lines_; ++l) {
     const auto& beside = beside_[fault.line];
     if (l != fault.line && !std::count(beside.begin(), beside.end(), l))
-      others = std::max(others, steps.col(static_cast<Eigen::Index>(l)).maxCoeff());
+      others = std::max(others, steps[l].size);
   }
   const double least =
       static_cast<double>(others > 0 ? std::min(others, largest / 2) : largest / 2) * noise_[fault.line];

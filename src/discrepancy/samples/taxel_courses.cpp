@@ -114,24 +114,24 @@ double mostUsual(std::vector<double>& values) {
 }
 
 // By the points next to `at`; linear beyond the ends.
-double interpolate(const std::vector<double>& points, const std::vector<double>& values, double at) {
-  if (points.size() < 2) return values.empty() ? 0 : values.front();
+VisitCourses::Between placeOf(const std::vector<double>& points, double at) {
+  if (points.size() < 2) return {};
   const auto after = std::upper_bound(points.begin(), points.end(), at) - points.begin();
   const auto k = static_cast<std::size_t>(
       std::clamp<std::ptrdiff_t>(after, 1, static_cast<std::ptrdiff_t>(points.size()) - 1));
   const double width = points[k] - points[k - 1];
-  if (!(width > 0)) return values[k];
-  return values[k - 1] + (at - points[k - 1]) / width * (values[k] - values[k - 1]);
+  return {static_cast<std::uint32_t>(k), width > 0 ? (at - points[k - 1]) / width : NAN};
 }
 
 // Whether a taxel reads about what is expected in some of the loaded scans.
-bool soundSomewhere(const std::vector<float>& reading, const std::vector<double>& expected) {
+bool soundSomewhere(const VisitCourses& courses, std::size_t taxel, const std::vector<double>& expected) {
   const auto [low, high] = std::minmax_element(expected.begin(), expected.end());
   double loaded = 0, sound = 0;
   for (std::size_t i = 0; i < expected.size(); ++i) {
     if (expected[i] < (*low + *high) / 2) continue;
     ++loaded;
-    sound += std::abs(static_cast<double>(reading[i]) - expected[i]) < kResponds * (expected[i] - *low);
+    sound += std::abs(static_cast<double>(courses.recorded(taxel, i)) - expected[i]) <
+             kResponds * (expected[i] - *low);
   }
   return sound > kSoundScans * loaded;
 }
@@ -143,6 +143,7 @@ class Builder {
 
  private:
   void readVisit(std::size_t visit);
+  void readTaxels(const VisitCourses& courses, std::size_t first, std::vector<float>* readings) const;
   void fitCurves(std::size_t visit);
   std::vector<double> medianRange() const;
   const Curve* standIn(std::size_t visit, std::size_t taxel, std::size_t& from) const;
@@ -153,7 +154,7 @@ class Builder {
 
   const Measured& measured_;
   std::vector<VisitCourses> visits_;
-  std::vector<Groups> groups_;              // [visits]
+  std::vector<std::vector<double>> at_;     // points of the curves, [visits]
   std::vector<std::vector<Curve>> curves_;  // [visits][taxels]
   std::vector<double> median_range_;        // of the taxels' ranges, [visits]
   std::vector<double> usual_;               // range of each taxel / median range, largest over the visits
@@ -164,15 +165,16 @@ void Builder::readVisit(std::size_t visit) {
   const dataset::Recording& recording = (*measured_.recordings)[at.recording];
   VisitCourses courses;
   courses.visit = visit;
-  const double offset = measured_.time[at.first] - recording.time[at.first_scan];
+  courses.recording = &recording;
+  courses.first_scan = at.first_scan;
+  courses.offset = measured_.time[at.first] - recording.time[at.first_scan];
+  courses.full_scale = measured_.full_scale;
+  courses.common.reserve(at.last_scan - at.first_scan);
   std::vector<double> values;
-  courses.reading.resize(measured_.taxels());
   for (std::size_t s = at.first_scan; s < at.last_scan; ++s) {
-    courses.time.push_back(recording.time[s] + offset);
     const std::uint16_t* counts = recording.scan(s);
     values.clear();
     for (std::size_t t = 0; t < measured_.taxels(); ++t) {
-      courses.reading[t].push_back(static_cast<float>(counts[t] / measured_.full_scale));
       if (measured_.used[t]) values.push_back(counts[t] / measured_.full_scale);
     }
     // The mean of the middle half is as robust as the median here, and not bound to whole counts.
@@ -181,20 +183,35 @@ void Builder::readVisit(std::size_t visit) {
   visits_.push_back(std::move(courses));
 }
 
+// Readings of the taxels from `first` on, as many as there are up to kTaxelsTogether.
+void Builder::readTaxels(const VisitCourses& courses, std::size_t first, std::vector<float>* readings) const {
+  const std::size_t number = std::min(kTaxelsTogether, measured_.taxels() - first);
+  for (std::size_t k = 0; k < number; ++k) readings[k].resize(courses.scans());
+  for (std::size_t i = 0; i < courses.scans(); ++i) {
+    for (std::size_t k = 0; k < number; ++k) readings[k][i] = courses.recorded(first + k, i);
+  }
+}
+
 void Builder::fitCurves(std::size_t visit) {
-  const VisitCourses& courses = visits_[visit];
-  groups_.push_back(groupsOf(courses.common));
+  VisitCourses& courses = visits_[visit];
+  const Groups groups = groupsOf(courses.common);
+  at_.push_back(groups.at);
+  courses.between.reserve(courses.scans());
+  for (const double common : courses.common) courses.between.push_back(placeOf(groups.at, common));
   curves_.emplace_back(measured_.taxels());
   std::vector<double> values, ranges;
+  std::vector<float> readings[kTaxelsTogether];  // the groups jump in time; in the counts that would be slow
   for (std::size_t t = 0; t < measured_.taxels(); ++t) {
+    if (t % kTaxelsTogether == 0) readTaxels(courses, t, readings);
     if (!measured_.used[t]) continue;
     Curve& curve = curves_.back()[t];
-    for (const auto& scans : groups_.back().scans) {
+    const std::vector<float>& reading = readings[t % kTaxelsTogether];
+    for (const auto& scans : groups.scans) {
       values.clear();
-      for (const std::size_t i : scans) values.push_back(static_cast<double>(courses.reading[t][i]));
+      for (const std::size_t i : scans) values.push_back(static_cast<double>(reading[i]));
       curve.value.push_back(mostUsual(values));
     }
-    curve.response = responseOf(groups_.back().at, curve.value);
+    curve.response = responseOf(groups.at, curve.value);
     ranges.push_back(curve.response);
   }
   median_range_.push_back(statistics::upperMedian(ranges, 0));
@@ -221,28 +238,25 @@ void Builder::expect(std::size_t visit, std::size_t taxel) {
   courses.borrowed[taxel] = !responds(visit, taxel);
   if (courses.borrowed[taxel]) curve = standIn(visit, taxel, from);
   const double least = kLeastRange * median_range_[visit];
-  std::vector<double> expected(courses.scans());
-  for (std::size_t i = 0; i < courses.scans(); ++i) {
-    expected[i] = curve ? interpolate(groups_[from].at, curve->value, courses.common[i]) : courses.common[i];
-  }
+  std::vector<double> expected;
+  const auto follow = [&] {
+    courses.curve[taxel] = curve ? ReadingCurve{at_[from], curve->value, from != visit} : ReadingCurve{};
+    expected.clear();
+    for (std::size_t i = 0; i < courses.scans(); ++i) expected.push_back(courses.expectedShare(taxel, i));
+  };
+  follow();
   if (from != visit && curve &&
       measured_.visits[from].curvature_class != measured_.visits[visit].curvature_class &&
-      !soundSomewhere(courses.reading[taxel], expected)) {
+      !soundSomewhere(courses, taxel, expected)) {
     // Whether it fails or this bend silences it cannot be told.
     courses.borrowed[taxel] = false;
     curve = &curves_[visit][taxel];
-    for (std::size_t i = 0; i < courses.scans(); ++i)
-      expected[i] = interpolate(groups_[visit].at, curve->value, courses.common[i]);
+    from = visit;
+    follow();
   }
   courses.lowest[taxel] = expected.empty() ? 0 : *std::min_element(expected.begin(), expected.end());
   if (curve) courses.lowest[taxel] = *std::min_element(curve->value.begin(), curve->value.end());
-  const double unit = std::max({curve ? curve->range() : 0, least, 1e-6});
-  courses.unit[taxel] = unit;
-  for (std::size_t i = 0; i < courses.scans(); ++i) {
-    float& reading = courses.reading[taxel][i];
-    reading = static_cast<float>((static_cast<double>(reading) - courses.lowest[taxel]) / unit);
-    courses.expected[taxel].push_back(static_cast<float>((expected[i] - courses.lowest[taxel]) / unit));
-  }
+  courses.unit[taxel] = std::max({curve ? curve->range() : 0, least, 1e-6});
 }
 
 std::vector<VisitCourses> Builder::run() {
@@ -260,7 +274,7 @@ std::vector<VisitCourses> Builder::run() {
   }
   for (std::size_t v = 0; v < visits_.size(); ++v) {
     VisitCourses& courses = visits_[v];
-    courses.expected.resize(measured_.taxels());
+    courses.curve.resize(measured_.taxels());
     courses.unit.assign(measured_.taxels(), 1);
     courses.lowest.assign(measured_.taxels(), 0);
     courses.borrowed.assign(measured_.taxels(), false);
@@ -272,6 +286,27 @@ std::vector<VisitCourses> Builder::run() {
 }
 
 }  // namespace
+
+double VisitCourses::elsewhere(const ReadingCurve& curve, double common) {
+  if (curve.at.empty()) return common;
+  const Between at = placeOf(curve.at, common);
+  if (at.point == 0) return curve.value.front();
+  return interpolated(curve, at);
+}
+
+void VisitCourses::deviations(std::size_t taxel, std::size_t first, std::size_t last, double* result) const {
+  const ReadingCurve& own = curve[taxel];
+  const double low = lowest[taxel], one = unit[taxel];
+  const std::size_t taxels = recording->layout.size.taxels();
+  const std::uint16_t* count = recording->scan(first_scan + first) + taxel;
+  for (std::size_t i = first; i < last; ++i, ++result, count += taxels) {
+    const auto share = static_cast<double>(static_cast<float>(*count / full_scale));
+    const Between& at = between[i];
+    const double usual = own.borrowed || at.point == 0 ? elsewhere(own, common[i]) : interpolated(own, at);
+    *result = static_cast<double>(static_cast<float>((share - low) / one)) -
+              static_cast<double>(static_cast<float>((usual - low) / one));
+  }
+}
 
 std::vector<VisitCourses> taxelCourses(const Measured& measured) {
   return Builder(measured).run();

@@ -1,29 +1,85 @@
 #pragma once
 
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "discrepancy/samples/measured.h"
 
 namespace fsr::discrepancy {
 
+/// Counts are stored scan after scan. Functions that go through the scans taxel by taxel take so many taxels
+/// at a time.
+constexpr std::size_t kTaxelsTogether = 8;
+
+/// A robust function of the median reading, given by points and linear between them.
+struct ReadingCurve {
+  std::vector<double> at;     ///< median reading, ascending [share of full scale]
+  std::vector<double> value;  ///< reading of the taxel at each point [share of full scale]
+  bool borrowed = true;       ///< its points are not those of the visit
+};
+
 /// Readings of all taxels in one visit at every scan, relative to those of the other taxels. What all taxels
 /// share (pressure, loops, creep, drift, a late clock) is in the median reading and in no deviation.
 ///
 /// Unit of all readings: range of the taxel's reading in this visit, but at least half the median range of
-/// all taxels. 0 = the taxel's lowest expected reading.
+/// all taxels. 0 = the taxel's lowest expected reading. Readings are computed from the counts of the
+/// recording when they are asked for, because stored ones would take four times the memory of the counts.
 struct VisitCourses {
   std::size_t visit = 0;
-  std::vector<double> time;    ///< of each scan, since the first scan of the first recording [s]
   std::vector<double> common;  ///< median reading of the used taxels at each scan [share of full scale]
-  std::vector<std::vector<float>> reading;   ///< [taxels][scans]
-  std::vector<std::vector<float>> expected;  ///< from the median reading and the taxel's own curve
-  std::vector<double> unit;                  ///< unit of each taxel [share of full scale]
-  std::vector<double> lowest;                ///< lowest expected reading of each taxel [share of full scale]
+  std::vector<double> unit;    ///< unit of each taxel [share of full scale]
+  std::vector<double> lowest;  ///< lowest expected reading of each taxel [share of full scale]
   std::vector<bool> borrowed;  ///< taxels that have no curve in this visit: another one stands for it
 
-  std::size_t scans() const { return time.size(); }
+  const dataset::Recording* recording = nullptr;
+  std::size_t first_scan = 0;  ///< of the visit in the recording
+  double offset = 0;           ///< of the recording's times [s]
+  double full_scale = 0;       ///< [counts]
+  /// Where the median reading of a scan lies between the points of this visit's curves.
+  struct Between {
+    std::uint32_t point = 0;  ///< the upper one; 0: the curves have one point
+    double share = 0;         ///< of the way from the lower one; NaN: both are at one place
+  };
+  std::vector<Between> between;  ///< of each scan
+  /// Curve of each taxel; without points: the median reading itself is expected.
+  std::vector<ReadingCurve> curve;
+
+  std::size_t scans() const { return common.size(); }
+  /// Since the first scan of the first recording [s].
+  double time(std::size_t scan) const { return recording->time[first_scan + scan] + offset; }
+  /// As the board sent it [share of full scale].
+  float recorded(std::size_t taxel, std::size_t scan) const {
+    return static_cast<float>(recording->scan(first_scan + scan)[taxel] / full_scale);
+  }
+  float reading(std::size_t taxel, std::size_t scan) const {
+    return inUnits(taxel, static_cast<double>(recorded(taxel, scan)));
+  }
+  /// From the median reading and the taxel's own curve.
+  float expected(std::size_t taxel, std::size_t scan) const {
+    return inUnits(taxel, expectedShare(taxel, scan));
+  }
+  /// The same without the taxel's unit [share of full scale].
+  double expectedShare(std::size_t taxel, std::size_t scan) const {
+    const ReadingCurve& own = curve[taxel];
+    const Between& at = between[scan];
+    if (own.borrowed || at.point == 0) return elsewhere(own, common[scan]);
+    return interpolated(own, at);
+  }
   double deviation(std::size_t taxel, std::size_t scan) const {
-    return static_cast<double>(reading[taxel][scan]) - static_cast<double>(expected[taxel][scan]);
+    return static_cast<double>(reading(taxel, scan)) - static_cast<double>(expected(taxel, scan));
+  }
+  /// The same for the scans first .. last - 1, faster.
+  void deviations(std::size_t taxel, std::size_t first, std::size_t last, double* result) const;
+
+ private:
+  static double interpolated(const ReadingCurve& curve, const Between& at) {
+    const double low = curve.value[at.point - 1], high = curve.value[at.point];
+    return std::isnan(at.share) ? high : low + at.share * (high - low);
+  }
+  static double elsewhere(const ReadingCurve& curve, double common);
+  float inUnits(std::size_t taxel, double share) const {
+    return static_cast<float>((share - lowest[taxel]) / unit[taxel]);
   }
 };
 

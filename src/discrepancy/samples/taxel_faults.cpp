@@ -51,6 +51,19 @@ struct Gumbel {
   double exceededBy(double p) const { return location - scale * std::log(-std::log1p(-p)); }
 };
 
+// Sums of a taxel's deviations from the first scan of a visit to each scan, [visits][scans + 1].
+using Sums = std::vector<std::vector<double>>;
+
+// Largest mean deviation over `span` scans.
+double largest(const Sums& sums, std::size_t span) {
+  double most = 0;
+  for (const std::vector<double>& sum : sums) {
+    for (std::size_t i = 0; i + span < sum.size(); ++i)
+      most = std::max(most, std::abs(sum[i + span] - sum[i]));
+  }
+  return most / static_cast<double>(span);
+}
+
 class TaxelTest {
  public:
   TaxelTest(const Measured& measured, const std::vector<VisitCourses>& courses,
@@ -68,7 +81,7 @@ class TaxelTest {
 
  private:
   void measure();
-  double largest(std::size_t taxel, std::size_t span) const;
+  std::vector<Sums> sumsOf(std::size_t first, std::size_t last) const;
   std::vector<std::vector<bool>> failing(std::size_t taxel) const;
   void join(std::size_t taxel, std::size_t visit, std::vector<bool>& flags) const;
   void judge(TaxelFault& fault) const;
@@ -77,42 +90,46 @@ class TaxelTest {
   const std::vector<VisitCourses>& courses_;
   const DiscrepancyOptions& options_;
   std::vector<std::size_t> taxels_;
-  double zero_ = 0;                                     // reading without load [share of full scale]
-  std::vector<std::vector<std::vector<double>>> sums_;  // of deviations, [taxels_][visits][scans + 1]
+  double zero_ = 0;  // reading without load [share of full scale]
   std::vector<std::size_t> spans_;
   std::vector<std::vector<double>> largest_;  // [spans][taxels_]
   std::vector<double> limit_;                 // of the mean deviation over a span, [spans]
 };
 
-double TaxelTest::largest(std::size_t k, std::size_t span) const {
-  double most = 0;
-  for (const std::vector<double>& sum : sums_[k]) {
-    for (std::size_t i = 0; i + span < sum.size(); ++i)
-      most = std::max(most, std::abs(sum[i + span] - sum[i]));
+// Of taxels_[first .. last - 1].
+std::vector<Sums> TaxelTest::sumsOf(std::size_t first, std::size_t last) const {
+  constexpr std::size_t kBlock = 1024;  // scans; their counts stay in the processor's cache
+  std::vector<Sums> sums(last - first);
+  double deviations[kBlock];
+  for (const VisitCourses& visit : courses_) {
+    for (Sums& of_taxel : sums) of_taxel.emplace_back(visit.scans() + 1, 0);
+    for (std::size_t from = 0; from < visit.scans(); from += kBlock) {
+      const std::size_t to = std::min(visit.scans(), from + kBlock);
+      for (std::size_t k = 0; k < sums.size(); ++k) {
+        visit.deviations(taxels_[first + k], from, to, deviations);
+        std::vector<double>& sum = sums[k].back();
+        for (std::size_t i = from; i < to; ++i) sum[i + 1] = sum[i] + deviations[i - from];
+      }
+    }
   }
-  return most / static_cast<double>(span);
+  return sums;
 }
 
 void TaxelTest::measure() {
   std::size_t longest = 0;
-  for (const std::size_t t : taxels_) {
-    sums_.emplace_back();
-    for (const VisitCourses& visit : courses_) {
-      std::vector<double> sum(visit.scans() + 1, 0);
-      for (std::size_t i = 0; i < visit.scans(); ++i) sum[i + 1] = sum[i] + visit.deviation(t, i);
-      sums_.back().push_back(std::move(sum));
-      longest = std::max(longest, visit.scans());
+  for (const VisitCourses& visit : courses_) longest = std::max(longest, visit.scans());
+  for (std::size_t span = 2; span <= longest; span *= 2) spans_.push_back(span);
+  largest_.resize(spans_.size());
+  // The sums of all taxels would take four times the memory of the counts.
+  for (std::size_t first = 0; first < taxels_.size(); first += kTaxelsTogether) {
+    for (const Sums& sums : sumsOf(first, std::min(taxels_.size(), first + kTaxelsTogether))) {
+      for (std::size_t s = 0; s < spans_.size(); ++s)
+        largest_[s].push_back(std::log(std::max(1e-6, largest(sums, spans_[s]))));
     }
   }
-  for (std::size_t span = 2; span <= longest; span *= 2) spans_.push_back(span);
   const auto tests = static_cast<double>(taxels_.size() * spans_.size());
-  for (const std::size_t span : spans_) {
-    std::vector<double> sizes;
-    for (std::size_t k = 0; k < taxels_.size(); ++k)
-      sizes.push_back(std::log(std::max(1e-6, largest(k, span))));
+  for (const std::vector<double>& sizes : largest_)
     limit_.push_back(std::exp(Gumbel(sizes).exceededBy(options_.level / tests)));
-    largest_.push_back(std::move(sizes));
-  }
 }
 
 // Joins spells of one fault: between them it would not have shown, or it shows in most scans.
@@ -126,7 +143,7 @@ void TaxelTest::join(std::size_t taxel, std::size_t visit, std::vector<bool>& fl
     if (last < flags.size() && i > last) {
       bool hidden = true;
       for (std::size_t g = last; g < i && hidden; ++g)
-        hidden = std::abs(at.expected[taxel][g]) < kResponds || std::abs(at.deviation(taxel, g)) > kResponds;
+        hidden = std::abs(at.expected(taxel, g)) < kResponds || std::abs(at.deviation(taxel, g)) > kResponds;
       if (hidden || i - last <= std::min(run, end - i) / 2)
         std::fill(flags.begin() + static_cast<std::ptrdiff_t>(last),
                   flags.begin() + static_cast<std::ptrdiff_t>(i), true);
@@ -143,9 +160,10 @@ std::vector<std::vector<bool>> TaxelTest::failing(std::size_t k) const {
   std::size_t shortest = 0;
   while (shortest + 1 < spans_.size() && std::exp(largest_[shortest][k]) < limit_[shortest]) ++shortest;
   std::vector<std::vector<bool>> all;
+  const Sums sums = sumsOf(k, k + 1).front();
   for (std::size_t v = 0; v < courses_.size(); ++v) {
     std::vector<bool> flags(courses_[v].scans(), false);
-    const std::vector<double>& sum = sums_[k][v];
+    const std::vector<double>& sum = sums[v];
     const std::size_t span = spans_[shortest];
     for (std::size_t i = 0; i + span < sum.size(); ++i) {
       if (std::abs(sum[i + span] - sum[i]) < limit_[shortest] * static_cast<double>(span)) continue;
@@ -180,8 +198,8 @@ class SpellFit {
     zero_ = (zero - visit.lowest[taxel]) / visit.unit[taxel];
     for (Eigen::Index i = 0; i < n_; ++i) {
       const std::size_t scan = spell.first + static_cast<std::size_t>(i);
-      reading_[i] = static_cast<double>(visit.reading[taxel][scan]);
-      expected_[i] = static_cast<double>(visit.expected[taxel][scan]);
+      reading_[i] = static_cast<double>(visit.reading(taxel, scan));
+      expected_[i] = static_cast<double>(visit.expected(taxel, scan));
       place_[i] = (static_cast<double>(i) + 0.5) / static_cast<double>(n_);
     }
     nothing_ = -visit.lowest[taxel] / visit.unit[taxel];
@@ -270,7 +288,7 @@ void TaxelTest::judge(TaxelFault& fault) const {
       if (i == 0 || fault.failing[v][i - 1]) continue;
       product += visit.deviation(fault.taxel, i) * visit.deviation(fault.taxel, i - 1);
       squares += std::pow(visit.deviation(fault.taxel, i), 2);
-      changes += visit.reading[fault.taxel][i] != visit.reading[fault.taxel][i - 1];
+      changes += visit.reading(fault.taxel, i) != visit.reading(fault.taxel, i - 1);
       ++steps;
     }
   }
