@@ -72,6 +72,10 @@ void RecordingBuilder::addScan(std::int64_t stamp_ns, std::uint32_t sequence, co
   if (scans_.empty()) {
     size_ = scan.size;
     full_scale_ = scan.full_scale;
+    const std::uint64_t expected =
+        std::min(expected_scans_, most_bytes_ / (sizeof(std::uint16_t) * scan.count));
+    counts_.reserve(expected * scan.count);
+    scans_.reserve(expected);
   } else if (scan.size != size_ || scan.full_scale != full_scale_) {
     throw settings::InputError("raw holds scans of " + matrix::sizeText(size_) + " taxels with full_scale " +
                                std::to_string(full_scale_) + " and of " + matrix::sizeText(scan.size) +
@@ -188,7 +192,40 @@ Recording RecordingBuilder::emptyRecording(const RecordingOptions& options) cons
   return recording;
 }
 
+bool RecordingBuilder::inOrderOfTime() const {
+  const auto not_later = [](const ScanEvent& a, const ScanEvent& b) { return a.stamp_ns >= b.stamp_ns; };
+  return std::adjacent_find(scans_.begin(), scans_.end(), not_later) == scans_.end();
+}
+
 Recording RecordingBuilder::build(const RecordingOptions& options) const {
+  std::vector<std::uint16_t> kept;
+  Recording recording = assemble(options, [&](std::size_t first) {
+    const auto* const counts = counts_.data() + first;
+    kept.insert(kept.end(), counts, counts + size_.taxels());
+  });
+  recording.counts = std::move(kept);
+  return recording;
+}
+
+Recording RecordingBuilder::take(const RecordingOptions& options) {
+  if (!inOrderOfTime()) {
+    Recording recording = build(options);
+    clear();
+    return recording;
+  }
+  std::size_t kept = 0;
+  Recording recording = assemble(options, [&](std::size_t first) {  // kept <= first
+    if (kept != first) std::copy_n(counts_.data() + first, size_.taxels(), counts_.data() + kept);
+    kept += size_.taxels();
+  });
+  counts_.resize(kept);
+  recording.counts = std::move(counts_);
+  clear();
+  return recording;
+}
+
+Recording RecordingBuilder::assemble(const RecordingOptions& options,
+                                     const std::function<void(std::size_t)>& keep) const {
   if (scans_.empty()) throw settings::InputError("raw has no scan");
   for (const SurfaceTimeline::Event& event : surfaces_) matrix::requireFit(event.second, size_);
   Recording recording = emptyRecording(options);
@@ -216,8 +253,7 @@ Recording RecordingBuilder::build(const RecordingOptions& options) const {
     recording.condition.push_back(static_cast<std::uint32_t>(timeline.at(scan.stamp_ns)));
     if (pressure) recording.pressure.push_back(*pressure - ambient_pressure);
     if (!temperature.empty()) recording.temperature.push_back(temperature.nearby(scan.stamp_ns));
-    const auto* const counts = counts_.data() + scan.first_count;
-    recording.counts.insert(recording.counts.end(), counts, counts + size_.taxels());
+    keep(scan.first_count);
   }
   recording.losses.bad_reference = reference.notFinite();
   dropUnusedConditions(timeline.conditions(), recording);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -61,6 +62,12 @@ class RecordingBuilder {
   void addTemperature(std::int64_t stamp_ns, double temperature);  // [degree Celsius]
   void addDescription(std::int64_t stamp_ns, const MatrixDescription& description);
 
+  /// So many scans will be added: one allocation instead of growing. `most`: at most these bytes of counts.
+  void expectScans(std::uint64_t scans, std::uint64_t most) {
+    expected_scans_ = scans;
+    most_bytes_ = most;
+  }
+
   const Events& events() const { return events_; }
   void clear() { *this = RecordingBuilder(); }
 
@@ -68,6 +75,8 @@ class RecordingBuilder {
   /// same matrix. A recording without chamber pressure or surfaces is accepted; functions that need them
   /// check.
   Recording build(const RecordingOptions& options) const;
+  /// The same with the builder's memory instead of a copy of the counts. The builder is empty afterwards.
+  Recording take(const RecordingOptions& options);
 
  private:
   struct ScanEvent {
@@ -77,6 +86,10 @@ class RecordingBuilder {
   };
   using DescriptionEvent = std::pair<std::int64_t, MatrixDescription>;
 
+  // Calls keep(index in counts_) for the counts of each scan that is kept, in order of time, and returns the
+  // recording without counts.
+  Recording assemble(const RecordingOptions& options, const std::function<void(std::size_t)>& keep) const;
+  bool inOrderOfTime() const;
   std::vector<ScanEvent> sortedScans(RecordingLosses& losses) const;
   std::vector<std::size_t> spikesOf(const TimeSeries& reference, const std::vector<ScanEvent>& scans) const;
   // The earliest description; null where there is none. Throws InputError where descriptions and scans
@@ -94,6 +107,7 @@ class RecordingBuilder {
   std::vector<SurfaceTimeline::Event> surfaces_;
   std::vector<DescriptionEvent> descriptions_;
   Events events_;
+  std::uint64_t expected_scans_ = 0, most_bytes_ = 0;
 };
 
 }  // namespace fsr::dataset

@@ -30,6 +30,8 @@ class Feeder {
   // Returns the SHA-256 of the bag.
   std::string run() {
     take<fsr_pressure_map::MatrixFrame>(kRaw);
+    // The bag may say anything, and it may be packed: no more memory than twice the file at first.
+    builder_.expectScans(bag_.messages(topics_.find(kRaw)), 2 * bag_.bytes());
     take<sensor_msgs::FluidPressure>("chamber_pressure");
     take<fsr_pressure_map::SurfaceCurvature>("curvature");
     take<sensor_msgs::Temperature>("temperature");
@@ -80,7 +82,7 @@ fsr::dataset::Recording readBag(const std::string& path, const BagReadOptions& o
     chosen.change_margin = options.change_margin;
     chosen.name = std::filesystem::path(path).filename().string();
     chosen.sha256 = Feeder(bag, options.topics, builder).run();
-    recording = builder.build(chosen);
+    recording = builder.take(chosen);
   });
   return recording;
 }

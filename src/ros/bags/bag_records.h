@@ -46,6 +46,7 @@ class RecordFile {
   explicit RecordFile(const std::string& path);
 
   std::uint64_t position() const { return position_; }
+  std::uint64_t size() const { return size_; }
   bool atEnd() const { return position_ >= size_; }
   void goTo(std::uint64_t position);
   /// Reads the next record into header() and data().

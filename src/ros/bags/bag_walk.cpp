@@ -27,28 +27,6 @@ constexpr std::size_t kIndexEntry = 12;  // size of an index entry: time and off
 // Largest unpacked size of a chunk [bytes]; rosbag record makes chunks of 768 KB.
 constexpr std::uint32_t kLargestChunk = 1u << 27;
 
-std::map<std::uint32_t, BagConnection> indexedConnections(const std::string& path) {
-  RecordFile file(path);
-  file.next();
-  if (field<std::uint8_t>(file.header(), rosbag::OP_FIELD_NAME) != rosbag::OP_FILE_HEADER) {
-    damaged("its first record is not the file's header");
-  }
-  const auto index_position = field<std::uint64_t>(file.header(), rosbag::INDEX_POS_FIELD_NAME);
-  if (index_position == 0) throw rosbag::BagUnindexedException();
-  std::map<std::uint32_t, BagConnection> connections;
-  for (file.goTo(index_position); !file.atEnd();) {
-    file.next();
-    const std::string& header = file.header();
-    if (field<std::uint8_t>(header, rosbag::OP_FIELD_NAME) != rosbag::OP_CONNECTION) continue;
-    connections[field<std::uint32_t>(header, rosbag::CONNECTION_FIELD_NAME)] = {
-        std::string(field<std::string_view>(header, rosbag::TOPIC_FIELD_NAME)),
-        std::string(field<std::string_view>(file.data(), rosbag::TYPE_FIELD_NAME)),
-        std::string(field<std::string_view>(file.data(), "md5sum")),
-        std::string(field<std::string_view>(file.data(), "message_definition"))};
-  }
-  return connections;
-}
-
 struct Message {
   std::uint32_t offset;  // of its record in the chunk [bytes]
   std::uint32_t connection;
@@ -199,7 +177,45 @@ class Walk {
 
 }  // namespace
 
-BagWalk::BagWalk(const std::string& path) : path_(path), connections_(indexedConnections(path)) {}
+BagWalk::BagWalk(const std::string& path) : path_(path) {
+  RecordFile file(path);
+  bytes_ = file.size();
+  file.next();
+  if (field<std::uint8_t>(file.header(), rosbag::OP_FIELD_NAME) != rosbag::OP_FILE_HEADER) {
+    damaged("its first record is not the file's header");
+  }
+  const auto index_position = field<std::uint64_t>(file.header(), rosbag::INDEX_POS_FIELD_NAME);
+  if (index_position == 0) throw rosbag::BagUnindexedException();
+  for (file.goTo(index_position); !file.atEnd();) {
+    file.next();
+    const auto kind = field<std::uint8_t>(file.header(), rosbag::OP_FIELD_NAME);
+    if (kind == rosbag::OP_CONNECTION) addConnection(file.header(), file.data());
+    if (kind == rosbag::OP_CHUNK_INFO) addCounts(file.data());
+  }
+}
+
+void BagWalk::addConnection(std::string_view header, std::string_view data) {
+  connections_[field<std::uint32_t>(header, rosbag::CONNECTION_FIELD_NAME)] = {
+      std::string(field<std::string_view>(header, rosbag::TOPIC_FIELD_NAME)),
+      std::string(field<std::string_view>(data, rosbag::TYPE_FIELD_NAME)),
+      std::string(field<std::string_view>(data, "md5sum")),
+      std::string(field<std::string_view>(data, "message_definition"))};
+}
+
+// Pairs of a connection and its number of messages in a chunk.
+void BagWalk::addCounts(std::string_view data) {
+  for (; data.size() >= 2 * sizeof(std::uint32_t); data.remove_prefix(2 * sizeof(std::uint32_t)))
+    messages_[number<std::uint32_t>(data)] += number<std::uint32_t>(data.substr(sizeof(std::uint32_t)));
+}
+
+std::uint64_t BagWalk::messages(const std::string& topic) const {
+  std::uint64_t sum = 0;
+  for (const auto& [id, connection] : connections_) {
+    const auto found = messages_.find(id);
+    if (connection.topic == topic && found != messages_.end()) sum += found->second;
+  }
+  return sum;
+}
 
 std::string BagWalk::run(const Visit& visit) const {
   return Walk(path_, visit).run();

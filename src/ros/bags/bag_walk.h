@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 
 namespace fsr_ros {
 
@@ -35,6 +36,11 @@ class BagWalk {
 
   const std::map<std::uint32_t, BagConnection>& connections() const { return connections_; }
 
+  /// Number of messages of a topic, as the index says.
+  std::uint64_t messages(const std::string& topic) const;
+  /// Size of the file.
+  std::uint64_t bytes() const { return bytes_; }
+
   /// Is called with each message and the number of its connection. The bytes are valid during the call only.
   using Visit = std::function<void(std::uint32_t connection, MessageBytes message)>;
 
@@ -42,8 +48,13 @@ class BagWalk {
   std::string run(const Visit& visit) const;
 
  private:
+  void addConnection(std::string_view header, std::string_view data);
+  void addCounts(std::string_view data);
+
   std::string path_;
+  std::uint64_t bytes_ = 0;
   std::map<std::uint32_t, BagConnection> connections_;
+  std::map<std::uint32_t, std::uint64_t> messages_;  // by connection
 };
 
 /// Checks the structure of a bag before rosbag opens it. Throws as BagWalk does.
