@@ -1,7 +1,6 @@
 #include "ros/bags/bag_archive.h"
 
 #include <rosbag/bag.h>
-#include <rosbag/view.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +9,11 @@
 
 #include "exports/archive.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/bags/bag_stream.h"
 #include "ros/bags/fresh_bag.h"
 #include "ros/bags/scan_context.h"
 #include "ros/bags/scan_source.h"
 #include "ros/bags/sensor_topics.h"
-#include "ros/messages/message_reader.h"
 #include "settings/sha256.h"
 
 namespace fsr_ros {
@@ -75,29 +74,24 @@ std::vector<std::string> topicsToKeep(const SensorTopics& topics, const std::vec
 // The messages of the selection, in the bag's order.
 class Selected {
  public:
-  Selected(const rosbag::Bag& bag, const ArchiveSelection& selection) {
-    const SensorTopics topics(bag, selection.topics, sensorMarks());
-    rosbag::View all(bag);
-    const ros::Time begin = all.getBeginTime();
-    const ros::Time from = begin + ros::Duration(selection.from);
+  Selected(const BagStream& bag, const ArchiveSelection& selection) : bag_(bag) {
+    const SensorTopics topics(bag.types(), selection.topics, sensorMarks());
+    const ros::Time begin = bag.begin();
+    query_.from = begin + ros::Duration(selection.from);
     // ros::Duration cannot hold larger values.
-    const ros::Time until = selection.until < 1e9 ? begin + ros::Duration(selection.until) : ros::TIME_MAX;
-    const std::vector<std::string> keep = topicsToKeep(topics, selection.wanted);
-    if (keep.empty()) {
-      view_.addQuery(bag, from, until);
-    } else {
-      view_.addQuery(bag, rosbag::TopicQuery(keep), from, until);
+    if (selection.until < 1e9) query_.until = begin + ros::Duration(selection.until);
+    query_.topics = topicsToKeep(topics, selection.wanted);
+    for (const std::size_t c : bag.connectionsOf(query_)) {
+      const StreamedConnection& connection = bag.connections()[c];
+      row_[c] = connections_.size();
+      connections_.push_back({connection.about.topic,
+                              connection.about.type,
+                              connection.about.md5sum,
+                              connection.about.definition,
+                              {connection.header.begin(), connection.header.end()}});
     }
-    if (view_.size() == 0) {
+    if (connections_.empty()) {
       throw fsr::settings::InputError("holds no message between --from and --until; widen them");
-    }
-    for (const rosbag::ConnectionInfo* info : view_.getConnections()) {
-      row_[info->header.get()] = connections_.size();
-      connections_.push_back({info->topic,
-                              info->datatype,
-                              info->md5sum,
-                              info->msg_def,
-                              {info->header->begin(), info->header->end()}});
     }
   }
 
@@ -106,17 +100,17 @@ class Selected {
   /// Calls take(connection, received [ns], bytes) for each message.
   template <typename Take>
   std::uint64_t forEach(Take take) {
-    for (const rosbag::MessageInstance& instance : view_) {
-      take(row_.at(instance.getConnectionHeader().get()),
-           static_cast<std::int64_t>(instance.getTime().toNSec()), reader_.bytes(instance));
-    }
-    return view_.size();
+    return bag_.forEach(query_, [&](const StreamedMessage& message) {
+      take(row_.at(message.connection), static_cast<std::int64_t>(message.received.toNSec()),
+           std::string_view(reinterpret_cast<const char*>(message.data), message.size));
+      return true;
+    });
   }
 
  private:
-  rosbag::View view_;
-  MessageReader reader_;
-  std::map<const ros::M_string*, std::size_t> row_;
+  const BagStream& bag_;
+  StreamQuery query_;
+  std::map<std::size_t, std::size_t> row_;
   std::vector<fsr::exports::ArchivedConnection> connections_;
 };
 
@@ -140,7 +134,7 @@ std::string joinScans(const std::string& path, const std::string& topics,
 ArchiveResult archiveBag(const std::string& path, const ArchiveSelection& selection,
                          const std::string& output) {
   ArchiveResult result;
-  withSoundBag(path, [&](const rosbag::Bag& bag) {
+  withBagStream(path, [&](const BagStream& bag) {
     Selected selected(bag, selection);
     const fsr::exports::ArchiveSource source{std::filesystem::path(path).filename().string(),
                                              fsr::settings::sha256OfFile(path)};

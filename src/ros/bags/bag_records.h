@@ -43,7 +43,10 @@ T field(std::string_view header, std::string_view name) {
 /// Reads the records of a file one after the other.
 class RecordFile {
  public:
-  explicit RecordFile(const std::string& path);
+  /// Whether the SHA-256 of what is read is computed, which takes most of the time of reading.
+  enum class Hash { kNone, kSha256 };
+
+  explicit RecordFile(const std::string& path, Hash hash = Hash::kSha256);
 
   std::uint64_t position() const { return position_; }
   std::uint64_t size() const { return size_; }
@@ -51,6 +54,8 @@ class RecordFile {
   void goTo(std::uint64_t position);
   /// Reads the next record into header() and data().
   void next();
+  /// The same without the data.
+  void skip();
 
   const std::string& header() const { return header_; }
   std::string& data() { return data_; }
@@ -65,7 +70,11 @@ class RecordFile {
   std::uint64_t size_;
   std::uint64_t position_ = 0;
   std::string header_, data_;
+  const bool hashes_;
   fsr::settings::Sha256 hash_;
 };
+
+/// Unpacks the chunk that was read last from `file`, whose data may be gone afterwards.
+void unpackChunk(RecordFile& file, std::string& chunk);
 
 }  // namespace fsr_ros::bag_records

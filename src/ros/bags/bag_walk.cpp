@@ -1,6 +1,5 @@
 #include "ros/bags/bag_walk.h"
 
-#include <rosbag/chunked_file.h>
 #include <rosbag/constants.h>
 #include <rosbag/exceptions.h>
 
@@ -24,8 +23,6 @@ using bag_records::RecordFile;
 using bag_records::takeBlock;
 
 constexpr std::size_t kIndexEntry = 12;  // size of an index entry: time and offset into the chunk [bytes]
-// Largest unpacked size of a chunk [bytes]; rosbag record makes chunks of 768 KB.
-constexpr std::uint32_t kLargestChunk = 1u << 27;
 
 struct Message {
   std::uint32_t offset;  // of its record in the chunk [bytes]
@@ -69,7 +66,7 @@ class Walk {
         return fileHeader(header);
       case rosbag::OP_CHUNK:
         chunks_.push_back(start);
-        return chunk(header);
+        return chunk();
       case rosbag::OP_INDEX_DATA:
         return index(header, file_.data());
       case rosbag::OP_CONNECTION:
@@ -87,9 +84,8 @@ class Walk {
     counted_chunks_ = field<std::uint32_t>(header, rosbag::CHUNK_COUNT_FIELD_NAME);
   }
 
-  void chunk(std::string_view header) {
-    unpack(field<std::string_view>(header, rosbag::COMPRESSION_FIELD_NAME),
-           field<std::uint32_t>(header, rosbag::SIZE_FIELD_NAME));
+  void chunk() {
+    bag_records::unpackChunk(file_, chunk_);
     messages_.clear();
     std::string_view rest = chunk_;
     while (!rest.empty()) {
@@ -105,24 +101,6 @@ class Walk {
                            {data, static_cast<std::uint32_t>(content.size())},
                            false});
     }
-  }
-
-  // Unpacks the data of the record, compressed as `compression` says, into chunk_.
-  void unpack(std::string_view compression, std::uint32_t size) {
-    std::string& packed = file_.data();
-    if (compression == rosbag::COMPRESSION_NONE) {
-      if (size != packed.size()) damaged("a chunk has another size than it says");
-      chunk_.swap(packed);
-      return;
-    }
-    const bool lz4 = compression == rosbag::COMPRESSION_LZ4;
-    if (!lz4 && compression != rosbag::COMPRESSION_BZ2) damaged("a chunk is packed in an unknown way");
-    if (size > kLargestChunk) damaged("a chunk says that it is larger than 128 MiB");
-    chunk_.resize(size);
-    rosbag::ChunkedFile().decompress(lz4 ? rosbag::compression::LZ4 : rosbag::compression::BZ2,
-                                     reinterpret_cast<std::uint8_t*>(chunk_.data()), size,
-                                     reinterpret_cast<std::uint8_t*>(packed.data()),
-                                     static_cast<unsigned int>(packed.size()));
   }
 
   void index(std::string_view header, std::string_view data) {

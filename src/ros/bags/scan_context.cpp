@@ -5,7 +5,6 @@
 #include <fsr_pressure_map/PressureMap.h>
 #include <fsr_pressure_map/Session.h>
 #include <fsr_pressure_map/SurfaceCurvature.h>
-#include <rosbag/view.h>
 #include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Temperature.h>
 
@@ -44,7 +43,7 @@ std::vector<SensorTopics::Mark> sensorMarks(const std::string& map) {
           {map, ros::message_traits::datatype<fsr_pressure_map::PressureMap>()}};
 }
 
-ScanContext::ScanContext(const rosbag::Bag& bag, const SensorTopics& topics, std::optional<double> ambient) {
+ScanContext::ScanContext(const BagStream& bag, const SensorTopics& topics, std::optional<double> ambient) {
   readBoard(bag, topics);
   ambient_ = ambient                       ? *ambient
              : board_.ambient_pressure > 0 ? board_.ambient_pressure
@@ -55,18 +54,16 @@ ScanContext::ScanContext(const rosbag::Bag& bag, const SensorTopics& topics, std
 
 // Calls `take` for each message of a topic, until it returns false.
 template <typename Message, typename Take>
-void ScanContext::forEach(const rosbag::Bag& bag, const SensorTopics& topics, const std::string& base,
+void ScanContext::forEach(const BagStream& bag, const SensorTopics& topics, const std::string& base,
                           Take take) {
   const std::string topic = topics.find(base);
   if (topic.empty()) return;
   topics.requireType(topic, ros::message_traits::datatype<Message>());
-  rosbag::View view(bag, rosbag::TopicQuery(topic));
-  for (const rosbag::MessageInstance& instance : view) {
-    if (!take(reader_.read<Message>(instance))) return;
-  }
+  bag.forEach({{topic}},
+              [&](const StreamedMessage& message) { return take(readStreamed<Message>(message)); });
 }
 
-void ScanContext::readBoard(const rosbag::Bag& bag, const SensorTopics& topics) {
+void ScanContext::readBoard(const BagStream& bag, const SensorTopics& topics) {
   forEach<fsr_pressure_map::MatrixInfo>(bag, topics, "matrix_info", [&](const auto& message) {
     board_ = message;
     return false;
@@ -81,7 +78,7 @@ void ScanContext::readBoard(const rosbag::Bag& bag, const SensorTopics& topics) 
   });
 }
 
-void ScanContext::readSeries(const rosbag::Bag& bag, const SensorTopics& topics) {
+void ScanContext::readSeries(const BagStream& bag, const SensorTopics& topics) {
   std::vector<std::pair<std::int64_t, double>> pressure;
   forEach<sensor_msgs::FluidPressure>(bag, topics, "chamber_pressure", [&](const auto& message) {
     chamber_.add(stampOf(message.header), message.fluid_pressure);
@@ -107,7 +104,7 @@ void ScanContext::findCycles(const std::vector<std::pair<std::int64_t, double>>&
     cycles_.push_back(pressure[first].first);
 }
 
-void ScanContext::readLabels(const rosbag::Bag& bag, const SensorTopics& topics) {
+void ScanContext::readLabels(const BagStream& bag, const SensorTopics& topics) {
   forEach<fsr_pressure_map::Session>(bag, topics, "session", [&](const auto& message) {
     if (sessions_.empty() || sessions_.back().second != message.session_id) {
       sessions_.emplace_back(stampOf(message.header), message.session_id);

@@ -2,7 +2,6 @@
 
 #include <fsr_pressure_map/CalibrationInfo.h>
 #include <fsr_pressure_map/MatrixInfo.h>
-#include <rosbag/bag.h>
 
 #include <memory>
 #include <optional>
@@ -12,8 +11,8 @@
 
 #include "dataset/time_series.h"
 #include "exports/scan_record.h"
+#include "ros/bags/bag_stream.h"
 #include "ros/bags/sensor_topics.h"
-#include "ros/messages/message_reader.h"
 
 namespace fsr_ros {
 
@@ -26,7 +25,7 @@ class ScanContext {
  public:
   /// `ambient`: ambient pressure [Pa]; none = the value in matrix_info, or 101325 without one. Throws
   /// fsr::InputError.
-  ScanContext(const rosbag::Bag& bag, const SensorTopics& topics, std::optional<double> ambient);
+  ScanContext(const BagStream& bag, const SensorTopics& topics, std::optional<double> ambient);
 
   const fsr_pressure_map::MatrixInfo& board() const { return board_; }
   const std::shared_ptr<const fsr::matrix::Surface>& firstSurface() const { return first_surface_; }
@@ -44,14 +43,13 @@ class ScanContext {
  private:
   using Label = std::pair<std::int64_t, std::string>;  // stamp [ns], text that is valid from then on
 
-  void readBoard(const rosbag::Bag& bag, const SensorTopics& topics);
-  void readSeries(const rosbag::Bag& bag, const SensorTopics& topics);
-  void readLabels(const rosbag::Bag& bag, const SensorTopics& topics);
+  void readBoard(const BagStream& bag, const SensorTopics& topics);
+  void readSeries(const BagStream& bag, const SensorTopics& topics);
+  void readLabels(const BagStream& bag, const SensorTopics& topics);
   void findCycles(const std::vector<std::pair<std::int64_t, double>>& pressure);
   template <typename Message, typename Take>
-  void forEach(const rosbag::Bag& bag, const SensorTopics& topics, const std::string& base, Take take);
+  void forEach(const BagStream& bag, const SensorTopics& topics, const std::string& base, Take take);
 
-  MessageReader reader_;
   fsr_pressure_map::MatrixInfo board_;
   fsr_pressure_map::CalibrationInfo calibration_;
   double ambient_;  // [Pa]

@@ -5,7 +5,6 @@
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <fsr_pressure_map/PressureMap.h>
 #include <fsr_pressure_map/SurfaceCurvature.h>
-#include <rosbag/view.h>
 
 #include <cmath>
 #include <deque>
@@ -14,11 +13,11 @@
 
 #include "dataset/recording_builder.h"
 #include "fsr_pressure_map/ros/pressure_map_message.h"
+#include "ros/bags/bag_stream.h"
 #include "ros/bags/message_events.h"
 #include "ros/bags/scan_context.h"
 #include "ros/bags/scan_maps.h"
 #include "ros/bags/sensor_topics.h"
-#include "ros/messages/message_reader.h"
 #include "ros/messages/surface_message.h"
 
 namespace fsr_ros {
@@ -174,27 +173,27 @@ ScanTopics scanTopics(const SensorTopics& topics, const ScanSelection& selection
   return found;
 }
 
-void feed(const rosbag::Bag& bag, const ScanTopics& topics, Joiner& joiner) {
+void feed(const BagStream& bag, const ScanTopics& topics, Joiner& joiner) {
   std::vector<std::string> wanted;
   for (const std::string& topic : {topics.raw, topics.map, topics.curvature}) {
     if (!topic.empty()) wanted.push_back(topic);
   }
-  MessageReader reader;
-  rosbag::View view(bag, rosbag::TopicQuery(wanted));
-  for (const rosbag::MessageInstance& instance : view) {
-    const std::string& topic = instance.getTopic();
-    if (topic == topics.raw) joiner.add(reader.read<fsr_pressure_map::MatrixFrame>(instance));
-    if (topic == topics.map) joiner.add(reader.read<fsr_pressure_map::PressureMap>(instance));
-    if (topic == topics.curvature) joiner.add(reader.read<fsr_pressure_map::SurfaceCurvature>(instance));
-  }
+  if (wanted.empty()) return;
+  bag.forEach({wanted}, [&](const StreamedMessage& message) {
+    const std::string& topic = message.about.topic;
+    if (topic == topics.raw) joiner.add(readStreamed<fsr_pressure_map::MatrixFrame>(message));
+    if (topic == topics.map) joiner.add(readStreamed<fsr_pressure_map::PressureMap>(message));
+    if (topic == topics.curvature) joiner.add(readStreamed<fsr_pressure_map::SurfaceCurvature>(message));
+    return true;
+  });
 }
 
 }  // namespace
 
 std::size_t sendScans(const std::string& path, const ScanSelection& selection, fsr::exports::ScanSink& sink) {
   std::size_t sent = 0;
-  withSoundBag(path, [&](const rosbag::Bag& bag) {
-    const SensorTopics topics(bag, selection.topics, sensorMarks(selection.map));
+  withBagStream(path, [&](const BagStream& bag) {
+    const SensorTopics topics(bag.types(), selection.topics, sensorMarks(selection.map));
     const ScanTopics scans = scanTopics(topics, selection);
     ScanContext context(bag, topics, selection.ambient);
     fsr::exports::ExportSubject subject = context.subject();

@@ -1,7 +1,6 @@
 #include "ros/bags/sensor_topics.h"
 
 #include <ros/serialization.h>
-#include <rosbag/view.h>
 
 #include <filesystem>
 #include <set>
@@ -35,15 +34,6 @@ void requireFile(const std::string& path) {
   }
 }
 
-SensorTopics::Types typesOf(const rosbag::Bag& bag) {
-  SensorTopics::Types types;
-  rosbag::View view(bag);
-  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
-    types[connection->topic] = connection->datatype;
-  }
-  return types;
-}
-
 }  // namespace
 
 void tellingOfDamage(const std::string& path, const std::function<void()>& read) {
@@ -70,9 +60,6 @@ void withSoundBag(const std::string& path, const std::function<void(const rosbag
     use(bag);
   });
 }
-
-SensorTopics::SensorTopics(const rosbag::Bag& bag, const std::string& topics, const std::vector<Mark>& marks)
-    : SensorTopics(typesOf(bag), topics, marks) {}
 
 SensorTopics::SensorTopics(Types types, const std::string& topics, const std::vector<Mark>& marks)
     : types_(std::move(types)) {

@@ -30,7 +30,6 @@ class SensorTopics {
   /// `topics`: namespace of the sensor; empty = the only namespace in the bag with a topic of `marks`. Throws
   /// fsr::InputError that lists the topics or sensors of the bag.
   SensorTopics(Types types, const std::string& topics, const std::vector<Mark>& marks);
-  SensorTopics(const rosbag::Bag& bag, const std::string& topics, const std::vector<Mark>& marks);
 
   /// The name of a topic as the bag spells it; "" = the bag does not have it.
   std::string find(const std::string& base) const;

@@ -50,6 +50,16 @@ void readMessage(std::uint8_t* bytes, std::size_t size, Message& message) {
 /// Reads messages out of a bag that may be damaged.
 class MessageReader {
  public:
+  /// Throws as the two functions above.
+  template <typename Message>
+  static Message read(const std::string& topic, const std::string& md5sum, std::uint8_t* data,
+                      std::size_t size) {
+    requireDefinition<Message>(topic, md5sum);
+    Message message;
+    readMessage(data, size, message);
+    return message;
+  }
+
   /// The serialised message; valid until the next call.
   std::string_view bytes(const rosbag::MessageInstance& instance) {
     bytes_.resize(instance.size());
@@ -58,14 +68,11 @@ class MessageReader {
     return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()};
   }
 
-  /// Throws as the two functions above.
+  /// Throws likewise.
   template <typename Message>
   Message read(const rosbag::MessageInstance& instance) {
-    requireDefinition<Message>(instance.getTopic(), instance.getMD5Sum());
     bytes(instance);
-    Message message;
-    readMessage(bytes_.data(), bytes_.size(), message);
-    return message;
+    return read<Message>(instance.getTopic(), instance.getMD5Sum(), bytes_.data(), bytes_.size());
   }
 
  private:

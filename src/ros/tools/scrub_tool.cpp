@@ -6,8 +6,6 @@
 #include <fsr_pressure_map/PressureMap.h>
 #include <fsr_pressure_map/Session.h>
 #include <fsr_pressure_map/SurfaceCurvature.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 #include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Temperature.h>
 
@@ -17,8 +15,8 @@
 #include <string>
 
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/bags/bag_stream.h"
 #include "ros/bags/fresh_bag.h"
-#include "ros/bags/sensor_topics.h"
 #include "ros/messages/message_reader.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
@@ -39,22 +37,22 @@ using Kept = std::map<std::string, std::set<std::string>>;
 
 class Scrubber {
  public:
-  Scrubber(const rosbag::Bag& from, FreshBag& to) : from_(from), to_(to) {}
+  Scrubber(const BagStream& from, FreshBag& to) : from_(from), to_(to) {}
 
   void run() {
-    rosbag::View view(from_);
-    if (view.size() == 0) throw fsr::settings::InputError("holds no message");
-    shift_ = kNewStart - view.getBeginTime().sec * kSecond;
-    for (const rosbag::MessageInstance& message : view) {
+    if (from_.connections().empty()) throw fsr::settings::InputError("holds no message");
+    shift_ = kNewStart - from_.begin().sec * kSecond;
+    removed_["absolute times"] = from_.forEach({}, [&](const StreamedMessage& message) {
       const bool kept =
           copy<fsr_pressure_map::MatrixFrame>(message) || copy<sensor_msgs::FluidPressure>(message) ||
           copy<sensor_msgs::Temperature>(message) || copy<fsr_pressure_map::SurfaceCurvature>(message) ||
           copy<fsr_pressure_map::PressureMap>(message) || copy<fsr_pressure_map::MatrixInfo>(message) ||
           copy<fsr_pressure_map::Session>(message) || copy<fsr_pressure_map::Event>(message);
-      if (!kept) ++removed_["messages of " + message.getTopic() + " (" + message.getDataType() + ")"];
-      if (kept && !message.getCallerId().empty()) ++removed_["names of the nodes that published"];
-    }
-    removed_["absolute times"] = view.size();
+      if (!kept) ++removed_["messages of " + message.about.topic + " (" + message.about.type + ")"];
+      const bool named = !from_.connections()[message.connection].publisher().empty();
+      if (kept && named) ++removed_["names of the nodes that published"];
+      return true;
+    });
   }
 
   const Ledger& removed() const { return removed_; }
@@ -62,14 +60,14 @@ class Scrubber {
 
  private:
   template <typename Message>
-  bool copy(const rosbag::MessageInstance& instance) {
-    if (!isReadable<Message>(instance.getMD5Sum())) return false;
-    auto message = reader_.read<Message>(instance);
-    const std::string& topic = instance.getTopic();
+  bool copy(const StreamedMessage& streamed) {
+    if (!isReadable<Message>(streamed.about.md5sum)) return false;
+    auto message = readStreamed<Message>(streamed);
+    const std::string& topic = streamed.about.topic;
     if (!message.header.stamp.isZero()) message.header.stamp = moved(message.header.stamp, topic);
     keep(message.header.frame_id, "frame of " + topic);
     clean(message);
-    to_.write(topic, moved(instance.getTime(), topic), message);
+    to_.write(topic, moved(streamed.received, topic), message);
     return true;
   }
 
@@ -123,9 +121,8 @@ class Scrubber {
     if (!field.empty()) kept_[what].insert(field);
   }
 
-  const rosbag::Bag& from_;
+  const BagStream& from_;
   FreshBag& to_;
-  MessageReader reader_;
   std::int64_t shift_ = 0;  // [ns]
   Ledger removed_;
   Kept kept_;
@@ -165,7 +162,7 @@ int scrubTool(int argc, const char* const* argv, std::ostream& out) {
   if (line.files().size() != 1)
     throw fsr::settings::InputError("give one bag, and --output with another name");
   fsr::settings::requireReplaceable(output);
-  withSoundBag(line.files().front(), [&](const rosbag::Bag& from) {
+  withBagStream(line.files().front(), [&](const BagStream& from) {
     FreshBag to(output);
     Scrubber scrubber(from, to);
     scrubber.run();
