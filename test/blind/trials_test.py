@@ -7,11 +7,14 @@ import pathlib
 import re
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+import shards  # noqa: E402
 TRIALS = HERE.parent.parent / "scripts" / "blind_trials"
 GRID = ["--effects", "creep:log_time,seal_leak", "--kpa", "", "--pairs", "1"]
 # Files of effects that discrepancy cannot name: parts of every rig, what a uniform pressure does not show, what no version looks
@@ -107,11 +110,123 @@ class Trials(unittest.TestCase):
         self.run_trials("none")
         self.assertEqual(len(self.names()), 6)
 
+    def run_shards(self, number=2, **options):
+        for shard in range(1, number + 1):
+            self.run_trials("creep", "--shard", "%d/%d" % (shard, number), **options)
+
+    def pretend_shard(self, shard, number, **campaign):
+        """Its files, without a run: two cases that are done."""
+        names = ["A.creep.log_time.snr1.%04d" % (2 * shard + i) for i in (0, 1)]
+        for name in names:
+            (self.output / "cases" / name).mkdir(parents=True, exist_ok=True)
+            (self.output / "cases" / name / "run.json").write_text(json.dumps({"status": "done", "case": name}))
+        shards.write(self.output, (shard, number), {"snr": "1", **campaign}, dict.fromkeys(names, "done"))
+
+    def merge(self):
+        return self.run_trials("creep", "--merge", grid=[])
+
+    def files(self):
+        return {name: (self.output / name).read_bytes() for name in ("summary.json", "summary.md", "cases.csv")}
+
+    def assert_unfit(self, *sentence_parts):
+        done = self.merge()
+        self.assertEqual(done.returncode, 2, done.stderr)
+        said = done.stderr.strip().splitlines()[-1]
+        for part in sentence_parts:
+            self.assertIn(part, said)
+        self.assertFalse((self.output / "summary.json").exists())
+
+    def edit(self, name, change):
+        path = self.output / name
+        data = json.loads(path.read_text())
+        change(data)
+        data["campaign_sha256"] = shards.digest(data["campaign"])
+        path.write_text(json.dumps(data))
+
     def test_shards_share_the_campaign(self):
         self.run_trials("none", "--shard", "1/2")
         first = set(self.names())
         self.run_trials("none", "--shard", "2/2")
         self.assertEqual((len(first), len(self.names())), (3, 6))
+        for name in ("shard_1_of_2.json", "summary_1_of_2.md", "summary_2_of_2.json", "cases_2_of_2.csv"):
+            self.assertTrue((self.output / name).exists(), name)
+        self.assertFalse((self.output / "summary.md").exists())  # shards never write the same file
+        self.assertEqual(set(json.loads((self.output / "shard_1_of_2.json").read_text())["cases"]), first)
+
+    def test_merged_shards_give_the_bytes_of_one_run(self):
+        self.run_shards(3)
+        done = self.merge()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        merged = self.files()
+        self.assertEqual(self.run_trials("creep").returncode, 0)  # the whole campaign: every case is answered already
+        self.assertEqual((merged, len(self.calls())), (self.files(), 6))
+
+    def test_merge_names_a_shard_that_is_missing(self):
+        self.pretend_shard(1, 3)
+        self.pretend_shard(3, 3)
+        self.assert_unfit("shard 2 of 3 is missing", "--shard 2/3")
+
+    def test_merge_refuses_a_shard_that_is_there_twice(self):
+        self.pretend_shard(1, 2)
+        self.pretend_shard(2, 2)
+        (self.output / "shard_1_of_2 copy.json").write_bytes((self.output / "shard_1_of_2.json").read_bytes())
+        self.assert_unfit("shard_1_of_2 copy.json", "shard_1_of_2.json", "are both shard 1 of 2")
+
+    def test_merge_refuses_a_case_that_two_shards_have(self):
+        self.pretend_shard(1, 2)
+        self.pretend_shard(2, 2)
+        name = next(iter(json.loads((self.output / "shard_1_of_2.json").read_text())["cases"]))
+        self.edit("shard_2_of_2.json", lambda data: data["cases"].update({name: "done"}))
+        self.assert_unfit("both have the case " + name, "shard_2_of_2.json")
+
+    def test_merge_refuses_shards_of_another_version(self):
+        self.pretend_shard(1, 2)
+        self.pretend_shard(2, 2)
+        self.edit("shard_2_of_2.json", lambda data: data.update(version="0.0.9"))
+        self.assert_unfit("shard_2_of_2.json is of version 0.0.9", "shard_1_of_2.json")
+
+    def test_merge_refuses_shards_with_other_options(self):
+        self.pretend_shard(1, 2)
+        self.pretend_shard(2, 2, snr="2")
+        self.assert_unfit("shard_2_of_2.json has other options", '--snr is "2" here and "1" there')
+
+    def test_merge_refuses_another_number_of_shards(self):
+        self.pretend_shard(1, 2)
+        self.pretend_shard(2, 3)
+        self.assert_unfit("shard_2_of_3.json is of a campaign of 3 shards", "shard_1_of_2.json of a campaign of 2 shards")
+
+    def test_merge_refuses_a_shard_that_stopped_in_between(self):
+        self.pretend_shard(1, 2)
+        self.run_trials("creep", "--shard", "2/2", "--minutes", "0.0001", "--jobs", "1")
+        campaign = json.loads((self.output / "shard_2_of_2.json").read_text())["campaign"]
+        self.edit("shard_1_of_2.json", lambda data: data.update(campaign=campaign))
+        self.assert_unfit("shard_2_of_2.json", "cases are left")
+
+    def test_merge_refuses_a_shard_without_its_cases(self):
+        self.pretend_shard(1, 2)
+        self.pretend_shard(2, 2)
+        next(self.output.glob("cases/*/run.json")).unlink()  # as if its folder had not been copied
+        self.assert_unfit("as missing; copy the folders of all shards into one")
+
+    def test_merge_refuses_half_a_file_and_a_file_that_was_changed(self):
+        self.pretend_shard(1, 2)
+        self.pretend_shard(2, 2)
+        whole = (self.output / "shard_2_of_2.json").read_text()
+        (self.output / "shard_2_of_2.json").write_text(whole[:100])
+        self.assert_unfit("shard_2_of_2.json cannot be read")
+        (self.output / "shard_2_of_2.json").write_text(whole.replace('"snr": "1"', '"snr": "2"'))
+        self.assert_unfit("shard_2_of_2.json is not a shard of blind_trials as it was written")
+
+    def test_a_shard_that_is_killed_leaves_no_file_and_goes_on(self):
+        self.run_trials("creep", "--shard", "2/2")
+        run = self.start_trials("slow", *GRID, "--jobs", "1", "--shard", "1/2")
+        while len(self.calls()) < 4 and run.poll() is None:
+            time.sleep(0.02)
+        os.killpg(run.pid, signal.SIGKILL)
+        run.communicate()
+        self.assert_unfit("shard 1 of 2 is missing")
+        self.run_trials("none", "--shard", "1/2")
+        self.assertEqual(self.merge().returncode, 0)
         self.assertEqual(self.summary()["cases"], 6)
 
     def test_a_command_that_fails_is_counted_and_tried_again_when_asked(self):
@@ -153,6 +268,7 @@ class Trials(unittest.TestCase):
 
     def test_refuses_what_it_does_not_know(self):
         for words, said in [(["--effects", "creeep"], "creeep"), (["--snrs", "1"], "--snrs"), (["--shard", "3/2"], "3/2"),
+                            (["--shard", "1/2", "--merge"], "--merge"),
                             (["--snr", "loud"], "loud")]:
             done = self.run_trials("none", grid=words)
             self.assertEqual(done.returncode, 2, words)
