@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,8 @@ struct BagReadOptions {
   std::optional<double> ambient_pressure;
   /// Scans within this time before or after a change of surface are dropped [s].
   double change_margin = 1.0;
+  /// Is called now and then with the share of the bag that was read; none = nobody asks.
+  std::function<void(double share)> progress = {};
 };
 
 /// Reads the recording of one sensor from a bag: the topics raw, chamber_pressure, curvature, temperature and

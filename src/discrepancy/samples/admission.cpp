@@ -11,6 +11,8 @@ namespace fsr::discrepancy {
 
 namespace {
 
+constexpr double kShareOfLooks = 0.2;  // of the time of an inspection, before the search for faults
+
 std::string percent(double share) {
   return settings::fixedText(100 * share, share < 0.001 ? 3 : 1) + " %";
 }
@@ -82,11 +84,14 @@ std::string refusal(Ask ask) {
 
 }  // namespace
 
-Admission inspectRecordings(std::vector<dataset::Recording> recordings, const AdmissionOptions& options) {
+Admission inspectRecordings(std::vector<dataset::Recording> recordings, const AdmissionOptions& options,
+                            const DiscrepancyProgress& progress) {
   Admission admission;
   if (recordings.empty()) return admission;
   admission.layout = recordings.front().layout;
   for (const dataset::Recording& recording : recordings) {
+    const auto before = static_cast<double>(admission.recordings.size());
+    if (progress) progress("inspecting", kShareOfLooks * before / static_cast<double>(recordings.size()));
     const AdmittedRecording looked = lookAt(recording);
     judgeLag(looked, options, admission);
     judgeFaults(looked, recording.layout.size.taxels(), options, admission);
@@ -107,7 +112,9 @@ Admission inspectRecordings(std::vector<dataset::Recording> recordings, const Ad
   measured.simulation.layout = admission.layout;
   admission.discrepancy = refusal([&] {
     validate(measured);
-    admission.faults = findFaults(admit(measured), measured.options).faults;
+    admission.faults = findFaults(admit(measured), measured.options, [&](double share) {
+                         if (progress) progress("inspecting", kShareOfLooks + (1 - kShareOfLooks) * share);
+                       }).faults;
   });
   return admission;
 }

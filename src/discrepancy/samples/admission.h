@@ -48,7 +48,8 @@ struct Admission {
 
 /// Checks recordings before they are used. This is the first step of every use. It never throws because of
 /// what the recordings contain. To find out whether `train` and `discrepancy` would refuse the recordings, it
-/// calls the validation of each.
-Admission inspectRecordings(std::vector<dataset::Recording> recordings, const AdmissionOptions& options = {});
+/// calls the validation of each. `progress` is called with what is done and its share.
+Admission inspectRecordings(std::vector<dataset::Recording> recordings, const AdmissionOptions& options = {},
+                            const DiscrepancyProgress& progress = {});
 
 }  // namespace fsr::discrepancy

@@ -30,10 +30,17 @@ class Detectors {
     least_gap_ = leastGap(measured, options);
   }
 
-  Faults run() {
+  Faults run(const FaultProgress& progress) {
+    const auto tell = [&](double share) {  // as measured on sound bags
+      if (progress) progress(share);
+    };
+    tell(0.3);
     findLines();
+    tell(0.8);
     findTaxels();
+    tell(0.95);
     judgeReadings();
+    tell(1);
     return std::move(faults_);
   }
 
@@ -283,8 +290,9 @@ double leastGap(const Measured& measured, const DiscrepancyOptions& options) {
   return options.least_gap_share * (*high - *low);
 }
 
-Faults findFaults(const Measured& measured, const DiscrepancyOptions& options) {
-  return Detectors(measured, options).run();
+Faults findFaults(const Measured& measured, const DiscrepancyOptions& options,
+                  const FaultProgress& progress) {
+  return Detectors(measured, options).run(progress);
 }
 
 simulation::EnabledEffect asEffect(const Fault& fault) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -46,6 +47,9 @@ struct Faults {
 /// Least size at the map that matters [Pa]: `least_gap`, or its share of the range of the chamber's pressure.
 double leastGap(const Measured& measured, const DiscrepancyOptions& options);
 
+/// Is called with the share of the search that is done.
+using FaultProgress = std::function<void(double share)>;
+
 /// Searches every scan for faults, in the readings relative to those of the other taxels (taxelCourses()).
 /// What changes all taxels alike is therefore no fault of any.
 ///
@@ -59,7 +63,8 @@ double leastGap(const Measured& measured, const DiscrepancyOptions& options);
 /// is dead where it goes to the reading without load, and stuck where it goes to another one.
 ///
 /// Both need `level`, and a size at the map of at least leastGap().
-Faults findFaults(const Measured& measured, const DiscrepancyOptions& options);
+Faults findFaults(const Measured& measured, const DiscrepancyOptions& options,
+                  const FaultProgress& progress = {});
 
 /// The effect and the parameter values with which a simulation shows the fault.
 simulation::EnabledEffect asEffect(const Fault& fault);

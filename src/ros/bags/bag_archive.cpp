@@ -99,7 +99,8 @@ class Selected {
 
   /// Calls take(connection, received [ns], bytes) for each message.
   template <typename Take>
-  std::uint64_t forEach(Take take) {
+  std::uint64_t forEach(const BagWalk::ReadProgress& progress, Take take) {
+    query_.progress = progress;
     return bag_.forEach(query_, [&](const StreamedMessage& message) {
       take(row_.at(message.connection), static_cast<std::int64_t>(message.received.toNSec()),
            std::string_view(reinterpret_cast<const char*>(message.data), message.size));
@@ -116,10 +117,11 @@ class Selected {
 
 // Adds the group /scans. Returns why it is incomplete; empty = it is complete. A full disk raises an error
 // later, in ArchiveWriter::finish().
-std::string joinScans(const std::string& path, const std::string& topics,
+std::string joinScans(const std::string& path, const ArchiveSelection& from,
                       fsr::exports::ArchiveWriter& archive) {
   ScanSelection selection;
-  selection.topics = topics;
+  selection.topics = from.topics;
+  selection.progress = from.progress;
   fsr::exports::ScanSink& scans = archive.scans();
   try {
     sendScans(path, selection, scans);
@@ -134,21 +136,26 @@ std::string joinScans(const std::string& path, const std::string& topics,
 ArchiveResult archiveBag(const std::string& path, const ArchiveSelection& selection,
                          const std::string& output) {
   ArchiveResult result;
-  withBagStream(path, [&](const BagStream& bag) {
-    Selected selected(bag, selection);
-    const fsr::exports::ArchiveSource source{std::filesystem::path(path).filename().string(),
-                                             fsr::settings::sha256OfFile(path)};
-    fsr::exports::ArchiveWriter archive(output, source, selected.connections());
-    selected.forEach([&](std::size_t connection, std::int64_t, std::string_view bytes) {
-      archive.look(connection, bytes);
-    });
-    result.messages =
-        selected.forEach([&](std::size_t connection, std::int64_t received_ns, std::string_view bytes) {
-          archive.add(connection, received_ns, bytes);
-        });
-    if (selection.whole()) result.complaint = joinScans(path, selection.topics, archive);
-    archive.finish();
-  });
+  withBagStream(
+      path,
+      [&](const BagStream& bag) {
+        Selected selected(bag, selection);
+        const fsr::exports::ArchiveSource source{std::filesystem::path(path).filename().string(),
+                                                 fsr::settings::sha256OfFile(path)};
+        fsr::exports::ArchiveWriter archive(output, source, selected.connections());
+        selected.forEach(told("surveying " + path, selection.progress),
+                         [&](std::size_t connection, std::int64_t, std::string_view bytes) {
+                           archive.look(connection, bytes);
+                         });
+        result.messages =
+            selected.forEach(told("exporting " + path, selection.progress),
+                             [&](std::size_t connection, std::int64_t received_ns, std::string_view bytes) {
+                               archive.add(connection, received_ns, bytes);
+                             });
+        if (selection.whole()) result.complaint = joinScans(path, selection, archive);
+        archive.finish();
+      },
+      told("checking " + path, selection.progress));
   return result;
 }
 

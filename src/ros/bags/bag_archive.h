@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@ struct ArchiveSelection {
   std::vector<std::string> wanted;  ///< topics, full names or base names under the namespace; empty = all
   double from = 0;                  ///< start, since the bag's first message, by time of reception [s]
   double until = std::numeric_limits<double>::infinity();  ///< end, likewise [s]
+  /// Is called now and then with what is done and its share; none = nobody asks.
+  std::function<void(const std::string& step, double share)> progress = {};
 
   bool whole() const { return wanted.empty() && from <= 0 && std::isinf(until); }
 };

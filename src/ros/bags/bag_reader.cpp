@@ -28,7 +28,7 @@ class Feeder {
         builder_(builder) {}
 
   // Returns the SHA-256 of the bag.
-  std::string run() {
+  std::string run(const BagWalk::ReadProgress& progress) {
     take<fsr_pressure_map::MatrixFrame>(kRaw);
     // The bag may say anything, and it may be packed: no more memory than twice the file at first.
     builder_.expectScans(bag_.messages(topics_.find(kRaw)), 2 * bag_.bytes());
@@ -36,10 +36,12 @@ class Feeder {
     take<fsr_pressure_map::SurfaceCurvature>("curvature");
     take<sensor_msgs::Temperature>("temperature");
     take<fsr_pressure_map::MatrixInfo>("matrix_info");
-    return bag_.run([&](std::uint32_t connection, MessageBytes bytes) {
-      const auto found = readers_.find(connection);
-      if (found != readers_.end()) found->second(bytes);
-    });
+    return bag_.run(
+        [&](std::uint32_t connection, MessageBytes bytes) {
+          const auto found = readers_.find(connection);
+          if (found != readers_.end()) found->second(bytes);
+        },
+        progress);
   }
 
  private:
@@ -81,7 +83,7 @@ fsr::dataset::Recording readBag(const std::string& path, const BagReadOptions& o
     chosen.ambient_pressure = options.ambient_pressure;
     chosen.change_margin = options.change_margin;
     chosen.name = std::filesystem::path(path).filename().string();
-    chosen.sha256 = Feeder(bag, options.topics, builder).run();
+    chosen.sha256 = Feeder(bag, options.topics, builder).run(options.progress);
     recording = builder.take(chosen);
   });
   return recording;

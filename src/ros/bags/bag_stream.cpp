@@ -267,9 +267,10 @@ std::uint64_t BagStream::forEach(const StreamQuery& query, const Take& take) con
   return taken;
 }
 
-void withBagStream(const std::string& path, const std::function<void(const BagStream&)>& use) {
+void withBagStream(const std::string& path, const std::function<void(const BagStream&)>& use,
+                   const BagWalk::ReadProgress& progress) {
   tellingOfDamage(path, [&] {
-    requireSoundBag(path);
+    requireSoundBag(path, progress);
     use(BagStream(path));
   });
 }

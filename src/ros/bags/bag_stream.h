@@ -95,7 +95,8 @@ class BagStream {
   std::map<std::uint32_t, std::vector<Run>> runs_;  // by connection number, by ascending first time
 };
 
-/// Checks the structure of a bag and runs `use` on it. Throws as withSoundBag().
-void withBagStream(const std::string& path, const std::function<void(const BagStream&)>& use);
+/// Checks the structure of a bag, with `progress` of this, and runs `use` on it. Throws as withSoundBag().
+void withBagStream(const std::string& path, const std::function<void(const BagStream&)>& use,
+                   const BagWalk::ReadProgress& progress = {});
 
 }  // namespace fsr_ros

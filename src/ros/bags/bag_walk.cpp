@@ -38,7 +38,8 @@ bool operator<(const Message& a, const Message& b) {
 // One pass over a bag: checks each record and calls `visit` for each message in the index.
 class Walk {
  public:
-  Walk(const std::string& path, const BagWalk::Visit& visit) : file_(path), visit_(visit) {}
+  Walk(const std::string& path, const BagWalk::Visit& visit, const BagWalk::ReadProgress& progress)
+      : file_(path), visit_(visit), progress_(progress) {}
 
   std::string run() {
     while (!file_.atEnd()) record();
@@ -66,6 +67,7 @@ class Walk {
         return fileHeader(header);
       case rosbag::OP_CHUNK:
         chunks_.push_back(start);
+        if (progress_) progress_(static_cast<double>(start) / static_cast<double>(file_.size()));
         return chunk();
       case rosbag::OP_INDEX_DATA:
         return index(header, file_.data());
@@ -142,6 +144,7 @@ class Walk {
 
   RecordFile file_;
   const BagWalk::Visit& visit_;
+  const BagWalk::ReadProgress& progress_;
   std::vector<std::uint64_t> starts_, chunks_;  // positions in the file, ascending
   std::set<std::uint32_t> connections_, used_;
   std::uint64_t index_position_ = 0;
@@ -195,12 +198,18 @@ std::uint64_t BagWalk::messages(const std::string& topic) const {
   return sum;
 }
 
-std::string BagWalk::run(const Visit& visit) const {
-  return Walk(path_, visit).run();
+std::string BagWalk::run(const Visit& visit, const ReadProgress& progress) const {
+  return Walk(path_, visit, progress).run();
 }
 
-void requireSoundBag(const std::string& path) {
-  BagWalk(path).run([](std::uint32_t, MessageBytes) {});
+BagWalk::ReadProgress told(const std::string& step,
+                           const std::function<void(const std::string& step, double share)>& progress) {
+  if (!progress) return {};
+  return [step, progress](double share) { progress(step, share); };
+}
+
+void requireSoundBag(const std::string& path, const BagWalk::ReadProgress& progress) {
+  BagWalk(path).run([](std::uint32_t, MessageBytes) {}, progress);
 }
 
 }  // namespace fsr_ros

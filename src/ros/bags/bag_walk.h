@@ -41,11 +41,14 @@ class BagWalk {
   /// Size of the file.
   std::uint64_t bytes() const { return bytes_; }
 
+  /// Is called now and then with the share of the file that was read.
+  using ReadProgress = std::function<void(double share)>;
+
   /// Is called with each message and the number of its connection. The bytes are valid during the call only.
   using Visit = std::function<void(std::uint32_t connection, MessageBytes message)>;
 
   /// Calls `visit` for every message in the index, in the order of the file. Returns the SHA-256 of the file.
-  std::string run(const Visit& visit) const;
+  std::string run(const Visit& visit, const ReadProgress& progress = {}) const;
 
  private:
   void addConnection(std::string_view header, std::string_view data);
@@ -57,7 +60,11 @@ class BagWalk {
   std::map<std::uint32_t, std::uint64_t> messages_;  // by connection
 };
 
+/// Progress of reading as a step of a tool; none where nobody asks.
+BagWalk::ReadProgress told(const std::string& step,
+                           const std::function<void(const std::string& step, double share)>& progress);
+
 /// Checks the structure of a bag before rosbag opens it. Throws as BagWalk does.
-void requireSoundBag(const std::string& path);
+void requireSoundBag(const std::string& path, const BagWalk::ReadProgress& progress = {});
 
 }  // namespace fsr_ros

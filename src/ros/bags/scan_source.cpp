@@ -173,13 +173,16 @@ ScanTopics scanTopics(const SensorTopics& topics, const ScanSelection& selection
   return found;
 }
 
-void feed(const BagStream& bag, const ScanTopics& topics, Joiner& joiner) {
+void feed(const BagStream& bag, const ScanTopics& topics, const BagWalk::ReadProgress& progress,
+          Joiner& joiner) {
   std::vector<std::string> wanted;
   for (const std::string& topic : {topics.raw, topics.map, topics.curvature}) {
     if (!topic.empty()) wanted.push_back(topic);
   }
   if (wanted.empty()) return;
-  bag.forEach({wanted}, [&](const StreamedMessage& message) {
+  StreamQuery query{wanted};
+  query.progress = progress;
+  bag.forEach(query, [&](const StreamedMessage& message) {
     const std::string& topic = message.about.topic;
     if (topic == topics.raw) joiner.add(readStreamed<fsr_pressure_map::MatrixFrame>(message));
     if (topic == topics.map) joiner.add(readStreamed<fsr_pressure_map::PressureMap>(message));
@@ -192,18 +195,21 @@ void feed(const BagStream& bag, const ScanTopics& topics, Joiner& joiner) {
 
 std::size_t sendScans(const std::string& path, const ScanSelection& selection, fsr::exports::ScanSink& sink) {
   std::size_t sent = 0;
-  withBagStream(path, [&](const BagStream& bag) {
-    const SensorTopics topics(bag.types(), selection.topics, sensorMarks(selection.map));
-    const ScanTopics scans = scanTopics(topics, selection);
-    ScanContext context(bag, topics, selection.ambient);
-    fsr::exports::ExportSubject subject = context.subject();
-    subject.name = std::filesystem::path(path).filename().string();
-    subject.maps = !scans.map.empty();
-    Joiner joiner(selection, context, sink);
-    joiner.begin(subject);
-    feed(bag, scans, joiner);
-    sent = joiner.finish();
-  });
+  withBagStream(
+      path,
+      [&](const BagStream& bag) {
+        const SensorTopics topics(bag.types(), selection.topics, sensorMarks(selection.map));
+        const ScanTopics scans = scanTopics(topics, selection);
+        ScanContext context(bag, topics, selection.ambient);
+        fsr::exports::ExportSubject subject = context.subject();
+        subject.name = std::filesystem::path(path).filename().string();
+        subject.maps = !scans.map.empty();
+        Joiner joiner(selection, context, sink);
+        joiner.begin(subject);
+        feed(bag, scans, told("exporting " + path, selection.progress), joiner);
+        sent = joiner.finish();
+      },
+      told("checking " + path, selection.progress));
   return sent;
 }
 

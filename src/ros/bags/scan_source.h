@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -19,6 +20,8 @@ struct ScanSelection {
   double until = std::numeric_limits<double>::infinity();  ///< end, likewise [s]
   double rate = 0;                                         ///< largest rate of scans; 0 = all scans [Hz]
   bool counts = true;                                      ///< false: do not read `raw` if the bag has maps
+  /// Is called now and then with what is done and its share; none = nobody asks.
+  std::function<void(const std::string& step, double share)> progress = {};
 };
 
 /// Sends a bag's scans to `sink`, each with map, chamber pressure, temperature, surface, session, cycle and

@@ -14,7 +14,9 @@
 #include "report/admission_report.h"
 #include "report/shape_report.h"
 #include "ros/bags/bag_topics.h"
+#include "ros/bags/bag_walk.h"
 #include "ros/tools/bag_options.h"
+#include "ros/tools/tool_progress.h"
 #include "settings/command_line.h"
 
 namespace fsr_ros {
@@ -83,7 +85,12 @@ int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {
   chosen.sections = static_cast<std::size_t>(line.integer("sections", 5, {2, 20, ""}));
   std::vector<fsr::dataset::Recording> recordings;
   for (const std::string& path : line.files()) {
-    recordings.push_back(readBag(path, bagReadOptions(line)));
+    {
+      const ToolProgress progress = toolProgress();  // removes its line before the table is printed
+      BagReadOptions how = bagReadOptions(line);
+      how.progress = told("reading " + path, progress);
+      recordings.push_back(readBag(path, how));
+    }
     const std::vector<TopicCourse> courses = topicCourses(path);
     std::vector<std::string>& warnings = recordings.back().warnings;
     for (const std::string& remark : remarksOn(courses)) warnings.push_back(remark);
@@ -93,7 +100,8 @@ int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {
     recordings[remark.recording].warnings.push_back(remark.sentence);
   }
   const std::optional<std::string> shapes = shapesText(line, recordings);
-  fsr::discrepancy::Admission admission = fsr::discrepancy::inspectRecordings(std::move(recordings), chosen);
+  fsr::discrepancy::Admission admission =
+      fsr::discrepancy::inspectRecordings(std::move(recordings), chosen, toolProgress());
   for (const std::string& path : line.files()) {
     if (sessionUse(path) != "socket") continue;
     admission.problems.insert(

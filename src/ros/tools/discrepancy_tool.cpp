@@ -1,7 +1,5 @@
 #include "ros/tools/discrepancy_tool.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -14,6 +12,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/discrepancy_report.h"
 #include "report/verdict_file.h"
+#include "ros/bags/bag_walk.h"
 #include "ros/bags/resource_path.h"
 #include "ros/tools/bag_options.h"
 #include "ros/tools/discrepancy_files.h"
@@ -21,6 +20,7 @@
 #include "ros/tools/map_gain.h"
 #include "ros/tools/recompute_gap_tool.h"
 #include "ros/tools/show_ledger.h"
+#include "ros/tools/tool_progress.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
 #include "simulation/driven_rig.h"
@@ -103,8 +103,9 @@ std::vector<fsr::dataset::Recording> readBags(const DrivingBags& bags, bool whol
                                               const fsr::discrepancy::DiscrepancyProgress& progress) {
   std::vector<fsr::dataset::Recording> recordings;
   for (const std::string& path : bags.paths) {
-    if (progress) progress("reading " + path, 0);
-    recordings.push_back(whole ? readWhole(path, bags.how) : readBag(path, bags.how));
+    BagReadOptions how = bags.how;
+    how.progress = told("reading " + path, progress);
+    recordings.push_back(whole ? readWhole(path, how) : readBag(path, how));
   }
   return recordings;
 }
@@ -129,15 +130,6 @@ fsr::discrepancy::DiscrepancyOptions discrepancyOptions(const fsr::settings::Com
   chosen.seed = static_cast<std::uint64_t>(line.integer("seed", 1, {0, 9e15, ""}));
   chosen.threads = static_cast<unsigned>(line.integer("threads", 0, {0, 1024, ""}));
   return chosen;
-}
-
-// Progress as one line that is overwritten, if stderr is a terminal.
-fsr::discrepancy::DiscrepancyProgress progressOnTerminal() {
-  if (::isatty(STDERR_FILENO) == 0) return {};
-  return [](const std::string& step, double share) {
-    std::cerr << "\r\033[K" << static_cast<int>(std::lround(100 * share)) << " % " << step
-              << (share >= 1 ? "\n" : "") << std::flush;
-  };
 }
 
 void countUses(fsr::discrepancy::DiscrepancyReport& report) {
@@ -175,7 +167,7 @@ std::string gainForTheMap(const fsr::discrepancy::DiscrepancyProblem& problem,
 int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   const std::string folder = outputFolder(line.requiredText("output"));
   for (const std::string& file : discrepancyFiles()) line.requireWritable(folder + "/" + file);
-  const fsr::discrepancy::DiscrepancyProgress progress = progressOnTerminal();
+  const fsr::discrepancy::DiscrepancyProgress progress = toolProgress();
   fsr::discrepancy::DiscrepancyProblem problem;
   problem.options = discrepancyOptions(line);
   const DrivingBags bags{bagsOf(line), bagReadOptions(line)};
@@ -217,7 +209,7 @@ int confirmVerdict(const fsr::settings::CommandLine& line, std::ostream& out) {
                                     ", which predicts nothing that can be confirmed");
   }
   const std::vector<fsr::dataset::Recording> recordings =
-      readBags({bagsOf(line), bagReadOptions(line)}, false, progressOnTerminal());
+      readBags({bagsOf(line), bagReadOptions(line)}, false, toolProgress());
   requireNew(recordings, verdict, path);
   const fsr::discrepancy::Confirmation answer =
       fsr::discrepancy::confirm(stored.frozen.prediction, stored.base, recordings);

@@ -13,6 +13,7 @@
 #include "ros/bags/scan_source.h"
 #include "ros/tools/bag_options.h"
 #include "ros/tools/picture_options.h"
+#include "ros/tools/tool_progress.h"
 #include "settings/command_line.h"
 
 namespace fsr_ros {
@@ -53,6 +54,7 @@ fsr::settings::CommandLine options(const std::vector<ExportFormat>& formats) {
 
 ScanSelection selectionOf(const fsr::settings::CommandLine& line) {
   ScanSelection selection;
+  selection.progress = toolProgress();
   const BagReadOptions how = bagReadOptions(line);
   selection.topics = how.topics;
   selection.map = line.text("map", selection.map);
@@ -129,7 +131,8 @@ void writeArchive(const fsr::settings::CommandLine& line, std::ostream& out) {
   refuseOthers(line, {"calibration", "rate", "map", "ambient"});
   refuseOthers(line, pictureOptionNames());
   const ScanSelection range = selectionOf(line);
-  const ArchiveSelection selection{range.topics, split(line.text("topics", "")), range.from, range.until};
+  const ArchiveSelection selection{range.topics, split(line.text("topics", "")), range.from, range.until,
+                                   range.progress};
   const ArchiveResult result = archiveBag(line.files().front(), selection, line.requiredText("output"));
   if (!result.complaint.empty())
     out << "Warning: the group /scans is incomplete: " << result.complaint << "\n";

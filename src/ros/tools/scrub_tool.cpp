@@ -18,6 +18,7 @@
 #include "ros/bags/bag_stream.h"
 #include "ros/bags/fresh_bag.h"
 #include "ros/messages/message_reader.h"
+#include "ros/tools/tool_progress.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
 
@@ -39,10 +40,12 @@ class Scrubber {
  public:
   Scrubber(const BagStream& from, FreshBag& to) : from_(from), to_(to) {}
 
-  void run() {
+  void run(const BagWalk::ReadProgress& progress) {
     if (from_.connections().empty()) throw fsr::settings::InputError("holds no message");
     shift_ = kNewStart - from_.begin().sec * kSecond;
-    removed_["absolute times"] = from_.forEach({}, [&](const StreamedMessage& message) {
+    StreamQuery query;
+    query.progress = progress;
+    removed_["absolute times"] = from_.forEach(query, [&](const StreamedMessage& message) {
       const bool kept =
           copy<fsr_pressure_map::MatrixFrame>(message) || copy<sensor_msgs::FluidPressure>(message) ||
           copy<sensor_msgs::Temperature>(message) || copy<fsr_pressure_map::SurfaceCurvature>(message) ||
@@ -162,13 +165,18 @@ int scrubTool(int argc, const char* const* argv, std::ostream& out) {
   if (line.files().size() != 1)
     throw fsr::settings::InputError("give one bag, and --output with another name");
   fsr::settings::requireReplaceable(output);
-  withBagStream(line.files().front(), [&](const BagStream& from) {
-    FreshBag to(output);
-    Scrubber scrubber(from, to);
-    scrubber.run();
-    to.finish();
-    print(scrubber, out);
-  });
+  const std::string& bag = line.files().front();
+  const auto progress = toolProgress();
+  withBagStream(
+      bag,
+      [&](const BagStream& from) {
+        FreshBag to(output);
+        Scrubber scrubber(from, to);
+        scrubber.run(told("copying " + bag, progress));
+        to.finish();
+        print(scrubber, out);
+      },
+      told("checking " + bag, progress));
   out << "The scrubbed bag is " << std::filesystem::absolute(output).lexically_normal().string()
       << "\nCheck the file name yourself, and keep the list of subject codes confidential.\n";
   return 0;

@@ -1,15 +1,15 @@
 #include "ros/tools/study_tool.h"
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <iostream>
 
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/study_report.h"
+#include "ros/bags/bag_walk.h"
 #include "ros/tools/bag_options.h"
 #include "ros/tools/figure_script.h"
+#include "ros/tools/tool_progress.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
 #include "simulation/session.h"
@@ -64,7 +64,7 @@ void simulate(const fsr::settings::CommandLine& line, fsr::study::StudyProblem& 
   problem.recordings = fsr::simulation::simulateSession(settings);
 }
 
-fsr::study::StudyProblem problemOf(const fsr::settings::CommandLine& line) {
+fsr::study::StudyProblem problemOf(const fsr::settings::CommandLine& line, const ToolProgress& progress) {
   if (line.has("simulation") == !line.files().empty()) {
     throw fsr::settings::InputError("study: give either bags or --simulation FILE");
   }
@@ -74,8 +74,11 @@ fsr::study::StudyProblem problemOf(const fsr::settings::CommandLine& line) {
     simulate(line, problem);
     return problem;
   }
-  const BagReadOptions reading = bagReadOptions(line);
-  for (const std::string& path : line.files()) problem.recordings.push_back(readBag(path, reading));
+  BagReadOptions reading = bagReadOptions(line);
+  for (const std::string& path : line.files()) {
+    reading.progress = told("reading " + path, progress);
+    problem.recordings.push_back(readBag(path, reading));
+  }
   return problem;
 }
 
@@ -89,13 +92,6 @@ fs::path folderOf(const fsr::settings::CommandLine& line) {
   }
   line.requireWritable((folder / "results.json").string());
   return folder;
-}
-
-void showProgress(const std::string& stage, std::size_t done, std::size_t total) {
-  static std::string last;
-  if (!last.empty() && stage != last) std::cerr << '\n';
-  last = stage;
-  std::cerr << '\r' << stage << ": " << done << " of " << total << std::flush;
 }
 
 void write(const fs::path& folder, const fsr::study::StudyResult& result) {
@@ -115,11 +111,13 @@ int studyTool(int argc, const char* const* argv, std::ostream& out) {
     return 0;
   }
   const fs::path folder = folderOf(line);
-  const fsr::study::StudyProblem problem = problemOf(line);
-  const bool terminal = ::isatty(STDERR_FILENO) != 0;
+  ToolProgress progress = toolProgress();
+  const fsr::study::StudyProblem problem = problemOf(line, progress);
   const fsr::study::StudyResult result =
-      fsr::study::study(problem, terminal ? showProgress : fsr::study::StudyProgress{});
-  if (terminal) std::cerr << '\n';
+      fsr::study::study(problem, [&](const std::string& stage, std::size_t done, std::size_t total) {
+        progress(stage, total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1);
+      });
+  progress = nullptr;  // removes its line
   out << fsr::report::studyText(result);
   write(folder, result);
   out << "\nResults written to " << (folder / "results.json").string() << '\n';
