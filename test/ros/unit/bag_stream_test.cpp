@@ -1,0 +1,130 @@
+#include "ros/bags/bag_stream.h"
+
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <std_msgs/String.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "support/pty.h"
+
+namespace fsr_ros {
+namespace {
+
+using Read = std::tuple<std::string, std::uint64_t, std::string>;  // topic, reception [ns], text
+
+// rosbag is the reference.
+std::vector<Read> byView(const std::string& path, const std::vector<std::string>& topics, ros::Time from,
+                         ros::Time until) {
+  const rosbag::Bag bag(path);
+  rosbag::View view;
+  if (topics.empty()) {
+    view.addQuery(bag, from, until);
+  } else {
+    view.addQuery(bag, rosbag::TopicQuery(topics), from, until);
+  }
+  std::vector<Read> read;
+  for (const rosbag::MessageInstance& message : view) {
+    read.emplace_back(message.getTopic(), message.getTime().toNSec(),
+                      message.instantiate<std_msgs::String>()->data);
+  }
+  return read;
+}
+
+std::vector<Read> byStream(const std::string& path, const std::vector<std::string>& topics, ros::Time from,
+                           ros::Time until) {
+  std::vector<Read> read;
+  const auto take = [&](const StreamedMessage& message) {
+    read.emplace_back(message.about.topic, message.received.toNSec(),
+                      readStreamed<std_msgs::String>(message).data);
+    return true;
+  };
+  withBagStream(path, [&](const BagStream& bag) {
+    const std::uint64_t taken = bag.forEach({topics, from, until}, take);
+    EXPECT_EQ(taken, read.size());
+  });
+  return read;
+}
+
+class BagStreamTest : public testing::Test {
+ protected:
+  // Messages of several topics in small chunks. Times come in steps of 10 ms, so that many are equal, and
+  // with `jitter` not in order: chunks then overlap in time.
+  void write(rosbag::CompressionType packing, int jitter) {
+    std::mt19937 random(1);
+    rosbag::Bag bag(path_, rosbag::bagmode::Write);
+    bag.setChunkThreshold(2000);
+    bag.setCompression(packing);
+    for (int i = 0; i < 2000; ++i) {
+      std_msgs::String message;
+      message.data = std::to_string(i);
+      const int late = jitter > 0 ? static_cast<int>(random() % static_cast<unsigned>(jitter)) : 0;
+      const std::string topic = "/t" + std::to_string(random() % 5);
+      bag.write(topic, ros::Time(100 + 0.01 * (i / 3 + late)), message);
+      if (i == 700) bag.write("/rare", ros::Time(100 + 0.01 * (i / 3)), message);
+    }
+  }
+
+  const test_support::TemporaryFolder folder_;
+  const std::string path_ = folder_.path("a.bag");
+};
+
+TEST_F(BagStreamTest, GivesMessagesInTheOrderOfRosbagsView) {
+  for (const auto packing : {rosbag::compression::Uncompressed, rosbag::compression::LZ4}) {
+    for (const int jitter : {0, 5, 300}) {
+      write(packing, jitter);
+      for (const std::vector<std::string>& topics :
+           {std::vector<std::string>{}, {"/t3"}, {"/t1", "/rare"}, {"/none"}}) {
+        EXPECT_EQ(byStream(path_, topics, ros::TIME_MIN, ros::TIME_MAX),
+                  byView(path_, topics, ros::TIME_MIN, ros::TIME_MAX))
+            << jitter;
+        EXPECT_EQ(byStream(path_, topics, ros::Time(101.5), ros::Time(103.25)),
+                  byView(path_, topics, ros::Time(101.5), ros::Time(103.25)))
+            << jitter;
+      }
+    }
+  }
+}
+
+TEST_F(BagStreamTest, ListsTheConnectionsThatHaveAMessageInTheQuery) {
+  write(rosbag::compression::Uncompressed, 5);
+  withBagStream(path_, [&](const BagStream& bag) {
+    EXPECT_EQ(bag.connections().size(), 6u);
+    EXPECT_EQ(bag.begin(), ros::Time(100));
+    const auto rare = bag.connectionsOf({{"/rare"}});
+    ASSERT_EQ(rare.size(), 1u);
+    EXPECT_EQ(bag.connections()[rare[0]].about.topic, "/rare");
+    EXPECT_TRUE(bag.connectionsOf({{"/rare"}, ros::Time(105)}).empty());
+    EXPECT_EQ(bag.connectionsOf({{}, ros::Time(105)}).size(), 5u);
+  });
+}
+
+TEST_F(BagStreamTest, EndsWhereTheReaderHasEnough) {
+  write(rosbag::compression::Uncompressed, 0);
+  std::size_t seen = 0;
+  withBagStream(path_, [&](const BagStream& bag) {
+    bag.forEach({}, [&](const StreamedMessage&) { return ++seen < 10; });
+  });
+  EXPECT_EQ(seen, 10u);
+}
+
+TEST_F(BagStreamTest, TellsHowMuchIsDone) {
+  write(rosbag::compression::Uncompressed, 0);
+  std::vector<double> shares;
+  StreamQuery query;
+  query.progress = [&](double share) { shares.push_back(share); };
+  withBagStream(
+      path_, [&](const BagStream& bag) { bag.forEach(query, [](const StreamedMessage&) { return true; }); });
+  ASSERT_FALSE(shares.empty());
+  EXPECT_GE(shares.front(), 0);
+  EXPECT_LE(shares.back(), 1);
+}
+
+}  // namespace
+}  // namespace fsr_ros

@@ -1,0 +1,147 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "exports/scan_formats.h"
+#include "ros/bags/bag_writer.h"
+#include "ros/tools/check_bag_tool.h"
+#include "ros/tools/export_tool.h"
+#include "ros/tools/scrub_tool.h"
+#include "support/pty.h"
+
+// Sanitizers keep memory that was freed.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+namespace fsr_ros {
+namespace {
+
+constexpr std::size_t kScans = 15000;  // of the short bag; the long one has four times as many
+
+// A line "VmHWM:  1234 kB" of /proc/self/status [bytes].
+double statusBytes(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.compare(0, name.size() + 1, name + ":") == 0)
+      return 1024 * std::stod(line.substr(name.size() + 1));
+  }
+  return NAN;
+}
+
+// How much the peak of the resident memory rises while `run` runs in a process of its own [bytes]; NaN = the
+// system does not tell.
+double peakOf(const std::function<int()>& run) {
+  int ends[2];
+  if (::pipe(ends) != 0) return NAN;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    std::ofstream("/proc/self/clear_refs") << 5 << std::flush;  // the peak begins anew
+    const double before = statusBytes("VmHWM");
+    const double risen = run() == 0 ? statusBytes("VmHWM") - before : NAN;
+    const bool told = ::write(ends[1], &risen, sizeof(risen)) == sizeof(risen);
+    ::_exit(told ? 0 : 1);
+  }
+  double risen = NAN;
+  if (::read(ends[0], &risen, sizeof(risen)) != sizeof(risen)) risen = NAN;
+  ::waitpid(child, nullptr, 0);
+  ::close(ends[0]);
+  ::close(ends[1]);
+  return risen;
+}
+
+// Pressure cycles on 16 x 10 taxels at 100 Hz, with some noise.
+void writeLongBag(const std::string& path, std::size_t scans) {
+  fsr::dataset::Recording recording;
+  recording.name = "1_flat.bag";
+  recording.layout.size = {16, 10};
+  recording.full_scale = 65535;
+  recording.start_ns = 1700000000000000000;
+  recording.conditions.push_back({"flat", 0, {fsr::matrix::Curvature{}}, {}});
+  std::uint32_t random = 1;
+  for (std::size_t i = 0; i < scans; ++i) {
+    const double time = 0.01 * static_cast<double>(i);
+    const double pressure = 150e3 * (1 - std::cos(2 * M_PI * time / 20));
+    recording.time.push_back(time);
+    recording.pressure.push_back(pressure);
+    recording.condition.push_back(0);
+    for (std::size_t t = 0; t < 160; ++t) {
+      random = 1664525 * random + 1013904223;
+      recording.counts.push_back(
+          static_cast<std::uint16_t>(0.1 * pressure + static_cast<double>(random % 512 + 3 * t)));
+    }
+  }
+  writeBag(path, recording);
+}
+
+using Tool = std::function<int(const std::string& bag, const std::string& folder)>;
+
+int runTool(int (*tool)(int, const char* const*, std::ostream&), const std::vector<std::string>& words) {
+  std::vector<const char*> argv;
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  std::ostringstream out;
+  return tool(static_cast<int>(argv.size()), argv.data(), out);
+}
+
+Tool exportTo(const std::string& format) {
+  return [format](const std::string& bag, const std::string& folder) {
+    const auto tool = [](int argc, const char* const* argv, std::ostream& out) {
+      return exportTool(argc, argv, out);
+    };
+    return runTool(tool, {"export", bag, "--to", format, "--output", folder + "/out"});
+  };
+}
+
+class ToolMemory : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (kSanitized) GTEST_SKIP() << "under a sanitizer";
+    writeLongBag(short_, kScans);
+    writeLongBag(long_, 4 * kScans);
+    added_ = static_cast<double>(std::filesystem::file_size(long_) - std::filesystem::file_size(short_));
+  }
+
+  // By how much the peak rises for each byte that the bag is longer.
+  double growth(const Tool& tool) const {
+    const double small = peakOf([&] { return tool(short_, folder_.path()); });
+    const double large = peakOf([&] { return tool(long_, folder_.path()); });
+    EXPECT_FALSE(std::isnan(small) || std::isnan(large)) << "the tool failed, or /proc does not tell";
+    return (large - small) / added_;
+  }
+
+  test_support::TemporaryFolder folder_;
+  const std::string short_ = folder_.path("short.bag"), long_ = folder_.path("long.bag");
+  double added_ = 0;  // [bytes]
+};
+
+// rosbag's index alone is 0.14 bytes for each byte of such a bag.
+TEST_F(ToolMemory, OfScrubAndExportDoesNotGrowWithTheBag) {
+  const Tool scrub = [](const std::string& bag, const std::string& folder) {
+    return runTool(scrubTool, {"scrub", bag, "--output", folder + "/out.bag"});
+  };
+  EXPECT_LT(growth(scrub), 0.05);
+  EXPECT_LT(growth(exportTo("csv")), 0.05);
+  EXPECT_LT(growth(exportTo("hdf5")), 0.08);
+}
+
+// The counts are 0.7 bytes for each byte of the bag.
+TEST_F(ToolMemory, OfCheckBagGrowsByLittleMoreThanTheCounts) {
+  const Tool check = [](const std::string& bag, const std::string&) {
+    return runTool(checkBagTool, {"check_bag", bag});
+  };
+  EXPECT_LT(growth(check), 1.3);
+}
+
+}  // namespace
+}  // namespace fsr_ros
