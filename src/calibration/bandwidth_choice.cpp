@@ -6,6 +6,7 @@
 #include "compensation/training_statistics.h"
 #include "matrix/for_each_taxel.h"
 #include "regression/bandwidth_search.h"
+#include "settings/step_progress.h"
 
 namespace fsr::calibration {
 
@@ -56,15 +57,18 @@ bool choosesBandwidth(const CalibrationOptions& options) {
 compensation::FoldRegressors chooseRegressor(const CalibrationOptions& options,
                                              const compensation::SchemePlan& plan,
                                              const compensation::TrainingStatistics& statistics,
-                                             const std::vector<std::uint8_t>& no_model) {
+                                             const std::vector<std::uint8_t>& no_model,
+                                             const CalibrationProgress& progress) {
   compensation::FoldRegressors regressors{options.regressor, {}};
   regressors.whole.forest.seed = options.seed;
   if (!choosesBandwidth(options)) return regressors;
   const std::vector<std::size_t> taxels = taxelsOfSearch(no_model);
   std::vector<std::unique_ptr<regression::BandwidthErrors>> errors(taxels.size());
+  settings::StepProgress search(progress, "choosing the bandwidth", taxels.size());
   matrix::forEachTaxel(taxels.size(), options.threads, [&](std::size_t i) {
     errors[i] = std::make_unique<regression::BandwidthErrors>(
         errorsOf(options.regressor.grnn, plan, statistics, taxels[i]));
+    search.partDone();
   });
   for (std::size_t i = 1; i < errors.size(); ++i) errors.front()->add(*errors[i]);  // always in this order
   regressors.whole.grnn.bandwidth = errors.front()->best();

@@ -19,11 +19,12 @@ bool choosesBandwidth(const CalibrationOptions& options);
 /// without that section (nested cross-validation).
 ///
 /// For a GRNN with equal weights of pressure bins it is the bandwidth found with equal weights of all
-/// readings. `no_model` [taxels], 1 = has no model.
+/// readings. `no_model` [taxels], 1 = has no model. `progress` is told of the search.
 compensation::FoldRegressors chooseRegressor(const CalibrationOptions& options,
                                              const compensation::SchemePlan& plan,
                                              const compensation::TrainingStatistics& statistics,
-                                             const std::vector<std::uint8_t>& no_model);
+                                             const std::vector<std::uint8_t>& no_model,
+                                             const CalibrationProgress& progress);
 
 constexpr std::size_t kTaxelsOfSearch = 16;
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <memory>
-#include <mutex>
 
 #include "calibration/bandwidth_choice.h"
 #include "calibration/curvature_rule_learning.h"
@@ -22,6 +21,7 @@
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "matrix/for_each_taxel.h"
+#include "settings/step_progress.h"
 
 namespace fsr::calibration {
 
@@ -48,16 +48,14 @@ class Training {
     matrix::forEachTaxel(taxels, problem_.options.threads, [&](std::size_t taxel) { sum(taxel); });
     findTaxelsWithoutModel(plan_, problem_.recordings.front().name, calibration);
 
-    const compensation::FoldRegressors regressors = chooseWithZeros(calibration);
+    const compensation::FoldRegressors regressors = chooseWithZeros(calibration, progress);
     RemountErrors remount(problem_.recordings, classes_, sections_, zeros_);
     HeldOutScoring scoring(scans_, plan_, problem_.options.folds, taxels);
-    std::mutex reporting;
-    std::size_t done = 0;
+    settings::StepProgress training(progress, "training the taxels", taxels);
     matrix::forEachTaxel(taxels, problem_.options.threads, [&](std::size_t taxel) {
       train(taxel, regressors, calibration, scoring);
       if (calibration.no_model[taxel] == 0) remount.measure(plan_, taxel, regressors.whole, calibration);
-      const std::lock_guard<std::mutex> lock(reporting);
-      if (progress) progress(++done, taxels);
+      training.partDone();
     });
     const RemountScore remounted = remount.apply(calibration);
     const UnseenScore unseen = learnRule(plan_, problem_.options.threads, calibration);
@@ -75,6 +73,7 @@ class Training {
                                  regressors.whole,
                                  zeros_,
                                  calibration.session_zero.expected() ? &sessions_ : nullptr};
+    const settings::StepProgress memory(progress, "history and temperature", 1);
     trainHistory(problem, problem_.options, calibration);
     calibration.temperature = chooseTemperature(problem, problem_.options, calibration);
     return calibration;
@@ -88,7 +87,7 @@ class Training {
   Calibration describe();
   std::shared_ptr<compensation::TrainingStatistics> emptyStatistics() const;
   void sum(std::size_t taxel);
-  compensation::FoldRegressors chooseWithZeros(Calibration& calibration);
+  compensation::FoldRegressors chooseWithZeros(Calibration& calibration, const CalibrationProgress& progress);
   void train(std::size_t taxel, const compensation::FoldRegressors& regressors, Calibration& calibration,
              HeldOutScoring& scoring) const;
 
@@ -148,15 +147,16 @@ void Training::sum(std::size_t taxel) {
 }
 
 // The choice of zeros needs a regressor. If there are zeros, the regressor is chosen again with them.
-compensation::FoldRegressors Training::chooseWithZeros(Calibration& calibration) {
-  const compensation::FoldRegressors regressors = choose(problem_.options, calibration, plan_);
+compensation::FoldRegressors Training::chooseWithZeros(Calibration& calibration,
+                                                       const CalibrationProgress& progress) {
+  const compensation::FoldRegressors regressors = choose(problem_.options, calibration, plan_, progress);
   zeros_ = chooseSessionZero({problem_.recordings, classes_, sections_, plan_, regressors.whole, zeros_},
                              sessions_, problem_.options, calibration);
   if (zeros_.empty()) return regressors;
   scans_ = gatherScans(problem_.recordings, classes_, sections_, zeros_);
   matrix::forEachTaxel(statistics_->taxels, problem_.options.threads, [&](std::size_t taxel) { sum(taxel); });
   plan_ = compensation::planScheme(problem_.options.scheme, classes_.classes);
-  return choose(problem_.options, calibration, plan_);
+  return choose(problem_.options, calibration, plan_, progress);
 }
 
 void Training::train(std::size_t taxel, const compensation::FoldRegressors& regressors,

@@ -139,9 +139,9 @@ compensation::SectionedReadings readingsOf(const compensation::TrainingStatistic
 }
 
 compensation::FoldRegressors choose(const CalibrationOptions& options, Calibration& calibration,
-                                    compensation::SchemePlan& plan) {
+                                    compensation::SchemePlan& plan, const CalibrationProgress& progress) {
   const compensation::FoldRegressors regressors =
-      chooseRegressor(options, plan, *calibration.statistics, calibration.no_model);
+      chooseRegressor(options, plan, *calibration.statistics, calibration.no_model, progress);
   calibration.regressor = regressors.whole;
   compensation::learnScheme(*calibration.statistics, plainKernel(regressors.whole.grnn),
                             taxelsOfSearch(calibration.no_model), options.threads, plan);
@@ -176,7 +176,7 @@ void trainOnStatistics(const CalibrationOptions& options, const std::string& ori
   }
   prepareTables(plan, calibration);
   findTaxelsWithoutModel(plan, origin, calibration);
-  const compensation::FoldRegressors regressors = choose(options, calibration, plan);
+  const compensation::FoldRegressors regressors = choose(options, calibration, plan, {});
   matrix::forEachTaxel(statistics.taxels, options.threads, [&](std::size_t taxel) {
     std::vector<regression::CrossValidatedModel> models;
     if (calibration.no_model[taxel] == 0) {

@@ -26,7 +26,7 @@ bool isConstantTaxelWarning(const std::string& warning);
 /// Finds what depends on the data of the whole matrix before its taxels are trained: the regressor, which is
 /// also stored in `calibration`, and the parameters of the scheme, which are stored in `plan`.
 compensation::FoldRegressors choose(const CalibrationOptions& options, Calibration& calibration,
-                                    compensation::SchemePlan& plan);
+                                    compensation::SchemePlan& plan, const CalibrationProgress& progress);
 
 /// The sums of one taxel by class and section.
 compensation::SectionedReadings readingsOf(const compensation::TrainingStatistics& statistics,

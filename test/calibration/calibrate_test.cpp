@@ -344,12 +344,15 @@ TEST(Calibrate, ScansWithoutAPressureAreNotUsed) {
 }
 
 TEST(Calibrate, ReportsItsProgress) {
-  std::vector<std::size_t> steps;
-  calibrate({{plainRecording()}, {}}, [&](std::size_t done, std::size_t taxels) {
-    steps.push_back(done);
-    EXPECT_EQ(taxels, 1u);
-  });
-  EXPECT_EQ(steps, std::vector<std::size_t>{1});
+  std::vector<std::pair<std::string, double>> told;
+  calibrate({{plainRecording()}, {}},
+            [&](const std::string& step, double share) { told.emplace_back(step, share); });
+  const std::vector<std::pair<std::string, double>> expected = {{"choosing the bandwidth", 0},
+                                                                {"choosing the bandwidth", 1},
+                                                                {"training the taxels", 0},
+                                                                {"training the taxels", 1},
+                                                                {"history and temperature", 0}};
+  EXPECT_EQ(told, expected);
 }
 
 std::string complaint(const CalibrationProblem& problem) {

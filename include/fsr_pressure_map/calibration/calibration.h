@@ -235,8 +235,8 @@ struct Calibration {
 /// Throws InputError: one sentence that names the first problem and what would be right.
 void validate(const CalibrationProblem& problem);
 
-/// Called after each taxel, from one thread at a time.
-using CalibrationProgress = std::function<void(std::size_t done, std::size_t taxels)>;
+/// Called as the training goes on, from one thread at a time. `share`: of the step that is done, 0 to 1.
+using CalibrationProgress = std::function<void(const std::string& step, double share)>;
 
 /// Trains a calibration: tables, scores and provenance from recordings. Validates the problem first. The
 /// result is the same on any number of threads.

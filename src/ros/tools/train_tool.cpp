@@ -1,7 +1,5 @@
 #include "ros/tools/train_tool.h"
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <iostream>
 
@@ -17,8 +15,10 @@
 #include "report/calibration_report.h"
 #include "report/history_report.h"
 #include "report/session_report.h"
+#include "ros/bags/bag_walk.h"
 #include "ros/tools/bag_options.h"
 #include "ros/tools/history_option.h"
+#include "ros/tools/tool_progress.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
 
@@ -146,18 +146,18 @@ fsr::calibration::CalibrationOptions calibrationOptions(const fsr::settings::Com
 }
 
 std::vector<fsr::dataset::Recording> readBags(const fsr::settings::CommandLine& line) {
-  const BagReadOptions options = bagReadOptions(line);
+  BagReadOptions options = bagReadOptions(line);
+  const ToolProgress progress = toolProgress();
   std::vector<fsr::dataset::Recording> recordings;
-  for (const std::string& path : line.files()) recordings.push_back(readBag(path, options));
+  for (const std::string& path : line.files()) {
+    options.progress = told("reading " + path, progress);
+    recordings.push_back(readBag(path, options));
+  }
   return recordings;
 }
 
 std::string fullPath(const std::string& path) {
   return std::filesystem::absolute(path).lexically_normal().string();
-}
-
-void showProgress(std::size_t done, std::size_t taxels) {
-  std::cerr << "\rtaxel " << done << " of " << taxels << (done == taxels ? "\n" : "") << std::flush;
 }
 
 int check(const fsr::settings::CommandLine& line, std::ostream& out) {
@@ -203,9 +203,7 @@ fsr::calibration::Calibration train(const fsr::settings::CommandLine& line, std:
   const fsr::calibration::CalibrationProblem problem{readBags(line), chosen};
   fsr::calibration::validate(problem);
   out << fsr::report::coverageText(fsr::dataset::coverageOf(problem.recordings, chosen.folds)) << std::endl;
-  const bool terminal = ::isatty(STDERR_FILENO) != 0;
-  fsr::calibration::Calibration calibration =
-      fsr::calibration::calibrate(problem, terminal ? showProgress : fsr::calibration::CalibrationProgress{});
+  fsr::calibration::Calibration calibration = fsr::calibration::calibrate(problem, toolProgress());
   out << fsr::report::warningsText(calibration)
       << fsr::report::scoresText(calibration.scores, calibration.layout)
       << fsr::report::sessionText(calibration.scores.session) << fsr::report::temperatureText(calibration)
