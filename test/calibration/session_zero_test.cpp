@@ -74,6 +74,17 @@ TEST(SessionZero, TakesOutThePlantedOffsets) {
   EXPECT_LT(planted.scores.whole.rmse_percent.mean, 2 * without.scores.whole.rmse_percent.mean);
 }
 
+// The response of the tables to each session is found from sums in which that session alone is changed, one
+// session after the other. Values: version 1a982f8, which summed all sessions anew each time.
+TEST(SessionZero, KeepsTheErrorsOfTablesThatAreSummedAnew) {
+  const Calibration planted = trained(sessions(7, kOffset));
+  const auto& scores = planted.scores.session.sessions;
+  ASSERT_EQ(scores.size(), 7u);
+  EXPECT_NEAR(scores[0].rmse[2], 917.81270077992, 1e-6);
+  EXPECT_NEAR(scores[3].rmse[2], 834.82496225490, 1e-6);
+  EXPECT_NEAR(scores[6].rmse[2], 805.02802736874, 1e-6);
+}
+
 TEST(SessionZero, WorksWithAModelOfSingleReadings) {
   const Calibration planted = trained(sessions(7, kOffset), ZeroChoice::kAuto, "monotone");
   ASSERT_TRUE(planted.session_zero.expected()) << planted.scores.session.choice;

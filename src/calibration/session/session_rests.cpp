@@ -65,18 +65,27 @@ std::vector<std::size_t> restAfterLoad(const dataset::Recording& recording, std:
   return last;
 }
 
-std::optional<double> zeroAtRest(const dataset::Recording& recording, const std::vector<std::size_t>& rest,
-                                 std::size_t taxel, const std::vector<double>& table) {
-  if (table.empty()) return {};
-  double sum = 0, count = 0;
+std::vector<ReadingAtRest> readingsAtRest(const dataset::Recording& recording,
+                                          const std::vector<std::size_t>& rest, std::size_t taxel) {
+  std::vector<ReadingAtRest> readings;
   for (const std::size_t scan : rest) {
     const std::uint16_t code = recording.scan(scan)[taxel];
-    if (code >= recording.full_scale) continue;
-    sum += table[code] - recording.pressure[scan];
-    count += 1;
+    if (code < recording.full_scale) readings.push_back({code, recording.pressure[scan]});
   }
-  if (count == 0) return {};
-  return sum / count;
+  return readings;
+}
+
+std::optional<double> zeroAtRest(const std::vector<ReadingAtRest>& readings,
+                                 const std::vector<double>& table) {
+  if (table.empty() || readings.empty()) return {};
+  double sum = 0;
+  for (const ReadingAtRest& reading : readings) sum += table[reading.code] - reading.pressure;
+  return sum / static_cast<double>(readings.size());
+}
+
+std::optional<double> zeroAtRest(const dataset::Recording& recording, const std::vector<std::size_t>& rest,
+                                 std::size_t taxel, const std::vector<double>& table) {
+  return zeroAtRest(readingsAtRest(recording, rest, taxel), table);
 }
 
 std::string Session::name(const std::vector<dataset::Recording>& recordings) const {

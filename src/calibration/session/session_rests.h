@@ -20,8 +20,21 @@ std::vector<std::size_t> restAtStart(const dataset::Recording& recording, std::s
 /// = there is no such rest.
 std::vector<std::size_t> restAfterLoad(const dataset::Recording& recording, std::size_t condition);
 
-/// What the table of a taxel answers too much at rest, mean over `rest` [Pa]. Nothing where the reading is at
-/// full scale throughout or the table is empty. `table`: pressure of each code [Pa].
+/// A reading of one taxel at rest, below full scale.
+struct ReadingAtRest {
+  std::uint16_t code = 0;
+  double pressure = 0;  ///< of the chamber [Pa]
+};
+
+/// The readings of one taxel in the scans of a rest.
+std::vector<ReadingAtRest> readingsAtRest(const dataset::Recording& recording,
+                                          const std::vector<std::size_t>& rest, std::size_t taxel);
+
+/// What the table of a taxel answers too much at rest, mean over the readings [Pa]. Nothing where there is no
+/// reading or the table is empty. `table`: pressure of each code [Pa].
+std::optional<double> zeroAtRest(const std::vector<ReadingAtRest>& readings,
+                                 const std::vector<double>& table);
+/// The same of the readings in the scans of a rest.
 std::optional<double> zeroAtRest(const dataset::Recording& recording, const std::vector<std::size_t>& rest,
                                  std::size_t taxel, const std::vector<double>& table);
 

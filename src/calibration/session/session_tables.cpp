@@ -34,7 +34,6 @@ Eigen::VectorXd centredSolution(const Eigen::MatrixXd& matrix, const Eigen::Vect
 
 // The statistics of the same readings, each larger by `zero`.
 regression::CodeStatistics shifted(const regression::CodeStatistics& cell, FixedPressure zero) {
-  if (zero == 0) return cell;
   regression::CodeStatistics result;
   cell.forEach([&](regression::CodeSums sums) {
     sums.sum_of_squares += 2 * Int128{zero} * sums.sum + Int128{sums.count} * zero * zero;
@@ -42,6 +41,13 @@ regression::CodeStatistics shifted(const regression::CodeStatistics& cell, Fixed
     result.append(sums);
   });
   return result;
+}
+
+void addShifted(const regression::CodeStatistics& cell, FixedPressure zero, regression::CodeHistogram& sums) {
+  if (zero == 0)
+    sums.add(cell);
+  else
+    sums.add(shifted(cell, zero));
 }
 
 // Adds the squared errors of the readings of one code, to which a table answers `answer`.
@@ -58,13 +64,17 @@ SessionTables::SessionTables(const HistoryProblem& problem, const Sessions& sess
     : problem_(problem),
       sessions_(sessions),
       taxel_(taxel),
-      readings_(sectionedReadings(scans, sessions.most, full_scale, taxel, problem.regressor)) {}
+      readings_(sectionedReadings(scans, sessions.most, full_scale, taxel, problem.regressor)) {
+  for (const Session& session : sessions.all)
+    rests_.push_back(readingsAtRest(problem.recordings[session.recording], session.rest, taxel));
+}
 
 bool SessionTables::leftOut(const Session& session, std::optional<std::uint32_t> number) const {
   return number == session.number && sessions_.assessable(session);
 }
 
-SessionTables::Tables SessionTables::train(std::optional<std::uint32_t> left_out, const Zeros& zeros) const {
+regression::ClassReadings SessionTables::readingsWithout(std::optional<std::uint32_t> left_out,
+                                                         const Zeros& zeros) const {
   regression::ClassReadings readings;
   readings.full_scale = readings_.full_scale;
   const std::size_t classes = readings_.sums.size();
@@ -75,22 +85,39 @@ SessionTables::Tables SessionTables::train(std::optional<std::uint32_t> left_out
     const Session& session = sessions_.all[s];
     if (leftOut(session, left_out)) continue;
     const std::size_t k = session.curvature_class;
-    readings.sums[k].add(shifted(readings_.sums[k][session.number], zeros[s]));
+    addShifted(readings_.sums[k][session.number], zeros[s], readings.sums[k]);
     if (readings.samples.empty()) continue;
     regression::CodeSamples samples = readings_.samples[k][session.number];
     for (FixedPressure& pressure : samples.pressure) pressure += zeros[s];
     readings.samples[k].append(samples);
   }
+  return readings;
+}
+
+void SessionTables::move(std::size_t session, FixedPressure zero, FixedPressure step,
+                         regression::ClassReadings& readings) const {
+  const Session& moved = sessions_.all[session];
+  const regression::CodeStatistics& own = readings_.sums[moved.curvature_class][moved.number];
+  regression::CodeHistogram& sums = readings.sums[moved.curvature_class];
+  sums.subtract(shifted(own, zero));
+  sums.add(shifted(own, zero + step));
+}
+
+SessionTables::Tables SessionTables::fit(const regression::ClassReadings& readings) const {
   const std::vector<regression::Fit> fits =
       compensation::fitScheme(problem_.plan, taxel_, readings, problem_.regressor);
   Tables tables;
-  for (std::size_t k = 0; k < classes; ++k) tables.push_back(fits[problem_.plan.model_of_class[k]].pressure);
+  for (std::size_t k = 0; k < readings.sums.size(); ++k)
+    tables.push_back(fits[problem_.plan.model_of_class[k]].pressure);
   return tables;
 }
 
-std::optional<double> SessionTables::zeroOf(const Session& session, const Tables& tables) const {
-  return zeroAtRest(problem_.recordings[session.recording], session.rest, taxel_,
-                    tables[session.curvature_class]);
+SessionTables::Tables SessionTables::train(std::optional<std::uint32_t> left_out, const Zeros& zeros) const {
+  return fit(readingsWithout(left_out, zeros));
+}
+
+std::optional<double> SessionTables::zeroOf(std::size_t session, const Tables& tables) const {
+  return zeroAtRest(rests_[session], tables[sessions_.all[session].curvature_class]);
 }
 
 // The sessions that a zero can be found for, by the model that they train.
@@ -108,6 +135,24 @@ std::vector<std::vector<std::size_t>> SessionTables::trainedSessions(
   return of_model;
 }
 
+// Tables of the readings in which some sessions are larger by kStep. Sums change by those of the sessions
+// alone, so that the time does not depend on the number of the others. `readings`: without the step, before
+// and after.
+SessionTables::Tables SessionTables::responseTo(const std::vector<std::size_t>& moved,
+                                                std::optional<std::uint32_t> left_out, const Zeros& zeros,
+                                                regression::ClassReadings& readings) const {
+  const FixedPressure step = regression::toFixed(kStep);
+  if (!readings.samples.empty()) {  // single readings have an order
+    Zeros larger = zeros;
+    for (const std::size_t s : moved) larger[s] += step;
+    return train(left_out, larger);
+  }
+  for (const std::size_t s : moved) move(s, zeros[s], step, readings);
+  Tables response = fit(readings);
+  for (const std::size_t s : moved) move(s, zeros[s] + step, -step, readings);
+  return response;
+}
+
 // Tables T and zeros z determine each other: T = S (p + z) with the smoother S of the regressor, and z + b =
 // R T - p_rest, where R takes the mean at rest. So (I - R S) z + b = R S p - p_rest. Column j of R S is the
 // response of the answers at rest to readings of session j that are larger by 1. z + constant is a solution,
@@ -118,8 +163,7 @@ void SessionTables::improve(std::optional<std::uint32_t> left_out, const Tables&
   const auto of_model = trainedSessions(left_out);
   const auto answers = [&](const std::vector<std::size_t>& own, const Tables& by) {
     Eigen::VectorXd at_rest(own.size());
-    for (std::size_t i = 0; i < own.size(); ++i)
-      at_rest[Eigen::Index(i)] = zeroOf(sessions_.all[own[i]], by).value_or(0);
+    for (std::size_t i = 0; i < own.size(); ++i) at_rest[Eigen::Index(i)] = zeroOf(own[i], by).value_or(0);
     return at_rest;
   };
   std::size_t most = 0;
@@ -128,22 +172,24 @@ void SessionTables::improve(std::optional<std::uint32_t> left_out, const Tables&
     most = std::max(most, own.size());
     matrix.push_back(Eigen::MatrixXd::Identity(Eigen::Index(own.size()), Eigen::Index(own.size())));
   }
+  std::vector<Eigen::VectorXd> at_rest;  // before a session is moved
+  for (const auto& own : of_model) at_rest.push_back(answers(own, tables));
+  regression::ClassReadings readings = readingsWithout(left_out, zeros);
   for (std::size_t j = 0; j < most; ++j) {  // one session of each model at a time
-    Zeros moved = zeros;
+    std::vector<std::size_t> moved;
     for (const auto& own : of_model) {
-      if (j < own.size()) moved[own[j]] += regression::toFixed(kStep);
+      if (j < own.size()) moved.push_back(own[j]);
     }
-    const Tables response = train(left_out, moved);
+    const Tables response = responseTo(moved, left_out, zeros, readings);
     for (std::size_t m = 0; m < of_model.size(); ++m) {
       if (j >= of_model[m].size()) continue;
-      matrix[m].col(Eigen::Index(j)) -=
-          (answers(of_model[m], response) - answers(of_model[m], tables)) / kStep;
+      matrix[m].col(Eigen::Index(j)) -= (answers(of_model[m], response) - at_rest[m]) / kStep;
     }
   }
   for (std::size_t m = 0; m < of_model.size(); ++m) {
     const auto& own = of_model[m];
     if (own.size() < 2) continue;
-    Eigen::VectorXd beyond = answers(own, tables);
+    Eigen::VectorXd beyond = at_rest[m];
     for (std::size_t i = 0; i < own.size(); ++i)
       beyond[Eigen::Index(i)] -= regression::fromFixed(zeros[own[i]]);
     const Eigen::VectorXd step = centredSolution(matrix[m], beyond);
@@ -180,13 +226,14 @@ std::array<std::uint16_t, 2> SessionTables::codesWithout(const Session& session)
 
 // Without the rest. A code of 0 or at full scale is no value, and a table says nothing beyond the codes that
 // it was trained on.
-void SessionTables::addErrors(const Session& session, const Tables& plain, const Tables& zeroed,
+void SessionTables::addErrors(std::size_t number, const Tables& plain, const Tables& zeroed,
                               SessionErrors& errors) const {
+  const Session& session = sessions_.all[number];
   const std::size_t k = session.curvature_class;
   if (plain[k].empty() || zeroed[k].empty()) return;
   const std::array<const std::vector<double>*, kSessionAnswers> tables = {&plain[k], &plain[k], &zeroed[k]};
-  const std::array<double, kSessionAnswers> zero = {0, zeroOf(session, plain).value_or(0),
-                                                    zeroOf(session, zeroed).value_or(0)};
+  const std::array<double, kSessionAnswers> zero = {0, zeroOf(number, plain).value_or(0),
+                                                    zeroOf(number, zeroed).value_or(0)};
   const auto [lowest, highest] = codesWithout(session);
   const auto counts = [&, low = lowest, high = highest](std::uint16_t code) {
     return code > 0 && code < readings_.full_scale && code >= low && code <= high;
@@ -214,7 +261,7 @@ std::vector<SessionErrors> SessionTables::leaveEachOut() const {
     Tables zeroed = plain;
     solve(number, zeroed);
     for (std::size_t s = 0; s < errors.size(); ++s) {
-      if (out(sessions_.all[s])) addErrors(sessions_.all[s], plain, zeroed, errors[s]);
+      if (out(sessions_.all[s])) addErrors(s, plain, zeroed, errors[s]);
     }
   }
   return errors;

@@ -44,21 +44,30 @@ class SessionTables {
   using Tables = std::vector<std::vector<double>>;       // [classes][codes] [Pa]; empty = no answer
 
   bool leftOut(const Session& session, std::optional<std::uint32_t> number) const;
+  /// The readings of the sessions that are not left out, each larger by the zero of its session.
+  regression::ClassReadings readingsWithout(std::optional<std::uint32_t> left_out, const Zeros& zeros) const;
+  /// Adds `step` to the readings of a session, which are larger by `zero`.
+  void move(std::size_t session, regression::FixedPressure zero, regression::FixedPressure step,
+            regression::ClassReadings& readings) const;
+  Tables fit(const regression::ClassReadings& readings) const;
   Tables train(std::optional<std::uint32_t> left_out, const Zeros& zeros) const;
-  std::optional<double> zeroOf(const Session& session, const Tables& tables) const;
+  /// What the tables answer too much at the rest of a session.
+  std::optional<double> zeroOf(std::size_t session, const Tables& tables) const;
   std::vector<std::vector<std::size_t>> trainedSessions(std::optional<std::uint32_t> left_out) const;
   /// `tables`: with `zeros`.
   void improve(std::optional<std::uint32_t> left_out, const Tables& tables, Zeros& zeros) const;
+  Tables responseTo(const std::vector<std::size_t>& moved, std::optional<std::uint32_t> left_out,
+                    const Zeros& zeros, regression::ClassReadings& readings) const;
   /// `tables`: first without zeros, then with the zeros returned.
   Zeros solve(std::optional<std::uint32_t> left_out, Tables& tables) const;
-  void addErrors(const Session& session, const Tables& plain, const Tables& zeroed,
-                 SessionErrors& errors) const;
+  void addErrors(std::size_t number, const Tables& plain, const Tables& zeroed, SessionErrors& errors) const;
   std::array<std::uint16_t, 2> codesWithout(const Session& session) const;
 
   const HistoryProblem& problem_;
   const Sessions& sessions_;
   std::size_t taxel_;
-  compensation::SectionedReadings readings_;  // the sections are the sessions
+  compensation::SectionedReadings readings_;       // the sections are the sessions
+  std::vector<std::vector<ReadingAtRest>> rests_;  // [sessions]
 };
 
 }  // namespace fsr::calibration
