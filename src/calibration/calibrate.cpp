@@ -80,7 +80,9 @@ class Training {
   }
 
   /// `calibration`: of run(), with its ranges of training.
-  void addShape(Calibration& calibration) const { trainShape(problem_.recordings, sessions_, calibration); }
+  void addShape(Calibration& calibration) const {
+    trainShape(problem_.recordings, sessions_, problem_.options.threads, calibration);
+  }
 
  private:
   // Everything except the results of each taxel.

@@ -7,6 +7,7 @@
 #include "calibration/calibration_check.h"
 #include "calibration/shape/learn_from_mounts.h"
 #include "compensation/shape/read_shape.h"
+#include "matrix/for_each_taxel.h"
 
 namespace fsr::calibration {
 
@@ -40,21 +41,19 @@ std::optional<double> disagreement(const std::vector<MountedRest>& mounts, std::
 }  // namespace
 
 std::vector<MisplacedMount> findMisplacedMounts(std::vector<MountedRest> mounts,
-                                                const Calibration& calibration) {
+                                                const Calibration& calibration, unsigned threads) {
   std::vector<MisplacedMount> misplaced;
   std::vector<std::size_t> numbers(mounts.size());
   std::iota(numbers.begin(), numbers.end(), std::size_t{0});
   const double alarm = kFalseAlarms / double(std::max<std::size_t>(1, mounts.size()));
   while (true) {
-    std::size_t worst = 0;
-    double most = -1;
-    for (std::size_t m = 0; m < mounts.size(); ++m) {
-      const double own = disagreement(mounts, m, alarm, calibration).value_or(-1);
-      if (own <= most) continue;
-      worst = m;
-      most = own;
-    }
-    if (most < 0) return misplaced;
+    std::vector<double> each(mounts.size(), -1);  // -1 = agrees
+    matrix::forEachTaxel(mounts.size(), threads, [&](std::size_t mount) {
+      each[mount] = disagreement(mounts, mount, alarm, calibration).value_or(-1);
+    });
+    const auto most = std::max_element(each.begin(), each.end());  // the first of equal ones
+    if (most == each.end() || *most < 0) return misplaced;
+    const auto worst = static_cast<std::size_t>(most - each.begin());
     const MountedRest wrong = mounts[worst];
     mounts = without(std::move(mounts), worst);
     const ShapeCheck check = checkShape(learnShape(mounts, calibration), wrong.rest, wrong.surface, alarm);

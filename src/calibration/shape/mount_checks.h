@@ -17,9 +17,9 @@ struct MisplacedMount {
 
 /// Compares each mount with a model that is learnt from the others. At most one mount in a hundred sets of
 /// correct bags is named. Where several mounts disagree, the one that disagrees most is left out before the
-/// others are compared again.
+/// others are compared again. `threads`: 0 = one for each core; the result does not depend on it.
 std::vector<MisplacedMount> findMisplacedMounts(std::vector<MountedRest> mounts,
-                                                const Calibration& calibration);
+                                                const Calibration& calibration, unsigned threads);
 
 /// A mount, compared with a calibration that was not trained on it.
 struct CheckedMount {

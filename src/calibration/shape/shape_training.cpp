@@ -5,11 +5,11 @@
 
 namespace fsr::calibration {
 
-void trainShape(const std::vector<dataset::Recording>& recordings, const Sessions& sessions,
+void trainShape(const std::vector<dataset::Recording>& recordings, const Sessions& sessions, unsigned threads,
                 Calibration& calibration) {
   const std::vector<MountedRest> mounts = mountedRests(recordings, sessions);
   calibration.shape = learnShape(mounts, calibration);
-  for (const MisplacedMount& misplaced : findMisplacedMounts(mounts, calibration)) {
+  for (const MisplacedMount& misplaced : findMisplacedMounts(mounts, calibration, threads)) {
     const MountedRest& mount = mounts[misplaced.mount];
     const double declared = matrix::principalCurvature(mount.surface.curvature.front());
     calibration.warnings.push_back(

@@ -9,7 +9,8 @@
 namespace fsr::calibration {
 
 /// Gives the calibration its model of the shape, and a warning for each misplaced mount.
-void trainShape(const std::vector<dataset::Recording>& recordings, const Sessions& sessions,
+/// `threads`: 0 = one for each core.
+void trainShape(const std::vector<dataset::Recording>& recordings, const Sessions& sessions, unsigned threads,
                 Calibration& calibration);
 
 }  // namespace fsr::calibration

@@ -17,14 +17,23 @@ constexpr double kRidge = 1e-12;  // keeps covariances definite, relative to the
 // A few surfaces do not tell lengths well: each is drawn to this share of the range, by a factor of e.
 constexpr double kUnitsOfSpan = 7;
 
-// Minus the logarithm of the likelihood of the rows of `samples` under the covariance.
-double minusLogLikelihood(const Eigen::MatrixXd& samples, Eigen::MatrixXd covariance) {
+// Minus the logarithm of the likelihood of `number` samples under the covariance. `samples`: one a row, or
+// condensed().
+double minusLogLikelihood(const Eigen::MatrixXd& samples, std::size_t number, Eigen::MatrixXd covariance) {
   covariance.diagonal().array() += kRidge * covariance.trace() / double(covariance.rows());
   const Eigen::LLT<Eigen::MatrixXd> root(covariance);
   if (root.info() != Eigen::Success) return std::numeric_limits<double>::max();
   const Eigen::MatrixXd lower = root.matrixL();
   const Eigen::MatrixXd white = root.matrixL().solve(samples.transpose());
-  return double(samples.rows()) * lower.diagonal().array().log().sum() + white.squaredNorm() / 2;
+  return double(number) * lower.diagonal().array().log().sum() + white.squaredNorm() / 2;
+}
+
+// At most as many rows as columns, with the same sum of products of the columns. The likelihood depends on
+// the rows only through that sum, and the search evaluates it a few hundred times.
+Eigen::MatrixXd condensed(const Eigen::MatrixXd& samples) {
+  if (samples.rows() <= samples.cols()) return samples;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> factors(samples);
+  return factors.matrixQR().topRows(samples.cols()).triangularView<Eigen::Upper>();
 }
 
 // Contrasts between mounts of one surface: independent, each with the variance of one mount (Helmert).
@@ -71,6 +80,7 @@ MountScatter learnScatter(const std::vector<SurfaceRests>& surfaces,
   const Eigen::MatrixXd contrasts = contrastsOf(surfaces, taxels);
   best.contrasts = static_cast<std::size_t>(contrasts.rows());
   if (best.contrasts == 0) return best;
+  const Eigen::MatrixXd samples = condensed(contrasts);
   const double size = std::max(1.0, std::sqrt(contrasts.squaredNorm() / double(contrasts.size())));
   double widest = 0, nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < places.size(); ++i) {
@@ -91,7 +101,7 @@ MountScatter learnScatter(const std::vector<SurfaceRests>& surfaces,
       covariance.diagonal().array() += scatter.white * scatter.white;
       // The common part is seen once a contrast only: it is held near the whole size.
       const double common = std::log(scatter.common / (size / 2));
-      return minusLogLikelihood(contrasts, std::move(covariance)) + common * common / 2;
+      return minusLogLikelihood(samples, best.contrasts, std::move(covariance)) + common * common / 2;
     };
     const double found = search({{&scatter.deviation, size / 100, size * 30},
                                  {&scatter.length, nearest / 2, widest * 4},
@@ -120,7 +130,7 @@ ShapeLaw learnLaw(const ShapeModel& model) {
     Eigen::MatrixXd covariance = commonCovariances(trial);
     covariance.diagonal() += means.field_mean * means.mounted + means.cut;
     const double length = std::log(law.common_length / 2) / 0.7;
-    return minusLogLikelihood(means.mean.transpose(), std::move(covariance)) + length * length / 2;
+    return minusLogLikelihood(means.mean.transpose(), 1, std::move(covariance)) + length * length / 2;
   };
   search({{&law.common, size / 100, size * 30}, {&law.common_length, 0.2, 20}}, common_cost);
 
@@ -132,7 +142,7 @@ ShapeLaw learnLaw(const ShapeModel& model) {
     for (Eigen::Index d = 0; d < beside.samples.rows(); ++d) {
       Eigen::MatrixXd noisy = covariance;
       noisy.diagonal() += beside.variances(d) * means.mounted + means.cut;
-      cost += minusLogLikelihood(beside.samples.row(d), std::move(noisy));
+      cost += minusLogLikelihood(beside.samples.row(d), 1, std::move(noisy));
     }
     return cost;
   };

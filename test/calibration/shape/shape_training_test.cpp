@@ -63,8 +63,9 @@ Recordings recordingsOf(const Rig& rig) {
       simulation::readSimulation(settings::Settings::fromText(text, "sheet.yaml")));
 }
 
-Calibration trained(Recordings recordings, const std::string& model = "monotone") {
+Calibration trained(Recordings recordings, const std::string& model = "monotone", unsigned threads = 0) {
   CalibrationProblem problem{std::move(recordings), {}};
+  problem.options.threads = threads;
   problem.options.date = "2026-11-23T12:00:00Z";
   problem.options.scores = false;
   problem.options.regressor.name = model;
@@ -124,6 +125,18 @@ TEST(ShapeTraining, NamesTheBagWhoseSurfaceIsDeclaredWronglyAndNoOther) {
     EXPECT_EQ(found.front().find(recordings[wrong.bag].name + ", "), 0u) << found.front();
     EXPECT_NE(found.front().find(wrong.said), std::string::npos) << found.front();
   }
+}
+
+// Two wrong mounts: the second is found after the first was left out.
+TEST(ShapeTraining, NamesTheSameBagsOnAnyNumberOfThreads) {
+  Rig rig;
+  rig.mounts = 4;
+  Recordings recordings = recordingsOf(rig);
+  declare(recordings, 5, 0.05);
+  declare(recordings, 14, 0.20);
+  const std::vector<std::string> one = complaints(trained(recordings, "monotone", 1));
+  EXPECT_EQ(one.size(), 2u);
+  EXPECT_EQ(complaints(trained(recordings, "monotone", 3)), one);
 }
 
 std::string missing(const Recordings& recordings) {

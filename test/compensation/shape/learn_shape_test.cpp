@@ -56,6 +56,18 @@ TEST(LearnScatter, FindsThePlantedFamilyAndItsParameters) {
   }
 }
 
+// 8 surfaces with 20 mounts are 152 contrasts of 20 taxels: a deviation is known to 6 % and more.
+TEST(LearnScatter, LearnsFromMoreMountsThanTaxels) {
+  PlantedShape sheet = sheetOf(FieldFamily::kGaussian, 3e3, 0.03, 1e3, 100, 5);
+  sheet.mounts = 20;
+  const MountScatter found = learnScatter(restsOf(sheet, 8), test_support::plantedPlaces(sheet));
+  EXPECT_EQ(found.family, FieldFamily::kGaussian);
+  EXPECT_EQ(found.contrasts, 152u);
+  EXPECT_NEAR(found.deviation, 3e3, 0.15 * 3e3);
+  EXPECT_NEAR(found.length, 0.03, 0.1 * 0.03);
+  EXPECT_NEAR(found.white, 100, 10);
+}
+
 TEST(LearnScatter, TellsScatterOfEachTaxelAloneFromAField) {
   const PlantedShape sheet = sheetOf(FieldFamily::kGaussian, 2e3, 0.04, 1e3, 1e3, 4);
   const MountScatter found = learnScatter(restsOf(sheet, 8), test_support::plantedPlaces(sheet));
