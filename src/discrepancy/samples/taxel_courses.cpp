@@ -136,6 +136,10 @@ bool soundSomewhere(const VisitCourses& courses, std::size_t taxel, const std::v
   return sound > kSoundScans * loaded;
 }
 
+// Counts are stored scan after scan. What goes through the scans taxel by taxel reads so many taxels at a
+// time.
+constexpr std::size_t kTaxelsTogether = 4;
+
 class Builder {
  public:
   explicit Builder(const Measured& measured) : measured_(measured) {}

@@ -8,10 +8,6 @@
 
 namespace fsr::discrepancy {
 
-/// Counts are stored scan after scan. Functions that go through the scans taxel by taxel take so many taxels
-/// at a time.
-constexpr std::size_t kTaxelsTogether = 8;
-
 /// A robust function of the median reading, given by points and linear between them.
 struct ReadingCurve {
   std::vector<double> at;     ///< median reading, ascending [share of full scale]

@@ -81,7 +81,7 @@ class TaxelTest {
 
  private:
   void measure();
-  std::vector<Sums> sumsOf(std::size_t first, std::size_t last) const;
+  Sums sumsOf(std::size_t taxel) const;
   std::vector<std::vector<bool>> failing(std::size_t taxel) const;
   void join(std::size_t taxel, std::size_t visit, std::vector<bool>& flags) const;
   void judge(TaxelFault& fault) const;
@@ -96,21 +96,13 @@ class TaxelTest {
   std::vector<double> limit_;                 // of the mean deviation over a span, [spans]
 };
 
-// Of taxels_[first .. last - 1].
-std::vector<Sums> TaxelTest::sumsOf(std::size_t first, std::size_t last) const {
-  constexpr std::size_t kBlock = 1024;  // scans; their counts stay in the processor's cache
-  std::vector<Sums> sums(last - first);
-  double deviations[kBlock];
+Sums TaxelTest::sumsOf(std::size_t taxel) const {
+  Sums sums;
   for (const VisitCourses& visit : courses_) {
-    for (Sums& of_taxel : sums) of_taxel.emplace_back(visit.scans() + 1, 0);
-    for (std::size_t from = 0; from < visit.scans(); from += kBlock) {
-      const std::size_t to = std::min(visit.scans(), from + kBlock);
-      for (std::size_t k = 0; k < sums.size(); ++k) {
-        visit.deviations(taxels_[first + k], from, to, deviations);
-        std::vector<double>& sum = sums[k].back();
-        for (std::size_t i = from; i < to; ++i) sum[i + 1] = sum[i] + deviations[i - from];
-      }
-    }
+    sums.emplace_back(visit.scans() + 1, 0);
+    std::vector<double>& sum = sums.back();
+    visit.deviations(taxel, 0, visit.scans(), sum.data() + 1);
+    for (std::size_t i = 0; i < visit.scans(); ++i) sum[i + 1] = sum[i] + sum[i + 1];
   }
   return sums;
 }
@@ -120,12 +112,10 @@ void TaxelTest::measure() {
   for (const VisitCourses& visit : courses_) longest = std::max(longest, visit.scans());
   for (std::size_t span = 2; span <= longest; span *= 2) spans_.push_back(span);
   largest_.resize(spans_.size());
-  // The sums of all taxels would take four times the memory of the counts.
-  for (std::size_t first = 0; first < taxels_.size(); first += kTaxelsTogether) {
-    for (const Sums& sums : sumsOf(first, std::min(taxels_.size(), first + kTaxelsTogether))) {
-      for (std::size_t s = 0; s < spans_.size(); ++s)
-        largest_[s].push_back(std::log(std::max(1e-6, largest(sums, spans_[s]))));
-    }
+  for (const std::size_t t : taxels_) {
+    const Sums sums = sumsOf(t);  // those of all taxels would take four times the memory of the counts
+    for (std::size_t s = 0; s < spans_.size(); ++s)
+      largest_[s].push_back(std::log(std::max(1e-6, largest(sums, spans_[s]))));
   }
   const auto tests = static_cast<double>(taxels_.size() * spans_.size());
   for (const std::vector<double>& sizes : largest_)
@@ -160,7 +150,7 @@ std::vector<std::vector<bool>> TaxelTest::failing(std::size_t k) const {
   std::size_t shortest = 0;
   while (shortest + 1 < spans_.size() && std::exp(largest_[shortest][k]) < limit_[shortest]) ++shortest;
   std::vector<std::vector<bool>> all;
-  const Sums sums = sumsOf(k, k + 1).front();
+  const Sums sums = sumsOf(taxels_[k]);
   for (std::size_t v = 0; v < courses_.size(); ++v) {
     std::vector<bool> flags(courses_[v].scans(), false);
     const std::vector<double>& sum = sums[v];
