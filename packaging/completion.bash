@@ -14,7 +14,7 @@ _fsr_pressure_map() {
     [ ${#COMPREPLY[@]} -eq 0 ] || return
     case $before in
       --check | --calibration) pattern=h5 ;;
-      --simulation | --gap | --rig | --surface) pattern='@(yaml|yml)' ;;
+      --simulation | --plan | --gap | --rig | --surface) pattern='@(yaml|yml)' ;;
       --drive) pattern=bag ;;
     esac
   fi

@@ -9,6 +9,8 @@
 #include "ros/tools/bag_options.h"
 #include "ros/tools/figure_script.h"
 #include "ros/tools/recompute_gap_tool.h"
+#include "session_plan/plan_file.h"
+#include "session_plan/steps.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
 #include "simulation/effects/effect_library.h"
@@ -39,6 +41,8 @@ fsr::settings::CommandLine options() {
              "a verdict.yaml: recompute its gap on the bags of --drive, with base.yaml and simulation.yaml "
              "beside "
              "it; writes nothing")
+      .input("plan", "FILE",
+             "run the surfaces and the program of this plan (plan_session) instead of the session")
       .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
       .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
       .option("seed", "N", "seed instead of the file's: another sheet and other noise")
@@ -50,11 +54,25 @@ fsr::settings::CommandLine options() {
   return line;
 }
 
+// The session of a plan instead of that of the simulation.
+void runPlan(const std::string& path, fsr::simulation::SimulationSettings& settings) {
+  settings.session = fsr::session_plan::simulatedStations(fsr::session_plan::readPlanFile(path));
+  for (const fsr::simulation::Station& station : settings.session) {
+    try {
+      fsr::matrix::requireFit(station.surface, settings.layout.size);
+    } catch (const fsr::settings::InputError& error) {
+      throw fsr::settings::InputError(path + ": " + error.what() + "; the matrix is that of " +
+                                      settings.origin);
+    }
+  }
+}
+
 fsr::simulation::SimulationSettings settingsOf(const fsr::settings::CommandLine& line) {
   fsr::simulation::SimulationSettings settings =
       fsr::simulation::readSimulationFile(line.requiredText("simulation"));
   settings.seed = static_cast<std::uint64_t>(
       line.integer("seed", static_cast<std::int64_t>(settings.seed), {0, 9e15, ""}));
+  if (line.has("plan")) runPlan(line.text("plan", ""), settings);
   return line.has("effect") ? fsr::simulation::withEffect(settings, line.text("effect", "")) : settings;
 }
 
@@ -125,6 +143,8 @@ int recompute(const fsr::settings::CommandLine& line, std::ostream& out) {
 void writeBags(const fsr::settings::CommandLine& line, const fsr::simulation::SimulationSettings& settings,
                std::ostream& out) {
   const DrivingBags driving{bagsOf(line), bagReadOptions(line)};
+  if (line.has("plan") && !driving.paths.empty())
+    throw fsr::settings::InputError("--plan and --drive both say what the chamber does; give one of them");
   const std::string saved = line.text("save-state", "");
   if (!saved.empty()) fsr::settings::requireReplaceable(saved);
   SimulatedBags bags;

@@ -80,6 +80,20 @@ TEST_F(SimulateTool, WritesABagForEachStationAndTheTruthBeside) {
   EXPECT_EQ(simulationText(truth), simulationText(bench));
 }
 
+TEST_F(SimulateTool, RunsTheSurfacesAndTheProgramOfAPlan) {
+  const std::string plan = test_support::sourceDir() + "/config/sessions/field_check.yaml";
+  run({"--simulation", kBench, "--plan", plan, "--output", path("out")});
+  EXPECT_EQ(filesIn(path("out")), (std::set<std::string>{"1_flat.bag", "2_flat.bag", "truth.yaml"}));
+  const fsr::dataset::Recording second = readBag(path("out/2_flat.bag"));
+  EXPECT_EQ(second.conditions.at(0).mount, 2u);
+  EXPECT_NEAR(*std::max_element(second.pressure.begin(), second.pressure.end()), 620e3, 2e3);
+  // Rest, two cycles to 310 kPa and three to 620 kPa with dwells of 1 s at 17 kPa/s, rest.
+  EXPECT_NEAR(second.time.back(), 60 + 10 + (2 * 620 + 3 * 1240) / 17.0, 1);
+  EXPECT_EQ(run({"--simulation", kBench, "--plan", plan, "--drive", path("out/1_flat.bag"), "--output",
+                 path("new")}),
+            "--plan and --drive both say what the chamber does; give one of them");
+}
+
 TEST_F(SimulateTool, ItsBagsReadAsTheRigsRecordings) {
   run({"--simulation", kBench, "--output", path("out")});
   const auto expected = fsr::simulation::simulateSession(fsr::simulation::readSimulationFile(kBench));
