@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "calibration/temperature/temperature_course.h"
 #include "session_plan/losses.h"
 #include "session_plan/prospects.h"
 #include "session_plan/steps.h"
@@ -100,8 +101,8 @@ std::string planReport(const SessionPlan& plan) {
                   settings::roundedText(prospects.longest_memory, 2) + " s.");
   if (prospects.tare) can.emplace_back("Whether a tare at the start of a session helps.");
   if (prospects.temperature)
-    can.emplace_back(
-        "The influence of the temperature, if it differs by more than 0.5 K from cycle to cycle.");
+    can.push_back("The influence of the temperature, if it differs by more than " +
+                  settings::roundedText(calibration::kLeastTemperatureSpan) + " K from cycle to cycle.");
   text += items(can, "  ") + "\nThey cannot tell:\n" + items(limitsOf(prospects), "  ");
   text += "\nWhat a cut costs:\n";
   return text + cutsText(cutsOf(plan, prospects));
