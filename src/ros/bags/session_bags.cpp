@@ -103,6 +103,12 @@ class StationBag {
   std::map<std::string, std::uint32_t> published_;  // number of messages of each topic
 };
 
+// Hears all and keeps nothing, so that the rig runs as if a bag were written.
+fsr::simulation::RigListener noListener() {
+  return {[](double, const std::vector<std::uint16_t>&) {}, [](double, std::int32_t) {},
+          [](double, double) {}};
+}
+
 }  // namespace
 
 SimulatedRun writeSessionBags(const fsr::simulation::SimulationSettings& settings,
@@ -110,6 +116,10 @@ SimulatedRun writeSessionBags(const fsr::simulation::SimulationSettings& setting
   fsr::simulation::Session session(settings);
   if (bags.state) session.resume(*bags.state);
   for (std::size_t i = 0; i < session.stations(); ++i) {
+    if (bags.wanted && !bags.wanted(i)) {
+      session.runNext(noListener());
+      continue;
+    }
     const fsr::simulation::Station& station = session.station(i);
     const std::string path = std::filesystem::path(bags.output) / (stationName(station) + ".bag");
     if (bags.progress) bags.progress(path);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <string>
@@ -16,6 +17,9 @@ struct SimulatedBags {
   std::string output;                                     ///< folder for the bags
   std::optional<fsr::simulation::RigState> state;         ///< state to continue from; none = a new sheet
   std::function<void(const std::string& path)> progress;  ///< called before each bag is written
+  /// Which bags of a session to write, by their index; none = all. The stations of the others run, too,
+  /// because the sheet remembers them.
+  std::function<bool(std::size_t index)> wanted;
 };
 
 /// Result of a simulation.

@@ -1,10 +1,13 @@
 #include "ros/tools/simulate_tool.h"
 
 #include <filesystem>
+#include <functional>
+#include <map>
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/effect_list.h"
 #include "report/portrait_json.h"
+#include "report/shard_file.h"
 #include "ros/bags/simulated_bags.h"
 #include "ros/tools/bag_options.h"
 #include "ros/tools/figure_script.h"
@@ -13,6 +16,7 @@
 #include "session_plan/steps.h"
 #include "settings/command_line.h"
 #include "settings/replace_file.h"
+#include "settings/sha256.h"
 #include "simulation/effects/effect_library.h"
 #include "simulation/portrait.h"
 #include "simulation/simulation_text.h"
@@ -28,7 +32,9 @@ constexpr int kFiguresMissing = 3;  // exit status if only the figures could not
 
 fsr::settings::CommandLine options() {
   fsr::settings::CommandLine line(
-      "simulate", "--simulation FILE [--drive BAG...] --output DIR  |  --gap verdict.yaml --drive BAG...",
+      "simulate",
+      "--simulation FILE [--drive BAG...] --output DIR  |  --gap verdict.yaml --drive BAG...  |  "
+      "--merge --output DIR",
       "Writes bags of a simulated rig. The pressure, surfaces and temperature "
       "are those of the session in the "
       "simulation file, or those recorded in real bags. The true settings of the "
@@ -46,6 +52,11 @@ fsr::settings::CommandLine options() {
       .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
       .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
       .option("seed", "N", "seed instead of the file's: another sheet and other noise")
+      .option("sheets", "N", "simulate N sheets, of the seeds from --seed on, each in a folder sheet_SEED")
+      .option("shard", "I/N",
+              "write every Nth sheet, from the Ith on, or every Nth bag of a single sheet; "
+              "see docs/many_machines.md")
+      .flag("merge", "check that the shards in --output are complete and belong together; writes nothing")
       .option("effect", "ID", "enable this effect, with its usual values if the file does not set them")
       .input("state", "FILE", "continue from the state of the sheet that another run saved")
       .output("save-state", "FILE", "save the state of the sheet at the end")
@@ -167,6 +178,76 @@ void writeBags(const fsr::settings::CommandLine& line, const fsr::simulation::Si
   out << saved << std::endl;
 }
 
+std::string sha256OfText(const std::string& text) {
+  return fsr::settings::sha256(text.data(), text.size());
+}
+
+// What a run with --sheets or --shard needs: bags of a session of a new sheet.
+void refuseOtherRuns(const fsr::settings::CommandLine& line) {
+  for (const char* const option : {"drive", "state", "save-state", "plot", "gap"}) {
+    if (!line.has(option)) continue;
+    throw fsr::settings::InputError("--" + std::string(option) + " cannot be used with --" +
+                                    (line.has("sheets") ? "sheets" : "shard") +
+                                    ", which writes the sessions of new sheets");
+  }
+}
+
+// Writes the session of one sheet: the bags that `wanted` chooses. Adds their SHA-256 to `files`.
+void writeSheet(const fsr::simulation::SimulationSettings& settings, const fs::path& top,
+                const fs::path& folder, const std::function<bool(std::size_t)>& wanted,
+                std::map<std::string, std::string>& files, std::ostream& out) {
+  fs::create_directories(folder);
+  refuseRecordedBags(folder);
+  // First, because other shards that write to the folder look for it.
+  const fs::path truth = folder / kTruth;
+  fsr::settings::replaceFile(
+      truth,
+      simulationText(settings, "True settings of the simulated rig that wrote the bags in this folder."));
+  out << truth.string() << std::endl;
+  std::vector<std::string> written;
+  SimulatedBags bags;
+  bags.output = folder;
+  bags.wanted = wanted;
+  bags.progress = [&](const std::string& path) {
+    out << path << std::endl;
+    written.push_back(path);
+  };
+  writeSessionBags(settings, bags);
+  for (const std::string& path : written)
+    files[fs::path(path).lexically_relative(top)] = fsr::settings::sha256OfFile(path);
+}
+
+// The sessions of one sheet or several, or those of a shard.
+void writeSheets(const fsr::settings::CommandLine& line, const fsr::simulation::SimulationSettings& settings,
+                 std::ostream& out) {
+  refuseOtherRuns(line);
+  bagsOf(line);  // refuses bags without --drive
+  const auto sheets = static_cast<std::size_t>(line.integer("sheets", 1, {1, 1e6, ""}));
+  fsr::report::ShardFile file{"simulate", {}, {}, {}, {}};
+  if (line.has("shard")) file.shard = fsr::report::readShard(line.text("shard", ""));
+  file.options = {{"the SHA-256 of the settings", sha256OfText(simulationText(settings))},
+                  {"--seed", std::to_string(settings.seed)},
+                  {"--sheets", line.has("sheets") ? std::to_string(sheets) : "not given"}};
+  const TidyFolder folder(line);
+  const fs::path own = fs::path(folder.path()) / fsr::report::shardFileName(file.shard);
+  line.requireWritable(own);
+  fs::remove(own);  // a shard that is killed leaves none
+  fsr::simulation::SimulationSettings sheet = settings;
+  const auto wanted = [&](std::size_t bag) { return file.shard.has(bag); };
+  if (!line.has("sheets")) {
+    writeSheet(sheet, folder.path(), folder.path(), wanted, file.files, out);
+  } else {
+    for (std::size_t i = 0; i < sheets; ++i) {
+      sheet.seed = settings.seed + i;
+      const fs::path below = fs::path(folder.path()) / ("sheet_" + std::to_string(sheet.seed));
+      if (file.shard.has(i)) writeSheet(sheet, folder.path(), below, {}, file.files, out);
+    }
+  }
+  if (!line.has("shard")) return;
+  fsr::settings::replaceFile(own, fsr::report::shardJson(file));
+  out << own.string() << std::endl;
+}
+
 int drawPlot(const fsr::settings::CommandLine& line, const fsr::simulation::SimulationSettings& settings,
              std::ostream& out) {
   const std::string id = line.text("effect", "");
@@ -211,10 +292,20 @@ int simulateTool(int argc, const char* const* argv, std::ostream& out) {
     out << listOf(line.text("effect", ""));
     return 0;
   }
+  if (line.has("merge")) {
+    const std::string folder = line.requiredText("output");
+    out << fsr::report::checkShards(folder, "simulate") << " bags in " << folder
+        << " are complete, and each is as its shard wrote it" << std::endl;
+    return 0;
+  }
   if (line.has("gap")) return recompute(line, out);
   const fsr::simulation::SimulationSettings settings = settingsOf(line);
-  if (line.has("plot")) return drawPlot(line, settings, out);
-  writeBags(line, settings, out);
+  if (line.has("plot") && !line.has("sheets") && !line.has("shard")) return drawPlot(line, settings, out);
+  if (line.has("sheets") || line.has("shard")) {
+    writeSheets(line, settings, out);
+  } else {
+    writeBags(line, settings, out);
+  }
   return 0;
 }
 

@@ -8,12 +8,14 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <sstream>
 
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_writer.h"
+#include "settings/sha256.h"
 #include "simulation/portrait.h"
 #include "simulation/session.h"
 #include "simulation/simulation_text.h"
@@ -298,6 +300,120 @@ TEST_F(SimulateTool, SaysWhatItCannotUse) {
   EXPECT_NE(run({"--simulation", kBench, "--output", path("file")}).find("cannot be created"),
             std::string::npos);
   EXPECT_FALSE(fs::exists(path("out/1_flat.bag")));
+}
+
+// SHA-256 of every bag below a folder, by its path there.
+std::map<std::string, std::string> bagsBelow(const fs::path& folder) {
+  std::map<std::string, std::string> sums;
+  for (const auto& file : fs::recursive_directory_iterator(folder)) {
+    if (file.path().extension() == ".bag")
+      sums[file.path().lexically_relative(folder)] = fsr::settings::sha256OfFile(file.path());
+  }
+  return sums;
+}
+
+std::string contentOf(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+class SimulateShards : public SimulateTool {
+ protected:
+  std::string shard(const std::string& which, std::vector<std::string> more = {}) {
+    more.insert(more.end(), {"--simulation", kBench, "--output", path("out"), "--shard", which});
+    return run(more);
+  }
+  std::string merge() { return run({"--merge", "--output", path("out")}); }
+  void edit(const std::string& file, const std::string& from, const std::string& to) {
+    std::string text = contentOf(folder_ / "out" / file);
+    ASSERT_NE(text.find(from), std::string::npos) << text;
+    text.replace(text.find(from), from.size(), to);
+    std::ofstream(folder_ / "out" / file, std::ios::binary) << text;
+  }
+  void expectRefused(const std::vector<std::string>& parts) {
+    status_ = -1;
+    const std::string said = merge();
+    EXPECT_EQ(status_, -1) << said;
+    for (const std::string& part : parts) EXPECT_NE(said.find(part), std::string::npos) << said;
+  }
+};
+
+TEST_F(SimulateShards, WriteTheBytesOfARunWithoutShards) {
+  run({"--simulation", kBench, "--output", path("whole")});
+  shard("2/2");
+  EXPECT_EQ(filesIn(path("out")),
+            (std::set<std::string>{"2_cylinder_5cm.bag", "shard_2_of_2.json", "truth.yaml"}));
+  shard("1/2");
+  EXPECT_EQ(bagsBelow(path("out")), bagsBelow(path("whole")));
+  EXPECT_EQ(bagsBelow(path("out")).size(), 2u);
+  EXPECT_EQ(contentOf(path("out/truth.yaml")), contentOf(path("whole/truth.yaml")));
+  EXPECT_EQ(merge(), "2 bags in " + path("out") + " are complete, and each is as its shard wrote it\n");
+  EXPECT_EQ(status_, 0);
+}
+
+TEST_F(SimulateShards, OfSeveralSheetsHaveWholeSheets) {
+  shard("1/2", {"--sheets", "3"});
+  EXPECT_EQ(filesIn(path("out")), (std::set<std::string>{"sheet_1", "sheet_3", "shard_1_of_2.json"}));
+  shard("2/2", {"--sheets", "3"});
+  merge();
+  EXPECT_EQ(status_, 0);
+  run({"--simulation", kBench, "--output", path("whole"), "--sheets", "3"});
+  EXPECT_EQ(bagsBelow(path("out")), bagsBelow(path("whole")));
+  run({"--simulation", kBench, "--output", path("alone"), "--seed", "3"});
+  EXPECT_EQ(bagsBelow(path("out/sheet_3")), bagsBelow(path("alone")));
+}
+
+TEST_F(SimulateShards, AreRefusedIfOneIsMissing) {
+  shard("1/3");
+  shard("3/3");
+  expectRefused({path("out") + ": shard 2 of 3 is missing; run it with --shard 2/3"});
+}
+
+TEST_F(SimulateShards, AreRefusedIfOneIsThereTwice) {
+  shard("1/2");
+  shard("2/2");
+  fs::copy_file(path("out/shard_1_of_2.json"), path("out/shard_9.json"));
+  expectRefused({"shard_9.json: is shard 1 of 2, and so is", "shard_1_of_2.json; remove one of them"});
+}
+
+TEST_F(SimulateShards, AreRefusedIfTheyAreOfAnotherVersionOrHaveOtherOptions) {
+  shard("1/2");
+  shard("2/2", {"--seed", "5"});
+  expectRefused({"shard_2_of_2.json: --seed is 5 here and 1 in ", "shard_1_of_2.json"});
+  shard("2/2");
+  edit("shard_2_of_2.json", "\"version\": \"", "\"version\": \"9");
+  expectRefused({"shard_2_of_2.json: the version is 9"});
+  shard("2/3");
+  fs::remove(path("out/shard_2_of_2.json"));
+  expectRefused({"shard_2_of_3.json: the number of shards is 3 here and 2 in "});
+}
+
+TEST_F(SimulateShards, AreRefusedIfABagIsMissingOrAnother) {
+  shard("1/2");
+  shard("2/2");
+  edit("1_flat.bag", "raw", "ram");
+  expectRefused({"1_flat.bag: is not the file that ", "shard_1_of_2.json says"});
+  fs::remove(path("out/1_flat.bag"));
+  expectRefused({"1_flat.bag: is missing, but ", "copy the folders of all shards into one"});
+}
+
+TEST_F(SimulateShards, AreRefusedIfAFileIsCutShort) {
+  shard("1/1");
+  fs::resize_file(path("out/shard_1_of_1.json"), 30);
+  expectRefused({"shard_1_of_1.json: cannot be read as the file of a shard"});
+  EXPECT_NE(run({"--merge", "--output", path("nowhere")}).find("holds no shard_I_of_N.json"),
+            std::string::npos);
+}
+
+TEST_F(SimulateShards, RefuseWhatIsNoShardAndOptionsOfOtherRuns) {
+  for (const char* const text : {"0/2", "3/2", "2", "1/0", "1/2/3", "99999999999999999999/2"}) {
+    EXPECT_EQ(shard(text),
+              "--shard is " + std::string(text) + ", but must be I/N with 1 <= I <= N, e.g. 2/4");
+  }
+  EXPECT_NE(shard("1/2", {"--save-state", path("state.yaml")}).find("--save-state cannot be used with"),
+            std::string::npos);
+  EXPECT_NE(shard("1/2", {"--plot"}).find("--plot cannot be used with --shard"), std::string::npos);
+  EXPECT_FALSE(fs::exists(path("out")));
 }
 
 }  // namespace

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+namespace fsr::report {
+
+/// Part `number` of `of`: it has every of-th piece of the work, from the number-th on.
+struct Shard {
+  std::size_t number = 1;
+  std::size_t of = 1;
+
+  bool has(std::size_t piece) const { return piece % of == number - 1; }  ///< `piece` counts from 0
+};
+
+/// The shard of "2/4". Throws InputError unless 1 <= I <= N.
+Shard readShard(const std::string& text);
+
+/// What a shard writes about itself as its last step, so that one that was killed has none.
+struct ShardFile {
+  std::string tool;
+  std::string version;  ///< of the package; empty = this one
+  Shard shard;
+  std::map<std::string, std::string> options;  ///< those that the result depends on
+  std::map<std::string, std::string> files;    ///< SHA-256 of each file, by its path below the folder
+};
+
+/// "shard_2_of_4.json".
+std::string shardFileName(const Shard& shard);
+std::string shardJson(const ShardFile& file);
+
+/// Checks that the shards of a folder (shard_*.json) belong together: none missing, none there twice, one
+/// tool, version, number of shards and set of options, and every file there as it was written. Returns the
+/// number of files. Throws InputError with one sentence that names the file.
+std::size_t checkShards(const std::string& folder, const std::string& tool);
+
+}  // namespace fsr::report
