@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "compensation/training_statistics.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "support/source_dir.h"
@@ -102,6 +103,34 @@ TEST_P(Merge, OfMergedFilesGivesTheSameFile) {
   const Calibration in_steps = mergeCalibrations({{"ab", mergeCalibrations({a, b}, options)}, c}, options);
   EXPECT_EQ(saveCalibration(in_steps, path("steps.h5")),
             saveCalibration(mergeCalibrations({a, b, c}, options), path("at_once.h5")));
+}
+
+// Shards of bags: whoever trains which, the sums and the pressures are those of training on all bags. The
+// deviations are not: the error of another mount needs the readings.
+TEST_P(Merge, OfShardsGivesThePressuresOfTrainingOnAllBagsInAnyGrouping) {
+  std::vector<dataset::Recording> bags;
+  for (unsigned i = 0; i < 6; ++i) {
+    bags.push_back(
+        bag("bag_" + std::to_string(i), i + 1, {{i % 2 == 0 ? "flat" : "bent", i % 2 == 0 ? 0.0 : 10.0}}));
+    bags.back().conditions.front().mount = i + 1;
+  }
+  const Calibration at_once = train(bags, GetParam());
+  const std::vector<std::vector<std::size_t>> groupings[] = {
+      {{0, 1, 2}, {3, 4, 5}}, {{0, 1}, {2, 3}, {4, 5}}, {{5, 0}, {1, 2, 3, 4}}};
+  for (const auto& grouping : groupings) {
+    std::vector<MergePart> parts;
+    for (const std::vector<std::size_t>& members : grouping) {
+      std::vector<dataset::Recording> own;
+      for (const std::size_t member : members) own.push_back(bags[member]);
+      parts.push_back(part("shard_" + std::to_string(parts.size()) + ".h5", own));
+    }
+    const Calibration merged = mergeCalibrations(parts, {2, "2024-05-06T07:08:09Z"});
+    EXPECT_TRUE(merged.statistics->cells == at_once.statistics->cells);
+    EXPECT_EQ(merged.regressor.grnn.bandwidth, at_once.regressor.grnn.bandwidth);
+    ASSERT_EQ(merged.tables.tables.size(), at_once.tables.tables.size());
+    for (std::size_t i = 0; i < merged.tables.tables.size(); ++i)
+      EXPECT_EQ(merged.tables.tables[i].pressure, at_once.tables.tables[i].pressure);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Merge,
