@@ -14,7 +14,8 @@ namespace {
 
 constexpr char kEnd[] = "\r\n";
 constexpr char kNoSensel[] = "B";
-constexpr std::size_t kRoom = 12;  // space for a number that is known only at the end [characters]
+constexpr std::size_t kPiece = 1u << 16;  // of the times that are written at once [bytes]
+constexpr std::size_t kRoom = 12;         // space for a number that is known only at the end [characters]
 
 std::string padded(std::string text) {
   text.resize(std::max(text.size(), kRoom), ' ');
@@ -117,6 +118,9 @@ void TekscanFile::finish() {
   std::string text = std::string("@@") + kEnd;
   for (std::size_t i = 0; i < frames; ++i) {
     text += "FRAME_TIME " + std::to_string(i + 1) + ' ' + secondsText(times_[i]) + kEnd;
+    if (text.size() < kPiece) continue;
+    file_.write(text);
+    text.clear();
   }
   file_.write(text);
   const double period = frames > 1 ? span / static_cast<double>(frames - 1) : 0;
