@@ -5,12 +5,15 @@
 #include <numeric>
 #include <sstream>
 
+#include "dataset/count_file.h"
 #include "dataset/reference_spikes.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
 namespace fsr::dataset {
 
 namespace {
+
+using CountReader = RowSpool<std::uint16_t>::Reader;
 
 std::int64_t nanoseconds(double seconds) {
   return std::llround(seconds * 1e9);
@@ -74,7 +77,7 @@ void RecordingBuilder::addScan(std::int64_t stamp_ns, std::uint32_t sequence, co
     full_scale_ = scan.full_scale;
     const std::uint64_t expected =
         std::min(expected_scans_, most_bytes_ / (sizeof(std::uint16_t) * scan.count));
-    counts_.reserve(expected * scan.count);
+    counts_.begin(scan.count, expected);
     scans_.reserve(expected);
   } else if (scan.size != size_ || scan.full_scale != full_scale_) {
     throw settings::InputError("raw holds scans of " + matrix::sizeText(size_) + " taxels with full_scale " +
@@ -82,8 +85,8 @@ void RecordingBuilder::addScan(std::int64_t stamp_ns, std::uint32_t sequence, co
                                " with " + std::to_string(scan.full_scale) +
                                ", but a recording is of one matrix; choose it by its namespace");
   }
-  scans_.push_back({stamp_ns, sequence, counts_.size()});
-  counts_.insert(counts_.end(), scan.counts, scan.counts + scan.count);
+  scans_.push_back({stamp_ns, sequence, scans_.size()});
+  counts_.add(scan.counts);
   ++events_.scans;
 }
 
@@ -110,12 +113,13 @@ void RecordingBuilder::addDescription(std::int64_t stamp_ns, const MatrixDescrip
 std::vector<RecordingBuilder::ScanEvent> RecordingBuilder::sortedScans(RecordingLosses& losses) const {
   std::vector<ScanEvent> sorted = scans_;
   const std::size_t taxels = size_.taxels();
+  CountReader left(counts_), right(counts_);
   const auto before = [&](const ScanEvent& a, const ScanEvent& b) {
     if (a.stamp_ns != b.stamp_ns) return a.stamp_ns < b.stamp_ns;
     if (a.sequence != b.sequence) return a.sequence < b.sequence;
-    const auto* const left = counts_.data() + a.first_count;
-    const auto* const right = counts_.data() + b.first_count;
-    return std::lexicographical_compare(left, left + taxels, right, right + taxels);
+    const auto* const first = left[a.number];
+    const auto* const second = right[b.number];
+    return std::lexicographical_compare(first, first + taxels, second, second + taxels);
   };
   std::sort(sorted.begin(), sorted.end(), before);
   const auto same_stamp = [](const ScanEvent& a, const ScanEvent& b) { return a.stamp_ns == b.stamp_ns; };
@@ -133,6 +137,7 @@ std::vector<std::size_t> RecordingBuilder::spikesOf(const TimeSeries& reference,
                                                     const std::vector<ScanEvent>& scans) const {
   constexpr std::int64_t kNear = 1'000'000'000;  // [ns]
   const auto taxels = static_cast<std::ptrdiff_t>(size_.taxels());
+  CountReader all(counts_);
   std::vector<double> time, pressure, reading;
   auto scan = scans.begin();
   for (const auto& [stamp, value] : reference.entries()) {
@@ -142,7 +147,7 @@ std::vector<std::size_t> RecordingBuilder::spikesOf(const TimeSeries& reference,
     pressure.push_back(value);
     reading.push_back(NAN);
     if (!near) continue;
-    const auto first = counts_.begin() + static_cast<std::ptrdiff_t>(scan->first_count);
+    const auto* const first = all[scan->number];
     reading.back() = std::accumulate(first, first + taxels, 0.0);
   }
   return referenceSpikes(time, pressure, reading);
@@ -199,8 +204,9 @@ bool RecordingBuilder::inOrderOfTime() const {
 
 Recording RecordingBuilder::build(const RecordingOptions& options) const {
   std::vector<std::uint16_t> kept;
-  Recording recording = assemble(options, [&](std::size_t first) {
-    const auto* const counts = counts_.data() + first;
+  CountReader all(counts_);
+  Recording recording = assemble(options, [&](std::size_t number) {
+    const auto* const counts = all[number];
     kept.insert(kept.end(), counts, counts + size_.taxels());
   });
   recording.counts = std::move(kept);
@@ -208,18 +214,31 @@ Recording RecordingBuilder::build(const RecordingOptions& options) const {
 }
 
 Recording RecordingBuilder::take(const RecordingOptions& options) {
+  if (counts_.inFile()) return takeFile(options);
   if (!inOrderOfTime()) {
     Recording recording = build(options);
     clear();
     return recording;
   }
+  const std::size_t taxels = size_.taxels();
+  std::vector<std::uint16_t>& counts = counts_.memory();
   std::size_t kept = 0;
-  Recording recording = assemble(options, [&](std::size_t first) {  // kept <= first
-    if (kept != first) std::copy_n(counts_.data() + first, size_.taxels(), counts_.data() + kept);
-    kept += size_.taxels();
+  Recording recording = assemble(options, [&](std::size_t number) {  // kept <= number
+    if (kept != number) std::copy_n(counts.data() + number * taxels, taxels, counts.data() + kept * taxels);
+    ++kept;
   });
-  counts_.resize(kept);
-  recording.counts = std::move(counts_);
+  counts.resize(kept * taxels);
+  recording.counts = std::move(counts);
+  clear();
+  return recording;
+}
+
+Recording RecordingBuilder::takeFile(const RecordingOptions& options) {
+  const auto file = std::make_shared<CountFile>(size_.taxels());
+  CountReader all(counts_);
+  Recording recording = assemble(options, [&](std::size_t number) { file->add(all[number]); });
+  file->finish();
+  recording.count_file = file;
   clear();
   return recording;
 }
@@ -253,7 +272,7 @@ Recording RecordingBuilder::assemble(const RecordingOptions& options,
     recording.condition.push_back(static_cast<std::uint32_t>(timeline.at(scan.stamp_ns)));
     if (pressure) recording.pressure.push_back(*pressure - ambient_pressure);
     if (!temperature.empty()) recording.temperature.push_back(temperature.nearby(scan.stamp_ns));
-    keep(scan.first_count);
+    keep(scan.number);
   }
   recording.losses.bad_reference = reference.notFinite();
   dropUnusedConditions(timeline.conditions(), recording);

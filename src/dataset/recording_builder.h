@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "dataset/row_spool.h"
 #include "dataset/surface_timeline.h"
 #include "dataset/time_series.h"
 #include "fsr_pressure_map/dataset/recording.h"
@@ -62,6 +63,10 @@ class RecordingBuilder {
   void addTemperature(std::int64_t stamp_ns, double temperature);  // [degree Celsius]
   void addDescription(std::int64_t stamp_ns, const MatrixDescription& description);
 
+  /// From `most` bytes on the counts are kept in a file, also those of the recording that take() returns
+  /// (Recording::count_file). Before the first scan.
+  explicit RecordingBuilder(std::size_t most = RowSpool<std::uint16_t>::kUnlimited) : counts_(most) {}
+
   /// So many scans will be added: one allocation instead of growing. `most`: at most these bytes of counts.
   void expectScans(std::uint64_t scans, std::uint64_t most) {
     expected_scans_ = scans;
@@ -69,7 +74,7 @@ class RecordingBuilder {
   }
 
   const Events& events() const { return events_; }
-  void clear() { *this = RecordingBuilder(); }
+  void clear() { *this = RecordingBuilder(counts_.most()); }
 
   /// Throws InputError where there is no scan, or where descriptions, surfaces and scans do not belong to the
   /// same matrix. A recording without chamber pressure or surfaces is accepted; functions that need them
@@ -82,13 +87,15 @@ class RecordingBuilder {
   struct ScanEvent {
     std::int64_t stamp_ns;
     std::uint32_t sequence;
-    std::size_t first_count;  // in counts_
+    std::size_t number;  // in counts_
   };
   using DescriptionEvent = std::pair<std::int64_t, MatrixDescription>;
 
-  // Calls keep(index in counts_) for the counts of each scan that is kept, in order of time, and returns the
-  // recording without counts.
+  // Calls keep(number in counts_) for each scan that is kept, in order of time, and returns the recording
+  // without counts.
   Recording assemble(const RecordingOptions& options, const std::function<void(std::size_t)>& keep) const;
+  // take() where the counts are in a file.
+  Recording takeFile(const RecordingOptions& options);
   bool inOrderOfTime() const;
   std::vector<ScanEvent> sortedScans(RecordingLosses& losses) const;
   std::vector<std::size_t> spikesOf(const TimeSeries& reference, const std::vector<ScanEvent>& scans) const;
@@ -101,7 +108,7 @@ class RecordingBuilder {
   matrix::MatrixSize size_;
   std::uint16_t full_scale_ = 0;
   std::vector<ScanEvent> scans_;
-  std::vector<std::uint16_t> counts_;  // of all scans, in the order of the calls
+  RowSpool<std::uint16_t> counts_;  // of all scans, in the order of the calls
   TimeSeries chamber_pressure_;
   TimeSeries temperature_;
   std::vector<SurfaceTimeline::Event> surfaces_;

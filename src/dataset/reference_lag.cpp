@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "dataset/count_readers.h"
 #include "dataset/cycles.h"
 #include "statistics/median.h"
 
@@ -20,10 +21,12 @@ constexpr double kSpanOfCycle = 0.05;  // and how much of a cycle at most (ratio
 std::vector<double> medianReadings(const Recording& recording) {
   std::vector<double> result, values;
   const std::size_t taxels = recording.layout.size.taxels();
+  ScanCounts counts(recording);
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     values.clear();
+    const std::uint16_t* const scan = counts[i];
     for (std::size_t t = 0; t < taxels; ++t) {
-      if (recording.mask.empty() || recording.mask[t] == 0) values.push_back(recording.scan(i)[t]);
+      if (recording.mask.empty() || recording.mask[t] == 0) values.push_back(scan[t]);
     }
     result.push_back(values.empty() ? 0 : statistics::upperMedian(values));
   }

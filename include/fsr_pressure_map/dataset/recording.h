@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct SensorIdentity {
   std::string sealing;
   std::string transducer;
 };
+
+class CountFile;  // dataset/count_file.h
 
 /// What was lost between the board and the Recording.
 struct RecordingLosses {
@@ -48,7 +51,9 @@ struct Recording {
   std::vector<matrix::Surface> conditions;
 
   std::vector<double> time;           ///< header stamp [s] since `start`
-  std::vector<std::uint16_t> counts;  ///< [scans x taxels]
+  std::vector<std::uint16_t> counts;  ///< [scans x taxels]; empty where they are in `count_file`
+  /// The counts of a long recording, where its reader was asked to keep them in a file; else null.
+  std::shared_ptr<const CountFile> count_file;
   std::vector<double>
       pressure;  ///< gauge pressure of the chamber, interpolated to the scan [Pa]; empty = none recorded
   std::vector<std::uint32_t> condition;  ///< index into `conditions`
@@ -58,6 +63,7 @@ struct Recording {
   std::vector<std::string> warnings;  ///< sentences for the user, e.g. that ambient pressure was assumed
 
   std::size_t scans() const { return time.size(); }
+  /// The counts of a scan that are in memory.
   const std::uint16_t* scan(std::size_t i) const { return counts.data() + i * layout.size.taxels(); }
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -17,6 +19,9 @@ struct BagReadOptions {
   std::optional<double> ambient_pressure;
   /// Scans within this time before or after a change of surface are dropped [s].
   double change_margin = 1.0;
+  /// From so many bytes on, the counts of the bag are kept in a file without a name in TMPDIR (else
+  /// /var/tmp), Recording::count_file; less are in memory.
+  std::size_t counts_in_memory = std::numeric_limits<std::size_t>::max();
   /// Is called now and then with the share of the bag that was read; none = nobody asks.
   std::function<void(double share)> progress = {};
 };

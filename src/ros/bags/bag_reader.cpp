@@ -77,7 +77,7 @@ class Feeder {
 fsr::dataset::Recording readBag(const std::string& path, const BagReadOptions& options) {
   fsr::dataset::Recording recording;
   tellingOfDamage(path, [&] {
-    fsr::dataset::RecordingBuilder builder;
+    fsr::dataset::RecordingBuilder builder(options.counts_in_memory);
     const BagWalk bag(path);
     fsr::dataset::RecordingOptions chosen;
     chosen.ambient_pressure = options.ambient_pressure;

@@ -1,0 +1,59 @@
+#include "dataset/count_readers.h"
+
+#include <algorithm>
+
+namespace fsr::dataset {
+
+bool countsAreWhole(const Recording& recording) {
+  const std::size_t taxels = recording.layout.size.taxels();
+  if (recording.count_file == nullptr) return recording.counts.size() == recording.scans() * taxels;
+  return recording.count_file->scans() == recording.scans() && recording.count_file->taxels() == taxels;
+}
+
+bool sameCounts(const Recording& a, const Recording& b) {
+  const std::size_t taxels = a.layout.size.taxels();
+  if (a.scans() != b.scans() || b.layout.size.taxels() != taxels) return false;
+  ScanCounts first(a), second(b);
+  for (std::size_t i = 0; i < a.scans(); ++i) {
+    const std::uint16_t* const own = first[i];
+    if (!std::equal(own, own + taxels, second[i])) return false;
+  }
+  return true;
+}
+
+TaxelCounts::TaxelCounts(const Recording& recording, std::size_t taxel)
+    : stride_(recording.layout.size.taxels()), file_(recording.count_file.get()), taxel_(taxel) {
+  if (file_ == nullptr)
+    memory_ = recording.counts.data() + taxel;
+  else
+    block_counts_.resize(CountFile::kBlock);
+}
+
+void TaxelCounts::load(std::size_t block) {
+  file_->readTaxel(block, taxel_, block_counts_.data());
+  block_ = block;
+}
+
+std::vector<TaxelCounts> taxelCounts(const std::vector<Recording>& recordings, std::size_t taxel) {
+  std::vector<TaxelCounts> counts;
+  for (const Recording& recording : recordings) counts.emplace_back(recording, taxel);
+  return counts;
+}
+
+ScanCounts::ScanCounts(const Recording& recording)
+    : recording_(&recording), file_(recording.count_file.get()) {
+  if (file_ == nullptr) return;
+  stored_.resize(file_->taxels() * CountFile::kBlock);
+  scans_.resize(stored_.size());
+}
+
+void ScanCounts::load(std::size_t block) {
+  file_->readBlock(block, stored_.data());
+  const std::size_t taxels = file_->taxels();
+  for (std::size_t i = 0; i < CountFile::kBlock; ++i) {
+    for (std::size_t t = 0; t < taxels; ++t) scans_[i * taxels + t] = stored_[t * CountFile::kBlock + i];
+  }
+  block_ = block;
+}
+
+}  // namespace fsr::dataset
