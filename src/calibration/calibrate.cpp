@@ -50,7 +50,7 @@ class Training {
 
     const compensation::FoldRegressors regressors = chooseWithZeros(calibration, progress);
     RemountErrors remount(problem_.recordings, classes_, sections_, zeros_);
-    HeldOutScoring scoring(scans_, plan_, problem_.options.folds, taxels);
+    HeldOutScoring scoring(scans_, sections_, plan_, problem_.options.folds, taxels);
     settings::StepProgress training(progress, "training the taxels", taxels);
     matrix::forEachTaxel(taxels, problem_.options.threads, [&](std::size_t taxel) {
       train(taxel, regressors, calibration, scoring);

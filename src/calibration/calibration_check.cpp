@@ -8,6 +8,7 @@
 #include "calibration/history_check.h"
 #include "calibration/session/session_check.h"
 #include "calibration/temperature/temperature_course.h"
+#include "dataset/count_readers.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
@@ -81,6 +82,7 @@ class Checker {
     Calibrator calibrator(calibration_);
     calibrator.setMask(recording.mask);
     std::size_t surface = recording.conditions.size();
+    dataset::ScanCounts counts(recording);
     for (std::size_t i = 0; i < recording.scans(); ++i) {
       if (recording.condition[i] != surface) {
         surface = recording.condition[i];
@@ -88,9 +90,9 @@ class Checker {
         if (tared_) tare(recording, surface, calibrator);
       }
       setTemperatureOf(recording, i, calibration_, calibrator);
-      calibrator.calibrate({recording.layout.size, recording.full_scale, recording.scan(i), taxels_.size()},
+      calibrator.calibrate({recording.layout.size, recording.full_scale, counts[i], taxels_.size()},
                            recording.time[i], map_);
-      add(recording.scan(i), recording.pressure[i], sumsOf(recording.conditions[surface]));
+      add(counts[i], recording.pressure[i], sumsOf(recording.conditions[surface]));
     }
     noteFaults(calibrator.watch().flags());
   }

@@ -47,34 +47,44 @@ double meanOverSections(const std::vector<SectionScore>& sections, double (Secti
 
 }  // namespace
 
-HeldOutScoring::HeldOutScoring(const TrainingScans& scans, const compensation::SchemePlan& plan,
-                               std::size_t sections, std::size_t taxels)
-    : scans_(scans), plan_(plan), sections_(sections), taxels_(taxels), errors_(scans.size()) {}
+HeldOutScoring::HeldOutScoring(const TrainingScans& scans, const std::vector<dataset::Sections>& divided,
+                               const compensation::SchemePlan& plan, std::size_t sections, std::size_t taxels)
+    : scans_(scans),
+      divided_(divided),
+      plan_(plan),
+      sections_(sections),
+      taxels_(taxels),
+      errors_(scans.of_class.size()) {}
 
 void HeldOutScoring::scoreTaxel(std::size_t taxel,
                                 const std::vector<regression::CrossValidatedModel>& models) {
   TaxelScores scored;
-  scored.errors.resize(scans_.size());
+  const std::vector<std::vector<TrainingRun>>& scans = scans_.of_class;
+  std::vector<dataset::TaxelCounts> counts = dataset::taxelCounts(*scans_.recordings, taxel);
+  scored.errors.resize(scans.size());
   std::vector<SectionScore> all(sections_);
   const auto add = [&](const std::vector<SectionScore>& sections, std::size_t within) {
     scored.scores.push_back({meanOverSections(sections, &SectionScore::rSquared),
                              meanOverSections(sections, &SectionScore::rmsePercent), within});
   };
   std::size_t all_within = 0;
-  for (std::size_t c = 0; c < scans_.size(); ++c) {
+  for (std::size_t c = 0; c < scans.size(); ++c) {
     const regression::CrossValidatedModel& model = models[plan_.model_of_class[c]];
     std::vector<SectionScore> of_class(sections_);
     std::size_t within = 0;
-    for (const TrainingScan& scan : scans_[c]) {
-      const regression::HeldOutModel& held_out = model.held_out[scan.section];
+    for (const TrainingRun& run : scans[c]) {
+      const regression::HeldOutModel& held_out = model.held_out[run.section];
       if (held_out.pressure.empty()) continue;
-      const std::uint16_t code = scan.counts[taxel];
-      const double truth = regression::fromFixed(scan.pressure);
-      const double answer = held_out.pressure[code] - regression::fromFixed(scan.zeroOf(taxel));
-      const double error = answer - truth;
-      of_class[scan.section].add(answer, truth);
-      within += std::abs(error) <= held_out.deviation[code];
-      scored.errors[c].add(static_cast<float>(error), truth, scan.direction);
+      const double zero = regression::fromFixed(run.zeroOf(taxel));
+      const auto score = [&](std::size_t scan, std::uint16_t code, regression::FixedPressure pressure) {
+        const double truth = regression::fromFixed(pressure);
+        const double answer = held_out.pressure[code] - zero;
+        const double error = answer - truth;
+        of_class[run.section].add(answer, truth);
+        within += std::abs(error) <= held_out.deviation[code];
+        scored.errors[c].add(static_cast<float>(error), truth, divided_[run.recording].direction[scan]);
+      };
+      scans_.forEach(run, counts, score);
     }
     for (std::size_t s = 0; s < sections_; ++s) all[s].merge(of_class[s]);
     all_within += within;

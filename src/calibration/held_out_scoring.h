@@ -23,9 +23,9 @@ constexpr double kWins = 0.98;
 /// its class that was trained without the section of the reading.
 class HeldOutScoring {
  public:
-  /// `scans` and `plan` must outlive the object.
-  HeldOutScoring(const TrainingScans& scans, const compensation::SchemePlan& plan, std::size_t sections,
-                 std::size_t taxels);
+  /// `scans`, `divided` and `plan` must outlive the object. `divided`: the recordings in sections.
+  HeldOutScoring(const TrainingScans& scans, const std::vector<dataset::Sections>& divided,
+                 const compensation::SchemePlan& plan, std::size_t sections, std::size_t taxels);
 
   /// `models` are those of crossValidateScheme() with held-out deviations. Different taxels may be scored at
   /// the same time.
@@ -52,6 +52,7 @@ class HeldOutScoring {
   Score pool(const statistics::ErrorBins& errors, std::size_t entry) const;
 
   const TrainingScans& scans_;
+  const std::vector<dataset::Sections>& divided_;
   const compensation::SchemePlan& plan_;
   std::size_t sections_;
   std::mutex adding_;

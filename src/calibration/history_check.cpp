@@ -6,6 +6,7 @@
 #include "calibration/history_parts.h"
 #include "calibration/session/session_check.h"
 #include "calibration/temperature/temperature_course.h"
+#include "dataset/count_readers.h"
 #include "dataset/protocols.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 
@@ -34,11 +35,12 @@ class HistoryChecker {
     for (Calibrator* calibrator : {&with, &without}) calibrator->setMask(recording.mask);
     std::size_t surface = recording.conditions.size();
     double turned = 0;
+    dataset::ScanCounts counts(recording);
     for (std::size_t i = 0; i < recording.scans(); ++i) {
       const double time = recording.time[i];
       if (i == 0 || sections.direction[i] != sections.direction[i - 1] || recording.condition[i] != surface)
         turned = time;
-      const matrix::ScanView scan{recording.layout.size, recording.full_scale, recording.scan(i),
+      const matrix::ScanView scan{recording.layout.size, recording.full_scale, counts[i],
                                   recording.layout.size.taxels()};
       if (recording.condition[i] != surface) {
         surface = recording.condition[i];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "compensation/history_state.h"
@@ -14,6 +15,8 @@ namespace {
 // [s].
 constexpr double kRow = 0.5;
 
+constexpr std::size_t kMostInMemory = 8u << 20;  // of the scans of a recording, and of their steps [bytes]
+
 }  // namespace
 
 HistoryStream::HistoryStream(const dataset::Recording& recording, const std::vector<std::size_t>& classes,
@@ -22,37 +25,69 @@ HistoryStream::HistoryStream(const dataset::Recording& recording, const std::vec
     : recording_(&recording),
       sections_(&sections),
       operators_(compensation::operatorsOf(grid)),
-      sessions_(std::move(sessions)) {
-  std::uint32_t row = 0;
-  double row_begins = 0, turned = 0, duration = 0;
+      sessions_(std::move(sessions)),
+      scans_(kMostInMemory),
+      steps_(kMostInMemory) {
+  const std::vector<double> counts_from = countsFrom(compensation::settlingTime(grid.time_constants));
+  const std::size_t memories = operators_.memories();
+  if (memories > 0) steps_.begin(memories, recording.scans());
+  std::vector<Step> steps(memories);
+  std::optional<Scan> last;
+  std::size_t stay = 0;
+  double row_begins = 0, turned = 0;
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     if (sections.section[i] == dataset::kNoSection) continue;
-    Scan scan;
-    scan.number = i;
-    scan.curvature_class = static_cast<std::uint32_t>(classes[recording.condition[i]]);
-    scan.protocol = protocol[i];
     const double time = recording.time[i];
-    if (scans_.empty()) {
-      scan.starts = true;
-    } else {
-      const std::size_t before = scans_.back().number;
-      duration = time - recording.time[before];
-      scan.starts = recording.condition[i] != recording.condition[before] || duration < 0 ||
-                    duration > compensation::HistoryState::kLongestGap;
-    }
-    const bool turns = scan.starts || sections.direction[i] != sections.direction[scans_.back().number];
-    if (turns) turned = time;
+    Scan scan;
+    scan.number = static_cast<std::uint32_t>(i);
+    scan.curvature_class = static_cast<std::uint16_t>(classes[recording.condition[i]]);
+    scan.protocol = protocol[i];
+    scan.starts = !last || starts(i, last->number);
+    if (last && scan.starts) ++stay;
+    scan.settled = time >= counts_from[stay];
+    if (scan.starts || sections.direction[i] != sections.direction[last->number]) turned = time;
     scan.since_reversal = time - turned;
-    if (scan.starts || protocol[i] != scans_.back().protocol || time >= row_begins + kRow) {
-      ++row;
+    scan.row = last ? last->row : 0;
+    if (scan.starts || protocol[i] != last->protocol || time >= row_begins + kRow) {
+      ++scan.row;
       row_begins = time;
     }
-    scan.row = row;
-    scans_.push_back(scan);
-    steps_.resize(steps_.size() + operators_.memories());
-    if (!scan.starts) operators_.stepsOver(duration, steps_.data() + steps_.size() - operators_.memories());
+    if (memories > 0) {
+      std::fill(steps.begin(), steps.end(), Step());
+      if (!scan.starts) operators_.stepsOver(time - recording.time[last->number], steps.data());
+      steps_.add(steps.data());
+    }
+    scans_.add(&scan);
+    last = scan;
   }
-  markSettled(compensation::settlingTime(grid.time_constants));
+}
+
+// Whether nothing is known before a scan that follows another one.
+bool HistoryStream::starts(std::size_t scan, std::size_t before) const {
+  const double duration = recording_->time[scan] - recording_->time[before];
+  return recording_->condition[scan] != recording_->condition[before] || duration < 0 ||
+         duration > compensation::HistoryState::kLongestGap;
+}
+
+// The time from which on the scans of each stay on a surface count: after the settling time, but at least two
+// thirds of the stay [s].
+std::vector<double> HistoryStream::countsFrom(double settling_time) const {
+  struct Stay {
+    double begin, end;
+  };
+  std::vector<Stay> stays;
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < recording_->scans(); ++i) {
+    if (sections_->section[i] == dataset::kNoSection) continue;
+    const double time = recording_->time[i];
+    if (stays.empty() || starts(i, last)) stays.push_back({time, time});
+    stays.back().end = time;
+    last = i;
+  }
+  std::vector<double> counts;
+  for (const Stay& stay : stays)
+    counts.push_back(stay.begin + std::min(settling_time, (stay.end - stay.begin) / 3));
+  return counts;
 }
 
 // [conditions]
@@ -64,20 +99,6 @@ std::vector<double> HistoryStream::zerosOf(std::size_t taxel,
     zeros[session.condition] = zeroAtRest(*recording_, session.rest, taxel, table).value_or(0);
   }
   return zeros;
-}
-
-// The scans after the settling time of a stay on a surface count, but at least two thirds of the stay.
-void HistoryStream::markSettled(double settling_time) {
-  for (std::size_t first = 0; first < scans_.size();) {
-    std::size_t last = first + 1;
-    while (last < scans_.size() && !scans_[last].starts) ++last;
-    const double begin = recording_->time[scans_[first].number];
-    const double length = recording_->time[scans_[last - 1].number] - begin;
-    const double counts = begin + std::min(settling_time, length / 3);
-    for (std::size_t k = first; k < last; ++k)
-      scans_[k].settled = recording_->time[scans_[k].number] >= counts;
-    first = last;
-  }
 }
 
 void addHistoryRows(const HistoryStream& stream, const compensation::HistoryGrid& grid, std::size_t taxel,

@@ -6,7 +6,9 @@
 
 #include "calibration/session/session_rests.h"
 #include "compensation/history_fit.h"
+#include "dataset/count_readers.h"
 #include "dataset/protocols.h"
+#include "dataset/row_spool.h"
 #include "dataset/sections.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
@@ -24,13 +26,13 @@ struct StaticAnswer {
 class HistoryStream {
  public:
   struct Scan {
-    std::size_t number = 0;  ///< in the recording
-    std::uint32_t curvature_class = 0;
+    std::uint32_t number = 0;    ///< in the recording
     std::uint32_t protocol = 0;  ///< dataset::Protocols::kOther: of none
     std::uint32_t row = 0;       ///< scans of one row lie within half a second of one protocol
-    bool starts = false;         ///< nothing is known of the readings before
-    bool settled = false;        ///< counts: the memories no longer depend on the start
-    double since_reversal = 0;   ///< time since the chamber changed its direction [s]
+    std::uint16_t curvature_class = 0;
+    bool starts = false;        ///< nothing is known of the readings before
+    bool settled = false;       ///< counts: the memories no longer depend on the start
+    double since_reversal = 0;  ///< time since the chamber changed its direction [s]
   };
 
   /// The arguments but `grid` must outlive the object. `classes`: of the conditions of this recording.
@@ -39,7 +41,6 @@ class HistoryStream {
                 const dataset::Sections& sections, const std::vector<std::uint32_t>& protocol,
                 const compensation::HistoryGrid& grid, std::vector<Session> sessions = {});
 
-  const std::vector<Scan>& scans() const { return scans_; }
   const dataset::Recording& recording() const { return *recording_; }
   const dataset::Sections& sections() const { return *sections_; }
 
@@ -52,15 +53,18 @@ class HistoryStream {
     const std::vector<double> zeros = zerosOf(taxel, answers);
     double last = 0;
     bool known = false;
-    for (std::size_t k = 0; k < scans_.size(); ++k) {
-      const Scan& scan = scans_[k];
+    dataset::TaxelCounts counts(*recording_, taxel);
+    Spool<Scan>::Reader scans(scans_);
+    Spool<Step>::Reader steps(steps_);
+    for (std::size_t k = 0; k < scans_.rows(); ++k) {
+      const Scan& scan = *scans[k];
       known = known && !scan.starts;
-      const std::uint16_t code = recording_->scan(scan.number)[taxel];
+      const std::uint16_t code = counts[scan.number];
       const StaticAnswer& answer = answers[scan.curvature_class];
       if (answer.pressure.empty() || code >= recording_->full_scale) continue;
       const double x = answer.pressure[code] - zeros[recording_->condition[scan.number]];
       if (known) {
-        operators_.advance(last, x, steps_.data() + k * operators_.memories(), state.data());
+        operators_.advance(last, x, operators_.memories() > 0 ? steps[k] : nullptr, state.data());
       } else {
         operators_.start(x, state.data());
       }
@@ -72,15 +76,20 @@ class HistoryStream {
   }
 
  private:
-  void markSettled(double settling_time);
+  template <typename T>
+  using Spool = dataset::RowSpool<T>;
+  using Step = rheology::ExponentialMemory::Step;
+
+  bool starts(std::size_t scan, std::size_t before) const;
+  std::vector<double> countsFrom(double settling_time) const;
   std::vector<double> zerosOf(std::size_t taxel, const std::vector<StaticAnswer>& answers) const;
 
   const dataset::Recording* recording_;
   const dataset::Sections* sections_;
   compensation::HistoryOperators operators_;
   std::vector<Session> sessions_;
-  std::vector<Scan> scans_;
-  std::vector<rheology::ExponentialMemory::Step> steps_;  // [scans x memories]
+  Spool<Scan> scans_;
+  Spool<Step> steps_;  // [scans x memories]
 };
 
 /// Sums of readings of the protocols that the tables were trained on, and of the protocol that was left out.

@@ -6,6 +6,7 @@
 
 #include "calibration/calibration_check.h"
 #include "calibration/temperature/temperature_course.h"
+#include "dataset/count_readers.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "health/recording_health.h"
@@ -33,7 +34,7 @@ class SocketChecker {
  public:
   SocketChecker(const dataset::Recording& recording, const Calibration* calibration,
                 const SocketCheckOptions& options)
-      : recording_(recording), calibration_(calibration), options_(options) {
+      : recording_(recording), calibration_(calibration), options_(options), counts_(recording) {
     for (std::size_t t = 0; t < taxels(); ++t) {
       if (recording.mask.empty() || recording.mask[t] == 0) used_.push_back(t);
     }
@@ -58,12 +59,11 @@ class SocketChecker {
 
  private:
   std::size_t taxels() const { return recording_.layout.size.taxels(); }
-  double reading(std::size_t scan, std::size_t taxel) const {
-    return double(recording_.scan(scan)[taxel]) / double(recording_.full_scale);
-  }
-  double sheetMean(std::size_t scan) const {
+  double share(std::uint16_t count) const { return double(count) / double(recording_.full_scale); }
+  double sheetMean(std::size_t scan) {
     double sum = 0;
-    for (const std::size_t t : used_) sum += reading(scan, t);
+    const std::uint16_t* const counts = counts_[scan];
+    for (const std::size_t t : used_) sum += share(counts[t]);
     return used_.empty() ? 0 : sum / double(used_.size());
   }
 
@@ -99,7 +99,7 @@ class SocketChecker {
   }
 
   // The lowest stretch of rest_time within [from, to] [s].
-  std::optional<SocketRest> restWithin(double from, double to) const {
+  std::optional<SocketRest> restWithin(double from, double to) {
     const std::vector<double>& time = recording_.time;
     std::optional<std::pair<std::size_t, std::size_t>> best;
     double least = rest_limit_, sum = 0;
@@ -119,10 +119,11 @@ class SocketChecker {
     return restOf(best->first, best->second);
   }
 
-  SocketRest restOf(std::size_t first, std::size_t end) const {
+  SocketRest restOf(std::size_t first, std::size_t end) {
     SocketRest rest{recording_.time[first], recording_.time[end - 1], std::vector<double>(taxels(), 0.0), {}};
     for (std::size_t i = first; i < end; ++i) {
-      for (std::size_t t = 0; t < taxels(); ++t) rest.readings[t] += reading(i, t) / double(end - first);
+      const std::uint16_t* const counts = counts_[i];
+      for (std::size_t t = 0; t < taxels(); ++t) rest.readings[t] += share(counts[t]) / double(end - first);
     }
     return rest;
   }
@@ -164,8 +165,7 @@ class SocketChecker {
         calibrator.setSurface(recording_.conditions[surface], time);
       }
       setTemperatureOf(recording_, i, *calibration_, calibrator);
-      calibrator.calibrate({recording_.layout.size, recording_.full_scale, recording_.scan(i), taxels()},
-                           time, map);
+      calibrator.calibrate({recording_.layout.size, recording_.full_scale, counts_[i], taxels()}, time, map);
       for (const std::size_t t : used_) {
         if (std::isnan(map.pressure[t])) continue;
         ++readings;
@@ -229,16 +229,17 @@ class SocketChecker {
   // Mean reading of a taxel in each cell; NaN where no scan is under load.
   std::vector<double> byCell(std::size_t taxel, double span, const DonDoff& events) const {
     const auto cells = static_cast<std::size_t>(recording_.time.back() / span) + 1;
-    std::vector<double> sums(cells, 0.0), counts(cells, 0.0);
+    std::vector<double> sums(cells, 0.0), scans(cells, 0.0);
+    dataset::TaxelCounts counts(recording_, taxel);
     for (std::size_t i = 0; i < recording_.scans(); ++i) {
       const double time = recording_.time[i];
       const bool worn = time >= events.don.value_or(time) && time <= events.doff.value_or(time);
       if (!worn || mean_[i] <= rest_limit_) continue;
       const auto c = static_cast<std::size_t>(recording_.time[i] / span);
-      sums[c] += reading(i, taxel);
-      counts[c] += 1;
+      sums[c] += share(counts[i]);
+      scans[c] += 1;
     }
-    for (std::size_t c = 0; c < cells; ++c) sums[c] /= counts[c];
+    for (std::size_t c = 0; c < cells; ++c) sums[c] /= scans[c];
     return sums;
   }
 
@@ -307,6 +308,7 @@ class SocketChecker {
   const dataset::Recording& recording_;
   const Calibration* calibration_;
   const SocketCheckOptions& options_;
+  dataset::ScanCounts counts_;
   std::vector<std::size_t> used_;  // taxels that are not masked
   std::vector<double> mean_;       // of each scan over them [share of full scale]
   double rest_limit_ = 0;          // the same, at rest at most

@@ -13,18 +13,26 @@ TrainingScans gatherScans(const std::vector<dataset::Recording>& recordings,
     const bool known = !zeros.empty() && !zeros[r].empty() && !zeros[r][condition].empty();
     return known ? zeros[r][condition].data() : nullptr;
   };
-  TrainingScans scans(classes.classes.size());
+  TrainingScans scans{&recordings, {}, {}};
+  scans.of_class.resize(classes.classes.size());
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     const dataset::Recording& recording = recordings[r];
-    for (std::size_t i = 0; i < recording.scans(); ++i) {
-      if (sections[r].section[i] == dataset::kNoSection) continue;
-      scans[classes.class_of[r][recording.condition[i]]].push_back(
-          {recording.scan(i), regression::toFixed(recording.pressure[i]), sections[r].section[i],
-           sections[r].direction[i], zeroOf(r, recording.condition[i])});
+    scans.pressure.emplace_back(recording.scans());
+    const auto alike = [&](std::size_t i, std::size_t j) {
+      return sections[r].section[i] == sections[r].section[j] &&
+             recording.condition[i] == recording.condition[j];
+    };
+    for (std::size_t i = 0, end = 0; i < recording.scans(); i = end) {
+      for (end = i + 1; end < recording.scans() && alike(i, end);) ++end;
+      const std::uint32_t section = sections[r].section[i], condition = recording.condition[i];
+      if (section == dataset::kNoSection) continue;
+      for (std::size_t k = i; k < end; ++k) scans.pressure[r][k] = regression::toFixed(recording.pressure[k]);
+      scans.of_class[classes.class_of[r][condition]].push_back(
+          {static_cast<std::uint32_t>(r), section, i, end, zeroOf(r, condition)});
     }
   }
-  const auto by_section = [](const TrainingScan& a, const TrainingScan& b) { return a.section < b.section; };
-  for (auto& of_class : scans) std::stable_sort(of_class.begin(), of_class.end(), by_section);
+  const auto by_section = [](const TrainingRun& a, const TrainingRun& b) { return a.section < b.section; };
+  for (auto& of_class : scans.of_class) std::stable_sort(of_class.begin(), of_class.end(), by_section);
   return scans;
 }
 
@@ -32,11 +40,15 @@ std::vector<regression::CodeStatistics> statisticsOfTaxel(const TrainingScans& s
                                                           std::uint16_t full_scale, std::size_t taxel) {
   std::vector<regression::CodeStatistics> cells;
   regression::CodeAccumulator accumulator(full_scale);
-  for (const std::vector<TrainingScan>& of_class : scans) {
-    auto scan = of_class.begin();
+  std::vector<dataset::TaxelCounts> counts = dataset::taxelCounts(*scans.recordings, taxel);
+  for (const std::vector<TrainingRun>& of_class : scans.of_class) {
+    auto run = of_class.begin();
     for (std::size_t section = 0; section < sections; ++section) {
-      for (; scan != of_class.end() && scan->section == section; ++scan) {
-        accumulator.add(scan->counts[taxel], scan->target(taxel));
+      for (; run != of_class.end() && run->section == section; ++run) {
+        const regression::FixedPressure zero = run->zeroOf(taxel);
+        scans.forEach(*run, counts, [&](std::size_t, std::uint16_t code, regression::FixedPressure pressure) {
+          accumulator.add(code, pressure + zero);
+        });
       }
       cells.push_back(accumulator.take());
     }
@@ -51,10 +63,14 @@ std::vector<std::vector<regression::CodeSamples>> samplesOfTaxel(const TrainingS
   regression::CodeSamples none;
   none.full_scale = full_scale;
   std::vector<std::vector<regression::CodeSamples>> readings;
-  for (const std::vector<TrainingScan>& of_class : scans) {
+  std::vector<dataset::TaxelCounts> counts = dataset::taxelCounts(*scans.recordings, taxel);
+  for (const std::vector<TrainingRun>& of_class : scans.of_class) {
     readings.emplace_back(sections, none);
-    for (const TrainingScan& scan : of_class) {
-      readings.back()[scan.section].add(scan.counts[taxel], scan.target(taxel));
+    for (const TrainingRun& run : of_class) {
+      const regression::FixedPressure zero = run.zeroOf(taxel);
+      scans.forEach(run, counts, [&](std::size_t, std::uint16_t code, regression::FixedPressure pressure) {
+        readings.back()[run.section].add(code, pressure + zero);
+      });
     }
   }
   return readings;
@@ -66,7 +82,7 @@ compensation::SectionedReadings sectionedReadings(const TrainingScans& scans, st
   const std::vector<regression::CodeStatistics> cells = statisticsOfTaxel(scans, sections, full_scale, taxel);
   compensation::SectionedReadings readings;
   readings.full_scale = full_scale;
-  for (std::size_t k = 0; k < scans.size(); ++k) {
+  for (std::size_t k = 0; k < scans.of_class.size(); ++k) {
     const auto first = cells.begin() + static_cast<std::ptrdiff_t>(k * sections);
     readings.sums.emplace_back(first, first + static_cast<std::ptrdiff_t>(sections));
   }

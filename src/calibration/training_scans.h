@@ -6,6 +6,7 @@
 
 #include "compensation/fit_scheme.h"
 #include "compensation/training_statistics.h"
+#include "dataset/count_readers.h"
 #include "dataset/sections.h"
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
@@ -14,17 +15,14 @@
 
 namespace fsr::calibration {
 
-/// One scan of the training.
-struct TrainingScan {
-  const std::uint16_t* counts = nullptr;  ///< of all taxels, in the memory of its recording
-  regression::FixedPressure pressure = 0;
+/// Scans of one recording that follow each other, with the same curvature class, section and session.
+struct TrainingRun {
+  std::uint32_t recording = 0;
   std::uint32_t section = 0;
-  statistics::LoadDirection direction = statistics::LoadDirection::kNone;
-  const regression::FixedPressure* zero = nullptr;  ///< of all taxels in its session; null = 0
+  std::size_t first = 0, end = 0;                   ///< scans of the recording
+  const regression::FixedPressure* zero = nullptr;  ///< of all taxels in the session; null = 0
 
   regression::FixedPressure zeroOf(std::size_t taxel) const { return zero == nullptr ? 0 : zero[taxel]; }
-  /// What the table shall answer: the chamber pressure and the zero, which a tare subtracts again.
-  regression::FixedPressure target(std::size_t taxel) const { return pressure + zeroOf(taxel); }
 };
 
 /// What a table answers too much in a session, for each taxel: [recordings][conditions][taxels]. Empty at any
@@ -32,15 +30,29 @@ struct TrainingScan {
 using SessionZeros = std::vector<std::vector<std::vector<regression::FixedPressure>>>;
 
 /// The scans that have a pressure, by curvature class and section; within a section in the order of the
-/// recordings and of time. They point into the recordings, which must outlive them.
-using TrainingScans = std::vector<std::vector<TrainingScan>>;
+/// recordings and of time. The recordings must outlive them.
+struct TrainingScans {
+  const std::vector<dataset::Recording>* recordings = nullptr;
+  std::vector<std::vector<regression::FixedPressure>>
+      pressure;  ///< of the chamber in runs, [recordings][scans]
+  std::vector<std::vector<TrainingRun>> of_class;
 
-/// `sections` has one entry for each recording. The scans point into `zeros`, too.
+  /// Calls visit(number of the scan, count, pressure of the chamber) for each scan of a run. `counts`: of the
+  /// taxel in each recording.
+  template <typename Visit>
+  void forEach(const TrainingRun& run, std::vector<dataset::TaxelCounts>& counts, Visit visit) const {
+    for (std::size_t i = run.first; i < run.end; ++i)
+      visit(i, counts[run.recording][i], pressure[run.recording][i]);
+  }
+};
+
+/// `sections` has one entry for each recording. The runs point into `zeros`.
 TrainingScans gatherScans(const std::vector<dataset::Recording>& recordings,
                           const dataset::ConditionClasses& classes,
                           const std::vector<dataset::Sections>& sections, const SessionZeros& zeros);
 
-/// The statistics of one taxel, [classes x sections].
+/// The statistics of one taxel, [classes x sections]. A table shall answer the chamber pressure and the zero,
+/// which a tare subtracts again.
 std::vector<regression::CodeStatistics> statisticsOfTaxel(const TrainingScans& scans, std::size_t sections,
                                                           std::uint16_t full_scale, std::size_t taxel);
 

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "compensation/fit_scheme.h"
+#include "dataset/count_readers.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
@@ -34,8 +35,7 @@ void requireWhole(const dataset::Recording& recording) {
   if (recording.pressure.empty()) {
     refuse("no chamber pressure is recorded, but training needs the topic chamber_pressure");
   }
-  const bool whole = recording.counts.size() == recording.scans() * recording.layout.size.taxels() &&
-                     recording.pressure.size() == recording.scans() &&
+  const bool whole = dataset::countsAreWhole(recording) && recording.pressure.size() == recording.scans() &&
                      recording.condition.size() == recording.scans() &&
                      (recording.mask.empty() || recording.mask.size() == recording.layout.size.taxels()) &&
                      (recording.temperature.empty() || recording.temperature.size() == recording.scans());

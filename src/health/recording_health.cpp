@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dataset/count_readers.h"
+
 namespace fsr::health {
 
 namespace {
@@ -52,8 +54,9 @@ void countClipping(const dataset::Recording& recording, RecordingHealth& health)
   for (std::size_t t = 0; t < taxels; ++t) {
     if (masked(recording, t)) continue;
     std::size_t own = 0;
+    dataset::TaxelCounts counts(recording, t);
     for (std::size_t i = 0; i < recording.scans(); ++i) {
-      if (recording.scan(i)[t] < recording.full_scale) continue;
+      if (counts[i] < recording.full_scale) continue;
       ++own;
       if (!recording.pressure.empty()) {
         health.saturated_from = std::fmin(health.saturated_from, recording.pressure[i]);
@@ -72,8 +75,9 @@ RecordingHealth recordingHealth(const dataset::Recording& recording, const Taxel
   RecordingHealth health;
   countClipping(recording, health);
   TaxelWatch watch(recording.layout.size, recording.full_scale, options);
+  dataset::ScanCounts counts(recording);
   for (std::size_t i = 0; i < recording.scans(); ++i) {
-    if (watch.observe(recording.scan(i), recording.time[i])) noteFaults(recording, watch.flags(), health);
+    if (watch.observe(counts[i], recording.time[i])) noteFaults(recording, watch.flags(), health);
   }
   for (auto* list : {&health.dead, &health.stuck, &health.rows, &health.columns}) {
     std::sort(list->begin(), list->end());

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "calibration/session/session_rests.h"
+#include "dataset/count_readers.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 
 namespace fsr::calibration {
@@ -18,8 +19,9 @@ std::vector<float> tareAtStart(const Calibration& calibration, const dataset::Re
   calibrator.setSurface(recording.conditions[condition], recording.time[rest.front()]);
   map::PressureMap map;
   std::vector<double> sum(taxels, 0), count(taxels, 0);
+  dataset::ScanCounts counts(recording);
   for (const std::size_t scan : rest) {
-    calibrator.calibrate({recording.layout.size, recording.full_scale, recording.scan(scan), taxels},
+    calibrator.calibrate({recording.layout.size, recording.full_scale, counts[scan], taxels},
                          recording.time[scan], map);
     for (std::size_t i = 0; i < taxels; ++i) {
       if (!std::isfinite(map.pressure[i]) || (map.flags[i] & map::taxel_flag::kSaturated) != 0) continue;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "calibration/tare.h"
+#include "dataset/count_readers.h"
 
 namespace fsr::calibration {
 
@@ -68,8 +69,9 @@ std::vector<std::size_t> restAfterLoad(const dataset::Recording& recording, std:
 std::vector<ReadingAtRest> readingsAtRest(const dataset::Recording& recording,
                                           const std::vector<std::size_t>& rest, std::size_t taxel) {
   std::vector<ReadingAtRest> readings;
+  dataset::TaxelCounts counts(recording, taxel);
   for (const std::size_t scan : rest) {
-    const std::uint16_t code = recording.scan(scan)[taxel];
+    const std::uint16_t code = counts[scan];
     if (code < recording.full_scale) readings.push_back({code, recording.pressure[scan]});
   }
   return readings;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dataset/count_readers.h"
+
 namespace fsr::calibration {
 
 namespace {
@@ -246,9 +248,10 @@ void SessionTables::addErrors(std::size_t number, const Tables& plain, const Tab
   };
   readings_.sums[k][session.number].forEach([&](const regression::CodeSums& sums) { add(sums, 1); });
   const dataset::Recording& recording = problem_.recordings[session.recording];
+  dataset::TaxelCounts own(recording, taxel_);
   for (const std::size_t scan : session.rest) {
     const FixedPressure pressure = regression::toFixed(recording.pressure[scan]);
-    add({recording.scan(scan)[taxel_], 1, pressure, Int128{pressure} * pressure}, -1);
+    add({own[scan], 1, pressure, Int128{pressure} * pressure}, -1);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "calibration/shape/rest_window.h"
+#include "dataset/count_readers.h"
 
 namespace fsr::calibration {
 
@@ -63,9 +64,10 @@ compensation::RestReading readingAtRest(const dataset::Recording& recording,
   for (std::size_t t = 0; t < taxels; ++t) {
     if (scans.empty() || (!recording.mask.empty() && recording.mask[t] != 0)) continue;
     double sum = 0, zeros = 0;
+    dataset::TaxelCounts counts(recording, t);
     for (const std::size_t scan : scans) {
-      sum += recording.scan(scan)[t];
-      zeros += recording.scan(scan)[t] == 0 ? 1 : 0;
+      sum += counts[scan];
+      zeros += counts[scan] == 0 ? 1 : 0;
     }
     rest.reading[t] = sum / double(scans.size());
     rest.zero[t] = zeros > kCutShare * double(scans.size()) ? 1 : 0;

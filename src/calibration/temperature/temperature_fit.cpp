@@ -6,6 +6,7 @@
 #include "compensation/even_line.h"
 #include "compensation/history_fit.h"
 #include "compensation/history_state.h"
+#include "dataset/count_readers.h"
 #include "matrix/for_each_taxel.h"
 
 namespace fsr::calibration {
@@ -60,6 +61,7 @@ class TemperatureFit {
         operators_(compensation::operatorsOf(compensation::historyGrid(groups.highest, groups.longest_hold))),
         base_(kKnots + 1 + Index(operators_.size())) {
     for (std::size_t r = 0; r < problem.recordings.size(); ++r) {
+      chooseScans(r);
       readTemperatures(r, grid);
       driveOperators(r);
     }
@@ -70,13 +72,14 @@ class TemperatureFit {
   FoldSums ofTaxel(std::size_t taxel) const;
 
  private:
+  void chooseScans(std::size_t r);
   void readTemperatures(std::size_t r, const TemperatureGrid& grid);
   void driveOperators(std::size_t r);
   void collectRows(std::size_t r, const std::vector<std::uint32_t>& group);
   Eigen::VectorXd curveOf(std::size_t taxel, std::size_t curvature_class) const;
   std::vector<HistorySums> sumsOf(std::size_t taxel, std::size_t curvature_class,
                                   const Eigen::VectorXd& curve) const;
-  bool reading(std::size_t taxel, const Row& row, double& code) const;
+  bool reading(std::vector<dataset::TaxelCounts>& counts, const Row& row, double& code) const;
   void addFold(const Eigen::MatrixXd& gram, const Eigen::MatrixXd* left_out,
                std::vector<LagSums>& sums) const;
 
@@ -87,20 +90,34 @@ class TemperatureFit {
   double highest_;  // [Pa]
   compensation::HistoryOperators operators_;
   Index base_;  // features beside those of the lags: f, the effect of a constant temperature, the operators
-  std::vector<std::vector<double>> memory_;  // [recordings][scans x operators]
-  std::vector<std::vector<double>> above_;   // [recordings][scans x lags x 2]
+  std::vector<std::vector<std::size_t>> chosen_;  // [recordings], the scans that become rows
+  std::vector<std::vector<double>> memory_;       // [recordings][chosen scans x operators]
+  std::vector<std::vector<double>> above_;        // [recordings][chosen scans x lags x 2]
   std::vector<Row> rows_;
 };
 
+void TemperatureFit::chooseScans(std::size_t r) {
+  const dataset::Recording& recording = problem_.recordings[r];
+  double next = -INFINITY;
+  chosen_.emplace_back();
+  for (std::size_t i = 0; i < recording.scans(); ++i) {
+    if (problem_.sections[r].section[i] == dataset::kNoSection || recording.time[i] < next) continue;
+    next = recording.time[i] + 0.99 * kPeriod;
+    chosen_.back().push_back(i);
+  }
+}
+
 void TemperatureFit::readTemperatures(std::size_t r, const TemperatureGrid& grid) {
   const dataset::Recording& recording = problem_.recordings[r];
-  std::vector<double> above(recording.scans() * lags_ * 2);
+  const std::vector<std::size_t>& chosen = chosen_[r];
+  std::vector<double> above(chosen.size() * lags_ * 2);
   for (std::size_t l = 0; l < lags_; ++l) {
     const std::vector<double> sheet = sheetTemperature(recording, grid.lags[l]);
     const std::vector<double> means = cycleMeans(sheet, recording, problem_.sections[r]);
-    for (std::size_t i = 0; i < recording.scans(); ++i) {
-      above[(i * lags_ + l) * 2] = sheet[i] - grid.reference;
-      above[(i * lags_ + l) * 2 + 1] = sheet[i] - means[i];
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      const std::size_t i = chosen[k];
+      above[(k * lags_ + l) * 2] = sheet[i] - grid.reference;
+      above[(k * lags_ + l) * 2 + 1] = sheet[i] - means[i];
     }
   }
   above_.push_back(std::move(above));
@@ -110,7 +127,9 @@ void TemperatureFit::readTemperatures(std::size_t r, const TemperatureGrid& grid
 void TemperatureFit::driveOperators(std::size_t r) {
   const dataset::Recording& recording = problem_.recordings[r];
   const std::size_t n = operators_.size();
-  std::vector<double> memory(recording.scans() * n), state(n);
+  std::vector<double> memory, state(n);
+  memory.reserve(chosen_[r].size() * n);
+  auto chosen = chosen_[r].begin();
   std::vector<rheology::ExponentialMemory::Step> steps(operators_.memories());
   for (std::size_t i = 0; i < recording.scans(); ++i) {
     const double pressure = recording.pressure[i];
@@ -123,17 +142,17 @@ void TemperatureFit::driveOperators(std::size_t r) {
       operators_.stepsOver(duration, steps.data());
       operators_.advance(recording.pressure[i - 1], pressure, steps.data(), state.data());
     }
-    for (std::size_t k = 0; k < n; ++k) memory[i * n + k] = state[k] - pressure;
+    if (chosen == chosen_[r].end() || *chosen != i) continue;
+    ++chosen;
+    for (std::size_t k = 0; k < n; ++k) memory.push_back(state[k] - pressure);
   }
   memory_.push_back(std::move(memory));
 }
 
 void TemperatureFit::collectRows(std::size_t r, const std::vector<std::uint32_t>& group) {
   const dataset::Recording& recording = problem_.recordings[r];
-  double next = -INFINITY;
-  for (std::size_t i = 0; i < recording.scans(); ++i) {
-    if (problem_.sections[r].section[i] == dataset::kNoSection || recording.time[i] < next) continue;
-    next = recording.time[i] + 0.99 * kPeriod;
+  for (std::size_t k = 0; k < chosen_[r].size(); ++k) {
+    const std::size_t i = chosen_[r][k];
     Row row;
     row.recording = r, row.scan = i;
     row.curvature_class = problem_.classes.class_of[r][recording.condition[i]];
@@ -141,18 +160,17 @@ void TemperatureFit::collectRows(std::size_t r, const std::vector<std::uint32_t>
     row.pressure = recording.pressure[i];
     const auto place = EvenLine::place(row.pressure, 0, double(kKnots - 1) / highest_, std::size_t(kKnots));
     row.below = place.below, row.share = place.share;
-    row.memory = &memory_[r][i * operators_.size()];
-    row.above = &above_[r][i * lags_ * 2];
+    row.memory = &memory_[r][k * operators_.size()];
+    row.above = &above_[r][k * lags_ * 2];
     rows_.push_back(row);
   }
 }
 
 // Limits are no readings.
-bool TemperatureFit::reading(std::size_t taxel, const Row& row, double& code) const {
-  const dataset::Recording& recording = problem_.recordings[row.recording];
-  const std::uint16_t own = recording.scan(row.scan)[taxel];
+bool TemperatureFit::reading(std::vector<dataset::TaxelCounts>& counts, const Row& row, double& code) const {
+  const std::uint16_t own = counts[row.recording][row.scan];
   code = own;
-  return own > 0 && own < recording.full_scale;
+  return own > 0 && own < problem_.recordings[row.recording].full_scale;
 }
 
 // f at its knots [counts]; empty where there are no readings.
@@ -160,8 +178,9 @@ Eigen::VectorXd TemperatureFit::curveOf(std::size_t taxel, std::size_t curvature
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(kKnots, kKnots);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(kKnots);
   double code = 0, scans = 0;
+  std::vector<dataset::TaxelCounts> counts = dataset::taxelCounts(problem_.recordings, taxel);
   for (const Row& row : rows_) {
-    if (row.curvature_class != curvature_class || !reading(taxel, row, code)) continue;
+    if (row.curvature_class != curvature_class || !reading(counts, row, code)) continue;
     const Index k = Index(row.below);
     const double lower = 1 - row.share, upper = row.share;
     gram(k, k) += lower * lower, gram(k, k + 1) += lower * upper, gram(k + 1, k + 1) += upper * upper;
@@ -186,8 +205,9 @@ std::vector<HistorySums> TemperatureFit::sumsOf(std::size_t taxel, std::size_t c
   const double per_count = highest_ / (curve[kKnots - 1] - curve[0]);  // [Pa]
   Eigen::VectorXd row_features(features());
   double code = 0;
+  std::vector<dataset::TaxelCounts> counts = dataset::taxelCounts(problem_.recordings, taxel);
   for (const Row& row : rows_) {
-    if (row.curvature_class != curvature_class || !reading(taxel, row, code)) continue;
+    if (row.curvature_class != curvature_class || !reading(counts, row, code)) continue;
     const Index k = Index(row.below);
     row_features.setZero();
     row_features[k] = 1 - row.share;
