@@ -2,11 +2,14 @@
 
 #include <cmath>
 
+#include "dataset/row_spool.h"
 #include "simulation/effects/enabled_effects.h"
 
 namespace fsr::discrepancy {
 
 namespace {
+
+constexpr std::size_t kReadingsInMemory = 16u << 20;  // of one recording [bytes]
 
 // A simulation that goes from recording to recording.
 class Driver {
@@ -52,14 +55,14 @@ void driveRecordingsTwice(
                              const simulation::SensorChain& second)>& use) {
   if (recordings.empty()) return;
   Driver one(*recordings.front(), first), other(*recordings.front(), second);
-  std::vector<double> readings;  // of one recording
   for (std::size_t r = 0; r < recordings.size(); ++r) {
-    readings.clear();
-    one.run(*recordings[r], [&](std::size_t, const simulation::SensorChain& chain) {
-      readings.insert(readings.end(), chain.reading().begin(), chain.reading().end());
-    });
+    dataset::RowSpool<double> spool(kReadingsInMemory);
+    spool.begin(recordings[r]->layout.size.taxels(), recordings[r]->scans());
+    one.run(*recordings[r],
+            [&](std::size_t, const simulation::SensorChain& chain) { spool.add(chain.reading().data()); });
+    dataset::RowSpool<double>::Reader readings(spool);
     other.run(*recordings[r], [&](std::size_t scan, const simulation::SensorChain& chain) {
-      use(r, scan, readings.data() + scan * chain.reading().size(), chain);
+      use(r, scan, readings[scan], chain);
     });
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dataset/count_readers.h"
 #include "discrepancy/fit/drive_recordings.h"
 #include "discrepancy/fit/penalised_spline.h"
 #include "simulation/effects/effect_library.h"
@@ -184,7 +185,7 @@ class CurvesFit {
  private:
   double step();
   void prepare();
-  void takeIn(std::size_t recording, std::size_t scan, const double* plain,
+  void takeIn(std::size_t recording, const std::uint16_t* counts, const double* plain,
               const simulation::SensorChain& moved);
   simulation::SimulationSettings with(double added) const;
 
@@ -218,11 +219,10 @@ void CurvesFit::prepare() {
 }
 
 // Adds one scan to the sums. `plain`: readings with the present curves [counts].
-void CurvesFit::takeIn(std::size_t recording, std::size_t scan, const double* plain,
+void CurvesFit::takeIn(std::size_t recording, const std::uint16_t* counts, const double* plain,
                        const simulation::SensorChain& moved) {
   const std::size_t surface = moved.curvesSurface();
   const double full_scale = fit_.fullScale();
-  const std::uint16_t* counts = fit_.recordings()[recording]->scan(scan);
   const std::vector<std::uint8_t>& unmasked = fit_.unmasked(recording);
   for (std::size_t t = 0; t < curves_.taxels; ++t) {
     if (!unmasked[t]) continue;
@@ -239,10 +239,12 @@ void CurvesFit::takeIn(std::size_t recording, std::size_t scan, const double* pl
 // Returns the largest change of a curve [share of full scale].
 double CurvesFit::step() {
   prepare();
+  std::vector<dataset::ScanCounts> counts;
+  for (const dataset::Recording* recording : fit_.recordings()) counts.emplace_back(*recording);
   driveRecordingsTwice(
       fit_.recordings(), with(0), with(kProbe),
       [&](std::size_t r, std::size_t i, const double* plain, const simulation::SensorChain& moved) {
-        if (fit_.sampleOf(r, i) != FitView::kNotInView) takeIn(r, i, plain, moved);
+        if (fit_.sampleOf(r, i) != FitView::kNotInView) takeIn(r, counts[r][i], plain, moved);
       });
   double largest = 0;
   for (std::size_t s = 0; s < fits_.size(); ++s) {

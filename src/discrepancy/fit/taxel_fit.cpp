@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dataset/count_readers.h"
+
 namespace fsr::discrepancy {
 
 namespace {
@@ -56,6 +58,7 @@ void TaxelFit::residuals(std::size_t sample, std::vector<double>& result) const 
 void TaxelFit::judgeWithin() {
   double squares = 0, number = 0;
   std::vector<double> mean;
+  std::vector<dataset::ScanCounts> scans(measured_.recordings->begin(), measured_.recordings->end());
   for (std::size_t m = 0; m < measured_.samples(); ++m) {
     if (measured_.scans[m] < 2) continue;
     measured_.recorded(m, mean);
@@ -67,7 +70,7 @@ void TaxelFit::judgeWithin() {
       const double period =
           recording.time[measured_.first_scan[m] + 1] - recording.time[measured_.first_scan[m]];
       const double moved = slope * measured_.rate[m] * (static_cast<double>(s) - middle) * period;
-      const std::uint16_t* counts = recording.scan(s);
+      const std::uint16_t* counts = scans[visit.recording][s];
       for (std::size_t t = 0; t < mean.size(); ++t) {
         if (!measured_.used[t]) continue;
         squares += std::pow(counts[t] / measured_.full_scale - mean[t] - moved, 2);

@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "dataset/count_readers.h"
 #include "discrepancy/fit/drive_recordings.h"
 #include "discrepancy/prove/gap_intervals.h"
 
@@ -138,6 +139,8 @@ Place DrivenGap::placeOf(std::uint32_t sample, double pressure) const {
 
 void DrivenGap::drive(const simulation::SimulationSettings& simulation, bool after) {
   error_.resize(hold_out_.taxels());
+  std::vector<dataset::ScanCounts> counts;
+  for (const dataset::Recording* recording : hold_out_.recordings()) counts.emplace_back(*recording);
   driveRecordings(hold_out_.recordings(), simulation,
                   [&](std::size_t r, std::size_t i, const simulation::SensorChain& chain) {
                     const std::uint32_t held = hold_out_.sampleOf(r, i), fitted = fit_.sampleOf(r, i);
@@ -145,7 +148,7 @@ void DrivenGap::drive(const simulation::SimulationSettings& simulation, bool aft
                     if (!is_held && (after || fitted == FitView::kNotInView)) return;
                     const dataset::Recording& recording = *hold_out_.recordings()[r];
                     unmasked_ = &hold_out_.unmasked(r);
-                    subtract(recording.scan(i), chain.counts());
+                    subtract(counts[r][i], chain.counts());
                     if (is_held) addErrors(held, after);
                     if (after) return;
                     const Place place = placeOf(is_held ? held : fitted, recording.pressure[i]);

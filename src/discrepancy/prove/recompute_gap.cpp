@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dataset/count_readers.h"
 #include "dataset/time_order.h"
 #include "discrepancy/fit/drive_recordings.h"
 
@@ -21,8 +22,8 @@ bool within(const HoldOutCycles& bag, std::int64_t stamp) {
 struct Sum {
   double squares = 0, number = 0;
 
-  void add(const dataset::Recording& recording, std::size_t scan, const std::vector<std::uint16_t>& counts) {
-    const std::uint16_t* measured = recording.scan(scan);
+  void add(const dataset::Recording& recording, const std::uint16_t* measured,
+           const std::vector<std::uint16_t>& counts) {
     for (std::size_t t = 0; t < counts.size(); ++t) {
       if (!recording.mask.empty() && recording.mask[t]) continue;
       squares += std::pow((static_cast<double>(measured[t]) - counts[t]) / recording.full_scale, 2);
@@ -39,6 +40,8 @@ RecomputedGap recomputeGap(const std::vector<dataset::Recording>& recordings,
                            const simulation::SimulationSettings& simulation) {
   std::vector<const dataset::Recording*> order;
   for (const std::size_t r : dataset::inOrderOfTime(recordings)) order.push_back(&recordings[r]);
+  std::vector<dataset::ScanCounts> scans;
+  for (const dataset::Recording* recording : order) scans.emplace_back(*recording);
   Sum all;
   std::vector<std::pair<std::string, Sum>> surfaces;
   driveRecordings(order, simulation, [&](std::size_t r, std::size_t i, const simulation::SensorChain& chain) {
@@ -52,8 +55,9 @@ RecomputedGap recomputeGap(const std::vector<dataset::Recording>& recordings,
     auto of_surface =
         std::find_if(surfaces.begin(), surfaces.end(), [&](const auto& one) { return one.first == surface; });
     if (of_surface == surfaces.end()) of_surface = surfaces.insert(surfaces.end(), {surface, {}});
-    all.add(recording, i, chain.counts());
-    of_surface->second.add(recording, i, chain.counts());
+    const std::uint16_t* const measured = scans[r][i];
+    all.add(recording, measured, chain.counts());
+    of_surface->second.add(recording, measured, chain.counts());
   });
   RecomputedGap gap{all.rms(), {}};
   for (const auto& [surface, sum] : surfaces) gap.surfaces.emplace_back(surface, sum.rms());

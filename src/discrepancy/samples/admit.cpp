@@ -3,6 +3,7 @@
 #include <numeric>
 #include <set>
 
+#include "dataset/count_readers.h"
 #include "dataset/cycles.h"
 #include "dataset/time_order.h"
 #include "discrepancy/samples/measured.h"
@@ -35,8 +36,7 @@ void requireWhole(const dataset::Recording& recording) {
   if (recording.pressure.empty()) {
     refuse("no chamber pressure is recorded, but without the topic chamber_pressure nothing can be compared");
   }
-  const bool whole = recording.counts.size() == recording.scans() * recording.layout.size.taxels() &&
-                     recording.pressure.size() == recording.scans() &&
+  const bool whole = dataset::countsAreWhole(recording) && recording.pressure.size() == recording.scans() &&
                      recording.condition.size() == recording.scans() &&
                      (recording.mask.empty() || recording.mask.size() == recording.layout.size.taxels()) &&
                      (recording.temperature.empty() || recording.temperature.size() == recording.scans());
@@ -79,7 +79,7 @@ void requireTogether(const std::vector<dataset::Recording>& recordings) {
                                  std::to_string(first.full_scale) + "; give bags of one sheet");
     }
     const auto same = std::find_if(recordings.begin(), r, [&](const dataset::Recording& other) {
-      return other.start_ns == r->start_ns && other.time == r->time && other.counts == r->counts;
+      return other.start_ns == r->start_ns && other.time == r->time && dataset::sameCounts(other, *r);
     });
     if (same != r)
       throw settings::InputError(r->name + ": holds the same scans as " + same->name +
@@ -242,6 +242,21 @@ void maskTaxels(Measured& measured) {
   }
 }
 
+void sumCounts(Measured& measured) {
+  const std::size_t taxels = measured.taxels();
+  auto sums = std::make_shared<std::vector<std::uint32_t>>(measured.samples() * taxels, 0);
+  std::vector<dataset::ScanCounts> counts(measured.recordings->begin(), measured.recordings->end());
+  for (std::size_t m = 0; m < measured.samples(); ++m) {
+    dataset::ScanCounts& own = counts[measured.visits[measured.visit[m]].recording];
+    std::uint32_t* const sum = sums->data() + m * taxels;
+    for (std::size_t s = 0; s < measured.scans[m]; ++s) {
+      const std::uint16_t* const scan = own[measured.first_scan[m] + s];
+      for (std::size_t t = 0; t < taxels; ++t) sum[t] += scan[t];
+    }
+  }
+  measured.sums = sums;
+}
+
 // Standard deviation of each taxel's readings [share of full scale].
 std::vector<double> movements(const Measured& measured) {
   std::vector<double> sum(measured.taxels()), squares(measured.taxels()), readings;
@@ -342,12 +357,8 @@ std::vector<std::size_t> Measured::mounts() const {
 }
 
 void Measured::recorded(std::size_t sample, std::vector<double>& result) const {
-  const dataset::Recording& recording = (*recordings)[visits[visit[sample]].recording];
-  result.assign(taxels(), 0.0);
-  for (std::size_t s = 0; s < scans[sample]; ++s) {
-    const std::uint16_t* counts = recording.scan(first_scan[sample] + s);
-    for (std::size_t i = 0; i < result.size(); ++i) result[i] += counts[i];
-  }
+  const auto first = sums->begin() + static_cast<std::ptrdiff_t>(sample * taxels());
+  result.assign(first, first + static_cast<std::ptrdiff_t>(taxels()));
   for (double& reading : result) reading /= full_scale * static_cast<double>(scans[sample]);
 }
 
@@ -398,6 +409,7 @@ Measured admit(const DiscrepancyProblem& problem) {
     measured.path_length[i] =
         measured.path_length[i - 1] + std::abs(measured.pressure[i] - measured.pressure[i - 1]);
   }
+  sumCounts(measured);
   partCycles(measured, problem.options.seed);
   maskTaxels(measured);
   requireJudgeable(measured);

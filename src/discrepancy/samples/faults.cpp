@@ -49,9 +49,6 @@ class Detectors {
   void joinLine(bool rows, std::vector<TaxelFault>& found);
   void findTaxels();
   void keep(Fault fault, const std::map<std::size_t, Flags>& flags);
-  double error(std::size_t visit, std::size_t taxel, std::size_t scan) const {  // [share of full scale]
-    return courses_[visit].deviation(taxel, scan) * courses_[visit].unit[taxel];
-  }
   void judgeReadings();
   bool isLoop(const std::map<std::size_t, Flags>& flags) const;
   // Calls use(scan, sample) for the scans of a visit in order.
@@ -85,9 +82,10 @@ bool Detectors::isLoop(const std::map<std::size_t, Flags>& flags) const {
     const std::size_t taxel = t;
     for (std::size_t v = 0; v < courses_.size(); ++v) {
       std::map<long, Sums> bins;
+      TaxelCourse course(courses_[v], taxel);
       eachScan(v, [&](std::size_t i, std::size_t sample) {
-        const double deviation = courses_[v].deviation(taxel, i);
-        Sums& bin = bins[std::lround(static_cast<double>(courses_[v].expected(taxel, i)) / kReadingBin)];
+        const double deviation = course.deviation(i);
+        Sums& bin = bins[std::lround(static_cast<double>(course.expected(i)) / kReadingBin)];
         const bool rises = measured_.direction[sample] > 0;
         bin.number[rises] += 1;
         bin.sum[rises] += deviation;
@@ -108,15 +106,17 @@ void Detectors::keep(Fault fault, const std::map<std::size_t, Flags>& flags) {
   double hit = 0, all = 0, lost = 0, lost_of = 0, square = 0;
   for (std::size_t v = 0; v < courses_.size(); ++v) {
     const VisitCourses& visit = courses_[v];
+    std::vector<std::pair<const std::vector<bool>*, TaxelCourse>> failing;
+    for (const auto& [t, of_taxel] : flags) failing.emplace_back(&of_taxel[v], TaxelCourse(visit, t));
     bool before = false;
     for (std::size_t i = 0; i < visit.scans(); ++i) {
       bool now = false;
-      for (const auto& [t, of_taxel] : flags) {
-        if (!of_taxel[v][i]) continue;
+      for (auto& [fails, course] : failing) {
+        if (!(*fails)[i]) continue;
         now = true;
-        square += std::pow(visit.deviation(t, i), 2);
-        lost -= visit.deviation(t, i);
-        lost_of += static_cast<double>(visit.expected(t, i));
+        square += std::pow(course.deviation(i), 2);
+        lost -= course.deviation(i);
+        lost_of += static_cast<double>(course.expected(i));
       }
       ++all;
       if (now) {
@@ -247,14 +247,19 @@ void Detectors::judgeReadings() {
   for (std::size_t v = 0; v < courses_.size(); ++v) {
     const Visit& visit = measured_.visits[v];
     double squares = 0;
+    std::vector<TaxelCourse> courses;  // of the failing taxels
+    for (const auto& [t, flags] : failing_) courses.emplace_back(courses_[v], t);
     eachScan(v, [&](std::size_t i, std::size_t sample) {
       const bool held_out = measured_.cycles[measured_.cycle[sample]].use == CycleUse::kHoldOut;
       auto& bin =
           bins[static_cast<long>(std::max(0.0, measured_.pressure[sample]) / thresholds::kPressureBin)];
+      auto course = courses.begin();
       for (const auto& [t, flags] : failing_) {
+        TaxelCourse& of_taxel = *course++;
         bin.second += 1;
         if (!flags[v][i]) continue;
-        const double square = std::pow(error(v, t, i), 2);
+        const double square =
+            std::pow(of_taxel.deviation(i) * courses_[v].unit[t], 2);  // [share of full scale]
         bin.first += square;
         squares += square;
         if (held_out) readings.held_out += square;

@@ -285,7 +285,8 @@ std::vector<double> LineTest::courseOf(std::size_t visit, std::size_t line) cons
       if (lineOf(t) == b) weight = -1 / (members_[b] * static_cast<double>(beside_[line].size()));
     }
     if (weight == 0) continue;
-    for (std::size_t i = 0; i < course.size(); ++i) course[i] += weight * courses_[visit].deviation(t, i);
+    TaxelCourse taxel(courses_[visit], t);
+    for (std::size_t i = 0; i < course.size(); ++i) course[i] += weight * taxel.deviation(i);
   }
   return course;
 }

@@ -62,6 +62,8 @@ struct Measured {
   std::vector<std::int8_t> direction;   ///< +1 = loading, -1 = unloading, 0 = pressure never changes
   std::vector<std::size_t> first_scan;  ///< of the visit's recording
   std::vector<std::uint32_t> scans;     ///< number of scans in the sample
+  /// Sum of the counts of the sample's scans, [samples x taxels]. Copies share it.
+  std::shared_ptr<const std::vector<std::uint32_t>> sums;
 
   // Effects that were subtracted, for each sample; empty = none.
   std::vector<double> load;   ///< on the taxels, from the chamber pressure and its history [Pa]

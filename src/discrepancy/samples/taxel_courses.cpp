@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "dataset/count_readers.h"
 #include "statistics/median.h"
 
 namespace fsr::discrepancy {
@@ -127,11 +128,12 @@ VisitCourses::Between placeOf(const std::vector<double>& points, double at) {
 bool soundSomewhere(const VisitCourses& courses, std::size_t taxel, const std::vector<double>& expected) {
   const auto [low, high] = std::minmax_element(expected.begin(), expected.end());
   double loaded = 0, sound = 0;
+  TaxelCourse course(courses, taxel);
   for (std::size_t i = 0; i < expected.size(); ++i) {
     if (expected[i] < (*low + *high) / 2) continue;
     ++loaded;
-    sound += std::abs(static_cast<double>(courses.recorded(taxel, i)) - expected[i]) <
-             kResponds * (expected[i] - *low);
+    sound +=
+        std::abs(static_cast<double>(course.recorded(i)) - expected[i]) < kResponds * (expected[i] - *low);
   }
   return sound > kSoundScans * loaded;
 }
@@ -175,8 +177,9 @@ void Builder::readVisit(std::size_t visit) {
   courses.full_scale = measured_.full_scale;
   courses.common.reserve(at.last_scan - at.first_scan);
   std::vector<double> values;
+  dataset::ScanCounts scans(recording);
   for (std::size_t s = at.first_scan; s < at.last_scan; ++s) {
-    const std::uint16_t* counts = recording.scan(s);
+    const std::uint16_t* counts = scans[s];
     values.clear();
     for (std::size_t t = 0; t < measured_.taxels(); ++t) {
       if (measured_.used[t]) values.push_back(counts[t] / measured_.full_scale);
@@ -190,9 +193,11 @@ void Builder::readVisit(std::size_t visit) {
 // Readings of the taxels from `first` on, as many as there are up to kTaxelsTogether.
 void Builder::readTaxels(const VisitCourses& courses, std::size_t first, std::vector<float>* readings) const {
   const std::size_t number = std::min(kTaxelsTogether, measured_.taxels() - first);
+  std::vector<TaxelCourse> taxels;
   for (std::size_t k = 0; k < number; ++k) readings[k].resize(courses.scans());
+  for (std::size_t k = 0; k < number; ++k) taxels.emplace_back(courses, first + k);
   for (std::size_t i = 0; i < courses.scans(); ++i) {
-    for (std::size_t k = 0; k < number; ++k) readings[k][i] = courses.recorded(first + k, i);
+    for (std::size_t k = 0; k < number; ++k) readings[k][i] = taxels[k].recorded(i);
   }
 }
 
@@ -301,10 +306,9 @@ double VisitCourses::elsewhere(const ReadingCurve& curve, double common) {
 void VisitCourses::deviations(std::size_t taxel, std::size_t first, std::size_t last, double* result) const {
   const ReadingCurve& own = curve[taxel];
   const double low = lowest[taxel], one = unit[taxel];
-  const std::size_t taxels = recording->layout.size.taxels();
-  const std::uint16_t* count = recording->scan(first_scan + first) + taxel;
-  for (std::size_t i = first; i < last; ++i, ++result, count += taxels) {
-    const auto share = static_cast<double>(static_cast<float>(*count / full_scale));
+  dataset::TaxelCounts counts(*recording, taxel);
+  for (std::size_t i = first; i < last; ++i, ++result) {
+    const auto share = static_cast<double>(static_cast<float>(counts[first_scan + i] / full_scale));
     const Between& at = between[i];
     const double usual = own.borrowed || at.point == 0 ? elsewhere(own, common[i]) : interpolated(own, at);
     *result = static_cast<double>(static_cast<float>((share - low) / one)) -

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "dataset/count_readers.h"
 #include "discrepancy/samples/measured.h"
 
 namespace fsr::discrepancy {
@@ -44,13 +45,6 @@ struct VisitCourses {
   std::size_t scans() const { return common.size(); }
   /// Since the first scan of the first recording [s].
   double time(std::size_t scan) const { return recording->time[first_scan + scan] + offset; }
-  /// As the board sent it [share of full scale].
-  float recorded(std::size_t taxel, std::size_t scan) const {
-    return static_cast<float>(recording->scan(first_scan + scan)[taxel] / full_scale);
-  }
-  float reading(std::size_t taxel, std::size_t scan) const {
-    return inUnits(taxel, static_cast<double>(recorded(taxel, scan)));
-  }
   /// From the median reading and the taxel's own curve.
   float expected(std::size_t taxel, std::size_t scan) const {
     return inUnits(taxel, expectedShare(taxel, scan));
@@ -62,13 +56,11 @@ struct VisitCourses {
     if (own.borrowed || at.point == 0) return elsewhere(own, common[scan]);
     return interpolated(own, at);
   }
-  double deviation(std::size_t taxel, std::size_t scan) const {
-    return static_cast<double>(reading(taxel, scan)) - static_cast<double>(expected(taxel, scan));
-  }
-  /// The same for the scans first .. last - 1, faster.
+  /// reading() - expected() of a TaxelCourse for the scans first .. last - 1, faster.
   void deviations(std::size_t taxel, std::size_t first, std::size_t last, double* result) const;
 
  private:
+  friend class TaxelCourse;
   static double interpolated(const ReadingCurve& curve, const Between& at) {
     const double low = curve.value[at.point - 1], high = curve.value[at.point];
     return std::isnan(at.share) ? high : low + at.share * (high - low);
@@ -77,6 +69,28 @@ struct VisitCourses {
   float inUnits(std::size_t taxel, double share) const {
     return static_cast<float>((share - lowest[taxel]) / unit[taxel]);
   }
+};
+
+/// Readings of one taxel in a visit. The courses must outlive it; it belongs to one thread.
+class TaxelCourse {
+ public:
+  TaxelCourse(const VisitCourses& visit, std::size_t taxel)
+      : visit_(&visit), taxel_(taxel), counts_(*visit.recording, taxel) {}
+
+  /// As the board sent it [share of full scale].
+  float recorded(std::size_t scan) {
+    return static_cast<float>(counts_[visit_->first_scan + scan] / visit_->full_scale);
+  }
+  float reading(std::size_t scan) { return visit_->inUnits(taxel_, static_cast<double>(recorded(scan))); }
+  float expected(std::size_t scan) const { return visit_->expected(taxel_, scan); }
+  double deviation(std::size_t scan) {
+    return static_cast<double>(reading(scan)) - static_cast<double>(expected(scan));
+  }
+
+ private:
+  const VisitCourses* visit_;
+  std::size_t taxel_;
+  dataset::TaxelCounts counts_;
 };
 
 /// Courses of all visits. The expected reading of a taxel is a robust function of the median reading in the

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "statistics/median.h"
 
@@ -124,7 +125,7 @@ void TaxelTest::measure() {
 
 // Joins spells of one fault: between them it would not have shown, or it shows in most scans.
 void TaxelTest::join(std::size_t taxel, std::size_t visit, std::vector<bool>& flags) const {
-  const VisitCourses& at = courses_[visit];
+  TaxelCourse course(courses_[visit], taxel);
   std::size_t last = flags.size(), run = 0;
   for (std::size_t i = 0; i < flags.size(); ++i) {
     if (!flags[i]) continue;
@@ -133,7 +134,7 @@ void TaxelTest::join(std::size_t taxel, std::size_t visit, std::vector<bool>& fl
     if (last < flags.size() && i > last) {
       bool hidden = true;
       for (std::size_t g = last; g < i && hidden; ++g)
-        hidden = std::abs(at.expected(taxel, g)) < kResponds || std::abs(at.deviation(taxel, g)) > kResponds;
+        hidden = std::abs(course.expected(g)) < kResponds || std::abs(course.deviation(g)) > kResponds;
       if (hidden || i - last <= std::min(run, end - i) / 2)
         std::fill(flags.begin() + static_cast<std::ptrdiff_t>(last),
                   flags.begin() + static_cast<std::ptrdiff_t>(i), true);
@@ -186,10 +187,11 @@ class SpellFit {
     expected_.resize(n_);
     place_.resize(n_);
     zero_ = (zero - visit.lowest[taxel]) / visit.unit[taxel];
+    TaxelCourse course(visit, taxel);
     for (Eigen::Index i = 0; i < n_; ++i) {
       const std::size_t scan = spell.first + static_cast<std::size_t>(i);
-      reading_[i] = static_cast<double>(visit.reading(taxel, scan));
-      expected_[i] = static_cast<double>(visit.expected(taxel, scan));
+      reading_[i] = static_cast<double>(course.reading(scan));
+      expected_[i] = static_cast<double>(course.expected(scan));
       place_[i] = (static_cast<double>(i) + 0.5) / static_cast<double>(n_);
     }
     nothing_ = -visit.lowest[taxel] / visit.unit[taxel];
@@ -271,14 +273,18 @@ void TaxelTest::judge(TaxelFault& fault) const {
   std::vector<double> sizes;
   double product = 0, squares = 0;
   for (std::size_t v = 0; v < courses_.size(); ++v) {
-    const VisitCourses& visit = courses_[v];
-    for (std::size_t i = 0; i < visit.scans(); ++i) {
+    TaxelCourse course(courses_[v], fault.taxel);
+    double before = 0;  // deviation and reading in the last scan that does not fail
+    float reading_before = 0;
+    for (std::size_t i = 0; i < courses_[v].scans(); ++i) {
       if (fault.failing[v][i]) continue;
-      sizes.push_back(std::abs(visit.deviation(fault.taxel, i)));
+      const double deviation = course.deviation(i), last = std::exchange(before, deviation);
+      const float reading = course.reading(i), last_reading = std::exchange(reading_before, reading);
+      sizes.push_back(std::abs(deviation));
       if (i == 0 || fault.failing[v][i - 1]) continue;
-      product += visit.deviation(fault.taxel, i) * visit.deviation(fault.taxel, i - 1);
-      squares += std::pow(visit.deviation(fault.taxel, i), 2);
-      changes += visit.reading(fault.taxel, i) != visit.reading(fault.taxel, i - 1);
+      product += deviation * last;
+      squares += std::pow(deviation, 2);
+      changes += reading != last_reading;
       ++steps;
     }
   }

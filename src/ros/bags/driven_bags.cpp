@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "dataset/row_spool.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/bags/sensor_topics.h"
@@ -25,27 +26,30 @@ namespace {
 class SimulatedScans {
  public:
   SimulatedScans(fsr::simulation::DrivenRig& rig, const fsr::dataset::Recording& recording)
-      : taxels_(recording.layout.size.taxels()) {
+      : taxels_(recording.layout.size.taxels()), counts_(kInMemory), read_(counts_) {
+    counts_.begin(taxels_, recording.scans());
     rig.run(recording, [&](std::size_t scan, const fsr::simulation::SensorChain& chain) {
       stamps_.push_back(recording.start_ns + std::llround(recording.time[scan] * 1e9));
-      counts_.insert(counts_.end(), chain.counts().begin(), chain.counts().end());
+      counts_.add(chain.counts().data());
     });
   }
 
-  // The counts at a stamp, row-major; nullptr if there is no scan at that stamp.
-  const std::uint16_t* find(std::int64_t stamp_ns) const {
+  // The counts at a stamp, row-major, valid until the next call; nullptr if there is no scan at that stamp.
+  const std::uint16_t* find(std::int64_t stamp_ns) {
     const auto found = std::lower_bound(stamps_.begin(), stamps_.end(), stamp_ns - kRounding);
     if (found == stamps_.end() || *found > stamp_ns + kRounding) return nullptr;
-    return counts_.data() + static_cast<std::size_t>(found - stamps_.begin()) * taxels_;
+    return read_[static_cast<std::size_t>(found - stamps_.begin())];
   }
 
   std::size_t taxels() const { return taxels_; }
 
  private:
-  static constexpr std::int64_t kRounding = 2;  // rounding error of times kept in seconds [ns]
+  static constexpr std::size_t kInMemory = 8u << 20;  // of the counts [bytes]
+  static constexpr std::int64_t kRounding = 2;        // rounding error of times kept in seconds [ns]
   std::size_t taxels_;
   std::vector<std::int64_t> stamps_;
-  std::vector<std::uint16_t> counts_;
+  fsr::dataset::RowSpool<std::uint16_t> counts_;
+  fsr::dataset::RowSpool<std::uint16_t>::Reader read_;
 };
 
 std::string withoutLeadingSlash(const std::string& name) {
@@ -56,7 +60,7 @@ std::string withoutLeadingSlash(const std::string& name) {
 class Copier {
  public:
   Copier(const fsr::simulation::SimulationSettings& settings, const std::string& topics,
-         const SimulatedScans& scans, BagWriter& out)
+         SimulatedScans& scans, BagWriter& out)
       : settings_(settings), topics_(withoutLeadingSlash(topics)), scans_(scans), out_(out) {}
 
   void copy(const rosbag::MessageInstance& instance) {
@@ -91,14 +95,13 @@ class Copier {
 
   const fsr::simulation::SimulationSettings& settings_;
   std::string topics_;
-  const SimulatedScans& scans_;
+  SimulatedScans& scans_;
   BagWriter& out_;
   MessageReader reader_;
 };
 
-void copyBag(const std::string& from, const std::string& to,
-             const fsr::simulation::SimulationSettings& settings, const std::string& topics,
-             const SimulatedScans& scans) {
+void copyBag(SimulatedScans& scans, const std::string& from, const std::string& to,
+             const fsr::simulation::SimulationSettings& settings, const std::string& topics) {
   BagWriter out(to);
   withSoundBag(from, [&](const rosbag::Bag& bag) {
     Copier copier(settings, topics, scans, out);
@@ -168,7 +171,8 @@ SimulatedRun writeDrivenBags(const fsr::simulation::SimulationSettings& settings
       rig.emplace(run.rig);
       if (bags.state) rig->resume(*bags.state);
     }
-    copyBag(bag, path, settings, driving.how.topics, SimulatedScans(*rig, recording));
+    SimulatedScans scans(*rig, recording);
+    copyBag(scans, bag, path, settings, driving.how.topics);
     run.state = rig->state();
   }
   return run;

@@ -5,7 +5,8 @@
 
 namespace fsr_ros {
 
-/// How a tool reads bags: by its options --namespace and --ambient. Throws fsr::settings::InputError.
+/// How a tool reads bags: by its options --namespace and --ambient, the counts of long bags into a file.
+/// Throws fsr::settings::InputError.
 BagReadOptions bagReadOptions(const fsr::settings::CommandLine& line);
 
 }  // namespace fsr_ros

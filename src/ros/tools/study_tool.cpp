@@ -75,6 +75,7 @@ fsr::study::StudyProblem problemOf(const fsr::settings::CommandLine& line, const
     return problem;
   }
   BagReadOptions reading = bagReadOptions(line);
+  reading.counts_in_memory = BagReadOptions().counts_in_memory;  // its folds read scans in any order
   for (const std::string& path : line.files()) {
     reading.progress = told("reading " + path, progress);
     problem.recordings.push_back(readBag(path, reading));

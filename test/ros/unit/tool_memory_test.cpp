@@ -135,17 +135,18 @@ TEST_F(ToolMemory, OfScrubAndExportDoesNotGrowWithTheBag) {
   const Tool scrub = [](const std::string& bag, const std::string& folder) {
     return runTool(scrubTool, {"scrub", bag, "--output", folder + "/out.bag"});
   };
-  EXPECT_LT(growth(scrub), 0.08);
-  EXPECT_LT(growth(exportTo("csv")), 0.08);
+  EXPECT_LT(growth(scrub), 0.1);
+  EXPECT_LT(growth(exportTo("csv")), 0.1);
   EXPECT_LT(growth(exportTo("hdf5")), 0.25);
 }
 
-// The counts are 0.7 bytes for each byte of the bag.
-TEST_F(ToolMemory, OfCheckBagGrowsByLittleMoreThanTheCounts) {
+// The counts are 0.7 bytes for each byte of the bag; they lie in a file. Times, pressures and what is asked
+// of each scan stay.
+TEST_F(ToolMemory, OfCheckBagGrowsByAFewNumbersForAScan) {
   const Tool check = [](const std::string& bag, const std::string&) {
     return runTool(checkBagTool, {"check_bag", bag});
   };
-  EXPECT_LT(growth(check), 1.3);
+  EXPECT_LT(growth(check), 0.25);
 }
 
 }  // namespace
