@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <sstream>
 
@@ -12,32 +13,26 @@ namespace fsr::study {
 
 namespace {
 
+constexpr char kPerCurvature[] = "per_curvature";
+
 bool isFurther(const StudyMethod& method) {
   return paperScore(method.id) == std::nullopt;
+}
+
+// Whether the figure of predictions shows the method.
+bool isDrawn(const StudyMethod& method) {
+  return method.id == "baseline" || method.id == kPerCurvature;
 }
 
 bool bent(const StudyData& data) {
   return !std::all_of(data.classes.begin(), data.classes.end(), dataset::isFlat);
 }
 
-std::vector<Split> splitsOf(const StudyContext& study) {
-  std::vector<Split> possible;
-  for (const Split& split :
-       {leaveSectionOut(study.data), pastToFuture(study.data), leaveProtocolOut(study.data),
-        leaveCurvatureOut(study.data), leaveMountOut(study.data)}) {
-    if (!split.folds.empty()) possible.push_back(split);
-    if (!study.plan.beyond_the_paper) break;
-  }
-  return possible;
-}
-
 std::vector<StudyMethod> methodsOf(const StudyContext& study) {
   std::vector<StudyMethod> methods;
   const std::vector<StudyMethod> further = furtherMethods(study.data);
   for (const StudyMethod& method : study.methods) {
-    // The figure of predictions shows these two methods.
-    const bool drawn = method.id == "baseline" || method.id == "per_curvature";
-    if (study.plan.beyond_the_paper || drawn) methods.push_back(method);
+    if (study.plan.beyond_the_paper || isDrawn(method)) methods.push_back(method);
   }
   for (const StudyMethod& method : further) {
     const bool possible = study.plan.grnn.distance == regression::KernelDistance::kSquared ||
@@ -47,68 +42,106 @@ std::vector<StudyMethod> methodsOf(const StudyContext& study) {
   return methods;
 }
 
-// Schemes beyond the paper use the bandwidths that were chosen for per_curvature.
-std::vector<double> bandwidthsFor(const StudyContext& study, const StudyMethod& method,
-                                  const Validation& validation, const SplitResult& before) {
-  for (const StudyScore& score : before.scores) {
-    if (isFurther(method) && score.id == compensation::schemeName(compensation::Scheme::kPerCurvature))
-      return score.bandwidth;
+// One split: its methods and what they share.
+class HeldOutMethods {
+ public:
+  HeldOutMethods(const StudyContext& study, const Split& split, bool first)
+      : study_(study), split_(split), first_(first), methods_(methodsOf(study)) {}
+
+  // The methods of each piece, by index. The figure needs the errors of both methods that it shows.
+  std::vector<std::vector<std::size_t>> pieces() const {
+    std::vector<std::vector<std::size_t>> all;
+    for (std::size_t m = 0; m < methods_.size(); ++m) {
+      const bool together = first_ && m > 0 && isDrawn(methods_[m - 1]) && isDrawn(methods_[m]);
+      if (together) all.back().push_back(m);
+      if (!together) all.push_back({m});
+    }
+    return all;
   }
-  return chooseBandwidths(study.data, method, validation, study.plan);
+  void compute(const std::vector<std::size_t>& chosen, StudyPiece& result);
+
+ private:
+  Validation validation() const { return {split_.grouping, split_.folds, Scoring::kPooled}; }
+  std::vector<double> bandwidthsFor(const StudyMethod& method);
+  std::vector<FoldModel> modelsOf(const StudyMethod& method, const std::vector<double>& bandwidth) const;
+  Evaluation evaluate(const StudyMethod& method, StudyPiece& result);
+  void addHistory(const StudyMethod& method, const std::vector<FoldModel>& models,
+                  const std::vector<double>& bandwidth, StudyPiece& result) const;
+
+  const StudyContext& study_;
+  const Split& split_;
+  const bool first_;  // of the splits
+  const std::vector<StudyMethod> methods_;
+  std::vector<double> of_per_curvature_;  // bandwidths; empty = not chosen yet
+};
+
+// Schemes beyond the paper use the bandwidths that are chosen for per_curvature. Where another computer
+// scores per_curvature, they are chosen here, too.
+std::vector<double> HeldOutMethods::bandwidthsFor(const StudyMethod& method) {
+  const bool further = isFurther(method);
+  if (!further && method.id != kPerCurvature)
+    return chooseBandwidths(study_.data, method, validation(), study_.plan);
+  if (of_per_curvature_.empty()) {
+    const auto chooser = std::find_if(methods_.begin(), methods_.end(),
+                                      [](const StudyMethod& one) { return one.id == kPerCurvature; });
+    of_per_curvature_ = chooseBandwidths(study_.data, *chooser, validation(), study_.plan);
+  }
+  return of_per_curvature_;
 }
 
-// The static answer of per_curvature with a model of the sheet's memory. None if no reading counts.
-std::optional<StudyScore> withHistory(const StudyContext& study, const StudyMethod& method,
-                                      const Split& split, const std::vector<FoldModel>& models,
-                                      HeldOut& result) {
-  const std::string stage = split.id + ", history";
-  study.say(stage, 0, study.data.taxels.size());
-  const HistoryStudy history(study.data, split, models, study.plan);
-  if (history.verdict().score.protocols.empty()) return std::nullopt;
+std::vector<FoldModel> HeldOutMethods::modelsOf(const StudyMethod& method,
+                                                const std::vector<double>& bandwidth) const {
+  std::vector<FoldModel> models;
+  for (std::size_t k = 0; k < split_.folds.size(); ++k) {
+    models.push_back(
+        learnedModel(study_.data, method, split_.grouping, split_.folds[k], bandwidth[k], study_.plan));
+  }
+  return models;
+}
+
+// Adds the static answer of per_curvature with a model of the sheet's memory; nothing if no reading counts.
+void HeldOutMethods::addHistory(const StudyMethod& method, const std::vector<FoldModel>& models,
+                                const std::vector<double>& bandwidth, StudyPiece& result) const {
+  const std::string stage = split_.id + ", history";
+  study_.say(stage, 0, study_.data.taxels.size());
+  const HistoryStudy history(study_.data, split_, models, study_.plan);
+  if (history.verdict().score.protocols.empty()) return;
   result.history = history.verdict().score;
-  const Evaluation evaluation = history.evaluate(method, study.counting(stage));
-  StudyScore score = scoreOf(study.data, method, evaluation);
+  const Evaluation evaluation = history.evaluate(method, study_.counting(stage));
+  StudyScore score = scoreOf(study_.data, method, evaluation);
   score.id = "history";
   score.label = "History";
-  score.rmse_interval = rmseInterval(CycleSums(study.data, evaluation), study.data, study.plan);
-  return score;
+  score.rmse_interval = rmseInterval(CycleSums(study_.data, evaluation), study_.data, study_.plan);
+  score.bandwidth = bandwidth;
+  result.with_history = score;
 }
 
-SplitResult holdOutOne(const StudyContext& study, const Split& split, HeldOut& result) {
-  SplitResult held_out{split.id, split.description, {}, {}};
-  for (const Fold& fold : split.folds) held_out.folds.push_back(fold.name);
-  const Validation validation{split.grouping, split.folds, Scoring::kPooled};
-  const std::vector<StudyMethod> methods = methodsOf(study);
-  std::vector<Evaluation> kept;
-  std::optional<StudyScore> history;
-  for (const StudyMethod& method : methods) {
-    const std::string stage = split.id + ", " + method.id;
-    study.say(stage, 0, study.data.taxels.size());
-    const std::vector<double> bandwidth = bandwidthsFor(study, method, validation, held_out);
-    std::vector<FoldModel> models;
-    for (std::size_t k = 0; k < split.folds.size(); ++k) {
-      models.push_back(
-          learnedModel(study.data, method, split.grouping, split.folds[k], bandwidth[k], study.plan));
-    }
-    Evaluation evaluation = study.evaluateMethod(method, validation, models, stage);
-    StudyScore score = scoreOf(study.data, method, evaluation);
-    score.rmse_interval = rmseInterval(CycleSums(study.data, evaluation), study.data, study.plan);
-    score.bandwidth = bandwidth;
-    held_out.scores.push_back(score);
-    const bool drawn = method.id == "baseline" || method.id == "per_curvature";
-    if (result.splits.empty() && drawn) kept.push_back(std::move(evaluation));
-    if (result.splits.empty() && study.plan.beyond_the_paper && bent(study.data))
-      result.curvature_errors.push_back(curvatureErrorsOf(study, method, validation, models));
-    if (split.id != kProtocolSplit || method.id != "per_curvature") continue;
-    history = withHistory(study, method, split, models, result);
-    if (history) history->bandwidth = bandwidth;
+Evaluation HeldOutMethods::evaluate(const StudyMethod& method, StudyPiece& result) {
+  const std::string stage = split_.id + ", " + method.id;
+  study_.say(stage, 0, study_.data.taxels.size());
+  const std::vector<double> bandwidth = bandwidthsFor(method);
+  const std::vector<FoldModel> models = modelsOf(method, bandwidth);
+  Evaluation evaluation = study_.evaluateMethod(method, validation(), models, stage);
+  StudyScore score = scoreOf(study_.data, method, evaluation);
+  score.rmse_interval = rmseInterval(CycleSums(study_.data, evaluation), study_.data, study_.plan);
+  score.bandwidth = bandwidth;
+  result.held_out.push_back(score);
+  if (first_ && study_.plan.beyond_the_paper && bent(study_.data))
+    result.curvature_errors.push_back(curvatureErrorsOf(study_, method, validation(), models));
+  if (split_.id == kProtocolSplit && method.id == kPerCurvature)
+    addHistory(method, models, bandwidth, result);
+  return evaluation;
+}
+
+void HeldOutMethods::compute(const std::vector<std::size_t>& chosen, StudyPiece& result) {
+  std::vector<Evaluation> drawn;
+  for (const std::size_t m : chosen) {
+    Evaluation evaluation = evaluate(methods_[m], result);
+    if (first_ && isDrawn(methods_[m])) drawn.push_back(std::move(evaluation));
   }
-  if (history) held_out.scores.push_back(*history);
-  if (kept.size() == 2) {
-    const std::size_t place = figureTaxel(study.data, study.plan, kept[1].rmse_percent);
-    result.response = taxelResponse(study.data, place, kept[0], kept[1]);
-  }
-  return held_out;
+  if (drawn.size() < 2) return;
+  const std::size_t place = figureTaxel(study_.data, study_.plan, drawn[1].rmse_percent);
+  result.response = taxelResponse(study_.data, place, drawn[0], drawn[1]);
 }
 
 double rmse(const StudyScore& score) {
@@ -122,14 +155,27 @@ const StudyScore& best(const SplitResult& split) {
 
 }  // namespace
 
-HeldOut holdOut(const StudyContext& study) {
-  HeldOut result;
-  for (const Split& split : splitsOf(study)) result.splits.push_back(holdOutOne(study, split, result));
-  if (study.plan.beyond_the_paper && result.history.protocols.empty()) {
-    result.history.choice =
-        "not assessable: " + calibration::whyNoProtocolIsLeftOut(study.data.protocols.names.size()) + ".";
+std::vector<Split> splitsOf(const StudyContext& study) {
+  std::vector<Split> possible;
+  for (const Split& split :
+       {leaveSectionOut(study.data), pastToFuture(study.data), leaveProtocolOut(study.data),
+        leaveCurvatureOut(study.data), leaveMountOut(study.data)}) {
+    if (!split.folds.empty()) possible.push_back(split);
+    if (!study.plan.beyond_the_paper) break;
   }
-  return result;
+  return possible;
+}
+
+std::vector<PlannedPiece> holdOutPieces(const StudyContext& study, const std::vector<Split>& splits) {
+  std::vector<PlannedPiece> pieces;
+  for (const Split& split : splits) {
+    const auto methods = std::make_shared<HeldOutMethods>(study, split, pieces.empty());
+    for (const std::vector<std::size_t>& chosen : methods->pieces()) {
+      pieces.push_back(
+          {split.id, [methods, chosen](StudyPiece& result) { methods->compute(chosen, result); }});
+    }
+  }
+  return pieces;
 }
 
 StudyHeadline headlineOf(const std::vector<SplitResult>& splits) {
