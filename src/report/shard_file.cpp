@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
-#include <vector>
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/result_json.h"
@@ -19,17 +18,13 @@ namespace {
 namespace fs = std::filesystem;
 using settings::InputError;
 
-struct Found {
-  std::string path;
-  ShardFile file;
-};
-
 std::string nameOf(const Shard& shard) {
   return "shard " + std::to_string(shard.number) + " of " + std::to_string(shard.of);
 }
 
-Found read(const std::string& path) {
-  Found found{path, {}};
+FoundShard read(const std::string& path) {
+  if (!fs::is_regular_file(path)) throw InputError(path + ": there is no such file");
+  FoundShard found{path, {}};
   try {
     const auto data = nlohmann::json::parse(std::ifstream(path));
     ShardFile& file = found.file;
@@ -47,31 +42,16 @@ Found read(const std::string& path) {
   return found;
 }
 
-std::vector<Found> readAll(const std::string& folder) {
-  std::vector<Found> all;
-  if (fs::is_directory(folder)) {
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      const std::string name = entry.path().filename();
-      if (name.rfind("shard_", 0) == 0 && entry.path().extension() == ".json")
-        all.push_back(read(entry.path()));
-    }
-  }
-  if (all.empty())
-    throw InputError(folder + ": holds no shard_I_of_N.json; run the shards with --shard I/N first");
-  std::sort(all.begin(), all.end(), [](const Found& a, const Found& b) { return a.path < b.path; });
-  return all;
-}
-
 void requireEqual(const std::string& what, const std::string& first, const std::string& other,
-                  const std::vector<Found>& all, const Found& one) {
+                  const std::vector<FoundShard>& all, const FoundShard& one) {
   if (first == other) return;
   throw InputError(one.path + ": " + what + " is " + other + " here and " + first + " in " +
                    all.front().path + "; run all shards with the same");
 }
 
-void refuseDifferences(const std::vector<Found>& all, const std::string& tool) {
+void refuseDifferences(const std::vector<FoundShard>& all, const std::string& tool) {
   const ShardFile& first = all.front().file;
-  for (const Found& one : all) {
+  for (const FoundShard& one : all) {
     if (one.file.tool != tool)
       throw InputError(one.path + ": is a shard of " + one.file.tool + ", but must be one of " + tool);
     requireEqual("the version", first.version, one.file.version, all, one);
@@ -84,10 +64,28 @@ void refuseDifferences(const std::vector<Found>& all, const std::string& tool) {
   }
 }
 
-void refuseDoubles(const std::vector<Found>& all) {
+std::string folderOf(const FoundShard& one) {
+  const fs::path folder = fs::path(one.path).parent_path();
+  return folder.empty() ? "." : folder;
+}
+
+// Every file of the shard is beside it, as it was written.
+void refuseOtherFiles(const FoundShard& one) {
+  for (const auto& [name, sum] : one.file.files) {
+    const std::string path = fs::path(folderOf(one)) / name;
+    if (!fs::is_regular_file(path))
+      throw InputError(path + ": is missing, but " + one.path +
+                       " has it; copy the folders of all shards into one");
+    if (settings::sha256OfFile(path) != sum)
+      throw InputError(path + ": is not the file that " + one.path + " says (SHA-256 " + sum +
+                       "); run this shard again");
+  }
+}
+
+void refuseDoubles(const std::vector<FoundShard>& all) {
   std::map<std::size_t, std::string> shards;
   std::map<std::string, std::string> files;
-  for (const Found& one : all) {
+  for (const FoundShard& one : all) {
     const auto [shard, is_new] = shards.insert({one.file.shard.number, one.path});
     if (!is_new)
       throw InputError(one.path + ": is " + nameOf(one.file.shard) + ", and so is " + shard->second +
@@ -101,9 +99,10 @@ void refuseDoubles(const std::vector<Found>& all) {
   }
 }
 
-void refuseGaps(const std::string& folder, const std::vector<Found>& all) {
+void refuseGaps(const std::vector<FoundShard>& all) {
+  const std::string folder = folderOf(all.front());
   std::set<std::size_t> there;
-  for (const Found& one : all) there.insert(one.file.shard.number);
+  for (const FoundShard& one : all) there.insert(one.file.shard.number);
   for (Shard shard{1, all.front().file.shard.of}; shard.number <= shard.of; ++shard.number) {
     if (there.count(shard.number) > 0) continue;
     throw InputError(folder + ": " + nameOf(shard) + " is missing; run it with --shard " +
@@ -136,24 +135,36 @@ std::string shardJson(const ShardFile& file) {
                    {"files", file.files}});
 }
 
-std::size_t checkShards(const std::string& folder, const std::string& tool) {
-  const std::vector<Found> all = readAll(folder);
-  refuseDifferences(all, tool);
-  refuseDoubles(all);
-  refuseGaps(folder, all);
-  std::size_t number = 0;
-  for (const Found& one : all) {
-    for (const auto& [name, sum] : one.file.files) {
-      const std::string path = fs::path(folder) / name;
-      if (!fs::is_regular_file(path))
-        throw InputError(path + ": is missing, but " + one.path +
-                         " has it; copy the folders of all shards into one");
-      if (settings::sha256OfFile(path) != sum)
-        throw InputError(path + ": is not the file that " + one.path + " says (SHA-256 " + sum +
-                         "); run this shard again");
-      ++number;
+std::vector<std::string> shardsIn(const std::string& folder) {
+  std::vector<std::string> paths;
+  if (fs::is_directory(folder)) {
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const std::string name = entry.path().filename();
+      if (name.rfind("shard_", 0) == 0 && entry.path().extension() == ".json") paths.push_back(entry.path());
     }
   }
+  if (paths.empty())
+    throw InputError(folder + ": holds no shard_I_of_N.json; run the shards with --shard I/N first");
+  return paths;
+}
+
+std::vector<FoundShard> readShards(const std::vector<std::string>& paths, const std::string& tool) {
+  std::vector<FoundShard> all;
+  for (const std::string& path : paths) all.push_back(read(path));
+  std::sort(all.begin(), all.end(), [](const FoundShard& a, const FoundShard& b) { return a.path < b.path; });
+  refuseDifferences(all, tool);
+  refuseDoubles(all);
+  refuseGaps(all);
+  for (const FoundShard& one : all) refuseOtherFiles(one);
+  std::sort(all.begin(), all.end(), [](const FoundShard& a, const FoundShard& b) {
+    return a.file.shard.number < b.file.shard.number;
+  });
+  return all;
+}
+
+std::size_t checkShards(const std::string& folder, const std::string& tool) {
+  std::size_t number = 0;
+  for (const FoundShard& one : readShards(shardsIn(folder), tool)) number += one.file.files.size();
   return number;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace fsr::report {
 
@@ -30,9 +31,21 @@ struct ShardFile {
 std::string shardFileName(const Shard& shard);
 std::string shardJson(const ShardFile& file);
 
-/// Checks that the shards of a folder (shard_*.json) belong together: none missing, none there twice, one
-/// tool, version, number of shards and set of options, and every file there as it was written. Returns the
-/// number of files. Throws InputError with one sentence that names the file.
+/// A shard's file, and where it is.
+struct FoundShard {
+  std::string path;
+  ShardFile file;
+};
+
+/// The shards' files of a folder (shard_*.json). Throws InputError if there is none.
+std::vector<std::string> shardsIn(const std::string& folder);
+
+/// Reads shards, ordered by their number, and checks that they belong together: none missing, none there
+/// twice, one tool, version, number of shards and set of options, and every file beside them as it was
+/// written. Throws InputError with one sentence that names the file.
+std::vector<FoundShard> readShards(const std::vector<std::string>& paths, const std::string& tool);
+
+/// Checks the shards of a folder as readShards() does. Returns the number of files that they have written.
 std::size_t checkShards(const std::string& folder, const std::string& tool);
 
 }  // namespace fsr::report

@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <type_traits>
+#include <utility>
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/study_fields.h"
@@ -106,6 +107,7 @@ void read(const Json& from, std::optional<T>& value) {
 
 template <typename T>
 void read(const Json& from, std::vector<T>& values) {
+  values.clear();  // a plan has bandwidths from the beginning
   for (const Json& one : from) {
     values.emplace_back();
     read(one, values.back());
@@ -163,12 +165,12 @@ study::StudyParts readStudyParts(const std::string& path) {
   return parts;
 }
 
-void addStudyParts(const study::StudyParts& other, const std::string& name, const std::string& first,
+void addStudyParts(study::StudyParts other, const std::string& name, const std::string& first,
                    study::StudyParts& parts) {
   if (commonOf(other) != commonOf(parts))
     throw InputError(name + ": describes other recordings than " + first + "; run both shards again");
-  for (const auto& [number, piece] : other.computed) {
-    if (!parts.computed.emplace(number, piece).second)
+  for (auto& [number, piece] : other.computed) {
+    if (!parts.computed.emplace(number, std::move(piece)).second)
       throw InputError(name + ": has piece " + std::to_string(number) +
                        " of the study, which is there already");
   }
@@ -177,6 +179,17 @@ void addStudyParts(const study::StudyParts& other, const std::string& name, cons
 std::map<std::string, std::string> studyOptions(const study::StudyPlan& plan) {
   std::map<std::string, std::string> options;
   flatten("plan", stored(plan), options);
+  // In the words of the plan's file.
+  options["plan.down_sampling"] = study::downSamplingName(plan.down_sampling);
+  options["plan.method_4"] =
+      plan.binary_share == study::BinaryShare::kFullFlat ? "full_flat" : "half_and_half";
+  options["plan.range"] = plan.range == study::ScoreRange::kHeldOut ? "held_out" : "all";
+  options["plan.grnn.spread"] = plan.grnn.spread == regression::SpreadMeaning::kSigma ? "sigma" : "half";
+  options["plan.grnn.distance"] =
+      plan.grnn.distance == regression::KernelDistance::kSquared ? "squared" : "literal";
+  options["plan.tests.normality_of"] =
+      plan.tests.normality == statistics::NormalityOf::kEachTreatment ? "treatments" : "differences";
+  if (plan.figure_taxel == study::StudyPlan{}.figure_taxel) options["plan.figure_taxel"] = "not given";
   return options;
 }
 

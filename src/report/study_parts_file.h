@@ -16,7 +16,7 @@ study::StudyParts readStudyParts(const std::string& path);
 
 /// Adds the pieces of another computer. Throws InputError if they are of another study or are there already.
 /// `name` and `first` name the files of `other` and `parts`.
-void addStudyParts(const study::StudyParts& other, const std::string& name, const std::string& first,
+void addStudyParts(study::StudyParts other, const std::string& name, const std::string& first,
                    study::StudyParts& parts);
 
 /// The settings of a study, by name, as text: what two computers that share a study must have alike.

@@ -4,11 +4,13 @@
     run_shards_test.py parallel     GNU parallel
     run_shards_test.py slurm        munged, slurmctld and slurmd as processes of this test, on loopback
 
+FSR_DEVEL names the devel space of a build, whose `study` is run in shards; without it this is left out.
 Exit status 77 (SKIPPED) where the programs are not installed.
 """
 
 import os
 import pathlib
+import re
 import shutil
 import signal
 import socket
@@ -18,7 +20,8 @@ import tempfile
 import time
 import unittest
 
-SCRIPTS = pathlib.Path(__file__).resolve().parent.parent.parent / "scripts"
+PACKAGE = pathlib.Path(__file__).resolve().parent.parent.parent
+SCRIPTS = PACKAGE / "scripts"
 SKIPPED = 77
 # A shard: notes that it began, waits for `go` while its own `wait` file is there, fails while its own `fail` file is, and
 # writes what it was told.
@@ -30,6 +33,8 @@ while [ -e "$1/wait_$number" ]; do sleep 0.05; done
 [ ! -e "$1/fail_$number" ] || { echo "shard $2 fails"; exit 3; }
 echo "$2" >"$1/out_$number.new" && mv "$1/out_$number.new" "$1/out_$number"
 """
+# A study that takes a second.
+PLAN = "study: quick\nforest: {trees: 2}\nresamples: 99\nbandwidths: [0.0078125]\nbandwidth_taxels: 1\n"
 WAIT = 120  # [s], for an event; never a duration of the test
 
 
@@ -112,6 +117,23 @@ class Driver(unittest.TestCase):
         self.assertEqual(self.told(), ["1/4", "2/4", "3/4", "4/4"])
         self.assertEqual([self.begun().count(number) for number in "12"], [1, 1])
 
+    def makes_the_study_of_one_run(self):
+        plan = self.folder / "plan.yaml"
+        plan.write_text(PLAN)
+        study = [os.environ["FSR_DEVEL"] + "/lib/fsr_pressure_map/study", "--no-figures", "--threads", "1"]
+        what = ["--simulation", str(PACKAGE / "config/simulation/bench.yaml"), "--plan", str(plan)]
+        whole, shared = self.folder / "whole", self.folder / "shared"
+        subprocess.run([*study, *what, "--output", str(whole)], check=True, stdout=subprocess.DEVNULL)
+        done = self.run_all(shards=3, command=[*study, *what, "--output", str(shared), "--shard", "{shard}"])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        subprocess.run([*study, "--merge", "--output", str(shared)], check=True, stdout=subprocess.DEVNULL)
+        tables = sorted(path.relative_to(whole) for path in whole.glob("tables/*"))
+        self.assertEqual(len(tables), 10)
+        for name in tables:
+            self.assertEqual((shared / name).read_bytes(), (whole / name).read_bytes(), name)
+        undated = [re.sub(r'"date": ".*"', "", (folder / "results.json").read_text()) for folder in (whole, shared)]
+        self.assertEqual(*undated)
+
     def refuses_what_would_be_wrong(self):
         self.run_all(shards=1)
         for words, options, said in [
@@ -137,6 +159,9 @@ class Parallel(Driver):
 
     def test_goes_on_when_it_was_interrupted(self):
         self.goes_on_when_it_was_interrupted()
+
+    def test_makes_the_study_of_one_run(self):
+        self.makes_the_study_of_one_run()
 
     def test_refuses_what_would_be_wrong(self):
         self.refuses_what_would_be_wrong()
@@ -254,6 +279,9 @@ class Slurm(Driver):
     def test_goes_on_when_it_was_interrupted(self):
         self.goes_on_when_it_was_interrupted()
 
+    def test_makes_the_study_of_one_run(self):
+        self.makes_the_study_of_one_run()
+
     def test_refuses_what_would_be_wrong(self):
         self.refuses_what_would_be_wrong()
 
@@ -268,6 +296,8 @@ def main():
         return SKIPPED
     suite = unittest.defaultTestLoader.loadTestsFromTestCase({"parallel": Parallel, "slurm": Slurm}[kind])
     wanted = [test for test in suite if not sys.argv[1:] or test.id().split(".")[-1] in sys.argv[1:]]
+    if "FSR_DEVEL" not in os.environ:
+        wanted = [test for test in wanted if not test.id().endswith("study_of_one_run")]
     done = unittest.TextTestRunner(verbosity=2).run(unittest.TestSuite(wanted))
     if done.skipped and done.wasSuccessful():
         print("SKIPPED: %s" % done.skipped[0][1])

@@ -33,11 +33,11 @@ class StudyTool : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  std::string record() const {
+  std::string record(double noise = 60) const {
     test_support::SyntheticRig rig;
     rig.surfaces = {{"flat", 0.0}, {"cylinder_13cm", 7.7}, {"cylinder_5cm", 20.0}};
     rig.scans_per_cycle = 60;
-    rig.noise = 60;
+    rig.noise = noise;
     fsr::dataset::Recording recording = test_support::syntheticRecording(rig);
     recording.start_ns = 1500000000000000000;
     const std::string path = (folder_ / "session.bag").string();
@@ -95,6 +95,129 @@ TEST_F(StudyTool, RefusesAPlanThatItDoesNotUnderstandBeforeItReadsBags) {
   const std::string text = run({"missing.bag", "--plan", (folder_ / "plan.yaml").string(), "--output",
                                 (folder_ / "results").string()});
   EXPECT_NE(text.find("sectoins"), std::string::npos) << text;
+}
+
+// Two shards of one study, which the tests copy and damage.
+class StudyShards : public StudyTool {
+ protected:
+  static void SetUpTestSuite() { shards_ = fs::path(testing::TempDir()) / "study_shards"; }
+  static void TearDownTestSuite() { fs::remove_all(shards_); }
+
+  void SetUp() override {
+    StudyTool::SetUp();
+    bag_ = record();
+    if (!fs::exists(shards_)) {
+      for (const std::string which : {"1/2", "2/2"}) shard(which, {"--output", shards_.string()});
+    }
+    fs::copy(shards_, folder_ / "out");
+  }
+
+  std::string shard(const std::string& which, std::vector<std::string> more) {
+    more.insert(more.begin(), {bag_, "--plan", (folder_ / "plan.yaml").string(), "--shard", which});
+    return run(more);
+  }
+  std::string path(const std::string& name) const { return (folder_ / "out" / name).string(); }
+  std::string merge() { return run({"--merge", "--no-figures", "--output", (folder_ / "out").string()}); }
+
+  void edit(const std::string& name, const std::string& from, const std::string& to) const {
+    std::string content = contentOf(path(name));
+    ASSERT_NE(content.find(from), std::string::npos) << content;
+    content.replace(content.find(from), from.size(), to);
+    std::ofstream(path(name)) << content;
+  }
+  void expectRefused(const std::vector<std::string>& parts) {
+    const std::string text = merge();
+    for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << text;
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+    EXPECT_FALSE(fs::exists(path("results.json")));
+  }
+
+  static fs::path shards_;
+  std::string bag_;
+};
+fs::path StudyShards::shards_;
+
+std::string withoutDate(std::string content) {
+  const std::size_t date = content.find("\"date\": ");
+  return date == std::string::npos ? content : content.erase(date, content.find('\n', date) - date);
+}
+
+TEST_F(StudyShards, MakeTheFilesOfARunWithoutShards) {
+  const std::string plan = (folder_ / "plan.yaml").string(), whole = (folder_ / "whole").string();
+  const std::string text = run({bag_, "--plan", plan, "--no-figures", "--output", whole});
+  // The order in which the shards are named does not matter.
+  const std::string merged = run({"--merge", path("shard_2_of_2.json"), path("shard_1_of_2.json"),
+                                  "--no-figures", "--output", (folder_ / "merged").string()});
+  EXPECT_EQ(merged.substr(0, merged.rfind("Results written")), text.substr(0, text.rfind("Results written")));
+  std::size_t files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(whole)) {
+    if (!entry.is_regular_file()) continue;
+    const fs::path other = folder_ / "merged" / entry.path().lexically_relative(whole);
+    EXPECT_TRUE(withoutDate(contentOf(entry.path())) == withoutDate(contentOf(other))) << other;
+    ++files;
+  }
+  EXPECT_EQ(files, 11u);
+  const std::string pieces = contentOf(path("pieces_1_of_2.json"));
+  const std::size_t date = pieces.find("\"date\":\"") + 8;
+  EXPECT_NE(contentOf(folder_ / "merged" / "results.json").find(pieces.substr(date, 20)), std::string::npos)
+      << "the date is that of the first shard";
+}
+
+TEST_F(StudyShards, AreRefusedIfOneIsMissingOrThereTwice) {
+  fs::rename(path("shard_2_of_2.json"), path("shard_2_of_2.json.away"));
+  expectRefused({(folder_ / "out").string() + ": shard 2 of 2 is missing; run it with --shard 2/2"});
+  fs::rename(path("shard_2_of_2.json.away"), path("shard_2_of_2.json"));
+  fs::copy_file(path("shard_1_of_2.json"), path("shard_9.json"));
+  expectRefused({"shard_9.json: is shard 1 of 2, and so is", "shard_1_of_2.json; remove one of them"});
+}
+
+TEST_F(StudyShards, AreRefusedIfTheyAreOfAnotherVersionOrHaveOtherOptions) {
+  shard("2/2", {"--seed", "5", "--output", (folder_ / "out").string()});
+  expectRefused({"shard_2_of_2.json: plan.seed is 5 here and 1 in ", "shard_1_of_2.json"});
+  shard("2/2", {"--ambient", "90000", "--output", (folder_ / "out").string()});
+  expectRefused({"shard_2_of_2.json: --ambient is 90000 here and not given in "});
+  fs::copy_file(shards_ / "shard_2_of_2.json", path("shard_2_of_2.json"),
+                fs::copy_options::overwrite_existing);
+  edit("shard_2_of_2.json", "\"version\": \"", "\"version\": \"9");
+  expectRefused({"shard_2_of_2.json: the version is 9"});
+}
+
+TEST_F(StudyShards, AreRefusedIfTheyReadOtherBags) {
+  record(61);
+  shard("2/2", {"--output", (folder_ / "out").string()});
+  expectRefused(
+      {"shard_2_of_2.json: recording 1 is session.bag (SHA-256 ", "here and session.bag (SHA-256 "});
+}
+
+TEST_F(StudyShards, AreRefusedIfAFileIsDamaged) {
+  edit("pieces_1_of_2.json", "\"id\":\"", "\"id\":\"x");
+  expectRefused({"pieces_1_of_2.json: is not the file that ", "shard_1_of_2.json says (SHA-256 "});
+  fs::remove(path("pieces_1_of_2.json"));
+  expectRefused({"pieces_1_of_2.json: is missing, but "});
+  fs::resize_file(path("shard_1_of_2.json"), 30);
+  expectRefused({"shard_1_of_2.json: cannot be read as the file of a shard"});
+}
+
+// The file of the second shard names the pieces of the first.
+TEST_F(StudyShards, AreRefusedIfAShardHasThePiecesOfAnother) {
+  const auto sumIn = [&](const std::string& name) {
+    const std::string content = contentOf(path(name));
+    return content.substr(content.find("_of_2.json\": \"") + 14, 64);
+  };
+  edit("shard_2_of_2.json", sumIn("shard_2_of_2.json"), sumIn("shard_1_of_2.json"));
+  fs::copy_file(path("pieces_1_of_2.json"), path("pieces_2_of_2.json"), fs::copy_options::overwrite_existing);
+  expectRefused({"pieces_2_of_2.json: does not have the pieces of shard 2 of 2; run this shard again"});
+}
+
+TEST_F(StudyShards, RefuseWhatIsNoShardAndOptionsThatTheyHaveStored) {
+  EXPECT_EQ(shard("3/2", {"--output", (folder_ / "new").string()}),
+            "--shard is 3/2, but must be I/N with 1 <= I <= N, e.g. 2/4");
+  const std::string output = (folder_ / "new").string();
+  EXPECT_EQ(run({"--merge", path("shard_1_of_2.json"), "--seed", "2", "--output", output}),
+            "--seed cannot be used with --merge, which takes all settings from the shards");
+  EXPECT_NE(run({"--merge", "--output", output}).find("new: holds no shard_I_of_N.json"), std::string::npos);
+  EXPECT_EQ(run({"--merge", path("none.json"), "--output", output}),
+            path("none.json") + ": there is no such file");
 }
 
 }  // namespace
