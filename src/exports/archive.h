@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -68,11 +69,13 @@ struct ArchivedMessage {
 /// connection's messages after the last message. Throws InputError that names the file and the defect.
 class ArchiveReader {
  public:
-  explicit ArchiveReader(const std::string& path);
+  /// `progress` is called with the share of the file whose hash is computed, before any message is read.
+  explicit ArchiveReader(const std::string& path, const std::function<void(double share)>& progress = {});
   ~ArchiveReader();
 
   const ArchiveSource& source() const;
   const std::vector<ArchivedConnection>& connections() const;
+  std::size_t messages() const;
   /// Reads the next message. Returns false after the last one; then all messages are those of the bag.
   bool next(ArchivedMessage& message);
 

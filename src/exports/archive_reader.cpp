@@ -7,6 +7,7 @@
 #include "exports/archive_layout.h"
 #include "exports/message_table.h"
 #include "hdf5/writer.h"  // kUserBlock
+#include "settings/file_hash.h"
 #include "settings/sha256.h"
 
 namespace fsr::exports {
@@ -18,7 +19,7 @@ using hdf5::Handle;
 namespace {
 
 // Refuses a file that is not an archive, before HDF5 reads it.
-void verify(const std::string& path) {
+void verify(const std::string& path, const std::function<void(double share)>& progress) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) throw settings::InputError("there is no such file");
   std::ifstream file(path, std::ios::binary);
@@ -31,7 +32,7 @@ void verify(const std::string& path) {
   if (std::strtoull(block.c_str() + start.size(), nullptr, 10) > archive::kSchema) {
     throw settings::InputError("was written by a later version; update the package");
   }
-  const std::string line = archive::firstLine(settings::sha256OfFile(path, hdf5::kUserBlock));
+  const std::string line = archive::firstLine(settings::sha256OfFile(path, hdf5::kUserBlock, progress));
   if (block.compare(0, line.size(), line) != 0) {
     throw settings::InputError(
         "is damaged or cut short: its SHA-256 is not the one in its first line; copy the file again");
@@ -79,8 +80,9 @@ struct Topic {
 }  // namespace
 
 struct ArchiveReader::Content {
-  explicit Content(const std::string& from) : path(from), lock(hdf5::hdf5Mutex()) {
-    verify(path);
+  Content(const std::string& from, const std::function<void(double share)>& progress)
+      : path(from), lock(hdf5::hdf5Mutex()) {
+    verify(path, progress);
     file.emplace(openFile(path), H5Fclose, "file");
     source.bag = hdf5::textAttribute(*file, "/archive", "bag");
     source.sha256 = hdf5::textAttribute(*file, "/archive", "sha256");
@@ -185,8 +187,8 @@ auto naming(const std::string& path, Act act) {
 
 }  // namespace
 
-ArchiveReader::ArchiveReader(const std::string& path)
-    : content_(naming(path, [&] { return std::make_unique<Content>(path); })) {}
+ArchiveReader::ArchiveReader(const std::string& path, const std::function<void(double share)>& progress)
+    : content_(naming(path, [&] { return std::make_unique<Content>(path, progress); })) {}
 
 ArchiveReader::~ArchiveReader() = default;
 
@@ -196,6 +198,10 @@ const ArchiveSource& ArchiveReader::source() const {
 
 const std::vector<ArchivedConnection>& ArchiveReader::connections() const {
   return content_->connections;
+}
+
+std::size_t ArchiveReader::messages() const {
+  return content_->time->entries();
 }
 
 bool ArchiveReader::next(ArchivedMessage& message) {

@@ -37,15 +37,21 @@ struct Sum {
 
 RecomputedGap recomputeGap(const std::vector<dataset::Recording>& recordings,
                            const std::vector<HoldOutCycles>& hold_out,
-                           const simulation::SimulationSettings& simulation) {
+                           const simulation::SimulationSettings& simulation,
+                           const std::function<void(double share)>& progress) {
   std::vector<const dataset::Recording*> order;
-  for (const std::size_t r : dataset::inOrderOfTime(recordings)) order.push_back(&recordings[r]);
-  std::vector<dataset::ScanCounts> scans;
-  for (const dataset::Recording* recording : order) scans.emplace_back(*recording);
+  std::vector<dataset::ScanCounts> counts;
+  double scans = 0, simulated = 0;
+  for (const std::size_t r : dataset::inOrderOfTime(recordings)) {
+    order.push_back(&recordings[r]);
+    counts.emplace_back(recordings[r]);
+    scans += static_cast<double>(recordings[r].scans());
+  }
   Sum all;
   std::vector<std::pair<std::string, Sum>> surfaces;
   driveRecordings(order, simulation, [&](std::size_t r, std::size_t i, const simulation::SensorChain& chain) {
     const dataset::Recording& recording = *order[r];
+    if (progress) progress(++simulated / scans);
     const std::int64_t stamp = recording.start_ns + std::llround(recording.time[i] * 1e9);
     const bool listed = std::any_of(hold_out.begin(), hold_out.end(), [&](const HoldOutCycles& bag) {
       return bag.file == recording.name && within(bag, stamp);
@@ -55,7 +61,7 @@ RecomputedGap recomputeGap(const std::vector<dataset::Recording>& recordings,
     auto of_surface =
         std::find_if(surfaces.begin(), surfaces.end(), [&](const auto& one) { return one.first == surface; });
     if (of_surface == surfaces.end()) of_surface = surfaces.insert(surfaces.end(), {surface, {}});
-    const std::uint16_t* const measured = scans[r][i];
+    const std::uint16_t* const measured = counts[r][i];
     all.add(recording, measured, chain.counts());
     of_surface->second.add(recording, measured, chain.counts());
   });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,9 +15,11 @@ struct RecomputedGap {
   std::vector<std::pair<std::string, double>> surfaces;
 };
 
-/// Recomputes the gap of one simulation from the hold-out spans of a verdict.
+/// Recomputes the gap of one simulation from the hold-out spans of a verdict. `progress` is called with the
+/// share of the scans that are simulated.
 RecomputedGap recomputeGap(const std::vector<dataset::Recording>& recordings,
                            const std::vector<HoldOutCycles>& hold_out,
-                           const simulation::SimulationSettings& simulation);
+                           const simulation::SimulationSettings& simulation,
+                           const std::function<void(double share)>& progress = {});
 
 }  // namespace fsr::discrepancy

@@ -14,7 +14,7 @@
 #include "ros/bags/scan_context.h"
 #include "ros/bags/scan_source.h"
 #include "ros/bags/sensor_topics.h"
-#include "settings/sha256.h"
+#include "settings/file_hash.h"
 
 namespace fsr_ros {
 
@@ -140,8 +140,9 @@ ArchiveResult archiveBag(const std::string& path, const ArchiveSelection& select
       path,
       [&](const BagStream& bag) {
         Selected selected(bag, selection);
-        const fsr::exports::ArchiveSource source{std::filesystem::path(path).filename().string(),
-                                                 fsr::settings::sha256OfFile(path)};
+        const fsr::exports::ArchiveSource source{
+            std::filesystem::path(path).filename().string(),
+            fsr::settings::sha256OfFile(path, 0, told("checking " + path, selection.progress))};
         fsr::exports::ArchiveWriter archive(output, source, selected.connections());
         selected.forEach(told("surveying " + path, selection.progress),
                          [&](std::size_t connection, std::int64_t, std::string_view bytes) {
@@ -171,8 +172,10 @@ class Restorer {
     }
   }
 
-  std::uint64_t run() {
+  std::uint64_t run(const BagWalk::ReadProgress& progress) {
+    const auto all = static_cast<double>(archive_.messages());
     for (fsr::exports::ArchivedMessage message; archive_.next(message); ++messages_) {
+      if (progress) progress(static_cast<double>(messages_) / all);
       if (!together_.empty() && together_.front().received_ns != message.received_ns) write();
       together_.push_back(message);
     }
@@ -214,10 +217,11 @@ class Restorer {
 
 }  // namespace
 
-std::uint64_t restoreBag(const std::string& path, const std::string& output) {
-  fsr::exports::ArchiveReader archive(path);
+std::uint64_t restoreBag(const std::string& path, const std::string& output,
+                         const std::function<void(const std::string& step, double share)>& progress) {
+  fsr::exports::ArchiveReader archive(path, told("checking " + path, progress));
   FreshBag bag(output);
-  const std::uint64_t messages = Restorer(archive, bag).run();
+  const std::uint64_t messages = Restorer(archive, bag).run(told("writing " + output, progress));
   bag.finish();
   return messages;
 }

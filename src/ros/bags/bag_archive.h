@@ -36,7 +36,8 @@ ArchiveResult archiveBag(const std::string& bag, const ArchiveSelection& selecti
 
 /// Turns an archive back into a bag with the same messages: topic, type, time of reception, connection header
 /// and bytes are equal, and each message is checked against its hash. Returns the number of messages. Throws
-/// fsr::InputError; in that case no bag is left.
-std::uint64_t restoreBag(const std::string& archive, const std::string& bag);
+/// fsr::InputError; in that case no bag is left. `progress`: as ArchiveSelection::progress.
+std::uint64_t restoreBag(const std::string& archive, const std::string& bag,
+                         const std::function<void(const std::string& step, double share)>& progress = {});
 
 }  // namespace fsr_ros

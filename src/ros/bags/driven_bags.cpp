@@ -11,6 +11,7 @@
 
 #include "dataset/row_spool.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
+#include "ros/bags/bag_walk.h"
 #include "ros/bags/bag_writer.h"
 #include "ros/bags/sensor_topics.h"
 #include "ros/bags/simulated_bags.h"
@@ -25,10 +26,12 @@ namespace {
 // The counts of the simulated matrix at each stamp of a recording.
 class SimulatedScans {
  public:
-  SimulatedScans(fsr::simulation::DrivenRig& rig, const fsr::dataset::Recording& recording)
+  SimulatedScans(fsr::simulation::DrivenRig& rig, const fsr::dataset::Recording& recording,
+                 const BagWalk::ReadProgress& progress)
       : taxels_(recording.layout.size.taxels()), counts_(kInMemory), read_(counts_) {
     counts_.begin(taxels_, recording.scans());
     rig.run(recording, [&](std::size_t scan, const fsr::simulation::SensorChain& chain) {
+      if (progress) progress(static_cast<double>(scan) / static_cast<double>(recording.scans()));
       stamps_.push_back(recording.start_ns + std::llround(recording.time[scan] * 1e9));
       counts_.add(chain.counts().data());
     });
@@ -101,12 +104,18 @@ class Copier {
 };
 
 void copyBag(SimulatedScans& scans, const std::string& from, const std::string& to,
-             const fsr::simulation::SimulationSettings& settings, const std::string& topics) {
+             const fsr::simulation::SimulationSettings& settings, const std::string& topics,
+             const BagWalk::ReadProgress& progress) {
   BagWriter out(to);
   withSoundBag(from, [&](const rosbag::Bag& bag) {
     Copier copier(settings, topics, scans, out);
     rosbag::View view(bag);
-    for (const rosbag::MessageInstance& instance : view) copier.copy(instance);
+    const double all = view.size();
+    double copied = 0;
+    for (const rosbag::MessageInstance& instance : view) {
+      copier.copy(instance);
+      if (progress) progress(++copied / all);
+    }
   });
   out.close();
 }
@@ -162,7 +171,9 @@ SimulatedRun writeDrivenBags(const fsr::simulation::SimulationSettings& settings
   const std::vector<std::string> paths = outputPaths(driving.paths, bags.output);
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const std::string &bag = driving.paths[i], &path = paths[i];
-    const fsr::dataset::Recording recording = readWhole(bag, driving.how);
+    BagReadOptions how = driving.how;
+    how.progress = told("reading " + bag, bags.told);
+    const fsr::dataset::Recording recording = readWhole(bag, how);
     if (bags.progress) bags.progress(path);
     warn(recording, run.warnings);
     if (!rig) {
@@ -171,8 +182,8 @@ SimulatedRun writeDrivenBags(const fsr::simulation::SimulationSettings& settings
       rig.emplace(run.rig);
       if (bags.state) rig->resume(*bags.state);
     }
-    SimulatedScans scans(*rig, recording);
-    copyBag(scans, bag, path, settings, driving.how.topics);
+    SimulatedScans scans(*rig, recording, told("simulating " + bag, bags.told));
+    copyBag(scans, bag, path, settings, driving.how.topics, told("writing " + path, bags.told));
     run.state = rig->state();
   }
   return run;

@@ -1,11 +1,14 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "ros/bags/bag_writer.h"
 #include "ros/bags/simulated_bags.h"
 #include "ros/messages/driver_messages.h"
 #include "ros/messages/surface_message.h"
+#include "simulation/pressure_profile.h"
 #include "simulation/session.h"
 
 namespace fsr_ros {
@@ -109,23 +112,54 @@ fsr::simulation::RigListener noListener() {
           [](double, double) {}};
 }
 
+// The share of the programs of a session that has run.
+class SessionShare {
+ public:
+  SessionShare(const fsr::simulation::Session& session, const SimulatedBags& bags) : bags_(bags) {
+    for (std::size_t i = 0; i < session.stations(); ++i) all_ += durationOf(session.station(i));
+  }
+
+  // A listener that also tells the share, once a second of rig time, while a station runs. Its program begins
+  // at `begin`.
+  fsr::simulation::RigListener telling(fsr::simulation::RigListener listener, const std::string& step,
+                                       double begin) const {
+    if (!bags_.told) return listener;
+    listener.temperature = [this, step, begin, heard = listener.temperature](double time, double celsius) {
+      heard(time, celsius);
+      bags_.told(step, std::min((before_ + time - begin) / all_, 1.0));
+    };
+    return listener;
+  }
+  void ended(const fsr::simulation::Station& station) { before_ += durationOf(station); }
+
+ private:
+  static double durationOf(const fsr::simulation::Station& station) {
+    return pressureProfile(station.program).duration();
+  }
+
+  const SimulatedBags& bags_;
+  double all_ = 0, before_ = 0;  // [s]
+};
+
 }  // namespace
 
 SimulatedRun writeSessionBags(const fsr::simulation::SimulationSettings& settings,
                               const SimulatedBags& bags) {
   fsr::simulation::Session session(settings);
   if (bags.state) session.resume(*bags.state);
+  SessionShare share(session, bags);
   for (std::size_t i = 0; i < session.stations(); ++i) {
-    if (bags.wanted && !bags.wanted(i)) {
-      session.runNext(noListener());
-      continue;
-    }
     const fsr::simulation::Station& station = session.station(i);
-    const std::string path = std::filesystem::path(bags.output) / (stationName(station) + ".bag");
-    if (bags.progress) bags.progress(path);
-    StationBag bag(path, settings, station.surface, session.origin());
-    session.runNext(bag.listener());
-    bag.close();
+    std::optional<StationBag> bag;
+    if (!bags.wanted || bags.wanted(i)) {
+      const std::string path = std::filesystem::path(bags.output) / (stationName(station) + ".bag");
+      if (bags.progress) bags.progress(path);
+      bag.emplace(path, settings, station.surface, session.origin());
+    }
+    session.runNext(share.telling(bag ? bag->listener() : noListener(), "simulating " + stationName(station),
+                                  session.begin()));
+    if (bag) bag->close();
+    share.ended(station);
   }
   return {settings, session.state(), {}};
 }

@@ -143,7 +143,8 @@ void writeBag(const fsr::settings::CommandLine& line, std::ostream& out) {
   requireOne(line);
   refuseOthers(line, {"calibration", "rate", "map", "ambient", "topics", "from", "until", "namespace"});
   refuseOthers(line, pictureOptionNames());
-  const std::uint64_t messages = restoreBag(line.files().front(), line.requiredText("output"));
+  const std::uint64_t messages =
+      restoreBag(line.files().front(), line.requiredText("output"), toolProgress());
   out << messages << " messages, identical to those of the bag, written to "
       << fullPath(line.text("output", "")) << std::endl;
 }

@@ -7,6 +7,8 @@
 #include "discrepancy/prove/recompute_gap.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/verdict_file.h"
+#include "ros/bags/bag_walk.h"
+#include "ros/tools/tool_progress.h"
 #include "settings/number_text.h"
 #include "settings/yaml_text.h"
 
@@ -18,9 +20,13 @@ namespace fs = std::filesystem;
 
 constexpr int kDigits = 8;
 
-std::vector<fsr::dataset::Recording> readAll(const DrivingBags& bags) {
+std::vector<fsr::dataset::Recording> readAll(const DrivingBags& bags, const ToolProgress& progress) {
   std::vector<fsr::dataset::Recording> recordings;
-  for (const std::string& path : bags.paths) recordings.push_back(readWhole(path, bags.how));
+  for (const std::string& path : bags.paths) {
+    BagReadOptions how = bags.how;
+    how.progress = told("reading " + path, progress);
+    recordings.push_back(readWhole(path, how));
+  }
   return recordings;
 }
 
@@ -74,13 +80,14 @@ int printRecomputedGap(const std::string& path, const DrivingBags& bags, std::os
   const fsr::report::VerdictFile verdict = fsr::report::readVerdict(path);
   if (verdict.hold_out.empty())
     throw fsr::settings::InputError(path + ": nothing was held out, so there is no gap to recompute");
-  const std::vector<fsr::dataset::Recording> recordings = readAll(bags);
+  const std::vector<fsr::dataset::Recording> recordings = readAll(bags, toolProgress());
   requireAll(recordings, verdict, path);
   const fs::path folder = fs::absolute(path).parent_path();
   const std::pair<const char*, bool> files[] = {{"base.yaml", false}, {"simulation.yaml", true}};
   for (const auto& [file, after] : files) {
     const fsr::discrepancy::RecomputedGap gap = fsr::discrepancy::recomputeGap(
-        recordings, verdict.hold_out, fsr::simulation::readSimulationFile((folder / file).string()));
+        recordings, verdict.hold_out, fsr::simulation::readSimulationFile((folder / file).string()),
+        told(std::string("simulating ") + file, toolProgress()));
     out << "Gap of " << file << ": " << percentOf(gap.rms) << ", stated "
         << percentOf(after ? verdict.gap_after : verdict.gap_before) << std::endl;
     for (const auto& [surface, rms] : gap.surfaces)

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/effect_list.h"
@@ -15,6 +16,7 @@
 #include "session_plan/plan_file.h"
 #include "session_plan/steps.h"
 #include "settings/command_line.h"
+#include "settings/progress.h"
 #include "settings/replace_file.h"
 #include "settings/sha256.h"
 #include "simulation/effects/effect_library.h"
@@ -137,6 +139,30 @@ std::vector<std::string> bagsOf(const fsr::settings::CommandLine& line) {
   return bags;
 }
 
+// Prints the files that are written, and on a terminal how far the simulation is.
+class Display {
+ public:
+  explicit Display(std::ostream& out) : out_(out) {}
+
+  void print(const std::string& path) {
+    line_.clear();
+    out_ << path << std::endl;
+  }
+  // Sheet `part` of `parts` comes next.
+  void begin(std::size_t part, std::size_t parts) {
+    part_ = static_cast<double>(part);
+    parts_ = static_cast<double>(parts);
+  }
+  std::function<void(const std::string& step, double share)> told() {
+    return [this](const std::string& step, double share) { line_.report(step, (part_ + share) / parts_); };
+  }
+
+ private:
+  std::ostream& out_;
+  fsr::settings::Progress line_;
+  double part_ = 0, parts_ = 1;
+};
+
 std::string remarkOf(const fsr::settings::CommandLine& line, const std::vector<std::string>& driving) {
   std::string remark = "True settings of the simulated rig that wrote the bags in this folder.";
   if (line.has("state"))
@@ -163,12 +189,15 @@ void writeBags(const fsr::settings::CommandLine& line, const fsr::simulation::Si
   bags.output = folder.path();
   refuseRecordedBags(bags.output);
   line.requireWritable(fs::path(bags.output) / kTruth);
-  bags.progress = [&](const std::string& path) { out << path << std::endl; };
+  std::optional<Display> display(out);
+  bags.progress = [&](const std::string& path) { display->print(path); };
+  bags.told = display->told();
   if (line.has("state")) {
     bags.state = fsr::simulation::readRigState(fsr::settings::Settings::fromFile(line.requiredText("state")));
   }
   const SimulatedRun run =
       driving.paths.empty() ? writeSessionBags(settings, bags) : writeDrivenBags(settings, driving, bags);
+  display.reset();  // removes its line
   for (const std::string& warning : run.warnings) out << warning << std::endl;
   const fs::path truth = fs::path(bags.output) / kTruth;
   fsr::settings::replaceFile(truth, simulationText(run.rig, remarkOf(line, driving.paths)));
@@ -195,7 +224,7 @@ void refuseOtherRuns(const fsr::settings::CommandLine& line) {
 // Writes the session of one sheet: the bags that `wanted` chooses. Adds their SHA-256 to `files`.
 void writeSheet(const fsr::simulation::SimulationSettings& settings, const fs::path& top,
                 const fs::path& folder, const std::function<bool(std::size_t)>& wanted,
-                std::map<std::string, std::string>& files, std::ostream& out) {
+                std::map<std::string, std::string>& files, Display& display) {
   fs::create_directories(folder);
   refuseRecordedBags(folder);
   // First, because other shards that write to the folder look for it.
@@ -203,15 +232,16 @@ void writeSheet(const fsr::simulation::SimulationSettings& settings, const fs::p
   fsr::settings::replaceFile(
       truth,
       simulationText(settings, "True settings of the simulated rig that wrote the bags in this folder."));
-  out << truth.string() << std::endl;
+  display.print(truth.string());
   std::vector<std::string> written;
   SimulatedBags bags;
   bags.output = folder;
   bags.wanted = wanted;
   bags.progress = [&](const std::string& path) {
-    out << path << std::endl;
+    display.print(path);
     written.push_back(path);
   };
+  bags.told = display.told();
   writeSessionBags(settings, bags);
   for (const std::string& path : written)
     files[fs::path(path).lexically_relative(top)] = fsr::settings::sha256OfFile(path);
@@ -234,15 +264,21 @@ void writeSheets(const fsr::settings::CommandLine& line, const fsr::simulation::
   fs::remove(own);  // a shard that is killed leaves none
   fsr::simulation::SimulationSettings sheet = settings;
   const auto wanted = [&](std::size_t bag) { return file.shard.has(bag); };
+  std::optional<Display> display(out);
   if (!line.has("sheets")) {
-    writeSheet(sheet, folder.path(), folder.path(), wanted, file.files, out);
+    writeSheet(sheet, folder.path(), folder.path(), wanted, file.files, *display);
   } else {
-    for (std::size_t i = 0; i < sheets; ++i) {
-      sheet.seed = settings.seed + i;
+    std::vector<std::size_t> dealt;
+    for (std::size_t i = 0; i < sheets; ++i)
+      if (file.shard.has(i)) dealt.push_back(i);
+    for (std::size_t done = 0; done < dealt.size(); ++done) {
+      sheet.seed = settings.seed + dealt[done];
       const fs::path below = fs::path(folder.path()) / ("sheet_" + std::to_string(sheet.seed));
-      if (file.shard.has(i)) writeSheet(sheet, folder.path(), below, {}, file.files, out);
+      display->begin(done, dealt.size());
+      writeSheet(sheet, folder.path(), below, {}, file.files, *display);
     }
   }
+  display.reset();  // removes its line
   if (!line.has("shard")) return;
   fsr::settings::replaceFile(own, fsr::report::shardJson(file));
   out << own.string() << std::endl;

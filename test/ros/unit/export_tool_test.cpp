@@ -26,6 +26,7 @@
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/bags/bag_archive.h"
 #include "ros/bags/bag_writer.h"
 #include "settings/sha256.h"
 #include "support/file_size_limit.h"
@@ -286,6 +287,25 @@ TEST_F(ExportTool, AnArchiveTurnsBackIntoTheBagByteForByte) {
             std::to_string(before.size()) + " messages written to " + archive + "\n");
   run({archive, "--to", "bag", "--output", back});
   expectSame(messagesOf(back), before);
+}
+
+TEST_F(ExportTool, TellsHowFarTheRestoredBagIs) {
+  const std::string archive = folder_.path("all.h5"), back = folder_.path("back.bag");
+  run({bag_, "--to", "hdf5", "--output", archive});
+  std::vector<std::pair<std::string, std::vector<double>>> steps;
+  const std::uint64_t messages =
+      fsr_ros::restoreBag(archive, back, [&](const std::string& step, double share) {
+        if (steps.empty() || steps.back().first != step) steps.push_back({step, {}});
+        steps.back().second.push_back(share);
+      });
+  ASSERT_EQ(steps.size(), 2u);
+  EXPECT_EQ(steps[0].first, "checking " + archive);
+  EXPECT_EQ(steps[0].second.back(), 1);
+  EXPECT_EQ(steps[1].first, "writing " + back);
+  const std::vector<double>& written = steps[1].second;
+  ASSERT_EQ(written.size(), messages);
+  for (std::size_t i = 0; i < written.size(); ++i)
+    EXPECT_EQ(written[i], static_cast<double>(i) / static_cast<double>(messages));
 }
 
 // The bag was recorded before the PressureMap had FLAG_HISTORY_SHORT.

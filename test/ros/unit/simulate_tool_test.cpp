@@ -5,8 +5,10 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <set>
@@ -15,8 +17,10 @@
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_writer.h"
+#include "ros/bags/simulated_bags.h"
 #include "settings/sha256.h"
 #include "simulation/portrait.h"
+#include "simulation/pressure_profile.h"
 #include "simulation/session.h"
 #include "simulation/simulation_text.h"
 #include "support/source_dir.h"
@@ -265,6 +269,65 @@ TEST_F(SimulateTool, OverwritesItsOwnBagsButNobodyElses) {
   run({"--simulation", kBench, "--output", path("out")});
   run({"--simulation", kBench, "--output", path("out")});
   EXPECT_EQ(status_, 0);
+}
+
+// What a run tells: its steps in their order, with the shares of each.
+struct Told {
+  std::vector<std::pair<std::string, std::vector<double>>> steps;
+
+  std::function<void(const std::string&, double)> listener() {
+    return [this](const std::string& step, double share) {
+      if (steps.empty() || steps.back().first != step) steps.push_back({step, {}});
+      steps.back().second.push_back(share);
+    };
+  }
+};
+
+TEST_F(SimulateTool, TellsTheShareOfTheSessionThatIsSimulated) {
+  const auto settings = fsr::simulation::readSimulationFile(kBench);
+  const auto duration = [&](std::size_t i) {
+    return fsr::simulation::pressureProfile(settings.session[i].program).duration();
+  };
+  const double first = duration(0) / (duration(0) + duration(1));
+  for (const bool all : {true, false}) {  // also where a shard leaves out the first bag
+    Told told;
+    SimulatedBags bags;
+    bags.output = folder_;
+    bags.told = told.listener();
+    if (!all) bags.wanted = [](std::size_t bag) { return bag == 1; };
+    writeSessionBags(settings, bags);
+    ASSERT_EQ(told.steps.size(), 2u);
+    EXPECT_EQ(told.steps[0].first, "simulating 1_flat");
+    EXPECT_EQ(told.steps[1].first, "simulating 2_cylinder_5cm");
+    std::vector<double> shares;
+    for (const auto& [step, some] : told.steps) shares.insert(shares.end(), some.begin(), some.end());
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_EQ(shares.front(), 0);
+    EXPECT_NEAR(told.steps[0].second.back(), first, 0.01);
+    EXPECT_NEAR(shares.back(), 1, 0.01);
+    EXPECT_LE(shares.back(), 1);
+    EXPECT_GT(shares.size(), 40u);  // one a second of rig time
+  }
+}
+
+TEST_F(SimulateTool, TellsHowFarItIsWithEachBagThatDrivesIt) {
+  run({"--simulation", kBench, "--output", path("out")});
+  const std::string bag = path("out/1_flat.bag");
+  fs::create_directories(path("new"));
+  Told told;
+  SimulatedBags bags;
+  bags.output = path("new");
+  bags.told = told.listener();
+  writeDrivenBags(fsr::simulation::readSimulationFile(kBench), {{bag}}, bags);
+  ASSERT_EQ(told.steps.size(), 3u);
+  const std::string steps[] = {"reading " + bag, "simulating " + bag, "writing " + path("new/1_flat.bag")};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(told.steps[i].first, steps[i]);
+    const std::vector<double>& shares = told.steps[i].second;
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end())) << steps[i];
+    EXPECT_GT(shares.back(), i == 0 ? 0.0 : 0.99) << steps[i];
+    EXPECT_LE(shares.back(), 1.0) << steps[i];
+  }
 }
 
 TEST_F(SimulateTool, ListsEveryEffect) {
