@@ -188,6 +188,10 @@ void Merging::mergeFacts(const Calibration& part, Calibration& whole) const {
   include(part.trained.temperature, whole.trained.temperature);
   const auto& bags = part.provenance.bags;
   whole.provenance.bags.insert(whole.provenance.bags.end(), bags.begin(), bags.end());
+  for (const std::string& sentence : part.provenance.conditioning) {
+    std::vector<std::string>& all = whole.provenance.conditioning;
+    if (std::find(all.begin(), all.end(), sentence) == all.end()) all.push_back(sentence);
+  }
   std::remove_copy_if(part.warnings.begin(), part.warnings.end(), std::back_inserter(whole.warnings),
                       isConstantTaxelWarning);
 }

@@ -2,6 +2,7 @@
 
 #include <ctime>
 
+#include "dataset/conditioning.h"
 #include "dataset/mount_remarks.h"
 
 namespace fsr::calibration {
@@ -28,6 +29,7 @@ Provenance provenanceOf(const std::vector<dataset::Recording>& recordings,
   for (const dataset::Recording& recording : recordings) {
     provenance.bags.push_back({recording.name, recording.sha256, recording.scans()});
   }
+  provenance.conditioning = dataset::conditioningSentences(dataset::findConditioning(recordings));
   return provenance;
 }
 

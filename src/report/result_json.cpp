@@ -48,7 +48,8 @@ Json json(const calibration::Provenance& provenance) {
   return {{"tool_version", provenance.tool_version},
           {"date", provenance.date},
           {"seed", provenance.seed},
-          {"bags", bags}};
+          {"bags", bags},
+          {"conditioning", provenance.conditioning}};
 }
 
 std::string dump(const Json& document) {

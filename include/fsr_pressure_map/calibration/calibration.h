@@ -186,6 +186,9 @@ struct Provenance {
   std::string date;  ///< ISO 8601, UTC
   std::uint64_t seed = 0;
   std::vector<SourceBag> bags;
+  /// Sentences: whether the first loadings of each session were conditioning. Empty = not known, as for files
+  /// of earlier versions.
+  std::vector<std::string> conditioning = {};
 };
 
 /// What a calibration expects of a tare.

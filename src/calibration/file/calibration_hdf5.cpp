@@ -107,6 +107,8 @@ void writeProvenance(const Calibration& calibration, hdf5::Writer& writer) {
   writer.texts("/provenance/sha256", hashes, "of each bag's bytes; empty where it came over topics");
   writer.dataset("/provenance/scans", scans, {scans.size()}, "", "used of each bag");
   writer.texts("/provenance/warnings", calibration.warnings, "what training warned of");
+  if (!provenance.conditioning.empty())
+    writer.texts("/provenance/conditioning", provenance.conditioning, "whether each session began with it");
 }
 
 Provenance readProvenance(const hdf5::Reader& reader) {
@@ -120,6 +122,8 @@ Provenance readProvenance(const hdf5::Reader& reader) {
   if (hashes.size() != names.size())
     throw settings::InputError("its /provenance/sha256 does not fit /provenance/bags");
   for (std::size_t i = 0; i < names.size(); ++i) provenance.bags.push_back({names[i], hashes[i], scans[i]});
+  if (reader.has("/provenance/conditioning"))
+    provenance.conditioning = reader.texts("/provenance/conditioning");
   return provenance;
 }
 

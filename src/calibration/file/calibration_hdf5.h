@@ -15,7 +15,7 @@ namespace fsr::calibration {
 //     /sensor      attributes sensor_id, serial, firmware, model, sealing, transducer
 //     /layout      attributes rows, columns, pitch_x [m], pitch_y [m]; no_model, masked [taxels]
 //     /trained     attributes pressure, pressure_rate, curvature, temperature: lowest, highest
-//     /provenance  attributes tool_version, date, seed; bags, sha256, scans [bags]; warnings
+//     /provenance  attributes tool_version, date, seed; bags, sha256, scans [bags]; warnings; conditioning
 //     /tables      surfaces [models], curvature [models x (1 or taxels)],
 //                  pressure, deviation, support [taxels x models x codes], trained_codes [taxels x models x
 //                  2]
