@@ -169,12 +169,18 @@ std::vector<std::int64_t> eventTimes(const std::string& path, const std::string&
   std::vector<std::int64_t> times;
   tellingOfDamage(path, [&] {
     const BagWalk bag(path);
+    const auto isEvent = [](const BagConnection& connection) {
+      return endsWith(connection.topic, "events") &&
+             connection.type == ros::message_traits::datatype<fsr_pressure_map::Event>();
+    };
+    const auto& connections = bag.connections();
+    // The index tells that there is no event, without a walk through the bag.
+    if (std::none_of(connections.begin(), connections.end(),
+                     [&](const auto& known) { return isEvent(known.second); }))
+      return;
     bag.run([&](std::uint32_t id, MessageBytes message) {
-      const auto connection = bag.connections().find(id);
-      if (connection == bag.connections().end() || !endsWith(connection->second.topic, "events") ||
-          connection->second.type != ros::message_traits::datatype<fsr_pressure_map::Event>()) {
-        return;
-      }
+      const auto connection = connections.find(id);
+      if (connection == connections.end() || !isEvent(connection->second)) return;
       requireDefinition<fsr_pressure_map::Event>(connection->second.topic, connection->second.md5sum);
       fsr_pressure_map::Event event;
       readMessage(message.data, message.size, event);
@@ -183,6 +189,12 @@ std::vector<std::int64_t> eventTimes(const std::string& path, const std::string&
   });
   std::sort(times.begin(), times.end());
   return times;
+}
+
+std::vector<bool> conditioningSaid(const std::vector<std::string>& paths) {
+  std::vector<bool> said;
+  for (const std::string& path : paths) said.push_back(!eventTimes(path, "conditioning").empty());
+  return said;
 }
 
 }  // namespace fsr_ros

@@ -32,4 +32,7 @@ std::string sessionUse(const std::string& path);
 /// Stamps of the events of one kind [ns], ascending, from topics whose name ends with `events`.
 std::vector<std::int64_t> eventTimes(const std::string& path, const std::string& kind);
 
+/// Whether each bag has an event `conditioning`: the operator said that the sheet was conditioned.
+std::vector<bool> conditioningSaid(const std::vector<std::string>& paths);
+
 }  // namespace fsr_ros

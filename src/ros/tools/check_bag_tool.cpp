@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calibration/shape/mount_checks.h"
+#include "dataset/conditioning.h"
 #include "dataset/mount_remarks.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
@@ -100,6 +101,8 @@ int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {
     recordings[remark.recording].warnings.push_back(remark.sentence);
   }
   const std::optional<std::string> shapes = shapesText(line, recordings);
+  const std::vector<std::string> conditioning = fsr::dataset::conditioningSentences(
+      fsr::dataset::findConditioning(recordings, conditioningSaid(line.files())));
   fsr::discrepancy::Admission admission =
       fsr::discrepancy::inspectRecordings(std::move(recordings), chosen, toolProgress());
   for (const std::string& path : line.files()) {
@@ -109,6 +112,7 @@ int checkChamber(const fsr::settings::CommandLine& line, std::ostream& out) {
         path.substr(path.find_last_of('/') + 1) +
             " was recorded in a socket, where no chamber tells the pressure; check it with --use socket");
   }
+  for (const std::string& sentence : conditioning) admission.remarks.push_back(sentence);
   if (shapes) out << *shapes << '\n';
   out << fsr::report::admissionText(admission) << std::flush;
   return line.has("strict") && !admission.fit() ? kNotFit : 0;

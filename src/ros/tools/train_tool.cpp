@@ -5,6 +5,7 @@
 
 #include "calibration/calibration_check.h"
 #include "calibration/merge.h"
+#include "dataset/conditioning.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
@@ -15,6 +16,7 @@
 #include "report/calibration_report.h"
 #include "report/history_report.h"
 #include "report/session_report.h"
+#include "ros/bags/bag_topics.h"
 #include "ros/bags/bag_walk.h"
 #include "ros/tools/bag_options.h"
 #include "ros/tools/history_option.h"
@@ -166,8 +168,10 @@ int check(const fsr::settings::CommandLine& line, std::ostream& out) {
   const fsr::calibration::Calibration calibration =
       fsr::calibration::loadCalibration(path, fsr::calibration::CalibrationParts::kWithoutStatistics);
   out << "Calibration " << calibration.id << " (" << fsr::compensation::schemeName(calibration.tables.scheme)
-      << ", " << calibration.provenance.date << ") on " << line.files().size() << " bags\n"
-      << fsr::report::checkText(fsr::calibration::checkCalibration(calibration, readBags(line)));
+      << ", " << calibration.provenance.date << ") on " << line.files().size() << " bags\n";
+  for (const std::string& sentence : calibration.provenance.conditioning)
+    out << "Trained with " << sentence << '\n';
+  out << fsr::report::checkText(fsr::calibration::checkCalibration(calibration, readBags(line)));
   return 0;
 }
 
@@ -204,6 +208,10 @@ fsr::calibration::Calibration train(const fsr::settings::CommandLine& line, std:
   fsr::calibration::validate(problem);
   out << fsr::report::coverageText(fsr::dataset::coverageOf(problem.recordings, chosen.folds)) << std::endl;
   fsr::calibration::Calibration calibration = fsr::calibration::calibrate(problem, toolProgress());
+  // The events in the bags tell more than the recordings alone.
+  calibration.provenance.conditioning = fsr::dataset::conditioningSentences(
+      fsr::dataset::findConditioning(problem.recordings, conditioningSaid(line.files())));
+  for (const std::string& sentence : calibration.provenance.conditioning) out << "Note: " << sentence << '\n';
   out << fsr::report::warningsText(calibration)
       << fsr::report::scoresText(calibration.scores, calibration.layout)
       << fsr::report::sessionText(calibration.scores.session) << fsr::report::temperatureText(calibration)

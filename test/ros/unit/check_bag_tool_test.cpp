@@ -117,6 +117,33 @@ TEST_F(CheckBagTool, TakesDonAndDoffFromTheEvents) {
   EXPECT_EQ(run({"--use=socket", path}), 0);
 }
 
+TEST_F(CheckBagTool, SaysWhetherTheSheetWasConditioned) {
+  test_support::SyntheticRig rig;
+  rig.size = {3, 4};
+  rig.cycles = 10;
+  rig.peak = 620e3;
+  fsr::dataset::Recording recording = test_support::syntheticRecording(rig);
+  recording.start_ns = kStart;
+  const std::string plain = (folder_ / "plain.bag").string(), full = (folder_ / "conditioned.bag").string();
+  writeBag(plain, recording);
+  for (std::size_t i = 0; i < 5 * rig.scans_per_cycle; ++i) recording.pressure[i] *= 1.1;
+  writeBag(full, recording);
+  EXPECT_EQ(run({plain}), 0);
+  EXPECT_TRUE(says("\nNote: conditioning: not seen: the first loadings of a sheet differ from later ones"))
+      << said_;
+  EXPECT_EQ(run({full}), 0);
+  EXPECT_TRUE(says("\nNote: conditioning: 5 cycles to 682 kPa seen\n")) << said_;
+  {
+    rosbag::Bag bag(plain, rosbag::bagmode::Append);
+    fsr_pressure_map::Event event;
+    event.header.stamp.fromNSec(static_cast<std::uint64_t>(kStart + 1'000'000'000LL));
+    event.kind = "conditioning";
+    bag.write("/fsr/events", event.header.stamp, event);
+  }
+  EXPECT_EQ(run({plain}), 0);
+  EXPECT_TRUE(says("\nNote: conditioning: said by the operator\n")) << said_;
+}
+
 TEST_F(CheckBagTool, CountsStampsThatRunBackwards) {
   const std::string path = (folder_ / "stamps.bag").string();
   {
