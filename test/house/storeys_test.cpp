@@ -23,7 +23,7 @@ const std::map<std::string, int> kStorey = {
     {"regression", 2},   {"dataset", 2},    {"map", 2},         {"protocol", 2},   {"mesh", 2},
     {"compensation", 3}, {"simulation", 3}, {"health", 3},      {"view", 3},       {"calibration", 4},
     {"emulator", 4},     {"study", 5},      {"discrepancy", 5}, {"report", 6},     {"exports", 6},
-    {"session_plan", 6},
+    {"session_plan", 6}, {"life", 5},
     {"ros", 7},          {"nodes", 8},      {"tools", 8},
 };
 
