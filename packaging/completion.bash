@@ -13,7 +13,7 @@ _fsr_pressure_map() {
     mapfile -t COMPREPLY < <(compgen -W "$values" -- "$word")
     [ ${#COMPREPLY[@]} -eq 0 ] || return
     case $before in
-      --check | --calibration) pattern=h5 ;;
+      --check | --calibration | --first) pattern=h5 ;;
       --simulation | --plan | --gap | --rig | --surface) pattern='@(yaml|yml)' ;;
       --drive) pattern=bag ;;
     esac

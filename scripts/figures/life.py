@@ -23,7 +23,7 @@ PANELS = (("gain", "gain", "gain\n[1]", 1),
           ("zero", "zero", "zero\n[counts]", 1),
           ("noise", "noise", "noise\n[counts]", 1),
           ("held-out error", "held_out_error", "held-out error\n[kPa]", 1e-3),
-          (None, "temperature", "temperature\n[deg C]", 1))
+          (None, "sheet_temperature", "temperature\n[deg C]", 1))
 
 
 def day(text):

@@ -47,7 +47,7 @@ Json json(const life::Row& row, const matrix::Layout& layout) {
           {"dead", places(row.dead, layout)},
           {"stuck", places(row.stuck, layout)},
           {"held_out_error", row.error},
-          {"temperature", row.temperature}};
+          {"sheet_temperature", row.temperature}};
 }
 
 Json json(const life::Column& column, const life::SheetLife& life) {
@@ -108,7 +108,7 @@ std::string lifeJson(const std::vector<life::SheetLife>& lives, const std::vecto
                 {{"zero", "counts"},
                  {"noise", "counts"},
                  {"held_out_error", "Pa"},
-                 {"temperature", "degree Celsius"},
+                 {"sheet_temperature", "degree Celsius"},
                  {"gain", "1"}}},
                {"sheets", sheets},
                {"skipped", left}});

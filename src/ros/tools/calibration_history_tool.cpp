@@ -39,11 +39,12 @@ constexpr int kFiguresMissing = 3;  // if only the figures could not be drawn
 fsr::settings::CommandLine options() {
   fsr::settings::CommandLine line(
       "calibration_history", "DIR [--output DIR]",
-      "Shows the life of each sheet from the bags and calibration files in a folder and its subfolders: "
-      "gain, "
-      "zero, noise, dead and stuck taxels, held-out error and temperature by date, and what changed suddenly "
-      "from one date to the next. Sheets are told apart by their serial numbers. A calibration "
-      "has the date of its bags where they are in the folder, else that of its training.\n"
+      "Shows how each sheet changed from date to date. It reads the bags and calibration files in a folder "
+      "and "
+      "its subfolders, and prints gain, zero, noise, dead and stuck taxels, held-out error and temperature "
+      "by "
+      "date, and what changed suddenly. Sheets are told apart by their serial numbers. A calibration has the "
+      "date of its bags where they are in the folder, else that of its training.\n"
       "Exit status: 0 whatever changed; 1 if a file could not be used, which is then named; 2 if there is "
       "nothing to show; 3 if only the figures could not be drawn.");
   line.output("output", "DIR", "also write life.csv, life.json and a figure of each sheet to this folder")

@@ -72,6 +72,11 @@ TEST_F(TrainTool, PrintsCoverageThenScoresThenThePath) {
   EXPECT_NE(text.find(" (chosen)) written to " + output + "\n", path), std::string::npos) << text;
   EXPECT_EQ(calibration.tables.classes.size(), 2u);
   EXPECT_EQ(calibration.provenance.bags.at(1).name, "bend.bag");
+  ASSERT_EQ(calibration.provenance.conditioning.size(), 1u);
+  EXPECT_EQ(calibration.provenance.conditioning[0].find("conditioning: not seen"), 0u);
+  EXPECT_NE(text.find("Note: " + calibration.provenance.conditioning[0] + "\n"), std::string::npos) << text;
+  const std::string check = run({"--check", output, flat});
+  EXPECT_NE(check.find("Trained with conditioning: not seen"), std::string::npos) << check;
 }
 
 TEST_F(TrainTool, TakesItsOptions) {
