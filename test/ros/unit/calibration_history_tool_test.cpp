@@ -32,6 +32,10 @@ class CalibrationHistoryTool : public testing::Test {
     std::vector<fsr::dataset::Recording> recordings = test_support::weeklyRecordings(rig);
     for (std::size_t week = 0; week < recordings.size(); ++week) {
       recordings[week].sensor.serial = serial;
+      // This board has no noise on an open circuit.
+      for (std::size_t i = rig.dead_taxel; i < recordings[week].counts.size() && week >= rig.dead_from;
+           i += 12)
+        recordings[week].counts[i] = 0;
       const fs::path day = folder_ / "bags" / ("week_" + std::to_string(week));
       fs::create_directories(day);
       writeBag((day / (serial + ".bag")).string(), recordings[week]);
@@ -80,7 +84,7 @@ TEST_F(CalibrationHistoryTool, ShowsWhenASheetLostSensitivityAndATaxel) {
   const nlohmann::json life = nlohmann::json::parse(file);
   ASSERT_EQ(life["sheets"].size(), 1u);
   EXPECT_EQ(life["sheets"][0]["sheet"], "0042");
-  EXPECT_NEAR(life["sheets"][0]["rows"].back()["gain"].get<double>(), 0.8 * 11 / 12, 0.05);
+  EXPECT_NEAR(life["sheets"][0]["rows"].back()["gain"].get<double>(), 0.8, 0.05) << "without the dead taxel";
   EXPECT_EQ(life["sheets"][0]["lost_taxels"][0]["column"], 2);
   std::ifstream table(output + "/life.csv");
   std::string head;
