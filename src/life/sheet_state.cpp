@@ -9,6 +9,7 @@
 
 #include "calibration/calibration_check.h"
 #include "calibration/session/session_rests.h"
+#include "dataset/count_readers.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "fsr_pressure_map/statistics/metrics.h"
 #include "health/recording_health.h"
@@ -96,18 +97,20 @@ class SurfaceReadings {
     const std::vector<std::size_t> rest = calibration::restAtStart(recording_, condition_);
     if (rest.empty()) return;
     double sum = 0, squares = 0, readings = 0, steps = 0;
-    for (std::size_t i = 0; i < rest.size(); ++i) {
-      const std::uint16_t* const scan = recording_.scan(rest[i]);
-      const std::uint16_t* const before = i > 0 ? recording_.scan(rest[i - 1]) : nullptr;
+    dataset::ScanCounts scans(recording_);
+    std::vector<std::uint16_t> before;  // counts of the scan before
+    for (const std::size_t at : rest) {
+      const std::uint16_t* const scan = scans[at];
       for (std::size_t t = 0; t < ignored_.size(); ++t) {
         if (ignored_[t] != 0) continue;
         sum += scan[t];
         readings += 1;
-        if (before == nullptr) continue;
+        if (before.empty()) continue;
         const double step = double(scan[t]) - double(before[t]);
         squares += step * step;
         steps += 1;
       }
+      before.assign(scan, scan + ignored_.size());
     }
     if (readings == 0) return;
     state.zero = sum / readings;
@@ -129,9 +132,10 @@ class SurfaceReadings {
     if (!known) return;
     const PressureRange range(*first_);
     std::vector<LineSums> lines(ignored_.size());
+    dataset::ScanCounts scans(recording_);
     for (std::size_t i = 0; i < recording_.scans(); ++i) {
       if (recording_.condition[i] != condition_ || !range.contains(recording_.pressure[i])) continue;
-      const std::uint16_t* const scan = recording_.scan(i);
+      const std::uint16_t* const scan = scans[i];
       for (std::size_t t = 0; t < lines.size(); ++t) {
         const double answer = first_->tables.table(t, *known).pressure[scan[t]];
         if (ignored_[t] == 0 && !std::isnan(answer)) lines[t].add(recording_.pressure[i], answer);
