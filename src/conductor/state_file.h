@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "conductor/conductor.h"
+
+namespace fsr::conductor {
+
+/// Writes the state of a session; a program that is killed leaves the old file or the new one. Form:
+///
+///     plan: "day"
+///     digest: "9f86d0..."    # SHA-256 of the plan
+///     time: 1700000000.5     # [s]
+///     rejected: 3            # attempts
+///     steps: "aaas......"    # a = accepted, s = skipped, . = open
+///
+/// Throws InputError.
+void writeState(const std::string& path, const ConductorState& state);
+
+/// Throws InputError where the file is no such state.
+ConductorState readState(const std::string& path);
+
+}  // namespace fsr::conductor

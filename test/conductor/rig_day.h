@@ -1,0 +1,121 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "conductor/conductor.h"
+#include "session_plan/plan_file.h"
+#include "support/source_dir.h"
+
+namespace rig_day {
+
+namespace conductor = fsr::conductor;
+namespace plans = fsr::session_plan;
+
+inline plans::SessionPlan planFrom(const std::string& yaml) {
+  return plans::readPlan(fsr::settings::Settings::fromText(yaml, "day.yaml"),
+                         test_support::sourceDir() + "/config/surfaces");
+}
+
+inline plans::SessionPlan shipped(const std::string& name) {
+  return plans::readPlanFile(test_support::sourceDir() + "/config/sessions/" + name + ".yaml");
+}
+
+/// One surface, two cycles of 600 kPa with a dwell of 10 s, and nothing else.
+constexpr char kCycles[] =
+    "plan: small\n"
+    "repeat_first: false\n"
+    "conditioning: {cycles: 0}\n"
+    "rest: {before: 0, after: 0}\n"
+    "surfaces: [{surface: flat}]\n"
+    "program: [{cycles: {peak: 600000, fill_rate: 20000, vent_rate: 20000, dwell_peak: 10, dwell_rest: 10, "
+    "cycles: 2}}]\n";
+
+/// A chamber and a board in the hands of somebody who does what a test says: ten readings and scans a second.
+class RigDay {
+ public:
+  explicit RigDay(const plans::SessionPlan& plan) : conductor(plan) {}
+  explicit RigDay(conductor::Conductor&& other, double time) : conductor(std::move(other)), now(time) {}
+
+  void stay(double duration) {
+    for (double left = duration; left > 1e-9; left -= kPeriod) step(pressure);
+  }
+  void ramp(double to, double rate) {
+    const double from = pressure, length = std::abs(to - from) / rate, begin = now;
+    while (now - begin < length - kPeriod / 2)
+      step(from + (to - from) * std::min(1.0, (now + kPeriod - begin) / length));
+    step(to);
+  }
+  void cycle(double peak, double fill, double dwell, double vent, double rest) {
+    stay(rest);
+    ramp(peak, fill);
+    stay(dwell);
+    ramp(0, vent);
+    stay(0.5);
+  }
+  /// Without mistakes, as the instruction says.
+  void follow() {
+    const plans::SessionStep step = *conductor.step();
+    switch (step.kind) {
+      case plans::StepKind::kMount:
+        stay(1);
+        conductor.confirm();
+        break;
+      case plans::StepKind::kRest:
+      case plans::StepKind::kBreak:
+        if (pressure > 0) ramp(0, step.vent_rate > 0 ? step.vent_rate : 17e3);
+        stay(step.dwell_rest + 0.5);
+        break;
+      case plans::StepKind::kHold:
+        ramp(step.peak, step.fill_rate);
+        stay(step.dwell_peak + 0.5);
+        break;
+      case plans::StepKind::kLoop:
+        ramp(step.low, step.fill_rate);
+        ramp(step.peak, step.fill_rate);
+        ramp(step.low, step.fill_rate);
+        stay(0.3);
+        break;
+      default:
+        if (pressure > 0) ramp(0, step.vent_rate);
+        cycle(step.peak, step.fill_rate, step.dwell_peak, step.vent_rate, step.dwell_rest);
+    }
+  }
+  /// The reasons of all rejections since the last call.
+  std::vector<std::string> rejected() {
+    std::vector<std::string> names;
+    for (const conductor::Outcome& outcome : conductor.takeOutcomes()) {
+      last = outcome.verdict;
+      if (outcome.state == conductor::StepState::kOpen) names.push_back(name(outcome.verdict.reason));
+    }
+    return names;
+  }
+  std::string remark() const { return conductor.instruction().remark; }
+
+  static constexpr double kPeriod = 0.1;  // [s]
+  conductor::Conductor conductor;
+  double now = 1000;    // [s]
+  double pressure = 0;  // gauge [Pa]
+  bool transducer = true, board = true;
+  unsigned lost = 0, dead = 0, saturated = 0;
+  double offset = 0;        // of the transducer [Pa]
+  conductor::Verdict last;  // of the last outcome that rejected() saw
+
+ private:
+  void step(double to) {
+    pressure = to;
+    now += kPeriod;
+    ++count_;
+    const double noise =
+        300.0 * static_cast<double>((count_ * 7919) % 13 - 6) / 6.0;  // up to 300 Pa either way
+    if (transducer) conductor.pressure(now, pressure + offset + noise);
+    if (board) conductor.scan({now, lost, 70, saturated, dead});
+    if (count_ % 5 == 0) conductor.tick(now);
+  }
+  long count_ = 0;
+};
+
+}  // namespace rig_day
