@@ -16,7 +16,7 @@ using session_plan::StepKind;
 
 namespace {
 
-constexpr double kJump = 1;  // stamps of two topics may be out of order by this much [s]
+constexpr double kJump = 1;  // stamps of one topic may be out of order by this much [s]
 
 double median(double a, double b, double c) {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
@@ -68,7 +68,7 @@ Conductor::Conductor(Conductor&&) noexcept = default;
 // ---- input -----------------------------------------------------------------------------------------
 
 void Conductor::pressure(double time, double gauge) {
-  if (!passTime(time)) return;
+  if (!passTime(time, last_pressure_)) return;
   if (!isValid(gauge)) return checkSilence();
   if (last_pressure_ && time <= *last_pressure_) return;
   if (last_pressure_ && time - *last_pressure_ > options_.silence) {
@@ -139,7 +139,7 @@ void Conductor::handle(const Verdict& verdict, const Reading& reading) {
 }
 
 void Conductor::scan(const ScanSummary& scan) {
-  if (!passTime(scan.time)) return;
+  if (!passTime(scan.time, last_scan_)) return;
   if (last_scan_ && attemptRuns() && steps_[step_].recorded && scan.time - *last_scan_ > options_.silence)
     spoil(Reason::kScansLost, "no scan came for " + timeText(scan.time - *last_scan_));
   last_scan_ = last_scan_ ? std::max(*last_scan_, scan.time) : scan.time;
@@ -165,10 +165,15 @@ void Conductor::surface(const std::string& name) {
 }
 
 void Conductor::tick(double time) {
-  if (!passTime(time)) return;
+  if (!passTime(time, std::nullopt)) return;
   checkSilence();
   checkBreak();
   checkFit();
+}
+
+void Conductor::recordingTrouble(const std::string& sentence) {
+  complain(Reason::kNotRecorded, sentence, !sentence.empty());
+  if (!sentence.empty() && !done() && steps_[step_].recorded) spoil(Reason::kNotRecorded, sentence);
 }
 
 void Conductor::disk(double free_bytes, double bytes_per_second) {
@@ -179,18 +184,23 @@ void Conductor::disk(double free_bytes, double bytes_per_second) {
 
 // ---- checks ----------------------------------------------------------------------------------------
 
-// Takes the time of any input. Returns false where it ran backwards.
-bool Conductor::passTime(double time) {
+void Conductor::jumpTo(double time) {
+  spoil(Reason::kTimeJumped, "the time ran backwards by " + timeText(now_ - time));
+  recent_.clear();
+  rest_.restart();
+  judged_ = false;
+  last_pressure_.reset();
+  last_scan_.reset();
+  now_ = step_begin_ = time;
+  if (!recovering_) restartWatch();
+}
+
+// Takes the time of an input; `last`: that of the input before it on the same topic. One topic may be behind
+// another. Returns false where the time ran backwards.
+bool Conductor::passTime(double time, const std::optional<double>& last) {
   if (!std::isfinite(time)) return false;
-  if (started_ && time < now_ - kJump) {
-    spoil(Reason::kTimeJumped, "the time ran backwards by " + timeText(now_ - time));
-    recent_.clear();
-    rest_.restart();
-    judged_ = false;
-    last_pressure_.reset();
-    last_scan_.reset();
-    now_ = step_begin_ = time;
-    if (!recovering_) restartWatch();
+  if (last && time < *last - kJump) {
+    jumpTo(time);
     return false;
   }
   if (!started_ && !(step_begin_ > 0 && step_begin_ <= time)) {
@@ -273,6 +283,8 @@ Verdict Conductor::withScans(Verdict verdict) {
   if (fallen > 0) return reject(Reason::kTaxelFellOut, fallenText(fallen));
   if (complaints_.count(Reason::kOtherSurface) > 0)
     return reject(Reason::kOtherSurface, complaints_.at(Reason::kOtherSurface));
+  if (complaints_.count(Reason::kNotRecorded) > 0)
+    return reject(Reason::kNotRecorded, complaints_.at(Reason::kNotRecorded));
   if (options_.scans_expected && scans_ == 0) return reject(Reason::kScansLost, "no scan came");
   if (lost_ > options_.lost_scans * (scans_ + lost_)) {
     return reject(Reason::kScansLost,

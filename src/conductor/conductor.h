@@ -82,6 +82,8 @@ class Conductor {
   void scan(const ScanSummary& scan);
   /// The surface that is declared to be under the sheet.
   void surface(const std::string& name);
+  /// Why the bag is not written; empty = it is. Steps that belong into a bag are rejected meanwhile.
+  void recordingTrouble(const std::string& sentence);
   /// The time when nothing comes. Call it at least once a second.
   void tick(double time);
   /// Space on the disk, and what a recording takes of it.
@@ -138,7 +140,8 @@ class Conductor {
   void checkSilence();
   void checkBreak();
   void checkFit();
-  bool passTime(double time);
+  bool passTime(double time, const std::optional<double>& last);
+  void jumpTo(double time);
   bool attemptRuns() const { return watch_ && watch_->running() && !recovering_; }
   bool isLoad() const;
   bool waitsForMount() const;

@@ -28,6 +28,7 @@ constexpr std::pair<Reason, const char*> kNames[] = {
     {Reason::kScansLost, "scans_lost"},
     {Reason::kTaxelFellOut, "taxel_fell_out"},
     {Reason::kManySaturated, "many_saturated"},
+    {Reason::kNotRecorded, "not_recorded"},
     {Reason::kTimeJumped, "time_jumped"},
     {Reason::kNotConfirmed, "not_confirmed"},
     {Reason::kOtherSurface, "other_surface"},

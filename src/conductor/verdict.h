@@ -30,6 +30,7 @@ enum class Reason {
   kScansLost,        ///< too many scans were lost, or none came
   kTaxelFellOut,     ///< a taxel died or got stuck
   kManySaturated,    ///< many taxels are at full scale
+  kNotRecorded,      ///< the bag is not written
   kTimeJumped,       ///< the time ran backwards
   kNotConfirmed,     ///< pressure, but nobody has confirmed that the sheet is mounted
   kOtherSurface,     ///< another surface is declared than the plan's

@@ -290,6 +290,18 @@ TEST(Conductor, SaysThatNobodyHasConfirmedTheMount) {
   EXPECT_EQ(day.rejected(), Names{});
 }
 
+TEST(Conductor, ACycleThatIsNotRecordedIsRejected) {
+  RigDay day(planFrom(rig_day::kCycles));
+  day.follow();
+  day.conductor.recordingTrouble("the disk is full");
+  day.follow();
+  EXPECT_EQ(day.rejected(), Names{"not_recorded"}) << day.last.sentence;
+  EXPECT_NE(day.remark().find("the disk is full"), std::string::npos);
+  day.conductor.recordingTrouble("");
+  day.follow();
+  EXPECT_EQ(day.rejected(), Names{}) << day.last.sentence;
+}
+
 TEST(Conductor, ACycleOnAnotherSurfaceIsRejected) {
   RigDay day(planFrom(rig_day::kCycles));
   day.follow();

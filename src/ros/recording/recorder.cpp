@@ -55,8 +55,11 @@ BagSinkOptions readOptions(const Parameters& parameters) {
 
 }  // namespace
 
-Recorder::Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
-    : handle_(handle), diagnostics_(handle, private_handle, private_handle.getNamespace()) {
+Recorder::Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+                   std::function<void()> ended)
+    : handle_(handle),
+      ended_(ended ? std::move(ended) : [] { ros::requestShutdown(); }),
+      diagnostics_(handle, private_handle, private_handle.getNamespace()) {
   const Parameters parameters(private_handle);
   const BagSinkOptions options = readOptions(parameters);
   checkDescription(handle, parameters);
@@ -73,7 +76,7 @@ Recorder::Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private
     ROS_FATAL_STREAM(complaint);
     if (!ros::ok()) std::cerr << complaint << std::endl;  // ROS has closed the log
     failed_ = true;
-    ros::requestShutdown();
+    ended_();
   });
   diagnostics_.setHardwareID(sink_->report().file);
   diagnostics_.add("recording", [this](auto& status) { judge(status); });
@@ -178,7 +181,7 @@ void Recorder::refuse() {
   ROS_FATAL_STREAM("the recording is refused, and no bag is left: " << whyNoScan());
   refused_ = true;
   failed_ = true;
-  ros::requestShutdown();
+  ended_();
 }
 
 void Recorder::judge(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -28,8 +29,10 @@ namespace fsr_ros {
 /// `~chunk_kb`, `~min_space` [MB], `~buffer` [MB].
 class Recorder {
  public:
-  /// Throws fsr::InputError.
-  Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+  /// `ended` is called, perhaps from another thread, where the recording stops by itself; empty = the node
+  /// ends. Throws fsr::InputError.
+  Recorder(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle,
+           std::function<void()> ended = {});
   /// Closes the bag and prints what was recorded.
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -50,6 +53,7 @@ class Recorder {
   std::string missingTopics() const;
 
   ros::NodeHandle handle_;
+  const std::function<void()> ended_;
   std::atomic<bool> failed_{false};
   std::atomic<std::uint64_t> without_time_{0};  // messages received before the first /clock
   std::unique_ptr<BagSink> sink_;

@@ -1,0 +1,18 @@
+#include <ros/ros.h>
+
+#include <csignal>
+
+#include "ros/live/parameters.h"
+#include "ros/recording/conduct_server.h"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "conduct");
+  return fsr_ros::runNode([] {
+    const fsr_ros::ConductServer server(ros::NodeHandle{}, ros::NodeHandle{"~"});
+    // As in the recorder: a bag gets its index. A signal that is ignored stays so.
+    for (const int signal : {SIGTERM, SIGHUP}) {
+      if (std::signal(signal, [](int) { ros::requestShutdown(); }) == SIG_IGN) std::signal(signal, SIG_IGN);
+    }
+    ros::spin();
+  });
+}

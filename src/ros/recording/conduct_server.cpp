@@ -1,0 +1,365 @@
+#include "ros/recording/conduct_server.h"
+
+#include <fsr_pressure_map/Event.h>
+#include <sensor_msgs/Image.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "conductor/coverage.h"
+#include "conductor/state_file.h"
+#include "dataset/recording_builder.h"
+#include "ros/bags/resource_path.h"
+#include "ros/bags/surface_folder.h"
+#include "ros/messages/image_message.h"
+#include "ros/messages/surface_message.h"
+#include "session_plan/plan_file.h"
+#include "settings/number_text.h"
+
+namespace fsr_ros {
+
+namespace fs = std::filesystem;
+using fsr::conductor::Outcome;
+using fsr::conductor::StepState;
+using fsr::session_plan::StepKind;
+
+namespace {
+
+constexpr double kTick = 0.25;      // [s]
+constexpr double kQuiet = 2;        // without any message, until the time of the computer is taken [s]
+constexpr double kRetry = 10;       // until a recording that stopped is begun again [s]
+constexpr double kLastEvents = 1;   // time for the last messages of a mount [s]
+constexpr int kPressureBytes = 80;  // of a reading of the transducer in a bag
+
+double since(const ros::SteadyTime& time) {
+  return (ros::SteadyTime::now() - time).toSec();
+}
+
+// Letters, digits, - and _ of a name; everything else may mean something in a path.
+std::string fileName(std::string name) {
+  for (char& one : name) {
+    const bool plain = (one >= 'a' && one <= 'z') || (one >= 'A' && one <= 'Z') || (one >= '0' && one <= '9');
+    if (!plain && one != '-' && one != '_') one = '_';
+  }
+  return name;
+}
+
+std::string measuredText(const fsr::conductor::Measured& measured) {
+  std::string text;
+  const auto add = [&text](const char* name, double value, double unit, const char* unit_name) {
+    if (value == value)
+      text += std::string(text.empty() ? ": " : ", ") + name + " " +
+              fsr::settings::roundedText(value / unit, 3) + " " + unit_name;
+  };
+  add("peak", measured.peak, 1e3, "kPa");
+  add("filled at", measured.fill_rate, 1e3, "kPa/s");
+  add("dwell", measured.dwell, 1, "s");
+  add("vented at", measured.vent_rate, 1e3, "kPa/s");
+  add("rest", measured.rest, 1, "s");
+  return text;
+}
+
+}  // namespace
+
+ConductServer::ConductServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : handle_(handle), private_handle_(private_handle) {
+  start(Parameters(private_handle));
+  instruction_ = handle_.advertise<fsr_pressure_map::Instruction>("instruction", 10, true);
+  coverage_ = handle_.advertise<sensor_msgs::Image>("session_coverage", 1, true);
+  curvature_ = handle_.advertise<fsr_pressure_map::SurfaceCurvature>("curvature", 10, true);
+  events_ = handle_.advertise<fsr_pressure_map::Event>("events", 100);
+  const ros::TransportHints fast = ros::TransportHints().tcpNoDelay();
+  subscribers_ = {handle_.subscribe("chamber_pressure", 10000, &ConductServer::onPressure, this, fast),
+                  handle_.subscribe("raw", 10000, &ConductServer::onScan, this, fast),
+                  handle_.subscribe("matrix_info", 10, &ConductServer::onInfo, this),
+                  handle_.subscribe("curvature", 10, &ConductServer::onCurvature, this)};
+  advertiseAnswers([this] { return conductor_->confirm(); }, "confirm");
+  advertiseAnswers([this] { return conductor_->accept(); }, "accept");
+  advertiseAnswers([this] { return conductor_->reject(""); }, "reject");
+  advertiseAnswers([this] { return conductor_->skip(); }, "skip");
+  timer_ = handle_.createWallTimer(ros::WallDuration(kTick), [this](const auto&) { onTimer(); });
+  follow();
+}
+
+void ConductServer::start(const Parameters& parameters) {
+  const std::string path = resolveLaunchPath(parameters.text("plan", ""));
+  if (path.empty()) throw parameters.error("plan", "must be the path of a plan; plan_session writes one");
+  plan_ = fsr::session_plan::readPlanFile(path, resolveLaunchPath(parameters.text("surfaces", "")));
+  folder_ = resolveLaunchPath(parameters.text("folder", "session"));
+  frame_id_ = parameters.text("frame_id", "fsr_matrix");
+  minutes_ = parameters.number("minutes", 0, {0, 1e5, "min"});
+  fsr::conductor::ConductorOptions options;
+  reserve_ =
+      1e6 * Parameters(ros::NodeHandle(private_handle_, "recorder")).number("min_space", 200, {0, 1e9, "MB"});
+  options.silence = parameters.number("silence", options.silence, {0.1, 1e4, "s"});
+  std::error_code failed;
+  fs::create_directories(folder_, failed);
+  if (!fs::is_directory(folder_)) throw parameters.error("folder", "is no folder and cannot be made");
+  state_file_ = (fs::path(folder_) / (fileName(plan_.name) + "_session.yaml")).string();
+  if (fs::exists(state_file_)) {
+    conductor_ =
+        std::make_unique<fsr::conductor::Conductor>(plan_, fsr::conductor::readState(state_file_), options);
+    ROS_INFO_STREAM("the session of " << state_file_ << " goes on; remove that file to begin anew");
+  } else {
+    conductor_ = std::make_unique<fsr::conductor::Conductor>(plan_, options);
+  }
+}
+
+void ConductServer::advertiseAnswers(const std::function<fsr::conductor::Answer()>& action,
+                                     const std::string& name) {
+  services_.push_back(private_handle_.advertiseService<Request, Response>(
+      name, [this, action, name](Request&, Response& response) {
+        const fsr::conductor::Answer answer = action();
+        response.success = answer.done;
+        response.message = answer.sentence;
+        ROS_INFO_STREAM(name << ": " << answer.sentence);
+        if (answer.done) publishSurface();
+        follow();
+        return true;
+      }));
+}
+
+// ---- messages ----------------------------------------------------------------------------------------
+
+void ConductServer::noteTime(double stamp) {
+  if (latest_ == 0 && minutes_ > 0) conductor_->deadline(stamp + 60 * minutes_);
+  latest_ = stamp;
+  heard_ = ros::SteadyTime::now();
+}
+
+void ConductServer::onPressure(const sensor_msgs::FluidPressureConstPtr& message) {
+  const double ambient =
+      info_ && info_->ambient_pressure > 0 ? info_->ambient_pressure : fsr::dataset::kStandardAmbient;
+  const double stamp = message->header.stamp.toSec();
+  noteTime(stamp);
+  conductor_->pressure(stamp, message->fluid_pressure - ambient);
+  follow();
+}
+
+void ConductServer::onInfo(const fsr_pressure_map::MatrixInfoConstPtr& message) {
+  info_ = message;
+}
+
+void ConductServer::onScan(const fsr_pressure_map::MatrixFrameConstPtr& message) {
+  const fsr_pressure_map::MatrixFrame& frame = *message;
+  const std::size_t taxels = static_cast<std::size_t>(frame.rows) * frame.columns;
+  if (taxels == 0 || frame.counts.size() != taxels || frame.full_scale == 0) return;
+  const bool same = last_frame_ && last_frame_->rows == frame.rows && last_frame_->columns == frame.columns &&
+                    last_frame_->full_scale == frame.full_scale;
+  if (!same)
+    taxels_ = std::make_unique<fsr::health::TaxelWatch>(fsr::matrix::MatrixSize{frame.rows, frame.columns},
+                                                        frame.full_scale);
+  fsr::conductor::ScanSummary scan;
+  scan.time = frame.header.stamp.toSec();
+  scan.taxels = static_cast<unsigned>(taxels);
+  if (same && frame.sequence > last_frame_->sequence + 1)
+    scan.lost = frame.sequence - last_frame_->sequence - 1;
+  taxels_->observe(frame.counts.data(), scan.time);
+  for (std::size_t t = 0; t < taxels; ++t) {
+    if (info_ && info_->mask.size() == taxels && info_->mask[t] != 0) continue;
+    scan.saturated += frame.counts[t] >= frame.full_scale ? 1 : 0;
+    scan.dead += taxels_->flags()[t] != 0 ? 1 : 0;
+  }
+  if (!same || scan.time < first_scan_) {
+    first_scan_ = scan.time;
+    scan_bytes_ = 0;
+  }
+  scan_bytes_ += 2 * taxels + 60 + kPressureBytes;
+  last_frame_ = fsr_pressure_map::MatrixFrame{};
+  last_frame_->rows = frame.rows;
+  last_frame_->columns = frame.columns;
+  last_frame_->full_scale = frame.full_scale;
+  last_frame_->sequence = frame.sequence;
+  noteTime(scan.time);
+  conductor_->scan(scan);
+  follow();
+}
+
+void ConductServer::onCurvature(const fsr_pressure_map::SurfaceCurvatureConstPtr& message) {
+  conductor_->surface(message->surface);
+}
+
+void ConductServer::onTimer() {
+  const double quiet = latest_ > 0 ? since(heard_) : 0;
+  const double ros_now = ros::Time::now().toSec();
+  double now = latest_ > 0 ? latest_ : ros_now;
+  // The clock of the stamps may run faster than this computer's, or stand still.
+  if (quiet > kQuiet) now = std::max(latest_, std::min(ros_now, latest_ + quiet));
+  if (now > 0) conductor_->tick(now);
+  checkDisk();
+  followRecording();
+  follow();
+  static constexpr int kEach = static_cast<int>(1 / kTick);
+  if (++ticks_ % kEach == 0) {
+    publishInstruction(conductor_->instruction());
+    publishSurface();
+  }
+}
+
+void ConductServer::checkDisk() {
+  std::error_code failed;
+  const fs::space_info space = fs::space(folder_, failed);
+  if (failed || !last_frame_ || latest_ - first_scan_ < 5) return;
+  conductor_->disk(std::max(0.0, static_cast<double>(space.available) - reserve_),
+                   static_cast<double>(scan_bytes_) / (latest_ - first_scan_));
+}
+
+// ---- what follows from them --------------------------------------------------------------------------
+
+void ConductServer::follow() {
+  for (const Outcome& outcome : conductor_->takeOutcomes()) report(outcome);
+  if (conductor_->revision() != saved_) {
+    save();
+    publishCoverage();
+    followRecording();
+  }
+  say();
+}
+
+void ConductServer::report(const Outcome& outcome) {
+  const fsr::session_plan::SessionStep& step = conductor_->steps()[outcome.step];
+  const std::string what = name(step.kind) + " " + std::to_string(step.number) + " of " +
+                           std::to_string(step.of) + " on " + step.surface + ", mount " +
+                           std::to_string(step.mount);
+  fsr_pressure_map::Event event;
+  event.header.stamp = ros::Time::now();
+  if (outcome.state == StepState::kAccepted) {
+    event.kind = step.kind == StepKind::kCondition ? "conditioning" : "step";
+    event.label = what + " accepted" + measuredText(outcome.verdict.measured);
+    ROS_INFO_STREAM(event.label);
+  } else if (outcome.state == StepState::kSkipped) {
+    event.kind = "note";
+    event.label = what + " skipped";
+    ROS_WARN_STREAM(event.label);
+  } else {
+    event.kind = "reject";
+    event.label = what + " rejected (" + name(outcome.verdict.reason) + "): " + outcome.verdict.sentence;
+    ROS_WARN_STREAM(event.label);
+  }
+  events_.publish(event);
+}
+
+void ConductServer::save() {
+  saved_ = conductor_->revision();
+  try {
+    writeState(state_file_, conductor_->state());
+  } catch (const fsr::settings::InputError& error) {
+    ROS_ERROR_STREAM("the session would begin anew after a crash: " << error.what());
+  }
+}
+
+// Publishes and logs the instruction where it has changed.
+void ConductServer::say() {
+  const fsr::conductor::Instruction now = conductor_->instruction();
+  if (now.text == said_text_ && now.remark == said_remark_) return;
+  if (now.text != said_text_) ROS_INFO_STREAM("[" << now.step << " of " << now.steps << "] " << now.text);
+  const bool told = now.remark.empty() || now.remark.rfind("rejected: ", 0) == 0;  // by report()
+  if (now.remark != said_remark_ && !told) ROS_WARN_STREAM_THROTTLE(1, now.remark);
+  said_text_ = now.text;
+  said_remark_ = now.remark;
+  publishInstruction(now);
+}
+
+void ConductServer::publishInstruction(const fsr::conductor::Instruction& now) {
+  fsr_pressure_map::Instruction message;
+  message.header.stamp = ros::Time::now();
+  message.plan = now.plan;
+  message.step = static_cast<std::uint32_t>(now.step);
+  message.steps = static_cast<std::uint32_t>(now.steps);
+  message.kind = static_cast<std::uint8_t>(now.kind);
+  message.text = now.text;
+  message.surface = now.surface;
+  message.mount = now.mount;
+  message.cycle = now.cycle;
+  message.cycles = now.cycles;
+  message.low = now.low;
+  message.peak = now.peak;
+  message.rate = now.rate;
+  message.dwell_peak = now.dwell_peak;
+  message.dwell_rest = now.dwell_rest;
+  message.duration = now.duration;
+  message.remark = now.remark;
+  message.confirm = now.confirm;
+  instruction_.publish(message);
+}
+
+void ConductServer::publishCoverage() {
+  const fsr::conductor::Instruction now = conductor_->instruction();
+  const auto coverage = coverageOf(plan_, conductor_->steps(), conductor_->states());
+  const std::string left = fsr::settings::fixedText(conductor_->timeLeft() / 60, 0);
+  std_msgs::Header header;
+  header.stamp = ros::Time::now();
+  coverage_.publish(
+      toMessage(header, drawCoverage(coverage, {plan_.name + ": step " + std::to_string(now.step) + " of " +
+                                                std::to_string(now.steps) + ", " + left + " min left"})));
+}
+
+// The surface under the sheet, once a person has confirmed it.
+void ConductServer::publishSurface() {
+  const fsr::session_plan::SessionStep* step = conductor_->step();
+  if (step == nullptr || conductor_->instruction().confirm || step->kind == StepKind::kBreak) return;
+  for (const fsr::session_plan::PlannedSurface& one : plan_.surfaces) {
+    if (one.surface.name != step->surface) continue;
+    fsr::matrix::Surface surface = one.surface;
+    surface.mount = step->mount;
+    fsr_pressure_map::SurfaceCurvature message = toMessage(surface);
+    message.header.stamp = ros::Time::now();
+    message.header.frame_id = frame_id_;
+    curvature_.publish(message);
+    conductor_->surface(surface.name);
+  }
+}
+
+// ---- bags --------------------------------------------------------------------------------------------
+
+std::string ConductServer::freeBagName() const {
+  const fsr::session_plan::SessionStep& step = *conductor_->step();
+  const std::string number = std::to_string(step.mount);
+  const std::string file =
+      fileName(plan_.name) + "_" + (step.mount < 10 ? "0" : "") + number + "_" + fileName(step.surface);
+  const std::string name = (fs::path(folder_) / file).string();
+  for (int part = 1;; ++part) {
+    const std::string one = name + (part == 1 ? "" : "_part" + std::to_string(part));
+    if (!fs::exists(one + ".bag") && !fs::exists(one + ".bag.active")) return one;
+  }
+}
+
+void ConductServer::startRecording() {
+  const std::string bag = freeBagName();
+  const ros::NodeHandle recorder(private_handle_, "recorder");
+  recorder.setParam("bag", bag);
+  try {
+    recorder_ended_ = false;
+    recorder_ = std::make_unique<Recorder>(handle_, recorder, [this] { recorder_ended_ = true; });
+    recorded_mount_ = conductor_->step()->mount;
+    conductor_->recordingTrouble("");
+  } catch (const fsr::settings::InputError& error) {
+    recorder_.reset();
+    recorder_retry_ = ros::SteadyTime::now() + ros::WallDuration(kRetry);
+    conductor_->recordingTrouble(error.what());
+  }
+}
+
+// A bag holds one mount. What was published last gets a second to arrive.
+void ConductServer::followRecording() {
+  const bool wanted = conductor_->recording();
+  const bool same = wanted && conductor_->step()->mount == recorded_mount_;
+  if (recorder_ && recorder_ended_) {
+    recorder_.reset();
+    recorder_retry_ = ros::SteadyTime::now() + ros::WallDuration(kRetry);
+    conductor_->recordingTrouble("the recording has stopped by itself, see the terminal; it is begun again");
+  }
+  if (recorder_ && !same) {
+    if (!recorder_idle_) recorder_idle_ = ros::SteadyTime::now();
+    if (wanted || since(*recorder_idle_) > kLastEvents) {
+      recorder_.reset();
+      recorder_idle_.reset();
+    }
+  } else {
+    recorder_idle_.reset();
+  }
+  if (wanted && !recorder_ && ros::SteadyTime::now() >= recorder_retry_) startRecording();
+}
+
+}  // namespace fsr_ros

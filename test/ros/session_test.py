@@ -1,0 +1,209 @@
+#!/usr/bin/python3
+"""session.launch leads an operator through a plan: instructions, rejections, one bag for each mount; it goes on after kill -9.
+
+The operator publishes what a board would, with stamps that run ahead of the clock: the conductor judges by stamps alone.
+"""
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import threading
+import unittest
+import xmlrpc.client
+
+import rosbag
+import rosgraph
+import rospkg
+import rospy
+import rostest
+import yaml
+from diagnostic_msgs.msg import DiagnosticArray
+from fsr_pressure_map.msg import Instruction, MatrixFrame, MatrixInfo
+from sensor_msgs.msg import FluidPressure, Image
+from std_srvs.srv import Trigger
+
+PACKAGE = pathlib.Path(rospkg.RosPack().get_path("fsr_pressure_map"))
+AMBIENT = 100e3  # [Pa]
+PERIOD = 0.1     # of scans and readings [s]
+PLAN = """
+plan: test day
+order: listed
+repeat_first: false
+conditioning: {cycles: 1, rate: 100000, dwell_peak: 1, dwell_rest: 1}
+rest: {before: 3, after: 3}
+change: 10
+tolerance: {peak: 0.05, rate: 0.25, dwell: 2}
+surfaces: [{surface: flat}, {surface: bowl, two_planes: {x: 5, y: 5}}]
+program:
+  - cycles: {peak: 300000, fill_rate: 50000, vent_rate: 50000, dwell_peak: 1, dwell_rest: 1, cycles: 2}
+"""
+
+
+class SessionTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.plan = pathlib.Path(self.folder.name) / "day.yaml"
+        self.plan.write_text(PLAN)
+        self.bags = pathlib.Path(self.folder.name) / "bags"
+        self.scans = rospy.Publisher("/fsr/raw", MatrixFrame, queue_size=1000)
+        self.pressures = rospy.Publisher("/fsr/chamber_pressure", FluidPressure, queue_size=1000)
+        self.info = rospy.Publisher("/fsr/matrix_info", MatrixInfo, queue_size=1, latch=True)
+        self.info.publish(MatrixInfo(serial="FSR-0001", rows=3, columns=4, full_scale=4095, ambient_pressure=AMBIENT))
+        self.changed = threading.Condition()
+        self.instruction = None
+        self.instructions = rospy.Subscriber("/fsr/instruction", Instruction, self.hear)
+        self.now, self.sequence, self.pressure = rospy.Time.now().to_sec(), 0, 0.0
+        self.launch = None
+
+    def tearDown(self):
+        if self.launch:
+            self.launch.send_signal(signal.SIGINT)
+            self.launch.wait(30)
+        for one in (self.scans, self.pressures, self.info, self.instructions):
+            one.unregister()
+        self.folder.cleanup()
+
+    def hear(self, message):
+        with self.changed:
+            self.instruction = message
+            self.changed.notify_all()
+
+    def start(self):
+        self.instruction = None
+        self.launch = subprocess.Popen(["roslaunch", "fsr_pressure_map", "session.launch", f"plan:={self.plan}", f"folder:={self.bags}",
+                                        f"surfaces:={PACKAGE}/config/surfaces", "wait:=60", "silence:=5"])
+        self.until(lambda now: now is not None)
+        self.wait_for(lambda: self.scans.get_num_connections() > 0 and self.pressures.get_num_connections() > 0)
+
+    def until(self, condition):
+        with self.changed:
+            self.assertTrue(self.changed.wait_for(lambda: condition(self.instruction), 30), f"still: {self.instruction}")
+        return self.instruction
+
+    def wait_for(self, condition):
+        for _ in range(600):
+            if condition():
+                return
+            rospy.sleep(0.05)
+        self.fail("did not happen within 30 s")
+
+    def call(self, name):
+        rospy.wait_for_service(f"/fsr/conduct/{name}", 10)
+        return rospy.ServiceProxy(f"/fsr/conduct/{name}", Trigger)()
+
+    def confirm(self):
+        self.until(lambda now: now.confirm)
+        step = self.instruction.step
+        self.assertTrue(self.call("confirm").success)
+        return self.until(lambda now: not now.confirm and now.step >= step)
+
+    def recording(self, bag):
+        """Waits until the recorder listens: it has subscribed before it publishes diagnostics."""
+        self.wait_for((self.bags / f"{bag}.bag.active").exists)
+        rospy.wait_for_message("/diagnostics", DiagnosticArray, 10)
+
+    def step(self, pressure):
+        self.pressure = pressure
+        self.now += PERIOD
+        self.sequence += 1
+        stamp = rospy.Time.from_sec(self.now)
+        frame = MatrixFrame(sequence=self.sequence, rows=3, columns=4, full_scale=4095, counts=[int(pressure / 200)] * 12)
+        frame.header.stamp = stamp
+        reading = FluidPressure(fluid_pressure=AMBIENT + pressure)
+        reading.header.stamp = stamp
+        self.scans.publish(frame)
+        self.pressures.publish(reading)
+        rospy.sleep(0.002)  # the queues of the publishers are not endless
+
+    def stay(self, duration):
+        for _ in range(round(duration / PERIOD)):
+            self.step(self.pressure)
+
+    def ramp(self, to, rate):
+        begin, count = self.pressure, max(1, round(abs(to - self.pressure) / rate / PERIOD))
+        for i in range(1, count + 1):
+            self.step(begin + (to - begin) * i / count)
+
+    def cycle(self, peak, rate, dwell=1):
+        self.stay(1.5)
+        self.ramp(peak, rate)
+        self.stay(dwell)
+        self.ramp(0, rate)
+        self.stay(1)
+
+    def follow(self):
+        """Does what the instruction says, and waits for the next one."""
+        now = self.instruction
+        if now.kind == Instruction.REST:
+            self.stay(now.dwell_rest + 0.5)
+        else:
+            self.cycle(now.peak, now.rate, now.dwell_peak)
+        return self.until(lambda later: later.step > now.step or later.kind == Instruction.DONE)
+
+    def test_a_session_with_a_mistake_and_a_crash(self):
+        self.start()
+        self.assertEqual(self.instruction.kind, Instruction.MOUNT)
+        self.assertEqual((self.instruction.plan, self.instruction.surface, self.instruction.steps), ("test day", "flat", 11))
+        self.stay(2)
+        self.assertEqual(self.confirm().kind, Instruction.CONDITION)
+        self.follow()
+        self.assertEqual(self.instruction.kind, Instruction.REST)
+        self.recording("test_day_01_flat")
+        self.follow()
+
+        step = self.instruction.step
+        self.cycle(200e3, 50e3)
+        self.until(lambda now: "turned at 200 kPa, planned are 300 kPa" in now.remark)
+        self.assertEqual(self.instruction.step, step)
+        self.assertEqual(self.follow().remark, "")
+
+        rejected = self.call("accept")
+        self.assertFalse(rejected.success)
+        picture = rospy.wait_for_message("/fsr/session_coverage", Image, 10)
+        self.assertEqual(picture.encoding, "rgb8")
+
+        uri = rosgraph.Master("/session_test").lookupNode("/fsr/conduct")
+        os.kill(xmlrpc.client.ServerProxy(uri).getPid("/session_test")[2], signal.SIGKILL)
+        self.until(lambda now: now.kind == Instruction.MOUNT)  # started again
+        self.assertEqual((self.instruction.step, self.instruction.surface), (step + 1, "flat"))
+        self.wait_for(lambda: self.scans.get_num_connections() == 1 and self.pressures.get_num_connections() == 1)
+        self.stay(2)
+        self.confirm()
+        self.recording("test_day_01_flat_part2")
+        while self.instruction.kind != Instruction.MOUNT:
+            self.follow()
+
+        self.assertEqual(self.instruction.surface, "bowl")
+        self.wait_for((self.bags / "test_day_01_flat_part2.bag").exists)
+        self.confirm()
+        self.recording("test_day_02_bowl")
+        while self.instruction.kind != Instruction.DONE:
+            self.follow()
+        self.wait_for(lambda: (self.bags / "test_day_02_bowl.bag").exists())
+
+        self.assertEqual(sorted(path.name for path in self.bags.glob("*.bag*")),
+                         ["test_day_01_flat.bag.active", "test_day_01_flat_part2.bag", "test_day_02_bowl.bag"])
+        with rosbag.Bag(str(self.bags / "test_day_02_bowl.bag")) as bag:
+            found = {}
+            for topic, message, _ in bag.read_messages():
+                found.setdefault(topic, []).append(message)
+        self.assertEqual([event.kind for event in found["/fsr/events"]], ["step"] * 4)
+        self.assertIn("cycle 2 of 2 on bowl, mount 2 accepted: peak 300 kPa, filled at 50 kPa/s", found["/fsr/events"][2].label)
+        self.assertEqual({(surface.surface, surface.mount) for surface in found["/fsr/curvature"]}, {("bowl", 2)})
+        self.assertEqual(found["/fsr/session"][0].protocol, "day")
+        self.assertEqual(len(found["/fsr/raw"]), len(found["/fsr/chamber_pressure"]))
+        state = yaml.safe_load((self.bags / "test_day_session.yaml").read_text())
+        self.assertEqual((state["steps"], state["rejected"]), ("a" * 11, 1))
+
+    def test_a_plan_with_an_unknown_surface_is_refused_at_once(self):
+        self.plan.write_text(PLAN.replace("surface: flat", "surface: flatt"))
+        done = subprocess.run(["rosrun", "fsr_pressure_map", "conduct_node", f"_plan:={self.plan}", f"_folder:={self.bags}",
+                               f"_surfaces:={PACKAGE}/config/surfaces"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=30)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("day.yaml: surfaces[0].surface is flatt, but", done.stdout.decode())
+
+
+if __name__ == "__main__":
+    rospy.init_node("session_test")
+    rostest.rosrun("fsr_pressure_map", "session_test", SessionTest)
