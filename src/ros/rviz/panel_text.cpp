@@ -119,4 +119,14 @@ PanelLine restLine(const DiagnosticValues& values) {
   return line;
 }
 
+QString instructionText(const fsr_pressure_map::Instruction& instruction) {
+  if (instruction.kind == fsr_pressure_map::Instruction::DONE) return text(instruction.text);
+  return QString("Step %1 of %2: ").arg(instruction.step).arg(instruction.steps) + text(instruction.text);
+}
+
+PanelLine remarkLine(const fsr_pressure_map::Instruction& instruction) {
+  if (instruction.remark.empty()) return {};
+  return {text(instruction.remark), "color: #b00020"};
+}
+
 }  // namespace fsr_rviz

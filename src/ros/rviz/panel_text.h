@@ -1,5 +1,6 @@
 #pragma once
 
+#include <fsr_pressure_map/Instruction.h>
 #include <fsr_pressure_map/PressureMap.h>
 #include <fsr_pressure_map/PressureStatisticsArray.h>
 
@@ -51,5 +52,11 @@ PanelLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& sta
 /// The line "Sheet at rest": whether the sheet rests as the surface says, as the diagnostics of the
 /// calibration node do, and what was done at the last doff if that is something else. "-" without values.
 PanelLine restLine(const DiagnosticValues& values);
+
+/// What the conductor says, e.g. "Step 3 of 40: Cycle 1 of 10: fill to 620 kPa ...".
+QString instructionText(const fsr_pressure_map::Instruction& instruction);
+
+/// Why the last attempt was rejected, and what hinders; empty = nothing.
+PanelLine remarkLine(const fsr_pressure_map::Instruction& instruction);
 
 }  // namespace fsr_rviz

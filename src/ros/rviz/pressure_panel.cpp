@@ -11,8 +11,10 @@
 #include <QComboBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
+#include <QImage>
 #include <QLabel>
 #include <QLineEdit>
+#include <QPixmap>
 #include <QPushButton>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -59,6 +61,7 @@ PressurePanel::PressurePanel(QWidget* parent) : Panel(parent) {
   grid->addWidget(namespace_, 0, 1);
   addNumbers(grid);
   column->addLayout(grid);
+  addConductor(column);
   addButtons(column);
   reply_ = addText(column, "reply");
   waiting_ = addText(column, "waiting");
@@ -117,6 +120,32 @@ void PressurePanel::addButtons(QVBoxLayout* column) {
   column->addLayout(estimate);
   column->addLayout(events);
   column->addLayout(alarms);
+}
+
+void PressurePanel::addConductor(QVBoxLayout* column) {
+  conductor_ = new QWidget;
+  conductor_->setObjectName("conductor");
+  auto* lines = new QVBoxLayout;
+  lines->setContentsMargins(0, 0, 0, 0);
+  instruction_ = addText(lines, "instruction");
+  instruction_->setStyleSheet("font-weight: bold");
+  remark_ = addText(lines, "remark");
+  coverage_ = addText(lines, "coverage");
+  auto* answers = new QHBoxLayout;
+  const auto button = [&](const char* label, const char* slot) {
+    buttons_.push_back(new QPushButton(label));
+    answers->addWidget(buttons_.back());
+    connect(buttons_.back(), SIGNAL(clicked()), this, slot);
+    return buttons_.back();
+  };
+  confirm_ = button("Confirm", SLOT(confirmMount()));
+  button("Accept", SLOT(acceptAttempt()));
+  button("Reject", SLOT(rejectAttempt()));
+  button("Skip", SLOT(skipStep()));
+  lines->addLayout(answers);
+  conductor_->setLayout(lines);
+  conductor_->hide();
+  column->addWidget(conductor_);
 }
 
 QLabel* PressurePanel::addText(QVBoxLayout* column, const char* name) {
@@ -210,6 +239,9 @@ void PressurePanel::listen() {
     keep("matrix_info", last_matrix_);
     keep("statistics", last_statistics_);
     keep("pressure_map", last_map_);
+    keep("instruction", last_instruction_);
+    keep("session_coverage", last_coverage_);
+    shown_coverage_ = nullptr;
     reply_->clear();
   } catch (const ros::Exception& error) {
     subscribers_.clear();
@@ -276,7 +308,29 @@ void PressurePanel::refresh() {
   showStatistics();
   showAlarms();
   showRest();
+  showConductor();
   showWaiting();
+}
+
+void PressurePanel::showConductor() {
+  conductor_->setVisible(last_instruction_.fresh());
+  if (!last_instruction_.fresh()) return;
+  const fsr_pressure_map::Instruction& now = *last_instruction_.message;
+  instruction_->setText(instructionText(now));
+  const PanelLine remark = remarkLine(now);
+  remark_->setText(remark.text);
+  remark_->setStyleSheet(remark.style);
+  remark_->setVisible(!remark.text.isEmpty());
+  confirm_->setVisible(now.confirm);
+  const sensor_msgs::Image::ConstPtr& picture = last_coverage_.message;
+  if (picture == shown_coverage_ || picture == nullptr) return;
+  shown_coverage_ = picture;
+  if (picture->encoding != "rgb8" || picture->data.size() < std::size_t{picture->step} * picture->height)
+    return;
+  const QImage image(picture->data.data(), static_cast<int>(picture->width),
+                     static_cast<int>(picture->height), static_cast<int>(picture->step),
+                     QImage::Format_RGB888);
+  coverage_->setPixmap(QPixmap::fromImage(image));
 }
 
 // Every running node repeats its messages each second, so that a missing message means a missing node.
@@ -354,6 +408,22 @@ void PressurePanel::trigger(const std::string& what, const std::string& service)
     std_srvs::Trigger trigger;
     return answerOf(service, trigger);
   });
+}
+
+void PressurePanel::confirmMount() {
+  trigger("confirm", "conduct/confirm");
+}
+
+void PressurePanel::acceptAttempt() {
+  trigger("accept", "conduct/accept");
+}
+
+void PressurePanel::rejectAttempt() {
+  trigger("reject", "conduct/reject");
+}
+
+void PressurePanel::skipStep() {
+  trigger("skip", "conduct/skip");
 }
 
 void PressurePanel::tare() {

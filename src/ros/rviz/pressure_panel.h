@@ -3,6 +3,7 @@
 #ifndef Q_MOC_RUN
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <fsr_pressure_map/CalibrationInfo.h>
+#include <fsr_pressure_map/Instruction.h>
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <fsr_pressure_map/PressureMap.h>
 #include <fsr_pressure_map/PressureStatisticsArray.h>
@@ -11,6 +12,7 @@
 #include <ros/node_handle.h>
 #include <rviz/panel.h>
 #include <sensor_msgs/FluidPressure.h>
+#include <sensor_msgs/Image.h>
 
 #include <functional>
 #include <map>
@@ -32,9 +34,11 @@ class QVBoxLayout;
 namespace fsr_rviz {
 
 /// Panel with the numbers of one sensor and with buttons for tare, reload, mask, checking the surface,
-/// marking an event and setting an alarm. All topics are in the sensor's namespace. A number that has not
-/// come yet, or not for 3 s, is shown as "-", and a line below the buttons names the missing node. Services
-/// are called in another thread, so that the window never waits for them.
+/// marking an event and setting an alarm. While a session is conducted, it also shows the instruction, why
+/// the last attempt was rejected, the coverage, and the buttons for a person's answers. All topics are in the
+/// sensor's namespace. A number that has not come yet, or not for 3 s, is shown as "-", and a line below the
+/// buttons names the missing node. Services are called in another thread, so that the window never waits for
+/// them.
 class PressurePanel : public rviz::Panel {
   Q_OBJECT
 
@@ -56,6 +60,10 @@ class PressurePanel : public rviz::Panel {
   void maskSelected();
   void markEvent();
   void setAlarm();
+  void confirmMount();
+  void acceptAttempt();
+  void rejectAttempt();
+  void skipStep();
   void showReply(const QString& reply);
 
  private:
@@ -76,6 +84,8 @@ class PressurePanel : public rviz::Panel {
   QLabel* addLine(QGridLayout* grid, const QString& name);
   void addNumbers(QGridLayout* grid);
   void addButtons(QVBoxLayout* column);
+  void addConductor(QVBoxLayout* column);
+  void showConductor();
   static QLabel* addText(QVBoxLayout* column, const char* name);
   std::vector<std::size_t> selectedTaxels() const;
   void say(const QString& reply);
@@ -98,6 +108,9 @@ class PressurePanel : public rviz::Panel {
   std::vector<QPushButton*> buttons_;
   QPushButton* estimate_;  // one of them, shown where the calibration node publishes the curvature
   QLabel *reply_, *waiting_;
+  QWidget* conductor_;  // shown while a session is conducted
+  QLabel *instruction_, *remark_, *coverage_;
+  QPushButton* confirm_;
   QTimer* timer_;
 
   std::vector<ros::Subscriber> subscribers_;
@@ -108,6 +121,9 @@ class PressurePanel : public rviz::Panel {
   Last<fsr_pressure_map::MatrixInfo> last_matrix_;
   Last<fsr_pressure_map::PressureStatisticsArray> last_statistics_;
   Last<fsr_pressure_map::PressureMap> last_map_;
+  Last<fsr_pressure_map::Instruction> last_instruction_;
+  Last<sensor_msgs::Image> last_coverage_;
+  sensor_msgs::Image::ConstPtr shown_coverage_;
   ros::WallTime replied_;                        // when a service answered last
   float reply_shown_ = 60;                       // time for which its answer is shown [s]
   std::map<std::string, Complaint> complaints_;  // of the driver's diagnostics, by the name of the status

@@ -3,9 +3,12 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <fsr_pressure_map/CalibrationInfo.h>
 #include <fsr_pressure_map/Event.h>
+#include <fsr_pressure_map/Instruction.h>
 #include <fsr_pressure_map/PressureMap.h>
 #include <gtest/gtest.h>
 #include <rviz/panel.h>
+#include <sensor_msgs/Image.h>
+#include <std_srvs/Trigger.h>
 #include <pluginlib/class_loader.hpp>
 
 #include <QApplication>
@@ -107,6 +110,56 @@ TEST_F(Panel, ForgetsOldAnswers) {
   EXPECT_FALSE(label("reply").empty());
   listenTo("/fsr");
   EXPECT_EQ(label("reply"), "");
+}
+
+TEST_F(Panel, ShowsTheInstructionAndSendsThePersonsAnswers) {
+  ros::NodeHandle handle("/fsr");
+  auto* conductor = panel->findChild<QWidget*>("conductor");
+  ASSERT_NE(conductor, nullptr);
+  EXPECT_TRUE(conductor->isHidden());
+  std::string answered;
+  const auto answer = [&](const std::string& name) {
+    return handle.advertiseService<std_srvs::Trigger::Request, std_srvs::Trigger::Response>(
+        "conduct/" + name,
+        [&answered, name](std_srvs::Trigger::Request&, std_srvs::Trigger::Response& reply) {
+          reply.message = "done: " + name;
+          answered = name;
+          return true;
+        });
+  };
+  const std::vector<ros::ServiceServer> services = {answer("confirm"), answer("skip"), answer("accept"),
+                                                    answer("reject")};
+  const auto pictures = handle.advertise<sensor_msgs::Image>("session_coverage", 1, true);
+  sensor_msgs::Image picture;
+  picture.encoding = "rgb8";
+  picture.width = 40;
+  picture.height = 30;
+  picture.step = 120;
+  picture.data.assign(3600, 200);
+  pictures.publish(picture);
+  const auto instructions = handle.advertise<fsr_pressure_map::Instruction>("instruction", 10, true);
+  fsr_pressure_map::Instruction now;
+  now.kind = now.CYCLE;
+  now.step = 3;
+  now.steps = 40;
+  now.text = "Cycle 1 of 10: fill.";
+  now.remark = "rejected: leak";
+  instructions.publish(now);
+  ASSERT_TRUE(runUntil([&] { return label("instruction") == "Step 3 of 40: Cycle 1 of 10: fill."; }));
+  EXPECT_FALSE(conductor->isHidden());
+  EXPECT_EQ(label("remark"), "rejected: leak");
+  EXPECT_TRUE(isHidden("Confirm"));
+  ASSERT_TRUE(runUntil([&] { return panel->findChild<QLabel*>("coverage")->sizeHint() == QSize(40, 30); }));
+  now.confirm = true;
+  now.remark = "";
+  instructions.publish(now);
+  ASSERT_TRUE(runUntil([&] { return !isHidden("Confirm"); }));
+  for (const char* name : {"Confirm", "Accept", "Reject", "Skip"}) {
+    press(name);
+    const std::string service = QString(name).toLower().toStdString();
+    EXPECT_TRUE(runUntil([&] { return says("reply", "done: " + service); })) << label("reply");
+    EXPECT_EQ(answered, service);
+  }
 }
 
 // 12 taxels of 1 cm x 1.2 cm.
