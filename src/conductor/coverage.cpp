@@ -84,8 +84,14 @@ constexpr int kCell = 16, kRow = 20, kMargin = 8, kName = 130, kBar = 10 * kCell
 constexpr int kWidth = kName + 2 * kBar + 4 * kMargin;
 constexpr Colour kPaper{255, 255, 255}, kInk{0, 0, 0}, kFrame{120, 120, 120};
 
+// Bright = complete.
 Colour colourOf(const Share& share) {
-  return view::colourAt(view::ColourMap::kCividis, static_cast<double>(share.accepted) / share.planned);
+  return view::colourAt(view::ColourMap::kCividis, share.accepted == share.planned ? 1 : 0.25);
+}
+
+// The part of `length` that was accepted [pixels].
+int partOf(int length, const Share& share) {
+  return length * static_cast<int>(share.accepted) / static_cast<int>(share.planned);
 }
 
 void frame(Image& image, Pixel corner, int width, int height) {
@@ -100,17 +106,16 @@ void drawCells(Image& image, Pixel corner, const std::vector<Share>& bins) {
   for (std::size_t b = 0; b < bins.size(); ++b) {
     const Pixel cell{corner.x + static_cast<int>(b) * kCell, corner.y};
     if (bins[b].planned == 0) continue;
-    image.fill(cell, kCell, kCell, colourOf(bins[b]));
+    const int height = partOf(kCell, bins[b]);
+    image.fill({cell.x, cell.y + kCell - height}, kCell, height, colourOf(bins[b]));
     frame(image, cell, kCell, kCell);
   }
 }
 
-// Length: share that was accepted.
 void drawBar(Image& image, int y, const std::string& label, const Share& share) {
   const int left = kName + 2 * kMargin;
   image.text({kMargin, y}, label, kInk);
-  image.fill({left, y}, kBar * static_cast<int>(share.accepted) / static_cast<int>(share.planned), kCell,
-             colourOf(share));
+  image.fill({left, y}, partOf(kBar, share), kCell, colourOf(share));
   frame(image, {left, y}, kBar, kCell);
   image.text({left + kBar + kMargin, y},
              std::to_string(share.accepted) + " of " + std::to_string(share.planned), kInk);

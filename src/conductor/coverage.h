@@ -44,9 +44,9 @@ Coverage coverageOf(const session_plan::SessionPlan& plan,
                     const std::vector<session_plan::SessionStep>& steps,
                     const std::vector<StepState>& states);
 
-/// A row for each surface: its bins while loading, then while unloading; below, bars for paces and dwells.
-/// Filled from dark to bright with the share that was accepted; not planned = background. Its size
-/// depends only on the plan. `lines`: text above.
+/// A row for each surface: a cell for each bin while loading, then while unloading; below, bars for paces and
+/// dwells. Each is filled by the share that was accepted, and bright where it is complete. What is not
+/// planned has no cell. The size depends only on the plan. `lines`: text above.
 view::Image drawCoverage(const Coverage& coverage, const std::vector<std::string>& lines);
 
 }  // namespace fsr::conductor
