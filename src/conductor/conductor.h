@@ -105,6 +105,9 @@ class Conductor {
   bool done() const { return step_ >= steps_.size(); }
   /// The present step; null where all is done.
   const session_plan::SessionStep* step() const { return done() ? nullptr : &steps_[step_]; }
+  /// Whether an attempt was rejected and the pressure is not down yet, and whether a person must confirm.
+  bool recovering() const { return recovering_; }
+  bool waitsForMount() const;
   /// Whether the present step belongs into a bag, and the sheet is known to lie on its surface.
   bool recording() const { return !done() && !resumed_ && steps_[step_].recorded; }
   const std::vector<session_plan::SessionStep>& steps() const { return steps_; }
@@ -144,7 +147,6 @@ class Conductor {
   void jumpTo(double time);
   bool attemptRuns() const { return watch_ && watch_->running() && !recovering_; }
   bool isLoad() const;
-  bool waitsForMount() const;
   std::string remark() const;
   std::string text() const;
 

@@ -54,7 +54,7 @@ class SessionTest(unittest.TestCase):
         self.instruction = None
         self.instructions = rospy.Subscriber("/fsr/instruction", Instruction, self.hear)
         self.now, self.sequence, self.pressure = rospy.Time.now().to_sec(), 0, 0.0
-        self.launch = None
+        self.launch, self.commanded, self.commands = None, [], None
 
     def tearDown(self):
         if self.launch:
@@ -62,6 +62,8 @@ class SessionTest(unittest.TestCase):
             self.launch.wait(30)
         for one in (self.scans, self.pressures, self.info, self.instructions):
             one.unregister()
+        if self.commands:
+            self.commands.unregister()
         self.folder.cleanup()
 
     def hear(self, message):
@@ -72,7 +74,8 @@ class SessionTest(unittest.TestCase):
     def start(self):
         self.instruction = None
         self.launch = subprocess.Popen(["roslaunch", "fsr_pressure_map", "session.launch", f"plan:={self.plan}", f"folder:={self.bags}",
-                                        f"surfaces:={PACKAGE}/config/surfaces", "wait:=60", "silence:=5"])
+                                        f"surfaces:={PACKAGE}/config/surfaces", "wait:=60", "silence:=5", "command:=true"])
+        self.commands = rospy.Subscriber("/fsr/chamber_command", FluidPressure, lambda message: self.commanded.append(message.fluid_pressure))
         self.until(lambda now: now is not None)
         self.wait_for(lambda: self.scans.get_num_connections() > 0 and self.pressures.get_num_connections() > 0)
 
@@ -146,9 +149,12 @@ class SessionTest(unittest.TestCase):
         self.assertEqual(self.instruction.kind, Instruction.MOUNT)
         self.assertEqual((self.instruction.plan, self.instruction.surface, self.instruction.steps), ("test day", "flat", 11))
         self.stay(2)
+        self.wait_for(lambda: self.commanded)
+        self.assertEqual(set(self.commanded), {AMBIENT})
         self.assertEqual(self.confirm().kind, Instruction.CONDITION)
         self.follow()
         self.assertEqual(self.instruction.kind, Instruction.REST)
+        self.assertAlmostEqual(max(self.commanded), AMBIENT + 330e3, delta=1)
         self.recording("test_day_01_flat")
         self.follow()
 

@@ -69,6 +69,8 @@ ConductServer::ConductServer(const ros::NodeHandle& handle, const ros::NodeHandl
   coverage_ = handle_.advertise<sensor_msgs::Image>("session_coverage", 1, true);
   curvature_ = handle_.advertise<fsr_pressure_map::SurfaceCurvature>("curvature", 10, true);
   events_ = handle_.advertise<fsr_pressure_map::Event>("events", 100);
+  if (Parameters(private_handle).flag("command", false))
+    command_ = handle_.advertise<sensor_msgs::FluidPressure>("chamber_command", 10);
   const ros::TransportHints fast = ros::TransportHints().tcpNoDelay();
   subscribers_ = {handle_.subscribe("chamber_pressure", 10000, &ConductServer::onPressure, this, fast),
                   handle_.subscribe("raw", 10000, &ConductServer::onScan, this, fast),
@@ -129,12 +131,15 @@ void ConductServer::noteTime(double stamp) {
 }
 
 void ConductServer::onPressure(const sensor_msgs::FluidPressureConstPtr& message) {
-  const double ambient =
-      info_ && info_->ambient_pressure > 0 ? info_->ambient_pressure : fsr::dataset::kStandardAmbient;
   const double stamp = message->header.stamp.toSec();
   noteTime(stamp);
-  conductor_->pressure(stamp, message->fluid_pressure - ambient);
+  conductor_->pressure(stamp, message->fluid_pressure - ambient());
   follow();
+  publishCommand(stamp);
+}
+
+double ConductServer::ambient() const {
+  return info_ && info_->ambient_pressure > 0 ? info_->ambient_pressure : fsr::dataset::kStandardAmbient;
 }
 
 void ConductServer::onInfo(const fsr_pressure_map::MatrixInfoConstPtr& message) {
@@ -187,6 +192,7 @@ void ConductServer::onTimer() {
   // The clock of the stamps may run faster than this computer's, or stand still.
   if (quiet > kQuiet) now = std::max(latest_, std::min(ros_now, latest_ + quiet));
   if (now > 0) conductor_->tick(now);
+  if (now > 0 && quiet > kQuiet) publishCommand(now);  // vent
   checkDisk();
   followRecording();
   follow();
@@ -309,6 +315,14 @@ void ConductServer::publishSurface() {
     curvature_.publish(message);
     conductor_->surface(surface.name);
   }
+}
+
+void ConductServer::publishCommand(double time) {
+  if (!command_) return;
+  sensor_msgs::FluidPressure message;
+  message.header.stamp = ros::Time::now();
+  message.fluid_pressure = ambient() + command_course_.next(*conductor_, time);
+  command_.publish(message);
 }
 
 // ---- bags --------------------------------------------------------------------------------------------

@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 
+#include "conductor/chamber_command.h"
 #include "conductor/conductor.h"
 #include "fsr_pressure_map/health/taxel_watch.h"
 #include "ros/recording/recorder.h"
@@ -28,8 +29,9 @@ namespace fsr_ros {
 /// the night.
 ///
 /// Parameters: `~plan` (path), `~surfaces` (folder), `~folder` (of bags and state), `~minutes` (time that
-/// there is; 0 = no limit), `~silence` (time without a reading until it is said [s]), `~frame_id`, and those
-/// of the Recorder in `~recorder/`.
+/// there is; 0 = no limit), `~command` (true: publish `chamber_command` for a regulator, at each reading),
+/// `~silence` (time without a reading until it is said [s]), `~frame_id`, and those of the Recorder in
+/// `~recorder/`.
 class ConductServer {
  public:
   /// Throws fsr::InputError.
@@ -54,6 +56,8 @@ class ConductServer {
   void publishInstruction(const fsr::conductor::Instruction& now);
   void publishCoverage();
   void publishSurface();
+  void publishCommand(double time);
+  double ambient() const;
   void followRecording();
   void startRecording();
   void checkDisk();
@@ -83,7 +87,9 @@ class ConductServer {
   unsigned ticks_ = 0;
   double reserve_ = 0;  // space that stays free on the disk [bytes]
 
+  fsr::conductor::ChamberCommand command_course_;
   ros::Publisher instruction_, coverage_, curvature_, events_;
+  ros::Publisher command_;  // none unless ~command
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   ros::WallTimer timer_;
