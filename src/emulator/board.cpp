@@ -61,8 +61,9 @@ std::size_t Board::encode(Kind kind, double time, const Pressure& pressure) {
     case kScan:
       return encodeScan(sequence, time, pressure);
     case kTransducer:
-      return fsr_wire_encode_transducer(packet_.data(), packet_.size(), sequence, device_time,
-                                        rig_.transducer(time, pressure));
+      return fsr_wire_encode_transducer(
+          packet_.data(), packet_.size(), sequence, device_time,
+          transducer_ == TransducerLine::kUnplugged ? 0 : rig_.transducer(time, pressure));
     case kTemperature:
       return fsr_wire_encode_temperature(
           packet_.data(), packet_.size(), sequence, device_time,
@@ -78,7 +79,9 @@ std::size_t Board::encodeScan(std::uint32_t sequence, double time, const Pressur
   scan.columns = static_cast<std::uint8_t>(settings_.layout.size.columns);
   scan.full_scale = rig_.chain().fullScale();
   scan.duration_us = microseconds(settings_.board.scan_duration);
-  scan.counts = rig_.scan(time, pressure).data();
+  counts_ = rig_.scan(time, pressure);
+  for (const std::size_t taxel : lost_taxels_) counts_[taxel] = 0;
+  scan.counts = counts_.data();
   return fsr_wire_encode_scan(packet_.data(), packet_.size(), sequence,
                               static_cast<std::uint32_t>(deviceTime(time)), &scan);
 }
@@ -93,6 +96,21 @@ std::size_t Board::encodeIdentity(std::uint32_t sequence, std::uint32_t device_t
   identity.full_scale = rig_.chain().fullScale();
   identity.scan_period_us = microseconds(sources_[kScan].period);
   return fsr_wire_encode_identity(packet_.data(), packet_.size(), sequence, device_time, &identity);
+}
+
+void Board::loseTaxel(std::size_t taxel) {
+  if (taxel < settings_.layout.size.taxels()) lost_taxels_.push_back(taxel);
+}
+
+void Board::setTransducer(TransducerLine line, double time) {
+  transducer_ = line;
+  Source& source = sources_[kTransducer];
+  const double interval = period(settings_.board.transducer_rate);
+  source.period = line == TransducerLine::kSilent ? 0 : interval;
+  if (source.period == 0) return;
+  // The readings that were left out are not sent late.
+  const auto missed = std::ceil((time - source.start) / interval);
+  source.number = std::max(source.number, static_cast<std::uint64_t>(std::max(missed, 0.0)));
 }
 
 void Board::reset(double time) {

@@ -31,8 +31,23 @@ class Board {
   /// Makes that packet. The reference is valid until the next call.
   std::vector<std::uint8_t>& next(const Pressure& pressure);
 
-  /// Mounts the matrix on a surface. Throws InputError.
-  void mount(const matrix::Surface& surface) { rig_.mount(surface); }
+  /// Mounts the matrix on a surface; `pattern` is the loaded part of it. Throws InputError.
+  void mount(const matrix::Surface& surface, const simulation::LoadPattern& pattern = {}) {
+    rig_.mount(surface, pattern);
+  }
+
+  /// Breaks the contact of a taxel: it reads 0 from now on. `taxel` counts row-major.
+  void loseTaxel(std::size_t taxel);
+  /// Every taxel has contact again.
+  void fixTaxels() { lost_taxels_.clear(); }
+
+  /// The transducer's plug and its supply.
+  enum class TransducerLine {
+    kWorks,
+    kUnplugged,  ///< it reads 0 counts, the lower end of its range
+    kSilent,     ///< no packets of the transducer are sent
+  };
+  void setTransducer(TransducerLine line, double time);
 
   /// Switches the board off and on at `time`: clock and counters restart.
   void reset(double time);
@@ -73,6 +88,9 @@ class Board {
   simulation::Rig rig_;
   std::array<Source, kKinds> sources_;
   double switched_on_ = 0;  // [s rig time]
+  TransducerLine transducer_ = TransducerLine::kWorks;
+  std::vector<std::size_t> lost_taxels_;
+  std::vector<std::uint16_t> counts_;  // of a scan with lost taxels
   std::vector<std::uint8_t> packet_;
 };
 

@@ -40,6 +40,27 @@ void refuseOverload(const Board& board, const EmulatorOptions& options) {
   throw settings::InputError(sentence.str());
 }
 
+// A sheet that lies on nothing: no gas pressure bends or loads it.
+simulation::LoadPattern noLoad() {
+  simulation::LoadPattern pattern;
+  pattern.kind = simulation::LoadPattern::Kind::kDisc;
+  pattern.centre = {1e3, 1e3};
+  return pattern;
+}
+
+// A surface as a sheet feels it whose other face is up: turned by half a turn round the axis y.
+matrix::Surface turnedOver(matrix::Surface surface, matrix::MatrixSize size) {
+  for (matrix::Curvature& curvature : surface.curvature) {
+    curvature = {-curvature.x, -curvature.y, curvature.xy};
+  }
+  if (surface.curvature.size() != size.taxels()) return surface;
+  for (std::size_t row = 0; row < size.rows; ++row) {
+    const auto begin = surface.curvature.begin() + static_cast<std::ptrdiff_t>(row * size.columns);
+    std::reverse(begin, begin + size.columns);
+  }
+  return surface;
+}
+
 }  // namespace
 
 std::string stateName(RigStatus::State state) {
@@ -77,6 +98,12 @@ Emulator::Emulator(const EmulatorOptions& options)
       link_(options.link, options.baud, options.simulation.seed),
       schedule_(options.time_scale) {
   refuseOverload(board_, options_);
+  if (options_.person) {
+    person_.emplace(*options_.person);
+    for (const std::string& surface : options_.person->shelf) {
+      matrix::requireFit(options_.surface_called(surface), options_.simulation.layout.size);
+    }
+  }
   board_.mount(options_.surface);
   mountings_.push_back({0, options_.surface});
   if (options_.autostart) chamber_.startCycles(0, options_.simulation.chamber);
@@ -154,7 +181,7 @@ bool Emulator::patient() const {
 void Emulator::sendNext() {
   noteLateness();
   advance(board_.nextDue());
-  auto& packet = board_.next([this](double time) { return chamber_.gaugePressure(time); });
+  auto& packet = board_.next([this](double time) { return pressureAt(time); });
   if (options_.on_packet) options_.on_packet(packet);
   noteLateness();
   const auto waited = link_.send(packet, time_, patient());
@@ -167,6 +194,9 @@ void Emulator::advance(double time) {
   if (time <= time_) return;
   time_ = time;
   if (options_.on_clock) options_.on_clock(time);
+  if (person_) {
+    for (const Act& act : person_->takeActs(time)) perform(act);
+  }
   if (status_.state == RigStatus::State::kRunning && time >= chamber_.cyclesEnd()) {
     setState(RigStatus::State::kDone);
   }
@@ -177,6 +207,64 @@ void Emulator::setState(RigStatus::State state) {
   if (options_.on_status) options_.on_status(status_);
 }
 
+void Emulator::putOn(const matrix::Surface& surface) {
+  board_.mount(surface);
+  mountings_.push_back({time_, surface});
+}
+
+void Emulator::perform(const Act& act) {
+  using Line = Board::TransducerLine;
+  LineDamage damage = damage_;
+  const matrix::MatrixSize size = options_.simulation.layout.size;
+  switch (act.kind) {
+    case Act::Kind::kTakeOff:
+      board_.mount({"", mountings_.back().surface.mount, {matrix::Curvature{}}, {}}, noLoad());
+      break;
+    case Act::Kind::kPutOn: {
+      matrix::Surface surface = options_.surface_called(act.surface);
+      surface.mount = act.mount;
+      putOn(act.turned_over ? turnedOver(surface, size) : surface);
+      break;
+    }
+    case Act::Kind::kUnplugBoard:
+      damage.unplugged = true;
+      link_.setDamage(damage, time_);
+      break;
+    case Act::Kind::kPlugBoard:
+      link_.setDamage(damage, time_);
+      break;
+    case Act::Kind::kUnplugTransducer:
+      board_.setTransducer(Line::kUnplugged, time_);
+      break;
+    case Act::Kind::kSilenceTransducer:
+      board_.setTransducer(Line::kSilent, time_);
+      break;
+    case Act::Kind::kPlugTransducer:
+      board_.setTransducer(Line::kWorks, time_);
+      break;
+    case Act::Kind::kLoseTaxel:
+      board_.loseTaxel(static_cast<std::size_t>(act.pick * static_cast<double>(size.taxels())));
+      break;
+    case Act::Kind::kFixTaxels:
+      board_.fixTaxels();
+      break;
+    case Act::Kind::kConfirm:
+    case Act::Kind::kCloseTerminal:
+      break;  // nothing of the rig changes
+  }
+  if (options_.on_act) options_.on_act(act);
+}
+
+double Emulator::pressureAt(double time) const {
+  return person_ ? person_->gaugePressure(time) : chamber_.gaugePressure(time);
+}
+
+void Emulator::requireNobody(const char* command) const {
+  if (!person_) return;
+  throw settings::InputError(std::string(command) +
+                             ": an operator works at this rig; give instructions instead");
+}
+
 // --- commands, from any thread -----------------------------------------------------------------------
 
 unsigned Emulator::startCycles() {
@@ -184,6 +272,7 @@ unsigned Emulator::startCycles() {
 }
 
 unsigned Emulator::startCycles(const simulation::ChamberProtocol& protocol) {
+  requireNobody("start");
   simulation::validate(protocol, "chamber");
   const Turn turn(*this);
   catchUp();
@@ -194,6 +283,7 @@ unsigned Emulator::startCycles(const simulation::ChamberProtocol& protocol) {
 }
 
 void Emulator::stopCycles() {
+  requireNobody("stop");
   const Turn turn(*this);
   catchUp();
   chamber_.stop(time_);
@@ -201,16 +291,32 @@ void Emulator::stopCycles() {
 }
 
 void Emulator::setSurface(const matrix::Surface& surface) {
+  requireNobody("set_surface");
   const Turn turn(*this);
   catchUp();
-  board_.mount(surface);
-  mountings_.push_back({time_, surface});
+  putOn(surface);
+}
+
+void Emulator::instruct(const Task& task) {
+  if (!options_.person) throw settings::InputError("instruction: no operator works at this rig");
+  if (task.kind == TaskKind::kMount) {
+    matrix::requireFit(options_.surface_called(task.surface), options_.simulation.layout.size);
+  }
+  const Turn turn(*this);
+  catchUp();
+  person_->instruct(std::max(time_, 0.0), task);
+}
+
+std::vector<MadeMistake> Emulator::mistakesMade() const {
+  const Turn turn(*this);
+  return person_ ? person_->made() : std::vector<MadeMistake>{};
 }
 
 void Emulator::setDamage(const LineDamage& damage) {
   const Turn turn(*this);
   catchUp();
   link_.setDamage(damage, time_);
+  damage_ = damage;
 }
 
 void Emulator::resetBoard() {
@@ -259,7 +365,7 @@ double Emulator::rigTime(std::uint64_t device_time) const {
 
 double Emulator::gaugePressure(double rig_time) const {
   const Turn turn(*this);
-  return chamber_.gaugePressure(rig_time);
+  return pressureAt(rig_time);
 }
 
 matrix::Surface Emulator::surface(double rig_time) const {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "emulator/board.h"
 #include "emulator/board_link.h"
 #include "emulator/chamber.h"
+#include "emulator/operator.h"
 #include "emulator/rig_schedule.h"
 
 namespace fsr::emulator {
@@ -40,6 +42,13 @@ struct EmulatorOptions {
   double time_scale = 1;   ///< seconds of rig time per second, 0.01 to 1,000
   BoardClock clock;
   bool autostart = false;  ///< start cycles at rig time 0
+  /// A person who works chamber and sheet as instruct() says. startCycles() and setSurface() are refused
+  /// then.
+  std::optional<OperatorOptions> person;
+  /// Surface of a name; throws InputError where there is none. Needed by `person`.
+  std::function<matrix::Surface(const std::string&)> surface_called;
+  /// Called with each act of the person, in the emulator's thread, before the packets after it.
+  std::function<void(const Act&)> on_act;
   /// Called with the rig time [s] before each scan is sent, at least every 5 ms, in ascending order.
   std::function<void(double)> on_clock;
   /// Called with each packet before the line damages it, so that tests can compare.
@@ -81,6 +90,11 @@ class Emulator {
   void stopCycles();
   /// Throws InputError where the surface does not fit the matrix.
   void setSurface(const matrix::Surface& surface);
+  /// Gives the person at the rig an instruction. Throws InputError where there is no person, no such surface,
+  /// or a number is out of range.
+  void instruct(const Task& task);
+  /// Mistakes that the person made so far.
+  std::vector<MadeMistake> mistakesMade() const;
   /// Sets the damage of the line from now on; LineDamage{} ends it. Throws InputError.
   void setDamage(const LineDamage& damage);
   /// Switches the board off and on.
@@ -121,6 +135,10 @@ class Emulator {
   bool patient() const;
   void advance(double time);
   void setState(RigStatus::State state);
+  void perform(const Act& act);
+  void putOn(const matrix::Surface& surface);
+  void requireNobody(const char* command) const;
+  double pressureAt(double time) const;
   template <typename Condition>
   bool waitFor(Condition condition, std::chrono::milliseconds timeout) const;
 
@@ -132,6 +150,8 @@ class Emulator {
   Chamber chamber_;
   BoardLink link_;
   RigSchedule schedule_;
+  std::optional<Operator> person_;
+  LineDamage damage_;  // as it was set, without what the person unplugged
   std::vector<Mounting> mountings_;
   RigStatus status_;
   bool heard_ = false;  // a reader has the port open

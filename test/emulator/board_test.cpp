@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "protocol/wire_decoder.h"
 #include "simulation/read_settings.h"
 #include "support/packet_recorder.h"
@@ -67,6 +69,50 @@ TEST(Board, StartsAgainWhenReset) {
                                              "scan #0 @200000 1x2 full 4095 took 0 counts 0 0"};
   EXPECT_EQ(packetsUntil(board, 10.5), expected);
   EXPECT_NEAR(board.rigTime(200000), 10.5, 1e-9);
+}
+
+TEST(Board, ReadsZeroWhereATaxelHasNoContact) {
+  Board board(smallRig("{scan_rate: 2, transducer_rate: 0}"), {});
+  const auto full = [](double) { return 600e3; };
+  test_support::PacketRecorder recorder;
+  fsr::protocol::WireDecoder decoder(recorder);
+  const auto lastScan = [&] {
+    for (int i = 0; i < 6; ++i) {
+      const auto& packet = board.next(full);
+      decoder.feed(packet.data(), packet.size());
+    }
+    const auto scan = std::find_if(recorder.lines.rbegin(), recorder.lines.rend(),
+                                   [](const std::string& line) { return line.rfind("scan", 0) == 0; });
+    return scan->substr(scan->find("counts"));
+  };
+  const std::string whole = lastScan();
+  EXPECT_EQ(whole.find(" 0"), std::string::npos) << whole;
+  board.loseTaxel(1);
+  const std::string lost = lastScan();
+  EXPECT_EQ(lost, whole.substr(0, whole.rfind(' ')) + " 0");
+  board.fixTaxels();
+  EXPECT_EQ(lastScan(), whole);
+}
+
+TEST(Board, ReadsTheLowerEndOfTheRangeOfATransducerThatIsUnplugged) {
+  Board board(smallRig("{scan_rate: 0.1, transducer_rate: 2}"), {});
+  packetsUntil(board, 0.1);
+  board.setTransducer(Board::TransducerLine::kUnplugged, 0.2);
+  EXPECT_EQ(packetsUntil(board, 0.7), std::vector<std::string>{"transducer #1 @500000 0"});
+  board.setTransducer(Board::TransducerLine::kWorks, 0.8);
+  EXPECT_EQ(packetsUntil(board, 1.7).back(), "transducer #3 @1500000 371");
+}
+
+TEST(Board, SendsNoReadingsOfATransducerThatIsOffAndNoneLate) {
+  Board board(smallRig("{scan_rate: 0.1, transducer_rate: 2}"), {});
+  packetsUntil(board, 0.1);
+  board.setTransducer(Board::TransducerLine::kSilent, 0.2);
+  for (const std::string& packet : packetsUntil(board, 4.8)) {
+    EXPECT_EQ(packet.find("transducer"), std::string::npos) << packet;
+  }
+  board.setTransducer(Board::TransducerLine::kWorks, 4.8);
+  packetsUntil(board, 5.1);
+  EXPECT_EQ(packetsUntil(board, 5.7), std::vector<std::string>{"transducer #2 @5500000 371"});
 }
 
 TEST(Board, ComputesTheBitRateOfItsLink) {

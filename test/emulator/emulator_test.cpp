@@ -326,6 +326,138 @@ TEST(EmulatorLine, AReaderReceivesNothingFromBeforeItOpenedThePort) {
   EXPECT_GT(rig.rigTime(listener.scans[0].device_time), opened - 0.1);
 }
 
+// --- an operator at the rig ------------------------------------------------------------------------
+
+using fsr::emulator::Act;
+using fsr::emulator::Task;
+using fsr::emulator::TaskKind;
+
+/// The bench rig with an operator who takes 5 s to change the surface.
+EmulatorOptions operated(const std::string& script = "") {
+  EmulatorOptions options = bench();
+  options.person.emplace();
+  options.person->mistakes = fsr::emulator::readMistakes(script);
+  options.person->shelf = {"flat", "cylinder_7cm"};
+  options.person->habits = fsr::emulator::Habits::exact();
+  options.person->habits.change_least = options.person->habits.change_most = 5;
+  options.surface_called = [](const std::string& name) {
+    if (name == "cylinder_7cm") return cylinder();
+    if (name == "flat") return Surface{"flat", 1, {Curvature{}}, {}};
+    throw fsr::settings::InputError("there is no surface " + name);
+  };
+  return options;
+}
+
+Task mountTask(const std::string& surface, std::uint32_t mount) {
+  Task task;
+  task.kind = TaskKind::kMount;
+  task.surface = surface;
+  task.mount = mount;
+  task.confirm = true;
+  return task;
+}
+
+Task cycleTask(const std::string& remark = "") {
+  Task task;
+  task.kind = TaskKind::kCycle;
+  task.step = 2;
+  task.peak = 300e3;
+  task.rate = 100e3;
+  task.cycle = task.cycles = 1;
+  task.remark = remark;
+  return task;
+}
+
+TEST(EmulatorOperator, PutsTheSheetOnASurfaceAndPressesAsInstructed) {
+  EmulatorOptions options = operated();
+  std::mutex mutex;
+  std::vector<Act> acts;
+  options.on_act = [&](const Act& act) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    acts.push_back(act);
+  };
+  Emulator rig(options);
+  rig.instruct(mountTask("cylinder_7cm", 4));
+  const double asked = rig.rigTime();
+  ASSERT_TRUE(rig.waitForRigTime(asked + 6, kLong));
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    ASSERT_EQ(acts.size(), 3u);
+    EXPECT_EQ(acts[2].kind, Act::Kind::kConfirm);
+  }
+  EXPECT_EQ(rig.surface(rig.rigTime()).name, "cylinder_7cm");
+  EXPECT_EQ(rig.surface(rig.rigTime()).mount, 4u);
+  rig.instruct(cycleTask());
+  const double begin = rig.rigTime();
+  ASSERT_TRUE(rig.waitForRigTime(begin + 7, kLong));
+  double highest = 0;
+  for (double time = begin - 1; time < begin + 6; time += 0.01) {
+    highest = std::max(highest, rig.gaugePressure(time));
+  }
+  EXPECT_NEAR(highest, 300e3, 1e3);
+  EXPECT_EQ(rig.gaugePressure(rig.rigTime()), 0);
+}
+
+TEST(EmulatorOperator, TakesTheLoadFromASheetThatIsOff) {
+  Emulator rig(operated("sheet_off"));
+  BoardListener listener(rig.port());
+  ASSERT_TRUE(rig.waitForReader(kLong));
+  rig.instruct(cycleTask());
+  const double begin = rig.rigTime();  // the sheet slips off 1.5 s later, the peak comes after 3 s
+  ASSERT_TRUE(hears(listener, rig, begin + 5));
+  std::uint16_t before = 0, after = 0;
+  for (const auto& scan : listener.scans) {
+    const double time = rig.rigTime(scan.device_time) - begin;
+    if (time > 0.5 && time < 1.4) before = std::max(before, scan.counts[0]);
+    if (time > 1.6 && time < 4.4) after = std::max(after, scan.counts[0]);
+  }
+  EXPECT_GT(before, 500);
+  EXPECT_LT(after, 100) << "what is left of the loop";
+}
+
+TEST(EmulatorOperator, UnplugsTheBoardAndPlugsItInAtARemark) {
+  const test_support::TemporaryFolder folder;
+  EmulatorOptions options = operated("board_unplugged");
+  options.link = folder.path("board");
+  Emulator rig(options);
+  rig.instruct(cycleTask());
+  ASSERT_TRUE(rig.waitForRigTime(rig.rigTime() + 2, kLong));
+  EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(options.link)));
+  ASSERT_EQ(rig.mistakesMade().size(), 1u);
+  EXPECT_EQ(rig.mistakesMade().front().name, "board_unplugged");
+  rig.instruct(cycleTask("rejected: scans were lost"));
+  ASSERT_TRUE(rig.waitForRigTime(rig.rigTime() + 1, kLong));
+  BoardListener listener(rig.port());
+  EXPECT_TRUE(listener.untilScans(10));
+}
+
+TEST(EmulatorOperator, TurnsTheSheetOverWithItsCurvatures) {
+  EmulatorOptions options = operated("turned_over");
+  const std::size_t taxels = options.simulation.layout.size.taxels();
+  options.surface_called = [taxels](const std::string& name) {
+    Surface surface{name, 1, std::vector<Curvature>(taxels), {}};
+    surface.curvature[0] = {3, 2, 1};  // of the first taxel of the first row
+    return surface;
+  };
+  Emulator rig(options);
+  rig.instruct(mountTask("cast", 2));
+  ASSERT_TRUE(rig.waitForRigTime(rig.rigTime() + 6, kLong));
+  const Surface surface = rig.surface(rig.rigTime());
+  const Curvature over{-3, -2, 1};
+  EXPECT_TRUE(surface.curvature[options.simulation.layout.size.columns - 1] == over);
+  EXPECT_TRUE(surface.curvature[0] == Curvature{});
+}
+
+TEST(EmulatorOperator, IsTheOnlyOneWhoWorksTheChamber) {
+  Emulator rig(operated()), alone(bench());
+  EXPECT_THROW(rig.startCycles(), fsr::settings::InputError);
+  EXPECT_THROW(rig.stopCycles(), fsr::settings::InputError);
+  EXPECT_THROW(rig.setSurface(cylinder()), fsr::settings::InputError);
+  EXPECT_THROW(rig.instruct(mountTask("cube", 1)), fsr::settings::InputError);
+  EXPECT_THROW(alone.instruct(cycleTask()), fsr::settings::InputError);
+  EXPECT_TRUE(alone.mistakesMade().empty());
+}
+
 TEST(Emulator, RefusesImpossibleOptions) {
   EmulatorOptions options = bench();
   options.time_scale = 0;
