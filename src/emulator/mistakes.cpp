@@ -27,8 +27,9 @@ bool endsTheCycles(const Task& t) {
 bool rests(const Task& t) {
   return t.kind == TaskKind::kRest && std::max(t.dwell_rest, t.duration) >= kLongDwell;
 }
-bool loops(const Task& t) {
-  return t.kind == TaskKind::kLoop && t.low > 0;
+// The first loop may come from zero.
+bool loopsAgain(const Task& t) {
+  return t.kind == TaskKind::kLoop && t.low > 0 && t.cycle > 1;
 }
 bool reachesAPeak(const Task& t) {
   return cycles(t) || t.kind == TaskKind::kHold;
@@ -107,7 +108,7 @@ const std::vector<Mistake>& mistakes() {
       {"skip_cycle", "leaves the chamber at rest: one cycle too few", Notice::kWaiting, "",
        Slip::kNothingDone, cycles, nullptr},
       {"extra_cycle", "does the last cycle twice: one cycle too many", Notice::kPressure,
-       "rest_too_short rest_disturbed rest_not_reached", Slip::kTwice, endsTheCycles, nullptr},
+       "rest_too_short rest_disturbed rest_not_reached peak_overshot", Slip::kTwice, endsTheCycles, nullptr},
       {"stop_halfway", "vents at half of the peak", Notice::kPressure, "peak_missed", Slip::kStopHalfway,
        cycles, nullptr},
       {"peak_too_low", "stops filling at 80 % of the peak", Notice::kPressure, "peak_missed chamber_stalled",
@@ -124,25 +125,25 @@ const std::vector<Mistake>& mistakes() {
        lengthenDwell},
       {"leak", "overlooks a leak: the pressure falls to 80 % during the dwell", Notice::kPressure, "leak",
        Slip::kLeak, dwells, nullptr},
-      {"no_unloading", "vents to half of the peak only", Notice::kPressure, "no_unloading",
+      {"no_unloading", "vents to half of the peak only", Notice::kPressure, "no_unloading rest_not_reached",
        Slip::kNoUnloading, cycles, nullptr},
       {"pause_in_cycle", "stops for 30 s at half of the peak, then goes on", Notice::kPressure,
        "fill_too_slow chamber_stalled", Slip::kPause, cycles, nullptr},
       {"valve_opened", "opens the valve at 60 % of the peak, closes it at 20 % and goes on",
        Notice::kPressure, "peak_missed", Slip::kValveOpened, cycles, nullptr},
-      {"loop_to_zero", "vents to zero in a partial loop", Notice::kPressure, "base_missed no_unloading",
-       Slip::kNumbers, loops, loopToZero},
+      {"loop_to_zero", "vents to zero before a further partial loop", Notice::kPressure,
+       "base_missed no_unloading", Slip::kNumbers, loopsAgain, loopToZero},
       {"sheet_off", "lets the sheet slip off its surface in mid-cycle", Notice::kPressure, "taxel_fell_out",
        Slip::kSheetOff, cycles, nullptr},
       {"taxel_out", "pulls at the cable, so that a taxel has no contact", Notice::kPressure, "taxel_fell_out",
        Slip::kTaxelOut, cycles, nullptr},
-      {"board_unplugged", "unplugs the board in mid-cycle", Notice::kPressure, "scans_lost",
+      {"board_unplugged", "unplugs the board in mid-cycle", Notice::kPressure, "scans_lost pressure_lost",
        Slip::kBoardUnplugged, cycles, nullptr},
       {"transducer_unplugged", "unplugs the transducer in mid-cycle: it reads the lower end of its range",
        Notice::kPressure, "pressure_invalid pressure_lost", Slip::kTransducerUnplugged, cycles, nullptr},
       {"transducer_silent", "switches the transducer off in mid-cycle: no more readings come",
        Notice::kPressure, "pressure_lost", Slip::kTransducerSilent, cycles, nullptr},
-      {"terminal_closed", "closes the conductor's terminal in mid-cycle", Notice::kWaiting, "",
+      {"terminal_closed", "closes the conductor's terminal in mid-cycle", Notice::kPressure, "not_confirmed",
        Slip::kTerminalClosed, cycles, nullptr},
   };
   return kMistakes;

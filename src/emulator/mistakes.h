@@ -37,8 +37,8 @@ enum class Slip {
 
 /// By what a mistake can be noticed during the session.
 enum class Notice {
-  kPressure,  ///< by the pressure, or by data that are missing: the attempt is rejected
-  kWaiting,   ///< nothing is rejected: the session waits, or goes on as if nothing had happened
+  kPressure,  ///< by the pressure, or by data that are missing
+  kWaiting,   ///< nothing is wrong with the data: the session waits until it is done
   kReadings,  ///< only by comparing the readings with other mounts of the surface
 };
 
@@ -47,7 +47,8 @@ struct Mistake {
   std::string name;
   std::string description;  ///< what the operator does
   Notice notice = Notice::kPressure;
-  /// Reasons of rejection, separated by spaces; a good conductor names one of them. Empty for kWaiting.
+  /// Reasons, separated by spaces: a good conductor names one of them, as a hint or when it rejects the
+  /// attempt. Empty for kWaiting.
   std::string expected;
   Slip slip = Slip::kNumbers;
   bool (*suits)(const Task&) = nullptr;  ///< tasks in which it can be made

@@ -94,8 +94,14 @@ void Operator::instruct(double time, const Task& task) {
   const bool again = task_ && sameTask(*task_, task);
   const std::string rejected = rejection(task.remark);
   if (!again || (!rejected.empty() && rejected != rejection(before))) return begin(time, task);
-  if (!task.remark.empty() && task.remark != before) {
-    repair(std::max(time, deaf_until_) + draw(options_.habits.reaction_least, options_.habits.reaction_most));
+  if (task.remark.empty() || task.remark == before) return;
+  const double seen =
+      std::max(time, deaf_until_) + draw(options_.habits.reaction_least, options_.habits.reaction_most);
+  repair(seen);
+  const bool vents = task.kind == TaskKind::kCycle || task.kind == TaskKind::kCondition;
+  if (vents && seen > done_) {
+    course_.cut(seen);
+    course_.rampTo(0, pressed_.rate);
   }
 }
 
@@ -162,8 +168,7 @@ std::vector<std::string> Operator::pending() const {
 
 std::vector<Act> Operator::takeActs(double time) {
   const bool presses = task_ && task_->kind != TaskKind::kMount && task_->peak > 0;
-  if (presses && time > done_ + options_.habits.patience)
-    begin(done_ + options_.habits.patience, Task(*task_));
+  if (presses && time > done_ + options_.habits.patience) begin(time, Task(*task_));
   std::vector<Act> acts;
   const auto later = std::find_if(acts_.begin(), acts_.end(),
                                   [time](const PlannedAct& planned) { return planned.act.time > time; });

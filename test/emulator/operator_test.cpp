@@ -68,6 +68,8 @@ Task hold(double length) {
 Task loop() {
   Task result = task(TaskKind::kLoop, 50);
   result.low = 100e3;
+  result.cycle = 1;
+  result.cycles = 2;
   result.peak = kPeak;
   return result;
 }
@@ -224,8 +226,8 @@ TEST(Operator, PressesAgainWhenNobodyAcceptsIt) {
   day.until(53 + 119);
   EXPECT_DOUBLE_EQ(day.person.doneAt(), 53);
   day.until(53 + 121);
-  EXPECT_DOUBLE_EQ(day.person.doneAt(), 53 + 120 + 53);
-  EXPECT_DOUBLE_EQ(day.person.gaugePressure(53 + 120 + 30), kPeak);
+  EXPECT_DOUBLE_EQ(day.person.doneAt(), 53 + 121 + 53);
+  EXPECT_DOUBLE_EQ(day.person.gaugePressure(53 + 121 + 30), kPeak);
 }
 
 TEST(Operator, NeverBeginsATaskThatIsReplacedAtOnce) {
@@ -350,16 +352,12 @@ TEST(OperatorMistakes, RefuseAScriptThatCannotBeRead) {
 TEST(OperatorMistakes, AreMadeOnceAndChangeTheSession) {
   const auto session = [](Day& day) {
     std::vector<double> pressures;
-    const std::vector<Task> tasks = {mount(),
-                                     task(TaskKind::kCondition, 5),
-                                     cycle(1),
-                                     cycle(2),
-                                     cycle(3),
-                                     hold(60),
-                                     loop(),
-                                     rest(60),
-                                     mount("flat", 60),
-                                     rest(30)};
+    Task further = loop();
+    further.cycle = 2;
+    const std::vector<Task> tasks = {mount(),           further,  task(TaskKind::kCondition, 5),
+                                     cycle(1),          cycle(2), cycle(3),
+                                     hold(60),          loop(),   rest(60),
+                                     mount("flat", 60), rest(30)};
     for (const Task& one : tasks) {
       const double begin = day.give(one);
       day.until(day.now + 20);
@@ -551,6 +549,16 @@ TEST(OperatorMistakes, NoUnloading) {
   EXPECT_EQ(day.person.gaugePressure(begin + 10), 0);
 }
 
+TEST(OperatorMistakes, NoUnloadingIsPutRightAtAHint) {
+  Day day("no_unloading");
+  Task told = cycle(1);
+  day.give(told);
+  told.remark = "the pressure stays at 200 kPa";
+  day.person.instruct(day.now + 5, told);
+  EXPECT_DOUBLE_EQ(day.person.gaugePressure(day.now + 10), 100e3);
+  EXPECT_EQ(day.person.gaugePressure(day.now + 15), 0);
+}
+
 TEST(OperatorMistakes, PauseInCycle) {
   Day day("pause_in_cycle");
   day.give(cycle(1));
@@ -569,9 +577,13 @@ TEST(OperatorMistakes, ValveOpened) {
 TEST(OperatorMistakes, LoopToZero) {
   Day day("loop_to_zero");
   day.give(loop());
-  EXPECT_EQ(day.person.gaugePressure(0), 0);
-  EXPECT_DOUBLE_EQ(day.person.gaugePressure(20), kPeak);
-  EXPECT_EQ(day.person.gaugePressure(40), 0);
+  Task second = loop();
+  second.cycle = 2;
+  const double begin = day.give(second);
+  EXPECT_DOUBLE_EQ(day.person.gaugePressure(begin), 100e3);
+  EXPECT_EQ(day.person.gaugePressure(begin + 5), 0);
+  EXPECT_DOUBLE_EQ(day.person.gaugePressure(begin + 25), kPeak);
+  EXPECT_EQ(day.person.gaugePressure(begin + 45), 0);
 }
 
 TEST(OperatorMistakes, SheetOffIsPutRightAtARemark) {

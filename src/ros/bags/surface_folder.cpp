@@ -1,5 +1,6 @@
 #include "ros/bags/surface_folder.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "matrix/surface_file.h"
@@ -11,14 +12,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string namesIn(const std::string& folder) {
-  std::string names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".yaml")
-      names += (names.empty() ? "" : ", ") + entry.path().stem().string();
-  }
-  return names.empty() ? "none" : names;
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list.empty() ? "none" : list;
 }
 
 }  // namespace
@@ -26,12 +23,22 @@ std::string namesIn(const std::string& folder) {
 SurfaceFolder::SurfaceFolder(const std::string& folder, fsr::matrix::MatrixSize size)
     : folder_(resolveResource(folder)), size_(size) {}
 
+std::vector<std::string> SurfaceFolder::names() const {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder_, error)) {
+    if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 std::string SurfaceFolder::pathOf(const std::string& surface) const {
   const bool is_path = surface.find('/') != std::string::npos;
   std::string path = is_path ? resolveResource(surface) : (fs::path(folder_) / (surface + ".yaml")).string();
   if (!fs::exists(path)) {
     throw fsr::settings::InputError("surface " + surface + ": there is no file " + path + "; surfaces in " +
-                                    folder_ + ": " + namesIn(folder_));
+                                    folder_ + ": " + listed(names()));
   }
   return path;
 }

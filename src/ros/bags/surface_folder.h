@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fsr_pressure_map/matrix/curvature.h"
 #include "fsr_pressure_map/matrix/layout.h"
@@ -19,6 +20,9 @@ class SurfaceFolder {
 
   /// The package's own folder, config/surfaces.
   static std::string shipped() { return "package://fsr_pressure_map/config/surfaces"; }
+
+  /// Names of all surfaces in the folder, sorted.
+  std::vector<std::string> names() const;
 
   /// The path of a surface file. Throws fsr::InputError that lists the surfaces in the folder if there is
   /// none of that name.

@@ -55,11 +55,18 @@ RigEmulator::RigEmulator(const ros::NodeHandle& handle, const ros::NodeHandle& p
     clock_ = global.advertise<rosgraph_msgs::Clock>("/clock", 100);
     options.on_clock = [this](double rig_time) { publishClock(rig_time); };
   }
+  if (parameters_.flag("operator", false)) {
+    operator_ = std::make_unique<RigOperator>(handle, private_handle, parameters_, surfaces_, options);
+  }
   rig_ = std::make_unique<fsr::emulator::Emulator>(options);
-  services_ = {own.advertiseService("start", &RigEmulator::start, this),
-               own.advertiseService("stop", &RigEmulator::stop, this),
-               own.advertiseService("set_surface", &RigEmulator::setSurface, this),
-               own.advertiseService("set_damage", &RigEmulator::setDamage, this)};
+  services_ = {own.advertiseService("set_damage", &RigEmulator::setDamage, this)};
+  if (operator_) {
+    operator_->workAt(*rig_);
+  } else {
+    services_.push_back(own.advertiseService("start", &RigEmulator::start, this));
+    services_.push_back(own.advertiseService("stop", &RigEmulator::stop, this));
+    services_.push_back(own.advertiseService("set_surface", &RigEmulator::setSurface, this));
+  }
   ROS_INFO_STREAM("emulated board " << options.simulation.board.serial << " (" << options.simulation.origin
                                     << ") on port " << rig_->port() << ", surface " << options.surface.name);
 }

@@ -10,6 +10,7 @@
 #include "emulator/emulator.h"
 #include "ros/bags/surface_folder.h"
 #include "ros/live/parameters.h"
+#include "ros/live/rig_operator.h"
 #include "simulation/read_settings.h"
 
 namespace fsr_ros {
@@ -26,6 +27,9 @@ namespace fsr_ros {
 /// `~set_surface`, `~set_damage` (true: damages the line as the present parameters `~damage/` say; false:
 /// ends the damage). The node does not publish `curvature`: when the surface changes, call the curvature node
 /// too, with the same surface and mount.
+///
+/// With the parameter `~operator` a RigOperator works chamber and sheet; `~start`, `~stop` and `~set_surface`
+/// do not exist then.
 ///
 /// Parameters: see launch/rig_emulator.launch and docs/nodes.md.
 class RigEmulator {
@@ -54,6 +58,7 @@ class RigEmulator {
   ros::Time origin_;  // rig time 0
   ros::Publisher status_;
   ros::Publisher clock_;
+  std::unique_ptr<RigOperator> operator_;         // null where there is none
   std::unique_ptr<fsr::emulator::Emulator> rig_;  // stops before the publishers are destroyed
   std::vector<ros::ServiceServer> services_;
 };

@@ -1,0 +1,149 @@
+#include <fsr_pressure_map/Instruction.h>
+#include <gtest/gtest.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <std_msgs/String.h>
+#include <std_srvs/Trigger.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "simulation/read_settings.h"
+#include "support/board_listener.h"
+
+namespace {
+
+using fsr_pressure_map::Instruction;
+
+constexpr double kLong = 30;  // limit for events that must happen [s]
+
+bool until(const std::function<bool()>& condition) {
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kLong);
+  while (!condition() && ros::WallTime::now() < end) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
+  }
+  return condition();
+}
+
+/// A very small conductor: it gives instructions and hears what the operator does.
+class RigOperatorNode : public testing::Test {
+ protected:
+  RigOperatorNode() {
+    instruction_ = handle_.advertise<Instruction>("instruction", 10, true);
+    confirm_ = handle_.advertiseService("conduct/confirm", &RigOperatorNode::onConfirm, this);
+    subscribers_ = {handle_.subscribe("rig_emulator/acts", 100, &RigOperatorNode::onAct, this),
+                    handle_.subscribe("rig_emulator/mistakes", 100, &RigOperatorNode::onMistakes, this)};
+    EXPECT_TRUE(until(
+        [this] { return instruction_.getNumSubscribers() > 0 && subscribers_[0].getNumPublishers() > 0; }));
+  }
+  void give(const Instruction& instruction) { instruction_.publish(instruction); }
+  bool does(const std::string& act) {
+    return until([&] { return std::count(acts_.begin(), acts_.end(), act) > 0; });
+  }
+  /// Highest pressure from now on, until the chamber was above 50 kPa and is empty again [Pa].
+  double pressPeak() {
+    std::string port;
+    EXPECT_TRUE(ros::param::get("rig_emulator/link", port));
+    test_support::BoardListener board(port);
+    double highest = 0;
+    EXPECT_TRUE(board.until([&] {
+      if (board.transducer.empty()) return false;
+      const double now = transducer_.gaugePressure(board.transducer.back().value);
+      for (const auto& reading : board.transducer)
+        highest = std::max(highest, transducer_.gaugePressure(reading.value));
+      return highest > 50e3 && now < 1e3;
+    }));
+    return highest;
+  }
+
+  std::vector<std::string> acts_;
+  std::string mistakes_;
+  int confirmed_ = 0;
+  fsr::simulation::Transducer transducer_;
+
+ private:
+  bool onConfirm(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+    ++confirmed_;
+    response.success = true;
+    return true;
+  }
+  void onAct(const std_msgs::String& act) { acts_.push_back(act.data); }
+  void onMistakes(const std_msgs::String& mistakes) { mistakes_ = mistakes.data; }
+
+  ros::NodeHandle handle_;
+  ros::Publisher instruction_;
+  ros::ServiceServer confirm_;
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+Instruction mount(std::uint32_t step, const std::string& surface) {
+  Instruction instruction;
+  instruction.kind = Instruction::MOUNT;
+  instruction.step = instruction.mount = step;
+  instruction.surface = surface;
+  instruction.confirm = true;
+  return instruction;
+}
+
+Instruction cycle(std::uint32_t step, const std::string& remark = "") {
+  Instruction instruction;
+  instruction.kind = Instruction::CYCLE;
+  instruction.step = step;
+  instruction.cycle = instruction.cycles = 1;
+  instruction.peak = 300e3;
+  instruction.rate = 60e3;
+  instruction.dwell_peak = 1;
+  instruction.remark = remark;
+  return instruction;
+}
+
+TEST_F(RigOperatorNode, PutsTheSheetOnAndConfirms) {
+  give(mount(1, "cylinder_5cm"));
+  EXPECT_TRUE(does("take the sheet off"));
+  EXPECT_TRUE(does("put the sheet on cylinder_5cm"));
+  EXPECT_TRUE(until([this] { return confirmed_ > 0; }));
+  EXPECT_EQ(confirmed_, 1);
+}
+
+TEST_F(RigOperatorNode, MakesAMistakeAndDoesItRightWhenRejected) {
+  give(cycle(2));
+  EXPECT_NEAR(pressPeak(), 0.8 * 300e3, 0.015 * 300e3);
+  EXPECT_TRUE(until([this] { return mistakes_ == "peak_too_low@2"; })) << mistakes_;
+  give(cycle(2, "rejected: the peak was 240 kPa, not 300 kPa"));
+  EXPECT_NEAR(pressPeak(), 300e3, 0.015 * 300e3);
+  EXPECT_EQ(mistakes_, "peak_too_low@2");
+}
+
+TEST_F(RigOperatorNode, SurvivesInstructionsThatNobodyCanFollow) {
+  Instruction strange = mount(3, "no_such_surface");
+  give(strange);
+  strange.kind = 200;
+  give(strange);
+  strange = cycle(3);
+  strange.peak = 1e9;
+  give(strange);
+  give(mount(4, "flat"));
+  EXPECT_TRUE(does("put the sheet on flat, turned over"));
+  EXPECT_EQ(mistakes_, "peak_too_low@2, turned_over@4");
+}
+
+TEST_F(RigOperatorNode, ClosesTheTerminalOfTheConductor) {
+  const auto runs = [] {
+    ros::V_string nodes;
+    ros::master::getNodes(nodes);
+    return std::count(nodes.begin(), nodes.end(), "/fsr/conduct") > 0;
+  };
+  ASSERT_TRUE(until(runs));
+  give(cycle(5));
+  EXPECT_TRUE(does("close the terminal of the conductor"));
+  EXPECT_TRUE(until([&] { return !runs(); }));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "rig_operator_test");
+  ros::NodeHandle keep_running;
+  return RUN_ALL_TESTS();
+}
