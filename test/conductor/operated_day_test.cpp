@@ -1,0 +1,280 @@
+// Whole sessions by rig time: the conductor leads the emulated operator, who makes every mistake once.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <sstream>
+
+#include "conductor/conductor.h"
+#include "emulator/board.h"
+#include "emulator/operator.h"
+#include "fsr_pressure_map/health/taxel_watch.h"
+#include "protocol/wire_decoder.h"
+#include "session_plan/plan_file.h"
+#include "simulation/read_settings.h"
+#include "support/source_dir.h"
+
+namespace {
+
+using fsr::conductor::Conductor;
+using fsr::conductor::Instruction;
+using fsr::conductor::Outcome;
+using fsr::conductor::ScanSummary;
+using fsr::conductor::StepState;
+using fsr::emulator::Act;
+using fsr::emulator::Board;
+using fsr::emulator::Operator;
+using fsr::emulator::Task;
+using fsr::emulator::TaskKind;
+using fsr::session_plan::SessionPlan;
+
+// Has a step for each mistake; 6 minutes without conditioning and changes.
+constexpr char kPlan[] =
+    "plan: short\n"
+    "order: listed\n"
+    "repeat_first: true\n"
+    "change: 30\n"
+    "matrix: {rows: 3, columns: 4}\n"
+    "conditioning: {cycles: 1, rate: 60000}\n"
+    "rest: {before: 15, after: 15}\n"
+    "surfaces: [{surface: flat}, {surface: cylinder_5cm}]\n"
+    "program:\n"
+    "  - cycles: {peak: 400000, rate: 30000, dwell_peak: 8, dwell_rest: 3, cycles: 2}\n"
+    "  - loops: {low: 100000, high: 300000, rate: 30000, loops: 2}\n"
+    "  - hold: {pressure: 200000, rate: 30000, duration: 20}\n";
+
+Task toTask(const Instruction& now) {
+  Task task;
+  task.kind = static_cast<TaskKind>(now.kind);
+  task.step = static_cast<std::uint32_t>(now.step);
+  task.surface = now.surface;
+  task.mount = now.mount;
+  task.cycle = now.cycle;
+  task.cycles = now.cycles;
+  task.low = now.low;
+  task.peak = now.peak;
+  task.rate = now.rate;
+  task.dwell_peak = now.dwell_peak;
+  task.dwell_rest = now.dwell_rest;
+  task.duration = now.duration;
+  task.confirm = now.confirm;
+  task.remark = now.remark;
+  return task;
+}
+
+SessionPlan planOf(const std::string& yaml) {
+  return fsr::session_plan::readPlan(fsr::settings::Settings::fromText(yaml, "day.yaml"),
+                                     test_support::sourceDir() + "/config/surfaces");
+}
+
+/// What the conductor said of an attempt, and when.
+struct Remark {
+  double time;  // [s]
+  bool rejected;
+  std::string reason;
+  std::string sentence;
+};
+
+/// A board, the operator and the conductor on one clock, which runs as fast as the computer allows.
+class OperatedDay : fsr::protocol::PacketHandler {
+ public:
+  OperatedDay(const SessionPlan& plan, const std::string& script)
+      : settings_(
+            fsr::simulation::readSimulationFile(test_support::sourceDir() + "/config/simulation/bench.yaml")),
+        plan_(plan),
+        board_(settings_, {}),
+        person(options(plan, script)),
+        conductor(std::make_unique<Conductor>(plan)),
+        decoder_(*this) {}
+
+  /// Runs until the session is over. Returns false where it has not ended after `limit` [s].
+  bool run(double limit) {
+    while (!conductor->done() && now < limit) {
+      now = board_.nextDue();
+      for (const Act& act : person.takeActs(now)) perform(act);
+      auto& packet = board_.next([this](double time) { return person.gaugePressure(time); });
+      if (plugged_) decoder_.feed(packet.data(), packet.size());
+      conductor->tick(now);
+      note();
+      if (now < next_look_) continue;
+      next_look_ = now + kLook;
+      person.instruct(now, toTask(conductor->instruction()));
+    }
+    return conductor->done();
+  }
+  auto rejections() const {
+    return std::count_if(remarks.begin(), remarks.end(), [](const Remark& one) { return one.rejected; });
+  }
+  std::string told() const {
+    std::ostringstream text;
+    for (const Remark& one : remarks)
+      text << one.time << (one.rejected ? " s: rejected: " : " s: ") << one.reason << ", " << one.sentence
+           << "\n";
+    const Instruction last = conductor->instruction();
+    text << now << " s: step " << last.step << " of " << last.steps << ": " << last.text << " ["
+         << last.remark << "]\n";
+    return text.str();
+  }
+
+ private:
+  static fsr::emulator::OperatorOptions options(const SessionPlan& plan, const std::string& script) {
+    fsr::emulator::OperatorOptions options;
+    options.mistakes = fsr::emulator::readMistakes(script);
+    for (const auto& surface : plan.surfaces) options.shelf.push_back(surface.surface.name);
+    return options;
+  }
+  static fsr::simulation::LoadPattern nothing() {
+    fsr::simulation::LoadPattern pattern;
+    pattern.kind = fsr::simulation::LoadPattern::Kind::kDisc;
+    pattern.centre = {1e3, 1e3};
+    return pattern;
+  }
+  void perform(const Act& act) {
+    switch (act.kind) {
+      case Act::Kind::kConfirm:
+        conductor->confirm();
+        break;
+      case Act::Kind::kUnplugBoard:
+      case Act::Kind::kPlugBoard:
+        plugged_ = act.kind == Act::Kind::kPlugBoard;
+        break;
+      case Act::Kind::kUnplugTransducer:
+        board_.setTransducer(Board::TransducerLine::kUnplugged, now);
+        break;
+      case Act::Kind::kSilenceTransducer:
+        board_.setTransducer(Board::TransducerLine::kSilent, now);
+        break;
+      case Act::Kind::kPlugTransducer:
+        board_.setTransducer(Board::TransducerLine::kWorks, now);
+        break;
+      case Act::Kind::kLoseTaxel:
+        board_.loseTaxel(5);  // one that has neighbours on all sides
+        break;
+      case Act::Kind::kFixTaxels:
+        board_.fixTaxels();
+        break;
+      case Act::Kind::kCloseTerminal:
+        conductor = std::make_unique<Conductor>(plan_, conductor->state());
+        break;
+      case Act::Kind::kPutOn:
+        for (const auto& planned : plan_.surfaces) {
+          if (planned.surface.name == act.surface) board_.mount(planned.surface);
+        }
+        break;
+      case Act::Kind::kTakeOff:
+        board_.mount({"", 0, {fsr::matrix::Curvature{}}, {}}, nothing());
+        break;
+    }
+  }
+  void note() {
+    for (const Outcome& outcome : conductor->takeOutcomes()) {
+      if (outcome.state != StepState::kOpen) continue;
+      remarks.push_back({now, true, name(outcome.verdict.reason), outcome.verdict.sentence});
+    }
+    for (const auto& [reason, sentence] : conductor->complaints()) {
+      const std::string hint = name(reason);
+      const auto same = [&](const Remark& other) { return !other.rejected && other.reason == hint; };
+      if (std::none_of(remarks.begin(), remarks.end(), same)) remarks.push_back({now, false, hint, sentence});
+    }
+  }
+  void onScan(const fsr::protocol::PacketHeader& header, const fsr::protocol::ScanPacket& scan) override {
+    ScanSummary summary;
+    summary.time = now;
+    summary.taxels = static_cast<unsigned>(scan.size.taxels());
+    summary.lost = header.sequence - next_scan_;
+    next_scan_ = header.sequence + 1;
+    watch_.observe(scan.counts, now);
+    for (std::size_t t = 0; t < scan.size.taxels(); ++t) {
+      summary.saturated += scan.counts[t] >= scan.full_scale ? 1 : 0;
+      summary.dead += watch_.flags()[t] != 0 ? 1 : 0;
+    }
+    conductor->scan(summary);
+  }
+  void onTransducer(const fsr::protocol::PacketHeader&, std::int32_t counts) override {
+    conductor->pressure(now, settings_.transducer.gaugePressure(counts));
+  }
+  void onTemperature(const fsr::protocol::PacketHeader&, std::int32_t) override {}
+  void onIdentity(const fsr::protocol::PacketHeader&, const fsr::protocol::IdentityPacket&) override {}
+
+  fsr::simulation::SimulationSettings settings_;
+  SessionPlan plan_;
+  Board board_;
+  fsr::health::TaxelWatch watch_{{3, 4}, 4095};
+  bool plugged_ = true;
+  static constexpr double kLook = 0.5;  // from one look at the panel to the next [s]
+  double next_look_ = 0;
+  std::uint32_t next_scan_ = 0;
+
+ public:
+  Operator person;
+  std::unique_ptr<Conductor> conductor;
+  double now = 0;  // [s]
+  std::vector<Remark> remarks;
+
+ private:
+  fsr::protocol::WireDecoder decoder_;
+};
+
+constexpr double kLimit = 3600;  // for a session of 10 minutes [s]
+
+TEST(OperatedDay, EndsWithoutARejectionWhereTheOperatorMakesNoMistake) {
+  OperatedDay day(planOf(kPlan), "");
+  EXPECT_TRUE(day.run(kLimit)) << day.told();
+  EXPECT_TRUE(day.remarks.empty()) << day.told();
+  for (const StepState state : day.conductor->states()) EXPECT_EQ(state, StepState::kAccepted);
+}
+
+TEST(OperatedDay, EndsWithoutARejectionForTheShippedPlans) {
+  for (const std::string name : {"field_check", "paper", "every_effect"}) {
+    const std::string path = test_support::sourceDir() + "/config/sessions/" + name + ".yaml";
+    OperatedDay day(fsr::session_plan::readPlanFile(path), "");
+    EXPECT_TRUE(day.run(86400)) << name << "\n" << day.told();
+    EXPECT_TRUE(day.remarks.empty()) << name << "\n" << day.told();
+    for (const StepState state : day.conductor->states()) EXPECT_EQ(state, StepState::kAccepted) << name;
+    RecordProperty(name + "_hours", std::to_string(day.now / 3600));
+  }
+}
+
+class OperatedDayMistake : public testing::TestWithParam<std::string> {};
+
+// What the conductor does not name yet. The session ends all the same.
+//   no_unloading  hints rightly at rest_not_reached, but then rejects the cycle as dwell_too_short: the dwell
+//   is
+//                 the time above 90 % less the ramps at the measured paces, and the stop halfway down makes
+//                 the pace of venting, 90 % to 10 %, far too slow
+//   sheet_off     all taxels read nothing under pressure; TaxelWatch compares taxels with their neighbours
+bool isNotYetNamed(const std::string& mistake) {
+  return mistake == "no_unloading" || mistake == "sheet_off";
+}
+
+TEST_P(OperatedDayMistake, IsNamedRightlyAndCostsNothingElse) {
+  const auto& mistake = fsr::emulator::mistakeCalled(GetParam());
+  OperatedDay day(planOf(kPlan), mistake.name);
+  EXPECT_TRUE(day.run(kLimit)) << day.told();
+  ASSERT_EQ(day.person.made().size(), 1u) << day.told();
+  for (const StepState state : day.conductor->states()) EXPECT_EQ(state, StepState::kAccepted);
+  if (mistake.notice != fsr::emulator::Notice::kPressure) {
+    EXPECT_TRUE(day.remarks.empty()) << day.told();
+    return;
+  }
+  if (isNotYetNamed(mistake.name)) return;
+  ASSERT_FALSE(day.remarks.empty()) << day.told();
+  constexpr double kOneCycle = 90;  // the longest attempt, the slow one [s]
+  EXPECT_LT(day.remarks.front().time - day.person.made().front().time, kOneCycle) << day.told();
+  EXPECT_LE(day.rejections(), 1) << day.told();
+  for (const Remark& one : day.remarks) {
+    EXPECT_NE((" " + mistake.expected + " ").find(" " + one.reason + " "), std::string::npos) << day.told();
+  }
+}
+
+std::vector<std::string> allMistakes() {
+  std::vector<std::string> names;
+  for (const auto& mistake : fsr::emulator::mistakes()) names.push_back(mistake.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, OperatedDayMistake, testing::ValuesIn(allMistakes()),
+                         [](const auto& one) { return one.param; });
+
+}  // namespace
