@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "dataset/pressure_rate.h"
 #include "settings/number_text.h"
 #include "statistics/median.h"
 
@@ -12,10 +13,6 @@ namespace fsr::dataset {
 
 namespace {
 
-constexpr double kStill = 0.05;       // share of the fastest rate; below it the chamber holds its pressure
-constexpr double kLoaded = 0.1;       // share of the highest pressure; below it the sheet is unloaded
-constexpr double kLeastDwell = 2;     // shorter dwells count as corners [s]
-constexpr double kRateWindow = 2;     // over which the rate of pressure is found [s]
 constexpr double kLeastShare = 0.05;  // of the scans; a smaller group is no protocol
 
 // One cycle of one recording.
@@ -23,35 +20,6 @@ struct Cycle {
   std::size_t recording = 0;
   std::vector<std::size_t> scans;  // in the order of time
 };
-
-// Slope of the pressure at each scan: a straight line through the scans within half a window [Pa/s]. A window
-// does not reach beyond the surface on which the scan was taken.
-std::vector<double> ratesOf(const Recording& recording) {
-  const std::size_t n = recording.scans();
-  std::vector<double> rate(n, 0);
-  std::size_t first = 0, last = 0;
-  double count = 0, t = 0, p = 0, tt = 0, tp = 0;
-  const auto add = [&](std::size_t i, double weight) {
-    // Relative to the first scan, so that the sums keep their digits.
-    const double time = recording.time[i] - recording.time[0];
-    count += weight, t += weight * time, p += weight * recording.pressure[i];
-    tt += weight * time * time, tp += weight * time * recording.pressure[i];
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    if (i == 0 || recording.condition[i] != recording.condition[i - 1]) {
-      first = last = i;
-      count = t = p = tt = tp = 0;
-    }
-    while (last < n && recording.condition[last] == recording.condition[i] &&
-           recording.time[last] <= recording.time[i] + kRateWindow / 2) {
-      add(last++, 1);
-    }
-    while (recording.time[first] < recording.time[i] - kRateWindow / 2) add(first++, -1);
-    const double spread = tt - t * t / count;
-    rate[i] = spread > 1e-9 ? (tp - t * p / count) / spread : 0;
-  }
-  return rate;
-}
 
 std::vector<Cycle> cyclesOf(const std::vector<Recording>& recordings, const std::vector<Sections>& sections) {
   std::vector<Cycle> cycles;
@@ -174,7 +142,7 @@ Protocols protocolsOf(const std::vector<Recording>& recordings, const std::vecto
   CourseScale scale;
   std::vector<std::vector<double>> rates;
   for (const Recording& recording : recordings) {
-    rates.push_back(ratesOf(recording));
+    rates.push_back(pressureRates(recording));
     for (const double rate : rates.back()) scale.fastest = std::max(scale.fastest, std::abs(rate));
     for (const double pressure : recording.pressure) scale.highest = std::max(scale.highest, pressure);
     protocols.of_scan.emplace_back(recording.scans(), Protocols::kOther);

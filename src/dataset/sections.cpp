@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dataset/cycles.h"
+#include "dataset/pressure_rate.h"
 
 namespace fsr::dataset {
 
@@ -62,6 +63,7 @@ Sections divideIntoSections(const Recording& recording, std::size_t number) {
   sections.section.assign(recording.scans(), kNoSection);
   sections.cycle.assign(recording.scans(), 0);
   sections.direction.assign(recording.scans(), statistics::LoadDirection::kNone);
+  sections.dwell = dwellsOf(recording);
   for (std::size_t condition = 0; condition < recording.conditions.size(); ++condition) {
     divideCondition(recording, condition, sections);
   }

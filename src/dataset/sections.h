@@ -25,6 +25,7 @@ struct Sections {
   std::vector<std::uint32_t> cycle;                  ///< of each scan, counted within its condition
   std::vector<statistics::LoadDirection> direction;  ///< of each scan
   std::vector<std::size_t> cycles;                   ///< number of cycles of each condition
+  std::vector<std::uint8_t> dwell;                   ///< of each scan, see dwellsOf()
   std::vector<std::string> warnings;
 };
 
