@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "calibration/bandwidth_choice.h"
+#include "calibration/budget/budget_lines.h"
+#include "calibration/budget/interval_tally.h"
 #include "calibration/curvature_rule_learning.h"
 #include "calibration/held_out_scoring.h"
 #include "calibration/history_training.h"
@@ -50,7 +53,9 @@ class Training {
 
     const compensation::FoldRegressors regressors = chooseWithZeros(calibration, progress);
     RemountErrors remount(problem_.recordings, classes_, sections_, zeros_);
-    HeldOutScoring scoring(scans_, sections_, plan_, problem_.options.folds, taxels);
+    const BudgetInput budget{BudgetScale(calibration.trained.pressure),
+                             budgetCycles(problem_.recordings, classes_, sections_), !remount.assessable()};
+    HeldOutScoring scoring(scans_, sections_, plan_, budget, problem_.options.folds, taxels);
     settings::StepProgress training(progress, "training the taxels", taxels);
     matrix::forEachTaxel(taxels, problem_.options.threads, [&](std::size_t taxel) {
       train(taxel, regressors, calibration, scoring);
@@ -65,6 +70,10 @@ class Training {
       calibration.scores.session = session;
       calibration.scores.unseen = unseen;
       calibration.scores.remount = remounted;
+      budget_scale_ = budget.scale;
+      budget_sums_ = scoring.budget();
+      calibration.budget.intervals =
+          remount.assessable() ? intervalsOf(remount, regressors.whole, calibration) : scoring.intervals();
     }
     const HistoryProblem problem{problem_.recordings,
                                  classes_,
@@ -79,6 +88,14 @@ class Training {
     return calibration;
   }
 
+  /// Gives the calibration of run(), which is complete otherwise, its error budget.
+  void addBudget(Calibration& calibration) const {
+    if (!problem_.options.scores) return;
+    ErrorIntervals intervals = std::move(calibration.budget.intervals);
+    calibration.budget = errorBudget(problem_, *budget_scale_, budget_sums_, calibration);
+    calibration.budget.intervals = std::move(intervals);
+  }
+
   /// `calibration`: of run(), with its ranges of training.
   void addShape(Calibration& calibration) const {
     trainShape(problem_.recordings, sessions_, problem_.options.threads, calibration);
@@ -89,6 +106,8 @@ class Training {
   Calibration describe();
   std::shared_ptr<compensation::TrainingStatistics> emptyStatistics() const;
   void sum(std::size_t taxel);
+  ErrorIntervals intervalsOf(const RemountErrors& remount, const regression::RegressorOptions& regressor,
+                             const Calibration& calibration) const;
   compensation::FoldRegressors chooseWithZeros(Calibration& calibration, const CalibrationProgress& progress);
   void train(std::size_t taxel, const compensation::FoldRegressors& regressors, Calibration& calibration,
              HeldOutScoring& scoring) const;
@@ -101,6 +120,8 @@ class Training {
   SessionZeros zeros_;  // empty = none
   TrainingScans scans_;
   std::shared_ptr<compensation::TrainingStatistics> statistics_;  // filled by sum()
+  std::optional<BudgetScale> budget_scale_;                       // by run(), where there are scores
+  BudgetSums budget_sums_;
 };
 
 Calibration Training::describe() {
@@ -180,6 +201,18 @@ void Training::train(std::size_t taxel, const compensation::FoldRegressors& regr
   fillTables(plan_, taxel, models, calibration);
 }
 
+// The intervals of new mounts. The models without a mount are trained a second time, because the deviation to
+// compare with is known only after the first.
+ErrorIntervals Training::intervalsOf(const RemountErrors& remount,
+                                     const regression::RegressorOptions& regressor,
+                                     const Calibration& calibration) const {
+  IntervalTally intervals(IntervalUnit::kMounts, remount.units(), statistics_->taxels);
+  matrix::forEachTaxel(statistics_->taxels, problem_.options.threads, [&](std::size_t taxel) {
+    if (calibration.no_model[taxel] == 0) remount.cover(plan_, taxel, regressor, calibration, intervals);
+  });
+  return intervals.summarise();
+}
+
 // Trains everything again for the temperature T_0 of the model that was chosen.
 Calibration trainAtReference(const CalibrationProblem& problem, const Calibration& chosen,
                              const CalibrationProgress& progress) {
@@ -191,6 +224,7 @@ Calibration trainAtReference(const CalibrationProblem& problem, const Calibratio
   calibration.temperature = chosen.temperature;
   calibration.scores.temperature = chosen.scores.temperature;
   calibration.trained = chosen.trained;  // of the recorded pressures
+  training.addBudget(calibration);
   return calibration;
 }
 
@@ -202,6 +236,7 @@ Calibration calibrate(const CalibrationProblem& problem, const CalibrationProgre
   Calibration calibration = training.run(progress);
   if (calibration.temperature.present()) return trainAtReference(problem, calibration, progress);
   training.addShape(calibration);
+  training.addBudget(calibration);
   return calibration;
 }
 

@@ -48,13 +48,21 @@ double meanOverSections(const std::vector<SectionScore>& sections, double (Secti
 }  // namespace
 
 HeldOutScoring::HeldOutScoring(const TrainingScans& scans, const std::vector<dataset::Sections>& divided,
-                               const compensation::SchemePlan& plan, std::size_t sections, std::size_t taxels)
+                               const compensation::SchemePlan& plan, const BudgetInput& budget,
+                               std::size_t sections, std::size_t taxels)
     : scans_(scans),
       divided_(divided),
       plan_(plan),
+      budget_(budget),
       sections_(sections),
+      intervals_(IntervalUnit::kCycles, budget.of_cycles ? budget.cycles.units : 0, taxels),
       taxels_(taxels),
       errors_(scans.of_class.size()) {}
+
+bool HeldOutScoring::trainedOn(std::size_t curvature_class) const {
+  const auto& trained_on = plan_.models[plan_.model_of_class[curvature_class]].trained_on;
+  return std::find(trained_on.begin(), trained_on.end(), curvature_class) != trained_on.end();
+}
 
 void HeldOutScoring::scoreTaxel(std::size_t taxel,
                                 const std::vector<regression::CrossValidatedModel>& models) {
@@ -68,29 +76,38 @@ void HeldOutScoring::scoreTaxel(std::size_t taxel,
                              meanOverSections(sections, &SectionScore::rmsePercent), within});
   };
   std::size_t all_within = 0;
+  IntervalTally::Taxel ratios(intervals_.units());
   for (std::size_t c = 0; c < scans.size(); ++c) {
     const regression::CrossValidatedModel& model = models[plan_.model_of_class[c]];
     std::vector<SectionScore> of_class(sections_);
     std::size_t within = 0;
+    const bool trained = trainedOn(c);
+    BudgetTally budget(budget_.scale, budget_.cycles.of_class[c], model.table);
     for (const TrainingRun& run : scans[c]) {
       const regression::HeldOutModel& held_out = model.held_out[run.section];
       if (held_out.pressure.empty()) continue;
       const double zero = regression::fromFixed(run.zeroOf(taxel));
-      const auto score = [&](std::size_t scan, std::uint16_t code, regression::FixedPressure pressure) {
-        const double truth = regression::fromFixed(pressure);
-        const double answer = held_out.pressure[code] - zero;
+      scans_.forEachScan(run, counts, divided_, [&](const TrainingScan& scan) {
+        const double truth = regression::fromFixed(scan.pressure);
+        const double answer = held_out.pressure[scan.code] - zero;
         const double error = answer - truth;
         of_class[run.section].add(answer, truth);
-        within += std::abs(error) <= held_out.deviation[code];
-        scored.errors[c].add(static_cast<float>(error), truth, divided_[run.recording].direction[scan]);
-      };
-      scans_.forEach(run, counts, score);
+        within += std::abs(error) <= held_out.deviation[scan.code];
+        scored.errors[c].add(static_cast<float>(error), truth, scan.direction);
+        if (!trained) return;
+        budget.add(scan, error);
+        if (intervals_.units() == 0) return;
+        ratios.add(budget_.cycles.of_class[c][scan.cycle].unit, answer, scan.direction,
+                   std::abs(error) / double(held_out.deviation[scan.code]));
+      });
     }
+    if (trained) addSums(budget.sums(), scored.budget);
     for (std::size_t s = 0; s < sections_; ++s) all[s].merge(of_class[s]);
     all_within += within;
     add(of_class, within);
   }
   add(all, all_within);
+  intervals_.add(taxel, ratios);
   addErrors(taxel, std::move(scored));
 }
 
@@ -105,6 +122,7 @@ void HeldOutScoring::addErrors(std::size_t taxel, TaxelScores scored) {
   for (; next_ < taxels_.size() && taxels_[next_]; ++next_) {
     std::vector<statistics::ErrorBins> own = std::move(taxels_[next_]->errors);
     for (std::size_t c = 0; c < own.size(); ++c) errors_[c].merge(own[c]);
+    addSums(taxels_[next_]->budget, budget_sums_);
   }
 }
 
@@ -136,9 +154,7 @@ CalibrationScores HeldOutScoring::summarise(const std::vector<dataset::Curvature
   CalibrationScores scores;
   statistics::ErrorBins whole;
   for (std::size_t c = 0; c < classes.size(); ++c) {
-    const auto& trained_on = plan_.models[plan_.model_of_class[c]].trained_on;
-    const bool trained = std::find(trained_on.begin(), trained_on.end(), c) != trained_on.end();
-    scores.conditions.push_back({classes[c], trained, pool(errors_[c], c)});
+    scores.conditions.push_back({classes[c], trainedOn(c), pool(errors_[c], c)});
     whole.merge(errors_[c]);
   }
   scores.whole = pool(whole, classes.size());

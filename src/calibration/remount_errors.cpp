@@ -56,7 +56,7 @@ bool isLoaded(const Peaks& peaks, std::uint32_t mount) {
 RemountErrors::RemountErrors(const std::vector<dataset::Recording>& recordings,
                              const dataset::ConditionClasses& classes,
                              const std::vector<dataset::Sections>& sections, const SessionZeros& zeros)
-    : mounts_(classes.classes.size()) {
+    : divided_(sections), mounts_(classes.classes.size()) {
   // [classes], from mount number to 0, 1, ...
   std::vector<std::map<std::uint32_t, std::uint32_t>> number(classes.classes.size());
   const std::vector<Peaks> peaks = peaksOf(recordings, classes, sections);
@@ -87,6 +87,12 @@ RemountErrors::RemountErrors(const std::vector<dataset::Recording>& recordings,
   errors_.resize(recordings.front().layout.size.taxels());
 }
 
+bool RemountErrors::leavesOut(const compensation::SchemePlan& plan, std::size_t curvature_class) const {
+  const auto& trained_on = plan.models[plan.model_of_class[curvature_class]].trained_on;
+  return mounts_[curvature_class] > 1 &&
+         std::find(trained_on.begin(), trained_on.end(), curvature_class) != trained_on.end();
+}
+
 void RemountErrors::measure(const compensation::SchemePlan& plan, std::size_t taxel,
                             const regression::RegressorOptions& regressor, const Calibration& calibration) {
   if (!assessable()) return;
@@ -96,9 +102,8 @@ void RemountErrors::measure(const compensation::SchemePlan& plan, std::size_t ta
       compensation::crossValidateScheme(plan, taxel, readings, regressor, regression::HeldOutDeviation::kNo);
   compensation::UnseenErrors& errors = errors_[taxel];
   for (std::size_t k = 0; k < mounts_.size(); ++k) {
+    if (!leavesOut(plan, k)) continue;
     const std::size_t model = plan.model_of_class[k];
-    const auto& trained_on = plan.models[model].trained_on;
-    if (mounts_[k] < 2 || std::find(trained_on.begin(), trained_on.end(), k) == trained_on.end()) continue;
     const std::vector<compensation::TableEntry> own =
         entriesOf(calibration.tables.table(taxel, calibration.tables.classes.size() == 1 ? 0 : k));
     for (std::size_t mount = 0; mount < mounts_[k]; ++mount) {
@@ -122,6 +127,44 @@ RemountScore RemountErrors::apply(Calibration& calibration) const {
   }
   const compensation::UnseenSummary summary = compensation::summaryOf(errors_);
   return {summary.readings, summary.rmse_percent, summary.rmse};
+}
+
+std::size_t RemountErrors::units() const {
+  std::size_t units = 0;
+  for (const std::size_t mounts : mounts_) units += mounts > 1 ? mounts : 0;
+  return units;
+}
+
+void RemountErrors::cover(const compensation::SchemePlan& plan, std::size_t taxel,
+                          const regression::RegressorOptions& regressor, const Calibration& calibration,
+                          IntervalTally& intervals) const {
+  if (!assessable()) return;
+  const compensation::SectionedReadings readings =
+      sectionedReadings(scans_, most_mounts_ + 1, calibration.tables.full_scale, taxel, regressor);
+  const auto models =
+      compensation::crossValidateScheme(plan, taxel, readings, regressor, regression::HeldOutDeviation::kNo);
+  IntervalTally::Taxel ratios(intervals.units());
+  std::vector<dataset::TaxelCounts> counts = dataset::taxelCounts(*scans_.recordings, taxel);
+  std::size_t first = 0;  // unit of the first mount of the class
+  for (std::size_t k = 0; k < mounts_.size(); ++k) {
+    if (mounts_[k] < 2) continue;
+    const regression::CodeTable& own =
+        calibration.tables.table(taxel, calibration.tables.classes.size() == 1 ? 0 : k);
+    for (const TrainingRun& run : scans_.of_class[k]) {
+      if (!leavesOut(plan, k) || run.section >= mounts_[k]) continue;
+      const std::vector<double>& held_out = models[plan.model_of_class[k]].held_out[run.section].pressure;
+      if (held_out.empty()) continue;
+      const double zero = regression::fromFixed(run.zeroOf(taxel));
+      scans_.forEachScan(run, counts, divided_, [&](const TrainingScan& scan) {
+        const double answer = held_out[scan.code] - zero;
+        const double error = answer - regression::fromFixed(scan.pressure);
+        ratios.add(first + run.section, answer, scan.direction,
+                   std::abs(error) / double(own.deviation[scan.code]));
+      });
+    }
+    first += mounts_[k];
+  }
+  intervals.add(taxel, ratios);
 }
 
 }  // namespace fsr::calibration

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "calibration/budget/interval_tally.h"
 #include "calibration/training_scans.h"
 #include "compensation/fit_scheme.h"
 #include "compensation/unseen_curvature.h"
@@ -17,7 +18,7 @@ namespace fsr::calibration {
 /// and never asked for: others cannot be predicted from it alone.
 class RemountErrors {
  public:
-  /// Recordings and zeros must outlive the object.
+  /// Recordings, sections and zeros must outlive the object.
   RemountErrors(const std::vector<dataset::Recording>& recordings, const dataset::ConditionClasses& classes,
                 const std::vector<dataset::Sections>& sections, const SessionZeros& zeros);
 
@@ -30,8 +31,19 @@ class RemountErrors {
   /// Adds what the stated deviation does not explain to the deviation of all tables, by pressure. Returns the
   /// error of another mount.
   RemountScore apply(Calibration& calibration) const;
+  /// Number of mounts that are left out, on all surfaces.
+  std::size_t units() const;
+  /// Counts the readings of each left-out mount by |error| / deviation, with the deviations of `calibration`
+  /// after apply(). Trains as measure() does. Different taxels may be counted at the same time.
+  void cover(const compensation::SchemePlan& plan, std::size_t taxel,
+             const regression::RegressorOptions& regressor, const Calibration& calibration,
+             IntervalTally& intervals) const;
 
  private:
+  // Whether the mounts of a class are left out: there are several, and its model was trained on the class.
+  bool leavesOut(const compensation::SchemePlan& plan, std::size_t curvature_class) const;
+
+  const std::vector<dataset::Sections>& divided_;
   std::vector<std::size_t> mounts_;  // [classes], number of mounts
   std::size_t most_mounts_ = 1;
   /// The section of a scan is its mount. Scans of a surface with one mount are in the last section, which is

@@ -6,6 +6,20 @@
 
 namespace fsr::calibration {
 
+std::vector<std::vector<std::size_t>> firstCycles(const dataset::ConditionClasses& classes,
+                                                  const std::vector<dataset::Sections>& sections) {
+  std::vector<std::vector<std::size_t>> first(sections.size());
+  std::vector<std::size_t> cycles(classes.classes.size(), 0);
+  for (std::size_t r = 0; r < sections.size(); ++r) {
+    for (std::size_t c = 0; c < sections[r].cycles.size(); ++c) {
+      std::size_t& of_class = cycles[classes.class_of[r][c]];
+      first[r].push_back(of_class);
+      of_class += std::max<std::size_t>(1, sections[r].cycles[c]);
+    }
+  }
+  return first;
+}
+
 TrainingScans gatherScans(const std::vector<dataset::Recording>& recordings,
                           const dataset::ConditionClasses& classes,
                           const std::vector<dataset::Sections>& sections, const SessionZeros& zeros) {
@@ -13,6 +27,7 @@ TrainingScans gatherScans(const std::vector<dataset::Recording>& recordings,
     const bool known = !zeros.empty() && !zeros[r].empty() && !zeros[r][condition].empty();
     return known ? zeros[r][condition].data() : nullptr;
   };
+  const std::vector<std::vector<std::size_t>> first_cycle = firstCycles(classes, sections);
   TrainingScans scans{&recordings, {}, {}};
   scans.of_class.resize(classes.classes.size());
   for (std::size_t r = 0; r < recordings.size(); ++r) {
@@ -28,7 +43,7 @@ TrainingScans gatherScans(const std::vector<dataset::Recording>& recordings,
       if (section == dataset::kNoSection) continue;
       for (std::size_t k = i; k < end; ++k) scans.pressure[r][k] = regression::toFixed(recording.pressure[k]);
       scans.of_class[classes.class_of[r][condition]].push_back(
-          {static_cast<std::uint32_t>(r), section, i, end, zeroOf(r, condition)});
+          {static_cast<std::uint32_t>(r), section, i, end, first_cycle[r][condition], zeroOf(r, condition)});
     }
   }
   const auto by_section = [](const TrainingRun& a, const TrainingRun& b) { return a.section < b.section; };
@@ -46,7 +61,7 @@ std::vector<regression::CodeStatistics> statisticsOfTaxel(const TrainingScans& s
     for (std::size_t section = 0; section < sections; ++section) {
       for (; run != of_class.end() && run->section == section; ++run) {
         const regression::FixedPressure zero = run->zeroOf(taxel);
-        scans.forEach(*run, counts, [&](std::size_t, std::uint16_t code, regression::FixedPressure pressure) {
+        scans.forEach(*run, counts, [&](std::uint16_t code, regression::FixedPressure pressure) {
           accumulator.add(code, pressure + zero);
         });
       }
@@ -68,7 +83,7 @@ std::vector<std::vector<regression::CodeSamples>> samplesOfTaxel(const TrainingS
     readings.emplace_back(sections, none);
     for (const TrainingRun& run : of_class) {
       const regression::FixedPressure zero = run.zeroOf(taxel);
-      scans.forEach(run, counts, [&](std::size_t, std::uint16_t code, regression::FixedPressure pressure) {
+      scans.forEach(run, counts, [&](std::uint16_t code, regression::FixedPressure pressure) {
         readings.back()[run.section].add(code, pressure + zero);
       });
     }

@@ -122,6 +122,11 @@ void validate(const CalibrationProblem& problem) {
   if (options.folds < kFewestFolds || options.folds > kMostFolds) {
     throw settings::InputError("folds is " + std::to_string(options.folds) + ", but must be 2 to 20");
   }
+  if (options.reference_deviation < 0 || std::isinf(options.reference_deviation)) {
+    throw settings::InputError("the uncertainty of the transducer is " +
+                               std::to_string(options.reference_deviation) +
+                               " Pa, but must be finite and not negative");
+  }
   if (recordings.empty())
     throw settings::InputError("there is no recording to train on; give one bag or more");
   for (const dataset::Recording& recording : recordings) requireWhole(recording);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "fsr_pressure_map/calibration/error_budget.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
 #include "fsr_pressure_map/compensation/history.h"
 #include "fsr_pressure_map/compensation/shape.h"
@@ -53,6 +54,9 @@ struct CalibrationOptions {
   ZeroChoice zero = ZeroChoice::kAuto;
   /// Whether a model of the temperature is tried where all recordings have temperatures.
   bool temperature = true;
+  /// Standard uncertainty of the chamber's transducer, with its constant error, for the error budget [Pa];
+  /// NaN = not declared.
+  double reference_deviation = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// Input of calibrate().
@@ -229,6 +233,7 @@ struct Calibration {
   TrainedRanges trained;
   dataset::Coverage coverage;
   CalibrationScores scores;
+  ErrorBudget budget;  ///< absent where scores were not computed
   Provenance provenance;
   /// Sums behind the tables, from which merging trains anew. Null: the file was loaded without them.
   std::shared_ptr<const compensation::TrainingStatistics> statistics;

@@ -162,6 +162,7 @@ void writeCalibration(const Calibration& calibration, hdf5::Writer& writer) {
     writeScores(calibration.scores, writer);
     writeHistoryScores(calibration.scores.history, writer);
     writeSessionScores(calibration.scores.session, writer);
+    writeBudget(calibration.budget, writer);
     writeTemperatureScores(calibration.scores.temperature, writer);
   }
   static const compensation::TrainingStatistics none;
@@ -200,6 +201,7 @@ Calibration readCalibration(const hdf5::Reader& reader, std::uint64_t schema, Ca
     calibration.scores = readScores(reader, statistics.classes);
     calibration.scores.history = readHistoryScores(reader);
     calibration.scores.session = readSessionScores(reader);
+    calibration.budget = readBudget(reader, calibration.layout.size);
     calibration.scores.temperature = readTemperatureScores(reader);
   }
   statistics.full_scale = calibration.tables.full_scale;

@@ -34,6 +34,10 @@ namespace fsr::calibration {
 //                  files)
 //     /coverage    scans, cycles [classes x bins x 2], totals, pressure, thin
 //     /scores      see scores_hdf5 (absent where not asked for)
+//     /budget      pressure, held_out, combined [3]; names, sources, parts, notes [lines]; standard, added
+//                  [lines x 3]; /budget/intervals with attribute unit_left_out; units, factor, covered [bins
+//                  and all x 2], by_direction [2 x 2], by_taxel [2 x taxels] (absent without scores and in
+//                  earlier files)
 //     /statistics  surfaces, curvature of the classes; first [taxels x classes x sections + 1] and the rows
 //                  code, count, sum that it points into; square_high, square_low of the rows with count > 1
 //
@@ -76,6 +80,8 @@ TemperatureScore readTemperatureScores(const hdf5::Reader& reader);
 void writeShape(const compensation::ShapeModel& model, hdf5::Writer& writer);
 compensation::ShapeModel readShape(const hdf5::Reader& reader, const matrix::Layout& layout,
                                    std::uint16_t full_scale);
+void writeBudget(const ErrorBudget& budget, hdf5::Writer& writer);
+ErrorBudget readBudget(const hdf5::Reader& reader, matrix::MatrixSize size);
 void writeCoverage(const dataset::Coverage& coverage, hdf5::Writer& writer);
 dataset::Coverage readCoverage(const hdf5::Reader& reader,
                                const std::vector<dataset::CurvatureClass>& classes);

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "fsr_pressure_map/calibration/error_budget.h"
+
+namespace fsr::calibration {
+
+/// Counts the readings by |error| / deviation, in cells of 1/64 of an octave (1.1 %), and finds the factors
+/// of ErrorIntervals from them. Its memory does not grow with the number of readings.
+class IntervalTally {
+ public:
+  static constexpr std::size_t kCells = 640;  ///< from 1/32 to 32; the outer ones contain the rest
+  static constexpr std::size_t kDirections = 2;
+
+  /// Readings of one taxel.
+  class Taxel {
+   public:
+    explicit Taxel(std::size_t units) : counts_(units * statistics::kPressureBins * kDirections * kCells) {}
+
+    /// `pressure`: the answer [Pa]; `ratio`: |error| / deviation. One that is not finite is left out.
+    void add(std::size_t unit, double pressure, statistics::LoadDirection direction, double ratio);
+
+   private:
+    friend class IntervalTally;
+    std::vector<std::uint32_t> counts_;  // [units][bins][directions][cells]
+  };
+
+  /// No units: nothing is counted.
+  IntervalTally(IntervalUnit unit, std::size_t units, std::size_t taxels);
+
+  std::size_t units() const { return units_; }
+  /// Each taxel once. Different taxels may be added at the same time.
+  void add(std::size_t taxel, const Taxel& readings);
+  ErrorIntervals summarise() const;
+
+ private:
+  using Shares = std::array<double, kCells>;  // of the readings at or below each cell
+
+  // Of each unit that has readings in the bins from first to last.
+  std::vector<Shares> sharesOf(std::size_t first, std::size_t last) const;
+  static std::optional<std::size_t> thresholdOf(const std::vector<const Shares*>& units, double level);
+  static BinIntervals intervalsOf(const std::vector<Shares>& units);
+  void coverDirections(ErrorIntervals& intervals) const;
+  void coverTaxels(ErrorIntervals& intervals) const;
+
+  IntervalUnit unit_;
+  std::size_t units_;
+  std::mutex adding_;
+  std::vector<std::uint64_t> counts_;               // of all taxels, as Taxel::counts_
+  std::vector<std::vector<std::uint32_t>> taxels_;  // [taxels], of all units: [bins][cells]
+};
+
+}  // namespace fsr::calibration
