@@ -1,4 +1,5 @@
 #include "regression/option_names.h"
+#include "report/budget_report.h"
 #include "report/calibration_report.h"
 #include "report/history_report.h"
 #include "report/result_json.h"
@@ -121,7 +122,8 @@ std::string calibrationJson(const calibration::Calibration& calibration) {
                          {"scores", json(calibration.scores)},
                          {"history", historyJson(calibration)},
                          {"session", sessionJson(calibration)},
-                         {"temperature", temperatureJson(calibration)}};
+                         {"temperature", temperatureJson(calibration)},
+                         {"error_budget", budgetJson(calibration.budget)}};
   return dump(document);
 }
 

@@ -12,6 +12,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "regression/option_names.h"
 #include "regression/regressors.h"
+#include "report/budget_report.h"
 #include "report/calibration_check_report.h"
 #include "report/calibration_report.h"
 #include "report/history_report.h"
@@ -36,11 +37,14 @@ std::string list(const std::vector<std::string>& names) {
 
 fsr::settings::CommandLine options() {
   fsr::settings::CommandLine line(
-      "train", "BAG... --output FILE, or --merge CALIBRATION... --output FILE, or --check FILE BAG...",
+      "train",
+      "BAG... --output FILE, or --merge CALIBRATION... --output FILE, or --check FILE BAG..., or --budget "
+      "FILE",
       "Trains a calibration from bags of a matrix in a pressure chamber. It uses the topics raw, "
       "chamber_pressure and curvature, and matrix_info and temperature if they were recorded.");
   line.output("output", "FILE", "calibration file to write (HDF5)")
       .input("check", "FILE", "test this calibration on the bags instead: is it still good?")
+      .input("budget", "FILE", "print the error budget that this calibration holds, and do nothing else")
       .flag("merge",
             "merge calibration files: gives what training on all their bags would give, without scores")
       .option("scheme", "NAME",
@@ -58,6 +62,9 @@ fsr::settings::CommandLine options() {
           "temperature", "NAME",
           "factor for the temperature of the sheet, with a lag: auto (with a thermometer, where it wins on "
           "protocols and bags that were left out) or none; default auto, and none with --history none")
+      .option("transducer", "PA",
+              "standard uncertainty of the chamber's transducer, with its constant error, for the error "
+              "budget [Pa]; default: not assessed")
       .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
       .option("namespace", "NS", "namespace of the sensor, if a bag holds several")
       .option(
@@ -144,6 +151,7 @@ fsr::calibration::CalibrationOptions calibrationOptions(const fsr::settings::Com
   options.history = historyOption(line.text("history", "auto"), remark);
   if (!remark.empty()) out << remark << '\n';
   options.temperature = temperatureOption(line.text("temperature", ""), options.history);
+  if (line.has("transducer")) options.reference_deviation = line.number("transducer", 0, {0, 1e7, "Pa"});
   return options;
 }
 
@@ -172,6 +180,17 @@ int check(const fsr::settings::CommandLine& line, std::ostream& out) {
   for (const std::string& sentence : calibration.provenance.conditioning)
     out << "Trained with " << sentence << '\n';
   out << fsr::report::checkText(fsr::calibration::checkCalibration(calibration, readBags(line)));
+  return 0;
+}
+
+int showBudget(const fsr::settings::CommandLine& line, std::ostream& out) {
+  if (!line.files().empty() || line.has("output"))
+    throw fsr::settings::InputError("--budget prints what the file holds; remove the bags and --output");
+  const fsr::calibration::Calibration calibration = fsr::calibration::loadCalibration(
+      line.text("budget", ""), fsr::calibration::CalibrationParts::kWithoutStatistics);
+  out << "Calibration " << calibration.id << " (" << fsr::compensation::schemeName(calibration.tables.scheme)
+      << ", " << calibration.provenance.date << ")\n"
+      << fsr::report::budgetText(calibration.budget, calibration.layout);
   return 0;
 }
 
@@ -216,6 +235,8 @@ fsr::calibration::Calibration train(const fsr::settings::CommandLine& line, std:
       << fsr::report::scoresText(calibration.scores, calibration.layout)
       << fsr::report::sessionText(calibration.scores.session) << fsr::report::temperatureText(calibration)
       << fsr::report::historyText(calibration) << fsr::report::learnedText(calibration);
+  if (calibration.budget.present())
+    out << '\n' << fsr::report::budgetText(calibration.budget, calibration.layout);
   return calibration;
 }
 
@@ -227,6 +248,7 @@ int trainTool(int argc, const char* const* argv, std::ostream& out) {
     out << line.help();
     return 0;
   }
+  if (line.has("budget")) return showBudget(line, out);
   if (line.has("check")) return check(line, out);
   const std::string output = line.requiredText("output");
   const std::string report = line.text("report", "");
