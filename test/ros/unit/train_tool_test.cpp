@@ -290,6 +290,21 @@ TEST_F(TrainTool, AFailureOverwritesNothing) {
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "the old one");
 }
 
+TEST_F(TrainTool, PrintsTheErrorBudgetOfAFileAgain) {
+  const std::string output = (folder_ / "calibration.h5").string();
+  const std::string trained = run({bend_, "--output", output, "--transducer", "1500"});
+  const std::string again = run({"--budget", output});
+  const std::size_t start = again.find("Error budget [kPa]");
+  ASSERT_NE(start, std::string::npos) << again;
+  EXPECT_NE(trained.find(again.substr(start)), std::string::npos) << trained;
+  EXPECT_NE(again.find("transducer of the chamber        1.50     1.50     1.50  declared"),
+            std::string::npos)
+      << again;
+  EXPECT_EQ(run({"--budget", output, bend_}),
+            "--budget prints what the file holds; remove the bags and --output");
+  EXPECT_NE(run({bend_, "--output", output, "--transducer", "-1"}).find("--transducer"), std::string::npos);
+}
+
 TEST_F(TrainTool, ChecksACalibrationOnNewBags) {
   const std::string output = (folder_ / "calibration.h5").string();
   run({bend_, "--output", output, "--no-scores", "--bandwidth", "0.05"});
