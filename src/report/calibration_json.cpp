@@ -11,8 +11,6 @@ namespace {
 
 using report::json;  // the overloads of result_json.h
 
-using report::json;  // the overloads of result_json.h
-
 Json json(const calibration::TrainedInterval& interval) {
   return Json::array({interval.low, interval.high});
 }
@@ -92,6 +90,25 @@ Json model(const calibration::Calibration& calibration) {
   return model;
 }
 
+Json json(const calibration::Correction& correction) {
+  if (!correction.present()) return nullptr;
+  Json bags = Json::array();
+  for (const calibration::SourceBag& bag : correction.bags)
+    bags.push_back({{"name", bag.name}, {"sha256", bag.sha256}, {"scans", bag.scans}});
+  return {{"parent", correction.parent},
+          {"parent_date", correction.parent_date},
+          {"date", correction.date},
+          {"by_taxel", correction.by_taxel},
+          {"gain", correction.gain},
+          {"offset_counts", correction.offset},
+          {"surfaces", correction.surfaces},
+          {"bags", bags},
+          {"cycles", correction.cycles},
+          {"expected_rmse", correction.expected_rmse},
+          {"rmse_before", correction.rmse_before},
+          {"rmse", correction.rmse}};
+}
+
 }  // namespace
 
 std::string calibrationJson(const calibration::Calibration& calibration) {
@@ -117,6 +134,7 @@ std::string calibrationJson(const calibration::Calibration& calibration) {
                            {"curvature", json(trained.curvature)},
                            {"temperature", json(trained.temperature)}}},
                          {"provenance", json(calibration.provenance)},
+                         {"correction", json(calibration.correction)},
                          {"warnings", calibration.warnings},
                          {"coverage", json(calibration.coverage)},
                          {"scores", json(calibration.scores)},

@@ -213,6 +213,29 @@ struct SessionZero {
   bool expected() const { return tare != SessionTare::kNone; }
 };
 
+/// How a calibration was made from another one, its parent, after the sheet or the board had changed. Where
+/// the sheet reads `reading` today, it read (reading - offset) / gain when the parent was trained, and the
+/// tables answer to `reading` what those of the parent answer to that.
+struct Correction {
+  std::string parent;       ///< id of the parent; empty = the calibration was trained, not corrected
+  std::string parent_date;  ///< of its training, ISO 8601, UTC
+  std::string date;         ///< of the correction, ISO 8601, UTC
+  std::string tool_version;
+  bool by_taxel = false;                ///< false: gain and offset of all taxels are the same
+  std::vector<double> gain;             ///< [taxels], ratio
+  std::vector<double> offset;           ///< [taxels] [counts]
+  std::vector<std::string> surfaces{};  ///< on which the sheet was rechecked
+  std::vector<SourceBag> bags{};        ///< of the recheck
+  std::uint64_t cycles = 0;             ///< of the recheck
+  /// Of the recheck's readings: what the parent stated, what it had, and the error of the corrected answer to
+  /// cycles that were left out [Pa].
+  double expected_rmse = std::numeric_limits<double>::quiet_NaN();
+  double rmse_before = std::numeric_limits<double>::quiet_NaN();
+  double rmse = std::numeric_limits<double>::quiet_NaN();
+
+  bool present() const { return !parent.empty(); }
+};
+
 /// Everything that converts scans to pressure, with its accuracy.
 struct Calibration {
   std::string id;  ///< first hex digits of the hash of its file; empty until it is saved or loaded
@@ -235,6 +258,7 @@ struct Calibration {
   CalibrationScores scores;
   ErrorBudget budget;  ///< absent where scores were not computed
   Provenance provenance;
+  Correction correction;  ///< scores, coverage and provenance of a corrected calibration are its parent's
   /// Sums behind the tables, from which merging trains anew. Null: the file was loaded without them.
   std::shared_ptr<const compensation::TrainingStatistics> statistics;
   std::vector<std::string> warnings;  ///< sentences for the user

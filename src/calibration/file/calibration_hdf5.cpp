@@ -151,6 +151,7 @@ void writeCalibration(const Calibration& calibration, hdf5::Writer& writer) {
   writeLayout(calibration, writer);
   writeTrained(calibration.trained, writer);
   writeProvenance(calibration, writer);
+  writeCorrection(calibration.correction, writer);
   writeTables(calibration.tables, writer);
   writeRule(calibration.tables, writer);
   writeHistory(calibration.history, writer);
@@ -185,6 +186,7 @@ Calibration readCalibration(const hdf5::Reader& reader, std::uint64_t schema, Ca
   }
   calibration.trained = readTrained(reader);
   calibration.provenance = readProvenance(reader);
+  calibration.correction = readCorrection(reader, calibration.layout.size);
   calibration.warnings = reader.texts("/provenance/warnings");
   calibration.tables = readTables(reader, calibration.layout.size);
   if (schema >= kFirstSchemaWithRule) readRule(reader, calibration.tables);

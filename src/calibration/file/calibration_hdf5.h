@@ -16,6 +16,8 @@ namespace fsr::calibration {
 //     /layout      attributes rows, columns, pitch_x [m], pitch_y [m]; no_model, masked [taxels]
 //     /trained     attributes pressure, pressure_rate, curvature, temperature: lowest, highest
 //     /provenance  attributes tool_version, date, seed; bags, sha256, scans [bags]; warnings; conditioning
+//     /correction  attributes parent, parent_date, date, tool_version, by_taxel, cycles, expected_rmse, ...;
+//                  gain, offset [taxels], surfaces, bags, sha256, scans (absent where nothing was corrected)
 //     /tables      surfaces [models], curvature [models x (1 or taxels)],
 //                  pressure, deviation, support [taxels x models x codes], trained_codes [taxels x models x
 //                  2]
@@ -61,6 +63,8 @@ Calibration readCalibration(const hdf5::Reader& reader, std::uint64_t schema, Ca
 // Each part has its own source file.
 void writeModel(const Calibration& calibration, hdf5::Writer& writer);
 void readModel(const hdf5::Reader& reader, Calibration& calibration);
+void writeCorrection(const Correction& correction, hdf5::Writer& writer);
+Correction readCorrection(const hdf5::Reader& reader, matrix::MatrixSize size);
 void writeTables(const compensation::CurvatureTables& tables, hdf5::Writer& writer);
 compensation::CurvatureTables readTables(const hdf5::Reader& reader, matrix::MatrixSize size);
 void writeRule(const compensation::CurvatureTables& tables, hdf5::Writer& writer);

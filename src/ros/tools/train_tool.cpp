@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "calibration/calibration_check.h"
+#include "calibration/correction/recheck.h"
 #include "calibration/merge.h"
 #include "dataset/conditioning.h"
 #include "fsr_pressure_map/calibration/calibration.h"
@@ -16,6 +17,7 @@
 #include "report/calibration_check_report.h"
 #include "report/calibration_report.h"
 #include "report/history_report.h"
+#include "report/recheck_report.h"
 #include "report/session_report.h"
 #include "ros/bags/bag_topics.h"
 #include "ros/bags/bag_walk.h"
@@ -38,13 +40,16 @@ std::string list(const std::vector<std::string>& names) {
 fsr::settings::CommandLine options() {
   fsr::settings::CommandLine line(
       "train",
-      "BAG... --output FILE, or --merge CALIBRATION... --output FILE, or --check FILE BAG..., or --budget "
-      "FILE",
+      "BAG... --output FILE, or --merge CALIBRATION... --output FILE, or --check FILE BAG..., or --correct "
+      "FILE BAG... --output CHILD, or --budget FILE",
       "Trains a calibration from bags of a matrix in a pressure chamber. It uses the topics raw, "
       "chamber_pressure and curvature, and matrix_info and temperature if they were recorded.");
   line.output("output", "FILE", "calibration file to write (HDF5)")
       .input("check", "FILE", "test this calibration on the bags instead: is it still good?")
       .input("budget", "FILE", "print the error budget that this calibration holds, and do nothing else")
+      .input("correct", "FILE",
+             "recheck this calibration on a few cycles on one surface instead: still good, corrected or "
+             "recalibrate; --output is written only if it is corrected")
       .flag("merge",
             "merge calibration files: gives what training on all their bags would give, without scores")
       .option("scheme", "NAME",
@@ -194,19 +199,57 @@ int showBudget(const fsr::settings::CommandLine& line, std::ostream& out) {
   return 0;
 }
 
-// Throws if an option is given that merging takes from the files.
-void refuseOptionsOfTraining(const fsr::settings::CommandLine& line) {
+// Throws if an option is given that `mode` takes from the files.
+void refuseOptionsOfTraining(const fsr::settings::CommandLine& line, const std::string& mode) {
   for (const char* const option :
        {"scheme", "history", "zero", "temperature", "model", "bandwidth", "spread", "distance", "equal-bins",
-        "trees", "minimum-leaf", "leaf-rule", "folds", "seed", "ambient", "namespace"}) {
+        "trees", "minimum-leaf", "leaf-rule", "folds", "seed"}) {
+    if (!line.has(option)) continue;
+    throw fsr::settings::InputError("--" + std::string(option) + " cannot be used with --" + mode +
+                                    ", because the files determine it");
+  }
+}
+
+// --correct.
+int correct(const fsr::settings::CommandLine& line, std::ostream& out) {
+  refuseOptionsOfTraining(line, "correct");
+  for (const char* const option : {"merge", "no-scores"}) {
+    if (line.has(option))
+      throw fsr::settings::InputError("--" + std::string(option) +
+                                      " cannot be used with --correct; remove it");
+  }
+  const std::string output = line.text("output", ""), report = line.text("report", "");
+  for (const std::string& path : {output, report}) {
+    if (!path.empty()) fsr::settings::requireReplaceable(path);
+  }
+  const fsr::calibration::Calibration parent = fsr::calibration::loadCalibration(line.text("correct", ""));
+  out << "Calibration " << parent.id << " (" << fsr::compensation::schemeName(parent.tables.scheme) << ", "
+      << parent.provenance.date << "), rechecked on " << line.files().size()
+      << (line.files().size() == 1 ? " bag\n" : " bags\n");
+  const fsr::calibration::Recheck recheck = fsr::calibration::recheckCalibration(parent, readBags(line));
+  out << fsr::report::recheckText(recheck);
+  std::string child;
+  if (recheck.child && !output.empty()) {
+    child = fsr::calibration::saveCalibration(*recheck.child, output);
+    out << "Calibration " << child << " (" << fsr::report::correctionText(recheck.child->correction)
+        << ") written to " << fullPath(output) << std::endl;
+  } else if (!output.empty()) {
+    out << "No calibration was written to " << fullPath(output) << std::endl;
+  }
+  if (!report.empty()) {
+    fsr::settings::replaceFile(report, fsr::report::recheckJson(recheck, parent.id, child));
+    out << "Report written to " << fullPath(report) << std::endl;
+  }
+  return 0;
+}
+
+fsr::calibration::Calibration merge(const fsr::settings::CommandLine& line, std::ostream& out) {
+  refuseOptionsOfTraining(line, "merge");
+  for (const char* const option : {"ambient", "namespace"}) {
     if (!line.has(option)) continue;
     throw fsr::settings::InputError("--" + std::string(option) +
                                     " cannot be used with --merge, because the files determine it");
   }
-}
-
-fsr::calibration::Calibration merge(const fsr::settings::CommandLine& line, std::ostream& out) {
-  refuseOptionsOfTraining(line);
   std::vector<fsr::calibration::MergePart> parts;
   for (const std::string& path : line.files()) {
     parts.push_back(
@@ -249,7 +292,10 @@ int trainTool(int argc, const char* const* argv, std::ostream& out) {
     return 0;
   }
   if (line.has("budget")) return showBudget(line, out);
+  if (line.has("check") && line.has("correct"))
+    throw fsr::settings::InputError("--check and --correct cannot be used together; remove one of them");
   if (line.has("check")) return check(line, out);
+  if (line.has("correct")) return correct(line, out);
   const std::string output = line.requiredText("output");
   const std::string report = line.text("report", "");
   fsr::settings::requireReplaceable(output);

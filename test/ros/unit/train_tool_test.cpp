@@ -318,6 +318,43 @@ TEST_F(TrainTool, ChecksACalibrationOnNewBags) {
             "--check writes no calibration; remove --output");
 }
 
+TEST_F(TrainTool, CorrectsAWornSheetOnce) {
+  const std::string output = (folder_ / "calibration.h5").string();
+  const std::string child = (folder_ / "child.h5").string(), report = (folder_ / "recheck.json").string();
+  run({bend_, "--output", output, "--no-scores", "--bandwidth", "0.05"});
+  const std::string good = run({"--correct", output, bend_, "--output", child});
+  EXPECT_NE(good.find("Still good: "), std::string::npos) << good;
+  EXPECT_NE(good.find("No calibration was written to " + child), std::string::npos) << good;
+  EXPECT_FALSE(fs::exists(child));
+  test_support::SyntheticRig rig;
+  rig.surfaces = {{"cylinder_7cm", 14.25}};
+  fsr::dataset::Recording worn = test_support::syntheticRecording(rig);
+  for (std::uint16_t& count : worn.counts) count = static_cast<std::uint16_t>(0.9 * count + 30);
+  worn.start_ns = 1600000000000000000;
+  const std::string bag = (folder_ / "worn.bag").string();
+  writeBag(bag, worn);
+  const std::string text = run({"--correct", output, bag, "--output", child, "--report", report});
+  const fsr::calibration::Calibration parent = fsr::calibration::loadCalibration(output);
+  const fsr::calibration::Calibration corrected = fsr::calibration::loadCalibration(child);
+  EXPECT_NE(text.find("Corrected: on cycles that were left out"), std::string::npos) << text;
+  EXPECT_NE(text.find("Calibration " + corrected.id + " (corrected on "), std::string::npos) << text;
+  EXPECT_EQ(corrected.correction.parent, parent.id);
+  ASSERT_EQ(corrected.correction.bags.size(), 1u);
+  EXPECT_EQ(corrected.correction.bags[0].name, "worn.bag");
+  EXPECT_EQ(corrected.correction.bags[0].sha256.size(), 64u);
+  std::ifstream file(report);
+  const std::string json(std::istreambuf_iterator<char>(file), {});
+  EXPECT_NE(json.find("\"verdict\": \"corrected\""), std::string::npos) << json;
+  EXPECT_NE(json.find("\"child\": \"" + corrected.id + "\""), std::string::npos) << json;
+  EXPECT_EQ(run({"--correct", child, bag}), "calibration " + corrected.id + " is itself a correction of " +
+                                                parent.id +
+                                                "; correct that one again with the new bags, or train anew");
+  EXPECT_EQ(run({"--correct", output, bag, "--model", "linear"}),
+            "--model cannot be used with --correct, because the files determine it");
+  EXPECT_EQ(run({"--correct", output, "--check", output, bag}),
+            "--check and --correct cannot be used together; remove one of them");
+}
+
 TEST_F(TrainTool, WrongUsageIsOneSentence) {
   const std::string output = (folder_ / "calibration.h5").string();
   EXPECT_EQ(run({bend_}), "--output FILE is missing; see train --help");

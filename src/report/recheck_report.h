@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "calibration/correction/recheck.h"
+#include "fsr_pressure_map/calibration/calibration.h"
+
+namespace fsr::report {
+
+/// A recheck for the terminal: errors of each model on cycles that were left out, gain and offset, the
+/// verdict and its reasons.
+std::string recheckText(const calibration::Recheck& recheck);
+
+/// The same as indented JSON, numbers in SI and counts. `child`: id of the file that was written; empty =
+/// none.
+std::string recheckJson(const calibration::Recheck& recheck, const std::string& parent,
+                        const std::string& child);
+
+/// "corrected on 2026-11-23 from 3f2a01c4d5e6"; "" for a calibration that was trained.
+std::string correctionText(const calibration::Correction& correction);
+
+}  // namespace fsr::report
