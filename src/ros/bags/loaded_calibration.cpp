@@ -5,6 +5,7 @@
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "report/recheck_report.h"
 
 namespace fsr_ros {
 
@@ -48,10 +49,19 @@ fsr_pressure_map::CalibrationInfo toMessage(const fsr::calibration::Calibration&
   info.curvature_high = calibration.trained.curvature.high;
   info.pressure_rate_low = calibration.trained.pressure_rate.low;
   info.pressure_rate_high = calibration.trained.pressure_rate.high;
+  info.parent = calibration.correction.parent;
+  info.corrected = calibration.correction.date;
   for (const auto& curvature_class : calibration.tables.classes) {
     info.class_curvatures.push_back(meanCurvature(curvature_class));
   }
   return info;
+}
+
+std::string correctionText(const fsr_pressure_map::CalibrationInfo& info) {
+  fsr::calibration::Correction correction;
+  correction.parent = info.parent;
+  correction.date = info.corrected;
+  return fsr::report::correctionText(correction);
 }
 
 std::string describe(const LoadedCalibration& loaded) {
@@ -62,6 +72,7 @@ std::string describe(const LoadedCalibration& loaded) {
        << size.columns << " taxels, trained from " << info.curvature_low << " to " << info.curvature_high
        << " 1/m in " << info.class_curvatures.size()
        << (info.class_curvatures.size() == 1 ? " class" : " classes");
+  if (!info.parent.empty()) text << ", " << correctionText(info);
   return text.str();
 }
 

@@ -34,6 +34,9 @@ std::unique_ptr<LoadedCalibration> loadForUse(const std::string& path,
 fsr_pressure_map::CalibrationInfo toMessage(const fsr::calibration::Calibration& calibration,
                                             const std::string& path);
 
+/// "corrected on 2026-11-23 from 3f2a01c4d5e6"; "" for a calibration that was trained.
+std::string correctionText(const fsr_pressure_map::CalibrationInfo& info);
+
 /// One line for the log: "per_curvature (grnn), id 3f2a..., 7 x 10 taxels, trained from 0 to 20 1/m in 6
 /// classes".
 std::string describe(const LoadedCalibration& loaded);

@@ -1,5 +1,6 @@
 #include "ros/messages/earlier_definitions.h"
 
+#include <cstddef>
 #include <set>
 #include <utility>
 
@@ -11,6 +12,13 @@ bool hadDefinition(const std::string& type, const std::string& md5sum) {
       {"fsr_pressure_map/PressureMap", "50c65025fc4b01118cf4b0ef3469834e"},
   };
   return definitions.count({type, md5sum}) > 0;
+}
+
+std::size_t fieldsAdded(const std::string& type, const std::string& md5sum) {
+  // Without parent and corrected.
+  const bool info =
+      type == "fsr_pressure_map/CalibrationInfo" && md5sum == "883c2521a8e1943b05728716309ddb06";
+  return info ? 2 : 0;
 }
 
 }  // namespace fsr_ros

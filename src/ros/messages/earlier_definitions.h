@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace fsr_ros {
@@ -9,5 +10,10 @@ namespace fsr_ros {
 /// same, so bags with such definitions are read as they are. The rules in migration/ tell `rosbag fix` how to
 /// convert them for programs that compare the sums, e.g. nodes that subscribe to what `rosbag play` plays.
 bool hadDefinition(const std::string& type, const std::string& md5sum);
+
+/// Number of texts that were added at the end of a message type since it had the definition of this MD5 sum;
+/// 0 = it never had this definition, or nothing was added. Recorded bytes are read with so many empty texts
+/// behind them.
+std::size_t fieldsAdded(const std::string& type, const std::string& md5sum);
 
 }  // namespace fsr_ros

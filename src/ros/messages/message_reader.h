@@ -15,12 +15,13 @@
 
 namespace fsr_ros {
 
-/// Whether messages that were recorded with this definition can be read as `Message`: the definition is the
-/// present one, or an earlier one with the same fields.
+/// Whether MessageReader reads messages that were recorded with this definition as `Message`: the definition
+/// is the present one, or an earlier one with the same fields or without the last ones.
 template <typename Message>
 bool isReadable(const std::string& md5sum) {
   return md5sum == ros::message_traits::md5sum<Message>() ||
-         hadDefinition(ros::message_traits::datatype<Message>(), md5sum);
+         hadDefinition(ros::message_traits::datatype<Message>(), md5sum) ||
+         fieldsAdded(ros::message_traits::datatype<Message>(), md5sum) > 0;
 }
 
 /// Throws fsr::InputError if the topic was recorded with another definition of its message type, unless it is
@@ -56,7 +57,15 @@ class MessageReader {
                       std::size_t size) {
     requireDefinition<Message>(topic, md5sum);
     Message message;
-    readMessage(data, size, message);
+    constexpr std::size_t kEmptyText = sizeof(std::uint32_t);  // its length, 0
+    const std::size_t added = fieldsAdded(ros::message_traits::datatype<Message>(), md5sum);
+    if (added == 0) {
+      readMessage(data, size, message);
+      return message;
+    }
+    std::vector<std::uint8_t> whole(data, data + size);
+    whole.resize(size + added * kEmptyText, 0);
+    readMessage(whole.data(), whole.size(), message);
     return message;
   }
 

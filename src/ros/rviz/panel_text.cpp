@@ -8,6 +8,7 @@
 #include "fsr_pressure_map/map/region.h"
 #include "fsr_pressure_map/ros/pressure_map_message.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/bags/loaded_calibration.h"
 #include "ros/live/calibration_health.h"
 #include "ros/messages/surface_markers.h"
 #include "ros/rviz/display_status.h"
@@ -79,6 +80,10 @@ QString mapRemark(const fsr_pressure_map::PressureMapConstPtr& map) {
   });
   const std::string settling = fsr::view::settlingText(fsr::map::unsettledShare(map->pressure, map->flags));
   return (tared ? QString(", tared") : QString()) + (settling.empty() ? QString() : ", " + text(settling));
+}
+
+QString correctionRemark(const fsr_pressure_map::CalibrationInfo& info) {
+  return info.parent.empty() ? QString() : ", " + text(fsr_ros::correctionText(info));
 }
 
 PanelLine alarmLine(const fsr_pressure_map::PressureStatisticsArrayConstPtr& statistics,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <fsr_pressure_map/CalibrationInfo.h>
 #include <fsr_pressure_map/Instruction.h>
 #include <fsr_pressure_map/PressureMap.h>
 #include <fsr_pressure_map/PressureStatisticsArray.h>
@@ -37,6 +38,10 @@ QString peakText(const fsr_pressure_map::PressureStatistics& whole,
 /// What the line "Calibration" says about the map: ", tared" if a tare is subtracted from any taxel, and
 /// ", history not settled: static answer" while that is so. Empty without a map.
 QString mapRemark(const fsr_pressure_map::PressureMapConstPtr& map);
+
+/// What the line "Calibration" says about its origin: ", corrected on 2026-11-23 from 3f2a01c4d5e6". Empty if
+/// it was trained.
+QString correctionRemark(const fsr_pressure_map::CalibrationInfo& info);
 
 /// A line of the panel that may catch the eye.
 struct PanelLine {

@@ -302,6 +302,7 @@ void PressurePanel::refresh() {
   const auto& calibration = last_calibration_.message;
   calibration_->setText(calibration && !calibration->id.empty()
                             ? text(calibration->scheme) + ", " + text(calibration->id.substr(0, 12)) +
+                                  correctionRemark(*calibration) +
                                   mapRemark(last_map_.fresh() ? last_map_.message : nullptr)
                             : QString("none"));
   calibration_->setToolTip(calibration ? QString::fromStdString(calibration->id) : QString());

@@ -316,7 +316,7 @@ TEST_F(Panel, TaresTheSheet) {
   EXPECT_TRUE(runUntil([&] { return says("Calibration", ", tared"); })) << label("Calibration");
 }
 
-TEST_F(Panel, SaysThatTheHistoryIsNotSettled) {
+TEST_F(Panel, SaysThatTheHistoryIsNotSettledAndOfWhatACalibrationIsACorrection) {
   ros::NodeHandle handle;
   const auto maps = handle.advertise<fsr_pressure_map::PressureMap>("/settling/pressure_map", 10);
   const auto infos = handle.advertise<fsr_pressure_map::CalibrationInfo>("/settling/calibration_info", 10);
@@ -342,6 +342,10 @@ TEST_F(Panel, SaysThatTheHistoryIsNotSettled) {
       << label("Calibration");
   map.flags.assign(4, 0);
   EXPECT_TRUE(runUntil([&] { return shown(""); })) << label("Calibration");
+  info.parent = "ba9876543210";
+  info.corrected = "2026-11-23T14:05:00Z";
+  EXPECT_TRUE(runUntil([&] { return shown(", corrected on 2026-11-23 from ba9876543210"); }))
+      << label("Calibration");
 }
 
 TEST_F(Panel, SaysHowToMaskTaxels) {

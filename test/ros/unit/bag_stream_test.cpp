@@ -1,5 +1,6 @@
 #include "ros/bags/bag_stream.h"
 
+#include <fsr_pressure_map/CalibrationInfo.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "support/pty.h"
+#include "support/source_dir.h"
 
 namespace fsr_ros {
 namespace {
@@ -124,6 +126,27 @@ TEST_F(BagStreamTest, TellsHowMuchIsDone) {
   ASSERT_FALSE(shares.empty());
   EXPECT_GE(shares.front(), 0);
   EXPECT_LE(shares.back(), 1);
+}
+
+// The bag was recorded before CalibrationInfo had parent and corrected.
+TEST(BagStreamOfAnEarlierVersion, HasACalibrationWithoutAParent) {
+  const std::string old = test_support::sourceDir() + "/test/data/indenter_map.bag";
+  std::vector<fsr_pressure_map::CalibrationInfo> read;
+  withBagStream(old, [&](const BagStream& bag) {
+    StreamQuery query;
+    query.topics = {"/fsr/calibration_info"};
+    bag.forEach(query, [&](const StreamedMessage& message) {
+      EXPECT_NE(message.about.md5sum, ros::message_traits::md5sum<fsr_pressure_map::CalibrationInfo>());
+      read.push_back(readStreamed<fsr_pressure_map::CalibrationInfo>(message));
+      return true;
+    });
+  });
+  ASSERT_FALSE(read.empty());
+  EXPECT_EQ(read[0].scheme, "per_curvature");
+  EXPECT_GT(read[0].pressure_high, 600e3);
+  EXPECT_FALSE(read[0].class_curvatures.empty());
+  EXPECT_EQ(read[0].parent, "");
+  EXPECT_EQ(read[0].corrected, "");
 }
 
 }  // namespace

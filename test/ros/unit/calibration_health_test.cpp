@@ -45,6 +45,18 @@ TEST(CalibrationHealth, IsOkWhenMapsAreCalibrated) {
   EXPECT_EQ(valueOf(status, "peak in contact, gauge [kPa]"), "30");
 }
 
+TEST(CalibrationHealth, SaysOfWhatTheCalibrationIsACorrection) {
+  CalibrationHealth health = healthy();
+  Status trained, corrected;
+  judgeCalibration(health, trained);
+  EXPECT_EQ(valueOf(trained, "correction"), "none");
+  health.info.parent = "0123456789ab";
+  health.info.corrected = "2026-11-23T14:05:00Z";
+  judgeCalibration(health, corrected);
+  EXPECT_EQ(corrected.level, Level::OK);
+  EXPECT_EQ(valueOf(corrected, "correction"), "corrected on 2026-11-23 from 0123456789ab");
+}
+
 TEST(CalibrationHealth, WarnsOfATemperatureBeyondTraining) {
   CalibrationHealth health = healthy();
   health.temperature = 40;
