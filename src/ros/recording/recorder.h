@@ -41,6 +41,9 @@ class Recorder {
   /// Writes what was received and closes the bag.
   void finish();
 
+  /// The bag, under its name of now.
+  std::string file() const { return sink_->report().file; }
+
   /// Whether the recording stopped by itself, or could not be closed.
   bool failed() const { return failed_; }
 

@@ -1,0 +1,159 @@
+#include "ros/recording/rechecker.h"
+
+#include <fsr_pressure_map/CalibrationInfo.h>
+#include <ros/callback_queue.h>
+
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <sstream>
+
+#include "calibration/correction/recheck.h"
+#include "fsr_pressure_map/calibration/calibration_file.h"
+#include "fsr_pressure_map/ros/bag_reader.h"
+#include "fsr_pressure_map/settings/input_error.h"
+#include "report/recheck_report.h"
+#include "ros/bags/resource_path.h"
+#include "settings/replace_file.h"
+
+namespace fsr_ros {
+
+namespace {
+
+constexpr double kStill = 3.0;        // wall time without a change after which the last cycle has ended [s]
+constexpr double kStillShare = 0.02;  // share of the least span that is no change
+constexpr double kPatience = 5.0;     // for the description of the calibration node [s]
+constexpr std::uint32_t kQueue = 10000;
+constexpr const char* kTopics[] = {"raw",       "chamber_pressure", "temperature", "matrix_info",
+                                   "curvature", "session",          "events"};
+
+std::string withoutExtension(const std::string& path) {
+  const std::filesystem::path file(path);
+  return (file.parent_path() / file.stem()).string();
+}
+
+// "2026-11-23-14-05-00", local time, as rosbag names its bags.
+std::string dateText() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  char text[32];
+  std::strftime(text, sizeof(text), "%Y-%m-%d-%H-%M-%S", &local);
+  return text;
+}
+
+std::string runningCalibration(ros::NodeHandle handle, const Parameters& parameters) {
+  const auto info = ros::topic::waitForMessage<fsr_pressure_map::CalibrationInfo>("calibration_info", handle,
+                                                                                  ros::Duration(kPatience));
+  if (info && !info->path.empty()) return info->path;
+  throw parameters.error("calibration", "must name a calibration file, because no calibration node runs");
+}
+
+}  // namespace
+
+Rechecker::Rechecker(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
+    : handle_(handle), changed_(ros::WallTime::now()) {
+  const Parameters parameters(private_handle);
+  std::string path = resolveLaunchPath(parameters.text("calibration", ""));
+  if (path.empty()) path = runningCalibration(handle, parameters);
+  output_ = resolveLaunchPath(parameters.text("output", ""));
+  if (output_.empty()) output_ = withoutExtension(path) + "_corrected.h5";
+  report_ = resolveLaunchPath(parameters.text("report", ""));
+  std::istringstream bags(parameters.text("bags", ""));
+  for (std::string bag; bags >> bag;) bags_.push_back(resolveLaunchPath(bag));
+  const double ambient = parameters.number("ambient_pressure", -1, {-1, 120e3, "Pa"});
+  if (ambient >= 0) ambient_ = ambient;
+  const double least = static_cast<double>(fsr::calibration::kLeastCycles);
+  wanted_ = static_cast<std::size_t>(parameters.integer("cycles", 5, {least, 1000, ""}));
+  parent_ = fsr::calibration::loadCalibration(path);
+  fsr::calibration::requireTrained(parent_);
+  fsr::settings::requireReplaceable(output_);
+  if (!report_.empty()) fsr::settings::requireReplaceable(report_);
+  ROS_INFO_STREAM("calibration " << parent_.id << " of " << path << " is rechecked");
+  if (bags_.empty()) startRecording(private_handle);
+}
+
+// The recorder reads its parameters in a namespace of its own.
+void Rechecker::startRecording(const ros::NodeHandle& private_handle) {
+  const Parameters parameters(private_handle);
+  std::string bag = resolveLaunchPath(parameters.text("bag", ""));
+  if (bag.empty()) bag = rosHome() + "/recheck_" + dateText();
+  std::string topics;
+  for (const char* const topic : kTopics) topics += handle_.resolveName(topic) + " ";
+  const ros::NodeHandle recording(private_handle, "record");
+  recording.setParam("bag", bag);
+  recording.setParam("topics", topics);
+  recording.setParam("scans", handle_.resolveName("raw"));
+  recording.setParam("wait", parameters.number("wait", 10, {0.1, 3600, "s"}));
+  recording.setParam("min_space", parameters.number("min_space", 200, {0, 1e9, "MB"}));
+  recorder_ = std::make_unique<Recorder>(handle_, recording);
+  const boost::function<void(const sensor_msgs::FluidPressure&)> keep =
+      [this](const sensor_msgs::FluidPressure& message) {
+        if (std::isfinite(message.fluid_pressure)) pressure_.push_back(message.fluid_pressure);
+      };
+  chamber_ = handle_.subscribe<sensor_msgs::FluidPressure>("chamber_pressure", kQueue, keep);
+  timer_ =
+      handle_.createWallTimer(ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) { countCycles(); });
+  ROS_INFO_STREAM("load the sheet to " << std::lround(parent_.trained.pressure.high / 1000)
+                                       << " kPa and unload it, " << wanted_
+                                       << " times; Ctrl-C ends the recording early");
+}
+
+void Rechecker::countCycles() {
+  if (pressure_.empty()) return;
+  const double least = fsr::calibration::leastCycleSpan(parent_);
+  const std::size_t before = cycles_;
+  cycles_ = fsr::calibration::countCycles(pressure_, least, running_);
+  const bool moved = std::abs(pressure_.back() - still_) > kStillShare * least;
+  if (moved || cycles_ != before) changed_ = ros::WallTime::now();
+  if (moved) still_ = pressure_.back();
+  const std::size_t ended = cycles_ - (running_ ? 1 : 0);
+  ROS_INFO_STREAM_THROTTLE(10, ended << " of " << wanted_ << " cycles");
+}
+
+// The last cycle has ended when the next one begins, or when the pressure stays low.
+bool Rechecker::enough() const {
+  const bool still = (ros::WallTime::now() - changed_).toSec() > kStill;
+  return cycles_ - (running_ && !still ? 1 : 0) >= wanted_;
+}
+
+bool Rechecker::run(std::ostream& out) {
+  if (recorder_) {
+    while (ros::ok() && !recorder_->failed() && !enough())
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
+    timer_.stop();
+    chamber_.shutdown();
+    recorder_->finish();
+    const std::string file = recorder_->file();
+    const bool failed = recorder_->failed();
+    recorder_.reset();
+    if (failed) return false;
+    bags_ = {file};
+  }
+  judge(out);
+  return true;
+}
+
+void Rechecker::judge(std::ostream& out) {
+  BagReadOptions options;
+  options.ambient_pressure = ambient_;
+  if (handle_.getNamespace() != "/") options.topics = handle_.getNamespace();
+  std::vector<fsr::dataset::Recording> recordings;
+  for (const std::string& bag : bags_) recordings.push_back(readBag(bag, options));
+  const fsr::calibration::Recheck recheck = fsr::calibration::recheckCalibration(parent_, recordings);
+  out << fsr::report::recheckText(recheck);
+  std::string child;
+  if (recheck.child) {
+    child = fsr::calibration::saveCalibration(*recheck.child, output_);
+    out << "Calibration " << child << " (" << fsr::report::correctionText(recheck.child->correction)
+        << ") written to " << output_ << "\nUse it: rosservice call "
+        << handle_.resolveName("calibration/load_calibration") << " " << output_ << '\n';
+  }
+  if (!report_.empty()) {
+    fsr::settings::replaceFile(report_, fsr::report::recheckJson(recheck, parent_.id, child));
+    out << "Report written to " << report_ << '\n';
+  }
+  out << std::flush;
+}
+
+}  // namespace fsr_ros
