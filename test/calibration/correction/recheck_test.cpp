@@ -11,7 +11,6 @@
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "report/recheck_report.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
 
@@ -69,6 +68,14 @@ Recheck recheck(const Change& change, unsigned seed = 2, bool bent = false) {
                                               {changed(syntheticRecording(rig(seed, bent)), change)});
 }
 
+// Verdict, reasons and remarks, one a line.
+std::string said(const Recheck& result) {
+  std::string text = verdictName(result.verdict);
+  for (const std::string& reason : result.reasons) text += '\n' + reason;
+  for (const std::string& remark : result.remarks) text += '\n' + remark;
+  return text;
+}
+
 double unchanged(double reading, std::size_t) {
   return reading;
 }
@@ -96,7 +103,7 @@ std::string refusalOf(const Calibration& calibration, const Recording& recording
 
 TEST(Recheck, CorrectsAPlantedGainAndOffset) {
   const Recheck result = recheck(worn);
-  ASSERT_EQ(result.verdict, RecheckVerdict::kCorrected) << fsr::report::recheckText(result);
+  ASSERT_EQ(result.verdict, RecheckVerdict::kCorrected) << said(result);
   ASSERT_TRUE(result.child.has_value());
   for (const auto& change : result.choice.changes) {
     EXPECT_NEAR(change.gain, 0.95, 0.01);
@@ -119,7 +126,7 @@ TEST(Recheck, CorrectsSurfacesThatWereNotRechecked) {
 TEST(Recheck, LeavesAnUnchangedSheetAlone) {
   for (unsigned seed = 2; seed < 12; ++seed) {
     const Recheck result = recheck(unchanged, seed);
-    EXPECT_EQ(result.verdict, RecheckVerdict::kStillGood) << seed << fsr::report::recheckText(result);
+    EXPECT_EQ(result.verdict, RecheckVerdict::kStillGood) << seed << said(result);
     EXPECT_FALSE(result.child.has_value());
     EXPECT_TRUE(result.check.still_good);
   }
@@ -130,7 +137,7 @@ TEST(Recheck, CorrectsTaxelsThatChangedDifferently) {
     return (0.85 + 0.03 * double(taxel)) * reading;
   };
   const Recheck result = recheck(by_taxel);
-  ASSERT_EQ(result.verdict, RecheckVerdict::kCorrected) << fsr::report::recheckText(result);
+  ASSERT_EQ(result.verdict, RecheckVerdict::kCorrected) << said(result);
   EXPECT_EQ(result.choice.model, ChangeModel::kTaxels);
   EXPECT_TRUE(result.child->correction.by_taxel);
   for (std::size_t taxel = 0; taxel < 6; ++taxel)
@@ -142,7 +149,7 @@ TEST(Recheck, AsksForACalibrationWhereGainAndOffsetDoNotHelp) {
     return 4095 * std::pow(reading / 4095, taxel % 2 == 0 ? 1.8 : 0.6);
   };
   const Recheck result = recheck(bent_curve);
-  EXPECT_EQ(result.verdict, RecheckVerdict::kRecalibrate) << fsr::report::recheckText(result);
+  EXPECT_EQ(result.verdict, RecheckVerdict::kRecalibrate) << said(result);
   EXPECT_FALSE(result.child.has_value());
   EXPECT_FALSE(result.reasons.empty());
 }
@@ -150,7 +157,7 @@ TEST(Recheck, AsksForACalibrationWhereGainAndOffsetDoNotHelp) {
 TEST(Recheck, AsksForACalibrationWhereATaxelIsDead) {
   const Recheck result = recheck([](double reading, std::size_t taxel) { return taxel == 4 ? 0 : reading; });
   EXPECT_EQ(result.verdict, RecheckVerdict::kRecalibrate);
-  EXPECT_NE(fsr::report::recheckText(result).find("taxels are dead: (1, 1)"), std::string::npos);
+  EXPECT_NE(said(result).find("taxels are dead: (1, 1)"), std::string::npos);
 }
 
 TEST(Recheck, DoesNotTakeAMountForWear) {
@@ -162,7 +169,7 @@ TEST(Recheck, DoesNotTakeAMountForWear) {
   const Recheck result = fsr::calibration::recheckCalibration(mounts, {recording});
   EXPECT_NEAR(result.mount, std::sqrt(40e3 * 40e3 - 10e3 * 10e3), 1);
   EXPECT_FALSE(result.child.has_value());
-  EXPECT_NE(fsr::report::recheckText(result).find("may be this mount alone"), std::string::npos);
+  EXPECT_NE(said(result).find("may be this mount alone"), std::string::npos);
   mounts.scores.remount.rmse = 10.1e3;
   EXPECT_TRUE(fsr::calibration::recheckCalibration(mounts, {recording}).child.has_value());
 }
@@ -209,10 +216,10 @@ TEST(Recheck, TaresSessionsWhereTheCalibrationExpectsIt) {
   ASSERT_FALSE(without.remarks.empty());
   EXPECT_NE(without.remarks.front().find("does not start with 2 s at rest"), std::string::npos);
   const Recheck with = fsr::calibration::recheckCalibration(tared, {withRest(plain)});
-  EXPECT_EQ(with.verdict, RecheckVerdict::kStillGood) << fsr::report::recheckText(with);
+  EXPECT_EQ(with.verdict, RecheckVerdict::kStillGood) << said(with);
   EXPECT_TRUE(with.remarks.empty());
   const Recheck of_worn = fsr::calibration::recheckCalibration(tared, {withRest(changed(plain, worn))});
-  ASSERT_TRUE(of_worn.child.has_value()) << fsr::report::recheckText(of_worn);
+  ASSERT_TRUE(of_worn.child.has_value()) << said(of_worn);
   EXPECT_NEAR(of_worn.choice.changes[0].gain, 0.95, 0.015);
 }
 
@@ -328,10 +335,10 @@ TEST_F(CorrectedFile, CannotBeMerged) {
   saveCalibration(*result.child, path);
   const Calibration loaded =
       fsr::calibration::loadCalibration(path, fsr::calibration::CalibrationParts::kAll);
-  const std::string said = refusal([&] {
+  const std::string sentence = refusal([&] {
     fsr::calibration::mergeCalibrations({{"child.h5", loaded}, {"other.h5", parent()}});
   });
-  EXPECT_NE(said.find("child.h5: holds no statistics to merge"), std::string::npos) << said;
+  EXPECT_NE(sentence.find("child.h5: holds no statistics to merge"), std::string::npos) << sentence;
 }
 
 TEST_F(CorrectedFile, OldFilesHaveNoParent) {
