@@ -119,9 +119,4 @@ std::string recheckJson(const calibration::Recheck& recheck, const std::string& 
   return dump(document);
 }
 
-std::string correctionText(const calibration::Correction& correction) {
-  if (!correction.present()) return "";
-  return "corrected on " + correction.date.substr(0, 10) + " from " + correction.parent;
-}
-
 }  // namespace fsr::report

@@ -16,7 +16,4 @@ std::string recheckText(const calibration::Recheck& recheck);
 std::string recheckJson(const calibration::Recheck& recheck, const std::string& parent,
                         const std::string& child);
 
-/// "corrected on 2026-11-23 from 3f2a01c4d5e6"; "" for a calibration that was trained.
-std::string correctionText(const calibration::Correction& correction);
-
 }  // namespace fsr::report

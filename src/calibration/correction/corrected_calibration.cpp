@@ -72,4 +72,9 @@ Calibration movedCalibration(const Calibration& parent, const std::vector<Readin
   return child;
 }
 
+std::string correctionText(const Correction& correction) {
+  if (!correction.present()) return "";
+  return "corrected on " + correction.date.substr(0, 10) + " from " + correction.parent;
+}
+
 }  // namespace fsr::calibration

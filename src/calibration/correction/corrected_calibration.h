@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "calibration/correction/correction_fit.h"
@@ -13,5 +14,8 @@ namespace fsr::calibration {
 /// readings before the change.
 Calibration movedCalibration(const Calibration& parent, const std::vector<ReadingChange>& changes,
                              double larger);
+
+/// "corrected on 2026-11-23 from 3f2a01c4d5e6"; "" for a calibration that was trained.
+std::string correctionText(const Correction& correction);
 
 }  // namespace fsr::calibration

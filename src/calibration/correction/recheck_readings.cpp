@@ -8,6 +8,7 @@
 #include "calibration/session/session_rests.h"
 #include "calibration/temperature/temperature_course.h"
 #include "compensation/temperature_state.h"
+#include "dataset/count_readers.h"
 #include "dataset/cycles.h"
 #include "dataset/sections.h"
 #include "fsr_pressure_map/calibration/calibrator.h"
@@ -155,11 +156,12 @@ class Gathering {
       result_.surfaces.push_back(name);
     result_.stays.push_back({answersOn(parent_, recording.conditions[condition]), {}});
     takeRest(recording, condition, targets);
+    dataset::ScanCounts scans(recording);
     for (std::size_t i = 0; i < recording.scans(); ++i) {
       if (!counts(i)) continue;
       const auto found = number.find(sections.cycle[i]);
       if (found == number.end()) continue;
-      takeScan(recording, recording.scan(i), found->second, targets[i]);
+      takeScan(recording, scans[i], found->second, targets[i]);
     }
     for (std::vector<std::size_t>& first : result_.first) {
       const std::size_t taxel = static_cast<std::size_t>(&first - result_.first.data());
@@ -199,9 +201,11 @@ class Gathering {
     }
     auto& rest = result_.stays.back().rest;
     rest.resize(result_.readings.size());
+    dataset::ScanCounts counts(recording);
     for (const std::size_t i : scans) {
+      const std::uint16_t* const codes = counts[i];
       for (std::size_t taxel = 0; taxel < rest.size(); ++taxel) {
-        const std::uint16_t code = recording.scan(i)[taxel];
+        const std::uint16_t code = codes[taxel];
         if (code < parent_.tables.full_scale && !result_.stays.back().answers[taxel].pressure.empty())
           rest[taxel].push_back({code, 0, static_cast<float>(targets[i])});
       }

@@ -3,9 +3,9 @@
 #include <numeric>
 #include <sstream>
 
+#include "calibration/correction/corrected_calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "report/recheck_report.h"
 
 namespace fsr_ros {
 
@@ -61,7 +61,7 @@ std::string correctionText(const fsr_pressure_map::CalibrationInfo& info) {
   fsr::calibration::Correction correction;
   correction.parent = info.parent;
   correction.date = info.corrected;
-  return fsr::report::correctionText(correction);
+  return fsr::calibration::correctionText(correction);
 }
 
 std::string describe(const LoadedCalibration& loaded) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "calibration/correction/corrected_calibration.h"
 #include "calibration/correction/recheck.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
@@ -145,7 +146,7 @@ void Rechecker::judge(std::ostream& out) {
   std::string child;
   if (recheck.child) {
     child = fsr::calibration::saveCalibration(*recheck.child, output_);
-    out << "Calibration " << child << " (" << fsr::report::correctionText(recheck.child->correction)
+    out << "Calibration " << child << " (" << fsr::calibration::correctionText(recheck.child->correction)
         << ") written to " << output_ << "\nUse it: rosservice call "
         << handle_.resolveName("calibration/load_calibration") << " " << output_ << '\n';
   }

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "calibration/calibration_check.h"
+#include "calibration/correction/corrected_calibration.h"
 #include "calibration/correction/recheck.h"
 #include "calibration/merge.h"
 #include "dataset/conditioning.h"
@@ -231,7 +232,7 @@ int correct(const fsr::settings::CommandLine& line, std::ostream& out) {
   std::string child;
   if (recheck.child && !output.empty()) {
     child = fsr::calibration::saveCalibration(*recheck.child, output);
-    out << "Calibration " << child << " (" << fsr::report::correctionText(recheck.child->correction)
+    out << "Calibration " << child << " (" << fsr::calibration::correctionText(recheck.child->correction)
         << ") written to " << fullPath(output) << std::endl;
   } else if (!output.empty()) {
     out << "No calibration was written to " << fullPath(output) << std::endl;
