@@ -1,4 +1,4 @@
-#include "report/study_parts_file.h"
+#include "report/study/study_parts_file.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/shard_file.h"
-#include "report/study_report.h"
+#include "report/study/study_report.h"
 #include "support/memory_rig.h"
 #include "support/synthetic_recording.h"
 

@@ -1,4 +1,4 @@
-#include "report/study_report.h"
+#include "report/study/study_report.h"
 
 #include <gtest/gtest.h>
 

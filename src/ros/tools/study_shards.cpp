@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "report/study_parts_file.h"
+#include "report/study/study_parts_file.h"
 #include "settings/replace_file.h"
 #include "settings/sha256.h"
 

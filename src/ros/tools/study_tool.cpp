@@ -5,7 +5,7 @@
 
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "report/study_report.h"
+#include "report/study/study_report.h"
 #include "ros/bags/bag_walk.h"
 #include "ros/tools/bag_options.h"
 #include "ros/tools/figure_script.h"

@@ -1,4 +1,4 @@
-#include "report/study_parts_file.h"
+#include "report/study/study_parts_file.h"
 
 #include <array>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "report/study_fields.h"
+#include "report/study/study_fields.h"
 
 namespace fsr::report {
 

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "report/study_report.h"
+#include "report/study/study_report.h"
 #include "settings/number_text.h"
 #include "study/paper_numbers.h"
 

@@ -2,7 +2,7 @@
 
 #include "report/history_report.h"
 #include "report/result_json.h"
-#include "report/study_report.h"
+#include "report/study/study_report.h"
 #include "study/paper_numbers.h"
 
 namespace fsr::report {

@@ -4,7 +4,7 @@
 
 #include "report/curvature_error_report.h"
 #include "report/history_report.h"
-#include "report/study_report.h"
+#include "report/study/study_report.h"
 #include "settings/number_text.h"
 #include "study/paper_numbers.h"
 
