@@ -105,9 +105,9 @@ struct Fields<calibration::SourceBag> {
 template <>
 struct Fields<calibration::Provenance> {
   using Of = calibration::Provenance;
-  static constexpr auto list =
-      std::make_tuple(field("tool_version", &Of::tool_version), field("date", &Of::date),
-                      field("seed", &Of::seed), field("bags", &Of::bags));
+  static constexpr auto list = std::make_tuple(
+      field("tool_version", &Of::tool_version), field("date", &Of::date), field("seed", &Of::seed),
+      field("bags", &Of::bags), field("conditioning", &Of::conditioning));
 };
 
 template <>
