@@ -17,6 +17,9 @@
 6. Hides an effect in measurements made with formulas from outside the package, asks `discrepancy` what is missing, and
    prints its answer beside the key.
 
+With --day, instead: writes a plan for 45 min of rig time, lets an emulated operator follow the conductor through it, with
+mistakes that the conductor names, and checks and trains from what was recorded.
+
 The exit status is 0 only if per-curvature has a smaller error than flat-only and one-for-all on every bent surface of the
 training, and is no worse than flat-only on the flat one, if history is nowhere worse than interpolated by more than 1 %,
 and if the wrong surface is found and costs more than the estimated one.
@@ -33,6 +36,7 @@ def read():
     parser.add_argument("--live-cycles", type=int, default=2, help="chamber cycles of each live run (%(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="seed of the emulated rig (%(default)s)")
     parser.add_argument("--no-rviz", action="store_true", help="do not open rviz and take no picture")
+    parser.add_argument("--day", action="store_true", help="a conducted day with an operator who makes mistakes, instead of the above")
     return parser.parse_args()
 
 

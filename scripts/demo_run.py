@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 
+import demo_day
 import demo_discrepancy
 import demo_floor
 import demo_history
@@ -237,8 +238,8 @@ def score_live(arguments, bags, live, output, logs):
     return scores, drawing
 
 
-def main():
-    arguments = demo_options.read()
+def prepare(arguments):
+    """The folders of results and logs, emptied, and the port of a master of its own."""
     output = pathlib.Path(arguments.output).resolve()
     shutil.rmtree(output / "logs", ignore_errors=True)
     logs = output / "logs"
@@ -247,7 +248,28 @@ def main():
         old.unlink()
     os.environ.update(ROS_MASTER_URI=f"http://127.0.0.1:{free_port()}", ROS_IP="127.0.0.1",
                       ROS_HOME=str(output / "ros_home"), ROS_LOG_DIR=str(logs / "ros"))
-    port = os.environ["ROS_MASTER_URI"].rsplit(":", 1)[1]
+    return output, logs, os.environ["ROS_MASTER_URI"].rsplit(":", 1)[1]
+
+
+def run_day(arguments, output, logs, port):
+    """The conducted day instead of the demo. Returns the exit status."""
+    try:
+        with process(["roscore", "-p", port], logs / "roscore.log") as core:
+            import rosgraph
+            wait_until(rosgraph.is_master_online, core, "roscore", logs / "roscore.log")
+            demo_day.run(arguments, output, logs, say)
+    except Failure as failure:
+        print(f"demo: {failure}", file=sys.stderr)
+        return 1
+    say("the day is done: the conductor named what was wrong, had it repeated, and came to the end of the plan")
+    return 0
+
+
+def main():
+    arguments = demo_options.read()
+    output, logs, port = prepare(arguments)
+    if arguments.day:
+        return run_day(arguments, output, logs, port)
     log = logs / "rig.log"
     board = output / "board"
     limit = 60 + 200 * max(arguments.cycles, arguments.live_cycles) / arguments.time_scale

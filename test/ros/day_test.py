@@ -91,6 +91,9 @@ class DayTest(unittest.TestCase):
         bags = sorted((self.home / "session").glob("*.bag"))
         self.assertEqual([bag.name for bag in bags], ["day_01_flat.bag", "day_02_cylinder_5cm.bag", "day_02_cylinder_5cm_part2.bag"])
 
+        code, text = self.tool("check_bag", *bags)
+        self.assertEqual(code, 0, text)
+        self.assertIn("conditioning: said by the operator", text)
         code, text = self.tool("train", *bags, "--output", "day.h5")
         self.assertEqual(code, 0, text)
         self.assertTrue((self.home / "day.h5").exists())

@@ -244,6 +244,28 @@ void ConductServer::report(const Outcome& outcome) {
     ROS_WARN_STREAM(event.label);
   }
   events_.publish(event);
+  if (outcome.state == StepState::kAccepted && step.kind != StepKind::kCondition)
+    tellConditioning(step.mount);
+}
+
+// Conditioning comes before the recording. The bag of its mount says so, after its first step: until then its
+// recorder may not listen yet.
+void ConductServer::tellConditioning(unsigned mount) {
+  if (!recorder_ || conditioning_told_) return;
+  std::size_t accepted = 0;
+  for (std::size_t i = 0; i < conductor_->steps().size(); ++i) {
+    const fsr::session_plan::SessionStep& step = conductor_->steps()[i];
+    if (step.kind != StepKind::kCondition || step.mount != mount) continue;
+    if (conductor_->states()[i] != StepState::kAccepted) return;
+    ++accepted;
+  }
+  if (accepted == 0) return;
+  conditioning_told_ = true;
+  fsr_pressure_map::Event event;
+  event.header.stamp = ros::Time::now();
+  event.kind = "conditioning";
+  event.label = std::to_string(accepted) + " cycles before this recording";
+  events_.publish(event);
 }
 
 void ConductServer::save() {

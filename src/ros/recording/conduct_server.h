@@ -51,6 +51,7 @@ class ConductServer {
   void noteTime(double stamp);
   void follow();
   void report(const fsr::conductor::Outcome& outcome);
+  void tellConditioning(unsigned mount);
   void save();
   void say();
   void publishInstruction(const fsr::conductor::Instruction& now);
@@ -74,6 +75,7 @@ class ConductServer {
 
   std::unique_ptr<Recorder> recorder_;
   unsigned recorded_mount_ = 0;
+  bool conditioning_told_ = false;  // in a bag
   std::atomic<bool> recorder_ended_{false};
   ros::SteadyTime recorder_retry_;                // not before
   std::optional<ros::SteadyTime> recorder_idle_;  // since the last recorded step of its mount

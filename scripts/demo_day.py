@@ -1,0 +1,81 @@
+"""A conducted day at the emulated rig, for scripts/demo --day: an operator, who makes mistakes, follows the conductor through a plan.
+
+Nothing is called between the three launch files and the end of the plan. The tools then say what was recorded."""
+import contextlib
+import pathlib
+import shutil
+import threading
+
+from demo_tools import Failure, process, run_tool, serves, wait_until
+
+NAMESPACE = "fsr"
+MINUTES = 45          # of rig time that the plan may take
+MISTAKES = "peak_too_low@8,board_unplugged@20,too_fast@30"  # NAME@STEP, docs/nodes.md
+SURFACES = pathlib.Path(__file__).resolve().parent.parent / "config/surfaces"
+
+
+class Listener:
+    """Hears what the conductor says, and what the operator does wrong."""
+
+    def __init__(self, say):
+        import rospy
+        from fsr_pressure_map.msg import Instruction
+        from std_msgs.msg import String
+        self.say, self.over, self.step, self.remark, self.mistakes = say, threading.Event(), None, "", ""
+        self.mount, self.done = Instruction.MOUNT, Instruction.DONE
+        rospy.init_node("demo", disable_signals=True)
+        rospy.Subscriber(f"/{NAMESPACE}/instruction", Instruction, self.hear)
+        rospy.Subscriber(f"/{NAMESPACE}/rig_emulator/mistakes", String, self.count)
+
+    def hear(self, instruction):
+        if instruction.remark and instruction.remark != self.remark:
+            self.say(f"step {instruction.step} of {instruction.steps}: {instruction.remark}")
+        self.remark = instruction.remark
+        if instruction.step != self.step and instruction.kind in (self.mount, self.done):
+            self.say(f"step {instruction.step} of {instruction.steps}: {instruction.text}")
+        self.step = instruction.step
+        if instruction.kind == self.done:
+            self.over.set()
+
+    def count(self, mistakes):
+        self.mistakes = mistakes.data
+
+
+def launch(stack, logs, name, *arguments):
+    log = logs / f"{name}.log"
+    return stack.enter_context(process(["roslaunch", "fsr_pressure_map", f"{name}.launch", *arguments], log)), log
+
+
+def record(arguments, output, logs, plan, minutes, say):
+    """The operator works through the plan. Returns the folder of the bags."""
+    folder, board = output / "session", output / "board"
+    shutil.rmtree(folder, ignore_errors=True)
+    with contextlib.ExitStack() as stack:
+        rig, log = launch(stack, logs, "rig_emulator", f"link:={board}", f"time_scale:={arguments.time_scale}", f"seed:={arguments.seed}",
+                          "operator:=true", f"mistakes:={MISTAKES}")
+        wait_until(board.exists, rig, "the rig", log)
+        listener = Listener(say)
+        launch(stack, logs, "driver", f"serial_port:={board}")
+        session, log = launch(stack, logs, "session", f"plan:={plan}", f"folder:={folder}", f"surfaces:={SURFACES}")
+        wait_until(lambda: serves(f"/{NAMESPACE}/conduct/confirm"), session, "the conductor", log)
+        # A mistake costs a cycle, or some minutes of waiting.
+        if not listener.over.wait(60 + 60 * (minutes + 30) / arguments.time_scale):
+            raise Failure(f"the session did not end: step {listener.step}, {listener.remark or 'no remark'}; its log is {log}")
+        say(f"mistakes of the operator: {listener.mistakes}")
+    return folder
+
+
+def run(arguments, output, logs, say):
+    """The whole day. Raises Failure where it cannot go on."""
+    plan, calibration = output / "day.yaml", output / "day.h5"
+    run_tool(logs / "plan.log", "plan_session", "--for", "per_curvature", "--minutes", MINUTES, "--output", plan)
+    say(f"planned {plan}; an operator follows the conductor at {arguments.time_scale:g} x real time, and makes mistakes")
+    folder = record(arguments, output, logs, plan, MINUTES, say)
+    bags = sorted(folder.glob("*.bag"))
+    if not bags:
+        raise Failure(f"{folder} has no bags; the logs are in {logs}")
+    print(run_tool(logs / "check_bag.log", "check_bag", *bags))
+    print(run_tool(logs / "train.log", "train", *bags, "--output", calibration))
+    print("plan         " + str(plan))
+    print("bags         " + "\n             ".join(map(str, bags)))
+    print(f"calibration  {calibration}")
