@@ -52,9 +52,8 @@ class ExcursionWatch : public StepWatch {
   bool running() const override { return phase_ != Phase::kBase; }
   Hint hint() const override {
     if (phase_ == Phase::kUp) return crossings_.stalledHint(step_.peak);
-    const double planned = step_.vent_rate > 0 ? (step_.peak - base_) / step_.vent_rate : 0;
     const bool waits = (phase_ == Phase::kBase && !armed_) || phase_ == Phase::kDown;
-    if (!waits || !since_ || now_.time - *since_ < 2 * planned + kVenting) return {};
+    if (!waits || !since_ || now_.time - *since_ < longestVenting()) return {};
     return {Reason::kRestNotReached, "the pressure stays at " + kPaText(now_.pressure) +
                                          " and does not go down to " +
                                          (loop_ ? kPaText(base_) : std::string("rest")) + "; open the vent"};
@@ -148,8 +147,18 @@ class ExcursionWatch : public StepWatch {
                                             " before it was down to " +
                                             (loop_ ? kPaText(base_) : std::string("rest")));
   }
+  // With a stop on the way, neither dwell nor pace of the venting can be told [s].
+  double longestVenting() const {
+    const double planned = step_.vent_rate > 0 ? (step_.peak - base_) / step_.vent_rate : 0;
+    return 2 * planned + kVenting;
+  }
   std::optional<Verdict> finish() {
     measured_.vent_rate = crossings_.ventRate().value_or(step_.vent_rate);
+    const double venting = (step_.peak - base_) / measured_.vent_rate;
+    if (venting >= longestVenting()) {
+      return reject(Reason::kRestNotReached, "at the pace from 90 to 10 % of the way, venting takes " +
+                                                 timeText(venting) + "; vent without a stop");
+    }
     measured_.dwell =
         std::max(0.0, crossings_.timeAbove() - ramp(measured_.fill_rate) - ramp(measured_.vent_rate));
     if (leaked()) {

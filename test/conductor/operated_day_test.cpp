@@ -239,13 +239,9 @@ TEST(OperatedDay, EndsWithoutARejectionForTheShippedPlans) {
 class OperatedDayMistake : public testing::TestWithParam<std::string> {};
 
 // What the conductor does not name yet. The session ends all the same.
-//   no_unloading  hints rightly at rest_not_reached, but then rejects the cycle as dwell_too_short: the dwell
-//   is
-//                 the time above 90 % less the ramps at the measured paces, and the stop halfway down makes
-//                 the pace of venting, 90 % to 10 %, far too slow
 //   sheet_off     all taxels read nothing under pressure; TaxelWatch compares taxels with their neighbours
 bool isNotYetNamed(const std::string& mistake) {
-  return mistake == "no_unloading" || mistake == "sheet_off";
+  return mistake == "sheet_off";
 }
 
 TEST_P(OperatedDayMistake, IsNamedRightlyAndCostsNothingElse) {
