@@ -59,11 +59,6 @@ HeldOutScoring::HeldOutScoring(const TrainingScans& scans, const std::vector<dat
       taxels_(taxels),
       errors_(scans.of_class.size()) {}
 
-bool HeldOutScoring::trainedOn(std::size_t curvature_class) const {
-  const auto& trained_on = plan_.models[plan_.model_of_class[curvature_class]].trained_on;
-  return std::find(trained_on.begin(), trained_on.end(), curvature_class) != trained_on.end();
-}
-
 void HeldOutScoring::scoreTaxel(std::size_t taxel,
                                 const std::vector<regression::CrossValidatedModel>& models) {
   TaxelScores scored;
@@ -81,7 +76,7 @@ void HeldOutScoring::scoreTaxel(std::size_t taxel,
     const regression::CrossValidatedModel& model = models[plan_.model_of_class[c]];
     std::vector<SectionScore> of_class(sections_);
     std::size_t within = 0;
-    const bool trained = trainedOn(c);
+    const bool trained = plan_.trainsOn(c);
     BudgetTally budget(budget_.scale, budget_.cycles.of_class[c], model.table);
     for (const TrainingRun& run : scans[c]) {
       const regression::HeldOutModel& held_out = model.held_out[run.section];
@@ -154,7 +149,7 @@ CalibrationScores HeldOutScoring::summarise(const std::vector<dataset::Curvature
   CalibrationScores scores;
   statistics::ErrorBins whole;
   for (std::size_t c = 0; c < classes.size(); ++c) {
-    scores.conditions.push_back({classes[c], trainedOn(c), pool(errors_[c], c)});
+    scores.conditions.push_back({classes[c], plan_.trainsOn(c), pool(errors_[c], c)});
     whole.merge(errors_[c]);
   }
   scores.whole = pool(whole, classes.size());

@@ -63,7 +63,6 @@ class HeldOutScoring {
     BudgetSums budget;
   };
 
-  bool trainedOn(std::size_t curvature_class) const;
   void addErrors(std::size_t taxel, TaxelScores scored);
   Score pool(const statistics::ErrorBins& errors, std::size_t entry) const;
 

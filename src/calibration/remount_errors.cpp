@@ -88,9 +88,7 @@ RemountErrors::RemountErrors(const std::vector<dataset::Recording>& recordings,
 }
 
 bool RemountErrors::leavesOut(const compensation::SchemePlan& plan, std::size_t curvature_class) const {
-  const auto& trained_on = plan.models[plan.model_of_class[curvature_class]].trained_on;
-  return mounts_[curvature_class] > 1 &&
-         std::find(trained_on.begin(), trained_on.end(), curvature_class) != trained_on.end();
+  return mounts_[curvature_class] > 1 && plan.trainsOn(curvature_class);
 }
 
 void RemountErrors::measure(const compensation::SchemePlan& plan, std::size_t taxel,
@@ -148,10 +146,11 @@ void RemountErrors::cover(const compensation::SchemePlan& plan, std::size_t taxe
   std::size_t first = 0;  // unit of the first mount of the class
   for (std::size_t k = 0; k < mounts_.size(); ++k) {
     if (mounts_[k] < 2) continue;
+    const bool left_out = leavesOut(plan, k);
     const regression::CodeTable& own =
         calibration.tables.table(taxel, calibration.tables.classes.size() == 1 ? 0 : k);
     for (const TrainingRun& run : scans_.of_class[k]) {
-      if (!leavesOut(plan, k) || run.section >= mounts_[k]) continue;
+      if (!left_out || run.section >= mounts_[k]) continue;
       const std::vector<double>& held_out = models[plan.model_of_class[k]].held_out[run.section].pressure;
       if (held_out.empty()) continue;
       const double zero = regression::fromFixed(run.zeroOf(taxel));

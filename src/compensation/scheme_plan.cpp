@@ -72,6 +72,11 @@ void planFlatAndBent(bool trained_on_all, SchemePlan& plan) {
 
 }  // namespace
 
+bool SchemePlan::trainsOn(std::size_t curvature_class) const {
+  const std::vector<std::size_t>& trained_on = models[model_of_class[curvature_class]].trained_on;
+  return std::binary_search(trained_on.begin(), trained_on.end(), curvature_class);
+}
+
 std::vector<std::size_t> SchemePlan::testedOn(std::size_t model) const {
   std::vector<std::size_t> tested;
   for (const std::size_t k : models[model].trained_on) {

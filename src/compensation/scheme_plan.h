@@ -24,6 +24,8 @@ struct SchemePlan {
   /// found by learnScheme() [1/m]; 0 = standardised like the reading, as in curvature_input.
   double curvature_scale = 0;
 
+  /// Whether the model that answers for a class is trained on it.
+  bool trainsOn(std::size_t curvature_class) const;
   /// Classes that a model is trained on and answers for, ascending. It is tested on these.
   std::vector<std::size_t> testedOn(std::size_t model) const;
 };

@@ -1,9 +1,12 @@
-// Cycles, conditioning cycles and partial loops: from a base to the peak and back.
+// Cycles, conditioning cycles and partial loops: from a base to the peak and back, in four phases.
 //
-//     base   rest, or the low pressure of a loop. The rest before the filling is judged when the filling
-//     begins. up     until 90 % of the way. The pace is judged there. If the pressure turns before, the peak
-//     was missed. top    until the pressure falls through 90 %. Above the peak's tolerance it is rejected at
-//     once. down   until the base. If the pressure rises again before, the unloading is missing.
+// Base: rest, or the low pressure of a loop. The rest before the filling is judged when the filling begins.
+//
+// Up: until 90 % of the way. The pace is judged there. If the pressure turns before, the peak was missed.
+//
+// Top: until the pressure falls through 90 %. Above the peak's tolerance it is rejected at once.
+//
+// Down: until the base. If the pressure rises again before, the unloading is missing.
 //
 // The dwell is the time above 90 % of the way less the two ramps there, at the measured paces. It is a leak
 // if the pressure, once it has left the peak, falls at less than half of the planned pace and much more

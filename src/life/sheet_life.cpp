@@ -15,16 +15,6 @@ namespace {
 constexpr double kDay = 86400;  // [s]
 using Source = SheetState::Source;
 
-double mean(const std::vector<double>& values) {
-  double sum = 0, count = 0;
-  for (const double value : values) {
-    if (std::isnan(value)) continue;
-    sum += value;
-    count += 1;
-  }
-  return count > 0 ? sum / count : kUnknown;
-}
-
 std::int64_t dayOf(std::int64_t date_ns) {
   return date_ns / static_cast<std::int64_t>(kDay * 1e9);
 }
@@ -93,12 +83,12 @@ Row rowOf(const std::vector<const SheetState*>& states, const std::string& surfa
       noise.push_back(on.noise);
     }
   }
-  row.gain = mean(gain);
-  row.gain_scatter = mean(scatter);
-  row.zero = mean(zero);
-  row.noise = mean(noise);
-  row.temperature = mean(temperature);
-  row.error = mean(error);
+  row.gain = meanOfKnown(gain);
+  row.gain_scatter = meanOfKnown(scatter);
+  row.zero = meanOfKnown(zero);
+  row.noise = meanOfKnown(noise);
+  row.temperature = meanOfKnown(temperature);
+  row.error = meanOfKnown(error);
   row.dead = sorted(dead);
   row.stuck = sorted(stuck);
   return row;

@@ -198,7 +198,9 @@ health::TaxelWatchOptions watchOptions(const SheetState& state) {
   return options;
 }
 
-double meanOf(const std::vector<double>& values) {
+}  // namespace
+
+double meanOfKnown(const std::vector<double>& values) {
   double sum = 0, count = 0;
   for (const double value : values) {
     if (std::isnan(value)) continue;
@@ -207,8 +209,6 @@ double meanOf(const std::vector<double>& values) {
   }
   return count > 0 ? sum / count : kUnknown;
 }
-
-}  // namespace
 
 std::string sheetOf(const dataset::SensorIdentity& sensor) {
   return sensor.serial.empty() ? sensor.sensor_id : sensor.serial;
@@ -223,7 +223,7 @@ SheetState stateOf(const dataset::Recording& recording, const Calibration* first
   state.date_ns = recording.start_ns;
   state.layout = recording.layout;
   state.full_scale = recording.full_scale;
-  state.temperature = meanOf(recording.temperature);
+  state.temperature = meanOfKnown(recording.temperature);
   std::vector<SurfaceReadings> readings;
   for (std::size_t c = 0; c < recording.conditions.size() && !recording.pressure.empty(); ++c) {
     readings.emplace_back(recording, c, first);

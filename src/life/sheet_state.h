@@ -46,6 +46,9 @@ struct SheetState {
   double error = kUnknown;               ///< of a calibration: RMSE on held-out readings [Pa]
 };
 
+/// Mean of the values that are known; kUnknown where none is.
+double meanOfKnown(const std::vector<double>& values);
+
 /// The name of a sheet: its serial number, else its sensor id, else "". Sheets of different names are never
 /// mixed.
 std::string sheetOf(const dataset::SensorIdentity& sensor);

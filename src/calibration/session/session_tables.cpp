@@ -130,8 +130,7 @@ std::vector<std::vector<std::size_t>> SessionTables::trainedSessions(
   for (std::size_t s = 0; s < sessions_.all.size(); ++s) {
     const Session& session = sessions_.all[s];
     const std::size_t m = plan.model_of_class[session.curvature_class];
-    const auto& trained_on = plan.models[m].trained_on;
-    const bool trains = std::binary_search(trained_on.begin(), trained_on.end(), session.curvature_class);
+    const bool trains = plan.trainsOn(session.curvature_class);
     if (trains && !session.rest.empty() && !leftOut(session, left_out)) of_model[m].push_back(s);
   }
   return of_model;
