@@ -17,8 +17,8 @@
 6. Hides an effect in measurements made with formulas from outside the package, asks `discrepancy` what is missing, and
    prints its answer beside the key.
 
-With --day, instead: writes a plan for 45 min of rig time, lets an emulated operator follow the conductor through it, with
-mistakes that the conductor names, and checks and trains from what was recorded.
+With --day, instead: writes a plan for 45 min of rig time. An emulated operator, who makes mistakes, follows the conductor
+through it. The mistakes and what the conductor rejected are printed. Then what was recorded is checked and trained from.
 
 The exit status is 0 only if per-curvature has a smaller error than flat-only and one-for-all on every bent surface of the
 training, and is no worse than flat-only on the flat one, if history is nowhere worse than interpolated by more than 1 %,

@@ -261,7 +261,7 @@ def run_day(arguments, output, logs, port):
     except Failure as failure:
         print(f"demo: {failure}", file=sys.stderr)
         return 1
-    say("the day is done: the conductor named what was wrong, had it repeated, and came to the end of the plan")
+    say("the day is done: the plan came to its end")
     return 0
 
 
