@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -260,7 +262,8 @@ TEST(NamedForms, EveryEffectHasANewFormInEachSet) {
 TEST(NamedKey, HoldsEveryFieldOfTheSchema) {
   CaseSpec spec = handCase("key", richPlan(), "time_skew", "queue");
   const BlindCase made = makeCase(spec);
-  const auto path = std::filesystem::path(testing::TempDir()) / "named_key.yaml";
+  const auto path =
+      std::filesystem::path(testing::TempDir()) / ("named_key_" + std::to_string(::getpid()) + ".yaml");
   std::ofstream(path) << keyText(made);
   const fsr::settings::Settings key = fsr::settings::Settings::fromFile(path.string());
   EXPECT_EQ(key.integer("schema", {}), 2);

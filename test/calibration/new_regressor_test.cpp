@@ -1,5 +1,7 @@
 // A regressor that the package does not know, added to the table by the test: it trains, is saved, loaded,
 // merged and answers, and is refused where it cannot do what the scheme needs.
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -49,7 +51,7 @@ std::string refusal(const CalibrationProblem& problem) {
 }
 
 TEST(NewRegressor, TrainsAndAnswersAfterSavingAndLoading) {
-  const std::string path = testing::TempDir() + "new_regressor.h5";
+  const std::string path = testing::TempDir() + "new_regressor_" + std::to_string(::getpid()) + ".h5";
   saveCalibration(calibrate(problem()), path);
   const Calibration loaded =
       loadCalibration(path, CalibrationParts::kWithoutStatistics, &regressorsWithNearestCode());
@@ -74,7 +76,7 @@ TEST(NewRegressor, TrainsAndAnswersAfterSavingAndLoading) {
 }
 
 TEST(NewRegressor, AFileOfItCanBeUsedByAPackageThatDoesNotKnowIt) {
-  const std::string path = testing::TempDir() + "unknown_regressor.h5";
+  const std::string path = testing::TempDir() + "unknown_regressor_" + std::to_string(::getpid()) + ".h5";
   const Calibration saved = calibrate(problem());
   saveCalibration(saved, path);
   const Calibration loaded = loadCalibration(path);

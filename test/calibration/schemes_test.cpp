@@ -1,4 +1,6 @@
 // Every scheme from recordings through the file to the live map, on trained surfaces and on two others.
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -195,7 +197,7 @@ TEST(Schemes, PerSurfaceUsesTheName) {
 }
 
 TEST(Schemes, EverySchemeIsSavedLoadedAndUsedLive) {
-  const std::string path = testing::TempDir() + "schemes.h5";
+  const std::string path = testing::TempDir() + "schemes_" + std::to_string(::getpid()) + ".h5";
   for (const std::string& name : compensation::schemeNames()) {
     const Calibration calibration = train(compensation::schemeFromName(name));
     saveCalibration(calibration, path);

@@ -1,5 +1,7 @@
 #include "conductor/conductor.h"
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -82,7 +84,7 @@ TEST(Conductor, ABreakPassesWithTheChamberOff) {
 }
 
 TEST(Conductor, GoesOnWhereASessionStopped) {
-  const std::string path = testing::TempDir() + "conductor_state.yaml";
+  const std::string path = testing::TempDir() + "conductor_state_" + std::to_string(::getpid()) + ".yaml";
   const auto plan = planFrom(kDay);
   RigDay before(plan);
   followTo(before, 6);
@@ -135,7 +137,7 @@ TEST(Conductor, RefusesTheStateOfAnotherPlan) {
 }
 
 TEST(Conductor, RefusesADamagedState) {
-  const std::string path = testing::TempDir() + "conductor_damaged.yaml";
+  const std::string path = testing::TempDir() + "conductor_damaged_" + std::to_string(::getpid()) + ".yaml";
   std::ofstream(path) << "plan: day\ndigest: x\ntime: 1\nrejected: 0\nsteps: aax.\n";
   try {
     readState(path);

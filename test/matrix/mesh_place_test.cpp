@@ -1,5 +1,7 @@
 #include "matrix/mesh_place.h"
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -84,7 +86,7 @@ TEST(MeshPlace, RefusesWrongValuesInOneSentence) {
 }
 
 TEST(MeshPlace, IsPartOfASurfaceFile) {
-  const std::string path = testing::TempDir() + "mesh_place_test.yaml";
+  const std::string path = testing::TempDir() + "mesh_place_test_" + std::to_string(::getpid()) + ".yaml";
   std::ofstream(path) << "surface: limb\nflat: true\nmesh:\n  " << kGood;
   EXPECT_EQ(readSurfaceFile(path, {2, 2}).name, "limb");
   EXPECT_TRUE(readMeshPlaceFile(path));

@@ -1,5 +1,7 @@
 #include "report/study/study_parts_file.h"
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,7 +56,7 @@ StudyProblem remounted() {
 
 class StudyPartsFile : public testing::Test {
  protected:
-  std::string path_ = testing::TempDir() + "study_parts_file_test.json";
+  std::string path_ = testing::TempDir() + "study_parts_file_test_" + std::to_string(::getpid()) + ".json";
 
   void TearDown() override { std::filesystem::remove(path_); }
 

@@ -1,5 +1,7 @@
 #include "settings/command_line.h"
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -96,7 +98,8 @@ TEST(RunTool, ReturnsStatusTwoForUnusableInput) {
 
 // Every way of giving an output that is an input, or two outputs of one name.
 TEST(CommandLine, RefusesAnOutputThatIsAnInputHoweverItIsSpelled) {
-  const std::string folder = testing::TempDir() + "command_line_losses";
+  const std::string name = "command_line_losses_" + std::to_string(::getpid());
+  const std::string folder = testing::TempDir() + name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directory(folder);
   const std::string bag = folder + "/a.bag", link = folder + "/link", hard = folder + "/hard";
@@ -117,7 +120,7 @@ TEST(CommandLine, RefusesAnOutputThatIsAnInputHoweverItIsSpelled) {
   };
   EXPECT_EQ(complaint({bag, "--output", bag}),
             bag + ": would be overwritten, but is one of the inputs; give another name for the output");
-  for (const std::string& other : {link, hard, folder + "/../command_line_losses/./a.bag"}) {
+  for (const std::string& other : {link, hard, folder + "/../" + name + "/./a.bag"}) {
     EXPECT_EQ(complaint({bag, "--output", other}), other +
                                                        ": would be overwritten, but is one of the inputs, " +
                                                        bag + "; give another name for the output");

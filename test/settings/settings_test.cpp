@@ -1,5 +1,7 @@
 #include "settings/settings.h"
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -82,7 +84,7 @@ TEST(Settings, RefusesAFileThatIsNotAYamlMapping) {
   EXPECT_THROW(Settings::fromText("", "rig.yaml"), InputError);
   EXPECT_THROW(Settings::fromText("a: [1, 2", "rig.yaml"), InputError);
   EXPECT_THROW(Settings::fromFile("/nowhere/rig.yaml"), InputError);
-  const std::string large = testing::TempDir() + "settings_large.yaml";
+  const std::string large = testing::TempDir() + "settings_large_" + std::to_string(::getpid()) + ".yaml";
   std::ofstream(large) << "a: 1\n";
   std::filesystem::resize_file(large, 20 << 20);
   EXPECT_EQ(messageOf([&] { Settings::fromFile(large); }),

@@ -1,5 +1,7 @@
 #include "fsr_pressure_map/ros/bag_reader.h"
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -26,7 +28,8 @@ class BagReader : public testing::Test {
  protected:
   void SetUp() override {
     const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / ("bag_reader_" + std::string(test->name()));
+    folder_ =
+        fs::path(testing::TempDir()) / ("bag_reader_" + std::to_string(::getpid()) + "_" + test->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     path_ = (folder_ / "1_flat.bag").string();

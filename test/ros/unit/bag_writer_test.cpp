@@ -1,5 +1,7 @@
 #include "ros/bags/bag_writer.h"
 
+#include <unistd.h>
+
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/SurfaceCurvature.h>
 #include <gtest/gtest.h>
@@ -23,7 +25,8 @@ class BagFile : public testing::Test {
  protected:
   void SetUp() override {
     const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / ("bag_writer_" + std::string(test->name()));
+    folder_ =
+        fs::path(testing::TempDir()) / ("bag_writer_" + std::to_string(::getpid()) + "_" + test->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     path_ = (folder_ / "1_flat.bag").string();

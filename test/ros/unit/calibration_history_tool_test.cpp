@@ -1,5 +1,7 @@
 #include "ros/tools/calibration_history_tool.h"
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -21,7 +23,7 @@ class CalibrationHistoryTool : public testing::Test {
  protected:
   void SetUp() override {
     const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / ("history_" + std::string(test->name()));
+    folder_ = fs::path(testing::TempDir()) / ("history_" + std::to_string(::getpid()) + "_" + test->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "bags");
   }

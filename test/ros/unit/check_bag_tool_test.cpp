@@ -1,5 +1,7 @@
 #include "ros/tools/check_bag_tool.h"
 
+#include <unistd.h>
+
 #include <fsr_pressure_map/Event.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -23,7 +25,7 @@ class CheckBagTool : public testing::Test {
  protected:
   void SetUp() override {
     const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / ("check_bag_" + std::string(test->name()));
+    folder_ = fs::path(testing::TempDir()) / ("check_bag_" + std::to_string(::getpid()) + "_" + test->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }

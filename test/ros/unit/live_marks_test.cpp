@@ -42,8 +42,8 @@ class LiveMarks : public testing::Test {
     CalibrationSettings settings;
     settings.tare.window = 0.5;
     settings.tare.limit = 100e3;  // the tables of the small calibration are not those of the planted sheet
-    settings.tare_file = testing::TempDir() + "marks_tare.yaml";
-    settings.mask_file = testing::TempDir() + "marks_mask.yaml";
+    settings.tare_file = testing::TempDir() + "marks_tare_" + std::to_string(::getpid()) + ".yaml";
+    settings.mask_file = testing::TempDir() + "marks_mask_" + std::to_string(::getpid()) + ".yaml";
     return settings;
   }
 

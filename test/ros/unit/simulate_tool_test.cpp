@@ -1,5 +1,7 @@
 #include "ros/tools/simulate_tool.h"
 
+#include <unistd.h>
+
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -36,7 +38,8 @@ class SimulateTool : public testing::Test {
  protected:
   void SetUp() override {
     const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / ("simulate_tool_" + std::string(test->name()));
+    folder_ =
+        fs::path(testing::TempDir()) / ("simulate_tool_" + std::to_string(::getpid()) + "_" + test->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }

@@ -1,5 +1,7 @@
 #include "ros/tools/study_tool.h"
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -25,7 +27,8 @@ class StudyTool : public testing::Test {
  protected:
   void SetUp() override {
     const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / ("study_tool_" + std::string(test->name()));
+    folder_ =
+        fs::path(testing::TempDir()) / ("study_tool_" + std::to_string(::getpid()) + "_" + test->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     std::ofstream(folder_ / "plan.yaml")
@@ -100,7 +103,9 @@ TEST_F(StudyTool, RefusesAPlanThatItDoesNotUnderstandBeforeItReadsBags) {
 // Two shards of one study, which the tests copy and damage.
 class StudyShards : public StudyTool {
  protected:
-  static void SetUpTestSuite() { shards_ = fs::path(testing::TempDir()) / "study_shards"; }
+  static void SetUpTestSuite() {
+    shards_ = fs::path(testing::TempDir()) / ("study_shards_" + std::to_string(::getpid()));
+  }
   static void TearDownTestSuite() { fs::remove_all(shards_); }
 
   void SetUp() override {

@@ -1,5 +1,7 @@
 #include "ros/tools/train_tool.h"
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -25,7 +27,8 @@ class TrainTool : public testing::Test {
  protected:
   void SetUp() override {
     const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / ("train_tool_" + std::string(test->name()));
+    folder_ =
+        fs::path(testing::TempDir()) / ("train_tool_" + std::to_string(::getpid()) + "_" + test->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     bend_ = record("bend.bag", {"cylinder_7cm", 14.25});
