@@ -38,6 +38,7 @@ std::string mountText(const SessionStep& step) {
 }
 
 std::string stepText(const SessionStep& step) {
+  if (step.kind == StepKind::kMount) return mountText(step);
   return name(step.kind) + " " + std::to_string(step.number) + " of " + std::to_string(step.of) + ", " +
          mountText(step);
 }
@@ -45,7 +46,7 @@ std::string stepText(const SessionStep& step) {
 Verdict byHand(const std::string& sentence) {
   Verdict verdict;
   verdict.reason = Reason::kByHand;
-  verdict.sentence = sentence.empty() ? "rejected by hand" : sentence;
+  verdict.sentence = sentence.empty() ? "by a person" : sentence;
   return verdict;
 }
 
@@ -53,7 +54,8 @@ Verdict byHand(const std::string& sentence) {
 
 Answer Conductor::confirm() {
   if (!waitsForMount()) return {false, "nothing is to be confirmed; now: " + text()};
-  const std::string sentence = "the sheet lies on " + steps_[step_].surface + ", " + mountText(steps_[step_]);
+  const std::string sentence =
+      "the sheet lies on " + steps_[step_].surface + ", mount " + std::to_string(steps_[step_].mount);
   rest_.restart();
   if (!resumed_) {
     dead_known_ = dead_;
@@ -80,21 +82,23 @@ Answer Conductor::accept() {
 }
 
 Answer Conductor::reject(const std::string& reason) {
+  if (done()) return {false, "the session is over; record what should be repeated in another one"};
   if (resumed_) {
     const unsigned mount = steps_[step_].mount;
     for (std::size_t s = 0; s < steps_.size(); ++s) {
       if (steps_[s].mount == mount) states_[s] = StepState::kOpen;
     }
     note(step_, StepState::kOpen, byHand("the sheet has left the surface; the mount begins again"));
+    outcomes_.back().mount_again = true;
     ++rejected_;
     goOn();
     return {true, mountText(steps_[step_]) + " begins again"};
   }
-  if (!done() && attemptRuns()) {
+  if (attemptRuns()) {
     rejectStep(byHand(reason));
     return {true, stepText(steps_[step_]) + " is rejected"};
   }
-  const bool same = step_ > 0 && (done() || steps_[step_ - 1].mount == steps_[step_].mount);
+  const bool same = step_ > 0 && steps_[step_ - 1].mount == steps_[step_].mount;
   if (!same || states_[step_ - 1] != StepState::kAccepted)
     return {false, "nothing is to be rejected: no attempt runs, and none was accepted before on this mount"};
   const std::size_t before = step_ - 1;
@@ -102,6 +106,7 @@ Answer Conductor::reject(const std::string& reason) {
   goOn();
   if (steps_[before].kind == StepKind::kMount) {
     note(before, StepState::kOpen, byHand(reason));
+    outcomes_.back().mount_again = true;
     ++rejected_;
   } else {
     rejectStep(byHand(reason));
@@ -151,6 +156,7 @@ std::string Conductor::text() const {
            std::to_string(step.mount) + ". If not, reject: the mount begins again.";
   }
   std::string text = session_plan::instruction(step);
+  if (step.kind == StepKind::kMount) text += " Then confirm.";
   if (recovering_)
     text = "Vent to " + (step.kind == StepKind::kLoop ? kPaText(step.low) : std::string("rest")) +
            (attempts_ > 0 ? ", then again: " : ", then: ") + text;

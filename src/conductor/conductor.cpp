@@ -109,9 +109,17 @@ void Conductor::judge(const Reading& reading) {
   take(reading);
   last_judged_ = reading;
   judged_ = true;
-  complain(Reason::kNotConfirmed,
-           "the pressure rises, but nobody has confirmed that the sheet lies on its surface",
-           waitsForMount() && reading.pressure > kLoadLevel);
+  complainOfLoadBeforeMount(reading.pressure);
+}
+
+// Stays until a person confirms: who turned the valve may not have looked at the panel.
+void Conductor::complainOfLoadBeforeMount(double pressure) {
+  const bool loaded = pressure > kLoadLevel;
+  if (!waitsForMount()) return complain(Reason::kNotConfirmed, "", false);
+  if (!loaded && complaints_.count(Reason::kNotConfirmed) == 0) return;
+  complain(Reason::kNotConfirmed, std::string(loaded ? "the pressure rises, but nobody has"
+                                                     : "the pressure rose before anybody had") +
+                                      " confirmed that the sheet lies on its surface");
 }
 
 void Conductor::take(const Reading& reading) {

@@ -40,6 +40,7 @@ struct Outcome {
   std::size_t step = 0;                ///< index
   StepState state = StepState::kOpen;  ///< kOpen = rejected
   Verdict verdict;
+  bool mount_again = false;  ///< the whole mount begins again: what was recorded of it does not count
 };
 
 /// The reply to a person.
@@ -96,7 +97,7 @@ class Conductor {
   /// Takes the attempt that was rejected last as good.
   Answer accept();
   /// Rejects the attempt that runs, or else takes back the step accepted last on this mount. While a person
-  /// is asked whether the sheet has stayed on its surface: begins the mount again.
+  /// is asked whether the sheet has stayed on its surface: begins the mount again. Refused when all is done.
   Answer reject(const std::string& reason);
   /// Goes on without the present step. At a mount: without all steps of the mount.
   Answer skip();
@@ -127,6 +128,7 @@ class Conductor {
 
  private:
   void judge(const Reading& reading);
+  void complainOfLoadBeforeMount(double pressure);
   void take(const Reading& reading);
   void handle(const Verdict& verdict, const Reading& reading);
   void acceptStep(const Verdict& verdict);

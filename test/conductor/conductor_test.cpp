@@ -56,7 +56,7 @@ TEST(Conductor, TellsTheNumbersOfAStep) {
   Instruction now = day.conductor.instruction();
   EXPECT_EQ(now.kind, InstructionKind::kMount);
   EXPECT_TRUE(now.confirm);
-  EXPECT_EQ(now.text, "Put the sheet on flat, mount 1.");
+  EXPECT_EQ(now.text, "Put the sheet on flat, mount 1. Then confirm.");
   EXPECT_FALSE(day.conductor.recording());
   followTo(day, 6);
   now = day.conductor.instruction();
@@ -110,6 +110,9 @@ TEST(Conductor, BeginsTheMountAgainIfTheSheetWasTakenOffMeanwhile) {
   followTo(before, 11);
   RigDay day(Conductor(plan, before.conductor.state()), before.now + 50000);
   EXPECT_TRUE(day.conductor.reject("taken off").done);
+  const std::vector<Outcome> outcomes = day.conductor.takeOutcomes();
+  ASSERT_EQ(outcomes.size(), 1u);
+  EXPECT_TRUE(outcomes[0].mount_again);
   EXPECT_EQ(day.conductor.instruction().step, 9u);
   EXPECT_EQ(day.conductor.instruction().surface, "cylinder_5cm");
 }
@@ -159,6 +162,9 @@ TEST(Conductor, SkipsAWholeMount) {
   EXPECT_TRUE(day.conductor.done());
   EXPECT_EQ(day.conductor.instruction().text,
             "The session is over: 13 steps accepted, 5 skipped, 0 attempts rejected.");
+  EXPECT_EQ(day.conductor.reject("").sentence,
+            "the session is over; record what should be repeated in another one");
+  EXPECT_TRUE(day.conductor.done());
 }
 
 TEST(Conductor, TakesBackAnAcceptedStepAndAcceptsARejectedOneByHand) {

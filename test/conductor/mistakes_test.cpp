@@ -285,8 +285,14 @@ TEST(Conductor, SaysAtOnceWhatDoesNotFit) {
 TEST(Conductor, SaysThatNobodyHasConfirmedTheMount) {
   RigDay day(planFrom(rig_day::kCycles));
   day.stay(1), day.ramp(100e3, kFill);
-  EXPECT_NE(day.remark().find("nobody has confirmed"), std::string::npos) << day.remark();
+  EXPECT_NE(day.remark().find("the pressure rises, but nobody has confirmed"), std::string::npos)
+      << day.remark();
+  day.ramp(0, kFill), day.stay(60);
+  EXPECT_NE(day.remark().find("the pressure rose before anybody had confirmed"), std::string::npos)
+      << day.remark();
   EXPECT_TRUE(day.conductor.instruction().confirm);
+  EXPECT_TRUE(day.conductor.confirm().done);
+  EXPECT_EQ(day.remark(), "");
   EXPECT_EQ(day.rejected(), Names{});
 }
 

@@ -184,8 +184,17 @@ class SessionTest(unittest.TestCase):
         self.wait_for((self.bags / "test_day_01_flat_part2.bag").exists)
         self.confirm()
         self.recording("test_day_02_bowl")
+        self.stay(1)
+        self.assertTrue(self.call("reject").success)  # the rest that runs
+        self.until(lambda now: "by a person" in now.remark)
+        self.assertTrue(self.call("reject").success)  # the mount
+        self.until(lambda now: now.confirm)
+        self.wait_for((self.bags / "set_aside/test_day_02_bowl.bag").exists)
+        self.confirm()
+        self.recording("test_day_02_bowl")
         while self.instruction.kind != Instruction.DONE:
             self.follow()
+        self.assertFalse(self.call("reject").success)
         self.wait_for(lambda: (self.bags / "test_day_02_bowl.bag").exists())
 
         self.assertEqual(sorted(path.name for path in self.bags.glob("*.bag*")),
@@ -200,7 +209,7 @@ class SessionTest(unittest.TestCase):
         self.assertEqual(found["/fsr/session"][0].protocol, "day")
         self.assertEqual(len(found["/fsr/raw"]), len(found["/fsr/chamber_pressure"]))
         state = yaml.safe_load((self.bags / "test_day_session.yaml").read_text())
-        self.assertEqual((state["steps"], state["rejected"]), ("a" * 11, 1))
+        self.assertEqual((state["steps"], state["rejected"]), ("a" * 11, 3))
 
     def test_a_plan_with_an_unknown_surface_is_refused_at_once(self):
         self.plan.write_text(PLAN.replace("surface: flat", "surface: flatt"))

@@ -35,8 +35,9 @@ AdmittedRecording lookAt(const dataset::Recording& recording) {
 void judgeLag(const AdmittedRecording& recording, const AdmissionOptions& options, Admission& admission) {
   if (!recording.chamber || recording.scans == 0) return;
   if (!recording.lag) {
-    admission.problems.push_back(recording.name +
-                                 ": the matrix does not follow the chamber: was it in it, and did it move?");
+    admission.problems.push_back(
+        recording.name +
+        ": the matrix does not follow the chamber (was it in it, and did the pressure move?)");
     return;
   }
   const double lag = recording.lag->seconds;

@@ -31,6 +31,7 @@ constexpr double kQuiet = 2;        // without any message, until the time of th
 constexpr double kRetry = 10;       // until a recording that stopped is begun again [s]
 constexpr double kLastEvents = 1;   // time for the last messages of a mount [s]
 constexpr int kPressureBytes = 80;  // of a reading of the transducer in a bag
+constexpr const char* kSetAside = "set_aside";  // folder of recordings that do not count
 
 double since(const ros::SteadyTime& time) {
   return (ros::SteadyTime::now() - time).toSec();
@@ -225,9 +226,11 @@ void ConductServer::follow() {
 
 void ConductServer::report(const Outcome& outcome) {
   const fsr::session_plan::SessionStep& step = conductor_->steps()[outcome.step];
-  const std::string what = name(step.kind) + " " + std::to_string(step.number) + " of " +
-                           std::to_string(step.of) + " on " + step.surface + ", mount " +
-                           std::to_string(step.mount);
+  const std::string mount = "mount " + std::to_string(step.mount);
+  const std::string what = step.kind == StepKind::kMount
+                               ? mount + " on " + step.surface
+                               : name(step.kind) + " " + std::to_string(step.number) + " of " +
+                                     std::to_string(step.of) + " on " + step.surface + ", " + mount;
   fsr_pressure_map::Event event;
   event.header.stamp = ros::Time::now();
   if (outcome.state == StepState::kAccepted) {
@@ -244,6 +247,7 @@ void ConductServer::report(const Outcome& outcome) {
     ROS_WARN_STREAM(event.label);
   }
   events_.publish(event);
+  if (outcome.mount_again) setAside(step);
   if (outcome.state == StepState::kAccepted && step.kind != StepKind::kCondition)
     tellConditioning(step.mount);
 }
@@ -349,16 +353,49 @@ void ConductServer::publishCommand(double time) {
 
 // ---- bags --------------------------------------------------------------------------------------------
 
+std::string ConductServer::bagName(const fsr::session_plan::SessionStep& step, int part) const {
+  const std::string number = (step.mount < 10 ? "0" : "") + std::to_string(step.mount);
+  const std::string name = fileName(plan_.name) + "_" + number + "_" + fileName(step.surface);
+  return (fs::path(folder_) / name).string() + (part == 1 ? "" : "_part" + std::to_string(part));
+}
+
 std::string ConductServer::freeBagName() const {
-  const fsr::session_plan::SessionStep& step = *conductor_->step();
-  const std::string number = std::to_string(step.mount);
-  const std::string file =
-      fileName(plan_.name) + "_" + (step.mount < 10 ? "0" : "") + number + "_" + fileName(step.surface);
-  const std::string name = (fs::path(folder_) / file).string();
   for (int part = 1;; ++part) {
-    const std::string one = name + (part == 1 ? "" : "_part" + std::to_string(part));
+    const std::string one = bagName(*conductor_->step(), part);
     if (!fs::exists(one + ".bag") && !fs::exists(one + ".bag.active")) return one;
   }
+}
+
+// The recordings of a mount that begins again, and one that a crash left open. Nothing is lost, but
+// FOLDER/*.bag must not hold them: the sheet may have lain on something else than they say.
+void ConductServer::setAside(const fsr::session_plan::SessionStep& step) {
+  recorder_.reset();
+  recorder_idle_.reset();
+  bool found = true;
+  for (int part = 1; found; ++part) {
+    found = false;
+    for (const char* const suffix : {".bag", ".bag.active"}) {
+      const fs::path bag = bagName(step, part) + suffix;
+      if (!fs::exists(bag)) continue;
+      found = true;
+      moveAside(bag, suffix);
+    }
+  }
+}
+
+void ConductServer::moveAside(const fs::path& bag, const std::string& suffix) const {
+  const fs::path folder = fs::path(folder_) / kSetAside;
+  const std::string file = bag.filename().string(), stem = file.substr(0, file.size() - suffix.size());
+  fs::path kept = folder / file;
+  for (int copy = 2; fs::exists(kept); ++copy) kept = folder / (stem + "_" + std::to_string(copy) + suffix);
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (!failed) fs::rename(bag, kept, failed);
+  if (failed)
+    ROS_ERROR_STREAM(bag.string() << ": does not count, but cannot be moved to " << kept.string() << " ("
+                                  << failed.message() << "); do not train from it");
+  else
+    ROS_WARN_STREAM(bag.string() << " does not count any more; it is kept as " << kept.string());
 }
 
 void ConductServer::startRecording() {

@@ -10,6 +10,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -62,7 +63,10 @@ class ConductServer {
   void followRecording();
   void startRecording();
   void checkDisk();
+  std::string bagName(const fsr::session_plan::SessionStep& step, int part) const;
   std::string freeBagName() const;
+  void setAside(const fsr::session_plan::SessionStep& step);
+  void moveAside(const std::filesystem::path& bag, const std::string& suffix) const;
 
   ros::NodeHandle handle_, private_handle_;
   fsr::session_plan::SessionPlan plan_;
