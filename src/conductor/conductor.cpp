@@ -57,6 +57,7 @@ Conductor::Conductor(const session_plan::SessionPlan& plan, const ConductorState
   }
   states_ = state.steps;
   rejected_ = state.rejected;
+  remarks_ = state.remarks;
   now_ = step_begin_ = state.time;
   goOn();
   resumed_ = !done() && steps_[step_].kind != StepKind::kMount && steps_[step_].kind != StepKind::kBreak;
@@ -344,6 +345,9 @@ void Conductor::note(std::size_t step, StepState state, const Verdict& verdict) 
   ++revision_;
   outcomes_.push_back({step, state, verdict});
   if (outcomes_.size() > kMostOutcomes) outcomes_.erase(outcomes_.begin());
+  if (state == StepState::kSkipped || verdict.sentence.empty()) return;
+  remarks_.push_back({step, verdict.reason, verdict.sentence});
+  if (remarks_.size() > ConductorState::kMostRemarks) remarks_.erase(remarks_.begin());
 }
 
 // Goes to the first step that is open.
@@ -370,7 +374,7 @@ std::vector<Outcome> Conductor::takeOutcomes() {
 }
 
 ConductorState Conductor::state() const {
-  return {plan_.name, digest_, states_, rejected_, now_};
+  return {plan_.name, digest_, states_, rejected_, now_, remarks_};
 }
 
 double Conductor::timeLeft() const {

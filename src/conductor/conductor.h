@@ -49,13 +49,23 @@ struct Answer {
   std::string sentence;
 };
 
+/// Why an attempt at a step was rejected, or accepted by hand.
+struct StepRemark {
+  std::size_t step = 0;           ///< index
+  Reason reason = Reason::kNone;  ///< kNone = accepted by hand
+  std::string sentence;
+};
+
 /// What is kept between two runs.
 struct ConductorState {
-  std::string plan;              ///< its name
-  std::string digest;            ///< of the plan, see digestOf()
-  std::vector<StepState> steps;  ///< of each step
-  unsigned rejected = 0;         ///< rejected attempts so far
-  double time = 0;               ///< when it was so [s]
+  std::string plan;                 ///< its name
+  std::string digest;               ///< of the plan, see digestOf()
+  std::vector<StepState> steps;     ///< of each step
+  unsigned rejected = 0;            ///< rejected attempts so far
+  double time = 0;                  ///< when it was so [s]
+  std::vector<StepRemark> remarks;  ///< in their order, the latest kMostRemarks
+
+  static constexpr std::size_t kMostRemarks = 1000;
 };
 
 /// SHA-256 of what planText() writes: a state belongs to one plan.
@@ -182,6 +192,7 @@ class Conductor {
   std::optional<double> deadline_;
   std::map<Reason, std::string> complaints_;
   std::vector<Outcome> outcomes_;
+  std::vector<StepRemark> remarks_;
 };
 
 }  // namespace fsr::conductor

@@ -1,19 +1,55 @@
 #include "conductor/state_file.h"
 
+#include <algorithm>
+
 #include "settings/replace_file.h"
 #include "settings/settings.h"
 #include "settings/yaml_text.h"
 
 namespace fsr::conductor {
 
+namespace {
+
+std::string remarksText(const std::vector<StepRemark>& remarks) {
+  std::string text;
+  for (const StepRemark& remark : remarks) {
+    const std::string reason = remark.reason == Reason::kNone ? "" : ", reason: " + name(remark.reason);
+    text += "  - {step: " + std::to_string(remark.step + 1) + reason +
+            ", sentence: " + settings::quotedText(remark.sentence) + "}\n";
+  }
+  return text.empty() ? "" : "remarks:\n" + text;
+}
+
+Reason reasonCalled(const settings::Settings& entry) {
+  if (!entry.has("reason")) return Reason::kNone;
+  std::vector<std::string> names;
+  for (const Reason reason : allReasons()) names.push_back(name(reason));
+  const std::string called = entry.choice("reason", names);
+  return allReasons()[static_cast<std::size_t>(std::find(names.begin(), names.end(), called) -
+                                               names.begin())];
+}
+
+std::vector<StepRemark> readRemarks(const settings::Settings& settings, std::size_t steps) {
+  std::vector<StepRemark> remarks;
+  if (!settings.has("remarks")) return remarks;
+  const settings::Range range{1, static_cast<double>(std::max<std::size_t>(steps, 1)), ""};
+  for (const settings::Settings& entry : settings.sections("remarks")) {
+    const auto step = static_cast<std::size_t>(entry.integer("step", range));
+    remarks.push_back({step - 1, reasonCalled(entry), entry.text("sentence")});
+  }
+  return remarks;
+}
+
+}  // namespace
+
 void writeState(const std::string& path, const ConductorState& state) {
   std::string steps;
   for (const StepState one : state.steps) steps += static_cast<char>(one);
   settings::replaceFile(
-      path,
-      "# A session that conduct goes on with.\nplan: " + settings::quotedText(state.plan) +
-          "\ndigest: " + settings::quotedText(state.digest) + "\ntime: " + settings::numberText(state.time) +
-          "\nrejected: " + std::to_string(state.rejected) + "\nsteps: " + settings::quotedText(steps) + "\n");
+      path, "# A session that conduct goes on with.\nplan: " + settings::quotedText(state.plan) +
+                "\ndigest: " + settings::quotedText(state.digest) + "\ntime: " +
+                settings::numberText(state.time) + "\nrejected: " + std::to_string(state.rejected) +
+                "\nsteps: " + settings::quotedText(steps) + "\n" + remarksText(state.remarks));
 }
 
 ConductorState readState(const std::string& path) {
@@ -29,6 +65,7 @@ ConductorState readState(const std::string& path) {
     }
     state.steps.push_back(static_cast<StepState>(one));
   }
+  state.remarks = readRemarks(settings, state.steps.size());
   settings.refuseUnknown();
   return state;
 }

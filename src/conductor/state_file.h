@@ -13,6 +13,8 @@ namespace fsr::conductor {
 ///     time: 1700000000.5     # [s]
 ///     rejected: 3            # attempts
 ///     steps: "aaas......"    # a = accepted, s = skipped, . = open
+///     remarks:               # may be left out; steps from 1; no reason = accepted by hand
+///       - {step: 8, reason: peak_missed, sentence: "the highest pressure was 400 kPa"}
 ///
 /// Throws InputError.
 void writeState(const std::string& path, const ConductorState& state);
