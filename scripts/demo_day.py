@@ -1,6 +1,6 @@
 """A conducted day at the emulated rig, for scripts/demo --day: an operator, who makes mistakes, follows the conductor through a plan.
 
-Nothing is called between the three launch files and the end of the plan. The tools then say what was recorded."""
+Nothing is called between the three launch files and the report of the day."""
 import contextlib
 import pathlib
 import shutil
@@ -10,6 +10,7 @@ from demo_tools import Failure, process, run_tool, serves, wait_until
 
 NAMESPACE = "fsr"
 MINUTES = 45          # of rig time that the plan may take
+REPORT = 900          # that check_bag, train and discrepancy may take for the report [s]
 MISTAKES = "peak_too_low@8,board_unplugged@20,too_fast@30"  # NAME@STEP, docs/nodes.md
 SURFACES = pathlib.Path(__file__).resolve().parent.parent / "config/surfaces"
 
@@ -22,6 +23,7 @@ class Listener:
         from fsr_pressure_map.msg import Instruction
         from std_msgs.msg import String
         self.say, self.over, self.step, self.remark, self.mistakes = say, threading.Event(), None, "", ""
+        self.reported = threading.Event()
         self.mount, self.done = Instruction.MOUNT, Instruction.DONE
         rospy.init_node("demo", disable_signals=True)
         rospy.Subscriber(f"/{NAMESPACE}/instruction", Instruction, self.hear)
@@ -36,6 +38,8 @@ class Listener:
         self.step = instruction.step
         if instruction.kind == self.done:
             self.over.set()
+            if instruction.remark and "being written" not in instruction.remark:
+                self.reported.set()
 
     def count(self, mistakes):
         self.mistakes = mistakes.data
@@ -62,20 +66,23 @@ def record(arguments, output, logs, plan, minutes, say):
         if not listener.over.wait(60 + 60 * (minutes + 30) / arguments.time_scale):
             raise Failure(f"the session did not end: step {listener.step}, {listener.remark or 'no remark'}; its log is {log}")
         say(f"mistakes of the operator: {listener.mistakes}")
+        if not listener.reported.wait(REPORT):
+            raise Failure(f"the report of the day was not written; the log is {log}")
     return folder
 
 
 def run(arguments, output, logs, say):
     """The whole day. Raises Failure where it cannot go on."""
-    plan, calibration = output / "day.yaml", output / "day.h5"
+    plan = output / "day.yaml"
     run_tool(logs / "plan.log", "plan_session", "--for", "per_curvature", "--minutes", MINUTES, "--output", plan)
     say(f"planned {plan}; an operator follows the conductor at {arguments.time_scale:g} x real time, and makes mistakes")
     folder = record(arguments, output, logs, plan, MINUTES, say)
-    bags = sorted(folder.glob("*.bag"))
-    if not bags:
-        raise Failure(f"{folder} has no bags; the logs are in {logs}")
-    print(run_tool(logs / "check_bag.log", "check_bag", *bags))
-    print(run_tool(logs / "train.log", "train", *bags, "--output", calibration))
-    print("plan         " + str(plan))
-    print("bags         " + "\n             ".join(map(str, bags)))
-    print(f"calibration  {calibration}")
+    report, calibration, results = folder / "day_report.html", folder / "day_calibration.h5", folder / "day_report"
+    if not report.exists():
+        raise Failure(f"{report} is missing; the logs are in {logs} and {results}")
+    for tool in ("check_bag", "train", "discrepancy"):
+        print((results / f"{tool}.txt").read_text())
+    print(f"plan         {plan}")
+    print("bags         " + "\n             ".join(map(str, sorted(folder.glob("*.bag")))))
+    print(f"calibration  {calibration if calibration.exists() else 'none, see the report'}")
+    print(f"report       {report}")

@@ -18,7 +18,8 @@
    prints its answer beside the key.
 
 With --day, instead: writes a plan for 45 min of rig time. An emulated operator, who makes mistakes, follows the conductor
-through it. The mistakes and what the conductor rejected are printed. Then what was recorded is checked and trained from.
+through it. The mistakes and what the conductor rejected are printed. Once the plan is done, the conductor has the report of
+the day written by itself.
 
 The exit status is 0 only if per-curvature has a smaller error than flat-only and one-for-all on every bent surface of the
 training, and is no worse than flat-only on the flat one, if history is nowhere worse than interpolated by more than 1 %,

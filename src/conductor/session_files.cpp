@@ -13,6 +13,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr char kState[] = "_session.yaml", kPart[] = "_part", kBag[] = ".bag";
+constexpr char kOpen[] = ".active";        // behind the name of a bag that is being written
+constexpr char kSetAside[] = "set_aside";  // folder of bags that do not count
 
 // Letters, digits, - and _ of a name; everything else may mean something in a path.
 std::string plainName(std::string name) {
@@ -25,6 +27,16 @@ std::string plainName(std::string name) {
 
 bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+MovedBag moveInto(const fs::path& folder, const fs::path& bag) {
+  fs::path kept = folder / bag.filename();
+  for (int copy = 2; fs::exists(kept); ++copy)
+    kept = folder / ("copy" + std::to_string(copy) + "_" + bag.filename().string());
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (!failed) fs::rename(bag, kept, failed);
+  return {bag.string(), kept.string(), failed ? failed.message() : ""};
 }
 
 // 1 of "STEM.bag", 2 of "STEM_part2.bag"; 0 = no bag of this mount.
@@ -69,7 +81,7 @@ std::string freeBagName(const std::string& folder, const std::string& stem) {
   const std::string name = (fs::path(folder) / stem).string();
   for (int part = 1;; ++part) {
     const std::string one = name + (part == 1 ? "" : kPart + std::to_string(part));
-    if (!fs::exists(one + kBag) && !fs::exists(one + kBag + ".active")) return one;
+    if (!fs::exists(one + kBag) && !fs::exists(one + kBag + kOpen)) return one;
   }
 }
 
@@ -84,6 +96,22 @@ std::vector<std::string> bagsOfMount(const std::string& folder, const std::strin
   std::vector<std::string> files;
   for (const auto& [part, file] : parts) files.push_back(file);
   return files;
+}
+
+std::vector<MovedBag> setMountAside(const std::string& folder, const std::string& stem) {
+  std::vector<std::string> files;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder, failed)) {
+    const std::string file = entry.path().filename().string();
+    const std::string closed =
+        endsWith(file, kOpen) ? file.substr(0, file.size() - (sizeof kOpen - 1)) : file;
+    if (partOf(closed, stem) > 0) files.push_back(file);
+  }
+  std::sort(files.begin(), files.end());
+  std::vector<MovedBag> moved;
+  for (const std::string& file : files)
+    moved.push_back(moveInto(fs::path(folder) / kSetAside, fs::path(folder) / file));
+  return moved;
 }
 
 std::string stateFileIn(const std::string& folder, const std::string& plan) {

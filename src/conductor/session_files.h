@@ -28,6 +28,15 @@ std::string freeBagName(const std::string& folder, const std::string& stem);
 /// The finished bags of one mount, by the number of their part: file names.
 std::vector<std::string> bagsOfMount(const std::string& folder, const std::string& stem);
 
+struct MovedBag {
+  std::string from, to;
+  std::string failure;  ///< why it was not moved; empty = it was
+};
+/// Moves the bags of a mount, and one that a crash left open, to `folder`/set_aside under names that no file
+/// there has. Nothing is lost, but FOLDER/*.bag must not hold them: the sheet may have lain on something else
+/// than they say.
+std::vector<MovedBag> setMountAside(const std::string& folder, const std::string& stem);
+
 /// The name of the one state in `folder`. Throws InputError where there is none, or more than one and no
 /// `plan` says which.
 std::string stateFileIn(const std::string& folder, const std::string& plan);

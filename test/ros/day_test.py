@@ -1,8 +1,10 @@
 #!/usr/bin/python3
-"""A whole day at the emulated rig: the shipped launch files, an operator who makes mistakes, and the tools on what was recorded.
+"""A whole day at the emulated rig: the shipped launch files, an operator who makes mistakes, and the report of the day.
 
-Nothing is called between the three launch files and the end of the plan. Rig time runs 20 times as fast as real time.
+Nothing is called between the three launch files and the report. Rig time runs 20 times as fast as real time.
 """
+import html.parser
+import json
 import os
 import pathlib
 import signal
@@ -35,6 +37,41 @@ program:
 STEPS = {"peak_too_low": 8, "leak": 9, "board_unplugged": 16, "terminal_closed": 18}
 REMARKS = ("planned are 500 kPa", "leak", "no reading of the chamber pressure")  # a closed terminal cannot say anything
 LINK = "day_port"
+SECTIONS = ("What was recorded", "How good the calibration is", "Error budget", "What the sheet does that the simulation lacks",
+            "What to record next", "Every step", "How to compute it again")
+
+
+class Page(html.parser.HTMLParser):
+    """The headings, the rows of the tables and whatever the page would load from elsewhere."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.headings, self.rows, self.outside, self.pictures, self.text, self.open = [], [], [], 0, "", []
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        if tag in ("script", "link", "iframe", "img", "object", "embed", "base"):
+            self.outside.append(tag)
+        self.outside += [f"{tag} {name}={value}" for name, value in attrs if name in ("src", "href", "xlink:href", "data", "action")]
+        self.pictures += tag == "svg"
+        self.rows += [[]] if tag == "tr" else []
+        if tag in ("td", "h2"):
+            self.open.append("")
+
+    def handle_data(self, data):
+        self.text += data
+        if self.open:
+            self.open[-1] += data
+
+    def handle_endtag(self, tag):
+        if tag == "td":
+            self.rows[-1].append(self.open.pop())
+        if tag == "h2":
+            self.headings.append(self.open.pop())
+
+    def row(self, name):
+        return next(row for row in self.rows if row and row[0] == name)
 
 
 class DayTest(unittest.TestCase):
@@ -43,7 +80,7 @@ class DayTest(unittest.TestCase):
         self.home = pathlib.Path(self.folder.name)
         (self.home / "day.yaml").write_text(PLAN)
         self.running, self.remarks, self.mistakes = [], [], ""
-        self.over = threading.Event()
+        self.over, self.reported = threading.Event(), threading.Event()
         rospy.Subscriber("/fsr/instruction", Instruction, self.hear)
         rospy.Subscriber("/fsr/rig_emulator/mistakes", String, self.count)
 
@@ -59,6 +96,8 @@ class DayTest(unittest.TestCase):
             self.remarks.append(instruction.remark)
         if instruction.kind == Instruction.DONE:
             self.over.set()
+            if "The report of the day" in instruction.remark and "being written" not in instruction.remark:
+                self.reported.set()
 
     def count(self, mistakes):
         self.mistakes = mistakes.data
@@ -72,7 +111,32 @@ class DayTest(unittest.TestCase):
                               stderr=subprocess.STDOUT, timeout=120)
         return done.returncode, done.stdout.decode()
 
-    def test_from_plan_to_calibration(self):
+    def check_report(self, text):
+        """The page holds each part, loads nothing, and has the figures of the tools."""
+        page = Page(text)
+        self.assertEqual(page.outside, [])
+        self.assertEqual(page.pictures, 1)
+        self.assertEqual(page.headings, list(SECTIONS))
+        for part in ("no result", "incomplete"):
+            self.assertNotIn(part, page.text)
+        for reason in ("rejected (peak_missed): ", "rejected (leak): ", "4 of 4 cycles accepted", "said by the operator"):
+            self.assertIn(reason, page.text)
+
+        code, budget = self.tool("train", "--budget", "session/day_calibration.h5")
+        self.assertEqual(code, 0, budget)
+        for name in ("pressure", "resolution", "loading and unloading", "held-out error", "combined, k = 2"):
+            line = next(line for line in budget.splitlines() if line.startswith(name + " "))
+            self.assertEqual(page.row(name)[1:4], line[len(name):].split()[:3], line)
+        results = self.home / "session/day_report"
+        training = json.loads((results / "training.json").read_text())
+        rmse = training["scores"]["whole"]["errors_pa"]["whole"]["all"]["rmse"]
+        self.assertEqual(page.row("all together")[3], f"{rmse / 1e3:.1f}")
+        found = json.loads((results / "discrepancy/results.json").read_text())
+        self.assertIn(found["sentence"], page.text)
+        for item in found["first_screen"]:
+            self.assertEqual(page.row(item["title"])[1], item["answer"])
+
+    def test_from_plan_to_the_report(self):
         link = self.home / LINK
         self.launch("rig_emulator.launch", "operator:=true", "time_scale:=20", f"link:={link}", "change:=20",
                     "mistakes:=" + ",".join(f"{name}@{step}" for name, step in STEPS.items()))
@@ -85,19 +149,16 @@ class DayTest(unittest.TestCase):
             self.assertIn(name, self.mistakes)
         for remark in REMARKS:
             self.assertTrue(any(remark in heard for heard in self.remarks), f"{remark} was not said: {self.remarks}")
-        session = self.running.pop()  # the last bag is closed when it ends
-        session.send_signal(signal.SIGINT)
-        session.wait(30)
-        bags = sorted((self.home / "session").glob("*.bag"))
-        self.assertEqual([bag.name for bag in bags], ["day_01_flat.bag", "day_02_cylinder_5cm.bag", "day_02_cylinder_5cm_part2.bag"])
-
-        code, text = self.tool("check_bag", *bags)
-        self.assertEqual(code, 0, text)
-        self.assertIn("conditioning: said by the operator", text)
-        code, text = self.tool("train", *bags, "--output", "day.h5")
-        self.assertEqual(code, 0, text)
-        self.assertTrue((self.home / "day.h5").exists())
-        self.assertIn("cylinder_5cm", text)
+        for one in (self.running.pop(1), self.running.pop(0)):  # the driver and the rig, whose work is done
+            one.send_signal(signal.SIGINT)
+            one.wait(60)
+        self.assertTrue(self.reported.wait(500), f"the report was not written; heard: {self.remarks}")
+        report = self.home / "session/day_report.html"
+        self.assertIn("The report of the day is being written.", self.remarks)
+        self.assertIn(f"The report of the day is {report}", self.remarks)
+        bags = sorted(path.name for path in (self.home / "session").glob("*.bag*"))
+        self.assertEqual(bags, ["day_01_flat.bag", "day_02_cylinder_5cm.bag", "day_02_cylinder_5cm_part2.bag"])
+        self.check_report(report.read_text())
 
 
 if __name__ == "__main__":

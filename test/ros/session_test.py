@@ -74,7 +74,7 @@ class SessionTest(unittest.TestCase):
     def start(self):
         self.instruction = None
         self.launch = subprocess.Popen(["roslaunch", "fsr_pressure_map", "session.launch", f"plan:={self.plan}", f"folder:={self.bags}",
-                                        f"surfaces:={PACKAGE}/config/surfaces", "wait:=60", "silence:=5", "command:=true"])
+                                        f"surfaces:={PACKAGE}/config/surfaces", "wait:=60", "silence:=5", "command:=true", "report:=false"])
         self.commands = rospy.Subscriber("/fsr/chamber_command", FluidPressure, lambda message: self.commanded.append(message.fluid_pressure))
         self.until(lambda now: now is not None)
         self.wait_for(lambda: self.scans.get_num_connections() > 0 and self.pressures.get_num_connections() > 0)

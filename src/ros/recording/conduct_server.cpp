@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "conductor/coverage.h"
+#include "conductor/session_files.h"
 #include "conductor/state_file.h"
 #include "dataset/recording_builder.h"
 #include "ros/bags/resource_path.h"
@@ -16,6 +17,7 @@
 #include "ros/messages/surface_message.h"
 #include "session_plan/plan_file.h"
 #include "settings/number_text.h"
+#include "settings/replace_file.h"
 
 namespace fsr_ros {
 
@@ -31,19 +33,9 @@ constexpr double kQuiet = 2;        // without any message, until the time of th
 constexpr double kRetry = 10;       // until a recording that stopped is begun again [s]
 constexpr double kLastEvents = 1;   // time for the last messages of a mount [s]
 constexpr int kPressureBytes = 80;  // of a reading of the transducer in a bag
-constexpr const char* kSetAside = "set_aside";  // folder of recordings that do not count
 
 double since(const ros::SteadyTime& time) {
   return (ros::SteadyTime::now() - time).toSec();
-}
-
-// Letters, digits, - and _ of a name; everything else may mean something in a path.
-std::string fileName(std::string name) {
-  for (char& one : name) {
-    const bool plain = (one >= 'a' && one <= 'z') || (one >= 'A' && one <= 'Z') || (one >= '0' && one <= '9');
-    if (!plain && one != '-' && one != '_') one = '_';
-  }
-  return name;
 }
 
 std::string measuredText(const fsr::conductor::Measured& measured) {
@@ -99,7 +91,7 @@ void ConductServer::start(const Parameters& parameters) {
   std::error_code failed;
   fs::create_directories(folder_, failed);
   if (!fs::is_directory(folder_)) throw parameters.error("folder", "is no folder and cannot be made");
-  state_file_ = (fs::path(folder_) / (fileName(plan_.name) + "_session.yaml")).string();
+  state_file_ = (fs::path(folder_) / fsr::conductor::stateFileName(plan_.name)).string();
   if (fs::exists(state_file_)) {
     conductor_ =
         std::make_unique<fsr::conductor::Conductor>(plan_, fsr::conductor::readState(state_file_), options);
@@ -107,6 +99,10 @@ void ConductServer::start(const Parameters& parameters) {
   } else {
     conductor_ = std::make_unique<fsr::conductor::Conductor>(plan_, options);
   }
+  // So that the folder tells by itself what was planned.
+  fsr::settings::replaceFile((fs::path(folder_) / fsr::conductor::planFileName(plan_.name)).string(),
+                             planText(plan_, {"The plan of this session."}));
+  if (parameters.flag("report", true)) reporter_ = std::make_unique<DayReporter>(folder_, plan_.name);
 }
 
 void ConductServer::advertiseAnswers(const std::function<fsr::conductor::Answer()>& action,
@@ -196,12 +192,20 @@ void ConductServer::onTimer() {
   if (now > 0 && quiet > kQuiet) publishCommand(now);  // vent
   checkDisk();
   followRecording();
+  if (reporter_) reporter_->follow(conductor_->done() && !recorder_);
   follow();
   static constexpr int kEach = static_cast<int>(1 / kTick);
   if (++ticks_ % kEach == 0) {
-    publishInstruction(conductor_->instruction());
+    publishInstruction(instructionNow());
     publishSurface();
   }
+}
+
+// With what there is to say about the report.
+fsr::conductor::Instruction ConductServer::instructionNow() const {
+  fsr::conductor::Instruction now = conductor_->instruction();
+  if (reporter_ && conductor_->done()) now.remark = reporter_->sentence();
+  return now;
 }
 
 void ConductServer::checkDisk() {
@@ -283,10 +287,11 @@ void ConductServer::save() {
 
 // Publishes and logs the instruction where it has changed.
 void ConductServer::say() {
-  const fsr::conductor::Instruction now = conductor_->instruction();
+  const fsr::conductor::Instruction now = instructionNow();
   if (now.text == said_text_ && now.remark == said_remark_) return;
   if (now.text != said_text_) ROS_INFO_STREAM("[" << now.step << " of " << now.steps << "] " << now.text);
-  const bool told = now.remark.empty() || now.remark.rfind("rejected: ", 0) == 0;  // by report()
+  // Told by report(), or by the reporter.
+  const bool told = now.remark.empty() || now.remark.rfind("rejected: ", 0) == 0 || conductor_->done();
   if (now.remark != said_remark_ && !told) ROS_WARN_STREAM_THROTTLE(1, now.remark);
   said_text_ = now.text;
   said_remark_ = now.remark;
@@ -353,59 +358,30 @@ void ConductServer::publishCommand(double time) {
 
 // ---- bags --------------------------------------------------------------------------------------------
 
-std::string ConductServer::bagName(const fsr::session_plan::SessionStep& step, int part) const {
-  const std::string number = (step.mount < 10 ? "0" : "") + std::to_string(step.mount);
-  const std::string name = fileName(plan_.name) + "_" + number + "_" + fileName(step.surface);
-  return (fs::path(folder_) / name).string() + (part == 1 ? "" : "_part" + std::to_string(part));
-}
-
-std::string ConductServer::freeBagName() const {
-  for (int part = 1;; ++part) {
-    const std::string one = bagName(*conductor_->step(), part);
-    if (!fs::exists(one + ".bag") && !fs::exists(one + ".bag.active")) return one;
-  }
-}
-
-// The recordings of a mount that begins again, and one that a crash left open. Nothing is lost, but
-// FOLDER/*.bag must not hold them: the sheet may have lain on something else than they say.
+// The bags of a mount that begins again do not count.
 void ConductServer::setAside(const fsr::session_plan::SessionStep& step) {
   recorder_.reset();
   recorder_idle_.reset();
-  bool found = true;
-  for (int part = 1; found; ++part) {
-    found = false;
-    for (const char* const suffix : {".bag", ".bag.active"}) {
-      const fs::path bag = bagName(step, part) + suffix;
-      if (!fs::exists(bag)) continue;
-      found = true;
-      moveAside(bag, suffix);
-    }
+  const std::string stem = fsr::conductor::bagStem(plan_.name, step.mount, step.surface);
+  for (const fsr::conductor::MovedBag& bag : fsr::conductor::setMountAside(folder_, stem)) {
+    if (bag.failure.empty())
+      ROS_WARN_STREAM(bag.from << " does not count any more; it is kept as " << bag.to);
+    else
+      ROS_ERROR_STREAM(bag.from << ": does not count, but cannot be moved to " << bag.to << " ("
+                                << bag.failure << "); do not train from it");
   }
 }
 
-void ConductServer::moveAside(const fs::path& bag, const std::string& suffix) const {
-  const fs::path folder = fs::path(folder_) / kSetAside;
-  const std::string file = bag.filename().string(), stem = file.substr(0, file.size() - suffix.size());
-  fs::path kept = folder / file;
-  for (int copy = 2; fs::exists(kept); ++copy) kept = folder / (stem + "_" + std::to_string(copy) + suffix);
-  std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (!failed) fs::rename(bag, kept, failed);
-  if (failed)
-    ROS_ERROR_STREAM(bag.string() << ": does not count, but cannot be moved to " << kept.string() << " ("
-                                  << failed.message() << "); do not train from it");
-  else
-    ROS_WARN_STREAM(bag.string() << " does not count any more; it is kept as " << kept.string());
-}
-
 void ConductServer::startRecording() {
-  const std::string bag = freeBagName();
+  const fsr::session_plan::SessionStep& step = *conductor_->step();
+  const std::string bag =
+      fsr::conductor::freeBagName(folder_, fsr::conductor::bagStem(plan_.name, step.mount, step.surface));
   const ros::NodeHandle recorder(private_handle_, "recorder");
   recorder.setParam("bag", bag);
   try {
     recorder_ended_ = false;
     recorder_ = std::make_unique<Recorder>(handle_, recorder, [this] { recorder_ended_ = true; });
-    recorded_mount_ = conductor_->step()->mount;
+    recorded_mount_ = step.mount;
     conductor_->recordingTrouble("");
   } catch (const fsr::settings::InputError& error) {
     recorder_.reset();

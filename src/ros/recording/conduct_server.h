@@ -10,7 +10,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -19,6 +18,7 @@
 #include "conductor/chamber_command.h"
 #include "conductor/conductor.h"
 #include "fsr_pressure_map/health/taxel_watch.h"
+#include "ros/recording/day_reporter.h"
 #include "ros/recording/recorder.h"
 
 namespace fsr_ros {
@@ -31,8 +31,8 @@ namespace fsr_ros {
 ///
 /// Parameters: `~plan` (path), `~surfaces` (folder), `~folder` (of bags and state), `~minutes` (time that
 /// there is; 0 = no limit), `~command` (true: publish `chamber_command` for a regulator, at each reading),
-/// `~silence` (time without a reading until it is said [s]), `~frame_id`, and those of the Recorder in
-/// `~recorder/`.
+/// `~silence` (time without a reading until it is said [s]), `~report` (true: write the report of the day
+/// once the session is over), `~frame_id`, and those of the Recorder in `~recorder/`.
 class ConductServer {
  public:
   /// Throws fsr::InputError.
@@ -63,10 +63,8 @@ class ConductServer {
   void followRecording();
   void startRecording();
   void checkDisk();
-  std::string bagName(const fsr::session_plan::SessionStep& step, int part) const;
-  std::string freeBagName() const;
   void setAside(const fsr::session_plan::SessionStep& step);
-  void moveAside(const std::filesystem::path& bag, const std::string& suffix) const;
+  fsr::conductor::Instruction instructionNow() const;
 
   ros::NodeHandle handle_, private_handle_;
   fsr::session_plan::SessionPlan plan_;
@@ -77,6 +75,7 @@ class ConductServer {
   fsr_pressure_map::MatrixInfoConstPtr info_;
   std::optional<fsr_pressure_map::MatrixFrame> last_frame_;  // without its counts
 
+  std::unique_ptr<DayReporter> reporter_;  // null: no report is wanted
   std::unique_ptr<Recorder> recorder_;
   unsigned recorded_mount_ = 0;
   bool conditioning_told_ = false;  // in a bag

@@ -131,7 +131,9 @@ QString instructionText(const fsr_pressure_map::Instruction& instruction) {
 
 PanelLine remarkLine(const fsr_pressure_map::Instruction& instruction) {
   if (instruction.remark.empty()) return {};
-  return {text(instruction.remark), "color: #b00020"};
+  // At the end it says where the report of the day is.
+  const bool done = instruction.kind == fsr_pressure_map::Instruction::DONE;
+  return {text(instruction.remark), done ? "" : "color: #b00020"};
 }
 
 }  // namespace fsr_rviz

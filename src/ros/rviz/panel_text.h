@@ -61,7 +61,8 @@ PanelLine restLine(const DiagnosticValues& values);
 /// What the conductor says, e.g. "Step 3 of 40: Cycle 1 of 10: fill to 620 kPa ...".
 QString instructionText(const fsr_pressure_map::Instruction& instruction);
 
-/// Why the last attempt was rejected, and what hinders; empty = nothing.
+/// Why the last attempt was rejected, and what hinders; at the end, where the report of the day is. Empty =
+/// nothing.
 PanelLine remarkLine(const fsr_pressure_map::Instruction& instruction);
 
 }  // namespace fsr_rviz
