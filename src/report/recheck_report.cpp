@@ -63,6 +63,32 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
+Json changeJson(const calibration::CommonChange& change) {
+  return {{"common_pa", change.size},
+          {"mount_scatter_pa", change.scatter.deviation},
+          {"degrees_of_freedom", change.scatter.freedom},
+          {"p", change.p}};
+}
+
+// null = mounts were not asked.
+Json mountsJson(const calibration::Recheck& recheck) {
+  if (!recheck.mounts) return nullptr;
+  return {{"number", recheck.mounts->mounts},
+          {"sheet", changeJson(recheck.mounts->sheet)},
+          {"taxels", changeJson(recheck.mounts->taxels)}};
+}
+
+// "3 mounts have 12.3 kPa in common and scatter by 1.2 kPa (2 degrees of freedom): p = 0.01".
+std::string mountsText(const calibration::MountTest& test) {
+  const calibration::CommonChange& sheet = test.sheet;
+  std::string text = std::to_string(test.mounts) + (test.mounts == 1 ? " mount has " : " mounts have ") +
+                     kilopascals(sheet.size) + " in common; ";
+  if (!sheet.scatter.known()) return text + "how much mounts scatter is not known";
+  return text + "mounts scatter by " + kilopascals(sheet.scatter.deviation) + " (" +
+         std::to_string(sheet.scatter.freedom) +
+         " degrees of freedom), p = " + settings::roundedText(sheet.p, 3);
+}
+
 }  // namespace
 
 std::string recheckText(const calibration::Recheck& recheck) {
@@ -78,6 +104,7 @@ std::string recheckText(const calibration::Recheck& recheck) {
       << (choice.p < 1e-4 ? "< 0.0001" : "= " + settings::roundedText(choice.p, 2)) << ")\n";
   if (choice.model != ChangeModel::kNone)
     out << "Best: " << modelName(choice.model) << ", " << changeText(choice.changes) << '\n';
+  if (recheck.mounts) out << "Whole sheet: " << mountsText(*recheck.mounts) << '\n';
   for (const std::string& remark : recheck.remarks) out << "Note: " << remark << '\n';
   for (const std::string& remark : recheck.check.remarks) out << "Note: " << remark << '\n';
   std::string verdict = calibration::verdictName(recheck.verdict);
@@ -112,10 +139,9 @@ std::string recheckJson(const calibration::Recheck& recheck, const std::string& 
                            {"none", choice.rmse[0]},
                            {"whole_sheet", choice.rmse[1]},
                            {"by_taxel", choice.rmse[2]},
-                           {"nested", choice.nested},
-                           {"removed", recheck.removed},
-                           {"another_mount", recheck.mount}}},
-                         {"p", choice.p}};
+                           {"nested", choice.nested}}},
+                         {"p", choice.p},
+                         {"mounts", mountsJson(recheck)}};
   return dump(document);
 }
 

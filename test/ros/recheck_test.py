@@ -111,12 +111,12 @@ class RecheckTest(unittest.TestCase):
         self.start("calibrated", f"serial_port:={port}", "serial_baud:=0", "calibration:=sheet.h5", "surface:=flat")
         parent = self.info("")
         self.diagnosed("none")
-        said = self.ended(self.start("recheck", "cycles:=3", "report:=report.json"))
+        said = self.ended(self.start("recheck", "cycles:=3", "same_mount:=true", "report:=report.json"))
         self.assertIn("\nCorrected: on cycles that were left out", said)
         self.assertNotIn("has died", said)
         child = self.folder / "sheet_corrected.h5"
         self.assertIn(f"written to {child}", said)
-        self.assertTrue(list((self.folder / "ros_home").glob("recheck_*.bag")))
+        bag, = (self.folder / "ros_home").glob("recheck_*.bag")
         self.assertEqual(yaml.safe_load((self.folder / "report.json").read_text())["verdict"], "corrected")
         rospy.wait_for_service("/fsr/calibration/load_calibration", PATIENCE)
         answer = rospy.ServiceProxy("/fsr/calibration/load_calibration", LoadFile)(str(child))
@@ -124,6 +124,10 @@ class RecheckTest(unittest.TestCase):
         corrected = f"corrected on {self.info(parent.id).corrected[:10]} from {parent.id}"
         self.assertIn(corrected, answer.message)
         self.diagnosed(corrected)
+        on_a_new_mount = self.ended(self.start("recheck", "calibration:=sheet.h5", f"bags:={bag}", "output:=none.h5"))
+        self.assertIn("\nCannot tell: ", on_a_new_mount)
+        self.assertIn(f'bags:="{bag} ..."', on_a_new_mount)
+        self.assertFalse((self.folder / "none.h5").exists())
         refused = self.ended(self.start("recheck", "cycles:=3"))
         self.assertIn(f"is itself a correction of {parent.id}", refused)
 

@@ -40,9 +40,9 @@ Held leaveEachOut(const CorrectionFit& fit, const Cycles& cycles) {
   return held;
 }
 
-std::size_t best(const Held& held) {
+std::size_t best(const Held& held, ChangeModel richest) {
   std::size_t best = 0;
-  for (std::size_t m = 1; m < kChangeModels; ++m) {
+  for (std::size_t m = 1; m <= static_cast<std::size_t>(richest); ++m) {
     if (total(held[m]).sum < total(held[best]).sum) best = m;
   }
   return best;
@@ -66,21 +66,20 @@ double oneSidedP(const std::vector<SquaredErrors>& none, const std::vector<Squar
 
 }  // namespace
 
-CorrectionChoice chooseCorrection(const RecheckReadings& readings) {
-  const CorrectionFit fit(readings);
-  const Cycles all(readings.cycles(), true);
+CorrectionChoice chooseCorrection(const CorrectionFit& fit, ChangeModel richest) {
+  const Cycles all(fit.readings().cycles(), true);
   const Held held = leaveEachOut(fit, all);
   CorrectionChoice choice;
   for (std::size_t m = 0; m < kChangeModels; ++m) choice.rmse[m] = std::sqrt(total(held[m]).mean());
   const SquaredErrors none = total(held[0]);
   choice.expected = std::sqrt(none.expected / double(none.readings));
-  choice.model = kModels[best(held)];
+  choice.model = kModels[best(held, richest)];
   choice.changes = fit.fit(choice.model, all);
   std::vector<SquaredErrors> nested;
   for (std::size_t out = 0; out < all.size(); ++out) {
     Cycles rest = all;
     rest[out] = false;
-    nested.push_back(held[best(leaveEachOut(fit, rest))][out]);
+    nested.push_back(held[best(leaveEachOut(fit, rest), richest)][out]);
   }
   choice.nested = std::sqrt(total(nested).mean());
   choice.p = oneSidedP(held[0], nested);

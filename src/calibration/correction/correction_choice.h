@@ -22,6 +22,7 @@ struct CorrectionChoice {
 };
 
 /// Leaves each cycle out once. The choice is nested: within the cycles that are left, each is left out again.
-CorrectionChoice chooseCorrection(const RecheckReadings& readings);
+/// Models that are richer than `richest` are not chosen; their RMSE is given all the same.
+CorrectionChoice chooseCorrection(const CorrectionFit& fit, ChangeModel richest = ChangeModel::kTaxels);
 
 }  // namespace fsr::calibration

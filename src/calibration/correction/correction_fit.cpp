@@ -63,12 +63,12 @@ bool CorrectionFit::Sums::solve(double& shift_out, double& stretch_out) const {
 }
 
 CorrectionFit::CorrectionFit(const RecheckReadings& readings) : readings_(readings) {
-  double sum = 0, number = 0;
+  double sum = 0;
   for (const auto& taxel : readings.readings) {
     for (const RecheckReading& reading : taxel) sum += reading.code;
-    number += double(taxel.size());
+    number_ += double(taxel.size());
   }
-  if (number > 0) pivot_ = sum / number;
+  if (number_ > 0) pivot_ = sum / number_;
   fitSheet();
   taxels_.assign(sheet_sums_.size(), sheet_);
   taxel_sums_ = sheet_sums_;
@@ -201,13 +201,50 @@ std::vector<CorrectionFit::Change> CorrectionFit::shrunk(const Cycles& cycles, C
   return own;
 }
 
+CorrectionFit::Sums CorrectionFit::sheetTotal(const Cycles& cycles) const {
+  Sums whole;
+  for (const CycleSums& taxel : sheet_sums_) whole.add(totalOf(taxel, cycles));
+  return whole;
+}
+
+CorrectionFit::Change CorrectionFit::sheetOf(const Cycles& cycles) const {
+  Change step;
+  if (!sheetTotal(cycles).solve(step.shift, step.stretch)) return sheet_;
+  return {sheet_.shift + step.shift, limited(sheet_.stretch + step.stretch)};
+}
+
+// The mean square of a x^2 + 2 b x y + d y^2 as the sum of two squares.
+void CorrectionFit::addEffect(const Sums& sums, Change change, std::vector<double>& effects) const {
+  const double root = std::sqrt(sums.a);
+  const double rest = sums.a > 0 ? std::max(0.0, sums.d - sums.b * sums.b / sums.a) : 0.0;
+  const double first = root > 0 ? root * change.shift + sums.b / root * change.stretch : 0.0;
+  effects.push_back(first / std::sqrt(number_));
+  effects.push_back(std::sqrt(rest) * change.stretch / std::sqrt(number_));
+}
+
+std::vector<double> CorrectionFit::sheetEffect(const Cycles& cycles) const {
+  std::vector<double> effect;
+  addEffect(sheetTotal(Cycles(readings_.cycles(), true)), sheetOf(cycles), effect);
+  return effect;
+}
+
+std::vector<double> CorrectionFit::taxelEffects(const Cycles& cycles) const {
+  const Change sheet = sheetOf(cycles);
+  std::vector<double> effects;
+  for (std::size_t taxel = 0; taxel < taxels_.size(); ++taxel) {
+    Change own = sheet;
+    alone(taxel, totalOf(taxel_sums_[taxel], cycles), own);
+    const Change beside{own.shift - sheet.shift, own.stretch - sheet.stretch};
+    addEffect(totalOf(sheet_sums_[taxel], Cycles(readings_.cycles(), true)), beside, effects);
+  }
+  return effects;
+}
+
 std::vector<ReadingChange> CorrectionFit::fit(ChangeModel model, const Cycles& cycles) const {
   std::vector<ReadingChange> result(taxels_.size());
   if (model == ChangeModel::kNone) return result;
-  Sums whole;
-  for (std::size_t taxel = 0; taxel < taxels_.size(); ++taxel) whole.add(totalOf(sheet_sums_[taxel], cycles));
   Change step;
-  if (!whole.solve(step.shift, step.stretch)) return result;
+  if (!sheetTotal(cycles).solve(step.shift, step.stretch)) return result;
   const Change sheet{sheet_.shift + step.shift, limited(sheet_.stretch + step.stretch)};
   std::vector<Change> changes(taxels_.size(), sheet);
   if (model == ChangeModel::kTaxels) changes = shrunk(cycles, sheet);

@@ -55,6 +55,14 @@ class CorrectionFit {
   /// [taxels], fitted to the cycles.
   std::vector<ReadingChange> fit(ChangeModel model, const Cycles& cycles) const;
 
+  /// What the change of the whole sheet, fitted to the cycles, does to the pressure. Squares of the two
+  /// coordinates add up to the mean square over all readings [Pa].
+  std::vector<double> sheetEffect(const Cycles& cycles) const;
+  /// [2 * taxels], likewise, what each taxel changes beside the sheet, not drawn towards it [Pa].
+  std::vector<double> taxelEffects(const Cycles& cycles) const;
+
+  const RecheckReadings& readings() const { return readings_; }
+
   /// Errors of the readings of one cycle, if the sheet has changed so.
   SquaredErrors errors(const std::vector<ReadingChange>& changes, std::size_t cycle) const;
 
@@ -77,6 +85,11 @@ class CorrectionFit {
   using CycleSums = std::vector<Sums>;  // [cycles]
 
   ReadingChange toReading(Change change) const;
+  Sums sheetTotal(const Cycles& cycles) const;
+  // The change of the whole sheet; that of all cycles where these do not determine it.
+  Change sheetOf(const Cycles& cycles) const;
+  // Adds the coordinates of a change of the readings behind `sums` to `effects`.
+  void addEffect(const Sums& sums, Change change, std::vector<double>& effects) const;
   // Of one taxel around a change. `error`: sum of the squared errors [Pa^2].
   CycleSums sumsAround(Change centre, std::size_t taxel, double& error) const;
   static Sums totalOf(const CycleSums& sums, const Cycles& cycles);
@@ -89,6 +102,7 @@ class CorrectionFit {
 
   const RecheckReadings& readings_;
   double pivot_ = 0;                   // mean reading [counts]
+  double number_ = 0;                  // of readings
   Change sheet_;                       // fitted to all cycles
   std::vector<CycleSums> sheet_sums_;  // [taxels], around `sheet_`
   std::vector<Change> taxels_;         // [taxels], each fitted to all cycles

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "calibration/calibration_check.h"
+#include "calibration/correction/common_change.h"
 #include "calibration/correction/correction_choice.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 
@@ -13,11 +13,12 @@ namespace fsr::calibration {
 
 enum class RecheckVerdict {
   kStillGood,   ///< a correction would not help enough to be worth a new calibration file
-  kCorrected,   ///< a correction wins on cycles that were left out
+  kCorrected,   ///< a correction wins on cycles that were left out, and mounts alone do not do as much
+  kCannotTell,  ///< a correction would win, but mounts alone may do as much
   kRecalibrate  ///< even the best correction leaves errors larger than `train --check` allows
 };
 
-/// "still good", "corrected", "recalibrate".
+/// "still good", "corrected", "cannot tell", "recalibrate".
 std::string verdictName(RecheckVerdict verdict);
 
 /// When a correction is taken, with all defaults.
@@ -27,6 +28,11 @@ struct RecheckOptions {
   /// The parent is still good as long as its RMSE is at most this many times that of the correction on cycles
   /// that were left out: what a correction shall reach of a new calibration.
   double worth = 1.1;
+  /// The sheet was not taken out since the training, so that no mount differs.
+  bool same_mount = false;
+  /// Otherwise the probability of taking a correction where only the mounts differ. A correction by taxel
+  /// must pass the same test once more.
+  double mount_error_rate = 0.05;
   CalibrationCheckOptions check;  ///< limits of `train --check`
   std::string date;               ///< ISO 8601, UTC; empty = now
 };
@@ -39,10 +45,8 @@ struct Recheck {
   CorrectionChoice choice;
   std::size_t cycles = 0;
   std::vector<std::string> surfaces;
-  /// RMSE that the correction takes away, and what another mount alone changes [Pa]; NaN = the parent was not
-  /// trained on several mounts of a surface, so that mount and wear cannot be told apart.
-  double removed = 0;
-  double mount = std::numeric_limits<double>::quiet_NaN();
+  /// Whether mounts alone do as much; absent where the sheet was not taken out, or no correction wins.
+  std::optional<MountTest> mounts;
   /// The parent, or its child, on all readings of the recheck, as `train --check` shows it.
   CalibrationCheck check;
   std::optional<Calibration> child;  ///< of kCorrected
@@ -57,12 +61,16 @@ void requireTrained(const Calibration& parent);
 /// A correction is taken where all of these hold:
 ///   - on cycles that were left out its error is smaller, and chance makes that so with `error_rate` at most;
 ///   - the parent's RMSE is more than `worth` times that of the correction;
-///   - it takes away more than another mount changes, at the same error rate (normal, two-sided), where the
-///     parent knows how much that is.
-/// The verdict is kRecalibrate where what is then the best does not pass `train --check`, or its error on
-/// cycles that were left out is above the limit there.
+///   - the sheet was not taken out since the training, or what all mounts have in common is more than mounts
+///     alone do, at `mount_error_rate` (testCommonChange()).
+/// Where only the last one does not hold, the verdict is kCannotTell, or kStillGood where the deviations of
+/// the parent contain its mounts. The verdict is kRecalibrate where the best of parent and correction does
+/// not pass `train --check`, or its error on cycles that were left out is above the limit there; kCannotTell
+/// where new mounts, of which the deviations say nothing, may explain that: no taxel is dead or stuck, and
+/// gains and offsets of each mount alone leave errors within the limit.
 ///
-/// Throws InputError, one sentence: what gatherRecheck() refuses, and a parent that is a correction itself.
+/// Throws InputError, one sentence: what gatherRecheck() refuses, a parent that is a correction itself, and
+/// several mounts of a surface of a sheet that was not taken out.
 Recheck recheckCalibration(const Calibration& parent, const std::vector<dataset::Recording>& recordings,
                            const RecheckOptions& options = {});
 

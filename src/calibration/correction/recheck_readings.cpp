@@ -152,9 +152,13 @@ class Gathering {
     }
     if (number.empty()) return;
     const std::string& name = recording.conditions[condition].name;
-    if (std::find(result_.surfaces.begin(), result_.surfaces.end(), name) == result_.surfaces.end())
-      result_.surfaces.push_back(name);
-    result_.stays.push_back({answersOn(parent_, recording.conditions[condition]), {}});
+    const auto known = std::find(result_.surfaces.begin(), result_.surfaces.end(), name);
+    const auto surface = static_cast<std::size_t>(known - result_.surfaces.begin());
+    if (known == result_.surfaces.end()) result_.surfaces.push_back(name);
+    result_.stays.push_back({surface,
+                             recording.conditions[condition].mount,
+                             answersOn(parent_, recording.conditions[condition]),
+                             {}});
     takeRest(recording, condition, targets);
     dataset::ScanCounts scans(recording);
     for (std::size_t i = 0; i < recording.scans(); ++i) {

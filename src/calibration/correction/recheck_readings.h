@@ -35,6 +35,8 @@ struct RecheckReading {
 struct RecheckReadings {
   /// One stay of the sheet on a surface: a condition of a recording.
   struct Stay {
+    std::size_t surface = 0;           ///< index into `surfaces`
+    std::uint32_t mount = 0;           ///< number of the mount; 0 = not given
     std::vector<AnswerTable> answers;  ///< [taxels], the tables of the parent on this surface
     /// [taxels], readings at rest at the start, whose error a tare subtracts; empty = no tare.
     std::vector<std::vector<RecheckReading>> rest;

@@ -9,7 +9,6 @@
 #include <sstream>
 
 #include "calibration/correction/corrected_calibration.h"
-#include "calibration/correction/recheck.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -66,6 +65,7 @@ Rechecker::Rechecker(const ros::NodeHandle& handle, const ros::NodeHandle& priva
   if (ambient >= 0) ambient_ = ambient;
   const double least = static_cast<double>(fsr::calibration::kLeastCycles);
   wanted_ = static_cast<std::size_t>(parameters.integer("cycles", 5, {least, 1000, ""}));
+  asked_.same_mount = parameters.flag("same_mount", false);
   parent_ = fsr::calibration::loadCalibration(path);
   fsr::calibration::requireTrained(parent_);
   fsr::settings::requireReplaceable(output_);
@@ -141,7 +141,7 @@ void Rechecker::judge(std::ostream& out) {
   if (handle_.getNamespace() != "/") options.topics = handle_.getNamespace();
   std::vector<fsr::dataset::Recording> recordings;
   for (const std::string& bag : bags_) recordings.push_back(readBag(bag, options));
-  const fsr::calibration::Recheck recheck = fsr::calibration::recheckCalibration(parent_, recordings);
+  const fsr::calibration::Recheck recheck = fsr::calibration::recheckCalibration(parent_, recordings, asked_);
   out << fsr::report::recheckText(recheck);
   std::string child;
   if (recheck.child) {
@@ -149,6 +149,13 @@ void Rechecker::judge(std::ostream& out) {
     out << "Calibration " << child << " (" << fsr::calibration::correctionText(recheck.child->correction)
         << ") written to " << output_ << "\nUse it: rosservice call "
         << handle_.resolveName("calibration/load_calibration") << " " << output_ << '\n';
+  }
+  if (recheck.verdict == fsr::calibration::RecheckVerdict::kCannotTell) {
+    out << "Recorded in";
+    for (const std::string& bag : bags_) out << ' ' << bag;
+    out << "\nWith more mounts: roslaunch fsr_pressure_map recheck.launch bags:=\"";
+    for (const std::string& bag : bags_) out << bag << ' ';
+    out << "...\"\n";
   }
   if (!report_.empty()) {
     fsr::settings::replaceFile(report_, fsr::report::recheckJson(recheck, parent_.id, child));

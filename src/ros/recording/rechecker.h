@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/correction/recheck.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "ros/recording/recorder.h"
 
@@ -19,8 +20,8 @@ namespace fsr_ros {
 /// docs/recheck.md.
 ///
 /// Parameters: `~calibration` (empty = that of the calibration node), `~output` (empty = beside it),
-/// `~report`,
-/// `~bags` (separated by spaces; empty = record), `~bag`, `~cycles`, `~ambient_pressure` [Pa], `~wait` [s],
+/// `~report`, `~same_mount`, `~bags` (separated by spaces; empty = record), `~bag`, `~cycles`,
+/// `~ambient_pressure` [Pa], `~wait` [s],
 /// `~min_space` [MB].
 class Rechecker {
  public:
@@ -41,7 +42,8 @@ class Rechecker {
   std::string output_, report_;
   std::vector<std::string> bags_;
   std::optional<double> ambient_;  // [Pa]
-  std::size_t wanted_ = 0;         // cycles
+  fsr::calibration::RecheckOptions asked_;
+  std::size_t wanted_ = 0;  // cycles
   fsr::calibration::Calibration parent_;
   std::unique_ptr<Recorder> recorder_;  // null = bags are given
   ros::Subscriber chamber_;

@@ -49,8 +49,11 @@ fsr::settings::CommandLine options() {
       .input("check", "FILE", "test this calibration on the bags instead: is it still good?")
       .input("budget", "FILE", "print the error budget that this calibration holds, and do nothing else")
       .input("correct", "FILE",
-             "recheck this calibration on a few cycles on one surface instead: still good, corrected or "
-             "recalibrate; --output is written only if it is corrected")
+             "recheck this calibration on a few cycles on one surface instead: still good, corrected, "
+             "recalibrate or cannot tell; --output is written only if it is corrected")
+      .flag("same-mount",
+            "with --correct: the sheet was not taken out since the training, so that no mount differs; "
+            "otherwise one new mount cannot be told from wear")
       .flag("merge",
             "merge calibration files: gives what training on all their bags would give, without scores")
       .option("scheme", "NAME",
@@ -227,7 +230,10 @@ int correct(const fsr::settings::CommandLine& line, std::ostream& out) {
   out << "Calibration " << parent.id << " (" << fsr::compensation::schemeName(parent.tables.scheme) << ", "
       << parent.provenance.date << "), rechecked on " << line.files().size()
       << (line.files().size() == 1 ? " bag\n" : " bags\n");
-  const fsr::calibration::Recheck recheck = fsr::calibration::recheckCalibration(parent, readBags(line));
+  fsr::calibration::RecheckOptions asked;
+  asked.same_mount = line.has("same-mount");
+  const fsr::calibration::Recheck recheck =
+      fsr::calibration::recheckCalibration(parent, readBags(line), asked);
   out << fsr::report::recheckText(recheck);
   std::string child;
   if (recheck.child && !output.empty()) {
@@ -295,6 +301,8 @@ int trainTool(int argc, const char* const* argv, std::ostream& out) {
   if (line.has("budget")) return showBudget(line, out);
   if (line.has("check") && line.has("correct"))
     throw fsr::settings::InputError("--check and --correct cannot be used together; remove one of them");
+  if (line.has("same-mount") && !line.has("correct"))
+    throw fsr::settings::InputError("--same-mount is of --correct, which is not given; remove it");
   if (line.has("check")) return check(line, out);
   if (line.has("correct")) return correct(line, out);
   const std::string output = line.requiredText("output");

@@ -63,9 +63,28 @@ const Calibration& parent() {
   return instance;
 }
 
+// The sheet was not taken out since the training.
+fsr::calibration::RecheckOptions sameMount() {
+  fsr::calibration::RecheckOptions options;
+  options.same_mount = true;
+  return options;
+}
+
 Recheck recheck(const Change& change, unsigned seed = 2, bool bent = false) {
-  return fsr::calibration::recheckCalibration(parent(),
-                                              {changed(syntheticRecording(rig(seed, bent)), change)});
+  return fsr::calibration::recheckCalibration(
+      parent(), {changed(syntheticRecording(rig(seed, bent)), change)}, sameMount());
+}
+
+// Flat on mounts that read `gains` as much; numbers 2, 3, ...
+std::vector<Recording> mounts(const std::vector<double>& gains, const Change& change) {
+  std::vector<Recording> recordings;
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    const double gain = gains[i];
+    const auto mounted = [&](double reading, std::size_t taxel) { return gain * change(reading, taxel); };
+    recordings.push_back(changed(syntheticRecording(rig(20 + unsigned(i), false)), mounted));
+    recordings.back().conditions[0].mount = std::uint32_t(2 + i);
+  }
+  return recordings;
 }
 
 // Verdict, reasons and remarks, one a line.
@@ -160,18 +179,87 @@ TEST(Recheck, AsksForACalibrationWhereATaxelIsDead) {
   EXPECT_NE(said(result).find("taxels are dead: (1, 1)"), std::string::npos);
 }
 
-TEST(Recheck, DoesNotTakeAMountForWear) {
-  Calibration mounts = parent();
-  mounts.scores.whole.errors.whole.all.rmse = 10e3;
-  mounts.scores.remount.readings = 1000;
-  mounts.scores.remount.rmse = 40e3;
-  const Recording recording = changed(syntheticRecording(rig(2, false)), worn);
-  const Recheck result = fsr::calibration::recheckCalibration(mounts, {recording});
-  EXPECT_NEAR(result.mount, std::sqrt(40e3 * 40e3 - 10e3 * 10e3), 1);
+TEST(Recheck, CannotTellWearFromOneNewMount) {
+  const Recheck result = fsr::calibration::recheckCalibration(parent(), mounts({1.0}, worn));
+  EXPECT_EQ(result.verdict, RecheckVerdict::kCannotTell) << said(result);
   EXPECT_FALSE(result.child.has_value());
-  EXPECT_NE(said(result).find("may be this mount alone"), std::string::npos);
-  mounts.scores.remount.rmse = 10.1e3;
-  EXPECT_TRUE(fsr::calibration::recheckCalibration(mounts, {recording}).child.has_value());
+  ASSERT_EQ(result.reasons.size(), 1u);
+  EXPECT_NE(result.reasons[0].find("record two more new mounts"), std::string::npos);
+  EXPECT_NE(result.reasons[0].find("--same-mount"), std::string::npos);
+}
+
+// Recordings of one mount are one mount, and those without a number are, too.
+TEST(Recheck, CountsMountsByTheirNumbers) {
+  std::vector<Recording> recordings = mounts({1.0, 1.001, 0.999}, worn);
+  for (Recording& recording : recordings) recording.conditions[0].mount = 0;
+  const Recheck result = fsr::calibration::recheckCalibration(parent(), recordings);
+  EXPECT_EQ(result.verdict, RecheckVerdict::kCannotTell) << said(result);
+  ASSERT_TRUE(result.mounts.has_value());
+  EXPECT_EQ(result.mounts->mounts, 1u);
+}
+
+TEST(Recheck, CorrectsWearThatSeveralMountsHaveInCommon) {
+  const Recheck result = fsr::calibration::recheckCalibration(parent(), mounts({1.003, 0.998, 1.0}, worn));
+  ASSERT_EQ(result.verdict, RecheckVerdict::kCorrected) << said(result);
+  ASSERT_TRUE(result.mounts.has_value());
+  EXPECT_EQ(result.mounts->mounts, 3u);
+  EXPECT_EQ(result.mounts->sheet.scatter.freedom, 2u);
+  EXPECT_LT(result.mounts->sheet.p, 0.05);
+  EXPECT_NEAR(result.choice.changes[0].gain, 0.95, 0.015);
+}
+
+TEST(Recheck, DoesNotTakeTheScatterOfMountsForWear) {
+  const Recheck result =
+      fsr::calibration::recheckCalibration(parent(), mounts({0.93, 0.97, 0.99}, unchanged));
+  EXPECT_EQ(result.verdict, RecheckVerdict::kCannotTell) << said(result);
+  EXPECT_FALSE(result.child.has_value());
+  EXPECT_NE(said(result).find("may be the mounts alone"), std::string::npos) << said(result);
+}
+
+// Taxels that differ from mount to mount do not make a correction by taxel.
+TEST(Recheck, CorrectsAllTaxelsAlikeWhereMountsScatterByTaxel) {
+  std::vector<Recording> recordings;
+  for (const double scatter : {0.015, 0.015, -0.0075}) {
+    const auto mounted = [&](double reading, std::size_t taxel) {
+      return 0.9 * (1 + scatter * (double(taxel) - 2.5) / 2.5) * reading;
+    };
+    const auto mount = std::uint32_t(2 + recordings.size());
+    recordings.push_back(changed(syntheticRecording(rig(30 + mount, false)), mounted));
+    recordings.back().conditions[0].mount = mount;
+  }
+  const Recheck result = fsr::calibration::recheckCalibration(parent(), recordings);
+  ASSERT_EQ(result.verdict, RecheckVerdict::kCorrected) << said(result);
+  EXPECT_EQ(result.choice.model, ChangeModel::kSheet);
+  EXPECT_GE(result.mounts->taxels.p, 0.05);
+  EXPECT_FALSE(result.child->correction.by_taxel);
+}
+
+TEST(Recheck, KnowsTheScatterOfMountsFromTheTraining) {
+  Calibration several = parent();
+  several.scores.whole.errors.whole.all.rmse = 10e3;
+  several.scores.remount.readings = 1000;
+  several.scores.remount.rmse = 40e3;
+  several.budget.intervals.unit = fsr::calibration::IntervalUnit::kMounts;
+  several.budget.intervals.whole.units = 8;  // 4 of each surface
+  // 4/3 - 3/4 of the variance between mounts is what left-out mounts have more than left-out sections.
+  EXPECT_NEAR(fsr::calibration::trainedScatter(several).deviation,
+              std::sqrt((40e3 * 40e3 - 10e3 * 10e3) / (4.0 / 3 - 3.0 / 4)), 1);
+  EXPECT_EQ(fsr::calibration::trainedScatter(several).freedom, 6u);
+  const Recheck large = fsr::calibration::recheckCalibration(several, mounts({1.0}, worn));
+  EXPECT_FALSE(large.child.has_value());
+  EXPECT_NE(large.verdict, RecheckVerdict::kCannotTell) << said(large);
+  EXPECT_NE(said(large).find("may be the mounts alone"), std::string::npos) << said(large);
+  several.scores.remount.rmse = 10.1e3;
+  const Recheck small = fsr::calibration::recheckCalibration(several, mounts({1.0}, worn));
+  EXPECT_EQ(small.verdict, RecheckVerdict::kCorrected) << said(small);
+}
+
+TEST(Recheck, RefusesSeveralMountsOfASheetThatWasNotTakenOut) {
+  const std::vector<Recording> recordings = mounts({1.0, 1.0}, worn);
+  EXPECT_NE(refusal([&] {
+              fsr::calibration::recheckCalibration(parent(), recordings, sameMount());
+            }).find("the bags have mounts 2 and 3 of flat"),
+            std::string::npos);
 }
 
 TEST(Recheck, ComparesReadingsAtTheTemperatureOfTheTraining) {
@@ -183,8 +271,10 @@ TEST(Recheck, ComparesReadingsAtTheTemperatureOfTheTraining) {
   Recording warm = syntheticRecording(rig(2, false));
   for (double& pressure : warm.pressure) pressure *= 1 - 0.006 * 15;
   warm.temperature.assign(warm.scans(), 38.0);
-  EXPECT_EQ(fsr::calibration::recheckCalibration(model, {warm}).verdict, RecheckVerdict::kStillGood);
-  EXPECT_NE(fsr::calibration::recheckCalibration(parent(), {warm}).verdict, RecheckVerdict::kStillGood);
+  EXPECT_EQ(fsr::calibration::recheckCalibration(model, {warm}, sameMount()).verdict,
+            RecheckVerdict::kStillGood);
+  EXPECT_NE(fsr::calibration::recheckCalibration(parent(), {warm}, sameMount()).verdict,
+            RecheckVerdict::kStillGood);
 }
 
 // The first three seconds at rest, as a session begins.
@@ -218,7 +308,8 @@ TEST(Recheck, TaresSessionsWhereTheCalibrationExpectsIt) {
   const Recheck with = fsr::calibration::recheckCalibration(tared, {withRest(plain)});
   EXPECT_EQ(with.verdict, RecheckVerdict::kStillGood) << said(with);
   EXPECT_TRUE(with.remarks.empty());
-  const Recheck of_worn = fsr::calibration::recheckCalibration(tared, {withRest(changed(plain, worn))});
+  const Recheck of_worn =
+      fsr::calibration::recheckCalibration(tared, {withRest(changed(plain, worn))}, sameMount());
   ASSERT_TRUE(of_worn.child.has_value()) << said(of_worn);
   EXPECT_NEAR(of_worn.choice.changes[0].gain, 0.95, 0.015);
 }
