@@ -34,6 +34,14 @@ TaxelWatch::TaxelWatch(matrix::MatrixSize size, std::uint16_t full_scale, const 
   }
 }
 
+void TaxelWatch::setNoise(double deviation) noexcept {
+  constexpr double kBeyondNoise = 5;  // of normal noise, one reading in 3.5 million is further above
+  const double least = codes(options_.floor_share, full_scale_);
+  const double most = std::max(least, travel_ / 2.0);
+  const double floor = std::ceil(kBeyondNoise * deviation);
+  floor_ = static_cast<std::uint16_t>(floor > least ? std::min(floor, most) : least);
+}
+
 bool TaxelWatch::observe(const std::uint16_t* counts, double time) noexcept {
   if (scans_ == 0 || time < start_) open(time);
   const bool judged = next_row_ == size_.rows;

@@ -59,6 +59,23 @@ int flagged(const TaxelWatch& watch) {
   return result;
 }
 
+// A taxel without contact reads the noise of the board: up to 10 counts where its deviation is 3.
+TEST(TaxelWatch, FindsADeadTaxelOnANoisyBoardOnceItKnowsTheNoise) {
+  for (const bool known : {false, true}) {
+    Sheet sheet;
+    if (known) sheet.watch.setNoise(3);
+    std::normal_distribution<double> board(0, 3);
+    for (int scan = 0; scan < 10 * kCycle; ++scan, sheet.time += 1 / kRate) {
+      std::vector<std::uint16_t> counts(kTaxels);
+      for (auto& one : counts) one = sheet.code(cycles(sheet.time) + board(sheet.random));
+      counts[23] = sheet.code(board(sheet.random));
+      sheet.watch.observe(counts.data(), sheet.time);
+    }
+    EXPECT_EQ(flagged(sheet.watch), known ? 1 : 0);
+    EXPECT_EQ(sheet.watch.flags()[23] != 0, known);
+  }
+}
+
 TEST(TaxelWatch, FindsATaxelThatReadsNothingUnderLoad) {
   Sheet sheet;
   sheet.overruled = {{33, 0}};

@@ -13,7 +13,7 @@ namespace fsr::health {
 struct TaxelWatchOptions {
   double window = 10.0;          ///< duration of a window [s]
   std::size_t least_scans = 20;  ///< a window with fewer scans is extended
-  double floor_share = 0.001;    ///< readings up to here are noise of an open circuit
+  double floor_share = 0.001;    ///< readings up to here are noise of an open circuit; see setNoise()
   double loaded_share = 0.25;    ///< readings from here on are certainly a load
   double travel_share = 0.10;    ///< a change of a reading that noise cannot cause
 };
@@ -66,6 +66,11 @@ class TaxelWatch {
   /// Takes a scan: counts [rows x columns], row-major, and the time of its stamp [s]. Returns true where a
   /// verdict changed. Time that runs backwards restarts the window.
   bool observe(const std::uint16_t* counts, double time) noexcept;
+
+  /// Deviation of a single count without load, as measured [counts]. The floor becomes five times as much, at
+  /// least floor_share and at most half of travel_share: on a noisy board the noise of an open circuit is
+  /// above floor_share, and a dead taxel would never be found. 0 = not known, floor_share alone.
+  void setNoise(double deviation) noexcept;
 
   /// taxel_flag::kDead, kStuck or 0, with kLineFault where the whole line is faulty [rows x columns],
   /// row-major.
