@@ -59,6 +59,8 @@ Answer Conductor::confirm() {
   rest_.restart();
   if (!resumed_) {
     dead_known_ = dead_;
+    rest_counts_.restart();
+    complain(Reason::kMountsDisagree, "", false);
     acceptStep({});
   } else {
     resumed_ = false;
@@ -73,6 +75,7 @@ Answer Conductor::confirm() {
 Answer Conductor::accept() {
   if (done() || attempts_ == 0) return {false, "no attempt at the present step was rejected"};
   if (attemptRuns()) return {false, "the next attempt runs already; reject it or wait for its end"};
+  if (waitsForMount()) return confirm();
   Verdict verdict;
   verdict.sentence = "accepted by hand, although: " + last_rejected_.sentence;
   verdict.measured = last_rejected_.measured;

@@ -27,6 +27,11 @@ std::string fallenText(unsigned taxels) {
          " fell out (dead or stuck); check the lines";
 }
 
+// How many mounts of a plan lie on a surface that came before.
+std::size_t repeatedMounts(const session_plan::SessionPlan& plan) {
+  return mountsOf(plan) - std::min(mountsOf(plan), plan.surfaces.size());
+}
+
 std::string minutes(double time) {
   return settings::roundedText(std::ceil(time / 60), 4) + " min";
 }
@@ -43,7 +48,8 @@ Conductor::Conductor(const session_plan::SessionPlan& plan, const ConductorOptio
       options_(options),
       digest_(digestOf(plan)),
       steps_(sessionSteps(plan)),
-      states_(steps_.size(), StepState::kOpen) {
+      states_(steps_.size(), StepState::kOpen),
+      surfaces_(repeatedMounts(plan)) {
   restartWatch();
 }
 
@@ -132,7 +138,10 @@ void Conductor::take(const Reading& reading) {
   if (recovering_) return setHint();
   const bool ran = attemptRuns();
   const std::optional<Verdict> verdict = watch_->take(reading, rest_);
-  if (!ran && attemptRuns()) scans_ = lost_ = 0;
+  if (!ran && attemptRuns()) {
+    scans_ = lost_ = silent_ = 0;
+    answers_.reset();
+  }
   if (verdict) handle(*verdict, reading);
   setHint();
 }
@@ -140,7 +149,10 @@ void Conductor::take(const Reading& reading) {
 void Conductor::handle(const Verdict& verdict, const Reading& reading) {
   const Verdict full = verdict.accepted() ? withScans(verdict) : verdict;
   if (!full.accepted()) return rejectStep(full);
-  acceptStep(full);
+  if (answers_ && isLoad()) answered_ = std::max(answered_.value_or(0), *answers_);
+  const Verdict compared = withSurface(full);
+  if (!compared.accepted()) return beginMountAgain(compared);
+  acceptStep(compared);
   if (!watch_) return;
   // The reading that ended one step may begin the next one.
   if (judged_) watch_->take(last_judged_, rest_before_);
@@ -154,6 +166,7 @@ void Conductor::scan(const ScanSummary& scan) {
   last_scan_ = last_scan_ ? std::max(*last_scan_, scan.time) : scan.time;
   ++scans_;
   lost_ += scan.lost;
+  if (scan.counts != nullptr) readMatrix(scan);
   dead_ = scan.dead;
   if (!loaded_ || dead_ < dead_known_) dead_known_ = dead_;
   complain(Reason::kScansLost, "", false);

@@ -8,7 +8,10 @@
 #include <vector>
 
 #include "conductor/instruction.h"
+#include "conductor/loading_signature.h"
+#include "conductor/rest_counts.h"
 #include "conductor/step_watch.h"
+#include "conductor/surface_watch.h"
 #include "conductor/verdict.h"
 #include "session_plan/plan.h"
 #include "session_plan/steps.h"
@@ -31,6 +34,10 @@ struct ScanSummary {
   unsigned taxels = 0;     ///< taxels of the matrix
   unsigned saturated = 0;  ///< taxels at full scale
   unsigned dead = 0;       ///< dead or stuck taxels
+  /// [rows x columns], row-major, valid during the call; null = not known, and then only pressures and the
+  /// numbers above are judged.
+  const std::uint16_t* counts = nullptr;
+  std::size_t columns = 0;  ///< of the matrix
 };
 
 enum class StepState : char { kOpen = '.', kAccepted = 'a', kSkipped = 's' };
@@ -119,6 +126,8 @@ class Conductor {
   /// Whether an attempt was rejected and the pressure is not down yet, and whether a person must confirm.
   bool recovering() const { return recovering_; }
   bool waitsForMount() const;
+  /// Deviation of a single count without load [counts], as measured last; 0 = not known yet.
+  double noiseAtRest() const { return noise_; }
   /// Whether the present step belongs into a bag, and the sheet is known to lie on its surface.
   bool recording() const { return !done() && !resumed_ && steps_[step_].recorded; }
   const std::vector<session_plan::SessionStep>& steps() const { return steps_; }
@@ -159,6 +168,12 @@ class Conductor {
   void jumpTo(double time);
   bool attemptRuns() const { return watch_ && watch_->running() && !recovering_; }
   bool isLoad() const;
+  bool isFirstLoad() const;
+  void readMatrix(const ScanSummary& scan);
+  void checkSheet(const ScanSummary& scan);
+  Verdict withSurface(Verdict verdict);
+  void insistOn(const SurfaceDoubt& doubt, Verdict* verdict);
+  void beginMountAgain(const Verdict& verdict);
   std::string remark() const;
   std::string text() const;
 
@@ -186,7 +201,17 @@ class Conductor {
   unsigned dead_ = 0, dead_known_ = 0;               // taxels now, and those that were said
   bool loaded_ = false;                              // a load was accepted, so that dead taxels are known
   std::string declared_;                             // surface
-  double step_begin_ = 0;                            // of the present step [s]
+  LoadingSignature loading_;                         // of the first load of the mount
+  std::size_t loading_step_ = 0;                     // which step that is; 0 = none
+  std::size_t loading_columns_ = 0;                  // of the matrix
+  SurfaceWatch surfaces_;
+  std::optional<unsigned> doubted_;  // mount whose surface a person was asked to look at
+  RestCounts rest_counts_;           // on this mount
+  double noise_ = 0;                 // of a count at rest [counts]; stays over mounts
+  std::optional<double> answered_;   // largest pressure that the sheet needed to answer [Pa]
+  std::optional<double> answers_;    // likewise in the present attempt
+  unsigned silent_ = 0;              // scans in a row in which nothing answers
+  double step_begin_ = 0;            // of the present step [s]
   std::uint64_t revision_ = 0;
   double free_bytes_ = -1, bytes_per_second_ = 0;  // negative = not known
   std::optional<double> deadline_;

@@ -32,6 +32,8 @@ constexpr std::pair<Reason, const char*> kNames[] = {
     {Reason::kTimeJumped, "time_jumped"},
     {Reason::kNotConfirmed, "not_confirmed"},
     {Reason::kOtherSurface, "other_surface"},
+    {Reason::kMountsDisagree, "mounts_disagree"},
+    {Reason::kSheetOff, "sheet_off"},
     {Reason::kDiskNearlyFull, "disk_nearly_full"},
     {Reason::kNoTimeLeft, "no_time_left"},
     {Reason::kByHand, "by_hand"},

@@ -33,7 +33,9 @@ enum class Reason {
   kNotRecorded,      ///< the bag is not written
   kTimeJumped,       ///< the time ran backwards
   kNotConfirmed,     ///< pressure, but nobody has confirmed that the sheet is mounted
-  kOtherSurface,     ///< another surface is declared than the plan's
+  kOtherSurface,     ///< another surface is declared than the plan's, or the sheet reads like another one
+  kMountsDisagree,   ///< a mount that was recorded before reads like another surface
+  kSheetOff,         ///< no taxel answers the pressure any more
   kDiskNearlyFull,   ///< the recordings that are left do not fit
   kNoTimeLeft,       ///< the plan does not fit into the time that is left
   kByHand,           ///< a person rejected it

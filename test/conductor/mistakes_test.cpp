@@ -319,4 +319,71 @@ TEST(Conductor, ACycleOnAnotherSurfaceIsRejected) {
   EXPECT_EQ(day.rejected(), Names{}) << day.last.sentence;
 }
 
+constexpr char kTwoSurfaces[] =
+    "plan: rounds\n"
+    "order: listed\n"
+    "repeat_first: false\n"
+    "conditioning: {cycles: 0}\n"
+    "rest: {before: 5, after: 0}\n"
+    "surfaces: [{surface: flat, mounts: 3}, {surface: cylinder_5cm, mounts: 3}]\n"
+    "program: [{cycles: {peak: 600000, rate: 20000, dwell_peak: 1, dwell_rest: 1, cycles: 2}}]\n";
+
+// Follows to the last mount, and then as if the sheet lay on the flat surface.
+void followToTheWrongSurface(RigDay& day) {
+  while (!day.conductor.done() && day.conductor.step()->mount < 6) {
+    day.counts_per_kpa = day.conductor.step()->surface == "flat" ? 3 : 4;
+    day.follow();
+    EXPECT_EQ(day.rejected(), Names{}) << day.last.sentence;
+  }
+  day.counts_per_kpa = 3;
+  while (!day.conductor.done() && day.conductor.step()->kind != rig_day::plans::StepKind::kCycle)
+    day.follow();
+  day.follow();
+}
+
+TEST(Conductor, ASurfaceThatReadsLikeAnotherOneIsAskedForAgain) {
+  RigDay day(planFrom(kTwoSurfaces));
+  followToTheWrongSurface(day);
+  EXPECT_EQ(day.rejected(), Names{"other_surface"}) << day.last.sentence;
+  EXPECT_TRUE(day.conductor.instruction().confirm);
+  EXPECT_NE(day.remark().find("mount 6 reads like flat (mount 1), not like cylinder_5cm (mount 2, mount 4)"),
+            std::string::npos)
+      << day.remark();
+  day.counts_per_kpa = 4;
+  while (!day.conductor.done()) day.follow();
+  EXPECT_EQ(day.rejected(), Names{}) << day.last.sentence;
+}
+
+TEST(Conductor, ASurfaceThatIsConfirmedTwiceIsAcceptedAsItIs) {
+  RigDay day(planFrom(kTwoSurfaces));
+  followToTheWrongSurface(day);
+  EXPECT_EQ(day.rejected(), Names{"other_surface"});
+  EXPECT_TRUE(day.conductor.accept().done);  // as confirming
+  day.follow();
+  day.follow();
+  EXPECT_EQ(day.rejected(), Names{});
+  EXPECT_EQ(day.last.sentence.find("accepted, because cylinder_5cm was confirmed twice, although mount 6"),
+            0u)
+      << day.last.sentence;
+  EXPECT_NE(day.remark().find("confirmed twice"), std::string::npos) << day.remark();
+  day.follow();
+  EXPECT_TRUE(day.conductor.done());
+}
+
+TEST(Conductor, ASheetThatComesOffIsNamedInThisCycleOrTheNextOne) {
+  RigDay day(planFrom(rig_day::kCycles));
+  day.counts_per_kpa = 3;
+  day.follow();
+  day.stay(10), day.ramp(300e3, kFill);
+  day.counts_per_kpa = 1e-9;
+  day.ramp(kPeak, kFill), day.stay(10), day.ramp(0, kFill), day.stay(1);
+  EXPECT_EQ(day.rejected(), Names{"sheet_off"}) << day.last.sentence;
+  day.counts_per_kpa = 3;
+  day.follow();
+  EXPECT_EQ(day.rejected(), Names{}) << day.last.sentence;
+  day.counts_per_kpa = 1e-9;
+  day.follow();
+  EXPECT_EQ(day.rejected(), Names{"sheet_off"}) << day.last.sentence;
+}
+
 }  // namespace

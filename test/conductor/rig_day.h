@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -100,6 +101,7 @@ class RigDay {
   double now = 1000;    // [s]
   double pressure = 0;  // gauge [Pa]
   bool transducer = true, board = true;
+  double counts_per_kpa = 0;  // of the taxels; 0 = the conductor gets no counts
   unsigned lost = 0, dead = 0, saturated = 0;
   double offset = 0;        // of the transducer [Pa]
   conductor::Verdict last;  // of the last outcome that rejected() saw
@@ -110,12 +112,19 @@ class RigDay {
     now += kPeriod;
     ++count_;
     const double noise =
-        300.0 * static_cast<double>((count_ * 7919) % 13 - 6) / 6.0;  // up to 300 Pa either way
+        300.0 * (static_cast<double>((count_ * 7919) % 13) - 6.0) / 6.0;  // up to 300 Pa either way
     if (transducer) conductor.pressure(now, pressure + offset + noise);
-    if (board) conductor.scan({now, lost, 70, saturated, dead});
+    std::vector<std::uint16_t> counts(70);
+    for (std::size_t t = 0; t < counts.size(); ++t) {
+      const double level = counts_per_kpa * pressure / 1e3 * (1 + 0.001 * static_cast<double>(t));
+      counts[t] = static_cast<std::uint16_t>(20 + level + static_cast<double>((count_ * 31 + 7 * t) % 5));
+    }
+    if (board)
+      conductor.scan(
+          {now, lost, 70, saturated, dead, counts_per_kpa > 0 ? counts.data() : nullptr, std::size_t{10}});
     if (count_ % 5 == 0) conductor.tick(now);
   }
-  long count_ = 0;
+  std::size_t count_ = 0;
 };
 
 }  // namespace rig_day

@@ -157,6 +157,9 @@ void ConductServer::onScan(const fsr_pressure_map::MatrixFrameConstPtr& message)
   scan.taxels = static_cast<unsigned>(taxels);
   if (same && frame.sequence > last_frame_->sequence + 1)
     scan.lost = frame.sequence - last_frame_->sequence - 1;
+  scan.counts = frame.counts.data();
+  scan.columns = frame.columns;
+  taxels_->setNoise(conductor_->noiseAtRest());
   taxels_->observe(frame.counts.data(), scan.time);
   for (std::size_t t = 0; t < taxels; ++t) {
     if (info_ && info_->mask.size() == taxels && info_->mask[t] != 0) continue;
@@ -240,6 +243,7 @@ void ConductServer::report(const Outcome& outcome) {
   if (outcome.state == StepState::kAccepted) {
     event.kind = step.kind == StepKind::kCondition ? "conditioning" : "step";
     event.label = what + " accepted" + measuredText(outcome.verdict.measured);
+    if (!outcome.verdict.sentence.empty()) event.label += "; " + outcome.verdict.sentence;
     ROS_INFO_STREAM(event.label);
   } else if (outcome.state == StepState::kSkipped) {
     event.kind = "note";

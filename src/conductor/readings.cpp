@@ -1,0 +1,116 @@
+// What the conductor reads from the counts of the matrix: whether the sheet answers the pressure at all, and
+// whether it lies on the surface of the plan.
+
+#include <algorithm>
+
+#include "conductor/conductor.h"
+
+namespace fsr::conductor {
+
+using session_plan::StepKind;
+
+namespace {
+
+constexpr unsigned kSilentScans = 3;               // in a row: one or two may be damaged
+constexpr double kLowest = 0.1, kUpperHalf = 0.5;  // shares of the peak
+
+}  // namespace
+
+bool Conductor::isFirstLoad() const {
+  if (done() || !isLoad() || !steps_[step_].recorded) return false;
+  for (std::size_t s = 0; s < step_; ++s) {
+    const session_plan::SessionStep& one = steps_[s];
+    if (one.mount == steps_[step_].mount && one.recorded && one.kind != StepKind::kRest) return false;
+  }
+  return true;
+}
+
+// A scan belongs to the pressure that was judged last, which is one reading old at most.
+void Conductor::readMatrix(const ScanSummary& scan) {
+  if (done() || !judged_ || waitsForMount()) return;
+  const double pressure = last_judged_.pressure;
+  if (pressure <= kRestLevel) {
+    rest_counts_.take(scan.counts, scan.taxels);
+    if (rest_counts_.known()) noise_ = rest_counts_.noise();
+  } else if (attemptRuns() && isLoad()) {
+    checkSheet(scan);
+  }
+  if (done() || !isFirstLoad()) return;
+  if (loading_step_ != step_ + 1) {
+    loading_step_ = step_ + 1;
+    loading_.begin(steps_[step_].peak);
+    loading_columns_ = scan.columns;
+  }
+  loading_.take(pressure, scan.counts, scan.taxels);
+}
+
+// The sheet is off where no taxel answers at a pressure at which half of them answered before: in this
+// attempt, or, in the upper half of the way, in one that was accepted. The lowest tenth of the way is left
+// out: a scan may be one reading younger than its pressure.
+void Conductor::checkSheet(const ScanSummary& scan) {
+  if (!rest_counts_.known() || scan.taxels == 0) return;
+  const double peak = steps_[step_].peak;
+  double pressure = last_judged_.pressure;
+  for (const Reading& newer : recent_) pressure = std::min(pressure, newer.pressure);
+  const std::size_t answering = rest_counts_.answering(scan.counts, scan.taxels);
+  if (2 * answering >= scan.taxels) answers_ = std::min(answers_.value_or(pressure), pressure);
+  const double enough = answers_ ? *answers_ : std::max(answered_.value_or(peak), kUpperHalf * peak);
+  const bool silent = answering == 0 && pressure >= std::max(enough, kLowest * peak);
+  silent_ = silent ? silent_ + 1 : 0;
+  if (silent_ < kSilentScans) return;
+  silent_ = 0;
+  spoil(Reason::kSheetOff, "no taxel answers " + kPaText(pressure) + ", but half of them answered " +
+                               kPaText(answers_ ? *answers_ : *answered_) +
+                               " before: put the sheet back on its surface, or its plug in");
+}
+
+// The first loading of a mount, beside those of the mounts before.
+Verdict Conductor::withSurface(Verdict verdict) {
+  if (!isFirstLoad() || loading_step_ != step_ + 1) return verdict;
+  const session_plan::SessionStep& step = steps_[step_];
+  const MountReading now{step.mount, step.surface, loading_columns_, loading_.result()};
+  loading_step_ = 0;
+  if (now.signature.empty()) return verdict;
+  const std::optional<SurfaceDoubt> doubt = surfaces_.compare(now);
+  if (doubt && doubt->mount == step.mount && doubted_ != step.mount) {
+    doubted_ = step.mount;
+    verdict.reason = Reason::kOtherSurface;
+    verdict.sentence = doubt->sentence + ": look which surface lies in the chamber";
+    return verdict;
+  }
+  if (doubt) insistOn(*doubt, &verdict);
+  surfaces_.keep(now);
+  return verdict;
+}
+
+// The present mount was looked at, or is not the one in doubt. So something recorded before is wrong, and can
+// be no measure for what follows.
+void Conductor::insistOn(const SurfaceDoubt& doubt, Verdict* verdict) {
+  const session_plan::SessionStep& step = steps_[step_];
+  if (doubt.mount != step.mount) {
+    verdict->sentence = doubt.sentence;
+    surfaces_.forget(doubt.mount);
+    if (doubt.swapped) surfaces_.forget(*doubt.swapped);
+  } else {
+    verdict->sentence =
+        "accepted, because " + step.surface + " was confirmed twice, although " + doubt.sentence;
+    for (const unsigned mount : doubt.against) surfaces_.forget(mount);
+  }
+  complain(Reason::kMountsDisagree, verdict->sentence + "; see which of their recordings can be used");
+}
+
+// All of it but the conditioning. Its bag stays, and what follows goes into another one.
+void Conductor::beginMountAgain(const Verdict& verdict) {
+  for (std::size_t s = 0; s < step_; ++s) {
+    if (steps_[s].mount == steps_[step_].mount && steps_[s].kind != StepKind::kCondition &&
+        states_[s] == StepState::kAccepted)
+      states_[s] = StepState::kOpen;
+  }
+  ++rejected_;
+  note(step_, StepState::kOpen, verdict);
+  goOn();
+  attempts_ = 1;
+  last_rejected_ = verdict;
+}
+
+}  // namespace fsr::conductor
