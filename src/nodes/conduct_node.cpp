@@ -3,12 +3,13 @@
 #include <csignal>
 
 #include "ros/live/parameters.h"
-#include "ros/recording/conduct_server.h"
+#include "ros/recording/wait_for_session.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "conduct");
   return fsr_ros::runNode([] {
-    const fsr_ros::ConductServer server(ros::NodeHandle{}, ros::NodeHandle{"~"});
+    const auto server = fsr_ros::waitForSession(ros::NodeHandle{}, ros::NodeHandle{"~"});
+    if (server == nullptr) return;
     // As in the recorder: a bag gets its index. A signal that is ignored stays so.
     for (const int signal : {SIGTERM, SIGHUP}) {
       if (std::signal(signal, [](int) { ros::requestShutdown(); }) == SIG_IGN) std::signal(signal, SIG_IGN);

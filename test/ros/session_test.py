@@ -211,12 +211,19 @@ class SessionTest(unittest.TestCase):
         state = yaml.safe_load((self.bags / "test_day_session.yaml").read_text())
         self.assertEqual((state["steps"], state["rejected"]), ("a" * 11, 3))
 
-    def test_a_plan_with_an_unknown_surface_is_refused_at_once(self):
+    def test_a_plan_that_is_missing_or_wrong_is_named_until_it_is_right(self):
+        self.plan.unlink()
+        self.launch = subprocess.Popen(["rosrun", "fsr_pressure_map", "conduct_node", "__ns:=fsr", f"_plan:={self.plan}",
+                                        f"_folder:={self.bags}", f"_surfaces:={PACKAGE}/config/surfaces"])
+        self.until(lambda now: now is not None and str(self.plan) in now.remark)
+        self.assertIn("cannot begin", self.instruction.text)
         self.plan.write_text(PLAN.replace("surface: flat", "surface: flatt"))
-        done = subprocess.run(["rosrun", "fsr_pressure_map", "conduct_node", f"_plan:={self.plan}", f"_folder:={self.bags}",
-                               f"_surfaces:={PACKAGE}/config/surfaces"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=30)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("day.yaml: surfaces[0].surface is flatt, but", done.stdout.decode())
+        self.until(lambda now: "day.yaml: surfaces[0].surface is flatt, but" in now.remark)
+        self.assertIsNone(self.launch.poll())
+        self.plan.write_text(PLAN)
+        now = self.until(lambda now: now.kind == Instruction.MOUNT)
+        self.assertEqual((now.remark, now.surface), ("", "flat"))
+        self.assertIsNone(self.launch.poll())
 
 
 if __name__ == "__main__":

@@ -125,7 +125,9 @@ PanelLine restLine(const DiagnosticValues& values) {
 }
 
 QString instructionText(const fsr_pressure_map::Instruction& instruction) {
-  if (instruction.kind == fsr_pressure_map::Instruction::DONE) return text(instruction.text);
+  // A session that cannot begin has no steps.
+  if (instruction.kind == fsr_pressure_map::Instruction::DONE || instruction.steps == 0)
+    return text(instruction.text);
   return QString("Step %1 of %2: ").arg(instruction.step).arg(instruction.steps) + text(instruction.text);
 }
 
