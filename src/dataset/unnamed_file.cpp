@@ -21,13 +21,13 @@ std::string temporaryFolder() {
 }
 
 [[noreturn]] void refuse(const std::string& what) {
-  throw settings::InputError(temporaryFolder() + ": the counts of a long recording cannot be " + what + " (" +
+  throw settings::InputError(temporaryFolder() + ": data of long recordings cannot be " + what + " (" +
                              std::strerror(errno) +
-                             "); set TMPDIR to a folder with room for the counts of all bags");
+                             "); set TMPDIR to a folder with room for four times the size of all bags");
 }
 
 int openUnnamed() {
-  std::string name = temporaryFolder() + "/fsr_counts_XXXXXX";
+  std::string name = temporaryFolder() + "/fsr_rows_XXXXXX";
   const int file = ::mkostemp(name.data(), O_CLOEXEC);
   if (file < 0) refuse("kept there");
   ::unlink(name.c_str());

@@ -95,8 +95,8 @@ TEST(LongRecording, NeedsAFolderThatCanBeWritten) {
   } catch (const settings::InputError& error) {
     EXPECT_EQ(
         std::string(error.what()),
-        "/nowhere: the counts of a long recording cannot be kept there (No such file or directory); set "
-        "TMPDIR to a folder with room for the counts of all bags");
+        "/nowhere: data of long recordings cannot be kept there (No such file or directory); set TMPDIR to a "
+        "folder with room for four times the size of all bags");
   }
   old.empty() ? unsetenv("TMPDIR") : setenv("TMPDIR", old.c_str(), 1);
 }
