@@ -11,6 +11,9 @@
 
 namespace fsr::calibration {
 
+/// validate() of a problem of these parts, for recordings that are not copied into one.
+void validate(const std::vector<dataset::Recording>& recordings, const CalibrationOptions& options);
+
 // Information that is combined from all recordings of one matrix.
 
 Provenance provenanceOf(const std::vector<dataset::Recording>& recordings, const CalibrationOptions& options);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "calibration/sources.h"
 #include "compensation/fit_scheme.h"
 #include "dataset/count_readers.h"
 #include "fsr_pressure_map/calibration/calibration.h"
@@ -116,8 +117,10 @@ void requireChange(const std::vector<dataset::Recording>& recordings) {
 }  // namespace
 
 void validate(const CalibrationProblem& problem) {
-  const CalibrationOptions& options = problem.options;
-  const std::vector<dataset::Recording>& recordings = problem.recordings;
+  validate(problem.recordings, problem.options);
+}
+
+void validate(const std::vector<dataset::Recording>& recordings, const CalibrationOptions& options) {
   compensation::requireSchemeFor(options.scheme, options.regressor);
   if (options.folds < kFewestFolds || options.folds > kMostFolds) {
     throw settings::InputError("folds is " + std::to_string(options.folds) + ", but must be 2 to 20");

@@ -57,11 +57,10 @@ double rangeOf(const StudyData& data, const Grouping& grouping, const Fold& fold
   for (const Cell& cell : fold.test) {
     if (std::find(part.tested.begin(), part.tested.end(), cell.curvature_class) == part.tested.end())
       continue;
-    for (const std::uint32_t i : grouping.scans[cell.curvature_class][cell.group]) {
-      const double pressure = regression::fromFixed(data.scans[cell.curvature_class][i].pressure);
-      low = std::min(low, pressure);
-      high = std::max(high, pressure);
-    }
+    grouping.scans[cell.curvature_class][cell.group].forEach([&](const ScanPlace& scan) {
+      low = std::min(low, data.pressure(scan));
+      high = std::max(high, data.pressure(scan));
+    });
   }
   return high - low;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compensation/fit_scheme.h"
+#include "dataset/count_readers.h"
 #include "matrix/for_each_taxel.h"
 #include "study/unit_bootstrap.h"
 
@@ -35,12 +36,32 @@ std::vector<std::size_t> classesWithReadings(const regression::ClassReadings& tr
   return classes;
 }
 
-// A held-out reading of one taxel. A list of them is read once for each error, which is several times faster
+// A held-out reading of one taxel. Blocks of them are read once for each error, which is several times faster
 // than the scans themselves.
+constexpr std::size_t kBlock = 4096;
 struct HeldOutReading {
   double pressure;  // [Pa]
   std::uint32_t cycle;
   std::uint16_t code;
+};
+
+// Sums over readings at one error of the curvature [Pa^2].
+struct ErrorSums {
+  double squares = 0, moved = 0, stated = 0;
+
+  // Squares are added to `by_cycle`, too.
+  void add(const std::vector<HeldOutReading>& readings, const std::vector<TableEntry>& right,
+           const std::vector<TableEntry>& told, std::vector<double>& by_cycle) {
+    for (const HeldOutReading& reading : readings) {
+      const TableEntry& entry = told[reading.code];
+      const double error = entry.pressure - reading.pressure, deviation = entry.deviation;
+      const double difference = entry.pressure - right[reading.code].pressure;
+      by_cycle[reading.cycle] += error * error;
+      squares += error * error;
+      moved += difference * difference;
+      stated += deviation * deviation;
+    }
+  }
 };
 
 // What one taxel contributes.
@@ -87,12 +108,11 @@ class Scores {
   CurvatureErrorCurve curve(const std::function<void()>& done) const;
 
  private:
-  // Calls visit(class, scan) for each scan that the fold holds out.
+  // Calls visit(scan) for each scan of a class that the fold holds out.
   template <typename Visit>
   void forEachHeldOut(const FoldParts& part, std::size_t c, Visit visit) const {
     for (const Cell& cell : validation_.folds[part.fold].test) {
-      if (cell.curvature_class != c) continue;
-      for (const std::uint32_t i : validation_.grouping.scans[c][cell.group]) visit(study_.data.scans[c][i]);
+      if (cell.curvature_class == c) validation_.grouping.scans[c][cell.group].forEach(visit);
     }
   }
   double rangeOf(const FoldParts& part);
@@ -116,11 +136,13 @@ class Scores {
 double Scores::rangeOf(const FoldParts& part) {
   double low = INFINITY, high = -INFINITY;
   for (const std::size_t c : part.classes) {
-    forEachHeldOut(part, c, [&](const StudyScan& scan) {
-      low = std::min(low, regression::fromFixed(scan.pressure));
-      high = std::max(high, regression::fromFixed(scan.pressure));
-      readings_[scan.cycle] += 1;
-      class_of_cycle_[scan.cycle] = c;
+    forEachHeldOut(part, c, [&](const ScanPlace& scan) {
+      const double pressure = study_.data.pressure(scan);
+      low = std::min(low, pressure);
+      high = std::max(high, pressure);
+      const std::uint32_t cycle = study_.data.cycle(scan);
+      readings_[cycle] += 1;
+      class_of_cycle_[cycle] = c;
     });
   }
   return study_.plan.range == ScoreRange::kAll ? study_.data.highest - study_.data.lowest : high - low;
@@ -130,30 +152,32 @@ double Scores::rangeOf(const FoldParts& part) {
 void Scores::addClass(const AnswersAtCurvature& answers, std::size_t taxel, const FoldParts& part,
                       std::size_t c, std::vector<double>& squares, TaxelSums& sums) const {
   const double curvature = study_.data.classes[c].at(taxel);
-  std::vector<HeldOutReading> readings;
-  forEachHeldOut(part, c, [&](const StudyScan& scan) {
-    readings.push_back({regression::fromFixed(scan.pressure), scan.cycle, scan.counts[taxel]});
-  });
-  std::vector<TableEntry> right, wrong;
+  std::vector<TableEntry> right;
   answers.compute(curvature, 0, right);
+  std::vector<std::vector<TableEntry>> wrong(errors_.size());  // empty = the right one
   for (std::size_t e = 0; e < errors_.size(); ++e) {
     const double told = errors_[e].told(curvature);
     const bool same = told == curvature || !compensation::usesCurvature(method_.plan.scheme);
-    if (!same) answers.compute(told, std::abs(told - curvature), wrong);
-    const std::vector<TableEntry>& table = same ? right : wrong;
-    double sum = 0, moved_sum = 0, stated_sum = 0;
-    for (const HeldOutReading& reading : readings) {
-      const TableEntry& entry = table[reading.code];
-      const double error = entry.pressure - reading.pressure, stated = entry.deviation;
-      const double moved = entry.pressure - right[reading.code].pressure;
-      sums.squares[e][reading.cycle] += error * error;
-      sum += error * error;
-      moved_sum += moved * moved;
-      stated_sum += stated * stated;
-    }
-    squares[e] += sum;
-    sums.moved[e] += moved_sum;
-    sums.stated[e] += stated_sum;
+    if (!same) answers.compute(told, std::abs(told - curvature), wrong[e]);
+  }
+  std::vector<ErrorSums> own(errors_.size());
+  std::vector<HeldOutReading> readings;
+  const auto addBlock = [&] {
+    for (std::size_t e = 0; e < errors_.size(); ++e)
+      own[e].add(readings, right, wrong[e].empty() ? right : wrong[e], sums.squares[e]);
+    readings.clear();
+  };
+  std::vector<dataset::TaxelCounts> counts = dataset::taxelCounts(*study_.data.recordings, taxel);
+  forEachHeldOut(part, c, [&](const ScanPlace& scan) {
+    readings.push_back(
+        {study_.data.pressure(scan), study_.data.cycle(scan), counts[scan.recording][scan.number]});
+    if (readings.size() == kBlock) addBlock();
+  });
+  addBlock();
+  for (std::size_t e = 0; e < errors_.size(); ++e) {
+    squares[e] += own[e].squares;
+    sums.moved[e] += own[e].moved;
+    sums.stated[e] += own[e].stated;
   }
 }
 
@@ -168,7 +192,7 @@ TaxelSums Scores::sumsOf(std::size_t taxel) const {
     double number = 0;
     for (const std::size_t c : part.classes) {
       addClass(answers, taxel, part, c, squares, sums);
-      forEachHeldOut(part, c, [&](const StudyScan&) { number += 1; });
+      forEachHeldOut(part, c, [&](const ScanPlace&) { number += 1; });
     }
     for (std::size_t e = 0; e < errors_.size(); ++e)
       sums.percent[e] += 100.0 * std::sqrt(squares[e] / number) / range_[k];

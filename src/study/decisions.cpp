@@ -35,7 +35,7 @@ std::string mountedOnce(const StudyData& data) {
   std::size_t number = 0;
   std::string names;
   for (std::size_t c = 0; c < data.classes.size(); ++c) {
-    const auto used = [](const std::vector<std::uint32_t>& scans) { return !scans.empty(); };
+    const auto used = [](const ScanList& scans) { return !scans.empty(); };
     if (std::count_if(mounts.scans[c].begin(), mounts.scans[c].end(), used) > 1) continue;
     ++number;
     names += (names.empty() ? "" : ", ") + data.classes[c].surface;

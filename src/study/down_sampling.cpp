@@ -40,15 +40,13 @@ Grouping downSampled(const Grouping& whole, const std::vector<std::size_t>& one_
                      std::uint64_t seed) {
   Grouping kept{whole.groups, {}};
   for (std::size_t c = 0; c < whole.scans.size(); ++c) {
-    std::vector<std::vector<std::uint32_t>> groups(whole.groups);
+    std::vector<ScanList> groups(whole.groups);
     for (std::size_t g = 0; g < whole.groups && one_of[c] > 0; ++g) {
-      const std::vector<std::uint32_t>& all = whole.scans[c][g];
+      const ScanList& all = whole.scans[c][g];
       const statistics::RandomStream stream =
           statistics::randomStream(seed, "down_sampling_" + std::to_string(one_of[c]), c * whole.groups + g);
       if (all.empty()) continue;
-      for (const std::uint32_t place : placesKept(all.size(), one_of[c], rule, stream)) {
-        groups[g].push_back(all[place]);
-      }
+      groups[g] = one_of[c] == 1 ? all : all.picked(placesKept(all.size(), one_of[c], rule, stream));
     }
     kept.scans.push_back(std::move(groups));
   }

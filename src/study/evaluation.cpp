@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dataset/count_readers.h"
 #include "fsr_pressure_map/statistics/metrics.h"
 #include "matrix/for_each_taxel.h"
+#include "statistics/streamed_metrics.h"
 
 namespace fsr::study {
 
@@ -44,49 +46,60 @@ std::vector<TestPart> partsOfFold(const StudyMethod& method, const Grouping& gro
   return parts;
 }
 
-// Calls visit(class, scan) for each held-out scan of a part.
+// Calls visit(class, list) for the scans of each cell that a part holds out.
 template <typename Visit>
-void forEachTested(const StudyData& data, const Grouping& grouping, const Fold& fold, const TestPart& part,
-                   Visit visit) {
+void forEachTested(const Grouping& grouping, const Fold& fold, const TestPart& part, Visit visit) {
   for (const std::size_t c : part.tested) {
     for (const Cell& cell : fold.test) {
-      if (cell.curvature_class != c) continue;
-      for (const std::uint32_t i : grouping.scans[c][cell.group]) visit(c, data.scans[c][i]);
+      if (cell.curvature_class == c) visit(c, grouping.scans[c][cell.group]);
     }
   }
 }
 
-// Collects the scores of one taxel. Between begin() and end() come the readings of one part.
+// The reference pressures of a part, which are the same for all taxels.
+statistics::ReferenceScatter referenceOf(const StudyData& data, const std::vector<const ScanList*>& scans) {
+  statistics::ReferenceScatter reference;
+  for (const ScanList* const list : scans)
+    list->forEach([&](const ScanPlace& scan) { reference.add(data.pressure(scan)); });
+  for (const ScanList* const list : scans)
+    list->forEach([&](const ScanPlace& scan) { reference.addAgain(data.pressure(scan)); });
+  return reference;
+}
+
+// Scores the answers for one taxel and writes its row of errors.
 class TaxelScoring {
  public:
-  TaxelScoring(const StudyData& data, const StudyPlan& plan) : data_(data), plan_(plan) {}
+  TaxelScoring(const StudyData& data, const StudyPlan& plan, std::size_t t, ErrorRows& errors)
+      : data_(data),
+        plan_(plan),
+        counts_(dataset::taxelCounts(*data.recordings, data.taxels[t])),
+        errors_(errors, t) {}
 
-  void begin() {
-    predicted_.clear();
-    reference_.clear();
+  void add(const HeldOutAnswer& answer, std::size_t c, const ScanList& scans) {
+    scans.forEach([&](const ScanPlace& scan) {
+      const double error = answer(c, scan, counts_[scan.recording][scan.number]) - data_.pressure(scan);
+      squares_ += error * error;
+      errors_.add(static_cast<float>(error));
+    });
   }
-  void add(double predicted, double reference) {
-    predicted_.push_back(predicted);
-    reference_.push_back(reference);
-    errors.push_back(static_cast<float>(predicted - reference));
-  }
-  void end() {
-    r2_.push_back(statistics::rSquared(predicted_, reference_));
-    const double percent = statistics::rmsePercent(predicted_, reference_);
-    const auto [low, high] = std::minmax_element(reference_.begin(), reference_.end());
-    const double own_range = *high - *low;
+  // Follows the readings of a part.
+  void end(const statistics::ReferenceScatter& reference) {
+    r2_.push_back(reference.rSquared(squares_));
+    const double own_range = reference.range();
     const double range = plan_.range == ScoreRange::kAll ? data_.highest - data_.lowest : own_range;
-    percent_.push_back(percent * own_range / range);
+    percent_.push_back(reference.rmsePercent(squares_) * own_range / range);
+    squares_ = 0;
   }
+  void finish() { errors_.finish(); }
   double r2() const { return statistics::spreadOf(r2_).mean; }
   double rmsePercentMean() const { return statistics::spreadOf(percent_).mean; }
-
-  std::vector<float> errors;
 
  private:
   const StudyData& data_;
   const StudyPlan& plan_;
-  std::vector<double> predicted_, reference_;  // of the part [Pa]
+  std::vector<dataset::TaxelCounts> counts_;
+  ErrorRows::Writer errors_;
+  double squares_ = 0;  // of the part [Pa^2]
   std::vector<double> r2_, percent_;
 };
 
@@ -124,34 +137,33 @@ Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Vali
   Evaluation result;
   result.parts = testParts(method, validation);
   result.models = validation.scoring == Scoring::kPooled ? 1 : method.models();
+  std::vector<statistics::ReferenceScatter> references;
+  std::size_t scored = 0;
   for (const TestPart& part : result.parts) {
-    result.begin.push_back(result.scans.size());
-    forEachTested(data, grouping, folds[part.fold], part,
-                  [&](std::size_t, const StudyScan& scan) { result.scans.push_back(&scan); });
+    std::vector<const ScanList*>& scans = result.scans.emplace_back();
+    forEachTested(grouping, folds[part.fold], part, [&](std::size_t, const ScanList& list) {
+      scans.push_back(&list);
+      scored += list.size();
+    });
+    references.push_back(referenceOf(data, scans));
   }
-  result.begin.push_back(result.scans.size());
-  result.errors.resize(data.taxels.size());
+  result.errors = ErrorRows(data.taxels.size(), scored);
   result.r2.resize(data.taxels.size());
   result.rmse_percent.resize(data.taxels.size());
   matrix::forEachTaxel(data.taxels.size(), plan.threads, [&](std::size_t t) {
-    const std::size_t taxel = data.taxels[t];
-    const TaxelReadings readings(data, grouping, taxel);
-    TaxelScoring scoring(data, plan);
-    scoring.errors.reserve(result.scans.size());
+    const TaxelReadings readings(data, grouping, data.taxels[t]);
+    TaxelScoring scoring(data, plan, t, result.errors);
     for (const FoldParts& fold : partsByFold(result.parts)) {
       const HeldOutAnswer answer = answers(t, readings, fold);
       for (std::size_t p = fold.first; p < fold.end; ++p) {
-        scoring.begin();
-        forEachTested(data, grouping, folds[fold.fold], result.parts[p],
-                      [&](std::size_t c, const StudyScan& scan) {
-                        scoring.add(answer(c, scan), regression::fromFixed(scan.pressure));
-                      });
-        scoring.end();
+        forEachTested(grouping, folds[fold.fold], result.parts[p],
+                      [&](std::size_t c, const ScanList& list) { scoring.add(answer, c, list); });
+        scoring.end(references[p]);
       }
     }
+    scoring.finish();
     result.r2[t] = scoring.r2();
     result.rmse_percent[t] = scoring.rmsePercentMean();
-    result.errors[t] = std::move(scoring.errors);
     if (done) done();
   });
   return result;
@@ -165,8 +177,8 @@ Evaluation evaluate(const StudyData& data, const StudyMethod& method, const Vali
     const std::size_t taxel = data.taxels[t];
     auto tables = tablesFor(models[models.size() == 1 ? 0 : fold.fold], taxel,
                             readings.training(validation.folds[fold.fold].train, by_samples), fold.classes);
-    return [&fold, taxel, tables = std::move(tables)](std::size_t c, const StudyScan& scan) {
-      return tables[fold.placeOf(c)][scan.counts[taxel]];
+    return [&fold, tables = std::move(tables)](std::size_t c, const ScanPlace&, std::uint16_t code) {
+      return tables[fold.placeOf(c)][code];
     };
   };
   return evaluate(data, method, validation, HeldOutAnswers(answers), plan, done);

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
+#include "study/error_rows.h"
 #include "study/fold.h"
 #include "study/fold_model.h"
 #include "study/study_method.h"
@@ -44,22 +46,33 @@ struct FoldParts {
 };
 std::vector<FoldParts> partsByFold(const std::vector<TestPart>& parts);
 
-/// A method's held-out errors.
+/// A method's held-out errors. The grouping that they were computed with must outlive it.
 struct Evaluation {
   std::vector<TestPart> parts;
-  /// The scored scans, ordered by part. Part p has the scans begin[p] to begin[p + 1] - 1.
-  std::vector<const StudyScan*> scans;
-  std::vector<std::size_t> begin;
+  /// The scored scans of each part: the lists of its cells, in the order of the errors [parts][...].
+  std::vector<std::vector<const ScanList*>> scans;
   std::size_t models = 0;
-  /// Predicted - reference pressure [studied taxels][scans] [Pa].
-  std::vector<std::vector<float>> errors;
+  /// Predicted - reference pressure of each studied taxel at the scored scans, ordered by part [Pa].
+  ErrorRows errors;
   /// For each studied taxel: the mean of the scores of all parts.
   std::vector<double> r2;
   std::vector<double> rmse_percent;
+
+  /// Calls visit(part, scan, error) for the errors of data.taxels[t].
+  template <typename Visit>
+  void forEachError(std::size_t t, Visit visit) const {
+    ErrorRows::Reader error(errors, t);
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      for (const ScanList* const list : scans[p])
+        list->forEach([&](const ScanPlace& scan) { visit(parts[p], scan, error.next()); });
+    }
+  }
 };
 
-/// Pressure of a held-out reading on a class [Pa].
-using HeldOutAnswer = std::function<double(std::size_t curvature_class, const StudyScan& scan)>;
+/// Pressure of a held-out scan of a class, at which the taxel reads `code` [Pa]. The scans of a list come in
+/// their order.
+using HeldOutAnswer =
+    std::function<double(std::size_t curvature_class, const ScanPlace& scan, std::uint16_t code)>;
 /// The answers of data.taxels[t] in one fold, trained without it.
 using HeldOutAnswers =
     std::function<HeldOutAnswer(std::size_t t, const TaxelReadings& readings, const FoldParts& fold)>;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "dataset/count_readers.h"
+
 namespace fsr::study {
 
 namespace {
@@ -113,11 +115,12 @@ Split leaveMountOut(const StudyData& data) {
 TaxelReadings::TaxelReadings(const StudyData& data, const Grouping& grouping, std::size_t taxel)
     : data_(data), grouping_(grouping), taxel_(taxel) {
   regression::CodeAccumulator accumulator(data.full_scale);
+  std::vector<dataset::TaxelCounts> counts = dataset::taxelCounts(*data.recordings, taxel);
   for (std::size_t c = 0; c < data.classes.size(); ++c) {
     for (std::size_t g = 0; g < grouping.groups; ++g) {
-      for (const std::uint32_t i : grouping.scans[c][g]) {
-        accumulator.add(data.scans[c][i].counts[taxel], data.scans[c][i].pressure);
-      }
+      grouping.scans[c][g].forEach([&](const ScanPlace& scan) {
+        accumulator.add(counts[scan.recording][scan.number], data.fixedPressure(scan));
+      });
       cells_.push_back(accumulator.take());
     }
   }
@@ -133,11 +136,12 @@ regression::ClassReadings TaxelReadings::training(const std::vector<Cell>& cells
   }
   readings.samples.resize(data_.classes.size());
   for (regression::CodeSamples& samples : readings.samples) samples.full_scale = data_.full_scale;
+  std::vector<dataset::TaxelCounts> counts = dataset::taxelCounts(*data_.recordings, taxel_);
   for (const Cell& part : cells) {
-    for (const std::uint32_t i : grouping_.scans[part.curvature_class][part.group]) {
-      const StudyScan& scan = data_.scans[part.curvature_class][i];
-      readings.samples[part.curvature_class].add(scan.counts[taxel_], scan.pressure);
-    }
+    regression::CodeSamples& samples = readings.samples[part.curvature_class];
+    grouping_.scans[part.curvature_class][part.group].forEach([&](const ScanPlace& scan) {
+      samples.add(counts[scan.recording][scan.number], data_.fixedPressure(scan));
+    });
   }
   return readings;
 }

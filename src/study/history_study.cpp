@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
+#include "dataset/row_spool.h"
 #include "matrix/for_each_taxel.h"
 
 namespace fsr::study {
@@ -25,6 +27,31 @@ bool setTrainedCodes(const regression::CodeHistogram& readings, StaticAnswer& an
   answer.highest = static_cast<std::uint16_t>(count.rend() - last - 1);
   return true;
 }
+
+constexpr std::size_t kMostInMemory = 8u << 20;  // of a recording's corrected pressures [bytes]
+
+// The corrected pressures of the scans of one recording [Pa]; NaN = the static answer stands.
+class CorrectedPressures {
+ public:
+  CorrectedPressures() { rows_.begin(1, 0); }
+  CorrectedPressures(const CorrectedPressures&) = delete;  // read_ points to rows_
+  CorrectedPressures& operator=(const CorrectedPressures&) = delete;
+
+  // Scans ascend.
+  void add(std::size_t scan, double pressure) {
+    addUntil(scan);
+    rows_.add(&pressure);
+  }
+  void addUntil(std::size_t scans) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    while (rows_.rows() < scans) rows_.add(&kNone);
+  }
+  double operator[](std::size_t scan) { return *read_[scan]; }
+
+ private:
+  dataset::RowSpool<double> rows_{kMostInMemory};
+  dataset::RowSpool<double>::Reader read_{rows_};
+};
 
 }  // namespace
 
@@ -86,19 +113,19 @@ HeldOutAnswer HistoryStudy::answer(std::size_t taxel, std::size_t fold, const Ta
   const std::vector<StaticAnswer> tables = staticAnswers(taxel, fold, readings);
   const Eigen::VectorXd& coefficients = verdict_.coefficients[fold];
   Eigen::VectorXd features(Eigen::Index(grid_.features()));
-  // [recordings][scans] [Pa]; NaN = the static answer stands.
-  std::vector<std::vector<double>> corrected;
-  for (const HistoryStream& stream : streams_) {
-    corrected.emplace_back(stream.recording().scans(), std::numeric_limits<double>::quiet_NaN());
-    stream.run(taxel, tables, [&](const HistoryStream::Scan& scan, double x, const double* state) {
+  const auto corrected = std::make_shared<std::vector<CorrectedPressures>>(streams_.size());
+  for (std::size_t r = 0; r < streams_.size(); ++r) {
+    CorrectedPressures& own = (*corrected)[r];
+    streams_[r].run(taxel, tables, [&](const HistoryStream::Scan& scan, double x, const double* state) {
       if (scan.protocol != protocolOf(split_.folds[fold])) return;
       compensation::historyFeatures(grid_, x, state, features.data());
-      corrected.back()[scan.number] = x + coefficients.dot(features);
+      own.add(scan.number, x + coefficients.dot(features));
     });
+    own.addUntil(streams_[r].recording().scans());
   }
-  return [taxel, tables, corrected = std::move(corrected)](std::size_t c, const StudyScan& scan) {
-    const double pressure = corrected[scan.recording][scan.number];
-    return std::isnan(pressure) ? tables[c].pressure[scan.counts[taxel]] : pressure;
+  return [tables, corrected](std::size_t c, const ScanPlace& scan, std::uint16_t code) {
+    const double pressure = (*corrected)[scan.recording][scan.number];
+    return std::isnan(pressure) ? tables[c].pressure[code] : pressure;
   };
 }
 

@@ -39,7 +39,7 @@ StudyResult describe(const StudyProblem& problem, const StudyData& data, const s
   for (std::size_t c = 0; c < data.classes.size(); ++c) {
     StudyClass row{data.classes[c], data.scans[c].size(), 0, 0};
     std::vector<bool> seen(data.cycles, false);
-    for (const StudyScan& scan : data.scans[c]) seen[scan.cycle] = true;
+    data.scans[c].forEach([&](const ScanPlace& scan) { seen[data.cycle(scan)] = true; });
     row.cycles = static_cast<std::size_t>(std::count(seen.begin(), seen.end(), true));
     for (const auto& list : mounts.scans[c]) row.mounts += !list.empty();
     result.classes.push_back(row);

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "calibration/sources.h"
+#include "dataset/count_readers.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
 
@@ -17,10 +18,10 @@ constexpr std::size_t kFewestTaxels = 3;  // required by Shapiro and Wilk's test
 
 // The requirements on the recordings are those of a calibration.
 void requireUsable(const std::vector<dataset::Recording>& recordings, std::size_t sections) {
-  calibration::CalibrationProblem problem{recordings, {}};
-  problem.options.scheme = compensation::Scheme::kBaseline;
-  problem.options.folds = sections;
-  calibration::validate(problem);
+  calibration::CalibrationOptions options;
+  options.scheme = compensation::Scheme::kBaseline;
+  options.folds = sections;
+  calibration::validate(recordings, options);
 }
 
 // Numbers the mounts in order of appearance. A mount is identified by its surface and mount number in all
@@ -39,9 +40,19 @@ class MountNumbers {
   std::map<std::tuple<std::string, std::uint32_t, std::size_t, std::size_t>, std::uint32_t> numbers_;
 };
 
-bool varies(const std::vector<StudyScan>& scans, std::size_t taxel) {
-  return std::any_of(scans.begin(), scans.end(), [&](const StudyScan& scan) {
-    return scan.counts[taxel] != scans.front().counts[taxel];
+// Whether the taxel reads more than one count on each class.
+bool varies(const StudyData& data, std::size_t taxel) {
+  std::vector<dataset::TaxelCounts> counts = dataset::taxelCounts(*data.recordings, taxel);
+  return std::all_of(data.scans.begin(), data.scans.end(), [&](const ScanList& scans) {
+    if (scans.empty()) return false;
+    const ScanRun& start = scans.runs().front();
+    const std::uint16_t first = counts[start.recording][start.begin];
+    return std::any_of(scans.runs().begin(), scans.runs().end(), [&](const ScanRun& run) {
+      dataset::TaxelCounts& own = counts[run.recording];
+      for (std::uint32_t i = run.begin; i < run.end; ++i)
+        if (own[i] != first) return true;
+      return false;
+    });
   });
 }
 
@@ -50,8 +61,7 @@ void chooseTaxels(const std::vector<dataset::Recording>& recordings, StudyData& 
   std::string constant;
   for (std::size_t taxel = 0; taxel < data.matrix_taxels; ++taxel) {
     if (masked[taxel] != 0) continue;
-    const auto changes = [&](const auto& scans) { return varies(scans, taxel); };
-    if (std::all_of(data.scans.begin(), data.scans.end(), changes)) {
+    if (varies(data, taxel)) {
       data.taxels.push_back(taxel);
     } else {
       constant += (constant.empty() ? "" : ", ") + std::to_string(taxel);
@@ -83,49 +93,43 @@ void chooseTaxels(const std::vector<dataset::Recording>& recordings, StudyData& 
 void findRange(StudyData& data) {
   data.lowest = INFINITY;
   data.highest = -INFINITY;
-  for (const auto& scans : data.scans) {
-    for (const StudyScan& scan : scans) {
-      data.lowest = std::min(data.lowest, regression::fromFixed(scan.pressure));
-      data.highest = std::max(data.highest, regression::fromFixed(scan.pressure));
-    }
+  for (const ScanList& scans : data.scans) {
+    scans.forEach([&](const ScanPlace& scan) {
+      const double pressure = data.pressure(scan);
+      data.lowest = std::min(data.lowest, pressure);
+      data.highest = std::max(data.highest, pressure);
+    });
   }
 }
 
-void addRecording(const dataset::Recording& recording, std::size_t number, const dataset::Sections& sections,
-                  const std::vector<std::size_t>& class_of, MountNumbers& mounts, StudyData& data) {
-  std::vector<std::size_t> first_cycle(recording.conditions.size());
+void addRecording(const dataset::Recording& recording, std::uint32_t number, MountNumbers& mounts,
+                  StudyData& data) {
+  constexpr std::uint32_t kNone = 0xffffffff;
+  const dataset::Sections& sections = data.divided[number];
+  std::vector<std::uint32_t>& first_cycle = data.first_cycle.emplace_back(recording.conditions.size());
   for (std::size_t i = 0; i < first_cycle.size(); ++i) {
-    first_cycle[i] = data.cycles;
+    first_cycle[i] = static_cast<std::uint32_t>(data.cycles);
     data.cycles += sections.cycles[i];
   }
-  for (std::size_t i = 0; i < recording.scans(); ++i) {
+  std::vector<std::uint32_t>& mount_of = data.mount_of.emplace_back(recording.conditions.size(), kNone);
+  for (std::uint32_t i = 0; i < recording.scans(); ++i) {
     if (sections.section[i] == dataset::kNoSection) continue;
     const std::size_t condition = recording.condition[i];
-    StudyScan scan;
-    scan.counts = recording.scan(i);
-    scan.pressure = regression::toFixed(recording.pressure[i]);
-    scan.time = recording.time[i];
-    scan.section = sections.section[i];
-    scan.cycle = static_cast<std::uint32_t>(first_cycle[condition] + sections.cycle[i]);
-    scan.first_cycle = sections.cycle[i] == 0;
-    scan.mount = mounts.of(number, condition, recording.conditions[condition]);
-    scan.recording = static_cast<std::uint32_t>(number);
-    scan.number = static_cast<std::uint32_t>(i);
-    scan.protocol = data.protocols.of_scan[number][i];
-    scan.direction = sections.direction[i];
-    data.scans[class_of[condition]].push_back(scan);
+    if (mount_of[condition] == kNone)
+      mount_of[condition] = mounts.of(number, condition, recording.conditions[condition]);
+    data.scans[data.class_of[number][condition]].add(ScanPlace{number, i});
   }
 }
 
 template <typename GroupOf>
 Grouping grouped(const StudyData& data, std::size_t groups, GroupOf group_of) {
   Grouping grouping{groups, {}};
-  for (const auto& scans : data.scans) {
-    std::vector<std::vector<std::uint32_t>> lists(groups);
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      const std::size_t group = group_of(scans[i]);
-      if (group < groups) lists[group].push_back(static_cast<std::uint32_t>(i));
-    }
+  for (const ScanList& scans : data.scans) {
+    std::vector<ScanList> lists(groups);
+    scans.forEach([&](const ScanPlace& scan) {
+      const std::size_t group = group_of(scan);
+      if (group < groups) lists[group].add(scan);
+    });
     grouping.scans.push_back(std::move(lists));
   }
   return grouping;
@@ -135,7 +139,7 @@ Grouping grouped(const StudyData& data, std::size_t groups, GroupOf group_of) {
 
 std::size_t StudyData::scanCount() const {
   std::size_t count = 0;
-  for (const auto& of_class : scans) count += of_class.size();
+  for (const ScanList& of_class : scans) count += of_class.size();
   return count;
 }
 
@@ -164,7 +168,7 @@ StudyData gatherStudyData(const std::vector<dataset::Recording>& recordings, std
   data.protocols = dataset::protocolsOf(recordings, data.divided);
   MountNumbers mounts;
   for (std::size_t r = 0; r < recordings.size(); ++r)
-    addRecording(recordings[r], r, data.divided[r], pooled.class_of[r], mounts, data);
+    addRecording(recordings[r], static_cast<std::uint32_t>(r), mounts, data);
   data.mounts = mounts.count();
   data.warnings = calibration::warningsOf(recordings, data.divided);
   findRange(data);
@@ -173,16 +177,16 @@ StudyData gatherStudyData(const std::vector<dataset::Recording>& recordings, std
 }
 
 Grouping bySection(const StudyData& data) {
-  return grouped(data, data.sections, [](const StudyScan& scan) { return scan.section; });
+  return grouped(data, data.sections, [&](const ScanPlace& scan) { return data.section(scan); });
 }
 
 Grouping byMount(const StudyData& data) {
-  return grouped(data, data.mounts, [](const StudyScan& scan) { return scan.mount; });
+  return grouped(data, data.mounts, [&](const ScanPlace& scan) { return data.mount(scan); });
 }
 
 Grouping byHalfProtocol(const StudyData& data) {
-  return grouped(data, 2 * data.protocols.names.size(), [](const StudyScan& scan) -> std::size_t {
-    return 2 * std::size_t{scan.protocol} + scan.cycle % 2;
+  return grouped(data, 2 * data.protocols.names.size(), [&](const ScanPlace& scan) -> std::size_t {
+    return 2 * std::size_t{data.protocol(scan)} + data.cycle(scan) % 2;
   });
 }
 

@@ -10,29 +10,15 @@
 #include "fsr_pressure_map/dataset/condition_classes.h"
 #include "fsr_pressure_map/dataset/recording.h"
 #include "regression/code_statistics.h"
+#include "study/scan_list.h"
 #include "study/study_plan.h"
 
 namespace fsr::study {
 
-/// One scan in the form that the study uses.
-struct StudyScan {
-  const std::uint16_t* counts = nullptr;  ///< [taxels]; points into the recording
-  regression::FixedPressure pressure = 0;
-  double time = 0;  ///< since the start of its recording [s]
-  std::uint32_t section = 0;
-  std::uint32_t cycle = 0;      ///< numbered through all recordings and conditions
-  bool first_cycle = false;     ///< whether it belongs to the first cycle of its condition
-  std::uint32_t mount = 0;      ///< numbered through all recordings, by surface and mount
-  std::uint32_t recording = 0;  ///< index
-  std::uint32_t number = 0;     ///< index in its recording
-  std::uint32_t protocol = 0;   ///< index into StudyData::protocols, or dataset::Protocols::kOther
-  statistics::LoadDirection direction = statistics::LoadDirection::kNone;
-};
-
 /// The scans of all recordings. It points into the recordings, which must outlive it.
 struct StudyData {
   std::vector<dataset::CurvatureClass> classes;  ///< by ascending curvature
-  std::vector<std::vector<StudyScan>> scans;     ///< of each class, by recording and time
+  std::vector<ScanList> scans;                   ///< of each class, by recording and time
   std::size_t sections = 0;
   std::size_t cycles = 0;
   std::size_t mounts = 0;
@@ -46,11 +32,43 @@ struct StudyData {
   const std::vector<dataset::Recording>* recordings = nullptr;
   std::vector<dataset::Sections> divided;          ///< [recordings]
   std::vector<std::vector<std::size_t>> class_of;  ///< [recordings][conditions]
+  /// Number of the first cycle of each condition, through all recordings [recordings][conditions].
+  std::vector<std::vector<std::uint32_t>> first_cycle;
+  /// Number of the mount, through all recordings, by surface and mount [recordings][conditions].
+  std::vector<std::vector<std::uint32_t>> mount_of;
   dataset::Protocols protocols;
+
+  // Of one scan.
+  std::size_t classOf(const ScanPlace& scan) const { return class_of[scan.recording][condition(scan)]; }
+  double time(const ScanPlace& scan) const { return recording(scan).time[scan.number]; }  ///< [s]
+  regression::FixedPressure fixedPressure(const ScanPlace& scan) const {
+    return regression::toFixed(recording(scan).pressure[scan.number]);
+  }
+  /// As the statistics know it [Pa].
+  double pressure(const ScanPlace& scan) const { return regression::fromFixed(fixedPressure(scan)); }
+  std::uint32_t section(const ScanPlace& scan) const { return divided[scan.recording].section[scan.number]; }
+  /// Numbered through all recordings and conditions.
+  std::uint32_t cycle(const ScanPlace& scan) const {
+    return first_cycle[scan.recording][condition(scan)] + divided[scan.recording].cycle[scan.number];
+  }
+  /// Whether it belongs to the first cycle of its condition.
+  bool inFirstCycle(const ScanPlace& scan) const { return divided[scan.recording].cycle[scan.number] == 0; }
+  std::uint32_t mount(const ScanPlace& scan) const { return mount_of[scan.recording][condition(scan)]; }
+  /// Index into protocols.names, or dataset::Protocols::kOther.
+  std::uint32_t protocol(const ScanPlace& scan) const {
+    return protocols.of_scan[scan.recording][scan.number];
+  }
+  statistics::LoadDirection direction(const ScanPlace& scan) const {
+    return divided[scan.recording].direction[scan.number];
+  }
 
   std::size_t scanCount() const;
   /// Index of the flat class. Throws InputError if there is none.
   std::size_t flatClass() const;
+
+ private:
+  const dataset::Recording& recording(const ScanPlace& scan) const { return (*recordings)[scan.recording]; }
+  std::uint32_t condition(const ScanPlace& scan) const { return recording(scan).condition[scan.number]; }
 };
 
 /// Throws InputError if there are no recordings, if they are of different matrices or have no pressure or
@@ -58,10 +76,10 @@ struct StudyData {
 StudyData gatherStudyData(const std::vector<dataset::Recording>& recordings, std::size_t sections);
 
 /// The scans of each class, divided into groups (sections, mounts or halves of protocols) that are held out
-/// together. Indices into StudyData::scans, ascending. A scan may be in no group.
+/// together, in the order of StudyData::scans. A scan may be in no group.
 struct Grouping {
   std::size_t groups = 0;
-  std::vector<std::vector<std::vector<std::uint32_t>>> scans;  ///< [class][group][...]
+  std::vector<std::vector<ScanList>> scans;  ///< [class][group]
 };
 
 Grouping bySection(const StudyData& data);

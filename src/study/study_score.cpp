@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "statistics/error_bins.h"
+#include "statistics/streamed_metrics.h"
 
 namespace fsr::study {
 
@@ -14,19 +15,24 @@ std::string howScored(const StudyMethod& method, const Evaluation& evaluation) {
   return evaluation.models == 1 ? "the readings of " + models + " pooled" : "mean of the scores of " + models;
 }
 
-void summarise(const Evaluation& evaluation, StudyScore& score) {
+void summarise(const StudyData& data, const Evaluation& evaluation, StudyScore& score) {
   statistics::ErrorBins bins;
-  std::vector<double> first, later;
-  for (const std::vector<float>& errors : evaluation.errors) {
-    for (std::size_t i = 0; i < errors.size(); ++i) {
-      const StudyScan& scan = *evaluation.scans[i];
-      bins.add(errors[i], regression::fromFixed(scan.pressure), scan.direction);
-      (scan.first_cycle ? first : later).push_back(errors[i]);
+  statistics::StreamedSummary first, later;
+  const auto forEach = [&](const auto& visit) {
+    for (std::size_t t = 0; t < data.taxels.size(); ++t) {
+      evaluation.forEachError(
+          t, [&](const TestPart&, const ScanPlace& scan, float error) { visit(scan, error); });
     }
-  }
+  };
+  forEach([&](const ScanPlace& scan, float error) {
+    bins.add(error, data.pressure(scan), data.direction(scan));
+    (data.inFirstCycle(scan) ? first : later).add(error);
+  });
+  forEach(
+      [&](const ScanPlace& scan, float error) { (data.inFirstCycle(scan) ? first : later).addAgain(error); });
   score.errors = bins.summarise();
-  score.first_cycle = statistics::summariseErrors(first);
-  score.later_cycles = statistics::summariseErrors(later);
+  score.first_cycle = first.summarise();
+  score.later_cycles = later.summarise();
 }
 
 }  // namespace
@@ -37,7 +43,7 @@ StudyScore scoreOf(const StudyData& data, const StudyMethod& method, const Evalu
   score.label = method.label;
   score.model = "grnn";
   score.scored = howScored(method, evaluation);
-  score.scans = evaluation.scans.size();
+  score.scans = evaluation.errors.length();
   score.r2 = evaluation.r2;
   score.rmse_percent = evaluation.rmse_percent;
   score.r2_spread = statistics::spreadOf(evaluation.r2);
@@ -45,7 +51,7 @@ StudyScore scoreOf(const StudyData& data, const StudyMethod& method, const Evalu
   const auto worst = std::max_element(score.rmse_percent.begin(), score.rmse_percent.end());
   score.worst_rmse_percent = *worst;
   score.worst_taxel = data.taxels[static_cast<std::size_t>(worst - score.rmse_percent.begin())];
-  summarise(evaluation, score);
+  summarise(data, evaluation, score);
   return score;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dataset/count_readers.h"
 #include "statistics/median.h"
 #include "study/study_score.h"
 
@@ -21,28 +22,49 @@ std::size_t gentlestBend(const StudyData& data) {
   return chosen;
 }
 
+// A figure does not show more scans of a section. A longer section is shown by one scan of several.
+constexpr std::size_t kMostScans = 20000;
+
+// Which scans of a section of a class the figure shows: one of some.
+class ShownScans {
+ public:
+  ShownScans(const StudyData& data, std::size_t c, std::uint32_t section) : data_(data), section_(section) {
+    std::size_t scans = 0;
+    data.scans[c].forEach([&](const ScanPlace& scan) { scans += data.section(scan) == section; });
+    one_of_ = std::max<std::size_t>(1, (scans + kMostScans - 1) / kMostScans);
+  }
+  // Whether the next scan of the class is shown.
+  bool operator()(const ScanPlace& scan) {
+    return data_.section(scan) == section_ && number_++ % one_of_ == 0;
+  }
+
+ private:
+  const StudyData& data_;
+  std::uint32_t section_;
+  std::size_t one_of_ = 1, number_ = 0;
+};
+
 TaxelResponse::Curve curveOf(const StudyData& data, std::size_t c, std::size_t taxel, std::uint32_t section) {
   TaxelResponse::Curve curve{data.classes[c].surface, data.classes[c].at(taxel), {}, {}, {}};
-  for (const StudyScan& scan : data.scans[c]) {
-    if (scan.section != section) continue;
-    curve.time.push_back(scan.time);
-    curve.pressure.push_back(regression::fromFixed(scan.pressure));
-    curve.counts.push_back(scan.counts[taxel]);
-  }
+  std::vector<dataset::TaxelCounts> counts = dataset::taxelCounts(*data.recordings, taxel);
+  ShownScans shown(data, c, section);
+  data.scans[c].forEach([&](const ScanPlace& scan) {
+    if (!shown(scan)) return;
+    curve.time.push_back(data.time(scan));
+    curve.pressure.push_back(data.pressure(scan));
+    curve.counts.push_back(counts[scan.recording][scan.number]);
+  });
   return curve;
 }
 
-// Held-out predictions for one section of one class, in time order [Pa].
+// Held-out predictions for the scans of curveOf() [Pa].
 std::vector<double> predictions(const StudyData& data, const Evaluation& evaluation, std::size_t c,
                                 std::uint32_t section, std::size_t place) {
-  const StudyScan* const begin = data.scans[c].data();
-  const StudyScan* const end = begin + data.scans[c].size();
   std::vector<double> predicted;
-  for (std::size_t i = 0; i < evaluation.scans.size(); ++i) {
-    const StudyScan* const scan = evaluation.scans[i];
-    if (scan < begin || scan >= end || scan->section != section) continue;
-    predicted.push_back(regression::fromFixed(scan->pressure) + evaluation.errors[place][i]);
-  }
+  ShownScans shown(data, c, section);
+  evaluation.forEachError(place, [&](const TestPart&, const ScanPlace& scan, float error) {
+    if (data.classOf(scan) == c && shown(scan)) predicted.push_back(data.pressure(scan) + error);
+  });
   return predicted;
 }
 

@@ -42,31 +42,24 @@ statistics::BootstrapResult interval(const CycleUnits& units, const StudyPlan& p
 
 CycleUnits cycleUnits(const StudyData& data) {
   CycleUnits units{std::vector<std::size_t>(data.cycles, 0), !leaveMountOut(data).folds.empty()};
-  for (const auto& scans : data.scans) {
-    for (const StudyScan& scan : scans) units.mount[scan.cycle] = scan.mount;
-  }
+  for (const ScanList& scans : data.scans)
+    scans.forEach([&](const ScanPlace& scan) { units.mount[data.cycle(scan)] = data.mount(scan); });
   return units;
 }
 
 CycleSums::CycleSums(const StudyData& data, const Evaluation& evaluation) {
-  values_.taxels = evaluation.errors.size();
+  values_.taxels = evaluation.errors.taxels();
   values_.models = evaluation.models;
   values_.cycles = data.cycles;
   values_.range = data.highest - data.lowest;
   values_.squares.assign(values_.cycles * values_.models * values_.taxels, 0.0);
   values_.readings.assign(values_.cycles * values_.models, 0.0);
-  std::vector<std::size_t> place(evaluation.scans.size());
-  for (std::size_t p = 0; p < evaluation.parts.size(); ++p) {
-    for (std::size_t i = evaluation.begin[p]; i < evaluation.begin[p + 1]; ++i) {
-      place[i] = evaluation.scans[i]->cycle * values_.models + evaluation.parts[p].model;
-      values_.readings[place[i]] += 1;
-    }
-  }
   for (std::size_t t = 0; t < values_.taxels; ++t) {
-    for (std::size_t i = 0; i < place.size(); ++i) {
-      const double error = evaluation.errors[t][i];
-      values_.squares[place[i] * values_.taxels + t] += error * error;
-    }
+    evaluation.forEachError(t, [&](const TestPart& part, const ScanPlace& scan, double error) {
+      const std::size_t place = data.cycle(scan) * values_.models + part.model;
+      values_.squares[place * values_.taxels + t] += error * error;
+      if (t == 0) values_.readings[place] += 1;
+    });
   }
   addUp();
 }

@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/study_readings.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr::study {
 
 namespace {
+
+using test_support::Reading;
+using test_support::readingsOf;
 
 // Live tables are floats.
 constexpr double kFloats = 1e-5;
@@ -50,22 +54,20 @@ const CurvatureErrorScore& at(const CurvatureErrorCurve& curve, double relative,
 // A GRNN on the readings of one class without section `left_out`, computed from its definition.
 double grnn(const StudyData& data, std::size_t c, std::uint32_t left_out, std::size_t taxel, double bandwidth,
             std::uint16_t asked) {
-  std::vector<const StudyScan*> train;
-  for (const StudyScan& scan : data.scans[c])
-    if (scan.section != left_out) train.push_back(&scan);
+  std::vector<Reading> train;
+  for (const Reading& one : readingsOf(data, data.scans[c], taxel))
+    if (one.section != left_out) train.push_back(one);
   double mean = 0, variance = 0;
-  for (const StudyScan* scan : train) mean += scan->counts[taxel] / static_cast<double>(train.size());
-  for (const StudyScan* scan : train) variance += std::pow(scan->counts[taxel] - mean, 2);
+  for (const Reading& one : train) mean += one.count / static_cast<double>(train.size());
+  for (const Reading& one : train) variance += std::pow(one.count - mean, 2);
   const double sigma = bandwidth * std::sqrt(variance / static_cast<double>(train.size() - 1));
-  const auto exponent = [&](const StudyScan* scan) {
-    return 0.5 * std::pow((asked - scan->counts[taxel]) / sigma, 2);
-  };
+  const auto exponent = [&](const Reading& one) { return 0.5 * std::pow((asked - one.count) / sigma, 2); };
   double nearest = INFINITY, weight = 0, weighted = 0;
-  for (const StudyScan* scan : train) nearest = std::min(nearest, exponent(scan));
-  for (const StudyScan* scan : train) {
-    const double share = std::exp(nearest - exponent(scan));
+  for (const Reading& one : train) nearest = std::min(nearest, exponent(one));
+  for (const Reading& one : train) {
+    const double share = std::exp(nearest - exponent(one));
     weight += share;
-    weighted += share * regression::fromFixed(scan->pressure);
+    weighted += share * one.pressure;
   }
   return weighted / weight;
 }
@@ -81,12 +83,12 @@ double plainRmse(const StudyData& data, double bandwidth, double relative) {
       while (low + 2 < data.classes.size() && data.classes[low + 1].at(taxel) <= told) ++low;
       const double from = data.classes[low].at(taxel), to = data.classes[low + 1].at(taxel);
       const double share = std::clamp((told - from) / (to - from), 0.0, 1.0);
-      for (const StudyScan& scan : data.scans[c]) {
+      for (const Reading& one : readingsOf(data, data.scans[c], taxel)) {
         const auto pressure = [&](std::size_t k) {
-          return grnn(data, k, scan.section, taxel, bandwidth, scan.counts[taxel]);
+          return grnn(data, k, one.section, taxel, bandwidth, one.count);
         };
         const double answer = (1 - share) * pressure(low) + share * pressure(low + 1);
-        squares += std::pow(answer - regression::fromFixed(scan.pressure), 2);
+        squares += std::pow(answer - one.pressure, 2);
         number += 1;
       }
     }

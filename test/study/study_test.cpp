@@ -11,13 +11,18 @@
 #include "study/decisions.h"
 #include "study/evaluation.h"
 #include "study/history_study.h"
+#include "support/counts_in_file.h"
 #include "support/memory_rig.h"
 #include "support/source_dir.h"
+#include "support/study_readings.h"
 #include "support/synthetic_recording.h"
 
 namespace fsr::study {
 
 namespace {
+
+using test_support::Reading;
+using test_support::readingsOf;
 
 test_support::SyntheticRig bentRig() {
   test_support::SyntheticRig rig;
@@ -47,33 +52,32 @@ const StudyMethod& methodOf(const std::vector<StudyMethod>& methods, const std::
 double plainRmsePercent(const StudyData& data, const Grouping& kept, std::size_t taxel, double bandwidth) {
   double sum = 0;
   for (std::size_t k = 0; k < data.sections; ++k) {
-    std::vector<const StudyScan*> train, test;
+    std::vector<Reading> train, test;
     for (std::size_t c = 0; c < data.classes.size(); ++c) {
       for (std::size_t g = 0; g < kept.groups; ++g) {
-        for (const std::uint32_t i : kept.scans[c][g]) (g == k ? test : train).push_back(&data.scans[c][i]);
+        for (const Reading& reading : readingsOf(data, kept.scans[c][g], taxel))
+          (g == k ? test : train).push_back(reading);
       }
     }
     double mean = 0, variance = 0;
-    for (const StudyScan* scan : train) mean += scan->counts[taxel] / static_cast<double>(train.size());
-    for (const StudyScan* scan : train) variance += std::pow(scan->counts[taxel] - mean, 2);
+    for (const Reading& one : train) mean += one.count / static_cast<double>(train.size());
+    for (const Reading& one : train) variance += std::pow(one.count - mean, 2);
     const double deviation = std::sqrt(variance / static_cast<double>(train.size() - 1));
     double squares = 0, low = INFINITY, high = -INFINITY;
-    for (const StudyScan* asked : test) {
+    for (const Reading& asked : test) {
       double nearest = INFINITY, weight = 0, weighted = 0;
-      const auto distance = [&](const StudyScan* scan) {
-        return std::pow((asked->counts[taxel] - scan->counts[taxel]) / deviation, 2) /
-               (2 * bandwidth * bandwidth);
+      const auto distance = [&](const Reading& one) {
+        return std::pow((asked.count - one.count) / deviation, 2) / (2 * bandwidth * bandwidth);
       };
-      for (const StudyScan* scan : train) nearest = std::min(nearest, distance(scan));
-      for (const StudyScan* scan : train) {
-        const double share = std::exp(nearest - distance(scan));
+      for (const Reading& one : train) nearest = std::min(nearest, distance(one));
+      for (const Reading& one : train) {
+        const double share = std::exp(nearest - distance(one));
         weight += share;
-        weighted += share * regression::fromFixed(scan->pressure);
+        weighted += share * one.pressure;
       }
-      const double truth = regression::fromFixed(asked->pressure);
-      squares += std::pow(weighted / weight - truth, 2);
-      low = std::min(low, truth);
-      high = std::max(high, truth);
+      squares += std::pow(weighted / weight - asked.pressure, 2);
+      low = std::min(low, asked.pressure);
+      high = std::max(high, asked.pressure);
     }
     sum += 100 * std::sqrt(squares / static_cast<double>(test.size())) / (high - low);
   }
@@ -259,6 +263,34 @@ TEST(Study, LeavesOutConstantTaxelsWithAWarning) {
   EXPECT_NE(result.warnings.back().find("left out: 4"), std::string::npos) << result.warnings.back();
 }
 
+void expectSameScores(const StudyScore& a, const StudyScore& b) {
+  EXPECT_EQ(a.id, b.id);
+  EXPECT_EQ(a.rmse_percent, b.rmse_percent) << a.id;
+  EXPECT_EQ(a.errors.whole.all.p95_absolute, b.errors.whole.all.p95_absolute) << a.id;
+  EXPECT_EQ(a.later_cycles.limit_low, b.later_cycles.limit_low) << a.id;
+  EXPECT_EQ(a.errors.whole.all.rmse, b.errors.whole.all.rmse) << a.id;
+}
+
+TEST(Study, GivesTheSameNumbersWhereTheCountsAreInAFile) {
+  StudyProblem problem = memoryProblem({{4, 600e3, 20e3, 2, 2}, {4, 600e3, 60e3, 2, 2}});
+  const StudyResult memory = study(problem);
+  problem.recordings = test_support::countsInFiles(problem.recordings);
+  const StudyResult file = study(problem);
+  ASSERT_EQ(file.splits.size(), memory.splits.size());
+  for (std::size_t s = 0; s < memory.splits.size(); ++s) {
+    ASSERT_EQ(file.splits[s].scores.size(), memory.splits[s].scores.size());
+    for (std::size_t m = 0; m < memory.splits[s].scores.size(); ++m)
+      expectSameScores(file.splits[s].scores[m], memory.splits[s].scores[m]);
+  }
+  for (std::size_t i = 0; i < memory.comparisons.size(); ++i) {
+    for (std::size_t m = 0; m < memory.comparisons[i].scores.size(); ++m)
+      expectSameScores(file.comparisons[i].scores[m], memory.comparisons[i].scores[m]);
+  }
+  ASSERT_FALSE(memory.response.prediction.with_curvature.empty());
+  EXPECT_EQ(file.response.prediction.with_curvature, memory.response.prediction.with_curvature);
+  EXPECT_EQ(file.response.curves.front().counts, memory.response.curves.front().counts);
+}
+
 TEST(Evaluation, ScoresTheBaselineAsByItsDefinition) {
   const StudyProblem problem = smallProblem();
   const StudyData data = gatherStudyData(problem.recordings, 5);
@@ -322,7 +354,8 @@ TEST(Evaluation, SchemesLearnNothingFromAHeldOutCurvature) {
 }
 
 TEST(Evaluation, NeverTrainsOnWhatItTests) {
-  const StudyData data = gatherStudyData(smallProblem().recordings, 5);
+  const StudyProblem problem = smallProblem();
+  const StudyData data = gatherStudyData(problem.recordings, 5);
   for (const Split& split : {leaveSectionOut(data), pastToFuture(data), leaveCurvatureOut(data)}) {
     for (const Fold& fold : split.folds) {
       for (const Cell& tested : fold.test) {
@@ -335,7 +368,8 @@ TEST(Evaluation, NeverTrainsOnWhatItTests) {
 }
 
 TEST(StudyMethods, TakeAsManyScansAsOneConditionHas) {
-  const StudyData data = gatherStudyData(smallProblem().recordings, 5);
+  const StudyProblem problem = smallProblem();
+  const StudyData data = gatherStudyData(problem.recordings, 5);
   const auto methods = paperMethods(data, BinaryShare::kFullFlat);
   EXPECT_EQ(methodOf(methods, "flat_only").one_of, (std::vector<std::size_t>{1, 0, 0}));
   EXPECT_EQ(methodOf(methods, "baseline").one_of, (std::vector<std::size_t>{3, 3, 3}));
@@ -347,17 +381,28 @@ TEST(StudyMethods, TakeAsManyScansAsOneConditionHas) {
   EXPECT_EQ(methodOf(half, "flat_or_curved").one_of, (std::vector<std::size_t>{1, 2, 2}));
 }
 
+std::vector<std::uint32_t> numbersOf(const ScanList& list) {
+  std::vector<std::uint32_t> numbers;
+  list.forEach([&](const ScanPlace& scan) { numbers.push_back(scan.number); });
+  return numbers;
+}
+
 TEST(DownSampled, KeepsTheShareOfEachGroup) {
-  const Grouping whole{1, {{{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}, {{0, 1, 2}}}};
+  ScanList ten, three;
+  ten.add(ScanRun{0, 0, 10});
+  three.add(ScanRun{1, 5, 8});
+  const Grouping whole{1, {{ten}, {three}}};
   const Grouping random = downSampled(whole, {3, 1}, DownSampling::kRandom, 1);
   EXPECT_EQ(random.scans[0][0].size(), 4u);
   EXPECT_EQ(random.scans[1][0], whole.scans[1][0]);
-  EXPECT_TRUE(std::is_sorted(random.scans[0][0].begin(), random.scans[0][0].end()));
+  const std::vector<std::uint32_t> drawn = numbersOf(random.scans[0][0]);
+  EXPECT_TRUE(std::is_sorted(drawn.begin(), drawn.end()));
   const Grouping every = downSampled(whole, {3, 0}, DownSampling::kEveryNth, 1);
-  EXPECT_EQ(every.scans[0][0], (std::vector<std::uint32_t>{0, 3, 6, 9}));
+  EXPECT_EQ(numbersOf(every.scans[0][0]), (std::vector<std::uint32_t>{0, 3, 6, 9}));
   EXPECT_TRUE(every.scans[1][0].empty());
-  const std::vector<std::uint32_t> run = downSampled(whole, {3, 1}, DownSampling::kContiguous, 1).scans[0][0];
-  EXPECT_EQ(run.back() - run.front(), 3u);
+  const ScanList run = downSampled(whole, {3, 1}, DownSampling::kContiguous, 1).scans[0][0];
+  ASSERT_EQ(run.runs().size(), 1u);
+  EXPECT_EQ(run.size(), 4u);
 }
 
 TEST(StudyPlan, ShippedFileHoldsTheDefaults) {

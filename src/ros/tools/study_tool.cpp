@@ -93,7 +93,6 @@ fsr::study::StudyProblem problemOf(const fsr::settings::CommandLine& line, const
   for (const char* const option : {"ambient", "namespace"})
     shard.options["--" + std::string(option)] = line.text(option, "not given");
   BagReadOptions reading = bagReadOptions(line);
-  reading.counts_in_memory = BagReadOptions().counts_in_memory;  // its folds read scans in any order
   for (const std::string& path : line.files()) {
     reading.progress = told("reading " + path, progress);
     problem.recordings.push_back(readBag(path, reading));
