@@ -18,6 +18,7 @@
 #include "ros/tools/check_bag_tool.h"
 #include "ros/tools/export_tool.h"
 #include "ros/tools/scrub_tool.h"
+#include "ros/tools/study_tool.h"
 #include "support/pty.h"
 
 // Sanitizers keep memory that was freed.
@@ -147,6 +148,16 @@ TEST_F(ToolMemory, OfCheckBagGrowsByAFewNumbersForAScan) {
     return runTool(checkBagTool, {"check_bag", bag});
   };
   EXPECT_LT(growth(check), 0.25);
+}
+
+// A piece of the study: linear regression, whose errors are 1.4 bytes for each byte of the bag; they lie in a
+// file, too.
+TEST_F(ToolMemory, OfStudyGrowsByAFewNumbersForAScan) {
+  const Tool study = [](const std::string& bag, const std::string& folder) {
+    return runTool(studyTool,
+                   {"study", bag, "--paper-only", "--shard", "1/100", "--threads", "2", "--output", folder});
+  };
+  EXPECT_LT(growth(study), 0.25);
 }
 
 }  // namespace
