@@ -99,7 +99,7 @@ void Conductor::insistOn(const SurfaceDoubt& doubt, Verdict* verdict) {
   complain(Reason::kMountsDisagree, verdict->sentence + "; see which of their recordings can be used");
 }
 
-// All of it but the conditioning. Its bag stays, and what follows goes into another one.
+// All of it but the conditioning. Its bag does not count: it names a surface that is in doubt.
 void Conductor::beginMountAgain(const Verdict& verdict) {
   for (std::size_t s = 0; s < step_; ++s) {
     if (steps_[s].mount == steps_[step_].mount && steps_[s].kind != StepKind::kCondition &&
@@ -108,6 +108,7 @@ void Conductor::beginMountAgain(const Verdict& verdict) {
   }
   ++rejected_;
   note(step_, StepState::kOpen, verdict);
+  outcomes_.back().mount_again = true;
   goOn();
   attempts_ = 1;
   last_rejected_ = verdict;
