@@ -55,7 +55,23 @@ matrix::MatrixSize readSize(const Settings& settings, matrix::MatrixSize size) {
   return size;
 }
 
-PlannedSurface readSurface(const Settings& entry, const std::string& folder, matrix::MatrixSize size) {
+// Without a `folder`, surface files are in ../surfaces, seen from the plan.
+matrix::Surface surfaceOfPlan(const std::string& name, const std::string& folder, matrix::MatrixSize size,
+                              const std::string& origin, const std::string& field) {
+  if (!folder.empty()) return surfaceInFolder(name, folder, size, field);
+  const fs::path beside = fs::absolute(fs::path(origin).parent_path() / "../surfaces").lexically_normal();
+  try {
+    return surfaceInFolder(name, beside.string(), size, field);
+  } catch (const settings::InputError& error) {
+    if (fs::exists(beside / (name + ".yaml"))) throw;  // what is wrong is in the surface file
+    throw settings::InputError(std::string(error.what()) +
+                               ". This folder is ../surfaces, seen from the plan; another one is given by "
+                               "plan_session --surface-folder DIR and session.launch surfaces:=DIR");
+  }
+}
+
+PlannedSurface readSurface(const Settings& entry, const std::string& folder, matrix::MatrixSize size,
+                           const std::string& origin) {
   PlannedSurface read;
   const std::string name = entry.text("surface");
   if (name.empty()) throw entry.error("surface", "must be the name of a surface");
@@ -65,7 +81,7 @@ PlannedSurface readSurface(const Settings& entry, const std::string& folder, mat
     // The sentence of error() without its complaint: "FILE: FIELD is VALUE".
     std::string field = entry.error("surface", "").what();
     field.resize(field.size() - std::string(", but ").size());
-    read.surface = surfaceInFolder(name, folder, size, field);
+    read.surface = surfaceOfPlan(name, folder, size, origin, field);
   }
   read.mounts = static_cast<unsigned>(entry.integer("mounts", kMounts, read.mounts));
   return read;
@@ -155,8 +171,8 @@ matrix::Surface surfaceInFolder(const std::string& name, const std::string& fold
   if (plain && fs::exists(path)) return matrix::readSurfaceFile(path.string(), size);
   std::string known;
   for (const std::string& one : surfacesIn(folder)) known += (known.empty() ? "" : ", ") + one;
-  throw settings::InputError(field + ", but " + folder + " has no file of this surface; it has " +
-                             (known.empty() ? "none" : known));
+  if (known.empty()) known = fs::is_directory(folder) ? "none" : "none, because there is no such folder";
+  throw settings::InputError(field + ", but " + folder + " has no file of this surface; it has " + known);
 }
 
 SessionPlan readPlan(const Settings& settings, const std::string& surface_folder) {
@@ -174,11 +190,8 @@ SessionPlan readPlan(const Settings& settings, const std::string& surface_folder
   if (settings.has("conditioning")) plan.conditioning = readConditioning(settings.section("conditioning"));
   if (settings.has("rest")) plan.rest = readRests(settings.section("rest"));
   if (settings.has("tolerance")) plan.tolerance = readTolerance(settings.section("tolerance"));
-  const std::string beside =
-      (fs::path(plan.origin).parent_path() / "../surfaces").lexically_normal().string();
   for (const Settings& entry : settings.sections("surfaces"))
-    plan.surfaces.push_back(
-        readSurface(entry, surface_folder.empty() ? beside : surface_folder, plan.matrix));
+    plan.surfaces.push_back(readSurface(entry, surface_folder, plan.matrix, plan.origin));
   plan.program = simulation::readChamberProgram(settings.sections("program"));
   if (settings.has("breaks")) plan.breaks = readBreaks(settings);
   settings.refuseUnknown();

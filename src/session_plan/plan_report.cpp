@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "calibration/temperature/temperature_course.h"
+#include "dataset/conditioning.h"
 #include "session_plan/losses.h"
 #include "session_plan/prospects.h"
 #include "session_plan/steps.h"
@@ -28,6 +29,16 @@ std::string kPa(double pressure) {
   return settings::roundedText(pressure / 1e3, 4) + " kPa";
 }
 
+// Few cycles are allowed, but the recordings will be told apart from conditioned ones.
+std::string conditioningText(const SessionPlan& plan) {
+  const unsigned cycles = plan.conditioning.cycles;
+  if (cycles == 0) return "No conditioning.";
+  const std::string text = "Conditioning before the first recording: " + std::to_string(cycles) +
+                           (cycles == 1 ? " cycle to " : " cycles to ") + kPa(conditioningPeak(plan)) + ".";
+  if (cycles >= dataset::ConditioningOptions{}.cycles) return text;
+  return text + " Makers of sensors ask for four or five: check_bag and train will say \"fewer than four\".";
+}
+
 std::string needs(const SessionPlan& plan) {
   std::vector<std::string> surfaces, order, parts;
   for (const PlannedSurface& one : plan.surfaces) surfaces.push_back(one.surface.name);
@@ -39,9 +50,7 @@ std::string needs(const SessionPlan& plan) {
       "Surfaces: " + listText(surfaces) + ".",
       "Chamber: up to " + kPa(conditioned ? conditioningPeak(plan) : largestPeak(plan)) + ".",
       plan.thermometer ? "A thermometer (topic temperature)." : "No thermometer.",
-      conditioned ? "Conditioning before the first recording: " + std::to_string(plan.conditioning.cycles) +
-                        " cycles to " + kPa(conditioningPeak(plan)) + "."
-                  : "No conditioning.",
+      conditioningText(plan),
       "Order: " + listText(order) + ".",
       "On each mount, " + timeText(recordingDuration(plan)) + ": " + listText(parts) + ". Rest of " +
           settings::roundedText(plan.rest.before) + " s before and " +

@@ -155,5 +155,36 @@ TEST(PlanFile, RefusesWhatCannotBeRun) {
   EXPECT_EQ(messageOf([&] { planFrom(small); }), "no error");
 }
 
+TEST(PlanFile, NamesTheFolderInWhichASurfaceIsMissingAndHowToGiveAnother) {
+  const std::string message =
+      messageOf([] { readPlan(settings::Settings::fromText(kSmall, "/no/such/sub/my.yaml")); });
+  EXPECT_TRUE(
+      contains(message,
+               "my.yaml: surfaces[0].surface is flat, but /no/such/surfaces has no file of this "
+               "surface; it has none, because there is no such folder. This folder is ../surfaces, seen "
+               "from the plan; "))
+      << message;
+  EXPECT_TRUE(contains(message, "plan_session --surface-folder DIR and session.launch surfaces:=DIR"))
+      << message;
+  const std::string relative =
+      messageOf([] { readPlan(settings::Settings::fromText(kSmall, "sub/my.yaml")); });
+  EXPECT_TRUE(contains(relative, "but " + std::filesystem::absolute("surfaces").string() + " has no file"))
+      << relative;
+}
+
+TEST(PlanReport, SaysThatFewCyclesOfConditioningWillBeFound) {
+  const auto report = [](const std::string& cycles) {
+    return planReport(planFrom(kSmall + ("conditioning: {cycles: " + cycles + "}\n")));
+  };
+  EXPECT_TRUE(
+      contains(report("2"),
+               "recording: 2 cycles to 660 kPa. Makers of sensors ask for four or five: check_bag and "
+               "train will say \"fewer than four\"."))
+      << report("2");
+  EXPECT_TRUE(contains(report("1"), "recording: 1 cycle to 660 kPa. Makers"));
+  EXPECT_FALSE(contains(report("4"), "fewer than four"));
+  EXPECT_FALSE(contains(report("0"), "fewer than four"));
+}
+
 }  // namespace
 }  // namespace fsr::session_plan
