@@ -28,7 +28,7 @@ bool until(const std::function<bool()>& condition) {
 /// A very small conductor: it gives instructions and hears what the operator does.
 class RigOperatorNode : public testing::Test {
  protected:
-  RigOperatorNode() {
+  explicit RigOperatorNode(const std::string& sensor = "/fsr") : handle_(sensor) {
     instruction_ = handle_.advertise<Instruction>("instruction", 10, true);
     confirm_ = handle_.advertiseService("conduct/confirm", &RigOperatorNode::onConfirm, this);
     subscribers_ = {handle_.subscribe("rig_emulator/acts", 100, &RigOperatorNode::onAct, this),
@@ -103,6 +103,28 @@ TEST_F(RigOperatorNode, PutsTheSheetOnAndConfirms) {
   EXPECT_TRUE(does("put the sheet on cylinder_5cm"));
   EXPECT_TRUE(until([this] { return confirmed_ > 0; }));
   EXPECT_EQ(confirmed_, 1);
+}
+
+/// The operator at the other rig leaves the confirmation to a person.
+class TaughtPerson : public RigOperatorNode {
+ protected:
+  TaughtPerson() : RigOperatorNode("/taught") {}
+};
+
+TEST_F(TaughtPerson, IsToldOnceWhenToConfirm) {
+  const auto told = [](const std::string& where) {
+    return "the sheet lies on " + where + ": confirm it in the panel";
+  };
+  give(mount(1, "cylinder_5cm"));
+  EXPECT_TRUE(does(told("cylinder_5cm, mount 1")));
+  Instruction remarked = mount(1, "cylinder_5cm");
+  remarked.remark = "the pressure rises before the surface is confirmed";  // lets a forgotten one be done
+  give(remarked);
+  give(mount(2, "flat"));
+  EXPECT_TRUE(does(told("flat, mount 2")));
+  EXPECT_EQ(std::count(acts_.begin(), acts_.end(), told("cylinder_5cm, mount 1")), 1);
+  EXPECT_EQ(std::count(acts_.begin(), acts_.end(), "confirm"), 0);
+  EXPECT_EQ(confirmed_, 0);
 }
 
 TEST_F(RigOperatorNode, MakesAMistakeAndDoesItRightWhenRejected) {

@@ -117,9 +117,14 @@ void RigOperator::onInstruction(const fsr_pressure_map::Instruction& instruction
   } catch (const fsr::settings::InputError& error) {
     ROS_WARN_STREAM_THROTTLE(10, error.what());
   }
-  if (!instruction.confirm) {  // somebody else has confirmed
+  {
     const std::lock_guard<std::mutex> lock(mutex_);
-    to_confirm_ = false;
+    if (!instruction.confirm) to_confirm_ = false;  // somebody else has confirmed
+    const std::string asked =
+        instruction.confirm ? instruction.surface + ", mount " + std::to_string(instruction.mount) : "";
+    if (asked != asked_ || instruction.text != asked_text_) asked_for_ = false;
+    asked_ = asked;
+    asked_text_ = instruction.text;
   }
   publishMistakes();
 }
@@ -140,12 +145,26 @@ void RigOperator::publishMistakes() {
 // In the thread of the emulator.
 void RigOperator::onAct(const fsr::emulator::Act& act) {
   using Kind = fsr::emulator::Act::Kind;
+  if (act.kind == Kind::kConfirm && confirm_.empty()) {
+    askForConfirmation();
+    return;
+  }
   ROS_INFO_STREAM("operator: " << describe(act));
   acts_.publish(text(describe(act)));
   const std::lock_guard<std::mutex> lock(mutex_);
   to_confirm_ = to_confirm_ || act.kind == Kind::kConfirm;
   to_close_ = to_close_ || act.kind == Kind::kCloseTerminal;
   changed_.notify_all();
+}
+
+// Another person confirms: says once in each instruction that it is time.
+void RigOperator::askForConfirmation() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (asked_.empty() || asked_for_) return;
+  asked_for_ = true;
+  const std::string sentence = "the sheet lies on " + asked_ + ": confirm it in the panel";
+  ROS_INFO_STREAM("operator: " << sentence);
+  acts_.publish(text(sentence));
 }
 
 // --- services, in a thread of their own ------------------------------------------------------------

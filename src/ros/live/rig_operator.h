@@ -19,9 +19,11 @@ namespace fsr_ros {
 fsr::emulator::Task toTask(const fsr_pressure_map::Instruction& instruction);
 
 /// The person at an emulated rig: carries out what the topic `instruction` says, and calls the conductor's
-/// service `confirm` where that is asked for.
+/// service `confirm` where that is asked for. Without the name of a service another person confirms, and is
+/// told once when it is time.
 ///
-/// Topics: `~acts` (std_msgs/String), what is done with the hands, e.g. "put the sheet on flat"; `~mistakes`
+/// Topics: `~acts` (std_msgs/String), what is done with the hands, e.g. "put the sheet on flat", and when
+/// another person is to confirm; `~mistakes`
 /// (std_msgs/String, latched), all mistakes made so far with their steps, e.g. "leak@12, too_fast@20".
 ///
 /// Parameters: `~mistakes`, `~shelf`, `~change`, `~confirm`, `~conductor`; see launch/rig_emulator.launch.
@@ -44,13 +46,14 @@ class RigOperator {
   void onInstruction(const fsr_pressure_map::Instruction& instruction);
   void onAct(const fsr::emulator::Act& act);
   void publishMistakes();
+  void askForConfirmation();
   void callServices();
   bool confirm();
   void closeTerminal();
 
   ros::NodeHandle handle_;
   SurfaceFolder folder_;
-  std::string confirm_, conductor_;  // names of the service and of the node
+  std::string confirm_, conductor_;  // names of the service, empty = a person confirms, and of the node
   ros::Publisher acts_, mistakes_;
   ros::Subscriber instructions_;
   fsr::emulator::Emulator* rig_ = nullptr;
@@ -59,6 +62,8 @@ class RigOperator {
   std::mutex mutex_;                                      // guards everything below
   std::map<std::string, fsr::matrix::Surface> surfaces_;  // that were read
   std::condition_variable changed_;
+  std::string asked_, asked_text_;  // surface and mount to be confirmed, empty = none, and the instruction
+  bool asked_for_ = false;          // the other person was told so
   bool to_confirm_ = false, to_close_ = false, stopping_ = false;
   std::thread caller_;  // calls services, so that rig time goes on meanwhile
 };
