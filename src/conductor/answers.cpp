@@ -177,7 +177,7 @@ std::string Conductor::remark() const {
       remark += (remark.empty() ? "" : "; ") + sentence;
   };
   for (const auto& complaint : complaints_) add(complaint.second);
-  if (attempts_ > 0) add("rejected: " + last_rejected_.sentence);
+  if (attempts_ > 0) add("last attempt rejected: " + last_rejected_.sentence);
   return remark;
 }
 

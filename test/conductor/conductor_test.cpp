@@ -173,7 +173,7 @@ TEST(Conductor, TakesBackAnAcceptedStepAndAcceptsARejectedOneByHand) {
   EXPECT_FALSE(day.conductor.accept().done);
   EXPECT_TRUE(day.conductor.reject("a door was slammed").done);
   EXPECT_EQ(day.conductor.instruction().step, 5u);
-  EXPECT_EQ(day.remark(), "rejected: a door was slammed");
+  EXPECT_EQ(day.remark(), "last attempt rejected: a door was slammed");
   day.cycle(400e3, 20e3, 1, 20e3, 1);
   EXPECT_EQ(day.rejected(), (Names{"by_hand", "peak_missed"}));
   EXPECT_TRUE(day.conductor.accept().done);

@@ -425,7 +425,7 @@ TEST(EmulatorOperator, UnplugsTheBoardAndPlugsItInAtARemark) {
   EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(options.link)));
   ASSERT_EQ(rig.mistakesMade().size(), 1u);
   EXPECT_EQ(rig.mistakesMade().front().name, "board_unplugged");
-  rig.instruct(cycleTask("rejected: scans were lost"));
+  rig.instruct(cycleTask("last attempt rejected: scans were lost"));
   ASSERT_TRUE(rig.waitForRigTime(rig.rigTime() + 1, kLong));
   BoardListener listener(rig.port());
   EXPECT_TRUE(listener.untilScans(10));

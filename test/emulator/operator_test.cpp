@@ -75,7 +75,7 @@ Task loop() {
 }
 
 Task again(Task task, const std::string& remark) {
-  task.remark = "rejected: " + remark;
+  task.remark = "last attempt rejected: " + remark;
   return task;
 }
 

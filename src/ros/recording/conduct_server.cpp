@@ -295,7 +295,8 @@ void ConductServer::say() {
   if (now.text == said_text_ && now.remark == said_remark_) return;
   if (now.text != said_text_) ROS_INFO_STREAM("[" << now.step << " of " << now.steps << "] " << now.text);
   // Told by report(), or by the reporter.
-  const bool told = now.remark.empty() || now.remark.rfind("rejected: ", 0) == 0 || conductor_->done();
+  const bool told =
+      now.remark.empty() || now.remark.rfind("last attempt rejected: ", 0) == 0 || conductor_->done();
   if (now.remark != said_remark_ && !told) ROS_WARN_STREAM_THROTTLE(1, now.remark);
   said_text_ = now.text;
   said_remark_ = now.remark;

@@ -133,9 +133,11 @@ QString instructionText(const fsr_pressure_map::Instruction& instruction) {
 
 PanelLine remarkLine(const fsr_pressure_map::Instruction& instruction) {
   if (instruction.remark.empty()) return {};
+  QString remark = text(instruction.remark);
+  remark[0] = remark[0].toUpper();
   // At the end it says where the report of the day is.
   const bool done = instruction.kind == fsr_pressure_map::Instruction::DONE;
-  return {text(instruction.remark), done ? "" : "color: #b00020"};
+  return {remark, done ? "" : "color: #b00020"};
 }
 
 }  // namespace fsr_rviz

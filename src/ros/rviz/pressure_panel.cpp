@@ -16,8 +16,10 @@
 #include <QLineEdit>
 #include <QPixmap>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QTimer>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 #include <set>
@@ -36,6 +38,8 @@ constexpr double kSilence = 3.0;         // age after which a number is no longe
 constexpr int kRefresh = 200;            // [ms]
 constexpr double kStandardAir = 101325;  // ambient pressure without matrix_info [Pa]
 constexpr std::uint32_t kQueueSize = 10;
+constexpr double kReadable = 3.0;  // an answer stays this long after the instruction has changed [s]
+constexpr int kLines = 3;          // the longest instruction has as many in a panel as wide as the coverage
 
 // Calls a service and returns its message, or why it could not be called.
 template <typename Service>
@@ -57,15 +61,19 @@ PressurePanel::PressurePanel(QWidget* parent) : Panel(parent) {
   auto* grid = new QGridLayout;
   namespace_ = new QLineEdit("/fsr");
   namespace_->setObjectName("sensor");
-  grid->addWidget(new QLabel("Sensor"), 0, 0);
-  grid->addWidget(namespace_, 0, 1);
+  auto* sensor = new QGridLayout;
+  sensor->addWidget(new QLabel("Sensor"), 0, 0);
+  sensor->addWidget(namespace_, 0, 1);
+  column->addLayout(sensor);
+  addConductor(column);  // above everything whose height changes, so that its buttons stay in their places
   addNumbers(grid);
   column->addLayout(grid);
-  addConductor(column);
   addButtons(column);
   reply_ = addText(column, "reply");
   waiting_ = addText(column, "waiting");
-  column->addStretch();
+  coverage_ = addText(column, "coverage");  // below the buttons: its height changes with the plan
+  coverage_->hide();
+  column->addStretch(1);  // takes all free height, so that nothing above is spread when a text comes
   auto* warning = new QLabel("<b>Research use, not for diagnosis or fitting decisions</b>");
   warning->setWordWrap(true);
   column->addWidget(warning);
@@ -127,10 +135,8 @@ void PressurePanel::addConductor(QVBoxLayout* column) {
   conductor_->setObjectName("conductor");
   auto* lines = new QVBoxLayout;
   lines->setContentsMargins(0, 0, 0, 0);
-  instruction_ = addText(lines, "instruction");
-  instruction_->setStyleSheet("font-weight: bold");
-  remark_ = addText(lines, "remark");
-  coverage_ = addText(lines, "coverage");
+  instruction_ = addFixedText(lines, "instruction", true);
+  remark_ = addFixedText(lines, "remark", false);
   auto* answers = new QHBoxLayout;
   const auto button = [&](const char* label, const char* slot) {
     buttons_.push_back(new QPushButton(label));
@@ -153,6 +159,25 @@ QLabel* PressurePanel::addText(QVBoxLayout* column, const char* name) {
   text->setObjectName(name);
   text->setWordWrap(true);
   column->addWidget(text);
+  return text;
+}
+
+// A text of a fixed height, with a scroll bar if it is longer: the buttons below it never move.
+QLabel* PressurePanel::addFixedText(QVBoxLayout* column, const char* name, bool bold) {
+  auto* text = new QLabel;
+  text->setObjectName(name);
+  text->setWordWrap(true);
+  text->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  QFont font = text->font();
+  font.setBold(bold);
+  text->setFont(font);
+  auto* frame = new QScrollArea;
+  frame->setFrameShape(QFrame::NoFrame);
+  frame->setWidgetResizable(true);
+  frame->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  frame->setWidget(text);
+  frame->setFixedHeight(kLines * QFontMetrics(font).lineSpacing() + 2);
+  column->addWidget(frame);
   return text;
 }
 
@@ -284,8 +309,7 @@ void PressurePanel::showRest() {
 }
 
 void PressurePanel::refresh() {
-  if ((ros::WallTime::now() - replied_).toSec() > double(reply_shown_) && buttons_.front()->isEnabled())
-    reply_->clear();
+  forgetReply();
   const fsr::view::PressureUnit unit = fsr::view::pressureUnitOf(unit_->currentText().toStdString());
   const double air = last_matrix_.message ? last_matrix_.message->ambient_pressure : kStandardAir;
   chamber_->setText(last_chamber_.fresh()
@@ -311,18 +335,38 @@ void PressurePanel::refresh() {
   showRest();
   showConductor();
   showWaiting();
+  keepHeights();
+}
+
+// A layout takes a wrapped text for lower than it is, and squeezes other lines to make room for it: buttons
+// would move.
+void PressurePanel::keepHeights() {
+  for (QLabel* line : findChildren<QLabel*>()) {
+    if (line == instruction_ || line == remark_ || !line->hasHeightForWidth()) continue;
+    line->setMinimumHeight(std::max(0, line->heightForWidth(line->width())));
+  }
+}
+
+// An answer of the conductor also goes with the instruction that it belongs to.
+void PressurePanel::forgetReply() {
+  if (calling_) return;
+  const double age = (ros::WallTime::now() - replied_).toSec();
+  const bool over = !answered_.isEmpty() && instruction_->text() != answered_ && age > kReadable;
+  if (age > double(reply_shown_) || over) reply_->clear();
 }
 
 void PressurePanel::showConductor() {
   conductor_->setVisible(last_instruction_.fresh());
+  coverage_->setVisible(last_instruction_.fresh());
   if (!last_instruction_.fresh()) return;
   const fsr_pressure_map::Instruction& now = *last_instruction_.message;
   instruction_->setText(instructionText(now));
+  instruction_->setToolTip(instruction_->text());
   const PanelLine remark = remarkLine(now);
   remark_->setText(remark.text);
+  remark_->setToolTip(remark.text);
   remark_->setStyleSheet(remark.style);
-  remark_->setVisible(!remark.text.isEmpty());
-  confirm_->setVisible(now.confirm);
+  enableButtons();
   const sensor_msgs::Image::ConstPtr& picture = last_coverage_.message;
   if (picture == shown_coverage_ || picture == nullptr) return;
   shown_coverage_ = picture;
@@ -411,20 +455,26 @@ void PressurePanel::trigger(const std::string& what, const std::string& service)
   });
 }
 
+// A person's answer to the conductor.
+void PressurePanel::answer(const std::string& what) {
+  trigger(what, "conduct/" + what);
+  answered_ = instruction_->text();
+}
+
 void PressurePanel::confirmMount() {
-  trigger("confirm", "conduct/confirm");
+  answer("confirm");
 }
 
 void PressurePanel::acceptAttempt() {
-  trigger("accept", "conduct/accept");
+  answer("accept");
 }
 
 void PressurePanel::rejectAttempt() {
-  trigger("reject", "conduct/reject");
+  answer("reject");
 }
 
 void PressurePanel::skipStep() {
-  trigger("skip", "conduct/skip");
+  answer("skip");
 }
 
 void PressurePanel::tare() {
@@ -476,7 +526,8 @@ void PressurePanel::markEvent() {
 
 void PressurePanel::call(const std::string& what, const std::function<std::string()>& service) {
   if (caller_.joinable()) caller_.join();  // the last call has ended, or the buttons would be disabled
-  for (QPushButton* button : buttons_) button->setEnabled(false);
+  calling_ = true;
+  enableButtons();
   say(text(what) + " ...");
   caller_ = std::thread([this, service] {
     const QString reply = QString::fromStdString(service());
@@ -485,13 +536,26 @@ void PressurePanel::call(const std::string& what, const std::function<std::strin
 }
 
 void PressurePanel::showReply(const QString& reply) {
-  for (QPushButton* button : buttons_) button->setEnabled(true);
+  calling_ = false;
+  enableButtons();
+  const QString answered = answered_;
   say(reply);
+  answered_ = answered;
+}
+
+// Confirm is grey where nothing is to be confirmed, and all buttons are while a service is called.
+void PressurePanel::enableButtons() {
+  for (QPushButton* button : buttons_) button->setEnabled(!calling_);
+  const bool asked = last_instruction_.message && last_instruction_.message->confirm;
+  confirm_->setEnabled(!calling_ && asked);
+  confirm_->setToolTip(asked ? "The sheet lies on the surface that the instruction names."
+                             : "Nothing is to be confirmed now.");
 }
 
 void PressurePanel::say(const QString& reply) {
   reply_->setText(reply);
   replied_ = ros::WallTime::now();
+  answered_.clear();
 }
 
 }  // namespace fsr_rviz

@@ -35,7 +35,8 @@ namespace fsr_rviz {
 
 /// Panel with the numbers of one sensor and with buttons for tare, reload, mask, checking the surface,
 /// marking an event and setting an alarm. While a session is conducted, it also shows the instruction, why
-/// the last attempt was rejected, the coverage, and the buttons for a person's answers. All topics are in the
+/// the last attempt was rejected, the coverage, and the buttons for a person's answers, which stay in their
+/// places whatever is said. All topics are in the
 /// sensor's namespace. A number that has not come yet, or not for 3 s, is shown as "-", and a line below the
 /// buttons names the missing node. Services are called in another thread, so that the window never waits for
 /// them.
@@ -87,12 +88,17 @@ class PressurePanel : public rviz::Panel {
   void addConductor(QVBoxLayout* column);
   void showConductor();
   static QLabel* addText(QVBoxLayout* column, const char* name);
+  static QLabel* addFixedText(QVBoxLayout* column, const char* name, bool bold);
+  void enableButtons();
+  void forgetReply();
+  void keepHeights();
   std::vector<std::size_t> selectedTaxels() const;
   void say(const QString& reply);
   void showStatistics();
   void showAlarms();
   void showRest();
   void trigger(const std::string& what, const std::string& service);
+  void answer(const std::string& what);
   void listRegions();
   void showWaiting();
   void call(const std::string& what, const std::function<std::string()>& service);
@@ -126,6 +132,8 @@ class PressurePanel : public rviz::Panel {
   sensor_msgs::Image::ConstPtr shown_coverage_;
   ros::WallTime replied_;                        // when a service answered last
   float reply_shown_ = 60;                       // time for which its answer is shown [s]
+  QString answered_;                             // instruction to which a person answered; empty = none
+  bool calling_ = false;                         // a service is being called
   std::map<std::string, Complaint> complaints_;  // of the driver's diagnostics, by the name of the status
   DiagnosticValues rest_values_;                 // of the calibration's diagnostics
   ros::WallTime rest_received_;

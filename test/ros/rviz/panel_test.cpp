@@ -15,7 +15,9 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <array>
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include "fsr_pressure_map/calibration/calibration_file.h"
@@ -63,6 +65,13 @@ class Panel : public testing::Test {
     for (auto* button : panel->findChildren<QPushButton*>()) {
       if (button->text() == name) button->click();
     }
+  }
+
+  bool isEnabled(const QString& name) {
+    for (const auto* button : panel->findChildren<QPushButton*>()) {
+      if (button->text() == name) return button->isEnabled();
+    }
+    return false;
   }
 
   bool isHidden(const QString& name) {
@@ -143,23 +152,104 @@ TEST_F(Panel, ShowsTheInstructionAndSendsThePersonsAnswers) {
   now.step = 3;
   now.steps = 40;
   now.text = "Cycle 1 of 10: fill.";
-  now.remark = "rejected: leak";
+  now.remark = "last attempt rejected: leak";
   instructions.publish(now);
   ASSERT_TRUE(runUntil([&] { return label("instruction") == "Step 3 of 40: Cycle 1 of 10: fill."; }));
   EXPECT_FALSE(conductor->isHidden());
-  EXPECT_EQ(label("remark"), "rejected: leak");
-  EXPECT_TRUE(isHidden("Confirm"));
+  EXPECT_EQ(label("remark"), "Last attempt rejected: leak");
+  EXPECT_FALSE(isEnabled("Confirm"));
   ASSERT_TRUE(runUntil([&] { return panel->findChild<QLabel*>("coverage")->sizeHint() == QSize(40, 30); }));
   now.confirm = true;
   now.remark = "";
   instructions.publish(now);
-  ASSERT_TRUE(runUntil([&] { return !isHidden("Confirm"); }));
+  ASSERT_TRUE(runUntil([&] { return isEnabled("Confirm"); }));
   for (const char* name : {"Confirm", "Accept", "Reject", "Skip"}) {
     press(name);
     const std::string service = QString(name).toLower().toStdString();
     EXPECT_TRUE(runUntil([&] { return says("reply", "done: " + service); })) << label("reply");
     EXPECT_EQ(answered, service);
   }
+  EXPECT_TRUE(says("reply", "done: skip"));
+  now.kind = now.DONE;
+  now.text = "The session is over.";
+  now.confirm = false;
+  instructions.publish(now);
+  EXPECT_TRUE(runUntil([&] { return label("instruction") == now.text && label("reply").empty(); }))
+      << "the answer to an instruction goes with it: " << label("reply");
+  press("Tare");
+  ASSERT_TRUE(runUntil([&] { return says("reply", "tare"); }));
+  EXPECT_FALSE(isEnabled("Confirm")) << "a call does not wake it";
+}
+
+TEST_F(Panel, KeepsItsButtonsInTheirPlacesDuringASession) {
+  ros::NodeHandle handle("/conducted");
+  const auto instructions = handle.advertise<fsr_pressure_map::Instruction>("instruction", 10, true);
+  const auto pictures = handle.advertise<sensor_msgs::Image>("session_coverage", 1, true);
+  listenTo("/conducted");
+  panel->resize(500, 1000);
+  panel->show();
+  fsr_pressure_map::Instruction now;
+  now.steps = 400;
+  const auto places = [&](const std::string& said, const std::string& remark, bool confirm) {
+    ++now.step;
+    now.text = said;
+    now.remark = remark;
+    now.confirm = confirm;
+    instructions.publish(now);
+    EXPECT_TRUE(runUntil([&] { return says("instruction", "Step " + std::to_string(now.step) + " "); }));
+    EXPECT_EQ(isEnabled("Confirm"), confirm);
+    EXPECT_FALSE(isHidden("Confirm"));
+    QApplication::sendPostedEvents();  // layouts
+    std::map<std::string, std::array<int, 4>> found;
+    for (const auto* button : panel->findChildren<QPushButton*>()) {
+      if (!button->isVisible()) continue;
+      const QPoint corner = button->mapTo(panel.get(), QPoint(0, 0));
+      found[button->text().toStdString()] = {corner.x(), corner.y(), button->width(), button->height()};
+    }
+    return found;
+  };
+  const std::string again =
+      "Vent to rest, then again: Cycle 10 of 10: fill to 620 kPa at 17 kPa/s, hold for 1 s, vent at 17 "
+      "kPa/s. 3 attempts were rejected: skip this step, or accept the last attempt, to go on.";
+  const std::string why =
+      "the chamber does not go down: 130 kPa; rejected: the pressure turned at 500 kPa, planned are 620 kPa";
+  const auto first = places("Rest.", "", false);
+  ASSERT_EQ(first.count("Accept"), 1u);
+  ASSERT_EQ(first.count("Tare"), 1u);
+  EXPECT_EQ(places(again, "", false), first);
+  EXPECT_EQ(places(again, why, false), first);
+  EXPECT_EQ(places("Put the sheet on flat.", why + "; " + why, true), first);
+  EXPECT_EQ(label("remark"), panel->findChild<QLabel*>("remark")->toolTip().toStdString());
+  press("Reject");
+  ASSERT_TRUE(runUntil([&] { return says("reply", "there is no service /conducted/conduct/reject"); }));
+  EXPECT_EQ(places("Rest.", "", true), first) << "with an answer";
+  sensor_msgs::Image picture;
+  picture.encoding = "rgb8";
+  picture.width = 400;
+  picture.height = 200;
+  picture.step = 1200;
+  picture.data.assign(240000, 200);
+  pictures.publish(picture);
+  ASSERT_TRUE(runUntil([&] { return panel->findChild<QLabel*>("coverage")->sizeHint().height() == 200; }));
+  EXPECT_EQ(places("Rest.", "", true), first) << "with the coverage";
+}
+
+TEST_F(Panel, SaysThatARejectionIsTheLastAttempts) {
+  ros::NodeHandle handle("/conducted");
+  const auto instructions = handle.advertise<fsr_pressure_map::Instruction>("instruction", 10, true);
+  listenTo("/conducted");
+  fsr_pressure_map::Instruction now;
+  const auto shown = [&](const std::string& remark, const std::string& expected) {
+    now.remark = remark;
+    instructions.publish(now);
+    return runUntil([&] { return label("remark") == expected; });
+  };
+  EXPECT_TRUE(shown("last attempt rejected: by a person", "Last attempt rejected: by a person"))
+      << label("remark");
+  EXPECT_TRUE(
+      shown("no scan for 2 s; last attempt rejected: leak", "No scan for 2 s; last attempt rejected: leak"))
+      << label("remark");
+  EXPECT_TRUE(shown("", "")) << label("remark");
 }
 
 // 12 taxels of 1 cm x 1.2 cm.
