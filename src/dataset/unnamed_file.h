@@ -4,7 +4,7 @@
 
 namespace fsr::dataset {
 
-/// A temporary file without a name, for the counts of recordings that are too long for the memory. It lies in
+/// A temporary file without a name, for what of long recordings is too much for the memory. It lies in
 /// TMPDIR (else /var/tmp) and is gone with the object or the process.
 class UnnamedFile {
  public:
