@@ -8,7 +8,7 @@
 
 #include "conductor/session_files.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/sibling_program.h"
+#include "ros/programs/sibling_program.h"
 
 namespace fsr_ros {
 

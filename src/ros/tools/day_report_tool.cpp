@@ -8,7 +8,7 @@
 #include "conductor/session_files.h"
 #include "conductor/state_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/sibling_program.h"
+#include "ros/programs/sibling_program.h"
 #include "ros/tools/tool_progress.h"
 #include "session_plan/plan_file.h"
 #include "settings/command_line.h"

@@ -10,7 +10,7 @@
 #include "conductor/conductor.h"
 #include "conductor/state_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/sibling_program.h"
+#include "ros/programs/sibling_program.h"
 #include "session_plan/plan_file.h"
 #include "support/source_dir.h"
 

@@ -1,4 +1,4 @@
-#include "ros/bags/sibling_program.h"
+#include "ros/programs/sibling_program.h"
 
 #include <fcntl.h>
 #include <sys/prctl.h>
