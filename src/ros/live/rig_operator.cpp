@@ -16,6 +16,7 @@ namespace fsr_ros {
 
 namespace {
 
+constexpr const char* kPerson = "person";           // instead of a service: roslaunch drops empty arguments
 constexpr double kSlowest = 1.33, kFastest = 0.67;  // change of a surface, as shares of `~change`
 constexpr std::chrono::milliseconds kAgain{500};    // until a service that is not there is called again
 
@@ -64,6 +65,7 @@ RigOperator::RigOperator(const ros::NodeHandle& handle, const ros::NodeHandle& p
   person.habits.change_least = kFastest * change;
   person.habits.change_most = kSlowest * change;
   confirm_ = parameters.text("confirm", "conduct/confirm");
+  if (confirm_ == kPerson) confirm_.clear();
   conductor_ = parameters.text("conductor", "conduct");
   options.person = person;
   options.autostart = false;
