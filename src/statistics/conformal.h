@@ -20,11 +20,28 @@ namespace fsr::statistics {
 /// allow at most the level 1 - 1 / (n + 1).
 std::optional<std::size_t> conformalRank(std::size_t units, double level);
 
+/// What n units promise of the share of new readings within the interval, if one score is drawn from each:
+/// the share differs between trainings as Beta(k, n + 1 - k), k = conformalRank().
+struct ConformalCover {
+  std::size_t rank = 0;  ///< k
+  double mean = 0;       ///< k / (n + 1); at least the level, and below the level + 1 / (n + 1)
+  double low = 0;        ///< nine of ten trainings reach a share between `low` and `high`
+  double median = 0;     ///< that of the median over draws where all units are alike
+  double high = 0;
+};
+std::optional<ConformalCover> conformalCover(std::size_t units, double level);
+
 /// The smallest number of units that allows the level.
 std::size_t conformalUnits(double level);
 
 /// The probability that at least `k` of independent events happen, whose probabilities are given.
 double probabilityOfAtLeast(std::size_t k, const std::vector<double>& probability);
+
+/// The smallest number in [0, thresholds) at which the smallest score number `rank` of one drawn from each
+/// unit lies at or below threshold number i in at least half of the draws. `shares` as in
+/// conformalThreshold().
+std::size_t medianThreshold(std::size_t rank, std::size_t thresholds,
+                            const std::function<std::vector<double>(std::size_t)>& shares);
 
 /// The smallest number in [0, thresholds) at which the k-th smallest of one score drawn from each unit lies
 /// at or below threshold number i in at least half of the draws; nothing if the units are too few.

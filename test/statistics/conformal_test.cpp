@@ -32,6 +32,23 @@ TEST(Conformal, UnequalProbabilitiesAreCountedOut) {
   EXPECT_EQ(probabilityOfAtLeast(2, {0.9}), 0.0);
 }
 
+// python3 -c "from scipy.stats import beta; print(beta.ppf([.05, .5, .95], 20, 1), beta.ppf([.05, .5, .95],
+// 15, 6))"
+TEST(Conformal, StatesTheCoverThatTheNumberOfUnitsGives) {
+  const auto most = conformalCover(20, 0.95);
+  ASSERT_TRUE(most);
+  EXPECT_EQ(most->rank, 20u);
+  EXPECT_DOUBLE_EQ(most->mean, 20.0 / 21);
+  EXPECT_NEAR(most->low, 0.86089166, 1e-8);
+  EXPECT_NEAR(most->median, 0.96593633, 1e-8);
+  EXPECT_NEAR(most->high, 0.99743863, 1e-8);
+  const auto middle = conformalCover(20, 0.6827);
+  ASSERT_TRUE(middle);
+  EXPECT_EQ(middle->rank, 15u);
+  EXPECT_NEAR(middle->median, 0.72119545, 1e-8);
+  EXPECT_FALSE(conformalCover(18, 0.95));
+}
+
 // Where each unit has one score, the threshold is the k-th smallest score: plain split-conformal.
 TEST(Conformal, OneScoreAUnitGivesTheOrderStatistic) {
   const auto shares = [](std::size_t i) {
