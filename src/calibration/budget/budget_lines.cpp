@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/budget/conditioning_line.h"
 #include "settings/number_text.h"
 
 namespace fsr::calibration {
@@ -87,6 +88,7 @@ class Lines {
             directions(),
             hold(),
             mount(),
+            conditioningLine(sums_, dataset::findConditioning(problem_.recordings)),
             rest(),
             temperature(),
             curvature(),

@@ -11,7 +11,8 @@ constexpr std::size_t kPoints = kBudgetShares.size();
 
 }  // namespace
 
-BudgetScale::BudgetScale(const TrainedInterval& trained) : range(trained.high - trained.low), pressure{} {
+BudgetScale::BudgetScale(const TrainedInterval& trained)
+    : range(trained.high - trained.low), highest(trained.high), pressure{} {
   for (std::size_t p = 0; p < kPoints; ++p) pressure[p] = trained.low + kBudgetShares[p] * range;
 }
 
@@ -30,6 +31,7 @@ void BudgetPoint::add(const BudgetPoint& more) {
   dwell_noise += more.dwell_noise, dwell_steps += more.dwell_steps;
   dwells += more.dwells, dwells_inside += more.dwells_inside;
   mount += more.mount, mount_freedom += more.mount_freedom;
+  first += more.first, first_change += more.first_change, firsts += more.firsts;
   surfaces += more.surfaces, mount_shares += more.mount_shares;
 }
 
@@ -52,7 +54,7 @@ CodeSpan::CodeSpan(const regression::CodeTable& table, const BudgetScale& scale,
 
 BudgetTally::BudgetTally(const BudgetScale& scale, const std::vector<BudgetCycle>& cycles,
                          const regression::CodeTable& table)
-    : scale_(scale), cycles_(cycles), step_{}, cells_(kPoints * cycles.size() * kDirections) {
+    : scale_(scale), cycles_(cycles), table_(table), step_{}, cells_(kPoints * cycles.size() * kDirections) {
   for (std::size_t p = 0; p < kPoints; ++p) step_[p] = CodeSpan(table, scale, p).step;
   for (const BudgetCycle& cycle : cycles) {
     if (mount_of_session_.size() <= cycle.session) mount_of_session_.resize(cycle.session + 1);
@@ -76,6 +78,7 @@ void BudgetTally::add(const TrainingScan& scan, double error) {
   own.count += 1;
   own.sum += error;
   own.squares += error * error;
+  own.answers += double(table_.pressure[scan.code]) - regression::fromFixed(scan.pressure);
   last_cell_ = &own;
   last_error_ = error;
 }
@@ -176,9 +179,54 @@ void BudgetTally::addSessions(const std::vector<std::array<Side, kDirections>>& 
   sums.mount_freedom += means.count - 1;
 }
 
+// One table answers to all cycles, so that its error cancels. What the later cycles scatter by, and the first
+// one with them, is subtracted.
+void BudgetTally::addFirstCycles(std::size_t point) {
+  struct Course {
+    bool begun = false;
+    std::array<Cell, kDirections> first;
+    std::array<statistics::RunningMoments, kDirections> later;
+  };
+  std::vector<Course> courses(mount_of_session_.size());
+  for (std::size_t c = 0; c < cycles_.size(); ++c) {
+    Course& course = courses[cycles_[c].session];
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const Cell& own = cell(point, c, d);
+      if (!course.begun) {
+        course.first[d] = own;
+      } else if (own.count > 0) {
+        course.later[d].add(own.answers / own.count);
+      }
+    }
+    course.begun = true;
+  }
+  std::vector<bool> seen(courses.size(), false);  // mounts
+  for (std::size_t s = 0; s < courses.size(); ++s) {
+    if (seen[mount_of_session_[s]]) continue;
+    seen[mount_of_session_[s]] = true;
+    double changes = 0, variance = 0, directions = 0;
+    for (std::size_t d = 0; d < kDirections; ++d) {
+      const Cell& first = courses[s].first[d];
+      const statistics::RunningMoments& later = courses[s].later[d];
+      if (first.count == 0 || later.count < 2) continue;
+      changes += later.mean - first.answers / first.count;
+      variance += later.squares / (later.count - 1) * (1 + 1 / later.count);
+      directions += 1;
+    }
+    if (directions == 0) continue;
+    const double change = changes / directions;
+    sums_[point].first += change * change - variance / (directions * directions);
+    sums_[point].first_change += change;
+    sums_[point].firsts += 1;
+  }
+}
+
 BudgetSums BudgetTally::sums() {
   if (dwell_.count > 0) endDwell();
-  for (std::size_t point = 0; point < kPoints; ++point) addSessions(sidesOf(point), sums_[point]);
+  for (std::size_t point = 0; point < kPoints; ++point) {
+    addSessions(sidesOf(point), sums_[point]);
+    addFirstCycles(point);
+  }
   return sums_;
 }
 

@@ -21,6 +21,7 @@ struct BudgetScale {
   explicit BudgetScale(const TrainedInterval& trained);
 
   double range;           ///< [Pa]
+  double highest;         ///< trained [Pa]
   BudgetValues pressure;  ///< [Pa]
   /// The point whose window contains a pressure; kBudgetShares.size() = none.
   std::size_t pointOf(double pressure) const;
@@ -48,7 +49,10 @@ struct BudgetPoint {
   double dwell_noise = 0, dwell_steps = 0;  ///< half the squared step within a dwell, likewise
   double dwells = 0, dwells_inside = 0;     ///< their number, and of those in the window of the point
   double mount = 0, mount_freedom = 0;      ///< squared differences of mounts from the mean of their surface
-  double surfaces = 0, mount_shares = 0;    ///< number of classes, and the sum of 1 / number of mounts
+  /// From the first cycle of a mount to the later ones: squared change of the answer, its sum [Pa], and the
+  /// number of changes. The scatter of the later cycles is subtracted from the square.
+  double first = 0, first_change = 0, firsts = 0;
+  double surfaces = 0, mount_shares = 0;  ///< number of classes, and the sum of 1 / number of mounts
 
   void add(const BudgetPoint& more);
 };
@@ -59,8 +63,8 @@ void addSums(const BudgetSums& more, BudgetSums& sums);
 /// grows with the number of cycles, not of scans.
 class BudgetTally {
  public:
-  /// `scale` and `cycles` must outlive the object. `cycles`: of the class; `table`: of the taxel on it, from
-  /// all scans.
+  /// `scale`, `cycles` and `table` must outlive the object. `cycles`: of the class; `table`: of the taxel on
+  /// it, from all scans.
   BudgetTally(const BudgetScale& scale, const std::vector<BudgetCycle>& cycles,
               const regression::CodeTable& table);
 
@@ -75,6 +79,7 @@ class BudgetTally {
   // Readings of one cycle in one direction near one of the pressures.
   struct Cell {
     double count = 0, sum = 0, squares = 0;
+    double answers = 0;  // of `table_`, less the pressure of the chamber
   };
   // Cycles of one session in one direction.
   struct Side {
@@ -87,6 +92,7 @@ class BudgetTally {
   Cell& cell(std::size_t point, std::size_t cycle, std::size_t direction) {
     return cells_[(point * cycles_.size() + cycle) * kDirections + direction];
   }
+  void addFirstCycles(std::size_t point);
   void addDwell(const TrainingScan& scan);
   void endDwell();
   std::vector<std::array<Side, kDirections>> sidesOf(std::size_t point);
@@ -94,6 +100,7 @@ class BudgetTally {
 
   const BudgetScale& scale_;
   const std::vector<BudgetCycle>& cycles_;
+  const regression::CodeTable& table_;
   BudgetValues step_;  // of one count [Pa]
   std::vector<std::uint32_t> mount_of_session_;
   std::vector<Cell> cells_;

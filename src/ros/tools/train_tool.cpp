@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "calibration/budget/conditioning_line.h"
 #include "calibration/calibration_check.h"
 #include "calibration/correction/corrected_calibration.h"
 #include "calibration/correction/recheck.h"
@@ -278,8 +279,10 @@ fsr::calibration::Calibration train(const fsr::settings::CommandLine& line, std:
   out << fsr::report::coverageText(fsr::dataset::coverageOf(problem.recordings, chosen.folds)) << std::endl;
   fsr::calibration::Calibration calibration = fsr::calibration::calibrate(problem, toolProgress());
   // The events in the bags tell more than the recordings alone.
-  calibration.provenance.conditioning = fsr::dataset::conditioningSentences(
-      fsr::dataset::findConditioning(problem.recordings, conditioningSaid(line.files())));
+  const std::vector<fsr::dataset::Conditioning> conditioning =
+      fsr::dataset::findConditioning(problem.recordings, conditioningSaid(line.files()));
+  calibration.provenance.conditioning = fsr::dataset::conditioningSentences(conditioning);
+  fsr::calibration::restateConditioning(conditioning, calibration.budget);
   for (const std::string& sentence : calibration.provenance.conditioning) out << "Note: " << sentence << '\n';
   out << fsr::report::warningsText(calibration)
       << fsr::report::scoresText(calibration.scores, calibration.layout)
