@@ -206,7 +206,8 @@ void Training::train(std::size_t taxel, const compensation::FoldRegressors& regr
 ErrorIntervals Training::intervalsOf(const RemountErrors& remount,
                                      const regression::RegressorOptions& regressor,
                                      const Calibration& calibration) const {
-  IntervalTally intervals(IntervalUnit::kMounts, remount.units(), statistics_->taxels);
+  IntervalTally intervals(IntervalUnit::kMounts, remount.units(), statistics_->taxels,
+                          calibration.trained.pressure.high);
   matrix::forEachTaxel(statistics_->taxels, problem_.options.threads, [&](std::size_t taxel) {
     if (calibration.no_model[taxel] == 0) remount.cover(plan_, taxel, regressor, calibration, intervals);
   });

@@ -90,7 +90,7 @@ class Calibrator::Impl {
  public:
   Impl(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
        const compensation::HistoryModel& history, const compensation::TemperatureModel& temperature,
-       const CalibratorOptions& options);
+       const DeviationScale& scale, const CalibratorOptions& options);
   Impl(const Impl&) = delete;  // table_ points into the object's own tables
   Impl& operator=(const Impl&) = delete;
 
@@ -178,8 +178,9 @@ class Calibrator::Impl {
 
 Calibrator::Impl::Impl(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
                        const compensation::HistoryModel& history,
-                       const compensation::TemperatureModel& temperature, const CalibratorOptions& options)
-    : tables_(tables),
+                       const compensation::TemperatureModel& temperature, const DeviationScale& scale,
+                       const CalibratorOptions& options)
+    : tables_(tables, scale),
       layout_(layout),
       options_(options),
       needs_curvature_(tables.scheme != compensation::Scheme::kBaseline),
@@ -453,11 +454,11 @@ map::MapState Calibrator::Impl::state(double time) const noexcept {
 Calibrator::Calibrator(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
                        const CalibratorOptions& options)
     : impl_(std::make_unique<Impl>(tables, layout, compensation::HistoryModel{},
-                                   compensation::TemperatureModel{}, options)) {}
+                                   compensation::TemperatureModel{}, DeviationScale{}, options)) {}
 
 Calibrator::Calibrator(const Calibration& calibration, const CalibratorOptions& options)
     : impl_(std::make_unique<Impl>(calibration.tables, calibration.layout, calibration.history,
-                                   calibration.temperature, options)) {}
+                                   calibration.temperature, calibration.budget.intervals.scale, options)) {}
 
 Calibrator::~Calibrator() = default;
 Calibrator::Calibrator(Calibrator&& other) noexcept = default;

@@ -55,7 +55,8 @@ HeldOutScoring::HeldOutScoring(const TrainingScans& scans, const std::vector<dat
       plan_(plan),
       budget_(budget),
       sections_(sections),
-      intervals_(IntervalUnit::kCycles, budget.of_cycles ? budget.cycles.units : 0, taxels),
+      intervals_(IntervalUnit::kCycles, budget.of_cycles ? budget.cycles.units : 0, taxels,
+                 budget.scale.highest),
       taxels_(taxels),
       errors_(scans.of_class.size()) {}
 
@@ -71,7 +72,7 @@ void HeldOutScoring::scoreTaxel(std::size_t taxel,
                              meanOverSections(sections, &SectionScore::rmsePercent), within});
   };
   std::size_t all_within = 0;
-  IntervalTally::Taxel ratios(intervals_.units());
+  IntervalTally::Taxel ratios(intervals_);
   for (std::size_t c = 0; c < scans.size(); ++c) {
     const regression::CrossValidatedModel& model = models[plan_.model_of_class[c]];
     std::vector<SectionScore> of_class(sections_);

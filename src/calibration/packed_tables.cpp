@@ -66,7 +66,7 @@ std::vector<std::size_t> slotsOf(const compensation::CurvatureTables& tables) {
 
 }  // namespace
 
-PackedTables::PackedTables(const compensation::CurvatureTables& tables)
+PackedTables::PackedTables(const compensation::CurvatureTables& tables, const DeviationScale& scale)
     : size_(tables.size), full_scale_(tables.full_scale), classes_(tables.classes.size()) {
   requireWhole(tables);
   slot_of_class_ = slotsOf(tables);
@@ -87,6 +87,10 @@ PackedTables::PackedTables(const compensation::CurvatureTables& tables)
       own.highest.push_back(packed.highest >> shift_);
       for (std::size_t i = 0; i < entries(); ++i) {
         entry[i] = {packed.pressure[codeOf(i)], packed.deviation[codeOf(i)]};
+      }
+      if (scale.present()) {
+        for (std::size_t i = 0; i < entries(); ++i)
+          entry[i].deviation *= static_cast<float>(scale.at(double(entry[i].pressure)));
       }
       if (shift_ != 0) endAtFullScale(entry);
       trained_.push_back({packed.lowest, packed.highest, !std::isnan(packed.pressure.front())});

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compensation/blend_table.h"
+#include "fsr_pressure_map/calibration/error_budget.h"
 #include "fsr_pressure_map/compensation/curvature_tables.h"
 
 namespace fsr::calibration {
@@ -33,8 +34,9 @@ class PackedTables {
     bool model;  ///< false: the taxel has no model, its entries are NaN
   };
 
-  /// Throws InputError if a table has neither one finite value for each code nor NaN throughout.
-  explicit PackedTables(const compensation::CurvatureTables& tables);
+  /// The deviations are those of the tables times `scale`. Throws InputError if a table has neither one
+  /// finite value for each code nor NaN throughout.
+  explicit PackedTables(const compensation::CurvatureTables& tables, const DeviationScale& scale = {});
   PackedTables(PackedTables&&) = default;  // not to be copied: it points into itself
   PackedTables(const PackedTables&) = delete;
 

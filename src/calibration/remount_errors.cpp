@@ -141,7 +141,7 @@ void RemountErrors::cover(const compensation::SchemePlan& plan, std::size_t taxe
       sectionedReadings(scans_, most_mounts_ + 1, calibration.tables.full_scale, taxel, regressor);
   const auto models =
       compensation::crossValidateScheme(plan, taxel, readings, regressor, regression::HeldOutDeviation::kNo);
-  IntervalTally::Taxel ratios(intervals.units());
+  IntervalTally::Taxel ratios(intervals);
   std::vector<dataset::TaxelCounts> counts = dataset::taxelCounts(*scans_.recordings, taxel);
   std::size_t first = 0;  // unit of the first mount of the class
   for (std::size_t k = 0; k < mounts_.size(); ++k) {

@@ -123,6 +123,18 @@ void coverage(std::ostream& out, const ErrorIntervals& intervals, const matrix::
   }
 }
 
+// How many readings of new units the intervals contain, by the number of units alone.
+void expectation(std::ostream& out, const ErrorIntervals& intervals) {
+  for (std::size_t level = 0; level < kLevels; ++level) {
+    const auto cover = statistics::conformalCover(intervals.whole.units, calibration::kIntervalLevels[level]);
+    if (!cover) continue;
+    out << "From " << intervals.whole.units << ' ' << unitsOf(intervals) << " a " << kLevelNames[level]
+        << " interval contains " << percent(cover->mean) << " of new readings on average, "
+        << percent(cover->low) << " to " << percent(cover->high) << " in nine of ten trainings, and "
+        << percent(cover->median) << " where all " << unitsOf(intervals) << " are alike.\n";
+  }
+}
+
 void intervalTable(std::ostream& out, const ErrorIntervals& intervals, const matrix::Layout& layout) {
   if (!intervals.present()) return;
   const bool mounts = intervals.unit == calibration::IntervalUnit::kMounts;
@@ -137,7 +149,51 @@ void intervalTable(std::ostream& out, const ErrorIntervals& intervals, const mat
     intervalRow(out, statistics::pressureBinName(bin), intervals.bins[bin]);
   intervalRow(out, "all", intervals.whole);
   refusal(out, intervals);
+  expectation(out, intervals);
   coverage(out, intervals, layout);
+}
+
+void scaleRow(std::ostream& out, const std::string& name, const calibration::BinScale& bin, double factor) {
+  out << std::left << std::setw(kNameWidth) << name << std::right << std::setw(10)
+      << settings::cellText(factor, 2) << std::setw(10) << percent(bin.within_tables) << std::setw(10)
+      << percent(bin.within_map) << '\n';
+}
+
+void scaleTable(std::ostream& out, const ErrorIntervals& intervals) {
+  if (!intervals.present()) return;
+  const calibration::DeviationScale& scale = intervals.scale;
+  if (!scale.present()) {
+    const bool mounts = intervals.unit == calibration::IntervalUnit::kMounts;
+    out << "Deviation of the map: that of the tables, "
+        << (mounts ? "from too few mounts for a factor" : "which was found on left-out cycles") << "; "
+        << percent(scale.whole.within_tables) << " of the readings of left-out " << unitsOf(intervals)
+        << " lie within it.\n";
+    return;
+  }
+  out << "Deviation of the map: that of the tables x factor, so that 68 % of the readings of new "
+      << unitsOf(intervals) << " lie within it. Shares: of left-out " << unitsOf(intervals)
+      << ", with the factors of the others.\n";
+  out << std::left << std::setw(kNameWidth) << "pressure of the map [kPa]" << std::right << std::setw(10)
+      << "factor" << std::setw(10) << "tables" << std::setw(10) << "map" << '\n';
+  for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin)
+    scaleRow(out, statistics::pressureBinName(bin), scale.bins[bin], scale.bins[bin].factor);
+  scaleRow(out, "all", scale.whole, std::nan(""));
+}
+
+Json json(const calibration::BinScale& bin) {
+  return {{"pressure_pa", bin.pressure},
+          {"factor", bin.factor},
+          {"within_tables", bin.within_tables},
+          {"within_map", bin.within_map}};
+}
+
+Json scaleJson(const calibration::DeviationScale& scale) {
+  if (!scale.present()) return nullptr;
+  Json bins = Json::object();
+  for (std::size_t bin = 0; bin < statistics::kPressureBins; ++bin)
+    bins[statistics::pressureBinName(bin) + " kPa"] = json(scale.bins[bin]);
+  return {{"bins", bins},
+          {"whole", {{"within_tables", scale.whole.within_tables}, {"within_map", scale.whole.within_map}}}};
 }
 
 Json json(const calibration::BinIntervals& bin) {
@@ -160,6 +216,7 @@ Json intervalsJson(const ErrorIntervals& intervals) {
            {{"covered_68", intervals.by_direction[0][0]}, {"covered_95", intervals.by_direction[1][0]}}},
           {"unloading",
            {{"covered_68", intervals.by_direction[0][1]}, {"covered_95", intervals.by_direction[1][1]}}},
+          {"deviation_of_the_map", scaleJson(intervals.scale)},
           {"taxels", {{"covered_68", intervals.by_taxel[0]}, {"covered_95", intervals.by_taxel[1]}}}};
 }
 
@@ -170,6 +227,7 @@ std::string budgetText(const ErrorBudget& budget, const matrix::Layout& layout) 
   std::ostringstream out;
   budgetTable(out, budget);
   intervalTable(out, budget.intervals, layout);
+  scaleTable(out, budget.intervals);
   return out.str();
 }
 

@@ -36,6 +36,8 @@ ErrorBudget example(std::uint64_t units) {
   budget.intervals.unit = calibration::IntervalUnit::kMounts;
   budget.intervals.bins[3] = {units, {1.1, units < 19 ? NAN : 2.25}, {0.70, units < 20 ? NAN : 0.951}};
   budget.intervals.whole = budget.intervals.bins[3];
+  budget.intervals.scale.bins[3] = {300e3, 1.2, 0.61, 0.685};
+  budget.intervals.scale.whole = {NAN, NAN, 0.62, 0.69};
   budget.intervals.by_direction = {{{0.69, 0.71}, {0.95, 0.96}}};
   budget.intervals.by_taxel = {{{0.74, 0.55}, {0.97, 0.93}}};
   return budget;
@@ -65,6 +67,29 @@ TEST(BudgetReport, RefusesAnIntervalThatTheUnitsDoNotAllow) {
   const std::string few = budgetText(example(10), kLayout);
   EXPECT_TRUE(has(few, "No 95 % interval from 10 mounts: they allow at most 90.9 %, and 95 % needs 19."))
       << few;
+}
+
+TEST(BudgetReport, ShowsWhatTheDeviationOfTheMapIsMultipliedBy) {
+  const std::string text = budgetText(example(24), kLayout);
+  EXPECT_TRUE(has(text, "200-400                           1.20    61.0 %    68.5 %\n")) << text;
+  EXPECT_TRUE(has(text, "all                                  -    62.0 %    69.0 %\n")) << text;
+  ErrorBudget without = example(3);
+  without.intervals.scale = {};
+  EXPECT_TRUE(has(budgetText(without, kLayout), "that of the tables, from too few mounts for a factor"))
+      << text;
+  const Json json = budgetJson(example(24))["intervals"]["deviation_of_the_map"];
+  EXPECT_EQ(json["bins"]["200-400 kPa"]["factor"], 1.2);
+  EXPECT_TRUE(budgetJson(without)["intervals"]["deviation_of_the_map"].is_null());
+}
+
+// n = 24, k = ceil(25 x 0.95) = 24: 24 / 25, and beta.ppf([.05, .5, .95], 24, 1) of scipy.
+TEST(BudgetReport, SaysWhatTheNumberOfUnitsGives) {
+  const std::string text = budgetText(example(24), kLayout);
+  EXPECT_TRUE(
+      has(text,
+          "From 24 mounts a 95 % interval contains 96.0 % of new readings on average, 88.3 % to 99.8 % in "
+          "nine of ten trainings, and 97.2 % where all mounts are alike.\n"))
+      << text;
 }
 
 TEST(BudgetReport, NamesTaxelsThatAreCoveredTooLittle) {

@@ -68,10 +68,11 @@ struct ClassChoice {
 /// does not depend on curvature, so its maps are never kCurvatureUnknown or kCurvatureStale.
 class Calibrator {
  public:
-  /// With the calibration's model of the sheet's memory, if it has one. Throws InputError if tables are
-  /// missing or incomplete.
+  /// With the calibration's model of the sheet's memory and the scale of its deviation, if it has them.
+  /// Throws InputError if tables are missing or incomplete.
   explicit Calibrator(const Calibration& calibration, const CalibratorOptions& options = {});
-  /// Of tables alone. Throws InputError if tables are missing or incomplete, or the layout has another size.
+  /// Of tables alone: the deviation is theirs. Throws InputError if tables are missing or incomplete, or the
+  /// layout has another size.
   Calibrator(const compensation::CurvatureTables& tables, const matrix::Layout& layout,
              const CalibratorOptions& options = {});
   ~Calibrator();

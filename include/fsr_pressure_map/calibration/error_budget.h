@@ -65,6 +65,29 @@ struct BinIntervals {
   std::array<double, 2> covered = factor;
 };
 
+/// One bin of the map's pressure in DeviationScale. NaN = not known.
+struct BinScale {
+  double pressure = std::numeric_limits<double>::quiet_NaN();  ///< its middle [Pa]; NaN = no readings
+  double factor = std::numeric_limits<double>::quiet_NaN();    ///< NaN = the units are too few
+  /// Share of the readings of a unit within one deviation of the tables, and within one of the map with the
+  /// factors of the other units: means over the units.
+  double within_tables = std::numeric_limits<double>::quiet_NaN();
+  double within_map = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// By what the deviation of the tables is multiplied to be that of the map, such that 68.27 % of the readings
+/// of a new mount lie within one deviation. 1 where the units are cycles.
+struct DeviationScale {
+  std::array<BinScale, statistics::kPressureBins> bins;
+  BinScale whole;  ///< only the shares
+
+  /// Whether the deviation of the map differs from that of the tables.
+  bool present() const;
+  /// Linear between the middles of the bins with readings, constant beyond the outer ones; bins without a
+  /// factor have 1. `pressure`: of the table [Pa].
+  double at(double pressure) const;
+};
+
 /// Intervals of a reading, and how many readings they contained.
 struct ErrorIntervals {
   IntervalUnit unit = IntervalUnit::kCycles;
@@ -74,6 +97,7 @@ struct ErrorIntervals {
   std::array<std::array<double, 2>, 2> by_direction = {whole.factor, whole.factor};
   /// By kIntervalLevels, [taxels], with the factors of the bins; NaN = not known.
   std::array<std::vector<double>, 2> by_taxel;
+  DeviationScale scale;
 
   bool present() const { return whole.units > 0; }
 };

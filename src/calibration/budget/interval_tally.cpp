@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "statistics/conformal.h"
+#include "statistics/running_moments.h"
 
 namespace fsr::calibration {
 
@@ -41,8 +42,24 @@ std::size_t cellOfFactor(double factor) {
   return numberOf(factor) - kFirstCell - 1;
 }
 
-std::size_t placeOf(std::size_t unit, std::size_t bin, std::size_t direction) {
-  return ((unit * kPressureBins + bin) * IntervalTally::kDirections + direction) * IntervalTally::kCells;
+// Fewest units with a factor for the deviation: with one of them left out, there must be another to check it.
+constexpr std::size_t kFewestUnits = 4;
+constexpr double kOneDeviation = kIntervalLevels[0];
+constexpr std::size_t kHalves = IntervalTally::kHalves;
+
+// `part`: half of a bin, kHalves x bin + half.
+std::size_t placeOf(std::size_t unit, std::size_t part, std::size_t direction) {
+  return ((unit * kPressureBins * kHalves + part) * IntervalTally::kDirections + direction) *
+         IntervalTally::kCells;
+}
+
+// Readings at or below `ratio`, where those of its cell are spread evenly.
+double within(const std::uint64_t* counts, double ratio) {
+  const std::size_t last = cellOf(ratio);
+  double sum = 0;
+  for (std::size_t cell = 0; cell < last; ++cell) sum += static_cast<double>(counts[cell]);
+  const double low = last == 0 ? 0 : upperEdge(last - 1), high = upperEdge(last);
+  return sum + std::min(1.0, (ratio - low) / (high - low)) * static_cast<double>(counts[last]);
 }
 
 }  // namespace
@@ -51,11 +68,26 @@ void IntervalTally::Taxel::add(std::size_t unit, double pressure, statistics::Lo
                                double ratio) {
   if (!std::isfinite(ratio)) return;
   const std::size_t down = direction == statistics::LoadDirection::kUnloading;
-  ++counts_[placeOf(unit, statistics::pressureBin(pressure), down) + cellOf(ratio)];
+  const std::size_t bin = statistics::pressureBin(pressure);
+  const std::size_t half = pressure >= tally_->middleOf(bin);
+  ++counts_[placeOf(unit, kHalves * bin + half, down) + cellOf(ratio)];
 }
 
-IntervalTally::IntervalTally(IntervalUnit unit, std::size_t units, std::size_t taxels)
-    : unit_(unit), units_(units), counts_(placeOf(units, 0, 0)), taxels_(taxels) {}
+IntervalTally::IntervalTally(IntervalUnit unit, std::size_t units, std::size_t taxels, double highest)
+    : unit_(unit), units_(units), highest_(highest), counts_(placeOf(units, 0, 0)), taxels_(taxels) {}
+
+// The highest bin ends at the highest pressure of training.
+double IntervalTally::middleOf(std::size_t bin) const {
+  const double low = statistics::kPressureBinEdges[bin];
+  const double high =
+      bin + 1 < kPressureBins ? statistics::kPressureBinEdges[bin + 1] : std::max(low, highest_);
+  return (low + high) / 2;
+}
+
+double IntervalTally::middleOf(std::size_t bin, std::size_t half) const {
+  const double middle = middleOf(bin), quarter = (middle - statistics::kPressureBinEdges[bin]) / 2;
+  return half == 0 ? middle - quarter : middle + quarter;
+}
 
 // Whole numbers: the sums do not depend on the order of the taxels.
 void IntervalTally::add(std::size_t taxel, const Taxel& readings) {
@@ -66,17 +98,18 @@ void IntervalTally::add(std::size_t taxel, const Taxel& readings) {
     const std::uint32_t count = readings.counts_[place];
     if (count == 0) continue;
     counts_[place] += count;
-    own[place / (kDirections * kCells) % kPressureBins * kCells + place % kCells] += count;
+    own[place / (kHalves * kDirections * kCells) % kPressureBins * kCells + place % kCells] += count;
   }
 }
 
-std::vector<IntervalTally::Shares> IntervalTally::sharesOf(std::size_t first, std::size_t last) const {
-  std::vector<Shares> shares;
+std::vector<std::optional<IntervalTally::Shares>> IntervalTally::sharesByUnit(std::size_t first,
+                                                                              std::size_t last) const {
+  std::vector<std::optional<Shares>> shares(units_);
   for (std::size_t unit = 0; unit < units_; ++unit) {
     Shares sums = {};
-    for (std::size_t bin = first; bin <= last; ++bin) {
+    for (std::size_t part = kHalves * first; part < kHalves * (last + 1); ++part) {
       for (std::size_t d = 0; d < kDirections; ++d) {
-        const std::uint64_t* const counts = &counts_[placeOf(unit, bin, d)];
+        const std::uint64_t* const counts = &counts_[placeOf(unit, part, d)];
         for (std::size_t i = 0; i < kCells; ++i) sums[i] += static_cast<double>(counts[i]);
       }
     }
@@ -84,7 +117,15 @@ std::vector<IntervalTally::Shares> IntervalTally::sharesOf(std::size_t first, st
     const double all = sums.back();
     if (all == 0) continue;
     for (double& sum : sums) sum /= all;
-    shares.push_back(sums);
+    shares[unit] = sums;
+  }
+  return shares;
+}
+
+std::vector<IntervalTally::Shares> IntervalTally::sharesOf(std::size_t first, std::size_t last) const {
+  std::vector<Shares> shares;
+  for (const std::optional<Shares>& own : sharesByUnit(first, last)) {
+    if (own) shares.push_back(*own);
   }
   return shares;
 }
@@ -123,10 +164,10 @@ void IntervalTally::coverDirections(ErrorIntervals& intervals) const {
     for (std::size_t direction = 0; direction < kDirections; ++direction) {
       double within = 0, readings = 0;
       for (std::size_t unit = 0; unit < units_; ++unit) {
-        for (std::size_t bin = 0; bin < kPressureBins; ++bin) {
-          const double factor = intervals.bins[bin].factor[level];
+        for (std::size_t part = 0; part < kHalves * kPressureBins; ++part) {
+          const double factor = intervals.bins[part / kHalves].factor[level];
           if (std::isnan(factor)) continue;
-          const std::uint64_t* const counts = &counts_[placeOf(unit, bin, direction)];
+          const std::uint64_t* const counts = &counts_[placeOf(unit, part, direction)];
           for (std::size_t i = 0; i < kCells; ++i) {
             readings += static_cast<double>(counts[i]);
             if (i <= cellOfFactor(factor)) within += static_cast<double>(counts[i]);
@@ -153,6 +194,72 @@ void IntervalTally::coverTaxels(ErrorIntervals& intervals) const {
   }
 }
 
+// The deviation of the tables was found on left-out cycles already, so that a second factor from cycles only
+// adds scatter. A standard deviation guarantees nothing, so its rank is not rounded up as that of an interval
+// is: the place (n + 1) level is between two ranks.
+DeviationScale IntervalTally::factorsWithout(
+    std::size_t skipped, const std::vector<std::vector<std::optional<Shares>>>& of_bin) const {
+  DeviationScale scale;
+  for (std::size_t bin = 0; bin < kPressureBins; ++bin) {
+    std::vector<const Shares*> units;
+    std::size_t all = 0;
+    for (std::size_t unit = 0; unit < units_; ++unit) {
+      all += of_bin[bin][unit].has_value();
+      if (unit != skipped && of_bin[bin][unit]) units.push_back(&*of_bin[bin][unit]);
+    }
+    if (all == 0) continue;
+    scale.bins[bin].pressure = middleOf(bin);
+    if (unit_ == IntervalUnit::kCycles || all < kFewestUnits) continue;
+    const auto shares = [&](std::size_t cell) {
+      std::vector<double> at;
+      for (const Shares* const unit : units) at.push_back((*unit)[cell]);
+      return at;
+    };
+    const double place = (static_cast<double>(units.size()) + 1) * kOneDeviation;
+    const auto rank = static_cast<std::size_t>(place);
+    const double low = upperEdge(statistics::medianThreshold(rank, kCells, shares));
+    const double high = upperEdge(statistics::medianThreshold(rank + 1, kCells, shares));
+    scale.bins[bin].factor = low + (place - static_cast<double>(rank)) * (high - low);
+  }
+  return scale;
+}
+
+DeviationScale IntervalTally::scale() const {
+  std::vector<std::vector<std::optional<Shares>>> of_bin;
+  for (std::size_t bin = 0; bin < kPressureBins; ++bin) of_bin.push_back(sharesByUnit(bin, bin));
+  DeviationScale scale = factorsWithout(units_, of_bin);
+  // Means over units: the last entry is that of all bins.
+  std::array<statistics::RunningMoments, kPressureBins + 1> tables, map;
+  for (std::size_t unit = 0; unit < units_; ++unit) {
+    const DeviationScale others = factorsWithout(unit, of_bin);
+    double all = 0, all_tables = 0, all_map = 0;
+    for (std::size_t bin = 0; bin < kPressureBins; ++bin) {
+      if (!of_bin[bin][unit]) continue;
+      double readings = 0, in_tables = 0, in_map = 0;
+      for (std::size_t half = 0; half < kHalves; ++half) {
+        const double factor = others.at(middleOf(bin, half));
+        for (std::size_t d = 0; d < kDirections; ++d) {
+          const std::uint64_t* const counts = &counts_[placeOf(unit, kHalves * bin + half, d)];
+          for (std::size_t cell = 0; cell < kCells; ++cell) readings += static_cast<double>(counts[cell]);
+          in_tables += within(counts, 1);
+          in_map += within(counts, factor);
+        }
+      }
+      tables[bin].add(in_tables / readings);
+      map[bin].add(in_map / readings);
+      all += readings, all_tables += in_tables, all_map += in_map;
+    }
+    if (all == 0) continue;
+    tables.back().add(all_tables / all);
+    map.back().add(all_map / all);
+  }
+  for (std::size_t bin = 0; bin <= kPressureBins; ++bin) {
+    BinScale& own = bin < kPressureBins ? scale.bins[bin] : scale.whole;
+    if (tables[bin].count > 0) own.within_tables = tables[bin].mean, own.within_map = map[bin].mean;
+  }
+  return scale;
+}
+
 ErrorIntervals IntervalTally::summarise() const {
   ErrorIntervals intervals;
   intervals.unit = unit_;
@@ -160,6 +267,7 @@ ErrorIntervals IntervalTally::summarise() const {
   intervals.whole = intervalsOf(sharesOf(0, kPressureBins - 1));
   coverDirections(intervals);
   coverTaxels(intervals);
+  intervals.scale = scale();
   return intervals;
 }
 

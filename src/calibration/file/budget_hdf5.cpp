@@ -1,8 +1,10 @@
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "calibration/file/calibration_hdf5.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/yaml_text.h"
 
 namespace fsr::calibration {
 
@@ -16,6 +18,7 @@ constexpr const char* kCycles = "cycles";
 constexpr const char* kMounts = "mounts";
 constexpr std::size_t kPoints = kBudgetShares.size();
 constexpr std::size_t kLevels = kIntervalLevels.size();
+constexpr double kLargestFactor = 32;  // that of training: the edge of the last cell of IntervalTally
 constexpr std::size_t kRows = statistics::kPressureBins + 1;  // the bins, then all pressures
 
 std::vector<double> listOf(const BudgetValues& values) {
@@ -30,6 +33,24 @@ BudgetValues valuesOf(const std::vector<double>& list, std::size_t line) {
 
 const BinIntervals& rowOf(const ErrorIntervals& intervals, std::size_t row) {
   return row < statistics::kPressureBins ? intervals.bins[row] : intervals.whole;
+}
+
+void writeScale(const DeviationScale& scale, hdf5::Writer& writer) {
+  std::vector<double> pressure, factor, covered;
+  for (const BinScale& bin : scale.bins) {
+    pressure.push_back(bin.pressure);
+    factor.push_back(bin.factor);
+    covered.insert(covered.end(), {bin.within_tables, bin.within_map});
+  }
+  covered.insert(covered.end(), {scale.whole.within_tables, scale.whole.within_map});
+  writer.dataset(kIntervalPath + "scale_pressure", pressure, {statistics::kPressureBins}, "Pa",
+                 "middle of each bin; NaN = no readings");
+  writer.dataset(kIntervalPath + "scale_factor", factor, {statistics::kPressureBins}, "",
+                 "the deviation of the map is that of /tables times this, linear between the middles of the "
+                 "bins; NaN = too few units: 1");
+  writer.dataset(kIntervalPath + "scale_covered", covered, {kRows, 2}, "",
+                 "share of the readings of a unit within one deviation [row][of /tables, of the map with the "
+                 "factors of the other units]");
 }
 
 void writeIntervals(const ErrorIntervals& intervals, hdf5::Writer& writer) {
@@ -60,6 +81,37 @@ void writeIntervals(const ErrorIntervals& intervals, hdf5::Writer& writer) {
                  "share of the readings, [level][loading, unloading]");
   writer.dataset(kIntervalPath + "by_taxel", by_taxel, {kLevels, intervals.by_taxel[0].size()}, "",
                  "share of the readings, [level][taxel]");
+  writeScale(intervals.scale, writer);
+}
+
+DeviationScale readScale(const hdf5::Reader& reader) {
+  DeviationScale scale;
+  if (!reader.has(kIntervalPath + "scale_factor")) return scale;
+  const auto pressure = reader.dataset<double>(kIntervalPath + "scale_pressure", {statistics::kPressureBins});
+  const auto factor = reader.dataset<double>(kIntervalPath + "scale_factor", {statistics::kPressureBins});
+  const auto covered = reader.dataset<double>(kIntervalPath + "scale_covered", {kRows, 2});
+  double before = -std::numeric_limits<double>::infinity();
+  for (std::size_t row = 0; row < kRows; ++row) {
+    BinScale& bin = row < statistics::kPressureBins ? scale.bins[row] : scale.whole;
+    bin.within_tables = covered[2 * row];
+    bin.within_map = covered[2 * row + 1];
+    if (row == statistics::kPressureBins) continue;
+    bin.pressure = pressure[row];
+    bin.factor = factor[row];
+    if (!std::isnan(bin.factor) && !(bin.factor > 0 && bin.factor <= kLargestFactor)) {
+      throw settings::InputError("its " + kIntervalPath + "scale_factor has " +
+                                 settings::numberText(bin.factor) + " in bin " + std::to_string(row) +
+                                 ", but must be above 0 and at most " + settings::numberText(kLargestFactor));
+    }
+    if (std::isnan(bin.pressure)) continue;
+    if (!(bin.pressure > before) || std::isinf(bin.pressure)) {
+      throw settings::InputError("its " + kIntervalPath + "scale_pressure has " +
+                                 settings::numberText(bin.pressure) + " Pa in bin " + std::to_string(row) +
+                                 ", but must rise from bin to bin");
+    }
+    before = bin.pressure;
+  }
+  return scale;
 }
 
 ErrorIntervals readIntervals(const hdf5::Reader& reader, matrix::MatrixSize size) {
@@ -89,6 +141,7 @@ ErrorIntervals readIntervals(const hdf5::Reader& reader, matrix::MatrixSize size
     const auto first = by_taxel.begin() + static_cast<std::ptrdiff_t>(level * size.taxels());
     intervals.by_taxel[level].assign(first, first + static_cast<std::ptrdiff_t>(size.taxels()));
   }
+  intervals.scale = readScale(reader);
   return intervals;
 }
 

@@ -38,7 +38,8 @@ namespace fsr::calibration {
 //     /scores      see scores_hdf5 (absent where not asked for)
 //     /budget      pressure, held_out, combined [3]; names, sources, parts, notes [lines]; standard, added
 //                  [lines x 3]; /budget/intervals with attribute unit_left_out; units, factor, covered [bins
-//                  and all x 2], by_direction [2 x 2], by_taxel [2 x taxels] (absent without scores and in
+//                  and all x 2], by_direction [2 x 2], by_taxel [2 x taxels], scale_pressure, scale_factor [bins],
+//                  scale_covered [bins and all x 2] (absent without scores and in
 //                  earlier files)
 //     /statistics  surfaces, curvature of the classes; first [taxels x classes x sections + 1] and the rows
 //                  code, count, sum that it points into; square_high, square_low of the rows with count > 1

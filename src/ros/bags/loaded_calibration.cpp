@@ -3,6 +3,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "calibration/budget/deviation_text.h"
 #include "calibration/correction/corrected_calibration.h"
 #include "fsr_pressure_map/calibration/calibration_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -24,10 +25,10 @@ std::unique_ptr<LoadedCalibration> loadForUse(const std::string& path,
   const fsr::calibration::Calibration calibration = fsr::calibration::loadCalibration(path);
   try {
     fsr::calibration::Calibrator calibrator(calibration, options);
-    return std::make_unique<LoadedCalibration>(
-        LoadedCalibration{toMessage(calibration, path), std::move(calibrator), calibration.session_zero,
-                          calibration.temperature.present(),
-                          std::make_shared<const fsr::compensation::ShapeModel>(calibration.shape)});
+    return std::make_unique<LoadedCalibration>(LoadedCalibration{
+        toMessage(calibration, path), fsr::calibration::deviationText(calibration.budget.intervals.scale),
+        std::move(calibrator), calibration.session_zero, calibration.temperature.present(),
+        std::make_shared<const fsr::compensation::ShapeModel>(calibration.shape)});
   } catch (const fsr::settings::InputError& error) {
     throw fsr::settings::InputError(path + ": " + error.what());
   }

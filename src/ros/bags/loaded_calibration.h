@@ -14,6 +14,7 @@ namespace fsr_ros {
 /// fraction of a second, so it is done in another thread than the scans, and the result is swapped in.
 struct LoadedCalibration {
   fsr_pressure_map::CalibrationInfo info;  ///< without header
+  std::string deviation;                   ///< of the map, see deviationText()
   fsr::calibration::Calibrator calibrator;
   fsr::calibration::SessionZero session_zero;  ///< whether a tare is expected, and what it is worth
   bool corrects_temperature;                   ///< it has a model of the temperature

@@ -146,6 +146,7 @@ void judgeCalibration(const CalibrationHealth& health, Status& status) {
   status.add("id", health.info.id);
   status.add("file", health.info.path);
   status.add("correction", health.info.parent.empty() ? "none" : correctionText(health.info));
+  status.add("deviation of the map", health.deviation);
   status.add("scheme", health.info.scheme);
   status.add("sensor serial number", health.info.sensor_serial);
   status.add("board serial number", health.board);

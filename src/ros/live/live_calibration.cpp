@@ -213,6 +213,7 @@ CalibrationHealth LiveCalibration::health() const {
   health.surface_complaint = surface_complaint_;
   if (loaded_) {
     health.info = loaded_->info;
+    health.deviation = loaded_->deviation;
     health.session_zero = loaded_->session_zero;
     health.corrects_temperature = loaded_->corrects_temperature;
     if (!loaded_->shape->present()) health.no_shape = loaded_->shape->missing;

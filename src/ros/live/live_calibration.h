@@ -30,6 +30,7 @@ struct CalibrationHealth {
   std::string complaint;                   ///< why no calibration is loaded, or why the last load failed
   std::string surface_complaint;           ///< what is wrong with the last curvature message; empty = nothing
   fsr_pressure_map::CalibrationInfo info;  ///< id empty = none loaded
+  std::string deviation;                   ///< LoadedCalibration::deviation
   fsr::matrix::Surface surface;
   std::string board;                  ///< serial number; empty = unknown
   bool corrects_temperature = false;  ///< the calibration has a model of the temperature

@@ -57,6 +57,14 @@ TEST(CalibrationHealth, SaysOfWhatTheCalibrationIsACorrection) {
   EXPECT_EQ(valueOf(corrected, "correction"), "corrected on 2026-11-23 from 0123456789ab");
 }
 
+TEST(CalibrationHealth, SaysWhatTheDeviationOfTheMapIs) {
+  CalibrationHealth health = healthy();
+  health.deviation = "that of the tables times 0.80 to 1.25 by pressure";
+  Status status;
+  judgeCalibration(health, status);
+  EXPECT_EQ(valueOf(status, "deviation of the map"), health.deviation);
+}
+
 TEST(CalibrationHealth, WarnsOfATemperatureBeyondTraining) {
   CalibrationHealth health = healthy();
   health.temperature = 40;
