@@ -199,6 +199,9 @@ class SessionTest(unittest.TestCase):
 
         self.assertEqual(sorted(path.name for path in self.bags.glob("*.bag*")),
                          ["test_day_01_flat.bag.active", "test_day_01_flat_part2.bag", "test_day_02_bowl.bag"])
+        with rosbag.Bag(str(self.bags / "test_day_01_flat_part2.bag")) as bag:
+            events = [message for _, message, _ in bag.read_messages("/fsr/events")]
+        self.assertIn(("note", "1 cycle before this recording, too few to condition a sheet"), [(event.kind, event.label) for event in events])
         with rosbag.Bag(str(self.bags / "test_day_02_bowl.bag")) as bag:
             found = {}
             for topic, message, _ in bag.read_messages():

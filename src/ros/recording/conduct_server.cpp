@@ -10,6 +10,7 @@
 #include "conductor/coverage.h"
 #include "conductor/session_files.h"
 #include "conductor/state_file.h"
+#include "dataset/conditioning.h"
 #include "dataset/recording_builder.h"
 #include "ros/bags/resource_path.h"
 #include "ros/bags/surface_folder.h"
@@ -275,8 +276,11 @@ void ConductServer::tellConditioning(unsigned mount) {
   conditioning_told_ = true;
   fsr_pressure_map::Event event;
   event.header.stamp = ros::Time::now();
-  event.kind = "conditioning";
-  event.label = std::to_string(accepted) + " cycles before this recording";
+  // With this event a bag counts as conditioned.
+  const bool enough = accepted >= fsr::dataset::ConditioningOptions{}.cycles;
+  event.kind = enough ? "conditioning" : "note";
+  event.label = std::to_string(accepted) + (accepted == 1 ? " cycle" : " cycles") + " before this recording" +
+                (enough ? "" : ", too few to condition a sheet");
   events_.publish(event);
 }
 
