@@ -343,6 +343,7 @@ void PressurePanel::refresh() {
 void PressurePanel::keepHeights() {
   for (QLabel* line : findChildren<QLabel*>()) {
     if (line == instruction_ || line == remark_ || !line->hasHeightForWidth()) continue;
+    line->setMinimumHeight(0);  // else a text that was wrapped once keeps its height
     line->setMinimumHeight(std::max(0, line->heightForWidth(line->width())));
   }
 }
