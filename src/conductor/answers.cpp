@@ -151,7 +151,8 @@ std::string Conductor::text() const {
       return std::to_string(std::count(states_.begin(), states_.end(), state));
     };
     return "The session is over: " + count(StepState::kAccepted) + " steps accepted, " +
-           count(StepState::kSkipped) + " skipped, " + std::to_string(rejected_) + " attempts rejected.";
+           count(StepState::kSkipped) + " skipped, " + std::to_string(rejected_) +
+           (rejected_ == 1 ? " attempt rejected." : " attempts rejected.");
   }
   const SessionStep& step = steps_[step_];
   if (resumed_) {
