@@ -337,7 +337,11 @@ TEST_F(TrainTool, CorrectsAWornSheetOnce) {
   worn.start_ns = 1600000000000000000;
   const std::string bag = (folder_ / "worn.bag").string();
   writeBag(bag, worn);
-  const std::string text = run({"--correct", output, bag, "--output", child, "--report", report});
+  const std::string doubt = run({"--correct", output, bag, "--output", child});
+  EXPECT_NE(doubt.find("Cannot tell: "), std::string::npos) << doubt;  // wear, or the new mount
+  EXPECT_FALSE(fs::exists(child));
+  const std::string text =
+      run({"--correct", output, bag, "--same-mount", "--output", child, "--report", report});
   const fsr::calibration::Calibration parent = fsr::calibration::loadCalibration(output);
   const fsr::calibration::Calibration corrected = fsr::calibration::loadCalibration(child);
   EXPECT_NE(text.find("Corrected: on cycles that were left out"), std::string::npos) << text;
