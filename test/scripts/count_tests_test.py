@@ -25,6 +25,10 @@ class CountTests(unittest.TestCase):
     def test_counts_what_passed(self):
         self.assertEqual(self.count('<testcase name="A.B" status="run"/><testcase name="A.C" status="run"/>'), (0, ["2 passed, 0 failed"]))
 
+    def test_a_disabled_case_is_named_and_not_counted(self):
+        self.assertEqual(self.count('<testcase name="A.B" status="run"/><testcase name="A.D" status="disabled"/>'),
+                         (0, ["A.D: not run, it is disabled", "1 passed, 0 failed"]))
+
     def test_names_what_failed_and_quotes_it_from_its_first_failure(self):
         output = "noise\nx_test.cpp:3: Failure\nExpected equality\n"
         self.assertEqual(self.count(f'<testcase name="A.B" status="fail"><system-out>{output}</system-out></testcase>'),
