@@ -12,8 +12,8 @@ namespace fsr::study {
 
 namespace {
 
-using test_support::Reading;
 using test_support::readingsOf;
+using test_support::ScanReading;
 
 // Live tables are floats.
 constexpr double kFloats = 1e-5;
@@ -54,17 +54,19 @@ const CurvatureErrorScore& at(const CurvatureErrorCurve& curve, double relative,
 // A GRNN on the readings of one class without section `left_out`, computed from its definition.
 double grnn(const StudyData& data, std::size_t c, std::uint32_t left_out, std::size_t taxel, double bandwidth,
             std::uint16_t asked) {
-  std::vector<Reading> train;
-  for (const Reading& one : readingsOf(data, data.scans[c], taxel))
+  std::vector<ScanReading> train;
+  for (const ScanReading& one : readingsOf(data, data.scans[c], taxel))
     if (one.section != left_out) train.push_back(one);
   double mean = 0, variance = 0;
-  for (const Reading& one : train) mean += one.count / static_cast<double>(train.size());
-  for (const Reading& one : train) variance += std::pow(one.count - mean, 2);
+  for (const ScanReading& one : train) mean += one.count / static_cast<double>(train.size());
+  for (const ScanReading& one : train) variance += std::pow(one.count - mean, 2);
   const double sigma = bandwidth * std::sqrt(variance / static_cast<double>(train.size() - 1));
-  const auto exponent = [&](const Reading& one) { return 0.5 * std::pow((asked - one.count) / sigma, 2); };
+  const auto exponent = [&](const ScanReading& one) {
+    return 0.5 * std::pow((asked - one.count) / sigma, 2);
+  };
   double nearest = INFINITY, weight = 0, weighted = 0;
-  for (const Reading& one : train) nearest = std::min(nearest, exponent(one));
-  for (const Reading& one : train) {
+  for (const ScanReading& one : train) nearest = std::min(nearest, exponent(one));
+  for (const ScanReading& one : train) {
     const double share = std::exp(nearest - exponent(one));
     weight += share;
     weighted += share * one.pressure;
@@ -83,7 +85,7 @@ double plainRmse(const StudyData& data, double bandwidth, double relative) {
       while (low + 2 < data.classes.size() && data.classes[low + 1].at(taxel) <= told) ++low;
       const double from = data.classes[low].at(taxel), to = data.classes[low + 1].at(taxel);
       const double share = std::clamp((told - from) / (to - from), 0.0, 1.0);
-      for (const Reading& one : readingsOf(data, data.scans[c], taxel)) {
+      for (const ScanReading& one : readingsOf(data, data.scans[c], taxel)) {
         const auto pressure = [&](std::size_t k) {
           return grnn(data, k, one.section, taxel, bandwidth, one.count);
         };

@@ -21,8 +21,8 @@ namespace fsr::study {
 
 namespace {
 
-using test_support::Reading;
 using test_support::readingsOf;
+using test_support::ScanReading;
 
 test_support::SyntheticRig bentRig() {
   test_support::SyntheticRig rig;
@@ -52,25 +52,25 @@ const StudyMethod& methodOf(const std::vector<StudyMethod>& methods, const std::
 double plainRmsePercent(const StudyData& data, const Grouping& kept, std::size_t taxel, double bandwidth) {
   double sum = 0;
   for (std::size_t k = 0; k < data.sections; ++k) {
-    std::vector<Reading> train, test;
+    std::vector<ScanReading> train, test;
     for (std::size_t c = 0; c < data.classes.size(); ++c) {
       for (std::size_t g = 0; g < kept.groups; ++g) {
-        for (const Reading& reading : readingsOf(data, kept.scans[c][g], taxel))
+        for (const ScanReading& reading : readingsOf(data, kept.scans[c][g], taxel))
           (g == k ? test : train).push_back(reading);
       }
     }
     double mean = 0, variance = 0;
-    for (const Reading& one : train) mean += one.count / static_cast<double>(train.size());
-    for (const Reading& one : train) variance += std::pow(one.count - mean, 2);
+    for (const ScanReading& one : train) mean += one.count / static_cast<double>(train.size());
+    for (const ScanReading& one : train) variance += std::pow(one.count - mean, 2);
     const double deviation = std::sqrt(variance / static_cast<double>(train.size() - 1));
     double squares = 0, low = INFINITY, high = -INFINITY;
-    for (const Reading& asked : test) {
+    for (const ScanReading& asked : test) {
       double nearest = INFINITY, weight = 0, weighted = 0;
-      const auto distance = [&](const Reading& one) {
+      const auto distance = [&](const ScanReading& one) {
         return std::pow((asked.count - one.count) / deviation, 2) / (2 * bandwidth * bandwidth);
       };
-      for (const Reading& one : train) nearest = std::min(nearest, distance(one));
-      for (const Reading& one : train) {
+      for (const ScanReading& one : train) nearest = std::min(nearest, distance(one));
+      for (const ScanReading& one : train) {
         const double share = std::exp(nearest - distance(one));
         weight += share;
         weighted += share * one.pressure;
