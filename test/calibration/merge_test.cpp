@@ -1,6 +1,7 @@
 #include "calibration/merge.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -73,7 +74,9 @@ Calibration train(const std::vector<dataset::Recording>& recordings, const Setti
 class Merge : public testing::TestWithParam<Setting> {
  protected:
   std::string path(const std::string& name) const {
-    return (std::filesystem::path(testing::TempDir()) / ("merge_" + GetParam().name + name)).string();
+    return (std::filesystem::path(testing::TempDir()) /
+            ("merge_" + std::to_string(::getpid()) + GetParam().name + name))
+        .string();
   }
   // Through files, as in use.
   MergePart part(const std::string& name, const std::vector<dataset::Recording>& recordings) const {

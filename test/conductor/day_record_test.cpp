@@ -1,6 +1,7 @@
 #include "conductor/day_record.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -33,7 +34,7 @@ constexpr char kDay[] =
 class DayRecord : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "day_record";
+    folder_ = fs::path(testing::TempDir()) / ("day_record_" + std::to_string(::getpid()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }

@@ -1,6 +1,7 @@
 #include "dataset/table_recording.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <filesystem>
@@ -17,7 +18,8 @@ class Table : public testing::Test {
  protected:
   void SetUp() override {
     path_ = (fs::path(testing::TempDir()) /
-             ("table_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv"))
+             ("table_" + std::to_string(::getpid()) + "_" +
+              std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv"))
                 .string();
   }
   void TearDown() override { fs::remove(path_); }

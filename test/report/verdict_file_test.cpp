@@ -1,6 +1,7 @@
 #include "report/verdict_file.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
@@ -20,9 +21,9 @@ using test_support::exampleDiscrepancy;
 class VerdictOnDisk : public testing::Test {
  protected:
   void SetUp() override {
-    path_ =
-        fs::path(testing::TempDir()) /
-        ("verdict_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".yaml");
+    path_ = fs::path(testing::TempDir()) /
+            ("verdict_" + std::to_string(::getpid()) + "_" +
+             std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".yaml");
   }
   void TearDown() override { fs::remove(path_); }
   void write(const std::string& text) const { std::ofstream(path_) << text; }

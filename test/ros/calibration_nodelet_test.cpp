@@ -5,6 +5,7 @@
 #include <ros/ros.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <std_srvs/Trigger.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -28,7 +29,9 @@ bool isLoaded(const std::string& name) {
 }
 
 TEST(CalibrationNodelet, CalibratesAndShowsInsideARealManager) {
-  const std::string file = (std::filesystem::temp_directory_path() / "fsr_nodelet_test.h5").string();
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("nodelet_test_" + std::to_string(::getpid()) + ".h5"))
+          .string();
   fsr::calibration::saveCalibration(test_support::smallCalibration({3, 4}, {0.0, 10.0}), file);
   CalibrationRig rig;
   ASSERT_TRUE(rig.connected());

@@ -7,6 +7,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <tf2_msgs/TFMessage.h>
+#include <unistd.h>
 #include <visualization_msgs/Marker.h>
 
 #include <filesystem>
@@ -50,7 +51,8 @@ TEST(CurvatureNode, RefusesAnUnknownSurfaceAndKeepsTheOldOne) {
 }
 
 TEST(CurvatureNode, TakesAFileWithAValueForEachTaxel) {
-  const auto path = std::filesystem::temp_directory_path() / "fsr_limb_surface.yaml";
+  const auto path =
+      std::filesystem::temp_directory_path() / ("limb_surface_" + std::to_string(::getpid()) + ".yaml");
   std::ofstream file(path);
   file << "surface: limb\ntaxels:\n  x: [";
   for (int i = 0; i < 70; ++i) file << (i != 0 ? ", " : "") << i * 0.25;
@@ -65,7 +67,8 @@ TEST(CurvatureNode, TakesAFileWithAValueForEachTaxel) {
 // A surface file as surface_from_mesh writes it, and an empty file in the place of the scan.
 class ScannedSurface : public testing::Test {
  protected:
-  ScannedSurface() : folder_(std::filesystem::temp_directory_path() / "fsr_scanned_surface") {
+  ScannedSurface()
+      : folder_(std::filesystem::temp_directory_path() / ("scanned_surface_" + std::to_string(::getpid()))) {
     std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / "limb.yaml")
         << "surface: limb\nflat: true\nmesh:\n  file: limb.stl\n  unit: 0.001\n"

@@ -98,8 +98,8 @@ TEST(RunTool, ReturnsStatusTwoForUnusableInput) {
 
 // Every way of giving an output that is an input, or two outputs of one name.
 TEST(CommandLine, RefusesAnOutputThatIsAnInputHoweverItIsSpelled) {
-  const std::string name = "command_line_losses_" + std::to_string(::getpid());
-  const std::string folder = testing::TempDir() + name;
+  const std::string folder = testing::TempDir() + "command_line_losses_" + std::to_string(::getpid());
+  const std::string name = std::filesystem::path(folder).filename();
   std::filesystem::remove_all(folder);
   std::filesystem::create_directory(folder);
   const std::string bag = folder + "/a.bag", link = folder + "/link", hard = folder + "/hard";

@@ -1,6 +1,7 @@
 #include "ros/tools/day_report_tool.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -28,7 +29,8 @@ class DayReportTool : public testing::Test {
  protected:
   void SetUp() override {
     const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / ("day & <" + std::string(test->name()) + ">");
+    folder_ = fs::path(testing::TempDir()) /
+              ("day & <" + std::to_string(::getpid()) + "_" + std::string(test->name()) + ">");
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     const auto plan = fsr::session_plan::readPlan(fsr::settings::Settings::fromText(kPlan, "day.yaml"),
@@ -76,7 +78,8 @@ TEST_F(DayReportTool, ASessionWithoutBagsHasAReportThatSaysSo) {
   const std::string html = page();
   EXPECT_TRUE(has(html, "train gave no result: no bag")) << html;
   EXPECT_TRUE(has(html, "1 skipped"));
-  EXPECT_TRUE(has(html, "day &amp; &lt;ASession")) << "the name of the folder is escaped";
+  EXPECT_TRUE(has(html, "day &amp; &lt;" + std::to_string(::getpid()) + "_ASession"))
+      << "the name of the folder is escaped";
   EXPECT_FALSE(has(html, "<ASession"));
 }
 
@@ -120,7 +123,7 @@ TEST_F(DayReportTool, RefusesAnotherPlan) {
 }
 
 TEST(SiblingProgram, SaysHowAProgramEnded) {
-  const fs::path folder = fs::path(testing::TempDir()) / "sibling_program";
+  const fs::path folder = fs::path(testing::TempDir()) / ("sibling_program_" + std::to_string(::getpid()));
   fs::create_directories(folder);
   const ProgramFiles files{folder.string(), (folder / "out").string(), (folder / "err").string()};
   const auto end = [&](const std::string& script) {

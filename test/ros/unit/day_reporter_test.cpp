@@ -1,6 +1,7 @@
 #include "ros/recording/day_reporter.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -23,7 +24,8 @@ class DayReporterTest : public testing::Test {
  protected:
   void SetUp() override {
     const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / ("reporter_" + std::string(test->name()));
+    folder_ = fs::path(testing::TempDir()) /
+              ("reporter_" + std::to_string(::getpid()) + "_" + std::string(test->name()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
