@@ -82,7 +82,7 @@ std::string cyclesText(const Conditioning& session) {
 
 std::string whatWasSeen(const Conditioning& session) {
   if (session.enough) return cyclesText(session);
-  if (session.said) return "said by the operator";
+  if (session.said) return "marked by an event";
   if (!session.known)
     return std::string("not known, because no cycle of the chamber was recorded: ") + kWhyItMatters;
   if (session.cycles > 0) return cyclesText(session) + ", fewer than four: " + kWhyItMatters;

@@ -39,7 +39,7 @@ std::vector<Conditioning> findConditioning(const std::vector<Recording>& recordi
                                            const std::vector<bool>& said = {},
                                            const ConditioningOptions& options = {});
 
-/// "conditioning: 5 cycles to 682 kPa seen", "conditioning: said by the operator" or "conditioning: not seen:
+/// "conditioning: 5 cycles to 682 kPa seen", "conditioning: marked by an event" or "conditioning: not seen:
 /// ...". With several sessions each sentence names the first recording of its session.
 std::vector<std::string> conditioningSentences(const std::vector<Conditioning>& sessions);
 

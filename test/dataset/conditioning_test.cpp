@@ -73,7 +73,7 @@ TEST(Conditioning, SaysThatThreeCyclesAreTooFew) {
 TEST(Conditioning, IsBelievedWhereTheOperatorSaysIt) {
   const Conditioning said = only({bag("a.bag", 0, {620, 620}), bag("b.bag", 1, {620, 620})}, {false, true});
   EXPECT_TRUE(said.present());
-  EXPECT_EQ(sentence(said), "conditioning: said by the operator");
+  EXPECT_EQ(sentence(said), "conditioning: marked by an event");
 }
 
 TEST(Conditioning, IsAskedOfEachSession) {

@@ -119,7 +119,7 @@ class DayTest(unittest.TestCase):
         self.assertEqual(page.headings, list(SECTIONS))
         for part in ("no result", "incomplete"):
             self.assertNotIn(part, page.text)
-        for reason in ("rejected (peak_missed): ", "rejected (leak): ", "4 of 4 cycles accepted", "said by the operator"):
+        for reason in ("rejected (peak_missed): ", "rejected (leak): ", "4 of 4 cycles accepted", "marked by an event"):
             self.assertIn(reason, page.text)
 
         code, budget = self.tool("train", "--budget", "session/day_calibration.h5")

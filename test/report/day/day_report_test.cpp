@@ -48,7 +48,7 @@ Json trainingJson() {
           {"provenance",
            {{"date", "2026-11-23T18:45:14Z"},
             {"tool_version", "0.2.0"},
-            {"conditioning", {"conditioning: said by the operator"}}}},
+            {"conditioning", {"conditioning: marked by an event"}}}},
           {"warnings", Json::array()},
           {"coverage", {{"thin", {"flat, 400+ kPa unloading: no scans"}}}},
           {"scores",
@@ -160,7 +160,7 @@ TEST(DayPage, ShowsTheFiguresOfTheTools) {
         "<td>flat</td><td class=\"number\">1.99</td><td class=\"number\">0.37</td>",
         "2 of 3 steps accepted, 1 skipped", "1 attempt rejected",
         "rejected (peak_missed): the highest pressure was 400 kPa", "Bags: Fit for training.",
-        "conditioning: said by the operator"}) {
+        "conditioning: marked by an event"}) {
     EXPECT_TRUE(has(page, part)) << part << "\n" << page;
   }
 }

@@ -143,7 +143,7 @@ TEST_F(CheckBagTool, SaysWhetherTheSheetWasConditioned) {
     bag.write("/fsr/events", event.header.stamp, event);
   }
   EXPECT_EQ(run({plain}), 0);
-  EXPECT_TRUE(says("\nNote: conditioning: said by the operator\n")) << said_;
+  EXPECT_TRUE(says("\nNote: conditioning: marked by an event\n")) << said_;
 }
 
 TEST_F(CheckBagTool, CountsStampsThatRunBackwards) {
