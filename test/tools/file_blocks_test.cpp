@@ -78,7 +78,7 @@ TEST_F(FileBlocks, KeepTheirContentWhileTheirPagesAreGivenBack) {
 }
 
 TEST_F(FileBlocks, AreForLargeBlocksOnceHalfOfTheLimitIsTaken) {
-  EXPECT_FALSE(file_blocks::belongsInFile(kMegabyte)) << "the test itself takes far less than 200 MB";
+  EXPECT_FALSE(file_blocks::belongsInFile(kMegabyte)) << "the test itself takes far less than 160 MB";
   EXPECT_TRUE(file_blocks::belongsInFile(file_blocks::kUsualLimit));
   file_blocks::setLimit(0);
   EXPECT_TRUE(file_blocks::belongsInFile(file_blocks::kSmallest));

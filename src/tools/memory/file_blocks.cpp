@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t kPage = 4096;
 // Freed blocks that are kept for the next of their size: making one anew costs its first touch of every page.
 constexpr std::size_t kSpare = std::size_t{64} << 20;
-constexpr unsigned kLookEvery = 10000;  // at the resident memory [us]
+constexpr unsigned kLookEvery = 4000;  // at the resident memory [us]
 
 std::atomic<std::size_t> limit{kUsualLimit};
 

@@ -14,7 +14,7 @@ namespace file_blocks {
 /// Smallest block that is kept in a file [bytes].
 constexpr std::size_t kSmallest = std::size_t{64} << 10;
 /// Memory that a tool takes, unless setLimit() says otherwise [bytes].
-constexpr std::size_t kUsualLimit = std::size_t{400} << 20;
+constexpr std::size_t kUsualLimit = std::size_t{320} << 20;
 
 /// Memory that a tool shall take [bytes]: up to a half in blocks of its own, up to a third in pages of files.
 void setLimit(std::size_t bytes);

@@ -1,4 +1,4 @@
-// operator new of the tools that read bags: once they hold 200 MB, large blocks lie in files (file_blocks.h).
+// operator new of the tools that read bags: once they hold 160 MB, large blocks lie in files (file_blocks.h).
 // It is part of their programs and not of the library, whose users keep their own.
 
 #include <cstdlib>
