@@ -139,10 +139,10 @@ class RecordTest(unittest.TestCase):
     def test_a_full_disk_ends_the_launch_and_leaves_what_was_written(self):
         self.record(self.small_disk("400k"), "min_space:=0")
         self.publish_until_the_launch_ends(400)  # twice the capacity of the disk
-        active = pathlib.Path(self.folder.name) / "rescued.bag"  # on a disk with enough space for the index
-        shutil.copy(f"{self.recorder.bag}.bag.active", active)
-        subprocess.run(["rosbag", "reindex", str(active)], check=True, stdout=subprocess.DEVNULL)
-        self.check_without_hole(active, 100)
+        rescued = pathlib.Path(self.folder.name) / "rescued.bag"  # on a disk with enough space for the index
+        shutil.copy(f"{self.recorder.bag}.bag.active", f"{rescued}.active")
+        subprocess.run(["rosrun", "fsr_pressure_map", "close_bag", f"{rescued}.active"], check=True)
+        self.check_without_hole(rescued, 100)
 
     def test_what_a_recorder_that_lags_behind_loses_shows_as_a_gap(self):
         self.record()
@@ -212,6 +212,21 @@ class RecordTest(unittest.TestCase):
         self.assertEqual(status, 1, said)
         self.assertIn("NOT CLOSED", said)
         self.assertFalse(bag.exists())
+        self.assertIn("then run: ", said)
+        command = said.split("then run: ")[1].splitlines()[0]
+        subprocess.run(command.split(), check=True)  # as a person types it, once there is room
+        self.check_without_hole(bag, 5)
+        self.assertIn(f"its {len(self.recorded(bag))} messages are whole", said)
+
+    def test_a_start_closes_what_a_killed_recorder_left(self):
+        bag = pathlib.Path(self.folder.name) / "killed.bag"
+        self.end_node(bag, signal.SIGKILL)
+        self.assertTrue(pathlib.Path(f"{bag}.active").exists())
+        again = subprocess.run(["rosrun", "fsr_pressure_map", "recorder_node", f"_bag:={bag}", "_topics:=/fsr/raw"],
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
+        self.assertNotEqual(again.returncode, 0)
+        self.assertIn(f"the recording that had not been closed was closed as {bag}", again.stdout)
+        self.check_without_hole(bag, 5)
 
     def test_a_bag_can_be_understood_alone(self):
         self.record()

@@ -21,6 +21,9 @@ class SmallDisk {
   SmallDisk& operator=(const SmallDisk&) = delete;
 
   bool ready() const { return ready_; }
+  void resize(const std::string& size) {
+    mount("none", folder_.path("").c_str(), "tmpfs", MS_REMOUNT, ("size=" + size).c_str());
+  }
   std::string path(const std::string& name) const { return folder_.path(name); }
 
  private:

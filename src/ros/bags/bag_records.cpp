@@ -52,15 +52,19 @@ void RecordFile::goTo(std::uint64_t position) {
   file_.seekg(static_cast<std::streamoff>(position));
 }
 
+std::uint32_t RecordFile::nextHeader() {
+  take(sizeof(std::uint32_t), header_);
+  take(number<std::uint32_t>(header_), header_);
+  take(sizeof(std::uint32_t), data_);
+  return number<std::uint32_t>(data_);
+}
+
 void RecordFile::next() {
-  takeBlock(header_);
-  takeBlock(data_);
+  take(nextHeader(), data_);
 }
 
 void RecordFile::skip() {
-  takeBlock(header_);
-  take(sizeof(std::uint32_t), data_);
-  const auto size = number<std::uint32_t>(data_);
+  const std::uint32_t size = nextHeader();
   if (size > size_ - position_) damaged("a record ends behind the file's end");
   goTo(position_ + size);
 }
@@ -72,11 +76,6 @@ void RecordFile::take(std::uint64_t size, std::string& into) {
   if (!file_.read(into.data(), static_cast<std::streamsize>(size))) damaged("it cannot be read to its end");
   position_ += size;
   if (hashes_) hash_.add(into.data(), size);
-}
-
-void RecordFile::takeBlock(std::string& into) {
-  take(sizeof(std::uint32_t), into);
-  take(number<std::uint32_t>(into), into);
 }
 
 void unpackChunk(RecordFile& file, std::string& chunk) {

@@ -56,6 +56,10 @@ class RecordFile {
   void next();
   /// The same without the data.
   void skip();
+  /// Reads the header of the next record and returns the size of its data, which are read next.
+  std::uint32_t nextHeader();
+  /// Reads `size` bytes.
+  void take(std::uint64_t size, std::string& into);
 
   const std::string& header() const { return header_; }
   std::string& data() { return data_; }
@@ -63,9 +67,6 @@ class RecordFile {
   std::string sha256() { return hash_.hexadecimal(); }
 
  private:
-  void take(std::uint64_t size, std::string& into);
-  void takeBlock(std::string& into);
-
   std::ifstream file_;
   std::uint64_t size_;
   std::uint64_t position_ = 0;

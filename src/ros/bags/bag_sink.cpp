@@ -1,10 +1,6 @@
 #include "ros/bags/bag_sink.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <utility>
@@ -12,7 +8,6 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/abandon_bag.h"
 #include "settings/number_text.h"
-#include "settings/replace_file.h"
 
 namespace fsr_ros {
 
@@ -28,34 +23,19 @@ std::string withExtension(const std::string& bag) {
   return has_it ? bag : bag + end;
 }
 
-// A second recording under the same name would overwrite the first one, or what is left of it after a kill.
+// A second recording under the same name would overwrite the first one. What a recorder left that died is
+// closed.
 void refuseExisting(const std::string& bag) {
   std::error_code error;
-  if (fs::exists(bag, error))
-    throw fsr::settings::InputError(bag + ": a bag of this name exists; give another name");
+  std::string closed;
   if (fs::exists(bag + ".active", error)) {
-    throw fsr::settings::InputError(
-        bag + ".active: this is the rest of a recording that was not closed; rename it and repair it with " +
-        "rosbag reindex, or remove it");
+    const RescuedBag rescued = rescueBag(bag + ".active");
+    if (!rescued.complaint.empty()) throw fsr::settings::InputError(rescued.complaint);
+    closed = "; the recording that had not been closed was closed as " + rescued.file + ", which holds " +
+             std::to_string(rescued.messages) + " messages";
   }
-}
-
-// Creates the file, so that of two recordings of the same name that begin together only one gets it.
-void createNew(const std::string& path) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (file < 0) throw fsr::settings::cannotWrite(path, errno);
-  ::close(file);
-}
-
-// Gives a closed bag its name, or the next that is free. Returns it.
-std::string giveName(const std::string& active, const std::string& wanted) {
-  std::string name = wanted;
-  int error = 0;
-  for (int number = 2; (error = fsr::settings::renameToNew(active, name)) == EEXIST; ++number) {
-    name = wanted.substr(0, wanted.size() - 4) + "_" + std::to_string(number) + ".bag";
-  }
-  if (error != 0) throw fsr::settings::cannotWrite(name, error);
-  return name;
+  if (fs::exists(bag, error))
+    throw fsr::settings::InputError(bag + ": a bag of this name exists" + closed + "; give another name");
 }
 
 }  // namespace
@@ -67,7 +47,7 @@ BagSink::BagSink(const BagSinkOptions& options, std::function<void(const std::st
       bag_(std::make_unique<rosbag::Bag>()) {
   refuseExisting(closed_name_);
   report_.file = closed_name_ + ".active";
-  createNew(report_.file);
+  lock_ = std::make_unique<RecordingLock>(report_.file, RecordingLock::Open::kNew);
   try {
     bag_->open(report_.file, rosbag::bagmode::Write);
     bag_->setChunkThreshold(options.chunk_size);
@@ -151,42 +131,70 @@ bool BagSink::hasSpace() {
 }
 
 bool BagSink::writeAll(std::deque<Waiting>& batch) {
-  for (const Waiting& message : batch) {
-    try {
+  std::uint64_t bytes = 0;
+  try {
+    for (const Waiting& message : batch) {
       message.write(*bag_);
-    } catch (const rosbag::BagException& error) {
-      static_cast<void>(bag_.release());  // its destructor would write again, throw and end the program
-      end("RECORDING STOPPED: " + closed_name_ + ".active cannot be written (" + error.what() +
-          "); make room, then repair it with rosbag reindex");
-      return false;
+      bytes += message.bytes;
     }
-    const std::lock_guard<std::mutex> lock(mutex_);
-    --in_hand_;
-    ++report_.messages;
-    report_.waiting -= message.bytes;
+    flushBag(*bag_);
+  } catch (const rosbag::BagException& error) {
+    const RescuedBag rescued = rescue();
+    end("RECORDING STOPPED: " + closed_name_ + ".active cannot be written (" + error.what() + "); " +
+        (rescued.complaint.empty() ? rescued.file + " was closed; make room, then start a new recording"
+                                   : rescued.complaint));
+    return false;
   }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  in_hand_ = 0;
+  report_.messages += batch.size();
+  report_.waiting -= bytes;
   return true;
 }
 
 bool BagSink::close() {
-  std::string name;
+  RescuedBag closed;
   try {
     bag_->close();
-    name = giveName(closed_name_ + ".active", closed_name_);
-  } catch (const std::exception& error) {
-    static_cast<void>(bag_.release());
-    end("the recording was NOT CLOSED: " + closed_name_ + ".active has no index (" + error.what() +
-        "); make room, then repair it with rosbag reindex, and compare the number of messages");
+    closed.file = giveClosedName(closed_name_ + ".active");
+  } catch (const std::exception&) {  // the disk is full
+    closed = rescue();
+  }
+  lock_.reset();
+  if (!closed.complaint.empty()) {
+    end("the recording was NOT CLOSED: " + closed.complaint);
     return false;
   }
   const std::lock_guard<std::mutex> lock(mutex_);
-  report_.file = name;
-  if (name != closed_name_) {
+  report_.file = closed.file;
+  if (closed.file != closed_name_) {
     report_.remark = closed_name_ +
                      ": another program has made a bag of this name, which was not overwritten; " +
-                     "this recording is " + name;
+                     "this recording is " + closed.file;
   }
   return true;
+}
+
+// Closes the bag without rosbag, which cannot go on after a failure.
+RescuedBag BagSink::rescue() {
+  try {
+    flushBag(*bag_);  // as much as fits
+  } catch (const rosbag::BagException&) {
+  }
+  releaseFile(std::move(bag_));
+  lock_.reset();
+  RescuedBag rescued;
+  try {
+    rescued = rescueBag(closed_name_ + ".active");
+  } catch (const std::exception& error) {
+    rescued = {closed_name_ + ".active", 0, error.what()};
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::uint64_t taken = report_.messages + in_hand_;
+  report_.messages = std::min(taken, rescued.messages);
+  in_hand_ = taken - report_.messages;
+  report_.file = rescued.file;
+  return rescued;
 }
 
 void BagSink::end(const std::string& complaint) {

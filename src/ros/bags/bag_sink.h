@@ -11,11 +11,13 @@
 #include <string>
 #include <thread>
 
+#include "ros/bags/rescue_bag.h"
+
 namespace fsr_ros {
 
 struct BagSinkOptions {
   std::string bag;  ///< file to write, with or without .bag
-  /// Largest amount of data that a kill of the process loses, beside the buffer of the C library [bytes].
+  /// Largest amount of data that `rosbag reindex` leaves out of a bag that was not closed [bytes].
   std::uint32_t chunk_size = 1024;
   std::uint64_t least_space = 200'000'000;  ///< space that stays free on the disk [bytes]
   std::uint64_t buffer = 256'000'000;  ///< size of the queue of messages that are not written yet [bytes]
@@ -35,16 +37,16 @@ struct BagSinkReport {
 /// Writes a bag in its own thread, so that a slow disk does not delay the thread that receives messages. The
 /// file is called FILE.bag.active until it is closed and has its index. If another bag has taken the name
 /// FILE.bag meanwhile, it is called FILE_2.bag. When the disk is nearly full, the bag
-/// is closed in time and the recording stops. When a write fails, the file stays under the name .active and
-/// can be repaired with `rosbag reindex`. Every message that was added is counted either as written or as
-/// lost.
+/// is closed in time and the recording stops. When a write fails, or the bag cannot be closed, no message
+/// that was counted as written is lost (rescueBag()). Every message that was added is counted either as
+/// written or as lost.
 class BagSink {
  public:
   using Write = std::function<void(rosbag::Bag&)>;
 
-  /// Throws fsr::InputError if the bag, or the rest of a recording of that name, exists already, or if the
-  /// file cannot be created. `ended` is called once, from the writing thread, if the recording stops by
-  /// itself.
+  /// Closes what is left of a recording of that name. Throws fsr::InputError if that fails, if the bag exists
+  /// already, or if the file cannot be created. `ended` is called once, from the writing thread, if the
+  /// recording stops by itself.
   BagSink(const BagSinkOptions& options, std::function<void(const std::string&)> ended);
   /// Writes the messages in the queue, then closes the bag.
   ~BagSink();
@@ -68,12 +70,14 @@ class BagSink {
   bool writeAll(std::deque<Waiting>& batch);
   bool hasSpace();
   bool close();
+  RescuedBag rescue();
   void end(const std::string& complaint);
 
   const BagSinkOptions options_;
   const std::string closed_name_;
   const std::function<void(const std::string&)> ended_;
-  std::unique_ptr<rosbag::Bag> bag_;  // used by the writing thread only
+  std::unique_ptr<RecordingLock> lock_;
+  std::unique_ptr<rosbag::Bag> bag_;  // both are used by the writing thread only
 
   mutable std::mutex mutex_;  // guards the following members
   std::condition_variable changed_;

@@ -37,13 +37,13 @@ void requireFile(const std::string& path) {
 }  // namespace
 
 void tellingOfDamage(const std::string& path, const std::function<void()>& read) {
-  const std::string remedy = "; copy it again, or save what is left with: rosbag reindex " + path;
+  const std::string close = "rosrun fsr_pressure_map close_bag " + path;
+  const std::string remedy = "; copy it again, or save what is left with: " + close;
   try {
     requireFile(path);
     read();
   } catch (const rosbag::BagUnindexedException&) {
-    throw fsr::settings::InputError(path + ": the bag was not closed and has no index; run: rosbag reindex " +
-                                    path);
+    throw fsr::settings::InputError(path + ": the bag was not closed and has no index; run: " + close);
   } catch (const rosbag::BagException& error) {
     throw fsr::settings::InputError(path + ": is not a complete bag (" + error.what() + ")" + remedy);
   } catch (const ros::serialization::StreamOverrunException&) {

@@ -179,7 +179,7 @@ TEST_F(BagReader, ATruncatedBagIsRefusedWithTheWayOut) {
     keepBytes(kept);
     const std::string sentence = complaint();
     EXPECT_NE(sentence.find(path_ + ": "), std::string::npos);
-    EXPECT_NE(sentence.find("rosbag reindex " + path_), std::string::npos) << kept << ": " << sentence;
+    EXPECT_NE(sentence.find("close_bag " + path_), std::string::npos) << kept << ": " << sentence;
   }
 }
 
@@ -188,8 +188,7 @@ TEST_F(BagReader, ABagCutAnywhereIsRefusedInASentence) {
   const std::uintmax_t whole = fs::file_size(path_);
   for (std::uintmax_t share = 99; share > 0; --share) {
     keepBytes(whole * share / 100);
-    EXPECT_NE(complaint().find("rosbag reindex " + path_), std::string::npos)
-        << share << " %: " << complaint();
+    EXPECT_NE(complaint().find("close_bag " + path_), std::string::npos) << share << " %: " << complaint();
   }
 }
 
@@ -230,7 +229,7 @@ TEST_F(BagReader, AnIndexThatPointsToAMessageTwiceIsRefused) {
   EXPECT_NE(complaint().find("an index points to a message twice"), std::string::npos) << complaint();
 }
 
-TEST_F(BagReader, ABagThatWasNotClosedAsksForReindexing) {
+TEST_F(BagReader, ABagThatWasNotClosedNamesTheToolThatClosesIt) {
   {
     rosbag::Bag whole(path_, rosbag::bagmode::Write);
     whole.setChunkThreshold(100);
@@ -238,7 +237,8 @@ TEST_F(BagReader, ABagThatWasNotClosedAsksForReindexing) {
     fs::copy_file(path_, folder_ / "open.bag");
   }
   path_ = (folder_ / "open.bag").string();
-  EXPECT_EQ(complaint(), path_ + ": the bag was not closed and has no index; run: rosbag reindex " + path_);
+  EXPECT_EQ(complaint(), path_ + ": the bag was not closed and has no index; run: " +
+                             "rosrun fsr_pressure_map close_bag " + path_);
 }
 
 TEST_F(BagReader, WhatIsNoBagIsRefused) {
