@@ -23,10 +23,10 @@ std::string remarksText(const std::vector<StepRemark>& remarks) {
 Reason reasonCalled(const settings::Settings& entry) {
   if (!entry.has("reason")) return Reason::kNone;
   std::vector<std::string> names;
-  for (const Reason reason : allReasons()) names.push_back(name(reason));
+  for (const Reason reason : dataset::allRejectReasons()) names.push_back(name(reason));
   const std::string called = entry.choice("reason", names);
-  return allReasons()[static_cast<std::size_t>(std::find(names.begin(), names.end(), called) -
-                                               names.begin())];
+  return dataset::allRejectReasons()[static_cast<std::size_t>(std::find(names.begin(), names.end(), called) -
+                                                              names.begin())];
 }
 
 std::vector<StepRemark> readRemarks(const settings::Settings& settings, std::size_t steps) {

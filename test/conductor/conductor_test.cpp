@@ -6,7 +6,6 @@
 
 #include <cstdio>
 #include <fstream>
-#include <set>
 
 #include "conductor/coverage.h"
 #include "conductor/rig_day.h"
@@ -257,13 +256,6 @@ TEST(Coverage, APictureShowsWhatIsMissing) {
   const auto bright = fsr::view::colourAt(fsr::view::ColourMap::kCividis, 1);
   EXPECT_EQ(count(none, bright), 0);
   EXPECT_EQ(count(all, bright), 2 * 20 * 14 * 14 + 2 * 158 * 14);  // cells, then bars, inside their frames
-}
-
-TEST(Conductor, AllReasonsHaveNames) {
-  std::set<std::string> names;
-  for (const Reason reason : allReasons()) names.insert(name(reason));
-  EXPECT_EQ(names.size(), static_cast<std::size_t>(Reason::kByHand));
-  EXPECT_EQ(names.count(""), 0u);
 }
 
 }  // namespace

@@ -252,7 +252,7 @@ void ConductServer::report(const Outcome& outcome) {
     ROS_WARN_STREAM(event.label);
   } else {
     event.kind = "reject";
-    event.label = what + " rejected (" + name(outcome.verdict.reason) + "): " + outcome.verdict.sentence;
+    event.label = fsr::dataset::rejectLabel(what, outcome.verdict.reason, outcome.verdict.sentence);
     ROS_WARN_STREAM(event.label);
   }
   events_.publish(event);
