@@ -17,6 +17,7 @@ constexpr double kVenting = 17e3;  // where the step has no pace [Pa/s]
 double ChamberCommand::next(const Conductor& conductor, double time) {
   const auto& complaints = conductor.complaints();
   const bool unsafe = complaints.count(Reason::kPressureLost) + complaints.count(Reason::kPressureInvalid) +
+                          complaints.count(Reason::kPressureNotFollowed) +
                           complaints.count(Reason::kAboveLimit) >
                       0;
   const SessionStep* step = conductor.step();

@@ -129,6 +129,10 @@ void Conductor::complainOfLoadBeforeMount(double pressure) {
                                       " confirmed that the sheet lies on its surface");
 }
 
+  if (!isDoubted(reading)) use(reading);
+}
+
+void Conductor::use(const Reading& reading) {
 void Conductor::take(const Reading& reading) {
   if (!watch_ || resumed_) return setHint();
   if (recovering_ && canBegin(steps_[step_], reading.pressure)) {
@@ -229,6 +233,8 @@ bool Conductor::passTime(double time, const std::optional<double>& last) {
     step_begin_ = time;
     restartWatch();
   }
+  jumps_.drop();
+  held_.clear();
   now_ = started_ ? std::max(now_, time) : time;
   started_ = true;
   return true;

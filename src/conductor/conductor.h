@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "conductor/instruction.h"
+#include "conductor/jump_watch.h"
 #include "conductor/loading_signature.h"
 #include "conductor/rest_counts.h"
 #include "conductor/step_watch.h"
@@ -148,6 +149,9 @@ class Conductor {
  private:
   void judge(const Reading& reading);
   void complainOfLoadBeforeMount(double pressure);
+  bool isDoubted(const Reading& reading);
+  void use(const Reading& reading);
+  void settleJump();
   void take(const Reading& reading);
   void handle(const Verdict& verdict, const Reading& reading);
   void acceptStep(const Verdict& verdict);
@@ -192,8 +196,11 @@ class Conductor {
   RestClock rest_;
   RestClock rest_before_;  // before the last reading that was judged
   Reading last_judged_;
-  bool judged_ = false;                              // last_judged_ is one
-  std::vector<Reading> recent_;                      // the last two, for the median
+  bool judged_ = false;          // last_judged_ is one
+  std::vector<Reading> recent_;  // the last two, for the median
+  JumpWatch jumps_;
+  std::vector<Reading> held_;                        // since a jump, until the sheet has told what it was
+  bool unfollowed_ = false;                          // the pressure jumped, and the sheet did not follow
   double now_ = 0;                                   // latest time of all [s]
   bool started_ = false;                             // a time is known
   std::optional<double> last_pressure_, last_scan_;  // times [s]
@@ -209,6 +216,7 @@ class Conductor {
   RestCounts rest_counts_;           // on this mount
   double noise_ = 0;                 // of a count at rest [counts]; stays over mounts
   std::optional<double> answered_;   // largest pressure that the sheet needed to answer [Pa]
+  double largest_excess_ = 0;        // of the sheet under load, above its rest [counts]
   std::optional<double> answers_;    // likewise in the present attempt
   unsigned silent_ = 0;              // scans in a row in which nothing answers
   double step_begin_ = 0;            // of the present step [s]

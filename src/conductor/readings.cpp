@@ -2,6 +2,8 @@
 // whether it lies on the surface of the plan.
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "conductor/conductor.h"
 
@@ -13,6 +15,8 @@ namespace {
 
 constexpr unsigned kSilentScans = 3;               // in a row: one or two may be damaged
 constexpr double kLowest = 0.1, kUpperHalf = 0.5;  // shares of the peak
+// Of what the sheet reads under its largest load: it keeps less than that when it is vented.
+constexpr double kRestShare = 0.1;
 
 }  // namespace
 
@@ -25,15 +29,23 @@ bool Conductor::isFirstLoad() const {
   return true;
 }
 
-// A scan belongs to the pressure that was judged last, which is one reading old at most.
+// A scan belongs to the pressure that was judged last, which is one reading old at most. A sheet that reads
+// as under a load is not at rest, whatever the transducer says.
 void Conductor::readMatrix(const ScanSummary& scan) {
+  const bool answers =
+      rest_counts_.known() && 2 * rest_counts_.answering(scan.counts, scan.taxels) >= scan.taxels;
+  const double excess = rest_counts_.excess(scan.counts, scan.taxels);
+  jumps_.scan({scan.time, excess, answers, 2 * scan.saturated >= scan.taxels});
+  settleJump();
   if (done() || !judged_ || waitsForMount()) return;
   const double pressure = last_judged_.pressure;
   if (pressure <= kRestLevel) {
-    rest_counts_.take(scan.counts, scan.taxels);
+    const bool loaded = largest_excess_ > 0 && excess > kRestShare * largest_excess_;
+    if (!loaded) rest_counts_.take(scan.counts, scan.taxels);
     if (rest_counts_.known()) noise_ = rest_counts_.noise();
   } else if (attemptRuns() && isLoad()) {
     checkSheet(scan);
+    largest_excess_ = std::fmax(largest_excess_, excess);
   }
   if (done() || !isFirstLoad()) return;
   if (loading_step_ != step_ + 1) {
@@ -42,6 +54,44 @@ void Conductor::readMatrix(const ScanSummary& scan) {
     loading_columns_ = scan.columns;
   }
   loading_.take(pressure, scan.counts, scan.taxels);
+}
+
+// Whether a reading waits for what the sheet says of it, or is not that of the chamber.
+bool Conductor::isDoubted(const Reading& reading) {
+  const bool mounted = !done() && !waitsForMount() && steps_[step_].kind != StepKind::kBreak;
+  if (unfollowed_) {
+    unfollowed_ = mounted && !jumps_.agrees(reading.pressure);
+    if (!unfollowed_) complain(Reason::kPressureNotFollowed, "", false);
+    return unfollowed_;
+  }
+  const bool jumped = judged_ && reading.time - last_judged_.time <= options_.silence &&
+                      JumpWatch::isJump(last_judged_, reading);
+  if (!jumps_.open() && mounted && jumped) jumps_.begin(last_judged_, reading);
+  if (!jumps_.open()) return false;
+  held_.push_back(reading);
+  settleJump();
+  return true;
+}
+
+// The readings since the jump count where the sheet followed it, and are dropped where it did not.
+void Conductor::settleJump() {
+  if (!jumps_.open()) return;
+  const std::optional<bool> followed = jumps_.followed(now_, answered_);
+  if (!followed) return;
+  const std::vector<Reading> held = std::exchange(held_, {});
+  if (*followed) {
+    for (const Reading& reading : held) use(reading);
+    return;
+  }
+  unfollowed_ = true;
+  judged_ = false;
+  rest_.restart();
+  const std::string sentence = "the pressure jumped from " + kPaText(jumps_.before().pressure) + " to " +
+                               kPaText(jumps_.after().pressure) +
+                               ", and the sheet did not follow: is the transducer plugged in?";
+  complain(Reason::kPressureNotFollowed, sentence);
+  spoil(Reason::kPressureNotFollowed, sentence);
+  recovering_ = watch_ != nullptr;
 }
 
 // The sheet is off where no taxel answers at a pressure at which half of them answered before: in this
@@ -59,9 +109,11 @@ void Conductor::checkSheet(const ScanSummary& scan) {
   silent_ = silent ? silent_ + 1 : 0;
   if (silent_ < kSilentScans) return;
   silent_ = 0;
-  spoil(Reason::kSheetOff, "no taxel answers " + kPaText(pressure) + ", but half of them answered " +
-                               kPaText(answers_ ? *answers_ : *answered_) +
-                               " before: put the sheet back on its surface, or its plug in");
+  const std::optional<double> before = answers_ ? answers_ : answered_;
+  spoil(Reason::kSheetOff,
+        "no taxel answers " + kPaText(pressure) +
+            (before ? ", but half of them answered " + kPaText(*before) + " before" : std::string()) +
+            ": put the sheet back on its surface, or its plug in");
 }
 
 // The first loading of a mount, beside those of the mounts before.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fsr::conductor {
 
@@ -41,6 +42,13 @@ std::size_t RestCounts::answering(const std::uint16_t* counts, std::size_t taxel
     answering += counts[t] > mean_[t] + kBeyondNoise * deviation + 1 ? 1 : 0;
   }
   return answering;
+}
+
+double RestCounts::excess(const std::uint16_t* counts, std::size_t taxels) const {
+  if (!known() || mean_.size() != taxels) return std::numeric_limits<double>::quiet_NaN();
+  double excess = 0;
+  for (std::size_t t = 0; t < taxels; ++t) excess += counts[t] - mean_[t];
+  return excess;
 }
 
 double RestCounts::noise() const {

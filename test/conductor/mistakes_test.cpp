@@ -76,6 +76,28 @@ const Mistake kMistakes[] = {
        d.offset = -600e3, d.ramp(kPeak - 103e3, kFill), d.stay(10), d.offset = 0;
        d.ramp(0, kFill), d.stay(1);
      }},
+    {"pressure_not_followed", "transducer whose zero is 0 kPa unplugged in mid-cycle",
+     [](RigDay& d) {
+       d.counts_per_kpa = 3, d.stay(10), d.ramp(400e3, kFill);
+       d.plugged = false, d.ramp(kPeak, kFill), d.stay(10), d.ramp(0, kFill);
+       d.plugged = true, d.stay(1);
+     }},
+    {"pressure_not_followed", "likewise, and plugged in again under load",
+     [](RigDay& d) {
+       d.counts_per_kpa = 3, d.stay(10), d.ramp(400e3, kFill);
+       d.plugged = false, d.stay(15), d.plugged = true, d.ramp(kPeak, kFill);
+       d.stay(10), d.ramp(0, kFill), d.stay(1);
+     }},
+    {"pressure_not_followed", "unplugged while venting",
+     [](RigDay& d) {
+       d.counts_per_kpa = 3, d.stay(10), d.ramp(kPeak, kFill), d.stay(10), d.ramp(300e3, kFill);
+       d.plugged = false, d.ramp(0, kFill), d.stay(1), d.plugged = true, d.stay(1);
+     }},
+    {"pressure_not_followed", "unplugged, and then reads the upper end of its range",
+     [](RigDay& d) {
+       d.counts_per_kpa = 3, d.stay(10), d.ramp(300e3, kFill);
+       d.unplugged = 1000e3, d.plugged = false, d.stay(5), d.ramp(0, kFill), d.plugged = true, d.stay(1);
+     }},
     {"scans_lost", "board silent in mid-cycle",
      [](RigDay& d) {
        d.stay(10), d.ramp(400e3, kFill), d.board = false, d.stay(4), d.board = true;
@@ -384,6 +406,38 @@ TEST(Conductor, ASheetThatComesOffIsNamedInThisCycleOrTheNextOne) {
   day.counts_per_kpa = 1e-9;
   day.follow();
   EXPECT_EQ(day.rejected(), Names{"sheet_off"}) << day.last.sentence;
+}
+
+// A person who obeys would lose the mount: after an hour of a transducer that reads 0, the sheet's rest must
+// be what it was.
+TEST(Conductor, AfterATransducerThatReadNothingUnderLoadGoodAttemptsAreAccepted) {
+  RigDay day(planFrom(rig_day::kCycles));
+  day.counts_per_kpa = 3;
+  day.follow();
+  day.follow();
+  day.stay(10), day.ramp(400e3, kFill);
+  day.plugged = false, day.stay(120);
+  EXPECT_EQ(day.rejected(), Names{"pressure_not_followed"});
+  EXPECT_NE(day.remark().find("the pressure jumped from 400 kPa to "), std::string::npos) << day.remark();
+  day.ramp(0, kFill), day.stay(5);
+  for (int again = 0; again < 3; ++again) day.cycle(kPeak, kFill, 60, kFill, 10);  // and nobody looks
+  day.plugged = true;
+  day.follow();
+  EXPECT_EQ(day.rejected(), Names{}) << day.last.sentence;
+  EXPECT_TRUE(day.conductor.done());
+}
+
+// What only a sheet can tell: a chamber that is vented at once is no transducer without a plug.
+TEST(Conductor, AVentWithinOneReadingThatTheSheetFollowsIsAVent) {
+  RigDay day(planFrom(rig_day::kCycles));
+  day.counts_per_kpa = 3;
+  day.follow();
+  day.stay(10), day.ramp(kPeak, kFill), day.stay(10), day.ramp(0, 1e7), day.stay(2);
+  EXPECT_EQ(day.rejected(), Names{"vent_too_fast"}) << day.last.sentence;
+  day.stay(10), day.ramp(300e3, kFill), day.ramp(0, 1e7), day.stay(2);
+  EXPECT_EQ(day.rejected(), Names{"peak_missed"}) << day.last.sentence;
+  day.follow();
+  EXPECT_EQ(day.rejected(), Names{}) << day.last.sentence;
 }
 
 }  // namespace

@@ -216,7 +216,8 @@ class OperatedDay : fsr::protocol::PacketHandler {
     conductor->scan(summary);
   }
   void onTransducer(const fsr::protocol::PacketHeader&, std::int32_t counts) override {
-    conductor->pressure(now, settings_.transducer.gaugePressure(counts));
+    const double gauge = settings_.transducer.gaugePressure(counts);
+    conductor->pressure(now, zero_is_ambient && counts == 0 ? 0 : gauge);
   }
   void onTemperature(const fsr::protocol::PacketHeader&, std::int32_t) override {}
   void onIdentity(const fsr::protocol::PacketHeader&, const fsr::protocol::IdentityPacket&) override {}
@@ -233,7 +234,8 @@ class OperatedDay : fsr::protocol::PacketHandler {
  public:
   Operator person;
   std::unique_ptr<Conductor> conductor;
-  double now = 0;  // [s]
+  double now = 0;                // [s]
+  bool zero_is_ambient = false;  // of the transducer, so that it reads 0 kPa gauge where it is unplugged
   std::vector<Remark> remarks;
 
  private:
@@ -292,6 +294,17 @@ TEST_P(OperatedDayMistake, IsNamedRightlyAndCostsNothingElse) {
   EXPECT_LE(day.rejections(), 1) << day.told();
   for (const Remark& one : day.remarks) {
     EXPECT_NE((" " + mistake.expected + " ").find(" " + one.reason + " "), std::string::npos) << day.told();
+  }
+}
+
+TEST(OperatedDay, ATransducerWithAZeroAtAmbientThatIsUnpluggedIsNamedRightlyAndCostsNothingElse) {
+  const SessionPlan plan = planOf(kPlan);
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    OperatedDay day(plan, "transducer_unplugged", seed);
+    day.zero_is_ambient = true;
+    EXPECT_TRUE(day.run(kLimit)) << day.told();
+    EXPECT_EQ(day.rejections(), 1) << day.told();
+    for (const Remark& one : day.remarks) EXPECT_EQ(one.reason, "pressure_not_followed") << day.told();
   }
 }
 

@@ -101,6 +101,8 @@ class RigDay {
   double now = 1000;    // [s]
   double pressure = 0;  // gauge [Pa]
   bool transducer = true, board = true;
+  bool plugged = true;        // false: the transducer reads `unplugged`
+  double unplugged = 0;       // gauge [Pa]
   double counts_per_kpa = 0;  // of the taxels; 0 = the conductor gets no counts
   unsigned lost = 0, dead = 0, saturated = 0;
   double offset = 0;        // of the transducer [Pa]
@@ -113,7 +115,7 @@ class RigDay {
     ++count_;
     const double noise =
         300.0 * (static_cast<double>((count_ * 7919) % 13) - 6.0) / 6.0;  // up to 300 Pa either way
-    if (transducer) conductor.pressure(now, pressure + offset + noise);
+    if (transducer) conductor.pressure(now, (plugged ? pressure + offset : unplugged) + noise);
     std::vector<std::uint16_t> counts(70);
     for (std::size_t t = 0; t < counts.size(); ++t) {
       const double level = counts_per_kpa * pressure / 1e3 * (1 + 0.001 * static_cast<double>(t));
