@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "session_plan/plan_file.h"
 #include "settings/number_text.h"
 #include "settings/sha256.h"
+#include "settings/yaml_text.h"
 
 namespace fsr::conductor {
 
@@ -39,7 +40,25 @@ std::string minutes(double time) {
 }  // namespace
 
 std::string digestOf(const session_plan::SessionPlan& plan) {
-  const std::string text = planText(plan);
+  std::string text;
+  const auto add = [&text](const std::string& word) { text += word + "\n"; };
+  const auto addNumbers = [&](std::initializer_list<double> numbers) {
+    for (const double one : numbers) add(settings::numberText(one));
+  };
+  add(plan.name);
+  addNumbers({plan.change, plan.chamber_limit});
+  for (const SessionStep& step : sessionSteps(plan)) {
+    add(name(step.kind) + " " + step.surface);
+    addNumbers({1.0 * step.mount, step.recorded ? 1.0 : 0.0, step.low, step.peak, step.fill_rate,
+                step.vent_rate, step.dwell_peak, step.dwell_rest, step.peak_error, step.rate_error,
+                step.dwell_error});
+  }
+  for (const session_plan::PlannedSurface& one : plan.surfaces) {
+    add(one.surface.name);
+    for (const matrix::Curvature& curvature : one.surface.curvature)
+      addNumbers({curvature.x, curvature.y, curvature.xy});
+    for (const double deviation : one.surface.deviation) add(settings::numberText(deviation));
+  }
   return settings::sha256(text.data(), text.size());
 }
 

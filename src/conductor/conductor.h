@@ -76,7 +76,8 @@ struct ConductorState {
   static constexpr std::size_t kMostRemarks = 1000;
 };
 
-/// SHA-256 of what planText() writes: a state belongs to one plan.
+/// SHA-256 of the steps of a plan and the forms of its surfaces: a state belongs to one plan, however its
+/// file is worded.
 std::string digestOf(const session_plan::SessionPlan& plan);
 
 /// Leads a person, or a rig with a regulator, through a plan. It says what to do next, recognises each step

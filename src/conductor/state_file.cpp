@@ -1,9 +1,15 @@
 #include "conductor/state_file.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
+#include "conductor/session_files.h"
+#include "session_plan/plan_file.h"
 #include "settings/replace_file.h"
 #include "settings/settings.h"
+#include "settings/sha256.h"
 #include "settings/yaml_text.h"
 
 namespace fsr::conductor {
@@ -40,6 +46,17 @@ std::vector<StepRemark> readRemarks(const settings::Settings& settings, std::siz
   return remarks;
 }
 
+// The digest of a state was that of the plan's text, as it was worded then. It is beside the state, below a
+// remark of one line.
+std::string digestOfContent(const std::string& digest, const std::filesystem::path& plan) {
+  std::ifstream file(plan, std::ios::binary);
+  std::string remark;
+  std::getline(file, remark);
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  if (text.empty() || settings::sha256(text.data(), text.size()) != digest) return digest;
+  return digestOf(session_plan::readPlanFile(plan.string()));
+}
+
 }  // namespace
 
 void writeState(const std::string& path, const ConductorState& state) {
@@ -56,7 +73,8 @@ ConductorState readState(const std::string& path) {
   const settings::Settings settings = settings::Settings::fromFile(path);
   ConductorState state;
   state.plan = settings.text("plan");
-  state.digest = settings.text("digest");
+  state.digest = digestOfContent(settings.text("digest"),
+                                 std::filesystem::path(path).parent_path() / planFileName(state.plan));
   state.time = settings.number("time", {0, 1e12, "s"});
   state.rejected = static_cast<unsigned>(settings.integer("rejected", {0, 1e9, "attempts"}));
   for (const char one : settings.text("steps")) {

@@ -9,7 +9,7 @@ namespace fsr::conductor {
 /// Writes the state of a session; a program that is killed leaves the old file or the new one. Form:
 ///
 ///     plan: "day"
-///     digest: "9f86d0..."    # SHA-256 of the plan
+///     digest: "9f86d0..."    # see digestOf(); earlier ones are of the text of the plan beside the state
 ///     time: 1700000000.5     # [s]
 ///     rejected: 3            # attempts
 ///     steps: "aaas......"    # a = accepted, s = skipped, . = open

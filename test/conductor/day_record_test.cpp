@@ -12,6 +12,7 @@
 #include "conductor/state_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "session_plan/plan_file.h"
+#include "settings/sha256.h"
 
 namespace {
 
@@ -92,6 +93,40 @@ TEST_F(DayRecord, ThePlanInTheFolderIsThePlanOfTheState) {
   const auto plan = planFrom(kDay);
   std::ofstream(path("plan.yaml")) << planText(plan, {"The plan of this session."});
   EXPECT_EQ(digestOf(fsr::session_plan::readPlanFile(path("plan.yaml"))), digestOf(plan));
+}
+
+// Written before the digest was that of the content: it is the SHA-256 of the text that the writer of that
+// version put into the folder, without its first line.
+TEST_F(DayRecord, ASessionWhosePlanWasWordedOtherwiseGoesOn) {
+  const auto plan = planFrom(kDay);
+  std::string text = planText(plan);
+  text.replace(text.find("# of the order"), 14, "# in other words");
+  std::ofstream(path(planFileName(plan.name))) << "# The plan of this session.\n" << text;
+  RigDay rig(plan);
+  ConductorState state = dayWithTrouble(rig);
+  state.digest = fsr::settings::sha256(text.data(), text.size());
+  writeState(path("state.yaml"), state);
+  EXPECT_EQ(Conductor(plan, readState(path("state.yaml"))).state().steps, state.steps);
+
+  auto other = plan;
+  other.rest.before += 1;
+  EXPECT_THROW(Conductor(other, readState(path("state.yaml"))), fsr::settings::InputError);
+  std::ofstream(path(planFileName(plan.name)), std::ios::app) << "# changed by hand\n";
+  EXPECT_THROW(Conductor(plan, readState(path("state.yaml"))), fsr::settings::InputError);
+}
+
+TEST_F(DayRecord, ADigestIsThatOfWhatIsDone) {
+  const auto plan = planFrom(kDay);
+  auto same = plan;
+  same.origin = "elsewhere.yaml";
+  same.thermometer = !plan.thermometer;
+  EXPECT_EQ(digestOf(same), digestOf(plan));
+  auto bent = plan;
+  bent.surfaces.back().surface.curvature.front().x += 0.1;
+  EXPECT_NE(digestOf(bent), digestOf(plan));
+  auto longer = plan;
+  longer.rest.after += 1;
+  EXPECT_NE(digestOf(longer), digestOf(plan));
 }
 
 TEST_F(DayRecord, TheStateKeepsWhyStepsWereRejectedOrAcceptedByHand) {
