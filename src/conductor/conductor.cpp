@@ -130,6 +130,10 @@ void Conductor::judge(const Reading& reading) {
            "vent: " + kPaText(reading.pressure) + " is above the limit of the chamber, " +
                kPaText(plan_.chamber_limit),
            reading.pressure > plan_.chamber_limit);
+  if (!isDoubted(reading)) use(reading);
+}
+
+void Conductor::use(const Reading& reading) {
   rest_before_ = rest_;
   rest_.take(reading);
   take(reading);
@@ -148,13 +152,9 @@ void Conductor::complainOfLoadBeforeMount(double pressure) {
                                       " confirmed that the sheet lies on its surface");
 }
 
-  if (!isDoubted(reading)) use(reading);
-}
-
-void Conductor::use(const Reading& reading) {
 void Conductor::take(const Reading& reading) {
   if (!watch_ || resumed_) return setHint();
-  if (recovering_ && canBegin(steps_[step_], reading.pressure)) {
+  if (recovering_ && canBegin(steps_[step_], reading.pressure) && !isHindered()) {
     restartWatch();
     step_begin_ = reading.time;
   }
@@ -234,6 +234,8 @@ void Conductor::jumpTo(double time) {
   recent_.clear();
   rest_.restart();
   judged_ = false;
+  jumps_.drop();
+  held_.clear();
   last_pressure_.reset();
   last_scan_.reset();
   now_ = step_begin_ = time;
@@ -252,8 +254,6 @@ bool Conductor::passTime(double time, const std::optional<double>& last) {
     step_begin_ = time;
     restartWatch();
   }
-  jumps_.drop();
-  held_.clear();
   now_ = started_ ? std::max(now_, time) : time;
   started_ = true;
   return true;
@@ -302,6 +302,12 @@ void Conductor::checkFit() {
                settings::megabytesText(static_cast<std::uint64_t>(std::max(0.0, free_bytes_))) +
                " are left on the disk; make room",
            free_bytes_ >= 0 && need > free_bytes_);
+}
+
+// What would reject the next attempt as soon as it begins.
+bool Conductor::isHindered() const {
+  return steps_[step_].recorded &&
+         complaints_.count(Reason::kScansLost) + complaints_.count(Reason::kNotRecorded) > 0;
 }
 
 bool Conductor::isLoad() const {

@@ -149,10 +149,10 @@ class Conductor {
 
  private:
   void judge(const Reading& reading);
-  void complainOfLoadBeforeMount(double pressure);
   bool isDoubted(const Reading& reading);
   void use(const Reading& reading);
   void settleJump();
+  void complainOfLoadBeforeMount(double pressure);
   void take(const Reading& reading);
   void handle(const Verdict& verdict, const Reading& reading);
   void acceptStep(const Verdict& verdict);
@@ -172,6 +172,7 @@ class Conductor {
   bool passTime(double time, const std::optional<double>& last);
   void jumpTo(double time);
   bool attemptRuns() const { return watch_ && watch_->running() && !recovering_; }
+  bool isHindered() const;
   bool isLoad() const;
   bool isFirstLoad() const;
   void readMatrix(const ScanSummary& scan);
@@ -215,9 +216,9 @@ class Conductor {
   SurfaceWatch surfaces_;
   std::optional<unsigned> doubted_;  // mount whose surface a person was asked to look at
   RestCounts rest_counts_;           // on this mount
+  double largest_excess_ = 0;        // of the sheet under load, above its rest [counts]
   double noise_ = 0;                 // of a count at rest [counts]; stays over mounts
   std::optional<double> answered_;   // largest pressure that the sheet needed to answer [Pa]
-  double largest_excess_ = 0;        // of the sheet under load, above its rest [counts]
   std::optional<double> answers_;    // likewise in the present attempt
   unsigned silent_ = 0;              // scans in a row in which nothing answers
   double step_begin_ = 0;            // of the present step [s]

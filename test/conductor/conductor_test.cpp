@@ -258,4 +258,31 @@ TEST(Coverage, APictureShowsWhatIsMissing) {
   EXPECT_EQ(count(all, bright), 2 * 20 * 14 * 14 + 2 * 158 * 14);  // cells, then bars, inside their frames
 }
 
+// Each rejection is an event, a line of the log and one of the report.
+TEST(Conductor, ABoardThatStaysSilentIsRejectedOnce) {
+  RigDay day(planFrom(kDay));
+  followTo(day, 4);  // a rest that is recorded
+  day.stay(1);
+  day.board = false;
+  day.stay(60);
+  EXPECT_EQ(day.rejected(), Names{"scans_lost"});
+  EXPECT_NE(day.remark().find("no scan came for"), std::string::npos) << day.remark();
+  day.board = true;
+  day.follow();
+  EXPECT_EQ(day.rejected(), Names{}) << day.last.sentence;
+  EXPECT_EQ(day.conductor.instruction().step, 5u);
+}
+
+TEST(Conductor, ARecordingThatStaysAwayIsRejectedOnce) {
+  RigDay day(planFrom(kDay));
+  followTo(day, 4);
+  day.stay(1);
+  for (int again = 0; again < 6; ++again) day.conductor.recordingTrouble("the disk is full"), day.stay(10);
+  EXPECT_EQ(day.rejected(), Names{"not_recorded"});
+  EXPECT_EQ(day.conductor.instruction().step, 4u);  // the rest is not in the bag
+  day.conductor.recordingTrouble("");
+  day.follow();
+  EXPECT_EQ(day.rejected(), Names{}) << day.last.sentence;
+}
+
 }  // namespace
