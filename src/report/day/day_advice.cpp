@@ -53,6 +53,10 @@ Advice notDone(const DayReport& day) {
   return advice;
 }
 
+Advice warnedOf(const Json& training) {
+  return {"What train warns of", "train, warnings", training.at("warnings").get<Sentences>()};
+}
+
 Advice thinCoverage(const Json& training) {
   Advice advice{"Pressures and surfaces with few scans or none", "train, coverage", {}};
   for (const Json& sentence : training.at("coverage").at("thin"))
@@ -65,7 +69,11 @@ Advice notAssessed(const Json& training) {
   const Json& budget = training.at("error_budget");
   if (budget.is_null()) return advice;
   Sentences never;
-  for (const Json& line : budget.at("lines")) {
+  std::vector<Json> lines = budget.at("lines");
+  // A map is used on a mount of its own, so this line comes first.
+  std::stable_partition(lines.begin(), lines.end(),
+                        [](const Json& line) { return line.at("name") == "mount"; });
+  for (const Json& line : lines) {
     if (line.at("source") != "not assessed") continue;
     const auto name = line.at("name").get<std::string>(), note = line.at("note").get<std::string>();
     const auto what = whatAssesses().find(name);
@@ -100,13 +108,13 @@ Advice notTold(const Json& discrepancy) {
     if (group == groups.end()) group = groups.insert(group, {key, {}});
     group->second.push_back(effect.at("id").get<std::string>());
   }
-  for (const auto& [key, effects] : groups)
-    advice.sentences.push_back(listText(effects) + ": " + key.second +
-                               " An experiment that shows it: " + key.first + ".");
   for (const Json& item : discrepancy.at("first_screen")) {
     if (item.at("title") == "Next experiment")
       advice.sentences.push_back("Next experiment: " + item.at("answer").get<std::string>());
   }
+  for (const auto& [key, effects] : groups)
+    advice.sentences.push_back(listText(effects) + ": " + key.second +
+                               " An experiment that shows it: " + key.first + ".");
   for (const Json& missing : discrepancy.at("gap").at("missing"))
     advice.sentences.push_back(missing.get<std::string>());
   return advice;
@@ -129,9 +137,11 @@ std::vector<std::string> choicesOfTraining(const Json& training) {
 }
 
 std::vector<Advice> whatToRecordNext(const DayReport& day) {
-  std::vector<Advice> all = {notDone(day)};
+  std::vector<Advice> all;
   addRefusal("check_bag", day.check, all);
   addRefusal("train", day.training, all);
+  if (day.training.result.is_object()) all.push_back(warnedOf(day.training.result));
+  all.push_back(notDone(day));
   if (day.training.result.is_object()) {
     all.push_back(thinCoverage(day.training.result));
     all.push_back(notAssessed(day.training.result));

@@ -106,11 +106,15 @@ std::string discrepancySentence(const DayPart& discrepancy) {
 void summary(HtmlPage& page, const DayReport& day) {
   StepCount all;
   for (const DayMount& mount : day.mounts) all += count(mount);
-  std::vector<std::string> sentences = {"Plan: " + std::to_string(all.accepted) + " of " +
-                                        std::to_string(all.accepted + all.skipped + all.open) +
-                                        " steps accepted, " + std::to_string(all.skipped) + " skipped, " +
-                                        std::to_string(all.open) + " not reached; " + attempts(day.rejected) +
-                                        "."};
+  std::vector<std::string> sentences;
+  const bool trained = day.training.result.is_object();
+  const std::string good_for = trained ? day.training.result.value("good_for", "") : "";
+  if (!good_for.empty()) sentences.push_back(good_for);
+  sentences.push_back("Plan: " + std::to_string(all.accepted) + " of " +
+                      std::to_string(all.accepted + all.skipped + all.open) + " steps accepted, " +
+                      std::to_string(all.skipped) + " skipped, " + std::to_string(all.open) +
+                      " not reached; " + attempts(day.rejected) + ".");
+  ;
   sentences.push_back("Bags: " +
                       (day.check.refused.empty() ? lastLine(day.check.printed) : day.check.refused));
   try {
@@ -161,17 +165,43 @@ void recorded(HtmlPage& page, const DayReport& day) {
   if (!day.check.refused.empty()) page.refusal("check_bag gave no result: " + day.check.refused);
 }
 
+// "rejected (leak)" of a rejection; else the whole remark.
+std::string kindOf(const std::string& remark) {
+  const bool rejected = remark.rfind("rejected (", 0) == 0;
+  return rejected ? remark.substr(0, remark.find("): ")) : remark;
+}
+
+// Those of one mount with one reason are one row.
 void remarks(HtmlPage& page, const DayReport& day) {
+  struct Group {
+    std::string kind;
+    unsigned times;
+    Row row;
+  };
   std::vector<Row> rows;
   for (const DayMount& mount : day.mounts) {
+    std::vector<Group> groups;
     for (const DayStep& step : mount.steps) {
-      for (const std::string& remark : step.remarks)
-        rows.push_back({std::to_string(mount.number), mount.surface, step.text, remark});
+      for (const std::string& remark : step.remarks) {
+        const std::string kind = kindOf(remark);
+        const auto same =
+            std::find_if(groups.begin(), groups.end(), [&](const Group& one) { return one.kind == kind; });
+        if (same != groups.end())
+          ++same->times;
+        else
+          groups.push_back({kind, 1, {std::to_string(mount.number), mount.surface, step.text, remark}});
+      }
+    }
+    for (Group& one : groups) {
+      one.row.insert(one.row.begin() + 2, std::to_string(one.times));
+      rows.push_back(one.row);
     }
   }
   if (rows.empty()) return;
-  page.table("Attempts that were rejected, with the reason, and those accepted by hand.",
-             {"mount", "surface", "step", "what was said"}, rows);
+  page.table(
+      "Attempts that were rejected, and those accepted by hand. Where there are several on one mount "
+      "for one reason, step and sentence are those of the first.",
+      {"mount", "surface", "times", "step", "what was said"}, rows);
 }
 
 Row scoreRow(const std::string& surface, const Json& score) {
@@ -301,12 +331,26 @@ void next(HtmlPage& page, const DayReport& day) {
   } catch (const Json::exception& error) {
     return page.refusal(std::string("What the tools wrote is incomplete: ") + error.what());
   }
-  if (all.empty()) page.paragraph("The plan is done, and no part asks for more.");
+  if (all.empty()) return page.paragraph("The plan is done, and no part asks for more.");
+  constexpr std::size_t kMostAdvices = 5;  // more are not done
+  std::vector<std::string> first;
+  std::size_t sentences = 0;
+  for (const Advice& advice : all) {
+    sentences += advice.sentences.size();
+    const std::size_t more = advice.sentences.size() - 1;
+    if (first.size() < kMostAdvices)
+      first.push_back(advice.title + ": " + advice.sentences.front() +
+                      (more > 0 ? " (" + std::to_string(more) + " more below)" : ""));
+  }
+  page.list(first);
+  if (sentences == first.size()) return;
+  page.fold("All " + std::to_string(sentences) + " remarks on what could be recorded");
   for (const Advice& advice : all) {
     page.smallHeading(advice.title);
     page.list(advice.sentences);
     page.paragraph("Source: " + advice.source + ".");
   }
+  page.endFold();
 }
 
 const char* fateName(StepFate fate) {

@@ -51,15 +51,17 @@ struct DayReport {
   DayPart check, training, discrepancy;
 };
 
-/// What to record, each with its reason, and who says so.
+/// What to record, each with its reason, and who says so. What matters most comes first.
 struct Advice {
   std::string title;
   std::string source;
   std::vector<std::string> sentences;
 };
 
-/// Steps that were not done, cells of the coverage that are thin, lines of the error budget that are not
-/// assessed, what training and discrepancy miss. Groups without sentences are left out.
+/// What a tool asks for before it gives a result, what train warns of, steps that were not done, cells of the
+/// coverage that are thin, lines of the error budget that are not assessed, what training and discrepancy
+/// miss: in this order, since without a calibration nothing else counts, and what may be wrong is worse than
+/// what is missing. Groups without sentences are left out.
 std::vector<Advice> whatToRecordNext(const DayReport& day);
 
 /// What training says about the sheet's memory, a tare at the start of a session and the temperature.

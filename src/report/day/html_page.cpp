@@ -104,6 +104,15 @@ void HtmlPage::table(const std::string& caption, const std::vector<std::string>&
   text_ += "</tbody></table>\n";
 }
 
+void HtmlPage::fold(const std::string& title) {
+  text_ += "<details>";
+  element("summary", title);
+}
+
+void HtmlPage::endFold() {
+  text_ += "</details>\n";
+}
+
 void HtmlPage::lines(const std::string& text) {
   element("pre", text);
 }

@@ -25,6 +25,9 @@ class HtmlPage {
   /// Cells that begin with a digit, or with a sign and a digit, or are "-", are right-aligned.
   void table(const std::string& caption, const std::vector<std::string>& headings,
              const std::vector<std::vector<std::string>>& rows);
+  /// What follows is hidden behind its title until endFold().
+  void fold(const std::string& title);
+  void endFold();
   /// Text in lines, as a program prints it.
   void lines(const std::string& text);
   /// A drawing that is SVG already, with its caption.
