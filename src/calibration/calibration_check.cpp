@@ -58,10 +58,6 @@ std::string kilopascals(double value) {
   return settings::fixedText(value / 1000, 1) + " kPa";
 }
 
-std::string percent(double share) {
-  return settings::fixedText(100 * share, 1) + " %";
-}
-
 std::string places(const std::vector<std::size_t>& taxels, const matrix::Layout& layout) {
   constexpr std::size_t kListed = 8;
   std::string list;
@@ -184,9 +180,9 @@ void judgeClass(const CheckedClass& checked, double range, const CalibrationChec
   const std::string where = checked.name.empty() ? "" : "on " + checked.name + " ";
   if (checked.readings == 0) return;
   if (checked.beyond_training > options.beyond_share) {
-    reasons.push_back(where + percent(checked.beyond_training) +
+    reasons.push_back(where + settings::percentText(checked.beyond_training) +
                       " of the readings are outside the range of training (allowed: " +
-                      percent(options.beyond_share) + ")");
+                      settings::percentText(options.beyond_share) + ")");
   }
   if (checked.rmse > options.rmse_ratio * checked.expected_rmse) {
     reasons.push_back(where + "errors are " + settings::fixedText(checked.rmse / checked.expected_rmse, 2) +
@@ -197,8 +193,8 @@ void judgeClass(const CheckedClass& checked, double range, const CalibrationChec
   if (std::abs(checked.bias) > options.bias_share * range) {
     reasons.push_back(where + "maps are " + kilopascals(std::abs(checked.bias)) +
                       (checked.bias > 0 ? " above" : " below") + " the chamber pressure on average, " +
-                      percent(std::abs(checked.bias) / range) +
-                      " of the range (allowed: " + percent(options.bias_share) + ")");
+                      settings::percentText(std::abs(checked.bias) / range) +
+                      " of the range (allowed: " + settings::percentText(options.bias_share) + ")");
   }
 }
 

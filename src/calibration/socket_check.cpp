@@ -22,10 +22,6 @@ constexpr double kFarBelowLoad = 0.5;   // share of the usual load
 constexpr double kShortestCell = 0.25;  // loads are averaged over this time: short compared with a step [s],
 constexpr double kScansOfCell = 2.5;    // and long compared with the time between scans
 
-std::string percent(double share) {
-  return settings::fixedText(100 * share, 1) + " %";
-}
-
 std::string place(const matrix::Layout& layout, std::size_t taxel) {
   return "(" + std::to_string(layout.row({taxel})) + ", " + std::to_string(layout.column({taxel})) + ")";
 }
@@ -280,21 +276,22 @@ class SocketChecker {
     if (double(check_.changed) > options_.changed_share * double(used_.size())) {
       reasons.push_back(std::to_string(check_.changed) +
                         " taxels changed between rest before and rest after by more than " +
-                        percent(options_.rest_change) + " of full scale");
+                        settings::percentText(options_.rest_change) + " of full scale");
     }
     if (check_.saturated > options_.saturated_share) {
-      reasons.push_back(percent(check_.saturated) + " of the readings are at full scale (allowed: " +
-                        percent(options_.saturated_share) + ")");
+      reasons.push_back(settings::percentText(check_.saturated) +
+                        " of the readings are at full scale (allowed: " +
+                        settings::percentText(options_.saturated_share) + ")");
     }
     if (check_.beyond > options_.beyond_share) {
-      reasons.push_back(percent(check_.beyond) +
+      reasons.push_back(settings::percentText(check_.beyond) +
                         " of the readings are outside the range of training (allowed: " +
-                        percent(options_.beyond_share) + ")");
+                        settings::percentText(options_.beyond_share) + ")");
     }
     if (check_.bent_beyond > options_.beyond_share) {
-      reasons.push_back(percent(check_.bent_beyond) +
+      reasons.push_back(settings::percentText(check_.bent_beyond) +
                         " of the readings have a curvature outside the range of training (allowed: " +
-                        percent(options_.beyond_share) + ")");
+                        settings::percentText(options_.beyond_share) + ")");
     }
     if (check_.longest.seconds > options_.static_load) {
       reasons.push_back("taxel " + place(check_.layout, check_.longest.taxel) +

@@ -30,7 +30,7 @@ void row(std::ostream& out, const std::string& name, const BudgetValues& values,
          const std::string& more) {
   out << std::left << std::setw(kNameWidth) << name << std::right;
   for (const double value : values)
-    out << std::setw(kValueWidth) << settings::cellText(factor * value / 1e3, 2);
+    out << std::setw(kValueWidth) << settings::fixedText(factor * value / 1e3, 2);
   out << (more.empty() ? "" : "  ") << more << '\n';
 }
 
@@ -49,7 +49,7 @@ void budgetTable(std::ostream& out, const ErrorBudget& budget) {
          "not added again.\n";
   out << std::left << std::setw(kNameWidth) << "at % of the trained range" << std::right;
   for (const double share : calibration::kBudgetShares)
-    out << std::setw(kValueWidth) << settings::cellText(100 * share, 0) + " %";
+    out << std::setw(kValueWidth) << settings::percentText(share, 0);
   out << '\n';
   row(out, "pressure", budget.pressure, 1, "");
   for (const BudgetLine& line : budget.lines) row(out, line.name, line.standard, 1, wordsOf(line));
@@ -66,15 +66,11 @@ const char* unitsOf(const ErrorIntervals& intervals) {
   return intervals.unit == calibration::IntervalUnit::kMounts ? "mounts" : "cycles";
 }
 
-std::string percent(double share) {
-  return std::isnan(share) ? "-" : settings::fixedText(100 * share, 1) + " %";
-}
-
 void intervalRow(std::ostream& out, const std::string& name, const calibration::BinIntervals& bin) {
   out << std::left << std::setw(kNameWidth) << name << std::right << std::setw(8) << bin.units;
   for (std::size_t level = 0; level < kLevels; ++level) {
-    out << std::setw(10) << settings::cellText(bin.factor[level], 2) << std::setw(10)
-        << percent(bin.covered[level]);
+    out << std::setw(10) << settings::fixedText(bin.factor[level], 2) << std::setw(10)
+        << settings::percentText(bin.covered[level]);
   }
   out << '\n';
 }
@@ -89,8 +85,8 @@ void refusal(std::ostream& out, const ErrorIntervals& intervals) {
   if (fewest >= needed) return;
   const double allowed = 1 - 1 / (static_cast<double>(fewest) + 1);
   out << "No 95 % interval " << (fewest == units ? "" : "in some bins ") << "from " << fewest << ' '
-      << unitsOf(intervals) << ": they allow at most " << percent(allowed) << ", and 95 % needs " << needed
-      << ".\n";
+      << unitsOf(intervals) << ": they allow at most " << settings::percentText(allowed)
+      << ", and 95 % needs " << needed << ".\n";
 }
 
 void coverage(std::ostream& out, const ErrorIntervals& intervals, const matrix::Layout& layout) {
@@ -107,14 +103,14 @@ void coverage(std::ostream& out, const ErrorIntervals& intervals, const matrix::
     }
     if (taxels.empty()) continue;
     const auto& direction = intervals.by_direction[level];
-    out << kLevelNames[level] << " intervals cover " << percent(direction[0])
-        << " of the readings of loading, " << percent(direction[1]) << " of unloading, and "
-        << percent(all[lowest]) << " to " << percent(*std::max_element(taxels.begin(), taxels.end()))
-        << " by taxel (lowest: row " << layout.row({lowest}) << ", column " << layout.column({lowest})
-        << ").\n";
+    out << kLevelNames[level] << " intervals cover " << settings::percentText(direction[0])
+        << " of the readings of loading, " << settings::percentText(direction[1]) << " of unloading, and "
+        << settings::percentText(all[lowest]) << " to "
+        << settings::percentText(*std::max_element(taxels.begin(), taxels.end())) << " by taxel (lowest: row "
+        << layout.row({lowest}) << ", column " << layout.column({lowest}) << ").\n";
     if (uneven > 0) {
-      out << "Warning: they cover less than " << percent(wanted - kUneven) << " on " << uneven << " of "
-          << taxels.size() << " taxels.\n";
+      out << "Warning: they cover less than " << settings::percentText(wanted - kUneven) << " on " << uneven
+          << " of " << taxels.size() << " taxels.\n";
     }
     for (std::size_t d = 0; d < direction.size(); ++d) {
       if (direction[d] < wanted - kUneven)
@@ -129,9 +125,10 @@ void expectation(std::ostream& out, const ErrorIntervals& intervals) {
     const auto cover = statistics::conformalCover(intervals.whole.units, calibration::kIntervalLevels[level]);
     if (!cover) continue;
     out << "From " << intervals.whole.units << ' ' << unitsOf(intervals) << " a " << kLevelNames[level]
-        << " interval contains " << percent(cover->mean) << " of new readings on average, "
-        << percent(cover->low) << " to " << percent(cover->high) << " in nine of ten trainings, and "
-        << percent(cover->median) << " where all " << unitsOf(intervals) << " are alike.\n";
+        << " interval contains " << settings::percentText(cover->mean) << " of new readings on average, "
+        << settings::percentText(cover->low) << " to " << settings::percentText(cover->high)
+        << " in nine of ten trainings, and " << settings::percentText(cover->median) << " where all "
+        << unitsOf(intervals) << " are alike.\n";
   }
 }
 
@@ -155,8 +152,8 @@ void intervalTable(std::ostream& out, const ErrorIntervals& intervals, const mat
 
 void scaleRow(std::ostream& out, const std::string& name, const calibration::BinScale& bin, double factor) {
   out << std::left << std::setw(kNameWidth) << name << std::right << std::setw(10)
-      << settings::cellText(factor, 2) << std::setw(10) << percent(bin.within_tables) << std::setw(10)
-      << percent(bin.within_map) << '\n';
+      << settings::fixedText(factor, 2) << std::setw(10) << settings::percentText(bin.within_tables)
+      << std::setw(10) << settings::percentText(bin.within_map) << '\n';
 }
 
 void scaleTable(std::ostream& out, const ErrorIntervals& intervals) {
@@ -166,8 +163,8 @@ void scaleTable(std::ostream& out, const ErrorIntervals& intervals) {
     const bool mounts = intervals.unit == calibration::IntervalUnit::kMounts;
     out << "Deviation of the map: that of the tables, "
         << (mounts ? "from too few mounts for a factor" : "which was found on left-out cycles") << "; "
-        << percent(scale.whole.within_tables) << " of the readings of left-out " << unitsOf(intervals)
-        << " lie within it.\n";
+        << settings::percentText(scale.whole.within_tables) << " of the readings of left-out "
+        << unitsOf(intervals) << " lie within it.\n";
     return;
   }
   out << "Deviation of the map: that of the tables x factor, so that 68 % of the readings of new "

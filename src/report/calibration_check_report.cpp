@@ -5,17 +5,24 @@
 #include <sstream>
 
 #include "report/history_report.h"
+#include "settings/number_text.h"
 
 namespace fsr::report {
 
 namespace {
 
 void addRow(const calibration::CheckedClass& row, std::size_t width, std::ostringstream& out) {
+  const auto cell = [&](int cell_width, double value) {
+    out << std::setw(cell_width) << settings::fixedText(value, 1);
+  };
   out << std::left << std::setw(static_cast<int>(width)) << (row.name.empty() ? "all" : row.name)
-      << std::right << std::fixed << std::setprecision(1) << std::setw(12) << row.readings << std::setw(14)
-      << row.expected_rmse / 1000 << std::setw(11) << row.rmse / 1000 << std::setw(11) << row.bias / 1000
-      << std::setw(14) << 100 * row.within_one_deviation << std::setw(12) << 100 * row.beyond_training
-      << '\n';
+      << std::right << std::setw(12) << row.readings;
+  cell(14, row.expected_rmse / 1000);
+  cell(11, row.rmse / 1000);
+  cell(11, row.bias / 1000);
+  cell(14, 100 * row.within_one_deviation);
+  cell(12, 100 * row.beyond_training);
+  out << '\n';
 }
 
 }  // namespace

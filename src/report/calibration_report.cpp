@@ -16,20 +16,20 @@ constexpr int kCellWidth = 14;
 constexpr double kKilopascal = 1e3;  // [Pa]
 
 std::string kilopascal(double pressure) {
-  return settings::cellText(pressure / kKilopascal, 1);
+  return settings::fixedText(pressure / kKilopascal, 1);
 }
 
 std::string spread(const statistics::Spread& value, int digits) {
-  return std::isnan(value.deviation)
-             ? settings::cellText(value.mean, digits)
-             : settings::cellText(value.mean, digits) + " +- " + settings::cellText(value.deviation, digits);
+  return std::isnan(value.deviation) ? settings::fixedText(value.mean, digits)
+                                     : settings::fixedText(value.mean, digits) + " +- " +
+                                           settings::fixedText(value.deviation, digits);
 }
 
 // "14.3" if all taxels have the same curvature, else "9.0..14.3".
 std::string curvature(const dataset::CurvatureClass& condition, double unit, int digits) {
   const auto [low, high] = std::minmax_element(condition.curvature.begin(), condition.curvature.end());
-  const std::string first = settings::cellText(*low / unit, digits);
-  return *low == *high ? first : first + ".." + settings::cellText(*high / unit, digits);
+  const std::string first = settings::fixedText(*low / unit, digits);
+  return *low == *high ? first : first + ".." + settings::fixedText(*high / unit, digits);
 }
 
 void nameCell(std::ostream& out, const std::string& name) {
@@ -70,11 +70,11 @@ void scoreRow(std::ostream& out, const std::string& name, const calibration::Sco
   cell(out, kilopascal(errors.limit_low) + ".." + kilopascal(errors.limit_high), 16);
   cell(out, kilopascal(errors.p95_absolute), 8);
   cell(out,
-       settings::cellText(score.worst_rmse_percent, 2) + " (" +
+       settings::fixedText(score.worst_rmse_percent, 2) + " (" +
            std::to_string(layout.row({score.worst_taxel})) + ", " +
            std::to_string(layout.column({score.worst_taxel})) + ")",
        16);
-  cell(out, settings::cellText(100 * score.within_one_deviation, 1) + " %", 13);
+  cell(out, settings::percentText(score.within_one_deviation), 13);
   out << '\n';
 }
 
@@ -172,7 +172,7 @@ std::string learnedText(const calibration::Calibration& calibration) {
   const compensation::CurvatureTables& tables = calibration.tables;
   std::ostringstream text;
   if (tables.scheme == compensation::Scheme::kScaledCurvature && !tables.rule.length_scale.empty()) {
-    text << "Length scale of curvature: " << std::setprecision(3) << tables.rule.length_scale.front()
+    text << "Length scale of curvature: " << settings::roundedText(tables.rule.length_scale.front(), 3)
          << " 1/m\n";
   }
   if (tables.scheme == compensation::Scheme::kCurvatureRanges) {
@@ -190,10 +190,8 @@ std::string learnedText(const calibration::Calibration& calibration) {
 std::string modelText(const calibration::Calibration& calibration) {
   const regression::RegressorOptions& model = calibration.regressor;
   if (model.name != "grnn") return model.name;
-  std::ostringstream text;
-  text << model.name << ", bandwidth " << std::setprecision(3) << model.grnn.bandwidth
-       << (calibration.bandwidth_chosen ? " (chosen)" : "");
-  return text.str();
+  return model.name + ", bandwidth " + settings::roundedText(model.grnn.bandwidth, 3) +
+         (calibration.bandwidth_chosen ? " (chosen)" : "");
 }
 
 }  // namespace fsr::report

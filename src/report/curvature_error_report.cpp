@@ -50,15 +50,15 @@ std::string curvatureErrorText(const std::vector<study::CurvatureErrorCurve>& cu
   out << "\nError of the map against error of the curvature: five_sections, trained with the right "
          "curvatures, told wrong ones\n";
   table(out, "RMSE [kPa]", curves, [](const study::CurvatureErrorScore& score) {
-    return settings::cellText(score.rmse / kKilopascal, 1);
+    return settings::fixedText(score.rmse / kKilopascal, 1);
   });
   table(out, "RMSE [% of range]", curves,
-        [](const study::CurvatureErrorScore& score) { return settings::cellText(score.rmse_percent, 2); });
+        [](const study::CurvatureErrorScore& score) { return settings::fixedText(score.rmse_percent, 2); });
   table(out,
         "Stated: what the map's deviation takes up where the message states the error as its deviation [% of "
         "the change of the pressures]",
         curves,
-        [](const study::CurvatureErrorScore& score) { return settings::cellText(statedShare(score), 0); });
+        [](const study::CurvatureErrorScore& score) { return settings::fixedText(statedShare(score), 0); });
   return out.str();
 }
 

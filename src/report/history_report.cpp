@@ -14,7 +14,7 @@ constexpr double kKilopascal = 1e3;  // [Pa]
 constexpr const char* kFamilyNames[] = {"static", "plays", "memories", "both"};
 
 std::string kilopascal(double pressure) {
-  return settings::cellText(pressure / kKilopascal, 2);
+  return settings::fixedText(pressure / kKilopascal, 2);
 }
 
 void head(std::ostream& out, const std::string& name) {
@@ -45,8 +45,8 @@ std::string historyTable(const std::vector<calibration::HistoryScore::Part>& par
   for (const auto& part : parts) {
     head(out, part.name);
     out << std::setw(10) << kilopascal(part.static_rmse) << std::setw(10) << kilopascal(part.rmse)
-        << std::setw(12) << settings::cellText(100 * part.within_one_deviation, 1) << " %" << std::setw(12)
-        << part.readings << '\n';
+        << std::setw(12) << settings::percentText(part.within_one_deviation) << std::setw(12) << part.readings
+        << '\n';
   }
   return out.str();
 }

@@ -23,7 +23,7 @@ std::string sessionText(const calibration::SessionScore& score) {
     out << std::left << std::setw(static_cast<int>(width)) << session.name << std::right;
     const int columns[] = {10, 10, 20};
     for (std::size_t a = 0; a < session.rmse.size(); ++a)
-      out << std::setw(columns[a]) << settings::cellText(session.rmse[a] / 1000, 2);
+      out << std::setw(columns[a]) << settings::fixedText(session.rmse[a] / 1000, 2);
     out << std::setw(12) << session.readings << '\n';
   }
   return out.str();

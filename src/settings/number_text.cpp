@@ -6,17 +6,26 @@
 
 namespace fsr::settings {
 
+namespace {
+
+constexpr const char* kNoNumber = "-";
+constexpr double kLong = 1e15;  // a double has no more digits that mean anything
+
+}  // namespace
+
 std::string fixedText(double value, int decimals) {
+  if (!(std::abs(value) < kLong)) return roundedText(value);
   std::ostringstream text;
   text << std::fixed << std::setprecision(decimals) << value;
   return text.str();
 }
 
-std::string cellText(double value, int decimals) {
-  return std::isnan(value) ? "-" : fixedText(value, decimals);
+std::string percentText(double share, int decimals) {
+  return std::isfinite(share) ? fixedText(100 * share, decimals) + " %" : kNoNumber;
 }
 
 std::string roundedText(double value, int digits) {
+  if (!std::isfinite(value)) return kNoNumber;
   std::ostringstream text;
   text << std::setprecision(digits) << value;
   return text.str();

@@ -5,11 +5,19 @@
 
 namespace fsr::settings {
 
-/// `value` with `decimals` digits behind the point: fixedText(1234.56, 1) = "1234.6". NaN gives "nan".
+// Numbers in text for people. What is no finite number has the text "-", whatever the function.
+
+/// `value` with `decimals` digits behind the point: fixedText(1234.56, 1) = "1234.6"; with an exponent from
+/// 1e15 on. Also in place of std::lround, whose result is no number for a value outside its range.
 std::string fixedText(double value, int decimals);
 
-/// The cell of a table: as fixedText, but "-" where there is no value (NaN).
-std::string cellText(double value, int decimals);
+/// fixedText under its earlier name.
+inline std::string cellText(double value, int decimals) {
+  return fixedText(value, decimals);
+}
+
+/// A share as percent: percentText(0.1234) = "12.3 %".
+std::string percentText(double share, int decimals = 1);
 
 /// `value` with up to `digits` significant digits and no trailing zeros, with an exponent where the number
 /// would be long otherwise: roundedText(0.012345, 3) = "0.0123", roundedText(1e7) = "1e+07".

@@ -1,7 +1,8 @@
 #include "view/taxel_look.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "settings/number_text.h"
 
 namespace fsr::view {
 
@@ -13,7 +14,7 @@ constexpr std::uint16_t kBeyondTraining = map::taxel_flag::kReadingExtrapolated 
 
 // "12 %": 1 to 99, because neither none nor all are meant.
 std::string partText(double share) {
-  return std::to_string(std::clamp(std::lround(100 * share), 1L, 99L)) + " %";
+  return settings::percentText(std::clamp(share, 0.01, 0.99), 0);
 }
 
 }  // namespace

@@ -15,9 +15,25 @@ TEST(NumberText, HasTheDecimalsAskedFor) {
   EXPECT_EQ(settings::fixedText(7.5e9, 0), "7500000000");
 }
 
-TEST(NumberText, OfACellWithoutAValueIsADash) {
-  EXPECT_EQ(settings::cellText(NAN, 2), "-");
-  EXPECT_EQ(settings::cellText(0.125, 2), settings::fixedText(0.125, 2));
+TEST(NumberText, OfWhatIsNoNumberIsADash) {
+  for (const double value : {double(NAN), double(INFINITY), -double(INFINITY)}) {
+    EXPECT_EQ(settings::fixedText(value, 2), "-");
+    EXPECT_EQ(settings::fixedText(value, 0), "-");
+    EXPECT_EQ(settings::roundedText(value), "-");
+    EXPECT_EQ(settings::percentText(value), "-");
+  }
+}
+
+// std::lround() makes -9223372036854775808 of it.
+TEST(NumberText, OfALargeNumberIsThatNumber) {
+  EXPECT_EQ(settings::fixedText(1e300, 1), "1e+300");
+  EXPECT_EQ(settings::fixedText(-2.5e19, 0), "-2.5e+19");
+  EXPECT_EQ(settings::percentText(1e18, 0), "1e+20 %");
+}
+
+TEST(NumberText, GivesAShareAsPercent) {
+  EXPECT_EQ(settings::percentText(0.1234), "12.3 %");
+  EXPECT_EQ(settings::percentText(-0.005, 2), "-0.50 %");
 }
 
 TEST(NumberText, HasTheSignificantDigitsAskedForAtMost) {

@@ -273,7 +273,7 @@ BudgetLine Lines::curvature() const {
   const BudgetValues slope = atEach([&](std::size_t p) { return slopeOfCurvature(p); });
   if (!anyKnown(slope)) return notAssessed(name, "one table answers for all curvatures");
   std::string change = "1 1/m changes the answer by";
-  for (const double value : slope) change += " " + settings::cellText(value / 1000, 2);
+  for (const double value : slope) change += " " + settings::fixedText(value / 1000, 2);
   change += " kPa";
   double squares = 0, number = 0;
   bool each = true;

@@ -42,7 +42,7 @@ BudgetLine conditioningLine(const BudgetSums& sums, const std::vector<dataset::C
   for (std::size_t p = 0; p < sums.size(); ++p) {
     const BudgetPoint& point = sums[p];
     if (point.firsts > 0) line.standard[p] = std::sqrt(std::max(0.0, point.first / point.firsts));
-    mean += " " + settings::cellText(point.first_change / point.firsts / 1e3, 2);
+    mean += " " + settings::fixedText(point.first_change / point.firsts / 1e3, 2);
   }
   if (std::all_of(line.standard.begin(), line.standard.end(),
                   [](double value) { return std::isnan(value); })) {

@@ -4,6 +4,7 @@
 #include "calibration/file/calibration_hdf5.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
+#include "settings/yaml_text.h"
 
 namespace fsr::calibration {
 
@@ -25,7 +26,7 @@ constexpr double kMost = 1e12;
 void requireWithin(const std::vector<double>& values, const std::string& name, double low, double high) {
   for (const double value : values) {
     if (value >= low && value <= high) continue;
-    throw settings::InputError("its " + kPath + name + " has a value of " + settings::roundedText(value) +
+    throw settings::InputError("its " + kPath + name + " has a value of " + settings::numberText(value) +
                                ", but all must be " + settings::roundedText(low) + " to " +
                                settings::roundedText(high));
   }

@@ -16,13 +16,13 @@ constexpr int kNameWidth = 20;
 constexpr double kKilopascal = 1e3;  // [Pa]
 
 std::string number(double value, int digits) {
-  const std::string text = settings::cellText(value, digits);
+  const std::string text = settings::fixedText(value, digits);
   const bool negative_zero = text.find_first_not_of("-0.") == std::string::npos && text != "-";
   return negative_zero && text.front() == '-' ? text.substr(1) : text;
 }
 
 std::string spread(const statistics::Spread& value, int digits, int deviation_digits) {
-  if (std::isnan(value.mean)) return "-";
+  if (!std::isfinite(value.mean)) return "-";
   return number(value.mean, digits) + " +- " + number(value.deviation, deviation_digits);
 }
 

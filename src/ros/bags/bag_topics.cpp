@@ -135,10 +135,10 @@ std::string topicsText(const std::vector<TopicCourse>& courses) {
   row("topic", {"messages", "rate [1/s]", "gap [s]", "at [s]", "backwards", "same stamp", "late [s]"});
   for (const TopicCourse& course : courses) {
     row(course.topic,
-        {std::to_string(course.messages), fsr::settings::cellText(course.rate, 2),
-         fsr::settings::cellText(course.longest_gap, 3), fsr::settings::cellText(course.gap_at, 1),
+        {std::to_string(course.messages), fsr::settings::fixedText(course.rate, 2),
+         fsr::settings::fixedText(course.longest_gap, 3), fsr::settings::fixedText(course.gap_at, 1),
          std::to_string(course.backwards), std::to_string(course.repeated),
-         course.stamped ? fsr::settings::cellText(course.latest, 3) : "-"});
+         course.stamped ? fsr::settings::fixedText(course.latest, 3) : "-"});
   }
   return out.str();
 }

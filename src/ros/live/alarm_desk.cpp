@@ -10,6 +10,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/live/service_answer.h"
 #include "settings/number_text.h"
+#include "settings/yaml_text.h"
 
 namespace fsr_ros {
 
@@ -38,7 +39,7 @@ std::string alarmText(const std::string& region, const AlarmOptions& alarm) {
 void require(const char* field, double value, double highest, const char* unit) {
   if (value >= 0 && value <= highest) return;  // false for NaN
   throw fsr::settings::InputError(std::string("set_alarm: ") + field + " is " +
-                                  fsr::settings::roundedText(value, 6) + ", but must be 0 to " +
+                                  fsr::settings::numberText(value) + ", but must be 0 to " +
                                   fsr::settings::roundedText(highest, 6) + " " + unit);
 }
 

@@ -14,6 +14,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/recheck_report.h"
 #include "ros/bags/resource_path.h"
+#include "settings/number_text.h"
 #include "settings/replace_file.h"
 
 namespace fsr_ros {
@@ -95,7 +96,7 @@ void Rechecker::startRecording(const ros::NodeHandle& private_handle) {
   chamber_ = handle_.subscribe<sensor_msgs::FluidPressure>("chamber_pressure", kQueue, keep);
   timer_ =
       handle_.createWallTimer(ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) { countCycles(); });
-  ROS_INFO_STREAM("load the sheet to " << std::lround(parent_.trained.pressure.high / 1000)
+  ROS_INFO_STREAM("load the sheet to " << fsr::settings::fixedText(parent_.trained.pressure.high / 1000, 0)
                                        << " kPa and unload it, " << wanted_
                                        << " times; Ctrl-C ends the recording early");
 }

@@ -137,15 +137,15 @@ TEST_F(ShapeFile, IsRefusedWhereItsModelCannotBeUsed) {
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.scatter.contrasts = 0; }),
             "its /shape contrasts is 0, but the scatter was learnt from some");
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.law.own_length = NAN; }),
-            "its /shape/law has a value of nan, but all must be 1e-09 to 1e+12");
+            "its /shape/law has a value of .nan, but all must be 1e-09 to 1e+12");
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.curvature[2] = m.curvature[1]; }),
             "its /shape/curvature does not ascend");
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.curvature[4] = INFINITY; }),
             "its /shape/curvature has a value that is not finite");
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.rest[7] = NAN; }),
-            "its /shape/rest has a value of nan, but all must be -1e+12 to 1e+12");
+            "its /shape/rest has a value of .nan, but all must be -1e+12 to 1e+12");
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.history[0] = NAN; }),
-            "its /shape/history has a value of nan, but all must be -1e+12 to 1e+12");
+            "its /shape/history has a value of .nan, but all must be -1e+12 to 1e+12");
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.mounts[0] = 0; }),
             "its /shape/mounts has a surface without a mount");
   EXPECT_EQ(complaintAbout([](ShapeModel& m) { m.gain[1] = 0; }),
