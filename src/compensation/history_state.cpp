@@ -8,6 +8,7 @@ namespace fsr::compensation {
 namespace {
 
 constexpr double kLargest = 1e30;  // answer [Pa]; a map holds no infinite pressure
+constexpr double kLongAgo = 1e30;  // [s]
 
 }  // namespace
 
@@ -22,6 +23,7 @@ HistoryState::HistoryState(const HistoryModel& model, std::size_t taxels)
       allowed_(model.smallestDeviation()),
       longest_gap_(model.time_constant.empty() ? kLongestGap : settlingTime(model.time_constant)),
       steps_(operators_.memories()),
+      spell_steps_(operators_.memories()),
       known_(taxels, Known::kNothing),
       taxels_(taxels),
       states_(taxels * operators_.size()) {
@@ -42,6 +44,7 @@ void HistoryState::beginScan(double time) noexcept {
   const double duration = time - time_;
   if (started_ && (duration < 0 || duration > longest_gap_)) forget();
   started_ = true;
+  before_ = time_;
   time_ = time;
   if (duration == duration_ || !(duration >= 0)) return;
   operators_.stepsOver(duration, steps_.data());
@@ -52,20 +55,47 @@ bool HistoryState::settled(const Taxel& taxel) const noexcept {
   return time_ - taxel.since >= settling_time_ && model_.playsOwe(taxel.lowest, taxel.highest) <= allowed_;
 }
 
+// Taxels that return together share their steps.
+const HistoryState::Steps& HistoryState::stepsOfSpell(double duration) noexcept {
+  if (duration != spell_) operators_.stepsOver(duration, spell_steps_.data());
+  spell_ = duration;
+  return spell_steps_;
+}
+
+// The largest error of the memories from an input between the knots that was not known over these steps [Pa].
+double HistoryState::memoriesMiss(const Steps& steps) const noexcept {
+  double missed = 0;
+  for (std::size_t k = 0; k < steps.size(); ++k) missed += std::abs(model_.memory_weight[k]) * steps[k].fade;
+  return missed * (model_.knot.back() - model_.knot.front());
+}
+
 bool HistoryState::correct(std::size_t taxel, bool frozen, float& pressure, float& deviation) noexcept {
   const double x = static_cast<double>(pressure);
-  if (frozen || !std::isfinite(x)) return false;
+  Known& known = known_[taxel];
+  if (frozen || !std::isfinite(x)) {
+    if (known == Known::kRest) known = Known::kNothing;  // the next reading may be one under load
+    return false;
+  }
   Taxel& own = taxels_[taxel];
   double* const state = &states_[taxel * operators_.size()];
-  if (known_[taxel] != Known::kReadings) {
+  if (known == Known::kReadings && time_ - own.at > longest_gap_) known = Known::kNothing;
+  if (known != Known::kReadings) {
     operators_.startConditioned(x, state);
-    own = {x, x, x, time_, false};
-    own.settled = known_[taxel] == Known::kRest || settled(own);
-    known_[taxel] = Known::kReadings;
+    const bool rested = known == Known::kRest;
+    own = {x, time_, x, x, rested ? -kLongAgo : time_, false};
+    own.settled = rested || settled(own);
+    known = Known::kReadings;
   } else {
-    operators_.advance(own.last, x, steps_.data(), state);
+    const bool spell = own.at < before_;  // without a reading of this taxel
+    const Steps& steps = spell ? stepsOfSpell(time_ - own.at) : steps_;
+    operators_.advance(own.last, x, steps.data(), state);
     own.last = x;
-    if (!own.settled) {
+    own.at = time_;
+    if (spell) {  // the load may have been anywhere meanwhile
+      own.lowest = own.highest = x;
+      if (memoriesMiss(steps) > allowed_) own.since = time_;
+      own.settled = settled(own);
+    } else if (!own.settled) {
       own.lowest = std::min(own.lowest, x);
       own.highest = std::max(own.highest, x);
       own.settled = settled(own);

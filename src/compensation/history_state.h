@@ -15,7 +15,9 @@ namespace fsr::compensation {
 /// A taxel is settled once what is not known of the time before its first reading no longer matters: after
 /// HistoryModel::settlingTime(), and once HistoryModel::playsOwe() less than the smallest deviation. That is
 /// so after a wide change of load, and at rest, where the plays cannot be elsewhere. Until then the static
-/// answer stands.
+/// answer stands. The same holds after a spell in which the taxel alone had no reading: its state steps over
+/// the spell as if the load had changed evenly, and it is settled again once what is not known of the spell
+/// no longer matters.
 class HistoryState {
  public:
   /// `model` must be present().
@@ -33,7 +35,7 @@ class HistoryState {
 
   /// Corrects the static answer of one taxel in the scan that was begun; `pressure` and `deviation` [Pa] are
   /// changed only if the taxel is settled. Returns whether it is. `frozen`, or a pressure that is not finite:
-  /// the reading is none, the state stays as it is and the taxel is not settled.
+  /// the reading is none, and the taxel is not settled.
   bool correct(std::size_t taxel, bool frozen, float& pressure, float& deviation) noexcept;
 
   static constexpr double kLongestGap = 60;  ///< [s]
@@ -41,14 +43,19 @@ class HistoryState {
  private:
   enum class Known : std::uint8_t { kNothing, kRest, kReadings };
   struct Taxel {
-    double last = 0;     // x of the scan before [Pa]
-    double lowest = 0;   // x since the first reading [Pa]
+    double last = 0;     // x of its last reading [Pa]
+    double at = 0;       // time of its last reading [s]
+    double lowest = 0;   // x since the first reading, or since a spell without one [Pa]
     double highest = 0;  // likewise
-    double since = 0;    // time of the first reading [s]
+    double since = 0;    // time from which on the memories know their input [s]
     bool settled = false;
   };
 
+  using Steps = std::vector<rheology::ExponentialMemory::Step>;
+
   bool settled(const Taxel& taxel) const noexcept;
+  const Steps& stepsOfSpell(double duration) noexcept;
+  double memoriesMiss(const Steps& steps) const noexcept;
 
   HistoryModel model_;
   HistoryOperators operators_;
@@ -63,8 +70,10 @@ class HistoryState {
 
   bool started_ = false;
   double time_ = 0;       // of the scan [s]
+  double before_ = 0;     // time of the scan before [s]
   double duration_ = -1;  // that steps_ are for [s]
-  std::vector<rheology::ExponentialMemory::Step> steps_;
+  double spell_ = -1;     // that spell_steps_ are for [s]
+  Steps steps_, spell_steps_;
   std::vector<Known> known_;    // [taxels]
   std::vector<Taxel> taxels_;   // [taxels]
   std::vector<double> states_;  // [taxels x operators]

@@ -152,20 +152,89 @@ TEST(HistoryState, AtRestIsSettledWithoutAChangeOfLoad) {
 
 TEST(HistoryState, ForgetsAfterAGapAndOnRequest) {
   HistoryState state(model(), 2);
-  const auto corrected = [&](double time, std::size_t taxel, bool frozen = false) {
-    float pressure = 100e3, deviation = 7;
+  const auto corrected = [&](double time) {
     state.beginScan(time);
-    return state.correct(taxel, frozen, pressure, deviation);
+    std::vector<bool> result;
+    for (std::size_t taxel = 0; taxel < 2; ++taxel) {
+      float pressure = 100e3, deviation = 7;
+      result.push_back(state.correct(taxel, false, pressure, deviation));
+    }
+    return result;
   };
   state.rest();
-  EXPECT_TRUE(corrected(0, 0));
-  EXPECT_TRUE(corrected(0, 1));
-  EXPECT_FALSE(corrected(1, 1, true)) << "a saturated reading";
-  EXPECT_TRUE(corrected(2, 1)) << "its state was kept";
+  EXPECT_EQ(corrected(0), (std::vector<bool>{true, true}));
   state.forget(1);
-  EXPECT_TRUE(corrected(3, 0));
-  EXPECT_FALSE(corrected(3, 1));
-  EXPECT_FALSE(corrected(16, 0)) << "a gap longer than the settling time";
+  EXPECT_EQ(corrected(1), (std::vector<bool>{true, false}));
+  EXPECT_EQ(corrected(14), (std::vector<bool>{false, false})) << "a gap longer than the settling time";
+}
+
+// One memory of 30 s and a tenth of the pressure, deviations of 1 kPa: settled 90 s after it knows nothing.
+HistoryModel slowModel() {
+  HistoryModel own = model();
+  own.family = HistoryFamily::kMemories;
+  own.correction = {0, 0, 0};
+  own.radius.clear();
+  own.play_weight.clear();
+  own.time_constant = {30};
+  own.memory_weight = {0.1};
+  own.loading_deviation = own.unloading_deviation = {1e3, 1e3};
+  return own;
+}
+
+// A taxel of a sheet that is loaded to 400 kPa at 0 s and has no reading until `back` [s].
+class Spell {
+ public:
+  Spell(const HistoryModel& model, double back, double step) : state_(model, 1) {
+    state_.rest();
+    at(0, 0);
+    for (double time = step; time < back - step / 2; time += step) EXPECT_FALSE(at(time, 400e3, true));
+  }
+  bool at(double time, double x, bool frozen = false) {
+    pressure = float(x), deviation = 7e3;
+    state_.beginScan(time);
+    return state_.correct(0, frozen, pressure, deviation);
+  }
+  float pressure = 0, deviation = 0;
+
+ private:
+  HistoryState state_;
+};
+
+TEST(HistoryState, AfterALongSpellWithoutReadingsHasTheStaticAnswerAndDeviation) {
+  Spell saturated(slowModel(), 120, 1);
+  EXPECT_FALSE(saturated.at(120, 400e3));
+  EXPECT_EQ(saturated.pressure, 400e3f) << "the sheet's memory has followed: no 360 kPa";
+  EXPECT_EQ(saturated.deviation, 7e3f);
+  for (double time = 121; time < 209.5; ++time) EXPECT_FALSE(saturated.at(time, 400e3)) << time;
+  EXPECT_TRUE(saturated.at(210, 400e3));
+  EXPECT_NEAR(saturated.pressure, 400e3, 1);
+}
+
+// Evenly from 0 to 400 kPa within 30 s, 90 s at 400 kPa:
+// /usr/bin/python3 -c "from math import exp; m=400*(1-(1-exp(-1))); print(400+.1*((m-400)*exp(-3)))"
+TEST(HistoryState, StepsOverASpellWithoutReadingsByItsTime) {
+  Spell saturated(slowModel(), 30, 1);
+  for (double time = 30; time < 119.5; ++time) EXPECT_FALSE(saturated.at(time, 400e3)) << time;
+  EXPECT_TRUE(saturated.at(120, 400e3));
+  EXPECT_NEAR(saturated.pressure, 398741.1, 1);
+}
+
+TEST(HistoryState, StaysSettledOverASpellThatItsMemoriesHardlyFeel) {
+  Spell one_scan(slowModel(), 0.02, 0.01);
+  EXPECT_TRUE(one_scan.at(0.02, 1e3));
+  Spell with_plays(model(), 0.02, 0.01);
+  EXPECT_FALSE(with_plays.at(0.02, 200e3)) << "its plays may be anywhere";
+  EXPECT_TRUE(with_plays.at(0.03, 300e3)) << "which a change of load ends";
+}
+
+TEST(HistoryState, DoesNotTakeTheFirstReadingAfterASpellForTheRest) {
+  HistoryState state(slowModel(), 1);
+  state.rest();
+  float pressure = 400e3, deviation = 7e3;
+  state.beginScan(0);
+  EXPECT_FALSE(state.correct(0, true, pressure, deviation));
+  state.beginScan(1);
+  EXPECT_FALSE(state.correct(0, false, pressure, deviation));
 }
 
 // Whatever the readings, the answer stays within what the weights permit; a reading that is not finite is
