@@ -213,6 +213,23 @@ class LaunchFilesTest(unittest.TestCase):
         refusal = self.refused("calibrated", "ns:=other", "pitchx:=0.02")
         self.assertIn("calibrated.launch has no argument pitchx (pitchx:=0.02); did you mean pitch_x?", refusal)
 
+    def lab(self, **values):
+        """A rig file in a folder whose name has an apostrophe."""
+        rig = self.folder / "o'neil's lab" / "rig.yaml"
+        rig.parent.mkdir(exist_ok=True)
+        rig.write_text("".join(f"{name}: {value}\n" for name, value in values.items()))
+        return f"rig:={rig.relative_to(self.folder)}"
+
+    def test_a_refused_launch_ends_with_its_sentence(self):
+        for name, arguments, sentence in [
+                ("driver", ["pitchx:=0.02"], "driver.launch has no argument pitchx (pitchx:=0.02); did you mean pitch_x?"),
+                ("calibrated", [self.lab(serial_prt="/dev/board")],
+                 "the rig file o'neil's lab/rig.yaml says serial_prt, which is no argument of a rig; did you mean serial_port?"),
+                ("session", ["plan:=one_hour", "rig:=none.yaml"],
+                 f"the rig file none.yaml cannot be read: [Errno 2] No such file or directory: '{self.folder}/none.yaml'.")]:
+            said = self.refused(name, *arguments)
+            self.assertEqual(said.splitlines()[-1], sentence, said)
+
     def test_a_recording_that_would_be_useless_is_refused(self):
         for arguments, sentence in [
                 (["wait:=1"], "no scan has come on /fsr/raw"),

@@ -64,7 +64,7 @@ class LaunchCheck(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             rig = pathlib.Path(folder) / "rig.yaml"
             self.assertIn("cannot be read", self.refusal(launch_check.check_rig, str(rig)))
-            for text, sentence in [("serial_prot: /dev/board\n", "says serial_prot, which is no argument of a rig"), ("- 1\n", "must have one line"),
+            for text, sentence in [("serial_prot: /dev/board\n", "says serial_prot, which is no argument of a rig"), ("xyz: 1\n", "no argument of a rig; it may be one of alarm_dwell, "), ("- 1\n", "must have one line"),
                                    ("a: [", "cannot be read")]:
                 rig.write_text(text)
                 self.assertIn(sentence, self.refusal(launch_check.check_rig, str(rig)))
