@@ -22,7 +22,11 @@ void forEachTaxel(std::size_t taxels, unsigned threads, const std::function<void
   };
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
   std::vector<std::thread> others;
-  for (std::size_t i = 1; i < std::min<std::size_t>(threads, taxels); ++i) others.emplace_back(run);
+  try {
+    for (std::size_t i = 1; i < std::min<std::size_t>(threads, taxels); ++i) others.emplace_back(run);
+  } catch (const std::exception&) {
+    // The system gives no further thread, or no memory for one: those that run do the whole work.
+  }
   run();
   for (std::thread& other : others) other.join();
   for (const std::exception_ptr& thrown : failure) {
