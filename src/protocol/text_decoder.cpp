@@ -62,10 +62,6 @@ std::optional<std::int64_t> toNumber(std::string_view field) {
   return negative ? -number : number;
 }
 
-bool isNegative(std::int64_t number) {
-  return number < 0;
-}
-
 bool isReading(std::int64_t number) {
   return number == static_cast<std::int32_t>(number);
 }
@@ -129,8 +125,11 @@ void TextDecoder::read(std::string_view line) {
   const bool words = line.empty() || beginsAWord(line.front());
   const char separator = separatorOf(line);
   std::size_t numbers = 0, others = 0;
+  bool sign = false;       // before a time or a count, -0 too
   while (!line.empty()) {  // so one separator behind the last field is none too many
-    const std::optional<std::int64_t> number = toNumber(takeField(line, separator));
+    const std::string_view field = takeField(line, separator);
+    const std::optional<std::int64_t> number = toNumber(field);
+    sign |= number && field.front() == '-' && numbers <= scan_counts_.size();
     if (number && numbers < numbers_.size()) numbers_[numbers] = *number;
     ++(number ? numbers : others);
   }
@@ -138,13 +137,13 @@ void TextDecoder::read(std::string_view line) {
     ++counts_.lines.without_numbers;
   } else if (others > 0) {
     drop(counts_.lines.not_numbers);
-  } else if (isScan(numbers)) {
+  } else if (isScan(numbers, sign)) {
     deliver();
   }
 }
 
 // Whether the numbers of a line are a scan; counts the cause where they are not.
-bool TextDecoder::isScan(std::size_t numbers) {
+bool TextDecoder::isScan(std::size_t numbers, bool sign) {
   LineCounts& lines = counts_.lines;
   if (numbers != numbers_.size()) {
     lines.last_number = numbers - 1;
@@ -152,7 +151,7 @@ bool TextDecoder::isScan(std::size_t numbers) {
   }
   const auto taxels = static_cast<std::ptrdiff_t>(scan_counts_.size());
   const auto end = numbers_.begin() + 1 + taxels;
-  if (std::any_of(numbers_.begin(), end, isNegative)) return drop(lines.not_numbers);
+  if (sign) return drop(lines.not_numbers);
   if (options_.transducer && !isReading(numbers_.back())) return drop(lines.not_numbers);
   const std::int64_t highest = *std::max_element(numbers_.begin() + 1, end);
   if (highest <= options_.full_scale) return true;

@@ -37,7 +37,7 @@ class TextDecoder final : public Decoder {
   void take(std::uint8_t byte);
   void endLine();
   void read(std::string_view line);
-  bool isScan(std::size_t numbers);
+  bool isScan(std::size_t numbers, bool sign);
   void deliver();
   bool drop(std::uint64_t& cause);
   bool refuse(std::uint64_t& cause);

@@ -163,6 +163,18 @@ TEST(TextDecoder, ReadsTheTransducerBehindTheCounts) {
   EXPECT_EQ(linesOf("12,1,2,3\n12,1,2,3,2147483648\n", options(true)), Lines{});
 }
 
+// docs/text_format.md: without sign, except for a transducer's reading.
+TEST(TextDecoder, RefusesASignBeforeAZeroUnlessTheTransducerReadsIt) {
+  for (const std::string line : {"-0,0,512,1023", "12,-0,512,1023", "12,0,512,-0", "12,+0,512,1023"}) {
+    Bench bench;
+    bench.feed("\n" + line + "\n");
+    EXPECT_EQ(bench.lines(), Lines{}) << line;
+    EXPECT_EQ(bench.causes().not_numbers, 1U) << line;
+  }
+  const Lines expected = {scan(1, 12000, "1 2 3"), "transducer #1 @12000 0"};
+  EXPECT_EQ(linesOf("12,1,2,3,-0\n", options(true)), expected);
+}
+
 TEST(TextDecoder, SaysThatItNeedsTheMatrix) {
   test_support::PacketRecorder recorder;
   try {
