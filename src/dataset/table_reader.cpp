@@ -9,7 +9,9 @@
 #include <cmath>
 #include <cstring>
 #include <locale>
+#include <numeric>
 #include <sstream>
+#include <string_view>
 
 #include "settings/regular_file.h"
 
@@ -87,6 +89,16 @@ struct TableReader::Source {
   Source(const Source&) = delete;
   Source& operator=(const Source&) = delete;
 
+  // A user may give the spreadsheet itself; its bytes would be shown as names of columns.
+  void refuseSpreadsheet() const {
+    std::array<char, 4> head{};
+    const int size = gzread(file, head.data(), head.size());
+    gzrewind(file);
+    const std::string_view begin(head.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
+    if (begin != "PK\x03\x04" && begin != "\xD0\xCF\x11\xE0") return;  // .xlsx and .ods; .xls
+    throw settings::InputError(path + ": is a spreadsheet or an archive, but must be text; save it as CSV");
+  }
+
   // Spreadsheets begin UTF-8 with a byte-order mark.
   void removeMark(std::string& text) const {
     if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
@@ -121,6 +133,7 @@ struct TableReader::Source {
 
 TableReader::TableReader(const std::string& path, const TableFormat& format)
     : source_(std::make_unique<Source>(path)), path_(path), format_(format) {
+  source_->refuseSpreadsheet();
   begin();
 }
 
@@ -173,7 +186,7 @@ bool TableReader::next() {
   return true;
 }
 
-std::size_t TableReader::find(const std::string& column) const {
+std::optional<std::size_t> TableReader::known(const std::string& column) const {
   const auto named = std::find(names_.begin(), names_.end(), column);
   if (named != names_.end()) return static_cast<std::size_t>(named - names_.begin());
   bool is_number = false;
@@ -181,11 +194,32 @@ std::size_t TableReader::find(const std::string& column) const {
   if (is_number && number >= 1 && number <= static_cast<double>(columns_) && number == std::floor(number)) {
     return static_cast<std::size_t>(number) - 1;
   }
-  std::string known;
-  for (const std::string& name : names_) known += ", " + name;
+  return std::nullopt;
+}
+
+std::size_t TableReader::find(const std::string& column) const {
+  if (const auto found = known(column)) return *found;
+  std::string names;
+  for (const std::string& name : names_) names += ", " + name;
   throw settings::InputError(path_ + ": has no column \"" + column + "\"; give 1 to " +
                              std::to_string(columns_) +
-                             (names_.empty() ? " (it has no header)" : " or a name: " + known.substr(2)));
+                             (names_.empty() ? " (it has no header)" : " or a name: " + names.substr(2)));
+}
+
+std::vector<std::size_t> TableReader::findAll(const std::string& columns) const {
+  if (const auto one = known(columns)) return {*one};
+  for (std::size_t dash = columns.find('-'); dash != std::string::npos; dash = columns.find('-', dash + 1)) {
+    const auto first = known(columns.substr(0, dash)), last = known(columns.substr(dash + 1));
+    if (!first || !last) continue;  // the dash may be part of a name
+    if (*first > *last)
+      throw settings::InputError(
+          path_ + ": \"" + columns +
+          "\" ends before it begins; give the column first that is first in the table");
+    std::vector<std::size_t> found(*last - *first + 1);
+    std::iota(found.begin(), found.end(), *first);
+    return found;
+  }
+  return {find(columns)};
 }
 
 double TableReader::number(std::size_t column) const {

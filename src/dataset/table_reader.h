@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ class TableReader {
   std::size_t columns() const { return columns_; }
   /// The column with this name, or this number counted from 1. Throws InputError.
   std::size_t find(const std::string& column) const;
+  /// The same for one column, or for FIRST-LAST: all from one column to another, in the order of the table.
+  std::vector<std::size_t> findAll(const std::string& columns) const;
 
   /// Reads the next row; false at the end. Throws InputError where a row has more or fewer cells than the
   /// first.
@@ -54,6 +57,7 @@ class TableReader {
  private:
   struct Source;
   void begin();
+  std::optional<std::size_t> known(const std::string& column) const;
   std::string nameOf(std::size_t column) const;
   bool readCells();
 

@@ -45,8 +45,13 @@ class Reader {
   Reader(const std::string& path, const TablePlan& plan)
       : table_(path, plan.format), path_(path), plan_(plan) {
     for (const TableColumn& column : plan.columns) {
-      const Source source{table_.find(column.column), unitOf(column)};
-      (column.role == ColumnRole::kReading ? readings_ : others_).emplace_back(column.role, source);
+      const TableUnit unit = unitOf(column);
+      if (column.role == ColumnRole::kReading) {
+        for (const std::size_t each : table_.findAll(column.column))
+          readings_.emplace_back(column.role, Source{each, unit});
+      } else {
+        others_.emplace_back(column.role, Source{table_.find(column.column), unit});
+      }
     }
     for (const auto& [role, source] : readings_) {
       if (source.unit.quantity == quantity()) continue;
@@ -56,6 +61,11 @@ class Reader {
     own_reference_ =
         has(ColumnRole::kReferenceTime) || plan.reference_rate.has_value() || plan.reference_offset != 0;
     requireReference();
+    if (plan.matrix.taxels() == 0 && readings_.size() > matrix::kMaxMatrixSide) {
+      throw settings::InputError(
+          path + ": --columns names " + std::to_string(readings_.size()) +
+          " readings, more than a row of a matrix can have; give --matrix ROWSxCOLUMNS");
+    }
     size_ = plan.matrix.taxels() > 0 ? plan.matrix
                                      : matrix::MatrixSize{1, static_cast<std::uint16_t>(readings_.size())};
     if (size_.taxels() != readings_.size()) {
@@ -83,6 +93,7 @@ class Reader {
   double inRange(const Source& source, double value, double largest) const;
   void append(const Row& row, Recording& recording);
   ReadingScale scale() const;
+  void requireWithin(const ReadingScale& scale) const;
   void convert(const ReadingScale& scale, Recording& recording) const;
 
   TableReader table_;
@@ -271,16 +282,25 @@ ReadingScale Reader::scale() const {
   return scale;
 }
 
+// Names the reading that is furthest outside, and both ends of all, so that the user widens the range once.
+void Reader::requireWithin(const ReadingScale& scale) const {
+  const auto [least, most] = std::minmax_element(values_.begin(), values_.end());
+  const auto [low, high] = std::minmax(scale.low, scale.high);
+  if (*least >= low && *most <= high) return;
+  const auto furthest = low - *least > *most - high ? least : most;
+  std::ostringstream complaint;
+  complaint << path_ << ", line "
+            << lines_[static_cast<std::size_t>(furthest - values_.begin()) / size_.taxels()]
+            << ": a reading of " << *furthest << " " << scale.unit << " is outside " << scale.low << " to "
+            << scale.high << " " << scale.unit << "; all readings are from " << *least << " to " << *most
+            << "; widen " << (scale.unit == "counts" && !plan_.range ? "--full-scale" : "--range");
+  throw settings::InputError(complaint.str());
+}
+
 void Reader::convert(const ReadingScale& scale, Recording& recording) const {
-  for (std::size_t i = 0; i < values_.size(); ++i) {
-    const double share = (values_[i] - scale.low) / (scale.high - scale.low);
-    if (share < 0 || share > 1) {
-      std::ostringstream complaint;
-      complaint << path_ << ", line " << lines_[i / size_.taxels()] << ": a reading of " << values_[i] << " "
-                << scale.unit << " is outside " << scale.low << " to " << scale.high << " " << scale.unit
-                << "; widen " << (scale.unit == "counts" && !plan_.range ? "--full-scale" : "--range");
-      throw settings::InputError(complaint.str());
-    }
+  requireWithin(scale);
+  for (const double value : values_) {
+    const double share = (value - scale.low) / (scale.high - scale.low);
     recording.counts.push_back(static_cast<std::uint16_t>(std::lround(share * scale.full_scale)));
   }
 }
@@ -311,6 +331,8 @@ TableRecording Reader::read() {
   result.no_reference = attachReference(recording);
   if (recording.scans() < 2) throw settings::InputError(path_ + ": holds fewer than two usable rows");
   result.scale = scale();
+  if (has(ColumnRole::kReference) && sourceOf(ColumnRole::kReference).unit.quantity == "N")
+    result.area = plan_.area;
   convert(result.scale, recording);
   recording.full_scale = result.scale.full_scale;
   recording.sensor.model = result.scale.text();

@@ -25,7 +25,7 @@ enum class ColumnRole {
 
 struct TableColumn {
   ColumnRole role = ColumnRole::kTime;
-  std::string column;  ///< name of that surface, or its number counted from 1
+  std::string column;  ///< its name, or its number counted from 1; FIRST-LAST for several readings
   std::string unit;    ///< empty = the first in the list of parseColumns()
 };
 
@@ -33,7 +33,8 @@ struct TableColumn {
 /// commas. Throws InputError. Roles and units:
 ///
 ///     time         s, ms, us, min
-///     reading      counts, V, mV, S, mS, uS, ohm, kohm, Mohm; each is one taxel, row-major
+///     reading      counts, V, mV, S, mS, uS, ohm, kohm, Mohm; each is one taxel, row-major;
+///                  c5-c84 = all columns from c5 to c84
 ///     reference    kPa, Pa, MPa, bar, mbar, psi, mmHg; N (by the area); e.g. 2500Pa for each unit
 ///     reference_time  s, ms, us, min: of a reference that was recorded by itself
 ///     curvature    1/m, 1/cm
@@ -77,7 +78,8 @@ struct TablePlan {
 struct TableRecording {
   Recording recording;
   ReadingScale scale;
-  std::uint64_t skipped = 0;  ///< skipped rows
+  std::optional<double> area;  ///< by which the newtons of the reference were divided [m^2]
+  std::uint64_t skipped = 0;   ///< skipped rows
   std::uint64_t no_reference =
       0;                   ///< scans before or after a reference that was recorded by itself, left out
   bool unix_time = false;  ///< the times are seconds since 1970

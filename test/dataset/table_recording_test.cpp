@@ -209,6 +209,30 @@ TEST_F(Table, ReadsUtf8WithAByteOrderMarkAndRefusesUtf16) {
   expectComplaint(std::string("\xFF\xFEt\0,\0u\0\n\0", 10), "time=t,reading=u", {"UTF-16", "UTF-8"});
 }
 
+TEST_F(Table, RefusesASpreadsheetInOneSentenceOfItsOwn) {
+  for (const std::string begin : {"PK\x03\x04", "\xD0\xCF\x11\xE0"}) {  // .xlsx and .ods; .xls
+    const std::string said = complaint(begin + std::string("\x14\0\x1B[31m\xB1,", 9), "time=t,reading=u");
+    EXPECT_EQ(said, path_ + ": is a spreadsheet or an archive, but must be text; save it as CSV");
+  }
+}
+
+TEST_F(Table, TakesARangeOfColumnsInTheOrderOfTheTable) {
+  const std::string text = "t,c1,c2,a-b,c\n0,1,2,3,4\n1,5,6,7,8\n";
+  const auto counts = [&](const std::string& columns) {
+    return read(text, "time=t," + columns).recording.counts;
+  };
+  using Counts = std::vector<std::uint16_t>;
+  EXPECT_EQ(counts("reading=c1-a-b:counts"), (Counts{1, 2, 3, 5, 6, 7}));
+  EXPECT_EQ(counts("reading=3-4,reading=c1-c1"), (Counts{2, 3, 1, 6, 7, 5}));
+  EXPECT_EQ(counts("reading=a-b"), (Counts{3, 7})) << "a column of this name";
+  std::string wide = "0";
+  for (int i = 0; i < 80; ++i) wide += ",1";
+  expectComplaint(wide + "\n", "time=1,reading=2-81", {"names 80 readings", "give --matrix ROWSxCOLUMNS"});
+  expectComplaint(text, "time=t,reading=c2-c1", {"\"c2-c1\"", "ends before it begins"});
+  expectComplaint(text, "time=t,reading=c1-c9", {"no column \"c1-c9\"", "c2"});
+  expectComplaint(text, "time=t,reading=c1,reference=c1-c2", {"no column \"c1-c2\""});
+}
+
 TEST_F(Table, RefusesAPointAmongDecimalCommas) {
   TablePlan plan;
   plan.format.decimal_comma = true;
@@ -240,7 +264,11 @@ TEST_F(Table, SkipsBadRowsOnRequest) {
 TEST_F(Table, RefusesReadingsOutsideTheRange) {
   TablePlan plan;
   plan.range = {{0, 2}};
-  expectComplaint(kPlain, "time=t,reading=right:V", {"line 3", "3", "0 to 2 V", "--range"}, plan);
+  expectComplaint(
+      kPlain, "time=t,reading=right:V",
+      {"line 4: a reading of 4 V is outside 0 to 2 V; all readings are from 2 to 4; widen --range"}, plan);
+  plan.range = {{3, 2.5}};
+  expectComplaint(kPlain, "time=t,reading=left:V", {"line 2: a reading of 1 V", "from 1 to 2.5;"}, plan);
   plan.range = {{-5, 5}};
   const TableRecording table = read(kPlain, "time=t,reading=right:V", plan);
   EXPECT_EQ(table.scale.text(), "0 counts = -5 V, 65535 counts = 5 V");

@@ -25,7 +25,7 @@ fsr::settings::CommandLine commandLine() {
       "one for each taxel),\nreference (kPa, Pa, MPa, bar, mbar, psi, mmHg, N, or e.g. 2500Pa for "
       "each unit), reference_time (as time),\ncurvature (1/m, 1/cm), temperature (C, K, F), surface, mount. "
       "COLUMN is a name "
-      "or a number from 1.");
+      "or a number from 1; reading=FIRST-LAST takes all columns from one to another.");
   line.option("columns", "LIST", "e.g. time=1:ms,reading=force_V:V,reference=pressure:bar")
       .output("output", "BAG", "file to write")
       .option("separator", "NAME", "comma, semicolon, tab or space (detected from the first row)")
@@ -159,6 +159,7 @@ void report(const fsr::dataset::TableRecording& table, const std::string& output
       << recording.time.back() << " s, " << recording.conditions.size() << " surface(s); longest step "
       << longest << " s\n"
       << table.scale.text() << "\n";
+  if (table.area) out << "reference = force / " << *table.area << " m^2 (--area)\n";
   if (table.unix_time) out << "the times are taken as seconds since 1970; give --start if they are not\n";
   if (table.no_reference > 0) {
     out << table.no_reference << " scans left out, which are before or after the reference\n";

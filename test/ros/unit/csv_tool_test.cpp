@@ -83,6 +83,7 @@ TEST_F(CsvToBag, ConvertsTwoChambersAgainstForce) {
   EXPECT_EQ(recording.scans(), 10400u);
   EXPECT_EQ(recording.layout.size, (fsr::matrix::MatrixSize{1, 2}));
   EXPECT_NEAR(range(recording.pressure).second, 12.51942 / 2e-5, 1e-3);
+  EXPECT_NE(out_.str().find("reference = force / 2e-05 m^2 (--area)"), std::string::npos) << out_.str();
   EXPECT_EQ(matrixInfo().reference_voltage, 5.0f);
   EXPECT_NE(out_.str().find("10400 scans of 1 x 2 taxels"), std::string::npos) << out_.str();
   EXPECT_NE(out_.str().find("65535 counts = 5 V"), std::string::npos) << out_.str();
