@@ -39,9 +39,9 @@ std::string tail(const ScanRecord& scan) {
 
 std::string reading(const ScanRecord& scan, std::size_t taxel) {
   std::string text = scan.counts.empty() ? kAbsent : std::to_string(scan.counts[taxel]);
-  if (!scan.map) return text + ",NA,NA,NA";
+  if (!scan.map) return text + ",NA,NA,";
   return text + ',' + exactText(scan.map->pressure[taxel]) + ',' + exactText(scan.map->deviation[taxel]) +
-         ',' + flagWords(scan.map->flags[taxel]);
+         ',';
 }
 
 std::string curvature(const ScanRecord& scan, std::size_t taxel) {
@@ -62,15 +62,16 @@ void CsvTable::begin(const ExportSubject& subject) {
 void CsvTable::add(const ScanRecord& scan) {
   const std::string first = head(scan, bag_);
   const std::string last = tail(scan);
-  const std::string stamp = ',' + secondsText(scan.stamp_ns) + '\n';
+  const std::string stamp = ',' + secondsText(scan.stamp_ns) + ',';
   row_.clear();
   for (std::size_t taxel = 0; taxel < scan.layout.size.taxels(); ++taxel) {
     row_ += first;
     row_ +=
         std::to_string(scan.layout.row({taxel})) + ',' + std::to_string(scan.layout.column({taxel})) + ',';
-    row_ += reading(scan, taxel);
+    const std::string flags = scan.map ? flagWords(scan.map->flags[taxel]) : kAbsent;
+    row_ += reading(scan, taxel) + flags;
     row_ += last;
-    row_ += curvature(scan, taxel) + stamp;
+    row_ += curvature(scan, taxel) + stamp + flags + '\n';
   }
   file_.write(row_);
 }

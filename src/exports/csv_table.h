@@ -25,9 +25,10 @@ class CsvTable : public ScanSink {
   std::string row_;  // a member so that its memory is used again
 };
 
-/// The last column is never NA, since Octave's textscan() would read NA at the end of a file as 0.
+/// The last column is no number, since Octave's textscan() would read NA at the end of a file as 0. `flags`
+/// is what `taxel_flags` is. It stays until 0.3 (docs/stability.md); pandas has an attribute of that name.
 constexpr char kCsvHeader[] =
     "bag,session,surface,mount,cycle,event,time_s,sequence,row,column,counts,pressure_Pa,deviation_Pa,flags,"
-    "state,chamber_pressure_gauge_Pa,temperature_degC,curvature_per_m,stamp_s";
+    "state,chamber_pressure_gauge_Pa,temperature_degC,curvature_per_m,stamp_s,taxel_flags";
 
 }  // namespace fsr::exports

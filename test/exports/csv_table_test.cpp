@@ -46,10 +46,16 @@ TEST_F(CsvTable, HasARowForEachTaxelAndScan) {
   const std::string head =
       "2_cylinder.bag,2026-03-01,cylinder_7cm,3,2,\"note:wet, \"\"warm\"\"\","
       "0.050000001,7,";
-  const std::string tail = ",OK,100.1,23.5,14.25,1700000000.123456789";
-  EXPECT_EQ(rows[1], head + "0,0,0,0.1,1,none" + tail);
-  EXPECT_EQ(rows[2], head + "0,1,1,-14.892578,2.5,TARED|BELOW_RANGE" + tail);
-  EXPECT_EQ(rows[5], head + "1,1,17,NA,NA,DEAD" + tail);
+  const std::string tail = ",OK,100.1,23.5,14.25,1700000000.123456789,";
+  EXPECT_EQ(rows[1], head + "0,0,0,0.1,1,none" + tail + "none");
+  EXPECT_EQ(rows[2], head + "0,1,1,-14.892578,2.5,TARED|BELOW_RANGE" + tail + "TARED|BELOW_RANGE");
+  EXPECT_EQ(rows[5], head + "1,1,17,NA,NA,DEAD" + tail + "DEAD");
+}
+
+// Of a table, pandas gives `flags` and the like something other than the column of that name.
+TEST_F(CsvTable, HasAColumnOfFlagsThatPandasDoesNotHide) {
+  const std::string header = fsr::exports::kCsvHeader;
+  EXPECT_EQ(header.substr(header.rfind(',')), ",taxel_flags") << "behind those of earlier versions";
 }
 
 TEST_F(CsvTable, NamesAHistoryThatIsNotSettled) {
@@ -61,8 +67,9 @@ TEST_F(CsvTable, NamesAHistoryThatIsNotSettled) {
 
 TEST_F(CsvTable, WritesNaForUnknownValues) {
   write({bareScan()});
-  EXPECT_EQ(lines().at(1),
-            "2_cylinder.bag,NA,NA,NA,NA,NA,0.150000001,NA,0,0,9,NA,NA,NA,NA,NA,NA,NA,1700000000.223456789");
+  EXPECT_EQ(
+      lines().at(1),
+      "2_cylinder.bag,NA,NA,NA,NA,NA,0.150000001,NA,0,0,9,NA,NA,NA,NA,NA,NA,NA,1700000000.223456789,NA");
 }
 
 TEST_F(CsvTable, RReadsBackTheExactNumbers) {
@@ -71,7 +78,7 @@ TEST_F(CsvTable, RReadsBackTheExactNumbers) {
   }
   write({exampleScan(), bareScan()});
   const auto r = outputOf("Rscript -e 'd <- read.csv(\"" + path_ +
-                          "\"); cat(sprintf(\"%.9g\", d$pressure_Pa[1:6]), d$event[1], d$flags[2],"
+                          "\"); cat(sprintf(\"%.9g\", d$pressure_Pa[1:6]), d$event[1], d$taxel_flags[2],"
                           " sum(is.na(d$pressure_Pa)), class(d$counts), max(d$counts), d$surface[7])'");
   ASSERT_EQ(r.status, 0) << r.text;
   std::istringstream words(r.text);
@@ -97,13 +104,13 @@ TEST_F(CsvTable, OctaveReadsBackTheExactNumbers) {
   write({exampleScan(), bareScan()});
   std::ofstream(folder_.path("read.m"))
       << "f = fopen('" << path_ << "'); names = strsplit(fgetl(f), ',');\n"
-      << "c = textscan(f, '%q%q%q%f%f%q%f%f%f%f%f%f%f%q%q%f%f%f%f', 'Delimiter', ',', "
+      << "c = textscan(f, '%q%q%q%f%f%q%f%f%f%f%f%f%f%q%q%f%f%f%f%q', 'Delimiter', ',', "
          "'TreatAsEmpty', 'NA');\n"
       << "fclose(f); printf('%d %s %s %d ', numel(names), c{6}{1}, c{14}{2}, sum(isnan(c{12})));\n"
       << "printf('%.9g ', c{12}(1:6)); printf('%.9g %.9g', c{11}(6), c{7}(1));\n";
   const auto octave = outputOf("octave-cli --norc --no-history " + folder_.path("read.m") + " 2>/dev/null");
   EXPECT_EQ(octave.text,
-            "19 note:wet, \"warm\" TARED|BELOW_RANGE 7 0.1 -14.892578 1e-30 123456.79 NaN 600000.06 4095 "
+            "20 note:wet, \"warm\" TARED|BELOW_RANGE 7 0.1 -14.892578 1e-30 123456.79 NaN 600000.06 4095 "
             "0.050000001");
 }
 
