@@ -7,6 +7,7 @@ import base64
 import csv
 import html
 import os
+import re
 
 import matplotlib
 
@@ -82,6 +83,11 @@ def paragraph(text):
     return f"<p>{html.escape(text)}</p>"
 
 
+def printable(text):
+    """The text without the control characters that names of bags and surfaces may hold, as settings/printable.h has it."""
+    return re.sub(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]", "?", text)
+
+
 _PAGE_STYLE = """
 body { font: 15px/1.45 sans-serif; color: #222; max-width: 62em; margin: 2em auto; padding: 0 1em; }
 h1 { font-size: 1.5em; } h2 { font-size: 1.2em; margin-top: 2em; border-bottom: 1px solid #ccc; }
@@ -103,5 +109,5 @@ def page(path, title, sections):
     parts.append("</body></html>\n")
     unfinished = path + ".part"
     with open(unfinished, "w", encoding="utf-8") as out:
-        out.write("\n".join(parts))
+        out.write(printable("\n".join(parts)))
     os.replace(unfinished, path)

@@ -12,6 +12,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/foreign_error.h"
+#include "settings/printable.h"
 #include "settings/replace_file.h"
 
 namespace fsr::settings {
@@ -193,10 +194,11 @@ void keepFreedMemory() {
 
 int runTool(const std::string& tool, const std::function<int()>& run) {
   keepFreedMemory();
+  const PrintableOutput out(std::cout);
   try {
     return inSentences(run);
   } catch (const InputError& error) {
-    std::cerr << tool << ": " << error.what() << std::endl;
+    std::cerr << tool << ": " << printable(error.what()) << std::endl;
     return kUnusable;
   }
 }

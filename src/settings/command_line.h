@@ -64,7 +64,7 @@ class CommandLine {
 };
 
 /// Returns the exit status of a tool: that of run(), or 2 where it throws an exception, whose sentence
-/// (sentenceOf()) is printed.
+/// (sentenceOf()) is printed. What run() writes to std::cout is made printable().
 int runTool(const std::string& tool, const std::function<int()>& run);
 
 }  // namespace fsr::settings

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "settings/number_text.h"
+#include "settings/printable.h"
 
 namespace fsr::settings {
 
@@ -54,7 +55,8 @@ void Progress::report(const std::string& step, double share) {
   if (now - shown_ < (terminal_ ? kPeriod : kPeriodOfFile)) return;
   shown_ = now;
   const double done = share - first_share_, took = now - began_;
-  std::string line = step + ": " + fixedText(std::floor(100 * std::clamp(share, 0.0, 1.0)), 0) + " %";
+  std::string line =
+      printable(step) + ": " + fixedText(std::floor(100 * std::clamp(share, 0.0, 1.0)), 0) + " %";
   if (done >= kLeastShare && took >= kLeastSeconds && share < 1)
     line += ", " + durationText(took / done * (1 - share)) + " left";
   if (terminal_) {

@@ -2,6 +2,8 @@
 
 #include <cctype>
 
+#include "settings/printable.h"
+
 namespace fsr::report {
 
 namespace {
@@ -34,8 +36,7 @@ bool isNumber(const std::string& cell) {
 
 std::string escaped(const std::string& text) {
   std::string html;
-  for (const char one : text) {
-    const auto code = static_cast<unsigned char>(one);
+  for (const char one : settings::printable(text)) {
     if (one == '&')
       html += "&amp;";
     else if (one == '<')
@@ -47,7 +48,7 @@ std::string escaped(const std::string& text) {
     else if (one == '\'')
       html += "&#39;";
     else
-      html += (code < 0x20 && one != '\n') || code == 0x7f ? ' ' : one;
+      html += one;
   }
   return html;
 }

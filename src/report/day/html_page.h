@@ -5,7 +5,7 @@
 
 namespace fsr::report {
 
-/// The text as HTML: & < > " ' are escaped, and control characters become spaces.
+/// The text as HTML: printable(), and & < > " ' are escaped.
 std::string escaped(const std::string& text);
 
 /// Writes one HTML file that needs no network: no script, no link, its style inside. All texts are escaped

@@ -4,6 +4,7 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/foreign_error.h"
+#include "settings/printable.h"
 
 namespace fsr_ros {
 
@@ -13,11 +14,11 @@ namespace fsr_ros {
 template <typename Response, typename Action>
 bool answer(Response& response, Action action) {
   try {
-    response.message = fsr::settings::inSentences(action);
+    response.message = fsr::settings::printable(fsr::settings::inSentences(action));
     response.success = true;
     ROS_INFO_STREAM(response.message);
   } catch (const fsr::settings::InputError& error) {
-    response.message = error.what();
+    response.message = fsr::settings::printable(error.what());
     response.success = false;
     ROS_WARN_STREAM(response.message);
   }

@@ -125,7 +125,7 @@ std::vector<std::string> adviceOf(const DayReport& day, const std::string& sourc
 
 TEST(HtmlPage, EscapesWhatANameMayContain) {
   EXPECT_EQ(escaped("<script>\"a\" & 'b'</script>\x01\n"),
-            "&lt;script&gt;&quot;a&quot; &amp; &#39;b&#39;&lt;/script&gt; \n");
+            "&lt;script&gt;&quot;a&quot; &amp; &#39;b&#39;&lt;/script&gt;?\n");
 }
 
 TEST(HtmlPage, EscapesTitlesCellsItemsAndCaptions) {

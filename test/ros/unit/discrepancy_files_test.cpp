@@ -87,6 +87,15 @@ TEST_F(DiscrepancyFiles, BecomeAReportThatNeedsNoNetwork) {
   EXPECT_TRUE(fs::exists(folder_ / "figures" / "disagreement.png"));
 }
 
+TEST_F(DiscrepancyFiles, BecomeAReportWithoutControlCharacters) {
+  report_.inputs[0].file = "1_\x1B[31mflat\xC2\x9B.bag";
+  writeDiscrepancy(report_, outputFolder(folder_.string()));
+  ASSERT_EQ(draw(), "");
+  const std::string html = text("report.html");
+  EXPECT_NE(html.find("1_?[31mflat?.bag"), std::string::npos);
+  EXPECT_EQ(html.find("\x1B"), std::string::npos);
+}
+
 TEST_F(DiscrepancyFiles, BecomeAReportWhateverIsAbsent) {
   fsr::discrepancy::DiscrepancyReport nothing;
   nothing.sentence = "Nothing is missing.";
