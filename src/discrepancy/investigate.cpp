@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "discrepancy/decide/changes.h"
 #include "discrepancy/decide/decision.h"
@@ -19,6 +20,7 @@
 #include "discrepancy/prove/tell_of_others.h"
 #include "discrepancy/prove/wording.h"
 #include "discrepancy/samples/held_out.h"
+#include "discrepancy/samples/too_few_cycles.h"
 #include "discrepancy/thresholds.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
@@ -579,6 +581,7 @@ DiscrepancyReport Investigation::run() {
   report_.limitations.insert(report_.limitations.begin(), measured_.limitations.begin(),
                              measured_.limitations.end());
   report_.sentence = sentenceOf(report_);
+  abstainIfUnfit(problem_.recordings, report_);
   tell("done", 1);
   return std::move(report_);
 }
@@ -588,7 +591,13 @@ DiscrepancyReport Investigation::run() {
 DiscrepancyReport investigate(const DiscrepancyProblem& problem, const DiscrepancyProgress& progress) {
   validate(problem);
   if (progress) progress("reading", 0);
-  return Investigation(problem, progress).run();
+  try {
+    return Investigation(problem, progress).run();
+  } catch (const TooFewCycles& error) {
+    const std::optional<DiscrepancyReport> answers = answersWithoutCycles(problem, error.what());
+    if (!answers) throw;
+    return *answers;
+  }
 }
 
 }  // namespace fsr::discrepancy

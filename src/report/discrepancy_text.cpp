@@ -10,11 +10,8 @@ namespace fsr::report {
 
 namespace {
 
-constexpr double kPercent = 100;
-
-std::string number(double value, int digits) {
-  return std::isfinite(value) ? settings::fixedText(value, digits) : "-";
-}
+using settings::fixedText;
+using settings::percentText;
 
 std::string joined(const std::vector<std::string>& items, const std::string& between = ", ") {
   std::string all;
@@ -25,19 +22,17 @@ std::string joined(const std::vector<std::string>& items, const std::string& bet
 // "Common trace explained on each condition with sizes fitted to the others: 93 % (flat 95 %, bent 90 %)."
 std::string foretoldLine(const discrepancy::HeldOutGap& held) {
   std::vector<std::string> parts;
-  for (const auto& [part, closed] : held.parts)
-    parts.push_back(part + " " + number(kPercent * closed, 0) + " %");
+  for (const auto& [part, closed] : held.parts) parts.push_back(part + " " + percentText(closed, 0));
   return "Common trace explained on each " + held.by +
-         " with sizes fitted to the others: " + number(kPercent * held.closed, 0) + " % (" + joined(parts) +
-         ").\n";
+         " with sizes fitted to the others: " + percentText(held.closed, 0) + " (" + joined(parts) + ").\n";
 }
 
 // "On each surface: flat 0.95 % FS before, 0.20 % FS after; ..."
 std::string surfacesLine(const discrepancy::DiscrepancyReport& report) {
   std::vector<std::string> parts;
   for (const discrepancy::SurfaceGap& one : report.gap.surfaces) {
-    std::string part = one.surface + " " + number(kPercent * one.before, 2) + " % FS";
-    if (!report.effects.empty()) part += " before, " + number(kPercent * one.after, 2) + " % FS after";
+    std::string part = one.surface + " " + percentText(one.before, 2) + " FS";
+    if (!report.effects.empty()) part += " before, " + percentText(one.after, 2) + " FS after";
     parts.push_back(part);
   }
   return parts.size() < 2 ? "" : "On each surface: " + joined(parts, "; ") + ".\n";
@@ -103,16 +98,16 @@ simulation::ValueRemarks fitRemarks(const discrepancy::DiscrepancyReport& report
 std::string confirmationText(const discrepancy::Confirmation& confirmation) {
   std::string text =
       std::string(confirmation.passed ? "Confirmed" : "Not confirmed") + ": " + confirmation.sentence;
-  text += "\nSize relative to the prediction: " + number(confirmation.size, 2) + " (" +
-          number(confirmation.interval.low, 2) + " to " + number(confirmation.interval.high, 2) +
-          " by these bags alone); predicted for these bags: " + number(confirmation.predicted.low, 2) +
-          " to " + number(confirmation.predicted.high, 2) + ", width " +
-          number(confirmation.predicted.high - confirmation.predicted.low, 2) +
-          ". Without any fitting, the prediction explains " +
-          number(kPercent * confirmation.share_of_error, 0) + " % of the squared error.\n";
+  text += "\nSize relative to the prediction: " + fixedText(confirmation.size, 2) + " (" +
+          fixedText(confirmation.interval.low, 2) + " to " + fixedText(confirmation.interval.high, 2) +
+          " by these bags alone); predicted for these bags: " + fixedText(confirmation.predicted.low, 2) +
+          " to " + fixedText(confirmation.predicted.high, 2) + ", width " +
+          fixedText(confirmation.predicted.high - confirmation.predicted.low, 2) +
+          ". Without any fitting, the prediction explains " + percentText(confirmation.share_of_error, 0) +
+          " of the squared error.\n";
   for (const discrepancy::RivalAnswer& rival : confirmation.rivals)
-    text += "Rival " + rival.explanation + ": " + number(rival.nats, 1) + " nats against the prediction; " +
-            (rival.better ? "better beyond chance" : "not better") + ".\n";
+    text += "Rival " + rival.explanation + ": " + fixedText(rival.nats, 1) +
+            " nats against the prediction; " + (rival.better ? "better beyond chance" : "not better") + ".\n";
   if (!confirmation.best_rival.empty()) text += "A rival explains more: " + confirmation.best_rival + ".\n";
   return text;
 }

@@ -16,16 +16,12 @@ using discrepancy::Verdict;
 constexpr double kKilopascal = 1e3;  // [Pa]
 constexpr double kPercent = 100;
 
-std::string number(double value, int digits) {
-  return std::isfinite(value) ? settings::fixedText(value, digits) : "-";
-}
-
 // "1.3 kPa", of three digits at most.
 std::string pressureText(double pressure) {
   return settings::roundedText(pressure / kKilopascal, 2) + " kPa";
 }
 
-std::string percentText(double share, int digits = 2) {
+std::string roundedPercent(double share, int digits = 2) {
   return settings::roundedText(kPercent * share, digits) + " %";
 }
 
@@ -46,6 +42,7 @@ bool nothingFound(const DiscrepancyReport& report) {
 }
 
 std::string chanceText(const DiscrepancyReport& report) {
+  if (std::isnan(report.p)) return "Nothing was compared.";
   return "The probability of the best score by chance is " + settings::roundedText(report.p, 2) +
          " (corrected for the search; level " + settings::roundedText(report.options.level, 2) + ").";
 }
@@ -56,13 +53,13 @@ bool byCompetition(const DiscrepancyReport& report) {
 }
 
 std::string sureText(const DiscrepancyReport& report) {
-  const std::string credible = percentText(report.options.credible);
+  const std::string credible = roundedPercent(report.options.credible);
   const std::string best =
       "Best of these " + std::to_string(report.tested.size()) + " effects, under this protocol";
   switch (report.verdict) {
     case Verdict::kNone:
     case Verdict::kNotIdentifiable:
-      return report.p > report.options.level
+      return !(report.p <= report.options.level)
                  ? chanceText(report)
                  : chanceText(report) + " What is visible is too small to matter.";
     case Verdict::kUnknown:
@@ -118,8 +115,9 @@ std::string useText(const std::vector<discrepancy::GapInUse>& costs) {
   std::vector<std::string> parts;
   for (const discrepancy::GapInUse& cost : costs) {
     parts.push_back(
-        number(cost.before / kKilopascal, 1) + " kPa in " + situationText(cost.situation) +
-        (std::isfinite(cost.after) ? " (" + number(cost.after / kKilopascal, 1) + " with it)" : ""));
+        settings::fixedText(cost.before / kKilopascal, 1) + " kPa in " + situationText(cost.situation) +
+        (std::isfinite(cost.after) ? " (" + settings::fixedText(cost.after / kKilopascal, 1) + " with it)"
+                                   : ""));
   }
   return parts.empty() ? "" : " Largest error in use: " + joined(parts) + ".";
 }
@@ -137,10 +135,10 @@ std::string scatterText(const discrepancy::Scatter& one) {
                            : one.part == "cycle_offset" ? "The zero changes from cycle to cycle"
                                                         : "The reading wanders within a cycle";
   const std::string unit = one.unit == "share" ? "" : " of full scale";
-  if (!one.seen()) return what + " by less than " + percentText(one.interval.high) + unit + ".";
-  return what + " by " + percentText(one.size) + unit + " (standard deviation, 95 % " +
-         settings::roundedText(kPercent * one.interval.low, 2) + " to " + percentText(one.interval.high) +
-         "): " + pressureText(one.at_map) + " at the map, " + percentText(one.of_noise) +
+  if (!one.seen()) return what + " by less than " + roundedPercent(one.interval.high) + unit + ".";
+  return what + " by " + roundedPercent(one.size) + unit + " (standard deviation, 95 % " +
+         settings::roundedText(kPercent * one.interval.low, 2) + " to " + roundedPercent(one.interval.high) +
+         "): " + pressureText(one.at_map) + " at the map, " + roundedPercent(one.of_noise) +
          " of the variance of the noise.";
 }
 
@@ -152,8 +150,8 @@ std::string scattersText(const DiscrepancyReport& report) {
 
 // "3.10 % FS (19.2 kPa)".
 std::string gapPart(double value, double pressure) {
-  return number(kPercent * value, 2) + " % FS" +
-         (std::isfinite(pressure) ? " (" + number(pressure / kKilopascal, 1) + " kPa)" : "");
+  return settings::percentText(value, 2) + " FS" +
+         (std::isfinite(pressure) ? " (" + settings::fixedText(pressure / kKilopascal, 1) + " kPa)" : "");
 }
 
 std::string gapText(const DiscrepancyReport& report) {
@@ -165,10 +163,10 @@ std::string gapText(const DiscrepancyReport& report) {
   text += "floor " + gapPart(gap.floor, gap.floor_pressure) + " (neighbouring scans; between cycles " +
           gapPart(gap.floor_bracket.high, NAN) + ")";
   if (std::isfinite(gap.closed)) {
-    text += "; closed " + number(kPercent * gap.closed, 0) + " %";
+    text += "; closed " + settings::percentText(gap.closed, 0);
     if (std::isfinite(gap.closed_interval.low)) {
-      text += " (" + number(kPercent * gap.closed_interval.low, 0) + " to " +
-              number(kPercent * gap.closed_interval.high, 0) + " %)";
+      text += " (" + settings::fixedText(kPercent * gap.closed_interval.low, 0) + " to " +
+              settings::percentText(gap.closed_interval.high, 0) + ")";
     }
   }
   text += ".";

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "discrepancy/planted.h"
+#include "discrepancy/samples/admission.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "statistics/random_stream.h"
 
 namespace fsr::discrepancy {
 namespace {
@@ -96,6 +98,45 @@ TEST(UnusualBags, AreRefusedWithOneCycleOnEachSurface) {
     EXPECT_NE(std::string(error.what()).find("no surface has more than one cycle"), std::string::npos)
         << error.what();
   }
+}
+
+// The sheet lies beside the chamber: its readings are noise, whatever the pressure is.
+DiscrepancyProblem besideTheChamber() {
+  DiscrepancyProblem problem = planted::problem(planted::kOneSpeed, "");
+  for (dataset::Recording& recording : problem.recordings) {
+    const statistics::RandomStream stream = statistics::randomStream(1, recording.name);
+    for (std::size_t k = 0; k < recording.counts.size(); ++k)
+      recording.counts[k] = static_cast<std::uint16_t>(700 + stream.bits(k) % 41);
+  }
+  return problem;
+}
+
+TEST(UnusualBags, ThatAreNotFitNeverGiveNone) {
+  DiscrepancyProblem problem = besideTheChamber();
+  problem.options.ask = {"creep"};
+  const Admission admission = inspectRecordings(problem.recordings);
+  ASSERT_FALSE(admission.fit());
+  const DiscrepancyReport report = investigate(problem);
+  EXPECT_EQ(report.verdict, Verdict::kNotIdentifiable) << report.sentence;
+  EXPECT_EQ(report.sentence, "Nothing was found, but these recordings could not have shown it: " +
+                                 admission.problems.front() + ".");
+  EXPECT_TRUE(report.smallest_seen.empty());
+  EXPECT_EQ(report.answers.at(0).answer, "not_identifiable");
+}
+
+// One cycle on each of two surfaces: nothing can be compared, but a question has an answer.
+TEST(UnusualBags, WithTooFewCyclesAnswerWhatIsAsked) {
+  const std::string once = "peak: 620000, rate: 10000, cycles: 1";
+  DiscrepancyProblem problem =
+      planted::problem(rigOf(kSmall, station("flat", 0, once) + station("a", 0.05, once)), "");
+  problem.options.ask = {"hysteresis", "converter"};
+  const DiscrepancyReport report = investigate(problem);
+  EXPECT_EQ(report.verdict, Verdict::kNotIdentifiable) << report.sentence;
+  EXPECT_EQ(report.credible_set, (std::vector<std::vector<std::string>>{{"hysteresis"}}));
+  EXPECT_NE(report.answers.at(0).sentence.find("at least 3 are needed"), std::string::npos);
+  EXPECT_EQ(report.answers.at(1).answer, "in_simulation");
+  problem.options.ask = {"converter"};
+  EXPECT_THROW(investigate(problem), settings::InputError);
 }
 
 TEST(UnusualBags, AreOfOtherMatrices) {

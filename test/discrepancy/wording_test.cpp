@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace fsr::discrepancy {
 namespace {
 
@@ -14,6 +16,16 @@ TEST(Wording, NamesTheEffectsThatTheRecordingsCannotShowAndTheirExperiments) {
   EXPECT_EQ(
       sentenceOf(report),
       "These recordings cannot show crosstalk or scan_skew; crosstalk needs the experiment uneven_load.");
+}
+
+// A share that is not known was once printed as "-9223372036854775808 %".
+TEST(Wording, NeverPrintsAsANumberWhatIsNone) {
+  EXPECT_EQ(
+      weakPartText("flat", 0.124),
+      "On flat the explanation is weak: fitted to all other parts, it explains 12 % of the common trace "
+      "there.");
+  EXPECT_EQ(weakPartText("flat", NAN),
+            "On flat the explanation is not tested: it can explain nothing of the common trace there.");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "discrepancy/decide/changes.h"
 #include "discrepancy/decide/refine.h"
 #include "discrepancy/prove/gap.h"
+#include "discrepancy/prove/wording.h"
 #include "discrepancy/samples/held_out.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "simulation/effects/effect_library.h"
@@ -136,9 +137,7 @@ void GapReporter::holdOut(const std::string& by, const std::vector<Part>& parts,
   held.closed_interval = all.closed_interval;
   for (const auto& [part, closed] : held.parts) {
     if (closed >= kHoldsElsewhere * of_traces_.closed) continue;
-    report_.limitations.push_back(
-        "On " + part + " the explanation is weak: fitted to all other parts, it explains " +
-        std::to_string(std::lround(100 * closed)) + " % of the common trace there.");
+    report_.limitations.push_back(weakPartText(part, closed));
   }
   report_.gap.held_out_by.push_back(by);
   report_.gap.foretold.push_back(held);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discrepancy/fit/signatures.h"
+#include "discrepancy/prove/wording.h"
+#include "discrepancy/samples/admission.h"
 #include "discrepancy/samples/available_evidence.h"
 #include "simulation/effects/effect_library.h"
 
@@ -11,6 +14,14 @@ namespace fsr::discrepancy {
 namespace {
 
 using Ids = std::vector<std::string>;
+
+Answer inSimulation(const std::string& id) {
+  return {id, "in_simulation", NAN, "The simulation has it already."};
+}
+
+Answer leftOut(const std::string& id) {
+  return {id, "left_out", NAN, "It was left out of the library."};
+}
 
 class Others {
  public:
@@ -95,8 +106,8 @@ void Others::answerQuestions() {
 }
 
 Answer Others::answerTo(const std::string& id) const {
-  if (problem_.simulation.effect(id)) return {id, "in_simulation", NAN, "The simulation has it already."};
-  if (!inLibrary(id)) return {id, "left_out", NAN, "It was left out of the library."};
+  if (problem_.simulation.effect(id)) return inSimulation(id);
+  if (!inLibrary(id)) return leftOut(id);
   for (const FoundEffect& effect : report_.effects) {
     if (effect.id == id) return {id, "found", NAN, "It is a part of the best explanation."};
   }
@@ -125,6 +136,51 @@ void tellOfOthers(const DiscrepancyProblem& problem, const Measured& measured, c
   Others others(problem, measured, candidates, decision, report);
   others.listNotIdentifiable();
   others.answerQuestions();
+}
+
+void abstainIfUnfit(const std::vector<dataset::Recording>& recordings, DiscrepancyReport& report) {
+  if (report.verdict != Verdict::kNone && report.verdict != Verdict::kNotIdentifiable) return;
+  const std::vector<std::string> reasons = whyNotFit(recordings);
+  if (reasons.empty()) return;
+  report.verdict = Verdict::kNotIdentifiable;
+  report.sentence =
+      "Nothing was found, but these recordings could not have shown it: " + reasons.front() + ".";
+  report.smallest_seen.clear();
+  for (const std::string& reason : reasons) report.limitations.push_back(reason + ".");
+  for (Answer& answer : report.answers) {
+    if (answer.answer != "excluded") continue;
+    answer = {answer.id, "not_identifiable", NAN, "The recordings are not fit to show it."};
+    report.credible_set.push_back({answer.id});
+  }
+}
+
+std::optional<DiscrepancyReport> answersWithoutCycles(const DiscrepancyProblem& problem,
+                                                      const std::string& reason) {
+  DiscrepancyReport report;
+  report.verdict = Verdict::kNotIdentifiable;
+  for (const std::string& id : problem.options.ask) {
+    if (problem.simulation.effect(id)) {
+      report.answers.push_back(inSimulation(id));
+    } else if (!mayBeFound(id, problem.simulation, problem.options.leave_out)) {
+      report.answers.push_back(leftOut(id));
+    } else {
+      const simulation::EffectInfo& info = simulation::libraryOf(problem.simulation).info(id);
+      report.answers.push_back({id, "not_identifiable", NAN, reason + "."});
+      report.not_identifiable.push_back({id, simulation::name(info.experiment), reason + "."});
+      report.credible_set.push_back({id});
+    }
+  }
+  if (report.credible_set.empty()) return std::nullopt;
+  report.base = report.added = problem.simulation;
+  report.options = problem.options;
+  report.p = report.least_gap = NAN;
+  report.gap.missing = {"Too few cycles to compare, so nothing was looked for: record more cycles."};
+  report.seed = problem.options.seed;
+  report.version = FSR_VERSION;
+  for (const dataset::Recording& recording : problem.recordings)
+    report.inputs.push_back({recording.name, recording.sha256, recording.scans(), 0});
+  report.sentence = sentenceOf(report);
+  return report;
 }
 
 }  // namespace fsr::discrepancy

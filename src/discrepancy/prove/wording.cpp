@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "settings/number_text.h"
 #include "simulation/effects/effect_library.h"
 
 namespace fsr::discrepancy {
@@ -25,14 +25,13 @@ std::string called(const simulation::EffectLibrary& library, const std::vector<s
 std::string sizeText(const DiscrepancyReport& report) {
   if (report.effects.empty() || report.effects.front().parameters.empty()) return "";
   const FittedParameter& size = report.effects.front().parameters.front();
-  std::ostringstream text;
-  text.precision(3);
-  text << " (" << size.name << " " << size.value << (size.unit.empty() ? "" : " " + size.unit);
+  std::string text = " (" + size.name + " " + settings::roundedText(size.value, 3) +
+                     (size.unit.empty() ? "" : " " + size.unit);
   if (size.interval.low < size.interval.high) {
-    text << ", 95 % " << size.interval.low << " to " << size.interval.high;
+    text += ", 95 % " + settings::roundedText(size.interval.low, 3) + " to " +
+            settings::roundedText(size.interval.high, 3);
   }
-  text << ")";
-  return text.str();
+  return text + ")";
 }
 
 // The experiments that would show the effects of the verdict, e.g. "; crosstalk needs the experiment
@@ -89,15 +88,20 @@ std::string sentenceOf(const DiscrepancyReport& report) {
   return "";
 }
 
+std::string weakPartText(const std::string& part, double closed) {
+  if (std::isnan(closed))
+    return "On " + part + " the explanation is not tested: it can explain nothing of the common trace there.";
+  return "On " + part + " the explanation is weak: fitted to all other parts, it explains " +
+         settings::percentText(closed, 0) + " of the common trace there.";
+}
+
 std::string courseText(const std::string& id, double a_cycle, bool alone) {
-  std::ostringstream text;
-  text.precision(2);
-  text << "Here " << id << " is a random walk: the mean reading moves by " << 100 * a_cycle
-       << " % of full scale (standard deviation) from one cycle to the next. The scatter that is stated is "
-          "what "
-          "remains after the walk is filtered out.";
-  if (!alone) text << " Something else remains beside it that chance does not explain.";
-  return text.str();
+  return "Here " + id + " is a random walk: the mean reading moves by " +
+         settings::roundedText(100 * a_cycle, 2) +
+         " % of full scale (standard deviation) from one cycle to the next. The scatter that is stated is "
+         "what "
+         "remains after the walk is filtered out." +
+         (alone ? "" : " Something else remains beside it that chance does not explain.");
 }
 
 }  // namespace fsr::discrepancy

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/sources.h"
 #include "fsr_pressure_map/calibration/calibration.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
@@ -13,8 +14,8 @@ namespace {
 
 constexpr double kShareOfLooks = 0.2;  // of the time of an inspection, before the search for faults
 
-std::string percent(double share) {
-  return settings::fixedText(100 * share, share < 0.001 ? 3 : 1) + " %";
+std::string percentOf(double share) {
+  return settings::percentText(share, share < 0.001 ? 3 : 1);
 }
 
 AdmittedRecording lookAt(const dataset::Recording& recording) {
@@ -55,19 +56,19 @@ void judgeFaults(const AdmittedRecording& recording, std::size_t taxels, const A
   const std::string sentence = recording.name + ": " + std::to_string(failing) + " of " +
                                std::to_string(taxels) + " taxels are dead or stuck";
   const bool many = double(failing) > options.failing_share * double(taxels);
-  if (many) admission.problems.push_back(sentence + ", more than " + percent(options.failing_share));
+  if (many) admission.problems.push_back(sentence + ", more than " + percentOf(options.failing_share));
   if (!many) admission.remarks.push_back(sentence);
 }
 
 void judgeRest(const AdmittedRecording& recording, const AdmissionOptions& options, Admission& admission) {
   const auto lost = double(recording.losses.lost_scans);
   if (lost > options.lost_share * (lost + double(recording.scans))) {
-    admission.remarks.push_back(recording.name + ": " + percent(lost / (lost + double(recording.scans))) +
+    admission.remarks.push_back(recording.name + ": " + percentOf(lost / (lost + double(recording.scans))) +
                                 " of the scans are lost (" + std::to_string(recording.losses.sequence_gaps) +
                                 " gaps in the board's counter)");
   }
   if (recording.health.saturated > options.saturated_share) {
-    admission.remarks.push_back(recording.name + ": " + percent(recording.health.saturated) +
+    admission.remarks.push_back(recording.name + ": " + percentOf(recording.health.saturated) +
                                 " of the readings are at full scale");
   }
 }
@@ -83,7 +84,28 @@ std::string refusal(Ask ask) {
   }
 }
 
+// Why `train` would refuse the recordings.
+std::string trainingRefusal(const std::vector<dataset::Recording>& recordings,
+                            const AdmissionOptions& options) {
+  calibration::CalibrationOptions training;
+  training.folds = options.sections;
+  return refusal([&] { calibration::validate(recordings, training); });
+}
+
 }  // namespace
+
+std::vector<std::string> whyNotFit(const std::vector<dataset::Recording>& recordings,
+                                   const AdmissionOptions& options) {
+  Admission admission;
+  const std::string training = trainingRefusal(recordings, options);
+  if (!training.empty()) admission.problems.push_back(training);
+  for (const dataset::Recording& recording : recordings) {
+    const AdmittedRecording looked = lookAt(recording);
+    judgeLag(looked, options, admission);
+    judgeFaults(looked, recording.layout.size.taxels(), options, admission);
+  }
+  return admission.problems;
+}
 
 Admission inspectRecordings(std::vector<dataset::Recording> recordings, const AdmissionOptions& options,
                             const DiscrepancyProgress& progress) {
@@ -102,14 +124,12 @@ Admission inspectRecordings(std::vector<dataset::Recording> recordings, const Ad
     }
     admission.recordings.push_back(looked);
   }
-  calibration::CalibrationProblem training{std::move(recordings), {}};
-  training.options.folds = options.sections;
-  admission.training = refusal([&] {
-    calibration::validate(training);
-    admission.coverage = dataset::coverageOf(training.recordings, options.sections);
-  });
+  admission.training = trainingRefusal(recordings, options);
+  if (admission.training.empty())
+    admission.training =
+        refusal([&] { admission.coverage = dataset::coverageOf(recordings, options.sections); });
   DiscrepancyProblem measured;
-  measured.recordings = std::move(training.recordings);
+  measured.recordings = std::move(recordings);
   measured.simulation.layout = admission.layout;
   admission.discrepancy = refusal([&] {
     validate(measured);

@@ -46,6 +46,11 @@ struct Admission {
   bool fit() const { return training.empty() && problems.empty(); }
 };
 
+/// Why recordings are fit for no use, as in Admission::training and Admission::problems. Where nothing is
+/// found in such recordings, this does not mean that nothing is missing.
+std::vector<std::string> whyNotFit(const std::vector<dataset::Recording>& recordings,
+                                   const AdmissionOptions& options = {});
+
 /// Checks recordings before they are used. This is the first step of every use. It never throws because of
 /// what the recordings contain. To find out whether `train` and `discrepancy` would refuse the recordings, it
 /// calls the validation of each. `progress` is called with what is done and its share.

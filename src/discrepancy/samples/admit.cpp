@@ -8,6 +8,7 @@
 #include "dataset/time_order.h"
 #include "discrepancy/samples/measured.h"
 #include "discrepancy/samples/require_reference.h"
+#include "discrepancy/samples/too_few_cycles.h"
 #include "discrepancy/thresholds.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "settings/number_text.h"
@@ -296,9 +297,9 @@ void requireComparedCycles(const Measured& measured) {
   for (const MeasuredCycle& cycle : measured.cycles) {
     if (++cycles[measured.visits[cycle.visit].curvature_class] > 1) return;
   }
-  throw settings::InputError((*measured.recordings)[0].name +
-                             ": no surface has more than one cycle of filling and venting, but cycles on the "
-                             "same surface are compared; record at least 5 on each, better 10");
+  throw TooFewCycles((*measured.recordings)[0].name +
+                     ": no surface has more than one cycle of filling and venting, but cycles on the "
+                     "same surface are compared; record at least 5 on each, better 10");
 }
 
 void requireJudgeable(const Measured& measured) {
@@ -311,10 +312,9 @@ void requireJudgeable(const Measured& measured) {
                                " kPa are needed; chamber_pressure must be in Pa");
   }
   if (measured.cycles.size() < kFewestCycles) {
-    throw settings::InputError(name + ": " + std::to_string(measured.cycles.size()) +
-                               (measured.cycles.size() == 1 ? " cycle" : " cycles") +
-                               " of filling and venting, but at least 3 are needed: some of them are "
-                               "held out");
+    throw TooFewCycles(name + ": " + std::to_string(measured.cycles.size()) +
+                       (measured.cycles.size() == 1 ? " cycle" : " cycles") +
+                       " of filling and venting, but at least 3 are needed: some of them are held out");
   }
   requireComparedCycles(measured);
   if (measured.samples() < kFewestScans) {

@@ -12,6 +12,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/discrepancy_report.h"
 #include "report/verdict_file.h"
+#include "ros/bags/bag_topics.h"
 #include "ros/bags/bag_walk.h"
 #include "ros/bags/resource_path.h"
 #include "ros/tools/bag_options.h"
@@ -164,6 +165,14 @@ std::string gainForTheMap(const fsr::discrepancy::DiscrepancyProblem& problem,
   return mapGain(problem.recordings, effects, problem.options.threads);
 }
 
+// A pressure that was recorded in a socket is not that on the sheet.
+void requireChamber(const DrivingBags& bags) {
+  for (const std::string& path : bags.paths) {
+    if (sessionUse(path) != "socket") continue;
+    throw fsr::settings::InputError(path + ": was recorded in a socket, where no chamber tells the pressure");
+  }
+}
+
 int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   const std::string folder = outputFolder(line.requiredText("output"));
   for (const std::string& file : discrepancyFiles()) line.requireWritable(folder + "/" + file);
@@ -177,6 +186,7 @@ int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   if (changes) problem.whole = readBags(bags, true, progress);
   problem.simulation = simulationFor(line, problem.recordings.front());
   fsr::discrepancy::DiscrepancyReport report = fsr::discrepancy::investigate(problem, progress);
+  if (report.verdict == fsr::discrepancy::Verdict::kNone) requireChamber(bags);
   countUses(report);
   const std::string verdict = (fs::path(line.requiredText("output")) / "verdict.yaml").string();
   if (!report.hold_out.empty())

@@ -113,6 +113,34 @@ TEST_F(DiscrepancyVerdicts, NotIdentifiable) {
   EXPECT_EQ(file.credible_set, (std::vector<Words>{{"crosstalk"}}));
 }
 
+TEST_F(DiscrepancyVerdicts, NotIdentifiableWithTooFewCycles) {
+  fsr::discrepancy::DiscrepancyProblem problem =
+      fsr::discrepancy::planted::problem(fsr::discrepancy::planted::kOneSpeed, "");
+  for (fsr::dataset::Recording& recording : problem.recordings) {
+    const auto scans = recording.scans() / 8;  // of 8 cycles
+    recording.time.resize(scans);
+    recording.pressure.resize(scans);
+    recording.condition.resize(scans);
+    if (!recording.temperature.empty()) recording.temperature.resize(scans);
+    recording.counts.resize(scans * recording.layout.size.taxels());
+  }
+  const fsr::report::VerdictFile file = verdict({session("bags", problem)}, {"--ask", "creep"});
+  EXPECT_EQ(file.verdict, "not_identifiable");
+  EXPECT_EQ(file.credible_set, (std::vector<Words>{{"creep"}}));
+}
+
+// The sheet lies beside the chamber, which check_bag calls not fit.
+TEST_F(DiscrepancyVerdicts, NeverNoneFromWhatIsNotFit) {
+  fsr::discrepancy::DiscrepancyProblem problem =
+      fsr::discrepancy::planted::problem(fsr::discrepancy::planted::kOneSpeed, "");
+  for (fsr::dataset::Recording& recording : problem.recordings) {
+    std::uint32_t noise = 1;  // of a linear congruential generator
+    for (std::uint16_t& reading : recording.counts)
+      reading = static_cast<std::uint16_t>(700 + ((noise = noise * 1664525u + 1013904223u) >> 16) % 41);
+  }
+  EXPECT_EQ(verdict({session("bags", problem)}).verdict, "not_identifiable");
+}
+
 // A single speed cannot distinguish a loop from a short memory. The experiment that the verdict recommends
 // identifies the right one. The prediction made before it is confirmed, and it fails on a rig with a short
 // memory instead.
