@@ -109,6 +109,13 @@ TEST(VerdictText, HasNumbersThatEveryYamlReaderReads) {
   EXPECT_NE(text.find("interval: [-2.5e-07, 123460000]"), std::string::npos) << text;
 }
 
+// Verdicts of earlier versions hold absolute paths.
+TEST_F(VerdictOnDisk, ReadsAVerdictWithAbsolutePaths) {
+  EXPECT_EQ(complaint("simulate --gap found/verdict.yaml --drive 1_flat.bag",
+                      "simulate --gap /data/found/verdict.yaml --drive /data/1_flat.bag"),
+            "");
+}
+
 TEST_F(VerdictOnDisk, ReadsBackTheSame) {
   const discrepancy::DiscrepancyReport report = exampleDiscrepancy();
   write(verdictText(report));

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "settings/command_line.h"
 
@@ -8,5 +11,9 @@ namespace fsr_ros {
 /// How a tool reads bags: by its options --namespace and --ambient, the counts of long bags into a file.
 /// Throws fsr::settings::InputError.
 BagReadOptions bagReadOptions(const fsr::settings::CommandLine& line);
+
+/// Bags by their paths. A folder stands for the bags in it, in the order of the numbers at the start of their
+/// names: 2_bent.bag before 10_flat.bag. Throws fsr::settings::InputError for a folder without a bag.
+std::vector<std::string> bagsIn(const std::vector<std::string>& paths);
 
 }  // namespace fsr_ros

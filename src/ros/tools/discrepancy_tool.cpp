@@ -1,12 +1,10 @@
 #include "ros/tools/discrepancy_tool.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
 
-#include "dataset/time_order.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -74,27 +72,8 @@ std::vector<std::string> listOf(const fsr::settings::CommandLine& line, const st
   return items;
 }
 
-// Orders bags by the number at the start of their names: 2_bent before 10_flat.
-bool comesFirst(const fs::path& a, const fs::path& b) {
-  const double first = std::atof(a.filename().c_str()), second = std::atof(b.filename().c_str());
-  return first != second ? first < second : a < b;
-}
-
 std::vector<std::string> bagsOf(const fsr::settings::CommandLine& line) {
-  std::vector<std::string> bags;
-  for (const std::string& path : line.files()) {
-    if (!fs::is_directory(path)) {
-      bags.push_back(path);
-      continue;
-    }
-    std::vector<fs::path> inside;
-    for (const auto& entry : fs::directory_iterator(path)) {
-      if (entry.path().extension() == ".bag") inside.push_back(entry.path());
-    }
-    if (inside.empty()) throw fsr::settings::InputError(path + ": holds no file that ends with .bag");
-    std::sort(inside.begin(), inside.end(), comesFirst);
-    bags.insert(bags.end(), inside.begin(), inside.end());
-  }
+  const std::vector<std::string> bags = bagsIn(line.files());
   if (bags.empty()) throw fsr::settings::InputError("no BAG is given; see discrepancy --help");
   return bags;
 }
@@ -152,10 +131,15 @@ int drawReport(const std::string& folder, std::ostream& out) {
   return 0;
 }
 
-DrivingBags inOrderOfTime(const DrivingBags& bags, const std::vector<fsr::dataset::Recording>& recordings) {
-  DrivingBags sorted{{}, bags.how};
-  for (const std::size_t b : fsr::dataset::inOrderOfTime(recordings)) sorted.paths.push_back(bags.paths[b]);
-  return sorted;
+// The command that recomputes the gap of the verdict in a folder. The files that are written may go to other
+// people, so they hold names only: of the folder, and of the bags and folders as they were given.
+std::string recomputeByNames(const std::string& folder, const fsr::settings::CommandLine& line) {
+  const auto nameOf = [](const std::string& path) {
+    return (fs::absolute(path) / ".").lexically_normal().parent_path().filename().string();
+  };
+  DrivingBags bags{{}, bagReadOptions(line)};
+  for (const std::string& path : line.files()) bags.paths.push_back(nameOf(path));
+  return recomputeCommand(nameOf(folder) + "/verdict.yaml", bags);
 }
 
 std::string gainForTheMap(const fsr::discrepancy::DiscrepancyProblem& problem,
@@ -188,11 +172,12 @@ int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   fsr::discrepancy::DiscrepancyReport report = fsr::discrepancy::investigate(problem, progress);
   if (report.verdict == fsr::discrepancy::Verdict::kNone) requireChamber(bags);
   countUses(report);
-  const std::string verdict = (fs::path(line.requiredText("output")) / "verdict.yaml").string();
-  if (!report.hold_out.empty())
-    report.recompute = recomputeCommand(verdict, inOrderOfTime(bags, problem.recordings));
+  if (!report.hold_out.empty()) report.recompute = recomputeByNames(folder, line);
   report.map_gain = gainForTheMap(problem, report);
   writeDiscrepancy(report, folder);
+  const std::string verdict = (fs::path(line.requiredText("output")) / "verdict.yaml").string();
+  if (!report.hold_out.empty())
+    report.recompute = recomputeCommand(verdict, {line.files(), bagReadOptions(line)});
   out << fsr::report::discrepancyText(report) << "Written: " << folder << "/verdict.yaml" << std::endl;
   return line.has("no-report") ? 0 : drawReport(folder, out);
 }

@@ -8,6 +8,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/verdict_file.h"
 #include "ros/bags/bag_walk.h"
+#include "ros/tools/bag_options.h"
 #include "ros/tools/tool_progress.h"
 #include "settings/number_text.h"
 #include "settings/yaml_text.h"
@@ -50,6 +51,19 @@ void requireAll(const std::vector<fsr::dataset::Recording>& recordings,
   }
 }
 
+// The bags of the verdict. A folder may hold other bags beside them.
+DrivingBags bagsOfVerdict(const DrivingBags& given, const fsr::report::VerdictFile& verdict) {
+  DrivingBags bags{{}, given.how};
+  for (const std::string& path : given.paths) {
+    for (const std::string& bag : bagsIn({path})) {
+      const auto is_it = [&](const auto& input) { return input.file == fs::path(bag).filename(); };
+      if (bag == path || std::any_of(verdict.inputs.begin(), verdict.inputs.end(), is_it))
+        bags.paths.push_back(bag);
+    }
+  }
+  return bags;
+}
+
 std::string percentOf(double gap) {
   return std::isfinite(gap) ? fsr::settings::roundedText(100 * gap, kDigits) + " % of full scale"
                             : "not known";
@@ -80,7 +94,8 @@ int printRecomputedGap(const std::string& path, const DrivingBags& bags, std::os
   const fsr::report::VerdictFile verdict = fsr::report::readVerdict(path);
   if (verdict.hold_out.empty())
     throw fsr::settings::InputError(path + ": nothing was held out, so there is no gap to recompute");
-  const std::vector<fsr::dataset::Recording> recordings = readAll(bags, toolProgress());
+  const std::vector<fsr::dataset::Recording> recordings =
+      readAll(bagsOfVerdict(bags, verdict), toolProgress());
   requireAll(recordings, verdict, path);
   const fs::path folder = fs::absolute(path).parent_path();
   const std::pair<const char*, bool> files[] = {{"base.yaml", false}, {"simulation.yaml", true}};

@@ -10,7 +10,8 @@ namespace fsr_ros {
 
 /// `simulate --gap verdict.yaml --drive BAG...`: recomputes the gap of base.yaml and of simulation.yaml
 /// beside a verdict on the hold-out scans that it lists, and prints it beside the stated one. The bags must
-/// be those of the verdict. Returns 0, also where the gaps differ. Throws fsr::settings::InputError.
+/// be those of the verdict, in any order; of a folder the bags with their names are taken. Returns 0, also
+/// where the gaps differ. Throws fsr::settings::InputError.
 int printRecomputedGap(const std::string& verdict, const DrivingBags& bags, std::ostream& out);
 
 /// The command that does this.

@@ -44,7 +44,10 @@ fsr::settings::CommandLine options() {
       "the bags, and not in the bags.");
   line.input("simulation", "FILE", "settings of the rig, e.g. config/simulation/bench.yaml")
       .output("output", "DIR", "folder to write to; it is created if it does not exist")
-      .input("drive", "BAG", "run the simulation on these bags, in time order, instead of the session")
+      .input(
+          "drive", "BAG",
+          "run the simulation on these bags, in time order, instead of the session; a folder stands for the "
+          "bags in it")
       .input("gap", "FILE",
              "a verdict.yaml: recompute its gap on the bags of --drive, with base.yaml and simulation.yaml "
              "beside "
@@ -179,7 +182,7 @@ int recompute(const fsr::settings::CommandLine& line, std::ostream& out) {
 
 void writeBags(const fsr::settings::CommandLine& line, const fsr::simulation::SimulationSettings& settings,
                std::ostream& out) {
-  const DrivingBags driving{bagsOf(line), bagReadOptions(line)};
+  const DrivingBags driving{bagsIn(bagsOf(line)), bagReadOptions(line)};
   if (line.has("plan") && !driving.paths.empty())
     throw fsr::settings::InputError("--plan and --drive both say what the chamber does; give one of them");
   const std::string saved = line.text("save-state", "");

@@ -6,12 +6,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "discrepancy/planted.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/verdict_file.h"
 #include "ros/bags/bag_writer.h"
+#include "ros/tools/simulate_tool.h"
 #include "simulation/simulation_text.h"
 #include "support/source_dir.h"
 #include "support/synthetic_recording.h"
@@ -95,6 +97,30 @@ TEST_F(DiscrepancyTool, TakesAFolderAndCountsEveryUse) {
   EXPECT_EQ(fsr::report::readVerdict(path("out/verdict.yaml")).inputs[1].hold_out_opened, 2);
   for (const char* file : {"simulation.yaml", "base.yaml", "prediction.yaml", "results.json"})
     EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
+}
+
+// The files may go to other people, so they name bags and folders, but not where these lie.
+TEST_F(DiscrepancyTool, WritesNoAbsolutePathAndRecomputesTheGapFromAFolder) {
+  bag("session/1_flat.bag", recording("flat", 0));
+  bag("session/2_bend.bag", recording("bend", 14.25));
+  bag("session/3_other.bag", recording("other", 20));
+  const std::string said = run({path("session/1_flat.bag"), path("session/2_bend.bag"), "--simulation",
+                                simulation(), "--output", path("out/")});
+  expectSaid(said, {"simulate --gap " + path("out/verdict.yaml") + " --drive " + path("session/1_flat.bag")});
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out")) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream file(entry.path());
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_EQ(text.find(folder_.parent_path().string()), std::string::npos) << entry.path();
+    if (entry.path().filename() == "verdict.yaml")
+      expectSaid(text, {"simulate --gap out/verdict.yaml --drive 1_flat.bag 2_bend.bag"});
+  }
+  EXPECT_TRUE(fs::exists(folder_ / "out" / "report.html"));
+  const std::string verdict = path("out/verdict.yaml"), session = path("session");
+  const char* const words[] = {"simulate", "--gap", verdict.c_str(), "--drive", session.c_str()};
+  std::ostringstream out;
+  EXPECT_EQ(simulateTool(5, words, out), 0);
+  expectSaid(out.str(), {"Gap of base.yaml: ", "Gap of simulation.yaml: "});
 }
 
 TEST_F(DiscrepancyTool, RefusesWithOneSentenceAndLeavesNoVerdict) {
