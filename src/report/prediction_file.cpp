@@ -59,6 +59,15 @@ std::string distributionText(const discrepancy::Prediction& prediction) {
          "\n  parameters:" + (parameters.empty() ? " []" : parameters) + "\n";
 }
 
+std::string pacesText(const std::vector<dataset::CycleCourse>& paces) {
+  std::string text;
+  for (const dataset::CycleCourse& pace : paces)
+    text += "\n  - {speed: " + settings::numberText(pace.speed) +
+            ", dwell: " + settings::numberText(pace.dwell) + ", peak: " + settings::numberText(pace.peak) +
+            "}";
+  return text.empty() ? "" : "paces:" + text + "\n";
+}
+
 std::size_t readCount(const settings::Settings& file, const std::string& key) {
   return static_cast<std::size_t>(file.number(key, {0, 1e9}));
 }
@@ -96,7 +105,8 @@ std::string predictionText(const FrozenPrediction& frozen) {
          frozen.verdict_sha256 + "\"\neffects: " + effectsText(prediction.effects) +
          "\nrivals:" + (rivals.empty() ? " []" : rivals) + "\nsize: [" +
          settings::numberText(prediction.size.low) + ", " + settings::numberText(prediction.size.high) +
-         "]\n" + distributionText(prediction) + "hash: \"" + prediction.hash + "\"\n";
+         "]\n" + distributionText(prediction) + pacesText(frozen.paces) + "hash: \"" + prediction.hash +
+         "\"\n";
 }
 
 FrozenPrediction readPrediction(const std::string& path) {
@@ -112,6 +122,11 @@ FrozenPrediction readPrediction(const std::string& path) {
   if (file.has("weights")) {
     frozen.prediction.weights = file.numbers("weights", {0, 1});
     frozen.prediction.spread = readSpread(file.section("spread"), frozen.prediction);
+  }
+  if (file.has("paces")) {
+    for (const settings::Settings& pace : file.sections("paces"))
+      frozen.paces.push_back({pace.number("speed", kAnyNumber), pace.number("dwell", kAnyNumber),
+                              pace.number("peak", kAnyNumber)});
   }
   frozen.prediction.hash = file.text("hash");
   file.refuseUnknown();

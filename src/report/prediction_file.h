@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "dataset/paces.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 
 namespace fsr::report {
@@ -10,6 +12,8 @@ namespace fsr::report {
 struct FrozenPrediction {
   discrepancy::Prediction prediction;
   std::string verdict_sha256;  ///< of verdict.yaml's bytes
+  /// Of the cycles that it was made from, see dataset::pacesOf(). Empty in files of earlier versions.
+  std::vector<dataset::CycleCourse> paces = {};
 };
 
 /// The text of prediction.yaml, with all digits of every number:
@@ -21,9 +25,10 @@ struct FrozenPrediction {
 ///     weights: [0.8, 0.2]    # probability of the effects and of each rival
 ///     spread: {cycles: 24, groups: 6, between: 1e-4, parameters: [{effect: 0, name: loop_width,
 ///              logarithmic: false, covariance: [1.2e-06, ...]}, ...]}
-///     hash: ...              # of all this and the simulation that it completes
+///     paces: [{speed: 17000, dwell: 2, peak: 620000}, ...]   # of the cycles [Pa/s, s, Pa]
+///     hash: ...              # of all this but the paces, and of the simulation that it completes
 ///
-/// Files of earlier versions have neither weights nor spread.
+/// Files of earlier versions have neither weights nor spread nor paces.
 std::string predictionText(const FrozenPrediction& frozen);
 
 /// Reads prediction.yaml. Unknown keys are errors. Throws InputError that names file, field, value and what

@@ -177,7 +177,7 @@ TEST_F(VerdictOnDisk, RefusalsNameTheFieldAndWhatWouldBeRight) {
 
 TEST_F(VerdictOnDisk, PredictionKeepsEveryBit) {
   const discrepancy::Prediction prediction = exampleDiscrepancy().prediction;
-  write(predictionText({prediction, std::string(64, 'd')}));
+  write(predictionText({prediction, std::string(64, 'd'), {{17e3, 2, 620e3}, {40e3, 8.5, 620e3}}}));
   const FrozenPrediction read = readPrediction(path_);
   EXPECT_EQ(read.verdict_sha256, std::string(64, 'd'));
   EXPECT_EQ(read.prediction.hash, prediction.hash);
@@ -187,6 +187,8 @@ TEST_F(VerdictOnDisk, PredictionKeepsEveryBit) {
   EXPECT_EQ(read.prediction.spread.between, prediction.spread.between);
   EXPECT_EQ(read.prediction.spread.cycles, 24u);
   EXPECT_EQ(read.prediction.spread.groups, 3u);
+  ASSERT_EQ(read.paces.size(), 2u);
+  EXPECT_EQ(read.paces[1].dwell, 8.5);
   ASSERT_EQ(read.prediction.spread.parameters.size(), 2u);
   EXPECT_EQ(read.prediction.spread.parameters[1].name, "threshold");
   EXPECT_TRUE(read.prediction.spread.parameters[1].logarithmic);

@@ -51,7 +51,8 @@ std::vector<std::string> discrepancyFiles() {
   return {"results.json", "base.yaml", "simulation.yaml", "prediction.yaml", "verdict.yaml"};
 }
 
-void writeDiscrepancy(const fsr::discrepancy::DiscrepancyReport& report, const std::string& folder) {
+void writeDiscrepancy(const fsr::discrepancy::DiscrepancyReport& report, const std::string& folder,
+                      const std::vector<fsr::dataset::CycleCourse>& paces) {
   const std::string figures = outputFolder(folder + "/figures");
   for (const auto& [name, table] : fsr::report::discrepancyTables(report))
     fsr::settings::replaceFile(figures + "/" + name, table);
@@ -62,9 +63,10 @@ void writeDiscrepancy(const fsr::discrepancy::DiscrepancyReport& report, const s
       {});
   writeSimulation(report.added, folder, "simulation.yaml", heading(report), fsr::report::fitRemarks(report));
   const std::string verdict = fsr::report::verdictText(report);
-  fsr::settings::replaceFile(folder + "/prediction.yaml",
-                             fsr::report::predictionText(
-                                 {report.prediction, fsr::settings::sha256(verdict.data(), verdict.size())}));
+  fsr::settings::replaceFile(
+      folder + "/prediction.yaml",
+      fsr::report::predictionText(
+          {report.prediction, fsr::settings::sha256(verdict.data(), verdict.size()), paces}));
   fsr::settings::replaceFile(folder + "/verdict.yaml", verdict);
 }
 

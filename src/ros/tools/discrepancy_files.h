@@ -17,8 +17,10 @@ std::vector<std::string> discrepancyFiles();
 
 /// Writes a report into a folder: verdict.yaml, simulation.yaml (with the effects found), base.yaml (fitted,
 /// without them), prediction.yaml, results.json, and the tables for the figures in figures/. Each file is
-/// either complete or not written; verdict.yaml is written last. Throws fsr::InputError.
-void writeDiscrepancy(const fsr::discrepancy::DiscrepancyReport& report, const std::string& folder);
+/// either complete or not written; verdict.yaml is written last. `paces` are those of the recordings, for the
+/// prediction. Throws fsr::InputError.
+void writeDiscrepancy(const fsr::discrepancy::DiscrepancyReport& report, const std::string& folder,
+                      const std::vector<fsr::dataset::CycleCourse>& paces = {});
 
 /// A prediction and the simulation to which its effects are added.
 struct StoredPrediction {

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "dataset/paces.h"
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 #include "fsr_pressure_map/ros/bag_reader.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -174,7 +175,7 @@ int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   countUses(report);
   if (!report.hold_out.empty()) report.recompute = recomputeByNames(folder, line);
   report.map_gain = gainForTheMap(problem, report);
-  writeDiscrepancy(report, folder);
+  writeDiscrepancy(report, folder, fsr::dataset::pacesOf(problem.recordings));
   const std::string verdict = (fs::path(line.requiredText("output")) / "verdict.yaml").string();
   if (!report.hold_out.empty())
     report.recompute = recomputeCommand(verdict, {line.files(), bagReadOptions(line)});
@@ -195,6 +196,14 @@ void requireNew(const std::vector<fsr::dataset::Recording>& recordings,
   }
 }
 
+// Every confirmation is evidence, so none replaces another: confirmation.yaml, confirmation_2.yaml, ...
+std::string newConfirmation(const std::string& folder) {
+  std::string file = folder + "/confirmation.yaml";
+  for (int number = 2; fs::exists(file); ++number)
+    file = folder + "/confirmation_" + std::to_string(number) + ".yaml";
+  return file;
+}
+
 int confirmVerdict(const fsr::settings::CommandLine& line, std::ostream& out) {
   const std::string path = line.text("confirm", "");
   const fsr::report::VerdictFile verdict = fsr::report::readVerdict(path);
@@ -206,16 +215,20 @@ int confirmVerdict(const fsr::settings::CommandLine& line, std::ostream& out) {
   const std::vector<fsr::dataset::Recording> recordings =
       readBags({bagsOf(line), bagReadOptions(line)}, false, toolProgress());
   requireNew(recordings, verdict, path);
-  const fsr::discrepancy::Confirmation answer =
+  fsr::discrepancy::Confirmation answer =
       fsr::discrepancy::confirm(stored.frozen.prediction, stored.base, recordings);
+  // What imitates the effect in the cycles of the verdict imitates it in such cycles again.
+  if (fsr::dataset::havePaces(recordings, stored.frozen.paces))
+    answer.sentence += " Same protocol: proves little.";
   std::vector<fsr::discrepancy::InputUse> inputs;
   for (const fsr::dataset::Recording& r : recordings) inputs.push_back({r.name, r.sha256, r.scans(), 0});
   const std::string folder =
       line.has("output") ? outputFolder(line.text("output", "")) : fs::absolute(path).parent_path().string();
-  line.requireWritable(folder + "/confirmation.yaml");
-  fsr::settings::replaceFile(folder + "/confirmation.yaml",
+  const std::string file = newConfirmation(folder);
+  line.requireWritable(file);
+  fsr::settings::replaceFile(file,
                              fsr::report::confirmationYaml(answer, stored.frozen.prediction.hash, inputs));
-  out << fsr::report::confirmationText(answer) << "Written: " << folder << "/confirmation.yaml" << std::endl;
+  out << fsr::report::confirmationText(answer) << "Written: " << file << std::endl;
   return 0;
 }
 

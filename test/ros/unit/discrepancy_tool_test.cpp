@@ -235,9 +235,15 @@ TEST_F(DiscrepancyTool, ConfirmsByBagsThatAreNewWhatItPredicted) {
   const std::string said = with({"--output", path("out"), "--no-report"}, first);
   ASSERT_FALSE(fsr::report::readVerdict(path("out/verdict.yaml")).effects.empty()) << said;
   expectSaid(with({"--confirm", path("out/verdict.yaml")}, first), {"loop0.bag", "made from this bag"});
-  expectSaid(with({"--confirm", path("out/verdict.yaml")}, session("again", 8, loop)), {"Confirmed: "});
-  EXPECT_TRUE(fs::exists(folder_ / "out" / "confirmation.yaml"));
-  expectSaid(with({"--confirm", path("out/verdict.yaml")}, session("without", 9, "")), {"Not confirmed: "});
+  expectSaid(with({"--confirm", path("out/verdict.yaml")}, session("again", 8, loop)),
+             {"Confirmed: ", "Same protocol: proves little", "Written: " + path("out/confirmation.yaml")});
+  expectSaid(with({"--confirm", path("out/verdict.yaml")}, session("without", 9, "")),
+             {"Not confirmed: ", "Written: " + path("out/confirmation_2.yaml")});
+  for (const auto& [name, passed] :
+       {std::pair{"confirmation.yaml", "passed: true"}, std::pair{"confirmation_2.yaml", "passed: false"}}) {
+    std::ifstream file(folder_ / "out" / name);
+    expectSaid({std::istreambuf_iterator<char>(file), {}}, {passed});
+  }
 }
 
 }  // namespace

@@ -158,6 +158,7 @@ TEST_F(DiscrepancyVerdicts, AmbiguousUntilTheRecommendedExperimentIsRun) {
                                                            "  creep: {per_decade: 0.05, slowest: 100}\n"));
   const std::string confirmed = run({"--confirm", path("out/verdict.yaml"), experiment});
   EXPECT_EQ(confirmed.find("Confirmed: hysteresis"), 0u) << confirmed;
+  EXPECT_EQ(confirmed.find("ame protocol"), std::string::npos) << confirmed;
   const std::string refuted = run({"--confirm", path("out/verdict.yaml"), memory});
   EXPECT_EQ(refuted.find("Not confirmed: "), 0u) << refuted;
   const fsr::report::VerdictFile after = verdict({first, experiment});
