@@ -86,6 +86,7 @@ def draw_curve(axes, name, table):
                               color=colour, alpha=0.2, linewidth=0)
             axes.plot(x, mean, line, color=colour, marker="." if len(at) < 30 else None,
                       label=label if line == "-" else None)
+    axes.set_title("Residual by %s" % spelt(name))
     axes.set_xlabel(spelt(name) + (" [%s]" % shown if shown else ""))
     if len(parts) > 1:
         axes.set_xlabel("pressure [kPa]; solid: filling, dashed: venting")
@@ -108,6 +109,7 @@ def draw_gap(axes, table):
                       xytext=(0, 2), textcoords="offset points")
     axes.set_xticks(range(len(names)), names)
     axes.margins(y=0.25)
+    axes.set_title("Gap on hold-out data")
     axes.set_ylabel("gap, rms [% of full scale]")
 
 
@@ -241,7 +243,10 @@ def verdict_words(results):
 
 def first_screen(results, figure):
     """The answers of the tool, in its order. The verdict stands above them, the gap is a table below them."""
-    answers = [i for i in results["first_screen"] if i["title"] != "Missing"]
+    items = results["first_screen"]
+    missing = [i["title"] for i in items].index("Missing")
+    larger = "".join("<b>%s.</b> %s<br>" % (html.escape(i["title"]), html.escape(i["answer"])) for i in items[:missing])
+    answers = items[missing + 1:]
     facts = "".join(
         "<dt>%s</dt><dd>%s</dd>" % (html.escape(i["title"]),
                                     ("<pre>%s</pre>" if i["title"].startswith("Recompute") else "%s") % html.escape(i["answer"]))
@@ -250,8 +255,8 @@ def first_screen(results, figure):
     facts += item("Held out by", held_out(results["gap"]) + "; looked at " + opened(results))
     caption = ("Measured minus simulated: mean with 95 % interval, before and after the effects found were added, "
                "and its rms on hold-out data. Floor: noise from differences between neighbouring scans")
-    return ("<div class=first><p class=verdict><b>%s.</b> %s</p><div><dl>%s</dl><div class=gap>%s</div></div>%s</div>"
-            % (html.escape(verdict_words(results).capitalize()),
+    return ("<div class=first><p class=verdict>%s<b>%s.</b> %s</p><div><dl>%s</dl><div class=gap>%s</div></div>%s</div>"
+            % (larger, html.escape(verdict_words(results).capitalize()),
                html.escape(results["sentence"]), facts, gap_table(results["gap"], results["effects"]), style.picture(figure, caption)))
 
 

@@ -142,10 +142,23 @@ std::string scatterText(const discrepancy::Scatter& one) {
          " of the variance of the noise.";
 }
 
+// The largest first.
 std::string scattersText(const DiscrepancyReport& report) {
+  std::vector<discrepancy::Scatter> sorted = report.scatter;
+  const auto size = [](const discrepancy::Scatter& one) { return one.at_map > 0 ? one.at_map : 0; };
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const auto& a, const auto& b) { return size(a) > size(b); });
   std::vector<std::string> texts;
-  for (const discrepancy::Scatter& one : report.scatter) texts.push_back(scatterText(one));
+  for (const discrepancy::Scatter& one : sorted) texts.push_back(scatterText(one));
   return joined(texts, " ");
+}
+
+// Whether the cycles scatter by more than what is missing.
+bool scattersMore(const DiscrepancyReport& report) {
+  const auto& all = report.scatter;
+  return !nothingFound(report) && std::any_of(all.begin(), all.end(), [&](const discrepancy::Scatter& one) {
+    return one.seen() && one.at_map > report.at_map;
+  });
 }
 
 // "3.10 % FS (19.2 kPa)".
@@ -157,10 +170,13 @@ std::string gapPart(double value, double pressure) {
 std::string gapText(const DiscrepancyReport& report) {
   const discrepancy::Gap& gap = report.gap;
   if (!std::isfinite(gap.before)) return "Not measured, because nothing was held out.";
-  std::string text = gapPart(gap.before, gap.before_pressure) + " before, ";
-  text +=
-      report.effects.empty() ? "nothing was added, " : gapPart(gap.after, gap.after_pressure) + " after, ";
-  text += "floor " + gapPart(gap.floor, gap.floor_pressure) + " (neighbouring scans; between cycles " +
+  const bool added = !report.effects.empty();
+  // Readings and pressures weigh the same errors differently, so one may fall while the other rises.
+  const bool apart = added && (gap.after - gap.before) * (gap.after_pressure - gap.before_pressure) < 0;
+  const auto part = [&](double value, double pressure) { return gapPart(value, apart ? NAN : pressure); };
+  std::string text = part(gap.before, gap.before_pressure) + " before, ";
+  text += added ? part(gap.after, gap.after_pressure) + " after, " : "nothing was added, ";
+  text += "floor " + part(gap.floor, gap.floor_pressure) + " (neighbouring scans; between cycles " +
           gapPart(gap.floor_bracket.high, NAN) + ")";
   if (std::isfinite(gap.closed)) {
     text += "; closed " + settings::percentText(gap.closed, 0);
@@ -170,7 +186,13 @@ std::string gapText(const DiscrepancyReport& report) {
     }
   }
   text += ".";
-  if (!report.effects.empty() && gap.after > gap.before) text += " The gap did not shrink.";
+  if (added && gap.after > gap.before) text += " The gap did not shrink.";
+  if (apart)
+    text += std::string(" As a pressure it ") +
+            (gap.after_pressure > gap.before_pressure ? "rises" : "falls") + ", from " +
+            settings::fixedText(gap.before_pressure / kKilopascal, 1) + " to " +
+            settings::fixedText(gap.after_pressure / kKilopascal, 1) +
+            " kPa: there, errors count more where the curves are flat.";
   return text + (gap.held_out_by.empty() ? "" : " Held out by: " + joined(gap.held_out_by) + ".");
 }
 
@@ -216,13 +238,16 @@ std::string nextText(const DiscrepancyReport& report) {
 }  // namespace
 
 std::vector<FirstScreenItem> firstScreen(const DiscrepancyReport& report) {
-  const std::vector<FirstScreenItem> all = {{"Missing", report.sentence},
+  const bool first = scattersMore(report);
+  const std::string scatter = scattersText(report);
+  const std::vector<FirstScreenItem> all = {{"Scatter, more than what is missing", first ? scatter : ""},
+                                            {"Missing", report.sentence},
                                             {"How sure", sureText(report)},
                                             {"Excluded", nothingFound(report) ? seenText(report) : ""},
                                             {"Asked", answersText(report)},
                                             {"Cost", costText(report)},
                                             {"Gain for the map", report.map_gain},
-                                            {"Scatter", scattersText(report)},
+                                            {"Scatter", first ? "" : scatter},
                                             {"Gap, rms on hold-out data", gapText(report)},
                                             {"Recompute the gap", report.recompute},
                                             {"Next experiment", nextText(report)}};

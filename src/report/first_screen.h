@@ -13,7 +13,8 @@ struct FirstScreenItem {
   std::string answer;  ///< sentences
 };
 
-/// The answers that stand first in the text and in report.html: what is missing, how sure its name is, what
+/// The answers that stand first in the text and in report.html: the scatter between cycles where it is larger
+/// than what is missing, what is missing, how sure its name is, what
 /// these recordings would have shown, answers to the user's questions, what the effect costs, the scatter
 /// between cycles, the gap, the command that recomputes it, and what to record next. Answers that a verdict
 /// does not have are left out.

@@ -31,9 +31,9 @@ TEST(DiscrepancyText, AnswersInOrder) {
         "21.0 kPa in a ramp (5.0 with it), 18.0 kPa in a stance of 0.6 s (4.0 with it), 9.0 kPa in ten "
         "minutes",
         "Scatter: The gain changes from cycle to cycle by 1.2 % (standard deviation, 95 % 0.9 to 1.6 %): 3.1 "
-        "kPa at the map, 71 % of the variance of the noise. The zero changes from cycle to cycle by less "
-        "than "
-        "0.04 % of full scale. The reading wanders within a cycle by 0.11 % of full scale",
+        "kPa at the map, 71 % of the variance of the noise. The reading wanders within a cycle by 0.11 % of "
+        "full scale",
+        "of the noise. The zero changes from cycle to cycle by less than 0.04 % of full scale.",
         "Gap, rms on hold-out data: 3.10 % FS (19.2 kPa) before, 0.80 % FS (5.0 kPa) after, floor 0.60 % FS",
         "between cycles 0.71 % FS", "closed 92 % (90 to 94 %)", "Held out by: cycles, condition",
         "Recompute the gap: rosrun fsr_pressure_map simulate --gap found/verdict.yaml --drive 1_flat.bag",
@@ -61,6 +61,29 @@ TEST(DiscrepancyText, SaysWhatNoneExcludes) {
        "Excluded: Would have been seen, from this size at the map: 0.7 kPa: hysteresis; 2.4 kPa: creep.",
        "time_skew is visible, but with 0.31 kPa it is below the least gap of 0.6 kPa."});
   EXPECT_EQ(discrepancyText(report).find("Cost"), std::string::npos);
+}
+
+TEST(DiscrepancyText, BeginsWithTheScatterWhereThatIsLargest) {
+  discrepancy::DiscrepancyReport report = exampleDiscrepancy();
+  EXPECT_EQ(discrepancyText(report).find("Missing: "), 0u);
+  report.scatter.front().at_map = 1.1 * report.at_map;
+  const std::string text = discrepancyText(report);
+  EXPECT_EQ(text.find("Scatter, more than what is missing: The gain changes from cycle to cycle by"), 0u);
+  EXPECT_EQ(text.find("Scatter: "), std::string::npos) << text;
+}
+
+// The error grew where the curves are flat.
+TEST(DiscrepancyText, SaysWhereTheGapFallsAsAReadingAndRisesAsAPressure) {
+  discrepancy::DiscrepancyReport report = exampleDiscrepancy();
+  report.gap.after_pressure = 21e3;
+  expectHolds(discrepancyText(report), {"3.10 % FS before, 0.80 % FS after, floor 0.60 % FS (neighbouring",
+                                        "As a pressure it rises, from 19.2 to 21.0 kPa:"});
+}
+
+TEST(DiscrepancyText, PrintsNoNumberWhereThereIsNone) {
+  discrepancy::DiscrepancyReport report = exampleDiscrepancy();
+  report.gap.foretold = {{"condition", NAN, {NAN, NAN}, {{"flat", NAN}, {"bent", 0.86}}}};
+  expectHolds(discrepancyText(report), {"with sizes fitted to the others: - (flat -, bent 86 %)."});
 }
 
 TEST(DiscrepancyText, LeavesOutAbsentParts) {

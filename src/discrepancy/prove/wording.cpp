@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "settings/number_text.h"
 #include "simulation/effects/effect_library.h"
@@ -22,16 +23,66 @@ std::string called(const simulation::EffectLibrary& library, const std::vector<s
   return listText(names, " with ");
 }
 
-std::string sizeText(const DiscrepancyReport& report) {
-  if (report.effects.empty() || report.effects.front().parameters.empty()) return "";
-  const FittedParameter& size = report.effects.front().parameters.front();
-  std::string text = " (" + size.name + " " + settings::roundedText(size.value, 3) +
-                     (size.unit.empty() ? "" : " " + size.unit);
-  if (size.interval.low < size.interval.high) {
-    text += ", 95 % " + settings::roundedText(size.interval.low, 3) + " to " +
-            settings::roundedText(size.interval.high, 3);
+constexpr std::size_t kMostFigures = 3;  // of one effect
+
+// Factor and unit in which a value is told: pressures in kPa, sizes without a unit in %. The unit "of NAME"
+// means a share of the effect's pressure NAME.
+std::pair<double, std::string> toldIn(const FittedParameter& one, const simulation::EffectInfo& info,
+                                      const simulation::EnabledEffect* effect) {
+  const std::string of = "of ";
+  if (one.unit == "Pa") return {1e-3, "kPa"};
+  if (one.unit.rfind(of, 0) == 0 && effect != nullptr)
+    return {1e-3 * effect->values.at(one.unit.substr(of.size())), "kPa"};
+  const bool share =
+      one.unit.empty() && simulation::parameter(info, one.name).role != simulation::ParameterRole::kShape;
+  return share ? std::pair(100.0, std::string("%")) : std::pair(1.0, one.unit);
+}
+
+// "loop width 12.1 kPa, 95 % 11.3 to 13.1".
+std::string figureText(const FittedParameter& one, const std::pair<double, std::string>& told) {
+  const auto& [factor, unit] = told;
+  std::string text = one.name + " " + settings::roundedText(factor * one.value, 3);
+  std::replace(text.begin(), text.end(), '_', ' ');
+  if (!unit.empty()) text += " " + unit;
+  if (one.interval.low < one.interval.high)
+    text += ", 95 % " + settings::roundedText(factor * one.interval.low, 3) + " to " +
+            settings::roundedText(factor * one.interval.high, 3);
+  return text;
+}
+
+// The name of an effect that was found, with its figures: sizes first, then what gives it its form.
+std::string foundText(const FoundEffect& effect, const DiscrepancyReport& report) {
+  const simulation::EffectLibrary& library = simulation::libraryOf(report.base);
+  const simulation::EffectInfo& info = library.info(effect.id);
+  std::vector<FittedParameter> parameters = effect.parameters;
+  std::stable_partition(parameters.begin(), parameters.end(), [&](const FittedParameter& one) {
+    return simulation::parameter(info, one.name).role != simulation::ParameterRole::kShape;
+  });
+  if (parameters.size() > kMostFigures) parameters.resize(kMostFigures);
+  std::string figures;
+  for (const FittedParameter& one : parameters) {
+    if (!std::isfinite(one.value)) continue;  // a time constant that never ends
+    figures +=
+        (figures.empty() ? "" : "; ") + figureText(one, toldIn(one, info, report.added.effect(effect.id)));
   }
-  return text + ")";
+  return called(library, effect.id) + (figures.empty() ? "" : " (" + figures + ")");
+}
+
+// All effects that were found; what explains most by itself comes first.
+std::string foundText(const DiscrepancyReport& report) {
+  const auto alone = [&](const FoundEffect& effect) {
+    const std::vector<std::string> ids = {effect.id};
+    for (const CandidateScore& one : report.candidates) {
+      if (one.ids == ids && one.at_map > 0) return one.at_map;
+    }
+    return 0.0;
+  };
+  std::vector<FoundEffect> effects = report.effects;
+  std::stable_sort(effects.begin(), effects.end(),
+                   [&](const FoundEffect& a, const FoundEffect& b) { return alone(a) > alone(b); });
+  std::vector<std::string> texts;
+  for (const FoundEffect& effect : effects) texts.push_back(foundText(effect, report));
+  return listText(texts, " with ");
 }
 
 // The experiments that would show the effects of the verdict, e.g. "; crosstalk needs the experiment
@@ -77,13 +128,12 @@ std::string sentenceOf(const DiscrepancyReport& report) {
       return "Among " + tested +
              ", these cannot be distinguished under this protocol: " + listText(sets, " or ") + ".";
     case Verdict::kWrongForm:
-      return "Best explanation among " + tested + ", under this protocol: " + sets.front() +
-             sizeText(report) + ", but in a form that differs from the library's.";
+      return "Best explanation among " + tested + ", under this protocol: " + foundText(report) +
+             ", but in a form that differs from the library's.";
     case Verdict::kNotIdentifiable:
       return "These recordings cannot show " + listText(sets, " or ") + experimentsText(report) + ".";
     case Verdict::kNamed:
-      return "Best explanation among " + tested + ", under this protocol: " + sets.front() +
-             sizeText(report) + ".";
+      return "Best explanation among " + tested + ", under this protocol: " + foundText(report) + ".";
   }
   return "";
 }

@@ -51,7 +51,7 @@ EffectInfo info() {
   info.level = EffectLevel::kRig;
   info.kind = EffectKind::kGrid;
   info.parameters = {
-      strength("loop_width", "distance of the branches of a wide loop, share of the span", {0, 0.5, ""}, 0.05)
+      strength("loop_width", "distance of the branches of a wide loop", {0, 0.5, "of span"}, 0.05)
           .within(0.005, 0.2),
       shape("span", "pressure that loop_width is a share of", {1e3, 10e6, "Pa"}, 620e3),
       shape("reach", "R, half the way after a turn over which the loop opens", {100, 10e6, "Pa"}, 150e3)
