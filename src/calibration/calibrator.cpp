@@ -119,7 +119,8 @@ class Calibrator::Impl {
 
   void selectTables(const matrix::Surface& surface);
   void selectTable(std::size_t taxel, CurvatureInUse now);
-  bool isBlended(const compensation::TableEntry* table) const noexcept;
+  std::size_t stride() const { return tables_.entries() + PackedTables::kPadding; }
+  bool isBlended(std::size_t taxel) const noexcept;
   TableInUse inUse(std::size_t taxel) const;
   std::uint16_t highestOfNeighbours(std::size_t taxel, double curvature) const;
   const compensation::TableEntry* blended(std::size_t taxel, CurvatureInUse now);
@@ -256,13 +257,13 @@ void Calibrator::Impl::selectTables(const matrix::Surface& surface) {
   refreshConstantFlags();
 }
 
-bool Calibrator::Impl::isBlended(const compensation::TableEntry* table) const noexcept {
-  return !blended_.empty() && table >= blended_.data() && table < blended_.data() + blended_.size();
+bool Calibrator::Impl::isBlended(std::size_t taxel) const noexcept {
+  return !blended_.empty() && table_[taxel] == blended_.data() + taxel * stride();
 }
 
 Calibrator::Impl::TableInUse Calibrator::Impl::inUse(std::size_t taxel) const {
   const compensation::TableEntry* const table = table_[taxel];
-  if (!isBlended(table)) return {table, 0, 0};
+  if (!isBlended(taxel)) return {table, 0, 0};
   return {table, blended_for_[taxel].curvature, blended_for_[taxel].chosen};
 }
 
@@ -293,13 +294,12 @@ std::uint16_t Calibrator::Impl::highestOfNeighbours(std::size_t taxel, double cu
 }
 
 const compensation::TableEntry* Calibrator::Impl::blended(std::size_t taxel, CurvatureInUse asked) {
-  const std::size_t stride = tables_.entries() + PackedTables::kPadding;
   if (blended_.empty()) {
-    blended_.resize(table_.size() * stride);
+    blended_.resize(table_.size() * stride());
     blended_for_.assign(table_.size(), {std::numeric_limits<double>::quiet_NaN(), 0, 0, false});
   }
   const std::size_t chosen = switch_.choices()[taxel].curvature_class;
-  compensation::TableEntry* const table = blended_.data() + taxel * stride;
+  compensation::TableEntry* const table = blended_.data() + taxel * stride();
   Blended& now = blended_for_[taxel];
   if (now.chosen == chosen && now.deviation == asked.deviation &&
       std::abs(now.curvature - asked.value) <= options_.curvature_step)
@@ -416,8 +416,7 @@ void Calibrator::Impl::correctHistory(double time, map::PressureMap& out) noexce
     const bool frozen = (out.flags[i] & kFrozen) != 0;
     const float before = out.deviation[i];
     const bool corrected = history_->correct(i, frozen, out.pressure[i], out.deviation[i]);
-    if (corrected && isBlended(table_[i]))
-      out.deviation[i] = std::hypot(out.deviation[i], beyondClass(i, before));
+    if (corrected && isBlended(i)) out.deviation[i] = std::hypot(out.deviation[i], beyondClass(i, before));
     out.flags[i] =
         static_cast<std::uint16_t>(out.flags[i] | flagWhere(!corrected, map::taxel_flag::kHistoryShort));
   }
