@@ -85,13 +85,16 @@ def draw_response(stem, chosen, highest=float("inf"), width=style.COLUMN, height
     drawing, axes = style.figure(width, height)
     for number, (curvature, _, pressures, readings) in enumerate(chosen):
         kept = [(p, r) for p, r in zip(pressures, readings) if p <= highest]
+        if not kept:  # a section of few cycles may never be at low pressure
+            continue
         name = radius(curvature)
         colour = style.COLOURS[number % len(style.COLOURS)]
         axes.plot([p for p, _ in kept], [r for _, r in kept], ".", markersize=1.6, alpha=0.35, color=colour,
                   rasterized=True)
         axes.plot(*medians(kept), "-", color=colour, label=name)
     axes.set(xlabel="chamber pressure [kPa gauge]", ylabel="reading [counts]")
-    axes.legend(title="radius; line: median", loc="best")
+    if axes.get_lines():
+        axes.legend(title="radius; line: median", loc="best")
     return style.save(drawing, stem, response_columns(chosen, highest))
 
 

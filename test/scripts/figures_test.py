@@ -9,6 +9,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts" / "figures"))
 import discrepancy  # noqa: E402
 import figure_style as style  # noqa: E402
+import study  # noqa: E402
 
 CURVE = {"before [% FS]": [1, 2], "after [% FS]": [0, 1], "standard error [% FS]": [0.1, 0.1]}
 
@@ -31,6 +32,16 @@ class Discrepancy(unittest.TestCase):
         places = [html.index(part) for part in ("The gain changes.", "Best explanation: a lag.", "Not excluded.")]
         self.assertEqual(places, sorted(places))
         self.assertEqual(html.count("a lag."), 1)
+
+
+class Study(unittest.TestCase):
+    def test_draws_a_section_that_is_never_at_low_pressure(self):
+        steps = list(range(20))
+        surfaces = [(0.0, steps, [600.0 - 10 * s for s in steps], steps), (20.0, steps, [30.0 * s for s in steps], steps)]
+        with tempfile.TemporaryDirectory() as folder:
+            drawn = study.draw_response(folder + "/low", surfaces, 60)
+            self.assertTrue(pathlib.Path(drawn).exists())
+            study.draw_response(folder + "/none", surfaces[:1], 60)
 
 
 if __name__ == "__main__":
