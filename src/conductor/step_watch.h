@@ -5,6 +5,7 @@
 #include <string>
 
 #include "conductor/verdict.h"
+#include "dataset/unsound/unsound_spans.h"
 #include "session_plan/steps.h"
 
 namespace fsr::conductor {
@@ -15,9 +16,8 @@ struct Reading {
   double pressure = 0;  ///< gauge [Pa]
 };
 
-/// The chamber is at rest up to this gauge pressure, and loaded from twice as much on [Pa]: twice the
-/// accuracy of the transducer of Ahmadizadeh and Menon 2019 (Omega PX309, 0.25 % of 1.1 MPa).
-constexpr double kRestLevel = 5e3;
+/// The chamber is at rest up to the first gauge pressure, and loaded from the second one on [Pa].
+constexpr double kRestLevel = dataset::kRestLevel;
 constexpr double kLoadLevel = 2 * kRestLevel;
 
 /// Since when the chamber has been without load, over all steps.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <sstream>
+#include <tuple>
 
 #include "dataset/count_file.h"
 #include "dataset/reference_spikes.h"
@@ -85,7 +86,9 @@ void RecordingBuilder::addScan(std::int64_t stamp_ns, std::uint32_t sequence, co
                                " with " + std::to_string(scan.full_scale) +
                                ", but a recording is of one matrix; choose it by its namespace");
   }
-  scans_.push_back({stamp_ns, sequence, scans_.size()});
+  const double sum = std::accumulate(scan.counts, scan.counts + scan.count, 0.0);
+  const auto reading = static_cast<float>(sum / static_cast<double>(scan.count));
+  scans_.push_back({stamp_ns, sequence, reading, scans_.size()});
   counts_.add(scan.counts);
   ++events_.scans;
 }
@@ -136,8 +139,6 @@ std::vector<RecordingBuilder::ScanEvent> RecordingBuilder::sortedScans(Recording
 std::vector<std::size_t> RecordingBuilder::spikesOf(const TimeSeries& reference,
                                                     const std::vector<ScanEvent>& scans) const {
   constexpr std::int64_t kNear = 1'000'000'000;  // [ns]
-  const auto taxels = static_cast<std::ptrdiff_t>(size_.taxels());
-  CountReader all(counts_);
   std::vector<double> time, pressure, reading;
   auto scan = scans.begin();
   for (const auto& [stamp, value] : reference.entries()) {
@@ -145,10 +146,7 @@ std::vector<std::size_t> RecordingBuilder::spikesOf(const TimeSeries& reference,
     const bool near = scan != scans.end() && std::abs(scan->stamp_ns - stamp) <= kNear;
     time.push_back(1e-9 * static_cast<double>(stamp - reference.entries().front().first));
     pressure.push_back(value);
-    reading.push_back(NAN);
-    if (!near) continue;
-    const auto* const first = all[scan->number];
-    reading.back() = std::accumulate(first, first + taxels, 0.0);
+    reading.push_back(near ? static_cast<double>(scan->reading) : NAN);
   }
   return referenceSpikes(time, pressure, reading);
 }
@@ -243,6 +241,40 @@ Recording RecordingBuilder::takeFile(const RecordingOptions& options) {
   return recording;
 }
 
+void RecordingBuilder::dropUnsound(const std::vector<ScanEvent>& scans, std::vector<std::size_t>& kept,
+                                   Recording& recording) const {
+  if (recording.pressure.empty()) return;
+  ScanCourse course{{}, recording.pressure, {}, recording.condition};
+  for (const std::size_t scan : kept) {
+    course.stamp_ns.push_back(scans[scan].stamp_ns);
+    course.reading.push_back(static_cast<double>(scans[scan].reading));
+  }
+  std::vector<AttemptEnd> ends = attempt_ends_;
+  std::sort(ends.begin(), ends.end(), [](const AttemptEnd& a, const AttemptEnd& b) {
+    return std::tie(a.stamp_ns, a.reason) < std::tie(b.stamp_ns, b.reason);
+  });
+  const std::vector<UnsoundSpan> spans = rejectedSpans(course, ends);
+  if (spans.empty()) return;
+  std::vector<bool> sound(kept.size(), true);
+  for (const UnsoundSpan& span : spans) {
+    std::fill(sound.begin() + static_cast<std::ptrdiff_t>(span.first),
+              sound.begin() + static_cast<std::ptrdiff_t>(span.end), false);
+  }
+  const auto compact = [&](auto& values) {
+    std::size_t to = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (sound[i]) values[to++] = values[i];
+    }
+    values.resize(to);
+  };
+  for (std::vector<double>* const values : {&recording.pressure, &recording.temperature}) {
+    if (!values->empty()) compact(*values);
+  }
+  compact(recording.condition);
+  compact(kept);
+  recording.warnings.push_back(unsoundText(course, spans));
+}
+
 Recording RecordingBuilder::assemble(const RecordingOptions& options,
                                      const std::function<void(std::size_t)>& keep) const {
   if (scans_.empty()) throw settings::InputError("raw has no scan");
@@ -260,19 +292,26 @@ Recording RecordingBuilder::assemble(const RecordingOptions& options,
   const std::vector<std::size_t> spikes = spikesOf(reference, scans);
   reference.drop(spikes);
   recording.losses.reference_spikes = spikes.size();
-  for (const ScanEvent& scan : scans) {
+  std::vector<std::size_t> kept;
+  for (std::size_t s = 0; s < scans.size(); ++s) {
+    const ScanEvent& scan = scans[s];
     const auto pressure = reference.between(scan.stamp_ns, gap);
     if (!onOneSurface(timeline, scan.stamp_ns, options, recording.losses)) continue;
     if (!reference.empty() && !pressure) {
       ++recording.losses.no_reference;
       continue;
     }
-    if (recording.time.empty()) recording.start_ns = scan.stamp_ns;
-    recording.time.push_back(static_cast<double>(scan.stamp_ns - recording.start_ns) * 1e-9);
+    kept.push_back(s);
     recording.condition.push_back(static_cast<std::uint32_t>(timeline.at(scan.stamp_ns)));
     if (pressure) recording.pressure.push_back(*pressure - ambient_pressure);
     if (!temperature.empty()) recording.temperature.push_back(temperature.nearby(scan.stamp_ns));
-    keep(scan.number);
+  }
+  dropUnsound(scans, kept, recording);
+  if (!kept.empty()) recording.start_ns = scans[kept.front()].stamp_ns;
+  recording.time.reserve(kept.size());
+  for (const std::size_t s : kept) {
+    recording.time.push_back(static_cast<double>(scans[s].stamp_ns - recording.start_ns) * 1e-9);
+    keep(scans[s].number);
   }
   recording.losses.bad_reference = reference.notFinite();
   dropUnusedConditions(timeline.conditions(), recording);

@@ -10,6 +10,7 @@
 #include "dataset/row_spool.h"
 #include "dataset/surface_timeline.h"
 #include "dataset/time_series.h"
+#include "dataset/unsound/unsound_spans.h"
 #include "fsr_pressure_map/dataset/recording.h"
 #include "fsr_pressure_map/matrix/scan.h"
 
@@ -43,8 +44,8 @@ constexpr double kStandardAmbient = 101325.0;  // [Pa]
 ///
 /// Events are sorted by their own stamps. Of scans with the same stamp one is kept. The chamber pressure is
 /// interpolated to the scans; gauge = absolute - ambient. A surface is valid from its stamp to the next
-/// surface's, the first one also before its stamp. Scans close to a change of surface are dropped. Receive
-/// times are not used.
+/// surface's, the first one also before its stamp. Scans close to a change of surface are dropped, and so are
+/// those that are not the sheet under the recorded pressure (unsound/unsound_spans.h). Receive times are not used.
 class RecordingBuilder {
  public:
   /// Numbers of events that were added.
@@ -62,6 +63,8 @@ class RecordingBuilder {
   void addSurface(std::int64_t stamp_ns, const matrix::Surface& surface);
   void addTemperature(std::int64_t stamp_ns, double temperature);  // [degree Celsius]
   void addDescription(std::int64_t stamp_ns, const MatrixDescription& description);
+  /// An event `step` or `reject`.
+  void addAttemptEnd(const AttemptEnd& end) { attempt_ends_.push_back(end); }
 
   /// From `most` bytes on the counts are kept in a file, also those of the recording that take() returns
   /// (Recording::count_file). Before the first scan.
@@ -87,10 +90,14 @@ class RecordingBuilder {
   struct ScanEvent {
     std::int64_t stamp_ns;
     std::uint32_t sequence;
+    float reading;       // mean of all taxels [counts]
     std::size_t number;  // in counts_
   };
   using DescriptionEvent = std::pair<std::int64_t, MatrixDescription>;
 
+  // Drops the scans of `kept` that are not the sheet under the pressure at them. `kept`: indices into `scans`.
+  void dropUnsound(const std::vector<ScanEvent>& scans, std::vector<std::size_t>& kept,
+                   Recording& recording) const;
   // Calls keep(number in counts_) for each scan that is kept, in order of time, and returns the recording
   // without counts.
   Recording assemble(const RecordingOptions& options, const std::function<void(std::size_t)>& keep) const;
@@ -113,6 +120,7 @@ class RecordingBuilder {
   TimeSeries temperature_;
   std::vector<SurfaceTimeline::Event> surfaces_;
   std::vector<DescriptionEvent> descriptions_;
+  std::vector<AttemptEnd> attempt_ends_;
   Events events_;
   std::uint64_t expected_scans_ = 0, most_bytes_ = 0;
 };

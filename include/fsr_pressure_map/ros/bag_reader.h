@@ -26,11 +26,11 @@ struct BagReadOptions {
   std::function<void(double share)> progress = {};
 };
 
-/// Reads the recording of one sensor from a bag: the topics raw, chamber_pressure, curvature, temperature and
-/// matrix_info in one namespace. Only raw is required. Throws fsr::settings::InputError, one sentence that
-/// names the file and what would be right, if the file does not exist, is not a bag, has no index or is cut
-/// short, if the topic raw is missing or there are several sensors, if a topic has another type, or if the
-/// messages do not fit each other.
+/// Reads the recording of one sensor from a bag: the topics raw, chamber_pressure, curvature, temperature,
+/// matrix_info and events in one namespace. Only raw is required. Throws fsr::settings::InputError, one
+/// sentence that names the file and what would be right, if the file does not exist, is not a bag, has no
+/// index or is cut short, if the topic raw is missing or there are several sensors, if a topic has another
+/// type, or if the messages do not fit each other.
 fsr::dataset::Recording readBag(const std::string& path, const BagReadOptions& options = {});
 
 }  // namespace fsr_ros

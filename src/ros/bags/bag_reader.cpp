@@ -36,6 +36,7 @@ class Feeder {
     take<fsr_pressure_map::SurfaceCurvature>("curvature");
     take<sensor_msgs::Temperature>("temperature");
     take<fsr_pressure_map::MatrixInfo>("matrix_info");
+    take<fsr_pressure_map::Event>("events");
     return bag_.run(
         [&](std::uint32_t connection, MessageBytes bytes) {
           const auto found = readers_.find(connection);

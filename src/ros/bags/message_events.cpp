@@ -64,4 +64,10 @@ void addEvent(const fsr_pressure_map::MatrixInfo& message, fsr::dataset::Recordi
   builder.addDescription(stampOf(message.header), toDescription(message));
 }
 
+void addEvent(const fsr_pressure_map::Event& message, fsr::dataset::RecordingBuilder& builder) {
+  if (message.kind == "reject")
+    builder.addAttemptEnd({stampOf(message.header), fsr::dataset::rejectReasonIn(message.label)});
+  if (message.kind == "step") builder.addAttemptEnd({stampOf(message.header), {}});
+}
+
 }  // namespace fsr_ros

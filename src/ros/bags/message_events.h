@@ -1,5 +1,6 @@
 #pragma once
 
+#include <fsr_pressure_map/Event.h>
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <fsr_pressure_map/SurfaceCurvature.h>
@@ -18,6 +19,8 @@ void addEvent(const sensor_msgs::FluidPressure& message, fsr::dataset::Recording
 void addEvent(const fsr_pressure_map::SurfaceCurvature& message, fsr::dataset::RecordingBuilder& builder);
 void addEvent(const sensor_msgs::Temperature& message, fsr::dataset::RecordingBuilder& builder);
 void addEvent(const fsr_pressure_map::MatrixInfo& message, fsr::dataset::RecordingBuilder& builder);
+/// Only ends of attempts are taken: events `step` and `reject`.
+void addEvent(const fsr_pressure_map::Event& message, fsr::dataset::RecordingBuilder& builder);
 
 /// Throws fsr::InputError if the pitch is not positive or the mask does not fit the matrix.
 fsr::dataset::MatrixDescription toDescription(const fsr_pressure_map::MatrixInfo& message);

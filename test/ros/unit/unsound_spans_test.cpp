@@ -1,0 +1,108 @@
+// Scans that are not the sheet under the recorded pressure, as the tools meet them in a bag.
+#include <fsr_pressure_map/Event.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "fsr_pressure_map/ros/bag_reader.h"
+#include "fsr_pressure_map/simulation/simulation_settings.h"
+#include "ros/bags/bag_writer.h"
+#include "ros/tools/check_bag_tool.h"
+#include "ros/tools/discrepancy_tool.h"
+#include "ros/tools/study_tool.h"
+#include "ros/tools/train_tool.h"
+#include "simulation/simulation_text.h"
+#include "support/source_dir.h"
+#include "support/synthetic_recording.h"
+
+namespace fsr_ros {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kStart = 1500000000000000000;  // [ns]
+
+class UnsoundSpans : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / ("unsound_" + std::to_string(::getpid()) + "_" + test->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    ::setenv("ROS_HOME", folder_.c_str(), 1);
+    test_support::SyntheticRig rig;  // cycles of 10 s, 100 scans each
+    rig.surfaces = {{"flat", 0.0}, {"cylinder_13cm", 7.7}, {"cylinder_5cm", 20.0}};
+    recording_ = test_support::syntheticRecording(rig);
+    recording_.start_ns = kStart;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  // No taxel reads anything from scan `first` to `last`.
+  void takeTheSheetOff(std::size_t first, std::size_t last) {
+    const auto taxels = static_cast<std::ptrdiff_t>(recording_.layout.size.taxels());
+    std::fill(recording_.counts.begin() + static_cast<std::ptrdiff_t>(first) * taxels,
+              recording_.counts.begin() + static_cast<std::ptrdiff_t>(last + 1) * taxels, 0);
+  }
+  void expectThatEveryToolSays(const std::string& sentence, const std::string& bag) const {
+    using Tool = int (*)(int, const char* const*, std::ostream&);
+    std::ofstream(path("plan.yaml"))
+        << "study: quick\nforest: {trees: 5}\nresamples: 99\nbandwidths: [0.0078125, 0.0625]\n";
+    fsr::simulation::SimulationSettings settings = fsr::simulation::readSimulationFile(
+        test_support::sourceDir() + "/config/simulation/core.yaml");
+    settings.layout = recording_.layout;
+    std::ofstream(path("small.yaml")) << fsr::simulation::simulationText(settings);
+    const std::vector<std::pair<Tool, std::vector<std::string>>> calls = {
+        {checkBagTool, {"check_bag", bag}},
+        {trainTool, {"train", bag, "--output", path("calibration.h5")}},
+        {studyTool, {"study", bag, "--plan", path("plan.yaml"), "--output", path("study")}},
+        {discrepancyTool,
+         {"discrepancy", bag, "--simulation", path("small.yaml"), "--output", path("gap"), "--no-report"}}};
+    for (const auto& [tool, words] : calls) {
+      std::vector<const char*> arguments;
+      for (const std::string& word : words) arguments.push_back(word.c_str());
+      std::ostringstream out;
+      EXPECT_EQ(tool(static_cast<int>(arguments.size()), arguments.data(), out), 0);
+      EXPECT_NE(out.str().find(sentence), std::string::npos) << words[0] << " said:\n" << out.str();
+    }
+  }
+
+  fs::path folder_;
+  fsr::dataset::Recording recording_;
+};
+
+TEST_F(UnsoundSpans, OfARejectedAttemptAreLeftOutByEveryToolAndNamed) {
+  takeTheSheetOff(230, 280);
+  const std::string bag = path("day.bag");
+  writeBag(bag, recording_);
+  {
+    rosbag::Bag more(bag, rosbag::bagmode::Append);
+    const auto tell = [&](const std::string& kind, const std::string& label, std::int64_t scan) {
+      fsr_pressure_map::Event event;
+      event.header.stamp.fromNSec(static_cast<std::uint64_t>(kStart + 100'000'000 * scan + 1'000'000));
+      event.kind = kind;
+      event.label = label;
+      more.write("/fsr/events", event.header.stamp, event);
+    };
+    tell("step", "cycle 1 of 5 on flat, mount 1 accepted", 100);
+    tell("reject", "cycle 2 of 5 on flat, mount 1 rejected (peak_missed): the pressure turned", 180);
+    tell("reject", "cycle 2 of 5 on flat, mount 1 rejected (sheet_off): no taxel answers", 233);
+    tell("step", "cycle 2 of 5 on flat, mount 1 accepted", 400);
+  }
+  const fsr::dataset::Recording read = readBag(bag);
+  EXPECT_EQ(read.scans() + 99 + read.losses.near_change, recording_.scans());  // from rest to rest
+  EXPECT_NEAR(read.time[201] - read.time[200], 10, 1e-6);
+  expectThatEveryToolSays(
+      "left out 99 scans that are not the sheet under the recorded pressure: 20.1 to 29.9 s (attempt "
+      "rejected: sheet_off)",
+      bag);
+}
+
+}  // namespace
+}  // namespace fsr_ros
