@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "ros/bags/bag_sink.h"
 #include "ros/bags/scan_tally.h"
 #include "ros/live/parameters.h"
+#include "ros/recording/bag_sink.h"
 
 namespace fsr_ros {
 

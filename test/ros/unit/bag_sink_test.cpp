@@ -1,4 +1,4 @@
-#include "ros/bags/bag_sink.h"
+#include "ros/recording/bag_sink.h"
 
 #include <gtest/gtest.h>
 #include <rosbag/view.h>

@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/bag_sink.h"
 #include "ros/bags/bag_walk.h"
+#include "ros/recording/bag_sink.h"
 #include "ros/tools/close_bag_tool.h"
 #include "support/pty.h"
 #include "support/small_disk.h"
