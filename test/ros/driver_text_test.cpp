@@ -2,9 +2,11 @@
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/MatrixInfo.h>
 #include <gtest/gtest.h>
+#include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/FluidPressure.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <string>
@@ -116,6 +118,8 @@ TEST_F(TextDriver, PublishesTheScansAndReadingsOfASketchAndCountsDamage) {
 }
 
 TEST_F(TextDriver, SaysHowManyCountsALineShouldHave) {
+  Listener<rosgraph_msgs::Log> log("/rosout");
+  ASSERT_TRUE(log.connected());
   const auto sketch = plugIn();
   const std::string sentence = "no scan is published: " + port_ +
                                " sends lines with 4 numbers behind the time, but rows x columns is 2 x 3 = 6 "
@@ -124,6 +128,12 @@ TEST_F(TextDriver, SaysHowManyCountsALineShouldHave) {
     sketch->print("10,1,2,3,4\n");
     return diagnostics_.says("fsr/driver: scans", sentence);
   }));
+  const auto logged = [&](const std::string& part) {
+    return std::any_of(log.messages.begin(), log.messages.end(),
+                       [&](const auto& entry) { return entry->msg.find(part) != std::string::npos; });
+  };
+  EXPECT_TRUE(await([&] { return logged(sentence); }));
+  EXPECT_FALSE(logged("baud rate"));
 }
 
 // A board that prints microseconds where the parameter says milliseconds.

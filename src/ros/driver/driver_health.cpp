@@ -23,8 +23,14 @@ std::uint64_t packets(const fsr::protocol::DecoderCounts& counts) {
   return sum;
 }
 
+// Packets whose checksum is right, but whose content cannot be; lines of text that are not those of this
+// matrix.
+std::uint64_t impossible(const DriverHealth& health) {
+  return health.link.counts.bad_content + health.link.counts.lines.too_long;
+}
+
 bool onlyNoise(const DriverHealth& before, const DriverHealth& now) {
-  return now.link.counts.bytes > before.link.counts.bytes &&
+  return now.link.counts.bytes > before.link.counts.bytes && impossible(now) == impossible(before) &&
          packets(now.link.counts) == packets(before.link.counts) &&
          now.link.counts.skipped_bytes > before.link.counts.skipped_bytes;
 }
@@ -38,11 +44,6 @@ std::string noiseSentence(const DriverSettings& settings) {
 std::string silenceSentence(double silence, const DriverSettings& settings) {
   return sourceName(settings) + " has sent nothing for " + rounded(silence) +
          " s: does the board have power, and is its firmware running?";
-}
-
-// Packets whose checksum is right, but whose content cannot be.
-std::uint64_t impossible(const DriverHealth& health) {
-  return health.link.counts.bad_content;
 }
 
 std::string contentSentence(const DriverHealth& before, const DriverHealth& now,

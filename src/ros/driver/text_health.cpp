@@ -22,9 +22,14 @@ std::string fullScaleSentence(const DriverHealth& now, const DriverSettings& set
          ": set it to the largest count that the board's converter can give";
 }
 
-std::string lengthSentence(const DriverHealth& now, const DriverSettings& settings) {
+std::string lengthSentence(const DriverHealth& before, const DriverHealth& now,
+                           const DriverSettings& settings) {
   const fsr::protocol::DecoderOptions& decoder = settings.decoder;
-  return sourceName(settings) + " sends lines with " + std::to_string(now.link.counts.lines.last_number) +
+  const fsr::protocol::LineCounts& lines = now.link.counts.lines;
+  // The numbers of a line that is much too long are not counted.
+  const bool counted = lines.wrong_number > before.link.counts.lines.wrong_number;
+  return sourceName(settings) + " sends lines with " +
+         (counted ? std::to_string(lines.last_number) : std::string("many more")) +
          " numbers behind the time, but rows x columns is " + sizeText(decoder.size) + " = " +
          std::to_string(decoder.size.taxels()) + " counts" +
          (decoder.transducer ? ", and text_transducer adds a reading" : "") +
@@ -49,7 +54,7 @@ bool speaksText(const DriverSettings& settings) {
 std::string lineSentence(const DriverHealth& before, const DriverHealth& now,
                          const DriverSettings& settings) {
   return hasCountsAboveFullScale(before, now) ? fullScaleSentence(now, settings)
-                                              : lengthSentence(now, settings);
+                                              : lengthSentence(before, now, settings);
 }
 
 void judgeLines(const DriverHealth& before, const DriverHealth& now, const DriverSettings& settings,

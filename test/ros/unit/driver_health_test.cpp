@@ -253,6 +253,23 @@ TEST(TextHealth, SaysThatTheTimesHaveTheOtherUnit) {
   EXPECT_TRUE(contains(judged(1'000, 1), "set text_time to ms")) << judged(1'000, 1).message;
 }
 
+// The first line of an open port is cut, and its bytes are skipped as those of noise are.
+TEST(TextHealth, SuspectsNoBaudRateWhereLinesOfAnotherMatrixCome) {
+  DriverHealth wrong = reading(), long_lines = reading();
+  wrong.link.counts.bytes = long_lines.link.counts.bytes = 1000;
+  wrong.link.counts.skipped_bytes = long_lines.link.counts.skipped_bytes = 20;
+  wrong.link.counts.lines.wrong_number = wrong.link.counts.bad_content =
+      long_lines.link.counts.lines.too_long = 5;
+  wrong.link.counts.lines.last_number = 12;
+  const auto log = [](const DriverHealth& now) {
+    return fsr_ros::complaintOf(reading(), now, textSettings());
+  };
+  EXPECT_EQ(log(wrong).find("no scan is published: /dev/ttyACM0 sends lines with 12 numbers"), 0U)
+      << log(wrong);
+  EXPECT_EQ(log(long_lines).find("no scan is published: /dev/ttyACM0 sends lines with many more numbers"), 0U)
+      << log(long_lines);
+}
+
 TEST(TextHealth, SuspectsAWrongBaudRateWhereNoLineHasNumbers) {
   DriverHealth now = reading();
   now.link.counts.bytes = now.link.counts.skipped_bytes = 1000;
