@@ -413,9 +413,10 @@ void Calibrator::Impl::correctHistory(double time, map::PressureMap& out) noexce
   history_->beginScan(time);
   const std::size_t n = layout_.size.taxels();
   for (std::size_t i = 0; i < n; ++i) {
-    const bool frozen = (out.flags[i] & kFrozen) != 0;
+    const auto frozen = static_cast<std::uint16_t>(out.flags[i] & kFrozen);
+    if (frozen == map::taxel_flag::kSaturated) history_->atLeast(i, double(out.pressure[i]));
     const float before = out.deviation[i];
-    const bool corrected = history_->correct(i, frozen, out.pressure[i], out.deviation[i]);
+    const bool corrected = history_->correct(i, frozen != 0, out.pressure[i], out.deviation[i]);
     if (corrected && isBlended(i)) out.deviation[i] = std::hypot(out.deviation[i], beyondClass(i, before));
     out.flags[i] =
         static_cast<std::uint16_t>(out.flags[i] | flagWhere(!corrected, map::taxel_flag::kHistoryShort));

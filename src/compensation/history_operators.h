@@ -40,9 +40,14 @@ class HistoryOperators {
     for (std::size_t k = 0; k < memories_.size(); ++k) steps[k] = memories_[k].over(duration);
   }
 
+  /// Changes the state of the plays for an input that went to `to`.
+  void advancePlays(double to, double* state) const {
+    for (std::size_t j = 0; j < radii_.size(); ++j) state[j] = rheology::playStep(to, radii_[j], state[j]);
+  }
+
   /// Changes the state for an input that went linearly from `from` to `to`.
   void advance(double from, double to, const rheology::ExponentialMemory::Step* steps, double* state) const {
-    for (std::size_t j = 0; j < radii_.size(); ++j) state[j] = rheology::playStep(to, radii_[j], state[j]);
+    advancePlays(to, state);
     double* const memory = state + radii_.size();
     for (std::size_t k = 0; k < memories_.size(); ++k) memory[k] = steps[k](from, to, memory[k]);
   }

@@ -69,6 +69,10 @@ double HistoryState::memoriesMiss(const Steps& steps) const noexcept {
   return missed * (model_.knot.back() - model_.knot.front());
 }
 
+void HistoryState::atLeast(std::size_t taxel, double pressure) noexcept {
+  if (std::isfinite(pressure)) taxels_[taxel].limit = std::max(taxels_[taxel].limit, pressure);
+}
+
 bool HistoryState::correct(std::size_t taxel, bool frozen, float& pressure, float& deviation) noexcept {
   const double x = static_cast<double>(pressure);
   Known& known = known_[taxel];
@@ -82,17 +86,23 @@ bool HistoryState::correct(std::size_t taxel, bool frozen, float& pressure, floa
   if (known != Known::kReadings) {
     operators_.startConditioned(x, state);
     const bool rested = known == Known::kRest;
-    own = {x, time_, x, x, rested ? -kLongAgo : time_, false};
+    own = {};
+    own.last = own.lowest = own.highest = x;
+    own.at = time_;
+    own.since = rested ? -kLongAgo : time_;
     own.settled = rested || settled(own);
     known = Known::kReadings;
   } else {
     const bool spell = own.at < before_;  // without a reading of this taxel
     const Steps& steps = spell ? stepsOfSpell(time_ - own.at) : steps_;
+    if (spell && own.limit > x) operators_.advancePlays(own.limit, state);
     operators_.advance(own.last, x, steps.data(), state);
     own.last = x;
     own.at = time_;
     if (spell) {  // the load may have been anywhere meanwhile
-      own.lowest = own.highest = x;
+      own.lowest = x;
+      own.highest = std::max(x, own.limit);
+      own.limit = -kNoLimit;
       if (memoriesMiss(steps) > allowed_) own.since = time_;
       own.settled = settled(own);
     } else if (!own.settled) {

@@ -38,16 +38,22 @@ class HistoryState {
   /// the reading is none, and the taxel is not settled.
   bool correct(std::size_t taxel, bool frozen, float& pressure, float& deviation) noexcept;
 
+  /// The reading is saturated, and `pressure` [Pa] a lower limit. Plays that the way
+  /// back from there to the next reading moves are settled then.
+  void atLeast(std::size_t taxel, double pressure) noexcept;
+
   static constexpr double kLongestGap = 60;  ///< [s]
 
  private:
   enum class Known : std::uint8_t { kNothing, kRest, kReadings };
+  static constexpr double kNoLimit = 1e30;  // [Pa]
   struct Taxel {
-    double last = 0;     // x of its last reading [Pa]
-    double at = 0;       // time of its last reading [s]
-    double lowest = 0;   // x since the first reading, or since a spell without one [Pa]
-    double highest = 0;  // likewise
-    double since = 0;    // time from which on the memories know their input [s]
+    double last = 0;           // x of its last reading [Pa]
+    double at = 0;             // time of its last reading [s]
+    double lowest = 0;         // x since the first reading, or since a spell without one [Pa]
+    double highest = 0;        // likewise
+    double since = 0;          // time from which on the memories know their input [s]
+    double limit = -kNoLimit;  // of atLeast(), since its last reading [Pa]
     bool settled = false;
   };
 

@@ -227,6 +227,32 @@ TEST(HistoryState, StaysSettledOverASpellThatItsMemoriesHardlyFeel) {
   EXPECT_TRUE(with_plays.at(0.03, 300e3)) << "which a change of load ends";
 }
 
+// The way from there down to the reading moves all plays of 50 kPa and less.
+TEST(HistoryState, KnowsItsPlaysAfterASaturatedSpellThatEndsFarBelow) {
+  HistoryModel plays = model();
+  plays.family = HistoryFamily::kPlays;
+  plays.time_constant.clear();
+  plays.memory_weight.clear();
+  const auto settledAt = [&](double pressure) {
+    HistoryState state(plays, 1);
+    state.rest();
+    float answer = 0, deviation = 1;
+    state.beginScan(0);
+    state.correct(0, false, answer, deviation);
+    state.beginScan(1);
+    state.atLeast(0, 400e3);
+    EXPECT_FALSE(state.correct(0, true, answer, deviation));
+    state.beginScan(2);
+    answer = float(pressure);
+    const bool settled = state.correct(0, false, answer, deviation);
+    // c = 1 kPa - 15 Pa / kPa; both plays on the branch of unloading: -0.2 x 10 - 0.1 x 50 kPa
+    if (settled) EXPECT_NEAR(double(answer), pressure + 1e3 - 0.015 * pressure - 7e3, 1);
+    return settled;
+  };
+  EXPECT_TRUE(settledAt(100e3));
+  EXPECT_FALSE(settledAt(380e3));
+}
+
 TEST(HistoryState, DoesNotTakeTheFirstReadingAfterASpellForTheRest) {
   HistoryState state(slowModel(), 1);
   state.rest();
