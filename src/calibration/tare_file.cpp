@@ -13,10 +13,10 @@
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include "calibration/tare.h"
+#include "settings/file_kind.h"
 #include "settings/replace_file.h"
 #include "settings/settings.h"
 
@@ -25,7 +25,6 @@ namespace fsr::calibration {
 namespace {
 
 constexpr char kFormat[] = "fsr_pressure_map tare 1";
-constexpr char kFirstLine[] = "format: fsr_pressure_map tare ";
 const settings::Range kSide{1, matrix::kMaxMatrixSide, ""};
 const settings::Range kMount{0, std::numeric_limits<std::uint32_t>::max(), ""};
 const settings::Range kOffset{-1e6, 1e6, "Pa"};
@@ -53,12 +52,9 @@ void requireTareOrNothing(const std::string& path) {
   std::error_code error;
   const std::filesystem::file_status found = std::filesystem::status(path, error);
   if (found.type() == std::filesystem::file_type::not_found) return;
-  std::string line(sizeof kFirstLine - 1, '\0');
-  if (std::filesystem::is_regular_file(found)) {
-    std::ifstream file(path, std::ios::binary);
-    file.read(line.data(), static_cast<std::streamsize>(line.size()));
-  }
-  if (line == kFirstLine) return;
+  const bool tare = std::filesystem::is_regular_file(found) &&
+                    settings::kindOfFile(path) == settings::kindOf(std::string("format: ") + kFormat);
+  if (tare) return;
   throw settings::InputError(path +
                              ": is no tare, so it is neither replaced nor removed; give another file with "
                              "~tare_file");

@@ -1,6 +1,7 @@
 #include "exports/csv_table.h"
 
 #include "exports/exact_text.h"
+#include "settings/file_kind.h"
 
 namespace fsr::exports {
 
@@ -51,7 +52,7 @@ std::string curvature(const ScanRecord& scan, std::size_t taxel) {
 
 }  // namespace
 
-CsvTable::CsvTable(const std::string& path) : file_(path) {
+CsvTable::CsvTable(const std::string& path) : file_(path, settings::file_kind::kTable) {
   file_.write(std::string(kCsvHeader) + '\n');
 }
 

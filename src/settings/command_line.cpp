@@ -102,9 +102,9 @@ void CommandLine::refuseLosses() const {
   }
 }
 
-void CommandLine::requireWritable(const std::string& path) const {
+void CommandLine::requireWritable(const std::string& path, const std::string& kind) const {
   requireNoInput(path, paths(Use::kInput));
-  requireReplaceable(path);
+  requireReplaceable(path, kind);
 }
 
 bool CommandLine::parse(int argc, const char* const* argv) {

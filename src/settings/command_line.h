@@ -35,8 +35,8 @@ class CommandLine {
 
   const std::vector<std::string>& files() const { return files_; }
   /// Throws InputError where writing to `path`, e.g. a file in a folder of results, would destroy an input,
-  /// or where it cannot be written.
-  void requireWritable(const std::string& path) const;
+  /// or where requireReplaceable() refuses it for a file of this `kind`.
+  void requireWritable(const std::string& path, const std::string& kind = "") const;
   bool has(const std::string& name) const;
   std::string text(const std::string& name, const std::string& fallback) const;
   /// Throws InputError where the option is missing.

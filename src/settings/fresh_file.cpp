@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "settings/file_kind.h"
 #include "settings/replace_file.h"
 
 namespace fsr::settings {
@@ -22,9 +23,9 @@ bool endsWith(const std::string& text, const std::string& end) {
 
 }  // namespace
 
-FreshPath::FreshPath(const std::string& path)
+FreshPath::FreshPath(const std::string& path, const std::string& kind)
     : path_(path), fresh_(path + ".new-" + std::to_string(::getpid())) {
-  requireReplaceable(path);
+  requireReplaceable(path, kind);
 }
 
 FreshPath::~FreshPath() {
@@ -33,7 +34,7 @@ FreshPath::~FreshPath() {
 }
 
 void FreshPath::finish() {
-  requireReplaceable(path_);  // again: the computation may have taken hours
+  requireReplaceable(path_, kindOfFile(fresh_));  // again: the computation may have taken hours
   const int file = ::open(fresh_.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) throw cannotWrite(path_, errno);
   const int error = ::fsync(file) == 0 ? 0 : errno;
@@ -56,7 +57,8 @@ struct FreshFile::Stream {
   gzFile gz;
 };
 
-FreshFile::FreshFile(const std::string& path) : path_(path), fresh_(path) {
+FreshFile::FreshFile(const std::string& path, const std::string& kind)
+    : path_(path), fresh_(path, endsWith(path, ".gz") ? file_kind::kCompressed : kind) {
   const int file = ::open(fresh_.name().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (file < 0) refuse();
   stream_ = std::make_unique<Stream>(file, endsWith(path, ".gz"));

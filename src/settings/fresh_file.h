@@ -11,15 +11,17 @@ namespace fsr::settings {
 /// old or the complete new one, even where the program is killed. Throws InputError like replaceFile().
 class FreshPath {
  public:
-  /// Throws InputError, like requireReplaceable(), where nothing could be written.
-  explicit FreshPath(const std::string& path);
+  /// Throws InputError, like requireReplaceable(), where nothing could be written, and where a file of
+  /// another `kind` is at the path; empty = only finish() can tell.
+  explicit FreshPath(const std::string& path, const std::string& kind = "");
   /// Removes the temporary file or folder unless finish() was called.
   ~FreshPath();
   FreshPath(const FreshPath&) = delete;
   FreshPath& operator=(const FreshPath&) = delete;
 
   const std::string& name() const { return fresh_; }
-  /// Writes the content to the disk and renames it to `path`.
+  /// Writes the content to the disk and renames it to `path`. Throws InputError where a file of another kind
+  /// is there.
   void finish();
 
  private:
@@ -32,7 +34,8 @@ class FreshPath {
 /// compressed. Throws InputError like replaceFile(), also where the disk is full.
 class FreshFile {
  public:
-  explicit FreshFile(const std::string& path);
+  /// `kind`: of what is written, before it is compressed.
+  explicit FreshFile(const std::string& path, const std::string& kind = "");
   ~FreshFile();
 
   void write(const char* bytes, std::size_t size);

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <filesystem>
 
+#include "settings/file_kind.h"
+
 namespace fsr::settings {
 
 namespace fs = std::filesystem;
@@ -42,7 +44,7 @@ InputError cannotWrite(const std::string& path, int error) {
 }
 
 void replaceFile(const std::string& path, const std::string& content) {
-  requireReplaceable(path);
+  requireReplaceable(path, kindOf(content));
   const std::string fresh = path + ".new-" + std::to_string(::getpid());
   int error = writeFresh(fresh, content);
   if (error == 0 && std::rename(fresh.c_str(), path.c_str()) != 0) error = errno;
@@ -51,7 +53,7 @@ void replaceFile(const std::string& path, const std::string& content) {
   throw cannotWrite(path, error);
 }
 
-void requireReplaceable(const std::string& path) {
+void requireReplaceable(const std::string& path, const std::string& kind) {
   if (path.empty()) throw InputError("the name of a file to write is empty; give a path");
   struct stat found {};
   const bool exists = ::stat(path.c_str(), &found) == 0;
@@ -61,6 +63,11 @@ void requireReplaceable(const std::string& path) {
     throw InputError(path +
                      ": is a device or a pipe, and only files are replaced; give the path of a new or an "
                      "existing file");
+  }
+  const std::string found_kind = exists && !kind.empty() ? kindOfFile(path) : "";
+  if (!found_kind.empty() && found_kind != kind) {
+    throw InputError(path + ": is " + found_kind + ", which is not replaced by " + kind +
+                     "; give another name for the output");
   }
   const std::string parent = fs::path(path).parent_path().string();
   if (::access(parent.empty() ? "." : parent.c_str(), W_OK | X_OK) != 0) throw cannotWrite(path, errno);

@@ -9,13 +9,15 @@ namespace fsr::settings {
 
 /// Writes `content` to a temporary file beside `path`, syncs it to the disk and renames it. At `path` there
 /// is either the old or the complete new file, even where the program is killed. Throws InputError, which
-/// names the path and the cause, and removes the temporary file.
+/// names the path and the cause, and removes the temporary file; also where requireReplaceable() refuses the
+/// path for this content.
 void replaceFile(const std::string& path, const std::string& content);
 
 /// Throws the InputError of replaceFile() where the directory or the permission to write is missing, and
 /// where there is something else than a file at `path`: a directory, a device or a pipe is never replaced.
-/// Call it before a long computation.
-void requireReplaceable(const std::string& path);
+/// Nor is a file of another kind than `kind`, which is what will be written, as kindOf() calls it; empty =
+/// not known yet. Call it before a long computation.
+void requireReplaceable(const std::string& path, const std::string& kind = "");
 
 /// Whether two names, however they are spelled, stand for the same file. It need not exist.
 bool sameFile(const std::string& a, const std::string& b);

@@ -121,7 +121,7 @@ TEST_F(CsvTable, IsCompressedIfItsNameEndsWithGz) {
 }
 
 TEST_F(CsvTable, LeavesNoFileIfItIsNotFinishedOrTheDiskIsFull) {
-  std::ofstream(path_) << "old";
+  std::ofstream(path_) << "old,table";
   {
     fsr::exports::CsvTable table(path_);
     table.begin(export_test::exampleSubject());
@@ -135,7 +135,7 @@ TEST_F(CsvTable, LeavesNoFileIfItIsNotFinishedOrTheDiskIsFull) {
     EXPECT_NE(std::string(error.what()).find(path_ + ": cannot be written"), std::string::npos)
         << error.what();
   }
-  EXPECT_EQ(lines(), std::vector<std::string>{"old"});
+  EXPECT_EQ(lines(), std::vector<std::string>{"old,table"});
   const std::filesystem::directory_iterator files(folder_.path());
   EXPECT_EQ(std::distance(begin(files), end(files)), 1);
 }

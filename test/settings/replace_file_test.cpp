@@ -37,7 +37,7 @@ class ReplaceFile : public testing::Test {
 };
 
 TEST_F(ReplaceFile, LeavesOnlyTheNewContentAtThePath) {
-  replaceFile(folder / "a.yaml", "long old content");
+  replaceFile(folder / "a.yaml", std::string("long old\0content", 16));
   replaceFile(folder / "a.yaml", std::string("new\0one", 7));
   EXPECT_EQ(contentOf(folder / "a.yaml"), std::string("new\0one", 7));
   EXPECT_EQ(files(), 1u);

@@ -12,6 +12,7 @@
 
 #include "calibration/file/calibration_hdf5.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "settings/file_kind.h"
 #include "settings/foreign_error.h"
 #include "settings/fresh_file.h"
 #include "settings/regular_file.h"
@@ -99,7 +100,7 @@ FileState stateOf(const std::string& path) {
 }  // namespace
 
 std::string saveCalibration(const Calibration& calibration, const std::string& path) {
-  settings::FreshPath fresh(path);
+  settings::FreshPath fresh(path, settings::file_kind::kCalibration);
   errno = 0;
   try {
     hdf5::Writer writer(fresh.name());

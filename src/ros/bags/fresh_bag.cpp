@@ -4,11 +4,12 @@
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/abandon_bag.h"
+#include "settings/file_kind.h"
 
 namespace fsr_ros {
 
 FreshBag::FreshBag(const std::string& path)
-    : path_(path), fresh_(path), bag_(std::make_unique<rosbag::Bag>()) {
+    : path_(path), fresh_(path, fsr::settings::file_kind::kBag), bag_(std::make_unique<rosbag::Bag>()) {
   try {
     bag_->open(fresh_.name(), rosbag::bagmode::Write);
   } catch (const rosbag::BagException& error) {

@@ -14,6 +14,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/recheck_report.h"
 #include "ros/bags/resource_path.h"
+#include "settings/file_kind.h"
 #include "settings/number_text.h"
 #include "settings/replace_file.h"
 
@@ -69,8 +70,8 @@ Rechecker::Rechecker(const ros::NodeHandle& handle, const ros::NodeHandle& priva
   asked_.same_mount = parameters.flag("same_mount", false);
   parent_ = fsr::calibration::loadCalibration(path);
   fsr::calibration::requireTrained(parent_);
-  fsr::settings::requireReplaceable(output_);
-  if (!report_.empty()) fsr::settings::requireReplaceable(report_);
+  fsr::settings::requireReplaceable(output_, fsr::settings::file_kind::kCalibration);
+  if (!report_.empty()) fsr::settings::requireReplaceable(report_, fsr::settings::file_kind::kJson);
   ROS_INFO_STREAM("calibration " << parent_.id << " of " << path << " is rechecked");
   if (bags_.empty()) startRecording(private_handle);
 }

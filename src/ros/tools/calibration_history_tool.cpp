@@ -21,6 +21,7 @@
 #include "ros/tools/figure_script.h"
 #include "ros/tools/tool_progress.h"
 #include "settings/command_line.h"
+#include "settings/file_kind.h"
 #include "settings/foreign_error.h"
 #include "settings/replace_file.h"
 
@@ -265,7 +266,8 @@ fs::path outputFolder(const fsr::settings::CommandLine& line) {
     throw InputError(folder.string() + ": the folder cannot be created (" + error.message() +
                      "); give another one with --output");
   }
-  for (const char* const name : {"life.csv", "life.json"}) line.requireWritable((folder / name).string());
+  line.requireWritable((folder / "life.csv").string(), fsr::settings::file_kind::kTable);
+  line.requireWritable((folder / "life.json").string(), fsr::settings::file_kind::kJson);
   return folder;
 }
 

@@ -12,6 +12,7 @@
 #include "ros/tools/tool_progress.h"
 #include "session_plan/plan_file.h"
 #include "settings/command_line.h"
+#include "settings/file_kind.h"
 #include "settings/replace_file.h"
 
 namespace fsr_ros {
@@ -177,7 +178,7 @@ int dayReportTool(int argc, const char* const* argv, std::ostream& out) {
   DayReport day = recordOf(line, folder);
   day.calibration = fsr::conductor::calibrationFileName(day.plan);
   const std::string page = (fs::path(folder) / fsr::conductor::reportFileName(day.plan)).string();
-  fsr::settings::requireReplaceable(page);
+  fsr::settings::requireReplaceable(page, fsr::settings::file_kind::kPage);
   runTools(line, folder, day);
   fsr::settings::replaceFile(page, fsr::report::dayHtml(day));
   bool complete = true;

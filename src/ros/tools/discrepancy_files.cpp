@@ -5,6 +5,7 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "report/discrepancy_report.h"
 #include "report/verdict_file.h"
+#include "settings/file_kind.h"
 #include "settings/replace_file.h"
 #include "settings/sha256.h"
 #include "simulation/taxel_curves.h"
@@ -47,8 +48,14 @@ std::string outputFolder(const std::string& path) {
   return folder;
 }
 
-std::vector<std::string> discrepancyFiles() {
-  return {"results.json", "base.yaml", "simulation.yaml", "prediction.yaml", "verdict.yaml"};
+std::map<std::string, std::string> discrepancyFiles() {
+  using fsr::settings::kindOf;
+  const std::string simulation = kindOf("simulation: x");
+  return {{"results.json", fsr::settings::file_kind::kJson},
+          {"base.yaml", simulation},
+          {"simulation.yaml", simulation},
+          {"prediction.yaml", kindOf("verdict_sha256: x")},
+          {"verdict.yaml", kindOf("verdict: x")}};
 }
 
 void writeDiscrepancy(const fsr::discrepancy::DiscrepancyReport& report, const std::string& folder,

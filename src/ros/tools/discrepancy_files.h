@@ -1,7 +1,7 @@
 #pragma once
 
+#include <map>
 #include <string>
-#include <vector>
 
 #include "fsr_pressure_map/discrepancy/discrepancy.h"
 #include "report/prediction_file.h"
@@ -12,8 +12,8 @@ namespace fsr_ros {
 /// be created.
 std::string outputFolder(const std::string& path);
 
-/// The files at the top of the folder that writeDiscrepancy() replaces.
-std::vector<std::string> discrepancyFiles();
+/// The files at the top of the folder that writeDiscrepancy() replaces, with their kinds (kindOf()).
+std::map<std::string, std::string> discrepancyFiles();
 
 /// Writes a report into a folder: verdict.yaml, simulation.yaml (with the effects found), base.yaml (fitted,
 /// without them), prediction.yaml, results.json, and the tables for the figures in figures/. Each file is

@@ -160,7 +160,7 @@ void requireChamber(const DrivingBags& bags) {
 
 int find(const fsr::settings::CommandLine& line, std::ostream& out) {
   const std::string folder = outputFolder(line.requiredText("output"));
-  for (const std::string& file : discrepancyFiles()) line.requireWritable(folder + "/" + file);
+  for (const auto& [file, kind] : discrepancyFiles()) line.requireWritable(folder + "/" + file, kind);
   const fsr::discrepancy::DiscrepancyProgress progress = toolProgress();
   fsr::discrepancy::DiscrepancyProblem problem;
   problem.options = discrepancyOptions(line);

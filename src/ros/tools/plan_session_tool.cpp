@@ -11,6 +11,7 @@
 #include "session_plan/propose.h"
 #include "session_plan/steps.h"
 #include "settings/command_line.h"
+#include "settings/file_kind.h"
 #include "settings/number_text.h"
 #include "settings/replace_file.h"
 
@@ -102,7 +103,7 @@ void describe(const plans::SessionPlan& plan, const fsr::settings::CommandLine& 
 
 void propose(const fsr::settings::CommandLine& line, std::ostream& out) {
   const std::string output = line.requiredText("output");
-  line.requireWritable(output);
+  line.requireWritable(output, fsr::settings::kindOf("plan: x"));
   const plans::PlanRequest request = requestIn(line);
   plans::ProposedPlan proposed = plans::proposePlan(request);
   proposed.plan.name = std::filesystem::path(output).stem().string();

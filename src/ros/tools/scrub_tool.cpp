@@ -20,6 +20,7 @@
 #include "ros/messages/message_reader.h"
 #include "ros/tools/tool_progress.h"
 #include "settings/command_line.h"
+#include "settings/file_kind.h"
 #include "settings/replace_file.h"
 
 namespace fsr_ros {
@@ -164,7 +165,7 @@ int scrubTool(int argc, const char* const* argv, std::ostream& out) {
   const std::string output = line.requiredText("output");
   if (line.files().size() != 1)
     throw fsr::settings::InputError("give one bag, and --output with another name");
-  fsr::settings::requireReplaceable(output);
+  fsr::settings::requireReplaceable(output, fsr::settings::file_kind::kBag);
   const std::string& bag = line.files().front();
   const auto progress = toolProgress();
   withBagStream(

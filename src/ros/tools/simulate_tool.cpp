@@ -16,6 +16,7 @@
 #include "session_plan/plan_file.h"
 #include "session_plan/steps.h"
 #include "settings/command_line.h"
+#include "settings/file_kind.h"
 #include "settings/progress.h"
 #include "settings/replace_file.h"
 #include "settings/sha256.h"
@@ -186,12 +187,12 @@ void writeBags(const fsr::settings::CommandLine& line, const fsr::simulation::Si
   if (line.has("plan") && !driving.paths.empty())
     throw fsr::settings::InputError("--plan and --drive both say what the chamber does; give one of them");
   const std::string saved = line.text("save-state", "");
-  if (!saved.empty()) fsr::settings::requireReplaceable(saved);
+  if (!saved.empty()) fsr::settings::requireReplaceable(saved, fsr::settings::kindOf("rig_state: 1"));
   SimulatedBags bags;
   const TidyFolder folder(line);
   bags.output = folder.path();
   refuseRecordedBags(bags.output);
-  line.requireWritable(fs::path(bags.output) / kTruth);
+  line.requireWritable(fs::path(bags.output) / kTruth, fsr::settings::kindOf("simulation: x"));
   std::optional<Display> display(out);
   bags.progress = [&](const std::string& path) { display->print(path); };
   bags.told = display->told();
@@ -263,7 +264,7 @@ void writeSheets(const fsr::settings::CommandLine& line, const fsr::simulation::
                   {"--sheets", line.has("sheets") ? std::to_string(sheets) : "not given"}};
   const TidyFolder folder(line);
   const fs::path own = fs::path(folder.path()) / fsr::report::shardFileName(file.shard);
-  line.requireWritable(own);
+  line.requireWritable(own, fsr::settings::file_kind::kJson);
   fs::remove(own);  // a shard that is killed leaves none
   fsr::simulation::SimulationSettings sheet = settings;
   const auto wanted = [&](std::size_t bag) { return file.shard.has(bag); };

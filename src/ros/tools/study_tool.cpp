@@ -12,6 +12,7 @@
 #include "ros/tools/study_shards.h"
 #include "ros/tools/tool_progress.h"
 #include "settings/command_line.h"
+#include "settings/file_kind.h"
 #include "settings/replace_file.h"
 #include "settings/sha256.h"
 #include "simulation/session.h"
@@ -152,7 +153,7 @@ fsr::study::StudyParts computed(const fsr::settings::CommandLine& line, StudySha
 void writeShard(const fsr::settings::CommandLine& line, StudyShard& shard, std::ostream& out) {
   shard.shard = fsr::report::readShard(line.text("shard", ""));
   shard.folder = folderOf(line);
-  line.requireWritable(shard.path());
+  line.requireWritable(shard.path(), fsr::settings::file_kind::kJson);
   fs::remove(shard.path());  // a shard that is killed leaves none
   writeStudyShard(shard, computed(line, shard), out);
 }
@@ -171,7 +172,7 @@ int studyTool(int argc, const char* const* argv, std::ostream& out) {
     return 0;
   }
   const fs::path folder = folderOf(line);
-  line.requireWritable((folder / "results.json").string());
+  line.requireWritable((folder / "results.json").string(), fsr::settings::file_kind::kJson);
   const fsr::study::StudyResult result =
       line.has("merge") ? merged(line) : fsr::study::joinParts(computed(line, shard));
   out << fsr::report::studyText(result);

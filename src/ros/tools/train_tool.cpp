@@ -27,6 +27,7 @@
 #include "ros/tools/history_option.h"
 #include "ros/tools/tool_progress.h"
 #include "settings/command_line.h"
+#include "settings/file_kind.h"
 #include "settings/replace_file.h"
 
 namespace fsr_ros {
@@ -215,6 +216,13 @@ void refuseOptionsOfTraining(const fsr::settings::CommandLine& line, const std::
   }
 }
 
+// Before hours of training. Empty = not wanted.
+void requireOutputs(const std::string& calibration, const std::string& report) {
+  namespace kind = fsr::settings::file_kind;
+  if (!calibration.empty()) fsr::settings::requireReplaceable(calibration, kind::kCalibration);
+  if (!report.empty()) fsr::settings::requireReplaceable(report, kind::kJson);
+}
+
 // --correct.
 int correct(const fsr::settings::CommandLine& line, std::ostream& out) {
   refuseOptionsOfTraining(line, "correct");
@@ -224,9 +232,7 @@ int correct(const fsr::settings::CommandLine& line, std::ostream& out) {
                                       " cannot be used with --correct; remove it");
   }
   const std::string output = line.text("output", ""), report = line.text("report", "");
-  for (const std::string& path : {output, report}) {
-    if (!path.empty()) fsr::settings::requireReplaceable(path);
-  }
+  requireOutputs(output, report);
   const fsr::calibration::Calibration parent = fsr::calibration::loadCalibration(line.text("correct", ""));
   out << "Calibration " << parent.id << " (" << fsr::compensation::schemeName(parent.tables.scheme) << ", "
       << parent.provenance.date << "), rechecked on " << line.files().size()
@@ -310,8 +316,7 @@ int trainTool(int argc, const char* const* argv, std::ostream& out) {
   if (line.has("correct")) return correct(line, out);
   const std::string output = line.requiredText("output");
   const std::string report = line.text("report", "");
-  fsr::settings::requireReplaceable(output);
-  if (!report.empty()) fsr::settings::requireReplaceable(report);
+  requireOutputs(output, report);
 
   fsr::calibration::Calibration calibration = line.has("merge") ? merge(line, out) : train(line, out);
   out << std::endl;

@@ -10,15 +10,20 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <sstream>
 
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_writer.h"
+#include "ros/tools/calibration_history_tool.h"
 #include "ros/tools/check_bag_tool.h"
 #include "ros/tools/csv_tool.h"
+#include "ros/tools/discrepancy_tool.h"
 #include "ros/tools/export_tool.h"
+#include "ros/tools/plan_session_tool.h"
 #include "ros/tools/scrub_tool.h"
 #include "ros/tools/simulate_tool.h"
+#include "ros/tools/study_tool.h"
 #include "ros/tools/train_tool.h"
 #include "support/pty.h"
 #include "support/source_dir.h"
@@ -90,6 +95,10 @@ class ToolDamage : public testing::Test {
     return refused;
   }
 
+  static std::string contentOf(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
   std::size_t files() const {
     return static_cast<std::size_t>(
         std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()));
@@ -184,6 +193,65 @@ TEST_F(ToolDamage, NoToolWritesOverItsInput) {
   EXPECT_TRUE(sound_ == std::string(std::istreambuf_iterator<char>(file), {}));
   EXPECT_EQ(fs::file_size(table), 10u);
   EXPECT_EQ(fs::file_size(folder_.path("truth.yaml")), fs::file_size(bench));
+}
+
+// What an output would replace is often a recording under a wrong name.
+TEST_F(ToolDamage, NoToolReplacesAFileOfAnotherKind) {
+  const std::string table = folder_.path("table.csv"), results = folder_.path("results"),
+                    c = folder_.path("c.h5");
+  std::ofstream(table) << "0,1\n0.1,2\n";
+  const std::string bench = test_support::sourceDir() + "/config/simulation/bench.yaml";
+  fs::create_directory(results);
+  const std::string kPlan = "a YAML file of the kind plan", kCalibration = "a calibration",
+                    kJson = "a JSON file";
+  struct Case {
+    Tool tool;
+    std::vector<std::string> words;  // before the output
+    std::string writes;
+    std::string in_folder;  // file that is replaced where the output is a folder
+  };
+  const std::vector<Case> cases = {
+      {trainTool, {bag_, "--output"}, kCalibration, ""},
+      {trainTool, {bag_, "--output", c, "--report"}, kJson, ""},
+      {trainTool, {"--merge", bag_, "--output"}, kCalibration, ""},
+      {trainTool, {"--correct", c, bag_, "--output"}, kCalibration, ""},
+      {scrubTool, {bag_, "--output"}, "a bag", ""},
+      {exportAll, {bag_, "--to", "csv", "--output"}, "a table of values", ""},
+      {exportAll, {bag_, "--to", "tekscan", "--output"}, "a Tekscan file", ""},
+      {csvToBagTool, {table, "--columns", "time=1,reading=2", "--output"}, "a bag", ""},
+      {planSessionTool, {"--for", "field_check", "--minutes", "20", "--output"}, kPlan, ""},
+      {simulateTool,
+       {"--simulation", bench, "--output", folder_.path("new"), "--save-state"},
+       "a YAML file of the kind rig_state",
+       ""},
+      {simulateTool, {"--simulation", bench, "--output"}, "a YAML file of the kind simulation", "truth.yaml"},
+      {simulateTool, {"--simulation", bench, "--shard", "1/2", "--output"}, kJson, "shard_1_of_2.json"},
+      {studyTool, {bag_, "--output"}, kJson, "results.json"},
+      {discrepancyTool, {bag_, "--output"}, "a YAML file of the kind verdict", "verdict.yaml"},
+      {calibrationHistoryTool, {folder_.path(), "--output"}, kJson, "life.json"},
+  };
+  const std::map<std::string, std::string> precious = {
+      {"a bag", sound_},
+      {kCalibration, "fsr_pressure_map calibration schema=8 sha256=0\n"},
+      {"a YAML file of the kind notes", "notes: of the day\n"},
+      {"a table of values", "time,mine\n1,2\n"},
+      {"a text", "Dear diary\n"}};
+  for (const Case& one : cases) {
+    for (const auto& [kind, content] : precious) {
+      if (kind == one.writes) continue;
+      const std::string target =
+          one.in_folder.empty() ? folder_.path("target") : results + "/" + one.in_folder;
+      std::ofstream(target, std::ios::binary | std::ios::trunc) << content;
+      std::vector<std::string> words = one.words;
+      words.push_back(one.in_folder.empty() ? target : results);
+      const std::string sentence = said(one.tool, words);
+      EXPECT_NE(sentence.find(target + ": is " + kind + ", which is not replaced by " + one.writes),
+                std::string::npos)
+          << one.words[1] << ": " << sentence;
+      EXPECT_TRUE(contentOf(target) == content) << target;
+      fs::remove(target);
+    }
+  }
 }
 
 // A pipe without a writer would block them for ever.

@@ -285,12 +285,13 @@ TEST_F(TrainTool, MergesCalibrations) {
 
 TEST_F(TrainTool, AFailureOverwritesNothing) {
   const std::string output = (folder_ / "calibration.h5").string();
-  std::ofstream(output) << "the old one";
+  const std::string old = "fsr_pressure_map calibration schema=8\n";
+  std::ofstream(output) << old;
   EXPECT_EQ(run({bend_, "--output", output, "--scheme", "flat_only"}),
             "scheme is flat_only, but no recording is of a flat surface (there is cylinder_7cm); add one, or "
             "choose baseline or per_curvature");
   std::ifstream file(output);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "the old one");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), old);
 }
 
 TEST_F(TrainTool, PrintsTheErrorBudgetOfAFileAgain) {
