@@ -1,12 +1,7 @@
-#include <ros/ros.h>
-
 #include "ros/live/curvature_server.h"
-#include "ros/live/parameters.h"
+#include "ros/live/serve.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "curvature");
-  return fsr_ros::runNode([] {
-    const fsr_ros::CurvatureServer server(ros::NodeHandle{}, ros::NodeHandle{"~"});
-    ros::spin();
-  });
+  return fsr_ros::serve<fsr_ros::CurvatureServer>();
 }

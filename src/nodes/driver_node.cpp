@@ -1,12 +1,7 @@
-#include <ros/ros.h>
-
 #include "ros/driver/driver.h"
-#include "ros/live/parameters.h"
+#include "ros/live/serve.h"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "driver");
-  return fsr_ros::runNode([] {
-    const fsr_ros::Driver driver(ros::NodeHandle{}, ros::NodeHandle{"~"});
-    ros::spin();
-  });
+  return fsr_ros::serve<fsr_ros::Driver>();
 }

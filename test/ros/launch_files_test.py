@@ -230,6 +230,20 @@ class LaunchFilesTest(unittest.TestCase):
             said = self.refused(name, *arguments)
             self.assertEqual(said.splitlines()[-1], sentence, said)
 
+    def test_a_node_waits_for_a_right_setting(self):
+        rig = self.start("calibrated", self.lab(serial_port=self.port, rows=900, unit="bar"), "surface:=no_such")
+        self.wait_for(lambda: rig.said().count("tries again each second") == 3, rig)
+        nodes = {node: pid_of(node) for node in ("/fsr/driver", "/fsr/view", "/fsr/curvature")}
+        rospy.set_param("/fsr/curvature/surface", "flat")
+        self.lab(serial_port=self.port)
+        self.wait_for(lambda: all(pid_of(node) for node in nodes) and "there is no serial port" in rig.said(), rig)
+        for service in ("/fsr/view/set_alarm", "/fsr/curvature/set_surface"):
+            rospy.wait_for_service(service, PATIENCE)
+        self.assertEqual({node: pid_of(node) for node in nodes}, nodes, rig.said())
+        said = rig.end()
+        self.assertEqual(said.count("tries again each second"), 3, said)
+        self.assertNotIn("has died", said)
+
     def test_a_recording_that_would_be_useless_is_refused(self):
         for arguments, sentence in [
                 (["wait:=1"], "no scan has come on /fsr/raw"),

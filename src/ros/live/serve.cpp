@@ -1,0 +1,30 @@
+#include "ros/live/serve.h"
+
+#include <ros/callback_queue.h>
+
+#include "settings/foreign_error.h"
+
+namespace fsr_ros {
+
+namespace {
+
+constexpr double kAgain = 1;  // [s]
+
+}  // namespace
+
+bool makeUntilRight(const std::function<void()>& make, const std::function<void(const std::string&)>& say) {
+  while (ros::ok()) {
+    try {
+      fsr::settings::inSentences(make);
+      return true;
+    } catch (const fsr::settings::InputError& error) {
+      say(error.what());
+    }
+    const ros::WallTime again = ros::WallTime::now() + ros::WallDuration(kAgain);
+    while (ros::ok() && ros::WallTime::now() < again)
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kAgain / 10));
+  }
+  return false;
+}
+
+}  // namespace fsr_ros
