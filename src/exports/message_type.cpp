@@ -1,6 +1,8 @@
 #include "exports/message_type.h"
 
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -13,15 +15,13 @@ namespace {
 
 constexpr int kDeepest = 16;  // levels of messages in messages; a type with more contains itself
 
-const std::map<std::string, Scalar>& scalars() {
-  static const std::map<std::string, Scalar> kScalars = {
-      {"bool", Scalar::kBool},        {"int8", Scalar::kInt8},     {"byte", Scalar::kInt8},
-      {"uint8", Scalar::kUint8},      {"char", Scalar::kUint8},    {"int16", Scalar::kInt16},
-      {"uint16", Scalar::kUint16},    {"int32", Scalar::kInt32},   {"uint32", Scalar::kUint32},
-      {"int64", Scalar::kInt64},      {"uint64", Scalar::kUint64}, {"float32", Scalar::kFloat32},
-      {"float64", Scalar::kFloat64},  {"string", Scalar::kString}, {"time", Scalar::kTime},
-      {"duration", Scalar::kDuration}};
-  return kScalars;
+// Sizes of the types that are not themselves messages [bytes]; 0 = a text.
+const std::map<std::string, std::size_t>& scalarSizes() {
+  static const std::map<std::string, std::size_t> kSizes = {
+      {"bool", 1},    {"int8", 1},   {"byte", 1},   {"uint8", 1},   {"char", 1},   {"int16", 2},
+      {"uint16", 2},  {"int32", 4},  {"uint32", 4}, {"int64", 8},   {"uint64", 8}, {"float32", 4},
+      {"float64", 8}, {"string", 0}, {"time", 8},   {"duration", 8}};
+  return kSizes;
 }
 
 std::string trimmed(const std::string& text) {
@@ -51,46 +51,33 @@ class Parser {
  public:
   Parser(const std::string& name, const std::string& definition) : texts_(textsOf(name, definition)) {}
 
-  MessageType run(const std::string& name) {
-    MessageType type{name, fieldsOf(name, "", false, 0), 0};
-    type.count = count_;
-    return type;
-  }
-
- private:
-  std::vector<MessageField> fieldsOf(const std::string& name, const std::string& prefix, bool repeated,
-                                     int depth) {
+  std::vector<MessageField> fieldsOf(const std::string& name, int depth) {
     if (depth > kDeepest) throw settings::InputError("the message type " + name + " contains itself");
     std::vector<MessageField> fields;
     std::istringstream lines(texts_.at(name));
     for (std::string line; std::getline(lines, line);) {
-      if (auto field = parse(line, name, prefix, repeated, depth)) fields.push_back(std::move(*field));
+      if (auto field = parse(line, name, depth)) fields.push_back(std::move(*field));
     }
     return fields;
   }
 
+ private:
   // None for a constant, a comment or an empty line.
-  std::optional<MessageField> parse(const std::string& line, const std::string& owner,
-                                    const std::string& prefix, bool repeated, int depth) {
-    const std::size_t hash = line.find('#');
-    std::istringstream words(line.substr(0, hash));
+  std::optional<MessageField> parse(const std::string& line, const std::string& owner, int depth) {
+    const std::string code = line.substr(0, line.find('#'));
+    std::istringstream words(code);
     std::string type, name;
-    if (line.substr(0, hash).find('=') != std::string::npos || !(words >> type)) return {};
+    if (code.find('=') != std::string::npos || !(words >> type)) return {};
     if (!(words >> name))
       throw settings::InputError("the definition of " + owner + " has an invalid line: \"" + line + "\"");
     MessageField field;
-    field.name = prefix + name;
-    if (hash != std::string::npos) field.comment = trimmed(line.substr(hash + 1));
-    field.repeated = repeated;
-    field.id = count_++;
     takeArray(type, field);
-    const auto scalar = scalars().find(type);
-    field.nested = scalar == scalars().end();
-    if (!field.nested) {
-      field.scalar = scalar->second;
+    const auto scalar = scalarSizes().find(type);
+    field.nested = scalar == scalarSizes().end();
+    if (field.nested) {
+      field.fields = fieldsOf(fullName(type, owner), depth + 1);
     } else {
-      const bool many = repeated || field.count != MessageField::Count::kOne;
-      field.fields = fieldsOf(fullName(type, owner), field.name + '.', many, depth + 1);
+      field.size = scalar->second;
     }
     return field;
   }
@@ -113,44 +100,57 @@ class Parser {
   }
 
   std::map<std::string, std::string> texts_;
-  std::size_t count_ = 0;
 };
 
-struct Nothing {
-  void count(const MessageField&, std::uint32_t) {}
-  void values(const MessageField&, const char*, std::size_t) {}
-  void text(const MessageField&, std::string_view) {}
-};
+bool takeLength(std::string_view& bytes, std::uint32_t& length) {
+  if (bytes.size() < sizeof(length)) return false;
+  std::memcpy(&length, bytes.data(), sizeof(length));
+  bytes.remove_prefix(sizeof(length));
+  return true;
+}
+
+bool takeScalars(std::size_t size, std::size_t count, std::string_view& bytes) {
+  if (size > 0) {
+    if (count > bytes.size() / size) return false;
+    bytes.remove_prefix(count * size);
+    return true;
+  }
+  for (; count > 0; --count) {
+    std::uint32_t length = 0;
+    if (!takeLength(bytes, length) || length > bytes.size()) return false;
+    bytes.remove_prefix(length);
+  }
+  return true;
+}
+
+bool takeFields(const std::vector<MessageField>& fields, std::string_view& bytes) {
+  for (const MessageField& field : fields) {
+    std::size_t count = field.fixed;
+    if (field.count == MessageField::Count::kAny) {
+      std::uint32_t length = 0;
+      if (!takeLength(bytes, length)) return false;
+      count = length;
+    }
+    if (!field.nested) {
+      if (!takeScalars(field.size, count, bytes)) return false;
+      continue;
+    }
+    if (field.fields.empty()) continue;  // an empty message has no bytes
+    for (; count > 0; --count) {
+      if (!takeFields(field.fields, bytes)) return false;
+    }
+  }
+  return true;
+}
 
 }  // namespace
 
-std::size_t sizeOf(Scalar scalar) {
-  switch (scalar) {
-    case Scalar::kBool:
-    case Scalar::kInt8:
-    case Scalar::kUint8:
-      return 1;
-    case Scalar::kInt16:
-    case Scalar::kUint16:
-      return 2;
-    case Scalar::kInt32:
-    case Scalar::kUint32:
-    case Scalar::kFloat32:
-      return 4;
-    case Scalar::kString:
-      return 0;
-    default:
-      return 8;
-  }
-}
-
 MessageType parseMessageType(const std::string& name, const std::string& definition) {
-  return Parser(name, definition).run(name);
+  return {Parser(name, definition).fieldsOf(name, 0)};
 }
 
 bool isMessageOf(const MessageType& type, std::string_view bytes) {
-  Nothing visitor;
-  return visitMessage(type, bytes, visitor);
+  return takeFields(type.fields, bytes) && bytes.empty();
 }
 
 }  // namespace fsr::exports

@@ -5,6 +5,7 @@
 #include "exports/animated_png.h"
 #include "exports/csv_table.h"
 #include "exports/picture_folder.h"
+#include "exports/scan_table.h"
 #include "exports/tekscan_file.h"
 #include "exports/video_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -24,6 +25,10 @@ Sink openTekscan(const std::string& output, const PictureOptions& /*pictures*/) 
     throw settings::InputError("--output is " + output + ", but only csv can be compressed");
   }
   return std::make_unique<TekscanFile>(output);
+}
+
+Sink openHdf5(const std::string& output, const PictureOptions& /*pictures*/) {
+  return std::make_unique<ScanTable>(output);
 }
 
 Sink openPictures(const std::string& output, const PictureOptions& pictures) {
@@ -52,6 +57,7 @@ const std::vector<ScanFormat>& scanFormats() {
   static const std::vector<ScanFormat> formats = {
       table("csv", "table with a row for each taxel and scan (.gz: compressed); takes several bags", true,
             openCsv),
+      table("hdf5", "datasets with an entry for each scan (h5py, MATLAB, R)", false, openHdf5),
       table("tekscan", "ASCII as Tekscan's I-Scan and F-Scan save it (*.asf)", false, openTekscan),
       drawn("png", "a picture of each map, in a new folder", openPictures),
       drawn("movie", "NAME.png (animated PNG), or .mp4 .webm .mkv .avi .gif (written by ffmpeg)", openMovie)};

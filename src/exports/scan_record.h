@@ -29,8 +29,6 @@ struct ScanRecord {
   std::shared_ptr<const matrix::Surface> surface;  ///< surface at the time of the scan; none = unknown
   std::string session;                             ///< empty = unknown
   std::optional<std::size_t> cycle;                ///< cycle of the chamber's pressure, from 1
-  std::optional<std::uint64_t> raw_row;  ///< number of the scan's message among those of its topic in the bag
-  std::optional<std::uint64_t> map_row;  ///< number of the map's message; none = computed, or no map
   std::string event;                     ///< last event before the scan, "kind" or "kind:label"; empty = none
 };
 

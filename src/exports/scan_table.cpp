@@ -1,52 +1,84 @@
 #include "exports/scan_table.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
 
-#include "exports/archive_layout.h"
+#include "settings/replace_file.h"
 
 namespace fsr::exports {
 
-using hdf5::ColumnWriter;
-
 using hdf5::ColumnPlan;
+using hdf5::ColumnWriter;
 
 namespace {
 
-ColumnPlan planOf(const std::string& name, hid_t type, const std::string& unit, const std::string& meaning) {
-  ColumnPlan plan;
-  plan.path = "/scans/" + name;
-  plan.type = type;
-  plan.unit = unit;
-  plan.meaning = meaning;
-  return plan;
+constexpr char kGroup[] = "/scans";
+
+// Runs `act` alone, because HDF5 is not thread-safe. If HDF5 cannot write, throws an InputError with the
+// reason in errno, since HDF5 gives none.
+template <typename Act>
+void attempt(const std::string& path, Act act) {
+  const std::lock_guard<std::mutex> lock(hdf5::hdf5Mutex());
+  errno = 0;
+  try {
+    act();
+  } catch (const settings::InputError&) {
+    throw settings::cannotWrite(path, errno != 0 ? errno : EIO);
+  }
 }
 
-std::int64_t rowOr(const std::optional<std::uint64_t>& row) {
-  return row ? static_cast<std::int64_t>(*row) : -1;
+std::string pathOf(const std::string& name) {
+  return std::string(kGroup) + '/' + name;
+}
+
+double curvatureAt(const ScanRecord& scan, std::size_t taxel) {
+  if (scan.surface == nullptr || !scan.surface->known()) return ScanRecord::kUnknown;
+  return matrix::principalCurvature(scan.surface->at({taxel}));
 }
 
 }  // namespace
 
-ScanTable::ScanTable(hid_t file, const std::string& path) : file_(file), path_(path) {
-  archive::attempt(path_, [&] {
-    lay("stamp", H5T_NATIVE_INT64, "ns", "time of the scan, since 1970, UTC");
-    lay("time", H5T_NATIVE_DOUBLE, "s", "since the first scan");
-    lay("raw", H5T_NATIVE_INT64, "", "row of the scan in the datasets of the topic raw; -1 = not recorded");
-    lay("pressure_map", H5T_NATIVE_INT64, "", "row of its map in the datasets of pressure_map; -1 = none");
-    lay("chamber_pressure", H5T_NATIVE_DOUBLE, "Pa", "gauge, interpolated to the scan; NaN = unknown");
-    lay("temperature", H5T_NATIVE_DOUBLE, "degree Celsius", "interpolated to the scan; NaN = unknown");
-    lay("cycle", H5T_NATIVE_UINT32, "", "cycle of the chamber's pressure, from 1; 0 = unknown");
-    lay("mount", H5T_NATIVE_UINT32, "", "number of the mount; 0 = unknown");
-    for (const char* name : {"surface", "session", "event"}) {
-      const std::string meaning = std::string("row of /scans/") + name + "_names";
-      labels_[name].column =
-          std::make_unique<ColumnWriter>(file_, planOf(name, H5T_NATIVE_UINT32, "", meaning));
-    }
-  });
+void ScanTable::lay(const char* name, hid_t type, const char* unit, const char* meaning, bool each_taxel) {
+  ColumnPlan plan;
+  plan.path = pathOf(name);
+  plan.type = type;
+  if (each_taxel) plan.shape = {size_.rows, size_.columns};
+  plan.unit = unit;
+  plan.meaning = meaning;
+  columns_[name] = std::make_unique<ColumnWriter>(*file_, plan);
 }
 
-void ScanTable::lay(const char* name, hid_t type, const char* unit, const char* meaning) {
-  columns_[name] = std::make_unique<ColumnWriter>(file_, planOf(name, type, unit, meaning));
+void ScanTable::open(const ScanRecord& first) {
+  hdf5::openLibrary();
+  size_ = first.layout.size;
+  file_.emplace(H5Fcreate(fresh_.name().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "file");
+  const hdf5::Handle group(H5Gcreate2(*file_, kGroup, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
+                           kGroup);
+  lay("stamp", H5T_NATIVE_INT64, "ns", "time of the scan, since 1970, UTC");
+  lay("time", H5T_NATIVE_DOUBLE, "s", "since the first scan");
+  lay("sequence", H5T_NATIVE_INT64, "", "scan counter of the board; a gap means lost scans; -1 = unknown");
+  lay("counts", H5T_NATIVE_INT32, "counts", "reading of the converter, never tared; -1 = not recorded", true);
+  lay("pressure", H5T_NATIVE_FLOAT, "Pa", "gauge; NaN = no reading", true);
+  lay("deviation", H5T_NATIVE_FLOAT, "Pa", "one standard deviation of a held-out reading", true);
+  lay("flags", H5T_NATIVE_UINT16, "", "bits as in PressureMap.msg", true);
+  lay("curvature", H5T_NATIVE_DOUBLE, "1/m", "principal curvature of largest magnitude; NaN = unknown", true);
+  lay("state", H5T_NATIVE_INT32, "", "state of the map as in PressureMap.msg; -1 = no map");
+  lay("chamber_pressure", H5T_NATIVE_DOUBLE, "Pa", "gauge, interpolated to the scan; NaN = unknown");
+  lay("temperature", H5T_NATIVE_DOUBLE, "degree Celsius", "interpolated to the scan; NaN = unknown");
+  lay("cycle", H5T_NATIVE_UINT32, "", "cycle of the chamber's pressure, from 1; 0 = unknown");
+  lay("mount", H5T_NATIVE_UINT32, "", "number of the mount; 0 = unknown");
+  lay("surface", H5T_NATIVE_UINT32, "", "row of /scans/surface_names");
+  lay("session", H5T_NATIVE_UINT32, "", "row of /scans/session_names");
+  lay("event", H5T_NATIVE_UINT32, "", "row of /scans/event_names");
+  hdf5::setAttribute(*file_, kGroup, "bag", subject_.name);
+  hdf5::setAttribute(*file_, kGroup, "sensor", subject_.sensor);
+  hdf5::setAttribute(*file_, kGroup, "calibration", subject_.calibration);
+  hdf5::setAttribute(*file_, kGroup, "scheme", subject_.scheme);
+  hdf5::setAttribute(*file_, kGroup, "pitch_x", first.layout.pitch_x);
+  hdf5::setAttribute(*file_, kGroup, "pitch_y", first.layout.pitch_y);
+  hdf5::setAttribute(*file_, kGroup, "use", "research use, not for diagnosis or fitting decisions");
 }
 
 template <typename T>
@@ -54,19 +86,48 @@ void ScanTable::put(const char* name, T value) {
   columns_.at(name)->append(&value, 1);
 }
 
-void ScanTable::label(const std::string& name, const std::string& text) {
-  Labels& labels = labels_.at(name);
+template <typename T>
+void ScanTable::putAll(const char* name, const std::vector<T>& values) {
+  columns_.at(name)->append(values.data(), 1);
+}
+
+void ScanTable::label(const char* name, const std::string& text) {
+  Labels& labels = labels_[name];
   const auto [found, is_new] = labels.row.emplace(text, static_cast<std::uint32_t>(labels.names.size()));
   if (is_new) labels.names.push_back(text);
-  labels.column->append(&found->second, 1);
+  put(name, found->second);
+}
+
+void ScanTable::putTaxels(const ScanRecord& scan) {
+  const std::size_t taxels = size_.taxels();
+  map::PressureMap none;
+  none.reset(scan.layout);
+  const map::PressureMap& map = scan.map ? *scan.map : none;
+  std::vector<std::int32_t> counts(scan.counts.begin(), scan.counts.end());
+  counts.resize(taxels, -1);
+  std::vector<double> curvature(taxels);
+  for (std::size_t i = 0; i < taxels; ++i) curvature[i] = curvatureAt(scan, i);
+  putAll("counts", counts);
+  putAll("pressure", map.pressure);
+  putAll("deviation", map.deviation);
+  putAll("flags", map.flags);
+  putAll("curvature", curvature);
+  put("state", scan.map ? static_cast<std::int32_t>(map.state) : -1);
 }
 
 void ScanTable::add(const ScanRecord& scan) {
-  archive::attempt(path_, [&] {
+  if (!file_) attempt(path_, [&] { open(scan); });
+  if (scan.layout.size != size_) {
+    throw settings::InputError(
+        subject_.name + ": the matrix changes from " + matrix::sizeText(size_) + " to " +
+        matrix::sizeText(scan.layout.size) +
+        " taxels, but datasets have one size; end the export before the change with --until");
+  }
+  attempt(path_, [&] {
     put("stamp", scan.stamp_ns);
     put("time", 1e-9 * static_cast<double>(scan.since_ns));
-    put("raw", rowOr(scan.raw_row));
-    put("pressure_map", rowOr(scan.map_row));
+    put("sequence", scan.sequence ? std::int64_t{*scan.sequence} : -1);
+    putTaxels(scan);
     put("chamber_pressure", scan.chamber_pressure);
     put("temperature", scan.temperature);
     put("cycle", static_cast<std::uint32_t>(scan.cycle.value_or(0)));
@@ -78,17 +139,23 @@ void ScanTable::add(const ScanRecord& scan) {
 }
 
 void ScanTable::finish() {
-  archive::attempt(path_, [&] {
+  if (!file_) throw settings::InputError(path_ + ": there is no scan to write; choose a longer interval");
+  attempt(path_, [&] {
     for (auto& column : columns_) column.second->finish();
-    for (auto& [name, labels] : labels_) {
-      labels.column->finish();
-      ColumnPlan plan = planOf(name + "_names", 0, "", "\"\" = unknown");
+    for (const auto& [name, labels] : labels_) {
+      ColumnPlan plan;
+      plan.path = pathOf(name + "_names");
+      plan.meaning = "\"\" = unknown";
       for (const std::string& text : labels.names) plan.text_size = std::max(plan.text_size, text.size());
-      ColumnWriter names(file_, plan);
+      ColumnWriter names(*file_, plan);
       for (const std::string& text : labels.names) names.appendText(text);
       names.finish();
     }
+    columns_.clear();
+    hdf5::require(H5Fflush(*file_, H5F_SCOPE_GLOBAL), "file");
+    file_.reset();
   });
+  fresh_.finish();
 }
 
 }  // namespace fsr::exports

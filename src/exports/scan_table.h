@@ -2,33 +2,29 @@
 
 #include <hdf5.h>
 
-#include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "exports/scan_record.h"
 #include "hdf5/column.h"
+#include "settings/fresh_file.h"
 
 // Only sources include this header: it needs HDF5's own.
 
 namespace fsr::exports {
 
-/// Scans as datasets of the group /scans, with one entry for each scan, in the order of their stamps:
-///
-///   stamp [ns], time [s]           since 1970, UTC; since the first scan
-///   raw, pressure_map              rows of scan and map in the datasets of their topics; -1 = none
-///   chamber_pressure [Pa]          gauge, interpolated to the scan; NaN = unknown
-///   temperature [degree Celsius]   interpolated to the scan; NaN = unknown
-///   cycle, mount                   0 = unknown
-///   surface, session, event        rows of surface_names, session_names, event_names; "" = unknown
+/// The scans of a recording as datasets of the group /scans of an HDF5 file, with one entry for each scan, in
+/// the order of their stamps. docs/exports.md describes them; the attributes `unit` and `meaning` of a
+/// dataset do so in the file.
 class ScanTable : public ScanSink {
  public:
-  /// `path` is the file's path for messages.
-  ScanTable(hid_t file, const std::string& path);
+  explicit ScanTable(const std::string& path) : path_(path), fresh_(path) {}
 
-  void begin(const ExportSubject& /*subject*/) override {}
+  void begin(const ExportSubject& subject) override { subject_ = subject; }
+  /// Throws InputError if the size of the matrix has changed.
   void add(const ScanRecord& scan) override;
   void finish() override;
 
@@ -37,15 +33,21 @@ class ScanTable : public ScanSink {
   struct Labels {
     std::map<std::string, std::uint32_t> row;
     std::vector<std::string> names;
-    std::unique_ptr<hdf5::ColumnWriter> column;
   };
   template <typename T>
   void put(const char* name, T value);
-  void label(const std::string& name, const std::string& text);
-  void lay(const char* name, hid_t type, const char* unit, const char* meaning);
+  template <typename T>
+  void putAll(const char* name, const std::vector<T>& values);
+  void putTaxels(const ScanRecord& scan);
+  void label(const char* name, const std::string& text);
+  void lay(const char* name, hid_t type, const char* unit, const char* meaning, bool each_taxel = false);
+  void open(const ScanRecord& first);
 
-  hid_t file_;
   std::string path_;
+  settings::FreshPath fresh_;
+  ExportSubject subject_;
+  matrix::MatrixSize size_;
+  std::optional<hdf5::Handle> file_;
   std::map<std::string, std::unique_ptr<hdf5::ColumnWriter>> columns_;
   std::map<std::string, Labels> labels_;
 };

@@ -7,9 +7,8 @@ namespace fsr::hdf5 {
 
 namespace {
 
-constexpr std::size_t kChunk = 1 << 16;         // [bytes]; a column buffers as much
-constexpr std::size_t kLargestEntry = 1 << 28;  // that is read [bytes]; a damaged file may claim more
-constexpr unsigned kDeflate = 4;                // level
+constexpr std::size_t kChunk = 1 << 16;  // [bytes]; a column buffers as much
+constexpr unsigned kDeflate = 4;         // level
 
 std::vector<hsize_t> dimensions(std::size_t entries, const std::vector<std::size_t>& shape) {
   std::vector<hsize_t> all = {entries};
@@ -17,7 +16,7 @@ std::vector<hsize_t> dimensions(std::size_t entries, const std::vector<std::size
   return all;
 }
 
-// Columns are written and read chunk by chunk, so HDF5's own cache of a megabyte each is not needed.
+// Columns are written chunk by chunk, so HDF5's own cache of a megabyte each is not needed.
 hid_t accessPlan() {
   const hid_t plan = H5Pcreate(H5P_DATASET_ACCESS);
   H5Pset_chunk_cache(plan, 7, 4 * kChunk, 1.0);
@@ -39,22 +38,8 @@ hid_t makeDataset(hid_t file, const ColumnPlan& plan, hid_t type, std::size_t ch
   return H5Dcreate2(file, plan.path.c_str(), type, space, H5P_DEFAULT, creation, access);
 }
 
-hid_t openDataset(hid_t file, const std::string& path) {
-  const Handle access(accessPlan(), H5Pclose, path);
-  return H5Dopen2(file, path.c_str(), access);
-}
-
 std::size_t chunkEntries(std::size_t entry_size) {
   return std::max<std::size_t>(1, kChunk / entry_size);
-}
-
-// The file's own type for texts, the requested type for numbers.
-hid_t readType(hid_t dataset, hid_t wanted) {
-  if (wanted != 0) return H5Tcopy(wanted);
-  const hid_t type = H5Dget_type(dataset);
-  if (type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0) return type;
-  H5Tclose(type);
-  return -1;
 }
 
 }  // namespace
@@ -75,25 +60,12 @@ void setAttribute(hid_t file, const std::string& path, const std::string& name, 
   require(H5Awrite(made, type, text.c_str()), name);
 }
 
-void setAttribute(hid_t file, const std::string& path, const std::string& name, std::uint64_t value) {
+void setAttribute(hid_t file, const std::string& path, const std::string& name, double value) {
   const Handle object(H5Oopen(file, path.c_str(), H5P_DEFAULT), H5Oclose, path);
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
-  const Handle made(H5Acreate2(object, name.c_str(), H5T_NATIVE_UINT64, space, H5P_DEFAULT, H5P_DEFAULT),
+  const Handle made(H5Acreate2(object, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT),
                     H5Aclose, name);
-  require(H5Awrite(made, H5T_NATIVE_UINT64, &value), name);
-}
-
-std::string textAttribute(hid_t file, const std::string& path, const std::string& name) {
-  const std::string what = path + " " + name;
-  const Handle attribute(H5Aopen_by_name(file, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose, what);
-  const Handle type(H5Aget_type(attribute), H5Tclose, what);
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) {
-    throw settings::InputError("its " + what + " is not a text of fixed length");
-  }
-  std::string text(H5Tget_size(type), '\0');
-  require(H5Aread(attribute, type, text.data()), what);
-  return text.substr(0, text.find('\0'));
+  require(H5Awrite(made, H5T_NATIVE_DOUBLE, &value), name);
 }
 
 ColumnWriter::ColumnWriter(hid_t file, const ColumnPlan& plan)
@@ -145,57 +117,6 @@ void ColumnWriter::flush() {
 
 void ColumnWriter::finish() {
   flush();
-}
-
-ColumnReader::ColumnReader(hid_t file, const std::string& path, hid_t type)
-    : path_(path),
-      dataset_(openDataset(file, path), H5Dclose, path),
-      type_(readType(dataset_, type), H5Tclose, path) {
-  const Handle space(H5Dget_space(dataset_), H5Sclose, path);
-  shape_.resize(static_cast<std::size_t>(std::max(1, H5Sget_simple_extent_ndims(space))));
-  require(H5Sget_simple_extent_dims(space, shape_.data(), nullptr), path);
-  entries_ = shape_[0];
-  for (std::size_t i = 1; i < shape_.size(); ++i) {
-    width_ = shape_[i] > kLargestEntry ? 0 : std::min<std::size_t>(width_ * shape_[i], kLargestEntry + 1);
-  }
-  const std::size_t value = H5Tget_size(type_);
-  if (value == 0 || width_ == 0 || width_ > kLargestEntry / value) {
-    throw settings::InputError("its " + path + " has entries of no usable size");
-  }
-  entry_size_ = value * width_;
-}
-
-void ColumnReader::load(std::size_t entries) {
-  if (entries > entries_ - loaded_ || entries > kLargestEntry / entry_size_)
-    throw settings::InputError("its " + path_ + " has too few entries");
-  const std::size_t now = std::min(std::max(entries, chunkEntries(entry_size_)), entries_ - loaded_);
-  buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(at_));
-  at_ = 0;
-  const std::size_t old = buffer_.size();
-  buffer_.resize(old + now * entry_size_);
-  std::vector<hsize_t> start(shape_.size(), 0), count = shape_;
-  start[0] = loaded_;
-  count[0] = now;
-  const Handle space(H5Dget_space(dataset_), H5Sclose, path_);
-  require(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), path_);
-  const Handle memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose,
-                      path_);
-  require(H5Dread(dataset_, type_, memory, space, H5P_DEFAULT, buffer_.data() + old), path_);
-  loaded_ += now;
-}
-
-const char* ColumnReader::next(std::size_t entries) {
-  const std::size_t wanted = entries * entry_size_;
-  const std::size_t there = buffer_.size() - at_;
-  if (there < wanted) load((wanted - there + entry_size_ - 1) / entry_size_);
-  const char* bytes = buffer_.data() + at_;
-  at_ += wanted;
-  return bytes;
-}
-
-std::string_view ColumnReader::nextText() {
-  const char* bytes = next();
-  return {bytes, static_cast<std::size_t>(std::find(bytes, bytes + entry_size_, '\0') - bytes)};
 }
 
 }  // namespace fsr::hdf5

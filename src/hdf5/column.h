@@ -3,7 +3,6 @@
 #include <hdf5.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,8 +28,7 @@ hid_t textType(std::size_t size);
 
 /// Attributes of a group or dataset that exists.
 void setAttribute(hid_t file, const std::string& path, const std::string& name, const std::string& text);
-void setAttribute(hid_t file, const std::string& path, const std::string& name, std::uint64_t value);
-std::string textAttribute(hid_t file, const std::string& path, const std::string& name);
+void setAttribute(hid_t file, const std::string& path, const std::string& name, double value);
 
 /// A dataset [entries x shape] that grows entry by entry; chunked, shuffled and compressed (deflate).
 class ColumnWriter {
@@ -53,34 +51,6 @@ class ColumnWriter {
   Handle dataset_;
   std::vector<char> waiting_;  // whole entries
   std::size_t written_ = 0;    // entries
-};
-
-/// Reads such a dataset from its first entry to its last.
-class ColumnReader {
- public:
-  /// `type` as planned; throws InputError where the dataset is of another kind.
-  ColumnReader(hid_t file, const std::string& path, hid_t type);
-
-  /// Values of an entry.
-  std::size_t width() const { return width_; }
-  std::size_t entries() const { return entries_; }
-  /// The bytes of the next `entries` entries; throws InputError behind the last. Valid until the next call.
-  const char* next(std::size_t entries = 1);
-  std::string_view nextText();
-
- private:
-  void load(std::size_t entries);
-
-  std::string path_;
-  Handle dataset_;
-  Handle type_;
-  std::size_t width_ = 1;
-  std::size_t entry_size_ = 0;  // [bytes]
-  std::size_t entries_ = 0;
-  std::vector<hsize_t> shape_;
-  std::size_t loaded_ = 0;  // entries read from the file so far
-  std::size_t at_ = 0;      // in buffer_ [bytes]
-  std::vector<char> buffer_;
 };
 
 }  // namespace fsr::hdf5

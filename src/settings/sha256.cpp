@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <vector>
 
-#include "settings/file_hash.h"
 #include "settings/regular_file.h"
 
 namespace fsr::settings {
@@ -55,8 +53,7 @@ std::string sha256(const void* bytes, std::size_t size) {
   return digest.hexadecimal();
 }
 
-std::string sha256OfFile(const std::string& path, std::size_t skip,
-                         const std::function<void(double share)>& progress) {
+std::string sha256OfFile(const std::string& path, std::size_t skip) {
   RegularFile file(path);
   Sha256 digest;
   std::vector<char> chunk(1 << 20);
@@ -65,19 +62,8 @@ std::string sha256OfFile(const std::string& path, std::size_t skip,
     if (size == 0) break;
     left -= size;
   }
-  std::error_code unknown;
-  const auto bytes = static_cast<double>(std::filesystem::file_size(path, unknown));
-  double read = static_cast<double>(skip);
-  while (const std::size_t size = file.read(chunk.data(), chunk.size())) {
-    digest.add(chunk.data(), size);
-    read += static_cast<double>(size);
-    if (progress) progress(std::min(read / bytes, 1.0));
-  }
+  while (const std::size_t size = file.read(chunk.data(), chunk.size())) digest.add(chunk.data(), size);
   return digest.hexadecimal();
-}
-
-std::string sha256OfFile(const std::string& path, std::size_t skip) {
-  return sha256OfFile(path, skip, {});
 }
 
 }  // namespace fsr::settings

@@ -45,35 +45,6 @@ std::string message() {
   return header + values + std::string(6, '\1') + pairs + std::string(1, '\1');
 }
 
-struct Told {
-  std::string all;
-  void count(const fsr::exports::MessageField& field, std::uint32_t n) {
-    all += field.name + "#" + std::to_string(n) + " ";
-  }
-  void values(const fsr::exports::MessageField& field, const char*, std::size_t n) {
-    all += field.name + "*" + std::to_string(n) + " ";
-  }
-  void text(const fsr::exports::MessageField& field, std::string_view text) {
-    all += field.name + "=" + std::string(text) + " ";
-  }
-};
-
-TEST(MessageType, ReadsAMessageByItsDefinition) {
-  Told told;
-  ASSERT_TRUE(fsr::exports::visitMessage(type(), message(), told));
-  EXPECT_EQ(told.all,
-            "header.seq*1 header.stamp*1 header.frame_id=frame values#2 values*2 triple*3 pairs#2 "
-            "pairs.key=a pairs.words#1 pairs.words=x pairs.key=b pairs.words#0 last*1 ");
-}
-
-TEST(MessageType, HasCommentsAndKnowsRepeatedFields) {
-  const fsr::exports::MessageType everything = type();
-  EXPECT_EQ(everything.fields.at(1).comment, "[Pa], row-major");
-  EXPECT_FALSE(everything.fields.at(1).repeated);
-  EXPECT_TRUE(everything.fields.at(3).fields.at(1).repeated);
-  EXPECT_EQ(everything.count, 10u);
-}
-
 TEST(MessageType, RefusesEveryTruncationAndEveryExcess) {
   const std::string whole = message();
   EXPECT_TRUE(fsr::exports::isMessageOf(type(), whole));

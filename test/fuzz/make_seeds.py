@@ -131,9 +131,9 @@ write("capture", "every_type", capture(wire()))
 bag("every_topic.bag")
 bag("packed_by_bz2.bag", "bz2")
 bag("packed_by_lz4.bag", "lz4")
-for number, use in enumerate(("check_bag", "socket", "scrub", "csv", "hdf5", "tekscan", "archive", "train")):
+for number, use in enumerate(("check_bag", "socket", "scrub", "csv", "hdf5", "tekscan", "train")):
     write("tools", use, bytes([number]) + (SEEDS / "bag" / "every_topic.bag").read_bytes())
-write("tools", "table", b"\x08t,a,p\n0,100,1\n0.1,200,2\n0.2,4095,3\n")
+write("tools", "table", b"\x07t,a,p\n0,100,1\n0.1,200,2\n0.2,4095,3\n")
 write("table", "comma", b"\x01time,a,b\n0.1,2,3\n0.2,4,5\n")
 write("table", "semicolon_and_decimal_comma", b"\x84t;p\r\n0,1;\"2,5\"\r\n# note\n0,2;3\r\n")
 calibration_content()

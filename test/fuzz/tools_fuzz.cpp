@@ -29,15 +29,14 @@ struct Use {
   bool writes;
 };
 
-const std::array<Use, 9>& uses() {
-  static const std::array<Use, 9> all = {
+const std::array<Use, 8>& uses() {
+  static const std::array<Use, 8> all = {
       {{fsr_ros::checkBagTool, {}, false},
        {fsr_ros::checkBagTool, {"--use", "socket"}, false},
        {fsr_ros::scrubTool, {}, true},
        {exportAll, {"--to", "csv"}, true},
        {exportAll, {"--to", "hdf5"}, true},
        {exportAll, {"--to", "tekscan"}, true},
-       {exportAll, {"--to", "bag"}, true},
        {fsr_ros::trainTool, {"--no-scores", "--threads", "1"}, true},
        {fsr_ros::csvToBagTool, {"--columns", "time=1,reading=2,reference=3", "--skip-bad-rows"}, true}}};
   return all;

@@ -64,12 +64,8 @@ class BagStream::Cursor {
     std::uint32_t order, offset;
   };
 
-  Cursor(const std::string& path, std::size_t connection, const std::vector<Run>& runs,
-         const StreamQuery& query)
-      : path_(path), connection_(connection), runs_(runs), until_(query.until) {
-    while (next_ < runs.size() && runs[next_].last < query.from) ++next_;
-    while (front() != nullptr && front()->received < query.from) ++at_;
-  }
+  Cursor(const std::string& path, std::size_t connection, const std::vector<Run>& runs)
+      : path_(path), connection_(connection), runs_(runs) {}
 
   std::size_t connection() const { return connection_; }
   /// nullptr = there is no further one.
@@ -77,7 +73,7 @@ class BagStream::Cursor {
     while (next_ < runs_.size() && (at_ == entries_.size() || runs_[next_].first <= entries_[at_].received)) {
       load(runs_[next_++]);
     }
-    return at_ < entries_.size() && entries_[at_].received <= until_ ? &entries_[at_] : nullptr;
+    return at_ < entries_.size() ? &entries_[at_] : nullptr;
   }
   void advance() { ++at_; }
 
@@ -100,7 +96,6 @@ class BagStream::Cursor {
   const std::string& path_;
   std::size_t connection_;
   const std::vector<Run>& runs_;
-  ros::Time until_;
   std::size_t next_ = 0;  // run to load
   std::vector<Entry> entries_;
   std::size_t at_ = 0;
@@ -191,11 +186,9 @@ void BagStream::readRuns(RecordFile& file, std::uint64_t chunk, std::uint32_t re
     const auto id = field<std::uint32_t>(file.header(), rosbag::CONNECTION_FIELD_NAME);
     std::string_view data = file.data();
     if (data.size() < kIndexEntry) continue;
-    run.first = run.last = timeOf(data);
-    for (; data.size() >= kIndexEntry; data.remove_prefix(kIndexEntry)) {
+    run.first = timeOf(data);
+    for (; data.size() >= kIndexEntry; data.remove_prefix(kIndexEntry))
       run.first = std::min(run.first, timeOf(data));
-      run.last = std::max(run.last, timeOf(data));
-    }
     std::vector<Run>& runs = runs_[id];
     run.order = static_cast<std::uint32_t>(runs.size());
     runs.push_back(run);
@@ -216,20 +209,11 @@ ros::Time BagStream::begin() const {
   return begin;
 }
 
-std::vector<std::size_t> BagStream::connectionsOf(const StreamQuery& query) const {
-  std::vector<std::size_t> found;
-  for (std::size_t c = 0; c < connections_.size(); ++c) {
-    if (!asksFor(query, connections_[c])) continue;
-    if (Cursor(path_, c, runs_.at(connections_[c].id), query).front() != nullptr) found.push_back(c);
-  }
-  return found;
-}
-
 std::uint64_t BagStream::forEach(const StreamQuery& query, const Take& take) const {
   std::vector<std::unique_ptr<Cursor>> cursors;
   for (std::size_t c = 0; c < connections_.size(); ++c) {
     if (!asksFor(query, connections_[c])) continue;
-    cursors.push_back(std::make_unique<Cursor>(path_, c, runs_.at(connections_[c].id), query));
+    cursors.push_back(std::make_unique<Cursor>(path_, c, runs_.at(connections_[c].id)));
     if (cursors.back()->front() == nullptr) cursors.pop_back();
   }
   Chunks chunks(path_);

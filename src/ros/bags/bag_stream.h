@@ -48,8 +48,6 @@ Message readStreamed(const StreamedMessage& message) {
 /// Which messages are read.
 struct StreamQuery {
   std::vector<std::string> topics = {};             ///< full names; empty = all
-  ros::Time from = ros::TIME_MIN;                   ///< time of reception
-  ros::Time until = ros::TIME_MAX;                  ///< likewise, included
   std::function<void(double share)> progress = {};  ///< called now and then with the share that is done
 };
 
@@ -64,8 +62,6 @@ class BagStream {
 
   /// Connections that have a message, by ascending number.
   const std::vector<StreamedConnection>& connections() const { return connections_; }
-  /// Those that have one in the query.
-  std::vector<std::size_t> connectionsOf(const StreamQuery& query) const;
   /// Message type of each topic.
   std::map<std::string, std::string> types() const;
   /// Time of the first message; TIME_MAX where there is none.
@@ -81,7 +77,7 @@ class BagStream {
     std::uint64_t chunk = 0;  // position in the file
     std::uint64_t index = 0;  // likewise, of the record
     std::uint32_t order = 0;  // in the file
-    ros::Time first, last;    // earliest and latest time of reception
+    ros::Time first;          // earliest time of reception
   };
   class Cursor;
   class Chunks;

@@ -54,7 +54,6 @@ class Joiner {
     fsr::exports::ScanRecord& scan = at(stampOf(message.header));
     requireOneSize(scan, {message.rows, message.columns});
     scan.sequence = message.sequence;
-    scan.raw_row = raw_rows_++;
     scan.full_scale = message.full_scale;
     scan.counts = message.counts;
   }
@@ -65,7 +64,6 @@ class Joiner {
     requireOneSize(scan, map.layout.size);
     scan.layout = map.layout;
     scan.map = std::move(map);
-    scan.map_row = map_rows_++;
   }
 
   void add(const fsr_pressure_map::SurfaceCurvature& message) {
@@ -142,7 +140,6 @@ class Joiner {
   std::shared_ptr<const fsr::matrix::Surface> surface_;
   std::optional<std::int64_t> first_ns_;
   double last_due_ = -1;
-  std::uint64_t raw_rows_ = 0, map_rows_ = 0;
   std::size_t sent_ = 0;
 };
 

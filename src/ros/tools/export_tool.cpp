@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "fsr_pressure_map/settings/input_error.h"
-#include "ros/bags/bag_archive.h"
 #include "ros/bags/scan_source.h"
 #include "ros/tools/bag_options.h"
 #include "ros/tools/picture_options.h"
@@ -36,14 +35,12 @@ fsr::settings::CommandLine options(const std::vector<ExportFormat>& formats) {
     purpose << "  " << std::left << std::setw(8) << format.name << " " << format.summary << "\n";
   }
   purpose << "docs/exports.md describes every column and dataset.";
-  fsr::settings::CommandLine line(
-      "export", "BAG... --to FORMAT --output PATH, or ARCHIVE --to bag --output BAG", purpose.str());
+  fsr::settings::CommandLine line("export", "BAG... --to FORMAT --output PATH", purpose.str());
   line.option("to", "FORMAT", "format to write")
       .output("output", "PATH", "file to write; an existing file is replaced")
       .input("calibration", "FILE", "compute the maps with this calibration instead of using recorded ones")
       .option("from", "S", "start, in seconds since the first scan (0)")
       .option("until", "S", "end, in seconds since the first scan (all)")
-      .option("topics", "A,B", "hdf5: only these topics, full names or names under the namespace (all)")
       .option("rate", "HZ", "largest number of scans a second (all; pictures: 10)")
       .option("map", "TOPIC", "topic of the maps, if a bag holds several (pressure_map)")
       .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
@@ -109,7 +106,6 @@ void writeScans(const fsr::exports::ScanFormat& format, const fsr::settings::Com
     refuseOthers(line, pictureOptionNames());
   }
   if (!format.several_recordings) requireOne(line);
-  refuseOthers(line, {"topics"});
   ScanSelection selection = selectionOf(line);
   if (format.pictures) {
     selection.rate = pictures.rate;
@@ -119,44 +115,12 @@ void writeScans(const fsr::exports::ScanFormat& format, const fsr::settings::Com
   sendAll(line, selection, *sink, out);
 }
 
-std::vector<std::string> split(const std::string& list) {
-  std::vector<std::string> parts;
-  std::istringstream text(list);
-  for (std::string part; std::getline(text, part, ',');) parts.push_back(part);
-  return parts;
-}
-
-void writeArchive(const fsr::settings::CommandLine& line, std::ostream& out) {
-  requireOne(line);
-  refuseOthers(line, {"calibration", "rate", "map", "ambient"});
-  refuseOthers(line, pictureOptionNames());
-  const ScanSelection range = selectionOf(line);
-  const ArchiveSelection selection{range.topics, split(line.text("topics", "")), range.from, range.until,
-                                   range.progress};
-  const ArchiveResult result = archiveBag(line.files().front(), selection, line.requiredText("output"));
-  if (!result.complaint.empty())
-    out << "Warning: the group /scans is incomplete: " << result.complaint << "\n";
-  out << result.messages << " messages written to " << fullPath(line.text("output", "")) << std::endl;
-}
-
-void writeBag(const fsr::settings::CommandLine& line, std::ostream& out) {
-  requireOne(line);
-  refuseOthers(line, {"calibration", "rate", "map", "ambient", "topics", "from", "until", "namespace"});
-  refuseOthers(line, pictureOptionNames());
-  const std::uint64_t messages =
-      restoreBag(line.files().front(), line.requiredText("output"), toolProgress());
-  out << messages << " messages, identical to those of the bag, written to "
-      << fullPath(line.text("output", "")) << std::endl;
-}
-
 std::vector<ExportFormat> exportFormats(const std::vector<fsr::exports::ScanFormat>& scan_formats) {
   std::vector<ExportFormat> formats;
   for (const fsr::exports::ScanFormat& format : scan_formats) {
     formats.push_back({format.name, format.summary,
                        [&format](const auto& line, std::ostream& out) { writeScans(format, line, out); }});
   }
-  formats.push_back({"hdf5", "archive of every topic in one file", writeArchive});
-  formats.push_back({"bag", "restores the bag from such an archive, each message byte for byte", writeBag});
   return formats;
 }
 
