@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "exports/map_pictures.h"
 #include "exports/scan_record.h"
 
 namespace fsr::exports {
@@ -15,9 +14,8 @@ struct ScanFormat {
   std::string name;                 ///< as users write it, e.g. "csv"
   std::string summary;              ///< one line for the help
   bool several_recordings = false;  ///< whether one output can hold several recordings
-  bool pictures = false;            ///< whether it draws maps: it takes PictureOptions and needs no counts
   /// Opens the output. Throws InputError if it cannot be written.
-  std::function<std::unique_ptr<ScanSink>(const std::string& output, const PictureOptions& pictures)> open;
+  std::function<std::unique_ptr<ScanSink>(const std::string& output)> open;
 };
 
 /// The formats of this package. `export` offers each of them; a new format needs an entry here and nothing

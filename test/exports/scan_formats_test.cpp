@@ -17,13 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 using fsr::exports::ScanFormat;
 
-// An output name of the format's kind. A movie that needs no other program is an animated PNG.
-std::string outputOf(const ScanFormat& format, const test_support::TemporaryFolder& folder) {
-  return folder.path(format.name == "movie" ? "maps.png" : "out_" + format.name);
-}
-
 void writeTwoScans(const ScanFormat& format, const std::string& output, bool finish) {
-  const auto sink = format.open(output, {});
+  const auto sink = format.open(output);
   sink->begin(export_test::exampleSubject());
   fsr::exports::ScanRecord scan = export_test::exampleScan();
   sink->add(scan);
@@ -44,10 +39,10 @@ TEST(ScanFormats, EachWritesItsOutputWholeOrNotAtAll) {
   for (const ScanFormat& format : allFormats()) {
     SCOPED_TRACE(format.name);
     const test_support::TemporaryFolder folder;
-    writeTwoScans(format, outputOf(format, folder), false);
+    writeTwoScans(format, folder.path("out"), false);
     EXPECT_TRUE(fs::is_empty(folder.path())) << "without finish()";
-    writeTwoScans(format, outputOf(format, folder), true);
-    EXPECT_TRUE(fs::exists(outputOf(format, folder)));
+    writeTwoScans(format, folder.path("out"), true);
+    EXPECT_TRUE(fs::exists(folder.path("out")));
     EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
   }
 }
@@ -74,7 +69,7 @@ TEST(ScanFormats, TekscanRefusesACompressedOutput) {
   for (const ScanFormat& format : fsr::exports::scanFormats()) {
     if (format.name != "tekscan") continue;
     try {
-      format.open(folder.path("a.asf.gz"), {});
+      format.open(folder.path("a.asf.gz"));
       FAIL() << "opened";
     } catch (const fsr::settings::InputError& error) {
       EXPECT_EQ(error.what(), "--output is " + folder.path("a.asf.gz") + ", but only csv can be compressed");

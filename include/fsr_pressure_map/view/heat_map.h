@@ -39,9 +39,6 @@ class HeatMap {
  public:
   explicit HeatMap(const HeatMapStyle& style) : style_(style) {}
 
-  void setScale(const PressureScale& scale) { style_.scale = scale; }
-  const HeatMapStyle& style() const { return style_; }
-
   /// Width and height of the picture depend only on the matrix, the style and the number of lines. Throws
   /// InputError for a map without taxels or with arrays that do not fit its layout.
   Image draw(const map::PressureMap& map, const std::vector<std::string>& lines = {}) const;

@@ -46,7 +46,4 @@ class Image {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// Encodes the picture as a PNG file. Throws InputError if libpng fails or memory runs out.
-std::string pngOf(const Image& image);
-
 }  // namespace fsr::view

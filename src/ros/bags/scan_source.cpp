@@ -163,7 +163,6 @@ ScanTopics scanTopics(const SensorTopics& topics, const ScanSelection& selection
       throw fsr::settings::InputError("holds no topic raw, which --calibration needs to compute maps");
     found.map.clear();
   }
-  if (!selection.counts && !found.map.empty()) found.raw.clear();
   if (selection.map != ScanSelection().map && found.map.empty() && selection.calibration.empty()) {
     throw fsr::settings::InputError("holds no topic " + selection.map + ", but " + topics.list());
   }

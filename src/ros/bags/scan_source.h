@@ -19,7 +19,6 @@ struct ScanSelection {
   double from = 0;  ///< start, since the first scan [s]
   double until = std::numeric_limits<double>::infinity();  ///< end, likewise [s]
   double rate = 0;                                         ///< largest rate of scans; 0 = all scans [Hz]
-  bool counts = true;                                      ///< false: do not read `raw` if the bag has maps
   /// Is called now and then with what is done and its share; none = nobody asks.
   std::function<void(const std::string& step, double share)> progress = {};
 };

@@ -1,8 +1,6 @@
 #include "ros/tools/export_tool.h"
 
-#include <cmath>
 #include <filesystem>
-#include <functional>
 #include <iomanip>
 #include <memory>
 #include <sstream>
@@ -11,7 +9,6 @@
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/scan_source.h"
 #include "ros/tools/bag_options.h"
-#include "ros/tools/picture_options.h"
 #include "ros/tools/tool_progress.h"
 #include "settings/command_line.h"
 
@@ -20,18 +17,12 @@ namespace fsr_ros {
 namespace {
 
 namespace fs = std::filesystem;
+using fsr::exports::ScanFormat;
 
-// A value of --to: its line in the help, and what it does.
-struct ExportFormat {
-  std::string name;
-  std::string summary;
-  std::function<void(const fsr::settings::CommandLine& line, std::ostream& out)> write;
-};
-
-fsr::settings::CommandLine options(const std::vector<ExportFormat>& formats) {
+fsr::settings::CommandLine options(const std::vector<ScanFormat>& formats) {
   std::ostringstream purpose;
   purpose << "Writes a recording in a format that other programs read without ROS. FORMAT is\n";
-  for (const ExportFormat& format : formats) {
+  for (const ScanFormat& format : formats) {
     purpose << "  " << std::left << std::setw(8) << format.name << " " << format.summary << "\n";
   }
   purpose << "docs/exports.md describes every column and dataset.";
@@ -41,11 +32,10 @@ fsr::settings::CommandLine options(const std::vector<ExportFormat>& formats) {
       .input("calibration", "FILE", "compute the maps with this calibration instead of using recorded ones")
       .option("from", "S", "start, in seconds since the first scan (0)")
       .option("until", "S", "end, in seconds since the first scan (all)")
-      .option("rate", "HZ", "largest number of scans a second (all; pictures: 10)")
+      .option("rate", "HZ", "largest number of scans a second (all)")
       .option("map", "TOPIC", "topic of the maps, if a bag holds several (pressure_map)")
       .option("ambient", "PA", "ambient pressure [Pa]; default: that of matrix_info, or 101325 without one")
       .option("namespace", "NS", "namespace of the sensor, if a bag holds several");
-  declarePictureOptions(line);
   return line;
 }
 
@@ -67,66 +57,30 @@ ScanSelection selectionOf(const fsr::settings::CommandLine& line) {
   return selection;
 }
 
-void requireOne(const fsr::settings::CommandLine& line) {
-  if (line.files().size() == 1) return;
-  throw fsr::settings::InputError("--to " + line.text("to", "") + " takes one file, but " +
-                                  std::to_string(line.files().size()) + " are given");
-}
-
-// Throws if an option was given that does not apply to this format.
-void refuseOthers(const fsr::settings::CommandLine& line, const std::vector<std::string>& options) {
-  for (const std::string& option : options) {
-    if (!line.has(option)) continue;
-    throw fsr::settings::InputError("--" + option + " cannot be used with --to " + line.text("to", ""));
-  }
-}
-
 std::string fullPath(const std::string& path) {
   return fs::absolute(path).lexically_normal().string();
 }
 
-void sendAll(const fsr::settings::CommandLine& line, const ScanSelection& selection,
-             fsr::exports::ScanSink& sink, std::ostream& out) {
+void writeScans(const ScanFormat& format, const fsr::settings::CommandLine& line, std::ostream& out) {
+  if (!format.several_recordings && line.files().size() != 1) {
+    throw fsr::settings::InputError("--to " + format.name + " takes one file, but " +
+                                    std::to_string(line.files().size()) + " are given");
+  }
+  const ScanSelection selection = selectionOf(line);
+  const std::unique_ptr<fsr::exports::ScanSink> sink = format.open(line.requiredText("output"));
   std::size_t scans = 0;
-  for (const std::string& bag : line.files()) scans += sendScans(bag, selection, sink);
+  for (const std::string& bag : line.files()) scans += sendScans(bag, selection, *sink);
   if (scans == 0) {
     throw fsr::settings::InputError(line.files().front() +
                                     ": holds no scan between --from and --until; choose a longer interval");
   }
-  sink.finish();
+  sink->finish();
   out << scans << " scans written to " << fullPath(line.text("output", "")) << std::endl;
 }
 
-void writeScans(const fsr::exports::ScanFormat& format, const fsr::settings::CommandLine& line,
-                std::ostream& out) {
-  fsr::exports::PictureOptions pictures;
-  if (format.pictures) {
-    pictures = pictureOptions(line);
-  } else {
-    refuseOthers(line, pictureOptionNames());
-  }
-  if (!format.several_recordings) requireOne(line);
-  ScanSelection selection = selectionOf(line);
-  if (format.pictures) {
-    selection.rate = pictures.rate;
-    selection.counts = false;
-  }
-  const std::unique_ptr<fsr::exports::ScanSink> sink = format.open(line.requiredText("output"), pictures);
-  sendAll(line, selection, *sink, out);
-}
-
-std::vector<ExportFormat> exportFormats(const std::vector<fsr::exports::ScanFormat>& scan_formats) {
-  std::vector<ExportFormat> formats;
-  for (const fsr::exports::ScanFormat& format : scan_formats) {
-    formats.push_back({format.name, format.summary,
-                       [&format](const auto& line, std::ostream& out) { writeScans(format, line, out); }});
-  }
-  return formats;
-}
-
-const ExportFormat& formatOf(const std::string& name, const std::vector<ExportFormat>& formats) {
+const ScanFormat& formatOf(const std::string& name, const std::vector<ScanFormat>& formats) {
   std::string names;
-  for (const ExportFormat& format : formats) {
+  for (const ScanFormat& format : formats) {
     if (format.name == name) return format;
     names += (names.empty() ? "" : ", ") + format.name;
   }
@@ -135,17 +89,15 @@ const ExportFormat& formatOf(const std::string& name, const std::vector<ExportFo
 
 }  // namespace
 
-int exportTool(int argc, const char* const* argv, std::ostream& out,
-               const std::vector<fsr::exports::ScanFormat>& scan_formats) {
-  const std::vector<ExportFormat> formats = exportFormats(scan_formats);
+int exportTool(int argc, const char* const* argv, std::ostream& out, const std::vector<ScanFormat>& formats) {
   fsr::settings::CommandLine line = options(formats);
   if (!line.parse(argc, argv)) {
     out << line.help();
     return 0;
   }
-  const ExportFormat& format = formatOf(line.requiredText("to"), formats);
+  const ScanFormat& format = formatOf(line.requiredText("to"), formats);
   if (line.files().empty()) throw fsr::settings::InputError("give at least one BAG; see export --help");
-  format.write(line, out);
+  writeScans(format, line, out);
   return 0;
 }
 
