@@ -103,24 +103,4 @@ double BandwidthErrors::best(std::size_t left_out) const {
   return any ? bandwidth : kPaperBandwidth;
 }
 
-TunedModel crossValidateTuned(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
-                              GrnnOptions options, const BandwidthErrors& errors,
-                              HeldOutDeviation held_out_deviation) {
-  CodeHistogram training(full_scale);
-  for (const CodeStatistics& section : sections) training.add(section);
-  TunedModel tuned;
-  options.bandwidth = tuned.bandwidth = errors.best();
-  const Fit whole = Grnn(options).fit(training);
-  std::vector<std::vector<double>> held_out(sections.size());
-  for (std::size_t k = 0; k < sections.size(); ++k) {
-    options.bandwidth = errors.best(k);
-    tuned.section_bandwidth.push_back(options.bandwidth);
-    training.subtract(sections[k]);
-    if (training.samples() > 0) held_out[k] = Grnn(options).fit(training).pressure;
-    training.add(sections[k]);
-  }
-  tuned.model = assembleModel(sections, full_scale, whole, std::move(held_out), held_out_deviation);
-  return tuned;
-}
-
 }  // namespace fsr::regression

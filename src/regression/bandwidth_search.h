@@ -49,16 +49,4 @@ class BandwidthErrors {
       squares_;  // [bandwidths x tested x left out]; left out = tested: only that section is left out
 };
 
-/// A GRNN whose bandwidth was chosen by nested cross-validation.
-struct TunedModel {
-  CrossValidatedModel model;
-  double bandwidth = 0;                   ///< of the model trained on everything
-  std::vector<double> section_bandwidth;  ///< of the model trained without each section
-};
-
-/// crossValidate() with the bandwidths that `errors` chooses. `errors` may include those of other taxels.
-TunedModel crossValidateTuned(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
-                              GrnnOptions options, const BandwidthErrors& errors,
-                              HeldOutDeviation held_out_deviation);
-
 }  // namespace fsr::regression

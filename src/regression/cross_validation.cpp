@@ -27,16 +27,6 @@ CodeTable tableOf(const Fit& fit, const CodeHistogram& training) {
   return table;
 }
 
-// All sections but `left_out`.
-CodeSamples joined(const std::vector<CodeSamples>& sections, std::size_t left_out) {
-  CodeSamples all;
-  all.full_scale = sections.front().full_scale;
-  for (std::size_t section = 0; section < sections.size(); ++section) {
-    if (section != left_out) all.append(sections[section]);
-  }
-  return all;
-}
-
 }  // namespace
 
 CrossValidatedModel assembleModel(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
@@ -60,33 +50,6 @@ CrossValidatedModel assembleModel(const std::vector<CodeStatistics>& sections, s
     if (!without.pressure.empty()) without.deviation = errors.deviation(without.pressure, section);
   }
   return model;
-}
-
-CrossValidatedModel crossValidate(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
-                                  const Regressor& regressor, HeldOutDeviation held_out_deviation) {
-  CodeHistogram training = histogramOf(sections, full_scale);
-  const Fit whole = regressor.fit(training);
-  std::vector<std::vector<double>> held_out(sections.size());
-  for (std::size_t section = 0; section < sections.size(); ++section) {
-    training.subtract(sections[section]);
-    if (training.samples() > 0) held_out[section] = regressor.fit(training).pressure;
-    training.add(sections[section]);
-  }
-  return assembleModel(sections, full_scale, whole, std::move(held_out), held_out_deviation);
-}
-
-CrossValidatedModel crossValidateSamples(const std::vector<CodeSamples>& sections, const Regressor& regressor,
-                                         HeldOutDeviation held_out_deviation) {
-  const std::uint16_t full_scale = sections.front().full_scale;
-  const Fit whole = regressor.fitSamples(joined(sections, sections.size()));
-  std::vector<CodeStatistics> statistics;
-  std::vector<std::vector<double>> held_out(sections.size());
-  for (std::size_t section = 0; section < sections.size(); ++section) {
-    statistics.push_back(statisticsOf(sections[section]));
-    const CodeSamples training = joined(sections, section);
-    if (training.size() > 0) held_out[section] = regressor.fitSamples(training).pressure;
-  }
-  return assembleModel(statistics, full_scale, whole, std::move(held_out), held_out_deviation);
 }
 
 }  // namespace fsr::regression

@@ -25,17 +25,9 @@ struct CrossValidatedModel {
 /// Whether each held-out model gets a deviation of its own, which scores need.
 enum class HeldOutDeviation { kNo, kYes };
 
-/// Trains on all sections, and once without each. `sections` has at least one reading in all. If only one
-/// section has readings, nothing can be held out, and the deviation is that of the training readings.
-CrossValidatedModel crossValidate(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
-                                  const Regressor& regressor, HeldOutDeviation held_out_deviation);
-
-/// The same from single readings, for any regressor.
-CrossValidatedModel crossValidateSamples(const std::vector<CodeSamples>& sections, const Regressor& regressor,
-                                         HeldOutDeviation held_out_deviation);
-
-/// Assembles the result of crossValidate() from models that the caller has trained: `whole` on all sections,
-/// `held_out` [sections] without that section, empty if no readings were left.
+/// Assembles the models of a cross-validation: `whole` was trained on all sections, `held_out` [sections]
+/// without that section, empty if no readings were left. `sections` has at least one reading in all. If only
+/// one section has readings, nothing can be held out, and the deviation is that of the training readings.
 CrossValidatedModel assembleModel(const std::vector<CodeStatistics>& sections, std::uint16_t full_scale,
                                   const Fit& whole, std::vector<std::vector<double>> held_out,
                                   HeldOutDeviation held_out_deviation);

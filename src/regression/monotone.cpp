@@ -13,7 +13,6 @@ namespace {
 
 constexpr double kOuterShare =
     1.0 / 16.0;  // share of the range of readings that gives the slope beyond the knots
-constexpr double kPriorReadings = 30.0;  // weight of the scatter of all knots in that of one
 
 // Means over the occupied bins of pressure, by ascending pressure, from exact integer sums.
 struct BinMeans {
@@ -90,7 +89,6 @@ MonotoneCurve::MonotoneCurve(const CodeSamples& training) {
   highest_ = fromFixed(*high);
   slope_below_ = outerSlope(true);
   slope_above_ = outerSlope(false);
-  measureScatter(training);
 }
 
 // Slope from the outermost knot to the first one that is at least a sixteenth of the range of readings
@@ -120,49 +118,6 @@ double MonotoneCurve::pressureAt(double reading) const {
   if (place.share > 0) pressure += place.share * (pressure_[place.below + 1] - pressure);
   pressure += place.beyond * (place.beyond < 0 ? slope_below_ : slope_above_);
   return std::clamp(pressure, lowest_, highest_);
-}
-
-// The reading at a pressure, constant beyond the outer knots.
-double MonotoneCurve::readingAt(double pressure) const {
-  const bool falling = pressure_.front() > pressure_.back();
-  const auto before = [falling](double a, double b) { return falling ? a > b : a < b; };
-  const auto found = std::lower_bound(pressure_.begin(), pressure_.end(), pressure, before);
-  if (found == pressure_.begin()) return reading_.front();
-  if (found == pressure_.end()) return reading_.back();
-  const auto above = static_cast<std::size_t>(found - pressure_.begin());
-  const double share = (pressure - pressure_[above - 1]) / (pressure_[above] - pressure_[above - 1]);
-  return reading_[above - 1] + share * (reading_[above] - reading_[above - 1]);
-}
-
-// Standard deviation of the readings of each knot from the curve.
-void MonotoneCurve::measureScatter(const CodeSamples& training) {
-  std::vector<double> squares(reading_.size(), 0.0), number(reading_.size(), 0.0);
-  double all = 0;
-  for (std::size_t i = 0; i < training.size(); ++i) {
-    const double expected = readingAt(fromFixed(training.pressure[i]));
-    const double error = training.code[i] - expected;
-    const Place place = placeOf(expected);
-    const std::size_t knot = place.share > 0.5 ? place.below + 1 : place.below;
-    squares[knot] += error * error;
-    number[knot] += 1;
-    all += error * error;
-  }
-  const double pooled = all / static_cast<double>(training.size());
-  for (std::size_t knot = 0; knot < reading_.size(); ++knot) {
-    const double square = (squares[knot] + kPriorReadings * pooled) / (number[knot] + kPriorReadings);
-    scatter_.push_back(std::sqrt(square));
-  }
-}
-
-double MonotoneCurve::scatterAt(double reading) const {
-  const Place place = placeOf(reading);
-  const double below = scatter_[place.below];
-  return place.share > 0 ? below + place.share * (scatter_[place.below + 1] - below) : below;
-}
-
-double MonotoneCurve::deviationAt(double reading) const {
-  const double scatter = scatterAt(reading);
-  return 0.5 * std::abs(pressureAt(reading + scatter) - pressureAt(reading - scatter));
 }
 
 double MonotoneCurve::supportAt(double reading) const {

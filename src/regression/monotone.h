@@ -29,11 +29,6 @@ class MonotoneCurve {
   /// Pressure of a reading [Pa], within the training pressures.
   double pressureAt(double reading) const;
 
-  /// Standard deviation of that pressure [Pa] by propagation of errors: the scatter of the readings about the
-  /// curve at that pressure [counts], times the slope of the curve over one scatter to either side [Pa a
-  /// count]. The scatter of a knot is shrunk towards that of all knots with the weight of thirty readings.
-  double deviationAt(double reading) const;
-
   /// Effective number of readings: 1 / (variance of the interpolated mean), in units of the variance of one
   /// reading.
   double supportAt(double reading) const;
@@ -45,14 +40,11 @@ class MonotoneCurve {
  private:
   struct Place;
   Place placeOf(double reading) const;
-  void measureScatter(const CodeSamples& training);
   double outerSlope(bool low_end) const;
-  double readingAt(double pressure) const;
-  double scatterAt(double reading) const;
 
-  std::vector<double> reading_, pressure_, readings_, scatter_;  // of each knot
-  double slope_below_ = 0, slope_above_ = 0;                     // beyond the outer knots [Pa a count]
-  double lowest_ = 0, highest_ = 0;                              // pressures of training [Pa]
+  std::vector<double> reading_, pressure_, readings_;  // of each knot
+  double slope_below_ = 0, slope_above_ = 0;           // beyond the outer knots [Pa a count]
+  double lowest_ = 0, highest_ = 0;                    // pressures of training [Pa]
 };
 
 constexpr std::size_t kCurveBins = 128;

@@ -64,9 +64,6 @@ KernelDistance distanceFromName(const std::string& name) {
   return fromName("distance", name, kDistances);
 }
 
-std::vector<std::string> weightingNames() {
-  return namesOf(kWeightings);
-}
 std::string weightingName(SampleWeighting weighting) {
   return nameOf(weighting, kWeightings);
 }

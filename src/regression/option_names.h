@@ -22,7 +22,6 @@ std::string distanceName(KernelDistance distance);
 KernelDistance distanceFromName(const std::string& name);
 
 /// "each_sample", "equal_bins".
-std::vector<std::string> weightingNames();
 std::string weightingName(SampleWeighting weighting);
 SampleWeighting weightingFromName(const std::string& name);
 

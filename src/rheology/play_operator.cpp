@@ -33,18 +33,4 @@ double PrandtlIshlinskii::step(double input, double* state) const {
   return output;
 }
 
-double PrandtlIshlinskii::fullLoopWidth() const {
-  double width = 0;
-  for (std::size_t i = 0; i < radii_.size(); ++i) width += 2 * weights_[i] * radii_[i];
-  return width;
-}
-
-double PrandtlIshlinskii::loopArea(double low, double high) const {
-  double area = 0;
-  for (std::size_t i = 0; i < radii_.size(); ++i) {
-    area += 2 * weights_[i] * radii_[i] * std::max(high - low - 2 * radii_[i], 0.0);
-  }
-  return area;
-}
-
 }  // namespace fsr::rheology

@@ -35,12 +35,6 @@ class PrandtlIshlinskii {
   /// Changes the state for the new `input` and returns the output. `state` has stateSize() values.
   double step(double input, double* state) const;
 
-  /// Vertical distance between the two branches of a loop that is wide enough to turn every play around:
-  /// 2 sum_i weight_i radius_i.
-  double fullLoopWidth() const;
-  /// Area of the loop between two turning points: sum_i 2 weight_i radius_i max(b - a - 2 radius_i, 0).
-  double loopArea(double low, double high) const;
-
  private:
   std::vector<double> radii_;
   std::vector<double> weights_;

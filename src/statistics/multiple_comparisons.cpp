@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <string>
 
 #include "fsr_pressure_map/settings/input_error.h"
@@ -19,46 +18,12 @@ void requireProbabilities(const std::vector<double>& p) {
   }
 }
 
-std::vector<std::size_t> smallestFirst(const std::vector<double>& p) {
-  std::vector<std::size_t> order(p.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return p[a] < p[b]; });
-  return order;
-}
-
 }  // namespace
 
 std::vector<double> bonferroni(const std::vector<double>& p) {
   requireProbabilities(p);
   std::vector<double> adjusted;
   for (const double value : p) adjusted.push_back(std::min(1.0, static_cast<double>(p.size()) * value));
-  return adjusted;
-}
-
-std::vector<double> holm(const std::vector<double>& p) {
-  requireProbabilities(p);
-  const std::vector<std::size_t> order = smallestFirst(p);
-  std::vector<double> adjusted(p.size());
-  double largest = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    largest = std::max(largest, static_cast<double>(p.size() - i) * p[order[i]]);
-    adjusted[order[i]] = std::min(1.0, largest);
-  }
-  return adjusted;
-}
-
-std::vector<double> benjaminiYekutieli(const std::vector<double>& p) {
-  requireProbabilities(p);
-  const std::vector<std::size_t> order = smallestFirst(p);
-  double dependence = 0;
-  for (std::size_t i = 1; i <= p.size(); ++i) dependence += 1 / static_cast<double>(i);
-  std::vector<double> adjusted(p.size());
-  double smallest = 1;
-  for (std::size_t i = p.size(); i-- > 0;) {
-    const double share = static_cast<double>(p.size()) / static_cast<double>(i + 1);
-    smallest = std::min(smallest, share * dependence * p[order[i]]);
-    adjusted[order[i]] = smallest;
-  }
   return adjusted;
 }
 

@@ -13,14 +13,4 @@ namespace fsr::statistics {
 /// R's p.adjust(p, "bonferroni") and SPSS give the same result.
 std::vector<double> bonferroni(const std::vector<double>& p);
 
-/// The i-th smallest p times m + 1 - i, made monotone, at most 1. It is never larger than Bonferroni's with
-/// the same guarantee, and therefore preferred today. Source: S. Holm, Scand. J. Statistics 6 (1979) 65-70.
-/// R's p.adjust(p, "holm") gives the same result.
-std::vector<double> holm(const std::vector<double>& p);
-
-/// The i-th smallest p times m (1 + 1/2 + ... + 1/m) / i, made monotone, at most 1. It bounds the false
-/// discovery rate. Source: Y. Benjamini, D. Yekutieli, Ann. Statistics 29 (2001) 1165-1188. R's p.adjust(p,
-/// "BY") gives the same result.
-std::vector<double> benjaminiYekutieli(const std::vector<double>& p);
-
 }  // namespace fsr::statistics

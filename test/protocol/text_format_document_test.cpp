@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string>
 
-#include "protocol/link_rate.h"
 #include "protocol/text_decoder.h"
+#include "support/link_rate.h"
 #include "support/packet_recorder.h"
 #include "support/program_output.h"
 #include "support/pty.h"
@@ -83,7 +83,7 @@ std::string document() {
 
 // The longest line: ten digits of time, four digits and a comma for each count, and "\r\n".
 double lineRate(double baud, int taxels) {
-  return std::floor(fsr::protocol::serialBytesPerSecond(static_cast<std::uint32_t>(baud)) /
+  return std::floor(test_support::serialBytesPerSecond(static_cast<std::uint32_t>(baud)) /
                     (10 + 5 * taxels + 2));
 }
 

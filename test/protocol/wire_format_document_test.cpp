@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "fsr_pressure_map/protocol/wire.h"
-#include "protocol/link_rate.h"
+#include "support/link_rate.h"
 #include "support/program_output.h"
 #include "support/pty.h"
 #include "support/source_dir.h"
@@ -71,15 +71,15 @@ TEST(BoardsDocument, ShowsAProgramThatPrintsTheExampleWhereBothFilesAreCopied) {
 }
 
 TEST(WireFormatDocument, ShowsTheScanRatesThatTheFormulaGives) {
-  const std::vector<Link> links = {{"115200 baud", fsr::protocol::serialBytesPerSecond(115200)},
-                                   {"230400 baud", fsr::protocol::serialBytesPerSecond(230400)},
-                                   {"921600 baud", fsr::protocol::serialBytesPerSecond(921600)},
-                                   {"USB full speed", fsr::protocol::kUsbFullSpeedBytesPerSecond}};
+  const std::vector<Link> links = {{"115200 baud", test_support::serialBytesPerSecond(115200)},
+                                   {"230400 baud", test_support::serialBytesPerSecond(230400)},
+                                   {"921600 baud", test_support::serialBytesPerSecond(921600)},
+                                   {"USB full speed", test_support::kUsbFullSpeedBytesPerSecond}};
   std::ostringstream expected;
   for (const Link& link : links) {
     expected << "| " << link.name << " | "
-             << std::floor(fsr::protocol::scanRate(link.bytes_per_second, {7, 10})) << " | "
-             << std::floor(fsr::protocol::scanRate(link.bytes_per_second, {16, 10})) << " |\n";
+             << std::floor(test_support::scanRate(link.bytes_per_second, {7, 10})) << " | "
+             << std::floor(test_support::scanRate(link.bytes_per_second, {16, 10})) << " |\n";
   }
   EXPECT_EQ(between("## How fast", "|---|---:|---:|\n", "\n\n") + "\n", expected.str());
 }
@@ -87,8 +87,8 @@ TEST(WireFormatDocument, ShowsTheScanRatesThatTheFormulaGives) {
 // By hand: 7 x 10 makes 20 + 8 + 140 = 168 bytes a scan and 24 a reading; identity and temperature 76 + 24 a
 // second. 115200 baud carry 11,520 bytes a second: (11,520 - 100) / 192 = 59.479.
 TEST(ScanRate, MatchesACountByHand) {
-  EXPECT_NEAR(fsr::protocol::scanRate(fsr::protocol::serialBytesPerSecond(115200), {7, 10}), 59.479, 0.001);
-  EXPECT_EQ(fsr::protocol::scanRate(90, {7, 10}), 0);
+  EXPECT_NEAR(test_support::scanRate(test_support::serialBytesPerSecond(115200), {7, 10}), 59.479, 0.001);
+  EXPECT_EQ(test_support::scanRate(90, {7, 10}), 0);
 }
 
 }  // namespace

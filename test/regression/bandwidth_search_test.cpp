@@ -101,29 +101,12 @@ TEST(BandwidthErrors, ChooseThePapersBandwidthIfNothingCanBeHeldOut) {
   const auto sections = sumsOf({wavyCurve(50, 3, 1), wavyCurve(0, 3, 1)});
   const BandwidthErrors errors(sections, kFullScale, {}, bandwidthGrid());
   EXPECT_EQ(errors.best(), kPaperBandwidth);
-  const TunedModel tuned = crossValidateTuned(sections, kFullScale, {}, errors, HeldOutDeviation::kYes);
-  EXPECT_EQ(tuned.bandwidth, kPaperBandwidth);
-  EXPECT_TRUE(tuned.model.held_out[0].pressure.empty());
 }
 
 TEST(BandwidthErrors, RefuseWeightsOfPressureBins) {
   GrnnOptions options;
   options.weighting = SampleWeighting::kEachPressureBin;
   EXPECT_THROW(BandwidthErrors(sumsOf(sectionsOf(3)), kFullScale, options, {0.1}), settings::InputError);
-}
-
-TEST(CrossValidateTuned, TrainsEachModelWithItsOwnBandwidth) {
-  const auto sections = sumsOf(sectionsOf(6));
-  const BandwidthErrors errors(sections, kFullScale, {}, bandwidthGrid());
-  const TunedModel tuned = crossValidateTuned(sections, kFullScale, {}, errors, HeldOutDeviation::kNo);
-  const auto plain = crossValidate(sections, kFullScale, Grnn(tuned.bandwidth), HeldOutDeviation::kNo);
-  EXPECT_EQ(tuned.model.table.pressure, plain.table.pressure);
-  ASSERT_EQ(tuned.section_bandwidth.size(), 4u);
-  for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_EQ(tuned.section_bandwidth[k], errors.best(k));
-    const auto own = crossValidate(sections, kFullScale, Grnn(errors.best(k)), HeldOutDeviation::kNo);
-    EXPECT_EQ(tuned.model.held_out[k].pressure, own.held_out[k].pressure);
-  }
 }
 
 }  // namespace

@@ -35,22 +35,5 @@ TEST(CodeSamples, RefuseVectorsThatDoNotFit) {
   EXPECT_THROW(validate(samples), settings::InputError);
 }
 
-TEST(CodeSamples, CrossValidationOnSamplesAndOnSumsAgreesBitForBit) {
-  std::vector<CodeSamples> sections;
-  std::vector<CodeStatistics> sums;
-  for (unsigned k = 0; k < 4; ++k) {
-    sections.push_back(randomSamples(k == 2 ? 0 : 400, k));
-    sums.push_back(statisticsOf(sections.back()));
-  }
-  const CrossValidatedModel a = crossValidateSamples(sections, Grnn(), HeldOutDeviation::kYes);
-  const CrossValidatedModel b = crossValidate(sums, kFullScale, Grnn(), HeldOutDeviation::kYes);
-  EXPECT_EQ(a.table.pressure, b.table.pressure);
-  EXPECT_EQ(a.table.deviation, b.table.deviation);
-  for (std::size_t k = 0; k < sections.size(); ++k) {
-    EXPECT_EQ(a.held_out[k].pressure, b.held_out[k].pressure);
-    EXPECT_EQ(a.held_out[k].deviation, b.held_out[k].deviation);
-  }
-}
-
 }  // namespace
 }  // namespace fsr::regression

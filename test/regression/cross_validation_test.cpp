@@ -39,8 +39,19 @@ Section line(std::size_t number, std::mt19937& random, const std::function<doubl
 
 CrossValidatedModel fit(const std::vector<Section>& sections) {
   std::vector<CodeStatistics> statistics;
-  for (const Section& section : sections) statistics.push_back(statisticsOf(section));
-  return crossValidate(statistics, kFullScale, Grnn(), HeldOutDeviation::kYes);
+  CodeHistogram training(kFullScale);
+  for (const Section& section : sections) {
+    statistics.push_back(statisticsOf(section));
+    training.add(statistics.back());
+  }
+  const Fit whole = Grnn().fit(training);
+  std::vector<std::vector<double>> held_out(sections.size());
+  for (std::size_t k = 0; k < sections.size(); ++k) {
+    training.subtract(statistics[k]);
+    if (training.samples() > 0) held_out[k] = Grnn().fit(training).pressure;
+    training.add(statistics[k]);
+  }
+  return assembleModel(statistics, kFullScale, whole, std::move(held_out), HeldOutDeviation::kYes);
 }
 
 // Share of the readings of each section within the deviation from the other sections.

@@ -119,14 +119,6 @@ TEST(Monotone, StaysWithinThePressuresOfTraining) {
   EXPECT_EQ(fit.pressure.back(), fromFixed(*high));
 }
 
-TEST(Monotone, ComputesTheDeviationFromScatterAndSlope) {
-  const MonotoneCurve curve(scans(20000, 6, evenly));
-  for (const double pressure : {100e3, 300e3, 500e3}) {
-    const double slope = 0.7 * 3300 / 620e3 * std::pow(pressure / 620e3, -0.3);  // [counts/Pa]
-    EXPECT_NEAR(curve.deviationAt(readingAt(pressure)) * slope / kScatter, 1.0, 0.1) << pressure;
-  }
-}
-
 TEST(Monotone, SupportIsThatOfTheNeighbouringKnots) {
   const MonotoneCurve curve(scans(6000, 7, evenly));
   const double left = curve.knotReading()[10], right = curve.knotReading()[11];

@@ -160,23 +160,6 @@ TEST_P(EveryRegressor, OfOneReadingIsItsPressure) {
   for (const double pressure : fit.pressure) ASSERT_EQ(pressure, 12e3);
 }
 
-TEST_P(EveryRegressor, HasAHeldOutDeviation) {
-  const std::vector<CodeSamples> sections = {curve(300, 7), curve(300, 8), curve(300, 9)};
-  const CrossValidatedModel model = crossValidateSamples(sections, *regressor_, HeldOutDeviation::kYes);
-  for (const float deviation : model.table.deviation) ASSERT_GT(deviation, 0.0f);
-  ASSERT_EQ(model.held_out.size(), 3u);
-  for (const HeldOutModel& held_out : model.held_out) {
-    ASSERT_EQ(held_out.pressure.size(), 4096u);
-    ASSERT_EQ(held_out.deviation.size(), 4096u);
-  }
-  if (!regressor_->mergeable()) return;
-  std::vector<CodeStatistics> sums;
-  for (const CodeSamples& section : sections) sums.push_back(statisticsOf(section));
-  const auto from_sums = crossValidate(sums, 4095, *regressor_, HeldOutDeviation::kYes);
-  EXPECT_EQ(from_sums.table.pressure, model.table.pressure);
-  EXPECT_EQ(from_sums.table.deviation, model.table.deviation);
-}
-
 TEST_P(EveryRegressor, PredictsAsWellAsOtherPackages) {
   const auto data = test_support::regressionData();
   const Fit fit = regressor_->fitSamples(data.train);

@@ -24,20 +24,14 @@ class Drive {
     for (int i = 1; i <= steps; ++i) {
       const double input = i == steps ? target : start + (target - start) * i / steps;
       output = kOperator.step(input, state_.data());
-      area_ += 0.5 * (output + last_output_) * (input - position_);
       position_ = input;
-      last_output_ = output;
     }
     return output;
   }
-  /// Integral of output over input so far.
-  double area() const { return area_; }
   const std::vector<double>& state() const { return state_; }
 
  private:
   double position_;
-  double last_output_ = 0;
-  double area_ = 0;
   std::vector<double> state_;
 };
 
@@ -71,27 +65,6 @@ TEST(PlayOperator, ClosesMinorLoopsOfOneWidthCongruently) {
   high.to(20, 10);
   const double first_rise = low.to(6, 10), second_rise = high.to(16, 10);
   EXPECT_NEAR(low.to(9, 10) - first_rise, high.to(19, 10) - second_rise, 1e-12);
-}
-
-TEST(PlayOperator, LoopHasTheAnalyticAreaAndWidth) {
-  Drive drive(0);
-  drive.to(30, 1);
-  drive.to(0, 1);  // a developed loop from here on
-  const double before = drive.area();
-  drive.to(30, 30000);
-  const double up = drive.to(30, 1);
-  drive.to(0, 30000);
-  // While the input falls, its integral is negative. The sum is minus the enclosed area.
-  EXPECT_NEAR(-(drive.area() - before), kOperator.loopArea(0, 30), 1e-3);
-  EXPECT_NEAR(kOperator.loopArea(0, 30), 2 * (0.3 * 1 * 28 + 0.2 * 2 * 26 + 0.1 * 4 * 22), 1e-12);
-  EXPECT_NEAR(kOperator.fullLoopWidth(), 2 * (0.3 + 0.4 + 0.4), 1e-12);
-  EXPECT_NEAR(up, 30 - kOperator.fullLoopWidth() / 2, 1e-12);
-}
-
-TEST(PlayOperator, HasNoLoopWithinItsSmallestGap) {
-  const PrandtlIshlinskii op({1.0}, {1.0});
-  EXPECT_EQ(op.loopArea(0, 2), 0);
-  EXPECT_GT(op.loopArea(0, 3), 0);
 }
 
 TEST(PlayOperator, ResetForgetsTheHistory) {
