@@ -8,10 +8,6 @@
 #include <string>
 #include <tuple>
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
-
 #include "calibration/class_switch.h"
 #include "calibration/packed_tables.h"
 #include "compensation/history_state.h"
@@ -39,25 +35,6 @@ inline std::uint16_t flagWhere(bool condition, std::uint16_t flag) {
 inline void copyOne(const compensation::TableEntry& entry, float& pressure, float& deviation) {
   pressure = entry.pressure;
   deviation = entry.deviation;
-}
-
-// Loads the entries of four taxels and separates pressures from deviations. The loads run in parallel;
-// compilers do not find this themselves.
-inline void copyFour(const compensation::TableEntry* const* table, const std::uint16_t* codes,
-                     float* pressure, float* deviation) {
-#ifdef __SSE2__
-  const auto pair = [&](int first) {
-    const auto* low = reinterpret_cast<const __m64*>(table[first] + codes[first]);
-    const auto* high = reinterpret_cast<const __m64*>(table[first + 1] + codes[first + 1]);
-    return _mm_loadh_pi(_mm_loadl_pi(_mm_setzero_ps(), low), high);
-  };
-  const __m128 a = pair(0);
-  const __m128 b = pair(2);
-  _mm_storeu_ps(pressure, _mm_shuffle_ps(a, b, _MM_SHUFFLE(2, 0, 2, 0)));
-  _mm_storeu_ps(deviation, _mm_shuffle_ps(a, b, _MM_SHUFFLE(3, 1, 3, 1)));
-#else
-  for (int i = 0; i < 4; ++i) copyOne(table[i][codes[i]], pressure[i], deviation[i]);
-#endif
 }
 
 // The entry of a code between two stored entries, by linear interpolation.
@@ -378,9 +355,7 @@ void Calibrator::Impl::lookUp(map::PressureMap& out) const noexcept {
   float* deviation = out.deviation.data();
   const std::size_t n = codes_.size();
   if (tables_.shift() == 0) {
-    std::size_t i = 0;
-    for (; i + 4 <= n; i += 4) copyFour(table + i, codes + i, pressure + i, deviation + i);
-    for (; i < n; ++i) copyOne(table[i][codes[i]], pressure[i], deviation[i]);
+    for (std::size_t i = 0; i < n; ++i) copyOne(table[i][codes[i]], pressure[i], deviation[i]);
   } else {
     for (std::size_t i = 0; i < n; ++i) {
       copyOne(between(table[i], codes[i], tables_.shift()), pressure[i], deviation[i]);

@@ -364,7 +364,7 @@ def compare_forest(table, folder, programs, repetitions):
 
 def compare_calibrator(table, binary, repetitions):
     found = benchmarks(binary, repetitions)
-    names = {"70": ("Calibrate/load_cycles/7/10", "CopyScanToFloat/7/10", 100),
+    names = {"70": ("Calibrate/load_cycles/7/10", "CopyScanToFloat/7/10", 200),
              "1,024": ("Calibrate/load_cycles/32/32", "CopyScanToFloat/32/32", 10000)}
     for taxels, (name, copy, most) in names.items():
         nanoseconds = found[name]["cpu_time"]
