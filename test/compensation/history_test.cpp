@@ -246,7 +246,9 @@ TEST(HistoryState, KnowsItsPlaysAfterASaturatedSpellThatEndsFarBelow) {
     answer = float(pressure);
     const bool settled = state.correct(0, false, answer, deviation);
     // c = 1 kPa - 15 Pa / kPa; both plays on the branch of unloading: -0.2 x 10 - 0.1 x 50 kPa
-    if (settled) EXPECT_NEAR(double(answer), pressure + 1e3 - 0.015 * pressure - 7e3, 1);
+    if (settled) {
+      EXPECT_NEAR(double(answer), pressure + 1e3 - 0.015 * pressure - 7e3, 1);
+    }
     return settled;
   };
   EXPECT_TRUE(settledAt(100e3));
