@@ -341,14 +341,28 @@ TEST_F(CalibrationNode, DropsTheTareOnAnotherMountOrCalibration) {
   ASSERT_TRUE(whileScanning([] { return trigger("tare"); }).success);
   rig.lieOn({0.0f}, "flat", ++mount);
   reach([](const PressureMap& m) { return m.flags[4] == 0; });
-  EXPECT_FALSE(fs::exists(kTareFile));
+  EXPECT_TRUE(CalibrationRig::waitFor([] { return !fs::exists(kTareFile); }));
 
   ASSERT_TRUE(whileScanning([] { return trigger("tare"); }).success);
   const std::string other = kFolder / "other.h5";
   save(other, {0.0, 30.0});
   ASSERT_TRUE(load(other).success);
   EXPECT_EQ(rig.mapOf(500).flags[4], 0);
-  EXPECT_FALSE(fs::exists(kTareFile));
+  EXPECT_TRUE(CalibrationRig::waitFor([] { return !fs::exists(kTareFile); }));
+}
+
+// What is not the node's own is neither replaced nor removed.
+TEST_F(CalibrationNode, AMaskReplacesNothingButAMask) {
+  ASSERT_TRUE(mask({}).success);
+  std::ofstream(kFolder / "mask.yaml") << "#ROSBAG V2.0\nprecious";
+  std::vector<std::uint8_t> taxels(12, 0);
+  taxels[4] = 1;
+  const Reply reply = mask(taxels);
+  EXPECT_FALSE(reply.success);
+  EXPECT_TRUE(contains(reply.message, "mask.yaml: is a bag")) << reply.message;
+  EXPECT_EQ(fs::file_size(kFolder / "mask.yaml"), 21u);
+  EXPECT_EQ(rig.mapOf(500).flags[4], 0) << "what is not stored is not used";
+  fs::remove(kFolder / "mask.yaml");
 }
 
 TEST_F(CalibrationNode, DescribesTheCalibrationInUse) {

@@ -50,6 +50,19 @@ TEST(CurvatureNode, RefusesAnUnknownSurfaceAndKeepsTheOldOne) {
   EXPECT_NE(reply.find("cylinder_7cm"), std::string::npos) << "lists what there is: " << reply;
 }
 
+TEST(CurvatureNode, RefusesLoopsOfLinksAndLongNamesInASentence) {
+  setSurface("flat", 2);
+  const auto loop = std::filesystem::temp_directory_path() / ("loop_" + std::to_string(::getpid()) + ".yaml");
+  std::filesystem::create_symlink(loop, loop);
+  for (const std::string& name : {loop.string(), std::string(300, 'x'), "/tmp/" + std::string(5000, 'x')}) {
+    std::string reply;
+    EXPECT_EQ(setSurface(name, 3, &reply).surface, "flat");
+    EXPECT_NE(reply.find("there is no file"), std::string::npos) << reply;
+    EXPECT_NE(reply.find("the surface is still flat"), std::string::npos) << reply;
+  }
+  std::filesystem::remove(loop);
+}
+
 TEST(CurvatureNode, TakesAFileWithAValueForEachTaxel) {
   const auto path =
       std::filesystem::temp_directory_path() / ("limb_surface_" + std::to_string(::getpid()) + ".yaml");

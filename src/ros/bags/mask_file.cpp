@@ -21,6 +21,7 @@ constexpr char kFormat[] = "fsr_pressure_map mask 1";
 }  // namespace
 
 void saveMask(const std::vector<std::uint8_t>& mask, const std::string& path) {
+  if (path.empty()) return;
   std::string list;
   for (const std::uint8_t masked : mask)
     list += (list.empty() ? "" : ", ") + std::string(masked != 0 ? "1" : "0");

@@ -36,9 +36,11 @@ std::vector<std::string> SurfaceFolder::names() const {
 std::string SurfaceFolder::pathOf(const std::string& surface) const {
   const bool is_path = surface.find('/') != std::string::npos;
   std::string path = is_path ? resolveResource(surface) : (fs::path(folder_) / (surface + ".yaml")).string();
-  if (!fs::exists(path)) {
-    throw fsr::settings::InputError("surface " + surface + ": there is no file " + path + "; surfaces in " +
-                                    folder_ + ": " + listed(names()));
+  std::error_code error;
+  if (!fs::exists(path, error)) {
+    const std::string why = error ? " (" + error.message() + ")" : "";
+    throw fsr::settings::InputError("surface " + surface + ": there is no file " + path + why +
+                                    "; surfaces in " + folder_ + ": " + listed(names()));
   }
   return path;
 }

@@ -31,7 +31,8 @@ class SurfaceMemory {
   /// otherwise.
   const std::string& remark() const { return remark_; }
 
-  /// Stores what ~set_surface says. Throws fsr::InputError if the file cannot be written.
+  /// Stores what ~set_surface says. Throws fsr::InputError if the file cannot be written, or
+  /// is there and no such memory.
   void keep(const LaidOn& now);
   /// Notes that the node was stopped, so that the next run takes what its launch file says.
   void end();

@@ -72,6 +72,7 @@ void CalibrationServer::serve() {
                slow.advertiseService("clear_tare", &CalibrationServer::clearTare, this)};
   watch_ = slow.createWallTimer(ros::WallDuration(kWatchPeriod), [this](const ros::WallTimerEvent&) {
     tryWanted();
+    live_.removeDroppedTare();
     live_.compareAtRest();
     compareAtMark();
   });

@@ -6,6 +6,7 @@
 
 #include "ros/bags/resource_path.h"
 #include "ros/live/own_file.h"
+#include "ros/live/service_answer.h"
 #include "ros/messages/surface_message.h"
 
 namespace fsr_ros {
@@ -70,19 +71,16 @@ void CurvatureServer::lay(const LaidOn& next) {
 
 bool CurvatureServer::setSurface(fsr_pressure_map::SetSurface::Request& request,
                                  fsr_pressure_map::SetSurface::Response& response) {
-  try {
+  answer(response, [&] {
     lay({request.surface, request.mount != 0 ? request.mount : surface_.mount + 1});
     publish();
     mesh_publisher_->show(headerNow(), mesh_);
-    response.success = true;
-    response.message = "the matrix lies on " + surface_.name + " (mount " + std::to_string(surface_.mount) +
-                       "), from " + fs::absolute(surfaces_.pathOf(request.surface)).string();
-    response.message += keptText({request.surface, surface_.mount});
-  } catch (const fsr::settings::InputError& error) {
-    response.success = false;
-    response.message = std::string(error.what()) + "; the surface is still " +
-                       (surface_.known() ? surface_.name : "unknown");
-  }
+    return "the matrix lies on " + surface_.name + " (mount " + std::to_string(surface_.mount) + "), from " +
+           fs::absolute(surfaces_.pathOf(request.surface)).string() +
+           keptText({request.surface, surface_.mount});
+  });
+  if (!response.success)
+    response.message += "; the surface is still " + (surface_.known() ? surface_.name : "unknown");
   return true;
 }
 

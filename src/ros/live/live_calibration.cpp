@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "fsr_pressure_map/ros/pressure_map_message.h"
 #include "fsr_pressure_map/settings/input_error.h"
@@ -180,20 +181,26 @@ void LiveCalibration::applyTare() {
 }
 
 std::string LiveCalibration::setMask(const std::vector<std::uint8_t>& mask) {
-  std::unique_lock<std::mutex> lock(mutex_);
-  if (loaded_ && !mask.empty() && mask.size() != loaded_->calibrator.layout().size.taxels()) {
-    throw fsr::settings::InputError(
-        "the mask has " + std::to_string(mask.size()) + " values, but must have none, or " +
-        std::to_string(loaded_->calibrator.layout().size.taxels()) + ", row-major");
+  std::vector<std::uint8_t> next = mask;
+  for (std::uint8_t& masked : next) masked = masked != 0 ? 1 : 0;
+  const Lock files(files_);
+  {
+    const Lock lock(mutex_);
+    if (loaded_ && !mask.empty() && mask.size() != loaded_->calibrator.layout().size.taxels()) {
+      throw fsr::settings::InputError(
+          "the mask has " + std::to_string(mask.size()) + " values, but must have none, or " +
+          std::to_string(loaded_->calibrator.layout().size.taxels()) + ", row-major");
+    }
   }
-  mask_ = mask;
-  for (std::uint8_t& masked : mask_) masked = masked != 0 ? 1 : 0;
+  saveMask(next, settings_.mask_file);  // no scan waits for the disk
+  const Lock lock(mutex_);
+  mask_ = std::move(next);
   applyMask();
-  const std::vector<std::uint8_t> kept = mask_;
-  const std::size_t masked_taxels = maskedTaxels();
-  lock.unlock();  // no scan waits for the disk
-  saveMask(kept, settings_.mask_file);
-  return std::to_string(masked_taxels) + " taxels are masked; stored in " + settings_.mask_file;
+  return std::to_string(maskedTaxels()) + " taxels are masked" + storedText(settings_.mask_file);
+}
+
+std::string LiveCalibration::storedText(const std::string& file) {
+  return file.empty() ? "; it is forgotten when the node ends (~remember is false)" : "; stored in " + file;
 }
 
 std::string LiveCalibration::wanted() const {

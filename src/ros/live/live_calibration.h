@@ -73,6 +73,9 @@ class LiveCalibration {
   /// Measures a tare; waits until its window is full. Refused if no scan comes for `patience` [s].
   std::string tare(double patience);
   std::string clearTare();
+  /// Removes the file of a tare that was dropped because calibration, surface or mount changed; to be called
+  /// again and again from a thread that may wait.
+  void removeDroppedTare();
 
   /// Compares the surface with the sheet, which must be unloaded; waits for a window of scans as tare().
   std::string checkSurface(double patience);
@@ -109,6 +112,7 @@ class LiveCalibration {
   std::size_t maskedTaxels() const;
   void applyBoard();
   void applyTare();
+  static std::string storedText(const std::string& file);
   std::string id() const { return loaded_ ? loaded_->info.id : std::string(); }
   void startTare();
   fsr::calibration::Tare measureTare(std::unique_lock<std::mutex>& lock, double patience);
@@ -123,6 +127,7 @@ class LiveCalibration {
   fsr::compensation::RestReading awaitRest(std::unique_lock<std::mutex>& lock, double patience);
 
   const CalibrationSettings settings_;
+  std::mutex files_;          // guards the files of tare and mask; locked before mutex_
   mutable std::mutex mutex_;  // guards the following members
   std::unique_ptr<LoadedCalibration> loaded_;
   std::string wanted_path_;

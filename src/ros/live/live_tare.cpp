@@ -1,5 +1,7 @@
 // The tare of LiveCalibration: the service waits while scans fill the measuring window.
 
+#include <ros/console.h>
+
 #include <chrono>
 #include <ctime>
 
@@ -43,15 +45,18 @@ std::string LiveCalibration::tare(double patience) {
   }
   measurement_.reset();
   lock.unlock();  // no scan waits for the disk
-  TareKeeper::write(tare, settings_.tare_file);
-  lock.lock();
-  tare_.adopt(tare);
+  {
+    const std::lock_guard<std::mutex> files(files_);
+    TareKeeper::write(tare, settings_.tare_file);
+    lock.lock();
+    tare_.adopt(tare);
+  }
   applyTare();
   if (!tare_.tare()) throw changedMeanwhile();
   loaded_->calibrator.markRest();
   if (loaded_->shape->present()) markRest(RestMark::kTare);
   return "the sheet is tared on surface \"" + tare.surface + "\", mount " + std::to_string(tare.mount) +
-         "; stored in " + settings_.tare_file;
+         storedText(settings_.tare_file);
 }
 
 void LiveCalibration::startTare() {
@@ -99,16 +104,30 @@ void LiveCalibration::awaitWindow(std::unique_lock<std::mutex>& lock, double pat
 }
 
 std::string LiveCalibration::clearTare() {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::lock_guard<std::mutex> files(files_);
   bool was = false;
-  try {
-    was = tare_.clear();
-  } catch (...) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    was = tare_.drop();
+    tare_.takeDropped();
     applyTare();
-    throw;
   }
-  applyTare();
-  return was ? "the tare is cleared and its file removed: " + tare_.path() : "there was no tare";
+  const bool removed = TareKeeper::remove(settings_.tare_file);
+  if (!was && !removed) return "there was no tare";
+  return "the tare is cleared" + (removed ? " and its file removed: " + settings_.tare_file : "");
+}
+
+void LiveCalibration::removeDroppedTare() {
+  const std::lock_guard<std::mutex> files(files_);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!tare_.takeDropped()) return;
+  }
+  try {
+    TareKeeper::remove(settings_.tare_file);
+  } catch (const fsr::settings::InputError& error) {
+    ROS_WARN_STREAM(error.what());  // another file took its place
+  }
 }
 
 void LiveCalibration::stop() {

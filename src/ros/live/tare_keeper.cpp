@@ -10,11 +10,11 @@ namespace fsr_ros {
 
 namespace fs = std::filesystem;
 
-TareKeeper::TareKeeper(std::string path) : path_(std::move(path)) {
+TareKeeper::TareKeeper(const std::string& path) {
   std::error_code failed;
-  if (!fs::exists(path_, failed) && !failed) return;
+  if (path.empty() || (!fs::exists(path, failed) && !failed)) return;
   try {
-    tare_ = fsr::calibration::loadTare(path_);
+    tare_ = fsr::calibration::loadTare(path);
   } catch (const fsr::settings::InputError& error) {
     ROS_ERROR_STREAM("the stored tare is not used: " << error.what());
   }
@@ -29,33 +29,36 @@ std::vector<float> TareKeeper::review(const std::string& id, const fsr::matrix::
   ROS_WARN_STREAM("the tare of " << tare_->date << " is dropped: it was measured with calibration "
                                  << tare_->calibration << " on surface \"" << tare_->surface << "\", mount "
                                  << tare_->mount << ", and one of these has changed");
-  try {
-    clear();
-  } catch (const fsr::settings::InputError& error) {
-    ROS_WARN_STREAM(error.what());  // another file took its place
-  }
+  drop();
   return {};
 }
 
 void TareKeeper::write(const fsr::calibration::Tare& tare, const std::string& path) {
+  if (path.empty()) return;
   fsr::calibration::requireTareOrNothing(path);
   std::error_code ignored;  // an error in the folder shows when the file is written
   fs::create_directories(fs::path(path).parent_path(), ignored);
   fsr::calibration::saveTare(tare, path);
 }
 
-bool TareKeeper::clear() {
+bool TareKeeper::drop() {
   const bool was = tare_.has_value();
   tare_.reset();
-  fsr::calibration::requireTareOrNothing(path_);
+  dropped_ |= was;
+  return was;
+}
+
+bool TareKeeper::remove(const std::string& path) {
+  if (path.empty()) return false;
+  fsr::calibration::requireTareOrNothing(path);
   std::error_code error;
-  const bool removed = fs::remove(path_, error);
+  const bool removed = fs::remove(path, error);
   if (error) {
-    throw fsr::settings::InputError(path_ +
+    throw fsr::settings::InputError(path +
                                     ": the tare is not used any more, but its file cannot be removed (" +
                                     error.message() + "); remove it, or it returns with the next start");
   }
-  return was || removed;
+  return removed;
 }
 
 }  // namespace fsr_ros

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -35,10 +36,19 @@ TEST_F(MaskFile, IsReadAsItWasWritten) {
   EXPECT_TRUE(loadMask(path).empty());
 }
 
-TEST_F(MaskFile, RefusesAnotherFile) {
+TEST_F(MaskFile, NeitherReadsNorReplacesAnotherFile) {
   fs::create_directories(folder + "/new");
-  std::ofstream(path) << "format: fsr_pressure_map tare 1\n";
-  EXPECT_THROW(loadMask(path), fsr::settings::InputError);
+  for (const char* const content : {"format: fsr_pressure_map tare 1\n", "#ROSBAG V2.0\nprecious"}) {
+    std::ofstream(path) << content;
+    EXPECT_THROW(loadMask(path), fsr::settings::InputError);
+    EXPECT_THROW(saveMask({1}, path), fsr::settings::InputError);
+    EXPECT_EQ(fs::file_size(path), std::strlen(content));
+  }
+}
+
+TEST_F(MaskFile, AnEmptyPathStandsForNoFile) {
+  saveMask({1}, "");
+  EXPECT_TRUE(loadMask("").empty());
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "fsr_pressure_map/settings/input_error.h"
+
 namespace fsr_ros {
 namespace {
 
@@ -57,6 +59,16 @@ TEST_F(SurfaceMemoryTest, AnotherLaunchIsBelievedAndTheConflictSaid) {
   const SurfaceMemory again(path, {"cylinder_5cm", 3});
   EXPECT_EQ(again.start().surface, "cylinder_5cm");
   EXPECT_NE(again.remark().find("the launch file says cylinder_5cm, mount 3"), std::string::npos);
+}
+
+TEST_F(SurfaceMemoryTest, NothingButASurfaceMemoryIsReplaced) {
+  const std::string bag = folder + "/recording.bag";
+  std::ofstream(bag) << "#ROSBAG V2.0\nprecious";
+  SurfaceMemory memory(bag, kFlat);
+  EXPECT_NE(memory.remark().find(bag), std::string::npos) << memory.remark();
+  EXPECT_THROW(memory.keep(kCylinder), fsr::settings::InputError);
+  EXPECT_THROW(memory.end(), fsr::settings::InputError);
+  EXPECT_EQ(fs::file_size(bag), 21u);
 }
 
 TEST_F(SurfaceMemoryTest, ADamagedFileIsSaidAndNotUsed) {

@@ -61,13 +61,29 @@ TEST_F(TareKeeperTest, DropsTareAndFileOnAnotherMount) {
   flat.mount = 4;
   EXPECT_TRUE(keeper.review("id", &flat).empty());
   EXPECT_FALSE(keeper.tare().has_value());
-  EXPECT_FALSE(fs::exists(path));
+  EXPECT_TRUE(fs::exists(path)) << "no scan waits for the disk";
+  EXPECT_TRUE(keeper.takeDropped());
+  EXPECT_FALSE(keeper.takeDropped()) << "its file is removed once";
 }
 
 TEST_F(TareKeeperTest, DropsItForAnotherCalibrationWithoutWaitingForCurvature) {
   TareKeeper keeper(path);
   EXPECT_TRUE(keeper.review("other", nullptr).empty());
-  EXPECT_FALSE(fs::exists(path));
+  EXPECT_TRUE(keeper.takeDropped());
+}
+
+TEST_F(TareKeeperTest, ANewTareNeedsNoRemoval) {
+  TareKeeper keeper(path);
+  EXPECT_TRUE(keeper.drop());
+  keeper.adopt(tare);
+  EXPECT_FALSE(keeper.takeDropped());
+}
+
+TEST_F(TareKeeperTest, AnEmptyPathStandsForNoFile) {
+  TareKeeper keeper("");
+  EXPECT_FALSE(keeper.tare().has_value());
+  TareKeeper::write(tare, "");
+  EXPECT_FALSE(TareKeeper::remove(""));
 }
 
 TEST_F(TareKeeperTest, LeavesADamagedFileAlone) {
@@ -77,33 +93,24 @@ TEST_F(TareKeeperTest, LeavesADamagedFileAlone) {
   EXPECT_TRUE(fs::exists(path));
 }
 
-TEST_F(TareKeeperTest, ClearsNothingButATare) {
+TEST_F(TareKeeperTest, RemovesNothingButATare) {
   const std::string bag = folder + "/recording.bag";
   std::ofstream(bag) << "precious";
-  TareKeeper keeper(bag);
-  EXPECT_THROW(keeper.clear(), fsr::settings::InputError);
+  EXPECT_THROW(TareKeeper::remove(bag), fsr::settings::InputError);
   EXPECT_THROW(TareKeeper::write(tare, bag), fsr::settings::InputError);
   EXPECT_EQ(fs::file_size(bag), 8u);
   fs::create_directory(folder + "/empty");
-  EXPECT_THROW(TareKeeper(folder + "/empty").clear(), fsr::settings::InputError);
+  EXPECT_THROW(TareKeeper::remove(folder + "/empty"), fsr::settings::InputError);
   EXPECT_TRUE(fs::exists(folder + "/empty"));
 }
 
-TEST_F(TareKeeperTest, ClearsADamagedTareAndSaysSo) {
+TEST_F(TareKeeperTest, RemovesADamagedTare) {
   std::ofstream(path, std::ios::app) << "offset: twice";
   TareKeeper keeper(path);
   EXPECT_FALSE(keeper.tare().has_value());
-  EXPECT_TRUE(keeper.clear());
+  EXPECT_TRUE(TareKeeper::remove(path));
   EXPECT_FALSE(fs::exists(path));
-  EXPECT_FALSE(keeper.clear());
-}
-
-TEST_F(TareKeeperTest, LeavesAFileThatTookTheTaresPlace) {
-  TareKeeper keeper(path);
-  std::ofstream(path) << "precious";
-  flat.mount = 4;
-  EXPECT_TRUE(keeper.review("id", &flat).empty());
-  EXPECT_TRUE(fs::exists(path));
+  EXPECT_FALSE(TareKeeper::remove(path));
 }
 
 }  // namespace
