@@ -185,9 +185,19 @@ class LaunchFilesTest(unittest.TestCase):
         alarms = set()
         subscriber = rospy.Subscriber("/fsr/statistics", PressureStatisticsArray, lambda array: alarms.update(region.alarm for region in array.regions))
         arguments = ["bag:=monday.bag", "rate:=5", "calibration:=calibration.h5", "alarm_threshold:=400e3"]
+        memory = self.folder / "ros_home" / "fsr_pressure_map"  # what the live rig remembers
+        (memory / "fsr_calibration_tare.yaml").write_text(  # of another mount: its owner would drop it
+            'format: fsr_pressure_map tare 1\ncalibration: "1"\nsurface: "flat"\nmount: 77\ncurvature: 0\ndate: "2024-05-17"\n'
+            f"rows: 3\ncolumns: 4\noffset: {12 * [1000]}\n")
+        remembered = {file.name: file.read_bytes() for file in memory.iterdir()}
+        self.assertIn("fsr_calibration_mask.yaml", remembered)
         looped = self.start("replay", "loop:=true", *arguments)  # a short bag may end before this node hears the view
         self.wait_for(lambda: alarms, looped)
+        self.assertFalse(self.wait_for_maps(looped)[-1].flags[0] & PressureMap.FLAG_MASKED, "the rig's mask is not used")
+        self.assertIn("2 taxels are masked; it is forgotten", self.press("/fsr/calibration/set_mask", 2 * [1] + 10 * [0]))
+        self.press("/fsr/calibration/clear_tare")
         looped.end()
+        self.assertEqual({file.name: file.read_bytes() for file in memory.iterdir()}, remembered, looped.said())
         subscriber.unregister()
         replay = self.start("replay", *arguments)
         self.wait_for(lambda: replay.launch.poll() is not None, replay)

@@ -13,7 +13,7 @@ constexpr double kNoBound = std::numeric_limits<double>::infinity();
 }  // namespace
 
 CalibrationSettings readCalibrationSettings(const ros::NodeHandle& private_handle) {
-  const Parameters parameters(private_handle);
+  const Parameters parameters(private_handle, {{"remember", ""}});
   CalibrationSettings s;
   s.calibration = resolveLaunchPath(parameters.text("calibration", ""));
   s.calibrator.class_hysteresis =
@@ -33,8 +33,10 @@ CalibrationSettings readCalibrationSettings(const ros::NodeHandle& private_handl
   s.tare.limit = parameters.number("tare_limit", s.tare.limit, {0, 1e6, "Pa"});
   s.tare.scatter = parameters.number("tare_scatter", s.tare.scatter, {0, 1e6, "Pa"});
   s.tare.window = parameters.number("tare_window", s.tare.window, {0.1, 60, "s"});
-  s.tare_file = ownFile(parameters, "tare_file", private_handle.getNamespace(), "tare");
-  s.mask_file = ownFile(parameters, "mask_file", private_handle.getNamespace(), "mask");
+  if (parameters.flag("remember", true)) {
+    s.tare_file = ownFile(parameters, "tare_file", private_handle.getNamespace(), "tare");
+    s.mask_file = ownFile(parameters, "mask_file", private_handle.getNamespace(), "mask");
+  }
   s.queue_size =
       static_cast<std::uint32_t>(parameters.integer("queue_size", s.queue_size, {1, 100000, "messages"}));
   return s;

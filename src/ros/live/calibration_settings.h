@@ -18,7 +18,7 @@ struct CalibrationSettings {
       calibrator;  ///< ~class_hysteresis, ~curvature_step, ~curvature_timeout, ~temperature_margin,
                    ///< ~fill_bad_taxels
   fsr::calibration::TareOptions tare;  ///< ~tare_limit, ~tare_scatter, ~tare_window
-  std::string tare_file;               ///< resolved path; empty = a file in ${ROS_HOME}, named after the node
+  std::string tare_file;               ///< resolved path; empty = nothing is read or stored (~remember)
   std::string mask_file;               ///< likewise
   bool estimates_curvature = false;    ///< ~curvature is "estimated": this node publishes it
   double contact_threshold = 10e3;     ///< diagnostics count a taxel as in contact from this pressure on [Pa]
