@@ -200,7 +200,20 @@ bool RecordingBuilder::inOrderOfTime() const {
   return std::adjacent_find(scans_.begin(), scans_.end(), not_later) == scans_.end();
 }
 
+void RecordingBuilder::append(const RecordingBuilder& other) {
+  CountReader all(other.counts_);
+  for (const ScanEvent& scan : other.scans_) {
+    addScan(scan.stamp_ns, scan.sequence,
+            {other.size_, other.full_scale_, all[scan.number], other.size_.taxels()});
+  }
+  for (const auto& [stamp, value] : other.chamber_pressure_.entries()) addChamberPressure(stamp, value);
+  for (const auto& [stamp, value] : other.temperature_.entries()) addTemperature(stamp, value);
+  for (const auto& [stamp, surface] : other.surfaces_) addSurface(stamp, surface);
+  for (const auto& [stamp, described] : other.descriptions_) addDescription(stamp, described);
+}
+
 Recording RecordingBuilder::build(const RecordingOptions& options) const {
+  if (counts_.inFile()) return buildFile(options);
   std::vector<std::uint16_t> kept;
   CountReader all(counts_);
   Recording recording = assemble(options, [&](std::size_t number) {
@@ -212,8 +225,7 @@ Recording RecordingBuilder::build(const RecordingOptions& options) const {
 }
 
 Recording RecordingBuilder::take(const RecordingOptions& options) {
-  if (counts_.inFile()) return takeFile(options);
-  if (!inOrderOfTime()) {
+  if (counts_.inFile() || !inOrderOfTime()) {
     Recording recording = build(options);
     clear();
     return recording;
@@ -231,13 +243,12 @@ Recording RecordingBuilder::take(const RecordingOptions& options) {
   return recording;
 }
 
-Recording RecordingBuilder::takeFile(const RecordingOptions& options) {
+Recording RecordingBuilder::buildFile(const RecordingOptions& options) const {
   const auto file = std::make_shared<CountFile>(size_.taxels());
   CountReader all(counts_);
   Recording recording = assemble(options, [&](std::size_t number) { file->add(all[number]); });
   file->finish();
   recording.count_file = file;
-  clear();
   return recording;
 }
 

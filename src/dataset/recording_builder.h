@@ -66,7 +66,7 @@ class RecordingBuilder {
   /// An event `step` or `reject`.
   void addAttemptEnd(const AttemptEnd& end) { attempt_ends_.push_back(end); }
 
-  /// From `most` bytes on the counts are kept in a file, also those of the recording that take() returns
+  /// From `most` bytes on the counts are kept in a file, also those of the recording that is made from them
   /// (Recording::count_file). Before the first scan.
   explicit RecordingBuilder(std::size_t most = RowSpool<std::uint16_t>::kUnlimited) : counts_(most) {}
 
@@ -75,6 +75,9 @@ class RecordingBuilder {
     expected_scans_ = scans;
     most_bytes_ = most;
   }
+
+  /// Adds all events of another builder. Throws as addScan().
+  void append(const RecordingBuilder& other);
 
   const Events& events() const { return events_; }
   void clear() { *this = RecordingBuilder(counts_.most()); }
@@ -101,8 +104,8 @@ class RecordingBuilder {
   // Calls keep(number in counts_) for each scan that is kept, in order of time, and returns the recording
   // without counts.
   Recording assemble(const RecordingOptions& options, const std::function<void(std::size_t)>& keep) const;
-  // take() where the counts are in a file.
-  Recording takeFile(const RecordingOptions& options);
+  // build() where the counts are in a file, and in the recording, too.
+  Recording buildFile(const RecordingOptions& options) const;
   bool inOrderOfTime() const;
   std::vector<ScanEvent> sortedScans(RecordingLosses& losses) const;
   std::vector<std::size_t> spikesOf(const TimeSeries& reference, const std::vector<ScanEvent>& scans) const;

@@ -317,6 +317,25 @@ TEST(RecordingBuilder, MalformedEventsAreRefused) {
       "surface \"limb\" has 3 values, but must have one, or one for each of the 2 taxels of a 1 x 2 matrix");
 }
 
+// The training node gathers in one builder while it copies another.
+TEST(RecordingBuilder, AppendingABuilderIsAddingItsEvents) {
+  const std::vector<Event> events = session();
+  for (const std::size_t most : {std::size_t{1} << 20, std::size_t{100}}) {  // in memory, in a file
+    RecordingBuilder first(most), second(most);
+    for (std::size_t i = 0; i < events.size(); ++i) events[i](i % 3 == 0 ? second : first);
+    first.append(second);
+    const Recording all = build(events), appended = first.build({}), again = first.build({});
+    EXPECT_EQ(first.events().scans, all.scans() + all.losses.near_change + all.losses.no_reference);
+    EXPECT_EQ(appended.time, all.time);
+    EXPECT_EQ(appended.pressure, all.pressure);
+    EXPECT_EQ(appended.count_file != nullptr, most == 100);
+    EXPECT_EQ(again.time, all.time) << "the builder keeps its events";
+    if (most > 100) {
+      EXPECT_EQ(appended.counts, all.counts);
+    }
+  }
+}
+
 TEST(RecordingBuilder, ClearForgetsEverything) {
   RecordingBuilder builder;
   for (const Event& event : session()) event(builder);

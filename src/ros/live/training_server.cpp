@@ -13,6 +13,7 @@
 #include "ros/bags/message_events.h"
 #include "ros/bags/resource_path.h"
 #include "ros/live/parameters.h"
+#include "settings/file_kind.h"
 #include "settings/replace_file.h"
 
 namespace fsr_ros {
@@ -23,6 +24,13 @@ namespace {
 // small.
 constexpr std::uint32_t kQueue = 100000;
 constexpr double kReportPeriod = 0.5;  // [s], wall time
+// Counts lie in a file from here on, as those of the tools.
+constexpr std::size_t kCountsInMemory = 64u << 20;  // [bytes]
+
+std::uint64_t number(const fsr::dataset::RecordingBuilder::Events& events) {
+  return events.scans + events.chamber_pressures + events.surfaces + events.temperatures +
+         events.descriptions;
+}
 
 fsr::regression::RegressorOptions regressorOptions(const Parameters& parameters) {
   fsr::regression::RegressorOptions options;
@@ -93,7 +101,7 @@ std::string summary(const fsr::calibration::Calibration& calibration, const std:
 }  // namespace
 
 TrainingServer::TrainingServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle)
-    : handle_(handle) {
+    : handle_(handle), builder_(kCountsInMemory) {
   const Parameters parameters(private_handle);
   std::error_code ignored;  // if the folder cannot be made, writing to it raises an error
   std::filesystem::create_directories(rosHome(), ignored);
@@ -101,6 +109,7 @@ TrainingServer::TrainingServer(const ros::NodeHandle& handle, const ros::NodeHan
   if (output_.empty()) throw parameters.error("output", "must name the calibration file to write");
   report_ = resolveResource(parameters.text("report", ""));
   options_ = calibrationOptions(parameters);
+  most_ = static_cast<std::uint64_t>(parameters.integer("most_messages", 20000000, {1, 1e12, ""}));
   const double ambient = parameters.number("ambient_pressure", -1, {-1, 120e3, "Pa"});
   if (ambient >= 0) recording_options_.ambient_pressure = ambient;
   for (const std::string& name : parameters.unknown()) {
@@ -134,6 +143,11 @@ template <typename Message>
 void TrainingServer::gather(const Message& message) {
   const std::lock_guard<std::mutex> lock(gathering_);
   try {
+    if (number(builder_.events()) >= most_) {
+      throw fsr::settings::InputError(std::to_string(most_) +
+                                      " are gathered, as many as ~most_messages allows; call ~train, then "
+                                      "~clear");
+    }
     addEvent(message, builder_);
   } catch (const fsr::settings::InputError& error) {
     ++refused_;
@@ -161,18 +175,11 @@ bool TrainingServer::train(std_srvs::Trigger::Request&, std_srvs::Trigger::Respo
 }
 
 std::string TrainingServer::trainNow() {
-  fsr::settings::requireReplaceable(output_);
+  fsr::settings::requireReplaceable(output_, fsr::settings::file_kind::kCalibration);
+  if (!report_.empty()) fsr::settings::requireReplaceable(report_, fsr::settings::file_kind::kJson);
   fsr::calibration::CalibrationProblem problem;
   problem.options = options_;
-  {
-    const std::lock_guard<std::mutex> lock(gathering_);
-    const std::string missing = whatIsMissing(builder_.events());
-    if (!missing.empty()) {
-      throw fsr::settings::InputError(missing + " in " + handle_.getNamespace() +
-                                      "; replay a bag with rosbag play");
-    }
-    problem.recordings.push_back(builder_.build(recording_options_));
-  }
+  problem.recordings.push_back(gatheredRecording());
   fsr::calibration::validate(problem);
   ROS_INFO_STREAM('\n'
                   << fsr::report::coverageText(fsr::dataset::coverageOf(problem.recordings, options_.folds)));
@@ -187,11 +194,42 @@ std::string TrainingServer::trainNow() {
   return summary(calibration, output_);
 }
 
+// Copying takes long. What comes meanwhile is gathered beside it, so that receiving never waits.
+fsr::dataset::Recording TrainingServer::gatheredRecording() {
+  fsr::dataset::RecordingBuilder taken(kCountsInMemory);
+  const auto exchange = [&](bool begin) {
+    const std::lock_guard<std::mutex> lock(gathering_);
+    if (begin) {
+      const std::string missing = whatIsMissing(builder_.events());
+      if (!missing.empty()) {
+        throw fsr::settings::InputError(missing + " in " + handle_.getNamespace() +
+                                        "; replay a bag with rosbag play");
+      }
+    } else if (!copying_) {
+      return;  // ~clear was called
+    } else {
+      taken.append(builder_);
+    }
+    std::swap(taken, builder_);
+    copying_ = begin;
+  };
+  exchange(true);
+  try {
+    fsr::dataset::Recording recording = taken.build(recording_options_);
+    exchange(false);
+    return recording;
+  } catch (...) {
+    exchange(false);
+    throw;
+  }
+}
+
 bool TrainingServer::clear(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   {
     const std::lock_guard<std::mutex> lock(gathering_);
     response.message = "removed " + std::to_string(builder_.events().scans) + " scans";
     builder_.clear();
+    copying_ = false;
     refused_ = 0;
   }
   response.success = true;
@@ -201,6 +239,7 @@ bool TrainingServer::clear(std_srvs::Trigger::Request&, std_srvs::Trigger::Respo
 
 void TrainingServer::publishGathered() {
   const std::lock_guard<std::mutex> lock(gathering_);
+  if (copying_) return;
   const fsr::dataset::RecordingBuilder::Events& events = builder_.events();
   diagnostic_msgs::DiagnosticStatus status;
   status.name = ros::this_node::getName();

@@ -18,12 +18,12 @@ namespace fsr_ros {
 /// one bag was replayed without loss, the tables are those of the tool `train`, bit for bit.
 ///
 /// Training runs in the thread of the service call. With two or more spinner threads, the node goes on
-/// collecting meanwhile. `~gathered` (diagnostic_msgs/DiagnosticStatus, latched) reports what has come and
-/// what is missing.
+/// collecting meanwhile. From `~most_messages` on, further messages are left out. `~gathered`
+/// (diagnostic_msgs/DiagnosticStatus, latched) reports what has come and what is missing.
 ///
 /// Parameters: ~output, ~report, ~scheme, ~model, ~bandwidth, ~spread, ~distance, ~equal_bins, ~trees,
-/// ~minimum_leaf, ~leaf_rule, ~folds, ~scores, ~threads, ~seed, ~ambient_pressure; see train.launch and
-/// docs/nodes.md.
+/// ~minimum_leaf, ~leaf_rule, ~folds, ~scores, ~threads, ~seed, ~ambient_pressure, ~most_messages; see
+/// train.launch and docs/nodes.md.
 class TrainingServer {
  public:
   /// Throws fsr::InputError.
@@ -37,6 +37,7 @@ class TrainingServer {
   bool train(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool clear(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   std::string trainNow();
+  fsr::dataset::Recording gatheredRecording();
   void publishGathered();
 
   ros::NodeHandle handle_;
@@ -44,8 +45,11 @@ class TrainingServer {
   fsr::calibration::CalibrationOptions options_;
   fsr::dataset::RecordingOptions recording_options_;
 
-  std::mutex gathering_;  // guards builder_ and refused_
+  std::uint64_t most_ = 0;  // messages that are gathered
+
+  std::mutex gathering_;  // guards builder_, copying_ and refused_
   fsr::dataset::RecordingBuilder builder_;
+  bool copying_ = false;       // what was gathered; builder_ has what has come since
   std::uint64_t refused_ = 0;  // messages
   std::mutex training_;        // held during a training: one at a time
 
