@@ -14,6 +14,7 @@
 #include "ros/tools/discrepancy_tool.h"
 #include "settings/replace_file.h"
 #include "simulation/simulation_text.h"
+#include "statistics/random_stream.h"
 
 namespace fsr_ros {
 namespace {
@@ -134,9 +135,9 @@ TEST_F(DiscrepancyVerdicts, NeverNoneFromWhatIsNotFit) {
   fsr::discrepancy::DiscrepancyProblem problem =
       fsr::discrepancy::planted::problem(fsr::discrepancy::planted::kOneSpeed, "");
   for (fsr::dataset::Recording& recording : problem.recordings) {
-    std::uint32_t noise = 1;  // of a linear congruential generator
-    for (std::uint16_t& reading : recording.counts)
-      reading = static_cast<std::uint16_t>(700 + ((noise = noise * 1664525u + 1013904223u) >> 16) % 41);
+    const fsr::statistics::RandomStream noise = fsr::statistics::randomStream(1, recording.name);
+    for (std::size_t k = 0; k < recording.counts.size(); ++k)
+      recording.counts[k] = static_cast<std::uint16_t>(700 + noise.bits(k) % 41);
   }
   EXPECT_EQ(verdict({session("bags", problem)}).verdict, "not_identifiable");
 }
