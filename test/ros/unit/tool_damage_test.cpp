@@ -262,7 +262,7 @@ TEST_F(ToolDamage, APipeIsRefusedAsAnyInput) {
        {said(checkBagTool, {pipe}), said(scrubTool, {pipe, "--output", out}),
         said(trainTool, {pipe, "--output", out}), said(trainTool, {"--check", pipe, bag_}),
         said(trainTool, {"--merge", pipe, "--output", out}),
-        said(exportAll, {pipe, "--to", "bag", "--output", out}),
+        said(exportAll, {pipe, "--to", "hdf5", "--output", out}),
         said(exportAll, {bag_, "--calibration", pipe, "--to", "csv", "--output", out}),
         said(csvToBagTool, {pipe, "--columns", "time=1,reading=2", "--output", out}),
         said(simulateTool, {"--simulation", pipe, "--output", out}),
