@@ -41,15 +41,32 @@ constexpr std::uint32_t kQueueSize = 10;
 constexpr double kReadable = 3.0;  // an answer stays this long after the instruction has changed [s]
 constexpr int kLines = 3;          // the longest instruction has as many in a panel as wide as the coverage
 
-// Calls a service and returns its message, or why it could not be called.
-template <typename Service>
-std::string answerOf(const std::string& name, Service& service) {
-  if (!ros::service::exists(name, false)) return "there is no service " + name;
-  if (!ros::service::call(name, service)) return name + " did not answer";
-  return service.response.message;
+// A widget that is scrolled upwards and downwards where it is higher than its place.
+QScrollArea* scrolled(QWidget* content) {
+  auto* area = new QScrollArea;
+  area->setFrameShape(QFrame::NoFrame);
+  area->setWidgetResizable(true);
+  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  area->setWidget(content);
+  return area;
 }
 
 }  // namespace
+
+// Calls a service and returns its message, or why it could not be called. The client is persistent, so that
+// the panel's end can cancel the call.
+template <typename Service>
+std::string PressurePanel::answerOf(const std::string& service, Service& call) {
+  if (!ros::service::exists(service, false)) return "there is no service " + service;
+  ros::ServiceClient client;
+  {
+    const std::lock_guard<std::mutex> lock(call_mutex_);
+    if (ending_) return "";
+    client = client_ = handle_.serviceClient<Service>(service, true);
+  }
+  if (!client.call(call)) return service + " did not answer";
+  return call.response.message;
+}
 
 template <typename Message>
 bool PressurePanel::Last<Message>::fresh() const {
@@ -66,14 +83,20 @@ PressurePanel::PressurePanel(QWidget* parent) : Panel(parent) {
   sensor->addWidget(namespace_, 0, 1);
   column->addLayout(sensor);
   addConductor(column);  // above everything whose height changes, so that its buttons stay in their places
+  auto* content = new QWidget;
+  auto* lines = new QVBoxLayout(content);
+  lines->setContentsMargins(0, 0, 0, 0);
   addNumbers(grid);
-  column->addLayout(grid);
-  addButtons(column);
+  lines->addLayout(grid);
+  addButtons(lines);
+  lines->addStretch(1);  // takes all free height, so that nothing above is spread when a text comes
+  scroll_ = scrolled(content);
+  scroll_->setMinimumHeight(40);  // [pixels]: all else has to fit beside the coverage of many surfaces
+  column->addWidget(scroll_, 1);
   reply_ = addText(column, "reply");
   waiting_ = addText(column, "waiting");
   coverage_ = addText(column, "coverage");  // below the buttons: its height changes with the plan
   coverage_->hide();
-  column->addStretch(1);  // takes all free height, so that nothing above is spread when a text comes
   auto* warning = new QLabel("<b>Research use, not for diagnosis or fitting decisions</b>");
   warning->setWordWrap(true);
   column->addWidget(warning);
@@ -85,6 +108,11 @@ PressurePanel::PressurePanel(QWidget* parent) : Panel(parent) {
 }
 
 PressurePanel::~PressurePanel() {
+  {
+    const std::lock_guard<std::mutex> lock(call_mutex_);
+    ending_ = true;
+    client_.shutdown();
+  }
   if (caller_.joinable()) caller_.join();
 }
 
@@ -149,6 +177,9 @@ void PressurePanel::addConductor(QVBoxLayout* column) {
   button("Reject", SLOT(rejectAttempt()));
   button("Skip", SLOT(skipStep()));
   lines->addLayout(answers);
+  gauge_ = new PressureGauge;
+  gauge_->setObjectName("gauge");
+  lines->addWidget(gauge_);
   conductor_->setLayout(lines);
   conductor_->hide();
   column->addWidget(conductor_);
@@ -171,11 +202,7 @@ QLabel* PressurePanel::addFixedText(QVBoxLayout* column, const char* name, bool 
   QFont font = text->font();
   font.setBold(bold);
   text->setFont(font);
-  auto* frame = new QScrollArea;
-  frame->setFrameShape(QFrame::NoFrame);
-  frame->setWidgetResizable(true);
-  frame->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  frame->setWidget(text);
+  QScrollArea* frame = scrolled(text);
   frame->setFixedHeight(kLines * QFontMetrics(font).lineSpacing() + 2);
   column->addWidget(frame);
   return text;
@@ -203,6 +230,11 @@ void PressurePanel::addNumbers(QGridLayout* grid) {
   force_ = addLine(grid, "Force");
   integral_ = addLine(grid, "Pressure x time");
   alarms_ = addLine(grid, "Alarms");
+  for (QWidget* line : {rest_, calibration_, peak_, mean_, area_, force_, integral_, alarms_}) {
+    results_.push_back(line);
+    const int at = grid->indexOf(line);
+    results_.push_back(grid->itemAt(at - 1)->widget());  // its name
+  }
   unit_ = new QComboBox;
   for (const std::string& unit : fsr::view::pressureUnitNames()) unit_->addItem(QString::fromStdString(unit));
   const int row = grid->rowCount();
@@ -357,9 +389,15 @@ void PressurePanel::forgetReply() {
 }
 
 void PressurePanel::showConductor() {
-  conductor_->setVisible(last_instruction_.fresh());
-  coverage_->setVisible(last_instruction_.fresh());
-  if (!last_instruction_.fresh()) return;
+  const bool conducted = last_instruction_.fresh();
+  conductor_->setVisible(conducted);
+  coverage_->setVisible(conducted);
+  // A session needs no calibration. What has nothing to say makes room.
+  for (QWidget* line : results_) line->setVisible(!conducted || last_statistics_.fresh());
+  // A bar that comes and goes would change the width of the buttons.
+  scroll_->setVerticalScrollBarPolicy(conducted ? Qt::ScrollBarAlwaysOn : Qt::ScrollBarAsNeeded);
+  if (!conducted) return;
+  showGauge();
   const fsr_pressure_map::Instruction& now = *last_instruction_.message;
   instruction_->setText(instructionText(now));
   instruction_->setToolTip(instruction_->text());
@@ -379,14 +417,25 @@ void PressurePanel::showConductor() {
   coverage_->setPixmap(QPixmap::fromImage(image));
 }
 
+void PressurePanel::showGauge() {
+  const double air = last_matrix_.message ? last_matrix_.message->ambient_pressure : kStandardAir;
+  const double now = last_chamber_.fresh() ? last_chamber_.message->fluid_pressure - air : std::nan("");
+  const double target = target_.next(*last_instruction_.message, now);
+  // Some room behind the highest peak, so that an overshoot is seen.
+  full_ = std::fmax(full_, 1.1 * std::fmax(last_instruction_.message->peak, now));
+  gauge_->show(now, target, full_, fsr::view::pressureUnitOf(unit_->currentText().toStdString()));
+}
+
 // Every running node repeats its messages each second, so that a missing message means a missing node.
 void PressurePanel::showWaiting() {
   QStringList lines;
   const auto want = [&](bool there, const char* topic, const char* what) {
     if (!there) lines << QString("Nothing on %1: %2").arg(text(handle_.resolveName(name(topic))), what);
   };
-  want(last_calibration_.fresh(), "calibration_info", "tare and reload need the calibration node.");
-  want(last_statistics_.fresh(), "statistics", "the numbers need the view node.");
+  const bool conducted = last_instruction_.fresh();
+  want(conducted || last_calibration_.fresh(), "calibration_info",
+       "tare and reload need the calibration node.");
+  want(conducted || last_statistics_.fresh(), "statistics", "the numbers need the view node.");
   want(last_surface_.message != nullptr, "curvature", "the surface is unknown.");
   want(last_session_.fresh(), "session", "events can be marked while record.launch runs.");
   for (const auto& [status, complaint] : complaints_) {
@@ -446,11 +495,12 @@ void PressurePanel::setAlarm() {
   alarm.request.threshold =
       threshold * fsr::view::pascals(fsr::view::pressureUnitOf(unit_->currentText().toStdString()));
   alarm.request.dwell = alarm.request.hysteresis = -1;  // as before
-  call("set alarm", [service = name("view/set_alarm"), alarm]() mutable { return answerOf(service, alarm); });
+  call("set alarm",
+       [this, service = name("view/set_alarm"), alarm]() mutable { return answerOf(service, alarm); });
 }
 
 void PressurePanel::trigger(const std::string& what, const std::string& service) {
-  call(what, [service = name(service)] {
+  call(what, [this, service = name(service)] {
     std_srvs::Trigger trigger;
     return answerOf(service, trigger);
   });
@@ -515,14 +565,15 @@ void PressurePanel::maskSelected() {
   }
   fsr_pressure_map::SetMask mask;
   mask.request.mask = maskAfter(last_map_.message->flags, taxels);
-  call("mask", [service = name("calibration/set_mask"), mask]() mutable { return answerOf(service, mask); });
+  call("mask",
+       [this, service = name("calibration/set_mask"), mask]() mutable { return answerOf(service, mask); });
 }
 
 void PressurePanel::markEvent() {
   fsr_pressure_map::Mark mark;
   mark.request.kind = event_kind_->currentText().toStdString();
   mark.request.label = event_label_->text().toStdString();
-  call("mark", [service = name("session/mark"), mark]() mutable { return answerOf(service, mark); });
+  call("mark", [this, service = name("session/mark"), mark]() mutable { return answerOf(service, mark); });
 }
 
 void PressurePanel::call(const std::string& what, const std::function<std::string()>& service) {

@@ -16,11 +16,14 @@
 
 #include <functional>
 #include <map>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "ros/rviz/panel_text.h"
+#include "ros/rviz/pressure_gauge.h"
+#include "ros/rviz/pressure_target.h"
 #endif
 
 class QComboBox;
@@ -28,18 +31,19 @@ class QGridLayout;
 class QLabel;
 class QLineEdit;
 class QPushButton;
+class QScrollArea;
 class QTimer;
 class QVBoxLayout;
 
 namespace fsr_rviz {
 
 /// Panel with the numbers of one sensor and with buttons for tare, reload, mask, checking the surface,
-/// marking an event and setting an alarm. While a session is conducted, it also shows the instruction, why
-/// the last attempt was rejected, the coverage, and the buttons for a person's answers, which stay in their
-/// places whatever is said. All topics are in the
-/// sensor's namespace. A number that has not come yet, or not for 3 s, is shown as "-", and a line below the
-/// buttons names the missing node. Services are called in another thread, so that the window never waits for
-/// them.
+/// marking an event and setting an alarm, which are scrolled where the window is low. While a session is
+/// conducted, it also shows the instruction, why the last attempt was rejected, the chamber's pressure beside
+/// its target, the coverage, and the buttons for a person's answers, which stay in their places whatever is
+/// said. All topics are in the sensor's namespace. A number that has not come yet, or not for 3 s, is shown
+/// as "-", and a line below the buttons names the missing node. Services are called in another thread, so
+/// that the window never waits for them.
 class PressurePanel : public rviz::Panel {
   Q_OBJECT
 
@@ -87,6 +91,7 @@ class PressurePanel : public rviz::Panel {
   void addButtons(QVBoxLayout* column);
   void addConductor(QVBoxLayout* column);
   void showConductor();
+  void showGauge();
   static QLabel* addText(QVBoxLayout* column, const char* name);
   static QLabel* addFixedText(QVBoxLayout* column, const char* name, bool bold);
   void enableButtons();
@@ -102,6 +107,8 @@ class PressurePanel : public rviz::Panel {
   void listRegions();
   void showWaiting();
   void call(const std::string& what, const std::function<std::string()>& service);
+  template <typename Service>
+  std::string answerOf(const std::string& service, Service& call);
   std::string name(const std::string& relative) const;
 
   ros::NodeHandle handle_;
@@ -114,7 +121,12 @@ class PressurePanel : public rviz::Panel {
   std::vector<QPushButton*> buttons_;
   QPushButton* estimate_;  // one of them, shown where the calibration node publishes the curvature
   QLabel *reply_, *waiting_;
-  QWidget* conductor_;  // shown while a session is conducted
+  QScrollArea* scroll_;            // numbers and buttons
+  std::vector<QWidget*> results_;  // lines that need calibration and view node
+  QWidget* conductor_;             // shown while a session is conducted
+  PressureGauge* gauge_;
+  PressureTarget target_;
+  double full_ = 100e3;  // end of the gauge's bar, grows with the pressures [Pa]
   QLabel *instruction_, *remark_, *coverage_;
   QPushButton* confirm_;
   QTimer* timer_;
@@ -138,6 +150,9 @@ class PressurePanel : public rviz::Panel {
   DiagnosticValues rest_values_;                 // of the calibration's diagnostics
   ros::WallTime rest_received_;
   std::thread caller_;
+  std::mutex call_mutex_;
+  ros::ServiceClient client_;  // of the service that is being called
+  bool ending_ = false;
 };
 
 }  // namespace fsr_rviz

@@ -6,7 +6,9 @@
 #include <fsr_pressure_map/Instruction.h>
 #include <fsr_pressure_map/PressureMap.h>
 #include <gtest/gtest.h>
+#include <ros/callback_queue.h>
 #include <rviz/panel.h>
+#include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Image.h>
 #include <std_srvs/Trigger.h>
 #include <pluginlib/class_loader.hpp>
@@ -16,7 +18,9 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <array>
+#include <atomic>
 #include <filesystem>
+#include <future>
 #include <map>
 #include <memory>
 
@@ -176,9 +180,90 @@ TEST_F(Panel, ShowsTheInstructionAndSendsThePersonsAnswers) {
   instructions.publish(now);
   EXPECT_TRUE(runUntil([&] { return label("instruction") == now.text && label("reply").empty(); }))
       << "the answer to an instruction goes with it: " << label("reply");
-  press("Tare");
-  ASSERT_TRUE(runUntil([&] { return says("reply", "tare"); }));
+  press("Reload calibration");
+  ASSERT_TRUE(runUntil([&] { return says("reply", "reload"); }));
   EXPECT_FALSE(isEnabled("Confirm")) << "a call does not wake it";
+}
+
+TEST_F(Panel, ShowsThePressureBesideItsTargetLargeEnoughForTheValves) {
+  ros::NodeHandle handle("/conducted");
+  const auto instructions = handle.advertise<fsr_pressure_map::Instruction>("instruction", 10, true);
+  const auto chamber = handle.advertise<sensor_msgs::FluidPressure>("chamber_pressure", 10, true);
+  listenTo("/conducted");
+  panel->resize(490, 690);
+  panel->show();
+  auto* gauge = panel->findChild<QWidget*>("gauge");
+  ASSERT_NE(gauge, nullptr);
+  fsr_pressure_map::Instruction now;
+  now.kind = now.CYCLE;
+  now.step = 3;
+  now.steps = 40;
+  now.peak = 600e3;
+  const auto says = [&](double kilopascal, const std::string& words) {
+    sensor_msgs::FluidPressure reading;
+    reading.fluid_pressure = 101325 + 1000 * kilopascal;
+    return runUntil([&] {
+      instructions.publish(now);
+      chamber.publish(reading);
+      return gauge->accessibleName().toStdString() == words;
+    });
+  };
+  EXPECT_TRUE(says(300, "now 300 kPa, target 600 kPa")) << gauge->accessibleName().toStdString();
+  // The bar ends at 660 kPa.
+  const QImage picture = gauge->grab().toImage();
+  const auto isInk = [&](int x, int y) {
+    const QColor colour = picture.pixelColor(x, y);
+    return colour.blue() > colour.red() + 50;
+  };
+  const auto isFull = [&](double part) {
+    return isInk(static_cast<int>(part * picture.width()), picture.height() - 12);
+  };
+  EXPECT_TRUE(isFull(0.05) && isFull(0.4));
+  EXPECT_FALSE(isFull(0.5) || isFull(0.98));
+  int digits = 0;  // rows in which the present pressure is written
+  for (int row = 0; row < picture.height() - 40; ++row) {
+    int ink = 0;
+    for (int x = 0; x < picture.width() / 2; ++x) ink += isInk(x, row);
+    digits += ink > 0;
+  }
+  EXPECT_GT(digits, 40) << "a centimetre on a usual screen";
+  EXPECT_TRUE(says(598, "now 598 kPa, target 600 kPa")) << gauge->accessibleName().toStdString();
+  EXPECT_TRUE(says(500, "now 500 kPa, target 0.0 kPa")) << gauge->accessibleName().toStdString();
+  EXPECT_TRUE(says(2, "now 2.0 kPa, target 600 kPa")) << "the next attempt";
+  now.low = 200e3;
+  now.kind = now.LOOP;
+  ++now.step;
+  EXPECT_TRUE(says(600, "now 600 kPa, target 600 kPa")) << gauge->accessibleName().toStdString();
+  EXPECT_TRUE(says(400, "now 400 kPa, target 200 kPa")) << gauge->accessibleName().toStdString();
+  now.kind = now.REST;
+  EXPECT_TRUE(says(400, "now 400 kPa, target 0.0 kPa")) << gauge->accessibleName().toStdString();
+  now.kind = now.DONE;
+  EXPECT_TRUE(says(400, "now 400 kPa, target -")) << gauge->accessibleName().toStdString();
+}
+
+// A service may answer late, or never; the window closes all the same.
+TEST_F(Panel, EndsWhileItWaitsForAService) {
+  ros::CallbackQueue queue;
+  ros::NodeHandle handle("/slow");
+  handle.setCallbackQueue(&queue);
+  std::promise<void> closed;
+  std::atomic<bool> called{false}, in_time{false};
+  const boost::function<bool(std_srvs::Trigger::Request&, std_srvs::Trigger::Response&)> answer =
+      [&](std_srvs::Trigger::Request&, std_srvs::Trigger::Response&) {
+        called = true;
+        in_time = closed.get_future().wait_for(std::chrono::seconds(20)) == std::future_status::ready;
+        return true;
+      };
+  const auto service = handle.advertiseService("calibration/tare", answer);
+  ros::AsyncSpinner spinner(1, &queue);
+  spinner.start();
+  listenTo("/slow");
+  press("Tare");
+  ASSERT_TRUE(runUntil([&] { return called.load(); }));
+  panel.reset();
+  closed.set_value();
+  spinner.stop();
+  EXPECT_TRUE(in_time);
 }
 
 TEST_F(Panel, KeepsItsButtonsInTheirPlacesDuringASession) {
