@@ -52,6 +52,11 @@ void LegendOverlay::moveTo(int left, int top) {
   panel_->setPosition(static_cast<Ogre::Real>(left), static_cast<Ogre::Real>(top));
 }
 
+QRect LegendOverlay::place() const {
+  if (!overlay_->isVisible()) return {};
+  return {QPoint(static_cast<int>(panel_->getLeft()), static_cast<int>(panel_->getTop())), largest_};
+}
+
 void LegendOverlay::makeTexture(const fsr::view::Image& image) {
   Ogre::TextureManager& textures = Ogre::TextureManager::getSingleton();
   if (texture_) textures.remove(texture_);
@@ -80,6 +85,7 @@ void LegendOverlay::blit(const fsr::view::Image& image) {
   const bool fits = texture_ && texture_->getWidth() == static_cast<Ogre::uint32>(image.width()) &&
                     texture_->getHeight() == static_cast<Ogre::uint32>(image.height());
   if (!fits) makeTexture(image);
+  largest_ = largest_.expandedTo(QSize(image.width(), image.height()));
   // blitFromMemory() only reads, but needs a pointer to non-const data.
   std::vector<std::uint8_t> bytes = image.bytes();
   const Ogre::PixelBox box(static_cast<Ogre::uint32>(image.width()),

@@ -3,6 +3,8 @@
 #include <OgrePrerequisites.h>
 #include <OgreTexture.h>
 
+#include <QRect>
+
 #include "view/legend.h"
 
 namespace Ogre {
@@ -25,6 +27,8 @@ class LegendOverlay {
   void hide();
   /// Sets the position of the top left corner [pixels].
   void moveTo(int left, int top);
+  /// Its place, with the largest size that it has had [pixels]; empty while it is hidden.
+  QRect place() const;
 
  private:
   void makeTexture(const fsr::view::Image& image);
@@ -36,6 +40,7 @@ class LegendOverlay {
   Ogre::MaterialPtr material_;
   Ogre::TexturePtr texture_;
   fsr::view::Legend drawn_;
+  QSize largest_;
 };
 
 }  // namespace fsr_rviz

@@ -1,10 +1,13 @@
 #include "ros/rviz/pressure_map_display.h"
 
+#include <rviz/display_context.h>
+#include <rviz/display_group.h>
 #include <rviz/properties/bool_property.h>
 #include <rviz/properties/enum_property.h>
 #include <rviz/properties/float_property.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include "fsr_pressure_map/ros/pressure_map_message.h"
@@ -14,6 +17,8 @@ namespace fsr_rviz {
 namespace {
 
 constexpr float kMostKilopascal = 10000;
+constexpr double kUsualRange = 600e3;     // until a calibration tells its own [Pa]
+constexpr double kDeviationShare = 0.1;   // of the pressures' range: a good map has a few per cent
 constexpr std::uint32_t kQueueSize = 10;  // [messages]
 
 }  // namespace
@@ -26,8 +31,10 @@ PressureMapDisplay::PressureMapDisplay() : SheetDisplay("map") {
                  SLOT(updateStyle()));
   low_ = new rviz::FloatProperty("Low (kPa)", 0, "Pressure at the dark end of the colour scale.", this,
                                  SLOT(updateStyle()));
-  high_ = new rviz::FloatProperty("High (kPa)", 600, "Pressure at the bright end of the colour scale.", this,
-                                  SLOT(updateStyle()));
+  high_ = new rviz::FloatProperty("High (kPa)", 0,
+                                  "Pressure at the bright end of the colour scale; 0 = the upper end of the "
+                                  "calibration's range.",
+                                  this, SLOT(updateStyle()));
   for (rviz::FloatProperty* end : {low_, high_}) {
     end->setMin(-kMostKilopascal);
     end->setMax(kMostKilopascal);
@@ -39,7 +46,32 @@ PressureMapDisplay::PressureMapDisplay() : SheetDisplay("map") {
 }
 
 ros::Subscriber PressureMapDisplay::listen(const std::string& topic) {
+  trained_high_ = 0;
+  infos_ =
+      update_nh_.subscribe(besideTopic("calibration_info"), kQueueSize, &PressureMapDisplay::onInfo, this);
   return update_nh_.subscribe(topic, kQueueSize, &PressureMapDisplay::onMap, this);
+}
+
+void PressureMapDisplay::onInfo(const fsr_pressure_map::CalibrationInfoConstPtr& message) {
+  if (message->pressure_high == trained_high_ || !std::isfinite(message->pressure_high)) return;
+  trained_high_ = message->pressure_high;
+  updateStyle();
+}
+
+double PressureMapDisplay::trainedHigh() const {
+  double high = 0;
+  const rviz::DisplayGroup* group = context_->getRootDisplayGroup();
+  for (int i = 0; i < group->numDisplays(); ++i) {
+    const auto* other = dynamic_cast<const PressureMapDisplay*>(group->getDisplayAt(i));
+    if (other != nullptr && other->isEnabled()) high = std::max(high, other->trained_high_);
+  }
+  return high > 0 ? high : kUsualRange;
+}
+
+double PressureMapDisplay::highEnd() const {
+  if (auto_range_->getBool() && auto_high_ > 0) return auto_high_;
+  if (high_->getFloat() != 0) return 1000.0 * double(high_->getFloat());
+  return trainedHigh() * (layer() == fsr::view::MapLayer::kDeviation ? kDeviationShare : 1);
 }
 
 void PressureMapDisplay::onMap(const fsr_pressure_map::PressureMapConstPtr& message) {
@@ -54,7 +86,7 @@ fsr::view::MapLayer PressureMapDisplay::layer() const {
 fsr::view::PressureScale PressureMapDisplay::scale() const {
   fsr::view::PressureScale scale;
   scale.low = 1000.0 * double(low_->getFloat());
-  scale.high = auto_range_->getBool() && auto_high_ > 0 ? auto_high_ : 1000.0 * double(high_->getFloat());
+  scale.high = highEnd();
   if (!(scale.high > scale.low)) scale.high = scale.low + 1000;
   scale.unit = fsr::view::pressureUnitOf(unit_->getStdString());
   scale.colours = colours();

@@ -1,6 +1,7 @@
 #pragma once
 
 #ifndef Q_MOC_RUN
+#include <fsr_pressure_map/CalibrationInfo.h>
 #include <fsr_pressure_map/PressureMap.h>
 
 #include "fsr_pressure_map/view/heat_map.h"
@@ -10,7 +11,9 @@
 
 namespace fsr_rviz {
 
-/// Shows a PressureMap on the bent sheet: gauge pressure or its standard deviation, in kPa or mmHg.
+/// Shows a PressureMap on the bent sheet: gauge pressure or its standard deviation, in kPa or mmHg. The
+/// bright end of the colours is, unless it is set, that of the training range in `calibration_info` in the
+/// namespace of the maps; of several displays, the highest, so that they have one scale.
 class PressureMapDisplay : public SheetDisplay {
   Q_OBJECT
 
@@ -26,6 +29,9 @@ class PressureMapDisplay : public SheetDisplay {
   void forget() override { last_.reset(); }
 
  private:
+  void onInfo(const fsr_pressure_map::CalibrationInfoConstPtr& message);
+  double trainedHigh() const;
+  double highEnd() const;
   void onMap(const fsr_pressure_map::PressureMapConstPtr& message);
   fsr::view::MapLayer layer() const;
   fsr::view::PressureScale scale() const;
@@ -39,6 +45,8 @@ class PressureMapDisplay : public SheetDisplay {
   rviz::FloatProperty* high_;
   rviz::BoolProperty* auto_range_;
 
+  ros::Subscriber infos_;
+  double trained_high_ = 0;  // of the calibration in use [Pa]; 0 = not known
   fsr_pressure_map::PressureMapConstPtr last_;
   fsr::map::PressureMap map_;
   fsr::view::AutoRange range_;

@@ -3,6 +3,7 @@
 #include <OgreManualObject.h>
 #include <OgreSceneNode.h>
 #include <rviz/display_context.h>
+#include <rviz/display_group.h>
 #include <rviz/frame_manager.h>
 #include <rviz/properties/bool_property.h>
 #include <rviz/properties/enum_property.h>
@@ -74,6 +75,17 @@ void SheetDisplay::addLook() {
   offset_ = new rviz::VectorProperty("Offset", Ogre::Vector3::ZERO,
                                      "Moves the picture in its own frame [m], to show several side by side.",
                                      this, SLOT(updatePlace()));
+  place_ = new rviz::VectorProperty("Place", Ogre::Vector3::ZERO,
+                                    "The same in widths and heights of the sheet, whatever its size.", this,
+                                    SLOT(updatePlace()));
+  letters_ = new rviz::BoolProperty("Letters", true,
+                                    "The letters of the axes, \"row 0\" and \"column 0\" beside the sheet.",
+                                    this, SLOT(updatePlace()));
+  fit_ =
+      new rviz::BoolProperty("Fit View", false,
+                             "Moves an orbiting view so that it shows all sheets beside or below the legend, "
+                             "until you move the view.",
+                             this, SLOT(updateFit()));
   legend_ = new rviz::BoolProperty("Legend", true, "Colour bar with unit and range, over the scene.", this,
                                    SLOT(updateLegend()));
   left_ = new rviz::IntProperty("Left", 10, "Position of the legend [pixels].", legend_, SLOT(updateLegend()),
@@ -90,6 +102,7 @@ SheetDisplay::~SheetDisplay() {
 void SheetDisplay::onInitialize() {
   visual_ = std::make_unique<SheetVisual>(context_->getSceneManager(), scene_node_);
   title_text_ = std::make_unique<SheetTitle>(context_->getSceneManager(), scene_node_);
+  letter_text_ = std::make_unique<SheetLetters>(context_->getSceneManager(), scene_node_);
   overlay_ = std::make_unique<LegendOverlay>();
   overlay_->hide();
 }
@@ -114,6 +127,7 @@ void SheetDisplay::reset() {
   shown_ = ShownSheet();
   if (visual_) visual_->setVisible(false);
   if (title_text_) title_text_->hide();
+  if (letter_text_) letter_text_->hide();
 }
 
 void SheetDisplay::setTopic(const QString& topic, const QString& /*datatype*/) {
@@ -224,6 +238,13 @@ void SheetDisplay::redraw() {
   if (painted) sayState();
 }
 
+Ogre::Vector3 SheetDisplay::offset() const {
+  const fsr::matrix::Layout& layout = shown_.picture.layout;
+  const Ogre::Vector3 sheet(static_cast<float>(layout.pitch_x * layout.size.columns),
+                            static_cast<float>(layout.pitch_y * layout.size.rows), 0);
+  return offset_->getVector() + place_->getVector() * sheet;
+}
+
 void SheetDisplay::placeSheet() {
   Ogre::Vector3 position;
   Ogre::Quaternion orientation;
@@ -232,6 +253,7 @@ void SheetDisplay::placeSheet() {
   const bool shown = known && shown_.mesh;
   visual_->setVisible(shown);
   if (!shown) title_text_->hide();
+  if (!shown || !letters_->getBool()) letter_text_->hide();
   if (!known) {
     setStatus(rviz::StatusProperty::Error, "Transform",
               QString("no transform from the %1's frame [%2] to the fixed frame [%3]")
@@ -240,7 +262,8 @@ void SheetDisplay::placeSheet() {
   }
   setStatus(rviz::StatusProperty::Ok, "Transform", QString::fromStdString(last_->frame_id));
   if (shown) title_text_->show(titleLine(title_->getStdString(), shown_.picture), shown_.picture.layout);
-  scene_node_->setPosition(position + orientation * offset_->getVector());
+  if (shown && letters_->getBool()) letter_text_->show(*shown_.mesh);
+  scene_node_->setPosition(position + orientation * offset());
   scene_node_->setOrientation(orientation);
 }
 
@@ -253,6 +276,39 @@ void SheetDisplay::updateStyle() {
 void SheetDisplay::updatePlace() {
   if (last_) placeSheet();
   context_->queueRender();
+}
+
+void SheetDisplay::updateFit() {
+  fitter_ = ViewFitter();  // forgets where the view was
+}
+
+// Points of the sheet and of what is written beside it, in the fixed frame.
+std::vector<fsr::view::Vector3> SheetDisplay::outline() const {
+  if (!isEnabled() || !last_ || !shown_.mesh) return {};
+  std::vector<fsr::view::Vector3> points = letter_text_->outline(*shown_.mesh);
+  if (!title_->getStdString().empty()) points.push_back({0, -SheetTitle::reach(shown_.picture.layout), 0});
+  for (fsr::view::Vector3& point : points) {
+    const Ogre::Vector3 local(static_cast<float>(point.x), static_cast<float>(point.y),
+                              static_cast<float>(point.z));
+    const Ogre::Vector3 at = scene_node_->getPosition() + scene_node_->getOrientation() * local;
+    point = {double(at.x), double(at.y), double(at.z)};
+  }
+  return points;
+}
+
+// Once the user has moved the view, it is his: a configuration that he saves keeps it.
+void SheetDisplay::fitView() {
+  std::vector<fsr::view::Vector3> points;
+  QRect legends;
+  const rviz::DisplayGroup* group = context_->getRootDisplayGroup();
+  for (int i = 0; i < group->numDisplays(); ++i) {
+    const auto* sheet = dynamic_cast<const SheetDisplay*>(group->getDisplayAt(i));
+    if (sheet == nullptr) continue;
+    const auto more = sheet->outline();
+    points.insert(points.end(), more.begin(), more.end());
+    if (sheet->overlay_) legends |= sheet->overlay_->place();
+  }
+  if (!fitter_.fit(*context_, points, legends)) fit_->setBool(false);
 }
 
 void SheetDisplay::updateLegend() {
@@ -297,6 +353,7 @@ void SheetDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
   updateLegend();
   say("Curvature", curvatureStatus(surface_, surface_error_, update_nh_.resolveName(curvatureTopic())));
   if (last_) placeSheet();
+  if (last_ && fit_->getBool()) fitView();
 }
 
 }  // namespace fsr_rviz

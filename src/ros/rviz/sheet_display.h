@@ -12,9 +12,11 @@
 
 #include "ros/rviz/display_status.h"
 #include "ros/rviz/legend_overlay.h"
+#include "ros/rviz/sheet_letters.h"
 #include "ros/rviz/sheet_title.h"
 #include "ros/rviz/sheet_visual.h"
 #include "ros/rviz/taxel_selection.h"
+#include "ros/rviz/view_fitter.h"
 #include "view/legend.h"
 #endif
 
@@ -85,6 +87,7 @@ class SheetDisplay : public rviz::Display {
   void updateTopic();
   void updateLegend();
   void updatePlace();
+  void updateFit();
 
  private:
   void subscribe();
@@ -95,6 +98,9 @@ class SheetDisplay : public rviz::Display {
   void redraw();
   void makeMesh();
   void placeSheet();
+  Ogre::Vector3 offset() const;
+  void fitView();
+  std::vector<fsr::view::Vector3> outline() const;
   void openStatus();
   double age() const;  // time since the last message [s]; below 0 = no message has come
   Flow flow() const;
@@ -108,6 +114,9 @@ class SheetDisplay : public rviz::Display {
   rviz::BoolProperty* marks_ = nullptr;
   rviz::StringProperty* title_ = nullptr;
   rviz::VectorProperty* offset_ = nullptr;
+  rviz::VectorProperty* place_ = nullptr;
+  rviz::BoolProperty* letters_ = nullptr;
+  rviz::BoolProperty* fit_ = nullptr;
   rviz::BoolProperty* legend_ = nullptr;
   rviz::IntProperty* left_ = nullptr;
   rviz::IntProperty* top_ = nullptr;
@@ -125,7 +134,9 @@ class SheetDisplay : public rviz::Display {
 
   std::unique_ptr<SheetVisual> visual_;
   std::unique_ptr<SheetTitle> title_text_;
+  std::unique_ptr<SheetLetters> letter_text_;
   std::unique_ptr<LegendOverlay> overlay_;
+  ViewFitter fitter_;
   std::unique_ptr<TaxelSelection> selection_;
 };
 

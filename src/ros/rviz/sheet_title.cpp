@@ -4,19 +4,30 @@
 #include <OgreSceneNode.h>
 #include <rviz/ogre_helpers/movable_text.h>
 
+#include <algorithm>
+
 namespace fsr_rviz {
 
 namespace {
 
-constexpr float kHeight = 0.0065F;  // height of a capital letter [m]
-constexpr double kGap = 0.011;      // distance to the sheet's edge [m]
+// As parts of the sheet's longer side, so that the title of any matrix is as large on the screen.
+constexpr double kHeight = 0.065;  // of a capital letter
+constexpr double kGap = 0.11;      // to the sheet's edge
+
+double longerSide(const fsr::matrix::Layout& layout) {
+  return std::max(layout.pitch_x * layout.size.columns, layout.pitch_y * layout.size.rows);
+}
 
 }  // namespace
+
+double SheetTitle::reach(const fsr::matrix::Layout& layout) {
+  return 0.5 * layout.pitch_y * layout.size.rows + (kGap + kHeight) * longerSide(layout);
+}
 
 SheetTitle::SheetTitle(Ogre::SceneManager* scene, Ogre::SceneNode* parent)
     : scene_(scene),
       node_(parent->createChildSceneNode()),
-      text_(std::make_unique<rviz::MovableText>("-", "Liberation Sans", kHeight)) {
+      text_(std::make_unique<rviz::MovableText>("-", "Liberation Sans", 1.0F)) {
   text_->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_CENTER);
   node_->attachObject(text_.get());
   hide();
@@ -30,8 +41,9 @@ SheetTitle::~SheetTitle() {
 void SheetTitle::show(const std::string& text, const fsr::matrix::Layout& layout) {
   if (text.empty()) return hide();
   text_->setCaption(text);
-  const double y = -0.5 * layout.pitch_y * layout.size.rows - kGap;
-  node_->setPosition(0, static_cast<Ogre::Real>(y), 0);
+  const double letter = kHeight * longerSide(layout);
+  text_->setCharacterHeight(static_cast<Ogre::Real>(letter));
+  node_->setPosition(0, static_cast<Ogre::Real>(letter - reach(layout)), 0);
   node_->setVisible(true);
 }
 

@@ -24,6 +24,8 @@ class SheetTitle {
   /// Shows the text; an empty text hides the title.
   void show(const std::string& text, const fsr::matrix::Layout& layout);
   void hide();
+  /// Distance of the title's lower end from the middle of the sheet [m].
+  static double reach(const fsr::matrix::Layout& layout);
 
  private:
   Ogre::SceneManager* scene_;

@@ -3,6 +3,8 @@
 
 #include <OgreCamera.h>
 #include <OgreSceneNode.h>
+#include <fsr_pressure_map/CalibrationInfo.h>
+#include <fsr_pressure_map/Instruction.h>
 #include <fsr_pressure_map/MatrixFrame.h>
 #include <fsr_pressure_map/PressureMap.h>
 #include <fsr_pressure_map/SetMask.h>
@@ -16,6 +18,8 @@
 #include <rviz/properties/property_tree_model.h>
 #include <rviz/render_panel.h>
 #include <rviz/selection/selection_manager.h>
+#include <rviz/view_controller.h>
+#include <rviz/view_manager.h>
 #include <rviz/visualization_frame.h>
 #include <rviz/visualization_manager.h>
 
@@ -260,10 +264,81 @@ TEST_F(Rviz, A7SaysThatTheHistoryIsNotSettled) {
   EXPECT_TRUE(runUntil([] { return status("History").empty(); })) << status("History");
 }
 
+PressureMap flatMap(int rows, int columns) {
+  PressureMap map;
+  map.header.frame_id = "fsr_matrix";
+  map.rows = static_cast<std::uint16_t>(rows);
+  map.columns = static_cast<std::uint16_t>(columns);
+  map.pitch_x = map.pitch_y = 0.01F;
+  map.pressure.assign(static_cast<std::size_t>(rows * columns), 100e3F);
+  map.deviation.assign(map.pressure.size(), 1e3F);
+  map.flags.assign(map.pressure.size(), 0);
+  return map;
+}
+
+TEST_F(Rviz, A8ShowsTheWholeSheetOfAnySizeBesideItsLegend) {
+  curvature.publish(SurfaceCurvature());
+  for (const auto& [rows, columns] : {std::pair{7, 10}, {16, 10}, {3, 4}, {2, 20}}) {
+    const PressureMap sized = flatMap(rows, columns);
+    const float x = 0.005F * static_cast<float>(columns), y = 0.005F * static_cast<float>(rows);
+    QRect place;
+    QSize scene;
+    const auto fits = [&] {
+      maps.publish(sized);
+      const QImage image = picture();
+      scene = image.size();
+      place = QRect();
+      for (const Ogre::Vector3& corner : {Ogre::Vector3(-x, -y, 0), Ogre::Vector3(x, -y, 0),
+                                          Ogre::Vector3(x, y, 0), Ogre::Vector3(-x, y, 0)})
+        place |= QRect(onScreen(corner, image), QSize(1, 1));
+      const QRect legend(10, 10, 206, 290);
+      return image.rect().contains(place) && !place.intersects(legend) &&
+             (place.width() > 0.55 * (scene.width() - legend.right()) ||
+              place.height() > 0.55 * scene.height());
+    };
+    EXPECT_TRUE(runUntil(fits, false))
+        << rows << " x " << columns << ": " << place.left() << " to " << place.right() << ", " << place.top()
+        << " to " << place.bottom() << " of " << scene.width() << " x " << scene.height();
+  }
+}
+
+TEST_F(Rviz, A8WritesWhereRowZeroAndTheAxesAre) {
+  const PressureMap sized = flatMap(7, 10);
+  const auto words = [&](const Ogre::Vector3& at) {  // bright points about it
+    const QImage image = picture();
+    const QRect box = QRect(onScreen(at, image) - QPoint(25, 12), QSize(50, 24)) & image.rect();
+    int bright = 0;
+    for (int y = box.top(); y <= box.bottom(); ++y) {
+      for (int x = box.left(); x <= box.right(); ++x) bright += image.pixelColor(x, y).value() > 200;
+    }
+    return bright;
+  };
+  displayNamed("Grid 1 cm")->setEnabled(false);
+  displayNamed("Matrix frame")->setEnabled(false);  // it would hide some taxels, too, as would the letter z
+  const std::vector<Ogre::Vector3> places = {
+      {-0.0605F, -0.03F, 0}, {-0.045F, -0.0505F, 0}, {0.0545F, 0, 0}, {0, 0.0395F, 0}, {0, 0, 0.0245F}};
+  for (const bool shown : {false, true, false}) {
+    set("Letters", shown);
+    for (const Ogre::Vector3& place : places) {
+      EXPECT_TRUE(runUntil([&] { return maps.publish(sized), (words(place) > 5) == shown; }, false))
+          << place << ", shown: " << shown;
+    }
+  }
+  displayNamed("Grid 1 cm")->setEnabled(true);
+}
+
+TEST_F(Rviz, A9LeavesTheViewToTheUserWhoMovesIt) {
+  rviz::Property* distance = frame->getManager()->getViewManager()->getCurrent()->subProp("Distance");
+  distance->setValue(0.5);
+  EXPECT_TRUE(runUntil([] { return !display->subProp("Fit View")->getValue().toBool(); }));
+  EXPECT_NEAR(distance->getValue().toDouble(), 0.5, 1e-6);
+  set("Fit View", true);
+  EXPECT_TRUE(runUntil([&] { return distance->getValue().toDouble() < 0.4; }));
+}
+
 TEST_F(Rviz, BShowsTheRecordedMapInTheColoursOfItsScale) {
   curvature.publish(surface);
-  displayNamed("Matrix frame")->setEnabled(false);  // it would hide some taxels, as would the legend
-  set("Legend", false);
+  set("Legend", false);  // it would hide some taxels
   set("Marks", false);
   set("Style", "Cells");
   const auto all = map->pressure.size();
@@ -272,6 +347,19 @@ TEST_F(Rviz, BShowsTheRecordedMapInTheColoursOfItsScale) {
   })) << rightTaxels(map->pressure, {}, 2)
       << " of " << all << " taxels have their colour";
   EXPECT_TRUE(says("State", "calibrated"));
+}
+
+TEST_F(Rviz, BTakesTheRangeOfTheCalibrationInUse) {
+  const auto infos = handle->advertise<fsr_pressure_map::CalibrationInfo>("/fsr/calibration_info", 1, true);
+  fsr_pressure_map::CalibrationInfo info;
+  for (const double high : {250e3, 600e3}) {
+    info.pressure_high = high;
+    infos.publish(info);
+    fsr::view::PressureScale scale;
+    scale.high = high;
+    EXPECT_TRUE(runUntil([&] { return rightTaxels(map->pressure, scale, 2) == map->pressure.size(); }))
+        << high;
+  }
 }
 
 // The check of colours itself is tested: it detects one wrong taxel, and a picture that is upside down or
@@ -337,7 +425,7 @@ TEST_F(Rviz, DShowsTheDeviationOnItsOwnScale) {
   const auto all = map->deviation.size();
   EXPECT_TRUE(runUntil([&] { return rightTaxels(map->deviation, scale, 2) == all; }));
   set("Layer", "Pressure");
-  set("High (kPa)", 600);
+  set("High (kPa)", 0);
 }
 
 TEST_F(Rviz, EShowsItsLegendFromTheHighEndDown) {
@@ -386,6 +474,9 @@ TEST_F(Rviz, EShowsTheScanUnderTheSheet) {
     return image.rect().contains(at) ? image.pixelColor(at) : QColor();
   };
   displayNamed("Grid 1 cm")->setEnabled(false);
+  set("Fit View", false);  // it shows less of what is beside the sheet
+  rviz::ViewController* view = frame->getManager()->getViewManager()->getCurrent();
+  view->subProp("Distance")->setValue(0.3);
   ASSERT_TRUE(runUntil([&] { return beside() == QColor(48, 48, 48); })) << beside().name().toStdString();
   const QColor before = beside();
   mesh.publish(fsr_ros::toMarker(header, scan));
@@ -394,6 +485,7 @@ TEST_F(Rviz, EShowsTheScanUnderTheSheet) {
   mesh.publish(fsr_ros::noMesh(header));
   EXPECT_TRUE(runUntil([&] { return beside() == before; }));
   displayNamed("Grid 1 cm")->setEnabled(true);
+  set("Fit View", true);
   QDir(QString::fromStdString(folder)).removeRecursively();
 }
 
@@ -478,6 +570,8 @@ TEST_F(Rviz, IOpensEveryShippedConfiguration) {
   const auto failed = [](const QObject& part) {
     return std::string(typeid(part).name()).find("Failed") != std::string::npos;
   };
+  ros::NodeHandle sensor("/fsr");
+  const auto instructions = sensor.advertise<fsr_pressure_map::Instruction>("instruction", 1, true);
   for (const QString& file : files) {
     ASSERT_TRUE(frame->loadDisplayConfigHelper((kConfigs + "/" + file).toStdString(), true));
     for (const QWidget* part : frame->findChildren<QWidget*>())
@@ -487,6 +581,16 @@ TEST_F(Rviz, IOpensEveryShippedConfiguration) {
     for (int i = 0; i < group->numDisplays(); ++i) {
       EXPECT_FALSE(failed(*group->getDisplayAt(i))) << qPrintable(file);
     }
+    const auto* gauge = frame->findChild<QWidget*>("gauge");
+    ASSERT_NE(gauge, nullptr);
+    const auto conducted = [&] {
+      return instructions.publish(fsr_pressure_map::Instruction()), gauge->isVisible();
+    };
+    EXPECT_TRUE(runUntil(conducted)) << qPrintable(file);
+    QApplication::processEvents();
+    EXPECT_LE(frame->height(), 800) << qPrintable(file);
+    EXPECT_LE(frame->width(), 1280) << qPrintable(file);
+    EXPECT_LE(frame->minimumSizeHint().height(), 800) << qPrintable(file);
   }
 }
 
