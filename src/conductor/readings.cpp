@@ -15,6 +15,7 @@ namespace {
 
 constexpr unsigned kSilentScans = 3;               // in a row: one or two may be damaged
 constexpr double kLowest = 0.1, kUpperHalf = 0.5;  // shares of the peak
+constexpr double kUsualRamps = 2;  // times the planned pace: a person's ramps are slower, a jump is faster
 // Of what the sheet reads under its largest load: it keeps less than that when it is vented.
 constexpr double kRestShare = 0.1;
 
@@ -37,11 +38,14 @@ void Conductor::readMatrix(const ScanSummary& scan) {
   const double excess = rest_counts_.excess(scan.counts, scan.taxels);
   jumps_.scan({scan.time, excess, answers, 2 * scan.saturated >= scan.taxels});
   settleJump();
-  if (done() || !judged_ || waitsForMount()) return;
+  // While a jump is open, the pressure that was judged last is of no scan.
+  if (done() || !judged_ || jumps_.open() || waitsForMount()) return;
   const double pressure = last_judged_.pressure;
   if (pressure <= kRestLevel) {
+    const bool rising = std::any_of(recent_.begin(), recent_.end(),
+                                    [](const Reading& newer) { return newer.pressure > kRestLevel; });
     const bool loaded = largest_excess_ > 0 && excess > kRestShare * largest_excess_;
-    if (!loaded) rest_counts_.take(scan.counts, scan.taxels);
+    if (!loaded && !rising) rest_counts_.take(scan.counts, scan.taxels);
     if (rest_counts_.known()) noise_ = rest_counts_.noise();
   } else if (attemptRuns() && isLoad()) {
     checkSheet(scan);
@@ -64,7 +68,12 @@ bool Conductor::isDoubted(const Reading& reading) {
     if (!unfollowed_) complain(Reason::kPressureNotFollowed, "", false);
     return unfollowed_;
   }
-  const bool jumped = judged_ && reading.time - last_judged_.time <= options_.silence &&
+  const double since = reading.time - last_judged_.time;
+  // Where the readings are rare, a ramp doubles the pressure between two of them.
+  const double ramp =
+      mounted ? kUsualRamps * std::max(steps_[step_].fill_rate, steps_[step_].vent_rate) * since : 0;
+  const bool jumped = judged_ && since <= options_.silence &&
+                      std::abs(reading.pressure - last_judged_.pressure) > ramp &&
                       JumpWatch::isJump(last_judged_, reading);
   if (!jumps_.open() && mounted && jumped) jumps_.begin(last_judged_, reading);
   if (!jumps_.open()) return false;

@@ -440,4 +440,15 @@ TEST(Conductor, AVentWithinOneReadingThatTheSheetFollowsIsAVent) {
   EXPECT_EQ(day.rejected(), Names{}) << day.last.sentence;
 }
 
+// What is taken for a jump at first must not become the sheet's rest.
+TEST(Conductor, AFastBeginOfTheFirstLoadIsNotLearntAsRest) {
+  RigDay day(planFrom(rig_day::kCycles));
+  day.counts_per_kpa = 3;
+  day.follow();
+  day.stay(3);
+  const double noise = day.conductor.noiseAtRest();
+  day.ramp(60e3, 250e3), day.stay(2);  // in three readings
+  EXPECT_DOUBLE_EQ(day.conductor.noiseAtRest(), noise);
+}
+
 }  // namespace
