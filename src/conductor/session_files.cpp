@@ -98,6 +98,18 @@ std::vector<std::string> bagsOfMount(const std::string& folder, const std::strin
   return files;
 }
 
+std::vector<std::string> openBags(const std::string& folder, const std::string& plan) {
+  std::vector<std::string> files;
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder, failed)) {
+    const std::string file = entry.path().filename().string();
+    if (file.rfind(plainName(plan) + "_", 0) == 0 && endsWith(file, std::string(kBag) + kOpen))
+      files.push_back(file);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 std::vector<MovedBag> setMountAside(const std::string& folder, const std::string& stem) {
   std::vector<std::string> files;
   std::error_code failed;

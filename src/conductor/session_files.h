@@ -28,6 +28,10 @@ std::string freeBagName(const std::string& folder, const std::string& stem);
 /// The finished bags of one mount, by the number of their part: file names.
 std::vector<std::string> bagsOfMount(const std::string& folder, const std::string& stem);
 
+/// The bags of a session that are still open, because they are being written or were left so: file names,
+/// sorted.
+std::vector<std::string> openBags(const std::string& folder, const std::string& plan);
+
 struct MovedBag {
   std::string from, to;
   std::string failure;  ///< why it was not moved; empty = it was

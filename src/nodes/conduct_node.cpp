@@ -7,7 +7,8 @@
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "conduct");
-  return fsr_ros::runNode([] {
+  bool closed = true;
+  const int status = fsr_ros::runNode([&] {
     const auto server = fsr_ros::waitForSession(ros::NodeHandle{}, ros::NodeHandle{"~"});
     if (server == nullptr) return;
     // As in the recorder: a bag gets its index. A signal that is ignored stays so.
@@ -15,5 +16,7 @@ int main(int argc, char** argv) {
       if (std::signal(signal, [](int) { ros::requestShutdown(); }) == SIG_IGN) std::signal(signal, SIG_IGN);
     }
     ros::spin();
+    closed = server->finish();
   });
+  return closed ? status : 1;
 }

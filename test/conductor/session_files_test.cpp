@@ -39,6 +39,15 @@ TEST(SessionFiles, SetAsideAllBagsOfAMountAndNoOthersAndWriteOverNone) {
   EXPECT_EQ(first, "set_aside/day_02_flat.bag");
 }
 
+TEST(SessionFiles, FindWhatASessionLeftOpen) {
+  const test_support::TemporaryFolder folder;
+  for (const char* const name : {"a_day_02_flat_part2.bag.active", "a_day_01_flat.bag.active",
+                                 "a_day_01_flat.bag", "another_01_flat.bag.active", "a_day_session.yaml"})
+    std::ofstream(folder.path(name)) << name;
+  EXPECT_EQ(openBags(folder.path(), "a day"),
+            (std::vector<std::string>{"a_day_01_flat.bag.active", "a_day_02_flat_part2.bag.active"}));
+}
+
 TEST(SessionFiles, SayWhyABagCannotBeSetAside) {
   const test_support::TemporaryFolder folder;
   std::ofstream(folder.path("day_02_flat.bag")) << "precious";

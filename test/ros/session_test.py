@@ -5,6 +5,7 @@ The operator publishes what a board would, with stamps that run ahead of the clo
 """
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -198,7 +199,10 @@ class SessionTest(unittest.TestCase):
         self.wait_for(lambda: (self.bags / "test_day_02_bowl.bag").exists())
 
         self.assertEqual(sorted(path.name for path in self.bags.glob("*.bag*")),
-                         ["test_day_01_flat.bag.active", "test_day_01_flat_part2.bag", "test_day_02_bowl.bag"])
+                         ["test_day_01_flat.bag", "test_day_01_flat_part2.bag", "test_day_02_bowl.bag"])
+        with rosbag.Bag(str(self.bags / "test_day_01_flat.bag")) as bag:  # what the kill -9 left
+            events = [message.label for _, message, _ in bag.read_messages("/fsr/events")]
+        self.assertTrue(any("cycle 1 of 2" in label and "accepted" in label for label in events), events)
         with rosbag.Bag(str(self.bags / "test_day_01_flat_part2.bag")) as bag:
             events = [message for _, message, _ in bag.read_messages("/fsr/events")]
         self.assertIn(("note", "1 cycle before this recording, too few to condition a sheet"), [(event.kind, event.label) for event in events])
@@ -227,6 +231,65 @@ class SessionTest(unittest.TestCase):
         now = self.until(lambda now: now.kind == Instruction.MOUNT)
         self.assertEqual((now.remark, now.surface), ("", "flat"))
         self.assertIsNone(self.launch.poll())
+
+
+    def start_node(self, *more, namespace="fsr", name="conduct"):
+        """conduct_node alone, so that its exit status can be seen. It records without a limit for the space on the disk."""
+        values = [("plan", self.plan), ("folder", self.bags), ("surfaces", PACKAGE / "config/surfaces"), ("report", "false"), ("silence", 5),
+                  ("recorder/topics", "/fsr/raw /fsr/chamber_pressure /fsr/events"), ("recorder/min_space", 0)]
+        return subprocess.Popen(["rosrun", "fsr_pressure_map", "conduct_node", f"__ns:={namespace}", f"__name:={name}"] +
+                                [f"_{key}:={value}" for key, value in values] + list(more))
+
+    def begin(self):
+        """Waits for the node, and goes to the first step that is recorded."""
+        self.until(lambda now: now is not None)
+        self.wait_for(lambda: self.scans.get_num_connections() > 0 and self.pressures.get_num_connections() > 0)
+        self.stay(2)
+        self.confirm()
+        self.follow()
+        self.assertEqual(self.instruction.kind, Instruction.REST)
+
+    def hears_within(self, words, limit):
+        with self.changed:
+            heard = self.changed.wait_for(lambda: self.instruction is not None and words in self.instruction.remark, limit)
+        self.assertTrue(heard, f"\"{words}\" was not said within {limit} s, but {self.instruction}")
+
+    def test_a_folder_that_is_removed_is_said_at_once_and_by_the_status(self):
+        self.launch = self.start_node()
+        self.begin()
+        self.recording("test_day_01_flat")
+        self.stay(1)
+        shutil.rmtree(str(self.bags))
+        self.hears_within("was removed while it was written: what was in it is lost; nothing is recorded: the folder", 5)
+        self.hears_within("after a crash the session would not go on from here", 5)
+        self.bags.mkdir()
+        self.recording("test_day_01_flat")
+        self.assertEqual(self.instruction.kind, Instruction.REST)  # asked for again
+        self.follow()
+        self.assertEqual(self.instruction.remark, "")
+        self.assertTrue((self.bags / "test_day_session.yaml").exists())
+        self.launch.send_signal(signal.SIGINT)
+        self.assertEqual(self.launch.wait(30), 1)
+
+    def test_a_full_disk_is_said_at_once_and_makes_no_empty_bags(self):
+        self.launch = self.start_node("_recorder/min_space:=1000000000")
+        self.begin()
+        self.hears_within("nothing is recorded: only", 5)
+        self.assertEqual(list(self.bags.glob("*.bag*")), [])
+        self.launch.send_signal(signal.SIGINT)
+        self.assertEqual(self.launch.wait(30), 0)
+
+    def test_a_second_conductor_on_a_folder_is_refused_until_the_first_ends(self):
+        first = self.start_node(namespace="first")
+        self.wait_for((self.bags / "test_day_plan.yaml").exists)
+        self.launch = self.start_node()
+        self.hears_within("another conductor leads a session in this folder", 15)
+        self.assertEqual(self.instruction.kind, Instruction.BREAK)
+        first.kill()
+        first.wait(30)
+        self.until(lambda now: now.kind == Instruction.MOUNT)
+        self.launch.send_signal(signal.SIGINT)
+        self.assertEqual(self.launch.wait(30), 0)
 
 
 if __name__ == "__main__":

@@ -153,6 +153,8 @@ void recorded(HtmlPage& page, const DayReport& day) {
       "Steps of each mount: number accepted, skipped, not reached; attempts rejected. Source: state of the "
       "session.",
       {"mount", "surface", "accepted", "skipped", "not reached", "rejected", "bags"}, rows);
+  for (const std::string& sentence : day.closed_now) page.paragraph(sentence + ".");
+  for (const std::string& sentence : day.not_closed) page.refusal("Not in this report: " + sentence);
   page.paragraph(conditioningSentence(day));
   if (day.training.result.is_object() && day.training.result.contains("provenance")) {
     for (const Json& sentence : day.training.result["provenance"].value("conditioning", Json::array()))

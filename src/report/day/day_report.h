@@ -44,7 +44,9 @@ struct DayReport {
   std::string folder;     ///< of the session, full path
   unsigned rejected = 0;  ///< attempts, in all
   std::vector<DayMount> mounts;
-  std::string coverage;  ///< SVG
+  std::vector<std::string> closed_now;  ///< sentences on bags that the session had left open
+  std::vector<std::string> not_closed;  ///< likewise on those that are open still, and are not in this report
+  std::string coverage;                 ///< SVG
   std::vector<std::string>
       plan_limits;          ///< sentences on what the plan cannot tell; see session_plan::limitsOf()
   std::string calibration;  ///< name of the calibration file

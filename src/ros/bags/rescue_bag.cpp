@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "conductor/session_files.h"
 #include "fsr_pressure_map/settings/input_error.h"
 #include "ros/bags/bag_records.h"
 #include "ros/bags/bag_walk.h"
@@ -361,6 +362,25 @@ std::string giveClosedName(const std::string& active) {
     name = stem + "_" + std::to_string(number) + ".bag";
   if (error != 0) throw fsr::settings::cannotWrite(name, error);
   return name;
+}
+
+RescuedSession rescueSession(const std::string& folder, const std::string& plan) {
+  RescuedSession session;
+  for (const std::string& file : fsr::conductor::openBags(folder, plan)) {
+    try {
+      const RescuedBag bag = rescueBag((std::filesystem::path(folder) / file).string());
+      if (!bag.complaint.empty()) {
+        session.open.push_back(bag.complaint);
+        continue;
+      }
+      session.closed.push_back(file + " had not been closed, e.g. because the power went; it is " +
+                               std::filesystem::path(bag.file).filename().string() + " now and holds " +
+                               std::to_string(bag.messages) + " messages");
+    } catch (const fsr::settings::InputError& error) {
+      session.open.push_back(error.what());
+    }
+  }
+  return session;
 }
 
 }  // namespace fsr_ros

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace fsr_ros {
 
@@ -41,6 +42,16 @@ struct RescuedBag {
 /// Throws fsr::InputError, and leaves the file as it is, if a program still records it, if it holds no whole
 /// message, or if it is damaged before its end.
 RescuedBag rescueBag(const std::string& path);
+
+/// What became of the bags that a session left open when its conductor or the power went.
+struct RescuedSession {
+  std::vector<std::string> closed;  ///< a sentence for each bag that is closed now, with what it holds
+  std::vector<std::string>
+      open;  ///< likewise for each that is still open and cannot be used, with the reason
+};
+
+/// Closes them, see rescueBag(). `plan`: the name of the session's plan.
+RescuedSession rescueSession(const std::string& folder, const std::string& plan);
 
 /// Renames FILE.bag.active to FILE.bag, or to FILE_2.bag, ... where another bag has taken that name. Returns
 /// the new name. Throws fsr::InputError.

@@ -4,6 +4,7 @@
 #include <sensor_msgs/Image.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "conductor/state_file.h"
 #include "dataset/conditioning.h"
 #include "dataset/recording_builder.h"
+#include "ros/bags/rescue_bag.h"
 #include "ros/bags/resource_path.h"
 #include "ros/bags/surface_folder.h"
 #include "ros/messages/image_message.h"
@@ -37,6 +39,14 @@ constexpr int kPressureBytes = 80;  // of a reading of the transducer in a bag
 
 double since(const ros::SteadyTime& time) {
   return (ros::SteadyTime::now() - time).toSec();
+}
+
+// A remark says how long a trouble has lasted; that it goes on is not news.
+std::string withoutNumbers(std::string text) {
+  text.erase(std::remove_if(text.begin(), text.end(),
+                            [](unsigned char one) { return std::isdigit(one) != 0 || one == '.'; }),
+             text.end());
+  return text;
 }
 
 std::string measuredText(const fsr::conductor::Measured& measured) {
@@ -92,6 +102,10 @@ void ConductServer::start(const Parameters& parameters) {
   std::error_code failed;
   fs::create_directories(folder_, failed);
   if (!fs::is_directory(folder_)) throw parameters.error("folder", "is no folder and cannot be made");
+  lock_ = std::make_unique<fsr::conductor::FolderLock>(folder_);
+  const RescuedSession rescued = rescueSession(folder_, plan_.name);
+  for (const std::string& sentence : rescued.closed) ROS_WARN_STREAM(sentence);
+  for (const std::string& sentence : rescued.open) ROS_ERROR_STREAM(sentence);
   state_file_ = (fs::path(folder_) / fsr::conductor::stateFileName(plan_.name)).string();
   if (fs::exists(state_file_)) {
     conductor_ =
@@ -200,6 +214,8 @@ void ConductServer::onTimer() {
   follow();
   static constexpr int kEach = static_cast<int>(1 / kTick);
   if (++ticks_ % kEach == 0) {
+    checkFolder();
+    if (!save_trouble_.empty()) save();
     publishInstruction(instructionNow());
     publishSurface();
   }
@@ -209,6 +225,7 @@ void ConductServer::onTimer() {
 fsr::conductor::Instruction ConductServer::instructionNow() const {
   fsr::conductor::Instruction now = conductor_->instruction();
   if (reporter_ && conductor_->done()) now.remark = reporter_->sentence();
+  if (!save_trouble_.empty()) now.remark += (now.remark.empty() ? "" : "; ") + save_trouble_;
   return now;
 }
 
@@ -288,8 +305,11 @@ void ConductServer::save() {
   saved_ = conductor_->revision();
   try {
     writeState(state_file_, conductor_->state());
+    save_trouble_.clear();
   } catch (const fsr::settings::InputError& error) {
-    ROS_ERROR_STREAM("the session would begin anew after a crash: " << error.what());
+    const bool said = !save_trouble_.empty();
+    save_trouble_ = std::string("after a crash the session would not go on from here: ") + error.what();
+    if (!said) ROS_ERROR_STREAM(save_trouble_);
   }
 }
 
@@ -301,7 +321,7 @@ void ConductServer::say() {
   // Told by report(), or by the reporter.
   const bool told =
       now.remark.empty() || now.remark.rfind("last attempt rejected: ", 0) == 0 || conductor_->done();
-  if (now.remark != said_remark_ && !told) ROS_WARN_STREAM_THROTTLE(1, now.remark);
+  if (!told && withoutNumbers(now.remark) != withoutNumbers(said_remark_)) ROS_WARN_STREAM(now.remark);
   said_text_ = now.text;
   said_remark_ = now.remark;
   publishInstruction(now);
@@ -369,8 +389,7 @@ void ConductServer::publishCommand(double time) {
 
 // The bags of a mount that begins again do not count.
 void ConductServer::setAside(const fsr::session_plan::SessionStep& step) {
-  recorder_.reset();
-  recorder_idle_.reset();
+  endRecording();
   const std::string stem = fsr::conductor::bagStem(plan_.name, step.mount, step.surface);
   for (const fsr::conductor::MovedBag& bag : fsr::conductor::setMountAside(folder_, stem)) {
     if (bag.failure.empty())
@@ -381,7 +400,58 @@ void ConductServer::setAside(const fsr::session_plan::SessionStep& step) {
   }
 }
 
+bool ConductServer::finish() {
+  endRecording();
+  return all_closed_;
+}
+
+void ConductServer::endRecording() {
+  recorder_idle_.reset();
+  if (!recorder_) return;
+  recorder_->finish();
+  all_closed_ = all_closed_ && recorder_->closed();
+  recorder_.reset();
+}
+
+// Empty = a recording can begin. Where it cannot, none is tried: each try would leave an empty bag.
+std::string ConductServer::whyNoRecording() const {
+  std::error_code failed;
+  if (!fs::is_directory(folder_, failed))
+    return "nothing is recorded: the folder " + folder_ + " is gone; bring it back";
+  const fs::space_info space = fs::space(folder_, failed);
+  if (failed || static_cast<double>(space.available) >= reserve_) return "";
+  return "nothing is recorded: only " + fsr::settings::megabytesText(space.available) +
+         " are left on the disk, and " + fsr::settings::megabytesText(static_cast<std::uint64_t>(reserve_)) +
+         " must stay free; make room";
+}
+
+// Once a second. What is written to a file that was removed is lost without an error. A bag that is just
+// given its name is missing for a moment.
+void ConductServer::checkFolder() {
+  constexpr unsigned kLooks = 2;
+  std::error_code failed;
+  const bool folder = fs::is_directory(folder_, failed);
+  const bool bag = !recorder_ || recorder_ended_ || fs::exists(recorder_->file(), failed);
+  if (folder && bag) {
+    if (std::exchange(gone_, 0) >= kLooks && !recorder_) conductor_->recordingTrouble("");
+    return;
+  }
+  if (++gone_ != kLooks) return;
+  const std::string lost =
+      recorder_ ? recorder_->file() + " was removed while it was written: what was in it is lost" : "";
+  endRecording();
+  save();
+  recorder_retry_ = ros::SteadyTime::now() + ros::WallDuration(kRetry);
+  const std::string why = whyNoRecording();
+  conductor_->recordingTrouble(lost + (lost.empty() || why.empty() ? "" : "; ") + why);
+}
+
 void ConductServer::startRecording() {
+  const std::string hindered = whyNoRecording();
+  if (!hindered.empty()) {
+    recorder_retry_ = ros::SteadyTime::now() + ros::WallDuration(kRetry);
+    return conductor_->recordingTrouble(hindered);
+  }
   const fsr::session_plan::SessionStep& step = *conductor_->step();
   const std::string bag =
       fsr::conductor::freeBagName(folder_, fsr::conductor::bagStem(plan_.name, step.mount, step.surface));
@@ -404,16 +474,15 @@ void ConductServer::followRecording() {
   const bool wanted = conductor_->recording();
   const bool same = wanted && conductor_->step()->mount == recorded_mount_;
   if (recorder_ && recorder_ended_) {
-    recorder_.reset();
+    const std::string why = recorder_->complaint();
+    endRecording();
     recorder_retry_ = ros::SteadyTime::now() + ros::WallDuration(kRetry);
-    conductor_->recordingTrouble("the recording has stopped by itself, see the terminal; it is begun again");
+    conductor_->recordingTrouble(
+        why.empty() ? "the recording has stopped by itself, see the terminal; it is begun again" : why);
   }
   if (recorder_ && !same) {
     if (!recorder_idle_) recorder_idle_ = ros::SteadyTime::now();
-    if (wanted || since(*recorder_idle_) > kLastEvents) {
-      recorder_.reset();
-      recorder_idle_.reset();
-    }
+    if (wanted || since(*recorder_idle_) > kLastEvents) endRecording();
   } else {
     recorder_idle_.reset();
   }

@@ -17,6 +17,7 @@
 
 #include "conductor/chamber_command.h"
 #include "conductor/conductor.h"
+#include "conductor/folder_lock.h"
 #include "fsr_pressure_map/health/taxel_watch.h"
 #include "ros/recording/day_reporter.h"
 #include "ros/recording/recorder.h"
@@ -37,6 +38,9 @@ class ConductServer {
  public:
   /// Throws fsr::InputError.
   ConductServer(const ros::NodeHandle& handle, const ros::NodeHandle& private_handle);
+
+  /// Ends the recording. Returns false where a bag of this run was not closed.
+  bool finish();
 
  private:
   using Request = std_srvs::Trigger::Request;
@@ -62,6 +66,9 @@ class ConductServer {
   double ambient() const;
   void followRecording();
   void startRecording();
+  void endRecording();
+  std::string whyNoRecording() const;
+  void checkFolder();
   void checkDisk();
   void setAside(const fsr::session_plan::SessionStep& step);
   fsr::conductor::Instruction instructionNow() const;
@@ -75,6 +82,7 @@ class ConductServer {
   fsr_pressure_map::MatrixInfoConstPtr info_;
   std::optional<fsr_pressure_map::MatrixFrame> last_frame_;  // without its counts
 
+  std::unique_ptr<fsr::conductor::FolderLock> lock_;
   std::unique_ptr<DayReporter> reporter_;  // null: no report is wanted
   std::unique_ptr<Recorder> recorder_;
   unsigned recorded_mount_ = 0;
@@ -82,6 +90,9 @@ class ConductServer {
   std::atomic<bool> recorder_ended_{false};
   ros::SteadyTime recorder_retry_;                // not before
   std::optional<ros::SteadyTime> recorder_idle_;  // since the last recorded step of its mount
+  bool all_closed_ = true;                        // bags of this run
+  unsigned gone_ = 0;                             // looks in a row at which the folder or the bag was gone
+  std::string save_trouble_;                      // why the state is not in its file; empty = it is
 
   std::uint64_t scan_bytes_ = 0;             // in scan_time_
   double first_scan_ = 0;                    // [s]

@@ -97,6 +97,10 @@ void Recorder::finish() {
   if (!remark.empty()) std::cerr << remark << std::endl;
 }
 
+bool Recorder::closed() const {
+  return std::filesystem::path(file()).extension() == ".bag" && std::filesystem::exists(file());
+}
+
 void Recorder::subscribe(const std::string& topic) {
   const std::string name = handle_.resolveName(topic);
   const boost::function<void(const Event&)> keep = [this, name](const Event& event) {

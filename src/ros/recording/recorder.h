@@ -44,6 +44,12 @@ class Recorder {
   /// The bag, under its name of now.
   std::string file() const { return sink_->report().file; }
 
+  /// Why the recording stopped by itself; empty = it did not.
+  std::string complaint() const { return sink_->report().complaint; }
+
+  /// Whether the bag has its name and its index. Ask after finish().
+  bool closed() const;
+
   /// Whether the recording stopped by itself, or could not be closed.
   bool failed() const { return failed_; }
 

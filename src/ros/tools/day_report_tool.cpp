@@ -8,6 +8,7 @@
 #include "conductor/session_files.h"
 #include "conductor/state_file.h"
 #include "fsr_pressure_map/settings/input_error.h"
+#include "ros/bags/rescue_bag.h"
 #include "ros/programs/sibling_program.h"
 #include "ros/tools/tool_progress.h"
 #include "session_plan/plan_file.h"
@@ -25,7 +26,7 @@ using fsr::report::DayReport;
 using fsr::settings::InputError;
 using Words = std::vector<std::string>;
 
-constexpr int kRefused = 1;  // exit status if a part has no result
+constexpr int kRefused = 1;  // exit status if a part has no result, or a bag of the session is not in it
 
 fsr::settings::CommandLine options() {
   fsr::settings::CommandLine line(
@@ -36,7 +37,8 @@ fsr::settings::CommandLine options() {
       "check_bag, train and discrepancy are run on its bags. DIR gets the page PLAN_report.html, which needs "
       "no network, the calibration PLAN_calibration.h5, and the results of the tools in the folder "
       "PLAN_report. session.launch starts day_report by itself.\n"
-      "Exit status: 0; 1 if a tool gave no result, as the report then says; 2 if there is no report.");
+      "Exit status: 0; 1 if a tool gave no result or a bag could not be closed, as the "
+      "report then says; 2 if there is no report.");
   line.input("plan", "FILE",
              "plan of the session; default: PLAN_plan.yaml in DIR, which the conductor writes")
       .option("surfaces", "DIR",
@@ -151,7 +153,11 @@ DayReport recordOf(const fsr::settings::CommandLine& line, const std::string& fo
         plan_file +
         ": is missing, so that the steps of the session are not known; give its plan with --plan");
   const auto plan = fsr::session_plan::readPlanFile(plan_file, line.text("surfaces", ""));
-  return fsr::conductor::dayRecord(plan, state, folder);
+  const RescuedSession rescued = rescueSession(folder, plan.name);
+  DayReport day = fsr::conductor::dayRecord(plan, state, folder);
+  day.closed_now = rescued.closed;
+  day.not_closed = rescued.open;
+  return day;
 }
 
 // Whether train accepts it is known only to train; what is no number is refused here, before all the work.
@@ -181,7 +187,9 @@ int dayReportTool(int argc, const char* const* argv, std::ostream& out) {
   fsr::settings::requireReplaceable(page, fsr::settings::file_kind::kPage);
   runTools(line, folder, day);
   fsr::settings::replaceFile(page, fsr::report::dayHtml(day));
-  bool complete = true;
+  for (const std::string& sentence : day.closed_now) out << sentence << '\n';
+  for (const std::string& sentence : day.not_closed) out << "left out: " << sentence << '\n';
+  bool complete = day.not_closed.empty();
   for (const auto& [tool, part] : {std::pair{"check_bag", &day.check}, std::pair{"train", &day.training},
                                    std::pair{"discrepancy", &day.discrepancy}}) {
     if (part->refused.empty()) continue;

@@ -1,6 +1,8 @@
 #include "ros/tools/day_report_tool.h"
 
 #include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <std_msgs/String.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -92,6 +94,32 @@ TEST_F(DayReportTool, ABagThatNoToolReadsAppearsWithTheirSentences) {
     EXPECT_TRUE(has(page(), begin)) << tool;
   }
   EXPECT_TRUE(has(page(), "rosrun fsr_pressure_map train day_01_flat.bag --output day_calibration.h5"));
+}
+
+// As a kill -9 or a power cut leaves them.
+TEST_F(DayReportTool, BagsThatWereNotClosedAreClosedAndCounted) {
+  {
+    rosbag::Bag bag(path("day_01_flat.bag.active"), rosbag::bagmode::Write);
+    bag.setChunkThreshold(1024);
+    for (unsigned i = 0; i < 100; ++i) {
+      std_msgs::String message;
+      message.data = "message " + std::to_string(100 + i);
+      bag.write("/fsr/text", ros::Time(1 + i), message);
+    }
+  }
+  fs::resize_file(path("day_01_flat.bag.active"), fs::file_size(path("day_01_flat.bag.active")) / 2);
+  std::ofstream(path("day_01_flat_part2.bag.active")) << "no bag";
+  EXPECT_EQ(run({folder_.string()}), 1);
+  EXPECT_TRUE(fs::exists(path("day_01_flat.bag")));
+  EXPECT_FALSE(fs::exists(path("day_01_flat.bag.active")));
+  const std::string closed =
+      "day_01_flat.bag.active had not been closed, e.g. because the power went; it is "
+      "day_01_flat.bag now and holds ";
+  EXPECT_TRUE(has(said_, closed)) << said_;
+  EXPECT_TRUE(has(page(), closed));
+  EXPECT_TRUE(has(page(), "<td>day_01_flat.bag</td>")) << "it counts as a bag of its mount";
+  EXPECT_TRUE(has(said_, "left out: " + path("day_01_flat_part2.bag.active"))) << said_;
+  EXPECT_TRUE(has(page(), "Not in this report: ")) << page();
 }
 
 TEST_F(DayReportTool, ResultsOfAnEarlierRunAreNotShown) {
